@@ -1,0 +1,108 @@
+#pragma once
+
+// Airfoils by class-shape transformation (CST). Source: the paper's section 4.1; B. Kulfan, "Universal
+// Parametric Geometry Representation Method", 2008. Lengths are in chords.
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "remodel/point.h"
+
+namespace remodel {
+
+// y(x) of each surface is C(x) S(x) + x * te, with the class function C(x) = x^e1 (1-x)^e2 and the shape
+// function S(x) = sum of coefficient_i * Bernstein_{i,n}(x). upper and lower have the same size n + 1 >= 2.
+struct CstAirfoil {
+  std::vector<double> upper;
+  std::vector<double> lower;
+  double e1 = 0.5;
+  double e2 = 1.0;
+  double te_upper = 0.0;  // y of the upper surface's trailing edge
+  double te_lower = 0.0;
+
+  int degree() const { return static_cast<int>(upper.size()) - 1; }
+
+  // The paper's airfoil function a(t), t in [0,1]: counter-clockwise from the trailing edge (t = 0) over the
+  // upper surface (t < 1/2), the leading edge (t = 1/2) and the lower surface back to the trailing edge.
+  // x = (1 + cos 2 pi t) / 2. at(t) and at(1-t) have the same x to the last bit; x is exactly 1 at t = 0 and
+  // t = 1, exactly 0 at t = 1/2.
+  Point at(double t) const;
+
+  friend bool operator==(const CstAirfoil&, const CstAirfoil&) = default;
+};
+
+// Where parameter t lies, and the row that gives y as a dot product. The row depends on t, the degree and the
+// class exponents only, so a boundary vertex that is evaluated for thousands of designs keeps it.
+struct CstStation {
+  double x = 0.0;
+  bool upper = true;
+};
+// Fills row (degree + 1 values): class function times Bernstein polynomials at the station of t.
+CstStation cst_basis(double t, int degree, double e1, double e2, std::span<double> row);
+// y at a station. CstAirfoil::at is made of these two calls, so cached rows give the same bits.
+double cst_height(const CstAirfoil& airfoil, CstStation station, std::span<const double> row);
+
+// Thickness and camber, for people: the largest values over x and where they are. Thickness is upper minus
+// lower at the same x; camber is the mean of both (signed, the one of largest magnitude).
+struct Extreme {
+  double value = 0.0;
+  double at = 0.0;
+};
+Extreme max_thickness(const CstAirfoil& airfoil);
+Extreme max_camber(const CstAirfoil& airfoil);
+
+// True where upper(x) > lower(x) for every x in (0,1), also in the limit at the leading edge; decided on the
+// Bernstein coefficients of the difference by subdivision, not by sampling. A trailing edge may close with
+// zero angle. For te_upper != te_lower: te_upper > te_lower is needed as well, and the test is by Bernstein
+// bounds of the sum. False also for coefficients that are not finite.
+bool surfaces_apart(const CstAirfoil& airfoil);
+
+// A coordinate file as read: surfaces from leading edge to trailing edge, chord scaled to 1, leading edge at
+// the origin, trailing edge (midpoint of the two end points) at (1, 0).
+struct AirfoilCoordinates {
+  std::string name;
+  std::vector<Point> upper;
+  std::vector<Point> lower;
+};
+// Reads Selig or Lednicer order, found by content. Accepts CRLF, blank lines, comment lines (#, !, %), tabs and
+// commas, numbers such as -.0228, open and closed trailing edges, leading edges that are not the minimum-x
+// point. Throws Error (file, format) naming file and line.
+AirfoilCoordinates read_airfoil(const std::filesystem::path& file);
+AirfoilCoordinates parse_airfoil(std::string_view text, const std::string& source);
+
+// Least squares at the file's points, both surfaces apart, the trailing-edge gap removed linearly in x.
+struct CstFit {
+  CstAirfoil airfoil;
+  double max_error = 0.0;  // largest and root-mean-square distance in y at the points, in chords, after the
+  double rms_error = 0.0;  // gap's removal
+};
+CstFit fit_cst(const AirfoilCoordinates& coordinates, int degree);
+
+// NACA 4-digit ("2412") and 5-digit ("23012", reflexed "23112" too) sections with the closed trailing edge
+// coefficient (-0.1036), as dense points. Throws Error (argument) for other designations.
+AirfoilCoordinates naca_airfoil(std::string_view digits);
+
+// The built-in catalogue: the paper's ten airfoils as fitted coefficients.
+struct CatalogueEntry {
+  std::string_view name;         // e.g. "rae2822": what the command line takes
+  std::string_view description;  // e.g. "RAE 2822"
+  int degree;
+  std::vector<double> upper;
+  std::vector<double> lower;
+  double fit_max_error;  // in chords
+  double fit_rms_error;
+  CstAirfoil airfoil() const { return {.upper = upper, .lower = lower}; }
+};
+const std::vector<CatalogueEntry>& airfoil_catalogue();
+
+// SHAPE of the command line: a coordinate file, "naca:2412", a catalogue name, or a .json file of CST
+// coefficients. degree is used where a fit is needed. Throws Error.
+CstAirfoil load_airfoil(const std::string& shape, int degree);
+// The .json of `remodel fit`: degree, upper[], lower[], e1, e2, te_upper, te_lower (the last four optional).
+std::string airfoil_to_json(const CstAirfoil& airfoil);
+CstAirfoil airfoil_from_json(std::string_view text, const std::string& source);
+
+}  // namespace remodel

@@ -1,0 +1,19 @@
+#pragma once
+
+// A fresh quality mesh of a domain by Delaunay refinement. Source: the paper's section 2; J. Ruppert, 1995;
+// J. R. Shewchuk, "Delaunay Refinement Algorithms for Triangular Mesh Generation", 2002.
+
+#include "remodel/mesh.h"
+
+namespace remodel {
+
+struct GenerateResult {
+  Mesh mesh;
+  Stopped stopped = Stopped::done;
+  std::size_t exempt_triangles = 0;  // below the angle bound because of a small input angle
+};
+
+// Throws Error (argument) for options out of range, Error (geometry) for a domain that validate() refuses.
+GenerateResult generate(const Domain& domain, const QualityOptions& options = {});
+
+}  // namespace remodel

@@ -1,0 +1,43 @@
+#pragma once
+
+// Mesh files, by extension. Every writer writes beside the target and renames: a file appears whole or not at
+// all. Every reader throws Error (file, format) naming the file, the place and what was expected.
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "remodel/frozen_mesh.h"
+#include "remodel/mesh.h"
+
+namespace remodel {
+
+enum class MeshFormat { vtkhdf, su2, msh, vtu };
+// By extension; throws Error (argument) for another, listing those that are known.
+MeshFormat mesh_format(const std::filesystem::path& file);
+
+struct WriteOptions {
+  int msh_version = 41;  // 41: Gmsh 4.1, 22: Gmsh 2.2, both ASCII
+};
+
+// Writes the frozen view in any format; vtkhdf written like this holds no state to go on from.
+void write_mesh(const FrozenMesh& mesh, const std::filesystem::path& file, const WriteOptions& options = {});
+// vtkhdf with the full state, otherwise the frozen view.
+void write_mesh(const Mesh& mesh, const std::filesystem::path& file, const WriteOptions& options = {});
+
+// Reads the frozen view of any format (triangles only; boundary by marker or physical name).
+FrozenMesh read_frozen_mesh(const std::filesystem::path& file);
+// Reads a native mesh. A .vtkhdf without state, or another format, is an Error that says what was expected.
+Mesh read_mesh(const std::filesystem::path& file);
+
+// Calls write with a temporary path in the same directory, flushes it to disk and renames it to file; removes
+// it if write throws. Error (file) names the file and the system's reason. For every file this project makes.
+void write_atomically(const std::filesystem::path& file,
+                      const std::function<void(const std::filesystem::path& temporary)>& write);
+void write_text_atomically(const std::filesystem::path& file, std::string_view text);
+
+// The whole file as text; Error (file) if it is missing, a directory, unreadable or larger than limit bytes.
+std::string read_text(const std::filesystem::path& file, std::size_t limit = std::size_t{1} << 32);
+
+}  // namespace remodel

@@ -1,0 +1,98 @@
+#pragma once
+
+// The living mesh: a constrained Delaunay triangulation of a domain and its holes, with everything that is
+// needed to go on remodelling it. Made by generate(), changed by remodel().
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "remodel/domain.h"
+#include "remodel/frozen_mesh.h"
+#include "remodel/ids.h"
+
+namespace remodel {
+
+// What a mesh promises. The same options hold for its whole life.
+struct QualityOptions {
+  double min_angle_deg = 30.0;   // B = 1 / (2 sin); 0 to 34
+  double max_gradation = 0.70710678118654752;  // H: r / mean length scale of a triangle's vertices; > 0
+  double gradation = 4.0;        // G: length scale grows by distance / G away from the boundary; > 0
+  double resolution = 1.0;       // R: boundary length scale is the distance to the nearest neighbour / R; > 0
+  std::uint32_t max_vertices = 50'000'000;  // vertex budget
+  double min_edge = 0.0;         // no edge is split that is shorter than this, chords; 0: 1e-12 of the domain's size
+  friend bool operator==(const QualityOptions&, const QualityOptions&) = default;
+};
+
+// Why refinement ended. Anything but done leaves a valid constrained Delaunay mesh of lower quality.
+enum class Stopped { done, vertex_budget, minimum_edge, interrupted };
+const char* name_of(Stopped stopped);  // "done", "vertex-budget", "minimum-edge", "interrupted"
+
+// The state of a living mesh as plain arrays, slot by slot, free slots included: what the native file stores.
+// A mesh restored from it goes on to the same bytes as one that never left memory.
+struct MeshState {
+  std::vector<double> coordinates;                // 2 per vertex slot
+  std::vector<double> length_scales;              // 1 per vertex slot
+  std::vector<std::uint32_t> vertex_stars;        // 1 per vertex slot: a link into the star; no_index: free slot
+  std::vector<std::uint32_t> vertex_generations;  // 1 per vertex slot: how often the slot was given out
+  std::vector<std::int32_t> vertex_curves;        // 1 per vertex slot: -1 in the interior
+  std::vector<double> vertex_parameters;          // 1 per vertex slot: t on the curve
+  std::vector<double> vertex_steiner_factors;     // 1 per vertex slot: 0 for non-Steiner and interior vertices
+  std::vector<std::uint32_t> triangle_vertices;   // 3 per triangle slot; all no_index: free slot
+  std::vector<std::uint32_t> triangle_links;      // 3 per triangle slot
+  std::vector<std::uint32_t> triangle_regions;    // 1 per triangle slot
+  std::vector<std::uint32_t> triangle_births;     // 1 per triangle slot
+  std::vector<std::uint32_t> free_vertices;       // in the order in which they will be given out
+  std::vector<std::uint32_t> free_triangles;
+  std::uint32_t step = 0;                         // remodellings since generation
+  Domain domain;
+  QualityOptions options;
+
+  friend bool operator==(const MeshState&, const MeshState&) = default;
+};
+
+// Figures of the current mesh, domain triangles only.
+struct MeshStatistics {
+  std::size_t triangles = 0;
+  std::size_t vertices = 0;               // that a domain triangle uses
+  std::size_t steiner_boundary_vertices = 0;
+  double min_angle_deg = 0.0;
+  double max_radius_edge = 0.0;           // max r / e_min
+  double max_gradation = 0.0;             // max r / (H mean LS): at most 1
+};
+
+class MeshData;  // src/mesh/mesh_data.h: the library's own view
+
+class Mesh {
+ public:
+  Mesh();
+  ~Mesh();
+  Mesh(Mesh&&) noexcept;
+  Mesh& operator=(Mesh&&) noexcept;
+  Mesh(const Mesh&);  // a deep copy, for parallel evaluation
+  Mesh& operator=(const Mesh&);
+
+  const Domain& domain() const;
+  const QualityOptions& options() const;
+  std::uint32_t step() const;
+  std::size_t triangle_count() const;  // of the domain; O(1)
+
+  FrozenMesh freeze() const;
+  MeshStatistics statistics() const;
+  MeshState state() const;
+  // Throws Error (format) where the state is not that of a mesh: sizes, ranges, links that do not return.
+  static Mesh restore(const MeshState& state, const std::string& source);
+
+  // The quick validation, O(triangles): links return, triangles counter-clockwise, constrained edges on the
+  // design's boundary, locally Delaunay, angle and gradation within the options. Empty if valid, otherwise the
+  // first broken rule with the ids concerned. (check() of check.h is the independent, slow one.)
+  std::string quick_check() const;
+
+  MeshData& data() { return *data_; }
+  const MeshData& data() const { return *data_; }
+
+ private:
+  std::unique_ptr<MeshData> data_;
+};
+
+}  // namespace remodel

@@ -1,0 +1,44 @@
+#pragma once
+
+// The two questions that decide every topology in this library, answered exactly.
+//
+// Method: a static filter in double arithmetic (error constants of J. R. Shewchuk, "Adaptive Precision
+// Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997), then exact expansion arithmetic.
+// Coordinates must be finite and their products must neither overflow nor underflow: magnitudes from 1e-60
+// to 1e60 (and exact zeros) are safe.
+
+#include "remodel/point.h"
+
+namespace remodel {
+
+// The sign of the signed area of triangle abc: +1 counter-clockwise, -1 clockwise, 0 collinear.
+//  (1) orient2d(a,b,c) == orient2d(b,c,a) == -orient2d(b,a,c)
+//  (2) it is the sign of the exact determinant of the given doubles
+int orient2d(Point a, Point b, Point c);
+
+// The position of d relative to the circle through a, b, c, which are in counter-clockwise order:
+// +1 inside, -1 outside, 0 on the circle.
+//  (1) incircle(a,b,c,d) == incircle(b,c,a,d)
+//  (2) incircle(a,b,c,d) == -incircle(b,a,c,d)
+//  (3) it is the sign of the exact determinant of the given doubles
+int incircle(Point a, Point b, Point c, Point d);
+
+// incircle without ties, for four distinct points, not all collinear, a, b, c in counter-clockwise order:
+// never 0, so that the Delaunay triangulation of a point set is unique.
+//  (1) equals incircle(a,b,c,d) where that is not 0
+//  (2) otherwise the sign after an infinitesimal lift of the points, the lexicographically largest point
+//      lifted most (Devillers and Teillaud, "Perturbations for Delaunay and weighted Delaunay 3D
+//      triangulations", 2011): a function of the four points alone, not of their order or ids
+//  (3) for the two triangulations of a convex quadrilateral a, b, c, d exactly one is Delaunay:
+//      incircle_sos(a,b,c,d) == -incircle_sos(b,c,d,a)
+int incircle_sos(Point a, Point b, Point c, Point d);
+
+// How many calls each stage decided since the program started, for tests and benchmarks. Counted only in
+// builds with REMODEL_PREDICATE_STATISTICS; zeros otherwise.
+struct PredicateStatistics {
+  unsigned long long orient_filtered = 0, orient_exact = 0;
+  unsigned long long incircle_filtered = 0, incircle_exact = 0, incircle_ties = 0;
+};
+PredicateStatistics predicate_statistics();
+
+}  // namespace remodel

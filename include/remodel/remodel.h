@@ -1,0 +1,44 @@
+#pragma once
+
+// Replaces the domain inside a living mesh by another. Source: the paper's sections 3 (general method) and 4.2
+// (specialised method); where we depart is said at each function of src/remodel.
+
+#include <cstddef>
+#include <string>
+
+#include "remodel/mesh.h"
+
+namespace remodel {
+
+enum class Method { automatic, specialised, general };
+const char* name_of(Method method);  // "auto", "specialised", "general"
+
+struct RemodelOptions {
+  double distance = 1.0;  // D: removal radius over the distance of a pair of old and new vertices; >= 0
+  Method method = Method::automatic;  // automatic: specialised where the domains correspond one to one
+};
+
+struct RemodelResult {
+  std::size_t triangles_before = 0;
+  std::size_t triangles = 0;
+  std::size_t preserved = 0;  // old domain triangles still there with all three vertices unmoved
+  std::size_t moved = 0;      // boundary vertices moved in place
+  std::size_t inserted = 0;   // vertices
+  std::size_t removed = 0;
+  bool full_adjustment = false;  // every boundary vertex moved in place, connectivity unchanged
+  Method method = Method::specialised;  // the one that ran
+  bool regenerated = false;  // remodelling could not be completed: the mesh was generated afresh
+  std::string reason;        // why it was regenerated
+  Stopped stopped = Stopped::done;
+  double preserved_percent() const {
+    return triangles_before == 0 ? 100.0
+                                 : 100.0 * static_cast<double>(preserved) / static_cast<double>(triangles_before);
+  }
+};
+
+// Remodels mesh, in place, to the new domain. The mesh is valid before and after: if the new domain is no
+// domain (validate() throws Error) or anything else throws, it is as it was. Invalidates: triangles and
+// vertices near the change; ids of what survives do not change.
+RemodelResult remodel(Mesh& mesh, const Domain& domain, const RemodelOptions& options = {});
+
+}  // namespace remodel

@@ -1,0 +1,30 @@
+#pragma once
+
+// What several tests share.
+
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace remodel::test {
+
+// Test data that is not part of the repository (airfoil files, a foreign mesh) lies in "shared" beside the
+// checkout. Cases that need it skip with a line that says so where it is missing.
+inline std::optional<std::filesystem::path> shared_file(const std::string& name) {
+  const auto file = std::filesystem::path(REMODEL_SOURCE_DIR) / ".." / "shared" / name;
+  if (std::filesystem::exists(file)) return file;
+  return std::nullopt;
+}
+#define REMODEL_SHARED_FILE(variable, name)                                     \
+  const auto variable##_found = remodel::test::shared_file(name);              \
+  if (!variable##_found) GTEST_SKIP() << "needs shared/" << (name) << ", which is not beside this checkout"; \
+  const std::filesystem::path variable = *variable##_found
+
+// The seed of a random test: REMODEL_TEST_SEED if set, otherwise the given one. Print it on failure.
+inline unsigned long long seed(unsigned long long fallback) {
+  const char* given = std::getenv("REMODEL_TEST_SEED");
+  return given != nullptr ? std::strtoull(given, nullptr, 10) : fallback;
+}
+
+}  // namespace remodel::test
