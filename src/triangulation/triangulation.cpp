@@ -76,7 +76,7 @@ void Triangulation::start(Point a, Point b, Point c) {
     write(ghosts[i], infinite_vertex, corners[previous3(i)], corners[next3(i)], Region::outside);
     connect({inner, i}, {ghosts[i], 0}, false);
   }
-  for (int i = 0; i < 3; ++i) connect({ghosts[i], 1}, {ghosts[next3(i)], 2}, false);
+  for (int i = 0; i < 3; ++i) connect({ghosts[i], 1}, {ghosts[previous3(i)], 2}, false);
 }
 
 // ---- corners and links
