@@ -96,7 +96,7 @@ void Refiner::refine(TriangleId t) {
       return;
     }
   }
-  const Point p = triangle.centre;
+  const Point p = triangle.circle.centre;
   triangulation_.find_cavity(p, t, cavity_);
   if (split_blocking_segments(p)) {
     if (!segments_.empty()) consider(t);
