@@ -184,13 +184,15 @@ bool Triangulation::in_conflict(VertexId a, VertexId b, VertexId c, VertexId d) 
 
 // ---- flips
 //
-//        a                a
-//       /|\              / \ .
-//      / | \            /   \ .
-//     b  |  c    ->    b-----c     (a: corner c.index of the triangle on the left of edge b' -> c')
+//        a                 a
+//       / \               /|\.
+//      /   \             / | \.
+//     b-----c    ->     b  |  c
+//      \   /             \ | /
+//       \ /               \|/
+//        d                 d
 //
-// In words: the triangle (a, b, c) and its neighbour (d, c, b) across the edge opposite a become (a, b, d) in
-// the first slot and (a, d, c) in the second.
+// (a, b, c) and (d, c, b) become (a, b, d) in the first slot and (a, d, c) in the second.
 void Triangulation::flip(Corner corner) {
   const TriangleId first = corner.triangle;
   const int i = corner.index;
