@@ -4,7 +4,7 @@
 
 #include "remodel/cmaes.h"
 
-#include "deterministic_eigen.h"
+#include "optimise/deterministic_eigen.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "portable_math.h"
+#include "optimise/portable_math.h"
 #include "remodel/error.h"
 
 namespace remodel {

@@ -12,8 +12,8 @@
 #include <pagmo/population.hpp>
 #include <pagmo/problem.hpp>
 
+#include "optimise/test_functions.h"
 #include "remodel/cmaes.h"
-#include "test_functions.h"
 
 namespace {
 

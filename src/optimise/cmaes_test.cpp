@@ -7,9 +7,9 @@
 #include <limits>
 #include <random>
 
-#include "portable_math.h"
+#include "optimise/portable_math.h"
+#include "optimise/test_functions.h"
 #include "remodel/error.h"
-#include "test_functions.h"
 
 namespace remodel {
 namespace {
