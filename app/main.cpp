@@ -1,7 +1,6 @@
 // The program `remodel`: a thin layer over the library's public headers. This file turns the command line
 // into one Action and every failure into one line and an exit status.
 
-#include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -39,7 +38,13 @@ std::string explain(const CLI::ParseError& error, const CLI::App& program, int a
     const std::string found = argc > 1 ? "'" + std::string(argv[1]) + "'" : "nothing";
     return "command line: found " + found + ", expected one of " + list_of_subcommands(program);
   }
-  return std::string(error.what()) + " (see `remodel " + chosen.front()->get_name() + " --help`)";
+  std::string problem = error.what();
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+    problem = "found unexpected";
+    for (const std::string& argument : chosen.front()->remaining()) problem += " '" + argument + "'";
+    problem += ", expected only known options and arguments";
+  }
+  return problem + " (see `remodel " + chosen.front()->get_name() + " --help`)";
 }
 
 int run(int argc, char** argv) {

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include <array>
-#include <cstdio>
+
 #include <filesystem>
 #include <memory>
 
@@ -148,9 +148,8 @@ Status run(OptimiseCommand& command) {
   command.run.domain = command.meshing.discretisation;
   command.run.quality = command.meshing.resolved_quality();
   const Json options = options_json(command);
-  if (!command.quiet) std::fprintf(stderr, "options: %s\n", options.dump().c_str());
 
-  Progress progress(progress_style(command.quiet), command.run.evaluations);
+  Progress progress(progress_style(command.quiet), command.run.evaluations, "options: " + options.dump());
   const OptimiseResult result = run_repeatedly(command, from, to, progress);
   progress.finish();
 

@@ -7,7 +7,11 @@ namespace remodel::app {
 
 void Progress::evaluated(const EvaluationRecord& record) {
   if (style_ == ProgressStyle::none) return;
-  if (first_ == 0) first_ = record.evaluation;
+  if (first_ == 0) {
+    // Not before the first evaluation: until then a refusal may come, which is one line alone.
+    std::fprintf(stderr, "%s\n", heading_.c_str());
+    first_ = record.evaluation;
+  }
   preserved_sum_ += record.preserved_percent;
   const double seconds = watch_.seconds();
   const double pause = style_ == ProgressStyle::bar ? 0.1 : 5.0;

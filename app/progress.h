@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 
 #include "interrupt.h"
 #include "remodel/optimise.h"
@@ -19,7 +20,9 @@ enum class ProgressStyle {
 
 class Progress : public OptimiseObserver {
  public:
-  Progress(ProgressStyle style, std::size_t evaluations) : style_(style), evaluations_(evaluations) {}
+  // heading is the first line: what was resolved.
+  Progress(ProgressStyle style, std::size_t evaluations, std::string heading)
+      : style_(style), evaluations_(evaluations), heading_(std::move(heading)) {}
 
   void evaluated(const EvaluationRecord& record) override;
   bool cancelled() override { return interrupt_.raised(); }
@@ -32,6 +35,7 @@ class Progress : public OptimiseObserver {
 
   ProgressStyle style_;
   std::size_t evaluations_;
+  std::string heading_;
   InterruptFlag interrupt_;
   Stopwatch watch_;
   double shown_at_ = 0.0;  // seconds
