@@ -1,6 +1,7 @@
 // The program `remodel`: a thin layer over the library's public headers. This file turns the command line
 // into one Action and every failure into one line and an exit status.
 
+#include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
 #include <exception>
