@@ -7,21 +7,14 @@ namespace remodel::app {
 
 MeshInput read_any_mesh(const std::filesystem::path& file) {
   MeshInput input;
-  if (mesh_format(file) == MeshFormat::vtkhdf) {
-    try {
-      input.living = read_mesh(file);
-      input.frozen = input.living->freeze();
-      return input;
-    } catch (const Error& error) {
-      if (error.code() != ErrorCode::format) throw;
-      // Only what a living mesh wrote carries curve parameters: their presence means that the state is
-      // damaged.
-      input.frozen = read_frozen_mesh(file);
-      if (!input.frozen.parameter.empty()) throw;
-      return input;
-    }
+  try {
+    input.living = read_mesh(file);
+    input.frozen = input.living->freeze();
+  } catch (const Error& error) {
+    // Not a native mesh at all, in contrast to one that is damaged.
+    if (error.code() != ErrorCode::argument) throw;
+    input.frozen = read_frozen_mesh(file);
   }
-  input.frozen = read_frozen_mesh(file);
   return input;
 }
 

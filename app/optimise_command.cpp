@@ -42,7 +42,10 @@ void require_run_directory(const std::filesystem::path& directory) {
     throw Error(ErrorCode::file, directory.string(), "is a file, expected a directory");
   }
   require_writable(directory / "history.sqlite");
-  const bool of_a_run = fs::exists(directory / "history.sqlite") || fs::exists(directory / "checkpoint.json");
+  bool of_a_run = false;
+  for (const char* name : {"history.sqlite", "checkpoint.json", "first.vtkhdf"}) {
+    of_a_run = of_a_run || fs::exists(directory / name);
+  }
   if (!of_a_run && !fs::is_empty(directory)) {
     throw Error(ErrorCode::file, directory.string(),
                 "is a directory with other files, expected a new, an empty or a run directory");
