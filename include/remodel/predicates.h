@@ -3,9 +3,10 @@
 // The two questions that decide every topology in this library, answered exactly.
 //
 // Method: a static filter in double arithmetic (error constants of J. R. Shewchuk, "Adaptive Precision
-// Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997), then exact expansion arithmetic.
-// Coordinates must be finite and their products must neither overflow nor underflow: magnitudes from 1e-60
-// to 1e60 (and exact zeros) are safe.
+// Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997), then exact arithmetic: 256-bit
+// integers where the coordinates' differences fit, as those of ties mostly do, and expansions everywhere
+// else. Coordinates must be finite and their products must neither overflow nor underflow: magnitudes from
+// 1e-60 to 1e60 (and exact zeros) are safe.
 
 #include "remodel/point.h"
 
@@ -34,10 +35,14 @@ int incircle(Point a, Point b, Point c, Point d);
 int incircle_sos(Point a, Point b, Point c, Point d);
 
 // How many calls each stage decided since the program started, for tests and benchmarks. Counted only in
-// builds with REMODEL_PREDICATE_STATISTICS; zeros otherwise.
+// builds with REMODEL_PREDICATE_STATISTICS; zeros otherwise. The orient2d calls that break ties are counted
+// too.
 struct PredicateStatistics {
   unsigned long long orient_filtered = 0, orient_exact = 0;
-  unsigned long long incircle_filtered = 0, incircle_exact = 0, incircle_ties = 0;
+  unsigned long long incircle_filtered = 0;
+  unsigned long long incircle_integer = 0;  // exact, by 256-bit integers
+  unsigned long long incircle_exact = 0;    // exact, by expansions
+  unsigned long long incircle_ties = 0;     // of incircle_sos; each is also one of the exact ones
 };
 PredicateStatistics predicate_statistics();
 

@@ -1,0 +1,89 @@
+// Constraints: an edge is recovered by flipping the edges that it crosses (S. W. Sloan, "A fast algorithm for
+// generating constrained Delaunay triangulations", 1993).
+
+#include <deque>
+
+#include "remodel/predicates.h"
+#include "triangulation/triangulation.h"
+
+namespace remodel {
+
+// An edge that the segment crosses, its ends right and left of the segment.
+struct Triangulation::Crossing {
+  VertexId right, left;
+};
+
+ConstrainResult Triangulation::find_crossings(VertexId a, VertexId b, std::vector<Crossing>& crossings) const {
+  using Kind = ConstrainResult::Kind;
+  const Point pa = point(a), pb = point(b);
+  const auto side = [&](VertexId v) { return v == infinite_vertex ? 0 : orient2d(pa, pb, point(v)); };
+  // The triangle at a that the segment leaves through its opposite edge.
+  const Corner first = star(a);
+  Corner c = first;
+  for (;; c = counterclockwise(c)) {
+    const VertexId x = following(c), y = preceding(c);
+    if (x != infinite_vertex && side(x) == 0 && dot(point(x) - pa, pb - pa) > 0.0) return {Kind::vertex, x, {}};
+    if (x != infinite_vertex && y != infinite_vertex && side(x) < 0 && side(y) > 0) break;
+  }
+  Corner edge = c;  // crossed: the edge opposite this corner
+  for (;;) {
+    const VertexId right = following(edge), left = preceding(edge);
+    const Link link = this->link(edge);
+    if (link.constrained()) return {Kind::blocked, right, left};
+    crossings.push_back({right, left});
+    const VertexId apex = vertex({link.triangle(), link.corner()});
+    if (apex == b) return {};
+    const int s = side(apex);
+    if (s == 0) return {Kind::vertex, apex, {}};
+    // In the neighbour the edge runs left -> right after its corner `apex`; go on through the edge to the other side.
+    edge = {link.triangle(), s > 0 ? next3(link.corner()) : previous3(link.corner())};
+  }
+}
+
+// Flips until no edge crosses a-b. An edge whose two triangles do not form a strictly convex quadrilateral waits.
+void Triangulation::flip_crossings(VertexId a, VertexId b, std::vector<Crossing>& crossings) {
+  std::deque<Crossing> todo(crossings.begin(), crossings.end());
+  std::vector<std::pair<VertexId, VertexId>> made;
+  while (!todo.empty()) {
+    const Crossing crossing = todo.front();
+    todo.pop_front();
+    const Corner c = *find_edge(crossing.right, crossing.left);
+    if (!flippable(c)) {
+      todo.push_back(crossing);
+      continue;
+    }
+    const Link across = link(c);
+    const VertexId p = vertex(c), q = vertex({across.triangle(), across.corner()});
+    flip(c);
+    const auto side = [&](VertexId v) { return v == a || v == b ? 0 : orient2d(point(a), point(b), point(v)); };
+    const int sp = side(p), sq = side(q);
+    if (sp * sq < 0) todo.push_back(sp < 0 ? Crossing{p, q} : Crossing{q, p});
+    else made.emplace_back(p, q);
+  }
+  set_constraint(*find_edge(a, b), true);
+  stack_.clear();
+  for (const auto& [p, q] : made)
+    if (const auto c = find_edge(p, q)) stack_.push_back(*c);
+  legalise(stack_);
+}
+
+ConstrainResult Triangulation::constrain(VertexId a, VertexId b) {
+  if (const auto c = find_edge(a, b)) {
+    set_constraint(*c, true);
+    return {};
+  }
+  std::vector<Crossing> crossings;
+  const ConstrainResult result = find_crossings(a, b, crossings);
+  if (result.kind == ConstrainResult::Kind::done) flip_crossings(a, b, crossings);
+  return result;
+}
+
+void Triangulation::release(VertexId a, VertexId b) {
+  const Corner c = *find_edge(a, b);
+  set_constraint(c, false);
+  stack_.clear();
+  stack_.push_back(c);
+  legalise(stack_);
+}
+
+}  // namespace remodel

@@ -1,0 +1,139 @@
+// Insertion of a vertex by cavity (Bowyer 1981, Watson 1981), constraints not crossed.
+//
+// Why the search below needs no marks. Let p be any point, not a vertex. No vertex w of the triangulation has all
+// triangles around it in conflict with p: the triangle at w that holds the direction from p beyond w has its
+// two other corners c1, c2 with w + t (w - p) = a positive combination of c1 - w and c2 - w. If p were strictly
+// inside its circle, p - w and both c - w would lie in the open half plane of the circle's inner normal at w;
+// so would w - p: a contradiction. (Ties count as the symbolic perturbation says and are excluded in the same
+// way.) So the cavity has no inner vertex, and triangles reached through unconstrained edges form a tree. The
+// argument does not ask that p lies in the cavity: a search for a point behind a constraint ends too.
+
+#include <cassert>
+
+#include "remodel/predicates.h"
+#include "triangulation/triangulation.h"
+
+namespace remodel {
+
+// Depth first, the edges of each triangle in counter-clockwise order: the ring comes out in order.
+void Triangulation::find_cavity(Point p, TriangleId start, Cavity& cavity) const {
+  cavity.triangles.clear();
+  cavity.ring.clear();
+  cavity.triangles.push_back(start);
+  Corner todo[64];
+  std::vector<Corner> overflow;  // for cavities of unusual depth
+  std::size_t depth = 0;
+  const auto push = [&](Corner c) {
+    if (depth < 64) todo[depth] = c;
+    else overflow.push_back(c);
+    ++depth;
+  };
+  const auto pop = [&] {
+    --depth;
+    if (depth < 64) return todo[depth];
+    const Corner c = overflow.back();
+    overflow.pop_back();
+    return c;
+  };
+  for (int i = 2; i >= 0; --i) push({start, i});
+  while (depth > 0) {
+    const Corner c = pop();
+    const Triangle& inner = triangles_[c.triangle.index];
+    const Link link = inner.link[c.index];
+    if (link.constrained() || !in_conflict(link.triangle(), p)) {
+      cavity.ring.push_back({inner.vertex[next3(c.index)], link});
+      continue;
+    }
+    cavity.triangles.push_back(link.triangle());
+    push({link.triangle(), previous3(link.corner())});
+    push({link.triangle(), next3(link.corner())});
+  }
+}
+
+// New triangle k is (p, from_k, from_k+1); the cavity's own slots are used first, then two more.
+VertexId Triangulation::fill_cavity(Point p, const Cavity& cavity) {
+  const std::size_t n = cavity.ring.size();
+  const Region region = triangles_[cavity.triangles.front().index].region;
+  new_star_.assign(cavity.triangles.begin(), cavity.triangles.end());
+  while (new_star_.size() < n) new_star_.push_back(new_triangle());
+  assert(new_star_.size() == n);
+  const VertexId v = new_vertex(p);
+  for (std::size_t k = 0; k < n; ++k) {
+    const TriangleId t = new_star_[k];
+    const RingEdge& edge = cavity.ring[k];
+    write(t, v, edge.from, cavity.ring[k + 1 == n ? 0 : k + 1].from, region);
+    Triangle& triangle = triangles_[t.index];
+    triangle.link[0] = edge.outer;
+    triangle.link[1] = Link(new_star_[k + 1 == n ? 0 : k + 1], 2);
+    triangle.link[2] = Link(new_star_[k == 0 ? n - 1 : k - 1], 1);
+    edit(edge.outer.triangle()).link[edge.outer.corner()] = Link(t, 0, edge.outer.constrained());
+  }
+  return v;
+}
+
+// Whether p lies in the closed triangle, not at a corner and not on a constrained edge; for a ghost, beyond its
+// hull edge.
+bool Triangulation::holds(TriangleId t, Point p) const {
+  const Triangle& triangle = triangles_[t.index];
+  if (triangle.ghost()) return in_conflict_exact(triangle, p);
+  int zeros = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int side = orient2d(point(triangle.vertex[next3(i)]), point(triangle.vertex[previous3(i)]), p);
+    if (side < 0 || (side == 0 && triangle.link[i].constrained())) return false;
+    if (side == 0) ++zeros;
+  }
+  return zeros < 2;
+}
+
+namespace {
+
+// Appends the ring of one side of an edge, from behind the edge around to it, the edge left out.
+void append_side(const Cavity& side, Link edge, Cavity& whole) {
+  std::size_t gap = 0;
+  while (side.ring[gap].outer != edge) ++gap;
+  for (std::size_t k = 1; k < side.ring.size(); ++k)
+    whole.ring.push_back(side.ring[(gap + k) % side.ring.size()]);
+  whole.triangles.insert(whole.triangles.end(), side.triangles.begin(), side.triangles.end());
+}
+
+}  // namespace
+
+// The cavity is one on each side of a-b. On the side of p it starts at p's own triangle. On the other side it
+// starts at the triangle next to the edge if p is in its circle; if not, that triangle stays, and the only new
+// one there is (p, a, b), which now lies on its side of the boundary.
+std::optional<VertexId> Triangulation::split(Corner edge, Point p) {
+  Corner other{link(edge).triangle(), link(edge).corner()};
+  const int side = orient2d(point(following(edge)), point(preceding(edge)), p);
+  if (side < 0) std::swap(edge, other);
+  if (side == 0 ? dot(point(following(edge)) - p, point(preceding(edge)) - p) >= 0.0
+                : !holds(edge.triangle, p))
+    return std::nullopt;
+  const VertexId a = following(edge), b = preceding(edge);
+  const Region far_region = triangles_[other.triangle.index].region;
+  Cavity near, far, whole;
+  find_cavity(p, edge.triangle, near);
+  append_side(near, link(edge), whole);
+  const std::size_t near_edges = whole.ring.size();
+  if (in_conflict(other.triangle, p)) {
+    find_cavity(p, other.triangle, far);
+    append_side(far, link(other), whole);
+  } else {
+    whole.ring.push_back({a, Link(other.triangle, other.index, false)});
+  }
+  const VertexId v = fill_cavity(p, whole);
+  for (std::size_t k = near_edges; k < new_star_.size(); ++k) set_region(new_star_[k], far_region);
+  set_constraint(*find_edge(v, a), true);
+  set_constraint(*find_edge(v, b), true);
+  return v;
+}
+
+Triangulation::Inserted Triangulation::insert(Point p, TriangleId hint) {
+  const Location where = locate(p, hint);
+  const Corner corner{where.triangle, where.corner};
+  if (where.kind == Location::Kind::on_vertex) return {vertex(corner), false};
+  if (where.kind == Location::Kind::on_edge && link(corner).constrained()) return {*split(corner, p), true};
+  find_cavity(p, where.triangle, cavity_);
+  return {fill_cavity(p, cavity_), true};
+}
+
+}  // namespace remodel

@@ -1,0 +1,100 @@
+// Removal of a vertex: its star is retriangulated by clipping ears in Delaunay order (after O. Devillers, "On
+// deletion in Delaunay triangulations", 1999; the degree of a vertex is about six, so ears are found by looking).
+
+#include <cassert>
+
+#include "remodel/predicates.h"
+#include "triangulation/triangulation.h"
+
+namespace remodel {
+
+// A vertex of the star's boundary polygon and the edge from it to the next one.
+struct Triangulation::StarEdge {
+  VertexId from;
+  Link outer;
+};
+
+namespace {
+
+std::size_t before(std::size_t i, std::size_t n) { return i == 0 ? n - 1 : i - 1; }
+std::size_t after(std::size_t i, std::size_t n) { return i + 1 == n ? 0 : i + 1; }
+
+}  // namespace
+
+// Whether the triangle at polygon vertex i can be cut off: it is counter-clockwise and no other vertex of the
+// polygon lies in its circle (delaunay) or in its closed area (otherwise).
+bool Triangulation::is_ear(const std::vector<StarEdge>& polygon, std::size_t i, bool delaunay) const {
+  const std::size_t n = polygon.size();
+  const VertexId a = polygon[before(i, n)].from, b = polygon[i].from, c = polygon[after(i, n)].from;
+  const bool ghost = a == infinite_vertex || b == infinite_vertex || c == infinite_vertex;
+  if (!ghost && orient2d(point(a), point(b), point(c)) <= 0) return false;
+  for (const StarEdge& edge : polygon) {
+    const VertexId q = edge.from;
+    if (q == a || q == b || q == c || q == infinite_vertex) continue;
+    if (delaunay || ghost) {
+      if (in_conflict(a, b, c, q)) return false;
+    } else if (orient2d(point(a), point(b), point(q)) >= 0 && orient2d(point(b), point(c), point(q)) >= 0 &&
+               orient2d(point(c), point(a), point(q)) >= 0) {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::size_t Triangulation::find_ear(const std::vector<StarEdge>& polygon, bool delaunay) const {
+  std::size_t i = 0;
+  while (i < polygon.size() && !is_ear(polygon, i, delaunay)) ++i;
+  return i;
+}
+
+// Writes the ear's triangle (before, i, after) into slot; the polygon's new edge before -> after gets it as its
+// outer triangle.
+void Triangulation::clip_ear(std::vector<StarEdge>& polygon, std::size_t i, TriangleId slot, Region region) {
+  const std::size_t n = polygon.size(), p = before(i, n), s = after(i, n);
+  const auto attach = [this](Corner inner, Link outer) {
+    connect(inner, {outer.triangle(), outer.corner()}, outer.constrained());
+  };
+  write(slot, polygon[p].from, polygon[i].from, polygon[s].from, region);
+  attach({slot, 0}, polygon[i].outer);
+  attach({slot, 2}, polygon[p].outer);
+  if (n == 3) {
+    attach({slot, 1}, polygon[s].outer);
+    return;
+  }
+  polygon[p].outer = Link(slot, 1);
+  polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(i));
+}
+
+void Triangulation::remove(VertexId v) {
+  std::vector<StarEdge> polygon;
+  std::vector<TriangleId> slots;
+  const Corner first = star(v);
+  const Region region = triangles_[first.triangle.index].region;
+  Corner c = first;
+  do {
+    assert(!link({c.triangle, next3(c.index)}).constrained());
+    polygon.push_back({following(c), link(c)});
+    slots.push_back(c.triangle);
+    c = counterclockwise(c);
+  } while (c.triangle != first.triangle);
+
+  std::vector<TriangleId> uncertain;  // triangles of ears that only a constraint behind the polygon makes Delaunay
+  std::size_t used = 0;
+  while (polygon.size() >= 3) {
+    const bool last = polygon.size() == 3;
+    std::size_t ear = last ? 1 : find_ear(polygon, true);
+    if (ear == polygon.size()) {
+      ear = find_ear(polygon, false);
+      assert(ear < polygon.size());
+      uncertain.push_back(slots[used]);
+    }
+    clip_ear(polygon, ear, slots[used], region);
+    ++used;
+    if (last) break;
+  }
+  for (; used < slots.size(); ++used) free_triangle(slots[used]);
+  free_vertex(v);
+  if (!uncertain.empty()) restore_delaunay(uncertain);
+}
+
+}  // namespace remodel

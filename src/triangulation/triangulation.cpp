@@ -1,0 +1,305 @@
+// Slots, links, circles, flips and location of the triangulation. Insertion, removal, constraints and the
+// journal have files of their own.
+
+#include "triangulation/triangulation.h"
+
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "remodel/predicates.h"
+
+namespace remodel {
+
+// ---- slots
+
+TriangleId Triangulation::new_triangle() {
+  if (free_triangles_.count > 0) return TriangleId{free_triangles_.slots[--free_triangles_.count]};
+  triangles_.emplace_back();
+  return TriangleId{static_cast<std::uint32_t>(triangles_.size() - 1)};
+}
+
+void Triangulation::free_triangle(TriangleId t) {
+  edit(t) = Triangle{};
+  if (journalling_) {
+    free_triangles_.pending.push_back(t.index);
+    return;
+  }
+  free_triangles_.slots.resize(free_triangles_.count);
+  free_triangles_.slots.push_back(t.index);
+  ++free_triangles_.count;
+}
+
+VertexId Triangulation::new_vertex(Point p) {
+  VertexId v;
+  if (free_vertices_.count > 0) {
+    v = VertexId{free_vertices_.slots[--free_vertices_.count]};
+  } else {
+    v = VertexId{static_cast<std::uint32_t>(vertices_.size())};
+    vertices_.emplace_back();
+    generations_.push_back(0);
+  }
+  Vertex& vertex = edit(v);
+  vertex = Vertex{};
+  vertex.point = p;
+  if (journalling_) generation_journal_.push_back(v.index);
+  ++generations_[v.index];
+  ++live_vertices_;
+  ++inserted_;
+  return v;
+}
+
+void Triangulation::free_vertex(VertexId v) {
+  edit(v) = Vertex{};
+  --live_vertices_;
+  ++removed_;
+  if (journalling_) {
+    free_vertices_.pending.push_back(v.index);
+    return;
+  }
+  free_vertices_.slots.resize(free_vertices_.count);
+  free_vertices_.slots.push_back(v.index);
+  ++free_vertices_.count;
+}
+
+void Triangulation::start(Point a, Point b, Point c) {
+  assert(vertices_.empty());
+  vertices_.emplace_back();  // the infinite vertex
+  generations_.push_back(0);
+  if (orient2d(a, b, c) < 0) std::swap(b, c);
+  const VertexId va = new_vertex(a), vb = new_vertex(b), vc = new_vertex(c);
+  const TriangleId inner = new_triangle();
+  const TriangleId ghosts[3] = {new_triangle(), new_triangle(), new_triangle()};
+  const VertexId corners[3] = {va, vb, vc};
+  write(inner, va, vb, vc, Region::outside);
+  for (int i = 0; i < 3; ++i) {
+    write(ghosts[i], infinite_vertex, corners[previous3(i)], corners[next3(i)], Region::outside);
+    connect({inner, i}, {ghosts[i], 0}, false);
+  }
+  for (int i = 0; i < 3; ++i) connect({ghosts[i], 1}, {ghosts[previous3(i)], 2}, false);
+}
+
+// ---- corners and links
+
+Corner Triangulation::counterclockwise(Corner c) const {
+  const Link link = triangles_[c.triangle.index].link[next3(c.index)];
+  return {link.triangle(), next3(link.corner())};
+}
+
+Corner Triangulation::clockwise(Corner c) const {
+  const Link link = triangles_[c.triangle.index].link[previous3(c.index)];
+  return {link.triangle(), previous3(link.corner())};
+}
+
+std::optional<Corner> Triangulation::find_edge(VertexId a, VertexId b) const {
+  const Corner first = star(a);
+  Corner c = first;
+  do {
+    if (following(c) == b) return Corner{c.triangle, previous3(c.index)};
+    c = counterclockwise(c);
+  } while (c.triangle != first.triangle);
+  return std::nullopt;
+}
+
+void Triangulation::connect(Corner a, Corner b, bool constrained) {
+  edit(a.triangle).link[a.index] = Link(b.triangle, b.index, constrained);
+  edit(b.triangle).link[b.index] = Link(a.triangle, a.index, constrained);
+}
+
+void Triangulation::set_star(VertexId v, TriangleId t, int corner) {
+  const Link star(t, corner);
+  if (vertices_[v.index].star != star) edit(v).star = star;
+}
+
+void Triangulation::set_constraint(Corner c, bool constrained) {
+  const Link link = triangles_[c.triangle.index].link[c.index];
+  connect(c, {link.triangle(), link.corner()}, constrained);
+}
+
+void Triangulation::write(TriangleId t, VertexId a, VertexId b, VertexId c, Region region) {
+  Triangle& triangle = edit(t);
+  triangle.vertex[0] = a;
+  triangle.vertex[1] = b;
+  triangle.vertex[2] = c;
+  triangle.region = region;
+  triangle.birth = step_;
+  triangle.badness = 0;
+  compute_circle(triangle);
+  set_star(a, t, 0);
+  set_star(b, t, 1);
+  set_star(c, t, 2);
+}
+
+// ---- circles
+//
+// The circle is relative to corner a: with e1 = b - a, e2 = c - a, D = e1 x e2, s = |D| / (|e1||e2|) the sine at
+// a, the centre is a + u, u = perp(e2 |e1|^2 - e1 |e2|^2) / 2D. With eps = 2^-53 and rounded operations:
+//   numerator of u: |error| <= 8 eps |e1||e2|(|e1|+|e2|); D: |error| <= 4 eps |e1||e2|, relative 4 eps / s; so
+//   |u - computed u| <= eps (|e1|+|e2|) 10 / s^2 <= 40 eps r / s^2       (|e1|, |e2| <= 2r; s >= 2^-20 below)
+//   and rounding the centre itself adds eps (|cx|+|cy|) (1 + eps).
+// Let delta be their sum: the true centre is within delta of the stored one, and the true radius within delta of
+// |u|. A point is certainly inside if its distance from the stored centre is below |u| - 2 delta, certainly
+// outside above |u| + 2 delta. Squared: r^2 -+ 4 r delta, with 16 eps r^2 for the rounding of the squares here
+// and in the query. tolerance below is that sum with each constant rounded up by a quarter or more.
+Circle certified_circle(Point a, Point b, Point c) {
+  Circle circle;
+  const Point e1 = b - a, e2 = c - a;
+  const double l1 = dot(e1, e1), l2 = dot(e2, e2), d = cross(e1, e2);
+  const double half_inverse = 0.5 / d;
+  const Point u{(e2.y * l1 - e1.y * l2) * half_inverse, (e1.x * l2 - e2.x * l1) * half_inverse};
+  circle.centre = a + u;
+  const double r2 = dot(u, u);
+  const double inverse_s2 = l1 * l2 / (d * d);
+  constexpr double eps = 0x1p-53;
+  const double tolerance = eps * ((200.0 * inverse_s2 + 32.0) * r2 +
+                                  6.0 * std::sqrt(r2) * (std::abs(circle.centre.x) + std::abs(circle.centre.y)));
+  if (!(d > 0.0) || !(inverse_s2 < 0x1p40) || !(tolerance < 0.25 * r2)) return circle;
+  circle.inside = r2 - tolerance;
+  circle.outside = r2 + tolerance;
+  return circle;
+}
+
+void Triangulation::compute_circle(Triangle& triangle) const {
+  triangle.circle = triangle.ghost() ? Circle{}
+                                     : certified_circle(point(triangle.vertex[0]), point(triangle.vertex[1]),
+                                                        point(triangle.vertex[2]));
+}
+
+bool Triangulation::in_conflict_exact(const Triangle& t, Point p) const {
+  for (int i = 0; i < 3; ++i) {
+    if (t.vertex[i] != infinite_vertex) continue;
+    const Point a = point(t.vertex[next3(i)]), b = point(t.vertex[previous3(i)]);
+    const int side = orient2d(a, b, p);
+    return side > 0 || (side == 0 && dot(p - a, p - b) < 0.0);
+  }
+  return incircle_sos(point(t.vertex[0]), point(t.vertex[1]), point(t.vertex[2]), p) > 0;
+}
+
+bool Triangulation::in_conflict(VertexId a, VertexId b, VertexId c, VertexId d) const {
+  if (d == infinite_vertex) return false;
+  Triangle t;
+  t.vertex[0] = a;
+  t.vertex[1] = b;
+  t.vertex[2] = c;
+  return in_conflict_exact(t, point(d));
+}
+
+// ---- flips
+//
+//        a                 a
+//       / \               /|\.
+//      /   \             / | \.
+//     b-----c    ->     b  |  c
+//      \   /             \ | /
+//       \ /               \|/
+//        d                 d
+//
+// (a, b, c) and (d, c, b) become (a, b, d) in the first slot and (a, d, c) in the second.
+void Triangulation::flip(Corner corner) {
+  const TriangleId first = corner.triangle;
+  const int i = corner.index;
+  const Triangle t = triangles_[first.index];
+  const TriangleId second = t.link[i].triangle();
+  const int j = t.link[i].corner();
+  const Triangle u = triangles_[second.index];
+  const VertexId a = t.vertex[i], b = t.vertex[next3(i)], c = t.vertex[previous3(i)], d = u.vertex[j];
+  write(first, a, b, d, t.region);
+  write(second, a, d, c, t.region);
+  const auto attach = [this](Corner inner, Link outer) {
+    connect(inner, {outer.triangle(), outer.corner()}, outer.constrained());
+  };
+  attach({first, 0}, u.link[next3(j)]);
+  attach({first, 2}, t.link[previous3(i)]);
+  attach({second, 0}, u.link[previous3(j)]);
+  attach({second, 1}, t.link[next3(i)]);
+  connect({first, 1}, {second, 2}, false);
+}
+
+bool Triangulation::flippable(Corner corner) const {
+  const Triangle& t = triangles_[corner.triangle.index];
+  const Link link = t.link[corner.index];
+  const VertexId a = t.vertex[corner.index], b = t.vertex[next3(corner.index)],
+                 c = t.vertex[previous3(corner.index)], d = vertex({link.triangle(), link.corner()});
+  return orient2d(point(a), point(b), point(d)) > 0 && orient2d(point(a), point(d), point(c)) > 0;
+}
+
+// Lawson's algorithm. Ends because each flip lowers the (symbolically perturbed) lifted surface.
+void Triangulation::legalise(std::vector<Corner>& stack) {
+  while (!stack.empty()) {
+    const Corner c = stack.back();
+    stack.pop_back();
+    const Triangle& t = triangles_[c.triangle.index];
+    if (!t.alive() || t.ghost() || t.link[c.index].constrained()) continue;
+    const Link link = t.link[c.index];
+    const Triangle& u = triangles_[link.triangle().index];
+    if (u.ghost() || !in_conflict(c.triangle, point(u.vertex[link.corner()]))) continue;
+    const TriangleId first = c.triangle, second = link.triangle();
+    flip(c);
+    for (const Corner next : {Corner{first, 0}, Corner{first, 2}, Corner{second, 0}, Corner{second, 1}})
+      stack.push_back(next);
+  }
+}
+
+void Triangulation::restore_delaunay(std::span<const TriangleId> triangles) {
+  stack_.clear();
+  for (const TriangleId t : triangles)
+    for (int i = 0; i < 3; ++i) stack_.push_back({t, i});
+  legalise(stack_);
+}
+
+// ---- location
+
+// The visibility walk: cross any edge that has p strictly on its far side. It cannot cycle in a Delaunay
+// triangulation; around constraints it could, so its steps are counted.
+Location Triangulation::locate(Point p, TriangleId hint) const {
+  TriangleId t = hint;
+  if (triangles_[t.index].ghost())
+    for (int i = 0; i < 3; ++i)
+      if (triangles_[hint.index].vertex[i] == infinite_vertex) t = triangles_[hint.index].link[i].triangle();
+  int from = -1;
+  for (std::size_t budget = 4 * triangles_.size(); budget > 0; --budget) {
+    const Triangle& triangle = triangles_[t.index];
+    if (triangle.ghost()) return {Location::Kind::outside, t, 0};
+    int exit = -1, on[3], zeros = 0;
+    for (int i = 0; i < 3 && exit < 0; ++i) {
+      if (i == from) continue;
+      const int side = orient2d(point(triangle.vertex[next3(i)]), point(triangle.vertex[previous3(i)]), p);
+      if (side < 0) exit = i;
+      if (side == 0) on[zeros++] = i;
+    }
+    if (exit < 0) {
+      if (zeros == 0) return {Location::Kind::inside, t, 0};
+      if (zeros == 1) return {Location::Kind::on_edge, t, on[0]};
+      return {Location::Kind::on_vertex, t, 3 - on[0] - on[1]};
+    }
+    from = triangle.link[exit].corner();
+    t = triangle.link[exit].triangle();
+  }
+  return search_all(p);
+}
+
+Location Triangulation::search_all(Point p) const {
+  Location outside{Location::Kind::outside, TriangleId{}, 0};
+  for (std::uint32_t index = 0; index < triangles_.size(); ++index) {
+    const Triangle& t = triangles_[index];
+    if (!t.alive()) continue;
+    if (t.ghost()) {
+      if (in_conflict_exact(t, p)) outside.triangle = TriangleId{index};
+      continue;
+    }
+    int on[3], zeros = 0;
+    bool in = true;
+    for (int i = 0; i < 3 && in; ++i) {
+      const int side = orient2d(point(t.vertex[next3(i)]), point(t.vertex[previous3(i)]), p);
+      if (side < 0) in = false;
+      if (side == 0) on[zeros++] = i;
+    }
+    if (!in) continue;
+    if (zeros == 0) return {Location::Kind::inside, TriangleId{index}, 0};
+    if (zeros == 1) return {Location::Kind::on_edge, TriangleId{index}, on[0]};
+    return {Location::Kind::on_vertex, TriangleId{index}, 3 - on[0] - on[1]};
+  }
+  return outside;
+}
+
+}  // namespace remodel

@@ -1,0 +1,220 @@
+#pragma once
+
+// A constrained Delaunay triangulation of points in the plane that can be changed anywhere: insert and remove
+// vertices, constrain and release edges, move vertices. Knows nothing of shapes.
+//
+// Invariants between public calls (check() names the one that is broken):
+//  (1) Links return: the neighbour across an edge links back to the same edge, with the same constraint bit.
+//  (2) Every finite triangle is counter-clockwise; ghosts (one per convex hull edge) close the surface to a
+//      sphere.
+//  (3) Every unconstrained edge is locally Delaunay under incircle_sos: the triangulation is the unique
+//      constrained Delaunay triangulation of its vertices and constraints. Callers that move vertices restore
+//      it with restore_delaunay() before they insert or remove.
+//  (4) Every vertex's star is a triangle that has it.
+//
+// Changes between begin() and commit() are journalled: rollback() takes them back in time proportional to their
+// number, to the last bit.
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "triangulation/triangle.h"
+
+namespace remodel {
+
+// The triangles that a new point destroys (those whose circumcircle holds it, not crossing constraints) and
+// their boundary in counter-clockwise order.
+struct RingEdge {
+  VertexId from;  // the edge runs to the next ring edge's from
+  Link outer;     // the triangle beyond, and whether the edge is constrained
+};
+struct Cavity {
+  std::vector<TriangleId> triangles;
+  std::vector<RingEdge> ring;
+};
+
+struct Location {
+  enum class Kind { inside, on_edge, on_vertex, outside } kind = Kind::inside;
+  TriangleId triangle;  // contains the point (a ghost for outside)
+  int corner = 0;       // on_edge: the edge opposite this corner; on_vertex: this corner
+};
+
+struct ConstrainResult {
+  enum class Kind {
+    done,     // the edge is there and constrained
+    vertex,   // the open segment passes exactly through `first`: nothing was changed
+    blocked,  // the segment crosses the constrained edge first-second: nothing was changed
+  } kind = Kind::done;
+  VertexId first, second;
+};
+
+class Triangulation {
+ public:
+  // ---- reading
+  std::size_t vertex_slots() const { return vertices_.size(); }      // slot 0 is the infinite vertex
+  std::size_t triangle_slots() const { return triangles_.size(); }
+  std::size_t vertex_count() const { return live_vertices_; }        // finite
+  const Vertex& operator[](VertexId v) const { return vertices_[v.index]; }
+  const Triangle& operator[](TriangleId t) const { return triangles_[t.index]; }
+  Point point(VertexId v) const { return vertices_[v.index].point; }
+  std::uint32_t generation(VertexId v) const { return generations_[v.index]; }  // how often the id was given out
+
+  // The corners around a vertex: counter-clockwise and clockwise neighbours of a corner at the same vertex.
+  Corner star(VertexId v) const { return corner(vertices_[v.index].star); }
+  Corner counterclockwise(Corner c) const;
+  Corner clockwise(Corner c) const;
+  VertexId vertex(Corner c) const { return triangles_[c.triangle.index].vertex[c.index]; }
+  VertexId following(Corner c) const { return triangles_[c.triangle.index].vertex[next3(c.index)]; }
+  VertexId preceding(Corner c) const { return triangles_[c.triangle.index].vertex[previous3(c.index)]; }
+  Link link(Corner c) const { return triangles_[c.triangle.index].link[c.index]; }
+  // The corner opposite the directed edge a -> b, in the triangle on its left; none if there is no such edge.
+  std::optional<Corner> find_edge(VertexId a, VertexId b) const;
+
+  // The triangle that holds p. Walks from hint; a walk that takes too long ends in a search of all triangles.
+  Location locate(Point p, TriangleId hint) const;
+  // Whether p lies inside t's circumcircle (for a ghost: beyond its hull edge). Exact.
+  bool in_conflict(TriangleId t, Point p) const {
+    const Triangle& triangle = triangles_[t.index];
+    const double d = squared_distance(triangle.circle.centre, p);
+    if (d < triangle.circle.inside) return true;
+    if (d > triangle.circle.outside) return false;
+    return in_conflict_exact(triangle, p);
+  }
+
+  // ---- changing. Each function invalidates the triangles it names, and no vertex but the removed one.
+
+  // The first triangle. Precondition: no vertices yet, a, b, c not collinear.
+  void start(Point a, Point b, Point c);
+
+  // Collects the cavity of p from a triangle in conflict with it. Read only.
+  void find_cavity(Point p, TriangleId start, Cavity& cavity) const;
+  // Replaces the cavity by the star of a new vertex at p. Precondition: every ring edge is seen from p, strictly
+  // from its left. Invalidates the cavity's triangles; new_star() lists the new ones.
+  VertexId fill_cavity(Point p, const Cavity& cavity);
+  std::span<const TriangleId> new_star() const { return new_star_; }
+
+  // Replaces a constrained edge a-b, given by a corner opposite it, by a-p and p-b, both constrained; the regions
+  // on both sides stay on their sides. p need not lie on the edge (boundaries are curved), but it must lie in
+  // one of the two triangles next to it, and not on a vertex: otherwise nothing is changed and there is no
+  // result. new_star() lists the new triangles.
+  std::optional<VertexId> split(Corner edge, Point p);
+  // Inserts p; a vertex that is already at p is returned instead. A constrained edge that p lies on is split.
+  struct Inserted {
+    VertexId vertex;
+    bool is_new = true;
+  };
+  Inserted insert(Point p, TriangleId hint);
+  // Removes a vertex at which no constrained edge ends. Invalidates its star.
+  void remove(VertexId v);
+
+  ConstrainResult constrain(VertexId a, VertexId b);
+  // Lifts the constraint of an edge and restores invariant (3).
+  void release(VertexId a, VertexId b);
+
+  // Moves a vertex and refreshes nothing: the caller calls refresh_circle() for its star and then
+  // restore_delaunay(), or keeps the Delaunay property by its own checks.
+  void set_point(VertexId v, Point p) { edit(v).point = p; }
+  void refresh_circle(TriangleId t) { compute_circle(edit(t)); }
+  void set_circle(TriangleId t, const Circle& circle) { edit(t).circle = circle; }
+  // Lawson flips from the edges opposite all corners of the given triangles.
+  void restore_delaunay(std::span<const TriangleId> triangles);
+
+  // Attributes kept for the layers above.
+  void set_length_scale(VertexId v, double value) { edit(v).length_scale = value; }
+  void set_boundary(VertexId v, std::uint32_t value) { edit(v).boundary = value; }
+  void set_region(TriangleId t, Region region) { edit(t).region = region; }
+  void set_birth(TriangleId t, std::uint32_t birth) { edit(t).birth = birth; }
+  void set_badness(TriangleId t, std::uint8_t badness) { triangles_[t.index].badness = badness; }  // not journalled
+  void forget_badness() {  // after a refinement that a limit ended
+    for (Triangle& t : triangles_) t.badness = 0;
+  }
+  void set_step(std::uint32_t step) { step_ = step; }  // the birth of triangles made from now on
+
+  // ---- journal
+  void begin();
+  void commit();
+  void rollback();
+  bool journalling() const { return journalling_; }
+  // The triangle slots changed since begin(), each once, ascending; with their state at begin() (slots that are
+  // new since begin() have no earlier state).
+  struct Earlier {
+    TriangleId id;
+    Triangle triangle;
+  };
+  std::vector<TriangleId> touched() const;
+  std::vector<Earlier> earlier() const;
+  std::uint32_t vertices_inserted() const { return inserted_; }  // since begin()
+  std::uint32_t vertices_removed() const { return removed_; }
+
+  // Empty, or the broken invariant with the ids concerned: all of them, or (1), (2) and (4) only.
+  std::string check() const;
+  std::string check_topology() const;
+
+ private:
+  friend struct TriangulationState;
+
+  static Corner corner(Link link) { return {link.triangle(), link.corner()}; }
+  Triangle& edit(TriangleId t);
+  Vertex& edit(VertexId v);
+  std::string check_triangle(std::uint32_t index) const;
+  void set_star(VertexId v, TriangleId t, int corner);
+  void connect(Corner a, Corner b, bool constrained);
+  TriangleId new_triangle();
+  void free_triangle(TriangleId t);
+  VertexId new_vertex(Point p);
+  void free_vertex(VertexId v);
+  void write(TriangleId t, VertexId a, VertexId b, VertexId c, Region region);
+  void compute_circle(Triangle& triangle) const;
+  bool in_conflict_exact(const Triangle& triangle, Point p) const;
+  bool in_conflict(VertexId a, VertexId b, VertexId c, VertexId d) const;
+
+  void flip(Corner c);
+  bool flippable(Corner c) const;
+  bool holds(TriangleId t, Point p) const;
+  void legalise(std::vector<Corner>& stack);
+  void set_constraint(Corner c, bool constrained);
+  Location search_all(Point p) const;
+
+  struct StarEdge;  // remove.cpp
+  std::size_t find_ear(const std::vector<StarEdge>& polygon, bool delaunay) const;
+  bool is_ear(const std::vector<StarEdge>& polygon, std::size_t i, bool delaunay) const;
+  void clip_ear(std::vector<StarEdge>& polygon, std::size_t i, TriangleId slot, Region region);
+
+  struct Crossing;  // constrain.cpp
+  ConstrainResult find_crossings(VertexId a, VertexId b, std::vector<Crossing>& crossings) const;
+  void flip_crossings(VertexId a, VertexId b, std::vector<Crossing>& crossings);
+
+  std::vector<Vertex> vertices_;
+  std::vector<std::uint32_t> generations_;
+  std::vector<Triangle> triangles_;
+  // Free slots; those before the count are there to be given out (last first). A slot freed under a journal
+  // joins them at commit(), so that no id is given out twice within one step.
+  struct FreeList {
+    std::vector<std::uint32_t> slots;
+    std::size_t count = 0;
+    std::vector<std::uint32_t> pending;
+  };
+  FreeList free_vertices_, free_triangles_;
+  std::size_t live_vertices_ = 0;
+  std::uint32_t step_ = 0;
+
+  bool journalling_ = false;
+  struct VertexBefore {
+    VertexId id;
+    Vertex vertex;
+  };
+  std::vector<Earlier> triangle_journal_;
+  std::vector<VertexBefore> vertex_journal_;
+  std::vector<std::uint32_t> generation_journal_;
+  std::size_t vertex_slots_before_ = 0, triangle_slots_before_ = 0, live_vertices_before_ = 0;
+  std::uint32_t inserted_ = 0, removed_ = 0;
+
+  std::vector<TriangleId> new_star_;
+  Cavity cavity_;
+  std::vector<Corner> stack_;
+};
+
+}  // namespace remodel

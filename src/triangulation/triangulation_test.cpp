@@ -1,0 +1,226 @@
+#include "triangulation/triangulation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <random>
+#include <set>
+
+#include "remodel/predicates.h"
+#include "support.h"
+
+namespace remodel {
+namespace {
+
+using Triple = std::array<std::pair<double, double>, 3>;
+
+// The finite triangles as sets of coordinates: what must not depend on ids or history.
+std::set<Triple> triangle_set(const Triangulation& t) {
+  std::set<Triple> result;
+  for (std::uint32_t i = 0; i < t.triangle_slots(); ++i) {
+    const Triangle& triangle = t[TriangleId{i}];
+    if (!triangle.alive() || triangle.ghost()) continue;
+    Triple triple;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point p = t.point(triangle.vertex[k]);
+      triple[k] = {p.x, p.y};
+    }
+    std::sort(triple.begin(), triple.end());
+    result.insert(triple);
+  }
+  return result;
+}
+
+TriangleId any_triangle(const Triangulation& t) {
+  std::uint32_t i = 0;
+  while (!t[TriangleId{i}].alive()) ++i;
+  return TriangleId{i};
+}
+
+// Point families, each a different kind of trouble.
+Point random_point(std::mt19937_64& random, int family) {
+  const auto whole = [&](int n) { return static_cast<double>(random() % static_cast<unsigned>(n)); };
+  switch (family) {
+    case 0: return {whole(1 << 20) / (1 << 20), whole(1 << 20) / (1 << 20)};
+    case 1: return {whole(12), whole(12)};                      // grid: cocircular and collinear by the dozen
+    case 2: {                                                   // integer points of the circle of radius 65^2
+      static const std::array<std::array<int, 2>, 5> pairs{{{16, 63}, {33, 56}, {39, 52}, {25, 60}, {65, 0}}};
+      const auto& pair = pairs[random() % 5];
+      const double sx = random() % 2 ? 1 : -1, sy = random() % 2 ? 1 : -1;
+      return random() % 2 ? Point{sx * pair[0], sy * pair[1]} : Point{sx * pair[1], sy * pair[0]};
+    }
+    case 3: return {whole(2000), whole(3) * 0x1p-40};           // nearly collinear
+    default: return {1.0 + whole(8) * 0x1p-52, 1.0 + whole(8) * 0x1p-52};  // a grid of ulps
+  }
+}
+
+Triangulation started(std::mt19937_64& random, int family) {
+  for (;;) {
+    const Point a = random_point(random, family), b = random_point(random, family), c = random_point(random, family);
+    if (orient2d(a, b, c) == 0) continue;
+    Triangulation t;
+    t.start(a, b, c);
+    return t;
+  }
+}
+
+class KernelOnFamily : public testing::TestWithParam<int> {};
+
+TEST_P(KernelOnFamily, StaysValidUnderRandomInsertionAndRemoval) {
+  const auto seed = test::seed(1 + static_cast<unsigned long long>(GetParam()));
+  SCOPED_TRACE("REMODEL_TEST_SEED=" + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  Triangulation t = started(random, GetParam());
+  std::vector<VertexId> vertices;
+  for (int step = 0; step < 600; ++step) {
+    if (vertices.size() > 3 && random() % 3 == 0) {
+      const std::size_t k = random() % vertices.size();
+      t.remove(vertices[k]);
+      vertices.erase(vertices.begin() + static_cast<std::ptrdiff_t>(k));
+    } else {
+      const auto inserted = t.insert(random_point(random, GetParam()), any_triangle(t));
+      if (inserted.is_new) vertices.push_back(inserted.vertex);
+    }
+    ASSERT_EQ(t.check(), "") << "step " << step;
+  }
+}
+
+TEST_P(KernelOnFamily, HasTheTrianglesOfARebuildFromTheSameVertices) {
+  const auto seed = test::seed(11 + static_cast<unsigned long long>(GetParam()));
+  SCOPED_TRACE("REMODEL_TEST_SEED=" + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  Triangulation t = started(random, GetParam());
+  std::vector<VertexId> vertices;
+  for (int step = 0; step < 200; ++step) {
+    const auto inserted = t.insert(random_point(random, GetParam()), any_triangle(t));
+    if (inserted.is_new) vertices.push_back(inserted.vertex);
+  }
+  while (vertices.size() > 60 || (vertices.size() > 20 && vertices.size() % 2 == 1)) {
+    const std::size_t k = random() % vertices.size();
+    t.remove(vertices[k]);
+    vertices.erase(vertices.begin() + static_cast<std::ptrdiff_t>(k));
+  }
+  std::vector<Point> points;
+  for (std::uint32_t i = 1; i < t.vertex_slots(); ++i)
+    if (t[VertexId{i}].alive()) points.push_back(t.point(VertexId{i}));
+  std::shuffle(points.begin(), points.end(), random);
+  std::size_t third = 2;
+  while (orient2d(points[0], points[1], points[third]) == 0) ++third;
+  Triangulation rebuilt;
+  rebuilt.start(points[0], points[1], points[third]);
+  for (const Point p : points) rebuilt.insert(p, any_triangle(rebuilt));
+  EXPECT_EQ(triangle_set(t), triangle_set(rebuilt));
+}
+
+TEST_P(KernelOnFamily, ComesBackToTheSameBitsAfterRollback) {
+  const auto seed = test::seed(21 + static_cast<unsigned long long>(GetParam()));
+  SCOPED_TRACE("REMODEL_TEST_SEED=" + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  Triangulation t = started(random, GetParam());
+  std::vector<VertexId> vertices;
+  for (int round = 0; round < 20; ++round) {
+    for (int step = 0; step < 20; ++step) {
+      const auto inserted = t.insert(random_point(random, GetParam()), any_triangle(t));
+      if (inserted.is_new) vertices.push_back(inserted.vertex);
+    }
+    const Triangulation before = t;
+    t.begin();
+    std::vector<VertexId> now = vertices;
+    for (int step = 0; step < 30; ++step) {
+      if (now.size() > 3 && random() % 2 == 0) {
+        const std::size_t k = random() % now.size();
+        t.remove(now[k]);
+        now.erase(now.begin() + static_cast<std::ptrdiff_t>(k));
+      } else {
+        const auto inserted = t.insert(random_point(random, GetParam()), any_triangle(t));
+        if (inserted.is_new) now.push_back(inserted.vertex);
+      }
+    }
+    t.rollback();
+    ASSERT_EQ(t.vertex_slots(), before.vertex_slots());
+    ASSERT_EQ(t.triangle_slots(), before.triangle_slots());
+    for (std::uint32_t i = 0; i < t.triangle_slots(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        ASSERT_EQ(t[TriangleId{i}].vertex[k], before[TriangleId{i}].vertex[k]);
+        ASSERT_EQ(t[TriangleId{i}].link[k], before[TriangleId{i}].link[k]);
+      }
+    for (std::uint32_t i = 0; i < t.vertex_slots(); ++i) {
+      ASSERT_EQ(t[VertexId{i}].star, before[VertexId{i}].star);
+      ASSERT_EQ(t.generation(VertexId{i}), before.generation(VertexId{i}));
+    }
+    ASSERT_EQ(t.check(), "");
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, KernelOnFamily, testing::Range(0, 5));
+
+TEST(Constraints, OfRandomSegmentsAreKeptThroughInsertionAndRemoval) {
+  const auto seed = test::seed(31);
+  SCOPED_TRACE("REMODEL_TEST_SEED=" + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  for (int round = 0; round < 30; ++round) {
+    const int family = round % 2;
+    Triangulation t = started(random, family);
+    std::vector<VertexId> vertices;
+    for (int i = 0; i < 80; ++i) {
+      const auto inserted = t.insert(random_point(random, family), any_triangle(t));
+      if (inserted.is_new) vertices.push_back(inserted.vertex);
+    }
+    std::vector<std::pair<VertexId, VertexId>> segments;
+    std::set<VertexId> ends;
+    for (int i = 0; i < 12; ++i) {
+      const VertexId a = vertices[random() % vertices.size()], b = vertices[random() % vertices.size()];
+      if (a == b || t.constrain(a, b).kind != ConstrainResult::Kind::done) continue;
+      segments.emplace_back(a, b);
+      ends.insert(a);
+      ends.insert(b);
+      ASSERT_EQ(t.check(), "");
+    }
+    ASSERT_FALSE(segments.empty());
+    for (int i = 0; i < 60; ++i) {
+      const VertexId v = vertices[random() % vertices.size()];
+      if (t[v].alive() && !ends.contains(v) && random() % 2 == 0) {
+        bool constrained = false;  // v may have been inserted onto a constrained edge
+        Corner c = t.star(v);
+        const TriangleId first = c.triangle;
+        do {
+          constrained |= t.link({c.triangle, next3(c.index)}).constrained();
+          c = t.counterclockwise(c);
+        } while (c.triangle != first);
+        if (!constrained) t.remove(v);
+      } else {
+        t.insert(random_point(random, 0), any_triangle(t));
+      }
+      ASSERT_EQ(t.check(), "") << "round " << round << " step " << i;
+    }
+    if (family == 0)
+      for (const auto& [a, b] : segments) {
+        const auto edge = t.find_edge(a, b);
+        if (edge) { EXPECT_TRUE(t.link(*edge).constrained()); }
+      }
+    for (const auto& [a, b] : segments)
+      if (t.find_edge(a, b)) t.release(a, b);
+    EXPECT_EQ(t.check(), "");
+  }
+}
+
+TEST(Constraints, AreRefusedWhereTheyCrossAnotherOrPassThroughAVertex) {
+  Triangulation t;
+  t.start({0, 0}, {2, 0}, {2, 2});
+  const VertexId a = t.insert({0, 0}, any_triangle(t)).vertex, c = t.insert({2, 2}, any_triangle(t)).vertex;
+  const VertexId b = t.insert({2, 0}, any_triangle(t)).vertex, d = t.insert({0, 2}, any_triangle(t)).vertex;
+  EXPECT_EQ(t.constrain(a, c).kind, ConstrainResult::Kind::done);
+  const ConstrainResult crossing = t.constrain(b, d);
+  EXPECT_EQ(crossing.kind, ConstrainResult::Kind::blocked);
+  EXPECT_TRUE((crossing.first == a && crossing.second == c) || (crossing.first == c && crossing.second == a));
+  const auto middle = t.insert({1, 1}, any_triangle(t));
+  EXPECT_TRUE(middle.is_new);
+  EXPECT_TRUE(t.link(*t.find_edge(a, middle.vertex)).constrained());
+  EXPECT_TRUE(t.link(*t.find_edge(middle.vertex, c)).constrained());
+  EXPECT_EQ(t.constrain(b, d).kind, ConstrainResult::Kind::vertex);
+  EXPECT_EQ(t.check(), "");
+}
+
+}  // namespace
+}  // namespace remodel
