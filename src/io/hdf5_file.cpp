@@ -177,7 +177,9 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) : name_(file.string())
   file_size_ = std::filesystem::file_size(file, reason);
   if (reason) throw Error(ErrorCode::file, name_, "cannot be read: " + reason.message());
   if (!std::ifstream(file)) throw Error(ErrorCode::file, name_, "cannot be read");
-  file_ = Hdf5Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG);  // damage may leave objects open that have no handle
+  file_ = Hdf5Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose);
   if (!file_) throw Error(ErrorCode::format, name_, "no HDF5 file or a damaged one found, VTKHDF expected");
 }
 

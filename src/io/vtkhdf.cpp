@@ -26,7 +26,7 @@ void for_each_state_array(State& state, Visitor&& visit) {
   visit("vertex_generations", state.vertex_generations, 1);
   visit("vertex_curves", state.vertex_curves, 1);
   visit("vertex_parameters", state.vertex_parameters, 1);
-  visit("vertex_steiner_factors", state.vertex_steiner_factors, 1);
+  visit("vertex_scale_factors", state.vertex_scale_factors, 1);
   visit("triangle_vertices", state.triangle_vertices, 3);
   visit("triangle_links", state.triangle_links, 3);
   visit("triangle_regions", state.triangle_regions, 1);

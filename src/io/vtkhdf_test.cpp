@@ -30,7 +30,7 @@ MeshState some_state() {
   state.vertex_generations = {200001, 200002, 200003};
   state.vertex_curves = {-1, 300002, 300003};
   state.vertex_parameters = {0.123, 0.456, 0.789};
-  state.vertex_steiner_factors = {0.321, 0.654, 0.987};
+  state.vertex_scale_factors = {0.321, 0.654, 0.987};
   state.triangle_vertices = {400001, 400002, 400003, no_index, no_index, no_index};
   state.triangle_links = {500001, 500002, 500003, 500004, 500005, 500006};
   state.triangle_regions = {600001, 600002};
