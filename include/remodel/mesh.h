@@ -37,7 +37,7 @@ struct MeshState {
   std::vector<std::uint32_t> vertex_generations;  // 1 per vertex slot: how often the slot was given out
   std::vector<std::int32_t> vertex_curves;        // 1 per vertex slot: -1 in the interior
   std::vector<double> vertex_parameters;          // 1 per vertex slot: t on the curve
-  std::vector<double> vertex_steiner_factors;     // 1 per vertex slot: 0 for non-Steiner and interior vertices
+  std::vector<double> vertex_scale_factors;       // 1 per vertex slot: length scale over the curve's own; 0 in the interior
   std::vector<std::uint32_t> triangle_vertices;   // 3 per triangle slot; all no_index: free slot
   std::vector<std::uint32_t> triangle_links;      // 3 per triangle slot
   std::vector<std::uint32_t> triangle_regions;    // 1 per triangle slot

@@ -71,12 +71,26 @@ VertexId Triangulation::fill_cavity(Point p, const Cavity& cavity) {
   return v;
 }
 
+// Whether p lies in the closed triangle, not at a corner and not on a constrained edge; for a ghost, beyond its
+// hull edge.
+bool Triangulation::holds(TriangleId t, Point p) const {
+  const Triangle& triangle = triangles_[t.index];
+  if (triangle.ghost()) return in_conflict_exact(triangle, p);
+  int zeros = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int side = orient2d(point(triangle.vertex[next3(i)]), point(triangle.vertex[previous3(i)]), p);
+    if (side < 0 || (side == 0 && triangle.link[i].constrained())) return false;
+    if (side == 0) ++zeros;
+  }
+  return zeros < 2;
+}
+
 namespace {
 
-// Starts the ring behind the edge whose other side is `across`, and leaves that edge out.
-void append_from(const Cavity& side, TriangleId across, Cavity& whole) {
+// Appends the ring of one side of an edge, from behind the edge around to it, the edge left out.
+void append_side(const Cavity& side, Link edge, Cavity& whole) {
   std::size_t gap = 0;
-  while (side.ring[gap].outer.triangle() != across || !side.ring[gap].outer.constrained()) ++gap;
+  while (side.ring[gap].outer != edge) ++gap;
   for (std::size_t k = 1; k < side.ring.size(); ++k)
     whole.ring.push_back(side.ring[(gap + k) % side.ring.size()]);
   whole.triangles.insert(whole.triangles.end(), side.triangles.begin(), side.triangles.end());
@@ -84,29 +98,42 @@ void append_from(const Cavity& side, TriangleId across, Cavity& whole) {
 
 }  // namespace
 
-Triangulation::Inserted Triangulation::insert(Point p, TriangleId hint) {
-  const Location where = locate(p, hint);
-  if (where.kind == Location::Kind::on_vertex) return {vertex({where.triangle, where.corner}), false};
-  const Link across = triangles_[where.triangle.index].link[where.corner];
-  if (where.kind != Location::Kind::on_edge || !across.constrained()) {
-    find_cavity(p, where.triangle, cavity_);
-    return {fill_cavity(p, cavity_), true};
+// The cavity is one on each side of a-b. On the side of p it starts at p's own triangle. On the other side it
+// starts at the triangle next to the edge if p is in its circle; if not, that triangle stays, and the only new
+// one there is (p, a, b), which now lies on its side of the boundary.
+std::optional<VertexId> Triangulation::split(Corner edge, Point p) {
+  Corner other{link(edge).triangle(), link(edge).corner()};
+  const int side = orient2d(point(following(edge)), point(preceding(edge)), p);
+  if (side < 0) std::swap(edge, other);
+  if (side == 0 ? dot(point(following(edge)) - p, point(preceding(edge)) - p) >= 0.0
+                : !holds(edge.triangle, p))
+    return std::nullopt;
+  const VertexId a = following(edge), b = preceding(edge);
+  const Region far_region = triangles_[other.triangle.index].region;
+  Cavity near, far, whole;
+  find_cavity(p, edge.triangle, near);
+  append_side(near, link(edge), whole);
+  const std::size_t near_edges = whole.ring.size();
+  if (in_conflict(other.triangle, p)) {
+    find_cavity(p, other.triangle, far);
+    append_side(far, link(other), whole);
+  } else {
+    whole.ring.push_back({a, Link(other.triangle, other.index, false)});
   }
-  // p lies on a constrained edge: the cavity is one on each side, and both halves stay constrained.
-  const Region right = triangles_[across.triangle().index].region;
-  const VertexId a = vertex({where.triangle, next3(where.corner)});
-  const VertexId b = vertex({where.triangle, previous3(where.corner)});
-  Cavity left_side, right_side, whole;
-  find_cavity(p, where.triangle, left_side);
-  find_cavity(p, across.triangle(), right_side);
-  append_from(left_side, across.triangle(), whole);
-  const std::size_t left_edges = whole.ring.size();
-  append_from(right_side, where.triangle, whole);
   const VertexId v = fill_cavity(p, whole);
-  for (std::size_t k = left_edges; k < new_star_.size(); ++k) set_region(new_star_[k], right);
+  for (std::size_t k = near_edges; k < new_star_.size(); ++k) set_region(new_star_[k], far_region);
   set_constraint(*find_edge(v, a), true);
   set_constraint(*find_edge(v, b), true);
-  return {v, true};
+  return v;
+}
+
+Triangulation::Inserted Triangulation::insert(Point p, TriangleId hint) {
+  const Location where = locate(p, hint);
+  const Corner corner{where.triangle, where.corner};
+  if (where.kind == Location::Kind::on_vertex) return {vertex(corner), false};
+  if (where.kind == Location::Kind::on_edge && link(corner).constrained()) return {*split(corner, p), true};
+  find_cavity(p, where.triangle, cavity_);
+  return {fill_cavity(p, cavity_), true};
 }
 
 }  // namespace remodel

@@ -81,35 +81,50 @@ std::vector<Triangulation::Earlier> Triangulation::earlier() const {
   return first;
 }
 
-std::string Triangulation::check() const {
-  const auto name = [](std::uint32_t index) { return "triangle " + std::to_string(index); };
-  for (std::uint32_t index = 0; index < triangles_.size(); ++index) {
-    const Triangle& t = triangles_[index];
-    if (!t.alive()) continue;
-    for (int i = 0; i < 3; ++i) {
-      const Link link = t.link[i];
-      if (link.triangle().index >= triangles_.size() || link.corner() > 2) return name(index) + ": link out of range";
-      const Triangle& u = triangles_[link.triangle().index];
-      if (!u.alive()) return name(index) + ": link to a free slot";
-      if (u.link[link.corner()] != Link(TriangleId{index}, i, link.constrained()))
-        return name(index) + ": link does not return";
-      if (u.vertex[next3(link.corner())] != t.vertex[previous3(i)] ||
-          u.vertex[previous3(link.corner())] != t.vertex[next3(i)])
-        return name(index) + ": neighbour across corner " + std::to_string(i) + " has another edge";
-      if (!t.ghost() && !u.ghost() && !link.constrained() &&
-          incircle_sos(point(t.vertex[0]), point(t.vertex[1]), point(t.vertex[2]), point(u.vertex[link.corner()])) > 0)
-        return name(index) + ": edge opposite corner " + std::to_string(i) + " is not locally Delaunay";
-    }
-    if (!t.ghost() && orient2d(point(t.vertex[0]), point(t.vertex[1]), point(t.vertex[2])) <= 0)
-      return name(index) + ": not counter-clockwise";
+// Invariants (1) and (2) at one triangle.
+std::string Triangulation::check_triangle(std::uint32_t index) const {
+  const std::string name = "triangle " + std::to_string(index);
+  const Triangle& t = triangles_[index];
+  for (int i = 0; i < 3; ++i) {
+    const Link link = t.link[i];
+    const int j = link.corner();
+    if (link.triangle().index >= triangles_.size() || j > 2) return name + ": link out of range";
+    const Triangle& u = triangles_[link.triangle().index];
+    if (!u.alive()) return name + ": link to a free slot";
+    if (u.link[j] != Link(TriangleId{index}, i, link.constrained())) return name + ": link does not return";
+    if (u.vertex[next3(j)] != t.vertex[previous3(i)] || u.vertex[previous3(j)] != t.vertex[next3(i)])
+      return name + ": the neighbour across corner " + std::to_string(i) + " has another edge";
   }
+  if (!t.ghost() && orient2d(point(t.vertex[0]), point(t.vertex[1]), point(t.vertex[2])) <= 0)
+    return name + ": not counter-clockwise";
+  return {};
+}
+
+std::string Triangulation::check_topology() const {
+  for (std::uint32_t index = 0; index < triangles_.size(); ++index)
+    if (triangles_[index].alive())
+      if (std::string broken = check_triangle(index); !broken.empty()) return broken;
   for (std::uint32_t index = 0; index < vertices_.size(); ++index) {
-    const Vertex& v = vertices_[index];
-    if (!v.alive()) continue;
-    const Corner c = corner(v.star);
-    if (c.triangle.index >= triangles_.size() || !triangles_[c.triangle.index].alive() ||
+    if (!vertices_[index].alive()) continue;
+    const Corner c = corner(vertices_[index].star);
+    if (c.triangle.index >= triangles_.size() || c.index > 2 || !triangles_[c.triangle.index].alive() ||
         vertex(c) != VertexId{index})
       return "vertex " + std::to_string(index) + ": its star is not at it";
+  }
+  return {};
+}
+
+std::string Triangulation::check() const {
+  if (std::string broken = check_topology(); !broken.empty()) return broken;
+  for (std::uint32_t index = 0; index < triangles_.size(); ++index) {
+    const Triangle& t = triangles_[index];
+    if (!t.alive() || t.ghost()) continue;
+    for (int i = 0; i < 3; ++i) {
+      const VertexId apex = vertex({t.link[i].triangle(), t.link[i].corner()});
+      if (!t.link[i].constrained() && in_conflict(t.vertex[0], t.vertex[1], t.vertex[2], apex))
+        return "triangle " + std::to_string(index) + ": edge opposite corner " + std::to_string(i) +
+               " is not locally Delaunay";
+    }
   }
   return {};
 }

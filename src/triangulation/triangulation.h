@@ -78,9 +78,9 @@ class Triangulation {
   // Whether p lies inside t's circumcircle (for a ghost: beyond its hull edge). Exact.
   bool in_conflict(TriangleId t, Point p) const {
     const Triangle& triangle = triangles_[t.index];
-    const double d = squared_distance(triangle.centre, p);
-    if (d < triangle.inside) return true;
-    if (d > triangle.outside) return false;
+    const double d = squared_distance(triangle.circle.centre, p);
+    if (d < triangle.circle.inside) return true;
+    if (d > triangle.circle.outside) return false;
     return in_conflict_exact(triangle, p);
   }
 
@@ -96,8 +96,12 @@ class Triangulation {
   VertexId fill_cavity(Point p, const Cavity& cavity);
   std::span<const TriangleId> new_star() const { return new_star_; }
 
-  // Inserts p; a vertex that is already at p is returned instead. A constrained edge that p lies on is split:
-  // both halves are constrained.
+  // Replaces a constrained edge a-b, given by a corner opposite it, by a-p and p-b, both constrained; the regions
+  // on both sides stay on their sides. p need not lie on the edge (boundaries are curved), but it must lie in
+  // one of the two triangles next to it, and not on a vertex: otherwise nothing is changed and there is no
+  // result. new_star() lists the new triangles.
+  std::optional<VertexId> split(Corner edge, Point p);
+  // Inserts p; a vertex that is already at p is returned instead. A constrained edge that p lies on is split.
   struct Inserted {
     VertexId vertex;
     bool is_new = true;
@@ -114,6 +118,7 @@ class Triangulation {
   // restore_delaunay(), or keeps the Delaunay property by its own checks.
   void set_point(VertexId v, Point p) { edit(v).point = p; }
   void refresh_circle(TriangleId t) { compute_circle(edit(t)); }
+  void set_circle(TriangleId t, const Circle& circle) { edit(t).circle = circle; }
   // Lawson flips from the edges opposite all corners of the given triangles.
   void restore_delaunay(std::span<const TriangleId> triangles);
 
@@ -123,6 +128,9 @@ class Triangulation {
   void set_region(TriangleId t, Region region) { edit(t).region = region; }
   void set_birth(TriangleId t, std::uint32_t birth) { edit(t).birth = birth; }
   void set_badness(TriangleId t, std::uint8_t badness) { triangles_[t.index].badness = badness; }  // not journalled
+  void forget_badness() {  // after a refinement that a limit ended
+    for (Triangle& t : triangles_) t.badness = 0;
+  }
   void set_step(std::uint32_t step) { step_ = step; }  // the birth of triangles made from now on
 
   // ---- journal
@@ -141,8 +149,9 @@ class Triangulation {
   std::uint32_t vertices_inserted() const { return inserted_; }  // since begin()
   std::uint32_t vertices_removed() const { return removed_; }
 
-  // Gives back the memory of slots that no journal needs; for reading and writing the whole state see state.h.
-  std::string check() const;  // empty, or the broken invariant with the ids concerned
+  // Empty, or the broken invariant with the ids concerned: all of them, or (1), (2) and (4) only.
+  std::string check() const;
+  std::string check_topology() const;
 
  private:
   friend struct TriangulationState;
@@ -150,6 +159,7 @@ class Triangulation {
   static Corner corner(Link link) { return {link.triangle(), link.corner()}; }
   Triangle& edit(TriangleId t);
   Vertex& edit(VertexId v);
+  std::string check_triangle(std::uint32_t index) const;
   void set_star(VertexId v, TriangleId t, int corner);
   void connect(Corner a, Corner b, bool constrained);
   TriangleId new_triangle();
@@ -163,6 +173,7 @@ class Triangulation {
 
   void flip(Corner c);
   bool flippable(Corner c) const;
+  bool holds(TriangleId t, Point p) const;
   void legalise(std::vector<Corner>& stack);
   void set_constraint(Corner c, bool constrained);
   Location search_all(Point p) const;

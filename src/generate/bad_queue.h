@@ -1,0 +1,58 @@
+#pragma once
+
+// Bad triangles, worst class first, first in first out within a class. A triangle's class is kept in its record:
+// an entry whose triangle has another class by now is stale and skipped.
+
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "triangulation/triangulation.h"
+
+namespace remodel {
+
+class BadQueue {
+ public:
+  static constexpr int classes = 63;
+
+  // The class of a badness above 1, from the exponent and the first two bits of the mantissa: 1 to 63.
+  static std::uint8_t class_of(double badness) {
+    const auto bits = std::bit_cast<std::uint64_t>(badness) >> 50;
+    constexpr std::uint64_t one = std::bit_cast<std::uint64_t>(1.0) >> 50;
+    return static_cast<std::uint8_t>(bits - one >= classes ? classes : bits - one + 1);
+  }
+
+  void push(Triangulation& triangulation, TriangleId t, double badness) {
+    const std::uint8_t c = class_of(badness);
+    if (triangulation[t].badness == c) return;  // already queued
+    triangulation.set_badness(t, c);
+    buckets_[c].entries.push_back(t);
+    if (c > worst_) worst_ = c;
+  }
+
+  // The next triangle, no longer marked; none if the queue is empty.
+  TriangleId pop(Triangulation& triangulation) {
+    for (; worst_ > 0; --worst_) {
+      Bucket& bucket = buckets_[worst_];
+      while (bucket.first < bucket.entries.size()) {
+        const TriangleId t = bucket.entries[bucket.first++];
+        if (triangulation[t].badness != worst_) continue;
+        triangulation.set_badness(t, 0);
+        return t;
+      }
+      bucket.entries.clear();
+      bucket.first = 0;
+    }
+    return {};
+  }
+
+ private:
+  struct Bucket {
+    std::vector<TriangleId> entries;
+    std::size_t first = 0;
+  };
+  Bucket buckets_[classes + 1];
+  std::uint8_t worst_ = 0;
+};
+
+}  // namespace remodel

@@ -1,0 +1,52 @@
+#include "remodel/generate.h"
+
+#include <cmath>
+
+#include "generate/discretise.h"
+#include "generate/recovery_error.h"
+#include "generate/refine.h"
+#include "remodel/error.h"
+
+namespace remodel {
+
+namespace {
+
+void require(bool holds, const char* option, double found, const char* expected) {
+  if (!holds)
+    throw Error(ErrorCode::argument, option, "found " + std::to_string(found) + ", expected " + expected);
+}
+
+void validate(const QualityOptions& options) {
+  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
+  require(options.min_angle_deg >= 0.0 && options.min_angle_deg <= 34.0, "min_angle_deg", options.min_angle_deg,
+          "0 to 34 degrees");
+  require(positive(options.max_gradation), "max_gradation", options.max_gradation, "a positive number");
+  require(positive(options.gradation), "gradation", options.gradation, "a positive number");
+  require(positive(options.resolution), "resolution", options.resolution, "a positive number");
+  require(std::isfinite(options.min_edge) && options.min_edge >= 0.0, "min_edge", options.min_edge, "0 or more chords");
+}
+
+}  // namespace
+
+GenerateResult generate(const Domain& domain, const QualityOptions& options) {
+  validate(options);
+  validate(domain);
+  GenerateResult result;
+  MeshData& mesh = result.mesh.data();
+  mesh.domain = domain;
+  mesh.options = options;
+  try {
+    discretise(mesh);
+    Refiner refiner(mesh);
+    for (std::uint32_t i = 0; i < mesh.triangulation.triangle_slots(); ++i) refiner.consider(TriangleId{i});
+    result.stopped = refiner.run();
+    result.exempt_triangles = refiner.exempt_triangles();
+  } catch (const RecoveryError& error) {
+    throw Error(ErrorCode::geometry, "domain", error.what());
+  }
+  mesh.triangulation.forget_badness();
+  mesh.count_domain_triangles();
+  return result;
+}
+
+}  // namespace remodel

@@ -1,0 +1,257 @@
+#include "generate/refine.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "generate/recovery_error.h"
+
+namespace remodel {
+
+namespace {
+
+constexpr int max_depth = 12;  // of splits that other splits ask for: see split_far()
+
+double domain_size(const MeshData& mesh) {
+  Point low = mesh.point(0), high = low;
+  for (std::uint32_t head : mesh.loop_heads) {
+    std::uint32_t k = head;
+    do {
+      const Point p = mesh.point(k);
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+      k = mesh.at(k).next;
+    } while (k != head);
+  }
+  return std::sqrt(squared_distance(low, high));
+}
+
+bool encroaches(Point p, Point a, Point b) { return dot(a - p, b - p) < 0.0; }
+
+}  // namespace
+
+Refiner::Refiner(MeshData& mesh)
+    : mesh_(mesh),
+      triangulation_(mesh.triangulation),
+      bounds_(mesh.options),
+      small_angles_(mesh),
+      vertex_limit_(mesh.options.max_vertices) {
+  const double shortest = mesh.options.min_edge > 0.0 ? mesh.options.min_edge : 1e-12 * domain_size(mesh);
+  squared_min_edge_ = shortest * shortest;
+}
+
+bool Refiner::too_short(Point a, Point b) const { return squared_distance(a, b) < squared_min_edge_; }
+
+void Refiner::consider(TriangleId t) {
+  const Triangle& triangle = triangulation_[t];
+  if (!triangle.alive() || triangle.region != Region::domain) return;
+  for (int i = 0; i < 3; ++i) {
+    if (!triangle.link[i].constrained()) continue;
+    const VertexId a = triangle.vertex[next3(i)], b = triangle.vertex[previous3(i)];
+    if (encroaches(triangulation_.point(triangle.vertex[i]), triangulation_.point(a), triangulation_.point(b)))
+      queue_segment(a, b);
+  }
+  const double bad = badness(triangulation_, triangle, bounds_);
+  if (bad > 1.0) queue_.push(triangulation_, t, bad);
+}
+
+void Refiner::queue_segment(VertexId a, VertexId b) {
+  const std::uint32_t ka = triangulation_[a].boundary, kb = triangulation_[b].boundary;
+  const bool forward = mesh_.at(ka).next == kb;
+  const Segment segment = forward ? Segment{ka, kb} : Segment{kb, ka};
+  if (mesh_.at(segment.from).next != segment.to) return;
+  segments_.push_back(segment);
+}
+
+Stopped Refiner::run() {
+  for (;;) {
+    if (triangulation_.vertex_count() >= vertex_limit_) return Stopped::vertex_budget;
+    if (!segments_.empty()) {
+      const Segment segment = segments_.front();
+      segments_.pop_front();
+      split(segment, 0);
+      continue;
+    }
+    const TriangleId t = queue_.pop(triangulation_);
+    if (!t) break;
+    refine(t);
+  }
+  return refused_ ? Stopped::minimum_edge : Stopped::done;
+}
+
+// Step 1: the circumcentre's cavity. It need not hold the circumcentre: the bad triangle is always part of it.
+// Step 2: a boundary edge of the cavity that the point encroaches on, or lies beyond, is split instead.
+// Step 3: otherwise the point becomes a vertex.
+void Refiner::refine(TriangleId t) {
+  const Triangle& triangle = triangulation_[t];
+  if (!small_angles_.none()) {
+    int shortest = 0;
+    double length = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 3; ++i) {
+      const double l = squared_distance(triangulation_.point(triangle.vertex[next3(i)]),
+                                        triangulation_.point(triangle.vertex[previous3(i)]));
+      if (l < length) length = l, shortest = i;
+    }
+    if (small_angles_.seditious(triangle.vertex[next3(shortest)], triangle.vertex[previous3(shortest)])) {
+      ++exempt_;
+      return;
+    }
+  }
+  const Point p = triangle.circle.centre;
+  triangulation_.find_cavity(p, t, cavity_);
+  if (split_blocking_segments(p)) {
+    if (!segments_.empty()) consider(t);
+    return;
+  }
+  const VertexId v = triangulation_.fill_cavity(p, cavity_);
+  double scale = std::numeric_limits<double>::infinity();
+  for (const RingEdge& edge : cavity_.ring) {
+    const Vertex& u = triangulation_[edge.from];
+    scale = std::min(scale, u.length_scale + std::sqrt(squared_distance(u.point, p)) / mesh_.options.gradation);
+  }
+  triangulation_.set_length_scale(v, scale);
+  for (const TriangleId created : triangulation_.new_star()) {
+    const double bad = badness(triangulation_, triangulation_[created], bounds_);
+    if (bad > 1.0) queue_.push(triangulation_, created, bad);
+  }
+}
+
+// Queues what p encroaches on, or failing that what lies between p and the cavity. True if p must not be inserted.
+bool Refiner::split_blocking_segments(Point p) {
+  bool blocked = false;
+  for (const bool beyond : {false, true}) {
+    for (std::size_t k = 0; k < cavity_.ring.size(); ++k) {
+      if (!cavity_.ring[k].outer.constrained()) continue;
+      const VertexId a = cavity_.ring[k].from, b = cavity_.ring[k + 1 == cavity_.ring.size() ? 0 : k + 1].from;
+      const Point pa = triangulation_.point(a), pb = triangulation_.point(b);
+      if (!(beyond ? cross(pb - pa, p - pa) <= 0.0 : encroaches(p, pa, pb))) continue;
+      blocked = true;
+      if (too_short(pa, pb)) refused_ = true;
+      else queue_segment(a, b);
+    }
+    if (blocked) return true;
+  }
+  return false;
+}
+
+double Refiner::split_parameter(Segment segment) const {
+  const double t0 = mesh_.at(segment.from).t, t1 = mesh_.end_parameter(segment.from);
+  const bool corner_first = small_angles_.is_corner(mesh_.at(segment.from).vertex);
+  const bool corner_last = small_angles_.is_corner(mesh_.at(segment.to).vertex);
+  if (corner_first == corner_last) return 0.5 * (t0 + t1);
+  // On a shell about the small corner. Bisection for the distance, which grows along a segment's piece of curve.
+  const Point corner = mesh_.point(corner_first ? segment.from : segment.to);
+  const Point other = mesh_.point(corner_first ? segment.to : segment.from);
+  const double length = std::sqrt(squared_distance(corner, other));
+  const double target = SmallAngles::shell_fraction(length) * length;
+  const Shape& shape = mesh_.domain.curve(mesh_.at(segment.from).curve).shape;
+  double near = corner_first ? t0 : t1, far = corner_first ? t1 : t0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (near + far);
+    (squared_distance(corner, point_at(shape, middle)) < target * target ? near : far) = middle;
+  }
+  return far;
+}
+
+void Refiner::split(Segment segment, int depth) {
+  if (mesh_.at(segment.from).next != segment.to) return;  // split meanwhile
+  const VertexId a = mesh_.at(segment.from).vertex, b = mesh_.at(segment.to).vertex;
+  const double t = split_parameter(segment);
+  const std::uint32_t curve = mesh_.at(segment.from).curve;
+  const Point p = mesh_.domain.at({curve, t});
+  if (too_short(mesh_.point(segment.from), mesh_.point(segment.to)) || p == triangulation_.point(a) ||
+      p == triangulation_.point(b)) {
+    refused_ = true;
+    return;
+  }
+  const auto near = triangulation_.split(*triangulation_.find_edge(a, b), p);
+  const VertexId v = near ? *near : split_far(segment, p, depth);
+  const std::uint32_t k = mesh_.add_boundary_vertex({.vertex = v, .curve = curve, .t = t, .steiner = true}, segment.from);
+  if (!near) {
+    recover(a, v, depth);
+    recover(v, b, depth);
+    if (labelled_) clear_outside();
+  }
+  double scale = std::numeric_limits<double>::infinity();
+  const double to_a = std::sqrt(squared_distance(triangulation_.point(a), p));
+  const double to_b = std::sqrt(squared_distance(triangulation_.point(b), p));
+  scale = (triangulation_[a].length_scale * to_b + triangulation_[b].length_scale * to_a) / (to_a + to_b);
+  const Corner first = triangulation_.star(v);
+  Corner c = first;
+  do {
+    if (triangulation_[c.triangle].region == Region::domain)
+      for (const VertexId u : {triangulation_.following(c), triangulation_.preceding(c)})
+        scale = std::min(scale, triangulation_[u].length_scale +
+                                    std::sqrt(squared_distance(triangulation_.point(u), p)) / mesh_.options.gradation);
+    c = triangulation_.counterclockwise(c);
+  } while (c.triangle != first.triangle);
+  mesh_.set_boundary_length_scale(k, scale);
+  if (labelled_) consider_star(v);
+}
+
+void Refiner::consider_star(VertexId v) {
+  const Corner first = triangulation_.star(v);
+  Corner c = first;
+  do {
+    consider(c.triangle);
+    c = triangulation_.counterclockwise(c);
+  } while (c.triangle != first.triangle);
+}
+
+// The curve point lies beyond the triangles next to its chord (blunt leading edges, cusps): free vertices lie
+// between chord and curve, or another boundary edge does. The chord is given up, the point inserted where it is,
+// and split() recovers both halves.
+VertexId Refiner::split_far(Segment segment, Point p, int depth) {
+  if (depth > max_depth) throw RecoveryError("boundary splits ask for each other without end");
+  const VertexId a = mesh_.at(segment.from).vertex, b = mesh_.at(segment.to).vertex;
+  triangulation_.release(a, b);
+  for (;;) {
+    const auto inserted = triangulation_.insert(p, triangulation_.star(a).triangle);
+    if (inserted.is_new) return inserted.vertex;
+    if (triangulation_[inserted.vertex].boundary != no_index)
+      throw RecoveryError("a curve runs through another boundary vertex");
+    triangulation_.remove(inserted.vertex);
+  }
+}
+
+void Refiner::recover_loop(std::uint32_t head) {
+  labelled_ = false;
+  std::uint32_t k = head;
+  do {
+    const auto edge = triangulation_.find_edge(mesh_.at(k).vertex, mesh_.next(k).vertex);
+    if (!edge || !triangulation_.link(*edge).constrained()) recover(mesh_.at(k).vertex, mesh_.next(k).vertex, 0);
+    k = mesh_.at(k).next;
+  } while (k != head);
+  labelled_ = true;
+}
+
+// Makes a-b a constrained edge: free vertices on it are removed, boundary edges that cross it are split first.
+void Refiner::recover(VertexId a, VertexId b, int depth) {
+  for (int attempt = 0; attempt < 64; ++attempt) {
+    const ConstrainResult result = triangulation_.constrain(a, b);
+    if (result.kind == ConstrainResult::Kind::done) return;
+    if (result.kind == ConstrainResult::Kind::vertex) {
+      if (triangulation_[result.first].boundary != no_index)
+        throw RecoveryError("a boundary edge runs through another boundary vertex");
+      triangulation_.remove(result.first);
+      continue;
+    }
+    const std::uint32_t ka = triangulation_[result.first].boundary, kb = triangulation_[result.second].boundary;
+    split(mesh_.at(ka).next == kb ? Segment{ka, kb} : Segment{kb, ka}, depth + 1);
+  }
+  throw RecoveryError("a boundary edge cannot be recovered");
+}
+
+// After a far split: labels anew, and free vertices that are outside the domain now go.
+void Refiner::clear_outside() {
+  mesh_.label_regions();
+  std::vector<VertexId> stray;
+  for (std::uint32_t i = 1; i < triangulation_.vertex_slots(); ++i) {
+    const Vertex& v = triangulation_[VertexId{i}];
+    if (v.alive() && v.boundary == no_index && triangulation_[v.star.triangle()].region == Region::outside)
+      stray.push_back(VertexId{i});
+  }
+  for (const VertexId v : stray) triangulation_.remove(v);
+  for (std::uint32_t i = 0; i < triangulation_.triangle_slots(); ++i) consider(TriangleId{i});
+}
+
+}  // namespace remodel

@@ -1,0 +1,76 @@
+#pragma once
+
+// Delaunay refinement of what is bad. Sources: J. Ruppert, "A Delaunay Refinement Algorithm for Quality
+// 2-Dimensional Mesh Generation", 1995; J. R. Shewchuk, "Delaunay refinement algorithms for triangular mesh
+// generation", 2002; the length scales of the paper's section 2.
+//
+// Words:
+//  - A segment (boundary edge) is *encroached* by a point strictly inside its diametral circle, seen from the
+//    domain's side. The other side of a thin body does not count.
+//  - A triangle of the domain is *bad* if r / e_min > B or r / mean LS > H; the larger of the two ratios over
+//    their bounds is its badness.
+//
+// Order: encroached segments first; then the worst triangle, by classes of badness (four an octave of its
+// square), first in first out within a class.
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "generate/bad_queue.h"
+#include "generate/small_angles.h"
+#include "mesh/mesh_data.h"
+
+namespace remodel {
+
+class Refiner {
+ public:
+  // Precondition: regions are labelled, length scales set, the triangulation is constrained Delaunay.
+  explicit Refiner(MeshData& mesh);
+
+  // Queues a triangle that is bad, and its boundary edges that are encroached.
+  void consider(TriangleId t);
+  // Refines until nothing queued is left or a limit is reached.
+  Stopped run();
+
+  // Makes every boundary edge of the given loop (by its head) an edge of the triangulation again: free vertices
+  // on it are removed, boundary edges that cross it are split. Region labels are left to the caller. Throws
+  // RecoveryError.
+  void recover_loop(std::uint32_t head);
+
+  std::size_t exempt_triangles() const { return exempt_; }
+  // Ends with Stopped::vertex_budget once the mesh has this many vertices.
+  void limit_vertices(std::size_t count) { vertex_limit_ = count; }
+
+ private:
+  // A segment by its first vertex in the boundary table and what followed it when it was queued.
+  struct Segment {
+    std::uint32_t from, to;
+  };
+
+  void refine(TriangleId t);
+  bool split_blocking_segments(Point p);
+  void queue_segment(VertexId a, VertexId b);
+  void split(Segment segment, int depth);
+  double split_parameter(Segment segment) const;
+  VertexId split_far(Segment segment, Point p, int depth);
+  void recover(VertexId a, VertexId b, int depth);
+  void clear_outside();
+  void consider_star(VertexId v);
+  bool too_short(Point a, Point b) const;
+
+  MeshData& mesh_;
+  Triangulation& triangulation_;
+  QualityBounds bounds_;
+  SmallAngles small_angles_;
+  BadQueue queue_;
+  std::deque<Segment> segments_;
+  Cavity cavity_;
+  double squared_min_edge_ = 0.0;
+  std::size_t vertex_limit_;
+  std::size_t exempt_ = 0;
+  bool refused_ = false;  // a segment was too short to be split
+  bool labelled_ = true;  // false while boundaries are being recovered: the caller labels afterwards
+};
+
+}  // namespace remodel

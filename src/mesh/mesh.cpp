@@ -1,0 +1,122 @@
+#include "remodel/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "mesh/mesh_data.h"
+
+namespace remodel {
+
+Mesh::Mesh() : data_(std::make_unique<MeshData>()) {}
+Mesh::~Mesh() = default;
+Mesh::Mesh(Mesh&&) noexcept = default;
+Mesh& Mesh::operator=(Mesh&&) noexcept = default;
+Mesh::Mesh(const Mesh& other) : data_(std::make_unique<MeshData>(*other.data_)) {}
+Mesh& Mesh::operator=(const Mesh& other) {
+  if (this != &other) data_ = std::make_unique<MeshData>(*other.data_);
+  return *this;
+}
+
+const Domain& Mesh::domain() const { return data_->domain; }
+const QualityOptions& Mesh::options() const { return data_->options; }
+std::uint32_t Mesh::step() const { return data_->step; }
+std::size_t Mesh::triangle_count() const { return data_->domain_triangles; }
+
+MeshStatistics Mesh::statistics() const {
+  const Triangulation& triangulation = data_->triangulation;
+  MeshStatistics result;
+  double radius_edge = 0.0, gradation = 0.0;  // squared
+  std::vector<bool> used(triangulation.vertex_slots(), false);
+  for (std::uint32_t i = 0; i < triangulation.triangle_slots(); ++i) {
+    const Triangle& t = triangulation[TriangleId{i}];
+    if (!t.alive() || t.region != Region::domain) continue;
+    ++result.triangles;
+    double shortest = INFINITY, longest_product = 1.0, scale = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      used[t.vertex[k].index] = true;
+      const double l = squared_distance(triangulation.point(t.vertex[next3(k)]), triangulation.point(t.vertex[previous3(k)]));
+      shortest = std::min(shortest, l);
+      longest_product *= l;
+      scale += triangulation[t.vertex[k]].length_scale / 3.0;
+    }
+    const Point a = triangulation.point(t.vertex[0]);
+    const double twice_area = cross(triangulation.point(t.vertex[1]) - a, triangulation.point(t.vertex[2]) - a);
+    const double r2 = longest_product / (4.0 * twice_area * twice_area);
+    radius_edge = std::max(radius_edge, r2 / shortest);
+    gradation = std::max(gradation, r2 / (scale * scale));
+  }
+  result.vertices = static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
+  for (const std::uint32_t head : data_->loop_heads) {
+    std::uint32_t k = head;
+    do {
+      result.steiner_boundary_vertices += data_->at(k).steiner ? 1 : 0;
+      k = data_->at(k).next;
+    } while (k != head);
+  }
+  result.max_radius_edge = std::sqrt(radius_edge);
+  result.max_gradation = std::sqrt(gradation) / data_->options.max_gradation;
+  if (result.triangles > 0)
+    result.min_angle_deg = std::asin(0.5 / result.max_radius_edge) * 180.0 / std::numbers::pi;
+  return result;
+}
+
+namespace {
+
+// Names in the order of the design's curves, each once.
+std::size_t boundary_index(FrozenMesh& frozen, const std::string& name) {
+  for (std::size_t i = 0; i < frozen.boundaries.size(); ++i)
+    if (frozen.boundaries[i].name == name) return i;
+  frozen.boundaries.push_back({name, {}});
+  return frozen.boundaries.size() - 1;
+}
+
+void freeze_boundary(const MeshData& mesh, const std::vector<std::uint32_t>& point_of, FrozenMesh& frozen) {
+  for (std::size_t curve = 0; curve < mesh.domain.curve_count(); ++curve)
+    boundary_index(frozen, mesh.domain.curve(curve).name);
+  for (std::size_t loop = 0; loop < mesh.loop_heads.size(); ++loop) {
+    const bool left = mesh.domain_on_left(loop);
+    std::uint32_t k = mesh.loop_heads[loop];
+    do {
+      const BoundaryVertex& from = mesh.at(k);
+      std::array<std::uint32_t, 2> edge{point_of[from.vertex.index], point_of[mesh.next(k).vertex.index]};
+      if (!left) std::swap(edge[0], edge[1]);
+      frozen.boundaries[boundary_index(frozen, mesh.domain.curve(from.curve).name)].edges.push_back(edge);
+      frozen.curve[point_of[from.vertex.index]] = static_cast<std::int32_t>(from.curve);
+      frozen.parameter[point_of[from.vertex.index]] = from.t;
+      k = from.next;
+    } while (k != mesh.loop_heads[loop]);
+  }
+}
+
+}  // namespace
+
+// Points in the order of vertex ids, triangles in the order of triangle ids.
+FrozenMesh Mesh::freeze() const {
+  const Triangulation& triangulation = data_->triangulation;
+  FrozenMesh frozen;
+  std::vector<std::uint32_t> point_of(triangulation.vertex_slots(), no_index);
+  for (std::uint32_t i = 0; i < triangulation.triangle_slots(); ++i) {
+    const Triangle& t = triangulation[TriangleId{i}];
+    if (!t.alive() || t.region != Region::domain) continue;
+    frozen.triangle_ids.push_back(i);
+    frozen.birth.push_back(t.birth);
+    frozen.triangles.push_back({t.vertex[0].index, t.vertex[1].index, t.vertex[2].index});
+    for (const VertexId v : t.vertex) point_of[v.index] = 0;
+  }
+  for (std::uint32_t i = 0; i < triangulation.vertex_slots(); ++i) {
+    if (point_of[i] == no_index) continue;
+    point_of[i] = static_cast<std::uint32_t>(frozen.points.size());
+    frozen.points.push_back(triangulation.point(VertexId{i}));
+    frozen.length_scale.push_back(triangulation[VertexId{i}].length_scale);
+    frozen.vertex_ids.push_back(i);
+  }
+  for (auto& triangle : frozen.triangles)
+    for (std::uint32_t& v : triangle) v = point_of[v];
+  frozen.curve.assign(frozen.points.size(), -1);
+  frozen.parameter.assign(frozen.points.size(), 0.0);
+  freeze_boundary(*data_, point_of, frozen);
+  return frozen;
+}
+
+}  // namespace remodel

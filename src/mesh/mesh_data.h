@@ -1,0 +1,88 @@
+#pragma once
+
+// The living mesh as the library sees it: a triangulation, the discretised boundary of a domain in it, and the
+// promises it keeps. Stages (generation, remodelling) work on this; users see Mesh.
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "remodel/domain.h"
+#include "remodel/mesh.h"
+#include "triangulation/triangulation.h"
+
+namespace remodel {
+
+// A vertex of the boundary, linked into its loop. The constrained edge from it runs to `next`.
+struct BoundaryVertex {
+  VertexId vertex;
+  std::uint32_t curve = 0;  // index over all curves of the domain
+  double t = 0.0;
+  bool steiner = false;     // inserted by refinement, not part of the initial discretisation
+  double scale_factor = 1.0;  // length scale over what the curve alone would give: see base_length_scale()
+  std::uint32_t next = no_index, previous = no_index;  // indices of the boundary table
+};
+
+// What a later stage keeps with a mesh to be faster next time. Never copied, never part of the state.
+struct MeshCache {
+  virtual ~MeshCache() = default;
+};
+
+// The bounds of QualityOptions in the form that tests use. They are stricter by one part in 10^9 than what is
+// promised, so that whoever measures a mesh with rounding of his own finds the promise kept.
+struct QualityBounds {
+  explicit QualityBounds(const QualityOptions& options);
+  double squared_radius_edge;  // B^2
+  double squared_gradation;    // H^2
+};
+
+class MeshData {
+ public:
+  Triangulation triangulation;
+  Domain domain;
+  QualityOptions options;
+  std::vector<BoundaryVertex> boundary;      // order without meaning; walk loops by next
+  std::vector<std::uint32_t> loop_heads;     // boundary index of each loop's first station
+  std::size_t domain_triangles = 0;
+  std::uint32_t step = 0;
+  std::unique_ptr<MeshCache> cache;
+
+  MeshData() = default;
+  MeshData(const MeshData& other);
+  MeshData& operator=(const MeshData&) = delete;
+
+  Point point(std::uint32_t k) const { return triangulation.point(boundary[k].vertex); }
+  double length_scale(std::uint32_t k) const { return triangulation[boundary[k].vertex].length_scale; }
+  const BoundaryVertex& at(std::uint32_t k) const { return boundary[k]; }
+  const BoundaryVertex& next(std::uint32_t k) const { return boundary[boundary[k].next]; }
+
+  // The curve parameter where the boundary edge from k ends: its next vertex's, or 1 where the curve ends there.
+  double end_parameter(std::uint32_t k) const;
+  // Adds a boundary vertex behind `previous` (no_index: alone in a new loop); returns its index.
+  std::uint32_t add_boundary_vertex(BoundaryVertex vertex, std::uint32_t previous);
+  // Whether the domain lies on the left of the loop's direction.
+  bool domain_on_left(std::size_t loop) const;
+  // Labels all triangles from the constrained edges of all loops: O(triangles).
+  void label_regions();
+  void count_domain_triangles();
+
+  // What the curve alone says of the length scale at k: for a non-Steiner vertex the distance to the nearer
+  // non-Steiner neighbour over R (equation LS_b), for a Steiner vertex the interpolation by length between its
+  // two non-Steiner neighbours (equation LS_bs; chords for arcs, between whose length ratios the difference is
+  // of second order).
+  double base_length_scale(std::uint32_t k) const;
+  std::uint32_t non_steiner_before(std::uint32_t k) const;
+  std::uint32_t non_steiner_after(std::uint32_t k) const;
+  // Sets the length scale, and the factor from it.
+  void set_boundary_length_scale(std::uint32_t k, double value);
+};
+
+// Empty, or what is wrong with the boundary: vertices on the design's curves, edges there and constrained, the
+// domain on its side.
+std::string check_boundary(const MeshData& mesh);
+
+// The largest of the two squared ratios over their squared bounds: above 1 the triangle is bad.
+double badness(const Vertex& a, const Vertex& b, const Vertex& c, double squared_radius, const QualityBounds& bounds);
+double badness(const Triangulation& triangulation, const Triangle& triangle, const QualityBounds& bounds);
+
+}  // namespace remodel

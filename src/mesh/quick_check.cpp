@@ -1,0 +1,94 @@
+// The quick validation of a living mesh: everything that a step can break, in one pass, with the library's own
+// exact predicates (the slow, independent validator is src/check).
+
+#include <cmath>
+
+#include "mesh/mesh_data.h"
+#include "remodel/predicates.h"
+
+namespace remodel {
+
+namespace {
+
+std::string triangle_name(std::uint32_t i) { return "triangle " + std::to_string(i); }
+
+std::string check_links(const Triangulation& triangulation, std::uint32_t i) {
+  const Triangle& t = triangulation[TriangleId{i}];
+  for (int k = 0; k < 3; ++k) {
+    const Link link = t.link[k];
+    if (link.triangle().index >= triangulation.triangle_slots() || link.corner() > 2)
+      return triangle_name(i) + ": link out of range";
+    const Triangle& u = triangulation[link.triangle()];
+    const int j = link.corner();
+    if (!u.alive() || u.link[j] != Link(TriangleId{i}, k, link.constrained()) ||
+        u.vertex[next3(j)] != t.vertex[previous3(k)] || u.vertex[previous3(j)] != t.vertex[next3(k)])
+      return triangle_name(i) + ": neighbour across corner " + std::to_string(k) + " does not return";
+    if (!link.constrained() && u.region != t.region)
+      return triangle_name(i) + ": region changes across an unconstrained edge";
+    if (t.region == Region::domain && !link.constrained() &&
+        triangulation.in_conflict(TriangleId{i}, triangulation.point(u.vertex[j])))
+      return triangle_name(i) + ": edge opposite corner " + std::to_string(k) + " is not locally Delaunay";
+  }
+  return {};
+}
+
+std::string check_triangle(const MeshData& mesh, std::uint32_t i, const QualityBounds& promised) {
+  const Triangulation& triangulation = mesh.triangulation;
+  const Triangle& t = triangulation[TriangleId{i}];
+  if (t.region == Region::unknown) return triangle_name(i) + ": no region";
+  if (t.badness != 0) return triangle_name(i) + ": still marked as bad";
+  if (t.ghost()) return t.region == Region::domain ? triangle_name(i) + ": outside the hull, labelled domain" : std::string{};
+  if (orient2d(triangulation.point(t.vertex[0]), triangulation.point(t.vertex[1]), triangulation.point(t.vertex[2])) <= 0)
+    return triangle_name(i) + ": not counter-clockwise";
+  if (t.region == Region::domain && badness(triangulation, t, promised) > 1.0)
+    return triangle_name(i) + ": below the promised quality, badness " + std::to_string(badness(triangulation, t, promised));
+  return {};
+}
+
+}  // namespace
+
+std::string check_boundary(const MeshData& mesh) {
+  std::size_t stations = 0;
+  for (std::size_t loop = 0; loop < mesh.loop_heads.size(); ++loop) {
+    const bool left = mesh.domain_on_left(loop);
+    std::uint32_t k = mesh.loop_heads[loop];
+    do {
+      const BoundaryVertex& v = mesh.at(k);
+      const std::string name = "boundary vertex " + std::to_string(v.vertex.index);
+      stations += v.steiner ? 0 : 1;
+      if (mesh.triangulation[v.vertex].boundary != k) return name + ": record and vertex disagree";
+      if (!(mesh.triangulation.point(v.vertex) == mesh.domain.at({v.curve, v.t}))) return name + ": not on the design";
+      if (!(mesh.triangulation[v.vertex].length_scale > 0.0)) return name + ": no length scale";
+      const auto edge = mesh.triangulation.find_edge(v.vertex, mesh.next(k).vertex);
+      if (!edge || !mesh.triangulation.link(*edge).constrained()) return name + ": boundary edge is missing";
+      const Region on_left = mesh.triangulation[edge->triangle].region;
+      const Region on_right = mesh.triangulation[mesh.triangulation.link(*edge).triangle()].region;
+      if ((left ? on_left : on_right) != Region::domain || (left ? on_right : on_left) != Region::outside)
+        return name + ": regions beside its edge are wrong";
+      k = v.next;
+    } while (k != mesh.loop_heads[loop]);
+  }
+  std::size_t expected = 0;
+  for (std::size_t curve = 0; curve < mesh.domain.curve_count(); ++curve)
+    expected += mesh.domain.curve(curve).parameters.size();
+  return stations == expected ? std::string{} : "boundary: stations of the design are missing";
+}
+
+std::string Mesh::quick_check() const {
+  const Triangulation& triangulation = data_->triangulation;
+  QualityBounds promised(data_->options);
+  promised.squared_radius_edge *= 1.0 + 2e-9;
+  promised.squared_gradation *= 1.0 + 2e-9;
+  std::size_t count = 0;
+  for (std::uint32_t i = 0; i < triangulation.triangle_slots(); ++i) {
+    if (!triangulation[TriangleId{i}].alive()) continue;
+    if (triangulation[TriangleId{i}].region == Region::domain) ++count;
+    if (std::string broken = check_triangle(*data_, i, promised); !broken.empty()) return broken;
+    if (std::string broken = check_links(triangulation, i); !broken.empty()) return broken;
+  }
+  if (count != data_->domain_triangles) return "triangle count: " + std::to_string(count) + " found, " +
+                                               std::to_string(data_->domain_triangles) + " recorded";
+  return check_boundary(*data_);
+}
+
+}  // namespace remodel
