@@ -1,0 +1,333 @@
+#include "remodel/history.h"
+
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "remodel/error.h"
+
+namespace remodel {
+namespace {
+
+constexpr std::size_t batch = 250;  // records a transaction
+
+// The order of the columns is that of bind() and read_row().
+constexpr const char* schema = R"(
+PRAGMA user_version = 1;
+CREATE TABLE run (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
+CREATE TABLE evaluations (
+  evaluation INTEGER PRIMARY KEY,
+  generation INTEGER NOT NULL,
+  coefficients TEXT NOT NULL,
+  objective REAL NOT NULL,
+  best_objective REAL NOT NULL,
+  sigma REAL NOT NULL,
+  infeasible_samples INTEGER NOT NULL,
+  triangles_before INTEGER NOT NULL,
+  triangles INTEGER NOT NULL,
+  preserved INTEGER NOT NULL,
+  preserved_percent REAL NOT NULL,
+  moved INTEGER NOT NULL,
+  inserted INTEGER NOT NULL,
+  removed INTEGER NOT NULL,
+  full_adjustment INTEGER NOT NULL,
+  regenerated INTEGER NOT NULL,
+  min_angle_deg REAL NOT NULL,
+  remodel_seconds REAL NOT NULL,
+  generated_triangles INTEGER,
+  generate_seconds REAL,
+  checked TEXT NOT NULL,
+  valid INTEGER NOT NULL,
+  detail TEXT
+);)";
+constexpr const char* insert_row =
+    "INSERT INTO evaluations VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)";
+
+std::string coefficients_to_json(const std::vector<double>& coefficients) {
+  return nlohmann::json(coefficients).dump();  // nlohmann writes doubles so that they read back exactly
+}
+
+}  // namespace
+
+// The connection, and every call on it that can fail.
+struct History::Database {
+  explicit Database(std::filesystem::path path) : file(std::move(path)) {}
+  ~Database() { sqlite3_close(connection); }
+  Database(const Database&) = delete;
+  Database& operator=(const Database&) = delete;
+
+  [[noreturn]] void fail(const std::string& action) const {
+    const char* reason = connection ? sqlite3_errmsg(connection) : "out of memory";
+    throw Error(ErrorCode::file, file.string(), "cannot " + action + " the run's history: " + reason);
+  }
+  void open(int flags) {
+    if (sqlite3_open_v2(file.c_str(), &connection, flags, nullptr) != SQLITE_OK) fail("open");
+    // A reader that looks into a running history holds a commit up for a moment: wait for it.
+    sqlite3_busy_timeout(connection, 30'000);
+  }
+  void execute(const char* sql) const {
+    if (sqlite3_exec(connection, sql, nullptr, nullptr, nullptr) != SQLITE_OK) fail("write");
+  }
+
+  std::filesystem::path file;
+  sqlite3* connection = nullptr;
+  std::vector<EvaluationRecord> pending;
+};
+
+namespace {
+
+// One prepared statement; parameters and columns are visited from left to right.
+class Statement {
+ public:
+  template <typename Database>
+  Statement(const Database& database, const char* sql)
+      : connection_(database.connection), fail_([&database] { database.fail("use"); }) {
+    check(sqlite3_prepare_v2(connection_, sql, -1, &statement_, nullptr));
+  }
+  ~Statement() { sqlite3_finalize(statement_); }
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+
+  void bind(double value) { check(sqlite3_bind_double(statement_, ++parameter_, value)); }
+  void bind_integer(std::uint64_t value) {
+    check(sqlite3_bind_int64(statement_, ++parameter_, static_cast<sqlite3_int64>(value)));
+  }
+  void bind(const std::string& value) {
+    check(sqlite3_bind_text(statement_, ++parameter_, value.data(), static_cast<int>(value.size()),
+                            SQLITE_TRANSIENT));
+  }
+  void bind_null() { check(sqlite3_bind_null(statement_, ++parameter_)); }
+  void bind(std::optional<double> value) {
+    if (value) return bind(*value);
+    bind_null();
+  }
+  void bind_integer(std::optional<std::size_t> value) {
+    if (value) return bind_integer(std::uint64_t{*value});
+    bind_null();
+  }
+
+  // True if there is a row.
+  bool step() {
+    column_ = 0;
+    const int status = sqlite3_step(statement_);
+    if (status != SQLITE_ROW && status != SQLITE_DONE) fail_();
+    return status == SQLITE_ROW;
+  }
+  void reset() {
+    check(sqlite3_reset(statement_));
+    parameter_ = 0;
+  }
+
+  double real() { return sqlite3_column_double(statement_, column_++); }
+  std::uint64_t integer() { return static_cast<std::uint64_t>(sqlite3_column_int64(statement_, column_++)); }
+  std::optional<double> optional_real() { return null() ? skip() : std::optional(real()); }
+  std::optional<std::size_t> optional_integer() {
+    return null() ? skip() : std::optional<std::size_t>(integer());
+  }
+  std::string text() {
+    const auto* characters = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column_));
+    const int size = sqlite3_column_bytes(statement_, column_++);
+    return characters ? std::string(characters, static_cast<std::size_t>(size)) : std::string();
+  }
+
+ private:
+  bool null() const { return sqlite3_column_type(statement_, column_) == SQLITE_NULL; }
+  std::nullopt_t skip() {
+    ++column_;
+    return std::nullopt;
+  }
+  void check(int status) const {
+    if (status != SQLITE_OK) fail_();
+  }
+  sqlite3* connection_;
+  std::function<void()> fail_;
+  sqlite3_stmt* statement_ = nullptr;
+  int parameter_ = 0;
+  int column_ = 0;
+};
+
+void bind(Statement& row, const EvaluationRecord& record) {
+  row.bind_integer(record.evaluation);
+  row.bind_integer(record.generation);
+  row.bind(coefficients_to_json(record.coefficients));
+  row.bind(record.objective);
+  row.bind(record.best_objective);
+  row.bind(record.sigma);
+  row.bind_integer(record.infeasible_samples);
+  row.bind_integer(record.triangles_before);
+  row.bind_integer(record.triangles);
+  row.bind_integer(record.preserved);
+  row.bind(record.preserved_percent);
+  row.bind_integer(record.moved);
+  row.bind_integer(record.inserted);
+  row.bind_integer(record.removed);
+  row.bind_integer(record.full_adjustment);
+  row.bind_integer(record.regenerated);
+  row.bind(record.min_angle_deg);
+  row.bind(record.remodel_seconds);
+  row.bind_integer(record.generated_triangles);
+  row.bind(record.generate_seconds);
+  row.bind(std::string(record.checked == Checked::full ? "full" : "quick"));
+  row.bind_integer(record.valid);
+  if (record.detail.empty()) return row.bind_null();
+  row.bind(record.detail);
+}
+
+EvaluationRecord read_row(Statement& row) {
+  EvaluationRecord record;
+  record.evaluation = row.integer();
+  record.generation = row.integer();
+  record.coefficients = nlohmann::json::parse(row.text()).get<std::vector<double>>();
+  record.objective = row.real();
+  record.best_objective = row.real();
+  record.sigma = row.real();
+  record.infeasible_samples = row.integer();
+  record.triangles_before = row.integer();
+  record.triangles = row.integer();
+  record.preserved = row.integer();
+  record.preserved_percent = row.real();
+  record.moved = row.integer();
+  record.inserted = row.integer();
+  record.removed = row.integer();
+  record.full_adjustment = row.integer() != 0;
+  record.regenerated = row.integer() != 0;
+  record.min_angle_deg = row.real();
+  record.remodel_seconds = row.real();
+  record.generated_triangles = row.optional_integer();
+  record.generate_seconds = row.optional_real();
+  record.checked = row.text() == "full" ? Checked::full : Checked::quick;
+  record.valid = row.integer() != 0;
+  record.detail = row.text();
+  return record;
+}
+
+}  // namespace
+
+History::History(std::unique_ptr<Database> database) : database_(std::move(database)) {}
+History::~History() = default;
+History::History(History&&) noexcept = default;
+History& History::operator=(History&&) noexcept = default;
+
+// The rollback journal, not write-ahead logging: there is one writer and a commit every few seconds, so that
+// readers hardly wait; the run is one file that can be copied at any time between commits; and it works on
+// network file systems, which write-ahead logging does not.
+History History::create(const std::filesystem::path& file, const std::map<std::string, std::string>& run) {
+  std::error_code ignored;
+  std::filesystem::remove(file, ignored);
+  std::filesystem::path journal = file;
+  journal += "-journal";  // of a killed run: it would be rolled back into the new file
+  std::filesystem::remove(journal, ignored);
+
+  auto database = std::make_unique<Database>(file);
+  database->open(SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+  database->execute("BEGIN");
+  database->execute(schema);
+  {
+    Statement row(*database, "INSERT INTO run VALUES (?,?)");
+    for (const auto& [key, value] : run) {
+      row.bind(key);
+      row.bind(value);
+      row.step();
+      row.reset();
+    }
+  }
+  database->execute("COMMIT");
+  return History(std::move(database));
+}
+
+namespace {
+
+template <typename Database>
+void require_version(const Database& database) {
+  Statement version(database, "PRAGMA user_version");
+  version.step();
+  if (const std::uint64_t found = version.integer(); found != 1)
+    throw Error(ErrorCode::format, database.file.string(),
+                "expected the history of a run, version 1, found version " + std::to_string(found));
+}
+
+}  // namespace
+
+History History::open(const std::filesystem::path& file) {
+  auto database = std::make_unique<Database>(file);
+  database->open(SQLITE_OPEN_READONLY);
+  require_version(*database);
+  return History(std::move(database));
+}
+
+History History::resume(const std::filesystem::path& file, std::uint64_t last) {
+  auto database = std::make_unique<Database>(file);
+  database->open(SQLITE_OPEN_READWRITE);
+  require_version(*database);
+  {
+    Statement later(*database, "DELETE FROM evaluations WHERE evaluation > ?");
+    later.bind_integer(last);
+    later.step();
+  }
+  Statement count(*database, "SELECT count(*) FROM evaluations WHERE evaluation >= 1");
+  count.step();
+  if (const std::uint64_t found = count.integer(); found != last)
+    throw Error(ErrorCode::format, file.string(),
+                "expected the first " + std::to_string(last) + " evaluations of the run, found " +
+                    std::to_string(found));
+  return History(std::move(database));
+}
+
+void History::append(const EvaluationRecord& record) {
+  database_->pending.push_back(record);
+  if (database_->pending.size() >= batch) commit();
+}
+
+void History::commit() {
+  if (database_->pending.empty()) return;
+  database_->execute("BEGIN IMMEDIATE");
+  try {
+    Statement row(*database_, insert_row);
+    for (const EvaluationRecord& record : database_->pending) {
+      bind(row, record);
+      row.step();
+      row.reset();
+    }
+    database_->execute("COMMIT");
+  } catch (...) {
+    sqlite3_exec(database_->connection, "ROLLBACK", nullptr, nullptr, nullptr);
+    throw;
+  }
+  database_->pending.clear();
+}
+
+std::map<std::string, std::string> History::run() const {
+  std::map<std::string, std::string> result;
+  Statement row(*database_, "SELECT key, value FROM run");
+  while (row.step()) {
+    const std::string key = row.text();
+    result[key] = row.text();
+  }
+  return result;
+}
+
+void History::each(const std::function<void(const EvaluationRecord&)>& visit) const {
+  Statement row(*database_, "SELECT * FROM evaluations ORDER BY evaluation");
+  while (row.step()) {
+    EvaluationRecord record;
+    try {
+      record = read_row(row);
+    } catch (const nlohmann::json::exception&) {
+      throw Error(
+          ErrorCode::format, database_->file.string(),
+          "evaluation " + std::to_string(record.evaluation) + ": expected coefficients as a JSON array");
+    }
+    visit(record);
+  }
+  for (const EvaluationRecord& record : database_->pending) visit(record);
+}
+
+std::vector<EvaluationRecord> History::records() const {
+  std::vector<EvaluationRecord> result;
+  each([&](const EvaluationRecord& record) { result.push_back(record); });
+  return result;
+}
+
+}  // namespace remodel

@@ -1,0 +1,96 @@
+#include "optimise/mesh_chain.h"
+
+#include <chrono>
+#include <utility>
+
+#include "remodel/check.h"
+#include "remodel/generate.h"
+
+namespace remodel {
+namespace {
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+void copy_figures(const RemodelResult& result, EvaluationRecord& record) {
+  record.triangles_before = result.triangles_before;
+  record.triangles = result.triangles;
+  record.preserved = result.preserved;
+  record.preserved_percent = result.preserved_percent();
+  record.moved = result.moved;
+  record.inserted = result.inserted;
+  record.removed = result.removed;
+  record.full_adjustment = result.full_adjustment;
+  record.regenerated = result.regenerated;
+  record.detail = result.reason;
+}
+
+}  // namespace
+
+MeshChain::MeshChain(const OptimiseOptions& options, Mesh mesh)
+    : domain_(options.domain), quality_(options.quality), remodel_(options.remodel), mesh_(std::move(mesh)) {}
+
+Stopped MeshChain::step(const CstAirfoil& design, StepTasks tasks, EvaluationRecord& record) {
+  const Stopwatch watch;
+  const Domain domain = airfoil_domain(design, domain_);
+  const RemodelResult result = remodel(mesh_, domain, remodel_);
+  record.remodel_seconds = watch.seconds();
+  copy_figures(result, record);
+
+  const std::string broken = broken_rule(domain, tasks);
+  record.checked = tasks.full_check ? Checked::full : Checked::quick;
+  record.valid = broken.empty();
+  if (!broken.empty()) record.detail = broken;
+  if (result.regenerated && result.stopped != Stopped::done) return result.stopped;
+  if (result.stopped != Stopped::done) record.detail = name_of(result.stopped);
+  if (!record.valid || result.stopped != Stopped::done) {
+    if (const Stopped stopped = regenerate(domain, record); stopped != Stopped::done) return stopped;
+  }
+  record.min_angle_deg = mesh_.statistics().min_angle_deg;
+  return tasks.compare ? compare(design, record) : Stopped::done;
+}
+
+std::string MeshChain::broken_rule(const Domain& domain, StepTasks tasks) const {
+  std::string broken = mesh_.quick_check();
+  if (!broken.empty() || !tasks.full_check) return broken;
+  const CheckResult result = check(mesh_.freeze(), {.min_angle_deg = quality_.min_angle_deg,
+                                                    .max_gradation = quality_.max_gradation,
+                                                    .design = &domain,
+                                                    .max_violations = 1});
+  if (result.valid) return {};
+  if (result.violations.empty()) return "check: not valid";
+  return result.violations.front().rule + ": " + result.violations.front().detail;
+}
+
+// The time counts as remodelling: a method that has to be helped out is not faster for it.
+Stopped MeshChain::regenerate(const Domain& domain, EvaluationRecord& record) {
+  const Stopwatch watch;
+  GenerateResult fresh = generate(domain, quality_);
+  record.remodel_seconds += watch.seconds();
+  if (fresh.stopped != Stopped::done) return fresh.stopped;
+  mesh_ = std::move(fresh.mesh);
+  record.triangles = mesh_.triangle_count();
+  record.preserved = record.moved = record.inserted = record.removed = 0;
+  record.preserved_percent = 0.0;
+  record.full_adjustment = false;
+  record.regenerated = true;
+  return Stopped::done;
+}
+
+Stopped MeshChain::compare(const CstAirfoil& design, EvaluationRecord& record) const {
+  const Stopwatch watch;
+  const Domain domain = airfoil_domain(design, domain_);
+  const GenerateResult fresh = generate(domain, quality_);
+  record.generate_seconds = watch.seconds();
+  record.generated_triangles = fresh.mesh.triangle_count();
+  return fresh.stopped;
+}
+
+}  // namespace remodel
