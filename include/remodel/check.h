@@ -1,7 +1,25 @@
 #pragma once
 
-// The independent validator. It shares no predicate and no data structure with the rest: rational arithmetic
-// on the frozen view. Slow and obvious on purpose.
+// The independent validator. It shares no predicate and no data structure with the rest: exact integer
+// arithmetic on the frozen view. Slow and obvious on purpose.
+//
+// The rules, in the order in which they are tested. A rule is left out where one that it stands on is broken.
+//   index          indices are in range, triangles have three different points, arrays have their sizes
+//   finite         coordinates, length scales and parameters are numbers
+//   duplicate      no two points coincide
+//   orphan-vertex  every point is in a triangle
+//   angle          no angle below CheckOptions::min_angle_deg
+//   gradation      r <= H times the mean length scale of the three points
+//   orientation    triangles are counter-clockwise and have an area (exact)
+//   adjacency      an edge is in one triangle, or in two that pass it in opposite directions
+//   boundary       exactly the edges with one triangle are named (inner edges may be: constraints), once, the
+//                  domain on their left, and under each name in the order of their loop
+//   area           the triangles' areas sum up to that of the named polygons (exact)
+//   delaunay       no inner edge without a name has the point across inside the triangle's circle (exact)
+//   manifold       the triangles of a point form one fan
+//   euler          V - E + F = 2 components - boundary loops
+//   overlap        boundary edges do not cross or touch, and no place is covered twice (exact)
+//   design         the boundary is the design's: see CheckOptions::design
 
 #include <cstdint>
 #include <limits>
@@ -15,8 +33,7 @@
 namespace remodel {
 
 struct Violation {
-  std::string rule;                // "orientation", "adjacency", "orphan-vertex", "euler", "area", "boundary",
-                                   // "design", "delaunay", "angle", "gradation", "index", "finite", "duplicate"
+  std::string rule;                // one of the names above
   std::vector<std::uint32_t> ids;  // the points or triangles concerned (indices of the frozen view)
   std::string detail;              // one sentence
 };
@@ -26,8 +43,12 @@ struct CheckOptions {
                                // radius-edge ratio (rounding of the ratio itself, 1e-15, with a margin)
   double max_gradation = 0.0;  // H; 0: not tested; needs length_scale
   bool delaunay = true;        // false: report in the result only
-  const Domain* design = nullptr;  // if given, boundary vertices must lie on its curves' stations
-  std::size_t max_violations = 100;
+  // If given, every boundary point must be the design's at its curve and parameter, to the last bit, every
+  // station of the design must be there, and boundary edges must join consecutive parameters under the name
+  // of their curve, the domain on the side that the loop's role says. Needs FrozenMesh::curve and
+  // ::parameter.
+  const Domain* design = nullptr;
+  std::size_t max_violations = 100;  // more are counted as invalid, but not listed
 };
 
 struct CheckResult {
@@ -38,7 +59,7 @@ struct CheckResult {
   double min_angle_deg = 0.0;
   double max_gradation = std::numeric_limits<double>::quiet_NaN();  // r / (H mean LS), H = sqrt(1/2) unless
                                                                     // given; NaN without length scales
-  bool delaunay = false;
+  bool delaunay = false;                        // false too where orientation or adjacency is broken
   std::map<std::string, std::size_t> boundary;  // edges per name
   double area = 0.0;                            // square chords
 };

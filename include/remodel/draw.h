@@ -17,7 +17,7 @@ enum class DrawColor {
 };
 
 struct DrawOptions {
-  std::optional<std::array<double, 4>> window;  // x0, y0, x1, y1, chords; default: the whole mesh
+  std::optional<std::array<double, 4>> window = {};  // x0, y0, x1, y1, chords; default: the whole mesh
   DrawColor color = DrawColor::quality;
   int width = 1600;  // pixels; the height follows from the window
 };

@@ -96,7 +96,7 @@ void Refiner::refine(TriangleId t) {
       return;
     }
   }
-  const Point p = triangle.centre;
+  const Point p = triangle.circle.centre;
   triangulation_.find_cavity(p, t, cavity_);
   if (split_blocking_segments(p)) {
     if (!segments_.empty()) consider(t);
@@ -169,7 +169,7 @@ void Refiner::split(Segment segment, int depth) {
   if (!near) {
     recover(a, v, depth);
     recover(v, b, depth);
-    clear_outside();
+    if (labelled_) clear_outside();
   }
   double scale = std::numeric_limits<double>::infinity();
   const double to_a = std::sqrt(squared_distance(triangulation_.point(a), p));
@@ -185,7 +185,7 @@ void Refiner::split(Segment segment, int depth) {
     c = triangulation_.counterclockwise(c);
   } while (c.triangle != first.triangle);
   mesh_.set_boundary_length_scale(k, scale);
-  consider_star(v);
+  if (labelled_) consider_star(v);
 }
 
 void Refiner::consider_star(VertexId v) {
@@ -211,6 +211,17 @@ VertexId Refiner::split_far(Segment segment, Point p, int depth) {
       throw RecoveryError("a curve runs through another boundary vertex");
     triangulation_.remove(inserted.vertex);
   }
+}
+
+void Refiner::recover_loop(std::uint32_t head) {
+  labelled_ = false;
+  std::uint32_t k = head;
+  do {
+    const auto edge = triangulation_.find_edge(mesh_.at(k).vertex, mesh_.next(k).vertex);
+    if (!edge || !triangulation_.link(*edge).constrained()) recover(mesh_.at(k).vertex, mesh_.next(k).vertex, 0);
+    k = mesh_.at(k).next;
+  } while (k != head);
+  labelled_ = true;
 }
 
 // Makes a-b a constrained edge: free vertices on it are removed, boundary edges that cross it are split first.

@@ -33,6 +33,11 @@ class Refiner {
   // Refines until nothing queued is left or a limit is reached.
   Stopped run();
 
+  // Makes every boundary edge of the given loop (by its head) an edge of the triangulation again: free vertices
+  // on it are removed, boundary edges that cross it are split. Region labels are left to the caller. Throws
+  // RecoveryError.
+  void recover_loop(std::uint32_t head);
+
   std::size_t exempt_triangles() const { return exempt_; }
   // Ends with Stopped::vertex_budget once the mesh has this many vertices.
   void limit_vertices(std::size_t count) { vertex_limit_ = count; }
@@ -65,6 +70,7 @@ class Refiner {
   std::size_t vertex_limit_;
   std::size_t exempt_ = 0;
   bool refused_ = false;  // a segment was too short to be split
+  bool labelled_ = true;  // false while boundaries are being recovered: the caller labels afterwards
 };
 
 }  // namespace remodel

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <functional>
+#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -119,6 +120,8 @@ int lifted_truth(const Quad& q) {
 
 // ---- Generators ----
 
+constexpr double full_turn = 2 * std::numbers::pi;
+
 double uniform(Random& random, double low, double high) {
   return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
 }
@@ -219,7 +222,7 @@ Quad nearly_cocircular(Random& random) {
   const Point centre{uniform(random, -1, 1), uniform(random, -1, 1)};
   const double radius = std::exp(uniform(random, -10, 3));
   return mapped({}, [&](Point) {
-    const double angle = uniform(random, 0, 6.283185307179586);
+    const double angle = uniform(random, 0, full_turn);
     return nudged(random, centre + radius * Point{std::cos(angle), std::sin(angle)}, 1);
   });
 }
@@ -245,7 +248,7 @@ Quad huge(Random& random) {
 // A trailing-edge segment of 1e-5 chords seen from the farfield circle.
 Quad farfield_and_trailing_edge(Random& random) {
   const auto far = [&] {
-    const double angle = 6.283185307179586 * integer(random, 0, 49) / 50;
+    const double angle = full_turn * integer(random, 0, 49) / 50;
     return Point{0.5 + 25 * std::cos(angle), 25 * std::sin(angle)};
   };
   const auto near = [&] { return Point{1.0 - uniform(random, 0, 1e-5), uniform(random, -1e-5, 1e-5)}; };

@@ -15,15 +15,17 @@ QualityBounds::QualityBounds(const QualityOptions& options) {
   squared_gradation = margin * options.max_gradation * options.max_gradation;
 }
 
-double badness(const Triangulation& triangulation, const Triangle& triangle, const QualityBounds& bounds) {
-  const Vertex& a = triangulation[triangle.vertex[0]];
-  const Vertex& b = triangulation[triangle.vertex[1]];
-  const Vertex& c = triangulation[triangle.vertex[2]];
+double badness(const Vertex& a, const Vertex& b, const Vertex& c, double squared_radius, const QualityBounds& bounds) {
   const double shortest = std::min({squared_distance(a.point, b.point), squared_distance(b.point, c.point),
                                     squared_distance(c.point, a.point)});
   const double mean = (a.length_scale + b.length_scale + c.length_scale) * (1.0 / 3.0);
-  const double r2 = triangle.squared_radius();
-  return std::max(r2 / (bounds.squared_radius_edge * shortest), r2 / (bounds.squared_gradation * (mean * mean)));
+  return std::max(squared_radius / (bounds.squared_radius_edge * shortest),
+                  squared_radius / (bounds.squared_gradation * (mean * mean)));
+}
+
+double badness(const Triangulation& triangulation, const Triangle& t, const QualityBounds& bounds) {
+  return badness(triangulation[t.vertex[0]], triangulation[t.vertex[1]], triangulation[t.vertex[2]],
+                 t.circle.squared_radius(), bounds);
 }
 
 MeshData::MeshData(const MeshData& other)

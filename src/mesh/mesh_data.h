@@ -82,6 +82,7 @@ class MeshData {
 std::string check_boundary(const MeshData& mesh);
 
 // The largest of the two squared ratios over their squared bounds: above 1 the triangle is bad.
+double badness(const Vertex& a, const Vertex& b, const Vertex& c, double squared_radius, const QualityBounds& bounds);
 double badness(const Triangulation& triangulation, const Triangle& triangle, const QualityBounds& bounds);
 
 }  // namespace remodel

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "cst_row.h"
 #include "remodel/airfoil.h"
 #include "turn.h"
 
@@ -37,11 +38,7 @@ Abscissa abscissa(double t) {
 
 }  // namespace
 
-CstStation cst_basis(double t, int degree, double e1, double e2, std::span<double> row) {
-  assert(t >= 0.0 && t <= 1.0);
-  assert(degree >= 1 && row.size() > static_cast<std::size_t>(degree));
-  row = row.first(static_cast<std::size_t>(degree) + 1);
-  const auto [x, rest] = abscissa(t);
+void cst_row(double x, double rest, double e1, double e2, std::span<double> row) {
   row[0] = 1.0;
   for (std::size_t k = 1; k < row.size(); ++k) {  // Bernstein polynomials of degree k from those of k - 1
     double carried = 0.0;
@@ -54,6 +51,13 @@ CstStation cst_basis(double t, int degree, double e1, double e2, std::span<doubl
   }
   const double class_function = power(x, e1) * power(rest, e2);
   for (double& value : row) value *= class_function;
+}
+
+CstStation cst_basis(double t, int degree, double e1, double e2, std::span<double> row) {
+  assert(t >= 0.0 && t <= 1.0);
+  assert(degree >= 1 && row.size() > static_cast<std::size_t>(degree));
+  const auto [x, rest] = abscissa(t);
+  cst_row(x, rest, e1, e2, row.first(static_cast<std::size_t>(degree) + 1));
   return {.x = x, .upper = t < 0.5};
 }
 

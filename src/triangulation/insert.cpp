@@ -71,10 +71,11 @@ VertexId Triangulation::fill_cavity(Point p, const Cavity& cavity) {
   return v;
 }
 
-// Whether p lies in the closed triangle, not at a corner and not on a constrained edge.
+// Whether p lies in the closed triangle, not at a corner and not on a constrained edge; for a ghost, beyond its
+// hull edge.
 bool Triangulation::holds(TriangleId t, Point p) const {
   const Triangle& triangle = triangles_[t.index];
-  if (triangle.ghost()) return false;
+  if (triangle.ghost()) return in_conflict_exact(triangle, p);
   int zeros = 0;
   for (int i = 0; i < 3; ++i) {
     const int side = orient2d(point(triangle.vertex[next3(i)]), point(triangle.vertex[previous3(i)]), p);

@@ -46,12 +46,22 @@ struct Link {
 // too, but no part of the domain.
 enum class Region : std::uint8_t { outside = 0, domain = 1, unknown = 255 };
 
+// A circumcircle in floating point that says what it is sure of. Made by certified_circle().
+struct Circle {
+  Point centre;           // rounded
+  double inside = -1.0;   // a squared distance from centre below this is certainly inside the true circle
+  double outside = std::numeric_limits<double>::infinity();  // above this certainly outside
+
+  // Infinite where nothing is certain: slivers, ghosts.
+  double squared_radius() const { return 0.5 * (inside + outside); }
+  bool certain() const { return inside > 0.0; }  // then its triangle is certainly counter-clockwise too
+};
+Circle certified_circle(Point a, Point b, Point c);
+
 struct alignas(64) Triangle {
   VertexId vertex[3];  // counter-clockwise; a ghost has infinite_vertex among them; a free slot has no vertex[0]
   Link link[3];        // link[i]: across the edge vertex[i+1] -> vertex[i+2]
-  Point centre;        // of the circumcircle, rounded
-  double inside = -1.0;   // a squared distance from centre below this is certainly inside the circle
-  double outside = std::numeric_limits<double>::infinity();  // above this certainly outside
+  Circle circle;
   std::uint32_t birth = 0;  // the step that made this triangle: with the id it names a triangle for ever
   Region region = Region::outside;
   std::uint8_t badness = 0;  // used by refinement while it runs: 0 when no refinement is under way
@@ -61,8 +71,6 @@ struct alignas(64) Triangle {
     return vertex[0] == infinite_vertex || vertex[1] == infinite_vertex || vertex[2] == infinite_vertex;
   }
   int corner_of(VertexId v) const { return vertex[0] == v ? 0 : vertex[1] == v ? 1 : 2; }
-  // The circumradius squared, as certified as inside and outside are; infinite for slivers and ghosts.
-  double squared_radius() const { return 0.5 * (inside + outside); }
 };
 static_assert(sizeof(Triangle) == 64);
 

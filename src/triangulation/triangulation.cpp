@@ -141,26 +141,28 @@ void Triangulation::write(TriangleId t, VertexId a, VertexId b, VertexId c, Regi
 // |u|. A point is certainly inside if its distance from the stored centre is below |u| - 2 delta, certainly
 // outside above |u| + 2 delta. Squared: r^2 -+ 4 r delta, with 16 eps r^2 for the rounding of the squares here
 // and in the query. tolerance below is that sum with each constant rounded up by a quarter or more.
-void Triangulation::compute_circle(Triangle& triangle) const {
-  triangle.inside = -1.0;
-  triangle.outside = std::numeric_limits<double>::infinity();
-  if (triangle.ghost()) return;
-  const Point a = point(triangle.vertex[0]);
-  const Point e1 = point(triangle.vertex[1]) - a;
-  const Point e2 = point(triangle.vertex[2]) - a;
+Circle certified_circle(Point a, Point b, Point c) {
+  Circle circle;
+  const Point e1 = b - a, e2 = c - a;
   const double l1 = dot(e1, e1), l2 = dot(e2, e2), d = cross(e1, e2);
   const double half_inverse = 0.5 / d;
   const Point u{(e2.y * l1 - e1.y * l2) * half_inverse, (e1.x * l2 - e2.x * l1) * half_inverse};
-  triangle.centre = a + u;
+  circle.centre = a + u;
   const double r2 = dot(u, u);
   const double inverse_s2 = l1 * l2 / (d * d);
   constexpr double eps = 0x1p-53;
-  const double tolerance =
-      eps * ((200.0 * inverse_s2 + 32.0) * r2 +
-             6.0 * std::sqrt(r2) * (std::abs(triangle.centre.x) + std::abs(triangle.centre.y)));
-  if (!(d > 0.0) || !(inverse_s2 < 0x1p40) || !(tolerance < 0.25 * r2)) return;
-  triangle.inside = r2 - tolerance;
-  triangle.outside = r2 + tolerance;
+  const double tolerance = eps * ((200.0 * inverse_s2 + 32.0) * r2 +
+                                  6.0 * std::sqrt(r2) * (std::abs(circle.centre.x) + std::abs(circle.centre.y)));
+  if (!(d > 0.0) || !(inverse_s2 < 0x1p40) || !(tolerance < 0.25 * r2)) return circle;
+  circle.inside = r2 - tolerance;
+  circle.outside = r2 + tolerance;
+  return circle;
+}
+
+void Triangulation::compute_circle(Triangle& triangle) const {
+  triangle.circle = triangle.ghost() ? Circle{}
+                                     : certified_circle(point(triangle.vertex[0]), point(triangle.vertex[1]),
+                                                        point(triangle.vertex[2]));
 }
 
 bool Triangulation::in_conflict_exact(const Triangle& t, Point p) const {

@@ -78,9 +78,9 @@ class Triangulation {
   // Whether p lies inside t's circumcircle (for a ghost: beyond its hull edge). Exact.
   bool in_conflict(TriangleId t, Point p) const {
     const Triangle& triangle = triangles_[t.index];
-    const double d = squared_distance(triangle.centre, p);
-    if (d < triangle.inside) return true;
-    if (d > triangle.outside) return false;
+    const double d = squared_distance(triangle.circle.centre, p);
+    if (d < triangle.circle.inside) return true;
+    if (d > triangle.circle.outside) return false;
     return in_conflict_exact(triangle, p);
   }
 
@@ -118,6 +118,7 @@ class Triangulation {
   // restore_delaunay(), or keeps the Delaunay property by its own checks.
   void set_point(VertexId v, Point p) { edit(v).point = p; }
   void refresh_circle(TriangleId t) { compute_circle(edit(t)); }
+  void set_circle(TriangleId t, const Circle& circle) { edit(t).circle = circle; }
   // Lawson flips from the edges opposite all corners of the given triangles.
   void restore_delaunay(std::span<const TriangleId> triangles);
 

@@ -1,0 +1,67 @@
+#pragma once
+
+// The command line's parts, so that only arguments.cpp and main.cpp know the parser (CLI11 costs seconds a
+// file to compile). Every refused value is an Error (argument) that names the option, what was found and what
+// was expected.
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace remodel::app {
+
+struct IntegerRange {
+  std::int64_t low = 0;
+  std::int64_t high = std::numeric_limits<std::int64_t>::max();
+  bool even = false;
+};
+
+// Finite numbers only, whatever the bounds.
+struct RealRange {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool above_low = false;  // low itself is refused
+};
+
+// What an option is called, what stands for its value in the help, and one sentence with unit and meaning.
+// default_text is shown by --help; the default itself lies where `set` puts a given value.
+struct OptionText {
+  std::string name;
+  std::string value;
+  std::string default_text;
+  std::string description;
+};
+
+// `chosen` is called when the subcommand is the one given, after its options are set.
+CLI::App& add_subcommand(CLI::App& program, const std::string& name, const std::string& description,
+                         std::function<void()> chosen);
+
+void add_integer(CLI::App& app, const OptionText& text, IntegerRange range,
+                 std::function<void(std::int64_t)> set);
+void add_real(CLI::App& app, const OptionText& text, RealRange range, std::function<void(double)> set);
+// One of a few words; set is given its index.
+void add_choice(CLI::App& app, const OptionText& text, std::vector<std::string> words,
+                std::function<void(std::size_t)> set);
+void add_flag(CLI::App& app, const std::string& name, const std::string& description, bool& target);
+
+enum class Presence { optional, required };
+// Any text: a file, a shape. A name without dashes is positional.
+void add_text(CLI::App& app, const OptionText& text, Presence presence,
+              std::function<void(const std::string&)> set);
+void add_text(CLI::App& app, const OptionText& text, Presence presence, std::string& target);
+// The same, but may be given several times.
+void add_texts(CLI::App& app, const OptionText& text, Presence presence, std::vector<std::string>& target);
+
+std::int64_t parse_integer(const std::string& option, std::string_view text, IntegerRange range);
+double parse_real(const std::string& option, std::string_view text, RealRange range);
+// Comma-separated; exactly `count` of them.
+std::vector<double> parse_reals(const std::string& option, std::string_view text, std::size_t count);
+
+}  // namespace remodel::app

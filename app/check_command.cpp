@@ -1,0 +1,99 @@
+// remodel check MESH: the independent validator, on any readable format.
+
+#include "remodel/check.h"
+
+#include <memory>
+#include <optional>
+
+#include "arguments.h"
+#include "command.h"
+#include "figures.h"
+#include "mesh_input.h"
+
+namespace remodel::app {
+namespace {
+
+struct CheckCommand {
+  std::string mesh;
+  std::optional<double> min_angle;
+  std::optional<double> max_gradation;
+  bool json = false;
+};
+
+// A native mesh is held to its own design and options; another one to the rules that every triangulation
+// obeys, and to what the command line asks for.
+CheckOptions rules_for(const CheckCommand& command, const MeshInput& input) {
+  CheckOptions options;
+  if (input.living) {
+    options.design = &input.living->domain();
+    options.min_angle_deg = input.living->options().min_angle_deg;
+    options.max_gradation = input.living->options().max_gradation;
+  } else {
+    options.delaunay = false;
+  }
+  options.min_angle_deg = command.min_angle.value_or(options.min_angle_deg);
+  options.max_gradation = command.max_gradation.value_or(options.max_gradation);
+  return options;
+}
+
+Json to_json(const std::vector<Violation>& violations) {
+  Json list = Json::array();
+  for (const Violation& violation : violations) {
+    list.push_back({{"rule", violation.rule}, {"ids", violation.ids}, {"detail", violation.detail}});
+  }
+  return list;
+}
+
+void add_violations(Report& report, const std::vector<Violation>& violations) {
+  report.data("violations", to_json(violations));
+  constexpr std::size_t shown = 10;
+  for (std::size_t i = 0; i < violations.size() && i < shown; ++i) {
+    report.line("broken rule " + violations[i].rule, violations[i].detail);
+  }
+  if (violations.size() > shown) {
+    report.line("more violations", std::to_string(violations.size() - shown) + " (all with --json)");
+  }
+}
+
+Status run(const CheckCommand& command) {
+  const MeshInput input = read_any_mesh(command.mesh);
+  const CheckOptions options = rules_for(command, input);
+  const CheckResult result = check(input.frozen, options);
+
+  Report report;
+  report.line("mesh", command.mesh);
+  report.figure("rules", "rules",
+                input.living ? "native: the design and the options in the file" : "topology");
+  report.figure("valid", "valid", result.valid);
+  add_violations(report, result.violations);
+  report.figure("triangles", "triangles", result.triangles);
+  report.figure("vertices", "vertices", result.vertices);
+  report.figure("min_angle_deg", "smallest angle", result.min_angle_deg, "degrees");
+  report.figure("max_gradation", "largest r / (H mean LS)", result.max_gradation);
+  report.figure("delaunay", "Delaunay", result.delaunay);
+  add_boundary_figures(report, result.boundary);
+  report.figure("area", "area", result.area, "square chords");
+  report.print(command.json);
+  return result.valid ? Status::done : Status::answer_is_no;
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& program, Action& action) {
+  auto command = std::make_shared<CheckCommand>();
+  CLI::App& app = add_subcommand(program, "check",
+                                 "Validates a mesh with rational arithmetic; exit status 1 if it is invalid",
+                                 [command, &action] { action = [command] { return run(*command); }; });
+  add_mesh_argument(app, command->mesh);
+  add_real(app,
+           {"--min-angle", "DEGREES", "the mesh's own, or not tested",
+            "Smallest angle that is valid, in degrees: 0 (not tested) to 60"},
+           {.low = 0.0, .high = 60.0}, [command](double value) { command->min_angle = value; });
+  add_real(app,
+           {"--max-gradation", "H", "the mesh's own, or not tested",
+            "Largest circumradius over mean length scale, for meshes with length scales: above 0, no unit"},
+           {.low = 0.0, .above_low = true}, [command](double value) { command->max_gradation = value; });
+  add_json_flag(app, command->json);
+}
+
+}  // namespace remodel::app

@@ -1,0 +1,35 @@
+#pragma once
+
+// What the subcommands share: how they register themselves and how they end.
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace remodel::app {
+
+// The program's exit statuses: part of its contract.
+enum class Status : int {
+  done = 0,
+  answer_is_no = 1,   // done, and a mesh is invalid or a design crosses itself
+  bad_input = 2,      // bad usage or bad input; nothing was written
+  limit = 3,          // stopped at a limit or by an interrupt; what is finished is kept
+  internal_error = 4  // our own bug
+};
+
+// The chosen subcommand's work; set while the command line is parsed, run afterwards.
+using Action = std::function<Status()>;
+
+// Each registers one subcommand, which sets `action` when it is chosen. One file each: <name>_command.cpp.
+void add_mesh_command(CLI::App& program, Action& action);
+void add_update_command(CLI::App& program, Action& action);
+void add_check_command(CLI::App& program, Action& action);
+void add_fit_command(CLI::App& program, Action& action);
+void add_optimise_command(CLI::App& program, Action& action);
+void add_draw_command(CLI::App& program, Action& action);
+void add_convert_command(CLI::App& program, Action& action);
+void add_shapes_command(CLI::App& program, Action& action);
+
+}  // namespace remodel::app

@@ -1,0 +1,47 @@
+#include "figures.h"
+
+#include "arguments.h"
+
+namespace remodel::app {
+
+void add_json_flag(CLI::App& app, bool& json) {
+  add_flag(app, "--json", "Print one JSON object on standard output, everything else on standard error",
+           json);
+}
+
+void add_shape_argument(CLI::App& app, std::string& shape) {
+  add_text(app, {"shape", "SHAPE", "", shape_help}, Presence::required, shape);
+}
+
+void add_mesh_argument(CLI::App& app, std::string& mesh) {
+  add_text(app, {"mesh", "MESH", "", "Mesh file: .vtkhdf, .su2, .msh or .vtu"}, Presence::required, mesh);
+}
+
+void add_boundary_figures(Report& report, const std::map<std::string, std::size_t>& boundary) {
+  Json edges = Json::object();
+  for (const auto& [name, count] : boundary) {
+    edges[name] = count;
+    report.line("boundary " + name, std::to_string(count) + " edges");
+  }
+  report.data("boundary", edges);
+}
+
+void add_mesh_figures(Report& report, const FrozenMesh& mesh, const MeshStatistics& statistics) {
+  report.figure("triangles", "triangles", statistics.triangles);
+  report.figure("vertices", "vertices", statistics.vertices);
+  std::map<std::string, std::size_t> boundary;
+  for (const FrozenBoundary& part : mesh.boundaries) boundary[part.name] += part.edges.size();
+  add_boundary_figures(report, boundary);
+  report.figure("steiner_boundary_vertices", "Steiner vertices on the boundary",
+                statistics.steiner_boundary_vertices);
+  report.figure("min_angle_deg", "smallest angle", statistics.min_angle_deg, "degrees");
+  report.figure("max_radius_edge", "largest radius-edge ratio", statistics.max_radius_edge);
+  report.figure("max_gradation", "largest r / (H mean LS)", statistics.max_gradation);
+}
+
+void add_output_figures(Report& report, const std::vector<std::string>& files) {
+  report.data("written", files);
+  for (const std::string& file : files) report.line("written", file);
+}
+
+}  // namespace remodel::app

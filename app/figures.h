@@ -1,0 +1,34 @@
+#pragma once
+
+// Figures and options that several subcommands have in common.
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "remodel/frozen_mesh.h"
+#include "remodel/mesh.h"
+#include "report.h"
+
+namespace CLI {
+class App;
+}
+
+namespace remodel::app {
+
+inline constexpr const char* shape_help =
+    "Airfoil coordinate file (Selig or Lednicer), naca:2412, a name that `remodel shapes` lists, or a .json "
+    "file of CST coefficients";
+
+void add_json_flag(CLI::App& app, bool& json);
+void add_shape_argument(CLI::App& app, std::string& shape);
+void add_mesh_argument(CLI::App& app, std::string& mesh);  // of any format
+
+// triangles, vertices, boundary{name: edges}, steiner_boundary_vertices, min_angle_deg, max_radius_edge,
+// max_gradation.
+void add_mesh_figures(Report& report, const FrozenMesh& mesh, const MeshStatistics& statistics);
+void add_boundary_figures(Report& report, const std::map<std::string, std::size_t>& boundary);
+void add_output_figures(Report& report, const std::vector<std::string>& files);
+
+}  // namespace remodel::app

@@ -1,0 +1,96 @@
+#include "meshing_options.h"
+
+#include "arguments.h"
+#include "number_text.h"
+
+namespace remodel::app {
+namespace {
+
+void add_discretisation(CLI::App& app, AirfoilDomainOptions& options) {
+  add_integer(app, {"--points", "I", "200", "Vertices on the airfoil before refinement: even, 8 to 100000"},
+              {.low = 8, .high = 100000, .even = true},
+              [&](std::int64_t value) { options.points = static_cast<int>(value); });
+  add_real(app, {"--farfield-radius", "CHORDS", "25", "Radius of the farfield circle in chords: above 1"},
+           {.low = 1.0, .high = 1e6, .above_low = true},
+           [&](double value) { options.farfield_radius = value; });
+  add_integer(app, {"--farfield-points", "N", "50", "Vertices on the farfield circle: 8 to 100000"},
+              {.low = 8, .high = 100000},
+              [&](std::int64_t value) { options.farfield_points = static_cast<int>(value); });
+}
+
+void add_quality(CLI::App& app, MeshingOptions& options) {
+  QualityOptions& quality = options.quality;
+  add_real(app,
+           {"--gradation", "G", "I/50",
+            "Triangle size grows by distance/G away from the boundary: above 0 up to 1e6, no unit"},
+           {.low = 0.0, .high = 1e6, .above_low = true}, [&](double value) { options.gradation = value; });
+  add_real(app,
+           {"--resolution", "R", "1",
+            "Boundary length scale is the distance to the nearest neighbour over R: above 0, no unit"},
+           {.low = 0.0, .high = 1e6, .above_low = true}, [&](double value) { quality.resolution = value; });
+  add_real(app, {"--min-angle", "DEGREES", "30", "Smallest angle of a triangle in degrees: 0 to 34"},
+           {.low = 0.0, .high = 34.0}, [&](double value) { quality.min_angle_deg = value; });
+  add_real(app,
+           {"--max-gradation", "H", "0.70710678",
+            "Largest circumradius over mean length scale of a triangle: above 0, no unit"},
+           {.low = 0.0, .above_low = true}, [&](double value) { quality.max_gradation = value; });
+  add_integer(app,
+              {"--max-vertices", "N", "50000000",
+               "Vertex budget: generation stops there with exit status 3; 100 to 1000000000"},
+              {.low = 100, .high = 1'000'000'000},
+              [&](std::int64_t value) { quality.max_vertices = static_cast<std::uint32_t>(value); });
+}
+
+}  // namespace
+
+QualityOptions MeshingOptions::resolved_quality() const {
+  QualityOptions resolved = quality;
+  resolved.gradation = gradation.value_or(discretisation.points / 50.0);
+  return resolved;
+}
+
+void add_cst_degree(CLI::App& app, int& degree) {
+  add_integer(app,
+              {"--cst-degree", "N", "5",
+               "Bernstein degree of a fit, 2 to 12; catalogue names and .json files have their own"},
+              {.low = 2, .high = 12}, [&](std::int64_t value) { degree = static_cast<int>(value); });
+}
+
+void add_repeat(CLI::App& app, int& repeat) {
+  add_integer(app, {"--repeat", "N", "1", "Do the work N times and report the median time: at least 1"},
+              {.low = 1, .high = 1'000'000}, [&](std::int64_t value) { repeat = static_cast<int>(value); });
+}
+
+void add_meshing_options(CLI::App& app, MeshingOptions& options) {
+  add_discretisation(app, options.discretisation);
+  add_quality(app, options);
+  add_cst_degree(app, options.cst_degree);
+}
+
+Json to_json(const MeshingOptions& options) {
+  const QualityOptions quality = options.resolved_quality();
+  return {{"points", options.discretisation.points},
+          {"gradation", quality.gradation},
+          {"resolution", quality.resolution},
+          {"min_angle_deg", quality.min_angle_deg},
+          {"max_gradation", quality.max_gradation},
+          {"farfield_radius", options.discretisation.farfield_radius},
+          {"farfield_points", options.discretisation.farfield_points},
+          {"cst_degree", options.cst_degree},
+          {"max_vertices", quality.max_vertices}};
+}
+
+void describe(Report& report, const MeshingOptions& options) {
+  const QualityOptions quality = options.resolved_quality();
+  report.data("options", to_json(options));
+  report.line("discretisation", std::to_string(options.discretisation.points) + " points, farfield of " +
+                                    std::to_string(options.discretisation.farfield_points) + " at " +
+                                    short_text(options.discretisation.farfield_radius) + " chords");
+  report.line("quality asked for", "angle >= " + short_text(quality.min_angle_deg) + " degrees, H " +
+                                       short_text(quality.max_gradation) + ", G " +
+                                       short_text(quality.gradation) + ", R " +
+                                       short_text(quality.resolution) + ", at most " +
+                                       std::to_string(quality.max_vertices) + " vertices");
+}
+
+}  // namespace remodel::app

@@ -1,0 +1,209 @@
+// remodel optimise --from SHAPE --to SHAPE -o DIR: CMA-ES shape interpolation around one living mesh.
+
+#include "remodel/optimise.h"
+
+#include <unistd.h>
+
+#include <array>
+#include <filesystem>
+#include <memory>
+
+#include "arguments.h"
+#include "command.h"
+#include "figures.h"
+#include "meshing_options.h"
+#include "outputs.h"
+#include "progress.h"
+#include "remodel/error.h"
+#include "remodel_options.h"
+
+namespace remodel::app {
+namespace {
+
+struct OptimiseCommand {
+  std::string from;
+  std::string to;
+  MeshingOptions meshing;
+  OptimiseOptions run;
+  int repeat = 1;
+  bool quiet = false;
+  bool json = false;
+};
+
+// Nothing that is not a run's own may be mixed with its files or replaced by them.
+void require_run_directory(const std::filesystem::path& directory) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (!fs::exists(directory, error)) {
+    require_writable(directory.has_filename() ? directory : directory.parent_path());
+    return;
+  }
+  if (!fs::is_directory(directory, error)) {
+    throw Error(ErrorCode::file, directory.string(), "is a file, expected a directory");
+  }
+  require_writable(directory / "history.sqlite");
+  bool of_a_run = false;
+  for (const char* name : {"history.sqlite", "checkpoint.json", "first.vtkhdf"}) {
+    of_a_run = of_a_run || fs::exists(directory / name);
+  }
+  if (!of_a_run && !fs::is_empty(directory)) {
+    throw Error(ErrorCode::file, directory.string(),
+                "is a directory with other files, expected a new, an empty or a run directory");
+  }
+}
+
+ProgressStyle progress_style(bool quiet) {
+  if (quiet) return ProgressStyle::none;
+  return isatty(STDERR_FILENO) != 0 ? ProgressStyle::bar : ProgressStyle::lines;
+}
+
+Json options_json(const OptimiseCommand& command) {
+  Json options = to_json(command.meshing);
+  options["distance"] = command.run.remodel.distance;
+  options["method"] = name_of(command.run.remodel.method);
+  options["sigma"] = command.run.sigma;
+  options["seed"] = command.run.seed;
+  options["evaluations"] = command.run.evaluations;
+  options["compare_every"] = command.run.compare_every;
+  options["checkpoint_every"] = command.run.checkpoint_every;
+  return options;
+}
+
+struct Figure {
+  const char* key;
+  const char* label;
+  const char* unit;
+};
+constexpr std::array<Figure, 21> figures{{
+    {"evaluations", "evaluations", ""},
+    {"infeasible_samples", "infeasible samples, drawn again", ""},
+    {"full_adjustments", "full adjustments", ""},
+    {"objective", "best objective", "square chords"},
+    {"max_error", "largest distance to the target", "chords"},
+    {"preserved_percent", "preserved, mean", "%"},
+    {"lost_mean", "lost, mean", "triangles"},
+    {"triangles_mean", "triangles, mean", ""},
+    {"generated_triangles_mean", "of a fresh mesh, mean", ""},
+    {"surplus_percent", "surplus, mean", "%"},
+    {"remodel_ms_mean", "remodelling, mean", "ms"},
+    {"generate_ms_mean", "generation, mean", "ms"},
+    {"speedup", "speed-up", "times"},
+    {"min_angle_deg", "smallest angle of all meshes", "degrees"},
+    {"invalid_meshes", "invalid meshes", ""},
+    {"recoveries", "recoveries by generation", ""},
+    {"seconds", "wall time", "seconds"},
+    {"stopped", "stopped", ""},
+    {"detail", "detail", ""},
+    {"seed", "seed", ""},
+    {"best", "best design", ""},
+}};
+
+void add_result(Report& report, const OptimiseResult& result) {
+  const Json object = Json::parse(optimise_result_to_json(result));
+  for (const Figure& figure : figures) {
+    if (!object.contains(figure.key)) continue;
+    const Json& value = object[figure.key];
+    const bool for_people = !value.is_null() && !value.is_object() && value != "";
+    if (for_people) {
+      report.figure(figure.key, figure.label, value, figure.unit);
+    } else {
+      report.data(figure.key, value);
+    }
+  }
+}
+
+Status status_of(const OptimiseResult& result) {
+  if (result.stopped != OptimiseStopped::done) return Status::limit;
+  return result.invalid_meshes == 0 ? Status::done : Status::answer_is_no;
+}
+
+// Runs `repeat` times with the same seed: the same designs and meshes each time, only the times differ, and
+// their medians replace those of the last run.
+OptimiseResult run_repeatedly(const OptimiseCommand& command, const CstAirfoil& from, const CstAirfoil& to,
+                              Progress& progress) {
+  std::vector<double> seconds, remodel_ms, generate_ms;
+  OptimiseResult result;
+  for (int i = 0; i < command.repeat; ++i) {
+    result = optimise(from, to, command.run, &progress);
+    seconds.push_back(result.seconds);
+    remodel_ms.push_back(result.remodel_ms_mean);
+    generate_ms.push_back(result.generate_ms_mean);
+    if (result.stopped != OptimiseStopped::done) return result;
+  }
+  result.seconds = median(seconds);
+  result.remodel_ms_mean = median(remodel_ms);
+  if (command.run.compare_every != 0) {
+    result.generate_ms_mean = median(generate_ms);
+    result.speedup = result.generate_ms_mean / result.remodel_ms_mean;
+  }
+  return result;
+}
+
+Status run(OptimiseCommand& command) {
+  require_run_directory(command.run.directory);
+  if (command.run.resume && command.repeat > 1) {
+    throw Error(ErrorCode::argument, "--repeat",
+                "found " + std::to_string(command.repeat) + " with --resume, expected 1");
+  }
+  const CstAirfoil from = load_airfoil(command.from, command.meshing.cst_degree);
+  const CstAirfoil to = load_airfoil(command.to, command.meshing.cst_degree);
+  command.run.domain = command.meshing.discretisation;
+  command.run.quality = command.meshing.resolved_quality();
+  const Json options = options_json(command);
+
+  Progress progress(progress_style(command.quiet), command.run.evaluations, "options: " + options.dump());
+  const OptimiseResult result = run_repeatedly(command, from, to, progress);
+  progress.finish();
+
+  Report report;
+  report.figure("from", "from", command.from);
+  report.figure("to", "to", command.to);
+  report.data("options", options);
+  add_result(report, result);
+  report.figure("directory", "run directory", command.run.directory.string());
+  report.print(command.json);
+  return status_of(result);
+}
+
+void add_search_options(CLI::App& app, OptimiseOptions& run) {
+  add_real(app, {"--sigma", "S", "0.05", "Initial standard deviation of the coefficients: above 0, no unit"},
+           {.low = 0.0, .high = 1e6, .above_low = true}, [&](double value) { run.sigma = value; });
+  add_integer(app, {"--seed", "N", "1", "Seed of the samples: the same seed gives the same run; at least 0"},
+              {.low = 0}, [&](std::int64_t value) { run.seed = static_cast<std::uint64_t>(value); });
+  const auto add_count = [&](const OptionText& text, std::int64_t low, std::size_t& target) {
+    add_integer(app, text, {.low = low, .high = 1'000'000'000},
+                [&target](std::int64_t value) { target = static_cast<std::size_t>(value); });
+  };
+  add_count({"--evaluations", "N", "9000", "Feasible designs, one remodelling each: at least 1"}, 1,
+            run.evaluations);
+  add_count({"--compare-every", "K", "0",
+             "Every K-th evaluation also generates a fresh mesh of the design; 0: never"},
+            0, run.compare_every);
+  add_count(
+      {"--checkpoint-every", "K", "0", "Evaluations between checkpoints; 0: only at the end or an interrupt"},
+      0, run.checkpoint_every);
+}
+
+}  // namespace
+
+void add_optimise_command(CLI::App& program, Action& action) {
+  auto command = std::make_shared<OptimiseCommand>();
+  CLI::App& app = add_subcommand(program, "optimise",
+                                 "Changes one airfoil into another by CMA-ES, remodelling one living mesh",
+                                 [command, &action] { action = [command] { return run(*command); }; });
+  add_text(app, {"--from", "SHAPE", "", "Airfoil to start from, as for `remodel mesh`"}, Presence::required,
+           command->from);
+  add_text(app, {"--to", "SHAPE", "", "Airfoil whose points the design is to interpolate"},
+           Presence::required, command->to);
+  add_text(app, {"-o,--output", "DIR", "", "Run directory: new, empty or that of a run"}, Presence::required,
+           [command](const std::string& text) { command->run.directory = text; });
+  add_meshing_options(app, command->meshing);
+  add_remodel_options(app, command->run.remodel);
+  add_search_options(app, command->run);
+  add_flag(app, "--resume", "Go on from the checkpoint in the run directory", command->run.resume);
+  add_repeat(app, command->repeat);
+  add_flag(app, "--quiet", "No progress and no options on standard error", command->quiet);
+  add_json_flag(app, command->json);
+}
+
+}  // namespace remodel::app

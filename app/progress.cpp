@@ -1,0 +1,51 @@
+#include "progress.h"
+
+#include <array>
+#include <cstdio>
+
+namespace remodel::app {
+
+void Progress::evaluated(const EvaluationRecord& record) {
+  if (style_ == ProgressStyle::none) return;
+  if (first_ == 0) {
+    // Not before the first evaluation: until then a refusal may come, which is one line alone.
+    std::fprintf(stderr, "%s\n", heading_.c_str());
+    first_ = record.evaluation;
+  }
+  preserved_sum_ += record.preserved_percent;
+  const double seconds = watch_.seconds();
+  const double pause = style_ == ProgressStyle::bar ? 0.1 : 5.0;
+  if (seconds - shown_at_ < pause && record.evaluation != evaluations_) return;
+  shown_at_ = seconds;
+  show(record, seconds);
+}
+
+void Progress::show(const EvaluationRecord& record, double seconds) {
+  const double done = static_cast<double>(record.evaluation - first_ + 1);
+  const double left = static_cast<double>(evaluations_ - record.evaluation) * seconds / done;
+  std::array<char, 200> figures{};
+  std::snprintf(figures.data(), figures.size(),
+                "%zu/%zu  objective %.3g  sigma %.2g  %zu triangles  preserved %.2f %%  %.0f s left",
+                static_cast<std::size_t>(record.evaluation), evaluations_, record.best_objective,
+                record.sigma, record.triangles, preserved_sum_ / done, left);
+  if (style_ == ProgressStyle::bar) {
+    std::fprintf(stderr, "\r[%s] %s\033[K", bar(record.evaluation).c_str(), figures.data());
+  } else {
+    std::fprintf(stderr, "%s\n", figures.data());
+  }
+  std::fflush(stderr);
+}
+
+std::string Progress::bar(std::size_t evaluation) const {
+  constexpr std::size_t width = 20;
+  const std::size_t full = evaluations_ == 0 ? width : width * evaluation / evaluations_;
+  std::string text(width, '.');
+  text.replace(0, full, full, '#');
+  return text;
+}
+
+void Progress::finish() {
+  if (style_ == ProgressStyle::bar && first_ != 0) std::fputc('\n', stderr);
+}
+
+}  // namespace remodel::app

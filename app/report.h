@@ -1,0 +1,36 @@
+#pragma once
+
+// What a subcommand found, printed once on standard output: as one JSON object (--json) or as aligned lines.
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace remodel::app {
+
+using Json = nlohmann::ordered_json;
+
+class Report {
+ public:
+  // A figure of both forms: `key` in JSON, `label`, value and unit in text.
+  void figure(const std::string& key, const std::string& label, const Json& value,
+              const std::string& unit = "");
+  // In one form only.
+  void data(const std::string& key, Json value);
+  void line(const std::string& label, const std::string& text);
+
+  // Throws Error (file) where standard output does not take it.
+  void print_json() const;
+  void print_text() const;
+  void print(bool json) const { json ? print_json() : print_text(); }
+
+ private:
+  struct Line {
+    std::string label;
+    std::string text;
+  };
+  Json object_ = Json::object();
+  std::vector<Line> lines_;
+};
+
+}  // namespace remodel::app

@@ -1,0 +1,136 @@
+// remodel update MESH SHAPE [-o MESH]...: the same mesh, remodelled to another shape.
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "arguments.h"
+#include "command.h"
+#include "figures.h"
+#include "meshing_options.h"
+#include "outputs.h"
+#include "remodel/error.h"
+#include "remodel/io.h"
+#include "remodel/remodel.h"
+#include "remodel_options.h"
+#include "timing.h"
+
+namespace remodel::app {
+namespace {
+
+struct UpdateCommand {
+  std::string mesh;
+  std::string shape;
+  int cst_degree = 5;
+  RemodelOptions remodelling;
+  MeshOutputs outputs;
+  int repeat = 1;
+  bool json = false;
+};
+
+bool closed_trailing_edge(const CstAirfoil& airfoil) {
+  return airfoil.te_upper == airfoil.te_lower;
+}
+
+CstAirfoil* find_airfoil(Domain& domain) {
+  for (Loop& loop : domain.loops) {
+    for (Curve& curve : loop.curves) {
+      if (auto* airfoil = std::get_if<CstAirfoil>(&curve.shape)) return airfoil;
+    }
+  }
+  return nullptr;
+}
+
+// The discretisation that airfoil_domain() was given, read back from its result.
+AirfoilDomainOptions discretisation_of(const Domain& domain) {
+  AirfoilDomainOptions options;
+  for (std::size_t i = 0; i < domain.curve_count(); ++i) {
+    const Curve& curve = domain.curve(i);
+    const int points = static_cast<int>(curve.parameters.size());
+    if (std::holds_alternative<CstAirfoil>(curve.shape)) options.points = points;
+    if (const auto* circle = std::get_if<Arc>(&curve.shape)) {
+      options.farfield_radius = circle->radius;
+      options.farfield_points = points;
+    }
+  }
+  return options;
+}
+
+// The mesh's domain with another airfoil in it. Where the trailing edge stays closed, everything else is kept
+// as it is; opening or closing it adds or removes a curve, so the domain is built anew.
+Domain with_airfoil(const Domain& old, const CstAirfoil& airfoil, const std::string& file) {
+  Domain domain = old;
+  CstAirfoil* place = find_airfoil(domain);
+  if (place == nullptr) {
+    throw Error(ErrorCode::argument, file, "found a mesh without an airfoil, expected one to remodel");
+  }
+  if (!closed_trailing_edge(*place) || !closed_trailing_edge(airfoil)) {
+    return airfoil_domain(airfoil, discretisation_of(old));
+  }
+  *place = airfoil;
+  return domain;
+}
+
+void add_figures(Report& report, const RemodelResult& result) {
+  report.figure("triangles_before", "triangles before", result.triangles_before);
+  report.figure("triangles", "triangles", result.triangles);
+  report.figure("preserved", "preserved", result.preserved, "triangles");
+  report.figure("preserved_percent", "preserved", result.preserved_percent(), "%");
+  report.figure("moved", "moved in place", result.moved, "boundary vertices");
+  report.figure("inserted", "inserted", result.inserted, "vertices");
+  report.figure("removed", "removed", result.removed, "vertices");
+  report.figure("full_adjustment", "full adjustment", result.full_adjustment);
+  report.figure("method", "method", name_of(result.method));
+  report.figure("regenerated", "generated afresh", result.regenerated);
+  if (result.regenerated) report.figure("reason", "because", result.reason);
+}
+
+Status run(const UpdateCommand& command) {
+  command.outputs.require_possible();
+  const Mesh original = read_mesh(command.mesh);
+  const CstAirfoil airfoil = load_airfoil(command.shape, command.cst_degree);
+  const Domain domain = with_airfoil(original.domain(), airfoil, command.mesh);
+
+  Mesh mesh;
+  RemodelResult result;
+  std::vector<double> seconds;
+  for (int i = 0; i < command.repeat; ++i) {
+    mesh = original;
+    const Stopwatch watch;
+    result = remodel(mesh, domain, command.remodelling);
+    seconds.push_back(watch.seconds());
+  }
+  command.outputs.write(mesh);
+
+  Report report;
+  report.line("mesh", command.mesh);
+  report.line("shape", command.shape);
+  report.line("removal distance D", Json(command.remodelling.distance).dump());
+  add_figures(report, result);
+  const MeshStatistics statistics = mesh.statistics();
+  report.figure("min_angle_deg", "smallest angle", statistics.min_angle_deg, "degrees");
+  report.figure("max_gradation", "largest r / (H mean LS)", statistics.max_gradation);
+  report.figure("seconds", command.repeat > 1 ? "remodelling, median" : "remodelling", median(seconds),
+                "seconds");
+  report.figure("stopped", "stopped", name_of(result.stopped));
+  add_output_figures(report, command.outputs.files());
+  report.print(command.json);
+  return result.stopped == Stopped::done ? Status::done : Status::limit;
+}
+
+}  // namespace
+
+void add_update_command(CLI::App& program, Action& action) {
+  auto command = std::make_shared<UpdateCommand>();
+  CLI::App& app = add_subcommand(program, "update", "Remodels a native mesh to another airfoil",
+                                 [command, &action] { action = [command] { return run(*command); }; });
+  add_text(app, {"mesh", "MESH", "", "Native mesh (.vtkhdf)"}, Presence::required, command->mesh);
+  add_shape_argument(app, command->shape);
+  command->outputs.add_options(app, Presence::optional);
+  add_cst_degree(app, command->cst_degree);
+  add_remodel_options(app, command->remodelling);
+  add_repeat(app, command->repeat);
+  add_json_flag(app, command->json);
+}
+
+}  // namespace remodel::app

@@ -1,0 +1,329 @@
+// The driver, and the rules on indices, numbers, single triangles, edges and vertices. A rule runs only where
+// those that it stands on held: one mistake is one kind of violation.
+
+#include "remodel/check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "check/rules.h"
+
+namespace remodel {
+namespace checker {
+namespace {
+
+// On ratios of lengths: twelve roundings of 2^-53 make 1.3e-15; the rest is margin, so that a mesh made to a
+// bound is never refused for the checker's own rounding.
+constexpr double ratio_tolerance = 1e-9;
+
+constexpr double degrees = 180.0 / std::numbers::pi;
+
+// ---- Indices and numbers ----
+
+void check_size(const char* field, std::size_t found, std::size_t expected, Report& report) {
+  if (found == 0 || found == expected) return;
+  report.add("index", {}, sentence(field, " has ", found, " values, expected none or ", expected));
+}
+
+void check_sizes(const FrozenMesh& mesh, Report& report) {
+  const std::size_t points = mesh.points.size();
+  const std::size_t triangles = mesh.triangles.size();
+  if (triangles == 0) report.add("index", {}, "the mesh has no triangles");
+  if (std::max(points, 3 * triangles) >= none)
+    report.add("index", {}, "the mesh is too large for 32-bit indices");
+  check_size("length_scale", mesh.length_scale.size(), points, report);
+  check_size("vertex_ids", mesh.vertex_ids.size(), points, report);
+  check_size("curve", mesh.curve.size(), points, report);
+  check_size("parameter", mesh.parameter.size(), points, report);
+  check_size("triangle_ids", mesh.triangle_ids.size(), triangles, report);
+  check_size("birth", mesh.birth.size(), triangles, report);
+}
+
+void check_indices(const FrozenMesh& mesh, Report& report) {
+  const std::size_t count = mesh.points.size();
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto [a, b, c] = mesh.triangles[t];
+    if (std::max({a, b, c}) >= count) {
+      report.add("index", {t}, sentence("triangle ", t, " has a point index of ", count, " or more"));
+    } else if (a == b || b == c || c == a) {
+      report.add("index", {t}, sentence("triangle ", t, " has the same point twice"));
+    }
+  }
+  for (const FrozenBoundary& boundary : mesh.boundaries) {
+    for (const auto& [a, b] : boundary.edges) {
+      if (std::max(a, b) < count && a != b) continue;
+      report.add("index", {a, b},
+                 sentence("boundary \"", boundary.name, "\" has an edge of points ", a, " and ", b));
+    }
+  }
+}
+
+void check_finite(const char* field, const std::vector<double>& values, Report& report) {
+  for (std::uint32_t v = 0; v < values.size(); ++v) {
+    if (!std::isfinite(values[v]))
+      report.add("finite", {v}, sentence(field, " of point ", v, " is ", values[v]));
+  }
+}
+
+void check_numbers(const FrozenMesh& mesh, Report& report) {
+  for (std::uint32_t v = 0; v < mesh.points.size(); ++v) {
+    const auto [x, y] = mesh.points[v];
+    if (std::isfinite(x) && std::isfinite(y)) continue;
+    report.add("finite", {v}, sentence("point ", v, " is (", x, ", ", y, ")"));
+  }
+  check_finite("length_scale", mesh.length_scale, report);
+  check_finite("parameter", mesh.parameter, report);
+}
+
+// ---- Points ----
+
+void check_duplicates(const FrozenMesh& mesh, Report& report) {
+  std::vector<std::uint32_t> order(mesh.points.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const Point p = mesh.points[a], q = mesh.points[b];
+    if (p.x != q.x) return p.x < q.x;
+    return p.y != q.y ? p.y < q.y : a < b;
+  });
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const std::uint32_t a = order[i - 1], b = order[i];
+    if (mesh.points[a] == mesh.points[b])
+      report.add("duplicate", {a, b}, sentence("points ", a, " and ", b, " coincide"));
+  }
+}
+
+std::vector<std::uint32_t> triangles_per_point(const FrozenMesh& mesh) {
+  std::vector<std::uint32_t> count(mesh.points.size(), 0);
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t v : triangle) ++count[v];
+  }
+  return count;
+}
+
+void check_orphans(const FrozenMesh& mesh, Report& report) {
+  const std::vector<std::uint32_t> count = triangles_per_point(mesh);
+  for (std::uint32_t v = 0; v < count.size(); ++v) {
+    if (count[v] == 0) report.add("orphan-vertex", {v}, sentence("point ", v, " is in no triangle"));
+  }
+}
+
+// ---- Orientation ----
+
+void check_orientation(const FrozenMesh& mesh, const ExactPoints& exact, Report& report) {
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto [a, b, c] = mesh.triangles[t];
+    const int sign = exact.orientation(a, b, c);
+    if (sign > 0) continue;
+    report.add("orientation", {t}, sentence("triangle ", t, sign < 0 ? " is clockwise" : " has no area"));
+  }
+}
+
+// ---- Vertices ----
+
+enum class Turn { clockwise, counter_clockwise };
+
+// The triangle after t when turning around its corner v: across the edge that leaves v, or the one that
+// arrives.
+std::uint32_t turned(const Subject& subject, std::uint32_t v, std::uint32_t t, Turn turn) {
+  const auto& corners = subject.mesh.triangles[t];
+  const auto at = static_cast<std::size_t>(std::find(corners.begin(), corners.end(), v) - corners.begin());
+  return subject.topology.neighbour(t, turn == Turn::clockwise ? at : (at + 2) % 3);
+}
+
+// How many triangles are reached from `start` by turning around v.
+std::size_t fan_size(const Subject& subject, std::uint32_t v, std::uint32_t start) {
+  std::size_t size = 1;
+  const auto next = [&](std::uint32_t t, Turn turn) { return turned(subject, v, t, turn); };
+  for (auto t = next(start, Turn::clockwise); t != none; t = next(t, Turn::clockwise), ++size) {
+    if (t == start) return size;
+  }
+  for (auto t = next(start, Turn::counter_clockwise); t != none; t = next(t, Turn::counter_clockwise)) ++size;
+  return size;
+}
+
+// A vertex's triangles form one fan: they are all reached by turning around it. Two fans touch like a bow
+// tie.
+void check_fans(const Subject& subject, Report& report) {
+  const std::vector<std::uint32_t> expected = triangles_per_point(subject.mesh);
+  std::vector<bool> seen(subject.mesh.points.size(), false);
+  for (std::uint32_t t = 0; t < subject.mesh.triangles.size(); ++t) {
+    for (const std::uint32_t v : subject.mesh.triangles[t]) {
+      if (seen[v]) continue;
+      seen[v] = true;
+      if (fan_size(subject, v, t) == expected[v]) continue;
+      report.add("manifold", {v}, sentence("the triangles of point ", v, " do not form one fan"));
+    }
+  }
+}
+
+// Euler's formula for a planar surface: each component has V - E + F = 2 - its loops.
+void check_euler(const Subject& subject, Report& report) {
+  const std::vector<std::uint32_t> uses = triangles_per_point(subject.mesh);
+  const auto vertices = std::count_if(uses.begin(), uses.end(), [](std::uint32_t n) { return n > 0; });
+  const auto edges = static_cast<long long>(subject.topology.edges().size());
+  const auto faces = static_cast<long long>(subject.mesh.triangles.size());
+  const auto components = static_cast<long long>(subject.topology.component_count());
+  const auto loops = static_cast<long long>(subject.topology.loops().size());
+  if (vertices - edges + faces == 2 * components - loops) return;
+  report.add("euler", {},
+             sentence(vertices, " vertices - ", edges, " edges + ", faces, " triangles is not 2 x ",
+                      components, " components - ", loops, " boundary loops"));
+}
+
+// ---- Delaunay ----
+
+// Every unconstrained inner edge: the point across is not inside the circle. Returns whether all are.
+bool check_delaunay(const Subject& subject, Report& report) {
+  const std::size_t before = report.found();
+  const auto& edges = subject.topology.edges();
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const Edge& edge = edges[e];
+    if (edge.is_boundary() || subject.name_of_edge[e] != none) continue;
+    const std::uint32_t apex = subject.topology.opposite(edge, edge.left);
+    const std::uint32_t across = subject.topology.opposite(edge, edge.right);
+    if (subject.exact.in_circle(edge.from, edge.to, apex, across) <= 0) continue;
+    report.add("delaunay", {edge.left, edge.right},
+               sentence("the edge of points ", edge.from, " and ", edge.to, " is not locally Delaunay"));
+  }
+  return report.found() == before;
+}
+
+// ---- Quality ----
+
+struct Circle {
+  double radius = 0.0;
+  double shortest_edge = 0.0;
+};
+
+Circle circumscribed(Point a, Point b, Point c) {
+  const double ab = std::hypot(b.x - a.x, b.y - a.y);
+  const double bc = std::hypot(c.x - b.x, c.y - b.y);
+  const double ca = std::hypot(a.x - c.x, a.y - c.y);
+  const double area = std::abs(cross(b - a, c - a)) / 2.0;
+  return {ab * bc * ca / (4.0 * area), std::min({ab, bc, ca})};
+}
+
+Circle circumscribed(const FrozenMesh& mesh, std::uint32_t triangle) {
+  const auto [a, b, c] = mesh.triangles[triangle];
+  return circumscribed(mesh.points[a], mesh.points[b], mesh.points[c]);
+}
+
+// Not a number (a triangle that has collapsed in double arithmetic) exceeds every bound.
+bool exceeds(double value, double bound) {
+  return !(value <= bound * (1.0 + ratio_tolerance));
+}
+
+// The smallest angle's sine is e_min / 2r. Returns the smallest of all in degrees.
+double check_angles(const FrozenMesh& mesh, double bound_deg, Report& report) {
+  double smallest_sine = 1.0;
+  const double largest_ratio = 0.5 / std::sin(bound_deg / degrees);
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Circle circle = circumscribed(mesh, t);
+    const double sine = circle.shortest_edge / (2.0 * circle.radius);
+    smallest_sine = std::isnan(sine) ? 0.0 : std::min(smallest_sine, sine);
+    if (bound_deg <= 0.0 || !exceeds(circle.radius / circle.shortest_edge, largest_ratio)) continue;
+    report.add("angle", {t},
+               sentence("triangle ", t, " has radius-edge ratio ", circle.radius / circle.shortest_edge,
+                        ", above ", largest_ratio, " of ", bound_deg, " degrees"));
+  }
+  return std::asin(smallest_sine) * degrees;
+}
+
+// Returns the largest r / (H mean LS).
+double check_gradation(const FrozenMesh& mesh, double bound, Report& report) {
+  const double scale = bound > 0.0 ? bound : std::numbers::sqrt2 / 2.0;
+  double largest = 0.0;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto [a, b, c] = mesh.triangles[t];
+    const double mean = (mesh.length_scale[a] + mesh.length_scale[b] + mesh.length_scale[c]) / 3.0;
+    const double ratio = mean > 0.0 ? circumscribed(mesh, t).radius / (scale * mean) : std::nan("");
+    if (!(ratio <= largest)) largest = std::isnan(ratio) ? std::numeric_limits<double>::infinity() : ratio;
+    if (bound <= 0.0 || !exceeds(ratio, 1.0)) continue;
+    report.add(
+        "gradation", {t},
+        sentence("triangle ", t, " has r / (H mean LS) = ", ratio, ", its mean length scale is ", mean));
+  }
+  return largest;
+}
+
+void check_quality(const FrozenMesh& mesh, const CheckOptions& options, CheckResult& result, Report& report) {
+  result.min_angle_deg = check_angles(mesh, options.min_angle_deg, report);
+  if (!mesh.length_scale.empty()) {
+    result.max_gradation = check_gradation(mesh, options.max_gradation, report);
+  } else if (options.max_gradation > 0.0) {
+    report.add("gradation", {}, "the mesh has no length scales to test the gradation with");
+  }
+}
+
+// ---- Driver ----
+
+bool is_readable(const FrozenMesh& mesh, Report& report) {
+  check_sizes(mesh, report);
+  check_indices(mesh, report);
+  check_numbers(mesh, report);
+  return report.found() == 0;
+}
+
+double total_area(const FrozenMesh& mesh, const ExactPoints& exact) {
+  ExactPoints::Integer sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles) sum += exact.twice_area(a, b, c);
+  return exact.half_in_mesh_units(sum);
+}
+
+// The rules that need every edge to have its one or two triangles.
+void check_structure(const Subject& subject, bool oriented, const CheckOptions& options, CheckResult& result,
+                     Report& report) {
+  if (oriented) {
+    Report unwanted(0);
+    result.delaunay = check_delaunay(subject, options.delaunay ? report : unwanted);
+  }
+  const std::size_t before_fans = report.found();
+  check_fans(subject, report);
+  if (report.found() != before_fans) return;
+  check_euler(subject, report);
+  check_order_of_names(subject, report);
+  if (oriented) check_overlap(subject, report);
+}
+
+void check_readable(const FrozenMesh& mesh, const CheckOptions& options, CheckResult& result,
+                    Report& report) {
+  check_duplicates(mesh, report);
+  check_orphans(mesh, report);
+  check_quality(mesh, options, result, report);
+
+  const std::unique_ptr<ExactPoints> exact = exact_points(mesh.points);
+  result.area = total_area(mesh, *exact);
+  const std::size_t before_orientation = report.found();
+  check_orientation(mesh, *exact, report);
+  const bool oriented = report.found() == before_orientation;
+
+  const std::size_t before_adjacency = report.found();
+  const Topology topology(mesh, report);
+  if (report.found() != before_adjacency) return;
+  const Subject subject{mesh, topology, *exact, name_edges(mesh, topology, report)};
+  check_names_are_complete(subject, report);
+  check_area(subject, report);
+  check_structure(subject, oriented, options, result, report);
+  if (options.design != nullptr) check_design(subject, *options.design, report);
+}
+
+}  // namespace
+}  // namespace checker
+
+CheckResult check(const FrozenMesh& mesh, const CheckOptions& options) {
+  CheckResult result;
+  result.triangles = mesh.triangles.size();
+  result.vertices = mesh.points.size();
+  for (const FrozenBoundary& boundary : mesh.boundaries)
+    result.boundary[boundary.name] += boundary.edges.size();
+
+  checker::Report report(options.max_violations);
+  if (checker::is_readable(mesh, report)) checker::check_readable(mesh, options, result, report);
+  result.valid = report.found() == 0;
+  result.violations = report.take();
+  return result;
+}
+
+}  // namespace remodel

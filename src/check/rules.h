@@ -1,0 +1,51 @@
+#pragma once
+
+// The rules on boundaries and on the design; those on single triangles, edges and vertices are in check.cpp.
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "check/exact_points.h"
+#include "check/report.h"
+#include "check/topology.h"
+#include "remodel/domain.h"
+#include "remodel/frozen_mesh.h"
+
+namespace remodel::checker {
+
+// A mesh with valid indices and finite coordinates, and what is derived from it.
+struct Subject {
+  const FrozenMesh& mesh;
+  const Topology& topology;
+  const ExactPoints& exact;
+  std::vector<std::uint32_t> name_of_edge;  // per edge of the topology: index of its boundary, or none
+};
+
+// Rule "boundary", first part: every named edge is an edge of the mesh, named once, with the domain on its
+// left. Edges with a triangle on both sides may be named: internal constraints. Returns
+// Subject::name_of_edge.
+std::vector<std::uint32_t> name_edges(const FrozenMesh& mesh, const Topology& topology, Report& report);
+
+// Rule "boundary", second part: every edge with a triangle on one side only is named.
+void check_names_are_complete(const Subject& subject, Report& report);
+
+// Rule "boundary", third part: under each name, the edges of one loop are in the order of the loop. Needs
+// every vertex to have one fan.
+void check_order_of_names(const Subject& subject, Report& report);
+
+// Rule "area": the triangles' areas sum up to that of the named polygons, exactly.
+void check_area(const Subject& subject, Report& report);
+
+// Rule "overlap": no two boundary edges meet except at a common vertex, and on the left of every loop the
+// domain is covered once. Where all triangles are counter-clockwise and every vertex has one fan, this proves
+// that triangles do not overlap: the number of triangles over a place is the sum of the loops' winding
+// numbers around it, which changes across loops only.
+void check_overlap(const Subject& subject, Report& report);
+
+// Rule "design": boundary vertices are exactly the design's points at their curve and parameter, every
+// station of the design is there, and the edges of each loop join consecutive parameters, under the curve's
+// name and with the domain on the side that the loop's role asks for.
+void check_design(const Subject& subject, const Domain& design, Report& report);
+
+}  // namespace remodel::checker

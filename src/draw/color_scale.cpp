@@ -1,0 +1,114 @@
+#include "draw/color_scale.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "remodel/error.h"
+
+namespace remodel::draw_detail {
+
+namespace {
+
+double min_angle_deg(Point a, Point b, Point c) {
+  const auto angle = [](Point at, Point p, Point q) {
+    return std::atan2(std::abs(cross(p - at, q - at)), dot(p - at, q - at));
+  };
+  return std::min({angle(a, b, c), angle(b, c, a), angle(c, a, b)}) * 180.0 / std::numbers::pi;
+}
+
+ColorScale quality_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& triangles) {
+  constexpr double worst = 20.0;
+  constexpr double best = 60.0;
+  ColorScale scale{"Minimum angle", "20\u00b0", "60\u00b0", {}};
+  for (const auto triangle : triangles) {
+    const auto& [a, b, c] = mesh.triangles[triangle];
+    const double angle = min_angle_deg(mesh.points[a], mesh.points[b], mesh.points[c]);
+    scale.positions.push_back(std::clamp((angle - worst) / (best - worst), 0.0, 1.0));
+  }
+  return scale;
+}
+
+ColorScale length_scale_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& triangles) {
+  if (mesh.length_scale.empty()) {
+    throw Error(ErrorCode::argument, "color length-scale",
+                "a mesh without length scales found, one with them expected");
+  }
+  std::vector<double> logarithms;
+  for (const auto triangle : triangles) {
+    double sum = 0.0;
+    for (const auto vertex : mesh.triangles[triangle]) sum += mesh.length_scale[vertex];
+    logarithms.push_back(std::log(std::max(sum / 3.0, 1e-300)));
+  }
+  if (logarithms.empty()) return {"Length scale (logarithmic)", "", "", {}};
+  const auto [low, high] = std::minmax_element(logarithms.begin(), logarithms.end());
+  ColorScale scale{"Length scale (logarithmic)", label_of(std::exp(*low)), label_of(std::exp(*high)), {}};
+  const double range = std::max(*high - *low, 1e-12);
+  for (const double value : logarithms) scale.positions.push_back((value - *low) / range);
+  return scale;
+}
+
+ColorScale age_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& triangles) {
+  if (mesh.birth.empty()) {
+    throw Error(ErrorCode::argument, "color age", "a mesh without birth steps found, one with them expected");
+  }
+  const auto [oldest, newest] = std::minmax_element(mesh.birth.begin(), mesh.birth.end());
+  const double range = std::max(1.0, static_cast<double>(*newest - *oldest));
+  ColorScale scale{"Age in remodelling steps", std::to_string(*newest - *oldest), "0", {}};
+  for (const auto triangle : triangles) {
+    scale.positions.push_back(1.0 - static_cast<double>(*newest - mesh.birth[triangle]) / range);
+  }
+  return scale;
+}
+
+}  // namespace
+
+// Seventeen samples of the map "viridis" (van der Walt and Smith 2015, public domain), linear between them.
+Color color_at(double t) {
+  static constexpr std::array<std::array<int, 3>, 17> samples = {{{68, 1, 84},
+                                                                  {72, 24, 106},
+                                                                  {71, 45, 123},
+                                                                  {66, 64, 134},
+                                                                  {59, 82, 139},
+                                                                  {51, 99, 141},
+                                                                  {44, 114, 142},
+                                                                  {38, 130, 142},
+                                                                  {33, 145, 140},
+                                                                  {31, 160, 136},
+                                                                  {40, 174, 128},
+                                                                  {63, 188, 115},
+                                                                  {94, 201, 98},
+                                                                  {132, 212, 75},
+                                                                  {173, 220, 48},
+                                                                  {216, 226, 25},
+                                                                  {253, 231, 37}}};
+  const double at = std::clamp(t, 0.0, 1.0) * (samples.size() - 1);
+  const auto below = std::min(static_cast<std::size_t>(at), samples.size() - 2);
+  const double part = at - static_cast<double>(below);
+  const auto mixed = [&](std::size_t k) {
+    return ((1.0 - part) * samples[below][k] + part * samples[below + 1][k]) / 255.0;
+  };
+  return {mixed(0), mixed(1), mixed(2)};
+}
+
+ColorScale color_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& triangles, DrawColor color) {
+  switch (color) {
+    case DrawColor::quality:
+      break;
+    case DrawColor::length_scale:
+      return length_scale_scale(mesh, triangles);
+    case DrawColor::age:
+      return age_scale(mesh, triangles);
+  }
+  return quality_scale(mesh, triangles);
+}
+
+std::string label_of(double value) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%.4g", value);
+  return digits;
+}
+
+}  // namespace remodel::draw_detail

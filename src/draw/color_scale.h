@@ -1,0 +1,33 @@
+#pragma once
+
+// What a triangle's colour says, and the colours themselves.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "remodel/draw.h"
+
+namespace remodel::draw_detail {
+
+struct Color {
+  double red, green, blue;
+};
+
+// A perceptually uniform map from dark blue (0) to bright yellow (1).
+Color color_at(double t);
+
+// The scale of a picture: one position in [0, 1] for each of the given triangles.
+struct ColorScale {
+  std::string title;
+  std::string low, high;  // labels of its ends
+  std::vector<double> positions;
+};
+
+// Throws Error (argument) if the mesh does not carry what the colouring shows.
+ColorScale color_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& triangles, DrawColor color);
+
+// A number for a label: four digits are enough to read.
+std::string label_of(double value);
+
+}  // namespace remodel::draw_detail

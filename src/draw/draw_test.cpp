@@ -1,0 +1,121 @@
+#include "remodel/draw.h"
+
+#include <gtest/gtest.h>
+
+#include "draw/clip.h"
+#include "draw/color_scale.h"
+#include "io/test_meshes.h"
+#include "remodel/io.h"
+
+namespace remodel {
+namespace {
+
+using draw_detail::Box;
+using test::error_of;
+using test::Scratch;
+
+int png_number(const std::string& png, std::size_t at) {
+  int value = 0;
+  for (std::size_t i = at; i < at + 4; ++i) value = value << 8 | static_cast<unsigned char>(png[i]);
+  return value;
+}
+
+std::string drawn(const FrozenMesh& mesh, const std::string& name, const DrawOptions& options = {}) {
+  const Scratch scratch;
+  draw(mesh, scratch / name, options);
+  return read_text(scratch / name);
+}
+
+TEST(Draw, MakesAPngOfTheAskedWidthAndTheWindowsProportions) {
+  const std::string png = drawn(test::square_ring(), "a.png", {.window = {{0, 0, 2, 1}}, .width = 800});
+  EXPECT_EQ(png.substr(1, 3), "PNG");
+  EXPECT_EQ(png_number(png, 16), 800);
+  EXPECT_EQ(png_number(png, 20), 400 + 42);
+}
+
+TEST(Draw, MakesAnSvg) {
+  const std::string svg = drawn(test::square_ring(), "a.svg");
+  EXPECT_NE(svg.find("<svg"), std::string::npos);
+  EXPECT_NE(svg.find("</svg>"), std::string::npos);
+}
+
+TEST(Draw, TheSameMeshGivesTheSameBytes) {
+  for (const char* name : {"a.png", "a.svg"}) {
+    EXPECT_EQ(drawn(test::full_square_ring(), name), drawn(test::full_square_ring(), name)) << name;
+  }
+}
+
+TEST(Draw, DrawsOnlyWhatMeetsTheWindow) {
+  const FrozenMesh mesh = test::graded_ring(200, 60);
+  const auto all = drawn(mesh, "a.svg").size();
+  const auto few = drawn(mesh, "a.svg", {.window = {{0.95, -0.05, 1.1, 0.05}}}).size();
+  EXPECT_LT(few, all / 4);
+}
+
+TEST(Draw, AWindowOfABillionthIsNoTroubleAndNeitherIsAnEmptyOne) {
+  const FrozenMesh mesh = test::graded_ring(50, 20);
+  for (const char* name : {"a.png", "a.svg"}) {
+    EXPECT_NE(drawn(mesh, name, {.window = {{1.2, 0.3, 1.2 + 1e-9, 0.3 + 1e-9}}}), "");
+    EXPECT_NE(drawn(mesh, name, {.window = {{100, 100, 101, 101}}}), "");
+  }
+}
+
+TEST(Draw, EachColouringIsAnotherPicture) {
+  const FrozenMesh mesh = test::full_square_ring();
+  const auto quality = drawn(mesh, "a.png");
+  const auto length = drawn(mesh, "a.png", {.color = DrawColor::length_scale});
+  const auto age = drawn(mesh, "a.png", {.color = DrawColor::age});
+  EXPECT_NE(quality, length);
+  EXPECT_NE(quality, age);
+  EXPECT_NE(length, age);
+}
+
+TEST(Draw, RefusesOtherExtensionsEmptyWindowsAndMissingData) {
+  const FrozenMesh mesh = test::square_ring();
+  EXPECT_EQ(error_of([&] { draw(mesh, "a.jpg"); }), "a.jpg: extension '.jpg' found, .svg or .png expected");
+  EXPECT_EQ(error_of([&] {
+              draw(mesh, "a.png", {.window = {{1, 0, 1, 2}}});
+            }),
+            "window: 1,0,1,2 found, x0,y0,x1,y1 with x0 < x1 and y0 < y1 expected");
+  EXPECT_NE(error_of([&] { draw(mesh, "a.png", {.window = {{0, 0, std::nan(""), 2}}}); }), "");
+  EXPECT_EQ(error_of([&] { draw(mesh, "a.png", {.color = DrawColor::age}); }),
+            "color age: a mesh without birth steps found, one with them expected");
+  EXPECT_EQ(error_of([&] { draw(mesh, "a.png", {.color = DrawColor::length_scale}); }),
+            "color length-scale: a mesh without length scales found, one with them expected");
+  EXPECT_EQ(error_of([&] { draw(mesh, "a.png", {.width = 0}); }),
+            "width: 0 found, 100 to 8000 pixels expected");
+  EXPECT_EQ(error_of([&] { draw({}, "a.png"); }), "draw: an empty mesh found, one with points expected");
+}
+
+TEST(ColorScale, MinimumAnglesRunFromTwentyToSixtyDegrees) {
+  FrozenMesh mesh;
+  mesh.points = {{0, 0}, {1, 0}, {0.5, std::sqrt(0.75)}, {1, 0.1}, {1, 1}};
+  mesh.triangles = {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}};
+  const auto scale = draw_detail::color_scale(mesh, {0, 1, 2}, DrawColor::quality);
+  EXPECT_NEAR(scale.positions[0], 1.0, 1e-12);
+  EXPECT_EQ(scale.positions[1], 0.0);
+  EXPECT_NEAR(scale.positions[2], 25.0 / 40.0, 1e-12);
+}
+
+TEST(ColorScale, TheNewestTrianglesAreBrightest) {
+  const auto scale = draw_detail::color_scale(test::full_square_ring(), {0, 7}, DrawColor::age);
+  EXPECT_EQ(scale.positions, (std::vector<double>{0.0, 1.0}));
+  EXPECT_EQ(scale.low, "9");
+  EXPECT_EQ(scale.high, "0");
+}
+
+TEST(Clip, KeepsWhatIsInsideAndCutsWhatIsNot) {
+  const Box box{{0, 0}, {1, 1}};
+  EXPECT_EQ(draw_detail::clip_polygon({{0.1, 0.1}, {0.9, 0.1}, {0.5, 0.9}}, box).size(), 3U);
+  EXPECT_EQ(draw_detail::clip_polygon({{-9, -9}, {9, -9}, {0, 9}}, box).size(), 4U);
+  EXPECT_TRUE(draw_detail::clip_polygon({{2, 2}, {3, 2}, {2, 3}}, box).empty());
+  const auto part = draw_detail::clip_segment({-1, 0.5}, {3, 0.5}, box);
+  ASSERT_TRUE(part);
+  EXPECT_EQ(part->first, (Point{0, 0.5}));
+  EXPECT_EQ(part->second, (Point{1, 0.5}));
+  EXPECT_FALSE(draw_detail::clip_segment({-1, 2}, {3, 2}, box));
+  EXPECT_FALSE(draw_detail::clip_segment({-1, 0.5}, {0.5, 2.5}, box));
+}
+
+}  // namespace
+}  // namespace remodel

@@ -1,0 +1,263 @@
+#include "draw/picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "remodel/error.h"
+
+namespace remodel::draw_detail {
+
+namespace {
+
+constexpr std::size_t color_levels = 64;  // more cannot be told apart; one path a level keeps files small
+
+constexpr std::array<Color, 6> boundary_colors = {{{0.84, 0.15, 0.16},
+                                                   {0.10, 0.10, 0.10},
+                                                   {0.89, 0.47, 0.76},
+                                                   {1.00, 0.50, 0.05},
+                                                   {0.12, 0.47, 0.71},
+                                                   {0.55, 0.34, 0.29}}};
+const Color& boundary_color(std::size_t k) {
+  return boundary_colors[k % boundary_colors.size()];
+}
+
+void set_color(cairo_t* cairo, const Color& color, double opacity = 1.0) {
+  cairo_set_source_rgba(cairo, color.red, color.green, color.blue, opacity);
+}
+
+Box box_of(const std::vector<Point>& points) {
+  Box box{points.front(), points.front()};
+  for (const Point p : points) {
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+  }
+  return box;
+}
+
+Box whole_mesh(const FrozenMesh& mesh) {
+  if (mesh.points.empty())
+    throw Error(ErrorCode::argument, "draw", "an empty mesh found, one with points expected");
+  const Box box = box_of(mesh.points);
+  const Point size = box.high - box.low;
+  const double margin = 0.02 * std::max({size.x, size.y, 1e-30});
+  return {box.low - Point{margin, margin}, box.high + Point{margin, margin}};
+}
+
+Box checked_window(const std::array<double, 4>& window) {
+  const auto [x0, y0, x1, y1] = window;
+  const bool finite = std::isfinite(x0) && std::isfinite(y0) && std::isfinite(x1) && std::isfinite(y1);
+  if (!finite || !(x0 < x1) || !(y0 < y1)) {
+    throw Error(ErrorCode::argument, "window",
+                label_of(x0) + "," + label_of(y0) + "," + label_of(x1) + "," + label_of(y1) +
+                    " found, x0,y0,x1,y1 with x0 < x1 and y0 < y1 expected");
+  }
+  return {{x0, y0}, {x1, y1}};
+}
+
+// Edges between large triangles are lines, those between triangles of a few pixels fade away: drawn in full,
+// they would leave nothing of the colours.
+double edge_strength(double side) {
+  constexpr double vanish = 3.0;
+  constexpr double full = 24.0;
+  return std::clamp(std::log(side / vanish) / std::log(full / vanish), 0.0, 1.0);
+}
+
+}  // namespace
+
+Layout layout_for(const FrozenMesh& mesh, const DrawOptions& options) {
+  constexpr int narrowest = 100;
+  constexpr int widest = 8000;
+  if (options.width < narrowest || options.width > widest) {
+    throw Error(ErrorCode::argument, "width",
+                std::to_string(options.width) + " found, 100 to 8000 pixels expected");
+  }
+  Layout layout;
+  layout.width = options.width;
+  layout.window = options.window ? checked_window(*options.window) : whole_mesh(mesh);
+  layout.unit = std::max(0.4, options.width / 1600.0);
+
+  // A window much flatter or taller than a page is seen with what lies above and below, or beside it.
+  constexpr double flattest = 0.1;
+  constexpr double tallest = 2.0;
+  Box& window = layout.window;
+  const Point size = window.high - window.low;
+  const Point centre = 0.5 * (window.low + window.high);
+  const Point half = {0.5 * std::max(size.x, size.y / tallest), 0.5 * std::max(size.y, size.x * flattest)};
+  window = {centre - half, centre + half};
+  layout.scale = layout.width / (2.0 * half.x);
+  layout.plot_height = static_cast<int>(std::lround(2.0 * half.y * layout.scale));
+  layout.height = layout.plot_height + static_cast<int>(std::lround(84.0 * layout.unit));
+  return layout;
+}
+
+Picture::Picture(const FrozenMesh& mesh, const Layout& layout, DrawColor color)
+    : mesh_(mesh), layout_(layout) {
+  const double margin = 8.0 * layout.unit / layout.scale;
+  seen_ = {layout.window.low - Point{margin, margin}, layout.window.high + Point{margin, margin}};
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto& [a, b, c] = mesh.triangles[i];
+    const std::vector<Point> corners = {mesh.points[a], mesh.points[b], mesh.points[c]};
+    if (!box_of(corners).meets(layout.window)) continue;
+    if (clip_polygon(corners, layout.window).size() >= 3) triangles_.push_back(i);
+  }
+  scale_ = color_scale(mesh, triangles_, color);
+}
+
+void Picture::add_polygon(cairo_t* cairo, const std::vector<Point>& polygon) const {
+  for (const Point p : polygon) {
+    const Point q = layout_.pixel(p);
+    cairo_line_to(cairo, q.x, q.y);
+  }
+  cairo_close_path(cairo);
+}
+
+void Picture::fill_triangles(cairo_t* cairo, Seams seams) const {
+  std::array<std::vector<std::uint32_t>, color_levels> levels;
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    levels[static_cast<std::size_t>(scale_.positions[i] * (color_levels - 1) + 0.5)].push_back(triangles_[i]);
+  }
+  cairo_set_line_width(cairo, 0.5 * layout_.unit);
+  cairo_set_line_join(cairo, CAIRO_LINE_JOIN_BEVEL);
+  for (std::size_t level = 0; level < color_levels; ++level) {
+    if (levels[level].empty()) continue;
+    for (const auto triangle : levels[level]) {
+      const auto& [a, b, c] = mesh_.triangles[triangle];
+      add_polygon(cairo, clip_polygon({mesh_.points[a], mesh_.points[b], mesh_.points[c]}, seen_));
+    }
+    set_color(cairo, color_at(static_cast<double>(level) / (color_levels - 1)));
+    if (seams == Seams::fill) {
+      cairo_fill_preserve(cairo);
+      cairo_stroke(cairo);
+    } else {
+      cairo_fill(cairo);
+    }
+  }
+}
+
+// Of the equilateral triangle with the same area.
+double Picture::side_in_pixels(std::uint32_t triangle) const {
+  const auto& [a, b, c] = mesh_.triangles[triangle];
+  const double twice = std::abs(cross(mesh_.points[b] - mesh_.points[a], mesh_.points[c] - mesh_.points[a]));
+  return layout_.scale * std::sqrt(2.0 / std::numbers::sqrt3 * twice);
+}
+
+void Picture::stroke_edges(cairo_t* cairo) const {
+  constexpr std::size_t style_levels = 16;  // one path a style
+  std::array<std::vector<std::array<std::uint32_t, 2>>, style_levels> edges;
+  for (const auto triangle : triangles_) {
+    const double strength = edge_strength(side_in_pixels(triangle) / layout_.unit);
+    const auto level = static_cast<std::size_t>(strength * (style_levels - 1) + 0.5);
+    const auto& corners = mesh_.triangles[triangle];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::array<std::uint32_t, 2> edge = {corners[i], corners[(i + 1) % 3]};
+      // Once from each inner edge's two triangles; boundary edges are drawn over anyway.
+      if (edge[0] < edge[1] && level > 0) edges[level].push_back(edge);
+    }
+  }
+  for (std::size_t level = 1; level < style_levels; ++level) {
+    const double t = static_cast<double>(level) / (style_levels - 1);
+    for (const auto& [a, b] : edges[level]) {
+      const auto part = clip_segment(mesh_.points[a], mesh_.points[b], seen_);
+      if (!part) continue;
+      const Point from = layout_.pixel(part->first);
+      const Point to = layout_.pixel(part->second);
+      cairo_move_to(cairo, from.x, from.y);
+      cairo_line_to(cairo, to.x, to.y);
+    }
+    cairo_set_source_rgba(cairo, 0.05, 0.05, 0.1, 0.75 * t);
+    cairo_set_line_width(cairo, (0.25 + 0.65 * t) * layout_.unit);
+    cairo_stroke(cairo);
+  }
+}
+
+void Picture::stroke_boundaries(cairo_t* cairo) const {
+  cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
+  for (std::size_t k = 0; k < mesh_.boundaries.size(); ++k) {
+    std::vector<Point> points;
+    for (const auto& [a, b] : mesh_.boundaries[k].edges) {
+      points.push_back(mesh_.points[a]);
+      points.push_back(mesh_.points[b]);
+    }
+    if (points.empty()) continue;
+    const Box box = box_of(points);
+    for (std::size_t i = 0; i + 1 < points.size(); i += 2) {
+      const auto part = clip_segment(points[i], points[i + 1], seen_);
+      if (!part) continue;
+      const Point from = layout_.pixel(part->first);
+      const Point to = layout_.pixel(part->second);
+      cairo_move_to(cairo, from.x, from.y);
+      cairo_line_to(cairo, to.x, to.y);
+    }
+    // A small body in a large picture must not drown in its own outline.
+    const double extent = layout_.scale * std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+    set_color(cairo, boundary_color(k));
+    cairo_set_line_width(cairo, std::clamp(extent / 60.0, 0.6 * layout_.unit, 2.2 * layout_.unit));
+    cairo_stroke(cairo);
+  }
+}
+
+void Picture::color_bar(cairo_t* cairo, double left, double right, double top, double bottom) const {
+  constexpr int steps = 128;
+  for (int i = 0; i < steps; ++i) {
+    const double from = left + (right - left) * i / steps;
+    set_color(cairo, color_at((i + 0.5) / steps));
+    cairo_rectangle(cairo, from, top, right - from, bottom - top);
+    cairo_fill(cairo);
+  }
+  cairo_rectangle(cairo, left, top, right - left, bottom - top);
+  cairo_set_source_rgb(cairo, 0.2, 0.2, 0.2);
+  cairo_set_line_width(cairo, 0.8 * layout_.unit);
+  cairo_stroke(cairo);
+}
+
+namespace {
+
+// Returns where the text ends.
+double put_text(cairo_t* cairo, double x, double baseline, const std::string& text) {
+  cairo_text_extents_t extents;
+  cairo_text_extents(cairo, text.c_str(), &extents);
+  cairo_move_to(cairo, x, baseline);
+  cairo_set_source_rgb(cairo, 0.1, 0.1, 0.1);
+  cairo_show_text(cairo, text.c_str());
+  cairo_new_path(cairo);
+  return x + extents.x_advance;
+}
+
+}  // namespace
+
+void Picture::boundary_names(cairo_t* cairo, double left, double baseline) const {
+  const double unit = layout_.unit;
+  for (std::size_t k = 0; k < mesh_.boundaries.size() && left < layout_.width; ++k) {
+    set_color(cairo, boundary_color(k));
+    cairo_set_line_width(cairo, 3.0 * unit);
+    cairo_move_to(cairo, left, baseline - 5.0 * unit);
+    cairo_line_to(cairo, left + 24.0 * unit, baseline - 5.0 * unit);
+    cairo_stroke(cairo);
+    left = put_text(cairo, left + 32.0 * unit, baseline, mesh_.boundaries[k].name) + 24.0 * unit;
+  }
+}
+
+void Picture::legend(cairo_t* cairo) const {
+  const double unit = layout_.unit;
+  const double margin = 16.0 * unit;
+  const double first = layout_.plot_height + 34.0 * unit;
+  const double second = layout_.plot_height + 66.0 * unit;
+  cairo_select_font_face(cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cairo, 17.0 * unit);
+
+  double x = put_text(cairo, margin, first, scale_.title) + 20.0 * unit;
+  x = put_text(cairo, x, first, scale_.low) + 8.0 * unit;
+  color_bar(cairo, x, x + 320.0 * unit, first - 15.0 * unit, first + 4.0 * unit);
+  x = put_text(cairo, x + 328.0 * unit, first, scale_.high) + 48.0 * unit;
+  boundary_names(cairo, x, first);
+
+  const Box& window = layout_.window;
+  put_text(cairo, margin, second,
+           std::to_string(triangles_.size()) + " of " + std::to_string(mesh_.triangles.size()) +
+               " triangles; x from " + label_of(window.low.x) + " to " + label_of(window.high.x) +
+               ", y from " + label_of(window.low.y) + " to " + label_of(window.high.y));
+}
+
+}  // namespace remodel::draw_detail

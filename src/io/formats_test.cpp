@@ -1,0 +1,207 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <set>
+
+#include "io/formats.h"
+#include "io/test_meshes.h"
+#include "remodel/io.h"
+#include "support.h"
+
+namespace remodel {
+namespace {
+
+using test::error_of;
+using test::Scratch;
+
+void expect_same_view(const FrozenMesh& a, const FrozenMesh& b) {
+  EXPECT_EQ(a.points, b.points);
+  EXPECT_EQ(a.triangles, b.triangles);
+  ASSERT_EQ(a.boundaries.size(), b.boundaries.size());
+  for (std::size_t k = 0; k < a.boundaries.size(); ++k) {
+    EXPECT_EQ(a.boundaries[k].name, b.boundaries[k].name);
+    EXPECT_EQ(a.boundaries[k].edges, b.boundaries[k].edges);
+  }
+}
+
+void expect_same_attributes(const FrozenMesh& a, const FrozenMesh& b) {
+  EXPECT_EQ(a.length_scale, b.length_scale);
+  EXPECT_EQ(a.vertex_ids, b.vertex_ids);
+  EXPECT_EQ(a.triangle_ids, b.triangle_ids);
+  EXPECT_EQ(a.birth, b.birth);
+  EXPECT_EQ(a.curve, b.curve);
+  EXPECT_EQ(a.parameter, b.parameter);
+}
+
+struct Target {
+  const char* name;
+  WriteOptions options;
+};
+const Target targets[] = {
+    {"m.su2", {}}, {"m.msh", {}}, {"m.msh", {.msh_version = 22}}, {"m.vtu", {}}, {"m.vtkhdf", {}}};
+
+TEST(MeshFiles, EveryFormatGivesBackThePointsTrianglesAndBoundariesExactly) {
+  for (const auto& mesh : {test::square_ring(), test::graded_ring(40, 12)}) {
+    for (const auto& target : targets) {
+      SCOPED_TRACE(target.name);
+      const Scratch scratch;
+      write_mesh(mesh, scratch / target.name, target.options);
+      expect_same_view(read_frozen_mesh(scratch / target.name), mesh);
+    }
+  }
+}
+
+TEST(MeshFiles, VtkFormatsGiveBackWhatElseAMeshCarries) {
+  const Scratch scratch;
+  for (const char* name : {"m.vtu", "m.vtkhdf"}) {
+    write_mesh(test::full_square_ring(), scratch / name);
+    const FrozenMesh back = read_frozen_mesh(scratch / name);
+    expect_same_view(back, test::full_square_ring());
+    expect_same_attributes(back, test::full_square_ring());
+  }
+}
+
+TEST(MeshFiles, TheSameMeshGivesTheSameBytes) {
+  const Scratch scratch;
+  for (const auto& target : targets) {
+    write_mesh(test::full_square_ring(), scratch / target.name, target.options);
+    const std::string first = read_text(scratch / target.name);
+    write_mesh(test::full_square_ring(), scratch / (std::string("again_") + target.name), target.options);
+    EXPECT_EQ(read_text(scratch / (std::string("again_") + target.name)), first) << target.name;
+  }
+}
+
+TEST(MeshFiles, AnUnknownExtensionListsTheKnownOnes) {
+  EXPECT_EQ(error_of([] { mesh_format("a.stl"); }),
+            "a.stl: extension '.stl' found, .vtkhdf, .su2, .msh or .vtu expected");
+  EXPECT_EQ(error_of([] { mesh_format("mesh"); }),
+            "mesh: no extension found, .vtkhdf, .su2, .msh or .vtu expected");
+}
+
+TEST(MeshFiles, ALargeMeshIsWrittenAndReadInWellUnderASecond) {
+  const Scratch scratch;
+  const FrozenMesh mesh = test::graded_ring(275, 100);  // 55,000 triangles
+  for (const auto& target : targets) {
+    const auto start = std::chrono::steady_clock::now();
+    write_mesh(mesh, scratch / target.name, target.options);
+    const auto written = std::chrono::steady_clock::now();
+    EXPECT_EQ(read_frozen_mesh(scratch / target.name).triangles.size(), 55000U);
+    const auto read = std::chrono::steady_clock::now();
+    const auto ms = [](auto duration) { return std::chrono::duration<double, std::milli>(duration).count(); };
+    std::printf("%-9s version %d: written in %.0f ms, read in %.0f ms\n", target.name,
+                target.options.msh_version, ms(written - start), ms(read - written));
+    EXPECT_LT(ms(read - start), 5000.0);  // generous: other work may share the machine
+  }
+}
+
+// ---------------------------------------------------------------------------------------- foreign meshes
+
+TEST(ForeignMeshes, TrianglesAreTurnedCounterClockwiseAndEdgesDomainLeftInLoopOrder) {
+  FrozenMesh mesh = test::square_ring();
+  std::swap(mesh.triangles[2][0], mesh.triangles[2][1]);
+  auto& hole = mesh.boundaries[1].edges;
+  std::swap(hole[1][0], hole[1][1]);
+  std::swap(hole[1], hole[2]);
+  const FrozenMesh back = io::parse_su2(io::su2_text(mesh, "m.su2"), "m.su2");
+  EXPECT_EQ(back.triangles[2], (std::array<std::uint32_t, 3>{2, 5, 1}));
+  EXPECT_EQ(back.boundaries[1].edges, test::square_ring().boundaries[1].edges);
+}
+
+TEST(ForeignMeshes, Su2ReadsPointsBeforeElementsCommentsCarriageReturnsAndRepeatedCounts) {
+  const std::string text =
+      "% a comment\r\nNDIME = 2\r\nNPOIN= 4 4\r\n0 0\r\n1 0 1\r\n1 1 2\r\n0 1 3 % last\r\n"
+      "NELEM=2\r\n5 0 1 2 0\r\n5 0 2 3\r\nNMARK= 1\r\nMARKER_TAG= wall\r\nMARKER_ELEMS= 2\r\n3 0 1\r\n3 1 2 "
+      "1\r\n"
+      "FFD_NBOX= 1\r\nFFD_CORNER_POINTS= 1\r\n0.0 0.5\r\n";
+  const FrozenMesh mesh = io::parse_su2(text, "m.su2");
+  EXPECT_EQ(mesh.points.size(), 4U);
+  EXPECT_EQ(mesh.triangles.size(), 2U);
+  ASSERT_EQ(mesh.boundaries.size(), 1U);
+  EXPECT_EQ(mesh.boundaries[0].name, "wall");
+  EXPECT_EQ(mesh.boundaries[0].edges.size(), 2U);
+}
+
+TEST(ForeignMeshes, TheSu2TutorialMeshHasItsCountsAndClosedLoops) {
+  REMODEL_SHARED_FILE(file, "meshes/mesh_NACA0012_inv.su2");
+  const FrozenMesh mesh = read_frozen_mesh(file);
+  EXPECT_EQ(mesh.points.size(), 5233U);
+  EXPECT_EQ(mesh.triangles.size(), 10216U);
+  std::map<std::string, std::size_t> edges;
+  for (const auto& boundary : mesh.boundaries) {
+    edges[boundary.name] = boundary.edges.size();
+    for (std::size_t i = 0; i < boundary.edges.size(); ++i) {
+      EXPECT_EQ(boundary.edges[i][1], boundary.edges[(i + 1) % boundary.edges.size()][0]);
+    }
+  }
+  EXPECT_EQ(edges, (std::map<std::string, std::size_t>{{"airfoil", 200}, {"farfield", 50}}));
+}
+
+TEST(ForeignMeshes, GmshFilesWithSparseTagsEntitiesAndUnknownSectionsAreRead) {
+  const std::string text =
+      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Comments\nanything $Nodes\n$EndComments\n"
+      "$PhysicalNames\n2\n1 7 \"lower wall\"\n2 9 \"air\"\n$EndPhysicalNames\n"
+      "$Entities\n1 2 1 0\n5 0 0 0 0\n1 0 0 0 1 0 0 1 7 2 5 -5\n2 0 0 0 1 1 0 0 2 5 -5\n"
+      "1 0 0 0 1 1 0 1 9 2 1 2\n$EndEntities\n"
+      "$Nodes\n2 4 10 4000000000\n1 1 1 2\n10\n20\n0 0 0 0.0\n1 0 0 1.0\n2 1 0 2\n30\n4000000000\n1 1 0\n0 1 "
+      "0\n$EndNodes\n"
+      "$Elements\n4 5 1 5\n0 5 15 1\n1 10\n1 1 1 1\n2 10 20\n1 2 1 1\n3 20 30\n2 1 2 2\n4 10 20 30\n5 10 30 "
+      "4000000000\n"
+      "$EndElements\n";
+  const FrozenMesh mesh = io::parse_msh(text, "m.msh");
+  EXPECT_EQ(mesh.points.size(), 4U);
+  EXPECT_EQ(mesh.triangles[1], (std::array<std::uint32_t, 3>{0, 2, 3}));
+  ASSERT_EQ(mesh.boundaries.size(), 2U);
+  EXPECT_EQ(mesh.boundaries[0].name, "lower wall");
+  EXPECT_EQ(mesh.boundaries[1].name, "curve_2");
+}
+
+const std::string vtu_frame_start =
+    "<?xml version='1.0'?><!-- by hand --><VTKFile type='UnstructuredGrid' version='0.1' "
+    "byte_order='LittleEndian'><UnstructuredGrid>"
+    "<Piece NumberOfPoints='3' NumberOfCells='1'><PointData/><Points>";
+
+TEST(ForeignMeshes, VtuInlineBinaryIsRead) {
+  // 32-bit headers; Float32 points (0,0,0) (1,0,0) (0,1,0); Int32 cells; UInt8 types.
+  const std::string text =
+      vtu_frame_start +
+      "<DataArray type='Float32' NumberOfComponents='3' format='binary'>\n"
+      "JAAAAAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAA==\n</DataArray></Points><Cells>"
+      "<DataArray type='Int32' Name='connectivity' format='binary'>DAAAAAAAAAABAAAAAgAAAA==</DataArray>"
+      "<DataArray type='Int32' Name='offsets' format='binary'>BAAAAAMAAAA=</DataArray>"
+      "<DataArray type='UInt8' Name='types' format='binary'>AQAAAAU=</DataArray>"
+      "</Cells></Piece></UnstructuredGrid></VTKFile>";
+  const FrozenMesh mesh = io::parse_vtu(text, "m.vtu");
+  EXPECT_EQ(mesh.points, (std::vector<Point>{{0, 0}, {1, 0}, {0, 1}}));
+  EXPECT_EQ(mesh.triangles.size(), 1U);
+}
+
+TEST(ForeignMeshes, VtuAppendedBase64IsRead) {
+  const std::string text =
+      vtu_frame_start +
+      "<DataArray type='Float32' NumberOfComponents='3' format='appended' offset='0'/></Points><Cells>"
+      "<DataArray type='Int32' Name='connectivity' format='appended' offset='56'/>"
+      "<DataArray type='Int32' Name='offsets' format='appended' offset='80'/>"
+      "<DataArray type='UInt8' Name='types' format='ascii'>5</DataArray>"
+      "</Cells></Piece></UnstructuredGrid><AppendedData encoding='base64'>\n  _"
+      "JAAAAAAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAA=="
+      "DAAAAAAAAAABAAAAAgAAAA=="
+      "BAAAAAMAAAA=\n</AppendedData></VTKFile>";
+  EXPECT_EQ(io::parse_vtu(text, "m.vtu").points, (std::vector<Point>{{0, 0}, {1, 0}, {0, 1}}));
+}
+
+TEST(MeshFiles, BoundaryNamesWithMarkupSurviveVtuAndMsh) {
+  FrozenMesh mesh = test::square_ring();
+  mesh.boundaries[0].name = "a <b> & 'c' \xc3\xa9";
+  const Scratch scratch;
+  for (const char* name : {"m.vtu", "m.vtkhdf", "m.msh"}) {
+    write_mesh(mesh, scratch / name);
+    EXPECT_EQ(read_frozen_mesh(scratch / name).boundaries[0].name, mesh.boundaries[0].name) << name;
+  }
+  EXPECT_NE(error_of([&] { write_mesh(mesh, scratch / "m.su2"); }).find("SU2 expects one without blanks"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace remodel

@@ -1,0 +1,14 @@
+#pragma once
+
+// What reader and writer of Gmsh's format share.
+
+#include <string_view>
+
+namespace remodel::io {
+
+inline constexpr int msh_line = 1;
+inline constexpr int msh_triangle = 2;
+inline constexpr int msh_point = 15;
+inline constexpr std::string_view domain_name = "domain";  // physical name of the triangles
+
+}  // namespace remodel::io

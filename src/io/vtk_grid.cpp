@@ -1,0 +1,169 @@
+#include "io/vtk_grid.h"
+
+#include <cmath>
+
+#include "io/assemble.h"
+#include "io/scanner.h"
+#include "remodel/error.h"
+
+namespace remodel::io {
+
+namespace {
+
+constexpr std::uint8_t vtk_vertex = 1;
+constexpr std::uint8_t vtk_line = 3;
+constexpr std::uint8_t vtk_triangle = 5;
+
+template <class Indices>
+void add_cell(VtkGrid& grid, const Indices& indices, std::uint8_t type, std::int32_t boundary) {
+  grid.connectivity.insert(grid.connectivity.end(), indices.begin(), indices.end());
+  grid.offsets.push_back(static_cast<std::int64_t>(grid.connectivity.size()));
+  grid.types.push_back(type);
+  grid.boundary.push_back(boundary);
+}
+
+class GridReader {
+ public:
+  GridReader(const VtkGrid& grid, const std::string& file, const ArrayPlace& place)
+      : grid_(grid), file_(file), place_(place) {}
+
+  FrozenMesh read() {
+    check_sizes();
+    read_points();
+    for (const auto& name : grid_.boundary_names) {
+      const std::size_t before = mesh_.boundaries.size();
+      boundary_named(mesh_, name);
+      if (mesh_.boundaries.size() == before) {
+        fail(boundary_names_array, in_quotes(name) + " found a second time, each name once expected");
+      }
+    }
+    for (std::size_t cell = 0; cell < grid_.types.size(); ++cell) read_cell(cell);
+    mesh_.length_scale = grid_.length_scale;
+    mesh_.vertex_ids = grid_.vertex_id;
+    mesh_.curve = grid_.curve;
+    mesh_.parameter = grid_.parameter;
+    adopt_conventions(mesh_, file_);
+    return std::move(mesh_);
+  }
+
+ private:
+  [[noreturn]] void fail(std::string_view array, const std::string& problem) const {
+    throw Error(ErrorCode::format, place_(array), problem);
+  }
+
+  void expect_size(std::string_view array, std::size_t found, std::size_t expected) const {
+    if (found == expected) return;
+    fail(array, std::to_string(found) + " values found, " + std::to_string(expected) + " expected");
+  }
+
+  void check_sizes() const {
+    if (grid_.points.size() % 3 != 0) fail("Points", "3 coordinates a point expected");
+    const std::size_t points = grid_.points.size() / 3;
+    const std::size_t cells = grid_.types.size();
+    expect_size("Offsets", grid_.offsets.size(), cells + 1);
+    for_each_point_array(grid_, [&](const char* name, const auto& values) {
+      if (!values.empty()) expect_size(name, values.size(), points);
+    });
+    for_each_cell_array(grid_, [&](const char* name, const auto& values) {
+      if (!values.empty()) expect_size(name, values.size(), cells);
+    });
+    for (const double value : grid_.length_scale) {
+      if (!std::isfinite(value)) fail("length_scale", "a finite length scale expected");
+    }
+  }
+
+  void read_points() {
+    for (std::size_t i = 0; i + 2 < grid_.points.size(); i += 3) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (!(std::abs(grid_.points[i + k]) <= largest_coordinate)) {
+          fail("Points", std::to_string(grid_.points[i + k]) + " found at point " + std::to_string(i / 3) +
+                             ", a finite coordinate, at most 1e60 in size, expected");
+        }
+      }
+      mesh_.points.push_back({grid_.points[i], grid_.points[i + 1]});
+    }
+  }
+
+  std::uint32_t vertex(std::size_t cell, std::size_t corner) const {
+    const auto at = static_cast<std::size_t>(grid_.offsets[cell]) + corner;
+    const std::int64_t index = grid_.connectivity[at];
+    if (index < 0 || static_cast<std::uint64_t>(index) >= mesh_.points.size()) {
+      fail("Connectivity", "point " + std::to_string(index) + " found in cell " + std::to_string(cell) +
+                               ", an index below " + std::to_string(mesh_.points.size()) + " expected");
+    }
+    return static_cast<std::uint32_t>(index);
+  }
+
+  void check_extent(std::size_t cell, std::int64_t corners) const {
+    const std::int64_t from = grid_.offsets[cell];
+    const std::int64_t to = grid_.offsets[cell + 1];
+    if (from < 0 || to < from || static_cast<std::uint64_t>(to) > grid_.connectivity.size() ||
+        to - from != corners) {
+      fail("Offsets", std::to_string(from) + " to " + std::to_string(to) + " found for cell " +
+                          std::to_string(cell) + ", " + std::to_string(corners) +
+                          " values of connectivity expected");
+    }
+  }
+
+  void read_cell(std::size_t cell) {
+    const auto type = grid_.types[cell];
+    if (type == vtk_triangle) {
+      check_extent(cell, 3);
+      mesh_.triangles.push_back({vertex(cell, 0), vertex(cell, 1), vertex(cell, 2)});
+      if (!grid_.triangle_id.empty()) mesh_.triangle_ids.push_back(grid_.triangle_id[cell]);
+      if (!grid_.birth.empty()) mesh_.birth.push_back(grid_.birth[cell]);
+    } else if (type == vtk_line) {
+      check_extent(cell, 2);
+      boundary_of(cell).edges.push_back({vertex(cell, 0), vertex(cell, 1)});
+    } else if (type != vtk_vertex) {
+      fail("Types", "cell " + std::to_string(cell) + " of type " + std::to_string(type) +
+                        " found, only triangles (type 5) and lines (type 3) expected");
+    }
+  }
+
+  FrozenBoundary& boundary_of(std::size_t cell) {
+    if (grid_.boundary.empty()) return boundary_named(mesh_, "boundary");
+    const std::int32_t index = grid_.boundary[cell];
+    if (grid_.boundary_names.empty()) return boundary_named(mesh_, "boundary_" + std::to_string(index));
+    if (index < 0 || static_cast<std::size_t>(index) >= mesh_.boundaries.size()) {
+      fail("boundary", std::to_string(index) + " found for cell " + std::to_string(cell) +
+                           ", an index below " + std::to_string(mesh_.boundaries.size()) + " expected");
+    }
+    return mesh_.boundaries[static_cast<std::size_t>(index)];
+  }
+
+  const VtkGrid& grid_;
+  const std::string& file_;
+  const ArrayPlace& place_;
+  FrozenMesh mesh_;
+};
+
+}  // namespace
+
+VtkGrid to_vtk_grid(const FrozenMesh& mesh) {
+  VtkGrid grid;
+  for (const Point p : mesh.points) grid.points.insert(grid.points.end(), {p.x, p.y, 0.0});
+  grid.offsets.push_back(0);
+  for (const auto& triangle : mesh.triangles) add_cell(grid, triangle, vtk_triangle, -1);
+  for (std::size_t k = 0; k < mesh.boundaries.size(); ++k) {
+    grid.boundary_names.push_back(mesh.boundaries[k].name);
+    for (const auto& edge : mesh.boundaries[k].edges) {
+      add_cell(grid, edge, vtk_line, static_cast<std::int32_t>(k));
+    }
+  }
+  grid.triangle_id = mesh.triangle_ids;
+  if (!mesh.triangle_ids.empty()) grid.triangle_id.resize(grid.types.size());
+  grid.birth = mesh.birth;
+  if (!mesh.birth.empty()) grid.birth.resize(grid.types.size());
+  grid.length_scale = mesh.length_scale;
+  grid.parameter = mesh.parameter;
+  grid.vertex_id = mesh.vertex_ids;
+  grid.curve = mesh.curve;
+  return grid;
+}
+
+FrozenMesh from_vtk_grid(const VtkGrid& grid, const std::string& file, const ArrayPlace& place) {
+  return GridReader(grid, file, place).read();
+}
+
+}  // namespace remodel::io

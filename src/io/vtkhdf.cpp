@@ -1,0 +1,227 @@
+#include "io/vtkhdf.h"
+
+#include <bit>
+
+#include "io/hdf5_file.h"
+#include "io/scanner.h"
+#include "io/vtk_grid.h"
+#include "remodel/error.h"
+#include "remodel/io.h"
+
+namespace remodel::io {
+
+namespace {
+
+constexpr std::int64_t state_version = 1;
+const std::string grid_group = "/VTKHDF/";
+const std::string state_group = "/remodel";
+
+// ------------------------------------------------------------------------------------- names of the state
+
+template <class State, class Visitor>
+void for_each_state_array(State& state, Visitor&& visit) {
+  visit("coordinates", state.coordinates, 2);
+  visit("length_scales", state.length_scales, 1);
+  visit("vertex_stars", state.vertex_stars, 1);
+  visit("vertex_generations", state.vertex_generations, 1);
+  visit("vertex_curves", state.vertex_curves, 1);
+  visit("vertex_parameters", state.vertex_parameters, 1);
+  visit("vertex_scale_factors", state.vertex_scale_factors, 1);
+  visit("triangle_vertices", state.triangle_vertices, 3);
+  visit("triangle_links", state.triangle_links, 3);
+  visit("triangle_regions", state.triangle_regions, 1);
+  visit("triangle_births", state.triangle_births, 1);
+  visit("free_vertices", state.free_vertices, 1);
+  visit("free_triangles", state.free_triangles, 1);
+}
+
+template <class State, class Visitor>
+void for_each_state_number(State& state, Visitor&& visit) {
+  visit("step", state.step);
+  visit("min_angle_deg", state.options.min_angle_deg);
+  visit("max_gradation", state.options.max_gradation);
+  visit("gradation", state.options.gradation);
+  visit("resolution", state.options.resolution);
+  visit("max_vertices", state.options.max_vertices);
+  visit("min_edge", state.options.min_edge);
+}
+
+// FNV-1a on 64-bit words, with a shift that carries the high bits down. Each step is a bijection of the hash
+// for a given word, and different words give different results: a single changed value cannot go unseen.
+class Checksum {
+ public:
+  void add(std::uint64_t word) {
+    hash_ = (hash_ ^ word) * 0x100000001b3U;
+    hash_ ^= hash_ >> 32;
+  }
+  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
+  void add(std::uint32_t value) { add(std::uint64_t{value}); }
+  void add(std::int32_t value) { add(static_cast<std::uint64_t>(value)); }
+  void add(const std::string& text) {
+    add(std::uint64_t{text.size()});
+    for (const char c : text) add(std::uint64_t{static_cast<unsigned char>(c)});
+  }
+  std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 0xcbf29ce484222325U;
+};
+
+// ------------------------------------------------------------------------------------------------ writing
+
+// https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format/vtkhdf_specifications.html, one
+// partition
+void write_grid(Hdf5Writer& out, const VtkGrid& grid) {
+  out.group("/VTKHDF");
+  out.attribute("/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
+  out.attribute("/VTKHDF", "Type", "UnstructuredGrid");
+  const auto number = [&](const char* name, std::size_t value) {
+    out.array(grid_group + name, std::vector<std::int64_t>{static_cast<std::int64_t>(value)});
+  };
+  number("NumberOfPoints", grid.points.size() / 3);
+  number("NumberOfCells", grid.types.size());
+  number("NumberOfConnectivityIds", grid.connectivity.size());
+  out.array(grid_group + "Points", grid.points, 3);
+  out.array(grid_group + "Connectivity", grid.connectivity);
+  out.array(grid_group + "Offsets", grid.offsets);
+  out.array(grid_group + "Types", grid.types);
+  out.group("/VTKHDF/PointData");
+  for_each_point_array(grid, [&](const std::string& name, const auto& values) {
+    if (!values.empty()) out.array("/VTKHDF/PointData/" + name, values);
+  });
+  out.group("/VTKHDF/CellData");
+  for_each_cell_array(grid, [&](const std::string& name, const auto& values) {
+    if (!values.empty()) out.array("/VTKHDF/CellData/" + name, values);
+  });
+  out.group("/VTKHDF/FieldData");
+  if (!grid.boundary_names.empty()) {
+    out.texts("/VTKHDF/FieldData/" + std::string(boundary_names_array), grid.boundary_names);
+  }
+}
+
+void write_state(Hdf5Writer& out, const MeshState& state) {
+  const std::string domain = domain_to_json(state.domain);
+  out.group(state_group);
+  out.attribute(state_group, "format_version", std::vector<std::int64_t>{state_version});
+  out.attribute(state_group, "checksum", std::vector<std::uint64_t>{checksum_of(state, domain)});
+  for_each_state_number(state, [&](const std::string& name, const auto& value) {
+    out.attribute(state_group, name, std::vector{value});
+  });
+  for_each_state_array(state, [&](const std::string& name, const auto& values, std::size_t columns) {
+    out.array(state_group + "/" + name, values, columns);
+  });
+  out.text(state_group + "/domain", domain);
+}
+
+// ------------------------------------------------------------------------------------------------ reading
+
+void check_header(const Hdf5Reader& in) {
+  if (!in.exists("/VTKHDF")) in.fail("/VTKHDF", "not found, a VTKHDF file expected");
+  const auto version = in.attribute<std::int64_t>("/VTKHDF", "Version");
+  if (version.size() != 2 || version[0] < 1 || version[0] > 2) {
+    in.fail("/VTKHDF@Version", "version " + std::to_string(version[0]) + " found, 1 or 2 expected");
+  }
+  if (const auto type = in.text_attribute("/VTKHDF", "Type"); type != "UnstructuredGrid") {
+    in.fail("/VTKHDF@Type", in_quotes(type) + " found, 'UnstructuredGrid' expected");
+  }
+}
+
+// Sums over partitions would need their offsets shifted: one partition is what a mesh of ours has.
+void check_number(const Hdf5Reader& in, const char* name, std::size_t expected) {
+  const auto found = in.array<std::int64_t>(grid_group + name);
+  if (found.size() != 1) {
+    in.fail(grid_group + name, std::to_string(found.size()) + " partitions found, one expected");
+  }
+  if (found[0] < 0 || static_cast<std::uint64_t>(found[0]) != expected) {
+    in.fail(grid_group + name,
+            std::to_string(found[0]) + " found, " + std::to_string(expected) + " expected");
+  }
+}
+
+template <class Value>
+void read_optional(const Hdf5Reader& in, const std::string& path, std::vector<Value>& values) {
+  if (in.exists(path)) values = in.array<Value>(path);
+}
+
+VtkGrid read_grid(const Hdf5Reader& in) {
+  VtkGrid grid;
+  grid.points = in.array<double>(grid_group + "Points");
+  grid.connectivity = in.array<std::int64_t>(grid_group + "Connectivity");
+  grid.offsets = in.array<std::int64_t>(grid_group + "Offsets");
+  grid.types = in.array<std::uint8_t>(grid_group + "Types");
+  check_number(in, "NumberOfPoints", grid.points.size() / 3);
+  check_number(in, "NumberOfCells", grid.types.size());
+  check_number(in, "NumberOfConnectivityIds", grid.connectivity.size());
+  for_each_point_array(grid, [&](const std::string& name, auto& values) {
+    read_optional(in, "/VTKHDF/PointData/" + name, values);
+  });
+  for_each_cell_array(grid, [&](const std::string& name, auto& values) {
+    read_optional(in, "/VTKHDF/CellData/" + name, values);
+  });
+  const std::string names = "/VTKHDF/FieldData/" + std::string(boundary_names_array);
+  if (in.exists(names)) grid.boundary_names = in.texts(names);
+  return grid;
+}
+
+std::string place_of(const Hdf5Reader& in, std::string_view array) {
+  for (const char* group : {"/VTKHDF/", "/VTKHDF/PointData/", "/VTKHDF/CellData/", "/VTKHDF/FieldData/"}) {
+    if (const std::string path = group + std::string(array); in.exists(path)) return in.place(path);
+  }
+  return in.place("/VTKHDF");
+}
+
+}  // namespace
+
+std::uint64_t checksum_of(const MeshState& state, const std::string& domain_text) {
+  Checksum sum;
+  for_each_state_number(state, [&](const char*, auto value) { sum.add(value); });
+  for_each_state_array(state, [&](const char*, const auto& values, std::size_t) {
+    sum.add(std::uint64_t{values.size()});
+    for (const auto value : values) sum.add(value);
+  });
+  sum.add(domain_text);
+  return sum.value();
+}
+
+void write_vtkhdf(const std::filesystem::path& file, const FrozenMesh& mesh, const MeshState* state) {
+  Hdf5Writer out(file.string());
+  write_grid(out, to_vtk_grid(mesh));
+  if (state != nullptr) write_state(out, *state);
+  write_text_atomically(file, out.bytes());
+}
+
+FrozenMesh read_vtkhdf_frozen(const std::filesystem::path& file) {
+  const Hdf5Reader in(file);
+  check_header(in);
+  return from_vtk_grid(read_grid(in), file.string(),
+                       [&](std::string_view array) { return place_of(in, array); });
+}
+
+MeshState read_vtkhdf_state(const std::filesystem::path& file) {
+  const Hdf5Reader in(file);
+  check_header(in);
+  if (!in.exists(state_group)) {
+    in.fail(state_group, "not found, a native mesh with its state expected, as `remodel mesh` makes it");
+  }
+  const auto version = in.attribute<std::int64_t>(state_group, "format_version");
+  if (version[0] != state_version) {
+    in.fail(state_group + "@format_version", std::to_string(version[0]) + " found, 1 expected");
+  }
+  MeshState state;
+  for_each_state_number(state, [&](const std::string& name, auto& value) {
+    value = in.attribute<std::remove_reference_t<decltype(value)>>(state_group, name).front();
+  });
+  for_each_state_array(state, [&](const std::string& name, auto& values, std::size_t) {
+    values =
+        in.array<typename std::remove_reference_t<decltype(values)>::value_type>(state_group + "/" + name);
+  });
+  const std::string domain = in.text(state_group + "/domain");
+  if (in.attribute<std::uint64_t>(state_group, "checksum").front() != checksum_of(state, domain)) {
+    in.fail(state_group + "@checksum",
+            "another checksum than that of the content found: the file is damaged");
+  }
+  state.domain = domain_from_json(domain, in.place(state_group + "/domain"));
+  return state;
+}
+
+}  // namespace remodel::io

@@ -1,0 +1,27 @@
+#pragma once
+
+// The native file: HDF5 with two groups at its top.
+//   /VTKHDF   the frozen view as VTKHDF 1.0 lays out an unstructured grid: ParaView opens it
+//   /remodel  the living mesh: every array of MeshState, the domain as JSON, the options, a checksum
+// A file without /remodel is a picture of a mesh; nothing can go on from it.
+
+#include <cstdint>
+#include <filesystem>
+
+#include "remodel/frozen_mesh.h"
+#include "remodel/mesh.h"
+
+namespace remodel::io {
+
+// state may be null. Written atomically.
+void write_vtkhdf(const std::filesystem::path& file, const FrozenMesh& mesh, const MeshState* state);
+
+FrozenMesh read_vtkhdf_frozen(const std::filesystem::path& file);
+// Throws Error (format) where the file has no state, or one that its checksum does not confirm.
+MeshState read_vtkhdf_state(const std::filesystem::path& file);
+
+// Over every value of the state and the domain's text, in the order of writing, independent of the machine.
+// Any change of a single value changes it.
+std::uint64_t checksum_of(const MeshState& state, const std::string& domain_text);
+
+}  // namespace remodel::io

@@ -1,0 +1,107 @@
+// VTK's XML format for unstructured grids, as ASCII: every XML reader can have the numbers, exactly.
+// https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html
+
+#include <cstdint>
+
+#include "io/formats.h"
+#include "io/text_writer.h"
+#include "io/vtk_grid.h"
+
+namespace remodel::io {
+
+namespace {
+
+template <class Value>
+constexpr const char* vtk_type_name();
+template <>
+constexpr const char* vtk_type_name<double>() {
+  return "Float64";
+}
+template <>
+constexpr const char* vtk_type_name<std::int64_t>() {
+  return "Int64";
+}
+template <>
+constexpr const char* vtk_type_name<std::int32_t>() {
+  return "Int32";
+}
+template <>
+constexpr const char* vtk_type_name<std::uint32_t>() {
+  return "UInt32";
+}
+template <>
+constexpr const char* vtk_type_name<std::uint8_t>() {
+  return "UInt8";
+}
+
+class VtuWriter {
+ public:
+  explicit VtuWriter(const VtkGrid& grid) : grid_(grid) {}
+
+  std::string write() {
+    out_ << "<?xml version=\"1.0\"?>\n"
+            "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+            "header_type=\"UInt64\">\n<UnstructuredGrid>\n";
+    field_data();
+    out_ << "<Piece NumberOfPoints=\"" << grid_.points.size() / 3 << "\" NumberOfCells=\""
+         << grid_.types.size() << "\">\n<PointData>\n";
+    for_each_point_array(grid_,
+                         [this](const char* name, const auto& values) { optional_array(name, values); });
+    out_ << "</PointData>\n<CellData>\n";
+    for_each_cell_array(grid_,
+                        [this](const char* name, const auto& values) { optional_array(name, values); });
+    out_ << "</CellData>\n<Points>\n";
+    array("Points", grid_.points, 0, 3);
+    out_ << "</Points>\n<Cells>\n";
+    array("connectivity", grid_.connectivity, 0, 3);
+    array("offsets", grid_.offsets, 1, 1);  // without the first, 0
+    array("types", grid_.types, 0, 1);
+    out_ << "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+    return out_.take();
+  }
+
+ private:
+  // A string array in ASCII is a list of character codes, each string with its 0.
+  void field_data() {
+    if (grid_.boundary_names.empty()) return;
+    out_ << "<FieldData>\n<Array type=\"String\" Name=\"" << boundary_names_array << "\" NumberOfTuples=\""
+         << grid_.boundary_names.size() << "\" format=\"ascii\">\n";
+    for (const auto& name : grid_.boundary_names) {
+      for (const char c : name) out_ << static_cast<int>(static_cast<unsigned char>(c)) << ' ';
+      out_ << "0\n";
+    }
+    out_ << "</Array>\n</FieldData>\n";
+  }
+
+  template <class Value>
+  void optional_array(const char* name, const std::vector<Value>& values) {
+    if (!values.empty()) array(name, values, 0, 1);
+  }
+
+  template <class Value>
+  void array(const char* name, const std::vector<Value>& values, std::size_t first, std::size_t per_line) {
+    out_ << "<DataArray type=\"" << vtk_type_name<Value>() << "\" Name=\"" << name << "\" ";
+    if (values.data() == static_cast<const void*>(grid_.points.data())) out_ << "NumberOfComponents=\"3\" ";
+    out_ << "format=\"ascii\">\n";
+    for (std::size_t i = first; i < values.size(); ++i) {
+      if constexpr (sizeof(Value) == 1) {
+        out_ << static_cast<int>(values[i]);
+      } else {
+        out_ << values[i];
+      }
+      out_ << ((i + 1 - first) % per_line == 0 ? '\n' : ' ');
+    }
+    out_ << "</DataArray>\n";
+  }
+
+  const VtkGrid& grid_;
+  TextWriter out_;
+};
+
+}  // namespace
+
+std::string vtu_text(const FrozenMesh& mesh) {
+  return VtuWriter(to_vtk_grid(mesh)).write();
+}
+
+}  // namespace remodel::io

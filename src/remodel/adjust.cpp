@@ -1,0 +1,255 @@
+#include "remodel/adjust.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "remodel/predicates.h"
+
+namespace remodel {
+
+namespace {
+
+using Moving = AdjustCache::Moving;
+using Affected = AdjustCache::Affected;
+
+void add_moving(const MeshData& mesh, AdjustCache& cache, std::uint32_t k) {
+  const BoundaryVertex& from = mesh.at(k);
+  Moving moving{};
+  moving.boundary = k;
+  moving.vertex = from.vertex;
+  moving.curve = from.curve;
+  if (const auto* airfoil = std::get_if<CstAirfoil>(&mesh.domain.curve(from.curve).shape)) {
+    moving.row = cache.basis.size();
+    moving.basis_size = airfoil->upper.size();
+    cache.basis.resize(moving.row + moving.basis_size);
+    moving.station = cst_basis(from.t, airfoil->degree(), airfoil->e1, airfoil->e2,
+                               {cache.basis.data() + moving.row, moving.basis_size});
+  }
+  cache.moving.push_back(moving);
+}
+
+void list_moving(const MeshData& mesh, AdjustCache& cache) {
+  for (const bool steiner : {false, true}) {
+    for (const std::size_t loop : cache.loops) {
+      std::uint32_t k = mesh.loop_heads[loop];
+      do {
+        if (mesh.at(k).steiner == steiner) add_moving(mesh, cache, k);
+        k = mesh.at(k).next;
+      } while (k != mesh.loop_heads[loop]);
+    }
+    if (!steiner) cache.non_steiner = cache.moving.size();
+  }
+  std::vector<std::uint32_t> position(mesh.boundary.size(), no_index);
+  for (std::uint32_t i = 0; i < cache.moving.size(); ++i) position[cache.moving[i].boundary] = i;
+  for (Moving& m : cache.moving) {
+    m.before = position[mesh.non_steiner_before(m.boundary)];
+    m.after = position[mesh.non_steiner_after(m.boundary)];
+  }
+}
+
+// Affected triangles, each once, in the order of the stars; and the star lists.
+void list_affected(const MeshData& mesh, AdjustCache& cache) {
+  const Triangulation& triangulation = mesh.triangulation;
+  std::vector<std::pair<TriangleId, std::uint32_t>> by_id;  // sorted: triangle, position in affected
+  for (const Moving& m : cache.moving) {
+    const Corner first = triangulation.star(m.vertex);
+    Corner c = first;
+    do {
+      if (!triangulation[c.triangle].ghost()) by_id.emplace_back(c.triangle, 0);
+      c = triangulation.counterclockwise(c);
+    } while (c.triangle != first.triangle);
+  }
+  std::sort(by_id.begin(), by_id.end());
+  by_id.erase(std::unique(by_id.begin(), by_id.end()), by_id.end());
+  for (std::uint32_t i = 0; i < by_id.size(); ++i) by_id[i].second = i;
+  const auto position = [&](TriangleId t) {
+    const auto found = std::lower_bound(by_id.begin(), by_id.end(), std::pair{t, 0U});
+    return found != by_id.end() && found->first == t ? found->second : no_index;
+  };
+  for (const auto& [t, i] : by_id) {
+    const Triangle& triangle = triangulation[t];
+    Affected affected{};
+    affected.triangle = t;
+    std::copy(triangle.vertex, triangle.vertex + 3, affected.vertex);
+    affected.domain = triangle.region == Region::domain;
+    cache.affected.push_back(affected);
+    if (!affected.domain) continue;
+    for (int k = 0; k < 3; ++k) {
+      const Link link = triangle.link[k];
+      if (link.constrained()) {
+        cache.segments.push_back({i, triangle.vertex[next3(k)], triangle.vertex[previous3(k)], triangle.vertex[k]});
+        continue;
+      }
+      const std::uint32_t across = position(link.triangle());
+      if (across != no_index && across < i) continue;  // tested from the other side
+      cache.edges.push_back({i, across, triangulation.vertex({link.triangle(), link.corner()})});
+    }
+  }
+  for (Moving& m : cache.moving) {
+    m.star_begin = cache.stars.size();
+    const Corner first = triangulation.star(m.vertex);
+    Corner c = first;
+    do {
+      if (!triangulation[c.triangle].ghost()) cache.stars.push_back(position(c.triangle));
+      c = triangulation.counterclockwise(c);
+    } while (c.triangle != first.triangle);
+    m.star_end = cache.stars.size();
+  }
+}
+
+void place(const MeshData& mesh, AdjustCache& cache, const Domain& domain) {
+  const std::size_t n = cache.moving.size();
+  cache.old_points.resize(n);
+  cache.new_points.resize(n);
+  const CstAirfoil* airfoil = nullptr;  // of curve airfoil_curve, if the cached basis is its
+  std::uint32_t airfoil_curve = no_index;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Moving& m = cache.moving[i];
+    cache.old_points[i] = mesh.triangulation.point(m.vertex);
+    if (m.basis_size != 0 && m.curve != airfoil_curve) {
+      airfoil_curve = m.curve;
+      airfoil = &std::get<CstAirfoil>(domain.curve(m.curve).shape);
+      if (!same_basis(*airfoil, std::get<CstAirfoil>(mesh.domain.curve(m.curve).shape))) airfoil = nullptr;
+    }
+    if (m.basis_size == 0 || airfoil == nullptr)
+      cache.new_points[i] = domain.at({m.curve, mesh.at(m.boundary).t});
+    else
+      cache.new_points[i] = {m.station.x,
+                             cst_height(*airfoil, m.station, {cache.basis.data() + m.row, m.basis_size})};
+  }
+}
+
+// Length scales at the new positions, by the rule of MeshData::base_length_scale.
+void scale(const MeshData& mesh, AdjustCache& cache) {
+  const std::size_t n = cache.moving.size();
+  cache.old_scales.resize(n);
+  cache.new_scales.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Moving& m = cache.moving[i];
+    cache.old_scales[i] = mesh.triangulation[m.vertex].length_scale;
+    const double to_before = std::sqrt(squared_distance(cache.new_points[m.before], cache.new_points[i]));
+    const double to_after = std::sqrt(squared_distance(cache.new_points[i], cache.new_points[m.after]));
+    const double base = i < cache.non_steiner
+                            ? std::min(to_before, to_after) / mesh.options.resolution
+                            : (cache.new_scales[m.before] * to_after + cache.new_scales[m.after] * to_before) /
+                                  (to_before + to_after);
+    cache.new_scales[i] = base * mesh.at(m.boundary).scale_factor;
+  }
+}
+
+void write(MeshData& mesh, const AdjustCache& cache, const std::vector<Point>& points, const std::vector<double>& scales) {
+  for (std::size_t i = 0; i < cache.moving.size(); ++i) {
+    mesh.triangulation.set_point(cache.moving[i].vertex, points[i]);
+    mesh.triangulation.set_length_scale(cache.moving[i].vertex, scales[i]);
+  }
+}
+
+bool counterclockwise(const Triangulation& t, const VertexId (&v)[3]) {
+  return orient2d(t.point(v[0]), t.point(v[1]), t.point(v[2])) > 0;
+}
+
+// Sets good and circle of every affected triangle, the mesh being at the new positions.
+bool evaluate(const MeshData& mesh, AdjustCache& cache) {
+  const Triangulation& triangulation = mesh.triangulation;
+  const QualityBounds bounds(mesh.options);
+  bool all = true;
+  for (Affected& a : cache.affected) {
+    const Vertex &v0 = triangulation[a.vertex[0]], &v1 = triangulation[a.vertex[1]], &v2 = triangulation[a.vertex[2]];
+    a.circle = certified_circle(v0.point, v1.point, v2.point);
+    a.good = a.circle.certain() || orient2d(v0.point, v1.point, v2.point) > 0;
+    if (a.domain && a.good) a.good = badness(v0, v1, v2, a.circle.squared_radius(), bounds) <= 1.0;
+    all &= a.good;
+  }
+  for (const AdjustCache::Edge& edge : cache.edges) {
+    Affected& a = cache.affected[edge.affected];
+    const Point apex = triangulation.point(edge.apex);
+    const double d = squared_distance(a.circle.centre, apex);
+    if (d > a.circle.outside) continue;
+    const bool conflict = d < a.circle.inside ||
+                          !counterclockwise(triangulation, a.vertex) ||
+                          incircle_sos(triangulation.point(a.vertex[0]), triangulation.point(a.vertex[1]),
+                                       triangulation.point(a.vertex[2]), apex) > 0;
+    if (!conflict) continue;
+    a.good = all = false;
+    if (edge.across != no_index) cache.affected[edge.across].good = false;
+  }
+  for (const AdjustCache::Segment& s : cache.segments) {
+    const Point apex = triangulation.point(s.apex);
+    if (dot(triangulation.point(s.a) - apex, triangulation.point(s.b) - apex) >= 0.0) continue;
+    cache.affected[s.affected].good = all = false;
+  }
+  return all;
+}
+
+void mark_moved(AdjustCache& cache) {
+  for (Affected& a : cache.affected) a.moved = false;
+  for (std::size_t i = 0; i < cache.moving.size(); ++i) {
+    if (cache.new_points[i] == cache.old_points[i]) continue;
+    const Moving& m = cache.moving[i];
+    for (std::size_t s = m.star_begin; s < m.star_end; ++s) cache.affected[cache.stars[s]].moved = true;
+  }
+}
+
+// Whether vertex i may move now: its triangles are good at the new positions, and valid in the state between.
+bool may_move(const MeshData& mesh, const AdjustCache& cache, std::size_t i) {
+  const Moving& m = cache.moving[i];
+  const Triangulation& triangulation = mesh.triangulation;
+  for (std::size_t s = m.star_begin; s < m.star_end; ++s) {
+    const Affected& a = cache.affected[cache.stars[s]];
+    if (!a.good) return false;
+    Point p[3];
+    for (int k = 0; k < 3; ++k)
+      p[k] = a.vertex[k] == m.vertex ? cache.new_points[i] : triangulation.point(a.vertex[k]);
+    if (orient2d(p[0], p[1], p[2]) <= 0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool same_basis(const CstAirfoil& a, const CstAirfoil& b) {
+  return a.upper.size() == b.upper.size() && a.e1 == b.e1 && a.e2 == b.e2;
+}
+
+AdjustCache& adjust_cache(MeshData& mesh, const std::vector<std::size_t>& moving_loops) {
+  auto* cache = dynamic_cast<AdjustCache*>(mesh.cache.get());
+  if (cache != nullptr && cache->loops == moving_loops) return *cache;
+  auto made = std::make_unique<AdjustCache>();
+  made->loops = moving_loops;
+  list_moving(mesh, *made);
+  list_affected(mesh, *made);
+  AdjustCache& result = *made;
+  mesh.cache = std::move(made);
+  return result;
+}
+
+bool adjust_all(MeshData& mesh, AdjustCache& cache, const Domain& domain) {
+  place(mesh, cache, domain);
+  scale(mesh, cache);
+  write(mesh, cache, cache.new_points, cache.new_scales);
+  if (!evaluate(mesh, cache)) {
+    write(mesh, cache, cache.old_points, cache.old_scales);
+    return false;
+  }
+  mark_moved(cache);
+  for (const Affected& a : cache.affected) {
+    mesh.triangulation.set_circle(a.triangle, a.circle);
+    if (a.moved) mesh.triangulation.set_birth(a.triangle, mesh.step + 1);
+  }
+  return true;
+}
+
+void adjust_some(MeshData& mesh, AdjustCache& cache) {
+  mark_moved(cache);
+  cache.accepted.assign(cache.moving.size(), false);
+  for (std::size_t i = 0; i < cache.moving.size(); ++i) {
+    const Moving& m = cache.moving[i];
+    mesh.triangulation.set_length_scale(m.vertex, cache.new_scales[i]);
+    if (i >= cache.non_steiner && !(cache.accepted[m.before] && cache.accepted[m.after])) continue;
+    if (!may_move(mesh, cache, i)) continue;
+    mesh.triangulation.set_point(m.vertex, cache.new_points[i]);
+    cache.accepted[i] = true;
+  }
+}
+
+}  // namespace remodel

@@ -1,0 +1,82 @@
+#pragma once
+
+// The adjustment stage of the specialised method (the paper's section 4.2): boundary vertices are moved to their
+// places on the new design where the mesh stays valid, Delaunay and good.
+//
+// Words: the *moving* vertices are those of all loops that differ between the old and the new design; the
+// *affected* triangles are those with a moving vertex.
+
+#include <cstddef>
+#include <vector>
+
+#include "mesh/mesh_data.h"
+
+namespace remodel {
+
+// Everything about the moving vertices that holds while connectivity does.
+struct AdjustCache : MeshCache {
+  struct Moving {
+    std::uint32_t boundary;   // index of the boundary table
+    VertexId vertex;
+    std::uint32_t curve;
+    CstStation station;       // of a CST curve
+    std::size_t row = 0;      // where the vertex's CST basis starts in `basis`
+    std::size_t basis_size = 0;  // 0: not a CST curve
+    std::uint32_t before, after;  // positions in `moving` of the non-Steiner neighbours
+    std::size_t star_begin, star_end;  // its affected triangles, in `stars`
+  };
+  struct Affected {
+    TriangleId triangle;
+    VertexId vertex[3];
+    Circle circle;        // at the new positions
+    bool domain;
+    bool moved;           // a vertex of it has another position
+    bool good;            // at the new positions
+  };
+  // An unconstrained edge of the domain with an affected triangle beside it: is `apex` outside its circle?
+  struct Edge {
+    std::uint32_t affected;
+    std::uint32_t across;  // no_index: the other triangle is not affected
+    VertexId apex;
+  };
+  // A boundary edge: does the apex of its triangle in the domain encroach on it?
+  struct Segment {
+    std::uint32_t affected;
+    VertexId a, b, apex;
+  };
+
+  std::vector<std::size_t> loops;   // that move
+  std::size_t non_steiner = 0;      // moving[0 .. non_steiner) are the non-Steiner vertices, in loop order
+  std::vector<Moving> moving;
+  std::vector<double> basis;
+  std::vector<Affected> affected;
+  std::vector<std::uint32_t> stars;
+  std::vector<Edge> edges;
+  std::vector<Segment> segments;
+
+  // Scratch of one step.
+  std::vector<Point> old_points, new_points;
+  std::vector<double> old_scales, new_scales;
+  std::vector<bool> accepted;
+};
+
+// Whether the cached CST basis of one airfoil serves the other: degree and class exponents are the same.
+bool same_basis(const CstAirfoil& a, const CstAirfoil& b);
+
+// Builds the cache for the given loops, or keeps the one that the mesh has.
+AdjustCache& adjust_cache(MeshData& mesh, const std::vector<std::size_t>& moving_loops);
+
+// Evaluates all moving vertices at their places on `domain` at once. If every affected triangle is good there,
+// moves them and returns true: a full adjustment, connectivity unchanged. Otherwise the mesh is unchanged, and
+// the cache says which triangles are not good.
+//
+// Departure from the paper: the intermediate states of a vertex-by-vertex adjustment are not tested here, as the
+// final state alone is kept. The test is the same for every triangle with one moving vertex.
+bool adjust_all(MeshData& mesh, AdjustCache& cache, const Domain& domain);
+
+// After adjust_all() returned false: moves one vertex after the other where that leaves a valid mesh, non-Steiner
+// vertices in the order of their loops, then Steiner vertices between two that were moved. Journalled. Sets
+// cache.accepted; connectivity and circles are not touched.
+void adjust_some(MeshData& mesh, AdjustCache& cache);
+
+}  // namespace remodel

@@ -1,0 +1,166 @@
+#include "remodel/replace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_set>
+
+#include "generate/recovery_error.h"
+
+namespace remodel {
+
+namespace {
+
+double squared_distance_to_edge(Point p, Point a, Point b) {
+  const Point e = b - a;
+  const double along = dot(p - a, e), length = dot(e, e);
+  if (along <= 0.0) return squared_distance(p, a);
+  if (along >= length) return squared_distance(p, b);
+  const double across = cross(e, p - a);
+  return across * across / length;
+}
+
+// A finite triangle next to the region's centre; for a centre outside the hull, the one behind the hull edge.
+TriangleId start_of(const Triangulation& triangulation, const RemovalRegion& region) {
+  const TriangleId t = triangulation.locate(region.centre, region.hint).triangle;
+  const Triangle& triangle = triangulation[t];
+  for (int i = 0; i < 3; ++i)
+    if (triangle.vertex[i] == infinite_vertex) return triangle.link[i].triangle();
+  return t;
+}
+
+void collect(const Triangulation& triangulation, const RemovalRegion& region, std::vector<VertexId>& found) {
+  const double r2 = region.radius * region.radius;
+  std::unordered_set<std::uint32_t> seen;
+  std::vector<TriangleId> todo{start_of(triangulation, region)};
+  seen.insert(todo.front().index);
+  while (!todo.empty()) {
+    const Triangle& t = triangulation[todo.back()];
+    todo.pop_back();
+    for (int i = 0; i < 3; ++i) {
+      const Vertex& v = triangulation[t.vertex[i]];
+      if (v.boundary == no_index && squared_distance(v.point, region.centre) < r2) found.push_back(t.vertex[i]);
+      const TriangleId next = t.link[i].triangle();
+      if (triangulation[next].ghost() || seen.contains(next.index)) continue;
+      if (squared_distance_to_edge(region.centre, triangulation.point(t.vertex[next3(i)]),
+                                   triangulation.point(t.vertex[previous3(i)])) >= r2)
+        continue;
+      seen.insert(next.index);
+      todo.push_back(next);
+    }
+  }
+}
+
+// The label of a triangle beside one of its constrained edges.
+Region side_label(const MeshData& mesh, const std::vector<bool>& left, const Triangle& t, int i) {
+  const std::uint32_t a = mesh.triangulation[t.vertex[next3(i)]].boundary;
+  const std::uint32_t b = mesh.triangulation[t.vertex[previous3(i)]].boundary;
+  const bool forward = mesh.at(a).next == b;  // the triangle lies on the left of a -> b
+  const std::uint32_t curve = mesh.at(forward ? a : b).curve;
+  return forward == left[mesh.domain.loop_of(curve)] ? Region::domain : Region::outside;
+}
+
+class Relabelling {
+ public:
+  explicit Relabelling(MeshData& mesh) : mesh_(mesh), triangulation_(mesh.triangulation) {
+    for (std::size_t loop = 0; loop < mesh.loop_heads.size(); ++loop) left_.push_back(mesh.domain_on_left(loop));
+    for (const TriangleId t : triangulation_.touched())
+      if (triangulation_[t].alive()) touched_.push_back(t);
+  }
+
+  void run() {
+    for (const TriangleId t : touched_) triangulation_.set_region(t, Region::unknown);
+    for (const TriangleId t : touched_) seed_from_boundary(t);
+    flood();
+    for (const TriangleId t : touched_) seed_from_neighbours(t);
+  }
+
+  // Interior vertices of the triangles that are outside the domain now.
+  std::vector<VertexId> strays() const {
+    std::vector<VertexId> found;
+    for (const auto* list : {&touched_, &relabelled_})
+      for (const TriangleId t : *list)
+        if (triangulation_[t].region == Region::outside)
+          for (const VertexId v : triangulation_[t].vertex)
+            if (v != infinite_vertex && triangulation_[v].boundary == no_index) found.push_back(v);
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found;
+  }
+
+ private:
+  void label(TriangleId t, Region region) {
+    if (triangulation_[t].region == region) return;
+    if (triangulation_[t].region != Region::unknown) relabelled_.push_back(t);
+    triangulation_.set_region(t, region);
+    todo_.push_back(t);
+  }
+
+  void flood() {
+    while (!todo_.empty()) {
+      const TriangleId t = todo_.back();
+      todo_.pop_back();
+      const Region region = triangulation_[t].region;
+      for (const Link link : triangulation_[t].link)
+        if (!link.constrained()) label(link.triangle(), region);
+    }
+  }
+
+  void seed_from_boundary(TriangleId t) {
+    for (int i = 0; i < 3; ++i)
+      if (triangulation_[t].link[i].constrained()) label(t, side_label(mesh_, left_, triangulation_[t], i));
+  }
+
+  // A part without a boundary edge of its own is labelled like what lies around it.
+  void seed_from_neighbours(TriangleId t) {
+    if (triangulation_[t].region != Region::unknown) return;
+    for (const Link link : triangulation_[t].link) {
+      const Region region = triangulation_[link.triangle()].region;
+      if (link.constrained() || region == Region::unknown) continue;
+      label(t, region);
+      flood();
+      return;
+    }
+  }
+
+  MeshData& mesh_;
+  Triangulation& triangulation_;
+  std::vector<bool> left_;
+  std::vector<TriangleId> touched_, relabelled_, todo_;
+};
+
+}  // namespace
+
+std::vector<VertexId> vertices_inside(const Triangulation& triangulation, const std::vector<RemovalRegion>& regions) {
+  std::vector<VertexId> found;
+  for (const RemovalRegion& region : regions) collect(triangulation, region, found);
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+double removal_radius(double distance_factor, double pair_distance, Point centre, Point before, Point after) {
+  const double lower = std::sqrt(std::max(squared_distance(centre, before), squared_distance(centre, after)));
+  return std::max(distance_factor * pair_distance, lower);
+}
+
+VertexId insert_boundary_point(Triangulation& triangulation, Point p, TriangleId hint) {
+  for (;;) {
+    const auto inserted = triangulation.insert(p, hint);
+    if (inserted.is_new) return inserted.vertex;
+    if (triangulation[inserted.vertex].boundary != no_index)
+      throw RecoveryError("two boundary vertices of the new design lie at one point");
+    const Corner c = triangulation.star(inserted.vertex);
+    const VertexId neighbour = triangulation.following(c) == infinite_vertex ? triangulation.preceding(c)
+                                                                             : triangulation.following(c);
+    triangulation.remove(inserted.vertex);
+    hint = triangulation.star(neighbour).triangle;
+  }
+}
+
+void relabel_touched(MeshData& mesh) {
+  Relabelling relabelling(mesh);
+  relabelling.run();
+  for (const VertexId v : relabelling.strays()) mesh.triangulation.remove(v);
+}
+
+}  // namespace remodel

@@ -1,0 +1,37 @@
+#pragma once
+
+// Removal and replacement: what both methods share once it is known which vertices go and which come. All of it
+// runs under the triangulation's journal.
+
+#include <vector>
+
+#include "generate/refine.h"
+#include "mesh/mesh_data.h"
+
+namespace remodel {
+
+// A circular removal region: every interior vertex strictly inside goes (the paper's section 3).
+struct RemovalRegion {
+  Point centre;
+  double radius;
+  TriangleId hint;  // a triangle near the centre
+};
+
+// The interior vertices inside the regions, each once, ascending. Read only. Triangles that a disc meets are
+// connected through edges that it meets, so the search from the centre's triangle finds them all, also where the
+// centre's own triangle has no vertex inside.
+std::vector<VertexId> vertices_inside(const Triangulation& triangulation, const std::vector<RemovalRegion>& regions);
+
+// The radius of a region: max(D * distance of the pair, longest distance to the two boundary neighbours).
+double removal_radius(double distance_factor, double pair_distance, Point centre, Point before, Point after);
+
+// Inserts a boundary point; an interior vertex that is there already gives way. Throws RecoveryError where a
+// boundary vertex is there.
+VertexId insert_boundary_point(Triangulation& triangulation, Point p, TriangleId hint);
+
+// After all boundary edges were recovered: labels every touched triangle, and any other whose label changes, by
+// the sides of the boundary edges; then removes interior vertices outside the domain. Cost proportional to what
+// was touched and what changes its side.
+void relabel_touched(MeshData& mesh);
+
+}  // namespace remodel

@@ -1,0 +1,144 @@
+// The specialised method's removal and replacement (the paper's section 4.2).
+//
+// Words: a moving vertex is *kept* if it was moved in place, otherwise *lost*: it is removed, and a non-Steiner
+// vertex comes back as a new vertex at its new place. Lost Steiner vertices do not come back: refinement splits
+// the restored segment again where it must.
+
+#include <algorithm>
+#include <cmath>
+
+#include "generate/discretise.h"
+#include "remodel/methods.h"
+#include "remodel/replace.h"
+
+namespace remodel {
+
+namespace {
+
+class Replacement {
+ public:
+  Replacement(MeshData& mesh, AdjustCache& cache, double distance)
+      : mesh_(mesh), triangulation_(mesh.triangulation), cache_(cache), distance_(distance) {}
+
+  void run() {
+    restore_delaunay();
+    const std::vector<VertexId> inside = vertices_inside(triangulation_, regions());
+    release_boundary();
+    for (const VertexId v : inside) triangulation_.remove(v);
+    remove_lost();
+    insert_new();
+    recover();
+    relabel_touched(mesh_);
+    for (std::size_t i = 0; i < cache_.non_steiner; ++i)
+      if (lost(i)) set_length_scale(cache_.moving[i].boundary);
+  }
+
+ private:
+  bool lost(std::size_t i) const { return !cache_.accepted[i]; }
+  const AdjustCache::Moving& moving(std::size_t i) const { return cache_.moving[i]; }
+
+  // What the paper omits: a partial adjustment leaves edges that are not Delaunay, since vertices moved for which
+  // the triangles are good only once their neighbours have moved too. In holes every move does.
+  void restore_delaunay() {
+    std::vector<TriangleId> affected;
+    for (const AdjustCache::Affected& a : cache_.affected) {
+      triangulation_.refresh_circle(a.triangle);
+      triangulation_.set_birth(a.triangle, a.moved ? mesh_.step + 1 : triangulation_[a.triangle].birth);
+      affected.push_back(a.triangle);
+    }
+    triangulation_.restore_delaunay(affected);
+  }
+
+  // One region for each lost pair, about the outermost of the two: the one farther into the domain.
+  std::vector<RemovalRegion> regions() const {
+    std::vector<RemovalRegion> result;
+    for (std::size_t i = 0; i < cache_.non_steiner; ++i) {
+      if (!lost(i)) continue;
+      const AdjustCache::Moving& m = moving(i);
+      const std::vector<Point>& news = cache_.new_points;
+      const std::vector<Point>& olds = cache_.old_points;
+      const Point along = news[m.after] - news[m.before];
+      const double leftwards = cross(along, news[i] - olds[i]);
+      const bool left = mesh_.domain_on_left(mesh_.domain.loop_of(m.curve));
+      const std::vector<Point>& outermost = (leftwards > 0.0) == left ? news : olds;
+      const double pair = std::sqrt(squared_distance(olds[i], news[i]));
+      const double radius = removal_radius(distance_, pair, outermost[i], outermost[m.before], outermost[m.after]);
+      result.push_back({outermost[i], radius, triangulation_.star(m.vertex).triangle});
+    }
+    return result;
+  }
+
+  void release_boundary() {
+    for (std::size_t i = 0; i < cache_.moving.size(); ++i) {
+      if (!lost(i)) continue;
+      const BoundaryVertex& v = mesh_.at(moving(i).boundary);
+      for (const std::uint32_t neighbour : {v.previous, v.next}) {
+        const auto edge = triangulation_.find_edge(v.vertex, mesh_.at(neighbour).vertex);
+        if (edge && triangulation_.link(*edge).constrained()) triangulation_.release(v.vertex, mesh_.at(neighbour).vertex);
+      }
+    }
+  }
+
+  void remove_lost() {
+    for (std::size_t i = 0; i < cache_.moving.size(); ++i) {
+      if (!lost(i)) continue;
+      const std::uint32_t k = moving(i).boundary;
+      if (i >= cache_.non_steiner) {
+        mesh_.boundary[mesh_.at(k).previous].next = mesh_.at(k).next;
+        mesh_.boundary[mesh_.at(k).next].previous = mesh_.at(k).previous;
+      }
+      const VertexId v = mesh_.at(k).vertex;
+      mesh_.boundary[k].vertex = VertexId{};
+      triangulation_.remove(v);
+    }
+  }
+
+  void insert_new() {
+    for (std::size_t i = 0; i < cache_.non_steiner; ++i) {
+      if (!lost(i)) continue;
+      const std::uint32_t k = moving(i).boundary;
+      const VertexId v = insert_boundary_point(triangulation_, cache_.new_points[i], hint_near(k));
+      triangulation_.set_boundary(v, k);
+      triangulation_.set_length_scale(v, cache_.new_scales[i]);  // until its neighbours are known
+      mesh_.boundary[k].vertex = v;
+      mesh_.boundary[k].scale_factor = 1.0;
+    }
+  }
+
+  // A triangle at the nearest boundary vertex before k that is in the mesh.
+  TriangleId hint_near(std::uint32_t k) const {
+    for (std::uint32_t n = mesh_.at(k).previous; n != k; n = mesh_.at(n).previous)
+      if (mesh_.at(n).vertex) return triangulation_.star(mesh_.at(n).vertex).triangle;
+    const std::uint32_t other = mesh_.loop_heads[mesh_.loop_heads.front() == k ? mesh_.loop_heads.size() - 1 : 0];
+    if (mesh_.at(other).vertex) return triangulation_.star(mesh_.at(other).vertex).triangle;
+    std::uint32_t any = 1;
+    while (!triangulation_[VertexId{any}].alive()) ++any;
+    return triangulation_.star(VertexId{any}).triangle;
+  }
+
+  void recover() {
+    Refiner refiner(mesh_);
+    for (const std::size_t loop : cache_.loops) refiner.recover_loop(mesh_.loop_heads[loop]);
+  }
+
+  void set_length_scale(std::uint32_t k) { mesh_.set_boundary_length_scale(k, neighbour_length_scale(mesh_, k)); }
+
+  MeshData& mesh_;
+  Triangulation& triangulation_;
+  AdjustCache& cache_;
+  double distance_;
+};
+
+}  // namespace
+
+std::vector<VertexId> replace_where_needed(MeshData& mesh, AdjustCache& cache, const Domain& domain, double distance) {
+  adjust_some(mesh, cache);
+  mesh.domain = domain;
+  Replacement(mesh, cache, distance).run();
+  std::vector<VertexId> moved;
+  for (std::size_t i = 0; i < cache.moving.size(); ++i)
+    if (cache.accepted[i] && !(cache.new_points[i] == cache.old_points[i])) moved.push_back(cache.moving[i].vertex);
+  return moved;
+}
+
+}  // namespace remodel

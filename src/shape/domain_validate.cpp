@@ -1,0 +1,178 @@
+// What a domain has to fulfil before anything meshes it, in the order in which it is checked: the curves' own
+// figures, their discretisation, the polygon of every loop, all polygons together, what lies inside what.
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "remodel/domain.h"
+#include "remodel/error.h"
+#include "segments.h"
+
+namespace remodel {
+namespace {
+
+// The range in which the predicates are exact (predicates.h).
+constexpr double largest_coordinate = 1e60;
+constexpr double smallest_coordinate = 1e-60;
+// A curve ends where the next one begins up to rounding, relative to the coordinates. Decides nothing but
+// whether the description makes sense: the polygon takes the next curve's first point.
+constexpr double joint_tolerance = 1e-9;
+
+template <typename... Parts>
+[[noreturn]] void refuse(const Parts&... parts) {
+  std::ostringstream problem;
+  problem.precision(10);
+  (problem << ... << parts);
+  throw Error(ErrorCode::geometry, "domain", problem.str());
+}
+
+std::string place_of(const Domain& domain, std::size_t curve_index) {
+  return "loop " + std::to_string(domain.loop_of(curve_index)) + ", curve \"" +
+         domain.curve(curve_index).name + "\"";
+}
+
+std::string place_of(const Domain& domain, BoundaryStation station) {
+  const Point p = domain.at(station);
+  std::ostringstream text;
+  text.precision(10);
+  text << place_of(domain, station.curve) << ", t = " << station.t << " (" << p.x << ", " << p.y << ")";
+  return text.str();
+}
+
+bool finite(Point p) {
+  return std::isfinite(p.x) && std::isfinite(p.y);
+}
+
+void check_shape(const CstAirfoil& airfoil, const std::string& place) {
+  if (airfoil.upper.size() != airfoil.lower.size() || airfoil.upper.size() < 2) {
+    refuse(place, ": found ", airfoil.upper.size(), " upper and ", airfoil.lower.size(),
+           " lower coefficients, expected the same number of both, at least 2");
+  }
+  if (!surfaces_apart(airfoil)) {
+    refuse(place, ": the airfoil's surfaces touch or cross, expected the upper one above the lower one");
+  }
+}
+void check_shape(const Line& line, const std::string& place) {
+  if (!finite(line.from) || !finite(line.to)) refuse(place, ": expected a line with finite ends");
+}
+void check_shape(const Polyline& polyline, const std::string& place) {
+  if (polyline.points.size() < 2 || !std::all_of(polyline.points.begin(), polyline.points.end(), finite)) {
+    refuse(place, ": expected a polyline of at least 2 finite points");
+  }
+}
+void check_shape(const Arc& arc, const std::string& place) {
+  if (!finite(arc.centre) || !std::isfinite(arc.start) || !std::isfinite(arc.sweep) || !(arc.radius > 0.0) ||
+      !std::isfinite(arc.radius)) {
+    refuse(place, ": expected an arc of finite centre, angles and radius, the radius positive");
+  }
+}
+
+void check_parameters(const std::vector<double>& parameters, const std::string& place) {
+  if (parameters.empty() || parameters.front() != 0.0)
+    refuse(place, ": expected parameters that begin with 0");
+  for (std::size_t i = 1; i < parameters.size(); ++i) {
+    if (parameters[i] > parameters[i - 1] && parameters[i] < 1.0) continue;
+    refuse(place, ": found parameter ", parameters[i], " after ", parameters[i - 1],
+           ", expected them strictly increasing and below 1");
+  }
+}
+
+bool in_range(double v) {
+  return v == 0.0 || (std::abs(v) <= largest_coordinate && std::abs(v) >= smallest_coordinate);
+}
+
+// The sides of one loop's polygon; `first` is the index of the first of them among all.
+std::vector<Side> sides_of(const Domain& domain, std::size_t loop, std::size_t first) {
+  const std::vector<BoundaryStation> stations = domain.stations(loop);
+  std::vector<Point> points;
+  points.reserve(stations.size());
+  for (const BoundaryStation& station : stations) {
+    points.push_back(domain.at(station));
+    if (in_range(points.back().x) && in_range(points.back().y)) continue;
+    refuse(place_of(domain, station), ": expected coordinates that are 0 or of magnitude 1e-60 to 1e60");
+  }
+  std::vector<Side> sides;
+  sides.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::size_t next = i + 1 == points.size() ? 0 : i + 1;
+    if (points[i] == points[next]) {
+      refuse(place_of(domain, stations[i]),
+             ": found the same point twice in a row, expected different points");
+    }
+    sides.push_back({.from = points[i], .to = points[next], .next = first + next});
+  }
+  return sides;
+}
+
+void check_joints(const Loop& loop, std::size_t first_curve, const Domain& domain) {
+  for (std::size_t c = 0; c < loop.curves.size(); ++c) {
+    const Point end = point_at(loop.curves[c].shape, 1.0);
+    const Point begin = point_at(loop.curves[(c + 1) % loop.curves.size()].shape, 0.0);
+    const double size = std::max({std::abs(end.x), std::abs(end.y), std::abs(begin.x), std::abs(begin.y)});
+    if (std::hypot(end.x - begin.x, end.y - begin.y) <= joint_tolerance * size) continue;
+    refuse(place_of(domain, first_curve + c), " ends at (", end.x, ", ", end.y,
+           "), expected the beginning of the loop's next curve, (", begin.x, ", ", begin.y, ")");
+  }
+}
+
+void check_loop(const Domain& domain, std::size_t loop_index, std::size_t first_curve) {
+  const Loop& loop = domain.loops[loop_index];
+  std::size_t points = 0;
+  for (std::size_t c = 0; c < loop.curves.size(); ++c) {
+    const std::string place = place_of(domain, first_curve + c);
+    std::visit([&](const auto& shape) { check_shape(shape, place); }, loop.curves[c].shape);
+    check_parameters(loop.curves[c].parameters, place);
+    points += loop.curves[c].parameters.size();
+  }
+  if (points < 3) refuse("loop ", loop_index, ": found ", points, " points, expected at least 3");
+  check_joints(loop, first_curve, domain);
+}
+
+BoundaryStation station_of_side(const Domain& domain, std::size_t side) {
+  for (std::size_t loop = 0;; ++loop) {
+    const std::vector<BoundaryStation> stations = domain.stations(loop);
+    if (side < stations.size()) return stations[side];
+    side -= stations.size();
+  }
+}
+
+// As no two loops meet, one point of a loop says which loops it lies in. From the outside in, the roles take
+// turns: an outermost loop is outer, what lies directly in an outer loop is a hole, what lies directly in a
+// hole is outer again (an island).
+void check_nesting(const Domain& domain, const std::vector<std::vector<Side>>& polygons) {
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    std::size_t around = 0;
+    for (std::size_t j = 0; j < polygons.size(); ++j) {
+      if (j != i && is_inside(polygons[j], polygons[i].front().from)) ++around;
+    }
+    const LoopRole expected = around % 2 == 0 ? LoopRole::outer : LoopRole::hole;
+    if (domain.loops[i].role == expected) continue;
+    refuse("loop ", i, ": found a", expected == LoopRole::outer ? " hole" : "n outer loop", " inside ",
+           around,
+           " other loops, expected every hole directly inside an outer loop and no outer loop directly "
+           "inside another");
+  }
+}
+
+}  // namespace
+
+void validate(const Domain& domain) {
+  if (domain.loops.empty()) refuse("found no loop, expected at least one");
+  std::vector<std::vector<Side>> polygons;
+  std::vector<Side> all;
+  std::size_t first_curve = 0;
+  for (std::size_t loop = 0; loop < domain.loops.size(); ++loop) {
+    check_loop(domain, loop, first_curve);
+    first_curve += domain.loops[loop].curves.size();
+    polygons.push_back(sides_of(domain, loop, all.size()));
+    all.insert(all.end(), polygons.back().begin(), polygons.back().end());
+  }
+  if (const auto pair = find_meeting_sides(all)) {
+    refuse("the sides that begin at ", place_of(domain, station_of_side(domain, pair->first)), " and ",
+           place_of(domain, station_of_side(domain, pair->second)), " touch or cross");
+  }
+  check_nesting(domain, polygons);
+}
+
+}  // namespace remodel

@@ -1,0 +1,89 @@
+// Least-squares fit of CST coefficients to a coordinate file's points.
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "cst_row.h"
+#include "remodel/airfoil.h"
+#include "remodel/error.h"
+
+namespace remodel {
+namespace {
+
+// One surface's points as equations: row i of basis times the coefficients is height i.
+struct Equations {
+  Eigen::MatrixXd basis;
+  Eigen::VectorXd heights;
+  Eigen::Index informative = 0;  // equations that are not 0 = 0: points strictly between the edges
+};
+
+// y over x is only defined on the chord: points a little outside count at its ends.
+Equations equations_of(const std::vector<Point>& surface, int degree) {
+  const CstAirfoil paper_class;
+  const Eigen::Index columns = degree + 1;
+  const Eigen::Index count = static_cast<Eigen::Index>(surface.size());
+  Equations result{.basis = Eigen::MatrixXd(count, columns), .heights = Eigen::VectorXd(count)};
+  std::vector<double> row(static_cast<std::size_t>(columns));
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Point p = surface[static_cast<std::size_t>(i)];
+    const double x = std::clamp(p.x, 0.0, 1.0);
+    cst_row(x, 1.0 - x, paper_class.e1, paper_class.e2, row);
+    for (Eigen::Index j = 0; j < columns; ++j) result.basis(i, j) = row[static_cast<std::size_t>(j)];
+    result.heights(i) = p.y - x * surface.back().y;  // the trailing-edge gap, removed linearly
+    if (x > 0.0 && x < 1.0) ++result.informative;
+  }
+  return result;
+}
+
+struct Residuals {
+  double largest = 0.0;
+  double sum_of_squares = 0.0;
+};
+
+std::vector<double> solve(const Equations& equations, const std::string& where, Residuals& residuals) {
+  const Eigen::Index unknowns = equations.basis.cols();
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(equations.basis);
+  if (equations.informative < unknowns || qr.rank() < unknowns) {
+    std::ostringstream problem;
+    problem << "found " << equations.informative
+            << " points between the edges of a surface, expected at least " << unknowns
+            << " at different x for a fit of degree " << unknowns - 1;
+    throw Error(ErrorCode::argument, where, problem.str());
+  }
+  const Eigen::VectorXd coefficients = qr.solve(equations.heights);
+  const Eigen::VectorXd errors = equations.basis * coefficients - equations.heights;
+  residuals.largest = std::max(residuals.largest, errors.cwiseAbs().maxCoeff());
+  residuals.sum_of_squares += errors.squaredNorm();
+  return {coefficients.begin(), coefficients.end()};
+}
+
+void check_points(const std::vector<Point>& surface, const std::string& where) {
+  const bool finite = std::all_of(surface.begin(), surface.end(),
+                                  [](Point p) { return std::isfinite(p.x) && std::isfinite(p.y); });
+  if (surface.size() < 3 || !finite) {
+    throw Error(ErrorCode::argument, where, "expected at least 3 points a surface, all of them finite");
+  }
+}
+
+}  // namespace
+
+CstFit fit_cst(const AirfoilCoordinates& coordinates, int degree) {
+  if (degree < 2 || degree > 12) {
+    throw Error(ErrorCode::argument, "CST degree", "found " + std::to_string(degree) + ", expected 2 to 12");
+  }
+  const std::string where = coordinates.name.empty() ? "airfoil" : coordinates.name;
+  check_points(coordinates.upper, where);
+  check_points(coordinates.lower, where);
+  Residuals residuals;
+  CstFit fit;
+  fit.airfoil.upper = solve(equations_of(coordinates.upper, degree), where, residuals);
+  fit.airfoil.lower = solve(equations_of(coordinates.lower, degree), where, residuals);
+  const std::size_t points = coordinates.upper.size() + coordinates.lower.size();
+  fit.max_error = residuals.largest;
+  fit.rms_error = std::sqrt(residuals.sum_of_squares / static_cast<double>(points));
+  return fit;
+}
+
+}  // namespace remodel

@@ -1,0 +1,102 @@
+"""An include never points up. The layers, lowest first; ARCHITECTURE.md says the same in words.
+
+    layers_test.py [SOURCE_DIRECTORY]
+"""
+
+import re
+import sys
+from pathlib import Path
+
+# Directories of src/ (and app/), and the public headers that belong to each layer. A layer may include itself
+# and what is listed under "below".
+LAYERS = [
+    {"name": "geometry", "headers": ["point.h", "predicates.h", "error.h"]},
+    {"name": "triangulation", "headers": ["ids.h"]},
+    {"name": "shape", "headers": ["airfoil.h", "domain.h"]},
+    {"name": "mesh", "headers": ["mesh.h", "frozen_mesh.h"]},
+    {"name": "generate", "headers": ["generate.h"]},
+    {"name": "remodel", "headers": ["remodel.h"]},
+    {"name": "check", "headers": ["check.h"]},
+    {"name": "io", "headers": ["io.h"]},
+    {"name": "draw", "headers": ["draw.h"]},
+    {"name": "optimise", "headers": ["optimise.h", "cmaes.h", "history.h"]},
+    {"name": "app", "headers": []},
+]
+# Some layers see less than everything below them.
+ONLY = {
+    # The kernel knows nothing of airfoils, and shapes know no triangulation.
+    "shape": {"geometry"},
+    # The validator shares no predicate and no data structure with what it validates: public, frozen values only.
+    "check": {"check", "point.h", "error.h", "airfoil.h", "domain.h", "frozen_mesh.h"},
+    # Pictures are of the frozen view.
+    "draw": {"draw", "geometry", "io", "point.h", "error.h", "frozen_mesh.h", "io.h"},
+    # The program uses the library's public headers, like every other user.
+    "app": {"app"} | {header for layer in LAYERS for header in layer["headers"]},
+}
+INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
+
+
+def layer_of_header(header):
+    for layer in LAYERS:
+        if header in layer["headers"]:
+            return layer["name"]
+    raise SystemExit(f"include/remodel/{header}: not in the table of {__file__}")
+
+
+def layer_of_include(file, include, source):
+    """The layer of what is included, and its public header's name, if it is one."""
+    if include.startswith("remodel/") and (source / "include" / include).exists():
+        header = include.removeprefix("remodel/")
+        return layer_of_header(header), header
+    for base in (file.parent, source / "src"):
+        path = (base / include).resolve()
+        if path.exists() and path.is_relative_to(source):
+            return layer_of_file(path, source), None
+    raise SystemExit(f'{file.relative_to(source)}: includes "{include}", which is not there')
+
+
+def layer_of_file(path, source):
+    parts = path.relative_to(source).parts
+    if parts[0] == "app":
+        return "app"
+    if parts[0] == "include":
+        return layer_of_header(parts[-1])
+    return parts[1]
+
+
+def allowed(from_layer, to_layer, header):
+    order = [layer["name"] for layer in LAYERS]
+    if order.index(to_layer) > order.index(from_layer):
+        return False
+    if from_layer in ONLY and to_layer != from_layer:
+        return to_layer in ONLY[from_layer] or header in ONLY[from_layer]
+    return True
+
+
+def is_test(file):
+    return file.stem.endswith("_test") or file.stem.startswith("test_")
+
+
+def main(source):
+    source = source.resolve()
+    files = [f for d in ("include", "src", "app") for f in (source / d).rglob("*") if f.suffix in (".h", ".cpp")]
+    broken = []
+    for file in sorted(files):
+        if is_test(file):
+            continue
+        layer = layer_of_file(file, source)
+        for include in INCLUDE.findall(file.read_text()):
+            target, header = layer_of_include(file, include, source)
+            if not allowed(layer, target, header):
+                broken.append(f'{file.relative_to(source)} ({layer}) includes "{include}" ({target})')
+    architecture = (source / "ARCHITECTURE.md").read_text()
+    graph = " → ".join(layer["name"] for layer in LAYERS)
+    if graph not in architecture:
+        broken.append(f"ARCHITECTURE.md does not contain the layers as they are here: {graph}")
+    print(*broken, sep="\n")
+    print(f"{len(files)} files, {len(broken)} broken rules")
+    return 1 if broken or not files else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parents[1])))
