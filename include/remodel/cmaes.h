@@ -14,9 +14,10 @@
 namespace remodel {
 
 struct CmaesOptions {
-  double sigma = 0.05;     // initial standard deviation of every coordinate; > 0 and finite
-  std::uint64_t seed = 1;  // of the generator: every value is allowed
-  int population = 0;      // samples a generation, at least 4; 0: 4 + floor(3 ln n)
+  double sigma = 0.05;              // initial standard deviation of every coordinate; > 0 and finite
+  std::uint64_t seed = 1;           // of the generator: every value is allowed
+  int population = 0;               // samples a generation, at least 4; 0: 4 + floor(3 ln n)
+  double least_deviation = 1e-150;  // the largest standard deviation never falls below; 1e-150 to 1e50
 };
 
 class Cmaes {

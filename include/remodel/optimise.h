@@ -29,10 +29,11 @@ struct OptimiseOptions {
   std::size_t evaluations = 9000;  // feasible samples, one remodelling each; at least 1
   std::size_t compare_every = 0;   // every K-th evaluation also generates a fresh mesh; 0: never
   std::size_t full_check_every = 0;  // every K-th mesh goes through check() too; 0: as compare_every
-  std::size_t checkpoint_every = 0;  // evaluations between checkpoints; 0: only at the end or an interrupt
-  std::size_t max_refused = 10000;   // infeasible samples in a row that end the run
-  bool resume = false;               // go on from the directory's checkpoint
-  std::filesystem::path directory;   // of the run's files; made if missing
+  std::size_t checkpoint_every =
+      500;                          // evaluations between checkpoints; 0: at the start, the end, an interrupt
+  std::size_t max_refused = 10000;  // infeasible samples in a row that end the run; at least 1
+  bool resume = false;              // go on from the directory's checkpoint
+  std::filesystem::path directory;  // of the run's files; made if missing
 };
 
 // Why a run ended. Whatever it is, what is finished is kept.
@@ -96,9 +97,9 @@ class OptimiseObserver {
 // vertices lie above the lower ones, and it stays inside the farfield.
 //
 // With resume the run goes on to the designs, rows (but for their seconds) and meshes of a run that was not
-// interrupted. All options but evaluations and checkpoint_every, and both airfoils, must be those of the
-// checkpoint. Without resume, a directory that holds the checkpoint of an unfinished run is refused, and the
-// files of a finished one are replaced.
+// interrupted. All options but evaluations, checkpoint_every and max_refused, and both airfoils, must be
+// those of the checkpoint. Without resume, a directory that holds the checkpoint of an unfinished run is
+// refused, and the files of a finished one are replaced.
 //
 // Throws Error (argument, file, format, geometry). Both airfoils must have their surfaces apart.
 OptimiseResult optimise(const CstAirfoil& from, const CstAirfoil& to, const OptimiseOptions& options,

@@ -82,6 +82,7 @@ struct Cmaes::State {
   int population;
   Vector mean;
   double sigma = 1.0;
+  double least_deviation = 1e-150;
   Vector path_sigma;
   Vector path_c;
   Matrix covariance;
@@ -157,7 +158,7 @@ void Cmaes::State::keep_in_range() {
     sigma *= longest;
   }
   const double epsilon = std::numeric_limits<double>::epsilon();
-  const double least = std::max(1e-150, 4.0 * epsilon * mean.cwiseAbs().maxCoeff());
+  const double least = std::max(least_deviation, 4.0 * epsilon * mean.cwiseAbs().maxCoeff());
   sigma = std::clamp(sigma, least / lengths.maxCoeff(), 1e50 / lengths.maxCoeff());
 }
 
@@ -169,11 +170,14 @@ Cmaes::Cmaes(std::vector<double> start, const CmaesOptions& options) {
   for (const double x : start) check(std::isfinite(x), "CMA-ES start", "expected finite coordinates");
   check(options.sigma > 0.0 && options.sigma <= 1e50, "CMA-ES sigma", "expected more than 0, at most 1e50");
   check(options.population == 0 || options.population >= 4, "CMA-ES population", "expected 0 or at least 4");
+  check(options.least_deviation >= 1e-150 && options.least_deviation <= 1e50, "CMA-ES least_deviation",
+        "expected 1e-150 to 1e50");
   const int n = static_cast<int>(start.size());
   const int population = options.population == 0 ? default_population(n) : options.population;
   state_ = std::make_unique<State>(n, population, options.seed);
   state_->mean = Eigen::Map<const Vector>(start.data(), n);
   state_->sigma = options.sigma;
+  state_->least_deviation = options.least_deviation;
 }
 
 Cmaes::Cmaes(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -249,6 +253,7 @@ std::string Cmaes::state() const {
                      {"population", s.population},
                      {"generation", s.generation},
                      {"sigma", s.sigma},
+                     {"least_deviation", s.least_deviation},
                      {"mean", to_json(s.mean)},
                      {"path_sigma", to_json(s.path_sigma)},
                      {"path_c", to_json(s.path_c)},
@@ -275,6 +280,7 @@ Cmaes Cmaes::restore(std::string_view text, const std::string& source) {
     auto s = std::make_unique<State>(static_cast<int>(n), static_cast<int>(population), 0);
     json.at("generation").get_to(s->generation);
     json.at("sigma").get_to(s->sigma);
+    json.at("least_deviation").get_to(s->least_deviation);
     from_json(json, "mean", s->mean);
     from_json(json, "path_sigma", s->path_sigma);
     from_json(json, "path_c", s->path_c);

@@ -162,6 +162,18 @@ TEST(Cmaes, StaysInOrderLongAfterConvergence) {
   }
 }
 
+TEST(Cmaes, KeepsTheLeastDeviationAskedFor) {
+  Cmaes search(std::vector<double>(4, 1.0), {.sigma = 0.5, .seed = 6, .least_deviation = 1e-4});
+  double farthest = 0.0;
+  for (int i = 0; i < 10000; ++i) {
+    const auto x = search.ask();
+    if (i > 9000) farthest = std::max(farthest, test::sphere(x));
+    search.tell(x, test::sphere(x));
+  }
+  EXPECT_GT(farthest, 1e-8);
+  EXPECT_LT(farthest, 1e-5);
+}
+
 TEST(Cmaes, StaysFiniteOnFlatUnboundedAndAlwaysFailingFunctions) {
   const auto run = [](auto function) {
     Cmaes search(std::vector<double>(6, 1.0), {.sigma = 0.1, .seed = 9});
@@ -198,6 +210,7 @@ TEST(Cmaes, RefusesBadArguments) {
   EXPECT_THROW(Cmaes({1.0}, {.sigma = 0.0}), Error);
   EXPECT_THROW(Cmaes({1.0}, {.sigma = nan}), Error);
   EXPECT_THROW(Cmaes({1.0}, {.population = 3}), Error);
+  EXPECT_THROW(Cmaes({1.0}, {.least_deviation = 0.0}), Error);
   Cmaes search({1.0, 2.0}, {});
   EXPECT_THROW(search.tell(std::vector<double>{1.0}, 0.0), Error);
   EXPECT_THROW(search.tell(std::vector<double>{1.0, nan}, 0.0), Error);

@@ -229,7 +229,7 @@ Progress begin(const CstAirfoil& from, const CstAirfoil& to, const OptimiseOptio
                                                      {"seed", std::to_string(options.seed)},
                                                      {"from", airfoil_to_json(from)},
                                                      {"to", airfoil_to_json(to)}});
-  Cmaes cmaes(coefficients_of(from), {.sigma = options.sigma, .seed = options.seed});
+  Cmaes cmaes = initial_distribution(from, options.sigma, options.seed);
   return {.search = ShapeSearch(from, options.domain, std::move(cmaes)),
           .chain = MeshChain(options, std::move(mesh)),
           .history = std::move(history),

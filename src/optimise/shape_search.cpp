@@ -91,6 +91,10 @@ bool Feasibility::operator()(const CstAirfoil& design) const {
   });
 }
 
+Cmaes initial_distribution(const CstAirfoil& from, double sigma, std::uint64_t seed) {
+  return Cmaes(coefficients_of(from), {.sigma = sigma, .seed = seed, .least_deviation = 1e-12});
+}
+
 ShapeSearch::ShapeSearch(const CstAirfoil& like, const AirfoilDomainOptions& domain, Cmaes cmaes)
     : like_(like), feasible_(like, domain), cmaes_(std::move(cmaes)) {}
 

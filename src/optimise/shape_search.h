@@ -63,6 +63,10 @@ class Feasibility {
   double farfield_ = 0.0;  // radius of the circle inside the farfield's polygon
 };
 
+// Where a run starts. The least deviation is far below what a mesh or a solver could tell, and far above
+// rounding (remodel/optimise.h says why).
+Cmaes initial_distribution(const CstAirfoil& from, double sigma, std::uint64_t seed);
+
 struct Sample {
   std::vector<double> coefficients;
   CstAirfoil design;

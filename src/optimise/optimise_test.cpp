@@ -1,0 +1,261 @@
+#include "remodel/optimise.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "remodel/error.h"
+#include "remodel/io.h"
+
+namespace remodel {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Runs of 50 boundary points: a mesh of about a thousand triangles.
+class OptimiseRun : public testing::Test {
+ protected:
+  void SetUp() override {
+    root_ = fs::temp_directory_path() / ("remodel-optimise-" + std::to_string(getpid()));
+    fs::remove_all(root_);
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  OptimiseOptions options(const std::string& name, std::size_t evaluations = 60) const {
+    return {.domain = {.points = 50},
+            .quality = {.gradation = 1.0},
+            .evaluations = evaluations,
+            .compare_every = 10,
+            .checkpoint_every = 25,
+            .directory = root_ / name};
+  }
+
+  fs::path root_;
+  CstAirfoil from_ = load_airfoil("naca:0012", 5);
+  CstAirfoil to_ = load_airfoil("rae2822", 5);
+};
+
+// Stops the run in order, or as if it were killed, after some evaluations.
+struct StopAfter : OptimiseObserver {
+  enum class How { cancel, kill };
+  StopAfter(std::uint64_t evaluations, How stop) : last(evaluations), how(stop) {}
+  void evaluated(const EvaluationRecord& record) override {
+    seen = record.evaluation;
+    if (how == How::kill && seen == last) throw std::runtime_error("killed");
+  }
+  bool cancelled() override { return how == How::cancel && seen >= last; }
+  std::uint64_t last, seen = 0;
+  How how;
+};
+
+// All that is promised to be the same: the seconds are not.
+void expect_same_runs(const fs::path& a, const fs::path& b) {
+  const auto rows = History::open(a / "history.sqlite").records();
+  const auto others = History::open(b / "history.sqlite").records();
+  ASSERT_EQ(rows.size(), others.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    SCOPED_TRACE("row " + std::to_string(i));
+    EXPECT_EQ(rows[i].evaluation, others[i].evaluation);
+    EXPECT_EQ(rows[i].generation, others[i].generation);
+    EXPECT_EQ(rows[i].coefficients, others[i].coefficients);
+    EXPECT_EQ(rows[i].objective, others[i].objective);
+    EXPECT_EQ(rows[i].sigma, others[i].sigma);
+    EXPECT_EQ(rows[i].infeasible_samples, others[i].infeasible_samples);
+    EXPECT_EQ(rows[i].triangles_before, others[i].triangles_before);
+    EXPECT_EQ(rows[i].triangles, others[i].triangles);
+    EXPECT_EQ(rows[i].preserved, others[i].preserved);
+    EXPECT_EQ(rows[i].moved, others[i].moved);
+    EXPECT_EQ(rows[i].inserted, others[i].inserted);
+    EXPECT_EQ(rows[i].removed, others[i].removed);
+    EXPECT_EQ(rows[i].min_angle_deg, others[i].min_angle_deg);
+    EXPECT_EQ(rows[i].generated_triangles, others[i].generated_triangles);
+    EXPECT_EQ(rows[i].detail, others[i].detail);
+  }
+  for (const char* mesh : {"first.vtkhdf", "middle.vtkhdf", "last.vtkhdf"})
+    EXPECT_TRUE(read_mesh(a / mesh).state() == read_mesh(b / mesh).state()) << mesh;
+}
+
+TEST_F(OptimiseRun, LeavesItsFilesAndFiguresThatAgreeWithTheHistory) {
+  const OptimiseOptions given = options("run");
+  const OptimiseResult result = optimise(from_, to_, given);
+  EXPECT_EQ(result.stopped, OptimiseStopped::done);
+  EXPECT_EQ(result.evaluations, 60u);
+  EXPECT_EQ(result.invalid_meshes, 0u) << result.detail;
+  EXPECT_GE(result.min_angle_deg, 30.0 - 1e-6);
+  EXPECT_GT(result.preserved_percent, 50.0);
+  EXPECT_LT(result.surplus_percent, 100.0);
+
+  const auto rows = History::open(given.directory / "history.sqlite").records();
+  ASSERT_EQ(rows.size(), 60u);
+  double best = rows[0].objective;
+  std::size_t compared = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    best = std::min(best, rows[i].objective);
+    EXPECT_EQ(rows[i].best_objective, best);
+    if (i > 0) EXPECT_EQ(rows[i].triangles_before, rows[i - 1].triangles);
+    EXPECT_LE(rows[i].preserved, rows[i].triangles_before);
+    EXPECT_EQ(rows[i].generated_triangles.has_value(), (i + 1) % 10 == 0);
+    EXPECT_EQ(rows[i].checked == Checked::full, (i + 1) % 10 == 0);
+    compared += rows[i].generate_seconds.has_value();
+  }
+  EXPECT_EQ(result.objective, best);
+  EXPECT_EQ(compared, 6u);
+
+  for (const char* mesh : {"first.vtkhdf", "middle.vtkhdf", "last.vtkhdf"})
+    EXPECT_EQ(read_mesh(given.directory / mesh).quick_check(), "") << mesh;
+  EXPECT_EQ(load_airfoil((given.directory / "best.json").string(), 5), result.best);
+  EXPECT_EQ(read_text(given.directory / "result.json"), optimise_result_to_json(result) + "\n");
+}
+
+TEST_F(OptimiseRun, EvaluatesTheSameDesignsWhateverTheMesh) {
+  OptimiseOptions other = options("other");
+  other.domain.points = 100;
+  other.quality.gradation = 3.0;
+  other.remodel.distance = 2.0;
+  other.compare_every = 0;
+  optimise(from_, to_, options("run"));
+  optimise(from_, to_, other);
+  const auto rows = History::open(root_ / "run" / "history.sqlite").records();
+  const auto others = History::open(root_ / "other" / "history.sqlite").records();
+  ASSERT_EQ(rows.size(), others.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_EQ(rows[i].coefficients, others[i].coefficients);
+}
+
+TEST_F(OptimiseRun, GoesOnFromAnInterruptToTheSameHistoryAndMesh) {
+  optimise(from_, to_, options("whole"));
+  OptimiseOptions parts = options("parts");
+  for (const std::uint64_t stop : {0, 7, 8, 40}) {
+    StopAfter observer(stop, StopAfter::How::cancel);
+    const OptimiseResult result = optimise(from_, to_, parts, &observer);
+    EXPECT_EQ(result.stopped, OptimiseStopped::interrupted);
+    parts.resume = true;
+  }
+  EXPECT_EQ(optimise(from_, to_, parts).stopped, OptimiseStopped::done);
+  expect_same_runs(root_ / "whole", root_ / "parts");
+}
+
+TEST_F(OptimiseRun, GoesOnFromTheLastCheckpointOfAKilledRun) {
+  optimise(from_, to_, options("whole"));
+  OptimiseOptions killed = options("killed");
+  for (const std::uint64_t stop : {3, 24, 26, 51}) {
+    StopAfter observer(stop, StopAfter::How::kill);
+    EXPECT_THROW(optimise(from_, to_, killed, &observer), std::runtime_error);
+    killed.resume = true;
+  }
+  optimise(from_, to_, killed);
+  expect_same_runs(root_ / "whole", root_ / "killed");
+}
+
+TEST_F(OptimiseRun, CanBeGivenMoreEvaluationsWhenItIsDone) {
+  optimise(from_, to_, options("long", 60));
+  OptimiseOptions extended = options("extended", 30);
+  optimise(from_, to_, extended);
+  extended.resume = true;
+  extended.evaluations = 60;
+  EXPECT_EQ(optimise(from_, to_, extended).evaluations, 60u);
+  const auto rows = History::open(root_ / "long" / "history.sqlite").records();
+  const auto others = History::open(root_ / "extended" / "history.sqlite").records();
+  ASSERT_EQ(others.size(), 60u);
+  EXPECT_EQ(rows.back().coefficients, others.back().coefficients);
+  EXPECT_TRUE(read_mesh(root_ / "long" / "last.vtkhdf").state() ==
+              read_mesh(root_ / "extended" / "last.vtkhdf").state());
+}
+
+TEST_F(OptimiseRun, RefusesToReplaceAnUnfinishedRunButReplacesAFinishedOne) {
+  OptimiseOptions again = options("run", 10);
+  StopAfter observer(5, StopAfter::How::cancel);
+  optimise(from_, to_, again, &observer);
+  EXPECT_THROW(optimise(from_, to_, again), Error);
+  again.resume = true;
+  optimise(from_, to_, again);
+  again.resume = false;
+  EXPECT_EQ(optimise(from_, to_, again).evaluations, 10u);
+}
+
+TEST_F(OptimiseRun, NamesTheOptionsThatDifferFromThoseOfTheRunToBeResumed) {
+  OptimiseOptions other = options("run", 5);
+  optimise(from_, to_, other);
+  other.resume = true;
+  other.sigma = 0.25;
+  try {
+    optimise(from_, to_, other);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::argument);
+    EXPECT_NE(std::string(error.what()).find("sigma"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(OptimiseRun, RefusesADamagedCheckpoint) {
+  OptimiseOptions resumed = options("run", 5);
+  optimise(from_, to_, resumed);
+  resumed.resume = true;
+  const fs::path file = resumed.directory / "checkpoint.json";
+  const std::string good = read_text(file);
+  std::string bad = good;
+  bad.replace(bad.find("\"evaluation\":5"), 14, "\"evaluation\":4");
+  write_text_atomically(file, bad);
+  EXPECT_THROW(optimise(from_, to_, resumed), Error);
+  write_text_atomically(file, good);
+  EXPECT_NO_THROW(optimise(from_, to_, resumed));
+  for (const char* mesh : {"checkpoint-a.vtkhdf", "checkpoint-b.vtkhdf"}) {
+    if (fs::exists(resumed.directory / mesh)) fs::resize_file(resumed.directory / mesh, 100);
+  }
+  EXPECT_THROW(optimise(from_, to_, resumed), Error);
+}
+
+TEST_F(OptimiseRun, EndsInOrderWhereNoSampleIsFeasible) {
+  OptimiseOptions wild = options("run");
+  wild.sigma = 1e6;
+  wild.max_refused = 50;
+  const OptimiseResult result = optimise(from_, to_, wild);
+  EXPECT_EQ(result.stopped, OptimiseStopped::infeasible);
+  EXPECT_EQ(result.evaluations, 0u);
+  EXPECT_EQ(result.infeasible_samples, 50u);
+  EXPECT_TRUE(fs::exists(wild.directory / "result.json"));
+}
+
+TEST_F(OptimiseRun, EndsInOrderAtTheVertexBudgetAndWritesNothing) {
+  OptimiseOptions small = options("run");
+  small.quality.max_vertices = 110;
+  EXPECT_EQ(optimise(from_, to_, small).stopped, OptimiseStopped::mesh_limit);
+  EXPECT_FALSE(fs::exists(small.directory));
+}
+
+TEST_F(OptimiseRun, RefusesBadArgumentsBeforeItWritesAnything) {
+  const auto refused = [&](const CstAirfoil& from, const CstAirfoil& to, const OptimiseOptions& given) {
+    EXPECT_THROW(optimise(from, to, given), Error);
+    EXPECT_FALSE(fs::exists(root_ / "run"));
+  };
+  OptimiseOptions bad = options("run");
+  bad.evaluations = 0;
+  refused(from_, to_, bad);
+  bad = options("run");
+  bad.sigma = -1.0;
+  refused(from_, to_, bad);
+  bad = options("run");
+  bad.domain.points = 51;
+  refused(from_, to_, bad);
+  bad = options("run");
+  bad.quality.gradation = 0.0;
+  refused(from_, to_, bad);
+  bad = options("run");
+  bad.resume = true;
+  refused(from_, to_, bad);
+  CstAirfoil open = to_;
+  open.te_upper = 0.001;
+  refused(from_, open, options("run"));
+  CstAirfoil crossing = to_;
+  std::swap(crossing.upper, crossing.lower);
+  refused(from_, crossing, options("run"));
+}
+
+TEST_F(OptimiseRun, RaisesTheLowerOfTwoDegrees) {
+  const OptimiseResult result = optimise(from_, load_airfoil("naca:4412", 7), options("run", 5));
+  EXPECT_EQ(result.best.degree(), 7);
+}
+
+}  // namespace
+}  // namespace remodel
