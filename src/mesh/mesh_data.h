@@ -3,6 +3,7 @@
 // The living mesh as the library sees it: a triangulation, the discretised boundary of a domain in it, and the
 // promises it keeps. Stages (generation, remodelling) work on this; users see Mesh.
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -28,6 +29,25 @@ struct MeshCache {
   virtual ~MeshCache() = default;
 };
 
+// Which slots a search has visited. Forgetting costs nothing, so a small search in a large mesh stays small.
+class Marks {
+ public:
+  void clear(std::size_t slots) {
+    if (stamps_.size() < slots) stamps_.resize(slots, 0);
+    if (++now_ == 0) std::fill(stamps_.begin(), stamps_.end(), 0), now_ = 1;
+  }
+  // True the first time since clear().
+  bool visit(std::uint32_t slot) {
+    if (stamps_[slot] == now_) return false;
+    stamps_[slot] = now_;
+    return true;
+  }
+
+ private:
+  std::vector<std::uint32_t> stamps_;
+  std::uint32_t now_ = 0;
+};
+
 // The bounds of QualityOptions in the form that tests use. They are stricter by one part in 10^9 than what is
 // promised, so that whoever measures a mesh with rounding of his own finds the promise kept.
 struct QualityBounds {
@@ -46,6 +66,7 @@ class MeshData {
   std::size_t domain_triangles = 0;
   std::uint32_t step = 0;
   std::unique_ptr<MeshCache> cache;
+  Marks marks;  // scratch of searches
 
   MeshData() = default;
   MeshData(const MeshData& other);

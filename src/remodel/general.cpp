@@ -61,7 +61,7 @@ class LoopReplacement {
 
   void run() {
     match_loops();
-    const std::vector<VertexId> inside = vertices_inside(triangulation_, regions());
+    const std::vector<VertexId> inside = vertices_inside(mesh_, regions());
     release_old();
     for (const VertexId v : inside) triangulation_.remove(v);
     const std::vector<VertexId> old_boundary = forget_old();

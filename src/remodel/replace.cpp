@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_set>
 
 #include "generate/recovery_error.h"
 
@@ -28,11 +27,12 @@ TriangleId start_of(const Triangulation& triangulation, const RemovalRegion& reg
   return t;
 }
 
-void collect(const Triangulation& triangulation, const RemovalRegion& region, std::vector<VertexId>& found) {
+void collect(MeshData& mesh, const RemovalRegion& region, std::vector<VertexId>& found) {
+  const Triangulation& triangulation = mesh.triangulation;
   const double r2 = region.radius * region.radius;
-  std::unordered_set<std::uint32_t> seen;
   std::vector<TriangleId> todo{start_of(triangulation, region)};
-  seen.insert(todo.front().index);
+  mesh.marks.clear(triangulation.triangle_slots());
+  mesh.marks.visit(todo.front().index);
   while (!todo.empty()) {
     const Triangle& t = triangulation[todo.back()];
     todo.pop_back();
@@ -40,12 +40,11 @@ void collect(const Triangulation& triangulation, const RemovalRegion& region, st
       const Vertex& v = triangulation[t.vertex[i]];
       if (v.boundary == no_index && squared_distance(v.point, region.centre) < r2) found.push_back(t.vertex[i]);
       const TriangleId next = t.link[i].triangle();
-      if (triangulation[next].ghost() || seen.contains(next.index)) continue;
-      if (squared_distance_to_edge(region.centre, triangulation.point(t.vertex[next3(i)]),
+      if (triangulation[next].ghost() ||
+          squared_distance_to_edge(region.centre, triangulation.point(t.vertex[next3(i)]),
                                    triangulation.point(t.vertex[previous3(i)])) >= r2)
         continue;
-      seen.insert(next.index);
-      todo.push_back(next);
+      if (mesh.marks.visit(next.index)) todo.push_back(next);
     }
   }
 }
@@ -130,9 +129,9 @@ class Relabelling {
 
 }  // namespace
 
-std::vector<VertexId> vertices_inside(const Triangulation& triangulation, const std::vector<RemovalRegion>& regions) {
+std::vector<VertexId> vertices_inside(MeshData& mesh, const std::vector<RemovalRegion>& regions) {
   std::vector<VertexId> found;
-  for (const RemovalRegion& region : regions) collect(triangulation, region, found);
+  for (const RemovalRegion& region : regions) collect(mesh, region, found);
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;

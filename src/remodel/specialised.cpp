@@ -22,7 +22,7 @@ class Replacement {
 
   void run() {
     restore_delaunay();
-    const std::vector<VertexId> inside = vertices_inside(triangulation_, regions());
+    const std::vector<VertexId> inside = vertices_inside(mesh_, regions());
     release_boundary();
     for (const VertexId v : inside) triangulation_.remove(v);
     remove_lost();
