@@ -50,18 +50,17 @@ void collect(MeshData& mesh, const RemovalRegion& region, std::vector<VertexId>&
 }
 
 // The label of a triangle beside one of its constrained edges.
-Region side_label(const MeshData& mesh, const std::vector<bool>& left, const Triangle& t, int i) {
+Region side_label(const MeshData& mesh, const Triangle& t, int i) {
   const std::uint32_t a = mesh.triangulation[t.vertex[next3(i)]].boundary;
   const std::uint32_t b = mesh.triangulation[t.vertex[previous3(i)]].boundary;
   const bool forward = mesh.at(a).next == b;  // the triangle lies on the left of a -> b
   const std::uint32_t curve = mesh.at(forward ? a : b).curve;
-  return forward == left[mesh.domain.loop_of(curve)] ? Region::domain : Region::outside;
+  return forward == mesh.domain_on_left[mesh.domain.loop_of(curve)] ? Region::domain : Region::outside;
 }
 
 class Relabelling {
  public:
   explicit Relabelling(MeshData& mesh) : mesh_(mesh), triangulation_(mesh.triangulation) {
-    for (std::size_t loop = 0; loop < mesh.loop_heads.size(); ++loop) left_.push_back(mesh.domain_on_left(loop));
     for (const TriangleId t : triangulation_.touched())
       if (triangulation_[t].alive()) touched_.push_back(t);
   }
@@ -106,7 +105,7 @@ class Relabelling {
 
   void seed_from_boundary(TriangleId t) {
     for (int i = 0; i < 3; ++i)
-      if (triangulation_[t].link[i].constrained()) label(t, side_label(mesh_, left_, triangulation_[t], i));
+      if (triangulation_[t].link[i].constrained()) label(t, side_label(mesh_, triangulation_[t], i));
   }
 
   // A part without a boundary edge of its own is labelled like what lies around it.
@@ -123,7 +122,6 @@ class Relabelling {
 
   MeshData& mesh_;
   Triangulation& triangulation_;
-  std::vector<bool> left_;
   std::vector<TriangleId> touched_, relabelled_, todo_;
 };
 
