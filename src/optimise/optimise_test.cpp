@@ -94,7 +94,7 @@ TEST_F(OptimiseRun, LeavesItsFilesAndFiguresThatAgreeWithTheHistory) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     best = std::min(best, rows[i].objective);
     EXPECT_EQ(rows[i].best_objective, best);
-    if (i > 0) EXPECT_EQ(rows[i].triangles_before, rows[i - 1].triangles);
+    EXPECT_EQ(rows[i].triangles_before, i == 0 ? rows[0].triangles_before : rows[i - 1].triangles);
     EXPECT_LE(rows[i].preserved, rows[i].triangles_before);
     EXPECT_EQ(rows[i].generated_triangles.has_value(), (i + 1) % 10 == 0);
     EXPECT_EQ(rows[i].checked == Checked::full, (i + 1) % 10 == 0);
