@@ -14,7 +14,8 @@
 namespace remodel {
 
 // y(x) of each surface is C(x) S(x) + x * te, with the class function C(x) = x^e1 (1-x)^e2 and the shape
-// function S(x) = sum of coefficient_i * Bernstein_{i,n}(x). upper and lower have the same size n + 1 >= 2.
+// function S(x) = sum of coefficient_i * Bernstein_{i,n}(x). upper and lower have the same size n + 1 >= 2;
+// e1 and e2 are positive.
 struct CstAirfoil {
   std::vector<double> upper;
   std::vector<double> lower;
@@ -28,7 +29,7 @@ struct CstAirfoil {
   // The paper's airfoil function a(t), t in [0,1]: counter-clockwise from the trailing edge (t = 0) over the
   // upper surface (t < 1/2), the leading edge (t = 1/2) and the lower surface back to the trailing edge.
   // x = (1 + cos 2 pi t) / 2. at(t) and at(1-t) have the same x to the last bit; x is exactly 1 at t = 0 and
-  // t = 1, exactly 0 at t = 1/2.
+  // t = 1, exactly 0 at t = 1/2. For the paper's exponents the bits are the same on every machine.
   Point at(double t) const;
 
   friend bool operator==(const CstAirfoil&, const CstAirfoil&) = default;
@@ -62,6 +63,11 @@ bool surfaces_apart(const CstAirfoil& airfoil);
 
 // A coordinate file as read: surfaces from leading edge to trailing edge, chord scaled to 1, leading edge at
 // the origin, trailing edge (midpoint of the two end points) at (1, 0).
+//
+// CST is y over x, so the leading edge is the point of smallest x (the middle one of a flat nose), also where the
+// file's author meant another: on a thick cambered section with its thickness perpendicular to the mean line the
+// foremost point lies a little above the mean line's beginning. x is scaled and y sheared linearly in x; nothing
+// is rotated. x is in [0,1], but for a trailing edge that is cut at an angle, which may reach beyond 1.
 struct AirfoilCoordinates {
   std::string name;
   std::vector<Point> upper;
@@ -69,7 +75,8 @@ struct AirfoilCoordinates {
 };
 // Reads Selig or Lednicer order, found by content. Accepts CRLF, blank lines, comment lines (#, !, %), tabs and
 // commas, numbers such as -.0228, open and closed trailing edges, leading edges that are not the minimum-x
-// point. Throws Error (file, format) naming file and line.
+// point, either surface first. At most 16 MiB. Throws Error (file, format) naming file and line, also for fewer
+// than 3 points a surface, repeated points, x out of order, surfaces that cross, ends that do not meet in x.
 AirfoilCoordinates read_airfoil(const std::filesystem::path& file);
 AirfoilCoordinates parse_airfoil(std::string_view text, const std::string& source);
 
@@ -79,6 +86,8 @@ struct CstFit {
   double max_error = 0.0;  // largest and root-mean-square distance in y at the points, in chords, after the
   double rms_error = 0.0;  // gap's removal
 };
+// degree: 2 to 12. Throws Error (argument), also where a surface has fewer points between its edges than
+// coefficients.
 CstFit fit_cst(const AirfoilCoordinates& coordinates, int degree);
 
 // NACA 4-digit ("2412") and 5-digit ("23012", reflexed "23112" too) sections with the closed trailing edge
@@ -99,9 +108,13 @@ struct CatalogueEntry {
 const std::vector<CatalogueEntry>& airfoil_catalogue();
 
 // SHAPE of the command line: a coordinate file, "naca:2412", a catalogue name, or a .json file of CST
-// coefficients. degree is used where a fit is needed. Throws Error.
+// coefficients. What exists as a file or contains '/' or '.' is a file. degree is used where a fit is needed.
+// Throws Error.
 CstAirfoil load_airfoil(const std::string& shape, int degree);
-// The .json of `remodel fit`: degree, upper[], lower[], e1, e2, te_upper, te_lower (the last four optional).
+// The .json of `remodel fit`: degree, upper[], lower[], e1, e2, te_upper, te_lower (the last four optional), exact.
+// from_json ignores name, max_error, rms_error, thickness and camber, which `remodel fit` reports beside them, and
+// throws Error (format) naming the key for any other key, kind, size or range. to_json throws Error (argument) for
+// what is not finite.
 std::string airfoil_to_json(const CstAirfoil& airfoil);
 CstAirfoil airfoil_from_json(std::string_view text, const std::string& source);
 

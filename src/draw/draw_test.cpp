@@ -1,6 +1,9 @@
 #include "remodel/draw.h"
 
+#include <cairo.h>
 #include <gtest/gtest.h>
+
+#include <memory>
 
 #include "draw/clip.h"
 #include "draw/color_scale.h"
@@ -57,6 +60,43 @@ TEST(Draw, AWindowOfABillionthIsNoTroubleAndNeitherIsAnEmptyOne) {
   for (const char* name : {"a.png", "a.svg"}) {
     EXPECT_NE(drawn(mesh, name, {.window = {{1.2, 0.3, 1.2 + 1e-9, 0.3 + 1e-9}}}), "");
     EXPECT_NE(drawn(mesh, name, {.window = {{100, 100, 101, 101}}}), "");
+  }
+}
+
+// 0xRRGGBB of each pixel, row by row.
+std::vector<std::uint32_t> pixels_of(const FrozenMesh& mesh, const DrawOptions& options, int& width) {
+  const Scratch scratch;
+  draw(mesh, scratch / "a.png", options);
+  const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> image(
+      cairo_image_surface_create_from_png((scratch / "a.png").c_str()), cairo_surface_destroy);
+  width = cairo_image_surface_get_width(image.get());
+  std::vector<std::uint32_t> pixels;
+  for (int y = 0; y < cairo_image_surface_get_height(image.get()); ++y) {
+    const auto* row = reinterpret_cast<const std::uint32_t*>(cairo_image_surface_get_data(image.get()) +
+                                                             y * cairo_image_surface_get_stride(image.get()));
+    for (int x = 0; x < width; ++x) pixels.push_back(row[x] & 0xffffff);
+  }
+  return pixels;
+}
+
+TEST(Draw, ColoursTheDomainWithoutGapsAndLeavesTheHoleWhite) {
+  int width = 0;
+  const auto pixels = pixels_of(test::square_ring(), {.window = {{0, 0, 3, 3}}, .width = 300}, width);
+  ASSERT_EQ(width, 300);
+  for (int y = 2; y < 298; ++y) {
+    for (int x = 2; x < 298; ++x) {
+      // Outlines are a few pixels wide; the hole is from 1 to 2 chords, its upper left corner a little
+      // higher.
+      const bool inside = x > 104 && x < 196 && y > 104 && y < 196;
+      const bool outside = x < 96 || x > 204 || y < 88 || y > 204;
+      const auto color = pixels[static_cast<std::size_t>(y * width + x)];
+      if (inside) {
+        ASSERT_EQ(color, 0xffffffU) << x << ' ' << y;
+      }
+      if (outside) {
+        ASSERT_LT(color >> 16, 0xf8U) << x << ' ' << y;
+      }
+    }
   }
 }
 

@@ -106,6 +106,7 @@ Picture::Picture(const FrozenMesh& mesh, const Layout& layout, DrawColor color)
 }
 
 void Picture::add_polygon(cairo_t* cairo, const std::vector<Point>& polygon) const {
+  cairo_new_sub_path(cairo);  // otherwise the first line starts where the last polygon did
   for (const Point p : polygon) {
     const Point q = layout_.pixel(p);
     cairo_line_to(cairo, q.x, q.y);
@@ -144,31 +145,39 @@ double Picture::side_in_pixels(std::uint32_t triangle) const {
 }
 
 void Picture::stroke_edges(cairo_t* cairo) const {
-  constexpr std::size_t style_levels = 16;  // one path a style
-  std::array<std::vector<std::array<std::uint32_t, 2>>, style_levels> edges;
-  for (const auto triangle : triangles_) {
-    const double strength = edge_strength(side_in_pixels(triangle) / layout_.unit);
-    const auto level = static_cast<std::size_t>(strength * (style_levels - 1) + 0.5);
-    const auto& corners = mesh_.triangles[triangle];
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::array<std::uint32_t, 2> edge = {corners[i], corners[(i + 1) % 3]};
+  constexpr std::size_t strengths = 16;  // one path for each, on dark and on bright colours
+  constexpr double dark = 0.2;           // below this position of the colour map, dark lines cannot be seen
+  std::array<std::array<EdgeList, strengths>, 2> edges;
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    const double strength = edge_strength(side_in_pixels(triangles_[i]) / layout_.unit);
+    const auto level = static_cast<std::size_t>(strength * (strengths - 1) + 0.5);
+    const auto& corners = mesh_.triangles[triangles_[i]];
+    for (std::size_t k = 0; level > 0 && k < 3; ++k) {
+      const std::array<std::uint32_t, 2> edge = {corners[k], corners[(k + 1) % 3]};
       // Once from each inner edge's two triangles; boundary edges are drawn over anyway.
-      if (edge[0] < edge[1] && level > 0) edges[level].push_back(edge);
+      if (edge[0] < edge[1]) edges[scale_.positions[i] < dark ? 1 : 0][level].push_back(edge);
     }
   }
-  for (std::size_t level = 1; level < style_levels; ++level) {
-    const double t = static_cast<double>(level) / (style_levels - 1);
-    for (const auto& [a, b] : edges[level]) {
-      const auto part = clip_segment(mesh_.points[a], mesh_.points[b], seen_);
-      if (!part) continue;
-      const Point from = layout_.pixel(part->first);
-      const Point to = layout_.pixel(part->second);
-      cairo_move_to(cairo, from.x, from.y);
-      cairo_line_to(cairo, to.x, to.y);
-    }
-    cairo_set_source_rgba(cairo, 0.05, 0.05, 0.1, 0.75 * t);
+  for (std::size_t level = 1; level < strengths; ++level) {
+    const double t = static_cast<double>(level) / (strengths - 1);
     cairo_set_line_width(cairo, (0.25 + 0.65 * t) * layout_.unit);
+    add_segments(cairo, edges[0][level]);
+    set_color(cairo, {0.05, 0.05, 0.10}, 0.75 * t);
     cairo_stroke(cairo);
+    add_segments(cairo, edges[1][level]);
+    set_color(cairo, {0.75, 0.75, 0.85}, 0.55 * t);
+    cairo_stroke(cairo);
+  }
+}
+
+void Picture::add_segments(cairo_t* cairo, const EdgeList& edges) const {
+  for (const auto& [a, b] : edges) {
+    const auto part = clip_segment(mesh_.points[a], mesh_.points[b], seen_);
+    if (!part) continue;
+    const Point from = layout_.pixel(part->first);
+    const Point to = layout_.pixel(part->second);
+    cairo_move_to(cairo, from.x, from.y);
+    cairo_line_to(cairo, to.x, to.y);
   }
 }
 
@@ -176,24 +185,14 @@ void Picture::stroke_boundaries(cairo_t* cairo) const {
   cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
   for (std::size_t k = 0; k < mesh_.boundaries.size(); ++k) {
     std::vector<Point> points;
-    for (const auto& [a, b] : mesh_.boundaries[k].edges) {
-      points.push_back(mesh_.points[a]);
-      points.push_back(mesh_.points[b]);
-    }
+    for (const auto& edge : mesh_.boundaries[k].edges) points.push_back(mesh_.points[edge[0]]);
     if (points.empty()) continue;
     const Box box = box_of(points);
-    for (std::size_t i = 0; i + 1 < points.size(); i += 2) {
-      const auto part = clip_segment(points[i], points[i + 1], seen_);
-      if (!part) continue;
-      const Point from = layout_.pixel(part->first);
-      const Point to = layout_.pixel(part->second);
-      cairo_move_to(cairo, from.x, from.y);
-      cairo_line_to(cairo, to.x, to.y);
-    }
+    add_segments(cairo, mesh_.boundaries[k].edges);
     // A small body in a large picture must not drown in its own outline.
     const double extent = layout_.scale * std::max(box.high.x - box.low.x, box.high.y - box.low.y);
     set_color(cairo, boundary_color(k));
-    cairo_set_line_width(cairo, std::clamp(extent / 60.0, 0.6 * layout_.unit, 2.2 * layout_.unit));
+    cairo_set_line_width(cairo, std::clamp(extent / 30.0, 0.8 * layout_.unit, 2.2 * layout_.unit));
     cairo_stroke(cairo);
   }
 }

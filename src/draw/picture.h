@@ -4,6 +4,7 @@
 
 #include <cairo.h>
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -27,12 +28,14 @@ struct Layout {
 };
 Layout layout_for(const FrozenMesh& mesh, const DrawOptions& options);
 
+using EdgeList = std::vector<std::array<std::uint32_t, 2>>;
+
 class Picture {
  public:
   // mesh must outlive the picture.
   Picture(const FrozenMesh& mesh, const Layout& layout, DrawColor color);
 
-  // fill_seams: draw over the hairlines that smoothed edges leave between neighbours.
+  // fill: draw over the hairlines that smoothed edges leave between neighbours.
   enum class Seams { leave, fill };
   void fill_triangles(cairo_t* cairo, Seams seams) const;
   void stroke_edges(cairo_t* cairo) const;
@@ -41,6 +44,7 @@ class Picture {
 
  private:
   void add_polygon(cairo_t* cairo, const std::vector<Point>& polygon) const;
+  void add_segments(cairo_t* cairo, const EdgeList& edges) const;
   double side_in_pixels(std::uint32_t triangle) const;
   void color_bar(cairo_t* cairo, double left, double right, double top, double bottom) const;
   void boundary_names(cairo_t* cairo, double left, double baseline) const;

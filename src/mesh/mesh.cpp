@@ -75,17 +75,25 @@ void freeze_boundary(const MeshData& mesh, const std::vector<std::uint32_t>& poi
   for (std::size_t curve = 0; curve < mesh.domain.curve_count(); ++curve)
     boundary_index(frozen, mesh.domain.curve(curve).name);
   for (std::size_t loop = 0; loop < mesh.loop_heads.size(); ++loop) {
-    const bool left = mesh.domain_on_left(loop);
+    struct Named {
+      std::size_t boundary;
+      std::array<std::uint32_t, 2> edge;
+    };
+    std::vector<Named> edges;  // along the loop
     std::uint32_t k = mesh.loop_heads[loop];
     do {
       const BoundaryVertex& from = mesh.at(k);
-      std::array<std::uint32_t, 2> edge{point_of[from.vertex.index], point_of[mesh.next(k).vertex.index]};
-      if (!left) std::swap(edge[0], edge[1]);
-      frozen.boundaries[boundary_index(frozen, mesh.domain.curve(from.curve).name)].edges.push_back(edge);
-      frozen.curve[point_of[from.vertex.index]] = static_cast<std::int32_t>(from.curve);
-      frozen.parameter[point_of[from.vertex.index]] = from.t;
+      const std::uint32_t a = point_of[from.vertex.index], b = point_of[mesh.next(k).vertex.index];
+      edges.push_back({boundary_index(frozen, mesh.domain.curve(from.curve).name), {a, b}});
+      frozen.curve[a] = static_cast<std::int32_t>(from.curve);
+      frozen.parameter[a] = from.t;
       k = from.next;
     } while (k != mesh.loop_heads[loop]);
+    if (!mesh.domain_on_left(loop)) {
+      std::reverse(edges.begin(), edges.end());
+      for (Named& named : edges) std::swap(named.edge[0], named.edge[1]);
+    }
+    for (const Named& named : edges) frozen.boundaries[named.boundary].edges.push_back(named.edge);
   }
 }
 

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "remodel/error.h"
-#include "text_file.h"
 
 namespace remodel {
 namespace {

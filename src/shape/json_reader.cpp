@@ -5,7 +5,6 @@
 #include <set>
 
 #include "remodel/error.h"
-#include "text_file.h"
 
 namespace remodel {
 namespace {
@@ -22,11 +21,16 @@ std::string message_of(const json::exception& e) {
   return message;
 }
 
-// Remembers the keys of the objects that are open while the text is parsed.
-class RepeatedKeys {
+constexpr int deepest_nesting = 64;  // printing and copying of values recurse
+
+// Watches the parser: remembers the keys of the objects that are open.
+class Strictness {
  public:
-  explicit RepeatedKeys(const std::string& source) : source_(source) {}
-  bool operator()(int, json::parse_event_t event, const json& parsed) {
+  explicit Strictness(const std::string& source) : source_(source) {}
+  bool operator()(int depth, json::parse_event_t event, const json& parsed) {
+    if (depth > deepest_nesting) {
+      throw Error(ErrorCode::format, source_, "found more than 64 brackets inside each other");
+    }
     if (event == json::parse_event_t::object_start) open_.emplace_back();
     if (event == json::parse_event_t::object_end) open_.pop_back();
     if (event == json::parse_event_t::key && !open_.back().insert(parsed.get<std::string>()).second) {
@@ -43,9 +47,8 @@ class RepeatedKeys {
 }  // namespace
 
 json parse_json(std::string_view text, const std::string& source) {
-  check_text_size(text, source);
   try {
-    return json::parse(text, RepeatedKeys(source));
+    return json::parse(text, Strictness(source));
   } catch (const json::exception& e) {
     throw Error(ErrorCode::format, source, message_of(e));
   }

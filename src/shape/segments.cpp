@@ -37,14 +37,15 @@ bool strangers_meet(const Side& a, const Side& b) {
          orient2d(b.from, b.to, a.from) * orient2d(b.from, b.to, a.to) <= 0;
 }
 
+bool turns_back(double before, double corner, double after) {
+  return (before < corner && after < corner) || (before > corner && after > corner);
+}
+
 // The second side begins where the first one ends: they overlap where the path turns straight back.
-bool turns_back(const Side& a, const Side& b) {
-  const Point before = a.from;
+bool neighbours_overlap(const Side& a, const Side& b) {
   const Point corner = a.to;
-  const Point after = b.to;
-  if (orient2d(before, corner, after) != 0) return false;
-  if (before.x != corner.x) return (before.x < corner.x) == (after.x < corner.x);
-  return (before.y < corner.y) == (after.y < corner.y);
+  if (!turns_back(a.from.x, corner.x, b.to.x) && !turns_back(a.from.y, corner.y, b.to.y)) return false;
+  return orient2d(a.from, corner, b.to) == 0;
 }
 
 class MeetingSides {
@@ -95,8 +96,8 @@ class MeetingSides {
   bool meet(std::size_t i, std::size_t j) {
     const Side& a = sides_[i];
     const Side& b = sides_[j];
-    const bool meeting = a.next == j   ? turns_back(a, b)
-                         : b.next == i ? turns_back(b, a)
+    const bool meeting = a.next == j   ? neighbours_overlap(a, b)
+                         : b.next == i ? neighbours_overlap(b, a)
                                        : strangers_meet(a, b);
     if (meeting) found_ = SidePair{std::min(i, j), std::max(i, j)};
     return meeting;

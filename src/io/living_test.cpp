@@ -1,0 +1,62 @@
+// The living mesh in and out of its native file.
+
+#include <gtest/gtest.h>
+
+#include "io/test_meshes.h"
+#include "remodel/generate.h"
+#include "remodel/io.h"
+
+namespace remodel {
+namespace {
+
+using test::error_of;
+using test::Scratch;
+
+Mesh square_mesh() {
+  Domain domain;
+  domain.loops = {{LoopRole::outer,
+                   {{"wall", Polyline{{{0, 0}, {1, 0}, {1, 1}}}, {0, 0.25, 0.5, 0.75}},
+                    {"lid", Polyline{{{1, 1}, {0, 1}, {0, 0}}}, {0, 0.25, 0.5, 0.75}}}}};
+  return generate(domain).mesh;
+}
+
+TEST(LivingMesh, ComesBackFromItsFileWithTheSameStateAndTheSameBytes) {
+  const Scratch scratch;
+  const Mesh mesh = square_mesh();
+  write_mesh(mesh, scratch / "a.vtkhdf");
+  const Mesh back = read_mesh(scratch / "a.vtkhdf");
+  EXPECT_EQ(back.state(), mesh.state());
+  EXPECT_EQ(back.quick_check(), "");
+  write_mesh(back, scratch / "b.vtkhdf");
+  EXPECT_EQ(read_text(scratch / "a.vtkhdf"), read_text(scratch / "b.vtkhdf"));
+}
+
+TEST(LivingMesh, ItsFrozenViewIsTheSameInEveryFormat) {
+  const Scratch scratch;
+  const Mesh mesh = square_mesh();
+  const FrozenMesh frozen = mesh.freeze();
+  for (const char* name : {"m.vtkhdf", "m.vtu", "m.su2", "m.msh"}) {
+    write_mesh(mesh, scratch / name);
+    const FrozenMesh back = read_frozen_mesh(scratch / name);
+    EXPECT_EQ(back.points, frozen.points) << name;
+    EXPECT_EQ(back.triangles, frozen.triangles) << name;
+    ASSERT_EQ(back.boundaries.size(), frozen.boundaries.size()) << name;
+    for (std::size_t k = 0; k < frozen.boundaries.size(); ++k) {
+      EXPECT_EQ(back.boundaries[k].name, frozen.boundaries[k].name) << name;
+      EXPECT_EQ(back.boundaries[k].edges, frozen.boundaries[k].edges) << name;
+    }
+  }
+}
+
+TEST(LivingMesh, IsNotReadFromAFileThatHoldsNoState) {
+  const Scratch scratch;
+  const Mesh mesh = square_mesh();
+  for (const char* name : {"m.su2", "m.msh", "m.vtu", "m.vtkhdf"}) {
+    write_mesh(mesh.freeze(), scratch / name);
+    const std::string error = error_of([&] { read_mesh(scratch / name); });
+    EXPECT_NE(error.find("expected, as `remodel mesh` makes it"), std::string::npos) << error;
+  }
+}
+
+}  // namespace
+}  // namespace remodel
