@@ -13,7 +13,7 @@
 //   orientation    triangles are counter-clockwise and have an area (exact)
 //   adjacency      an edge is in one triangle, or in two that pass it in opposite directions
 //   boundary       exactly the edges with one triangle are named (inner edges may be: constraints), once, the
-//                  domain on their left, and under each name in the order of their loop
+//                  domain on their left, and under each name in the order of their loop, either way
 //   area           the triangles' areas sum up to that of the named polygons (exact)
 //   delaunay       no inner edge without a name has the point across inside the triangle's circle (exact)
 //   manifold       the triangles of a point form one fan

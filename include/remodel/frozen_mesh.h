@@ -13,7 +13,8 @@ namespace remodel {
 
 struct FrozenBoundary {
   std::string name;
-  // Pairs of point indices, the domain on the left of first -> second; in the order of the loop.
+  // Pairs of point indices, the domain on the left of first -> second; in the order of the loop, forwards or
+  // backwards (around a hole, the curves' parameters mostly run against the edges).
   std::vector<std::array<std::uint32_t, 2>> edges;
 };
 

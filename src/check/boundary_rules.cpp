@@ -80,10 +80,21 @@ std::vector<Place> places_on_loops(const Topology& topology,
   return places;
 }
 
+// Whether positions on a closed loop follow it, forwards or backwards, from any beginning: on the way through
+// them and back to the first they fall, or rise, once at most.
+bool follow_the_loop(const std::vector<std::uint32_t>& positions) {
+  std::size_t falls = 0;
+  std::size_t rises = 0;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const std::uint32_t next = positions[(i + 1) % positions.size()];
+    falls += next < positions[i];
+    rises += next > positions[i];
+  }
+  return std::min(falls, rises) <= 1;
+}
+
 }  // namespace
 
-// A loop may begin anywhere: on the way through its edges and back to the first, the position on the loop
-// falls once at most.
 void check_order_of_names(const Subject& subject, Report& report) {
   const auto loops = subject.topology.loops();
   const std::vector<Place> places = places_on_loops(subject.topology, loops);
@@ -94,10 +105,7 @@ void check_order_of_names(const Subject& subject, Report& report) {
       if (e != none && places[e].loop != none) positions[places[e].loop].push_back(places[e].position);
     }
     for (const auto& on_loop : positions) {
-      std::size_t falls = 0;
-      for (std::size_t i = 0; i < on_loop.size(); ++i)
-        falls += on_loop[(i + 1) % on_loop.size()] < on_loop[i];
-      if (falls <= 1) continue;
+      if (follow_the_loop(on_loop)) continue;
       report.add("boundary", {},
                  sentence("the edges of \"", boundary.name, "\" are not in the order of their loop"));
     }

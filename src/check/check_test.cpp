@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -324,6 +325,15 @@ TEST(Check, NamesBoundaryEdgesOutOfOrder) {
   FrozenMesh mesh = grid(3);
   std::swap(mesh.boundaries[0].edges[3], mesh.boundaries[0].edges[7]);
   EXPECT_EQ(broken_rules(mesh), Names{"boundary"});
+}
+
+// Parameters of a design may run against the direction that has the domain on the left.
+TEST(Check, AcceptsBoundaryEdgesInTheOrderOfTheLoopBackwards) {
+  FrozenMesh mesh = grid(3);
+  Edges& edges = mesh.boundaries[0].edges;
+  std::reverse(edges.begin(), edges.end());
+  std::rotate(edges.begin(), edges.begin() + 5, edges.end());
+  EXPECT_EQ(broken_rules(mesh), Names{});
 }
 
 TEST(Check, NamesADomainThatBoundaryNamesDoNotDescribe) {

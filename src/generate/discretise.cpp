@@ -73,6 +73,7 @@ void discretise(MeshData& mesh) {
   for (std::size_t loop = 0; loop < mesh.domain.loops.size(); ++loop) loops.push_back(mesh.domain.stations(loop));
   start(mesh, loops);
   for (const auto& stations : loops) insert_loop(mesh, stations);
+  mesh.orient_loops();
   for (const std::uint32_t head : mesh.loop_heads) constrain_loop(mesh, head);
   mesh.label_regions();
   for (std::uint32_t k = 0; k < mesh.boundary.size(); ++k)

@@ -17,7 +17,7 @@ bool sharp_on_left(Point a, Point b, Point c) {
 
 SmallAngles::SmallAngles(const MeshData& mesh) : mesh_(mesh) {
   for (std::size_t loop = 0; loop < mesh.loop_heads.size(); ++loop) {
-    const bool left = mesh.domain_on_left(loop);
+    const bool left = mesh.domain_on_left[loop];
     std::uint32_t k = mesh.loop_heads[loop];
     do {
       const Point p = mesh.point(mesh.at(k).previous), q = mesh.point(k), r = mesh.point(mesh.at(k).next);

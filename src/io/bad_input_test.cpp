@@ -258,18 +258,18 @@ TEST(BadVtkhdfFiles, EmptyTruncatedAndOtherFilesAreRefusedByName) {
   }
 }
 
-TEST(BadVtkhdfFiles, AnyFlippedByteIsReadOrRefusedInOneLine) {
+TEST(BadVtkhdfFiles, AnyFlippedByteOfOursIsRefusedInOneLine) {
   const Scratch scratch;
   const auto file = scratch / "m.vtkhdf";
   write_mesh(test::full_square_ring(), file);
   const std::string whole = read_text(file);
-  std::mt19937 random(static_cast<unsigned>(test::seed(2)));
-  for (int trial = 0; trial < 500; ++trial) {
+  // The last sixteen bytes are the seal: without its mark, the file counts as another program's.
+  for (std::size_t at = 0; at + 16 < whole.size(); at += 37) {
     std::string text = whole;
-    text[random() % text.size()] = static_cast<char>(random() & 0xff);
+    text[at] = static_cast<char>(text[at] ^ 0x20);
     write_text_atomically(file, text);
-    const std::string error = error_of([&] { read_frozen_mesh(file); });
-    EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+    EXPECT_EQ(error_of([&] { read_frozen_mesh(file); }),
+              file.string() + ": another checksum than that of the content found: the file is damaged");
   }
 }
 

@@ -1,10 +1,11 @@
 #include "io/hdf5_file.h"
 
 #include <array>
-#include <fstream>
+#include <limits>
 #include <utility>
 
 #include "remodel/error.h"
+#include "remodel/io.h"
 
 namespace remodel::io {
 
@@ -57,12 +58,37 @@ Hdf5Handle without_times(hid_t kind) {
   return properties;
 }
 
+constexpr std::string_view seal_mark = "rmdlseal";
+constexpr std::size_t seal_size = 16;
+
+// FNV-1a, lowest byte first whatever the machine.
+std::string checksum_bytes(std::string_view bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  std::string result;
+  for (int shift = 0; shift < 64; shift += 8) result += static_cast<char>(hash >> shift & 0xff);
+  return result;
+}
+
+// A file without a seal was made or changed by another program: nothing is said about it.
+bool has_broken_seal(std::string_view bytes) {
+  if (bytes.size() < seal_size) return false;
+  const std::string_view seal = bytes.substr(bytes.size() - seal_size);
+  const std::string_view content = bytes.substr(0, bytes.size() - seal_size);
+  return seal.starts_with(seal_mark) && seal.substr(seal_mark.size()) != checksum_bytes(content);
+}
+
 // Ends at the first of the zeros that fill a fixed length.
 std::string cut_at_zero(std::string_view text) {
   return std::string(text.substr(0, text.find('\0')));
 }
 
 }  // namespace
+
+std::string sealed(std::string bytes) {
+  const std::string checksum = checksum_bytes(bytes);
+  return std::move(bytes.append(seal_mark).append(checksum));
+}
 
 Hdf5Handle::~Hdf5Handle() {
   if (id_ >= 0) close_(id_);
@@ -172,11 +198,13 @@ std::string Hdf5Writer::bytes() {
 // ------------------------------------------------------------------------------------------------ reading
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& file) : name_(file.string()) {
-  // HDF5 knows one reason for a file that it cannot open; tell missing from damaged.
-  std::error_code reason;
-  file_size_ = std::filesystem::file_size(file, reason);
-  if (reason) throw Error(ErrorCode::file, name_, "cannot be read: " + reason.message());
-  if (!std::ifstream(file)) throw Error(ErrorCode::file, name_, "cannot be read");
+  // HDF5 knows one reason for a file that it cannot open; this tells missing from damaged.
+  const std::string bytes = read_text(file, std::numeric_limits<std::size_t>::max());
+  file_size_ = bytes.size();
+  if (has_broken_seal(bytes)) {
+    throw Error(ErrorCode::format, name_,
+                "another checksum than that of the content found: the file is damaged");
+  }
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG);  // damage may leave objects open that have no handle
   file_ = Hdf5Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose);

@@ -44,6 +44,10 @@ class Hdf5Silence {
   void* data_ = nullptr;
 };
 
+// HDF5 ignores what follows its own end of a file. There stands a seal, sixteen bytes: a mark and a checksum
+// over all before it, so that a damaged file of ours is refused before HDF5 follows its broken links.
+std::string sealed(std::string bytes);
+
 // Value is double, std::int64_t, std::int32_t, std::uint64_t, std::uint32_t or std::uint8_t throughout.
 
 // Builds a file in memory. The same calls give the same bytes: no times are recorded.

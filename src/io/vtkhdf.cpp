@@ -187,7 +187,7 @@ void write_vtkhdf(const std::filesystem::path& file, const FrozenMesh& mesh, con
   Hdf5Writer out(file.string());
   write_grid(out, to_vtk_grid(mesh));
   if (state != nullptr) write_state(out, *state);
-  write_text_atomically(file, out.bytes());
+  write_text_atomically(file, sealed(out.bytes()));
 }
 
 FrozenMesh read_vtkhdf_frozen(const std::filesystem::path& file) {

@@ -89,7 +89,7 @@ void freeze_boundary(const MeshData& mesh, const std::vector<std::uint32_t>& poi
       frozen.parameter[a] = from.t;
       k = from.next;
     } while (k != mesh.loop_heads[loop]);
-    if (!mesh.domain_on_left(loop)) {
+    if (!mesh.domain_on_left[loop]) {
       std::reverse(edges.begin(), edges.end());
       for (Named& named : edges) std::swap(named.edge[0], named.edge[1]);
     }

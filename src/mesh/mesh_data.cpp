@@ -33,7 +33,9 @@ MeshData::MeshData(const MeshData& other)
       domain(other.domain),
       options(other.options),
       boundary(other.boundary),
+      free_boundary(other.free_boundary),
       loop_heads(other.loop_heads),
+      domain_on_left(other.domain_on_left),
       domain_triangles(other.domain_triangles),
       step(other.step) {}
 
@@ -44,19 +46,41 @@ double MeshData::end_parameter(std::uint32_t k) const {
 }
 
 std::uint32_t MeshData::add_boundary_vertex(BoundaryVertex vertex, std::uint32_t previous) {
-  const auto k = static_cast<std::uint32_t>(boundary.size());
+  auto k = static_cast<std::uint32_t>(boundary.size());
+  if (free_boundary.empty()) {
+    boundary.emplace_back();
+  } else {
+    k = free_boundary.back();
+    free_boundary.pop_back();
+  }
   vertex.previous = previous == no_index ? k : previous;
   vertex.next = previous == no_index ? k : boundary[previous].next;
-  boundary.push_back(vertex);
+  boundary[k] = vertex;
   boundary[vertex.next].previous = k;
   boundary[vertex.previous].next = k;
   triangulation.set_boundary(vertex.vertex, k);
   return k;
 }
 
-bool MeshData::domain_on_left(std::size_t loop) const {
-  const bool counterclockwise = signed_area(domain, loop) > 0.0;
-  return counterclockwise == (domain.loops[loop].role == LoopRole::outer);
+void MeshData::remove_boundary_vertex(std::uint32_t k) {
+  boundary[boundary[k].previous].next = boundary[k].next;
+  boundary[boundary[k].next].previous = boundary[k].previous;
+  boundary[k] = {};
+  free_boundary.push_back(k);
+}
+
+void MeshData::orient_loops() {
+  domain_on_left.clear();
+  for (std::size_t loop = 0; loop < loop_heads.size(); ++loop) {
+    const Point origin = point(loop_heads[loop]);
+    double twice_area = 0.0;
+    std::uint32_t k = loop_heads[loop];
+    do {
+      twice_area += cross(point(k) - origin, point(boundary[k].next) - origin);
+      k = boundary[k].next;
+    } while (k != loop_heads[loop]);
+    domain_on_left.push_back((twice_area > 0.0) == (domain.loops[loop].role == LoopRole::outer));
+  }
 }
 
 void MeshData::label_regions() {
@@ -69,7 +93,7 @@ void MeshData::label_regions() {
     todo.push_back(t);
   };
   for (std::size_t loop = 0; loop < loop_heads.size(); ++loop) {
-    const bool left = domain_on_left(loop);
+    const bool left = domain_on_left[loop];
     std::uint32_t k = loop_heads[loop];
     do {
       const Corner c = *triangulation.find_edge(boundary[k].vertex, next(k).vertex);

@@ -3,6 +3,7 @@
 // The living mesh as the library sees it: a triangulation, the discretised boundary of a domain in it, and the
 // promises it keeps. Stages (generation, remodelling) work on this; users see Mesh.
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -26,6 +27,27 @@ struct BoundaryVertex {
 // What a later stage keeps with a mesh to be faster next time. Never copied, never part of the state.
 struct MeshCache {
   virtual ~MeshCache() = default;
+  bool stale = false;  // connectivity has changed since it was made
+};
+
+// Which slots a search has visited. Forgetting costs nothing, so a small search in a large mesh stays small.
+class Marks {
+ public:
+  void clear(std::size_t slots) {
+    if (stamps_.size() < slots) stamps_.resize(slots, 0);
+    if (++now_ == 0) std::fill(stamps_.begin(), stamps_.end(), 0), now_ = 1;
+  }
+  // True the first time since clear().
+  bool visit(std::uint32_t slot) {
+    if (stamps_[slot] == now_) return false;
+    stamps_[slot] = now_;
+    return true;
+  }
+  bool visited(std::uint32_t slot) const { return stamps_[slot] == now_; }
+
+ private:
+  std::vector<std::uint32_t> stamps_;
+  std::uint32_t now_ = 0;
 };
 
 // The bounds of QualityOptions in the form that tests use. They are stricter by one part in 10^9 than what is
@@ -42,10 +64,16 @@ class MeshData {
   Domain domain;
   QualityOptions options;
   std::vector<BoundaryVertex> boundary;      // order without meaning; walk loops by next
+  std::vector<std::uint32_t> free_boundary;  // unused indices of the boundary table
   std::vector<std::uint32_t> loop_heads;     // boundary index of each loop's first station
+  std::vector<bool> domain_on_left;          // of each loop's direction, whether the domain is on its left
   std::size_t domain_triangles = 0;
   std::uint32_t step = 0;
   std::unique_ptr<MeshCache> cache;
+
+  // Scratch of searches: visited triangles, and a number for each of them.
+  Marks marks;
+  std::vector<std::uint32_t> numbers;
 
   MeshData() = default;
   MeshData(const MeshData& other);
@@ -60,8 +88,10 @@ class MeshData {
   double end_parameter(std::uint32_t k) const;
   // Adds a boundary vertex behind `previous` (no_index: alone in a new loop); returns its index.
   std::uint32_t add_boundary_vertex(BoundaryVertex vertex, std::uint32_t previous);
-  // Whether the domain lies on the left of the loop's direction.
-  bool domain_on_left(std::size_t loop) const;
+  // Takes it out of its loop.
+  void remove_boundary_vertex(std::uint32_t k);
+  // Sets domain_on_left from the vertices of the loops.
+  void orient_loops();
   // Labels all triangles from the constrained edges of all loops: O(triangles).
   void label_regions();
   void count_domain_triangles();

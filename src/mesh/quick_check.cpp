@@ -50,7 +50,7 @@ std::string check_triangle(const MeshData& mesh, std::uint32_t i, const QualityB
 std::string check_boundary(const MeshData& mesh) {
   std::size_t stations = 0;
   for (std::size_t loop = 0; loop < mesh.loop_heads.size(); ++loop) {
-    const bool left = mesh.domain_on_left(loop);
+    const bool left = mesh.domain_on_left[loop];
     std::uint32_t k = mesh.loop_heads[loop];
     do {
       const BoundaryVertex& v = mesh.at(k);

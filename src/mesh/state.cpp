@@ -105,6 +105,7 @@ void restore_boundary(MeshData& mesh, const MeshState& state, const std::string&
     if (new_loop) mesh.loop_heads.push_back(previous);
   }
   if (mesh.loop_heads.size() != mesh.domain.loops.size()) refuse(source, "a loop of the design has no vertices");
+  mesh.orient_loops();
 }
 
 }  // namespace

@@ -12,7 +12,9 @@ namespace {
 using Moving = AdjustCache::Moving;
 using Affected = AdjustCache::Affected;
 
-void add_moving(const MeshData& mesh, AdjustCache& cache, std::uint32_t k) {
+// The rows of non-Steiner vertices depend on the design's parameters only: those of the cache that this one
+// replaces, if there is one, are taken over.
+void add_moving(const MeshData& mesh, AdjustCache& cache, std::uint32_t k, const AdjustCache* earlier) {
   const BoundaryVertex& from = mesh.at(k);
   Moving moving{};
   moving.boundary = k;
@@ -22,18 +24,25 @@ void add_moving(const MeshData& mesh, AdjustCache& cache, std::uint32_t k) {
     moving.row = cache.basis.size();
     moving.basis_size = airfoil->upper.size();
     cache.basis.resize(moving.row + moving.basis_size);
-    moving.station = cst_basis(from.t, airfoil->degree(), airfoil->e1, airfoil->e2,
-                               {cache.basis.data() + moving.row, moving.basis_size});
+    if (earlier != nullptr && !from.steiner) {
+      const Moving& same = earlier->moving[cache.moving.size()];
+      moving.station = same.station;
+      std::copy_n(earlier->basis.begin() + static_cast<std::ptrdiff_t>(same.row), moving.basis_size,
+                  cache.basis.begin() + static_cast<std::ptrdiff_t>(moving.row));
+    } else {
+      moving.station = cst_basis(from.t, airfoil->degree(), airfoil->e1, airfoil->e2,
+                                 {cache.basis.data() + moving.row, moving.basis_size});
+    }
   }
   cache.moving.push_back(moving);
 }
 
-void list_moving(const MeshData& mesh, AdjustCache& cache) {
+void list_moving(const MeshData& mesh, AdjustCache& cache, const AdjustCache* earlier) {
   for (const bool steiner : {false, true}) {
     for (const std::size_t loop : cache.loops) {
       std::uint32_t k = mesh.loop_heads[loop];
       do {
-        if (mesh.at(k).steiner == steiner) add_moving(mesh, cache, k);
+        if (mesh.at(k).steiner == steiner) add_moving(mesh, cache, k, earlier);
         k = mesh.at(k).next;
       } while (k != mesh.loop_heads[loop]);
     }
@@ -47,53 +56,53 @@ void list_moving(const MeshData& mesh, AdjustCache& cache) {
   }
 }
 
-// Affected triangles, each once, in the order of the stars; and the star lists.
-void list_affected(const MeshData& mesh, AdjustCache& cache) {
+template <class Visit>
+void for_each_star_triangle(const Triangulation& triangulation, VertexId v, Visit visit) {
+  const Corner first = triangulation.star(v);
+  Corner c = first;
+  do {
+    if (!triangulation[c.triangle].ghost()) visit(c.triangle);
+    c = triangulation.counterclockwise(c);
+  } while (c.triangle != first.triangle);
+}
+
+// Affected triangles, each once, and the star lists. mesh.numbers holds a listed triangle's position.
+void list_affected(MeshData& mesh, AdjustCache& cache) {
   const Triangulation& triangulation = mesh.triangulation;
-  std::vector<std::pair<TriangleId, std::uint32_t>> by_id;  // sorted: triangle, position in affected
-  for (const Moving& m : cache.moving) {
-    const Corner first = triangulation.star(m.vertex);
-    Corner c = first;
-    do {
-      if (!triangulation[c.triangle].ghost()) by_id.emplace_back(c.triangle, 0);
-      c = triangulation.counterclockwise(c);
-    } while (c.triangle != first.triangle);
+  mesh.marks.clear(triangulation.triangle_slots());
+  mesh.numbers.resize(triangulation.triangle_slots());
+  for (Moving& m : cache.moving) {
+    m.star_begin = cache.stars.size();
+    for_each_star_triangle(triangulation, m.vertex, [&](TriangleId t) {
+      if (mesh.marks.visit(t.index)) {
+        mesh.numbers[t.index] = static_cast<std::uint32_t>(cache.affected.size());
+        const Triangle& triangle = triangulation[t];
+        cache.affected.push_back({.triangle = t,
+                                  .vertex = {triangle.vertex[0], triangle.vertex[1], triangle.vertex[2]},
+                                  .circle = {},
+                                  .domain = triangle.region == Region::domain});
+      }
+      cache.stars.push_back(mesh.numbers[t.index]);
+    });
+    m.star_end = cache.stars.size();
   }
-  std::sort(by_id.begin(), by_id.end());
-  by_id.erase(std::unique(by_id.begin(), by_id.end()), by_id.end());
-  for (std::uint32_t i = 0; i < by_id.size(); ++i) by_id[i].second = i;
-  const auto position = [&](TriangleId t) {
-    const auto found = std::lower_bound(by_id.begin(), by_id.end(), std::pair{t, 0U});
-    return found != by_id.end() && found->first == t ? found->second : no_index;
-  };
-  for (const auto& [t, i] : by_id) {
-    const Triangle& triangle = triangulation[t];
-    Affected affected{};
-    affected.triangle = t;
-    std::copy(triangle.vertex, triangle.vertex + 3, affected.vertex);
-    affected.domain = triangle.region == Region::domain;
-    cache.affected.push_back(affected);
-    if (!affected.domain) continue;
+}
+
+void list_edges(MeshData& mesh, AdjustCache& cache) {
+  const Triangulation& triangulation = mesh.triangulation;
+  for (std::uint32_t i = 0; i < cache.affected.size(); ++i) {
+    if (!cache.affected[i].domain) continue;
+    const Triangle& triangle = triangulation[cache.affected[i].triangle];
     for (int k = 0; k < 3; ++k) {
       const Link link = triangle.link[k];
       if (link.constrained()) {
         cache.segments.push_back({i, triangle.vertex[next3(k)], triangle.vertex[previous3(k)], triangle.vertex[k]});
         continue;
       }
-      const std::uint32_t across = position(link.triangle());
-      if (across != no_index && across < i) continue;  // tested from the other side
+      const std::uint32_t across = mesh.marks.visited(link.triangle().index) ? mesh.numbers[link.triangle().index] : no_index;
+      if (across < i) continue;  // tested from the other side
       cache.edges.push_back({i, across, triangulation.vertex({link.triangle(), link.corner()})});
     }
-  }
-  for (Moving& m : cache.moving) {
-    m.star_begin = cache.stars.size();
-    const Corner first = triangulation.star(m.vertex);
-    Corner c = first;
-    do {
-      if (!triangulation[c.triangle].ghost()) cache.stars.push_back(position(c.triangle));
-      c = triangulation.counterclockwise(c);
-    } while (c.triangle != first.triangle);
-    m.star_end = cache.stars.size();
   }
 }
 
@@ -212,12 +221,14 @@ bool same_basis(const CstAirfoil& a, const CstAirfoil& b) {
 }
 
 AdjustCache& adjust_cache(MeshData& mesh, const std::vector<std::size_t>& moving_loops) {
-  auto* cache = dynamic_cast<AdjustCache*>(mesh.cache.get());
-  if (cache != nullptr && cache->loops == moving_loops) return *cache;
+  auto* present = dynamic_cast<AdjustCache*>(mesh.cache.get());
+  if (present != nullptr && present->loops != moving_loops) present = nullptr;
+  if (present != nullptr && !present->stale) return *present;
   auto made = std::make_unique<AdjustCache>();
   made->loops = moving_loops;
-  list_moving(mesh, *made);
+  list_moving(mesh, *made, present);
   list_affected(mesh, *made);
+  list_edges(mesh, *made);
   AdjustCache& result = *made;
   mesh.cache = std::move(made);
   return result;

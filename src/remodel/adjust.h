@@ -30,8 +30,8 @@ struct AdjustCache : MeshCache {
     VertexId vertex[3];
     Circle circle;        // at the new positions
     bool domain;
-    bool moved;           // a vertex of it has another position
-    bool good;            // at the new positions
+    bool moved = false;   // a vertex of it has another position
+    bool good = false;    // at the new positions
   };
   // An unconstrained edge of the domain with an affected triangle beside it: is `apex` outside its circle?
   struct Edge {

@@ -61,7 +61,7 @@ class LoopReplacement {
 
   void run() {
     match_loops();
-    const std::vector<VertexId> inside = vertices_inside(triangulation_, regions());
+    const std::vector<VertexId> inside = vertices_inside(mesh_, regions());
     release_old();
     for (const VertexId v : inside) triangulation_.remove(v);
     const std::vector<VertexId> old_boundary = forget_old();
@@ -148,12 +148,14 @@ class LoopReplacement {
     const std::vector<BoundaryVertex> old_table = std::move(mesh_.boundary);
     const std::vector<std::uint32_t> old_heads = std::move(mesh_.loop_heads);
     mesh_.boundary.clear();
+    mesh_.free_boundary.clear();
     mesh_.loop_heads.clear();
     mesh_.domain = domain_;
     for (std::size_t loop = 0; loop < domain_.loops.size(); ++loop) {
       if (kept_[loop] == none) insert_loop(loop);
       else copy_loop(old_table, old_heads[kept_[loop]], first_curve(domain_, loop), first_curve(old_domain_, kept_[loop]));
     }
+    mesh_.orient_loops();
     for (const std::size_t loop : new_loops_)
       walk(mesh_.loop_heads[loop], [&](std::uint32_t k) {  // until the neighbours are known
         mesh_.set_boundary_length_scale(k, mesh_.base_length_scale(k));

@@ -27,7 +27,12 @@ namespace {
 class Transaction {
  public:
   explicit Transaction(MeshData& mesh)
-      : mesh_(mesh), boundary_(mesh.boundary), loop_heads_(mesh.loop_heads), domain_(mesh.domain) {
+      : mesh_(mesh),
+        boundary_(mesh.boundary),
+        free_boundary_(mesh.free_boundary),
+        loop_heads_(mesh.loop_heads),
+        domain_on_left_(mesh.domain_on_left),
+        domain_(mesh.domain) {
     mesh.triangulation.begin();
     mesh.triangulation.set_step(mesh.step + 1);
   }
@@ -38,21 +43,24 @@ class Transaction {
     mesh_.triangulation.rollback();
     mesh_.triangulation.forget_badness();
     mesh_.boundary = std::move(boundary_);
+    mesh_.free_boundary = std::move(free_boundary_);
     mesh_.loop_heads = std::move(loop_heads_);
+    mesh_.domain_on_left = std::move(domain_on_left_);
     mesh_.domain = std::move(domain_);
     mesh_.cache.reset();
   }
   void commit() {
     mesh_.triangulation.commit();
     ++mesh_.step;
-    mesh_.cache.reset();
+    if (mesh_.cache) mesh_.cache->stale = true;
     committed_ = true;
   }
 
  private:
   MeshData& mesh_;
   std::vector<BoundaryVertex> boundary_;
-  std::vector<std::uint32_t> loop_heads_;
+  std::vector<std::uint32_t> free_boundary_, loop_heads_;
+  std::vector<bool> domain_on_left_;
   Domain domain_;
   bool committed_ = false;
 };

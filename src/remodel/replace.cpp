@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_set>
 
 #include "generate/recovery_error.h"
 
@@ -28,11 +27,12 @@ TriangleId start_of(const Triangulation& triangulation, const RemovalRegion& reg
   return t;
 }
 
-void collect(const Triangulation& triangulation, const RemovalRegion& region, std::vector<VertexId>& found) {
+void collect(MeshData& mesh, const RemovalRegion& region, std::vector<VertexId>& found) {
+  const Triangulation& triangulation = mesh.triangulation;
   const double r2 = region.radius * region.radius;
-  std::unordered_set<std::uint32_t> seen;
   std::vector<TriangleId> todo{start_of(triangulation, region)};
-  seen.insert(todo.front().index);
+  mesh.marks.clear(triangulation.triangle_slots());
+  mesh.marks.visit(todo.front().index);
   while (!todo.empty()) {
     const Triangle& t = triangulation[todo.back()];
     todo.pop_back();
@@ -40,29 +40,27 @@ void collect(const Triangulation& triangulation, const RemovalRegion& region, st
       const Vertex& v = triangulation[t.vertex[i]];
       if (v.boundary == no_index && squared_distance(v.point, region.centre) < r2) found.push_back(t.vertex[i]);
       const TriangleId next = t.link[i].triangle();
-      if (triangulation[next].ghost() || seen.contains(next.index)) continue;
-      if (squared_distance_to_edge(region.centre, triangulation.point(t.vertex[next3(i)]),
+      if (triangulation[next].ghost() ||
+          squared_distance_to_edge(region.centre, triangulation.point(t.vertex[next3(i)]),
                                    triangulation.point(t.vertex[previous3(i)])) >= r2)
         continue;
-      seen.insert(next.index);
-      todo.push_back(next);
+      if (mesh.marks.visit(next.index)) todo.push_back(next);
     }
   }
 }
 
 // The label of a triangle beside one of its constrained edges.
-Region side_label(const MeshData& mesh, const std::vector<bool>& left, const Triangle& t, int i) {
+Region side_label(const MeshData& mesh, const Triangle& t, int i) {
   const std::uint32_t a = mesh.triangulation[t.vertex[next3(i)]].boundary;
   const std::uint32_t b = mesh.triangulation[t.vertex[previous3(i)]].boundary;
   const bool forward = mesh.at(a).next == b;  // the triangle lies on the left of a -> b
   const std::uint32_t curve = mesh.at(forward ? a : b).curve;
-  return forward == left[mesh.domain.loop_of(curve)] ? Region::domain : Region::outside;
+  return forward == mesh.domain_on_left[mesh.domain.loop_of(curve)] ? Region::domain : Region::outside;
 }
 
 class Relabelling {
  public:
   explicit Relabelling(MeshData& mesh) : mesh_(mesh), triangulation_(mesh.triangulation) {
-    for (std::size_t loop = 0; loop < mesh.loop_heads.size(); ++loop) left_.push_back(mesh.domain_on_left(loop));
     for (const TriangleId t : triangulation_.touched())
       if (triangulation_[t].alive()) touched_.push_back(t);
   }
@@ -107,7 +105,7 @@ class Relabelling {
 
   void seed_from_boundary(TriangleId t) {
     for (int i = 0; i < 3; ++i)
-      if (triangulation_[t].link[i].constrained()) label(t, side_label(mesh_, left_, triangulation_[t], i));
+      if (triangulation_[t].link[i].constrained()) label(t, side_label(mesh_, triangulation_[t], i));
   }
 
   // A part without a boundary edge of its own is labelled like what lies around it.
@@ -124,15 +122,14 @@ class Relabelling {
 
   MeshData& mesh_;
   Triangulation& triangulation_;
-  std::vector<bool> left_;
   std::vector<TriangleId> touched_, relabelled_, todo_;
 };
 
 }  // namespace
 
-std::vector<VertexId> vertices_inside(const Triangulation& triangulation, const std::vector<RemovalRegion>& regions) {
+std::vector<VertexId> vertices_inside(MeshData& mesh, const std::vector<RemovalRegion>& regions) {
   std::vector<VertexId> found;
-  for (const RemovalRegion& region : regions) collect(triangulation, region, found);
+  for (const RemovalRegion& region : regions) collect(mesh, region, found);
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;

@@ -17,10 +17,10 @@ struct RemovalRegion {
   TriangleId hint;  // a triangle near the centre
 };
 
-// The interior vertices inside the regions, each once, ascending. Read only. Triangles that a disc meets are
+// The interior vertices inside the regions, each once, ascending. Changes scratch only. Triangles that a disc meets are
 // connected through edges that it meets, so the search from the centre's triangle finds them all, also where the
 // centre's own triangle has no vertex inside.
-std::vector<VertexId> vertices_inside(const Triangulation& triangulation, const std::vector<RemovalRegion>& regions);
+std::vector<VertexId> vertices_inside(MeshData& mesh, const std::vector<RemovalRegion>& regions);
 
 // The radius of a region: max(D * distance of the pair, longest distance to the two boundary neighbours).
 double removal_radius(double distance_factor, double pair_distance, Point centre, Point before, Point after);

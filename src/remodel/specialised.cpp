@@ -22,11 +22,12 @@ class Replacement {
 
   void run() {
     restore_delaunay();
-    const std::vector<VertexId> inside = vertices_inside(triangulation_, regions());
+    const std::vector<VertexId> inside = vertices_inside(mesh_, regions());
     release_boundary();
     for (const VertexId v : inside) triangulation_.remove(v);
     remove_lost();
     insert_new();
+    mesh_.orient_loops();
     recover();
     relabel_touched(mesh_);
     for (std::size_t i = 0; i < cache_.non_steiner; ++i)
@@ -59,7 +60,7 @@ class Replacement {
       const std::vector<Point>& olds = cache_.old_points;
       const Point along = news[m.after] - news[m.before];
       const double leftwards = cross(along, news[i] - olds[i]);
-      const bool left = mesh_.domain_on_left(mesh_.domain.loop_of(m.curve));
+      const bool left = mesh_.domain_on_left[mesh_.domain.loop_of(m.curve)];
       const std::vector<Point>& outermost = (leftwards > 0.0) == left ? news : olds;
       const double pair = std::sqrt(squared_distance(olds[i], news[i]));
       const double radius = removal_radius(distance_, pair, outermost[i], outermost[m.before], outermost[m.after]);
@@ -83,13 +84,9 @@ class Replacement {
     for (std::size_t i = 0; i < cache_.moving.size(); ++i) {
       if (!lost(i)) continue;
       const std::uint32_t k = moving(i).boundary;
-      if (i >= cache_.non_steiner) {
-        mesh_.boundary[mesh_.at(k).previous].next = mesh_.at(k).next;
-        mesh_.boundary[mesh_.at(k).next].previous = mesh_.at(k).previous;
-      }
-      const VertexId v = mesh_.at(k).vertex;
-      mesh_.boundary[k].vertex = VertexId{};
-      triangulation_.remove(v);
+      triangulation_.remove(mesh_.at(k).vertex);
+      if (i >= cache_.non_steiner) mesh_.remove_boundary_vertex(k);
+      else mesh_.boundary[k].vertex = VertexId{};
     }
   }
 

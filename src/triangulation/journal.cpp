@@ -1,6 +1,5 @@
 // The journal: what changed since begin(), so that it can be taken back; and the check of the invariants.
 
-#include <algorithm>
 #include <cassert>
 
 #include "remodel/predicates.h"
@@ -8,15 +7,13 @@
 
 namespace remodel {
 
-// Every change of a record goes through these two. Slots made since begin() have no earlier state.
-Triangle& Triangulation::edit(TriangleId t) {
-  if (journalling_ && t.index < triangle_slots_before_) triangle_journal_.push_back({t, triangles_[t.index]});
-  return triangles_[t.index];
-}
-
-Vertex& Triangulation::edit(VertexId v) {
-  if (journalling_ && v.index < vertex_slots_before_) vertex_journal_.push_back({v, vertices_[v.index]});
-  return vertices_[v.index];
+// The first change of a triangle since begin(). A record's mark from an earlier journal means nothing; outside
+// of journals marks are not kept up.
+void Triangulation::remember(TriangleId t) {
+  if (!journalling_) return;
+  if (t.index < triangle_slots_before_) triangle_journal_.push_back({t, triangles_[t.index]});
+  touched_.push_back(t);
+  triangles_[t.index].journal = journal_;
 }
 
 void Triangulation::begin() {
@@ -26,9 +23,15 @@ void Triangulation::begin() {
   triangle_slots_before_ = triangles_.size();
   live_vertices_before_ = live_vertices_;
   triangle_journal_.clear();
+  touched_.clear();
   vertex_journal_.clear();
   generation_journal_.clear();
   inserted_ = removed_ = 0;
+  if (++journals_ == 0) {  // marks of 65535 journals ago would be mistaken for new ones
+    for (Triangle& t : triangles_) t.journal = 0;
+    journals_ = 1;
+  }
+  journal_ = journals_;
   journalling_ = true;
 }
 
@@ -41,11 +44,13 @@ void Triangulation::commit() {
     list->pending.clear();
   }
   journalling_ = false;
+  journal_ = 0;
 }
 
 void Triangulation::rollback() {
   assert(journalling_);
   journalling_ = false;
+  journal_ = 0;
   for (auto entry = triangle_journal_.rbegin(); entry != triangle_journal_.rend(); ++entry)
     triangles_[entry->id.index] = entry->triangle;
   for (auto entry = vertex_journal_.rbegin(); entry != vertex_journal_.rend(); ++entry)
@@ -59,26 +64,6 @@ void Triangulation::rollback() {
     list->pending.clear();
   }
   live_vertices_ = live_vertices_before_;
-}
-
-std::vector<TriangleId> Triangulation::touched() const {
-  std::vector<TriangleId> ids;
-  ids.reserve(triangle_journal_.size());
-  for (const Earlier& entry : triangle_journal_) ids.push_back(entry.id);
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-  for (std::size_t index = triangle_slots_before_; index < triangles_.size(); ++index)
-    ids.push_back(TriangleId{static_cast<std::uint32_t>(index)});
-  return ids;
-}
-
-std::vector<Triangulation::Earlier> Triangulation::earlier() const {
-  std::vector<Earlier> first = triangle_journal_;
-  std::stable_sort(first.begin(), first.end(), [](const Earlier& a, const Earlier& b) { return a.id < b.id; });
-  first.erase(std::unique(first.begin(), first.end(),
-                          [](const Earlier& a, const Earlier& b) { return a.id == b.id; }),
-              first.end());
-  return first;
 }
 
 // Invariants (1) and (2) at one triangle.

@@ -20,7 +20,10 @@ TriangleId Triangulation::new_triangle() {
 }
 
 void Triangulation::free_triangle(TriangleId t) {
-  edit(t) = Triangle{};
+  Triangle& triangle = edit(t);
+  const std::uint16_t journal = triangle.journal;
+  triangle = Triangle{};
+  triangle.journal = journal;
   if (journalling_) {
     free_triangles_.pending.push_back(t.index);
     return;

@@ -138,14 +138,14 @@ class Triangulation {
   void commit();
   void rollback();
   bool journalling() const { return journalling_; }
-  // The triangle slots changed since begin(), each once, ascending; with their state at begin() (slots that are
-  // new since begin() have no earlier state).
+  // The triangle slots changed since begin(), new ones included, each once, in the order of their first change;
+  // and the earlier state of those that were there at begin(). Both lists grow with every change.
   struct Earlier {
     TriangleId id;
     Triangle triangle;
   };
-  std::vector<TriangleId> touched() const;
-  std::vector<Earlier> earlier() const;
+  std::span<const TriangleId> touched() const { return touched_; }
+  std::span<const Earlier> earlier() const { return triangle_journal_; }
   std::uint32_t vertices_inserted() const { return inserted_; }  // since begin()
   std::uint32_t vertices_removed() const { return removed_; }
 
@@ -157,8 +157,17 @@ class Triangulation {
   friend struct TriangulationState;
 
   static Corner corner(Link link) { return {link.triangle(), link.corner()}; }
-  Triangle& edit(TriangleId t);
-  Vertex& edit(VertexId v);
+  // Every change of a record goes through these two.
+  Triangle& edit(TriangleId t) {
+    Triangle& triangle = triangles_[t.index];
+    if (triangle.journal != journal_) remember(t);
+    return triangle;
+  }
+  Vertex& edit(VertexId v) {
+    if (journalling_ && v.index < vertex_slots_before_) vertex_journal_.push_back({v, vertices_[v.index]});
+    return vertices_[v.index];
+  }
+  void remember(TriangleId t);
   std::string check_triangle(std::uint32_t index) const;
   void set_star(VertexId v, TriangleId t, int corner);
   void connect(Corner a, Corner b, bool constrained);
@@ -202,11 +211,14 @@ class Triangulation {
   std::uint32_t step_ = 0;
 
   bool journalling_ = false;
+  std::uint16_t journals_ = 0;  // the last one's number
+  std::uint16_t journal_ = 0;  // of the journal under way; 0, as in records of new slots, when there is none
   struct VertexBefore {
     VertexId id;
     Vertex vertex;
   };
   std::vector<Earlier> triangle_journal_;
+  std::vector<TriangleId> touched_;
   std::vector<VertexBefore> vertex_journal_;
   std::vector<std::uint32_t> generation_journal_;
   std::size_t vertex_slots_before_ = 0, triangle_slots_before_ = 0, live_vertices_before_ = 0;
