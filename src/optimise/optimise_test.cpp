@@ -206,6 +206,17 @@ TEST_F(OptimiseRun, RefusesADamagedCheckpoint) {
   EXPECT_THROW(optimise(from_, to_, resumed), Error);
 }
 
+TEST_F(OptimiseRun, RefusesAHistoryThatIsNotItsOwn) {
+  OptimiseOptions resumed = options("run", 5), other = options("other", 5);
+  other.seed = 2;
+  optimise(from_, to_, resumed);
+  optimise(from_, to_, other);
+  fs::copy_file(other.directory / "history.sqlite", resumed.directory / "history.sqlite",
+                fs::copy_options::overwrite_existing);
+  resumed.resume = true;
+  EXPECT_THROW(optimise(from_, to_, resumed), Error);
+}
+
 TEST_F(OptimiseRun, EndsInOrderWhereNoSampleIsFeasible) {
   OptimiseOptions wild = options("run");
   wild.sigma = 1e6;
