@@ -54,6 +54,8 @@ struct AdjustCache : MeshCache {
   std::vector<Edge> edges;
   std::vector<Segment> segments;
 
+  bool finite() const;  // all new points of the step are
+
   // Scratch of one step.
   std::vector<Point> old_points, new_points;
   std::vector<double> old_scales, new_scales;
@@ -67,7 +69,8 @@ bool same_basis(const CstAirfoil& a, const CstAirfoil& b);
 AdjustCache& adjust_cache(MeshData& mesh, const std::vector<std::size_t>& moving_loops);
 
 // Evaluates all moving vertices at their places on `domain` at once. If every affected triangle is good there,
-// moves them and returns true: a full adjustment, connectivity unchanged. Otherwise the mesh is unchanged, and
+// moves them and returns true: a full adjustment, connectivity unchanged. In holes triangles need only stay
+// counter-clockwise, and their circles are not kept up: whoever changes connectivity there refreshes them first. Otherwise the mesh is unchanged, and
 // the cache says which triangles are not good.
 //
 // Departure from the paper: the intermediate states of a vertex-by-vertex adjustment are not tested here, as the

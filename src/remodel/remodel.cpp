@@ -105,12 +105,13 @@ RemodelResult full_adjustment(MeshData& mesh, const AdjustCache& cache, const Do
 }
 
 // Counts what the journal's step left of the old domain triangles, and keeps the mesh's own count.
-void count(MeshData& mesh, std::vector<VertexId> moved, RemodelResult& result) {
+void count(MeshData& mesh, const std::vector<VertexId>& moved, RemodelResult& result) {
   const Triangulation& triangulation = mesh.triangulation;
-  std::sort(moved.begin(), moved.end());
+  mesh.vertex_marks.clear(triangulation.vertex_slots());
+  for (const VertexId v : moved) mesh.vertex_marks.visit(v.index);
   const auto survives = [&](const Triangle& t) {
     for (const VertexId v : t.vertex)
-      if (!triangulation[v].alive() || std::binary_search(moved.begin(), moved.end(), v)) return false;
+      if (!triangulation[v].alive() || mesh.vertex_marks.visited(v.index)) return false;
     const auto corner = triangulation.find_edge(t.vertex[0], t.vertex[1]);
     return corner && triangulation.vertex(*corner) == t.vertex[2] &&
            triangulation[corner->triangle].region == Region::domain;
@@ -152,7 +153,7 @@ std::optional<std::string> replace(MeshData& mesh, AdjustCache* cache, const Dom
     else replace_loops(mesh, domain, distance);
     const Stopped stopped = refine_touched(mesh);
     if (stopped != Stopped::done) return std::string("refinement stopped: ") + name_of(stopped);
-    count(mesh, std::move(moved), result);
+    count(mesh, moved, result);
   } catch (const RecoveryError& error) {
     return error.what();
   }
@@ -198,7 +199,9 @@ RemodelResult remodel(Mesh& mesh, const Domain& domain, const RemodelOptions& op
     cache = &adjust_cache(data, moving_loops(data.domain, domain));
     if (adjust_all(data, *cache, domain)) return full_adjustment(data, *cache, domain);
   }
-  validate(domain);
+  // A design that corresponds to the present one and cannot be meshed is found out by the replacement itself, exactly:
+  // its loops cannot be recovered or do not nest. Then regenerate() below says where.
+  if (cache == nullptr || !cache->finite()) validate(domain);
   if (const auto failure = replace(data, cache, domain, options.distance, result)) {
     result = {};
     result.reason = *failure;
