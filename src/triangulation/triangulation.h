@@ -62,6 +62,16 @@ class Triangulation {
   Point point(VertexId v) const { return vertices_[v.index].point; }
   std::uint32_t generation(VertexId v) const { return generations_[v.index]; }  // how often the id was given out
 
+  // Starts to load what a search from a triangle will need: the triangle itself, or its neighbours and vertices.
+  void prefetch(TriangleId t) const { __builtin_prefetch(&triangles_[t.index]); }
+  void prefetch(VertexId v) const { __builtin_prefetch(&vertices_[v.index]); }
+  void prefetch_around(TriangleId t) const {
+    for (int i = 0; i < 3; ++i) {
+      prefetch(triangles_[t.index].link[i].triangle());
+      prefetch(triangles_[t.index].vertex[i]);
+    }
+  }
+
   // The corners around a vertex: counter-clockwise and clockwise neighbours of a corner at the same vertex.
   Corner star(VertexId v) const { return corner(vertices_[v.index].star); }
   Corner counterclockwise(Corner c) const;
