@@ -25,8 +25,8 @@ class BadQueue {
   void push(Triangulation& triangulation, TriangleId t, double badness) {
     const std::uint8_t c = class_of(badness);
     if (triangulation[t].badness == c) return;  // already queued
-    triangulation.set_badness(t, c);
     buckets_[c].entries.push_back(t);
+    triangulation.set_badness(t, c);
     if (c > worst_) worst_ = c;
   }
 
@@ -45,6 +45,17 @@ class BadQueue {
       bucket.first = 0;
     }
     return {};
+  }
+
+  // Unmarks what is still queued.
+  void clear(Triangulation& triangulation) {
+    for (Bucket& bucket : buckets_) {
+      for (; bucket.first < bucket.entries.size(); ++bucket.first)
+        triangulation.set_badness(bucket.entries[bucket.first], 0);
+      bucket.entries.clear();
+      bucket.first = 0;
+    }
+    worst_ = 0;
   }
 
  private:

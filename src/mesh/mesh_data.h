@@ -77,7 +77,7 @@ class MeshData {
   std::vector<std::uint32_t> numbers;
 
   MeshData() = default;
-  MeshData(const MeshData& other);
+  MeshData(const MeshData& other);  // under a journal: a copy as if it were committed
   MeshData& operator=(const MeshData&) = delete;
 
   Point point(std::uint32_t k) const { return triangulation.point(boundary[k].vertex); }

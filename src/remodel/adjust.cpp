@@ -128,6 +128,15 @@ void place(const MeshData& mesh, AdjustCache& cache, const Domain& domain) {
   }
 }
 
+void copy_shapes(AdjustCache& cache, const Domain& domain) {
+  std::size_t n = 0;
+  for (const std::size_t loop : cache.loops)
+    for (const Curve& curve : domain.loops[loop].curves) {
+      if (n == cache.shapes.size()) cache.shapes.emplace_back();
+      cache.shapes[n++] = curve.shape;
+    }
+}
+
 // Length scales at the new positions, by the rule of MeshData::base_length_scale.
 void scale(const MeshData& mesh, AdjustCache& cache) {
   const std::size_t n = cache.moving.size();
@@ -243,6 +252,7 @@ AdjustCache& adjust_cache(MeshData& mesh, const std::vector<std::size_t>& moving
 }
 
 bool adjust_all(MeshData& mesh, AdjustCache& cache, const Domain& domain) {
+  copy_shapes(cache, domain);
   place(mesh, cache, domain);
   scale(mesh, cache);
   write(mesh, cache, cache.new_points, cache.new_scales);

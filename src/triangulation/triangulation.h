@@ -137,13 +137,13 @@ class Triangulation {
   void set_boundary(VertexId v, std::uint32_t value) { edit(v).boundary = value; }
   void set_region(TriangleId t, Region region) { edit(t).region = region; }
   void set_birth(TriangleId t, std::uint32_t birth) { edit(t).birth = birth; }
-  void set_badness(TriangleId t, std::uint8_t badness) { triangles_[t.index].badness = badness; }  // not journalled
-  void forget_badness() {  // after a refinement that a limit ended
-    for (Triangle& t : triangles_) t.badness = 0;
-  }
+  void set_badness(TriangleId t, std::uint8_t badness) {
+    triangles_[t.index].badness = badness;
+  }                                                    // not journalled
   void set_step(std::uint32_t step) { step_ = step; }  // the birth of triangles made from now on
 
-  // ---- journal
+  // ---- journal. An exception out of any function of this class leaves the journal able to roll back;
+  // begin() and rollback() throw nothing.
   void begin();
   void commit();
   void rollback();
