@@ -18,13 +18,39 @@ double squared_distance_to_edge(Point p, Point a, Point b) {
   return across * across / length;
 }
 
-// A finite triangle next to the region's centre; for a centre outside the hull, the one behind the hull edge.
+// The corner of a ghost that is the infinite vertex; 3 for a finite triangle.
+int infinite_corner(const Triangle& t) {
+  int i = 0;
+  while (i < 3 && t.vertex[i] != infinite_vertex) ++i;
+  return i;
+}
+
+// A finite triangle that meets the region's disc, if one does: the one that holds the centre. For a centre
+// outside the hull it is the one behind the nearest hull edge. Distances fall towards it along the hull edges
+// that face the centre, since those lie in the triangle of the centre and any two of their points.
 TriangleId start_of(const Triangulation& triangulation, const RemovalRegion& region) {
-  const TriangleId t = triangulation.locate(region.centre, region.hint).triangle;
-  const Triangle& triangle = triangulation[t];
-  for (int i = 0; i < 3; ++i)
-    if (triangle.vertex[i] == infinite_vertex) return triangle.link[i].triangle();
-  return t;
+  TriangleId t = triangulation.locate(region.centre, region.hint).triangle;
+  if (!triangulation[t].ghost()) return t;
+  const auto distance = [&](TriangleId ghost) {
+    const Triangle& g = triangulation[ghost];
+    const int i = infinite_corner(g);
+    return squared_distance_to_edge(region.centre, triangulation.point(g.vertex[next3(i)]),
+                                    triangulation.point(g.vertex[previous3(i)]));
+  };
+  for (bool nearer = true; nearer;) {
+    nearer = false;
+    const Triangle& ghost = triangulation[t];
+    const int i = infinite_corner(ghost);
+    for (const int side : {next3(i), previous3(i)}) {
+      const TriangleId next = ghost.link[side].triangle();
+      if (!triangulation.in_conflict(next, region.centre) || distance(next) >= distance(t)) continue;
+      t = next;
+      nearer = true;
+      break;
+    }
+  }
+  const Triangle& ghost = triangulation[t];
+  return ghost.link[infinite_corner(ghost)].triangle();
 }
 
 void collect(MeshData& mesh, const RemovalRegion& region, std::vector<VertexId>& found) {
