@@ -31,5 +31,6 @@ void add_optimise_command(CLI::App& program, Action& action);
 void add_draw_command(CLI::App& program, Action& action);
 void add_convert_command(CLI::App& program, Action& action);
 void add_shapes_command(CLI::App& program, Action& action);
+void add_soak_command(CLI::App& program, Action& action);
 
 }  // namespace remodel::app

@@ -180,7 +180,7 @@ void add_search_options(CLI::App& app, OptimiseOptions& run) {
              "Every K-th evaluation also generates a fresh mesh of the design; 0: never"},
             0, run.compare_every);
   add_count(
-      {"--checkpoint-every", "K", "0", "Evaluations between checkpoints; 0: only at the end or an interrupt"},
+      {"--checkpoint-every", "K", "500", "Evaluations between checkpoints; 0: only at the start, the end and an interrupt"},
       0, run.checkpoint_every);
 }
 

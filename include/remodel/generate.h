@@ -14,6 +14,7 @@ struct GenerateResult {
 };
 
 // Throws Error (argument) for options out of range, Error (geometry) for a domain that validate() refuses.
-GenerateResult generate(const Domain& domain, const QualityOptions& options = {});
+GenerateResult generate(const Domain& domain, const QualityOptions& options = {},
+                        StepObserver* observer = nullptr);
 
 }  // namespace remodel

@@ -28,6 +28,15 @@ struct QualityOptions {
 enum class Stopped { done, vertex_budget, minimum_edge, interrupted };
 const char* name_of(Stopped stopped);  // "done", "vertex-budget", "minimum-edge", "interrupted"
 
+// Asked while a mesh is generated or remodelled, by the thread that does it: between stages, and every
+// thousand steps of refinement.
+class StepObserver {
+ public:
+  virtual ~StepObserver() = default;
+  // True ends it in order: Stopped::interrupted.
+  virtual bool cancelled() { return false; }
+};
+
 // The state of a living mesh as plain arrays, slot by slot, free slots included: what the native file stores.
 // A mesh restored from it goes on to the same bytes as one that never left memory.
 struct MeshState {

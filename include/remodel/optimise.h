@@ -20,9 +20,9 @@
 namespace remodel {
 
 struct OptimiseOptions {
-  AirfoilDomainOptions domain;
-  QualityOptions quality;
-  RemodelOptions remodel;
+  AirfoilDomainOptions domain{};
+  QualityOptions quality{};
+  RemodelOptions remodel{};
   double sigma = 0.05;             // initial standard deviation of the coefficients; > 0
   std::uint64_t seed = 1;          // of the samples; the designs depend on nothing else of these options but
                                    // sigma and, where samples are refused, on domain
@@ -33,7 +33,7 @@ struct OptimiseOptions {
       500;                          // evaluations between checkpoints; 0: at the start, the end, an interrupt
   std::size_t max_refused = 10000;  // infeasible samples in a row that end the run; at least 1
   bool resume = false;              // go on from the directory's checkpoint
-  std::filesystem::path directory;  // of the run's files; made if missing
+  std::filesystem::path directory{};  // of the run's files; made if missing
 };
 
 // Why a run ended. Whatever it is, what is finished is kept.

@@ -4,6 +4,7 @@
 // (specialised method); where we depart is said at each function of src/remodel.
 
 #include <cstddef>
+#include <memory>
 #include <string>
 
 #include "remodel/mesh.h"
@@ -16,6 +17,7 @@ const char* name_of(Method method);  // "auto", "specialised", "general"
 struct RemodelOptions {
   double distance = 1.0;  // D: removal radius over the distance of a pair of old and new vertices; >= 0
   Method method = Method::automatic;  // automatic: specialised where the domains correspond one to one
+  StepObserver* observer = nullptr;  // if cancelled, the mesh stays as it was and the result says interrupted
 };
 
 struct RemodelResult {
@@ -37,8 +39,34 @@ struct RemodelResult {
 };
 
 // Remodels mesh, in place, to the new domain. The mesh is valid before and after: if the new domain is no
-// domain (validate() throws Error) or anything else throws, it is as it was. Invalidates: triangles and
-// vertices near the change; ids of what survives do not change.
+// domain (validate() throws Error), the observer cancels, or anything else throws (std::bad_alloc, an
+// observer of its own), it is as it was, to the last bit. Invalidates: triangles and vertices near the
+// change; ids of what survives do not change.
 RemodelResult remodel(Mesh& mesh, const Domain& domain, const RemodelOptions& options = {});
+
+// Tries a design: the mesh is remodelled, as by remodel(), and returns to what it was, to the last bit and
+// ids included, when the trial ends, unless it is kept. The cost of returning is proportional to what
+// changed, plus a copy of the boundary table.
+//
+//   Trial trial(mesh, design);
+//   if (score(mesh.freeze()) < best) trial.keep();
+//
+// While the trial lasts the mesh stays where it is and may be read and copied, but not remodelled (that
+// throws Error).
+class Trial {
+ public:
+  // Throws as remodel() does.
+  Trial(Mesh& mesh, const Domain& domain, const RemodelOptions& options = {});
+  Trial(const Trial&) = delete;
+  Trial& operator=(const Trial&) = delete;
+  ~Trial();
+
+  const RemodelResult& result() const;
+  void keep();  // the trial is over, the mesh stays as it is now
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
 }  // namespace remodel

@@ -28,7 +28,7 @@ void validate(const QualityOptions& options) {
 
 }  // namespace
 
-GenerateResult generate(const Domain& domain, const QualityOptions& options) {
+GenerateResult generate(const Domain& domain, const QualityOptions& options, StepObserver* observer) {
   validate(options);
   validate(domain);
   GenerateResult result;
@@ -37,14 +37,13 @@ GenerateResult generate(const Domain& domain, const QualityOptions& options) {
   mesh.options = options;
   try {
     discretise(mesh);
-    Refiner refiner(mesh);
+    Refiner refiner(mesh, observer);
     for (std::uint32_t i = 0; i < mesh.triangulation.triangle_slots(); ++i) refiner.consider(TriangleId{i});
     result.stopped = refiner.run();
     result.exempt_triangles = refiner.exempt_triangles();
   } catch (const RecoveryError& error) {
     throw Error(ErrorCode::geometry, "domain", error.what());
   }
-  mesh.triangulation.forget_badness();
   mesh.count_domain_triangles();
   return result;
 }

@@ -29,12 +29,13 @@ bool encroaches(Point p, Point a, Point b) { return dot(a - p, b - p) < 0.0; }
 
 }  // namespace
 
-Refiner::Refiner(MeshData& mesh)
+Refiner::Refiner(MeshData& mesh, StepObserver* observer)
     : mesh_(mesh),
       triangulation_(mesh.triangulation),
       bounds_(mesh.options),
       small_angles_(mesh),
-      vertex_limit_(mesh.options.max_vertices) {
+      vertex_limit_(mesh.options.max_vertices),
+      observer_(observer) {
   const double shortest = mesh.options.min_edge > 0.0 ? mesh.options.min_edge : 1e-12 * domain_size(mesh);
   squared_min_edge_ = shortest * shortest;
 }
@@ -65,6 +66,7 @@ void Refiner::queue_segment(VertexId a, VertexId b) {
 Stopped Refiner::run() {
   for (;;) {
     if (triangulation_.vertex_count() >= vertex_limit_) return Stopped::vertex_budget;
+    if (cancelled()) return Stopped::interrupted;
     if (!segments_.empty()) {
       const Segment segment = segments_.front();
       segments_.pop_front();

@@ -26,7 +26,10 @@ namespace remodel {
 class Refiner {
  public:
   // Precondition: regions are labelled, length scales set, the triangulation is constrained Delaunay.
-  explicit Refiner(MeshData& mesh);
+  explicit Refiner(MeshData& mesh, StepObserver* observer = nullptr);
+  ~Refiner() { queue_.clear(triangulation_); }  // a limit or an exception leaves no marks behind
+  Refiner(const Refiner&) = delete;
+  Refiner& operator=(const Refiner&) = delete;
 
   // Queues a triangle that is bad, and its boundary edges that are encroached.
   void consider(TriangleId t);
@@ -57,6 +60,7 @@ class Refiner {
   void recover(VertexId a, VertexId b, int depth);
   void clear_outside();
   void consider_star(VertexId v);
+  bool cancelled() { return observer_ != nullptr && polls_++ % 1024 == 0 && observer_->cancelled(); }
   bool too_short(Point a, Point b) const;
 
   MeshData& mesh_;
@@ -68,6 +72,8 @@ class Refiner {
   Cavity cavity_;
   double squared_min_edge_ = 0.0;
   std::size_t vertex_limit_;
+  StepObserver* observer_;
+  std::uint32_t polls_ = 0;
   std::size_t exempt_ = 0;
   bool refused_ = false;  // a segment was too short to be split
   bool labelled_ = true;  // false while boundaries are being recovered: the caller labels afterwards

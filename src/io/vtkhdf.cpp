@@ -201,7 +201,8 @@ MeshState read_vtkhdf_state(const std::filesystem::path& file) {
   const Hdf5Reader in(file);
   check_header(in);
   if (!in.exists(state_group)) {
-    in.fail(state_group, "not found, a native mesh with its state expected, as `remodel mesh` makes it");
+    throw Error(ErrorCode::argument, file.string() + ":" + state_group,
+                "not found, a native mesh with its state expected, as `remodel mesh` makes it");
   }
   const auto version = in.attribute<std::int64_t>(state_group, "format_version");
   if (version[0] != state_version) {

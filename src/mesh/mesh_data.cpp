@@ -37,7 +37,9 @@ MeshData::MeshData(const MeshData& other)
       loop_heads(other.loop_heads),
       domain_on_left(other.domain_on_left),
       domain_triangles(other.domain_triangles),
-      step(other.step) {}
+      step(other.step) {
+  if (triangulation.journalling()) triangulation.commit();
+}
 
 double MeshData::end_parameter(std::uint32_t k) const {
   const BoundaryVertex& from = boundary[k];

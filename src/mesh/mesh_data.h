@@ -71,12 +71,13 @@ class MeshData {
   std::uint32_t step = 0;
   std::unique_ptr<MeshCache> cache;
 
-  // Scratch of searches: visited triangles, and a number for each of them.
+  // Scratch of searches: visited triangles and vertices, and a number for each triangle.
   Marks marks;
+  Marks vertex_marks;
   std::vector<std::uint32_t> numbers;
 
   MeshData() = default;
-  MeshData(const MeshData& other);
+  MeshData(const MeshData& other);  // under a journal: a copy as if it were committed
   MeshData& operator=(const MeshData&) = delete;
 
   Point point(std::uint32_t k) const { return triangulation.point(boundary[k].vertex); }
@@ -110,6 +111,14 @@ class MeshData {
 // Empty, or what is wrong with the boundary: vertices on the design's curves, edges there and constrained, the
 // domain on its side.
 std::string check_boundary(const MeshData& mesh);
+
+// Whether a triangle keeps both bounds; the same as badness <= 1 up to the last rounding, without a division.
+inline bool is_good(const Vertex& a, const Vertex& b, const Vertex& c, double squared_radius, const QualityBounds& bounds) {
+  const double shortest = std::min({squared_distance(a.point, b.point), squared_distance(b.point, c.point),
+                                    squared_distance(c.point, a.point)});
+  const double mean = (a.length_scale + b.length_scale + c.length_scale) * (1.0 / 3.0);
+  return squared_radius <= bounds.squared_radius_edge * shortest && squared_radius <= bounds.squared_gradation * (mean * mean);
+}
 
 // The largest of the two squared ratios over their squared bounds: above 1 the triangle is bad.
 double badness(const Vertex& a, const Vertex& b, const Vertex& c, double squared_radius, const QualityBounds& bounds);

@@ -1,8 +1,10 @@
 #include "optimise/checkpoint.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string_view>
 
 #include "remodel/error.h"
@@ -29,30 +31,51 @@ std::string checksum(std::string_view bytes) {
   return text;
 }
 
-// The content of checkpoint.json, its checksum verified and taken out.
-Json read_content(const fs::path& directory) {
+struct Stored {
+  Checkpoint checkpoint;
+  std::string mesh;  // file name
+  std::string mesh_checksum;
+};
+
+Stored parse(const std::string& text) {
+  Json content = Json::parse(text);
+  const auto require = [](bool good, const char* problem) {
+    if (!good) throw std::invalid_argument(problem);
+  };
+  const std::string expected = content.at("checksum").get<std::string>();
+  content.erase("checksum");
+  require(checksum(content.dump()) == expected, "its checksum is another");
+  require(content.at("format") == "remodel-checkpoint" && content.at("version") == 1,
+          "it is of another version");
+  Stored stored;
+  content.at("settings").get_to(stored.checkpoint.settings);
+  content.at("evaluation").get_to(stored.checkpoint.evaluation);
+  content.at("refused").get_to(stored.checkpoint.refused);
+  content.at("finished").get_to(stored.checkpoint.finished);
+  content.at("seconds").get_to(stored.checkpoint.seconds);
+  content.at("cmaes").get_to(stored.checkpoint.cmaes);
+  content.at("mesh").get_to(stored.mesh);
+  content.at("mesh_checksum").get_to(stored.mesh_checksum);
+  require(std::find(mesh_names.begin(), mesh_names.end(), stored.mesh) != mesh_names.end(),
+          "it names no mesh of a checkpoint");
+  return stored;
+}
+
+Stored read_stored(const fs::path& directory) {
   const fs::path file = file_of(directory);
-  Json content;
+  const std::string text = read_text(file);
   try {
-    content = Json::parse(read_text(file));
-    const std::string expected = content.at("checksum").get<std::string>();
-    content.erase("checksum");
-    if (checksum(content.dump()) != expected) throw std::invalid_argument("its checksum is another");
-    if (content.at("format") != "remodel-checkpoint" || content.at("version") != 1)
-      throw std::invalid_argument("it is of another version");
-  } catch (const Error&) {
-    throw;
+    return parse(text);
   } catch (const std::exception& problem) {
     throw Error(ErrorCode::format, file.string(),
                 std::string("expected a run's checkpoint: ") + problem.what());
   }
-  return content;
 }
 
 // The mesh file that the present checkpoint, if there is one, does not name.
 std::string free_mesh_name(const fs::path& directory) {
   if (!has_checkpoint(directory)) return mesh_names[0];
-  return read_content(directory).value("mesh", "") == mesh_names[0] ? mesh_names[1] : mesh_names[0];
+  return read_stored(directory).mesh == mesh_names[0] ? mesh_names[1] : mesh_names[0];
 }
 
 }  // namespace
@@ -79,29 +102,23 @@ void write_checkpoint(const fs::path& directory, const Checkpoint& checkpoint, c
 }
 
 Checkpoint read_checkpoint(const fs::path& directory) {
-  const Json content = read_content(directory);
-  Checkpoint checkpoint;
-  content.at("settings").get_to(checkpoint.settings);
-  content.at("evaluation").get_to(checkpoint.evaluation);
-  content.at("refused").get_to(checkpoint.refused);
-  content.at("finished").get_to(checkpoint.finished);
-  content.at("seconds").get_to(checkpoint.seconds);
-  content.at("cmaes").get_to(checkpoint.cmaes);
-  return checkpoint;
+  return read_stored(directory).checkpoint;
 }
 
 Mesh read_checkpoint_mesh(const fs::path& directory) {
-  const Json content = read_content(directory);
-  const fs::path file = directory / content.at("mesh").get<std::string>();
-  if (checksum(read_text(file)) != content.at("mesh_checksum"))
+  const Stored stored = read_stored(directory);
+  const fs::path file = directory / stored.mesh;
+  if (checksum(read_text(file)) != stored.mesh_checksum)
     throw Error(ErrorCode::format, file.string(),
                 "expected the mesh of checkpoint.json: its checksum is another");
   return read_mesh(file);
 }
 
+// Where a file cannot be removed, replacing it will fail and be reported.
 void remove_checkpoint(const fs::path& directory) {
-  fs::remove(file_of(directory));
-  for (const char* name : mesh_names) fs::remove(directory / name);
+  std::error_code ignored;
+  fs::remove(file_of(directory), ignored);
+  for (const char* name : mesh_names) fs::remove(directory / name, ignored);
 }
 
 }  // namespace remodel

@@ -66,7 +66,8 @@ std::string settings_of(const CstAirfoil& from, const CstAirfoil& to, const Opti
 
 // Which of two settings differ, for the error message.
 std::string differences(const std::string& a, const std::string& b) {
-  const auto first = nlohmann::json::parse(a), second = nlohmann::json::parse(b);
+  const auto first = nlohmann::json::parse(a, nullptr, false), second = nlohmann::json::parse(b);
+  if (!first.is_object()) return "all";
   std::string names;
   for (const auto& [key, value] : second.items()) {
     if (!first.contains(key) || first[key] != value) names += (names.empty() ? "" : ", ") + key;
@@ -247,14 +248,24 @@ Progress go_on(const CstAirfoil& from, const CstAirfoil& to, const OptimiseOptio
           ErrorCode::argument, directory.string(),
           "expected the options of the run to be resumed, found others: " + differences(stored, settings));
   }
+  const std::size_t dimension = coefficients_of(from).size();
+  const auto require_dimension = [&](std::size_t found, const fs::path& source) {
+    if (found != dimension)
+      throw Error(ErrorCode::format, source.string(),
+                  "expected " + std::to_string(dimension) + " coefficients, found " + std::to_string(found));
+  };
   Cmaes cmaes = Cmaes::restore(checkpoint.cmaes, (directory / "checkpoint.json").string());
+  require_dimension(cmaes.mean().size(), directory / "checkpoint.json");
   Progress progress{.search = ShapeSearch(from, options.domain, std::move(cmaes)),
                     .chain = MeshChain(options, read_checkpoint_mesh(directory)),
                     .history = History::resume(file, checkpoint.evaluation),
                     .summary = {},
                     .refused = checkpoint.refused,
                     .earlier_seconds = checkpoint.seconds};
-  progress.history.each([&](const EvaluationRecord& record) { progress.summary.add(record); });
+  progress.history.each([&](const EvaluationRecord& record) {
+    require_dimension(record.coefficients.size(), file);
+    progress.summary.add(record);
+  });
   return progress;
 }
 

@@ -94,7 +94,7 @@ TEST_F(OptimiseRun, LeavesItsFilesAndFiguresThatAgreeWithTheHistory) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     best = std::min(best, rows[i].objective);
     EXPECT_EQ(rows[i].best_objective, best);
-    if (i > 0) EXPECT_EQ(rows[i].triangles_before, rows[i - 1].triangles);
+    EXPECT_EQ(rows[i].triangles_before, i == 0 ? rows[0].triangles_before : rows[i - 1].triangles);
     EXPECT_LE(rows[i].preserved, rows[i].triangles_before);
     EXPECT_EQ(rows[i].generated_triangles.has_value(), (i + 1) % 10 == 0);
     EXPECT_EQ(rows[i].checked == Checked::full, (i + 1) % 10 == 0);
@@ -203,6 +203,17 @@ TEST_F(OptimiseRun, RefusesADamagedCheckpoint) {
   for (const char* mesh : {"checkpoint-a.vtkhdf", "checkpoint-b.vtkhdf"}) {
     if (fs::exists(resumed.directory / mesh)) fs::resize_file(resumed.directory / mesh, 100);
   }
+  EXPECT_THROW(optimise(from_, to_, resumed), Error);
+}
+
+TEST_F(OptimiseRun, RefusesAHistoryThatIsNotItsOwn) {
+  OptimiseOptions resumed = options("run", 5), other = options("other", 5);
+  other.seed = 2;
+  optimise(from_, to_, resumed);
+  optimise(from_, to_, other);
+  fs::copy_file(other.directory / "history.sqlite", resumed.directory / "history.sqlite",
+                fs::copy_options::overwrite_existing);
+  resumed.resume = true;
   EXPECT_THROW(optimise(from_, to_, resumed), Error);
 }
 

@@ -128,6 +128,15 @@ void place(const MeshData& mesh, AdjustCache& cache, const Domain& domain) {
   }
 }
 
+void copy_shapes(AdjustCache& cache, const Domain& domain) {
+  std::size_t n = 0;
+  for (const std::size_t loop : cache.loops)
+    for (const Curve& curve : domain.loops[loop].curves) {
+      if (n == cache.shapes.size()) cache.shapes.emplace_back();
+      cache.shapes[n++] = curve.shape;
+    }
+}
+
 // Length scales at the new positions, by the rule of MeshData::base_length_scale.
 void scale(const MeshData& mesh, AdjustCache& cache) {
   const std::size_t n = cache.moving.size();
@@ -164,9 +173,12 @@ bool evaluate(const MeshData& mesh, AdjustCache& cache) {
   bool all = true;
   for (Affected& a : cache.affected) {
     const Vertex &v0 = triangulation[a.vertex[0]], &v1 = triangulation[a.vertex[1]], &v2 = triangulation[a.vertex[2]];
-    a.circle = certified_circle(v0.point, v1.point, v2.point);
-    a.good = a.circle.certain() || orient2d(v0.point, v1.point, v2.point) > 0;
-    if (a.domain && a.good) a.good = badness(v0, v1, v2, a.circle.squared_radius(), bounds) <= 1.0;
+    if (a.domain) {
+      a.circle = certified_circle(v0.point, v1.point, v2.point);
+      a.good = a.circle.certain() && is_good(v0, v1, v2, a.circle.squared_radius(), bounds);
+    } else {
+      a.good = orient2d(v0.point, v1.point, v2.point) > 0;
+    }
     all &= a.good;
   }
   for (const AdjustCache::Edge& edge : cache.edges) {
@@ -216,6 +228,11 @@ bool may_move(const MeshData& mesh, const AdjustCache& cache, std::size_t i) {
 
 }  // namespace
 
+bool AdjustCache::finite() const {
+  return std::all_of(new_points.begin(), new_points.end(),
+                     [](Point p) { return std::isfinite(p.x) && std::isfinite(p.y); });
+}
+
 bool same_basis(const CstAirfoil& a, const CstAirfoil& b) {
   return a.upper.size() == b.upper.size() && a.e1 == b.e1 && a.e2 == b.e2;
 }
@@ -235,6 +252,7 @@ AdjustCache& adjust_cache(MeshData& mesh, const std::vector<std::size_t>& moving
 }
 
 bool adjust_all(MeshData& mesh, AdjustCache& cache, const Domain& domain) {
+  copy_shapes(cache, domain);
   place(mesh, cache, domain);
   scale(mesh, cache);
   write(mesh, cache, cache.new_points, cache.new_scales);
@@ -244,7 +262,7 @@ bool adjust_all(MeshData& mesh, AdjustCache& cache, const Domain& domain) {
   }
   mark_moved(cache);
   for (const Affected& a : cache.affected) {
-    mesh.triangulation.set_circle(a.triangle, a.circle);
+    if (a.domain) mesh.triangulation.set_circle(a.triangle, a.circle);
     if (a.moved) mesh.triangulation.set_birth(a.triangle, mesh.step + 1);
   }
   return true;

@@ -54,6 +54,11 @@ struct AdjustCache : MeshCache {
   std::vector<Edge> edges;
   std::vector<Segment> segments;
 
+  bool finite() const;  // all new points of the step are
+
+  // The curves of the loops on the new design; after a full adjustment, on the one before it.
+  std::vector<Shape> shapes;
+
   // Scratch of one step.
   std::vector<Point> old_points, new_points;
   std::vector<double> old_scales, new_scales;
@@ -66,12 +71,16 @@ bool same_basis(const CstAirfoil& a, const CstAirfoil& b);
 // Builds the cache for the given loops, or keeps the one that the mesh has.
 AdjustCache& adjust_cache(MeshData& mesh, const std::vector<std::size_t>& moving_loops);
 
-// Evaluates all moving vertices at their places on `domain` at once. If every affected triangle is good there,
-// moves them and returns true: a full adjustment, connectivity unchanged. Otherwise the mesh is unchanged, and
-// the cache says which triangles are not good.
+// Evaluates all moving vertices at their places on `domain` at once. If every affected triangle is good
+// there, moves them and returns true: a full adjustment, connectivity unchanged. Otherwise the mesh is
+// unchanged, and the cache says which triangles are not good. Needs no journal: outside of one nothing throws
+// once the mesh is touched. Under one, an exception leaves the mesh to rollback().
 //
-// Departure from the paper: the intermediate states of a vertex-by-vertex adjustment are not tested here, as the
-// final state alone is kept. The test is the same for every triangle with one moving vertex.
+// In holes triangles need only stay counter-clockwise, and their circles are not kept up: whoever changes
+// connectivity there refreshes them first.
+//
+// Departure from the paper: the intermediate states of a vertex-by-vertex adjustment are not tested here, as
+// the final state alone is kept. The test is the same for every triangle with one moving vertex.
 bool adjust_all(MeshData& mesh, AdjustCache& cache, const Domain& domain);
 
 // After adjust_all() returned false: moves one vertex after the other where that leaves a valid mesh, non-Steiner

@@ -61,6 +61,7 @@ class LoopReplacement {
 
   void run() {
     match_loops();
+    restore_outside(mesh_);
     const std::vector<VertexId> inside = vertices_inside(mesh_, regions());
     release_old();
     for (const VertexId v : inside) triangulation_.remove(v);

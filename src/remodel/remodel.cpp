@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "generate/recovery_error.h"
 #include "generate/refine.h"
@@ -24,6 +25,7 @@ const char* name_of(Method method) {
 namespace {
 
 // All that a step changes besides the triangulation, which has its own journal. Taken back unless committed.
+// The adjustment cache stays: it holds for the mesh as it was before the step.
 class Transaction {
  public:
   explicit Transaction(MeshData& mesh)
@@ -32,7 +34,9 @@ class Transaction {
         free_boundary_(mesh.free_boundary),
         loop_heads_(mesh.loop_heads),
         domain_on_left_(mesh.domain_on_left),
-        domain_(mesh.domain) {
+        domain_(mesh.domain),
+        domain_triangles_(mesh.domain_triangles),
+        step_(mesh.step) {
     mesh.triangulation.begin();
     mesh.triangulation.set_step(mesh.step + 1);
   }
@@ -41,28 +45,79 @@ class Transaction {
   ~Transaction() {
     if (committed_) return;
     mesh_.triangulation.rollback();
-    mesh_.triangulation.forget_badness();
-    mesh_.boundary = std::move(boundary_);
-    mesh_.free_boundary = std::move(free_boundary_);
-    mesh_.loop_heads = std::move(loop_heads_);
-    mesh_.domain_on_left = std::move(domain_on_left_);
-    mesh_.domain = std::move(domain_);
-    mesh_.cache.reset();
+    mesh_.boundary.swap(boundary_);
+    mesh_.free_boundary.swap(free_boundary_);
+    mesh_.loop_heads.swap(loop_heads_);
+    mesh_.domain_on_left.swap(domain_on_left_);
+    mesh_.domain.loops.swap(domain_.loops);
+    mesh_.domain_triangles = domain_triangles_;
+    mesh_.step = step_;
+    if (mesh_.cache && replaced_) mesh_.cache->stale = stale_;
+  }
+  // A replacement is complete: the mesh is that of the new design, and can still be taken back.
+  void replaced() {
+    ++mesh_.step;
+    replaced_ = true;
+    if (!mesh_.cache) return;
+    if (!same_rows(domain_, mesh_.domain))
+      mesh_.cache.reset();
+    else
+      stale_ = std::exchange(mesh_.cache->stale, true);
   }
   void commit() {
     mesh_.triangulation.commit();
-    ++mesh_.step;
-    if (mesh_.cache) mesh_.cache->stale = true;
     committed_ = true;
   }
 
  private:
+  // Whether what a stale cache keeps of the non-Steiner vertices holds for both domains.
+  static bool same_rows(const Domain& a, const Domain& b) {
+    if (!one_to_one(a, b)) return false;
+    for (std::size_t i = 0; i < a.curve_count(); ++i) {
+      const auto* airfoil = std::get_if<CstAirfoil>(&a.curve(i).shape);
+      if (airfoil != nullptr && !same_basis(*airfoil, std::get<CstAirfoil>(b.curve(i).shape))) return false;
+    }
+    return true;
+  }
+
   MeshData& mesh_;
   std::vector<BoundaryVertex> boundary_;
   std::vector<std::uint32_t> free_boundary_, loop_heads_;
   std::vector<bool> domain_on_left_;
   Domain domain_;
+  std::size_t domain_triangles_;
+  std::uint32_t step_;
+  bool replaced_ = false, stale_ = false;  // stale_: of the cache, before replaced()
   bool committed_ = false;
+};
+
+// How a step is taken back: unless kept, when this goes.
+class Undo {
+ public:
+  explicit Undo(Mesh& mesh) : mesh_(mesh) {}
+  Undo(const Undo&) = delete;
+  Undo& operator=(const Undo&) = delete;
+  ~Undo() {
+    if (before_) mesh_ = std::move(*before_);
+  }
+  bool journalling() const { return transaction_.has_value(); }
+  void begin() { transaction_.emplace(mesh_.data()); }
+  Transaction& transaction() { return *transaction_; }
+  void roll_back() { transaction_.reset(); }
+  void replace_mesh(Mesh&& fresh) {
+    before_ = std::move(mesh_);
+    mesh_ = std::move(fresh);
+  }
+  void keep() {
+    if (transaction_) transaction_->commit();
+    transaction_.reset();
+    before_.reset();
+  }
+
+ private:
+  Mesh& mesh_;
+  std::optional<Transaction> transaction_;
+  std::optional<Mesh> before_;  // a mesh that was generated afresh takes its place
 };
 
 std::vector<std::size_t> moving_loops(const Domain& from, const Domain& to) {
@@ -81,7 +136,8 @@ void require_surfaces_apart(const Domain& domain) {
         throw Error(ErrorCode::geometry, domain.curve(i).name, "the airfoil's surfaces touch or cross; expected upper above lower");
 }
 
-RemodelResult full_adjustment(MeshData& mesh, const AdjustCache& cache, const Domain& domain) {
+// The end of a full adjustment. Throws nothing.
+RemodelResult full_adjustment(MeshData& mesh, AdjustCache& cache) {
   RemodelResult result;
   result.triangles_before = result.triangles = mesh.domain_triangles;
   result.full_adjustment = true;
@@ -91,13 +147,13 @@ RemodelResult full_adjustment(MeshData& mesh, const AdjustCache& cache, const Do
   for (std::size_t i = 0; i < cache.moving.size(); ++i)
     if (!(cache.new_points[i] == cache.old_points[i])) ++result.moved;
   bool basis_kept = true;
+  std::size_t n = 0;
   for (const std::size_t loop : cache.loops)
-    for (std::size_t c = 0; c < domain.loops[loop].curves.size(); ++c) {
-      Shape& shape = mesh.domain.loops[loop].curves[c].shape;
-      const Shape& now = domain.loops[loop].curves[c].shape;
-      if (const auto* airfoil = std::get_if<CstAirfoil>(&now))
-        basis_kept &= same_basis(std::get<CstAirfoil>(shape), *airfoil);
-      shape = now;
+    for (Curve& curve : mesh.domain.loops[loop].curves) {
+      curve.shape.swap(cache.shapes[n]);
+      if (const auto* airfoil = std::get_if<CstAirfoil>(&curve.shape))
+        basis_kept &= same_basis(std::get<CstAirfoil>(cache.shapes[n]), *airfoil);
+      ++n;
     }
   ++mesh.step;
   if (!basis_kept) mesh.cache.reset();
@@ -105,12 +161,13 @@ RemodelResult full_adjustment(MeshData& mesh, const AdjustCache& cache, const Do
 }
 
 // Counts what the journal's step left of the old domain triangles, and keeps the mesh's own count.
-void count(MeshData& mesh, std::vector<VertexId> moved, RemodelResult& result) {
+void count(MeshData& mesh, const std::vector<VertexId>& moved, RemodelResult& result) {
   const Triangulation& triangulation = mesh.triangulation;
-  std::sort(moved.begin(), moved.end());
+  mesh.vertex_marks.clear(triangulation.vertex_slots());
+  for (const VertexId v : moved) mesh.vertex_marks.visit(v.index);
   const auto survives = [&](const Triangle& t) {
     for (const VertexId v : t.vertex)
-      if (!triangulation[v].alive() || std::binary_search(moved.begin(), moved.end(), v)) return false;
+      if (!triangulation[v].alive() || mesh.vertex_marks.visited(v.index)) return false;
     const auto corner = triangulation.find_edge(t.vertex[0], t.vertex[1]);
     return corner && triangulation.vertex(*corner) == t.vertex[2] &&
            triangulation[corner->triangle].region == Region::domain;
@@ -132,80 +189,150 @@ void count(MeshData& mesh, std::vector<VertexId> moved, RemodelResult& result) {
   result.removed = triangulation.vertices_removed();
 }
 
+bool cancelled(StepObserver* observer) {
+  return observer != nullptr && observer->cancelled();
+}
+
 // Refinement of what was touched. A refinement that needs several times the old mesh is running away.
-Stopped refine_touched(MeshData& mesh) {
-  Refiner refiner(mesh);
+Stopped refine_touched(MeshData& mesh, StepObserver* observer) {
+  Refiner refiner(mesh, observer);
   const std::size_t runaway = 4 * mesh.triangulation.vertex_count() + 10000;
   refiner.limit_vertices(std::min<std::size_t>(mesh.options.max_vertices, runaway));
   for (const TriangleId t : mesh.triangulation.touched()) refiner.consider(t);
   return refiner.run();
 }
 
-// The paper's remodelling after a full adjustment was not possible (cache) or does not apply (no cache). Returns why
-// it could not be completed; the mesh is as it was then.
-std::optional<std::string> replace(MeshData& mesh, AdjustCache* cache, const Domain& domain, double distance,
+// The paper's remodelling after a full adjustment was not possible (cache) or does not apply (no cache),
+// under the transaction. Returns why it could not be completed; then the caller takes the mesh back.
+std::optional<std::string> replace(Transaction& transaction, MeshData& mesh, AdjustCache* cache,
+                                   const Domain& domain, const RemodelOptions& options,
                                    RemodelResult& result) {
-  Transaction transaction(mesh);
   try {
     std::vector<VertexId> moved;
-    if (cache != nullptr) moved = replace_where_needed(mesh, *cache, domain, distance);
-    else replace_loops(mesh, domain, distance);
-    const Stopped stopped = refine_touched(mesh);
-    if (stopped != Stopped::done) return std::string("refinement stopped: ") + name_of(stopped);
-    count(mesh, std::move(moved), result);
+    if (cache != nullptr)
+      moved = replace_where_needed(mesh, *cache, domain, options.distance);
+    else
+      replace_loops(mesh, domain, options.distance);
+    result.stopped =
+        cancelled(options.observer) ? Stopped::interrupted : refine_touched(mesh, options.observer);
+    if (result.stopped != Stopped::done) return std::string("refinement stopped: ") + name_of(result.stopped);
+    count(mesh, moved, result);
   } catch (const RecoveryError& error) {
     return error.what();
   }
-  transaction.commit();
+  transaction.replaced();
   return std::nullopt;
 }
 
-void regenerate(Mesh& mesh, const Domain& domain, RemodelResult& result) {
-  GenerateResult fresh = generate(domain, mesh.options());
+// Nothing changes: the design is the mesh's own already, or the step was cancelled.
+RemodelResult unchanged(const MeshData& mesh, Stopped stopped) {
+  RemodelResult result;
+  result.triangles_before = result.triangles = result.preserved = mesh.domain_triangles;
+  result.stopped = stopped;
+  return result;
+}
+
+RemodelResult regenerate(Mesh& mesh, const Domain& domain, StepObserver* observer, std::string&& reason,
+                         Undo& undo) {
+  GenerateResult fresh = generate(domain, mesh.options(), observer);
+  if (fresh.stopped == Stopped::interrupted) return unchanged(mesh.data(), Stopped::interrupted);
   MeshData& data = fresh.mesh.data();
   data.step = mesh.step() + 1;
   for (std::uint32_t i = 0; i < data.triangulation.triangle_slots(); ++i)
     data.triangulation.set_birth(TriangleId{i}, data.step);
+  RemodelResult result;
   result.removed = mesh.data().triangulation.vertex_count();
   result.inserted = data.triangulation.vertex_count();
   result.triangles_before = mesh.triangle_count();
   result.triangles = fresh.mesh.triangle_count();
   result.preserved = result.moved = 0;
   result.regenerated = true;
+  result.reason = std::move(reason);
   result.stopped = fresh.stopped;
-  mesh = std::move(fresh.mesh);
+  undo.replace_mesh(std::move(fresh.mesh));
+  return result;
+}
+
+void require_possible(const Mesh& mesh, const RemodelOptions& options, bool corresponds) {
+  if (!std::isfinite(options.distance) || options.distance < 0.0)
+    throw Error(ErrorCode::argument, "distance",
+                "found " + std::to_string(options.distance) + ", expected 0 or more");
+  if (options.method == Method::specialised && !corresponds)
+    throw Error(ErrorCode::argument, "method", "specialised needs two domains that correspond one to one");
+  if (mesh.data().triangulation.journalling())
+    throw Error(ErrorCode::argument, "mesh",
+                "a trial of another design is under way, expected it to be kept or ended");
+}
+
+// One step, which `undo` can take back. A full adjustment is the exception: it is journalled if undo is when
+// the step begins (trials), otherwise it cannot be taken back, and does not need to be.
+RemodelResult remodel_step(Mesh& mesh, const Domain& domain, const RemodelOptions& options, Method method,
+                           Undo& undo) {
+  MeshData& data = mesh.data();
+  AdjustCache* cache = nullptr;
+  if (method == Method::specialised) {
+    cache = &adjust_cache(data, moving_loops(data.domain, domain));
+    if (adjust_all(data, *cache, domain)) return full_adjustment(data, *cache);
+  }
+  // A design that corresponds to the present one and cannot be meshed is found out by the replacement itself,
+  // exactly: its loops cannot be recovered or do not nest. Then generation says where.
+  if (cache == nullptr || !cache->finite()) validate(domain);
+  if (cancelled(options.observer)) return undo.roll_back(), unchanged(data, Stopped::interrupted);
+  if (!undo.journalling()) undo.begin();
+  RemodelResult result;
+  auto failure = replace(undo.transaction(), data, cache, domain, options, result);
+  if (!failure) return result;
+  undo.roll_back();
+  if (result.stopped == Stopped::interrupted) return unchanged(data, Stopped::interrupted);
+  return regenerate(mesh, domain, options.observer, std::move(*failure), undo);
+}
+
+// Whether a full adjustment is journalled too.
+enum class Journal { when_needed, always };
+
+RemodelResult remodel(Mesh& mesh, const Domain& domain, const RemodelOptions& options, Journal journal,
+                      Undo& undo) {
+  const bool corresponds = one_to_one(mesh.domain(), domain);
+  require_possible(mesh, options, corresponds);
+  if (mesh.domain() == domain) {
+    RemodelResult result = unchanged(mesh.data(), Stopped::done);
+    result.full_adjustment = true;
+    return result;
+  }
+  require_surfaces_apart(domain);
+  const Method method =
+      corresponds && options.method != Method::general ? Method::specialised : Method::general;
+  if (journal == Journal::always) undo.begin();
+  RemodelResult result = remodel_step(mesh, domain, options, method, undo);
+  result.method = method;
+  return result;
 }
 
 }  // namespace
 
 RemodelResult remodel(Mesh& mesh, const Domain& domain, const RemodelOptions& options) {
-  if (!std::isfinite(options.distance) || options.distance < 0.0)
-    throw Error(ErrorCode::argument, "distance", "found " + std::to_string(options.distance) + ", expected 0 or more");
-  MeshData& data = mesh.data();
-  const bool corresponds = one_to_one(data.domain, domain);
-  if (options.method == Method::specialised && !corresponds)
-    throw Error(ErrorCode::argument, "method", "specialised needs two domains that correspond one to one");
-  const bool specialised = corresponds && options.method != Method::general;
-  RemodelResult result;
-  if (data.domain == domain) {
-    result.triangles_before = result.triangles = result.preserved = data.domain_triangles;
-    result.full_adjustment = true;
-    return result;
-  }
-  require_surfaces_apart(domain);
-  AdjustCache* cache = nullptr;
-  if (specialised) {
-    cache = &adjust_cache(data, moving_loops(data.domain, domain));
-    if (adjust_all(data, *cache, domain)) return full_adjustment(data, *cache, domain);
-  }
-  validate(domain);
-  if (const auto failure = replace(data, cache, domain, options.distance, result)) {
-    result = {};
-    result.reason = *failure;
-    regenerate(mesh, domain, result);
-  }
-  result.method = specialised ? Method::specialised : Method::general;
+  Undo undo(mesh);
+  RemodelResult result = remodel(mesh, domain, options, Journal::when_needed, undo);
+  undo.keep();
   return result;
+}
+
+struct Trial::Impl {
+  explicit Impl(Mesh& mesh) : undo(mesh) {}
+  Undo undo;
+  RemodelResult result;
+};
+
+Trial::Trial(Mesh& mesh, const Domain& domain, const RemodelOptions& options)
+    : impl_(std::make_unique<Impl>(mesh)) {
+  impl_->result = remodel(mesh, domain, options, Journal::always, impl_->undo);
+}
+Trial::~Trial() = default;
+const RemodelResult& Trial::result() const {
+  return impl_->result;
+}
+void Trial::keep() {
+  impl_->undo.keep();
 }
 
 }  // namespace remodel

@@ -64,7 +64,8 @@ void collect(MeshData& mesh, const RemovalRegion& region, std::vector<VertexId>&
     todo.pop_back();
     for (int i = 0; i < 3; ++i) {
       const Vertex& v = triangulation[t.vertex[i]];
-      if (v.boundary == no_index && squared_distance(v.point, region.centre) < r2)
+      if (v.boundary == no_index && squared_distance(v.point, region.centre) < r2 &&
+          mesh.vertex_marks.visit(t.vertex[i].index))
         found.push_back(t.vertex[i]);
       const TriangleId next = t.link[i].triangle();
       if (triangulation[next].ghost() ||
@@ -97,6 +98,7 @@ class Relabelling {
     for (const TriangleId t : touched_) seed_from_boundary(t);
     flood();
     for (const TriangleId t : touched_) seed_from_neighbours(t);
+    for (const TriangleId t : touched_) require_agreement(t);
   }
 
   // Interior vertices of the triangles that are outside the domain now.
@@ -135,6 +137,14 @@ class Relabelling {
       if (triangulation_[t].link[i].constrained()) label(t, side_label(mesh_, triangulation_[t], i));
   }
 
+  // Boundary edges that call one part of the plane by two names belong to loops that do not nest.
+  void require_agreement(TriangleId t) const {
+    for (int i = 0; i < 3; ++i)
+      if (triangulation_[t].link[i].constrained() &&
+          triangulation_[t].region != side_label(mesh_, triangulation_[t], i))
+        throw RecoveryError("the loops of the new design lie on the wrong sides of each other");
+  }
+
   // A part without a boundary edge of its own is labelled like what lies around it.
   void seed_from_neighbours(TriangleId t) {
     if (triangulation_[t].region != Region::unknown) return;
@@ -156,9 +166,8 @@ class Relabelling {
 
 std::vector<VertexId> vertices_inside(MeshData& mesh, const std::vector<RemovalRegion>& regions) {
   std::vector<VertexId> found;
+  mesh.vertex_marks.clear(mesh.triangulation.vertex_slots());
   for (const RemovalRegion& region : regions) collect(mesh, region, found);
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 
@@ -179,6 +188,27 @@ VertexId insert_boundary_point(Triangulation& triangulation, Point p, TriangleId
     triangulation.remove(inserted.vertex);
     hint = triangulation.star(neighbour).triangle;
   }
+}
+
+void restore_outside(MeshData& mesh) {
+  Triangulation& triangulation = mesh.triangulation;
+  std::vector<TriangleId> outside;
+  mesh.marks.clear(triangulation.triangle_slots());
+  for (const std::uint32_t head : mesh.loop_heads) {
+    std::uint32_t k = head;
+    do {
+      const Corner first = triangulation.star(mesh.at(k).vertex);
+      Corner c = first;
+      do {
+        const Triangle& t = triangulation[c.triangle];
+        if (t.region == Region::outside && !t.ghost() && mesh.marks.visit(c.triangle.index)) outside.push_back(c.triangle);
+        c = triangulation.counterclockwise(c);
+      } while (c.triangle != first.triangle);
+      k = mesh.at(k).next;
+    } while (k != head);
+  }
+  for (const TriangleId t : outside) triangulation.refresh_circle(t);
+  triangulation.restore_delaunay(outside);
 }
 
 void relabel_touched(MeshData& mesh) {

@@ -1,6 +1,7 @@
 #include "airfoil_json.h"
 
 #include <cmath>
+#include <sstream>
 
 #include "remodel/error.h"
 
@@ -31,6 +32,18 @@ nlohmann::ordered_json json_of(const CstAirfoil& airfoil) {
           {"te_lower", finite_for_json(airfoil.te_lower, what)}};
 }
 
+// Far beyond any airfoil, and far from where squares of lengths overflow.
+constexpr double largest_coefficient = 1000.0;  // chords
+
+void require_moderate(const JsonReader& reader, const char* key, const std::vector<double>& values) {
+  for (const double value : values) {
+    if (std::abs(value) <= largest_coefficient) continue;
+    std::ostringstream found;
+    found << "found " << value << ", expected coefficients from -1000 to 1000 chords";
+    reader[key].refuse(found.str());
+  }
+}
+
 CstAirfoil airfoil_of(const JsonReader& reader) {
   const CstAirfoil paper_class;
   CstAirfoil airfoil{.upper = reader["upper"].numbers(),
@@ -39,6 +52,10 @@ CstAirfoil airfoil_of(const JsonReader& reader) {
                      .e2 = exponent_of(reader, "e2", paper_class.e2),
                      .te_upper = reader.number_or("te_upper", 0.0),
                      .te_lower = reader.number_or("te_lower", 0.0)};
+  require_moderate(reader, "upper", airfoil.upper);
+  require_moderate(reader, "lower", airfoil.lower);
+  if (airfoil.te_upper != 0.0) require_moderate(reader, "te_upper", {airfoil.te_upper});
+  if (airfoil.te_lower != 0.0) require_moderate(reader, "te_lower", {airfoil.te_lower});
   const double degree = reader["degree"].number();
   if (!(degree >= 1.0 && degree <= static_cast<double>(largest_degree)) || degree != std::floor(degree)) {
     reader["degree"].refuse("expected a whole number from 1 to " + std::to_string(largest_degree));

@@ -42,9 +42,11 @@ void Triangulation::find_cavity(Point p, TriangleId start, Cavity& cavity) const
     const Link link = inner.link[c.index];
     if (link.constrained() || !in_conflict(link.triangle(), p)) {
       cavity.ring.push_back({inner.vertex[next3(c.index)], link});
+      prefetch(inner.vertex[next3(c.index)]);
       continue;
     }
     cavity.triangles.push_back(link.triangle());
+    prefetch(triangles_[link.triangle().index].link[previous3(link.corner())].triangle());
     push({link.triangle(), previous3(link.corner())});
     push({link.triangle(), next3(link.corner())});
   }

@@ -11,7 +11,10 @@ namespace remodel {
 // of journals marks are not kept up.
 void Triangulation::remember(TriangleId t) {
   if (!journalling_) return;
-  if (t.index < triangle_slots_before_) triangle_journal_.push_back({t, triangles_[t.index]});
+  if (t.index < triangle_slots_before_) {
+    triangle_journal_.push_back({t, triangles_[t.index]});
+    triangle_journal_.back().triangle.badness = 0;  // refinement may have marked it since begin()
+  }
   touched_.push_back(t);
   triangles_[t.index].journal = journal_;
 }
@@ -37,6 +40,9 @@ void Triangulation::begin() {
 
 void Triangulation::commit() {
   assert(journalling_);
+  // All that may throw comes first: until then rollback() is still possible.
+  for (FreeList* list : {&free_vertices_, &free_triangles_})
+    list->slots.reserve(list->count + list->pending.size());
   for (FreeList* list : {&free_vertices_, &free_triangles_}) {
     list->slots.resize(list->count);
     list->slots.insert(list->slots.end(), list->pending.begin(), list->pending.end());

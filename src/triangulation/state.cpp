@@ -6,8 +6,12 @@ namespace remodel {
 
 TriangulationState TriangulationState::of(const Triangulation& t) {
   TriangulationState state{t.vertices_, t.generations_, t.triangles_, t.free_vertices_.slots, t.free_triangles_.slots};
-  state.free_vertices.resize(t.free_vertices_.count);
-  state.free_triangles.resize(t.free_triangles_.count);
+  const auto as_committed = [](const Triangulation::FreeList& list, std::vector<std::uint32_t>& slots) {
+    slots.resize(list.count);
+    slots.insert(slots.end(), list.pending.begin(), list.pending.end());
+  };
+  as_committed(t.free_vertices_, state.free_vertices);
+  as_committed(t.free_triangles_, state.free_triangles);
   return state;
 }
 

@@ -14,6 +14,7 @@ struct TriangulationState {
   std::vector<Triangle> triangles;  // circles need not be set: they follow from the vertices
   std::vector<std::uint32_t> free_vertices, free_triangles;  // last first
 
+  // Under a journal: as if it were committed.
   static TriangulationState of(const Triangulation& triangulation);
   // Returns the broken rule, empty if the state is one of a triangulation (links, ranges, orientation); then
   // `result` is it.

@@ -152,7 +152,7 @@ Circle certified_circle(Point a, Point b, Point c) {
   const Point u{(e2.y * l1 - e1.y * l2) * half_inverse, (e1.x * l2 - e2.x * l1) * half_inverse};
   circle.centre = a + u;
   const double r2 = dot(u, u);
-  const double inverse_s2 = l1 * l2 / (d * d);
+  const double inverse_s2 = 4.0 * l1 * l2 * half_inverse * half_inverse;
   constexpr double eps = 0x1p-53;
   const double tolerance = eps * ((200.0 * inverse_s2 + 32.0) * r2 +
                                   6.0 * std::sqrt(r2) * (std::abs(circle.centre.x) + std::abs(circle.centre.y)));

@@ -62,6 +62,16 @@ class Triangulation {
   Point point(VertexId v) const { return vertices_[v.index].point; }
   std::uint32_t generation(VertexId v) const { return generations_[v.index]; }  // how often the id was given out
 
+  // Starts to load what a search from a triangle will need: the triangle itself, or its neighbours and vertices.
+  void prefetch(TriangleId t) const { __builtin_prefetch(&triangles_[t.index]); }
+  void prefetch(VertexId v) const { __builtin_prefetch(&vertices_[v.index]); }
+  void prefetch_around(TriangleId t) const {
+    for (int i = 0; i < 3; ++i) {
+      prefetch(triangles_[t.index].link[i].triangle());
+      prefetch(triangles_[t.index].vertex[i]);
+    }
+  }
+
   // The corners around a vertex: counter-clockwise and clockwise neighbours of a corner at the same vertex.
   Corner star(VertexId v) const { return corner(vertices_[v.index].star); }
   Corner counterclockwise(Corner c) const;
@@ -127,13 +137,13 @@ class Triangulation {
   void set_boundary(VertexId v, std::uint32_t value) { edit(v).boundary = value; }
   void set_region(TriangleId t, Region region) { edit(t).region = region; }
   void set_birth(TriangleId t, std::uint32_t birth) { edit(t).birth = birth; }
-  void set_badness(TriangleId t, std::uint8_t badness) { triangles_[t.index].badness = badness; }  // not journalled
-  void forget_badness() {  // after a refinement that a limit ended
-    for (Triangle& t : triangles_) t.badness = 0;
-  }
+  void set_badness(TriangleId t, std::uint8_t badness) {
+    triangles_[t.index].badness = badness;
+  }                                                    // not journalled
   void set_step(std::uint32_t step) { step_ = step; }  // the birth of triangles made from now on
 
-  // ---- journal
+  // ---- journal. An exception out of any function of this class leaves the journal able to roll back;
+  // begin() and rollback() throw nothing.
   void begin();
   void commit();
   void rollback();

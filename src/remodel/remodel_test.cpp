@@ -1,0 +1,445 @@
+#include "remodel/remodel.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <random>
+#include <set>
+#include <tuple>
+
+#include "mesh/mesh_data.h"
+#include "remodel/check.h"
+#include "remodel/error.h"
+#include "remodel/generate.h"
+#include "remodel/test_designs.h"
+#include "support.h"
+
+namespace remodel {
+namespace {
+
+using test::catalogue_domain;
+
+Mesh generated(const Domain& domain, double gradation = 4.0) {
+  QualityOptions options;
+  options.gradation = gradation;
+  GenerateResult result = generate(domain, options);
+  EXPECT_EQ(result.stopped, Stopped::done);
+  EXPECT_EQ(result.mesh.quick_check(), "");
+  return std::move(result.mesh);
+}
+
+// The slow and independent check, with the design.
+std::string full_check(const Mesh& mesh, double angle = 30.0) {
+  const CheckResult result = check(mesh.freeze(), {.min_angle_deg = angle,
+                                                   .max_gradation = mesh.options().max_gradation,
+                                                   .design = &mesh.domain(),
+                                                   .max_violations = 1});
+  if (result.valid) return {};
+  return result.violations.empty() ? "not valid"
+                                   : result.violations[0].rule + ": " + result.violations[0].detail;
+}
+
+CstAirfoil scaled(CstAirfoil airfoil, double factor) {
+  for (std::vector<double>* surface : {&airfoil.upper, &airfoil.lower})
+    for (double& c : *surface) c *= factor;
+  return airfoil;
+}
+
+// A triangle as who looks at the frozen view sees it: ids and places of its vertices.
+using Seen = std::array<std::tuple<std::uint32_t, double, double>, 3>;
+std::multiset<Seen> seen(const FrozenMesh& mesh) {
+  std::multiset<Seen> result;
+  for (const auto& triangle : mesh.triangles) {
+    Seen one;
+    for (std::size_t k = 0; k < 3; ++k)
+      one[k] = {mesh.vertex_ids[triangle[k]], mesh.points[triangle[k]].x, mesh.points[triangle[k]].y};
+    std::sort(one.begin(), one.end());
+    result.insert(one);
+  }
+  return result;
+}
+
+std::size_t preserved_by_brute_force(const FrozenMesh& before, const FrozenMesh& after) {
+  const std::multiset<Seen> old = seen(before), now = seen(after);
+  std::vector<Seen> common;
+  std::set_intersection(old.begin(), old.end(), now.begin(), now.end(), std::back_inserter(common));
+  return common.size();
+}
+
+// Remodels, and checks all that must hold after any step.
+RemodelResult step(Mesh& mesh, const Domain& domain, const RemodelOptions& options = {}) {
+  const FrozenMesh before = mesh.freeze();
+  const std::uint32_t steps = mesh.step();
+  const RemodelResult result = remodel(mesh, domain, options);
+  EXPECT_EQ(mesh.quick_check(), "");
+  EXPECT_EQ(result.stopped, Stopped::done);
+  EXPECT_EQ(mesh.domain(), domain);
+  EXPECT_LE(mesh.step(), steps + 1);
+  EXPECT_EQ(result.triangles_before, before.triangles.size());
+  EXPECT_EQ(result.triangles, mesh.triangle_count());
+  const FrozenMesh after = mesh.freeze();
+  EXPECT_EQ(result.triangles, after.triangles.size());
+  EXPECT_EQ(result.regenerated, !result.reason.empty());
+  if (!result.regenerated) {
+    EXPECT_EQ(result.preserved, preserved_by_brute_force(before, after));
+  }
+  return result;
+}
+
+// ---- the specialised method
+
+TEST(Remodel, ToTheSameDesignChangesNothing) {
+  for (const Method method : {Method::automatic, Method::specialised, Method::general}) {
+    Mesh mesh = generated(catalogue_domain(2, 100));
+    const MeshState before = mesh.state();
+    const RemodelResult result = remodel(mesh, catalogue_domain(2, 100), {.method = method});
+    EXPECT_TRUE(mesh.state() == before);
+    EXPECT_TRUE(result.full_adjustment);
+    EXPECT_EQ(result.preserved, mesh.triangle_count());
+    EXPECT_EQ(result.moved + result.inserted + result.removed, 0U);
+  }
+}
+
+TEST(Remodel, ThereAndBackIsValidAndAboutAsLarge) {
+  for (const Method method : {Method::specialised, Method::general})
+    for (std::size_t a = 0; a < airfoil_catalogue().size(); ++a) {
+      SCOPED_TRACE(airfoil_catalogue()[a].name);
+      Mesh mesh = generated(catalogue_domain(a, 50));
+      const std::size_t fresh = mesh.triangle_count();
+      for (int round = 0; round < 5; ++round) {
+        step(mesh, catalogue_domain((a + 3) % 10, 50), {.method = method});
+        step(mesh, catalogue_domain(a, 50), {.method = method});
+      }
+      EXPECT_EQ(full_check(mesh), "");
+      EXPECT_LT(static_cast<double>(mesh.triangle_count()), 1.6 * static_cast<double>(fresh));
+      EXPECT_GT(static_cast<double>(mesh.triangle_count()), 0.6 * static_cast<double>(fresh));
+    }
+}
+
+TEST(FullAdjustment, LeavesConnectivityByteIdentical) {
+  int full = 0;
+  for (std::size_t a = 0; a < airfoil_catalogue().size(); ++a)
+    for (const int points : {50, 200}) {
+      const CstAirfoil airfoil = airfoil_catalogue()[a].airfoil();
+      Mesh mesh = generated(airfoil_domain(airfoil, {.points = points}));
+      const MeshState before = mesh.state();
+      const FrozenMesh old = mesh.freeze();
+      const RemodelResult result = step(mesh, airfoil_domain(scaled(airfoil, 1.00001), {.points = points}));
+      if (!result.full_adjustment) continue;
+      ++full;
+      const MeshState after = mesh.state();
+      EXPECT_EQ(after.triangle_vertices, before.triangle_vertices);
+      EXPECT_EQ(after.triangle_links, before.triangle_links);
+      EXPECT_EQ(after.triangle_regions, before.triangle_regions);
+      EXPECT_EQ(after.vertex_stars, before.vertex_stars);
+      EXPECT_EQ(after.vertex_generations, before.vertex_generations);
+      EXPECT_EQ(result.inserted + result.removed, 0U);
+      const FrozenMesh now = mesh.freeze();
+      std::size_t touched = 0, born = 0, moved = 0;
+      for (std::size_t p = 0; p < now.points.size(); ++p) moved += now.points[p] == old.points[p] ? 0 : 1;
+      for (std::size_t t = 0; t < now.triangles.size(); ++t) {
+        const auto& v = now.triangles[t];
+        if (std::any_of(v.begin(), v.end(),
+                        [&](std::uint32_t p) { return !(now.points[p] == old.points[p]); }))
+          ++touched;
+        if (now.birth[t] == mesh.step()) ++born;
+      }
+      EXPECT_EQ(result.preserved, result.triangles_before - touched);
+      EXPECT_EQ(result.moved, moved);
+      EXPECT_EQ(born, touched);
+    }
+  EXPECT_GE(full, 15) << "of 20 tiny changes";
+}
+
+// Paper, section 4.2: the trailing and leading edges never move.
+TEST(FullAdjustment, OfAThousandthIsTheRule) {
+  int full = 0, steps = 0;
+  for (std::size_t a = 0; a < airfoil_catalogue().size(); ++a) {
+    CstAirfoil airfoil = airfoil_catalogue()[a].airfoil();
+    Mesh mesh = generated(airfoil_domain(airfoil, {.points = 50}));
+    for (int k = 0; k < 10; ++k, ++steps) {
+      airfoil = scaled(airfoil, 1.001);
+      full += step(mesh, airfoil_domain(airfoil, {.points = 50})).full_adjustment ? 1 : 0;
+    }
+  }
+  EXPECT_GE(full, steps * 8 / 10);
+}
+
+TEST(PartialSteps, KeepTheIdsAndPlacesOfWhatSurvives) {
+  Mesh mesh = generated(catalogue_domain(0, 100));
+  for (const std::size_t to : {1U, 7U, 3U, 9U, 0U}) {
+    const MeshState before = mesh.state();
+    const RemodelResult result = step(mesh, catalogue_domain(to, 100));
+    ASSERT_FALSE(result.full_adjustment);
+    const MeshState after = mesh.state();
+    std::size_t same_vertices = 0;
+    for (std::size_t v = 1; v < before.vertex_stars.size(); ++v) {
+      if (before.vertex_stars[v] == no_index || before.vertex_curves[v] >= 0) continue;
+      if (before.vertex_generations[v] != after.vertex_generations[v]) continue;
+      EXPECT_TRUE(after.vertex_stars[v] == no_index ||
+                  (before.coordinates[2 * v] == after.coordinates[2 * v] &&
+                   before.coordinates[2 * v + 1] == after.coordinates[2 * v + 1]))
+          << "interior vertex " << v << " has moved";
+      ++same_vertices;
+    }
+    EXPECT_GT(same_vertices, 100U);
+    for (std::size_t t = 0; t < before.triangle_births.size(); ++t) {  // an old birth is an old triangle
+      if (after.triangle_vertices[3 * t] == no_index || after.triangle_births[t] == mesh.step()) continue;
+      ASSERT_EQ(after.triangle_births[t], before.triangle_births[t]);
+      for (std::size_t k = 3 * t; k < 3 * t + 3; ++k)
+        ASSERT_EQ(after.triangle_vertices[k], before.triangle_vertices[k]) << "triangle " << t;
+    }
+  }
+}
+
+TEST(PartialSteps, NeverGiveAnIdOutTwiceWithinOneStep) {
+  Mesh mesh = generated(catalogue_domain(0, 50));
+  for (std::size_t to = 1; to < 40; ++to) {
+    const MeshState before = mesh.state();
+    step(mesh, catalogue_domain(to % 10, 50), {.method = to % 3 == 0 ? Method::general : Method::automatic});
+    const MeshState after = mesh.state();
+    for (std::size_t v = 0; v < before.vertex_generations.size(); ++v) {
+      const std::uint32_t given_out = after.vertex_generations[v] - before.vertex_generations[v];
+      ASSERT_LE(given_out, before.vertex_stars[v] == no_index ? 1U : 0U) << "vertex " << v << ", step " << to;
+    }
+  }
+}
+
+TEST(EveryPairOfTheCatalogue, RemodelsByBothMethods) {
+  std::map<std::string, int> reasons;
+  for (const Method method : {Method::specialised, Method::general})
+    for (std::size_t a = 0; a < airfoil_catalogue().size(); ++a) {
+      const Mesh start = generated(catalogue_domain(a, 50));
+      for (std::size_t b = 0; b < airfoil_catalogue().size(); ++b) {
+        SCOPED_TRACE(std::string(airfoil_catalogue()[a].name) + " to " +
+                     std::string(airfoil_catalogue()[b].name) + ", " + name_of(method));
+        Mesh mesh = start;
+        const RemodelResult result = step(mesh, catalogue_domain(b, 50), {.method = method});
+        if (result.regenerated) ++reasons[result.reason];
+        EXPECT_EQ(result.method, a == b ? Method::specialised : method);
+        if ((a + b) % 4 != 0) continue;
+        EXPECT_EQ(full_check(mesh), "");
+      }
+    }
+  for (const auto& [reason, count] : reasons) ADD_FAILURE() << count << " were generated afresh: " << reason;
+}
+
+TEST(Distance, OfRemovalNeverMakesAStepInvalidAndLargerOnesPreserveLess) {
+  std::size_t preserved[4] = {};
+  for (std::size_t a = 0; a < airfoil_catalogue().size(); ++a) {
+    const Mesh start = generated(catalogue_domain(a, 100));
+    std::size_t i = 0;
+    for (const double distance : {0.0, 1.0, 4.0, 20.0}) {
+      Mesh mesh = start;
+      preserved[i++] += step(mesh, catalogue_domain((a + 1) % 10, 100), {.distance = distance}).preserved;
+    }
+  }
+  EXPECT_LE(preserved[1], preserved[0] * 101 / 100);
+  EXPECT_LT(preserved[2], preserved[1]);
+  EXPECT_LT(preserved[3], preserved[2]);
+}
+
+TEST(RefusedDesigns, LeaveTheMeshIdentical) {
+  Mesh mesh = generated(catalogue_domain(4, 50));
+  const MeshState before = mesh.state();
+  const auto refuse = [&](const Domain& domain, RemodelOptions options, ErrorCode expected) {
+    try {
+      remodel(mesh, domain, options);
+      ADD_FAILURE() << "was not refused";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), expected) << error.what();
+    }
+    EXPECT_TRUE(mesh.state() == before);
+  };
+  CstAirfoil crossing = airfoil_catalogue()[4].airfoil();
+  crossing.upper.back() = -1.0;
+  CstAirfoil swapped = airfoil_catalogue()[4].airfoil();
+  swapped.upper.swap(swapped.lower);
+  for (const Method method : {Method::automatic, Method::specialised, Method::general}) {
+    refuse(airfoil_domain(crossing, {.points = 50}), {.method = method}, ErrorCode::geometry);
+    refuse(airfoil_domain(swapped, {.points = 50}), {.method = method}, ErrorCode::geometry);
+  }
+  refuse(catalogue_domain(1, 60), {.method = Method::specialised}, ErrorCode::argument);
+  refuse(catalogue_domain(1, 50), {.distance = -1.0}, ErrorCode::argument);
+  refuse(catalogue_domain(1, 50), {.distance = std::nan("")}, ErrorCode::argument);
+  refuse(Domain{}, {}, ErrorCode::geometry);
+  Domain bad = catalogue_domain(4, 50);
+  std::get<Arc>(bad.loops[1].curves[0].shape).radius = 0.6;
+  std::get<Arc>(bad.loops[1].curves[0].shape).centre = {3.0, 0.0};
+  refuse(bad, {}, ErrorCode::geometry);
+  EXPECT_EQ(step(mesh, catalogue_domain(5, 50)).stopped, Stopped::done);
+}
+
+// ---- long walks
+
+struct WalkCase {
+  double sigma;
+  int points;
+};
+class RandomWalk : public testing::TestWithParam<WalkCase> {};
+
+TEST_P(RandomWalk, OfThreeHundredStepsIsValidAtEveryStep) {
+  const unsigned long long seed = test::seed(7);
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  test::Walk walk(random() % 10, GetParam().sigma, random);
+  Mesh mesh = generated(walk.domain(GetParam().points));
+  int regenerated = 0;
+  for (int i = 0; i < 300 && !HasFailure(); ++i) {
+    SCOPED_TRACE("step " + std::to_string(i));
+    walk.next();
+    const RemodelResult result = step(mesh, walk.domain(GetParam().points));
+    if (result.regenerated && ++regenerated) std::printf("step %d: %s\n", i, result.reason.c_str());
+    if (i % 30 != 0) continue;
+    ASSERT_EQ(full_check(mesh), "");
+  }
+  EXPECT_LE(regenerated, 3);
+  std::size_t fresh = generated(walk.domain(GetParam().points)).triangle_count();
+  EXPECT_LT(mesh.triangle_count(), 2 * fresh);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sigma, RandomWalk,
+                         testing::Values(WalkCase{0.01, 50}, WalkCase{0.05, 50}, WalkCase{0.25, 50},
+                                         WalkCase{0.01, 100}, WalkCase{0.05, 100}, WalkCase{0.25, 100}));
+
+TEST(AMeshThatWasSaved, GoesOnToTheSameStateAsOneThatNeverLeftMemory) {
+  const unsigned long long seed = test::seed(3);
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  test::Walk walk(1, 0.03, random);
+  Mesh mesh = generated(walk.domain(50)), saved = mesh;
+  for (int i = 0; i < 50; ++i) {
+    walk.next();
+    const Method method = i % 5 == 4 ? Method::general : Method::automatic;
+    const RemodelResult a = remodel(mesh, walk.domain(50), {.method = method});
+    saved = Mesh::restore(saved.state(), "saved");
+    const RemodelResult b = remodel(saved, walk.domain(50), {.method = method});
+    EXPECT_EQ(a.preserved, b.preserved);
+    EXPECT_EQ(a.full_adjustment, b.full_adjustment);
+    ASSERT_TRUE(mesh.state() == saved.state()) << "step " << i;
+  }
+}
+
+// ---- what a mesh keeps from step to step
+
+TEST(ChangesOfDegree, AreNoTrouble) {
+  const CstAirfoil base = airfoil_catalogue()[0].airfoil();
+  CstAirfoil low = base, high = base, blunt = base;
+  low.upper.resize(base.upper.size() - 2, 0.1);
+  low.lower.resize(base.lower.size() - 2, -0.1);
+  high.upper.push_back(0.2);
+  high.lower.push_back(-0.1);
+  blunt.e1 = 0.45;
+  Mesh mesh = generated(airfoil_domain(base, {.points = 50}));
+  for (int round = 0; round < 3; ++round)
+    for (const CstAirfoil& airfoil : {low, high, blunt, base})
+      for (const double factor : {1.0, 1.00001, 1.1}) {
+        SCOPED_TRACE(std::to_string(airfoil.degree()) + " " + std::to_string(factor));
+        step(mesh, airfoil_domain(scaled(airfoil, factor), {.points = 50}));
+      }
+}
+
+TEST(ChangesOfTheDiscretisation, AreNoTrouble) {
+  Mesh mesh = generated(catalogue_domain(0, 50));
+  for (int i = 0; i < 12; ++i) {
+    const int points = i / 3 % 2 == 0 ? 64 : 40;
+    const RemodelResult result = step(mesh, catalogue_domain(static_cast<std::size_t>(i) % 10, points));
+    EXPECT_EQ(result.method, i % 3 == 0 ? Method::general : Method::specialised);
+  }
+}
+
+TEST(ChangesOfTheFarfield, AreNoTrouble) {
+  Mesh mesh = generated(catalogue_domain(0, 50));
+  const CstAirfoil airfoil = airfoil_catalogue()[1].airfoil();
+  for (const double radius : {25.0, 24.9, 20.0, 30.0, 10.0})
+    step(mesh, airfoil_domain(airfoil, {.points = 50, .farfield_radius = radius}));
+}
+
+// ---- the general method
+
+TEST(GeneralMethod, RemodelsSquaresToStarsToCircles) {
+  Mesh mesh = generated(test::with_holes({test::square_hole(0.5, 0.5, 0.2)}));
+  for (int round = 0; round < 4; ++round)
+    for (const Loop& hole : {test::star_hole(0.5, 0.5, 0.3), test::circle_hole(0.45, 0.55, 0.2),
+                             test::star_hole(0.6, 0.5, 0.2, 7), test::circle_hole(0.6, 0.6, 0.05, 40),
+                             test::square_hole(0.4, 0.4, 0.2, 5)}) {
+      const RemodelResult result = step(mesh, test::with_holes({hole}));
+      EXPECT_FALSE(result.regenerated) << result.reason;
+      EXPECT_EQ(full_check(mesh), "");
+    }
+}
+
+TEST(GeneralMethod, LetsHolesAppearAndVanish) {
+  const Loop square = test::square_hole(0.25, 0.25, 0.1), circle = test::circle_hole(0.7, 0.7, 0.15),
+             star = test::star_hole(0.3, 0.7, 0.15);
+  Mesh mesh = generated(test::with_holes({}));
+  for (const std::vector<Loop>& holes : {std::vector<Loop>{square, circle},
+                                         {circle},
+                                         {star, circle},
+                                         {},
+                                         {circle, square, star},
+                                         {star, square},
+                                         {}}) {
+    const RemodelResult result = step(mesh, test::with_holes(holes));
+    EXPECT_FALSE(result.regenerated) << result.reason;
+    EXPECT_EQ(full_check(mesh), "");
+  }
+}
+
+TEST(GeneralMethod, DoesNotTouchWhatIsFarFromTheChange) {
+  const Loop far = test::circle_hole(0.8, 0.8, 0.1);
+  Mesh mesh = generated(test::with_holes({far, test::square_hole(0.2, 0.2, 0.05)}));
+  const MeshState before = mesh.state();
+  step(mesh, test::with_holes({far, test::circle_hole(0.2, 0.2, 0.06)}));
+  const MeshState after = mesh.state();
+  for (std::size_t v = 1; v < before.vertex_stars.size(); ++v) {
+    const double x = before.coordinates[2 * v], y = before.coordinates[2 * v + 1];
+    if (before.vertex_stars[v] == no_index || (x < 0.6 && y < 0.6)) continue;
+    EXPECT_EQ(after.coordinates[2 * v], x);
+    EXPECT_EQ(after.coordinates[2 * v + 1], y);
+    EXPECT_EQ(after.vertex_generations[v], before.vertex_generations[v]);
+  }
+}
+
+TEST(GeneralMethod, ReversesAndReordersLoops) {
+  Mesh mesh =
+      generated(test::with_holes({test::square_hole(0.3, 0.3, 0.1), test::circle_hole(0.7, 0.7, 0.1)}));
+  step(mesh, test::with_holes({test::circle_hole(0.7, 0.7, 0.1), test::square_hole(0.3, 0.3, 0.1)}));
+  Domain reversed = test::with_holes({test::square_hole(0.3, 0.3, 0.12)});
+  auto& corners = std::get<Polyline>(reversed.loops[1].curves[0].shape).points;
+  std::reverse(corners.begin(), corners.end());
+  step(mesh, reversed);
+  EXPECT_EQ(full_check(mesh), "");
+}
+
+TEST(GeneralMethod, ChangesTheOuterBoundaryToo) {
+  Mesh mesh = generated(test::with_holes({test::circle_hole(0.5, 0.5, 0.1)}));
+  for (const double size : {1.2, 0.7, 3.0, 1.0}) {
+    Domain domain = test::with_holes({test::circle_hole(0.5, 0.5, 0.1)});
+    domain.loops[0] = test::rectangle(LoopRole::outer, "outer", {1 - size, 1 - size}, {size, size}, 3);
+    const RemodelResult result = step(mesh, domain, {.method = Method::general});
+    EXPECT_EQ(full_check(mesh), "") << size << ' ' << result.reason;
+  }
+}
+
+TEST(SpecialisedMethod, MovesPolygonsAndArcs) {
+  Mesh mesh = generated(test::with_holes({test::star_hole(0.5, 0.5, 0.2), test::circle_hole(0.2, 0.2, 0.1)}));
+  const unsigned long long seed = test::seed(11);
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53 - 0.5; };
+  for (int i = 0; i < 100; ++i) {
+    const double size = i % 2 == 0 ? 0.002 : 0.08;
+    const RemodelResult result =
+        step(mesh, test::with_holes({test::star_hole(0.5 + size * uniform(), 0.5 + size * uniform(), 0.2),
+                                     test::circle_hole(0.2, 0.2 + 0.5 * size * uniform(), 0.1)}));
+    EXPECT_EQ(result.method, Method::specialised);
+    EXPECT_FALSE(result.regenerated) << result.reason;
+  }
+  EXPECT_EQ(full_check(mesh), "");
+}
+
+}  // namespace
+}  // namespace remodel

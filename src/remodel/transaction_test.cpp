@@ -1,0 +1,312 @@
+// Failures in the middle: allocations that fail, observers that cancel, trials that end. In every case the
+// mesh is as it was, to the last bit, and goes on as if nothing had been. A program of its own: it replaces
+// operator new.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+#include <random>
+
+#include "mesh/mesh_data.h"
+#include "remodel/error.h"
+#include "remodel/generate.h"
+#include "remodel/remodel.h"
+#include "remodel/test_designs.h"
+#include "support.h"
+
+// ---- allocations that fail
+//
+// Every allocation from the n-th on fails, or the n-th alone, while a FailingAllocations lives.
+
+namespace {
+
+long allocations_left = -1;  // -1: no failures
+bool fails_for_good = false;
+
+void count_allocation() {
+  if (allocations_left < 0) return;
+  if (allocations_left > 0) {
+    --allocations_left;
+    return;
+  }
+  if (!fails_for_good) allocations_left = -1;
+  throw std::bad_alloc();
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+  count_allocation();
+  if (void* p = std::malloc(size)) return p;
+  throw std::bad_alloc();
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  count_allocation();
+  const auto a = static_cast<std::size_t>(alignment);
+  if (void* p = std::aligned_alloc(a, (size + a - 1) / a * a)) return p;
+  throw std::bad_alloc();
+}
+void operator delete(void* p) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, std::align_val_t) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
+  std::free(p);
+}
+
+namespace remodel {
+namespace {
+
+using test::catalogue_domain;
+
+// The circles are no part of the state, since they follow from it: where they did not, quick_check() may not
+// see it.
+void expect_same(const Mesh& mesh, const MeshState& before, const std::string& where) {
+  ASSERT_TRUE(mesh.state() == before) << where;
+  ASSERT_EQ(mesh.quick_check(), "") << where;
+  const Mesh restored = Mesh::restore(before, "before");
+  const Triangulation& now = mesh.data().triangulation;
+  ASSERT_EQ(mesh.triangle_count(), restored.triangle_count()) << where;
+  for (std::uint32_t i = 0; i < now.triangle_slots(); ++i) {
+    const Triangle& t = now[TriangleId{i}];
+    if (!t.alive()) continue;
+    const Circle circle = restored.data().triangulation[TriangleId{i}].circle;
+    ASSERT_EQ(t.circle.inside, circle.inside) << where << ", triangle " << i;
+    ASSERT_EQ(t.badness, 0) << where << ", triangle " << i;
+  }
+}
+
+// Fails the n-th allocation of a step for n = 0, 1, 2, ... until the step gets through; a step of very many
+// is sampled. Afterwards the same step gives what it gives a mesh at which nothing ever failed.
+void fail_every_allocation(const Mesh& start, const Domain& domain, const RemodelOptions& options) {
+  const MeshState before = start.state();
+  Mesh untroubled = start;
+  remodel(untroubled, domain, options);
+  const MeshState after = untroubled.state();
+  Mesh mesh = start;
+  long faults = 0;
+  for (long n = 0;; n += 1 + n / 400) {
+    bool failed = false;
+    fails_for_good = faults % 2 == 0;
+    allocations_left = n;
+    try {
+      remodel(mesh, domain, options);
+    } catch (const std::bad_alloc&) {
+      failed = true;
+    }
+    allocations_left = -1;
+    if (!failed) break;
+    ++faults;
+    ASSERT_NO_FATAL_FAILURE(expect_same(mesh, before, "allocation " + std::to_string(n)));
+    if (faults % 16 != 0) continue;
+    remodel(mesh, domain, options);
+    ASSERT_TRUE(mesh.state() == after) << "the step after allocation " << n << " failed";
+    mesh = start;
+  }
+  EXPECT_TRUE(mesh.state() == after);
+  EXPECT_GT(faults, 3);
+  testing::Test::RecordProperty("faults", std::to_string(faults));
+}
+
+CstAirfoil scaled(CstAirfoil airfoil, double factor) {
+  for (double& c : airfoil.upper) c *= factor;
+  for (double& c : airfoil.lower) c *= factor;
+  return airfoil;
+}
+
+TEST(FailedAllocations, RollBackAFullAdjustment) {
+  const CstAirfoil airfoil = airfoil_catalogue()[0].airfoil();
+  const Mesh mesh = generate(airfoil_domain(airfoil, {.points = 50})).mesh;
+  const Domain next = airfoil_domain(scaled(airfoil, 1.0001), {.points = 50});
+  Mesh copy = mesh;
+  ASSERT_TRUE(remodel(copy, next).full_adjustment);
+  fail_every_allocation(mesh, next, {});
+}
+
+TEST(FailedAllocations, RollBackPartialSteps) {
+  const Mesh mesh = generate(catalogue_domain(0, 50)).mesh;
+  for (const std::size_t to : {1U, 5U, 9U}) fail_every_allocation(mesh, catalogue_domain(to, 50), {});
+}
+
+TEST(FailedAllocations, RollBackGeneralSteps) {
+  const Mesh mesh = generate(catalogue_domain(0, 50)).mesh;
+  fail_every_allocation(mesh, catalogue_domain(3, 50), {.method = Method::general});
+  fail_every_allocation(mesh, catalogue_domain(3, 64), {});
+  const Mesh squares = generate(test::with_holes({test::square_hole(0.3, 0.3, 0.1)})).mesh;
+  fail_every_allocation(
+      squares, test::with_holes({test::circle_hole(0.6, 0.6, 0.15), test::star_hole(0.3, 0.3, 0.2)}), {});
+}
+
+TEST(FailedAllocations, RollBackAStepThatGeneratesAfresh) {
+  QualityOptions quality;
+  quality.max_vertices = 1500;  // the next design needs more
+  const Mesh mesh = generate(catalogue_domain(0, 50), quality).mesh;
+  const Domain next = catalogue_domain(5, 200);
+  Mesh copy = mesh;
+  ASSERT_TRUE(remodel(copy, next).regenerated);
+  fail_every_allocation(mesh, next, {});
+}
+
+TEST(FailedAllocations, RollBackTrials) {
+  const CstAirfoil airfoil = airfoil_catalogue()[0].airfoil();
+  Mesh mesh = generate(airfoil_domain(airfoil, {.points = 50})).mesh;
+  const MeshState before = mesh.state();
+  for (const Domain& domain :
+       {airfoil_domain(scaled(airfoil, 1.0001), {.points = 50}), catalogue_domain(4, 50)}) {
+    for (long n = 0;; n += 1 + n / 400) {
+      bool failed = false;
+      allocations_left = n;
+      fails_for_good = true;
+      try {
+        Trial trial(mesh, domain);
+        trial.keep();
+      } catch (const std::bad_alloc&) {
+        failed = true;
+      }
+      allocations_left = -1;
+      if (!failed) break;
+      ASSERT_NO_FATAL_FAILURE(expect_same(mesh, before, "allocation " + std::to_string(n)));
+    }
+    EXPECT_EQ(mesh.quick_check(), "");
+    mesh = Mesh::restore(before, "before");
+  }
+}
+
+// ---- observers
+
+struct Cancelling : StepObserver {
+  explicit Cancelling(int after) : left(after) {}
+  bool cancelled() override { return ++asked, left-- <= 0; }
+  int left, asked = 0;
+};
+struct Throwing : StepObserver {
+  bool cancelled() override { throw std::runtime_error("observer"); }
+};
+
+TEST(Observer, CancelsAStepAtAnyPollAndLeavesTheMeshAsItWas) {
+  Mesh mesh = generate(catalogue_domain(0, 300)).mesh;
+  const MeshState before = mesh.state();
+  for (const Method method : {Method::specialised, Method::general}) {
+    int polls = 0;
+    for (;; ++polls) {
+      Cancelling observer(polls);
+      const RemodelResult result =
+          remodel(mesh, catalogue_domain(6, 300), {.method = method, .observer = &observer});
+      if (result.stopped == Stopped::done) break;
+      ASSERT_EQ(result.stopped, Stopped::interrupted);
+      EXPECT_EQ(result.method, method);
+      EXPECT_EQ(result.preserved, result.triangles);
+      EXPECT_FALSE(result.regenerated);
+      ASSERT_NO_FATAL_FAILURE(expect_same(mesh, before, "poll " + std::to_string(polls)));
+    }
+    EXPECT_GE(polls, 3);
+    EXPECT_EQ(mesh.quick_check(), "");
+    mesh = Mesh::restore(before, "before");
+  }
+}
+
+TEST(Observer, ThatThrowsLeavesTheMeshAsItWas) {
+  Mesh mesh = generate(catalogue_domain(0, 50)).mesh;
+  const MeshState before = mesh.state();
+  Throwing observer;
+  EXPECT_THROW(remodel(mesh, catalogue_domain(6, 50), {.observer = &observer}), std::runtime_error);
+  expect_same(mesh, before, "an observer that throws");
+}
+
+TEST(Observer, CancelsGenerationWithAValidMesh) {
+  Cancelling observer(2);
+  const GenerateResult result = generate(catalogue_domain(0, 300), {}, &observer);
+  EXPECT_EQ(result.stopped, Stopped::interrupted);
+  EXPECT_EQ(observer.asked, 3);
+  EXPECT_EQ(result.mesh.data().triangulation.check(), "");
+  EXPECT_EQ(check_boundary(result.mesh.data()), "");
+}
+
+// ---- trials
+
+TEST(Trial, ThatEndsLeavesTheMeshAsItWas) {
+  const unsigned long long seed = test::seed(1);
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  for (const Method method : {Method::automatic, Method::general}) {
+    test::Walk walk(0, 0.05, random);
+    Mesh mesh = generate(walk.domain(60)).mesh, never_tried = mesh;
+    for (int step = 0; step < 60; ++step) {
+      const MeshState before = mesh.state();
+      for (const double sigma : {0.0005, 0.02, 0.2}) {
+        const Domain design = airfoil_domain(walk.sample(sigma), {.points = 60});
+        Mesh remodelled = mesh;
+        const RemodelResult expected = remodel(remodelled, design, {.method = method});
+        {
+          const Trial trial(mesh, design, {.method = method});
+          EXPECT_EQ(trial.result().preserved, expected.preserved);
+          ASSERT_TRUE(mesh.state() == remodelled.state()) << "step " << step << ", sigma " << sigma;
+          ASSERT_EQ(mesh.quick_check(), "");
+        }
+        ASSERT_NO_FATAL_FAILURE(expect_same(mesh, before, "step " + std::to_string(step)));
+      }
+      walk.next();
+      remodel(mesh, walk.domain(60), {.method = method});
+      remodel(never_tried, walk.domain(60), {.method = method});
+      ASSERT_TRUE(mesh.state() == never_tried.state()) << "step " << step;
+    }
+  }
+}
+
+TEST(Trial, ThatIsKeptIsAStep) {
+  Mesh mesh = generate(catalogue_domain(0, 50)).mesh, stepped = mesh;
+  for (const std::size_t to : {1U, 4U, 8U}) {
+    remodel(stepped, catalogue_domain(to, 50));
+    Trial trial(mesh, catalogue_domain(to, 50));
+    trial.keep();
+    EXPECT_TRUE(mesh.state() == stepped.state());
+  }
+}
+
+TEST(Trial, CanBeReadCopiedAndSavedButNotRemodelled) {
+  Mesh mesh = generate(catalogue_domain(0, 50)).mesh;
+  const MeshState before = mesh.state();
+  {
+    const Trial trial(mesh, catalogue_domain(4, 50));
+    EXPECT_THROW(remodel(mesh, catalogue_domain(5, 50)), Error);
+    EXPECT_THROW(Trial(mesh, catalogue_domain(5, 50)), Error);
+    Mesh copy = mesh, restored = Mesh::restore(mesh.state(), "trial");
+    EXPECT_EQ(copy.freeze().points.size(), mesh.freeze().points.size());
+    remodel(copy, catalogue_domain(5, 50));
+    remodel(restored, catalogue_domain(5, 50));
+    EXPECT_EQ(copy.quick_check(), "");
+    EXPECT_TRUE(copy.state() == restored.state());
+  }
+  expect_same(mesh, before, "a trial");
+}
+
+TEST(Trial, ThatGeneratedAfreshReturnsToo) {
+  QualityOptions quality;
+  quality.max_vertices = 1500;
+  Mesh mesh = generate(catalogue_domain(0, 50), quality).mesh;
+  const MeshState before = mesh.state();
+  {
+    const Trial trial(mesh, catalogue_domain(5, 200));
+    EXPECT_TRUE(trial.result().regenerated);
+    EXPECT_EQ(trial.result().stopped, Stopped::vertex_budget);
+  }
+  expect_same(mesh, before, "a trial");
+}
+
+TEST(Trial, OfARefusedDesignLeavesTheMeshAsItWas) {
+  Mesh mesh = generate(catalogue_domain(0, 50)).mesh;
+  const MeshState before = mesh.state();
+  CstAirfoil crossed = airfoil_catalogue()[0].airfoil();
+  crossed.upper.swap(crossed.lower);
+  EXPECT_THROW(Trial(mesh, airfoil_domain(crossed, {.points = 50})), Error);
+  expect_same(mesh, before, "a refused trial");
+}
+
+}  // namespace
+}  // namespace remodel
