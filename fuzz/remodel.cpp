@@ -14,14 +14,14 @@ class Designs {
   Designs(fuzz::Bytes bytes) : bytes_(bytes) {
     const auto& catalogue = airfoil_catalogue();
     airfoil_ = catalogue[bytes_.below(static_cast<unsigned>(catalogue.size()))].airfoil();
-    options_ = {.points = 8 + 2 * static_cast<int>(bytes_.below(17)),
-                .farfield_radius = 1.6 + 0.1 * bytes_.below(64),
+    options_ = {.points = 8 + 2 * static_cast<int>(bytes_.below(9)),
+                .farfield_radius = 1.6 + 0.05 * bytes_.below(32),
                 .farfield_points = 8 + static_cast<int>(bytes_.below(8))};
   }
 
   void run() {
-    const double gradation = 0.5 + 0.25 * bytes_.below(32);
-    GenerateResult generated = generate(domain(), {.gradation = gradation, .max_vertices = 4000});
+    const double gradation = 0.5 + 0.5 * bytes_.below(32);
+    GenerateResult generated = generate(domain(), {.gradation = gradation, .max_vertices = 1500});
     require_valid(generated.mesh, generated.stopped, generated.exempt_triangles);
     if (generated.stopped != Stopped::done) return;
     Mesh mesh = std::move(generated.mesh);
@@ -36,9 +36,9 @@ class Designs {
     auto& side = what & 1U ? airfoil_.upper : airfoil_.lower;
     const double amount = (static_cast<int>(bytes_.next()) - 128) / 128.0;
     if (what % 16 == 15)
-      options_.points = 8 + 2 * static_cast<int>(bytes_.below(17));
+      options_.points = 8 + 2 * static_cast<int>(bytes_.below(9));
     else if (what % 16 == 14)
-      options_.farfield_radius = 1.6 + 0.1 * bytes_.below(64);
+      options_.farfield_radius = 1.6 + 0.05 * bytes_.below(32);
     else if (what % 16 == 13)
       airfoil_ =
           airfoil_catalogue()[bytes_.below(static_cast<unsigned>(airfoil_catalogue().size()))].airfoil();
