@@ -20,39 +20,28 @@ void Triangulation::find_cavity(Point p, TriangleId start, Cavity& cavity) const
   cavity.triangles.clear();
   cavity.ring.clear();
   cavity.triangles.push_back(start);
-  Corner todo[64];
-  std::vector<Corner> overflow;  // for cavities of unusual depth
-  std::size_t depth = 0;
-  const auto push = [&](Corner c) {
-    if (depth < 64) todo[depth] = c;
-    else overflow.push_back(c);
-    ++depth;
-  };
-  const auto pop = [&] {
-    --depth;
-    if (depth < 64) return todo[depth];
-    const Corner c = overflow.back();
-    overflow.pop_back();
-    return c;
-  };
-  for (int i = 2; i >= 0; --i) push({start, i});
-  while (depth > 0) {
-    const Corner c = pop();
-    const Triangle& inner = triangles_[c.triangle.index];
-    const Link link = inner.link[c.index];
+  std::vector<Link>& todo = cavity.todo;  // edges to be crossed, each as its triangle and opposite corner
+  todo.clear();
+  for (int i = 2; i >= 0; --i) todo.emplace_back(start, i);
+  while (!todo.empty()) {
+    const Link edge = todo.back();
+    todo.pop_back();
+    const Triangle& inner = triangles_[edge.triangle().index];
+    const Link link = inner.link[edge.corner()];
     if (link.constrained() || !in_conflict(link.triangle(), p)) {
-      cavity.ring.push_back({inner.vertex[next3(c.index)], link});
-      prefetch(inner.vertex[next3(c.index)]);
+      cavity.ring.push_back({inner.vertex[next3(edge.corner())], link});
+      prefetch(inner.vertex[next3(edge.corner())]);
       continue;
     }
     cavity.triangles.push_back(link.triangle());
     prefetch(triangles_[link.triangle().index].link[previous3(link.corner())].triangle());
-    push({link.triangle(), previous3(link.corner())});
-    push({link.triangle(), next3(link.corner())});
+    todo.emplace_back(link.triangle(), previous3(link.corner()));
+    todo.emplace_back(link.triangle(), next3(link.corner()));
   }
 }
 
-// New triangle k is (p, from_k, from_k+1); the cavity's own slots are used first, then two more.
+// New triangle k is (p, from_k, from_k+1); the cavity's own slots are used first, then two more. Edges from p are
+// shared by two triangles, and what is computed of them too.
 VertexId Triangulation::fill_cavity(Point p, const Cavity& cavity) {
   const std::size_t n = cavity.ring.size();
   const Region region = triangles_[cavity.triangles.front().index].region;
@@ -60,16 +49,33 @@ VertexId Triangulation::fill_cavity(Point p, const Cavity& cavity) {
   while (new_star_.size() < n) new_star_.push_back(new_triangle());
   assert(new_star_.size() == n);
   const VertexId v = new_vertex(p);
+  spokes_.resize(n);
   for (std::size_t k = 0; k < n; ++k) {
+    const Point e = point(cavity.ring[k].from) - p;
+    spokes_[k] = {e, dot(e, e)};
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t next = k + 1 == n ? 0 : k + 1;
     const TriangleId t = new_star_[k];
     const RingEdge& edge = cavity.ring[k];
-    write(t, v, edge.from, cavity.ring[k + 1 == n ? 0 : k + 1].from, region);
-    Triangle& triangle = triangles_[t.index];
+    Triangle& triangle = edit(t);
+    triangle.vertex[0] = v;
+    triangle.vertex[1] = edge.from;
+    triangle.vertex[2] = cavity.ring[next].from;
     triangle.link[0] = edge.outer;
-    triangle.link[1] = Link(new_star_[k + 1 == n ? 0 : k + 1], 2);
+    triangle.link[1] = Link(new_star_[next], 2);
     triangle.link[2] = Link(new_star_[k == 0 ? n - 1 : k - 1], 1);
+    triangle.circle = edge.from == infinite_vertex || cavity.ring[next].from == infinite_vertex
+                          ? Circle{}
+                          : certified_circle(p, spokes_[k].edge, spokes_[next].edge, spokes_[k].squared_length,
+                                             spokes_[next].squared_length);
+    triangle.birth = step_;
+    triangle.region = region;
+    triangle.badness = 0;
     edit(edge.outer.triangle()).link[edge.outer.corner()] = Link(t, 0, edge.outer.constrained());
+    set_star(edge.from, t, 1);
   }
+  set_star(v, new_star_[0], 0);
   return v;
 }
 

@@ -57,6 +57,8 @@ struct Circle {
   bool certain() const { return inside > 0.0; }  // then its triangle is certainly counter-clockwise too
 };
 Circle certified_circle(Point a, Point b, Point c);
+// The same from a, the edges e1 = b - a and e2 = c - a as rounded, and their squared lengths.
+Circle certified_circle(Point a, Point e1, Point e2, double l1, double l2);
 
 struct alignas(64) Triangle {
   VertexId vertex[3];  // counter-clockwise; a ghost has infinite_vertex among them; a free slot has no vertex[0]

@@ -145,9 +145,13 @@ void Triangulation::write(TriangleId t, VertexId a, VertexId b, VertexId c, Regi
 // outside above |u| + 2 delta. Squared: r^2 -+ 4 r delta, with 16 eps r^2 for the rounding of the squares here
 // and in the query. tolerance below is that sum with each constant rounded up by a quarter or more.
 Circle certified_circle(Point a, Point b, Point c) {
-  Circle circle;
   const Point e1 = b - a, e2 = c - a;
-  const double l1 = dot(e1, e1), l2 = dot(e2, e2), d = cross(e1, e2);
+  return certified_circle(a, e1, e2, dot(e1, e1), dot(e2, e2));
+}
+
+Circle certified_circle(Point a, Point e1, Point e2, double l1, double l2) {
+  Circle circle;
+  const double d = cross(e1, e2);
   const double half_inverse = 0.5 / d;
   const Point u{(e2.y * l1 - e1.y * l2) * half_inverse, (e1.x * l2 - e2.x * l1) * half_inverse};
   circle.centre = a + u;

@@ -34,6 +34,7 @@ struct RingEdge {
 struct Cavity {
   std::vector<TriangleId> triangles;
   std::vector<RingEdge> ring;
+  std::vector<Link> todo;  // scratch of the search
 };
 
 struct Location {
@@ -234,6 +235,11 @@ class Triangulation {
   std::size_t vertex_slots_before_ = 0, triangle_slots_before_ = 0, live_vertices_before_ = 0;
   std::uint32_t inserted_ = 0, removed_ = 0;
 
+  struct Spoke {
+    Point edge;
+    double squared_length;
+  };
+  std::vector<Spoke> spokes_;  // scratch of fill_cavity
   std::vector<TriangleId> new_star_;
   Cavity cavity_;
   std::vector<Corner> stack_;
