@@ -179,9 +179,9 @@ void add_search_options(CLI::App& app, OptimiseOptions& run) {
   add_count({"--compare-every", "K", "0",
              "Every K-th evaluation also generates a fresh mesh of the design; 0: never"},
             0, run.compare_every);
-  add_count(
-      {"--checkpoint-every", "K", "500", "Evaluations between checkpoints; 0: only at the start, the end and an interrupt"},
-      0, run.checkpoint_every);
+  add_count({"--checkpoint-every", "K", "500",
+             "Evaluations between checkpoints; 0: only at the start, the end and an interrupt"},
+            0, run.checkpoint_every);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The quick validation of a living mesh: everything that a step can break, in one pass, with the library's own
-// exact predicates (the slow, independent validator is src/check).
+// The quick validation of a living mesh: everything that a step can break, in one pass, with the library's
+// own exact predicates (the slow, independent validator is src/check).
 
 #include <cmath>
 
@@ -10,7 +10,9 @@ namespace remodel {
 
 namespace {
 
-std::string triangle_name(std::uint32_t i) { return "triangle " + std::to_string(i); }
+std::string triangle_name(std::uint32_t i) {
+  return "triangle " + std::to_string(i);
+}
 
 std::string check_links(const Triangulation& triangulation, std::uint32_t i) {
   const Triangle& t = triangulation[TriangleId{i}];
@@ -37,11 +39,15 @@ std::string check_triangle(const MeshData& mesh, std::uint32_t i, const QualityB
   const Triangle& t = triangulation[TriangleId{i}];
   if (t.region == Region::unknown) return triangle_name(i) + ": no region";
   if (t.badness != 0) return triangle_name(i) + ": still marked as bad";
-  if (t.ghost()) return t.region == Region::domain ? triangle_name(i) + ": outside the hull, labelled domain" : std::string{};
-  if (orient2d(triangulation.point(t.vertex[0]), triangulation.point(t.vertex[1]), triangulation.point(t.vertex[2])) <= 0)
+  if (t.ghost())
+    return t.region == Region::domain ? triangle_name(i) + ": outside the hull, labelled domain"
+                                      : std::string{};
+  if (orient2d(triangulation.point(t.vertex[0]), triangulation.point(t.vertex[1]),
+               triangulation.point(t.vertex[2])) <= 0)
     return triangle_name(i) + ": not counter-clockwise";
   if (t.region == Region::domain && badness(triangulation, t, promised) > 1.0)
-    return triangle_name(i) + ": below the promised quality, badness " + std::to_string(badness(triangulation, t, promised));
+    return triangle_name(i) + ": below the promised quality, badness " +
+           std::to_string(badness(triangulation, t, promised));
   return {};
 }
 
@@ -57,7 +63,8 @@ std::string check_boundary(const MeshData& mesh) {
       const std::string name = "boundary vertex " + std::to_string(v.vertex.index);
       stations += v.steiner ? 0 : 1;
       if (mesh.triangulation[v.vertex].boundary != k) return name + ": record and vertex disagree";
-      if (!(mesh.triangulation.point(v.vertex) == mesh.domain.at({v.curve, v.t}))) return name + ": not on the design";
+      if (!(mesh.triangulation.point(v.vertex) == mesh.domain.at({v.curve, v.t})))
+        return name + ": not on the design";
       if (!(mesh.triangulation[v.vertex].length_scale > 0.0)) return name + ": no length scale";
       const auto edge = mesh.triangulation.find_edge(v.vertex, mesh.next(k).vertex);
       if (!edge || !mesh.triangulation.link(*edge).constrained()) return name + ": boundary edge is missing";
@@ -86,8 +93,9 @@ std::string Mesh::quick_check() const {
     if (std::string broken = check_triangle(*data_, i, promised); !broken.empty()) return broken;
     if (std::string broken = check_links(triangulation, i); !broken.empty()) return broken;
   }
-  if (count != data_->domain_triangles) return "triangle count: " + std::to_string(count) + " found, " +
-                                               std::to_string(data_->domain_triangles) + " recorded";
+  if (count != data_->domain_triangles)
+    return "triangle count: " + std::to_string(count) + " found, " + std::to_string(data_->domain_triangles) +
+           " recorded";
   return check_boundary(*data_);
 }
 

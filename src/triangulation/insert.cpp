@@ -1,12 +1,13 @@
 // Insertion of a vertex by cavity (Bowyer 1981, Watson 1981), constraints not crossed.
 //
-// Why the search below needs no marks. Let p be any point, not a vertex. No vertex w of the triangulation has all
-// triangles around it in conflict with p: the triangle at w that holds the direction from p beyond w has its
-// two other corners c1, c2 with w + t (w - p) = a positive combination of c1 - w and c2 - w. If p were strictly
-// inside its circle, p - w and both c - w would lie in the open half plane of the circle's inner normal at w;
-// so would w - p: a contradiction. (Ties count as the symbolic perturbation says and are excluded in the same
-// way.) So the cavity has no inner vertex, and triangles reached through unconstrained edges form a tree. The
-// argument does not ask that p lies in the cavity: a search for a point behind a constraint ends too.
+// Why the search below needs no marks. Let p be any point, not a vertex. No vertex w of the triangulation has
+// all triangles around it in conflict with p: the triangle at w that holds the direction from p beyond w has
+// its two other corners c1, c2 with w + t (w - p) = a positive combination of c1 - w and c2 - w. If p were
+// strictly inside its circle, p - w and both c - w would lie in the open half plane of the circle's inner
+// normal at w; so would w - p: a contradiction. (Ties count as the symbolic perturbation says and are
+// excluded in the same way.) So the cavity has no inner vertex, and triangles reached through unconstrained
+// edges form a tree. The argument does not ask that p lies in the cavity: a search for a point behind a
+// constraint ends too.
 
 #include <cassert>
 
@@ -40,8 +41,8 @@ void Triangulation::find_cavity(Point p, TriangleId start, Cavity& cavity) const
   }
 }
 
-// New triangle k is (p, from_k, from_k+1); the cavity's own slots are used first, then two more. Edges from p are
-// shared by two triangles, and what is computed of them too.
+// New triangle k is (p, from_k, from_k+1); the cavity's own slots are used first, then two more. Edges from p
+// are shared by two triangles, and what is computed of them too.
 VertexId Triangulation::fill_cavity(Point p, const Cavity& cavity) {
   const std::size_t n = cavity.ring.size();
   const Region region = triangles_[cavity.triangles.front().index].region;
@@ -67,8 +68,8 @@ VertexId Triangulation::fill_cavity(Point p, const Cavity& cavity) {
     triangle.link[2] = Link(new_star_[k == 0 ? n - 1 : k - 1], 1);
     triangle.circle = edge.from == infinite_vertex || cavity.ring[next].from == infinite_vertex
                           ? Circle{}
-                          : certified_circle(p, spokes_[k].edge, spokes_[next].edge, spokes_[k].squared_length,
-                                             spokes_[next].squared_length);
+                          : certified_circle(p, spokes_[k].edge, spokes_[next].edge,
+                                             spokes_[k].squared_length, spokes_[next].squared_length);
     triangle.birth = step_;
     triangle.region = region;
     triangle.badness = 0;
@@ -79,8 +80,8 @@ VertexId Triangulation::fill_cavity(Point p, const Cavity& cavity) {
   return v;
 }
 
-// Whether p lies in the closed triangle, not at a corner and not on a constrained edge; for a ghost, beyond its
-// hull edge.
+// Whether p lies in the closed triangle, not at a corner and not on a constrained edge; for a ghost, beyond
+// its hull edge.
 bool Triangulation::holds(TriangleId t, Point p) const {
   const Triangle& triangle = triangles_[t.index];
   if (triangle.ghost()) return in_conflict_exact(triangle, p);
@@ -107,8 +108,8 @@ void append_side(const Cavity& side, Link edge, Cavity& whole) {
 }  // namespace
 
 // The cavity is one on each side of a-b. On the side of p it starts at p's own triangle. On the other side it
-// starts at the triangle next to the edge if p is in its circle; if not, that triangle stays, and the only new
-// one there is (p, a, b), which now lies on its side of the boundary.
+// starts at the triangle next to the edge if p is in its circle; if not, that triangle stays, and the only
+// new one there is (p, a, b), which now lies on its side of the boundary.
 std::optional<VertexId> Triangulation::split(Corner edge, Point p) {
   Corner other{link(edge).triangle(), link(edge).corner()};
   const int side = orient2d(point(following(edge)), point(preceding(edge)), p);
