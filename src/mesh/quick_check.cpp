@@ -27,6 +27,9 @@ std::string check_links(const Triangulation& triangulation, std::uint32_t i) {
       return triangle_name(i) + ": neighbour across corner " + std::to_string(k) + " does not return";
     if (!link.constrained() && u.region != t.region)
       return triangle_name(i) + ": region changes across an unconstrained edge";
+    if (link.constrained() && u.region == t.region)
+      return triangle_name(i) + ": edge opposite corner " + std::to_string(k) +
+             " is constrained, but no boundary edge";
     if (t.region == Region::domain && !link.constrained() &&
         triangulation.in_conflict(TriangleId{i}, triangulation.point(u.vertex[j])))
       return triangle_name(i) + ": edge opposite corner " + std::to_string(k) + " is not locally Delaunay";
@@ -54,7 +57,7 @@ std::string check_triangle(const MeshData& mesh, std::uint32_t i, const QualityB
 }  // namespace
 
 std::string check_boundary(const MeshData& mesh) {
-  std::size_t stations = 0;
+  std::size_t stations = 0, visited = 0, recorded = 0;
   for (std::size_t loop = 0; loop < mesh.loop_heads.size(); ++loop) {
     const bool left = mesh.domain_on_left[loop];
     std::uint32_t k = mesh.loop_heads[loop];
@@ -62,6 +65,7 @@ std::string check_boundary(const MeshData& mesh) {
       const BoundaryVertex& v = mesh.at(k);
       const std::string name = "boundary vertex " + std::to_string(v.vertex.index);
       stations += v.steiner ? 0 : 1;
+      ++visited;
       if (mesh.triangulation[v.vertex].boundary != k) return name + ": record and vertex disagree";
       if (!(mesh.triangulation.point(v.vertex) == mesh.domain.at({v.curve, v.t})))
         return name + ": not on the design";
@@ -75,6 +79,11 @@ std::string check_boundary(const MeshData& mesh) {
       k = v.next;
     } while (k != mesh.loop_heads[loop]);
   }
+  for (std::uint32_t i = 1; i < mesh.triangulation.vertex_slots(); ++i) {
+    const Vertex& v = mesh.triangulation[VertexId{i}];
+    recorded += v.alive() && v.boundary != no_index ? 1 : 0;
+  }
+  if (visited != recorded) return "boundary: vertices say that they are on it, but no loop has them";
   std::size_t expected = 0;
   for (std::size_t curve = 0; curve < mesh.domain.curve_count(); ++curve)
     expected += mesh.domain.curve(curve).parameters.size();
