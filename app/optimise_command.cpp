@@ -43,7 +43,7 @@ void require_run_directory(const std::filesystem::path& directory) {
   }
   require_writable(directory / "history.sqlite");
   bool of_a_run = false;
-  for (const char* name : {"history.sqlite", "checkpoint.json", "first.vtkhdf"}) {
+  for (const char* name : {"history.sqlite", "checkpoint.json", "first.vtkhdf", ".remodel-start"}) {
     of_a_run = of_a_run || fs::exists(directory / name);
   }
   if (!of_a_run && !fs::is_empty(directory)) {
@@ -179,9 +179,9 @@ void add_search_options(CLI::App& app, OptimiseOptions& run) {
   add_count({"--compare-every", "K", "0",
              "Every K-th evaluation also generates a fresh mesh of the design; 0: never"},
             0, run.compare_every);
-  add_count(
-      {"--checkpoint-every", "K", "500", "Evaluations between checkpoints; 0: only at the start, the end and an interrupt"},
-      0, run.checkpoint_every);
+  add_count({"--checkpoint-every", "K", "500",
+             "Evaluations between checkpoints; 0: only at the start, the end and an interrupt"},
+            0, run.checkpoint_every);
 }
 
 }  // namespace

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string_view>
 
+#include "optimise/checksum.h"
 #include "remodel/error.h"
 #include "remodel/io.h"
 
@@ -22,13 +22,10 @@ fs::path file_of(const fs::path& directory) {
   return directory / "checkpoint.json";
 }
 
-// FNV-1a, 64 bits (G. Fowler, L. C. Noll, K.-P. Vo).
 std::string checksum(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
-  return text;
+  Checksum sum;
+  sum.add(bytes);
+  return sum.text();
 }
 
 struct Stored {
@@ -45,7 +42,7 @@ Stored parse(const std::string& text) {
   const std::string expected = content.at("checksum").get<std::string>();
   content.erase("checksum");
   require(checksum(content.dump()) == expected, "its checksum is another");
-  require(content.at("format") == "remodel-checkpoint" && content.at("version") == 1,
+  require(content.at("format") == "remodel-checkpoint" && content.at("version") == 2,
           "it is of another version");
   Stored stored;
   content.at("settings").get_to(stored.checkpoint.settings);
@@ -54,6 +51,7 @@ Stored parse(const std::string& text) {
   content.at("finished").get_to(stored.checkpoint.finished);
   content.at("seconds").get_to(stored.checkpoint.seconds);
   content.at("cmaes").get_to(stored.checkpoint.cmaes);
+  content.at("history_checksum").get_to(stored.checkpoint.history_checksum);
   content.at("mesh").get_to(stored.mesh);
   content.at("mesh_checksum").get_to(stored.mesh_checksum);
   require(std::find(mesh_names.begin(), mesh_names.end(), stored.mesh) != mesh_names.end(),
@@ -88,13 +86,14 @@ void write_checkpoint(const fs::path& directory, const Checkpoint& checkpoint, c
   const std::string mesh_name = free_mesh_name(directory);
   write_mesh(mesh, directory / mesh_name);
   Json content = {{"format", "remodel-checkpoint"},
-                  {"version", 1},
+                  {"version", 2},
                   {"settings", checkpoint.settings},
                   {"evaluation", checkpoint.evaluation},
                   {"refused", checkpoint.refused},
                   {"finished", checkpoint.finished},
                   {"seconds", checkpoint.seconds},
                   {"cmaes", checkpoint.cmaes},
+                  {"history_checksum", checkpoint.history_checksum},
                   {"mesh", mesh_name},
                   {"mesh_checksum", checksum(read_text(directory / mesh_name))}};
   content["checksum"] = checksum(content.dump());
@@ -112,13 +111,6 @@ Mesh read_checkpoint_mesh(const fs::path& directory) {
     throw Error(ErrorCode::format, file.string(),
                 "expected the mesh of checkpoint.json: its checksum is another");
   return read_mesh(file);
-}
-
-// Where a file cannot be removed, replacing it will fail and be reported.
-void remove_checkpoint(const fs::path& directory) {
-  std::error_code ignored;
-  fs::remove(file_of(directory), ignored);
-  for (const char* name : mesh_names) fs::remove(directory / name, ignored);
 }
 
 }  // namespace remodel

@@ -5,7 +5,8 @@
 //
 // checkpoint.json is the only thing that is replaced, at once, when a checkpoint is made. It names the mesh
 // file that belongs to it, one of two that are written in turn, so that a run killed at any point leaves the
-// old checkpoint with its mesh or the new one with its own. Checksums of both tell damage, not forgery.
+// old checkpoint with its mesh or the new one with its own. Checksums of both, and of the history as it was,
+// tell damage, not forgery.
 
 #include <cstdint>
 #include <filesystem>
@@ -22,6 +23,7 @@ struct Checkpoint {
   bool finished = false;      // all evaluations were done
   double seconds = 0.0;
   std::string cmaes;
+  std::string history_checksum;  // of the history's run and rows as of then
 };
 
 bool has_checkpoint(const std::filesystem::path& directory);
@@ -29,7 +31,5 @@ bool has_checkpoint(const std::filesystem::path& directory);
 void write_checkpoint(const std::filesystem::path& directory, const Checkpoint& checkpoint, const Mesh& mesh);
 Checkpoint read_checkpoint(const std::filesystem::path& directory);
 Mesh read_checkpoint_mesh(const std::filesystem::path& directory);
-// For a run that starts anew.
-void remove_checkpoint(const std::filesystem::path& directory);
 
 }  // namespace remodel

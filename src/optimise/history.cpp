@@ -252,7 +252,9 @@ void require_version(const Database& database) {
 
 History History::open(const std::filesystem::path& file) {
   auto database = std::make_unique<Database>(file);
-  database->open(SQLITE_OPEN_READONLY);
+  // A killed run may have left a transaction half written, which only a writer can take back. Where the file
+  // cannot be written SQLite opens it to read.
+  database->open(SQLITE_OPEN_READWRITE);
   require_version(*database);
   return History(std::move(database));
 }

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
 #include "optimise/checkpoint.h"
+#include "optimise/checksum.h"
 #include "optimise/mesh_chain.h"
+#include "optimise/run_directory.h"
 #include "optimise/shape_search.h"
 #include "optimise/summary.h"
 #include "remodel/error.h"
@@ -80,12 +83,39 @@ bool every(std::size_t k, std::uint64_t evaluation) {
   return k != 0 && evaluation % k == 0;
 }
 
+void add(Checksum& sum, const std::map<std::string, std::string>& run) {
+  for (const auto& [key, value] : run) {
+    sum.add(key + '=');
+    sum.add(value + '\n');
+  }
+}
+
+void add(Checksum& sum, const EvaluationRecord& record) {
+  sum.add(record.evaluation);
+  sum.add(record.generation);
+  for (const double coefficient : record.coefficients) sum.add(coefficient);
+  for (const double value :
+       {record.objective, record.best_objective, record.sigma, record.preserved_percent, record.min_angle_deg,
+        record.remodel_seconds, record.generate_seconds.value_or(-1.0)})
+    sum.add(value);
+  for (const std::size_t count : {record.triangles_before, record.triangles, record.preserved, record.moved,
+                                  record.inserted, record.removed, record.generated_triangles.value_or(0)})
+    sum.add(std::uint64_t{count});
+  sum.add(record.infeasible_samples);
+  for (const bool flag :
+       {record.full_adjustment, record.regenerated, record.checked == Checked::full, record.valid})
+    sum.add(flag ? "1" : "0");
+  sum.add(record.detail);
+}
+
 // All that changes as a run goes on.
 struct Progress {
+  RunDirectory directory;
   ShapeSearch search;
   MeshChain chain;
   History history;
   Summary summary;
+  Checksum written;           // of the history
   std::uint64_t refused = 0;  // infeasible samples since the last evaluation
   double earlier_seconds = 0.0;
 };
@@ -142,6 +172,7 @@ OptimiseStopped Run::evaluate(OptimiseObserver& observer) {
   progress_.search.tell(*sample, record.objective);
   progress_.history.append(record);
   progress_.summary.add(record);
+  add(progress_.written, record);
   progress_.refused = 0;
   observer.evaluated(record);
   if (record.evaluation == (options_.evaluations + 1) / 2)
@@ -178,7 +209,8 @@ void Run::checkpoint() {
                     .refused = progress_.refused,
                     .finished = evaluations >= options_.evaluations,
                     .seconds = seconds(),
-                    .cmaes = progress_.search.cmaes().state()},
+                    .cmaes = progress_.search.cmaes().state(),
+                    .history_checksum = progress_.written.text()},
                    progress_.chain.mesh());
 }
 
@@ -204,69 +236,99 @@ OptimiseResult Run::finish(OptimiseStopped stopped) {
   return result;
 }
 
-void make_directory(const fs::path& directory) {
-  std::error_code problem;
-  fs::create_directories(directory, problem);
-  if (problem)
-    throw Error(ErrorCode::file, directory.string(), "cannot make the directory: " + problem.message());
-}
-
 void refuse_unfinished_run(const fs::path& directory) {
   if (has_checkpoint(directory) && !read_checkpoint(directory).finished)
     throw Error(ErrorCode::argument, directory.string(),
                 "holds an unfinished run: expected resume, or another directory");
 }
 
-Progress begin(const CstAirfoil& from, const CstAirfoil& to, const OptimiseOptions& options, Mesh mesh) {
-  const fs::path& directory = options.directory;
-  make_directory(directory);
-  remove_checkpoint(directory);  // of a finished run, before its history is replaced
-  for (const char* name : {"result.json", "best.json", "middle.vtkhdf", "last.vtkhdf"})
-    fs::remove(directory / name);
-  write_mesh(mesh, directory / "first.vtkhdf");
-  History history =
-      History::create(directory / "history.sqlite", {{"version", REMODEL_VERSION},
-                                                     {"options", settings_of(from, to, options)},
-                                                     {"seed", std::to_string(options.seed)},
-                                                     {"from", airfoil_to_json(from)},
-                                                     {"to", airfoil_to_json(to)}});
+// The start of a run, complete on the disk before it replaces what the directory holds.
+Progress begin(const CstAirfoil& from, const CstAirfoil& to, const OptimiseOptions& options,
+               RunDirectory directory, Mesh mesh) {
+  const std::map<std::string, std::string> run = {{"version", REMODEL_VERSION},
+                                                  {"options", settings_of(from, to, options)},
+                                                  {"seed", std::to_string(options.seed)},
+                                                  {"from", airfoil_to_json(from)},
+                                                  {"to", airfoil_to_json(to)}};
   Cmaes cmaes = initial_distribution(from, options.sigma, options.seed);
-  return {.search = ShapeSearch(from, options.domain, std::move(cmaes)),
+  Checksum written;
+  add(written, run);
+  try {
+    const fs::path start = directory.make_start();
+    write_mesh(mesh, start / "first.vtkhdf");
+    History::create(start / "history.sqlite", run);
+    write_checkpoint(
+        start, {.settings = run.at("options"), .cmaes = cmaes.state(), .history_checksum = written.text()},
+        mesh);
+    directory.publish_start();
+  } catch (...) {
+    directory.drop_start();
+    throw;
+  }
+  History history = History::resume(options.directory / "history.sqlite", 0);
+  return {.directory = std::move(directory),
+          .search = ShapeSearch(from, options.domain, std::move(cmaes)),
           .chain = MeshChain(options, std::move(mesh)),
           .history = std::move(history),
-          .summary = {}};
+          .summary = {},
+          .written = written};
+}
+
+void require_settings(const std::string& found, const std::string& expected, const fs::path& directory) {
+  if (found != expected)
+    throw Error(
+        ErrorCode::argument, directory.string(),
+        "expected the options of the run to be resumed, found others: " + differences(found, expected));
+}
+
+// The first rows of the history as the checkpoint knows them. Whatever a damaged file may hold, it is refused
+// before it is written to.
+Summary replay(const fs::path& file, const Checkpoint& checkpoint, std::size_t dimension, Checksum& written) {
+  const History history = History::open(file);
+  const std::map<std::string, std::string> run = history.run();
+  const auto stored = run.find("options");
+  require_settings(stored == run.end() ? "" : stored->second, checkpoint.settings, file.parent_path());
+  add(written, run);
+  Summary summary;
+  history.each([&](const EvaluationRecord& record) {
+    if (record.evaluation > checkpoint.evaluation) return;
+    if (record.coefficients.size() != dimension)
+      throw Error(ErrorCode::format, file.string(),
+                  "expected " + std::to_string(dimension) + " coefficients, found " +
+                      std::to_string(record.coefficients.size()));
+    add(written, record);
+    summary.add(record);
+  });
+  if (summary.evaluations() != checkpoint.evaluation || written.text() != checkpoint.history_checksum)
+    throw Error(ErrorCode::format, file.string(),
+                "expected the history of checkpoint.json: its checksum is another");
+  return summary;
 }
 
 Progress go_on(const CstAirfoil& from, const CstAirfoil& to, const OptimiseOptions& options) {
-  const fs::path& directory = options.directory;
-  const std::string settings = settings_of(from, to, options);
-  const Checkpoint checkpoint = read_checkpoint(directory);
-  const fs::path file = directory / "history.sqlite";
-  for (const std::string& stored : {checkpoint.settings, History::open(file).run()["options"]}) {
-    if (stored != settings)
-      throw Error(
-          ErrorCode::argument, directory.string(),
-          "expected the options of the run to be resumed, found others: " + differences(stored, settings));
-  }
+  if (!has_checkpoint(options.directory)) read_checkpoint(options.directory);  // says that it is missing
+  RunDirectory directory(options.directory);
+  const fs::path checkpoint_file = options.directory / "checkpoint.json";
+  const fs::path history_file = options.directory / "history.sqlite";
+  const Checkpoint checkpoint = read_checkpoint(options.directory);
+  require_settings(checkpoint.settings, settings_of(from, to, options), options.directory);
+  Cmaes cmaes = Cmaes::restore(checkpoint.cmaes, checkpoint_file.string());
   const std::size_t dimension = coefficients_of(from).size();
-  const auto require_dimension = [&](std::size_t found, const fs::path& source) {
-    if (found != dimension)
-      throw Error(ErrorCode::format, source.string(),
-                  "expected " + std::to_string(dimension) + " coefficients, found " + std::to_string(found));
-  };
-  Cmaes cmaes = Cmaes::restore(checkpoint.cmaes, (directory / "checkpoint.json").string());
-  require_dimension(cmaes.mean().size(), directory / "checkpoint.json");
-  Progress progress{.search = ShapeSearch(from, options.domain, std::move(cmaes)),
-                    .chain = MeshChain(options, read_checkpoint_mesh(directory)),
-                    .history = History::resume(file, checkpoint.evaluation),
-                    .summary = {},
-                    .refused = checkpoint.refused,
-                    .earlier_seconds = checkpoint.seconds};
-  progress.history.each([&](const EvaluationRecord& record) {
-    require_dimension(record.coefficients.size(), file);
-    progress.summary.add(record);
-  });
-  return progress;
+  if (cmaes.mean().size() != dimension)
+    throw Error(ErrorCode::format, checkpoint_file.string(),
+                "expected " + std::to_string(dimension) + " coefficients, found " +
+                    std::to_string(cmaes.mean().size()));
+  Mesh mesh = read_checkpoint_mesh(options.directory);
+  Checksum written;
+  Summary summary = replay(history_file, checkpoint, dimension, written);
+  return {.directory = std::move(directory),
+          .search = ShapeSearch(from, options.domain, std::move(cmaes)),
+          .chain = MeshChain(options, std::move(mesh)),
+          .history = History::resume(history_file, checkpoint.evaluation),
+          .summary = std::move(summary),
+          .written = written,
+          .refused = checkpoint.refused,
+          .earlier_seconds = checkpoint.seconds};
 }
 
 OptimiseResult unmeshable_start(const CstAirfoil& from, const OptimiseOptions& options) {
@@ -292,11 +354,17 @@ OptimiseResult optimise(const CstAirfoil& start, const CstAirfoil& target, const
     Run run(go_on(from, to, options), from, to, options);
     return run.finish(run.evaluate_all(listener));
   }
-  refuse_unfinished_run(options.directory);
+  // What is there is locked before it is looked at; a directory is made only for a run that can start.
+  std::optional<RunDirectory> directory;
+  if (fs::exists(options.directory)) {
+    directory.emplace(options.directory);
+    refuse_unfinished_run(options.directory);
+  }
   GenerateResult first = generate(airfoil_domain(from, options.domain), options.quality);
   if (first.stopped != Stopped::done) return unmeshable_start(from, options);
-  Run run(begin(from, to, options, std::move(first.mesh)), from, to, options);
-  run.checkpoint();
+  if (!directory) directory.emplace(options.directory);
+  refuse_unfinished_run(options.directory);
+  Run run(begin(from, to, options, std::move(*directory), std::move(first.mesh)), from, to, options);
   return run.finish(run.evaluate_all(listener));
 }
 

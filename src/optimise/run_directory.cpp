@@ -1,0 +1,122 @@
+#include "optimise/run_directory.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "remodel/error.h"
+
+namespace remodel {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* start_name = ".remodel-start";
+// Everything that a run leaves, in the order in which it is removed.
+constexpr std::array<std::string_view, 10> run_files = {
+    "checkpoint.json", "checkpoint-a.vtkhdf",   "checkpoint-b.vtkhdf", "result.json",
+    "best.json",       "middle.vtkhdf",         "last.vtkhdf",         "first.vtkhdf",
+    "history.sqlite",  "history.sqlite-journal"};
+// What a run starts with, in the order in which it appears: with the checkpoint the run is there.
+constexpr std::array<std::string_view, 4> start_files = {"first.vtkhdf", "history.sqlite",
+                                                         "checkpoint-a.vtkhdf", "checkpoint.json"};
+
+// Whether write_atomically() would make a file of that name for one of the run's:
+// ".FILE.PROCESS.COUNTER.tmp".
+bool is_temporary(const std::string& name) {
+  return name.ends_with(".tmp") &&
+         std::any_of(run_files.begin(), run_files.end(),
+                     [&](std::string_view file) { return name.starts_with("." + std::string(file) + "."); });
+}
+
+}  // namespace
+
+RunDirectory::RunDirectory(fs::path directory) : directory_(std::move(directory)) {
+  std::error_code problem;
+  fs::create_directories(directory_, problem);
+  if (problem)
+    throw Error(ErrorCode::file, directory_.string(), "cannot make the directory: " + problem.message());
+  lock();
+  remove_temporaries();
+  drop_start();
+}
+
+RunDirectory::RunDirectory(RunDirectory&& other) noexcept
+    : directory_(std::move(other.directory_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+RunDirectory::~RunDirectory() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+// The lock is on the directory itself, so that there is no lock file to be left behind. Some network file
+// systems cannot lock a directory: there it is up to the user.
+void RunDirectory::lock() {
+  descriptor_ = ::open(directory_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor_ < 0)
+    throw Error(ErrorCode::file, directory_.string(),
+                "cannot be opened: " + std::generic_category().message(errno));
+  if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  ::close(std::exchange(descriptor_, -1));
+  throw Error(ErrorCode::file, directory_.string(),
+              "is in use by another run: expected another directory, or that the run has ended");
+}
+
+void RunDirectory::remove_temporaries() const noexcept {
+  std::error_code ignored;
+  std::vector<fs::path> found;
+  for (fs::directory_iterator file(directory_, ignored), end; file != end && !ignored;
+       file.increment(ignored)) {
+    if (is_temporary(file->path().filename().string())) found.push_back(file->path());
+  }
+  for (const fs::path& file : found) fs::remove(file, ignored);
+}
+
+fs::path RunDirectory::make_start() const {
+  drop_start();
+  const fs::path start = directory_ / start_name;
+  std::error_code problem;
+  fs::create_directory(start, problem);
+  if (problem)
+    throw Error(ErrorCode::file, start.string(), "cannot make the directory: " + problem.message());
+  return start;
+}
+
+void RunDirectory::drop_start() const noexcept {
+  std::error_code ignored;
+  fs::remove_all(directory_ / start_name, ignored);
+}
+
+void RunDirectory::publish_start() const {
+  const auto require = [&](const std::error_code& problem, std::string_view name) {
+    if (problem)
+      throw Error(ErrorCode::file, (directory_ / name).string(), "cannot be replaced: " + problem.message());
+  };
+  std::error_code problem;
+  for (const std::string_view name : run_files) {
+    fs::remove(directory_ / name, problem);
+    require(problem, name);
+  }
+  for (const std::string_view name : start_files) {
+    if (name == start_files.back()) sync();
+    fs::rename(directory_ / start_name / name, directory_ / name, problem);
+    require(problem, name);
+  }
+  sync();
+  drop_start();
+}
+
+// Not every file system can flush a directory: that is no error.
+void RunDirectory::sync() const {
+  static_cast<void>(::fsync(descriptor_));
+}
+
+}  // namespace remodel
