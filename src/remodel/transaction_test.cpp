@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <new>
 #include <random>
 
@@ -12,58 +11,17 @@
 #include "remodel/error.h"
 #include "remodel/generate.h"
 #include "remodel/remodel.h"
+#include "remodel/test_allocations.h"
 #include "remodel/test_designs.h"
 #include "support.h"
-
-// ---- allocations that fail
-//
-// Every allocation from the n-th on fails, or the n-th alone, while a FailingAllocations lives.
-
-namespace {
-
-long allocations_left = -1;  // -1: no failures
-bool fails_for_good = false;
-
-void count_allocation() {
-  if (allocations_left < 0) return;
-  if (allocations_left > 0) {
-    --allocations_left;
-    return;
-  }
-  if (!fails_for_good) allocations_left = -1;
-  throw std::bad_alloc();
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-  count_allocation();
-  if (void* p = std::malloc(size)) return p;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  count_allocation();
-  const auto a = static_cast<std::size_t>(alignment);
-  if (void* p = std::aligned_alloc(a, (size + a - 1) / a * a)) return p;
-  throw std::bad_alloc();
-}
-void operator delete(void* p) noexcept {
-  std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept {
-  std::free(p);
-}
-void operator delete(void* p, std::align_val_t) noexcept {
-  std::free(p);
-}
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
-  std::free(p);
-}
 
 namespace remodel {
 namespace {
 
+using test::allocations;
+using test::allocations_left;
 using test::catalogue_domain;
+using test::fails_for_good;
 
 // The circles are no part of the state, since they follow from it: where they did not, quick_check() may not
 // see it.
@@ -178,6 +136,22 @@ TEST(FailedAllocations, RollBackTrials) {
   }
 }
 
+// The hot path of an optimisation: one vector for the loops that differ, whatever the mesh's size.
+TEST(AFullAdjustment, AllocatesNothingInProportionToTheMesh) {
+  for (const int points : {50, 400}) {
+    CstAirfoil airfoil = airfoil_catalogue()[0].airfoil();
+    Mesh mesh = generate(airfoil_domain(airfoil, {.points = points})).mesh;
+    for (int step = 0; step < 6; ++step) {
+      airfoil = scaled(airfoil, 1.000001);
+      const Domain domain = airfoil_domain(airfoil, {.points = points});
+      const long before = allocations;
+      ASSERT_TRUE(remodel(mesh, domain).full_adjustment);
+      if (step < 2) continue;
+      EXPECT_LE(allocations - before, 2) << "step " << step;
+    }
+  }
+}
+
 // ---- observers
 
 struct Cancelling : StepObserver {
@@ -256,6 +230,27 @@ TEST(Trial, ThatEndsLeavesTheMeshAsItWas) {
       remodel(never_tried, walk.domain(60), {.method = method});
       ASSERT_TRUE(mesh.state() == never_tried.state()) << "step " << step;
     }
+  }
+}
+
+TEST(Trial, OfOtherHolesLeavesTheMeshAsItWas) {
+  const std::vector<std::vector<Loop>> designs = {
+      {test::square_hole(0.3, 0.3, 0.1)},
+      {test::star_hole(0.3, 0.3, 0.2), test::circle_hole(0.7, 0.7, 0.15)},
+      {},
+      {test::circle_hole(0.5, 0.5, 0.3), test::square_hole(0.1, 0.1, 0.05)},
+      {test::circle_hole(0.5, 0.51, 0.3), test::square_hole(0.1, 0.1, 0.05)},
+  };
+  Mesh mesh = generate(test::with_holes(designs[0])).mesh;
+  for (std::size_t step = 0; step < 40; ++step) {
+    const MeshState before = mesh.state();
+    for (const std::vector<Loop>& holes : designs) {
+      const Trial trial(mesh, test::with_holes(holes));
+      ASSERT_EQ(mesh.quick_check(), "");
+      ASSERT_EQ(mesh.domain(), test::with_holes(holes));
+    }
+    ASSERT_NO_FATAL_FAILURE(expect_same(mesh, before, "step " + std::to_string(step)));
+    remodel(mesh, test::with_holes(designs[step * 7 % 5]));
   }
 }
 
