@@ -4,8 +4,8 @@
 
 #include "arguments.h"
 #include "command.h"
-#include "interrupt.h"
 #include "figures.h"
+#include "interrupt.h"
 #include "remodel/soak.h"
 #include "report.h"
 
@@ -29,7 +29,8 @@ Status run(const SoakCommand& command) {
   report.figure("refused", "refused designs", result.refused);
   report.figure("full_adjustments", "full adjustments", result.full_adjustments);
   report.figure("full_checks", "full checks", result.full_checks);
-  report.figure("min_angle_deg", "smallest angle", result.full_checks > 0 ? Json(result.min_angle_deg) : Json(), "degrees");
+  report.figure("min_angle_deg", "smallest angle",
+                result.full_checks > 0 ? Json(result.min_angle_deg) : Json(), "degrees");
   report.figure("peak_memory_mib", "peak memory", result.peak_memory_mib, "MiB");
   report.figure("seconds", "wall time", result.seconds, "seconds");
   report.figure("seed", "seed", options.seed);
@@ -50,8 +51,12 @@ void add_soak_command(CLI::App& program, Action& action) {
               [command](std::int64_t value) { command->soak.steps = static_cast<std::size_t>(value); });
   add_integer(app, {"--seed", "N", "1", "Seed of the designs: 0 or more"}, {.low = 0},
               [command](std::int64_t value) { command->soak.seed = static_cast<std::uint64_t>(value); });
-  add_integer(app, {"--full-check-every", "K", "200", "Every K-th mesh also goes through the independent validator; 0: never"},
-              {.low = 0}, [command](std::int64_t value) { command->soak.full_check_every = static_cast<std::size_t>(value); });
+  add_integer(app,
+              {"--full-check-every", "K", "200",
+               "Every K-th mesh also goes through the independent validator; 0: never"},
+              {.low = 0}, [command](std::int64_t value) {
+                command->soak.full_check_every = static_cast<std::size_t>(value);
+              });
   add_json_flag(app, command->json);
 }
 

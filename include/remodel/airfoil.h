@@ -64,19 +64,21 @@ bool surfaces_apart(const CstAirfoil& airfoil);
 // A coordinate file as read: surfaces from leading edge to trailing edge, chord scaled to 1, leading edge at
 // the origin, trailing edge (midpoint of the two end points) at (1, 0).
 //
-// CST is y over x, so the leading edge is the point of smallest x (the middle one of a flat nose), also where the
-// file's author meant another: on a thick cambered section with its thickness perpendicular to the mean line the
-// foremost point lies a little above the mean line's beginning. x is scaled and y sheared linearly in x; nothing
-// is rotated. x is in [0,1], but for a trailing edge that is cut at an angle, which may reach beyond 1.
+// CST is y over x, so the leading edge is the point of smallest x (the middle one of a flat nose), also where
+// the file's author meant another: on a thick cambered section with its thickness perpendicular to the mean
+// line the foremost point lies a little above the mean line's beginning. x is scaled and y sheared linearly
+// in x; nothing is rotated. x is in [0,1], but for a trailing edge that is cut at an angle, which may reach
+// beyond 1.
 struct AirfoilCoordinates {
   std::string name;
   std::vector<Point> upper;
   std::vector<Point> lower;
 };
-// Reads Selig or Lednicer order, found by content. Accepts CRLF, blank lines, comment lines (#, !, %), tabs and
-// commas, numbers such as -.0228, open and closed trailing edges, leading edges that are not the minimum-x
-// point, either surface first. At most 16 MiB. Throws Error (file, format) naming file and line, also for fewer
-// than 3 points a surface, repeated points, x out of order, surfaces that cross, ends that do not meet in x.
+// Reads Selig or Lednicer order, found by content. Accepts CRLF, blank lines, comment lines (#, !, %), tabs
+// and commas, numbers such as -.0228, open and closed trailing edges, leading edges that are not the
+// minimum-x point, either surface first. At most 16 MiB. Throws Error (file, format) naming file and line,
+// also for fewer than 3 points a surface, repeated points, x out of order, surfaces that cross, ends that do
+// not meet in x.
 AirfoilCoordinates read_airfoil(const std::filesystem::path& file);
 AirfoilCoordinates parse_airfoil(std::string_view text, const std::string& source);
 
@@ -111,10 +113,10 @@ const std::vector<CatalogueEntry>& airfoil_catalogue();
 // coefficients. What exists as a file or contains '/' or '.' is a file. degree is used where a fit is needed.
 // Throws Error.
 CstAirfoil load_airfoil(const std::string& shape, int degree);
-// The .json of `remodel fit`: degree, upper[], lower[], e1, e2, te_upper, te_lower (the last four optional), exact.
-// from_json ignores name, max_error, rms_error, thickness and camber, which `remodel fit` reports beside them, and
-// throws Error (format) naming the key for any other key, kind, size or range. to_json throws Error (argument) for
-// what is not finite.
+// The .json of `remodel fit`: degree, upper[], lower[], e1, e2, te_upper, te_lower (the last four optional),
+// exact. from_json ignores name, max_error, rms_error, thickness and camber, which `remodel fit` reports
+// beside them, and throws Error (format) naming the key for any other key, kind, size or range. to_json
+// throws Error (argument) for what is not finite.
 std::string airfoil_to_json(const CstAirfoil& airfoil);
 CstAirfoil airfoil_from_json(std::string_view text, const std::string& source);
 

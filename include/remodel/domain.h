@@ -36,8 +36,8 @@ using Shape = std::variant<CstAirfoil, Line, Polyline, Arc>;
 Point point_at(const Shape& shape, double t);
 
 // One curve of a loop. name becomes the boundary marker of the mesh ("airfoil", "farfield", "inlet"); several
-// curves may share it. parameters is the initial discretisation, strictly increasing from 0, the curve's end (1)
-// left out: it is the first point of the loop's next curve.
+// curves may share it. parameters is the initial discretisation, strictly increasing from 0, the curve's end
+// (1) left out: it is the first point of the loop's next curve.
 struct Curve {
   std::string name;
   Shape shape;
@@ -65,7 +65,7 @@ struct Domain {
   std::vector<Loop> loops;
 
   std::size_t curve_count() const;
-  const Curve& curve(std::size_t index) const;      // by index over all loops
+  const Curve& curve(std::size_t index) const;  // by index over all loops
   std::size_t loop_of(std::size_t curve_index) const;
   Point at(BoundaryStation station) const { return point_at(curve(station.curve).shape, station.t); }
   // The stations of one loop in order, and their points.
@@ -75,29 +75,30 @@ struct Domain {
 };
 
 // Throws Error (geometry) unless there is a loop, every loop has at least three distinct consecutive points,
-// parameters begin with 0 and increase strictly below 1, every curve ends where the next one of its loop begins
-// (up to rounding), coordinates are finite and in the range of predicates.h, and no two segments of the discretised
-// loops cross, touch or overlap (exactly decided; names the loop, the curve and the place). Airfoils must have
-// their surfaces apart. From the outside in, roles take turns: outermost loops are outer, what lies directly inside
-// an outer loop is a hole, what lies directly inside a hole is outer again. Loops may run either way round.
-// About n log n: 0.2 ms for 700 airfoil points.
+// parameters begin with 0 and increase strictly below 1, every curve ends where the next one of its loop
+// begins (up to rounding), coordinates are finite and in the range of predicates.h, and no two segments of
+// the discretised loops cross, touch or overlap (exactly decided; names the loop, the curve and the place).
+// Airfoils must have their surfaces apart. From the outside in, roles take turns: outermost loops are outer,
+// what lies directly inside an outer loop is a hole, what lies directly inside a hole is outer again. Loops
+// may run either way round. About n log n: 0.2 ms for 700 airfoil points.
 void validate(const Domain& domain);
 
 // Signed area of the discretised loop, positive for counter-clockwise.
 double signed_area(const Domain& domain, std::size_t loop);
 
-// True where both domains have the same loops, roles, curves, names, parameters and kinds of shape, so that vertices
-// correspond one to one (the premise of the specialised method, section 4.2).
+// True where both domains have the same loops, roles, curves, names, parameters and kinds of shape, so that
+// vertices correspond one to one (the premise of the specialised method, section 4.2).
 bool one_to_one(const Domain& a, const Domain& b);
 
-// The paper's case: an airfoil of `points` vertices, x = (1 + cos 2 pi t)/2 at t = i/points, in a circle about
-// (0.5, 0). Loop 0 is the airfoil, loop 1 the farfield, both counter-clockwise. Names: "airfoil", "farfield". An
-// open trailing edge adds a line of the name "airfoil" to loop 0, from the lower to the upper end. Throws Error
-// (argument) for options out of range and for a farfield that does not contain the airfoil; does not validate().
+// The paper's case: an airfoil of `points` vertices, x = (1 + cos 2 pi t)/2 at t = i/points, in a circle
+// about (0.5, 0). Loop 0 is the airfoil, loop 1 the farfield, both counter-clockwise. Names: "airfoil",
+// "farfield". An open trailing edge adds a line of the name "airfoil" to loop 0, from the lower to the upper
+// end. Throws Error (argument) for options out of range and for a farfield that does not contain the airfoil;
+// does not validate().
 struct AirfoilDomainOptions {
-  int points = 200;              // I: even, 8 to 100000
-  double farfield_radius = 25;   // chords, more than 1
-  int farfield_points = 50;      // 8 to 100000
+  int points = 200;             // I: even, 8 to 100000
+  double farfield_radius = 25;  // chords, more than 1
+  int farfield_points = 50;     // 8 to 100000
 };
 Domain airfoil_domain(const CstAirfoil& airfoil, const AirfoilDomainOptions& options = {});
 

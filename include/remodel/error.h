@@ -8,10 +8,10 @@ namespace remodel {
 // What kind of bad input an Error reports. Reached limits are part of results, and our own bugs are
 // assertions: neither is an Error.
 enum class ErrorCode {
-  argument,    // an option or parameter is out of its range
-  file,        // a file cannot be opened, read or written
-  format,      // a file's content is not what its format asks for
-  geometry,    // a shape that no mesh can have: it crosses or touches itself, is degenerate
+  argument,  // an option or parameter is out of its range
+  file,      // a file cannot be opened, read or written
+  format,    // a file's content is not what its format asks for
+  geometry,  // a shape that no mesh can have: it crosses or touches itself, is degenerate
 };
 
 // Bad input. what() is one line: where (file, line or argument), what was found, what was expected.

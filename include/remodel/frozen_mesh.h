@@ -24,12 +24,12 @@ struct FrozenMesh {
   std::vector<FrozenBoundary> boundaries;               // one a name
 
   // Empty, or one value a point or triangle: a mesh of another program has none of these.
-  std::vector<double> length_scale;          // per point, chords
-  std::vector<std::uint32_t> vertex_ids;     // per point: VertexId in the living mesh
-  std::vector<std::uint32_t> triangle_ids;   // per triangle: TriangleId
-  std::vector<std::uint32_t> birth;          // per triangle: the remodelling step that made it, 0 = generation
-  std::vector<std::int32_t> curve;           // per point: index of its curve in the design, -1 in the interior
-  std::vector<double> parameter;             // per point: t on that curve, 0 in the interior
+  std::vector<double> length_scale;         // per point, chords
+  std::vector<std::uint32_t> vertex_ids;    // per point: VertexId in the living mesh
+  std::vector<std::uint32_t> triangle_ids;  // per triangle: TriangleId
+  std::vector<std::uint32_t> birth;         // per triangle: the remodelling step that made it, 0 = generation
+  std::vector<std::int32_t> curve;          // per point: index of its curve in the design, -1 in the interior
+  std::vector<double> parameter;            // per point: t on that curve, 0 in the interior
 };
 
 }  // namespace remodel

@@ -15,12 +15,12 @@ namespace remodel {
 
 // What a mesh promises. The same options hold for its whole life.
 struct QualityOptions {
-  double min_angle_deg = 30.0;   // B = 1 / (2 sin); 0 to 34
+  double min_angle_deg = 30.0;                 // B = 1 / (2 sin); 0 to 34
   double max_gradation = 0.70710678118654752;  // H: r / mean length scale of a triangle's vertices; > 0
-  double gradation = 4.0;        // G: length scale grows by distance / G away from the boundary; > 0
-  double resolution = 1.0;       // R: boundary length scale is the distance to the nearest neighbour / R; > 0
+  double gradation = 4.0;   // G: length scale grows by distance / G away from the boundary; > 0
+  double resolution = 1.0;  // R: boundary length scale is the distance to the nearest neighbour / R; > 0
   std::uint32_t max_vertices = 50'000'000;  // vertex budget
-  double min_edge = 0.0;         // no edge is split that is shorter than this, chords; 0: 1e-12 of the domain's size
+  double min_edge = 0.0;  // no edge is split that is shorter than this, chords; 0: 1e-12 of the domain's size
   friend bool operator==(const QualityOptions&, const QualityOptions&) = default;
 };
 
@@ -40,20 +40,21 @@ class StepObserver {
 // The state of a living mesh as plain arrays, slot by slot, free slots included: what the native file stores.
 // A mesh restored from it goes on to the same bytes as one that never left memory.
 struct MeshState {
-  std::vector<double> coordinates;                // 2 per vertex slot
-  std::vector<double> length_scales;              // 1 per vertex slot
-  std::vector<std::uint32_t> vertex_stars;        // 1 per vertex slot: a link into the star; no_index: free slot
+  std::vector<double> coordinates;          // 2 per vertex slot
+  std::vector<double> length_scales;        // 1 per vertex slot
+  std::vector<std::uint32_t> vertex_stars;  // 1 per vertex slot: a link into the star; no_index: free slot
   std::vector<std::uint32_t> vertex_generations;  // 1 per vertex slot: how often the slot was given out
   std::vector<std::int32_t> vertex_curves;        // 1 per vertex slot: -1 in the interior
   std::vector<double> vertex_parameters;          // 1 per vertex slot: t on the curve
-  std::vector<double> vertex_scale_factors;       // 1 per vertex slot: length scale over the curve's own; 0 in the interior
-  std::vector<std::uint32_t> triangle_vertices;   // 3 per triangle slot; all no_index: free slot
-  std::vector<std::uint32_t> triangle_links;      // 3 per triangle slot
-  std::vector<std::uint32_t> triangle_regions;    // 1 per triangle slot
-  std::vector<std::uint32_t> triangle_births;     // 1 per triangle slot
-  std::vector<std::uint32_t> free_vertices;       // in the order in which they will be given out
+  std::vector<double>
+      vertex_scale_factors;  // 1 per vertex slot: length scale over the curve's own; 0 in the interior
+  std::vector<std::uint32_t> triangle_vertices;  // 3 per triangle slot; all no_index: free slot
+  std::vector<std::uint32_t> triangle_links;     // 3 per triangle slot
+  std::vector<std::uint32_t> triangle_regions;   // 1 per triangle slot
+  std::vector<std::uint32_t> triangle_births;    // 1 per triangle slot
+  std::vector<std::uint32_t> free_vertices;      // in the order in which they will be given out
   std::vector<std::uint32_t> free_triangles;
-  std::uint32_t step = 0;                         // remodellings since generation
+  std::uint32_t step = 0;  // remodellings since generation
   Domain domain;
   QualityOptions options;
 
@@ -63,11 +64,11 @@ struct MeshState {
 // Figures of the current mesh, domain triangles only.
 struct MeshStatistics {
   std::size_t triangles = 0;
-  std::size_t vertices = 0;               // that a domain triangle uses
+  std::size_t vertices = 0;  // that a domain triangle uses
   std::size_t steiner_boundary_vertices = 0;
   double min_angle_deg = 0.0;
-  double max_radius_edge = 0.0;           // max r / e_min
-  double max_gradation = 0.0;             // max r / (H mean LS): at most 1
+  double max_radius_edge = 0.0;  // max r / e_min
+  double max_gradation = 0.0;    // max r / (H mean LS): at most 1
 };
 
 class MeshData;  // src/mesh/mesh_data.h: the library's own view
@@ -93,8 +94,8 @@ class Mesh {
   static Mesh restore(const MeshState& state, const std::string& source);
 
   // The quick validation, O(triangles): links return, triangles counter-clockwise, constrained edges on the
-  // design's boundary, locally Delaunay, angle and gradation within the options. Empty if valid, otherwise the
-  // first broken rule with the ids concerned. (check() of check.h is the independent, slow one.)
+  // design's boundary, locally Delaunay, angle and gradation within the options. Empty if valid, otherwise
+  // the first broken rule with the ids concerned. (check() of check.h is the independent, slow one.)
   std::string quick_check() const;
 
   MeshData& data() { return *data_; }

@@ -1,7 +1,7 @@
 #pragma once
 
-// Replaces the domain inside a living mesh by another. Source: the paper's sections 3 (general method) and 4.2
-// (specialised method); where we depart is said at each function of src/remodel.
+// Replaces the domain inside a living mesh by another. Source: the paper's sections 3 (general method)
+// and 4.2 (specialised method); where we depart is said at each function of src/remodel.
 
 #include <cstddef>
 #include <memory>
@@ -27,14 +27,15 @@ struct RemodelResult {
   std::size_t moved = 0;      // boundary vertices moved in place
   std::size_t inserted = 0;   // vertices
   std::size_t removed = 0;
-  bool full_adjustment = false;  // every boundary vertex moved in place, connectivity unchanged
+  bool full_adjustment = false;         // every boundary vertex moved in place, connectivity unchanged
   Method method = Method::specialised;  // the one that ran
-  bool regenerated = false;  // remodelling could not be completed: the mesh was generated afresh
-  std::string reason;        // why it was regenerated
+  bool regenerated = false;             // remodelling could not be completed: the mesh was generated afresh
+  std::string reason;                   // why it was regenerated
   Stopped stopped = Stopped::done;
   double preserved_percent() const {
-    return triangles_before == 0 ? 100.0
-                                 : 100.0 * static_cast<double>(preserved) / static_cast<double>(triangles_before);
+    return triangles_before == 0
+               ? 100.0
+               : 100.0 * static_cast<double>(preserved) / static_cast<double>(triangles_before);
   }
 };
 

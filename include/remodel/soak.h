@@ -1,7 +1,7 @@
 #pragma once
 
-// The endurance test of a living mesh: thousands of random remodellings, each mesh validated. What it proves is
-// the promise of remodel(): a step commits a valid mesh, or leaves the old one untouched and says why.
+// The endurance test of a living mesh: thousands of random remodellings, each mesh validated. What it proves
+// is the promise of remodel(): a step commits a valid mesh, or leaves the old one untouched and says why.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,23 +11,25 @@
 namespace remodel {
 
 struct SoakOptions {
-  std::size_t steps = 1000;             // remodellings asked for, refused designs included; at least 1
-  std::uint64_t seed = 1;               // the same seed, the same designs
-  std::size_t full_check_every = 200;   // every K-th mesh also goes through check()
-  std::function<bool(std::size_t)> keep_going = {};  // asked before every step, with the steps done; empty: always
+  std::size_t steps = 1000;            // remodellings asked for, refused designs included; at least 1
+  std::uint64_t seed = 1;              // the same seed, the same designs
+  std::size_t full_check_every = 200;  // every K-th mesh also goes through check()
+  std::function<bool(std::size_t)> keep_going =
+      {};  // asked before every step, with the steps done; empty: always
 };
 
 struct SoakResult {
-  std::size_t steps = 0;            // done
-  std::size_t invalid_meshes = 0;   // that a validation refused, or that changed although the design was refused
-  std::size_t recoveries = 0;       // steps that ended in a fresh mesh
-  std::size_t refused = 0;          // designs whose surfaces touch or cross, refused with the mesh untouched
+  std::size_t steps = 0;  // done
+  std::size_t invalid_meshes =
+      0;                       // that a validation refused, or that changed although the design was refused
+  std::size_t recoveries = 0;  // steps that ended in a fresh mesh
+  std::size_t refused = 0;     // designs whose surfaces touch or cross, refused with the mesh untouched
   std::size_t full_adjustments = 0;
   std::size_t full_checks = 0;
-  double min_angle_deg = 90.0;      // smallest of all meshes that went through check()
-  double peak_memory_mib = 0.0;     // of the process
+  double min_angle_deg = 90.0;   // smallest of all meshes that went through check()
+  double peak_memory_mib = 0.0;  // of the process
   double seconds = 0.0;
-  std::string first_failure;        // the first broken rule, with what reproduces it
+  std::string first_failure;  // the first broken rule, with what reproduces it
 };
 
 // Episodes of up to 200 steps on one mesh. An episode draws the discretisation (I from 8 to 400, G, D of the

@@ -1,7 +1,7 @@
 #pragma once
 
-// Bad triangles, worst class first, first in first out within a class. A triangle's class is kept in its record:
-// an entry whose triangle has another class by now is stale and skipped.
+// Bad triangles, worst class first, first in first out within a class. A triangle's class is kept in its
+// record: an entry whose triangle has another class by now is stale and skipped.
 
 #include <bit>
 #include <cstdint>
@@ -64,8 +64,8 @@ class BadQueue {
     std::size_t first = 0;
   };
 
-  // First in first out jumps all over the mesh, which memory punishes: candidates are fetched before their turn.
-  // Measured at 54,000 triangles: 5 % to 30 % of generation, depending on what else uses the memory.
+  // First in first out jumps all over the mesh, which memory punishes: candidates are fetched before their
+  // turn. Measured at 54,000 triangles: 5 % to 30 % of generation, depending on what else uses the memory.
   static void look_ahead(const Triangulation& triangulation, const Bucket& bucket) {
     const std::size_t left = bucket.entries.size() - bucket.first;
     if (left > 8) triangulation.prefetch(bucket.entries[bucket.first + 8]);

@@ -30,7 +30,8 @@ void insert_loop(MeshData& mesh, const std::vector<BoundaryStation>& stations) {
   for (const BoundaryStation& station : stations) {
     const VertexId v = mesh.triangulation.insert(mesh.domain.at(station), hint).vertex;
     hint = mesh.triangulation.star(v).triangle;
-    const BoundaryVertex vertex{.vertex = v, .curve = static_cast<std::uint32_t>(station.curve), .t = station.t};
+    const BoundaryVertex vertex{
+        .vertex = v, .curve = static_cast<std::uint32_t>(station.curve), .t = station.t};
     const std::uint32_t k = mesh.add_boundary_vertex(vertex, previous);
     if (previous == no_index) mesh.loop_heads.push_back(k);
     previous = k;
@@ -70,7 +71,8 @@ double neighbour_length_scale(const MeshData& mesh, std::uint32_t k) {
 
 void discretise(MeshData& mesh) {
   std::vector<std::vector<BoundaryStation>> loops;
-  for (std::size_t loop = 0; loop < mesh.domain.loops.size(); ++loop) loops.push_back(mesh.domain.stations(loop));
+  for (std::size_t loop = 0; loop < mesh.domain.loops.size(); ++loop)
+    loops.push_back(mesh.domain.stations(loop));
   start(mesh, loops);
   for (const auto& stations : loops) insert_loop(mesh, stations);
   mesh.orient_loops();

@@ -4,8 +4,9 @@
 
 namespace remodel {
 
-// The constrained Delaunay triangulation of a domain's stations, labelled, with length scales: what refinement
-// starts from. Precondition: mesh.domain is valid, the rest of mesh is empty. Throws RecoveryError.
+// The constrained Delaunay triangulation of a domain's stations, labelled, with length scales: what
+// refinement starts from. Precondition: mesh.domain is valid, the rest of mesh is empty. Throws
+// RecoveryError.
 void discretise(MeshData& mesh);
 
 // LS of a non-Steiner vertex (equation LS_b): the distance to its nearest neighbour over R, neighbours on its

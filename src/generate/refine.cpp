@@ -25,7 +25,9 @@ double domain_size(const MeshData& mesh) {
   return std::sqrt(squared_distance(low, high));
 }
 
-bool encroaches(Point p, Point a, Point b) { return dot(a - p, b - p) < 0.0; }
+bool encroaches(Point p, Point a, Point b) {
+  return dot(a - p, b - p) < 0.0;
+}
 
 }  // namespace
 
@@ -40,7 +42,9 @@ Refiner::Refiner(MeshData& mesh, StepObserver* observer)
   squared_min_edge_ = shortest * shortest;
 }
 
-bool Refiner::too_short(Point a, Point b) const { return squared_distance(a, b) < squared_min_edge_; }
+bool Refiner::too_short(Point a, Point b) const {
+  return squared_distance(a, b) < squared_min_edge_;
+}
 
 void Refiner::consider(TriangleId t) {
   const Triangle& triangle = triangulation_[t];
@@ -48,7 +52,8 @@ void Refiner::consider(TriangleId t) {
   for (int i = 0; i < 3; ++i) {
     if (!triangle.link[i].constrained()) continue;
     const VertexId a = triangle.vertex[next3(i)], b = triangle.vertex[previous3(i)];
-    if (encroaches(triangulation_.point(triangle.vertex[i]), triangulation_.point(a), triangulation_.point(b)))
+    if (encroaches(triangulation_.point(triangle.vertex[i]), triangulation_.point(a),
+                   triangulation_.point(b)))
       queue_segment(a, b);
   }
   const double bad = badness(triangulation_, triangle, bounds_);
@@ -80,8 +85,8 @@ Stopped Refiner::run() {
   return refused_ ? Stopped::minimum_edge : Stopped::done;
 }
 
-// Step 1: the circumcentre's cavity. It need not hold the circumcentre: the bad triangle is always part of it.
-// Step 2: a boundary edge of the cavity that the point encroaches on, or lies beyond, is split instead.
+// Step 1: the circumcentre's cavity. It need not hold the circumcentre: the bad triangle is always part of
+// it. Step 2: a boundary edge of the cavity that the point encroaches on, or lies beyond, is split instead.
 // Step 3: otherwise the point becomes a vertex.
 void Refiner::refine(TriangleId t) {
   const Triangle& triangle = triangulation_[t];
@@ -108,7 +113,8 @@ void Refiner::refine(TriangleId t) {
   double scale = std::numeric_limits<double>::infinity();
   for (const RingEdge& edge : cavity_.ring) {
     const Vertex& u = triangulation_[edge.from];
-    scale = std::min(scale, u.length_scale + std::sqrt(squared_distance(u.point, p)) / mesh_.options.gradation);
+    scale =
+        std::min(scale, u.length_scale + std::sqrt(squared_distance(u.point, p)) / mesh_.options.gradation);
   }
   triangulation_.set_length_scale(v, scale);
   for (const TriangleId created : triangulation_.new_star()) {
@@ -117,18 +123,22 @@ void Refiner::refine(TriangleId t) {
   }
 }
 
-// Queues what p encroaches on, or failing that what lies between p and the cavity. True if p must not be inserted.
+// Queues what p encroaches on, or failing that what lies between p and the cavity. True if p must not be
+// inserted.
 bool Refiner::split_blocking_segments(Point p) {
   bool blocked = false;
   for (const bool beyond : {false, true}) {
     for (std::size_t k = 0; k < cavity_.ring.size(); ++k) {
       if (!cavity_.ring[k].outer.constrained()) continue;
-      const VertexId a = cavity_.ring[k].from, b = cavity_.ring[k + 1 == cavity_.ring.size() ? 0 : k + 1].from;
+      const VertexId a = cavity_.ring[k].from,
+                     b = cavity_.ring[k + 1 == cavity_.ring.size() ? 0 : k + 1].from;
       const Point pa = triangulation_.point(a), pb = triangulation_.point(b);
       if (!(beyond ? cross(pb - pa, p - pa) <= 0.0 : encroaches(p, pa, pb))) continue;
       blocked = true;
-      if (too_short(pa, pb)) refused_ = true;
-      else queue_segment(a, b);
+      if (too_short(pa, pb))
+        refused_ = true;
+      else
+        queue_segment(a, b);
     }
     if (blocked) return true;
   }
@@ -140,7 +150,8 @@ double Refiner::split_parameter(Segment segment) const {
   const bool corner_first = small_angles_.is_corner(mesh_.at(segment.from).vertex);
   const bool corner_last = small_angles_.is_corner(mesh_.at(segment.to).vertex);
   if (corner_first == corner_last) return 0.5 * (t0 + t1);
-  // On a shell about the small corner. Bisection for the distance, which grows along a segment's piece of curve.
+  // On a shell about the small corner. Bisection for the distance, which grows along a segment's piece of
+  // curve.
   const Point corner = mesh_.point(corner_first ? segment.from : segment.to);
   const Point other = mesh_.point(corner_first ? segment.to : segment.from);
   const double length = std::sqrt(squared_distance(corner, other));
@@ -167,7 +178,8 @@ void Refiner::split(Segment segment, int depth) {
   }
   const auto near = triangulation_.split(*triangulation_.find_edge(a, b), p);
   const VertexId v = near ? *near : split_far(segment, p, depth);
-  const std::uint32_t k = mesh_.add_boundary_vertex({.vertex = v, .curve = curve, .t = t, .steiner = true}, segment.from);
+  const std::uint32_t k =
+      mesh_.add_boundary_vertex({.vertex = v, .curve = curve, .t = t, .steiner = true}, segment.from);
   if (!near) {
     recover(a, v, depth);
     recover(v, b, depth);
@@ -182,8 +194,9 @@ void Refiner::split(Segment segment, int depth) {
   do {
     if (triangulation_[c.triangle].region == Region::domain)
       for (const VertexId u : {triangulation_.following(c), triangulation_.preceding(c)})
-        scale = std::min(scale, triangulation_[u].length_scale +
-                                    std::sqrt(squared_distance(triangulation_.point(u), p)) / mesh_.options.gradation);
+        scale = std::min(
+            scale, triangulation_[u].length_scale +
+                       std::sqrt(squared_distance(triangulation_.point(u), p)) / mesh_.options.gradation);
     c = triangulation_.counterclockwise(c);
   } while (c.triangle != first.triangle);
   mesh_.set_boundary_length_scale(k, scale);
@@ -200,8 +213,8 @@ void Refiner::consider_star(VertexId v) {
 }
 
 // The curve point lies beyond the triangles next to its chord (blunt leading edges, cusps): free vertices lie
-// between chord and curve, or another boundary edge does. The chord is given up, the point inserted where it is,
-// and split() recovers both halves.
+// between chord and curve, or another boundary edge does. The chord is given up, the point inserted where it
+// is, and split() recovers both halves.
 VertexId Refiner::split_far(Segment segment, Point p, int depth) {
   if (depth > max_depth) throw RecoveryError("boundary splits ask for each other without end");
   const VertexId a = mesh_.at(segment.from).vertex, b = mesh_.at(segment.to).vertex;
@@ -220,13 +233,15 @@ void Refiner::recover_loop(std::uint32_t head) {
   std::uint32_t k = head;
   do {
     const auto edge = triangulation_.find_edge(mesh_.at(k).vertex, mesh_.next(k).vertex);
-    if (!edge || !triangulation_.link(*edge).constrained()) recover(mesh_.at(k).vertex, mesh_.next(k).vertex, 0);
+    if (!edge || !triangulation_.link(*edge).constrained())
+      recover(mesh_.at(k).vertex, mesh_.next(k).vertex, 0);
     k = mesh_.at(k).next;
   } while (k != head);
   labelled_ = true;
 }
 
-// Makes a-b a constrained edge: free vertices on it are removed, boundary edges that cross it are split first.
+// Makes a-b a constrained edge: free vertices on it are removed, boundary edges that cross it are split
+// first.
 void Refiner::recover(VertexId a, VertexId b, int depth) {
   for (int attempt = 0; attempt < 64; ++attempt) {
     const ConstrainResult result = triangulation_.constrain(a, b);
@@ -237,7 +252,8 @@ void Refiner::recover(VertexId a, VertexId b, int depth) {
       triangulation_.remove(result.first);
       continue;
     }
-    const std::uint32_t ka = triangulation_[result.first].boundary, kb = triangulation_[result.second].boundary;
+    const std::uint32_t ka = triangulation_[result.first].boundary,
+                        kb = triangulation_[result.second].boundary;
     split(mesh_.at(ka).next == kb ? Segment{ka, kb} : Segment{kb, ka}, depth + 1);
   }
   throw RecoveryError("a boundary edge cannot be recovered");

@@ -36,9 +36,9 @@ class Refiner {
   // Refines until nothing queued is left or a limit is reached.
   Stopped run();
 
-  // Makes every boundary edge of the given loop (by its head) an edge of the triangulation again: free vertices
-  // on it are removed, boundary edges that cross it are split. Region labels are left to the caller. Throws
-  // RecoveryError.
+  // Makes every boundary edge of the given loop (by its head) an edge of the triangulation again: free
+  // vertices on it are removed, boundary edges that cross it are split. Region labels are left to the caller.
+  // Throws RecoveryError.
   void recover_loop(std::uint32_t head);
 
   std::size_t exempt_triangles() const { return exempt_; }

@@ -3,8 +3,8 @@
 // Small input angles. Where two boundary edges meet at less than 60 degrees inside the domain, refinement by
 // diametral circles would never end: each split of one edge encroaches on the other. The remedy of the
 // literature (Ruppert 1995, Shewchuk 2002, "seditious edges"): edges at such a corner are split at distances
-// from it that are powers of two, so that splits of both edges lie on the same circles, and a triangle is left
-// alone if its shortest edge joins two such splits of one corner.
+// from it that are powers of two, so that splits of both edges lie on the same circles, and a triangle is
+// left alone if its shortest edge joins two such splits of one corner.
 
 #include <vector>
 

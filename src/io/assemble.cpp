@@ -23,8 +23,8 @@ bool surely_clockwise(Point a, Point b, Point c) {
   return left - right < -3.3306690738754716e-16 * (std::abs(left) + std::abs(right));
 }
 
-// A program may write all its triangles clockwise: then they are all turned. One among others that are not is a
-// fault of the mesh, which a reader must not hide from the checker.
+// A program may write all its triangles clockwise: then they are all turned. One among others that are not is
+// a fault of the mesh, which a reader must not hide from the checker.
 void turn_triangles(FrozenMesh& mesh) {
   std::size_t clockwise = 0;
   for (const auto& [a, b, c] : mesh.triangles) {

@@ -18,10 +18,18 @@ Mesh& Mesh::operator=(const Mesh& other) {
   return *this;
 }
 
-const Domain& Mesh::domain() const { return data_->domain; }
-const QualityOptions& Mesh::options() const { return data_->options; }
-std::uint32_t Mesh::step() const { return data_->step; }
-std::size_t Mesh::triangle_count() const { return data_->domain_triangles; }
+const Domain& Mesh::domain() const {
+  return data_->domain;
+}
+const QualityOptions& Mesh::options() const {
+  return data_->options;
+}
+std::uint32_t Mesh::step() const {
+  return data_->step;
+}
+std::size_t Mesh::triangle_count() const {
+  return data_->domain_triangles;
+}
 
 MeshStatistics Mesh::statistics() const {
   const Triangulation& triangulation = data_->triangulation;
@@ -35,13 +43,15 @@ MeshStatistics Mesh::statistics() const {
     double shortest = INFINITY, longest_product = 1.0, scale = 0.0;
     for (int k = 0; k < 3; ++k) {
       used[t.vertex[k].index] = true;
-      const double l = squared_distance(triangulation.point(t.vertex[next3(k)]), triangulation.point(t.vertex[previous3(k)]));
+      const double l = squared_distance(triangulation.point(t.vertex[next3(k)]),
+                                        triangulation.point(t.vertex[previous3(k)]));
       shortest = std::min(shortest, l);
       longest_product *= l;
       scale += triangulation[t.vertex[k]].length_scale / 3.0;
     }
     const Point a = triangulation.point(t.vertex[0]);
-    const double twice_area = cross(triangulation.point(t.vertex[1]) - a, triangulation.point(t.vertex[2]) - a);
+    const double twice_area =
+        cross(triangulation.point(t.vertex[1]) - a, triangulation.point(t.vertex[2]) - a);
     const double r2 = longest_product / (4.0 * twice_area * twice_area);
     radius_edge = std::max(radius_edge, r2 / shortest);
     gradation = std::max(gradation, r2 / (scale * scale));

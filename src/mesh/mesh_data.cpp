@@ -15,7 +15,8 @@ QualityBounds::QualityBounds(const QualityOptions& options) {
   squared_gradation = margin * options.max_gradation * options.max_gradation;
 }
 
-double badness(const Vertex& a, const Vertex& b, const Vertex& c, double squared_radius, const QualityBounds& bounds) {
+double badness(const Vertex& a, const Vertex& b, const Vertex& c, double squared_radius,
+               const QualityBounds& bounds) {
   const double shortest = std::min({squared_distance(a.point, b.point), squared_distance(b.point, c.point),
                                     squared_distance(c.point, a.point)});
   const double mean = (a.length_scale + b.length_scale + c.length_scale) * (1.0 / 3.0);

@@ -1,7 +1,7 @@
 #pragma once
 
-// The living mesh as the library sees it: a triangulation, the discretised boundary of a domain in it, and the
-// promises it keeps. Stages (generation, remodelling) work on this; users see Mesh.
+// The living mesh as the library sees it: a triangulation, the discretised boundary of a domain in it, and
+// the promises it keeps. Stages (generation, remodelling) work on this; users see Mesh.
 
 #include <algorithm>
 #include <cstdint>
@@ -19,7 +19,7 @@ struct BoundaryVertex {
   VertexId vertex;
   std::uint32_t curve = 0;  // index over all curves of the domain
   double t = 0.0;
-  bool steiner = false;     // inserted by refinement, not part of the initial discretisation
+  bool steiner = false;       // inserted by refinement, not part of the initial discretisation
   double scale_factor = 1.0;  // length scale over what the curve alone would give: see base_length_scale()
   std::uint32_t next = no_index, previous = no_index;  // indices of the boundary table
 };
@@ -85,7 +85,8 @@ class MeshData {
   const BoundaryVertex& at(std::uint32_t k) const { return boundary[k]; }
   const BoundaryVertex& next(std::uint32_t k) const { return boundary[boundary[k].next]; }
 
-  // The curve parameter where the boundary edge from k ends: its next vertex's, or 1 where the curve ends there.
+  // The curve parameter where the boundary edge from k ends: its next vertex's, or 1 where the curve ends
+  // there.
   double end_parameter(std::uint32_t k) const;
   // Adds a boundary vertex behind `previous` (no_index: alone in a new loop); returns its index.
   std::uint32_t add_boundary_vertex(BoundaryVertex vertex, std::uint32_t previous);
@@ -98,9 +99,9 @@ class MeshData {
   void count_domain_triangles();
 
   // What the curve alone says of the length scale at k: for a non-Steiner vertex the distance to the nearer
-  // non-Steiner neighbour over R (equation LS_b), for a Steiner vertex the interpolation by length between its
-  // two non-Steiner neighbours (equation LS_bs; chords for arcs, between whose length ratios the difference is
-  // of second order).
+  // non-Steiner neighbour over R (equation LS_b), for a Steiner vertex the interpolation by length between
+  // its two non-Steiner neighbours (equation LS_bs; chords for arcs, between whose length ratios the
+  // difference is of second order).
   double base_length_scale(std::uint32_t k) const;
   std::uint32_t non_steiner_before(std::uint32_t k) const;
   std::uint32_t non_steiner_after(std::uint32_t k) const;
@@ -108,20 +109,23 @@ class MeshData {
   void set_boundary_length_scale(std::uint32_t k, double value);
 };
 
-// Empty, or what is wrong with the boundary: vertices on the design's curves, edges there and constrained, the
-// domain on its side.
+// Empty, or what is wrong with the boundary: vertices on the design's curves, edges there and constrained,
+// the domain on its side.
 std::string check_boundary(const MeshData& mesh);
 
 // Whether a triangle keeps both bounds; the same as badness <= 1 up to the last rounding, without a division.
-inline bool is_good(const Vertex& a, const Vertex& b, const Vertex& c, double squared_radius, const QualityBounds& bounds) {
+inline bool is_good(const Vertex& a, const Vertex& b, const Vertex& c, double squared_radius,
+                    const QualityBounds& bounds) {
   const double shortest = std::min({squared_distance(a.point, b.point), squared_distance(b.point, c.point),
                                     squared_distance(c.point, a.point)});
   const double mean = (a.length_scale + b.length_scale + c.length_scale) * (1.0 / 3.0);
-  return squared_radius <= bounds.squared_radius_edge * shortest && squared_radius <= bounds.squared_gradation * (mean * mean);
+  return squared_radius <= bounds.squared_radius_edge * shortest &&
+         squared_radius <= bounds.squared_gradation * (mean * mean);
 }
 
 // The largest of the two squared ratios over their squared bounds: above 1 the triangle is bad.
-double badness(const Vertex& a, const Vertex& b, const Vertex& c, double squared_radius, const QualityBounds& bounds);
+double badness(const Vertex& a, const Vertex& b, const Vertex& c, double squared_radius,
+               const QualityBounds& bounds);
 double badness(const Triangulation& triangulation, const Triangle& triangle, const QualityBounds& bounds);
 
 }  // namespace remodel

@@ -1,5 +1,5 @@
-// The quick validation of a living mesh: everything that a step can break, in one pass, with the library's own
-// exact predicates (the slow, independent validator is src/check).
+// The quick validation of a living mesh: everything that a step can break, in one pass, with the library's
+// own exact predicates (the slow, independent validator is src/check).
 
 #include <cmath>
 
@@ -10,7 +10,9 @@ namespace remodel {
 
 namespace {
 
-std::string triangle_name(std::uint32_t i) { return "triangle " + std::to_string(i); }
+std::string triangle_name(std::uint32_t i) {
+  return "triangle " + std::to_string(i);
+}
 
 std::string check_links(const Triangulation& triangulation, std::uint32_t i) {
   const Triangle& t = triangulation[TriangleId{i}];
@@ -25,6 +27,9 @@ std::string check_links(const Triangulation& triangulation, std::uint32_t i) {
       return triangle_name(i) + ": neighbour across corner " + std::to_string(k) + " does not return";
     if (!link.constrained() && u.region != t.region)
       return triangle_name(i) + ": region changes across an unconstrained edge";
+    if (link.constrained() && u.region == t.region)
+      return triangle_name(i) + ": edge opposite corner " + std::to_string(k) +
+             " is constrained, but no boundary edge";
     if (t.region == Region::domain && !link.constrained() &&
         triangulation.in_conflict(TriangleId{i}, triangulation.point(u.vertex[j])))
       return triangle_name(i) + ": edge opposite corner " + std::to_string(k) + " is not locally Delaunay";
@@ -37,18 +42,22 @@ std::string check_triangle(const MeshData& mesh, std::uint32_t i, const QualityB
   const Triangle& t = triangulation[TriangleId{i}];
   if (t.region == Region::unknown) return triangle_name(i) + ": no region";
   if (t.badness != 0) return triangle_name(i) + ": still marked as bad";
-  if (t.ghost()) return t.region == Region::domain ? triangle_name(i) + ": outside the hull, labelled domain" : std::string{};
-  if (orient2d(triangulation.point(t.vertex[0]), triangulation.point(t.vertex[1]), triangulation.point(t.vertex[2])) <= 0)
+  if (t.ghost())
+    return t.region == Region::domain ? triangle_name(i) + ": outside the hull, labelled domain"
+                                      : std::string{};
+  if (orient2d(triangulation.point(t.vertex[0]), triangulation.point(t.vertex[1]),
+               triangulation.point(t.vertex[2])) <= 0)
     return triangle_name(i) + ": not counter-clockwise";
   if (t.region == Region::domain && badness(triangulation, t, promised) > 1.0)
-    return triangle_name(i) + ": below the promised quality, badness " + std::to_string(badness(triangulation, t, promised));
+    return triangle_name(i) + ": below the promised quality, badness " +
+           std::to_string(badness(triangulation, t, promised));
   return {};
 }
 
 }  // namespace
 
 std::string check_boundary(const MeshData& mesh) {
-  std::size_t stations = 0;
+  std::size_t stations = 0, visited = 0, recorded = 0;
   for (std::size_t loop = 0; loop < mesh.loop_heads.size(); ++loop) {
     const bool left = mesh.domain_on_left[loop];
     std::uint32_t k = mesh.loop_heads[loop];
@@ -56,8 +65,10 @@ std::string check_boundary(const MeshData& mesh) {
       const BoundaryVertex& v = mesh.at(k);
       const std::string name = "boundary vertex " + std::to_string(v.vertex.index);
       stations += v.steiner ? 0 : 1;
+      ++visited;
       if (mesh.triangulation[v.vertex].boundary != k) return name + ": record and vertex disagree";
-      if (!(mesh.triangulation.point(v.vertex) == mesh.domain.at({v.curve, v.t}))) return name + ": not on the design";
+      if (!(mesh.triangulation.point(v.vertex) == mesh.domain.at({v.curve, v.t})))
+        return name + ": not on the design";
       if (!(mesh.triangulation[v.vertex].length_scale > 0.0)) return name + ": no length scale";
       const auto edge = mesh.triangulation.find_edge(v.vertex, mesh.next(k).vertex);
       if (!edge || !mesh.triangulation.link(*edge).constrained()) return name + ": boundary edge is missing";
@@ -68,6 +79,11 @@ std::string check_boundary(const MeshData& mesh) {
       k = v.next;
     } while (k != mesh.loop_heads[loop]);
   }
+  for (std::uint32_t i = 1; i < mesh.triangulation.vertex_slots(); ++i) {
+    const Vertex& v = mesh.triangulation[VertexId{i}];
+    recorded += v.alive() && v.boundary != no_index ? 1 : 0;
+  }
+  if (visited != recorded) return "boundary: vertices say that they are on it, but no loop has them";
   std::size_t expected = 0;
   for (std::size_t curve = 0; curve < mesh.domain.curve_count(); ++curve)
     expected += mesh.domain.curve(curve).parameters.size();
@@ -86,8 +102,9 @@ std::string Mesh::quick_check() const {
     if (std::string broken = check_triangle(*data_, i, promised); !broken.empty()) return broken;
     if (std::string broken = check_links(triangulation, i); !broken.empty()) return broken;
   }
-  if (count != data_->domain_triangles) return "triangle count: " + std::to_string(count) + " found, " +
-                                               std::to_string(data_->domain_triangles) + " recorded";
+  if (count != data_->domain_triangles)
+    return "triangle count: " + std::to_string(count) + " found, " + std::to_string(data_->domain_triangles) +
+           " recorded";
   return check_boundary(*data_);
 }
 

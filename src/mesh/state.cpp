@@ -66,7 +66,8 @@ TriangulationState unpack(const MeshState& state, const std::string& source) {
       to.triangles[i].vertex[k] = VertexId{state.triangle_vertices[3 * i + k]};
       to.triangles[i].link[k].bits = state.triangle_links[3 * i + k];
     }
-    if (state.triangle_regions[i] > 1) refuse(source, "triangle " + std::to_string(i) + " has an unknown region");
+    if (state.triangle_regions[i] > 1)
+      refuse(source, "triangle " + std::to_string(i) + " has an unknown region");
     to.triangles[i].region = static_cast<Region>(state.triangle_regions[i]);
     to.triangles[i].birth = state.triangle_births[i];
   }
@@ -99,12 +100,16 @@ void restore_boundary(MeshData& mesh, const MeshState& state, const std::string&
     loop = mesh.domain.loop_of(entry.curve);
     const auto& parameters = mesh.domain.curve(entry.curve).parameters;
     const bool steiner = !std::binary_search(parameters.begin(), parameters.end(), entry.t);
-    const BoundaryVertex vertex{.vertex = VertexId{entry.vertex}, .curve = entry.curve, .t = entry.t,
-                                .steiner = steiner, .scale_factor = state.vertex_scale_factors[entry.vertex]};
+    const BoundaryVertex vertex{.vertex = VertexId{entry.vertex},
+                                .curve = entry.curve,
+                                .t = entry.t,
+                                .steiner = steiner,
+                                .scale_factor = state.vertex_scale_factors[entry.vertex]};
     previous = mesh.add_boundary_vertex(vertex, new_loop ? no_index : previous);
     if (new_loop) mesh.loop_heads.push_back(previous);
   }
-  if (mesh.loop_heads.size() != mesh.domain.loops.size()) refuse(source, "a loop of the design has no vertices");
+  if (mesh.loop_heads.size() != mesh.domain.loops.size())
+    refuse(source, "a loop of the design has no vertices");
   mesh.orient_loops();
 }
 
@@ -116,7 +121,8 @@ Mesh Mesh::restore(const MeshState& state, const std::string& source) {
   data.domain = state.domain;
   data.options = state.options;
   data.step = state.step;
-  if (std::string broken = unpack(state, source).restore(data.triangulation); !broken.empty()) refuse(source, broken);
+  if (std::string broken = unpack(state, source).restore(data.triangulation); !broken.empty())
+    refuse(source, broken);
   restore_boundary(data, state, source);
   data.count_domain_triangles();
   if (std::string broken = check_boundary(data); !broken.empty()) refuse(source, broken);

@@ -52,7 +52,9 @@ class Soak {
     return values[random_.next() % n];
   }
 
-  CstAirfoil any_airfoil() { return airfoil_catalogue()[random_.next() % airfoil_catalogue().size()].airfoil(); }
+  CstAirfoil any_airfoil() {
+    return airfoil_catalogue()[random_.next() % airfoil_catalogue().size()].airfoil();
+  }
 
   bool going() {
     if (result_.steps >= options_.steps) return false;
@@ -63,7 +65,8 @@ class Soak {
   Setting draw_setting() {
     Setting setting;
     setting.domain.points = pick(std::array{8, 20, 50, 50, 50, 80, 100, 100, 150, 200, 400});
-    setting.quality.gradation = std::max(0.5, setting.domain.points / 50.0 * pick(std::array{0.5, 1.0, 1.0, 2.0}));
+    setting.quality.gradation =
+        std::max(0.5, setting.domain.points / 50.0 * pick(std::array{0.5, 1.0, 1.0, 2.0}));
     setting.remodel.distance = pick(std::array{0.5, 1.0, 2.0, 4.0});
     setting.remodel.method = pick(std::array{Method::automatic, Method::automatic, Method::general});
     setting.sigma = 0.25 * portable::exp(-6.0 * random_.uniform());  // 0.0006 to 0.25
@@ -78,8 +81,10 @@ class Soak {
     if (kind < 0.05) return setting.centre = any_airfoil();
     for (auto* surface : {&design.upper, &design.lower})
       for (double& coefficient : *surface) coefficient += setting.sigma * random_.normal();
-    if (kind < 0.10) std::swap(design.upper, design.lower);
-    else if (kind < 0.40 && surfaces_apart(design)) setting.centre = mean(setting.centre, design);
+    if (kind < 0.10)
+      std::swap(design.upper, design.lower);
+    else if (kind < 0.40 && surfaces_apart(design))
+      setting.centre = mean(setting.centre, design);
     return design;
   }
 
@@ -130,7 +135,8 @@ class Soak {
   void fail(const std::string& rule) {
     ++result_.invalid_meshes;
     if (result_.first_failure.empty())
-      result_.first_failure = "step " + std::to_string(result_.steps) + " of seed " + std::to_string(options_.seed) + ": " + rule;
+      result_.first_failure =
+          "step " + std::to_string(result_.steps) + " of seed " + std::to_string(options_.seed) + ": " + rule;
   }
 
   const SoakOptions& options_;
@@ -141,6 +147,8 @@ class Soak {
 
 }  // namespace
 
-SoakResult soak(const SoakOptions& options) { return Soak(options).run(); }
+SoakResult soak(const SoakOptions& options) {
+  return Soak(options).run();
+}
 
 }  // namespace remodel

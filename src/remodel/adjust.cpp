@@ -96,10 +96,12 @@ void list_edges(MeshData& mesh, AdjustCache& cache) {
     for (int k = 0; k < 3; ++k) {
       const Link link = triangle.link[k];
       if (link.constrained()) {
-        cache.segments.push_back({i, triangle.vertex[next3(k)], triangle.vertex[previous3(k)], triangle.vertex[k]});
+        cache.segments.push_back(
+            {i, triangle.vertex[next3(k)], triangle.vertex[previous3(k)], triangle.vertex[k]});
         continue;
       }
-      const std::uint32_t across = mesh.marks.visited(link.triangle().index) ? mesh.numbers[link.triangle().index] : no_index;
+      const std::uint32_t across =
+          mesh.marks.visited(link.triangle().index) ? mesh.numbers[link.triangle().index] : no_index;
       if (across < i) continue;  // tested from the other side
       cache.edges.push_back({i, across, triangulation.vertex({link.triangle(), link.corner()})});
     }
@@ -147,15 +149,17 @@ void scale(const MeshData& mesh, AdjustCache& cache) {
     cache.old_scales[i] = mesh.triangulation[m.vertex].length_scale;
     const double to_before = std::sqrt(squared_distance(cache.new_points[m.before], cache.new_points[i]));
     const double to_after = std::sqrt(squared_distance(cache.new_points[i], cache.new_points[m.after]));
-    const double base = i < cache.non_steiner
-                            ? std::min(to_before, to_after) / mesh.options.resolution
-                            : (cache.new_scales[m.before] * to_after + cache.new_scales[m.after] * to_before) /
-                                  (to_before + to_after);
+    const double base =
+        i < cache.non_steiner
+            ? std::min(to_before, to_after) / mesh.options.resolution
+            : (cache.new_scales[m.before] * to_after + cache.new_scales[m.after] * to_before) /
+                  (to_before + to_after);
     cache.new_scales[i] = base * mesh.at(m.boundary).scale_factor;
   }
 }
 
-void write(MeshData& mesh, const AdjustCache& cache, const std::vector<Point>& points, const std::vector<double>& scales) {
+void write(MeshData& mesh, const AdjustCache& cache, const std::vector<Point>& points,
+           const std::vector<double>& scales) {
   for (std::size_t i = 0; i < cache.moving.size(); ++i) {
     mesh.triangulation.set_point(cache.moving[i].vertex, points[i]);
     mesh.triangulation.set_length_scale(cache.moving[i].vertex, scales[i]);
@@ -172,7 +176,8 @@ bool evaluate(const MeshData& mesh, AdjustCache& cache) {
   const QualityBounds bounds(mesh.options);
   bool all = true;
   for (Affected& a : cache.affected) {
-    const Vertex &v0 = triangulation[a.vertex[0]], &v1 = triangulation[a.vertex[1]], &v2 = triangulation[a.vertex[2]];
+    const Vertex &v0 = triangulation[a.vertex[0]], &v1 = triangulation[a.vertex[1]],
+                 &v2 = triangulation[a.vertex[2]];
     if (a.domain) {
       a.circle = certified_circle(v0.point, v1.point, v2.point);
       a.good = a.circle.certain() && is_good(v0, v1, v2, a.circle.squared_radius(), bounds);
@@ -186,8 +191,7 @@ bool evaluate(const MeshData& mesh, AdjustCache& cache) {
     const Point apex = triangulation.point(edge.apex);
     const double d = squared_distance(a.circle.centre, apex);
     if (d > a.circle.outside) continue;
-    const bool conflict = d < a.circle.inside ||
-                          !counterclockwise(triangulation, a.vertex) ||
+    const bool conflict = d < a.circle.inside || !counterclockwise(triangulation, a.vertex) ||
                           incircle_sos(triangulation.point(a.vertex[0]), triangulation.point(a.vertex[1]),
                                        triangulation.point(a.vertex[2]), apex) > 0;
     if (!conflict) continue;

@@ -1,7 +1,7 @@
 #pragma once
 
-// The adjustment stage of the specialised method (the paper's section 4.2): boundary vertices are moved to their
-// places on the new design where the mesh stays valid, Delaunay and good.
+// The adjustment stage of the specialised method (the paper's section 4.2): boundary vertices are moved to
+// their places on the new design where the mesh stays valid, Delaunay and good.
 //
 // Words: the *moving* vertices are those of all loops that differ between the old and the new design; the
 // *affected* triangles are those with a moving vertex.
@@ -16,22 +16,22 @@ namespace remodel {
 // Everything about the moving vertices that holds while connectivity does.
 struct AdjustCache : MeshCache {
   struct Moving {
-    std::uint32_t boundary;   // index of the boundary table
+    std::uint32_t boundary;  // index of the boundary table
     VertexId vertex;
     std::uint32_t curve;
-    CstStation station;       // of a CST curve
-    std::size_t row = 0;      // where the vertex's CST basis starts in `basis`
-    std::size_t basis_size = 0;  // 0: not a CST curve
-    std::uint32_t before, after;  // positions in `moving` of the non-Steiner neighbours
+    CstStation station;                // of a CST curve
+    std::size_t row = 0;               // where the vertex's CST basis starts in `basis`
+    std::size_t basis_size = 0;        // 0: not a CST curve
+    std::uint32_t before, after;       // positions in `moving` of the non-Steiner neighbours
     std::size_t star_begin, star_end;  // its affected triangles, in `stars`
   };
   struct Affected {
     TriangleId triangle;
     VertexId vertex[3];
-    Circle circle;        // at the new positions
+    Circle circle;  // at the new positions
     bool domain;
-    bool moved = false;   // a vertex of it has another position
-    bool good = false;    // at the new positions
+    bool moved = false;  // a vertex of it has another position
+    bool good = false;   // at the new positions
   };
   // An unconstrained edge of the domain with an affected triangle beside it: is `apex` outside its circle?
   struct Edge {
@@ -45,8 +45,8 @@ struct AdjustCache : MeshCache {
     VertexId a, b, apex;
   };
 
-  std::vector<std::size_t> loops;   // that move
-  std::size_t non_steiner = 0;      // moving[0 .. non_steiner) are the non-Steiner vertices, in loop order
+  std::vector<std::size_t> loops;  // that move
+  std::size_t non_steiner = 0;     // moving[0 .. non_steiner) are the non-Steiner vertices, in loop order
   std::vector<Moving> moving;
   std::vector<double> basis;
   std::vector<Affected> affected;
@@ -83,9 +83,9 @@ AdjustCache& adjust_cache(MeshData& mesh, const std::vector<std::size_t>& moving
 // the final state alone is kept. The test is the same for every triangle with one moving vertex.
 bool adjust_all(MeshData& mesh, AdjustCache& cache, const Domain& domain);
 
-// After adjust_all() returned false: moves one vertex after the other where that leaves a valid mesh, non-Steiner
-// vertices in the order of their loops, then Steiner vertices between two that were moved. Journalled. Sets
-// cache.accepted; connectivity and circles are not touched.
+// After adjust_all() returned false: moves one vertex after the other where that leaves a valid mesh,
+// non-Steiner vertices in the order of their loops, then Steiner vertices between two that were moved.
+// Journalled. Sets cache.accepted; connectivity and circles are not touched.
 void adjust_some(MeshData& mesh, AdjustCache& cache);
 
 }  // namespace remodel

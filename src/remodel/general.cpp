@@ -1,5 +1,5 @@
-// The general method (the paper's section 3): any closed loops to any closed loops. Loops that are the same in both
-// domains, by value, are not touched.
+// The general method (the paper's section 3): any closed loops to any closed loops. Loops that are the same
+// in both domains, by value, are not touched.
 
 #include <cmath>
 #include <limits>
@@ -22,9 +22,13 @@ struct Model {
 
   // What nanoflann asks of a point set.
   std::size_t kdtree_get_point_count() const { return points.size(); }
-  double kdtree_get_pt(std::size_t i, std::size_t axis) const { return axis == 0 ? points[i].x : points[i].y; }
+  double kdtree_get_pt(std::size_t i, std::size_t axis) const {
+    return axis == 0 ? points[i].x : points[i].y;
+  }
   template <class Box>
-  bool kdtree_get_bbox(Box&) const { return false; }
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
 };
 
 void add_loop(Model& model, const Domain& domain, std::size_t loop) {
@@ -57,7 +61,11 @@ class Nearest {
 class LoopReplacement {
  public:
   LoopReplacement(MeshData& mesh, const Domain& domain, double distance)
-      : mesh_(mesh), triangulation_(mesh.triangulation), old_domain_(mesh.domain), domain_(domain), distance_(distance) {}
+      : mesh_(mesh),
+        triangulation_(mesh.triangulation),
+        old_domain_(mesh.domain),
+        domain_(domain),
+        distance_(distance) {}
 
   void run() {
     match_loops();
@@ -100,7 +108,8 @@ class LoopReplacement {
       for (std::size_t i = 0; i < model.points.size(); ++i) {
         const double nearest = std::sqrt(other.squared_distance_to(model.points[i]));
         const double pair = std::isfinite(nearest) ? nearest : 0.0;
-        result.push_back({model.points[i], removal_radius(distance_, pair, model.points[i], model.before[i], model.after[i]),
+        result.push_back({model.points[i],
+                          removal_radius(distance_, pair, model.points[i], model.before[i], model.after[i]),
                           hint});
         hint = triangulation_.locate(model.points[i], hint).triangle;
       }
@@ -143,8 +152,8 @@ class LoopReplacement {
     return vertices;
   }
 
-  // The boundary table of the new domain: kept loops as they are, new ones inserted. A vertex that is already at a
-  // station (the trailing edge, often) becomes the boundary vertex.
+  // The boundary table of the new domain: kept loops as they are, new ones inserted. A vertex that is already
+  // at a station (the trailing edge, often) becomes the boundary vertex.
   void rebuild_table() {
     const std::vector<BoundaryVertex> old_table = std::move(mesh_.boundary);
     const std::vector<std::uint32_t> old_heads = std::move(mesh_.loop_heads);
@@ -153,8 +162,11 @@ class LoopReplacement {
     mesh_.loop_heads.clear();
     mesh_.domain = domain_;
     for (std::size_t loop = 0; loop < domain_.loops.size(); ++loop) {
-      if (kept_[loop] == none) insert_loop(loop);
-      else copy_loop(old_table, old_heads[kept_[loop]], first_curve(domain_, loop), first_curve(old_domain_, kept_[loop]));
+      if (kept_[loop] == none)
+        insert_loop(loop);
+      else
+        copy_loop(old_table, old_heads[kept_[loop]], first_curve(domain_, loop),
+                  first_curve(old_domain_, kept_[loop]));
     }
     mesh_.orient_loops();
     for (const std::size_t loop : new_loops_)
@@ -169,7 +181,8 @@ class LoopReplacement {
     return curve;
   }
 
-  void copy_loop(const std::vector<BoundaryVertex>& table, std::uint32_t head, std::uint32_t to, std::uint32_t from) {
+  void copy_loop(const std::vector<BoundaryVertex>& table, std::uint32_t head, std::uint32_t to,
+                 std::uint32_t from) {
     std::uint32_t k = head, previous = no_index;
     do {
       BoundaryVertex vertex = table[k];
@@ -188,7 +201,8 @@ class LoopReplacement {
       if (triangulation_[v].boundary != no_index)
         throw RecoveryError("two boundary vertices of the new design lie at one point");
       hint = triangulation_.star(v).triangle;
-      const BoundaryVertex vertex{.vertex = v, .curve = static_cast<std::uint32_t>(station.curve), .t = station.t};
+      const BoundaryVertex vertex{
+          .vertex = v, .curve = static_cast<std::uint32_t>(station.curve), .t = station.t};
       const bool first = previous == no_index;
       previous = mesh_.add_boundary_vertex(vertex, previous);
       if (first) mesh_.loop_heads.push_back(previous);

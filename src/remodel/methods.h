@@ -1,8 +1,8 @@
 #pragma once
 
-// The two methods, as steps under a journal that remodel() began. Both leave a constrained Delaunay mesh of the new
-// domain, labelled, with length scales on the boundary; refinement of what was touched is the caller's. Both throw
-// RecoveryError where the new boundary cannot be brought in.
+// The two methods, as steps under a journal that remodel() began. Both leave a constrained Delaunay mesh of
+// the new domain, labelled, with length scales on the boundary; refinement of what was touched is the
+// caller's. Both throw RecoveryError where the new boundary cannot be brought in.
 
 #include "mesh/mesh_data.h"
 #include "remodel/adjust.h"
@@ -12,7 +12,8 @@ namespace remodel {
 
 // The paper's section 4.2 after adjust_all() returned false: adjusts what can be, replaces the rest.
 // Returns the vertices moved in place.
-std::vector<VertexId> replace_where_needed(MeshData& mesh, AdjustCache& cache, const Domain& domain, double distance);
+std::vector<VertexId> replace_where_needed(MeshData& mesh, AdjustCache& cache, const Domain& domain,
+                                           double distance);
 
 // The paper's section 3: replaces all loops that are not the same in both domains.
 void replace_loops(MeshData& mesh, const Domain& domain, double distance);

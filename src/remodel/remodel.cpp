@@ -15,9 +15,12 @@ namespace remodel {
 
 const char* name_of(Method method) {
   switch (method) {
-    case Method::automatic: return "auto";
-    case Method::specialised: return "specialised";
-    case Method::general: return "general";
+    case Method::automatic:
+      return "auto";
+    case Method::specialised:
+      return "specialised";
+    case Method::general:
+      return "general";
   }
   return "unknown";
 }
@@ -127,13 +130,15 @@ std::vector<std::size_t> moving_loops(const Domain& from, const Domain& to) {
   return loops;
 }
 
-// Airfoils whose surfaces cross are refused here, before anything is touched: this is cheap enough for every step.
-// That no other curves cross follows for a full adjustment from its triangles, otherwise from validate().
+// Airfoils whose surfaces cross are refused here, before anything is touched: this is cheap enough for every
+// step. That no other curves cross follows for a full adjustment from its triangles, otherwise from
+// validate().
 void require_surfaces_apart(const Domain& domain) {
   for (std::size_t i = 0; i < domain.curve_count(); ++i)
     if (const auto* airfoil = std::get_if<CstAirfoil>(&domain.curve(i).shape))
       if (!surfaces_apart(*airfoil))
-        throw Error(ErrorCode::geometry, domain.curve(i).name, "the airfoil's surfaces touch or cross; expected upper above lower");
+        throw Error(ErrorCode::geometry, domain.curve(i).name,
+                    "the airfoil's surfaces touch or cross; expected upper above lower");
 }
 
 // The end of a full adjustment. Throws nothing.

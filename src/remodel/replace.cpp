@@ -201,7 +201,8 @@ void restore_outside(MeshData& mesh) {
       Corner c = first;
       do {
         const Triangle& t = triangulation[c.triangle];
-        if (t.region == Region::outside && !t.ghost() && mesh.marks.visit(c.triangle.index)) outside.push_back(c.triangle);
+        if (t.region == Region::outside && !t.ghost() && mesh.marks.visit(c.triangle.index))
+          outside.push_back(c.triangle);
         c = triangulation.counterclockwise(c);
       } while (c.triangle != first.triangle);
       k = mesh.at(k).next;

@@ -1,7 +1,7 @@
 #pragma once
 
-// Removal and replacement: what both methods share once it is known which vertices go and which come. All of it
-// runs under the triangulation's journal.
+// Removal and replacement: what both methods share once it is known which vertices go and which come. All of
+// it runs under the triangulation's journal.
 
 #include <vector>
 
@@ -18,23 +18,24 @@ struct RemovalRegion {
 };
 
 // The interior vertices inside the regions, each once. Changes scratch only. Triangles that a disc meets are
-// connected through edges that it meets, so the search from the centre's triangle finds them all, also where the
-// centre's own triangle has no vertex inside.
+// connected through edges that it meets, so the search from the centre's triangle finds them all, also where
+// the centre's own triangle has no vertex inside.
 std::vector<VertexId> vertices_inside(MeshData& mesh, const std::vector<RemovalRegion>& regions);
 
 // The radius of a region: max(D * distance of the pair, longest distance to the two boundary neighbours).
 double removal_radius(double distance_factor, double pair_distance, Point centre, Point before, Point after);
 
-// Makes the triangles outside the domain at all boundary vertices Delaunay again, which full adjustments do not.
+// Makes the triangles outside the domain at all boundary vertices Delaunay again, which full adjustments do
+// not.
 void restore_outside(MeshData& mesh);
 
 // Inserts a boundary point; an interior vertex that is there already gives way. Throws RecoveryError where a
 // boundary vertex is there.
 VertexId insert_boundary_point(Triangulation& triangulation, Point p, TriangleId hint);
 
-// After all boundary edges were recovered: labels every touched triangle, and any other whose label changes, by
-// the sides of the boundary edges (RecoveryError if these contradict each other); then removes interior vertices outside the domain. Cost proportional to what
-// was touched and what changes its side.
+// After all boundary edges were recovered: labels every touched triangle, and any other whose label changes,
+// by the sides of the boundary edges (RecoveryError if these contradict each other); then removes interior
+// vertices outside the domain. Cost proportional to what was touched and what changes its side.
 void relabel_touched(MeshData& mesh);
 
 }  // namespace remodel

@@ -1,8 +1,8 @@
 // The specialised method's removal and replacement (the paper's section 4.2).
 //
-// Words: a moving vertex is *kept* if it was moved in place, otherwise *lost*: it is removed, and a non-Steiner
-// vertex comes back as a new vertex at its new place. Lost Steiner vertices do not come back: refinement splits
-// the restored segment again where it must.
+// Words: a moving vertex is *kept* if it was moved in place, otherwise *lost*: it is removed, and a
+// non-Steiner vertex comes back as a new vertex at its new place. Lost Steiner vertices do not come back:
+// refinement splits the restored segment again where it must.
 
 #include <algorithm>
 #include <cmath>
@@ -38,8 +38,8 @@ class Replacement {
   bool lost(std::size_t i) const { return !cache_.accepted[i]; }
   const AdjustCache::Moving& moving(std::size_t i) const { return cache_.moving[i]; }
 
-  // What the paper omits: a partial adjustment leaves edges that are not Delaunay, since vertices moved for which
-  // the triangles are good only once their neighbours have moved too. In holes every move does.
+  // What the paper omits: a partial adjustment leaves edges that are not Delaunay, since vertices moved for
+  // which the triangles are good only once their neighbours have moved too. In holes every move does.
   void restore_delaunay() {
     std::vector<TriangleId> affected;
     for (const AdjustCache::Affected& a : cache_.affected) {
@@ -63,7 +63,8 @@ class Replacement {
       const bool left = mesh_.domain_on_left[mesh_.domain.loop_of(m.curve)];
       const std::vector<Point>& outermost = (leftwards > 0.0) == left ? news : olds;
       const double pair = std::sqrt(squared_distance(olds[i], news[i]));
-      const double radius = removal_radius(distance_, pair, outermost[i], outermost[m.before], outermost[m.after]);
+      const double radius =
+          removal_radius(distance_, pair, outermost[i], outermost[m.before], outermost[m.after]);
       result.push_back({outermost[i], radius, triangulation_.star(m.vertex).triangle});
     }
     return result;
@@ -75,7 +76,8 @@ class Replacement {
       const BoundaryVertex& v = mesh_.at(moving(i).boundary);
       for (const std::uint32_t neighbour : {v.previous, v.next}) {
         const auto edge = triangulation_.find_edge(v.vertex, mesh_.at(neighbour).vertex);
-        if (edge && triangulation_.link(*edge).constrained()) triangulation_.release(v.vertex, mesh_.at(neighbour).vertex);
+        if (edge && triangulation_.link(*edge).constrained())
+          triangulation_.release(v.vertex, mesh_.at(neighbour).vertex);
       }
     }
   }
@@ -85,8 +87,10 @@ class Replacement {
       if (!lost(i)) continue;
       const std::uint32_t k = moving(i).boundary;
       triangulation_.remove(mesh_.at(k).vertex);
-      if (i >= cache_.non_steiner) mesh_.remove_boundary_vertex(k);
-      else mesh_.boundary[k].vertex = VertexId{};
+      if (i >= cache_.non_steiner)
+        mesh_.remove_boundary_vertex(k);
+      else
+        mesh_.boundary[k].vertex = VertexId{};
     }
   }
 
@@ -106,7 +110,8 @@ class Replacement {
   TriangleId hint_near(std::uint32_t k) const {
     for (std::uint32_t n = mesh_.at(k).previous; n != k; n = mesh_.at(n).previous)
       if (mesh_.at(n).vertex) return triangulation_.star(mesh_.at(n).vertex).triangle;
-    const std::uint32_t other = mesh_.loop_heads[mesh_.loop_heads.front() == k ? mesh_.loop_heads.size() - 1 : 0];
+    const std::uint32_t other =
+        mesh_.loop_heads[mesh_.loop_heads.front() == k ? mesh_.loop_heads.size() - 1 : 0];
     if (mesh_.at(other).vertex) return triangulation_.star(mesh_.at(other).vertex).triangle;
     std::uint32_t any = 1;
     while (!triangulation_[VertexId{any}].alive()) ++any;
@@ -118,7 +123,9 @@ class Replacement {
     for (const std::size_t loop : cache_.loops) refiner.recover_loop(mesh_.loop_heads[loop]);
   }
 
-  void set_length_scale(std::uint32_t k) { mesh_.set_boundary_length_scale(k, neighbour_length_scale(mesh_, k)); }
+  void set_length_scale(std::uint32_t k) {
+    mesh_.set_boundary_length_scale(k, neighbour_length_scale(mesh_, k));
+  }
 
   MeshData& mesh_;
   Triangulation& triangulation_;
@@ -128,13 +135,15 @@ class Replacement {
 
 }  // namespace
 
-std::vector<VertexId> replace_where_needed(MeshData& mesh, AdjustCache& cache, const Domain& domain, double distance) {
+std::vector<VertexId> replace_where_needed(MeshData& mesh, AdjustCache& cache, const Domain& domain,
+                                           double distance) {
   adjust_some(mesh, cache);
   mesh.domain = domain;
   Replacement(mesh, cache, distance).run();
   std::vector<VertexId> moved;
   for (std::size_t i = 0; i < cache.moving.size(); ++i)
-    if (cache.accepted[i] && !(cache.new_points[i] == cache.old_points[i])) moved.push_back(cache.moving[i].vertex);
+    if (cache.accepted[i] && !(cache.new_points[i] == cache.old_points[i]))
+      moved.push_back(cache.moving[i].vertex);
   return moved;
 }
 

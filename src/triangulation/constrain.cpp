@@ -13,7 +13,8 @@ struct Triangulation::Crossing {
   VertexId right, left;
 };
 
-ConstrainResult Triangulation::find_crossings(VertexId a, VertexId b, std::vector<Crossing>& crossings) const {
+ConstrainResult Triangulation::find_crossings(VertexId a, VertexId b,
+                                              std::vector<Crossing>& crossings) const {
   using Kind = ConstrainResult::Kind;
   const Point pa = point(a), pb = point(b);
   const auto side = [&](VertexId v) { return v == infinite_vertex ? 0 : orient2d(pa, pb, point(v)); };
@@ -22,7 +23,8 @@ ConstrainResult Triangulation::find_crossings(VertexId a, VertexId b, std::vecto
   Corner c = first;
   for (;; c = counterclockwise(c)) {
     const VertexId x = following(c), y = preceding(c);
-    if (x != infinite_vertex && side(x) == 0 && dot(point(x) - pa, pb - pa) > 0.0) return {Kind::vertex, x, {}};
+    if (x != infinite_vertex && side(x) == 0 && dot(point(x) - pa, pb - pa) > 0.0)
+      return {Kind::vertex, x, {}};
     if (x != infinite_vertex && y != infinite_vertex && side(x) < 0 && side(y) > 0) break;
   }
   Corner edge = c;  // crossed: the edge opposite this corner
@@ -35,12 +37,14 @@ ConstrainResult Triangulation::find_crossings(VertexId a, VertexId b, std::vecto
     if (apex == b) return {};
     const int s = side(apex);
     if (s == 0) return {Kind::vertex, apex, {}};
-    // In the neighbour the edge runs left -> right after its corner `apex`; go on through the edge to the other side.
+    // In the neighbour the edge runs left -> right after its corner `apex`; go on through the edge to the
+    // other side.
     edge = {link.triangle(), s > 0 ? next3(link.corner()) : previous3(link.corner())};
   }
 }
 
-// Flips until no edge crosses a-b. An edge whose two triangles do not form a strictly convex quadrilateral waits.
+// Flips until no edge crosses a-b. An edge whose two triangles do not form a strictly convex quadrilateral
+// waits.
 void Triangulation::flip_crossings(VertexId a, VertexId b, std::vector<Crossing>& crossings) {
   std::deque<Crossing> todo(crossings.begin(), crossings.end());
   std::vector<std::pair<VertexId, VertexId>> made;
@@ -55,10 +59,14 @@ void Triangulation::flip_crossings(VertexId a, VertexId b, std::vector<Crossing>
     const Link across = link(c);
     const VertexId p = vertex(c), q = vertex({across.triangle(), across.corner()});
     flip(c);
-    const auto side = [&](VertexId v) { return v == a || v == b ? 0 : orient2d(point(a), point(b), point(v)); };
+    const auto side = [&](VertexId v) {
+      return v == a || v == b ? 0 : orient2d(point(a), point(b), point(v));
+    };
     const int sp = side(p), sq = side(q);
-    if (sp * sq < 0) todo.push_back(sp < 0 ? Crossing{p, q} : Crossing{q, p});
-    else made.emplace_back(p, q);
+    if (sp * sq < 0)
+      todo.push_back(sp < 0 ? Crossing{p, q} : Crossing{q, p});
+    else
+      made.emplace_back(p, q);
   }
   set_constraint(*find_edge(a, b), true);
   stack_.clear();

@@ -1,12 +1,13 @@
 // Insertion of a vertex by cavity (Bowyer 1981, Watson 1981), constraints not crossed.
 //
-// Why the search below needs no marks. Let p be any point, not a vertex. No vertex w of the triangulation has all
-// triangles around it in conflict with p: the triangle at w that holds the direction from p beyond w has its
-// two other corners c1, c2 with w + t (w - p) = a positive combination of c1 - w and c2 - w. If p were strictly
-// inside its circle, p - w and both c - w would lie in the open half plane of the circle's inner normal at w;
-// so would w - p: a contradiction. (Ties count as the symbolic perturbation says and are excluded in the same
-// way.) So the cavity has no inner vertex, and triangles reached through unconstrained edges form a tree. The
-// argument does not ask that p lies in the cavity: a search for a point behind a constraint ends too.
+// Why the search below needs no marks. Let p be any point, not a vertex. No vertex w of the triangulation has
+// all triangles around it in conflict with p: the triangle at w that holds the direction from p beyond w has
+// its two other corners c1, c2 with w + t (w - p) = a positive combination of c1 - w and c2 - w. If p were
+// strictly inside its circle, p - w and both c - w would lie in the open half plane of the circle's inner
+// normal at w; so would w - p: a contradiction. (Ties count as the symbolic perturbation says and are
+// excluded in the same way.) So the cavity has no inner vertex, and triangles reached through unconstrained
+// edges form a tree. The argument does not ask that p lies in the cavity: a search for a point behind a
+// constraint ends too.
 
 #include <cassert>
 
@@ -20,39 +21,28 @@ void Triangulation::find_cavity(Point p, TriangleId start, Cavity& cavity) const
   cavity.triangles.clear();
   cavity.ring.clear();
   cavity.triangles.push_back(start);
-  Corner todo[64];
-  std::vector<Corner> overflow;  // for cavities of unusual depth
-  std::size_t depth = 0;
-  const auto push = [&](Corner c) {
-    if (depth < 64) todo[depth] = c;
-    else overflow.push_back(c);
-    ++depth;
-  };
-  const auto pop = [&] {
-    --depth;
-    if (depth < 64) return todo[depth];
-    const Corner c = overflow.back();
-    overflow.pop_back();
-    return c;
-  };
-  for (int i = 2; i >= 0; --i) push({start, i});
-  while (depth > 0) {
-    const Corner c = pop();
-    const Triangle& inner = triangles_[c.triangle.index];
-    const Link link = inner.link[c.index];
+  std::vector<Link>& todo = cavity.todo;  // edges to be crossed, each as its triangle and opposite corner
+  todo.clear();
+  for (int i = 2; i >= 0; --i) todo.emplace_back(start, i);
+  while (!todo.empty()) {
+    const Link edge = todo.back();
+    todo.pop_back();
+    const Triangle& inner = triangles_[edge.triangle().index];
+    const Link link = inner.link[edge.corner()];
     if (link.constrained() || !in_conflict(link.triangle(), p)) {
-      cavity.ring.push_back({inner.vertex[next3(c.index)], link});
-      prefetch(inner.vertex[next3(c.index)]);
+      cavity.ring.push_back({inner.vertex[next3(edge.corner())], link});
+      prefetch(inner.vertex[next3(edge.corner())]);
       continue;
     }
     cavity.triangles.push_back(link.triangle());
     prefetch(triangles_[link.triangle().index].link[previous3(link.corner())].triangle());
-    push({link.triangle(), previous3(link.corner())});
-    push({link.triangle(), next3(link.corner())});
+    todo.emplace_back(link.triangle(), previous3(link.corner()));
+    todo.emplace_back(link.triangle(), next3(link.corner()));
   }
 }
 
-// New triangle k is (p, from_k, from_k+1); the cavity's own slots are used first, then two more.
+// New triangle k is (p, from_k, from_k+1); the cavity's own slots are used first, then two more. Edges from p
+// are shared by two triangles, and what is computed of them too.
 VertexId Triangulation::fill_cavity(Point p, const Cavity& cavity) {
   const std::size_t n = cavity.ring.size();
   const Region region = triangles_[cavity.triangles.front().index].region;
@@ -60,21 +50,38 @@ VertexId Triangulation::fill_cavity(Point p, const Cavity& cavity) {
   while (new_star_.size() < n) new_star_.push_back(new_triangle());
   assert(new_star_.size() == n);
   const VertexId v = new_vertex(p);
+  spokes_.resize(n);
   for (std::size_t k = 0; k < n; ++k) {
+    const Point e = point(cavity.ring[k].from) - p;
+    spokes_[k] = {e, dot(e, e)};
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t next = k + 1 == n ? 0 : k + 1;
     const TriangleId t = new_star_[k];
     const RingEdge& edge = cavity.ring[k];
-    write(t, v, edge.from, cavity.ring[k + 1 == n ? 0 : k + 1].from, region);
-    Triangle& triangle = triangles_[t.index];
+    Triangle& triangle = edit(t);
+    triangle.vertex[0] = v;
+    triangle.vertex[1] = edge.from;
+    triangle.vertex[2] = cavity.ring[next].from;
     triangle.link[0] = edge.outer;
-    triangle.link[1] = Link(new_star_[k + 1 == n ? 0 : k + 1], 2);
+    triangle.link[1] = Link(new_star_[next], 2);
     triangle.link[2] = Link(new_star_[k == 0 ? n - 1 : k - 1], 1);
+    triangle.circle = edge.from == infinite_vertex || cavity.ring[next].from == infinite_vertex
+                          ? Circle{}
+                          : certified_circle(p, spokes_[k].edge, spokes_[next].edge,
+                                             spokes_[k].squared_length, spokes_[next].squared_length);
+    triangle.birth = step_;
+    triangle.region = region;
+    triangle.badness = 0;
     edit(edge.outer.triangle()).link[edge.outer.corner()] = Link(t, 0, edge.outer.constrained());
+    set_star(edge.from, t, 1);
   }
+  set_star(v, new_star_[0], 0);
   return v;
 }
 
-// Whether p lies in the closed triangle, not at a corner and not on a constrained edge; for a ghost, beyond its
-// hull edge.
+// Whether p lies in the closed triangle, not at a corner and not on a constrained edge; for a ghost, beyond
+// its hull edge.
 bool Triangulation::holds(TriangleId t, Point p) const {
   const Triangle& triangle = triangles_[t.index];
   if (triangle.ghost()) return in_conflict_exact(triangle, p);
@@ -101,8 +108,8 @@ void append_side(const Cavity& side, Link edge, Cavity& whole) {
 }  // namespace
 
 // The cavity is one on each side of a-b. On the side of p it starts at p's own triangle. On the other side it
-// starts at the triangle next to the edge if p is in its circle; if not, that triangle stays, and the only new
-// one there is (p, a, b), which now lies on its side of the boundary.
+// starts at the triangle next to the edge if p is in its circle; if not, that triangle stays, and the only
+// new one there is (p, a, b), which now lies on its side of the boundary.
 std::optional<VertexId> Triangulation::split(Corner edge, Point p) {
   Corner other{link(edge).triangle(), link(edge).corner()};
   const int side = orient2d(point(following(edge)), point(preceding(edge)), p);

@@ -7,8 +7,8 @@
 
 namespace remodel {
 
-// The first change of a triangle since begin(). A record's mark from an earlier journal means nothing; outside
-// of journals marks are not kept up.
+// The first change of a triangle since begin(). A record's mark from an earlier journal means nothing;
+// outside of journals marks are not kept up.
 void Triangulation::remember(TriangleId t) {
   if (!journalling_) return;
   if (t.index < triangle_slots_before_) {

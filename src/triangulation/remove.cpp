@@ -1,5 +1,6 @@
 // Removal of a vertex: its star is retriangulated by clipping ears in Delaunay order (after O. Devillers, "On
-// deletion in Delaunay triangulations", 1999; the degree of a vertex is about six, so ears are found by looking).
+// deletion in Delaunay triangulations", 1999; the degree of a vertex is about six, so ears are found by
+// looking).
 
 #include <cassert>
 
@@ -16,8 +17,12 @@ struct Triangulation::StarEdge {
 
 namespace {
 
-std::size_t before(std::size_t i, std::size_t n) { return i == 0 ? n - 1 : i - 1; }
-std::size_t after(std::size_t i, std::size_t n) { return i + 1 == n ? 0 : i + 1; }
+std::size_t before(std::size_t i, std::size_t n) {
+  return i == 0 ? n - 1 : i - 1;
+}
+std::size_t after(std::size_t i, std::size_t n) {
+  return i + 1 == n ? 0 : i + 1;
+}
 
 }  // namespace
 
@@ -47,8 +52,8 @@ std::size_t Triangulation::find_ear(const std::vector<StarEdge>& polygon, bool d
   return i;
 }
 
-// Writes the ear's triangle (before, i, after) into slot; the polygon's new edge before -> after gets it as its
-// outer triangle.
+// Writes the ear's triangle (before, i, after) into slot; the polygon's new edge before -> after gets it as
+// its outer triangle.
 void Triangulation::clip_ear(std::vector<StarEdge>& polygon, std::size_t i, TriangleId slot, Region region) {
   const std::size_t n = polygon.size(), p = before(i, n), s = after(i, n);
   const auto attach = [this](Corner inner, Link outer) {
@@ -78,7 +83,8 @@ void Triangulation::remove(VertexId v) {
     c = counterclockwise(c);
   } while (c.triangle != first.triangle);
 
-  std::vector<TriangleId> uncertain;  // triangles of ears that only a constraint behind the polygon makes Delaunay
+  std::vector<TriangleId>
+      uncertain;  // triangles of ears that only a constraint behind the polygon makes Delaunay
   std::size_t used = 0;
   while (polygon.size() >= 3) {
     const bool last = polygon.size() == 3;

@@ -5,7 +5,8 @@
 namespace remodel {
 
 TriangulationState TriangulationState::of(const Triangulation& t) {
-  TriangulationState state{t.vertices_, t.generations_, t.triangles_, t.free_vertices_.slots, t.free_triangles_.slots};
+  TriangulationState state{t.vertices_, t.generations_, t.triangles_, t.free_vertices_.slots,
+                           t.free_triangles_.slots};
   const auto as_committed = [](const Triangulation::FreeList& list, std::vector<std::uint32_t>& slots) {
     slots.resize(list.count);
     slots.insert(slots.end(), list.pending.begin(), list.pending.end());
@@ -46,8 +47,10 @@ std::string TriangulationState::check_ranges() const {
     }
     return list.size() == dead;
   };
-  if (!lists_dead(free_vertices, dead_vertices, vertices)) return "free vertex list does not match the free slots";
-  if (!lists_dead(free_triangles, dead_triangles, triangles)) return "free triangle list does not match the free slots";
+  if (!lists_dead(free_vertices, dead_vertices, vertices))
+    return "free vertex list does not match the free slots";
+  if (!lists_dead(free_triangles, dead_triangles, triangles))
+    return "free triangle list does not match the free slots";
   return {};
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// The records of the triangulation and how they refer to each other. A triangle is one 64-byte cache line: its
-// vertices, its neighbours and a certified circle, so that most conflict tests touch nothing else.
+// The records of the triangulation and how they refer to each other. A triangle is one 64-byte cache line:
+// its vertices, its neighbours and a certified circle, so that most conflict tests touch nothing else.
 
 #include <cstdint>
 #include <limits>
@@ -14,17 +14,22 @@ namespace remodel {
 // The vertex at infinity: corner of every ghost triangle, which lie outside the convex hull, one a hull edge.
 inline constexpr VertexId infinite_vertex{0};
 
-inline constexpr int next3(int i) { return i == 2 ? 0 : i + 1; }
-inline constexpr int previous3(int i) { return i == 0 ? 2 : i - 1; }
+inline constexpr int next3(int i) {
+  return i == 2 ? 0 : i + 1;
+}
+inline constexpr int previous3(int i) {
+  return i == 0 ? 2 : i - 1;
+}
 
-// A triangle together with one of its three corners, or, which is the same pair, the edge opposite that corner.
+// A triangle together with one of its three corners, or, which is the same pair, the edge opposite that
+// corner.
 struct Corner {
   TriangleId triangle;
   int index = 0;
 };
 
-// What a triangle stores about the edge opposite one of its corners: the same edge seen from the neighbour, and
-// whether the edge is constrained. Packed as triangle * 8 + constrained * 4 + corner.
+// What a triangle stores about the edge opposite one of its corners: the same edge seen from the neighbour,
+// and whether the edge is constrained. Packed as triangle * 8 + constrained * 4 + corner.
 struct Link {
   std::uint32_t bits = no_index;
 
@@ -42,14 +47,14 @@ struct Link {
   friend bool operator==(Link, Link) = default;
 };
 
-// Labels of the two sides of a boundary. Void is the inside of a hole or the outside of everything: triangulated
-// too, but no part of the domain.
+// Labels of the two sides of a boundary. Void is the inside of a hole or the outside of everything:
+// triangulated too, but no part of the domain.
 enum class Region : std::uint8_t { outside = 0, domain = 1, unknown = 255 };
 
 // A circumcircle in floating point that says what it is sure of. Made by certified_circle().
 struct Circle {
-  Point centre;           // rounded
-  double inside = -1.0;   // a squared distance from centre below this is certainly inside the true circle
+  Point centre;          // rounded
+  double inside = -1.0;  // a squared distance from centre below this is certainly inside the true circle
   double outside = std::numeric_limits<double>::infinity();  // above this certainly outside
 
   // Infinite where nothing is certain: slivers, ghosts.
@@ -57,14 +62,17 @@ struct Circle {
   bool certain() const { return inside > 0.0; }  // then its triangle is certainly counter-clockwise too
 };
 Circle certified_circle(Point a, Point b, Point c);
+// The same from a, the edges e1 = b - a and e2 = c - a as rounded, and their squared lengths.
+Circle certified_circle(Point a, Point e1, Point e2, double l1, double l2);
 
 struct alignas(64) Triangle {
-  VertexId vertex[3];  // counter-clockwise; a ghost has infinite_vertex among them; a free slot has no vertex[0]
-  Link link[3];        // link[i]: across the edge vertex[i+1] -> vertex[i+2]
+  VertexId
+      vertex[3];  // counter-clockwise; a ghost has infinite_vertex among them; a free slot has no vertex[0]
+  Link link[3];   // link[i]: across the edge vertex[i+1] -> vertex[i+2]
   Circle circle;
   std::uint32_t birth = 0;  // the step that made this triangle: with the id it names a triangle for ever
   Region region = Region::outside;
-  std::uint8_t badness = 0;  // used by refinement while it runs: 0 when no refinement is under way
+  std::uint8_t badness = 0;   // used by refinement while it runs: 0 when no refinement is under way
   std::uint16_t journal = 0;  // the journal that holds this triangle's earlier state
 
   bool alive() const { return static_cast<bool>(vertex[0]); }
@@ -77,9 +85,9 @@ static_assert(sizeof(Triangle) == 64);
 
 struct Vertex {
   Point point;
-  double length_scale = 0.0;         // of the layer above; never read by the triangulation
-  Link star;                         // a triangle at this vertex and the vertex's corner in it; none: free slot
-  std::uint32_t boundary = no_index; // of the layer above: index of its boundary record
+  double length_scale = 0.0;  // of the layer above; never read by the triangulation
+  Link star;                  // a triangle at this vertex and the vertex's corner in it; none: free slot
+  std::uint32_t boundary = no_index;  // of the layer above: index of its boundary record
 
   bool alive() const { return star.bits != no_index; }
 };

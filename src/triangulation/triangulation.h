@@ -12,8 +12,8 @@
 //      it with restore_delaunay() before they insert or remove.
 //  (4) Every vertex's star is a triangle that has it.
 //
-// Changes between begin() and commit() are journalled: rollback() takes them back in time proportional to their
-// number, to the last bit.
+// Changes between begin() and commit() are journalled: rollback() takes them back in time proportional to
+// their number, to the last bit.
 
 #include <cstddef>
 #include <optional>
@@ -34,6 +34,7 @@ struct RingEdge {
 struct Cavity {
   std::vector<TriangleId> triangles;
   std::vector<RingEdge> ring;
+  std::vector<Link> todo;  // scratch of the search
 };
 
 struct Location {
@@ -54,15 +55,18 @@ struct ConstrainResult {
 class Triangulation {
  public:
   // ---- reading
-  std::size_t vertex_slots() const { return vertices_.size(); }      // slot 0 is the infinite vertex
+  std::size_t vertex_slots() const { return vertices_.size(); }  // slot 0 is the infinite vertex
   std::size_t triangle_slots() const { return triangles_.size(); }
-  std::size_t vertex_count() const { return live_vertices_; }        // finite
+  std::size_t vertex_count() const { return live_vertices_; }  // finite
   const Vertex& operator[](VertexId v) const { return vertices_[v.index]; }
   const Triangle& operator[](TriangleId t) const { return triangles_[t.index]; }
   Point point(VertexId v) const { return vertices_[v.index].point; }
-  std::uint32_t generation(VertexId v) const { return generations_[v.index]; }  // how often the id was given out
+  std::uint32_t generation(VertexId v) const {
+    return generations_[v.index];
+  }  // how often the id was given out
 
-  // Starts to load what a search from a triangle will need: the triangle itself, or its neighbours and vertices.
+  // Starts to load what a search from a triangle will need: the triangle itself, or its neighbours and
+  // vertices.
   void prefetch(TriangleId t) const { __builtin_prefetch(&triangles_[t.index]); }
   void prefetch(VertexId v) const { __builtin_prefetch(&vertices_[v.index]); }
   void prefetch_around(TriangleId t) const {
@@ -101,15 +105,15 @@ class Triangulation {
 
   // Collects the cavity of p from a triangle in conflict with it. Read only.
   void find_cavity(Point p, TriangleId start, Cavity& cavity) const;
-  // Replaces the cavity by the star of a new vertex at p. Precondition: every ring edge is seen from p, strictly
-  // from its left. Invalidates the cavity's triangles; new_star() lists the new ones.
+  // Replaces the cavity by the star of a new vertex at p. Precondition: every ring edge is seen from p,
+  // strictly from its left. Invalidates the cavity's triangles; new_star() lists the new ones.
   VertexId fill_cavity(Point p, const Cavity& cavity);
   std::span<const TriangleId> new_star() const { return new_star_; }
 
-  // Replaces a constrained edge a-b, given by a corner opposite it, by a-p and p-b, both constrained; the regions
-  // on both sides stay on their sides. p need not lie on the edge (boundaries are curved), but it must lie in
-  // one of the two triangles next to it, and not on a vertex: otherwise nothing is changed and there is no
-  // result. new_star() lists the new triangles.
+  // Replaces a constrained edge a-b, given by a corner opposite it, by a-p and p-b, both constrained; the
+  // regions on both sides stay on their sides. p need not lie on the edge (boundaries are curved), but it
+  // must lie in one of the two triangles next to it, and not on a vertex: otherwise nothing is changed and
+  // there is no result. new_star() lists the new triangles.
   std::optional<VertexId> split(Corner edge, Point p);
   // Inserts p; a vertex that is already at p is returned instead. A constrained edge that p lies on is split.
   struct Inserted {
@@ -148,8 +152,8 @@ class Triangulation {
   void commit();
   void rollback();
   bool journalling() const { return journalling_; }
-  // The triangle slots changed since begin(), new ones included, each once, in the order of their first change;
-  // and the earlier state of those that were there at begin(). Both lists grow with every change.
+  // The triangle slots changed since begin(), new ones included, each once, in the order of their first
+  // change; and the earlier state of those that were there at begin(). Both lists grow with every change.
   struct Earlier {
     TriangleId id;
     Triangle triangle;
@@ -222,7 +226,7 @@ class Triangulation {
 
   bool journalling_ = false;
   std::uint16_t journals_ = 0;  // the last one's number
-  std::uint16_t journal_ = 0;  // of the journal under way; 0, as in records of new slots, when there is none
+  std::uint16_t journal_ = 0;   // of the journal under way; 0, as in records of new slots, when there is none
   struct VertexBefore {
     VertexId id;
     Vertex vertex;
@@ -234,6 +238,11 @@ class Triangulation {
   std::size_t vertex_slots_before_ = 0, triangle_slots_before_ = 0, live_vertices_before_ = 0;
   std::uint32_t inserted_ = 0, removed_ = 0;
 
+  struct Spoke {
+    Point edge;
+    double squared_length;
+  };
+  std::vector<Spoke> spokes_;  // scratch of fill_cavity
   std::vector<TriangleId> new_star_;
   Cavity cavity_;
   std::vector<Corner> stack_;

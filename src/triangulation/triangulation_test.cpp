@@ -42,22 +42,27 @@ TriangleId any_triangle(const Triangulation& t) {
 Point random_point(std::mt19937_64& random, int family) {
   const auto whole = [&](int n) { return static_cast<double>(random() % static_cast<unsigned>(n)); };
   switch (family) {
-    case 0: return {whole(1 << 20) / (1 << 20), whole(1 << 20) / (1 << 20)};
-    case 1: return {whole(12), whole(12)};                      // grid: cocircular and collinear by the dozen
-    case 2: {                                                   // integer points of the circle of radius 65^2
+    case 0:
+      return {whole(1 << 20) / (1 << 20), whole(1 << 20) / (1 << 20)};
+    case 1:
+      return {whole(12), whole(12)};  // grid: cocircular and collinear by the dozen
+    case 2: {                         // integer points of the circle of radius 65^2
       static const std::array<std::array<int, 2>, 5> pairs{{{16, 63}, {33, 56}, {39, 52}, {25, 60}, {65, 0}}};
       const auto& pair = pairs[random() % 5];
       const double sx = random() % 2 ? 1 : -1, sy = random() % 2 ? 1 : -1;
       return random() % 2 ? Point{sx * pair[0], sy * pair[1]} : Point{sx * pair[1], sy * pair[0]};
     }
-    case 3: return {whole(2000), whole(3) * 0x1p-40};           // nearly collinear
-    default: return {1.0 + whole(8) * 0x1p-52, 1.0 + whole(8) * 0x1p-52};  // a grid of ulps
+    case 3:
+      return {whole(2000), whole(3) * 0x1p-40};  // nearly collinear
+    default:
+      return {1.0 + whole(8) * 0x1p-52, 1.0 + whole(8) * 0x1p-52};  // a grid of ulps
   }
 }
 
 Triangulation started(std::mt19937_64& random, int family) {
   for (;;) {
-    const Point a = random_point(random, family), b = random_point(random, family), c = random_point(random, family);
+    const Point a = random_point(random, family), b = random_point(random, family),
+                c = random_point(random, family);
     if (orient2d(a, b, c) == 0) continue;
     Triangulation t;
     t.start(a, b, c);
@@ -197,7 +202,9 @@ TEST(Constraints, OfRandomSegmentsAreKeptThroughInsertionAndRemoval) {
     if (family == 0)
       for (const auto& [a, b] : segments) {
         const auto edge = t.find_edge(a, b);
-        if (edge) { EXPECT_TRUE(t.link(*edge).constrained()); }
+        if (edge) {
+          EXPECT_TRUE(t.link(*edge).constrained());
+        }
       }
     for (const auto& [a, b] : segments)
       if (t.find_edge(a, b)) t.release(a, b);

@@ -1,0 +1,18 @@
+// Coordinate files: Selig and Lednicer order.
+
+#include "fuzz.h"
+#include "remodel/airfoil.h"
+
+using namespace remodel;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    const AirfoilCoordinates coordinates = parse_airfoil(fuzz::text_of(data, size), "input");
+    fuzz::require(coordinates.upper.size() >= 3 && coordinates.lower.size() >= 3,
+                  "fewer than three points accepted");
+    const CstFit fit = fit_cst(coordinates, 2 + static_cast<int>(size % 5));
+    surfaces_apart(fit.airfoil);
+  } catch (const Error&) {
+  }
+  return 0;
+}

@@ -1,0 +1,76 @@
+// Writes the inputs that the fuzzers start from: one directory a target below the given one.
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+#include "remodel/generate.h"
+#include "remodel/io.h"
+
+using namespace remodel;
+
+namespace {
+
+std::string selig(const AirfoilCoordinates& coordinates) {
+  std::string text = coordinates.name + "\n";
+  const auto add = [&](Point p) {
+    char line[64];
+    std::snprintf(line, sizeof line, "%.6f %.6f\n", p.x, p.y);
+    text += line;
+  };
+  for (auto p = coordinates.upper.rbegin(); p != coordinates.upper.rend(); p += 8) {
+    add(*p);
+    if (coordinates.upper.rend() - p <= 8) break;
+  }
+  for (std::size_t i = 0; i < coordinates.lower.size(); i += 8) add(coordinates.lower[i]);
+  return text;
+}
+
+Domain square_with_arc() {
+  const Polyline square{{{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}}};
+  return {{{LoopRole::outer, {{"wall", square, {0, 0.25, 0.5, 0.75}}}},
+           {LoopRole::hole, {{"hole", Arc{{2, 2}, 1, 0, 6.283185307179586}, {0, 0.25, 0.5, 0.75}}}}}};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  const std::filesystem::path root = argv[1];
+  for (const char* target : {"airfoil_text", "airfoil_json", "domain_json", "su2", "msh", "vtu", "vtkhdf",
+                             "mesh_state", "kernel", "remodel"})
+    std::filesystem::create_directories(root / target);
+
+  for (const char* digits : {"0012", "4415", "23012"})
+    write_text_atomically(root / "airfoil_text" / (std::string("naca") + digits),
+                          selig(naca_airfoil(digits)));
+  for (const CatalogueEntry& entry : airfoil_catalogue()) {
+    const CstAirfoil airfoil = entry.airfoil();
+    write_text_atomically(root / "airfoil_json" / std::string(entry.name), airfoil_to_json(airfoil));
+    write_text_atomically(
+        root / "domain_json" / std::string(entry.name),
+        domain_to_json(airfoil_domain(airfoil, {.points = 8, .farfield_radius = 2, .farfield_points = 8})));
+  }
+  write_text_atomically(root / "domain_json" / "square", domain_to_json(square_with_arc()));
+
+  const Mesh mesh = generate(square_with_arc(), {.min_angle_deg = 20, .gradation = 8}).mesh;
+  for (const char* extension : {"su2", "msh", "vtu", "vtkhdf"}) {
+    const auto file = root / extension / (std::string("mesh.") + extension);
+    write_mesh(mesh, file);
+    if (std::string(extension) == "vtkhdf") {
+      write_mesh(mesh.freeze(), root / extension / "frozen.vtkhdf");
+      const std::string sealed =
+          read_text(file);  // without its seal the reader lets HDF5 look at what is damaged
+      write_text_atomically(root / extension / "unsealed.vtkhdf",
+                            std::string_view(sealed).substr(0, sealed.size() - 16));
+    }
+  }
+  write_mesh(mesh.freeze(), root / "msh" / "mesh22.msh", {.msh_version = 22});
+  for (unsigned i = 0; i < 8; ++i) {
+    std::string bytes;
+    for (unsigned k = 0; k < 120; ++k) bytes += static_cast<char>((i * 97 + k * k * 31 + k * 7) % 251);
+    for (const char* target : {"kernel", "remodel", "mesh_state"})
+      write_text_atomically(root / target / ("walk" + std::to_string(i)), bytes);
+  }
+  return 0;
+}
