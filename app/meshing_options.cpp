@@ -35,7 +35,7 @@ void add_quality(CLI::App& app, MeshingOptions& options) {
             "Largest circumradius over mean length scale of a triangle: above 0, no unit"},
            {.low = 0.0, .above_low = true}, [&](double value) { quality.max_gradation = value; });
   add_integer(app,
-              {"--max-vertices", "N", "50000000",
+              {"--max-vertices", "N", "10000000",
                "Vertex budget: generation stops there with exit status 3; 100 to 1000000000"},
               {.low = 100, .high = 1'000'000'000},
               [&](std::int64_t value) { quality.max_vertices = static_cast<std::uint32_t>(value); });

@@ -19,7 +19,7 @@ struct QualityOptions {
   double max_gradation = 0.70710678118654752;  // H: r / mean length scale of a triangle's vertices; > 0
   double gradation = 4.0;   // G: length scale grows by distance / G away from the boundary; > 0
   double resolution = 1.0;  // R: boundary length scale is the distance to the nearest neighbour / R; > 0
-  std::uint32_t max_vertices = 50'000'000;  // vertex budget
+  std::uint32_t max_vertices = 10'000'000;  // vertex budget
   double min_edge = 0.0;  // no edge is split that is shorter than this, chords; 0: 1e-12 of the domain's size
   friend bool operator==(const QualityOptions&, const QualityOptions&) = default;
 };

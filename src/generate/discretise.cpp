@@ -24,14 +24,30 @@ void start(MeshData& mesh, const std::vector<std::vector<BoundaryStation>>& loop
   throw RecoveryError("all boundary points lie on one line");
 }
 
+// Every other of the points so far missing, coarse to fine: 0, then n/2, n/4, 3n/4, and so on. In the order of the
+// loop each point would see, and refill, all of the triangles between the first points and the last.
+std::vector<std::size_t> coarse_to_fine(std::size_t n) {
+  std::size_t stride = 1;
+  while (stride < n) stride *= 2;
+  std::vector<std::size_t> order{0};
+  for (; stride > 1; stride /= 2)
+    for (std::size_t i = stride / 2; i < n; i += stride) order.push_back(i);
+  return order;
+}
+
 void insert_loop(MeshData& mesh, const std::vector<BoundaryStation>& stations) {
-  std::uint32_t previous = no_index;
+  std::vector<VertexId> vertices(stations.size());
   TriangleId hint = mesh.triangulation.star(VertexId{1}).triangle;
-  for (const BoundaryStation& station : stations) {
-    const VertexId v = mesh.triangulation.insert(mesh.domain.at(station), hint).vertex;
-    hint = mesh.triangulation.star(v).triangle;
-    const BoundaryVertex vertex{
-        .vertex = v, .curve = static_cast<std::uint32_t>(station.curve), .t = station.t};
+  for (const std::size_t i : coarse_to_fine(stations.size())) {
+    // The nearest point before i that is in: i with its last bit cleared.
+    if (i > 0) hint = mesh.triangulation.star(vertices[i & (i - 1)]).triangle;
+    vertices[i] = mesh.triangulation.insert(mesh.domain.at(stations[i]), hint).vertex;
+  }
+  std::uint32_t previous = no_index;
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    const BoundaryVertex vertex{.vertex = vertices[i],
+                                .curve = static_cast<std::uint32_t>(stations[i].curve),
+                                .t = stations[i].t};
     const std::uint32_t k = mesh.add_boundary_vertex(vertex, previous);
     if (previous == no_index) mesh.loop_heads.push_back(k);
     previous = k;
