@@ -183,7 +183,7 @@ void Refiner::split(Segment segment, int depth) {
   if (!near) {
     recover(a, v, depth);
     recover(v, b, depth);
-    if (labelled_) clear_outside();
+    if (labelled_ && depth == 0) clear_outside();  // further down, edges of the splits above are missing
   }
   double scale = std::numeric_limits<double>::infinity();
   const double to_a = std::sqrt(squared_distance(triangulation_.point(a), p));
