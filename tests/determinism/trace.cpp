@@ -1,0 +1,165 @@
+// What must be the same bytes with every compiler, every optimisation level and any number of threads: a
+// generated mesh, and chains of remodellings by both methods. Needs no more of the library than the layers up
+// to remodel.
+//
+//   trace          prints the states: one hash a step, the first and the last mesh in full
+//   trace threads  runs chains on several threads at once and one after the other: exit status 1 if they
+//   differ
+
+#include <bit>
+#include <cinttypes>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "remodel/airfoil.h"
+#include "remodel/domain.h"
+#include "remodel/error.h"
+#include "remodel/generate.h"
+#include "remodel/remodel.h"
+
+namespace {
+
+using namespace remodel;
+
+// Knuth's MMIX generator: multiples of 2^-24 in [-1, 1).
+class Chance {
+ public:
+  explicit Chance(std::uint64_t seed) : state_(seed) {}
+  double operator()() {
+    state_ = state_ * 6364136223846793005U + 1442695040888963407U;
+    return static_cast<double>(state_ >> 39) * 0x1p-24 - 1.0;
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+// Every array of the state under its name, doubles as their bits.
+void visit(const MeshState& state,
+           const std::function<void(const char*, const std::vector<std::uint64_t>&)>& each) {
+  const auto show = [&](const char* name, const auto& values) {
+    std::vector<std::uint64_t> words;
+    for (const auto value : values) {
+      if constexpr (sizeof value == 8) {
+        words.push_back(std::bit_cast<std::uint64_t>(value));
+      } else {
+        words.push_back(std::bit_cast<std::uint32_t>(value));
+      }
+    }
+    each(name, words);
+  };
+  show("coordinates", state.coordinates);
+  show("length_scales", state.length_scales);
+  show("vertex_stars", state.vertex_stars);
+  show("vertex_generations", state.vertex_generations);
+  show("vertex_curves", state.vertex_curves);
+  show("vertex_parameters", state.vertex_parameters);
+  show("vertex_scale_factors", state.vertex_scale_factors);
+  show("triangle_vertices", state.triangle_vertices);
+  show("triangle_links", state.triangle_links);
+  show("triangle_regions", state.triangle_regions);
+  show("triangle_births", state.triangle_births);
+  show("free_vertices", state.free_vertices);
+  show("free_triangles", state.free_triangles);
+}
+
+std::uint64_t hash_of(const MeshState& state) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  visit(state, [&](const char*, const std::vector<std::uint64_t>& words) {
+    for (const std::uint64_t word : words) hash = (hash ^ word) * 0x100000001b3U;
+    hash = (hash ^ words.size()) * 0x100000001b3U;
+  });
+  return hash;
+}
+
+void print_in_full(const MeshState& state) {
+  visit(state, [](const char* name, const std::vector<std::uint64_t>& words) {
+    std::printf("%s %zu\n", name, words.size());
+    for (const std::uint64_t word : words) std::printf("%" PRIx64 "\n", word);
+  });
+}
+
+struct Chain {
+  std::uint64_t seed;
+  int points;
+  int steps;
+  Method method;
+};
+
+CstAirfoil design_about(const CstAirfoil& centre, Chance& chance, double size) {
+  CstAirfoil design = centre;
+  for (auto* surface : {&design.upper, &design.lower})
+    for (double& coefficient : *surface) coefficient += size * chance();
+  return design;
+}
+
+// A walk from one airfoil of the catalogue to the next, with small and large steps and returns. Calls each
+// for the first mesh and after every step.
+Mesh run(const Chain& chain, const std::function<void(const Mesh&)>& each) {
+  const std::vector<CatalogueEntry>& airfoils = airfoil_catalogue();
+  const AirfoilDomainOptions options{.points = chain.points};
+  Chance chance(chain.seed);
+  CstAirfoil centre = airfoils[chain.seed % airfoils.size()].airfoil();
+  Mesh mesh = generate(airfoil_domain(centre, options), {.gradation = chain.points / 50.0}).mesh;
+  each(mesh);
+  for (int i = 1; i <= chain.steps; ++i) {
+    if (i % 40 == 0) centre = airfoils[(chain.seed + static_cast<unsigned>(i)) % airfoils.size()].airfoil();
+    const CstAirfoil design = design_about(centre, chance, i % 3 == 0 ? 0.05 : 0.005);
+    if (surfaces_apart(design))
+      remodel::remodel(mesh, airfoil_domain(design, options), {.method = chain.method});
+    each(mesh);
+  }
+  return mesh;
+}
+
+int print_chains() {
+  for (const Chain& chain : {Chain{1, 100, 200, Method::automatic}, Chain{5, 60, 60, Method::general}}) {
+    bool first = true;
+    const Mesh last = run(chain, [&](const Mesh& mesh) {
+      const MeshState state = mesh.state();
+      if (first) print_in_full(state);
+      first = false;
+      std::printf("step %u: %zu triangles, %016" PRIx64 "\n", mesh.step(), mesh.triangle_count(),
+                  hash_of(state));
+    });
+    print_in_full(last.state());
+  }
+  return 0;
+}
+
+int compare_threads() {
+  const std::vector<Chain> chains = {{1, 60, 60, Method::automatic},
+                                     {2, 60, 60, Method::general},
+                                     {1, 60, 60, Method::automatic},
+                                     {7, 100, 40, Method::automatic}};
+  const auto hashes_of = [](const Chain& chain) {
+    std::vector<std::uint64_t> hashes;
+    run(chain, [&](const Mesh& mesh) { hashes.push_back(hash_of(mesh.state())); });
+    return hashes;
+  };
+  std::vector<std::vector<std::uint64_t>> together(chains.size()), alone;
+  {
+    std::vector<std::jthread> threads;
+    for (std::size_t i = 0; i < chains.size(); ++i)
+      threads.emplace_back([&, i] { together[i] = hashes_of(chains[i]); });
+  }
+  for (const Chain& chain : chains) alone.push_back(hashes_of(chain));
+  const bool same = together == alone && alone[0] == alone[2];
+  std::printf("%zu chains at once: %s\n", chains.size(),
+              same ? "the same bytes as one after the other" : "OTHER BYTES");
+  return same ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  return argc > 1 && std::strcmp(argv[1], "threads") == 0 ? compare_threads() : print_chains();
+} catch (const remodel::Error& error) {
+  std::fprintf(stderr, "trace: %s\n", error.what());
+  return 2;
+}
