@@ -209,9 +209,18 @@ class LoopReplacement {
     }
   }
 
+  // A vertex that both models share (the trailing edge, often) keeps triangles from before the step, but not its
+  // length scale: they count as touched, so that refinement judges them anew.
   void set_length_scales(std::uint32_t head) {
     walk(head, [&](std::uint32_t k) {
-      if (!mesh_.at(k).steiner) mesh_.set_boundary_length_scale(k, neighbour_length_scale(mesh_, k));
+      if (mesh_.at(k).steiner) return;
+      mesh_.set_boundary_length_scale(k, neighbour_length_scale(mesh_, k));
+      const Corner first = triangulation_.star(mesh_.at(k).vertex);
+      Corner c = first;
+      do {
+        triangulation_.refresh_circle(c.triangle);
+        c = triangulation_.counterclockwise(c);
+      } while (c.triangle != first.triangle);
     });
   }
 
