@@ -183,7 +183,8 @@ void Refiner::split(Segment segment, int depth) {
   if (!near) {
     recover(a, v, depth);
     recover(v, b, depth);
-    if (labelled_ && depth == 0) clear_outside();  // further down, edges of the splits above are missing
+    if (labelled_ && depth == 0)
+      clear_outside();  // deeper: the edges that asked for this split are not there yet
   }
   double scale = std::numeric_limits<double>::infinity();
   const double to_a = std::sqrt(squared_distance(triangulation_.point(a), p));
@@ -200,7 +201,7 @@ void Refiner::split(Segment segment, int depth) {
     c = triangulation_.counterclockwise(c);
   } while (c.triangle != first.triangle);
   mesh_.set_boundary_length_scale(k, scale);
-  if (labelled_) consider_star(v);
+  if (labelled_ && depth == 0) consider_star(v);
 }
 
 void Refiner::consider_star(VertexId v) {

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <set>
 
@@ -80,33 +79,32 @@ TEST(MeshFiles, AnUnknownExtensionListsTheKnownOnes) {
             "mesh: no extension found, .vtkhdf, .su2, .msh or .vtu expected");
 }
 
-TEST(MeshFiles, ALargeMeshIsWrittenAndReadInWellUnderASecond) {
+TEST(MeshFiles, ALargeMeshKeepsItsTriangles) {
   const Scratch scratch;
   const FrozenMesh mesh = test::graded_ring(275, 100);  // 55,000 triangles
   for (const auto& target : targets) {
-    const auto start = std::chrono::steady_clock::now();
     write_mesh(mesh, scratch / target.name, target.options);
-    const auto written = std::chrono::steady_clock::now();
-    EXPECT_EQ(read_frozen_mesh(scratch / target.name).triangles.size(), 55000U);
-    const auto read = std::chrono::steady_clock::now();
-    const auto ms = [](auto duration) { return std::chrono::duration<double, std::milli>(duration).count(); };
-    std::printf("%-9s version %d: written in %.0f ms, read in %.0f ms\n", target.name,
-                target.options.msh_version, ms(written - start), ms(read - written));
-    EXPECT_LT(ms(read - start), 5000.0);  // generous: other work may share the machine
+    EXPECT_EQ(read_frozen_mesh(scratch / target.name).triangles, mesh.triangles);
   }
 }
 
 // ---------------------------------------------------------------------------------------- foreign meshes
 
-TEST(ForeignMeshes, TrianglesAreTurnedCounterClockwiseAndEdgesDomainLeftInLoopOrder) {
+TEST(ForeignMeshes, WrittenClockwiseAreTurnedAndEdgesPutDomainLeftInLoopOrder) {
   FrozenMesh mesh = test::square_ring();
-  std::swap(mesh.triangles[2][0], mesh.triangles[2][1]);
+  for (auto& [a, b, c] : mesh.triangles) std::swap(b, c);
   auto& hole = mesh.boundaries[1].edges;
   std::swap(hole[1][0], hole[1][1]);
   std::swap(hole[1], hole[2]);
   const FrozenMesh back = io::parse_su2(io::su2_text(mesh, "m.su2"), "m.su2");
-  EXPECT_EQ(back.triangles[2], (std::array<std::uint32_t, 3>{2, 5, 1}));
+  EXPECT_EQ(back.triangles, test::square_ring().triangles);
   EXPECT_EQ(back.boundaries[1].edges, test::square_ring().boundaries[1].edges);
+}
+
+TEST(ForeignMeshes, KeepAnInvertedTriangleForTheCheckerToFind) {
+  FrozenMesh mesh = test::square_ring();
+  std::swap(mesh.triangles[2][1], mesh.triangles[2][2]);
+  EXPECT_EQ(io::parse_su2(io::su2_text(mesh, "m.su2"), "m.su2").triangles, mesh.triangles);
 }
 
 TEST(ForeignMeshes, Su2ReadsPointsBeforeElementsCommentsCarriageReturnsAndRepeatedCounts) {

@@ -53,7 +53,7 @@ TEST(AirfoilJson, RoundTripsToTheLastBit) {
     CstAirfoil airfoil{
         .upper = {}, .lower = {}, .e1 = 0.5 + 0.001 * k, .e2 = 1.0, .te_upper = normal(random)};
     for (int i = 0; i < 6; ++i) {
-      airfoil.upper.push_back(normal(random) * std::pow(10.0, normal(random) * 20.0));
+      airfoil.upper.push_back(normal(random) * std::pow(10.0, -std::abs(normal(random) * 20.0)));
       airfoil.lower.push_back(i == 0 ? -0.0 : normal(random));
     }
     const CstAirfoil back = airfoil_from_json(airfoil_to_json(airfoil), "memory");
