@@ -159,7 +159,7 @@ TEST(Validate, WantsRolesToAlternateFromTheOutsideIn) {
   EXPECT_NE(refusal({.loops = {hole, outer, square(LoopRole::hole, 0.0, 16.0)}}), "");
 }
 
-TEST(Validate, TakesWellUnderASecondForTheLargestDiscretisation) {
+TEST(Validate, AcceptsTheLargestDiscretisation) {
   const Domain domain =
       airfoil_domain(airfoil_catalogue().back().airfoil(), {.points = 100000, .farfield_points = 100000});
   EXPECT_EQ(refusal(domain), "");
