@@ -62,17 +62,23 @@ void collect(MeshData& mesh, const RemovalRegion& region, std::vector<VertexId>&
   while (!todo.empty()) {
     const Triangle& t = triangulation[todo.back()];
     todo.pop_back();
+    bool inside[3];
     for (int i = 0; i < 3; ++i) {
       const Vertex& v = triangulation[t.vertex[i]];
-      if (v.boundary == no_index && squared_distance(v.point, region.centre) < r2 &&
-          mesh.vertex_marks.visit(t.vertex[i].index))
+      inside[i] = squared_distance(v.point, region.centre) < r2;
+      if (inside[i] && v.boundary == no_index && mesh.vertex_marks.visit(t.vertex[i].index))
         found.push_back(t.vertex[i]);
+    }
+    for (int i = 0; i < 3; ++i) {
       const TriangleId next = t.link[i].triangle();
-      if (triangulation[next].ghost() ||
-          squared_distance_to_edge(region.centre, triangulation.point(t.vertex[next3(i)]),
-                                   triangulation.point(t.vertex[previous3(i)])) >= r2)
-        continue;
-      if (mesh.marks.visit(next.index)) todo.push_back(next);
+      if (mesh.marks.visited(next.index)) continue;
+      // An edge with an end inside meets the disc; only the others need their distance.
+      const bool meets = inside[next3(i)] || inside[previous3(i)] ||
+                         squared_distance_to_edge(region.centre, triangulation.point(t.vertex[next3(i)]),
+                                                  triangulation.point(t.vertex[previous3(i)])) < r2;
+      if (!meets || triangulation[next].ghost()) continue;
+      mesh.marks.visit(next.index);
+      todo.push_back(next);
     }
   }
 }
