@@ -24,8 +24,8 @@ void start(MeshData& mesh, const std::vector<std::vector<BoundaryStation>>& loop
   throw RecoveryError("all boundary points lie on one line");
 }
 
-// Every other of the points so far missing, coarse to fine: 0, then n/2, n/4, 3n/4, and so on. In the order of the
-// loop each point would see, and refill, all of the triangles between the first points and the last.
+// Every other of the points so far missing, coarse to fine: 0, then n/2, n/4, 3n/4, and so on. In the order
+// of the loop each point would see, and refill, all of the triangles between the first points and the last.
 std::vector<std::size_t> coarse_to_fine(std::size_t n) {
   std::size_t stride = 1;
   while (stride < n) stride *= 2;
@@ -45,9 +45,8 @@ void insert_loop(MeshData& mesh, const std::vector<BoundaryStation>& stations) {
   }
   std::uint32_t previous = no_index;
   for (std::size_t i = 0; i < stations.size(); ++i) {
-    const BoundaryVertex vertex{.vertex = vertices[i],
-                                .curve = static_cast<std::uint32_t>(stations[i].curve),
-                                .t = stations[i].t};
+    const BoundaryVertex vertex{
+        .vertex = vertices[i], .curve = static_cast<std::uint32_t>(stations[i].curve), .t = stations[i].t};
     const std::uint32_t k = mesh.add_boundary_vertex(vertex, previous);
     if (previous == no_index) mesh.loop_heads.push_back(k);
     previous = k;

@@ -209,8 +209,8 @@ class LoopReplacement {
     }
   }
 
-  // A vertex that both models share (the trailing edge, often) keeps triangles from before the step, but not its
-  // length scale: they count as touched, so that refinement judges them anew.
+  // A vertex that both models share (the trailing edge, often) keeps triangles from before the step, but not
+  // its length scale: they count as touched, so that refinement judges them anew.
   void set_length_scales(std::uint32_t head) {
     walk(head, [&](std::uint32_t k) {
       if (mesh_.at(k).steiner) return;

@@ -40,14 +40,26 @@ class Replacement {
 
   // What the paper omits: a partial adjustment leaves edges that are not Delaunay, since vertices moved for
   // which the triangles are good only once their neighbours have moved too. In holes every move does.
+  //
+  // A triangle of the domain without a lost vertex is where adjust_all() evaluated it, and good there: its
+  // edges need a look from its lost neighbours only.
   void restore_delaunay() {
-    std::vector<TriangleId> affected;
-    for (const AdjustCache::Affected& a : cache_.affected) {
+    std::vector<bool> at_lost(cache_.affected.size(), false);
+    for (std::size_t i = 0; i < cache_.moving.size(); ++i)
+      for (std::size_t s = moving(i).star_begin; lost(i) && s < moving(i).star_end; ++s)
+        at_lost[cache_.stars[s]] = true;
+    std::vector<TriangleId> uncertain;
+    for (std::size_t i = 0; i < cache_.affected.size(); ++i) {
+      const AdjustCache::Affected& a = cache_.affected[i];
+      if (a.moved) triangulation_.set_birth(a.triangle, mesh_.step + 1);
+      if (a.domain && !at_lost[i]) {
+        if (a.moved) triangulation_.set_circle(a.triangle, a.circle);
+        continue;
+      }
       triangulation_.refresh_circle(a.triangle);
-      triangulation_.set_birth(a.triangle, a.moved ? mesh_.step + 1 : triangulation_[a.triangle].birth);
-      affected.push_back(a.triangle);
+      uncertain.push_back(a.triangle);
     }
-    triangulation_.restore_delaunay(affected);
+    triangulation_.restore_delaunay(uncertain);
   }
 
   // One region for each lost pair, about the outermost of the two: the one farther into the domain.
