@@ -1,9 +1,10 @@
 #pragma once
 
-// A domain: the part of the plane to be meshed, bounded by closed loops of named, parametrised curves. The
-// airfoil in its farfield is one case. Knows no mesh.
+// A domain: the part of the plane to be meshed, bounded by closed loops of named, parametrised curves, with
+// open chains and internal curves where there are any. The airfoil in its farfield is one case. Knows no mesh.
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <variant>
 #include <vector>
@@ -31,7 +32,21 @@ struct Arc {
   double sweep = 6.283185307179586;
   friend bool operator==(const Arc&, const Arc&) = default;
 };
-using Shape = std::variant<CstAirfoil, Line, Polyline, Arc>;
+// The cubic spline through points[0] ... points[n-1], twice continuously differentiable, parametrised by chord
+// length: t of a point is the length of the polygon up to it over its whole length. Natural at its ends;
+// closed (last point == first point) it is periodic. Made by spline_through(); the vectors below points follow
+// from them.
+struct Spline {
+  std::vector<Point> points;
+  std::vector<double> knots;          // per point: its t; 0 to 1
+  std::vector<Point> second;          // per point: the second derivative by t
+  friend bool operator==(const Spline&, const Spline&) = default;
+};
+// Throws Error (argument) for fewer than 2 points (closed: 4, the first one again at the end), points that
+// repeat in a row, and what is not finite. Source: C. de Boor, "A Practical Guide to Splines", 1978, ch. IV.
+Spline spline_through(std::vector<Point> points);
+
+using Shape = std::variant<CstAirfoil, Line, Polyline, Arc, Spline>;
 
 Point point_at(const Shape& shape, double t);
 
@@ -45,12 +60,47 @@ struct Curve {
   friend bool operator==(const Curve&, const Curve&) = default;
 };
 
-// Which side of the loop is meshed, whatever its orientation.
-enum class LoopRole { outer, hole };
+// Which side of the loop is meshed. For outer loops and holes that does not depend on their orientation.
+enum class LoopRole {
+  outer,     // the inside
+  hole,      // the outside
+  internal,  // both sides: a constraint inside the domain
+  left,      // the left side of its direction, the right one is outside: a piece of a boundary, or a loop
+  right
+};
+const char* name_of(LoopRole role);  // "outer", "hole", "internal", "left", "right"
 
+// Where the curves of a loop lie: scaled by chord, turned counter-clockwise about their origin (an airfoil's
+// leading edge), which comes to lie at position. As it stands it changes no bit.
+struct Placement {
+  double chord = 1.0;
+  double rotation_deg = 0.0;
+  Point position = {};
+  friend bool operator==(const Placement&, const Placement&) = default;
+};
+// A placement, ready for many points.
+class Frame {
+ public:
+  explicit Frame(const Placement& placement);
+  Point operator()(Point p) const {
+    if (identity_) return p;
+    return origin_ + Point{axis_.x * p.x - axis_.y * p.y, axis_.y * p.x + axis_.x * p.y};
+  }
+
+ private:
+  Point axis_, origin_;
+  bool identity_;
+};
+
+// Curves that follow each other: a closed loop, or an open chain. A chain runs from its first curve's beginning
+// to its last curve's end, which is a station too. Its role is internal, left or right. Ends of chains may lie
+// on stations of other loops and chains (and on each other): there they are joined. An open chain of one Line
+// of no length is a single point.
 struct Loop {
   LoopRole role = LoopRole::outer;
   std::vector<Curve> curves;
+  bool open = false;
+  Placement placement = {};
   friend bool operator==(const Loop&, const Loop&) = default;
 };
 
@@ -67,27 +117,31 @@ struct Domain {
   std::size_t curve_count() const;
   const Curve& curve(std::size_t index) const;  // by index over all loops
   std::size_t loop_of(std::size_t curve_index) const;
-  Point at(BoundaryStation station) const { return point_at(curve(station.curve).shape, station.t); }
-  // The stations of one loop in order, and their points.
+  Point at(BoundaryStation station) const;
+  // The stations of one loop in order, and their points: the same, but for a search less.
   std::vector<BoundaryStation> stations(std::size_t loop) const;
+  std::vector<Point> points(std::size_t loop) const;
 
   friend bool operator==(const Domain&, const Domain&) = default;
 };
 
-// Throws Error (geometry) unless there is a loop, every loop has at least three distinct consecutive points,
-// parameters begin with 0 and increase strictly below 1, every curve ends where the next one of its loop
-// begins (up to rounding), coordinates are finite and in the range of predicates.h, and no two segments of
-// the discretised loops cross, touch or overlap (exactly decided; names the loop, the curve and the place).
-// Airfoils must have their surfaces apart. From the outside in, roles take turns: outermost loops are outer,
-// what lies directly inside an outer loop is a hole, what lies directly inside a hole is outer again. Loops
-// may run either way round. About n log n: 0.2 ms for 700 airfoil points.
+// Throws Error (geometry) unless there is a loop, every closed loop has at least three distinct consecutive
+// points, parameters begin with 0 and increase strictly below 1, every curve ends where the next one of its
+// loop begins (up to rounding), coordinates are finite and in the range of predicates.h, and no two segments of
+// the discretised loops cross, touch or overlap, but for the ends of open chains on other stations (exactly
+// decided; names the loop, the curve and the place). Airfoils must have their surfaces apart. Among outer loops
+// and holes roles take turns from the outside in: outermost loops are outer, what lies directly inside an outer
+// loop is a hole, what lies directly inside a hole is outer again. Where boundaries are made of chains (left,
+// right), it is generate() that finds sides that contradict each other. Loops may run either way round. About
+// n log n: 0.2 ms for 700 airfoil points.
 void validate(const Domain& domain);
 
 // Signed area of the discretised loop, positive for counter-clockwise.
 double signed_area(const Domain& domain, std::size_t loop);
 
 // True where both domains have the same loops, roles, curves, names, parameters and kinds of shape, so that
-// vertices correspond one to one (the premise of the specialised method, section 4.2).
+// vertices correspond one to one (the premise of the specialised method, section 4.2). Placements may differ,
+// and the ends of chains may be joined otherwise.
 bool one_to_one(const Domain& a, const Domain& b);
 
 // The paper's case: an airfoil of `points` vertices, x = (1 + cos 2 pi t)/2 at t = i/points, in a circle
@@ -102,9 +156,22 @@ struct AirfoilDomainOptions {
 };
 Domain airfoil_domain(const CstAirfoil& airfoil, const AirfoilDomainOptions& options = {});
 
-// JSON text of a domain, exact; the layout is described in src/shape/domain_json.cpp. from_json throws Error
-// (format) naming the key; it does not validate(). to_json throws Error (argument) for what is not finite.
+// Several airfoils in one farfield, each a loop of its own name and place, `points` vertices each; the farfield
+// is the last loop. One airfoil "airfoil" at no other place is airfoil_domain(). Throws as it does.
+struct PlacedAirfoil {
+  std::string name = "airfoil";
+  CstAirfoil airfoil;
+  Placement placement = {};
+};
+Domain airfoils_domain(const std::vector<PlacedAirfoil>& airfoils, const AirfoilDomainOptions& options = {});
+
+// JSON text of a domain, exact; docs/domains.md describes the layout with an example of each kind. from_json
+// throws Error (format) naming the key; it does not validate(). to_json throws Error (argument) for what is not
+// finite.
 std::string domain_to_json(const Domain& domain);
 Domain domain_from_json(std::string_view text, const std::string& source);
+// The same from a file, where airfoils may be named as load_airfoil() takes them; their files are looked for in
+// the file's own directory first. Throws Error.
+Domain load_domain(const std::filesystem::path& file);
 
 }  // namespace remodel

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "check/exemption.h"
 #include "check/rules.h"
 
 namespace remodel {
@@ -143,25 +144,32 @@ std::size_t fan_size(const Subject& subject, std::uint32_t v, std::uint32_t star
   return size;
 }
 
-// A vertex's triangles form one fan: they are all reached by turning around it. Two fans touch like a bow
-// tie.
-void check_fans(const Subject& subject, Report& report) {
+// A vertex's triangles form one fan: they are all reached by turning around it. Two fans touch like a bow tie,
+// which only a design may ask for, where its chains are joined. Returns the fans of all vertices.
+std::size_t check_fans(const Subject& subject, Report& report) {
   const std::vector<std::uint32_t> expected = triangles_per_point(subject.mesh);
-  std::vector<bool> seen(subject.mesh.points.size(), false);
-  for (std::uint32_t t = 0; t < subject.mesh.triangles.size(); ++t) {
-    for (const std::uint32_t v : subject.mesh.triangles[t]) {
-      if (seen[v]) continue;
-      seen[v] = true;
-      if (fan_size(subject, v, t) == expected[v]) continue;
-      report.add("manifold", {v}, sentence("the triangles of point ", v, " do not form one fan"));
-    }
+  std::vector<std::size_t> fans(subject.mesh.points.size(), 0), reached(subject.mesh.points.size(), 0);
+  for (const Edge& edge : subject.topology.edges()) {  // an open fan begins at a boundary edge
+    if (!edge.is_boundary()) continue;
+    ++fans[edge.from];
+    reached[edge.from] += fan_size(subject, edge.from, edge.left);
   }
+  for (std::uint32_t t = 0; t < subject.mesh.triangles.size(); ++t)
+    for (const std::uint32_t v : subject.mesh.triangles[t]) {
+      if (fans[v] > 0) continue;
+      fans[v] = 1;
+      reached[v] = fan_size(subject, v, t);
+    }
+  for (std::uint32_t v = 0; v < fans.size(); ++v)
+    if (reached[v] != expected[v] || (fans[v] > 1 && !subject.is_joint(v)))
+      report.add("manifold", {v}, sentence("the triangles of point ", v, " do not form one fan"));
+  return std::accumulate(fans.begin(), fans.end(), std::size_t{0});
 }
 
-// Euler's formula for a planar surface: each component has V - E + F = 2 - its loops.
-void check_euler(const Subject& subject, Report& report) {
-  const std::vector<std::uint32_t> uses = triangles_per_point(subject.mesh);
-  const auto vertices = std::count_if(uses.begin(), uses.end(), [](std::uint32_t n) { return n > 0; });
+// Euler's formula for a planar surface: each component has V - E + F = 2 - its loops. A vertex of two fans
+// counts twice.
+void check_euler(const Subject& subject, std::size_t fans, Report& report) {
+  const auto vertices = static_cast<long long>(fans);
   const auto edges = static_cast<long long>(subject.topology.edges().size());
   const auto faces = static_cast<long long>(subject.mesh.triangles.size());
   const auto components = static_cast<long long>(subject.topology.component_count());
@@ -215,24 +223,32 @@ bool exceeds(double value, double bound) {
   return !(value <= bound * (1.0 + ratio_tolerance));
 }
 
-// The smallest angle's sine is e_min / 2r. Returns the smallest of all in degrees.
-double check_angles(const FrozenMesh& mesh, double bound_deg, Report& report) {
-  double smallest_sine = 1.0;
+// The smallest angle's sine is e_min / 2r. Sets the smallest of all, and that of what is not exempt, in degrees.
+void check_angles(const FrozenMesh& mesh, const Exemption* exemption, double bound_deg, CheckResult& result,
+                  Report& report) {
+  double smallest_sine = 1.0, smallest_held = 1.0;
   const double largest_ratio = 0.5 / std::sin(bound_deg / degrees);
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const Circle circle = circumscribed(mesh, t);
     const double sine = circle.shortest_edge / (2.0 * circle.radius);
     smallest_sine = std::isnan(sine) ? 0.0 : std::min(smallest_sine, sine);
-    if (bound_deg <= 0.0 || !exceeds(circle.radius / circle.shortest_edge, largest_ratio)) continue;
+    const bool below = bound_deg > 0.0 && exceeds(circle.radius / circle.shortest_edge, largest_ratio);
+    if (below && exemption != nullptr && exemption->exempts(t)) {
+      ++result.exempt_triangles;
+      continue;
+    }
+    smallest_held = std::isnan(sine) ? 0.0 : std::min(smallest_held, sine);
+    if (!below) continue;
     report.add("angle", {t},
                sentence("triangle ", t, " has radius-edge ratio ", circle.radius / circle.shortest_edge,
                         ", above ", largest_ratio, " of ", bound_deg, " degrees"));
   }
-  return std::asin(smallest_sine) * degrees;
+  result.min_angle_deg = std::asin(smallest_sine) * degrees;
+  result.min_held_angle_deg = std::asin(smallest_held) * degrees;
 }
 
 // Returns the largest r / (H mean LS).
-double check_gradation(const FrozenMesh& mesh, double bound, Report& report) {
+double check_gradation(const FrozenMesh& mesh, const Exemption* exemption, double bound, Report& report) {
   const double scale = bound > 0.0 ? bound : std::numbers::sqrt2 / 2.0;
   double largest = 0.0;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -240,7 +256,7 @@ double check_gradation(const FrozenMesh& mesh, double bound, Report& report) {
     const double mean = (mesh.length_scale[a] + mesh.length_scale[b] + mesh.length_scale[c]) / 3.0;
     const double ratio = mean > 0.0 ? circumscribed(mesh, t).radius / (scale * mean) : std::nan("");
     if (!(ratio <= largest)) largest = std::isnan(ratio) ? std::numeric_limits<double>::infinity() : ratio;
-    if (bound <= 0.0 || !exceeds(ratio, 1.0)) continue;
+    if (bound <= 0.0 || !exceeds(ratio, 1.0) || (exemption != nullptr && exemption->exempts(t))) continue;
     report.add(
         "gradation", {t},
         sentence("triangle ", t, " has r / (H mean LS) = ", ratio, ", its mean length scale is ", mean));
@@ -248,10 +264,11 @@ double check_gradation(const FrozenMesh& mesh, double bound, Report& report) {
   return largest;
 }
 
-void check_quality(const FrozenMesh& mesh, const CheckOptions& options, CheckResult& result, Report& report) {
-  result.min_angle_deg = check_angles(mesh, options.min_angle_deg, report);
+void check_quality(const FrozenMesh& mesh, const Exemption* exemption, const CheckOptions& options,
+                   CheckResult& result, Report& report) {
+  check_angles(mesh, exemption, options.min_angle_deg, result, report);
   if (!mesh.length_scale.empty()) {
-    result.max_gradation = check_gradation(mesh, options.max_gradation, report);
+    result.max_gradation = check_gradation(mesh, exemption, options.max_gradation, report);
   } else if (options.max_gradation > 0.0) {
     report.add("gradation", {}, "the mesh has no length scales to test the gradation with");
   }
@@ -280,9 +297,9 @@ void check_structure(const Subject& subject, bool oriented, const CheckOptions& 
     result.delaunay = check_delaunay(subject, options.delaunay ? report : unwanted);
   }
   const std::size_t before_fans = report.found();
-  check_fans(subject, report);
+  const std::size_t fans = check_fans(subject, report);
   if (report.found() != before_fans) return;
-  check_euler(subject, report);
+  check_euler(subject, fans, report);
   check_order_of_names(subject, report);
   if (oriented) check_overlap(subject, report);
 }
@@ -291,7 +308,6 @@ void check_readable(const FrozenMesh& mesh, const CheckOptions& options, CheckRe
                     Report& report) {
   check_duplicates(mesh, report);
   check_orphans(mesh, report);
-  check_quality(mesh, options, result, report);
 
   const std::unique_ptr<ExactPoints> exact = exact_points(mesh.points);
   result.area = total_area(mesh, *exact);
@@ -301,8 +317,11 @@ void check_readable(const FrozenMesh& mesh, const CheckOptions& options, CheckRe
 
   const std::size_t before_adjacency = report.found();
   const Topology topology(mesh, report);
-  if (report.found() != before_adjacency) return;
-  const Subject subject{mesh, topology, *exact, name_edges(mesh, topology, report)};
+  if (report.found() != before_adjacency) return check_quality(mesh, nullptr, options, result, report);
+  Subject subject{mesh, topology, *exact, name_edges(mesh, topology, report), {}};
+  if (options.design != nullptr) subject.joints = joints_of(mesh, *options.design);
+  const Exemption exemption(mesh, topology, subject.name_of_edge);
+  check_quality(mesh, &exemption, options, result, report);
   check_names_are_complete(subject, report);
   check_area(subject, report);
   check_structure(subject, oriented, options, result, report);

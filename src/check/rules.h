@@ -20,6 +20,9 @@ struct Subject {
   const Topology& topology;
   const ExactPoints& exact;
   std::vector<std::uint32_t> name_of_edge;  // per edge of the topology: index of its boundary, or none
+  std::vector<bool> joints;                 // per point: whether chains of the design are joined there; may be empty
+
+  bool is_joint(std::uint32_t v) const { return !joints.empty() && joints[v]; }
 };
 
 // Rule "boundary", first part: every named edge is an edge of the mesh, named once, with the domain on its
@@ -43,9 +46,12 @@ void check_area(const Subject& subject, Report& report);
 // numbers around it, which changes across loops only.
 void check_overlap(const Subject& subject, Report& report);
 
+// The points where several loops and chains of the design have a station.
+std::vector<bool> joints_of(const FrozenMesh& mesh, const Domain& design);
+
 // Rule "design": boundary vertices are exactly the design's points at their curve and parameter, every
 // station of the design is there, and the edges of each loop join consecutive parameters, under the curve's
-// name and with the domain on the side that the loop's role asks for.
+// name and with the domain on the sides that the loop's role asks for.
 void check_design(const Subject& subject, const Domain& design, Report& report);
 
 }  // namespace remodel::checker

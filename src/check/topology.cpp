@@ -109,20 +109,31 @@ std::size_t Topology::component_count() const {
   return components;
 }
 
-std::vector<std::vector<std::uint32_t>> Topology::loops() const {
-  std::vector<std::uint32_t> outgoing(mesh_.points.size(), none);
-  for (std::uint32_t e = 0; e < edges_.size(); ++e) {
-    if (edges_[e].is_boundary()) outgoing[edges_[e].from] = e;
+std::uint32_t Topology::next_on_boundary(std::uint32_t e) const {
+  const std::uint32_t v = edges_[e].to;
+  for (std::uint32_t t = edges_[e].left;;) {
+    const auto& corners = mesh_.triangles[t];
+    const auto k = static_cast<std::size_t>(std::find(corners.begin(), corners.end(), v) - corners.begin());
+    if (neighbours_[t][k] == none) return find(v, corners[(k + 1) % 3]);
+    t = neighbours_[t][k];
   }
+}
+
+std::vector<std::vector<std::uint32_t>> Topology::loops() const {
+  std::vector<std::uint32_t> starts;  // in the order of their first points
+  for (std::uint32_t e = 0; e < edges_.size(); ++e)
+    if (edges_[e].is_boundary()) starts.push_back(e);
+  std::stable_sort(starts.begin(), starts.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return edges_[a].from < edges_[b].from; });
+  std::vector<bool> seen(edges_.size(), false);
   std::vector<std::vector<std::uint32_t>> loops;
-  for (std::uint32_t& start : outgoing) {
-    if (start == none) continue;
-    std::vector<std::uint32_t> loop;
-    for (std::uint32_t e = std::exchange(start, none); e != none;) {
-      loop.push_back(e);
-      e = std::exchange(outgoing[edges_[e].to], none);
+  for (const std::uint32_t start : starts) {
+    if (seen[start]) continue;
+    loops.emplace_back();
+    for (std::uint32_t e = start; !seen[e]; e = next_on_boundary(e)) {
+      seen[e] = true;
+      loops.back().push_back(e);
     }
-    loops.push_back(std::move(loop));
   }
   return loops;
 }

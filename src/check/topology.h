@@ -38,11 +38,12 @@ class Topology {
 
   // Parts of the mesh connected by edges.
   std::size_t component_count() const;
-  // Boundary edges (indices) in order, the domain on their left. Needs every vertex to have one fan.
+  // Boundary edges (indices) in order, the domain on their left: each loop follows the fans of its vertices.
   std::vector<std::vector<std::uint32_t>> loops() const;
 
  private:
   struct HalfEdge;
+  std::uint32_t next_on_boundary(std::uint32_t edge) const;
   std::vector<HalfEdge> sorted_half_edges() const;
   void add_edge(const HalfEdge* first, const HalfEdge* last, Report& report);
 

@@ -11,14 +11,17 @@ namespace remodel {
 
 namespace {
 
-// The first triangle: the first station, the next one, and the first that is not in line with them.
-void start(MeshData& mesh, const std::vector<std::vector<BoundaryStation>>& loops) {
-  const Point a = mesh.domain.at(loops[0][0]), b = mesh.domain.at(loops[0][1]);
-  for (const auto& loop : loops)
-    for (const BoundaryStation& station : loop) {
-      const Point c = mesh.domain.at(station);
-      if (orient2d(a, b, c) == 0) continue;
-      mesh.triangulation.start(a, b, c);
+// The first triangle: the first two points, and the first that is not in line with them.
+void start(MeshData& mesh, const std::vector<std::vector<Point>>& loops) {
+  std::vector<Point> first;
+  for (const auto& points : loops)
+    for (const Point p : points) {
+      if (first.size() < 2) {
+        if (first.empty() || !(first[0] == p)) first.push_back(p);
+        continue;
+      }
+      if (orient2d(first[0], first[1], p) == 0) continue;
+      mesh.triangulation.start(first[0], first[1], p);
       return;
     }
   throw RecoveryError("all boundary points lie on one line");
@@ -35,31 +38,30 @@ std::vector<std::size_t> coarse_to_fine(std::size_t n) {
   return order;
 }
 
-void insert_loop(MeshData& mesh, const std::vector<BoundaryStation>& stations) {
-  std::vector<VertexId> vertices(stations.size());
-  TriangleId hint = mesh.triangulation.star(VertexId{1}).triangle;
-  for (const std::size_t i : coarse_to_fine(stations.size())) {
+// The last vertex inserted is where the search for the next loop begins: files list neighbours together.
+void insert_loop(MeshData& mesh, std::size_t loop, const std::vector<Point>& points, VertexId& last) {
+  std::vector<VertexId> vertices(points.size());
+  for (const std::size_t i : coarse_to_fine(points.size())) {
     // The nearest point before i that is in: i with its last bit cleared.
-    if (i > 0) hint = mesh.triangulation.star(vertices[i & (i - 1)]).triangle;
-    vertices[i] = mesh.triangulation.insert(mesh.domain.at(stations[i]), hint).vertex;
+    if (i > 0) last = vertices[i & (i - 1)];
+    last = vertices[i] = mesh.triangulation.insert(points[i], mesh.triangulation.star(last).triangle).vertex;
   }
+  const std::vector<BoundaryStation> stations = mesh.domain.stations(loop);
   std::uint32_t previous = no_index;
   for (std::size_t i = 0; i < stations.size(); ++i) {
-    const BoundaryVertex vertex{
-        .vertex = vertices[i], .curve = static_cast<std::uint32_t>(stations[i].curve), .t = stations[i].t};
-    const std::uint32_t k = mesh.add_boundary_vertex(vertex, previous);
-    if (previous == no_index) mesh.loop_heads.push_back(k);
-    previous = k;
+    previous = mesh.add_boundary_vertex(
+        {.vertex = vertices[i], .curve = static_cast<std::uint32_t>(stations[i].curve), .t = stations[i].t},
+        previous);
+    if (i == 0) mesh.loop_heads.push_back(previous);
   }
+  if (!mesh.domain.loops[loop].open) mesh.close_loop(mesh.loop_heads.back(), previous);
 }
 
 void constrain_loop(MeshData& mesh, std::uint32_t head) {
-  std::uint32_t k = head;
-  do {
-    const auto result = mesh.triangulation.constrain(mesh.at(k).vertex, mesh.next(k).vertex);
+  mesh.walk_edges(head, [&](std::uint32_t k, std::uint32_t next) {
+    const auto result = mesh.triangulation.constrain(mesh.at(k).vertex, mesh.at(next).vertex);
     if (result.kind != ConstrainResult::Kind::done) throw RecoveryError("boundary edges cross or touch");
-    k = mesh.at(k).next;
-  } while (k != head);
+  });
 }
 
 }  // namespace
@@ -85,14 +87,16 @@ double neighbour_length_scale(const MeshData& mesh, std::uint32_t k) {
 }
 
 void discretise(MeshData& mesh) {
-  std::vector<std::vector<BoundaryStation>> loops;
+  mesh.index_curves();
+  std::vector<std::vector<Point>> loops;
   for (std::size_t loop = 0; loop < mesh.domain.loops.size(); ++loop)
-    loops.push_back(mesh.domain.stations(loop));
+    loops.push_back(mesh.domain.points(loop));
   start(mesh, loops);
-  for (const auto& stations : loops) insert_loop(mesh, stations);
+  VertexId last{1};
+  for (std::size_t loop = 0; loop < loops.size(); ++loop) insert_loop(mesh, loop, loops[loop], last);
   mesh.orient_loops();
   for (const std::uint32_t head : mesh.loop_heads) constrain_loop(mesh, head);
-  mesh.label_regions();
+  if (!mesh.label_regions()) throw RecoveryError(contradicting_sides);
   for (std::uint32_t k = 0; k < mesh.boundary.size(); ++k)
     mesh.set_boundary_length_scale(k, neighbour_length_scale(mesh, k));
 }

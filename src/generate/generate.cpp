@@ -5,6 +5,7 @@
 #include "generate/discretise.h"
 #include "generate/recovery_error.h"
 #include "generate/refine.h"
+#include "mesh/small_angles.h"
 #include "remodel/error.h"
 
 namespace remodel {
@@ -41,11 +42,12 @@ GenerateResult generate(const Domain& domain, const QualityOptions& options, Ste
     Refiner refiner(mesh, observer);
     for (std::uint32_t i = 0; i < mesh.triangulation.triangle_slots(); ++i) refiner.consider(TriangleId{i});
     result.stopped = refiner.run();
-    result.exempt_triangles = refiner.exempt_triangles();
+    result.small_angles = refiner.small_angles();
   } catch (const RecoveryError& error) {
     throw Error(ErrorCode::geometry, "domain", error.what());
   }
   mesh.count_domain_triangles();
+  result.exempt_triangles = count_exempt(mesh);
   return result;
 }
 

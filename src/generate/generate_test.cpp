@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "generate/bad_queue.h"
-#include "generate/small_angles.h"
+#include "mesh/small_angles.h"
 #include "mesh/mesh_data.h"
 #include "remodel/check.h"
 #include "remodel/error.h"

@@ -11,4 +11,9 @@ struct RecoveryError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// What it says where loops call one part of the plane by two names.
+inline constexpr const char* contradicting_sides =
+    "the loops lie on the wrong sides of each other: a part of the plane is called domain by one and outside by "
+    "another, or the boundary is not closed";
+
 }  // namespace remodel

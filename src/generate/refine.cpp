@@ -12,16 +12,13 @@ namespace {
 constexpr int max_depth = 12;  // of splits that other splits ask for: see split_far()
 
 double domain_size(const MeshData& mesh) {
-  Point low = mesh.point(0), high = low;
-  for (std::uint32_t head : mesh.loop_heads) {
-    std::uint32_t k = head;
-    do {
+  Point low = mesh.point(mesh.loop_heads.front()), high = low;
+  for (const std::uint32_t head : mesh.loop_heads)
+    mesh.walk(head, [&](std::uint32_t k) {
       const Point p = mesh.point(k);
       low = {std::min(low.x, p.x), std::min(low.y, p.y)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-      k = mesh.at(k).next;
-    } while (k != head);
-  }
+    });
   return std::sqrt(squared_distance(low, high));
 }
 
@@ -61,11 +58,8 @@ void Refiner::consider(TriangleId t) {
 }
 
 void Refiner::queue_segment(VertexId a, VertexId b) {
-  const std::uint32_t ka = triangulation_[a].boundary, kb = triangulation_[b].boundary;
-  const bool forward = mesh_.at(ka).next == kb;
-  const Segment segment = forward ? Segment{ka, kb} : Segment{kb, ka};
-  if (mesh_.at(segment.from).next != segment.to) return;
-  segments_.push_back(segment);
+  const std::uint32_t k = mesh_.edge_between(a, b);
+  if (k != no_index) segments_.push_back({k, mesh_.at(k).next});
 }
 
 Stopped Refiner::run() {
@@ -90,19 +84,7 @@ Stopped Refiner::run() {
 // Step 3: otherwise the point becomes a vertex.
 void Refiner::refine(TriangleId t) {
   const Triangle& triangle = triangulation_[t];
-  if (!small_angles_.none()) {
-    int shortest = 0;
-    double length = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < 3; ++i) {
-      const double l = squared_distance(triangulation_.point(triangle.vertex[next3(i)]),
-                                        triangulation_.point(triangle.vertex[previous3(i)]));
-      if (l < length) length = l, shortest = i;
-    }
-    if (small_angles_.seditious(triangle.vertex[next3(shortest)], triangle.vertex[previous3(shortest)])) {
-      ++exempt_;
-      return;
-    }
-  }
+  if (small_angles_.exempt(triangle)) return;
   const Point p = triangle.circle.centre;
   triangulation_.find_cavity(p, t, cavity_);
   if (split_blocking_segments(p)) {
@@ -156,11 +138,11 @@ double Refiner::split_parameter(Segment segment) const {
   const Point other = mesh_.point(corner_first ? segment.to : segment.from);
   const double length = std::sqrt(squared_distance(corner, other));
   const double target = SmallAngles::shell_fraction(length) * length;
-  const Shape& shape = mesh_.domain.curve(mesh_.at(segment.from).curve).shape;
+  const std::uint32_t curve = mesh_.at(segment.from).curve;
   double near = corner_first ? t0 : t1, far = corner_first ? t1 : t0;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (near + far);
-    (squared_distance(corner, point_at(shape, middle)) < target * target ? near : far) = middle;
+    (squared_distance(corner, mesh_.on_curve(curve, middle)) < target * target ? near : far) = middle;
   }
   return far;
 }
@@ -170,7 +152,7 @@ void Refiner::split(Segment segment, int depth) {
   const VertexId a = mesh_.at(segment.from).vertex, b = mesh_.at(segment.to).vertex;
   const double t = split_parameter(segment);
   const std::uint32_t curve = mesh_.at(segment.from).curve;
-  const Point p = mesh_.domain.at({curve, t});
+  const Point p = mesh_.on_curve(curve, t);
   if (too_short(mesh_.point(segment.from), mesh_.point(segment.to)) || p == triangulation_.point(a) ||
       p == triangulation_.point(b)) {
     refused_ = true;
@@ -231,13 +213,11 @@ VertexId Refiner::split_far(Segment segment, Point p, int depth) {
 
 void Refiner::recover_loop(std::uint32_t head) {
   labelled_ = false;
-  std::uint32_t k = head;
-  do {
-    const auto edge = triangulation_.find_edge(mesh_.at(k).vertex, mesh_.next(k).vertex);
-    if (!edge || !triangulation_.link(*edge).constrained())
-      recover(mesh_.at(k).vertex, mesh_.next(k).vertex, 0);
-    k = mesh_.at(k).next;
-  } while (k != head);
+  mesh_.walk_edges(head, [&](std::uint32_t k, std::uint32_t next) {
+    const VertexId a = mesh_.at(k).vertex, b = mesh_.at(next).vertex;
+    const auto edge = triangulation_.find_edge(a, b);
+    if (!edge || !triangulation_.link(*edge).constrained()) recover(a, b, 0);
+  });
   labelled_ = true;
 }
 
@@ -253,16 +233,15 @@ void Refiner::recover(VertexId a, VertexId b, int depth) {
       triangulation_.remove(result.first);
       continue;
     }
-    const std::uint32_t ka = triangulation_[result.first].boundary,
-                        kb = triangulation_[result.second].boundary;
-    split(mesh_.at(ka).next == kb ? Segment{ka, kb} : Segment{kb, ka}, depth + 1);
+    const std::uint32_t k = mesh_.edge_between(result.first, result.second);
+    split({k, mesh_.at(k).next}, depth + 1);
   }
   throw RecoveryError("a boundary edge cannot be recovered");
 }
 
 // After a far split: labels anew, and free vertices that are outside the domain now go.
 void Refiner::clear_outside() {
-  mesh_.label_regions();
+  if (!mesh_.label_regions()) throw RecoveryError(contradicting_sides);
   std::vector<VertexId> stray;
   for (std::uint32_t i = 1; i < triangulation_.vertex_slots(); ++i) {
     const Vertex& v = triangulation_[VertexId{i}];

@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "generate/bad_queue.h"
-#include "generate/small_angles.h"
 #include "mesh/mesh_data.h"
+#include "mesh/small_angles.h"
 
 namespace remodel {
 
@@ -41,12 +41,12 @@ class Refiner {
   // Throws RecoveryError.
   void recover_loop(std::uint32_t head);
 
-  std::size_t exempt_triangles() const { return exempt_; }
+  std::size_t small_angles() const { return small_angles_.count(); }
   // Ends with Stopped::vertex_budget once the mesh has this many vertices.
   void limit_vertices(std::size_t count) { vertex_limit_ = count; }
 
  private:
-  // A segment by its first vertex in the boundary table and what followed it when it was queued.
+  // A segment by its first entry in the boundary table and what followed it when it was queued.
   struct Segment {
     std::uint32_t from, to;
   };
@@ -74,7 +74,6 @@ class Refiner {
   std::size_t vertex_limit_;
   StepObserver* observer_;
   std::uint32_t polls_ = 0;
-  std::size_t exempt_ = 0;
   bool refused_ = false;  // a segment was too short to be split
   bool labelled_ = true;  // false while boundaries are being recovered: the caller labels afterwards
 };

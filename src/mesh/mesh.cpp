@@ -57,13 +57,9 @@ MeshStatistics Mesh::statistics() const {
     gradation = std::max(gradation, r2 / (scale * scale));
   }
   result.vertices = static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
-  for (const std::uint32_t head : data_->loop_heads) {
-    std::uint32_t k = head;
-    do {
-      result.steiner_boundary_vertices += data_->at(k).steiner ? 1 : 0;
-      k = data_->at(k).next;
-    } while (k != head);
-  }
+  for (const std::uint32_t head : data_->loop_heads)
+    data_->walk(head,
+                [&](std::uint32_t k) { result.steiner_boundary_vertices += data_->at(k).steiner ? 1 : 0; });
   result.max_radius_edge = std::sqrt(radius_edge);
   result.max_gradation = std::sqrt(gradation) / data_->options.max_gradation;
   if (result.triangles > 0)
@@ -81,6 +77,7 @@ std::size_t boundary_index(FrozenMesh& frozen, const std::string& name) {
   return frozen.boundaries.size() - 1;
 }
 
+// A vertex where chains join lies on several curves: the view names the one of its first entry.
 void freeze_boundary(const MeshData& mesh, const std::vector<std::uint32_t>& point_of, FrozenMesh& frozen) {
   for (std::size_t curve = 0; curve < mesh.domain.curve_count(); ++curve)
     boundary_index(frozen, mesh.domain.curve(curve).name);
@@ -90,16 +87,18 @@ void freeze_boundary(const MeshData& mesh, const std::vector<std::uint32_t>& poi
       std::array<std::uint32_t, 2> edge;
     };
     std::vector<Named> edges;  // along the loop
-    std::uint32_t k = mesh.loop_heads[loop];
-    do {
+    mesh.walk_edges(mesh.loop_heads[loop], [&](std::uint32_t k, std::uint32_t next) {
       const BoundaryVertex& from = mesh.at(k);
-      const std::uint32_t a = point_of[from.vertex.index], b = point_of[mesh.next(k).vertex.index];
-      edges.push_back({boundary_index(frozen, mesh.domain.curve(from.curve).name), {a, b}});
-      frozen.curve[a] = static_cast<std::int32_t>(from.curve);
-      frozen.parameter[a] = from.t;
-      k = from.next;
-    } while (k != mesh.loop_heads[loop]);
-    if (!mesh.domain_on_left[loop]) {
+      edges.push_back({boundary_index(frozen, mesh.curve(from.curve).name),
+                       {point_of[from.vertex.index], point_of[mesh.at(next).vertex.index]}});
+    });
+    mesh.walk(mesh.loop_heads[loop], [&](std::uint32_t k) {
+      if (mesh.triangulation[mesh.at(k).vertex].boundary != k) return;
+      const std::uint32_t p = point_of[mesh.at(k).vertex.index];
+      frozen.curve[p] = static_cast<std::int32_t>(mesh.at(k).curve);
+      frozen.parameter[p] = mesh.at(k).t;
+    });
+    if (mesh.sides[loop].left != Region::domain) {
       std::reverse(edges.begin(), edges.end());
       for (Named& named : edges) std::swap(named.edge[0], named.edge[1]);
     }

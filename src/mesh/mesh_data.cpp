@@ -36,10 +36,30 @@ MeshData::MeshData(const MeshData& other)
       boundary(other.boundary),
       free_boundary(other.free_boundary),
       loop_heads(other.loop_heads),
-      domain_on_left(other.domain_on_left),
+      sides(other.sides),
       domain_triangles(other.domain_triangles),
-      step(other.step) {
+      step(other.step),
+      curve_places_(other.curve_places_) {
   if (triangulation.journalling()) triangulation.commit();
+}
+
+void MeshData::index_curves() {
+  curve_places_.clear();
+  for (std::uint32_t loop = 0; loop < domain.loops.size(); ++loop)
+    for (std::uint32_t position = 0; position < domain.loops[loop].curves.size(); ++position)
+      curve_places_.push_back({loop, position});
+}
+
+std::uint32_t MeshData::edge_between(VertexId a, VertexId b) const {
+  const std::uint32_t first = triangulation[a].boundary;
+  if (first == no_index) return no_index;
+  std::uint32_t found = no_index;
+  at_vertex(first, [&](std::uint32_t k) {
+    const std::uint32_t next = boundary[k].next, previous = boundary[k].previous;
+    if (next != no_index && boundary[next].vertex == b) found = k;
+    if (previous != no_index && boundary[previous].vertex == b) found = previous;
+  });
+  return found;
 }
 
 double MeshData::end_parameter(std::uint32_t k) const {
@@ -56,13 +76,23 @@ std::uint32_t MeshData::add_boundary_vertex(BoundaryVertex vertex, std::uint32_t
     k = free_boundary.back();
     free_boundary.pop_back();
   }
-  vertex.previous = previous == no_index ? k : previous;
-  vertex.next = previous == no_index ? k : boundary[previous].next;
+  const std::uint32_t next = previous == no_index ? no_index : boundary[previous].next;
+  vertex.previous = previous;
+  vertex.next = next;
+  vertex.twin = k;
   boundary[k] = vertex;
-  boundary[vertex.next].previous = k;
-  boundary[vertex.previous].next = k;
-  triangulation.set_boundary(vertex.vertex, k);
+  if (previous != no_index) boundary[previous].next = k;
+  if (next != no_index) boundary[next].previous = k;
+  if (const std::uint32_t other = triangulation[vertex.vertex].boundary; other != no_index)
+    std::swap(boundary[k].twin, boundary[other].twin);
+  else
+    triangulation.set_boundary(vertex.vertex, k);
   return k;
+}
+
+void MeshData::close_loop(std::uint32_t head, std::uint32_t last) {
+  boundary[head].previous = last;
+  boundary[last].next = head;
 }
 
 void MeshData::remove_boundary_vertex(std::uint32_t k) {
@@ -72,45 +102,68 @@ void MeshData::remove_boundary_vertex(std::uint32_t k) {
   free_boundary.push_back(k);
 }
 
+namespace {
+
+Sides sides_of(LoopRole role, bool counterclockwise) {
+  constexpr Sides on_left{Region::domain, Region::outside}, on_right{Region::outside, Region::domain};
+  switch (role) {
+    case LoopRole::outer:
+      return counterclockwise ? on_left : on_right;
+    case LoopRole::hole:
+      return counterclockwise ? on_right : on_left;
+    case LoopRole::internal:
+      return {Region::domain, Region::domain};
+    case LoopRole::left:
+      return on_left;
+    case LoopRole::right:
+      return on_right;
+  }
+  return {};
+}
+
+}  // namespace
+
 void MeshData::orient_loops() {
-  domain_on_left.clear();
+  sides.clear();
   for (std::size_t loop = 0; loop < loop_heads.size(); ++loop) {
     const Point origin = point(loop_heads[loop]);
     double twice_area = 0.0;
-    std::uint32_t k = loop_heads[loop];
-    do {
-      twice_area += cross(point(k) - origin, point(boundary[k].next) - origin);
-      k = boundary[k].next;
-    } while (k != loop_heads[loop]);
-    domain_on_left.push_back((twice_area > 0.0) == (domain.loops[loop].role == LoopRole::outer));
+    walk_edges(loop_heads[loop], [&](std::uint32_t k, std::uint32_t next) {
+      twice_area += cross(point(k) - origin, point(next) - origin);
+    });
+    sides.push_back(sides_of(domain.loops[loop].role, twice_area > 0.0));
   }
 }
 
-void MeshData::label_regions() {
+bool MeshData::label_regions() {
   for (std::uint32_t i = 0; i < triangulation.triangle_slots(); ++i)
     if (triangulation[TriangleId{i}].alive()) triangulation.set_region(TriangleId{i}, Region::unknown);
+  bool agreement = true;
   std::vector<TriangleId> todo;
   const auto label = [&](TriangleId t, Region region) {
-    if (triangulation[t].region != Region::unknown) return;
+    if (triangulation[t].region != Region::unknown) {
+      agreement &= triangulation[t].region == region;
+      return;
+    }
     triangulation.set_region(t, region);
     todo.push_back(t);
   };
-  for (std::size_t loop = 0; loop < loop_heads.size(); ++loop) {
-    const bool left = domain_on_left[loop];
-    std::uint32_t k = loop_heads[loop];
-    do {
-      const Corner c = *triangulation.find_edge(boundary[k].vertex, next(k).vertex);
-      label(c.triangle, left ? Region::domain : Region::outside);
-      label(triangulation.link(c).triangle(), left ? Region::outside : Region::domain);
-      k = boundary[k].next;
-    } while (k != loop_heads[loop]);
-  }
+  const auto label_beside = [&](VertexId from, VertexId to, Region region) {
+    label(triangulation.find_edge(from, to)->triangle, region);
+  };
+  for (std::size_t loop = 0; loop < loop_heads.size(); ++loop)
+    walk_edges(loop_heads[loop], [&](std::uint32_t k, std::uint32_t next) {
+      label_beside(boundary[k].vertex, boundary[next].vertex, sides[loop].left);
+      label_beside(boundary[next].vertex, boundary[k].vertex, sides[loop].right);
+    });
+  label(triangulation.star(infinite_vertex).triangle, Region::outside);
   while (!todo.empty()) {
     const TriangleId t = todo.back();
     todo.pop_back();
     for (const Link link : triangulation[t].link)
       if (!link.constrained()) label(link.triangle(), triangulation[t].region);
   }
+  return agreement;
 }
 
 void MeshData::count_domain_triangles() {
@@ -123,27 +176,37 @@ void MeshData::count_domain_triangles() {
 
 std::uint32_t MeshData::non_steiner_before(std::uint32_t k) const {
   do k = boundary[k].previous;
-  while (boundary[k].steiner);
+  while (k != no_index && boundary[k].steiner);
   return k;
 }
 
 std::uint32_t MeshData::non_steiner_after(std::uint32_t k) const {
   do k = boundary[k].next;
-  while (boundary[k].steiner);
+  while (k != no_index && boundary[k].steiner);
   return k;
 }
 
 double MeshData::base_length_scale(std::uint32_t k) const {
-  const std::uint32_t before = non_steiner_before(k), after = non_steiner_after(k);
-  const double to_before = std::sqrt(squared_distance(point(before), point(k)));
-  const double to_after = std::sqrt(squared_distance(point(k), point(after)));
-  if (!boundary[k].steiner) return std::min(to_before, to_after) / options.resolution;
-  return (length_scale(before) * to_after + length_scale(after) * to_before) / (to_before + to_after);
+  const auto distance = [&](std::uint32_t a, std::uint32_t b) {
+    return std::sqrt(squared_distance(point(a), point(b)));
+  };
+  if (boundary[k].steiner) {
+    const std::uint32_t before = non_steiner_before(k), after = non_steiner_after(k);
+    const double to_before = distance(before, k), to_after = distance(k, after);
+    return (length_scale(before) * to_after + length_scale(after) * to_before) / (to_before + to_after);
+  }
+  double nearest = std::numeric_limits<double>::infinity();
+  at_vertex(k, [&](std::uint32_t e) {
+    for (const std::uint32_t n : {non_steiner_before(e), non_steiner_after(e)})
+      if (n != no_index) nearest = std::min(nearest, distance(e, n));
+  });
+  return std::isfinite(nearest) ? nearest / options.resolution : 1.0;
 }
 
 void MeshData::set_boundary_length_scale(std::uint32_t k, double value) {
   triangulation.set_length_scale(boundary[k].vertex, value);
-  boundary[k].scale_factor = value / base_length_scale(k);
+  const double factor = value / base_length_scale(k);
+  at_vertex(k, [&](std::uint32_t e) { boundary[e].scale_factor = factor; });
 }
 
 }  // namespace remodel

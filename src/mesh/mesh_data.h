@@ -14,15 +14,23 @@
 
 namespace remodel {
 
-// A vertex of the boundary, linked into its loop. The constrained edge from it runs to `next`.
+// A place of a loop or chain at a vertex. The constrained edge from it runs to `next`. Where the ends of chains
+// join other loops, one vertex has several of these; its own record names the first.
 struct BoundaryVertex {
   VertexId vertex;
   std::uint32_t curve = 0;  // index over all curves of the domain
   double t = 0.0;
   bool steiner = false;       // inserted by refinement, not part of the initial discretisation
-  double scale_factor = 1.0;  // length scale over what the curve alone would give: see base_length_scale()
-  std::uint32_t next = no_index, previous = no_index;  // indices of the boundary table
+  double scale_factor = 1.0;  // length scale over what the curves alone would give: see base_length_scale()
+  std::uint32_t next = no_index, previous = no_index;  // indices of the boundary table; none at chains' ends
+  std::uint32_t twin = no_index;  // another one at the same vertex, in a ring: itself where it is the only one
 };
+
+// What lies beside a loop, looking along it.
+struct Sides {
+  Region left = Region::outside, right = Region::outside;
+};
+
 
 // What a later stage keeps with a mesh to be faster next time. Never copied, never part of the state.
 struct MeshCache {
@@ -63,10 +71,10 @@ class MeshData {
   Triangulation triangulation;
   Domain domain;
   QualityOptions options;
-  std::vector<BoundaryVertex> boundary;      // order without meaning; walk loops by next
+  std::vector<BoundaryVertex> boundary;      // order without meaning; see walk()
   std::vector<std::uint32_t> free_boundary;  // unused indices of the boundary table
   std::vector<std::uint32_t> loop_heads;     // boundary index of each loop's first station
-  std::vector<bool> domain_on_left;          // of each loop's direction, whether the domain is on its left
+  std::vector<Sides> sides;                  // of each loop
   std::size_t domain_triangles = 0;
   std::uint32_t step = 0;
   std::unique_ptr<MeshCache> cache;
@@ -83,30 +91,81 @@ class MeshData {
   Point point(std::uint32_t k) const { return triangulation.point(boundary[k].vertex); }
   double length_scale(std::uint32_t k) const { return triangulation[boundary[k].vertex].length_scale; }
   const BoundaryVertex& at(std::uint32_t k) const { return boundary[k]; }
-  const BoundaryVertex& next(std::uint32_t k) const { return boundary[boundary[k].next]; }
+
+  // The domain's curves by index over all loops, without a search. Domains of the same structure need no new
+  // index.
+  void index_curves();
+  std::size_t loop_of(std::uint32_t curve) const { return curve_places_[curve].loop; }
+  const Curve& curve(std::uint32_t index) const {
+    return domain.loops[curve_places_[index].loop].curves[curve_places_[index].position];
+  }
+  Point on_curve(std::uint32_t index, double t) const {
+    return Frame(domain.loops[loop_of(index)].placement)(point_at(curve(index).shape, t));
+  }
+
+  // Visits the entries of a loop or chain in order, from its head: visit(k).
+  template <class Visit>
+  void walk(std::uint32_t head, Visit visit) const {
+    std::uint32_t k = head;
+    do {
+      visit(k);
+      k = boundary[k].next;
+    } while (k != head && k != no_index);
+  }
+  // Visits its edges: visit(k, next of k). Entries added behind k meanwhile are visited too.
+  template <class Visit>
+  void walk_edges(std::uint32_t head, Visit visit) const {
+    std::uint32_t k = head;
+    while (boundary[k].next != no_index) {
+      const std::uint32_t next = boundary[k].next;
+      visit(k, next);
+      k = boundary[k].next;
+      if (k == head) break;
+    }
+  }
+  // Visits all entries at the vertex of entry k, k first.
+  template <class Visit>
+  void at_vertex(std::uint32_t k, Visit visit) const {
+    std::uint32_t e = k;
+    do {
+      visit(e);
+      e = boundary[e].twin;
+    } while (e != k);
+  }
+  // The boundary edge between two vertices, by the entry where it begins; no_index if there is none.
+  std::uint32_t edge_between(VertexId a, VertexId b) const;
 
   // The curve parameter where the boundary edge from k ends: its next vertex's, or 1 where the curve ends
   // there.
   double end_parameter(std::uint32_t k) const;
-  // Adds a boundary vertex behind `previous` (no_index: alone in a new loop); returns its index.
+  // Adds an entry behind `previous` (no_index: alone in a new chain); returns its index. A loop is closed when
+  // all of its stations are there.
   std::uint32_t add_boundary_vertex(BoundaryVertex vertex, std::uint32_t previous);
-  // Takes it out of its loop.
+  void close_loop(std::uint32_t head, std::uint32_t last);
+  // Takes it out of its loop. Precondition: a Steiner vertex.
   void remove_boundary_vertex(std::uint32_t k);
-  // Sets domain_on_left from the vertices of the loops.
+  // Sets the sides from the roles and the vertices of the loops.
   void orient_loops();
-  // Labels all triangles from the constrained edges of all loops: O(triangles).
-  void label_regions();
+  // Labels all triangles from the constrained edges of all loops: O(triangles). False where loops contradict
+  // each other.
+  bool label_regions();
   void count_domain_triangles();
 
-  // What the curve alone says of the length scale at k: for a non-Steiner vertex the distance to the nearer
-  // non-Steiner neighbour over R (equation LS_b), for a Steiner vertex the interpolation by length between
-  // its two non-Steiner neighbours (equation LS_bs; chords for arcs, between whose length ratios the
-  // difference is of second order).
+  // What the curves alone say of the length scale at k: for a non-Steiner vertex the distance to the nearest
+  // non-Steiner neighbour over R (equation LS_b; on all of its loops), for a Steiner vertex the interpolation by
+  // length between its two non-Steiner neighbours (equation LS_bs; chords for arcs, between whose length ratios
+  // the difference is of second order). 1 for a single point, which has none.
   double base_length_scale(std::uint32_t k) const;
-  std::uint32_t non_steiner_before(std::uint32_t k) const;
+  std::uint32_t non_steiner_before(std::uint32_t k) const;  // no_index at the end of a chain
   std::uint32_t non_steiner_after(std::uint32_t k) const;
   // Sets the length scale, and the factor from it.
   void set_boundary_length_scale(std::uint32_t k, double value);
+
+ private:
+  struct CurvePlace {
+    std::uint32_t loop, position;
+  };
+  std::vector<CurvePlace> curve_places_;
 };
 
 // Empty, or what is wrong with the boundary: vertices on the design's curves, edges there and constrained,

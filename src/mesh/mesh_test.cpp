@@ -275,7 +275,7 @@ TEST_F(BrokenMesh, ByADesignThatItIsNotOf) {
 }
 
 TEST_F(BrokenMesh, ByABoundaryEdgeThatWasReleased) {
-  data.triangulation.release(data.at(boundary).vertex, data.next(boundary).vertex);
+  data.triangulation.release(data.at(boundary).vertex, data.at(data.at(boundary).next).vertex);
   EXPECT_NE(mesh.quick_check(), "");
 }
 
@@ -287,7 +287,7 @@ TEST_F(BrokenMesh, ByAConstraintTooMany) {
 
 TEST_F(BrokenMesh, ByARecordOfAnotherVertex) {
   data.triangulation.set_boundary(data.at(boundary).vertex, data.at(boundary).next);
-  expect("record and vertex disagree");
+  expect("is constrained, but no boundary edge");
 }
 
 TEST_F(BrokenMesh, ByAnInnerVertexWithABoundaryRecord) {
@@ -308,7 +308,7 @@ TEST_F(BrokenMesh, ByAStationThatBecameSteiner) {
 }
 
 TEST_F(BrokenMesh, ByALoopThatRunsTheOtherWay) {
-  data.domain_on_left[0] = !data.domain_on_left[0];
+  std::swap(data.sides[0].left, data.sides[0].right);
   expect("regions beside its edge are wrong");
 }
 

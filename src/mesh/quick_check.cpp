@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mesh/mesh_data.h"
+#include "mesh/small_angles.h"
 #include "remodel/predicates.h"
 
 namespace remodel {
@@ -14,7 +15,8 @@ std::string triangle_name(std::uint32_t i) {
   return "triangle " + std::to_string(i);
 }
 
-std::string check_links(const Triangulation& triangulation, std::uint32_t i) {
+std::string check_links(const MeshData& mesh, std::uint32_t i) {
+  const Triangulation& triangulation = mesh.triangulation;
   const Triangle& t = triangulation[TriangleId{i}];
   for (int k = 0; k < 3; ++k) {
     const Link link = t.link[k];
@@ -27,7 +29,7 @@ std::string check_links(const Triangulation& triangulation, std::uint32_t i) {
       return triangle_name(i) + ": neighbour across corner " + std::to_string(k) + " does not return";
     if (!link.constrained() && u.region != t.region)
       return triangle_name(i) + ": region changes across an unconstrained edge";
-    if (link.constrained() && u.region == t.region)
+    if (link.constrained() && mesh.edge_between(t.vertex[next3(k)], t.vertex[previous3(k)]) == no_index)
       return triangle_name(i) + ": edge opposite corner " + std::to_string(k) +
              " is constrained, but no boundary edge";
     if (t.region == Region::domain && !link.constrained() &&
@@ -37,7 +39,8 @@ std::string check_links(const Triangulation& triangulation, std::uint32_t i) {
   return {};
 }
 
-std::string check_triangle(const MeshData& mesh, std::uint32_t i, const QualityBounds& promised) {
+std::string check_triangle(const MeshData& mesh, std::uint32_t i, const QualityBounds& promised,
+                           const SmallAngles& small_angles) {
   const Triangulation& triangulation = mesh.triangulation;
   const Triangle& t = triangulation[TriangleId{i}];
   if (t.region == Region::unknown) return triangle_name(i) + ": no region";
@@ -48,7 +51,7 @@ std::string check_triangle(const MeshData& mesh, std::uint32_t i, const QualityB
   if (orient2d(triangulation.point(t.vertex[0]), triangulation.point(t.vertex[1]),
                triangulation.point(t.vertex[2])) <= 0)
     return triangle_name(i) + ": not counter-clockwise";
-  if (t.region == Region::domain && badness(triangulation, t, promised) > 1.0)
+  if (t.region == Region::domain && badness(triangulation, t, promised) > 1.0 && !small_angles.exempt(t))
     return triangle_name(i) + ": below the promised quality, badness " +
            std::to_string(badness(triangulation, t, promised));
   return {};
@@ -56,38 +59,70 @@ std::string check_triangle(const MeshData& mesh, std::uint32_t i, const QualityB
 
 }  // namespace
 
-std::string check_boundary(const MeshData& mesh) {
-  std::size_t stations = 0, visited = 0, recorded = 0;
-  for (std::size_t loop = 0; loop < mesh.loop_heads.size(); ++loop) {
-    const bool left = mesh.domain_on_left[loop];
-    std::uint32_t k = mesh.loop_heads[loop];
-    do {
-      const BoundaryVertex& v = mesh.at(k);
-      const std::string name = "boundary vertex " + std::to_string(v.vertex.index);
-      stations += v.steiner ? 0 : 1;
-      ++visited;
-      if (mesh.triangulation[v.vertex].boundary != k) return name + ": record and vertex disagree";
-      if (!(mesh.triangulation.point(v.vertex) == mesh.domain.at({v.curve, v.t})))
-        return name + ": not on the design";
-      if (!(mesh.triangulation[v.vertex].length_scale > 0.0)) return name + ": no length scale";
-      const auto edge = mesh.triangulation.find_edge(v.vertex, mesh.next(k).vertex);
-      if (!edge || !mesh.triangulation.link(*edge).constrained()) return name + ": boundary edge is missing";
-      const Region on_left = mesh.triangulation[edge->triangle].region;
-      const Region on_right = mesh.triangulation[mesh.triangulation.link(*edge).triangle()].region;
-      if ((left ? on_left : on_right) != Region::domain || (left ? on_right : on_left) != Region::outside)
-        return name + ": regions beside its edge are wrong";
-      k = v.next;
-    } while (k != mesh.loop_heads[loop]);
+namespace {
+
+// Entries that name each other: then walks along loops end.
+std::string check_boundary_links(const MeshData& mesh) {
+  for (std::uint32_t k = 0; k < mesh.boundary.size(); ++k) {
+    const BoundaryVertex& v = mesh.at(k);
+    const bool returns = (v.next == no_index || mesh.at(v.next).previous == k) &&
+                         (v.previous == no_index || mesh.at(v.previous).next == k);
+    if (v.vertex && !returns)
+      return "boundary vertex " + std::to_string(v.vertex.index) + ": neighbours on its loop do not return";
   }
+  return {};
+}
+
+std::string check_boundary_vertex(const MeshData& mesh, std::uint32_t k) {
+  const BoundaryVertex& v = mesh.at(k);
+  const std::string name = "boundary vertex " + std::to_string(v.vertex.index);
+  bool recorded = false;
+  if (const std::uint32_t first = mesh.triangulation[v.vertex].boundary; first != no_index)
+    mesh.at_vertex(first, [&](std::uint32_t e) { recorded |= e == k; });
+  if (!recorded) return name + ": record and vertex disagree";
+  if (!(mesh.triangulation.point(v.vertex) == mesh.on_curve(v.curve, v.t))) return name + ": not on the design";
+  if (!(mesh.triangulation[v.vertex].length_scale > 0.0)) return name + ": no length scale";
+  return {};
+}
+
+std::string check_boundary_edge(const MeshData& mesh, const Sides& sides, std::uint32_t k, std::uint32_t next) {
+  const std::string name = "boundary vertex " + std::to_string(mesh.at(k).vertex.index);
+  const auto edge = mesh.triangulation.find_edge(mesh.at(k).vertex, mesh.at(next).vertex);
+  if (!edge || !mesh.triangulation.link(*edge).constrained()) return name + ": boundary edge is missing";
+  const Region on_left = mesh.triangulation[edge->triangle].region;
+  const Region on_right = mesh.triangulation[mesh.triangulation.link(*edge).triangle()].region;
+  return on_left == sides.left && on_right == sides.right ? std::string{}
+                                                          : name + ": regions beside its edge are wrong";
+}
+
+}  // namespace
+
+std::string check_boundary(const MeshData& mesh) {
+  std::string broken;
+  const auto note = [&](std::string&& found) {
+    if (broken.empty()) broken = std::move(found);
+  };
+  std::size_t visited = 0, recorded = 0, found = 0, expected = 0;
+  note(check_boundary_links(mesh));
+  for (std::size_t loop = 0; loop < mesh.loop_heads.size() && broken.empty(); ++loop) {
+    mesh.walk(mesh.loop_heads[loop], [&](std::uint32_t k) {
+      found += mesh.at(k).steiner ? 0 : 1;
+      visited += mesh.triangulation[mesh.at(k).vertex].boundary == k ? 1 : 0;
+      note(check_boundary_vertex(mesh, k));
+    });
+    if (!broken.empty()) break;
+    mesh.walk_edges(mesh.loop_heads[loop], [&](std::uint32_t k, std::uint32_t next) {
+      note(check_boundary_edge(mesh, mesh.sides[loop], k, next));
+    });
+    expected += mesh.domain.stations(loop).size();
+  }
+  if (!broken.empty()) return broken;
   for (std::uint32_t i = 1; i < mesh.triangulation.vertex_slots(); ++i) {
     const Vertex& v = mesh.triangulation[VertexId{i}];
     recorded += v.alive() && v.boundary != no_index ? 1 : 0;
   }
   if (visited != recorded) return "boundary: vertices say that they are on it, but no loop has them";
-  std::size_t expected = 0;
-  for (std::size_t curve = 0; curve < mesh.domain.curve_count(); ++curve)
-    expected += mesh.domain.curve(curve).parameters.size();
-  return stations == expected ? std::string{} : "boundary: stations of the design are missing";
+  return found == expected ? std::string{} : "boundary: stations of the design are missing";
 }
 
 std::string Mesh::quick_check() const {
@@ -95,12 +130,14 @@ std::string Mesh::quick_check() const {
   QualityBounds promised(data_->options);
   promised.squared_radius_edge *= 1.0 + 2e-9;
   promised.squared_gradation *= 1.0 + 2e-9;
+  if (std::string broken = check_boundary_links(*data_); !broken.empty()) return broken;
+  const SmallAngles small_angles(*data_);
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < triangulation.triangle_slots(); ++i) {
     if (!triangulation[TriangleId{i}].alive()) continue;
     if (triangulation[TriangleId{i}].region == Region::domain) ++count;
-    if (std::string broken = check_triangle(*data_, i, promised); !broken.empty()) return broken;
-    if (std::string broken = check_links(triangulation, i); !broken.empty()) return broken;
+    if (std::string broken = check_triangle(*data_, i, promised, small_angles); !broken.empty()) return broken;
+    if (std::string broken = check_links(*data_, i); !broken.empty()) return broken;
   }
   if (count != data_->domain_triangles)
     return "triangle count: " + std::to_string(count) + " found, " + std::to_string(data_->domain_triangles) +

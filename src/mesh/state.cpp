@@ -1,6 +1,9 @@
 // A living mesh to plain arrays and back.
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
 
 #include "mesh/mesh_data.h"
 #include "remodel/error.h"
@@ -76,42 +79,97 @@ TriangulationState unpack(const MeshState& state, const std::string& source) {
   return to;
 }
 
-// The boundary table: the vertices of each loop in the order of curve and parameter.
-void restore_boundary(MeshData& mesh, const MeshState& state, const std::string& source) {
+class BoundaryRestorer {
+ public:
+  BoundaryRestorer(MeshData& mesh, const MeshState& state, const std::string& source)
+      : mesh_(mesh), state_(state), source_(source), entries_(mesh.domain.curve_count()) {}
+
+  void run() {
+    collect();
+    if (joined()) collect_joined();
+    for (std::size_t loop = 0, curve = 0; loop < mesh_.domain.loops.size(); ++loop) {
+      add_loop(loop, curve);
+      curve += mesh_.domain.loops[loop].curves.size();
+    }
+    mesh_.orient_loops();
+  }
+
+ private:
   struct Entry {
-    std::uint32_t curve;
     double t;
     std::uint32_t vertex;
+    friend bool operator<(const Entry& a, const Entry& b) { return a.t < b.t; }
   };
-  std::vector<Entry> entries;
-  for (std::uint32_t i = 1; i < state.vertex_curves.size(); ++i) {
-    if (state.vertex_curves[i] < 0) continue;
-    if (static_cast<std::size_t>(state.vertex_curves[i]) >= mesh.domain.curve_count())
-      refuse(source, "vertex " + std::to_string(i) + " lies on an unknown curve");
-    entries.push_back({static_cast<std::uint32_t>(state.vertex_curves[i]), state.vertex_parameters[i], i});
+
+  // The vertices of each curve in the order of their parameters.
+  void collect() {
+    for (std::uint32_t i = 1; i < state_.vertex_curves.size(); ++i) {
+      const std::int32_t curve = state_.vertex_curves[i];
+      if (curve < 0) continue;
+      if (static_cast<std::size_t>(curve) >= entries_.size() || std::isnan(state_.vertex_parameters[i]))
+        refuse(source_, "vertex " + std::to_string(i) + " lies on an unknown curve");
+      entries_[static_cast<std::size_t>(curve)].push_back({state_.vertex_parameters[i], i});
+    }
+    for (auto& entries : entries_) std::sort(entries.begin(), entries.end());
   }
-  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-    return a.curve != b.curve ? a.curve < b.curve : a.t < b.t;
-  });
-  std::uint32_t previous = no_index;
-  std::size_t loop = no_index;
-  for (const Entry& entry : entries) {
-    const bool new_loop = mesh.domain.loop_of(entry.curve) != loop;
-    loop = mesh.domain.loop_of(entry.curve);
-    const auto& parameters = mesh.domain.curve(entry.curve).parameters;
-    const bool steiner = !std::binary_search(parameters.begin(), parameters.end(), entry.t);
-    const BoundaryVertex vertex{.vertex = VertexId{entry.vertex},
-                                .curve = entry.curve,
-                                .t = entry.t,
-                                .steiner = steiner,
-                                .scale_factor = state.vertex_scale_factors[entry.vertex]};
-    previous = mesh.add_boundary_vertex(vertex, new_loop ? no_index : previous);
-    if (new_loop) mesh.loop_heads.push_back(previous);
+
+  bool joined() const {
+    return std::any_of(mesh_.domain.loops.begin(), mesh_.domain.loops.end(),
+                       [](const Loop& loop) { return loop.open; });
   }
-  if (mesh.loop_heads.size() != mesh.domain.loops.size())
-    refuse(source, "a loop of the design has no vertices");
-  mesh.orient_loops();
-}
+
+  // A vertex where chains join is recorded for the first of its loops only: the others have a station there.
+  void collect_joined() {
+    std::map<std::pair<double, double>, std::uint32_t> vertex_at;
+    for (const auto& entries : entries_)
+      for (const Entry& entry : entries)
+        vertex_at[{state_.coordinates[2 * entry.vertex], state_.coordinates[2 * entry.vertex + 1]}] =
+            entry.vertex;
+    for (std::size_t loop = 0; loop < mesh_.domain.loops.size(); ++loop) {
+      const std::vector<BoundaryStation> stations = mesh_.domain.stations(loop);
+      const std::vector<Point> points = mesh_.domain.points(loop);
+      for (std::size_t i = 0; i < stations.size(); ++i) {
+        auto& entries = entries_[stations[i].curve];
+        const Entry wanted{stations[i].t, 0};
+        if (std::binary_search(entries.begin(), entries.end(), wanted)) continue;
+        const auto found = vertex_at.find({points[i].x, points[i].y});
+        if (found == vertex_at.end()) refuse(source_, "a station of the design has no vertex");
+        entries.insert(std::lower_bound(entries.begin(), entries.end(), wanted),
+                       {stations[i].t, found->second});
+      }
+    }
+  }
+
+  void add_loop(std::size_t loop, std::size_t first_curve) {
+    const std::vector<Curve>& curves = mesh_.domain.loops[loop].curves;
+    std::uint32_t head = no_index, previous = no_index;
+    for (std::size_t c = 0; c < curves.size(); ++c)
+      for (const Entry& entry : entries_[first_curve + c]) {
+        const auto& parameters = curves[c].parameters;
+        const bool station = std::binary_search(parameters.begin(), parameters.end(), entry.t) ||
+                             (entry.t == 1.0 && mesh_.domain.loops[loop].open && c + 1 == curves.size());
+        previous = mesh_.add_boundary_vertex({.vertex = VertexId{entry.vertex},
+                                              .curve = static_cast<std::uint32_t>(first_curve + c),
+                                              .t = entry.t,
+                                              .steiner = !station,
+                                              .scale_factor = state_.vertex_scale_factors[entry.vertex]},
+                                             previous);
+        if (head == no_index) mesh_.loop_heads.push_back(head = previous);
+        if (state_.vertex_curves[entry.vertex] == static_cast<std::int32_t>(first_curve + c) &&
+            state_.vertex_parameters[entry.vertex] == entry.t)
+          mesh_.triangulation.set_boundary(VertexId{entry.vertex}, previous);
+      }
+    if (head == no_index) refuse(source_, "a loop of the design has no vertices");
+    if (mesh_.boundary[head].steiner || (mesh_.domain.loops[loop].open && mesh_.boundary[previous].steiner))
+      refuse(source_, "a loop of the design has no first or no last station");
+    if (!mesh_.domain.loops[loop].open) mesh_.close_loop(head, previous);
+  }
+
+  MeshData& mesh_;
+  const MeshState& state_;
+  const std::string& source_;
+  std::vector<std::vector<Entry>> entries_;  // per curve
+};
 
 }  // namespace
 
@@ -123,7 +181,8 @@ Mesh Mesh::restore(const MeshState& state, const std::string& source) {
   data.step = state.step;
   if (std::string broken = unpack(state, source).restore(data.triangulation); !broken.empty())
     refuse(source, broken);
-  restore_boundary(data, state, source);
+  data.index_curves();
+  BoundaryRestorer(data, state, source).run();
   data.count_domain_triangles();
   if (std::string broken = check_boundary(data); !broken.empty()) refuse(source, broken);
   return mesh;

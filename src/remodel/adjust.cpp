@@ -20,7 +20,7 @@ void add_moving(const MeshData& mesh, AdjustCache& cache, std::uint32_t k, const
   moving.boundary = k;
   moving.vertex = from.vertex;
   moving.curve = from.curve;
-  if (const auto* airfoil = std::get_if<CstAirfoil>(&mesh.domain.curve(from.curve).shape)) {
+  if (const auto* airfoil = std::get_if<CstAirfoil>(&mesh.curve(from.curve).shape)) {
     moving.row = cache.basis.size();
     moving.basis_size = airfoil->upper.size();
     cache.basis.resize(moving.row + moving.basis_size);
@@ -39,20 +39,20 @@ void add_moving(const MeshData& mesh, AdjustCache& cache, std::uint32_t k, const
 
 void list_moving(const MeshData& mesh, AdjustCache& cache, const AdjustCache* earlier) {
   for (const bool steiner : {false, true}) {
-    for (const std::size_t loop : cache.loops) {
-      std::uint32_t k = mesh.loop_heads[loop];
-      do {
+    for (const std::size_t loop : cache.loops)
+      mesh.walk(mesh.loop_heads[loop], [&](std::uint32_t k) {
         if (mesh.at(k).steiner == steiner) add_moving(mesh, cache, k, earlier);
-        k = mesh.at(k).next;
-      } while (k != mesh.loop_heads[loop]);
-    }
+      });
     if (!steiner) cache.non_steiner = cache.moving.size();
   }
   std::vector<std::uint32_t> position(mesh.boundary.size(), no_index);
   for (std::uint32_t i = 0; i < cache.moving.size(); ++i) position[cache.moving[i].boundary] = i;
   for (Moving& m : cache.moving) {
-    m.before = position[mesh.non_steiner_before(m.boundary)];
-    m.after = position[mesh.non_steiner_after(m.boundary)];
+    std::uint32_t before = mesh.non_steiner_before(m.boundary), after = mesh.non_steiner_after(m.boundary);
+    if (before == no_index) before = after;
+    if (after == no_index) after = before;
+    m.before = position[before == no_index ? m.boundary : before];
+    m.after = position[after == no_index ? m.boundary : after];
   }
 }
 
@@ -112,31 +112,39 @@ void place(const MeshData& mesh, AdjustCache& cache, const Domain& domain) {
   const std::size_t n = cache.moving.size();
   cache.old_points.resize(n);
   cache.new_points.resize(n);
-  const CstAirfoil* airfoil = nullptr;  // of curve airfoil_curve, if the cached basis is its
-  std::uint32_t airfoil_curve = no_index;
+  const Curve* curve = nullptr;         // of number present
+  const CstAirfoil* airfoil = nullptr;  // the curve's, if the cached basis is its
+  std::uint32_t present = no_index;
+  Frame frame({});
   for (std::size_t i = 0; i < n; ++i) {
     const Moving& m = cache.moving[i];
     cache.old_points[i] = mesh.triangulation.point(m.vertex);
-    if (m.basis_size != 0 && m.curve != airfoil_curve) {
-      airfoil_curve = m.curve;
-      airfoil = &std::get<CstAirfoil>(domain.curve(m.curve).shape);
-      if (!same_basis(*airfoil, std::get<CstAirfoil>(mesh.domain.curve(m.curve).shape))) airfoil = nullptr;
+    if (m.curve != present) {
+      present = m.curve;
+      curve = &domain.curve(present);
+      frame = Frame(domain.loops[mesh.loop_of(present)].placement);
+      airfoil = std::get_if<CstAirfoil>(&curve->shape);
+      if (airfoil != nullptr && !same_basis(*airfoil, std::get<CstAirfoil>(mesh.curve(present).shape)))
+        airfoil = nullptr;
     }
-    if (m.basis_size == 0 || airfoil == nullptr)
-      cache.new_points[i] = domain.at({m.curve, mesh.at(m.boundary).t});
-    else
-      cache.new_points[i] = {m.station.x,
-                             cst_height(*airfoil, m.station, {cache.basis.data() + m.row, m.basis_size})};
+    const Point p =
+        airfoil == nullptr
+            ? point_at(curve->shape, mesh.at(m.boundary).t)
+            : Point{m.station.x, cst_height(*airfoil, m.station, {cache.basis.data() + m.row, m.basis_size})};
+    cache.new_points[i] = frame(p);
   }
 }
 
 void copy_shapes(AdjustCache& cache, const Domain& domain) {
   std::size_t n = 0;
-  for (const std::size_t loop : cache.loops)
+  cache.placements.clear();
+  for (const std::size_t loop : cache.loops) {
+    cache.placements.push_back(domain.loops[loop].placement);
     for (const Curve& curve : domain.loops[loop].curves) {
       if (n == cache.shapes.size()) cache.shapes.emplace_back();
       cache.shapes[n++] = curve.shape;
     }
+  }
 }
 
 // Length scales at the new positions, by the rule of MeshData::base_length_scale.
@@ -150,7 +158,8 @@ void scale(const MeshData& mesh, AdjustCache& cache) {
     const double to_before = std::sqrt(squared_distance(cache.new_points[m.before], cache.new_points[i]));
     const double to_after = std::sqrt(squared_distance(cache.new_points[i], cache.new_points[m.after]));
     const double base =
-        i < cache.non_steiner
+        m.before == i ? 1.0
+        : i < cache.non_steiner
             ? std::min(to_before, to_after) / mesh.options.resolution
             : (cache.new_scales[m.before] * to_after + cache.new_scales[m.after] * to_before) /
                   (to_before + to_after);

@@ -22,7 +22,8 @@ struct AdjustCache : MeshCache {
     CstStation station;                // of a CST curve
     std::size_t row = 0;               // where the vertex's CST basis starts in `basis`
     std::size_t basis_size = 0;        // 0: not a CST curve
-    std::uint32_t before, after;       // positions in `moving` of the non-Steiner neighbours
+    std::uint32_t before, after;       // positions in `moving` of the non-Steiner neighbours; the same twice
+                                       // at the end of a chain, its own for a single point
     std::size_t star_begin, star_end;  // its affected triangles, in `stars`
   };
   struct Affected {
@@ -56,8 +57,9 @@ struct AdjustCache : MeshCache {
 
   bool finite() const;  // all new points of the step are
 
-  // The curves of the loops on the new design; after a full adjustment, on the one before it.
+  // The curves and places of the loops on the new design; after a full adjustment, on the one before it.
   std::vector<Shape> shapes;
+  std::vector<Placement> placements;
 
   // Scratch of one step.
   std::vector<Point> old_points, new_points;

@@ -1,10 +1,13 @@
-// The general method (the paper's section 3): any closed loops to any closed loops. Loops that are the same
-// in both domains, by value, are not touched.
+// The general method (the paper's section 3): any loops and chains to any others. Those that are the same in
+// both domains, by value, are not touched.
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <nanoflann.hpp>
+#include <utility>
 
 #include "generate/discretise.h"
 #include "generate/recovery_error.h"
@@ -32,12 +35,16 @@ struct Model {
 };
 
 void add_loop(Model& model, const Domain& domain, std::size_t loop) {
-  const std::vector<BoundaryStation> stations = domain.stations(loop);
-  const std::size_t n = stations.size(), first = model.points.size();
-  for (const BoundaryStation& station : stations) model.points.push_back(domain.at(station));
+  const std::vector<Point> points = domain.points(loop);
+  const std::size_t n = points.size();
+  const bool open = domain.loops[loop].open;
   for (std::size_t i = 0; i < n; ++i) {
-    model.before.push_back(model.points[first + (i + n - 1) % n]);
-    model.after.push_back(model.points[first + (i + 1) % n]);
+    // The end of a chain has one neighbour, a single point none: then they are the same.
+    const bool first = open && i == 0, last = open && i + 1 == n;
+    const Point before = first ? points[last ? i : i + 1] : points[(i + n - 1) % n];
+    model.points.push_back(points[i]);
+    model.before.push_back(before);
+    model.after.push_back(last ? before : points[(i + 1) % n]);
   }
 }
 
@@ -80,17 +87,30 @@ class LoopReplacement {
     Refiner refiner(mesh_);
     for (const std::size_t loop : new_loops_) refiner.recover_loop(mesh_.loop_heads[loop]);
     relabel_touched(mesh_);
-    for (const std::size_t loop : new_loops_) set_length_scales(mesh_.loop_heads[loop]);
+    for (const std::size_t loop : new_loops_)
+      mesh_.walk(mesh_.loop_heads[loop], [&](std::uint32_t k) { set_length_scale(k); });
+    for (const VertexId v : old_boundary)  // other loops were joined to the old ones here
+      if (triangulation_[v].alive() && triangulation_[v].boundary != no_index)
+        set_length_scale(triangulation_[v].boundary);
   }
 
  private:
   // kept_[new loop]: the old loop that is the same.
   void match_loops() {
+    std::multimap<std::pair<double, double>, std::size_t> old_loop_at;  // by their first points
+    const auto first_point = [](const Domain& domain, std::size_t loop) {
+      const Point p = Frame(domain.loops[loop].placement)(point_at(domain.loops[loop].curves.front().shape, 0.0));
+      return std::pair(p.x, p.y);
+    };
+    for (std::size_t j = 0; j < old_domain_.loops.size(); ++j)
+      old_loop_at.emplace(first_point(old_domain_, j), j);
     kept_.assign(domain_.loops.size(), none);
     std::vector<bool> used(old_domain_.loops.size(), false);
     for (std::size_t i = 0; i < domain_.loops.size(); ++i) {
-      for (std::size_t j = 0; j < used.size() && kept_[i] == none; ++j)
-        if (!used[j] && domain_.loops[i] == old_domain_.loops[j]) kept_[i] = j, used[j] = true;
+      const auto [begin, end] = old_loop_at.equal_range(first_point(domain_, i));
+      for (auto it = begin; it != end && kept_[i] == none; ++it)
+        if (!used[it->second] && domain_.loops[i] == old_domain_.loops[it->second])
+          kept_[i] = it->second, used[it->second] = true;
       if (kept_[i] == none) new_loops_.push_back(i);
     }
     for (std::size_t j = 0; j < used.size(); ++j)
@@ -126,29 +146,26 @@ class LoopReplacement {
     return triangulation_.star(VertexId{v}).triangle;
   }
 
-  template <class Visit>
-  void walk(std::uint32_t head, Visit visit) const {
-    std::uint32_t k = head;
-    do {
-      visit(k);
-      k = mesh_.at(k).next;
-    } while (k != head);
-  }
-
   void release_old() {
     for (const std::size_t loop : old_loops_)
-      walk(mesh_.loop_heads[loop],
-           [&](std::uint32_t k) { triangulation_.release(mesh_.at(k).vertex, mesh_.next(k).vertex); });
+      mesh_.walk_edges(mesh_.loop_heads[loop], [&](std::uint32_t k, std::uint32_t next) {
+        triangulation_.release(mesh_.at(k).vertex, mesh_.at(next).vertex);
+      });
   }
 
-  // The old boundary's vertices, which are free vertices now.
+  // The old boundary's vertices, which are free vertices now, but for those that other loops join. No vertex
+  // has a record any more: the table is made anew.
   std::vector<VertexId> forget_old() {
     std::vector<VertexId> vertices;
     for (const std::size_t loop : old_loops_)
-      walk(mesh_.loop_heads[loop], [&](std::uint32_t k) {
-        vertices.push_back(mesh_.at(k).vertex);
-        triangulation_.set_boundary(mesh_.at(k).vertex, no_index);
+      mesh_.walk(mesh_.loop_heads[loop], [&](std::uint32_t k) { vertices.push_back(mesh_.at(k).vertex); });
+    for (const std::uint32_t head : mesh_.loop_heads)
+      mesh_.walk(head, [&](std::uint32_t k) {
+        if (triangulation_[mesh_.at(k).vertex].boundary != no_index)
+          triangulation_.set_boundary(mesh_.at(k).vertex, no_index);
       });
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     return vertices;
   }
 
@@ -161,67 +178,82 @@ class LoopReplacement {
     mesh_.free_boundary.clear();
     mesh_.loop_heads.clear();
     mesh_.domain = domain_;
+    mesh_.index_curves();
+    const std::vector<std::uint32_t> first = first_curves(domain_), old_first = first_curves(old_domain_);
     for (std::size_t loop = 0; loop < domain_.loops.size(); ++loop) {
       if (kept_[loop] == none)
         insert_loop(loop);
       else
-        copy_loop(old_table, old_heads[kept_[loop]], first_curve(domain_, loop),
-                  first_curve(old_domain_, kept_[loop]));
+        copy_loop(old_table, old_heads[kept_[loop]], first[loop] - old_first[kept_[loop]]);
     }
     mesh_.orient_loops();
     for (const std::size_t loop : new_loops_)
-      walk(mesh_.loop_heads[loop], [&](std::uint32_t k) {  // until the neighbours are known
+      mesh_.walk(mesh_.loop_heads[loop], [&](std::uint32_t k) {  // until the neighbours are known
         mesh_.set_boundary_length_scale(k, mesh_.base_length_scale(k));
       });
   }
 
-  static std::uint32_t first_curve(const Domain& domain, std::size_t loop) {
-    std::uint32_t curve = 0;
-    for (std::size_t i = 0; i < loop; ++i) curve += static_cast<std::uint32_t>(domain.loops[i].curves.size());
-    return curve;
+  static std::vector<std::uint32_t> first_curves(const Domain& domain) {
+    std::vector<std::uint32_t> first{0};
+    for (const Loop& loop : domain.loops)
+      first.push_back(first.back() + static_cast<std::uint32_t>(loop.curves.size()));
+    return first;
   }
 
-  void copy_loop(const std::vector<BoundaryVertex>& table, std::uint32_t head, std::uint32_t to,
-                 std::uint32_t from) {
+  void copy_loop(const std::vector<BoundaryVertex>& table, std::uint32_t head, std::uint32_t shift) {
     std::uint32_t k = head, previous = no_index;
     do {
       BoundaryVertex vertex = table[k];
-      vertex.curve += to - from;
+      vertex.curve += shift;  // modulo 2^32: either way
       previous = mesh_.add_boundary_vertex(vertex, previous);
       if (k == head) mesh_.loop_heads.push_back(previous);
       k = table[k].next;
-    } while (k != head);
+    } while (k != head && k != no_index);
+    if (k == head) mesh_.close_loop(mesh_.loop_heads.back(), previous);
   }
 
   void insert_loop(std::size_t loop) {
     std::uint32_t previous = no_index;
     TriangleId hint = any_triangle();
-    for (const BoundaryStation& station : domain_.stations(loop)) {
-      const VertexId v = triangulation_.insert(domain_.at(station), hint).vertex;
-      if (triangulation_[v].boundary != no_index)
-        throw RecoveryError("two boundary vertices of the new design lie at one point");
+    const std::vector<BoundaryStation> stations = domain_.stations(loop);
+    const std::vector<Point> points = domain_.points(loop);
+    for (std::size_t i = 0; i < stations.size(); ++i) {
+      const auto [v, is_new] = triangulation_.insert(points[i], hint);
+      if (is_new ? at_constraint(v)
+                 : triangulation_[v].boundary != no_index && mesh_.at(triangulation_[v].boundary).steiner)
+        throw RecoveryError("a boundary vertex of the new design lies on a curve of another loop");
       hint = triangulation_.star(v).triangle;
-      const BoundaryVertex vertex{
-          .vertex = v, .curve = static_cast<std::uint32_t>(station.curve), .t = station.t};
-      const bool first = previous == no_index;
-      previous = mesh_.add_boundary_vertex(vertex, previous);
-      if (first) mesh_.loop_heads.push_back(previous);
+      previous = mesh_.add_boundary_vertex({.vertex = v,
+                                            .curve = static_cast<std::uint32_t>(stations[i].curve),
+                                            .t = stations[i].t},
+                                           previous);
+      if (i == 0) mesh_.loop_heads.push_back(previous);
     }
+    if (!domain_.loops[loop].open) mesh_.close_loop(mesh_.loop_heads.back(), previous);
+  }
+
+  bool at_constraint(VertexId v) const {
+    bool found = false;
+    for_each_corner(v, [&](Corner c) { found |= triangulation_.link(Corner{c.triangle, next3(c.index)}).constrained(); });
+    return found;
   }
 
   // A vertex that both models share (the trailing edge, often) keeps triangles from before the step, but not
   // its length scale: they count as touched, so that refinement judges them anew.
-  void set_length_scales(std::uint32_t head) {
-    walk(head, [&](std::uint32_t k) {
-      if (mesh_.at(k).steiner) return;
-      mesh_.set_boundary_length_scale(k, neighbour_length_scale(mesh_, k));
-      const Corner first = triangulation_.star(mesh_.at(k).vertex);
-      Corner c = first;
-      do {
-        triangulation_.refresh_circle(c.triangle);
-        c = triangulation_.counterclockwise(c);
-      } while (c.triangle != first.triangle);
-    });
+  void set_length_scale(std::uint32_t k) {
+    if (mesh_.at(k).steiner) return;
+    mesh_.set_boundary_length_scale(k, neighbour_length_scale(mesh_, k));
+    for_each_corner(mesh_.at(k).vertex, [&](Corner c) { triangulation_.refresh_circle(c.triangle); });
+  }
+
+  template <class Visit>
+  void for_each_corner(VertexId v, Visit visit) const {
+    const Corner first = triangulation_.star(v);
+    Corner c = first;
+    do {
+      visit(c);
+      c = triangulation_.counterclockwise(c);
+    } while (c.triangle != first.triangle);
   }
 
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();

@@ -36,7 +36,7 @@ class Transaction {
         boundary_(mesh.boundary),
         free_boundary_(mesh.free_boundary),
         loop_heads_(mesh.loop_heads),
-        domain_on_left_(mesh.domain_on_left),
+        sides_(mesh.sides),
         domain_(mesh.domain),
         domain_triangles_(mesh.domain_triangles),
         step_(mesh.step) {
@@ -51,8 +51,9 @@ class Transaction {
     mesh_.boundary.swap(boundary_);
     mesh_.free_boundary.swap(free_boundary_);
     mesh_.loop_heads.swap(loop_heads_);
-    mesh_.domain_on_left.swap(domain_on_left_);
+    mesh_.sides.swap(sides_);
     mesh_.domain.loops.swap(domain_.loops);
+    mesh_.index_curves();
     mesh_.domain_triangles = domain_triangles_;
     mesh_.step = step_;
     if (mesh_.cache && replaced_) mesh_.cache->stale = stale_;
@@ -86,7 +87,7 @@ class Transaction {
   MeshData& mesh_;
   std::vector<BoundaryVertex> boundary_;
   std::vector<std::uint32_t> free_boundary_, loop_heads_;
-  std::vector<bool> domain_on_left_;
+  std::vector<Sides> sides_;
   Domain domain_;
   std::size_t domain_triangles_;
   std::uint32_t step_;
@@ -130,6 +131,17 @@ std::vector<std::size_t> moving_loops(const Domain& from, const Domain& to) {
   return loops;
 }
 
+// Whether the vertices of the two domains correspond one to one, and no other chain is joined to one that moves.
+bool corresponds(const MeshData& mesh, const Domain& domain) {
+  if (!one_to_one(mesh.domain, domain)) return false;
+  const auto open = [](const Loop& loop) { return loop.open; };
+  if (std::none_of(domain.loops.begin(), domain.loops.end(), open)) return true;
+  bool joined = false;
+  for (const std::size_t loop : moving_loops(mesh.domain, domain))
+    mesh.walk(mesh.loop_heads[loop], [&](std::uint32_t k) { joined |= mesh.at(k).twin != k; });
+  return !joined;
+}
+
 // Airfoils whose surfaces cross are refused here, before anything is touched: this is cheap enough for every
 // step. That no other curves cross follows for a full adjustment from its triangles, otherwise from
 // validate().
@@ -153,13 +165,16 @@ RemodelResult full_adjustment(MeshData& mesh, AdjustCache& cache) {
     if (!(cache.new_points[i] == cache.old_points[i])) ++result.moved;
   bool basis_kept = true;
   std::size_t n = 0;
-  for (const std::size_t loop : cache.loops)
-    for (Curve& curve : mesh.domain.loops[loop].curves) {
+  for (std::size_t i = 0; i < cache.loops.size(); ++i) {
+    Loop& loop = mesh.domain.loops[cache.loops[i]];
+    std::swap(loop.placement, cache.placements[i]);
+    for (Curve& curve : loop.curves) {
       curve.shape.swap(cache.shapes[n]);
       if (const auto* airfoil = std::get_if<CstAirfoil>(&curve.shape))
         basis_kept &= same_basis(std::get<CstAirfoil>(cache.shapes[n]), *airfoil);
       ++n;
     }
+  }
   ++mesh.step;
   if (!basis_kept) mesh.cache.reset();
   return result;
@@ -258,12 +273,12 @@ RemodelResult regenerate(Mesh& mesh, const Domain& domain, StepObserver* observe
   return result;
 }
 
-void require_possible(const Mesh& mesh, const RemodelOptions& options, bool corresponds) {
+void require_possible(const Mesh& mesh, const RemodelOptions& options, bool one_to_one) {
   if (!std::isfinite(options.distance) || options.distance < 0.0)
     throw Error(ErrorCode::argument, "distance",
                 "found " + std::to_string(options.distance) + ", expected 0 or more");
-  if (options.method == Method::specialised && !corresponds)
-    throw Error(ErrorCode::argument, "method", "specialised needs two domains that correspond one to one");
+  if (options.method == Method::specialised && !one_to_one)
+    throw Error(ErrorCode::argument, "method", "specialised needs two domains that correspond one to one, and no chain that joins what moves");
   if (mesh.data().triangulation.journalling())
     throw Error(ErrorCode::argument, "mesh",
                 "a trial of another design is under way, expected it to be kept or ended");
@@ -297,8 +312,8 @@ enum class Journal { when_needed, always };
 
 RemodelResult remodel(Mesh& mesh, const Domain& domain, const RemodelOptions& options, Journal journal,
                       Undo& undo) {
-  const bool corresponds = one_to_one(mesh.domain(), domain);
-  require_possible(mesh, options, corresponds);
+  const bool one_to_one = corresponds(mesh.data(), domain);
+  require_possible(mesh, options, one_to_one);
   if (mesh.domain() == domain) {
     RemodelResult result = unchanged(mesh.data(), Stopped::done);
     result.full_adjustment = true;
@@ -306,7 +321,7 @@ RemodelResult remodel(Mesh& mesh, const Domain& domain, const RemodelOptions& op
   }
   require_surfaces_apart(domain);
   const Method method =
-      corresponds && options.method != Method::general ? Method::specialised : Method::general;
+      one_to_one && options.method != Method::general ? Method::specialised : Method::general;
   if (journal == Journal::always) undo.begin();
   RemodelResult result = remodel_step(mesh, domain, options, method, undo);
   result.method = method;

@@ -85,11 +85,10 @@ void collect(MeshData& mesh, const RemovalRegion& region, std::vector<VertexId>&
 
 // The label of a triangle beside one of its constrained edges.
 Region side_label(const MeshData& mesh, const Triangle& t, int i) {
-  const std::uint32_t a = mesh.triangulation[t.vertex[next3(i)]].boundary;
-  const std::uint32_t b = mesh.triangulation[t.vertex[previous3(i)]].boundary;
-  const bool forward = mesh.at(a).next == b;  // the triangle lies on the left of a -> b
-  const std::uint32_t curve = mesh.at(forward ? a : b).curve;
-  return forward == mesh.domain_on_left[mesh.domain.loop_of(curve)] ? Region::domain : Region::outside;
+  const VertexId a = t.vertex[next3(i)];
+  const std::uint32_t k = mesh.edge_between(a, t.vertex[previous3(i)]);
+  const Sides& sides = mesh.sides[mesh.loop_of(mesh.at(k).curve)];
+  return mesh.at(k).vertex == a ? sides.left : sides.right;  // the triangle lies on the left of a -> b
 }
 
 class Relabelling {
@@ -148,7 +147,9 @@ class Relabelling {
     for (int i = 0; i < 3; ++i)
       if (triangulation_[t].link[i].constrained() &&
           triangulation_[t].region != side_label(mesh_, triangulation_[t], i))
-        throw RecoveryError("the loops of the new design lie on the wrong sides of each other");
+        throw RecoveryError(contradicting_sides);
+    if (triangulation_[t].ghost() && triangulation_[t].region == Region::domain)
+      throw RecoveryError(contradicting_sides);
   }
 
   // A part without a boundary edge of its own is labelled like what lies around it.
@@ -200,9 +201,8 @@ void restore_outside(MeshData& mesh) {
   Triangulation& triangulation = mesh.triangulation;
   std::vector<TriangleId> outside;
   mesh.marks.clear(triangulation.triangle_slots());
-  for (const std::uint32_t head : mesh.loop_heads) {
-    std::uint32_t k = head;
-    do {
+  for (const std::uint32_t head : mesh.loop_heads)
+    mesh.walk(head, [&](std::uint32_t k) {
       const Corner first = triangulation.star(mesh.at(k).vertex);
       Corner c = first;
       do {
@@ -211,9 +211,7 @@ void restore_outside(MeshData& mesh) {
           outside.push_back(c.triangle);
         c = triangulation.counterclockwise(c);
       } while (c.triangle != first.triangle);
-      k = mesh.at(k).next;
-    } while (k != head);
-  }
+    });
   for (const TriangleId t : outside) triangulation.refresh_circle(t);
   triangulation.restore_delaunay(outside);
 }

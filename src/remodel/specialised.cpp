@@ -62,7 +62,8 @@ class Replacement {
     triangulation_.restore_delaunay(uncertain);
   }
 
-  // One region for each lost pair, about the outermost of the two: the one farther into the domain.
+  // One region for each lost pair, about the outermost of the two: the one farther into the domain. Where the
+  // domain is on both sides, that is one for each of the two.
   std::vector<RemovalRegion> regions() const {
     std::vector<RemovalRegion> result;
     for (std::size_t i = 0; i < cache_.non_steiner; ++i) {
@@ -72,12 +73,19 @@ class Replacement {
       const std::vector<Point>& olds = cache_.old_points;
       const Point along = news[m.after] - news[m.before];
       const double leftwards = cross(along, news[i] - olds[i]);
-      const bool left = mesh_.domain_on_left[mesh_.domain.loop_of(m.curve)];
-      const std::vector<Point>& outermost = (leftwards > 0.0) == left ? news : olds;
       const double pair = std::sqrt(squared_distance(olds[i], news[i]));
-      const double radius =
-          removal_radius(distance_, pair, outermost[i], outermost[m.before], outermost[m.after]);
-      result.push_back({outermost[i], radius, triangulation_.star(m.vertex).triangle});
+      const auto add = [&](const std::vector<Point>& points) {
+        const double radius = removal_radius(distance_, pair, points[i], points[m.before], points[m.after]);
+        result.push_back({points[i], radius, triangulation_.star(m.vertex).triangle});
+      };
+      const Sides& sides = mesh_.sides[mesh_.loop_of(m.curve)];
+      const bool left = sides.left == Region::domain;
+      if (left && sides.right == Region::domain) {
+        add(news);
+        add(olds);
+      } else {
+        add((leftwards > 0.0) == left ? news : olds);
+      }
     }
     return result;
   }
@@ -87,6 +95,7 @@ class Replacement {
       if (!lost(i)) continue;
       const BoundaryVertex& v = mesh_.at(moving(i).boundary);
       for (const std::uint32_t neighbour : {v.previous, v.next}) {
+        if (neighbour == no_index) continue;
         const auto edge = triangulation_.find_edge(v.vertex, mesh_.at(neighbour).vertex);
         if (edge && triangulation_.link(*edge).constrained())
           triangulation_.release(v.vertex, mesh_.at(neighbour).vertex);
@@ -120,7 +129,7 @@ class Replacement {
 
   // A triangle at the nearest boundary vertex before k that is in the mesh.
   TriangleId hint_near(std::uint32_t k) const {
-    for (std::uint32_t n = mesh_.at(k).previous; n != k; n = mesh_.at(n).previous)
+    for (std::uint32_t n = mesh_.at(k).previous; n != k && n != no_index; n = mesh_.at(n).previous)
       if (mesh_.at(n).vertex) return triangulation_.star(mesh_.at(n).vertex).triangle;
     const std::uint32_t other =
         mesh_.loop_heads[mesh_.loop_heads.front() == k ? mesh_.loop_heads.size() - 1 : 0];

@@ -37,6 +37,19 @@ Point point_on(const Arc& arc, double t) {
   return arc.centre + arc.radius * direction(arc.start / full_turn + t * (arc.sweep / full_turn));
 }
 
+// Exactly a point of the spline at its knot.
+Point point_on(const Spline& spline, double t) {
+  assert(spline.points.size() >= 2);
+  const auto above = std::upper_bound(spline.knots.begin() + 1, spline.knots.end() - 1, t);
+  const auto i = static_cast<std::size_t>(above - spline.knots.begin()) - 1;
+  if (t == spline.knots[i]) return spline.points[i];
+  if (t == spline.knots[i + 1]) return spline.points[i + 1];
+  const double h = spline.knots[i + 1] - spline.knots[i];
+  const double b = (t - spline.knots[i]) / h, a = 1.0 - b;
+  return a * spline.points[i] + b * spline.points[i + 1] +
+         (h * h / 6.0) * ((a * a * a - a) * spline.second[i] + (b * b * b - b) * spline.second[i + 1]);
+}
+
 // i/n for i = 0 ... n-1, with the second half mirrored from the first: fractions i and n-i add up to 1 as
 // fold() sees them, which dividing both would miss by a rounding here and there.
 std::vector<double> mirrored_fractions(int n) {
@@ -68,8 +81,7 @@ void check_options(const AirfoilDomainOptions& options) {
 // The farfield is a polygon: what it surely contains is its inscribed circle.
 void check_farfield_contains(const Domain& domain, std::size_t loop, const AirfoilDomainOptions& options) {
   const double inside = options.farfield_radius * std::cos(std::numbers::pi / options.farfield_points);
-  for (const BoundaryStation station : domain.stations(loop)) {
-    const Point p = domain.at(station);
+  for (const Point p : domain.points(loop)) {
     const double distance = std::hypot(p.x - 0.5, p.y);
     if (distance < inside) continue;
     std::ostringstream problem;
@@ -80,7 +92,28 @@ void check_farfield_contains(const Domain& domain, std::size_t loop, const Airfo
   }
 }
 
+Loop airfoil_loop(const PlacedAirfoil& placed, int points) {
+  const CstAirfoil& airfoil = placed.airfoil;
+  expect(airfoil.upper.size() >= 2 && airfoil.upper.size() == airfoil.lower.size(), "airfoil coefficients",
+         static_cast<double>(airfoil.lower.size()), "as many lower as upper ones, at least 2");
+  expect(placed.placement.chord > 0.0 && std::isfinite(placed.placement.chord), "chord", placed.placement.chord,
+         "more than 0");
+  Loop body{.role = LoopRole::hole,
+            .curves = {{.name = placed.name, .shape = airfoil, .parameters = mirrored_fractions(points)}},
+            .placement = placed.placement};
+  if (airfoil.te_upper != airfoil.te_lower) {
+    const Line trailing_edge{.from = airfoil.at(1.0), .to = airfoil.at(0.0)};
+    body.curves.push_back({.name = placed.name, .shape = trailing_edge, .parameters = {0.0}});
+  }
+  return body;
+}
+
 }  // namespace
+
+const char* name_of(LoopRole role) {
+  constexpr const char* names[] = {"outer", "hole", "internal", "left", "right"};
+  return names[static_cast<std::size_t>(role)];
+}
 
 Point point_at(const Shape& shape, double t) {
   return std::visit([t](const auto& s) { return point_on(s, t); }, shape);
@@ -111,26 +144,55 @@ const Curve& Domain::curve(std::size_t index) const {
   return loops.back().curves.back();
 }
 
+Point Domain::at(BoundaryStation station) const {
+  const Loop& loop = loops[loop_of(station.curve)];
+  return Frame(loop.placement)(point_at(curve(station.curve).shape, station.t));
+}
+
+namespace {
+
+bool is_single_point(const Loop& loop) {
+  if (!loop.open || loop.curves.size() != 1) return false;
+  const Line* line = std::get_if<Line>(&loop.curves.front().shape);
+  return line != nullptr && line->from == line->to;
+}
+
+template <class Visit>
+void for_each_station(const Loop& loop, Visit visit) {
+  for (std::size_t c = 0; c < loop.curves.size(); ++c)
+    for (const double t : loop.curves[c].parameters) visit(c, t);
+  if (loop.open && !loop.curves.empty() && !is_single_point(loop)) visit(loop.curves.size() - 1, 1.0);
+}
+
+}  // namespace
+
 std::vector<BoundaryStation> Domain::stations(std::size_t loop) const {
   assert(loop < loops.size());
-  std::size_t curve_index = 0;
-  for (std::size_t l = 0; l < loop; ++l) curve_index += loops[l].curves.size();
+  std::size_t first_curve = 0;
+  for (std::size_t l = 0; l < loop; ++l) first_curve += loops[l].curves.size();
   std::vector<BoundaryStation> result;
-  for (const Curve& c : loops[loop].curves) {
-    for (const double t : c.parameters) result.push_back({curve_index, t});
-    ++curve_index;
-  }
+  for_each_station(loops[loop],
+                   [&](std::size_t curve, double t) { result.push_back({first_curve + curve, t}); });
+  return result;
+}
+
+std::vector<Point> Domain::points(std::size_t loop) const {
+  const Frame frame(loops[loop].placement);
+  std::vector<Point> result;
+  for_each_station(loops[loop], [&](std::size_t curve, double t) {
+    result.push_back(frame(point_at(loops[loop].curves[curve].shape, t)));
+  });
   return result;
 }
 
 double signed_area(const Domain& domain, std::size_t loop) {
-  const std::vector<BoundaryStation> stations = domain.stations(loop);
-  if (stations.size() < 3) return 0.0;
-  const Point origin = domain.at(stations.front());  // relative to a corner: far loops lose no digits
+  const std::vector<Point> points = domain.points(loop);
+  if (points.size() < 3) return 0.0;
+  const Point origin = points.front();  // relative to a corner: far loops lose no digits
   double twice = 0.0;
-  Point previous = domain.at(stations[1]) - origin;
-  for (std::size_t i = 2; i < stations.size(); ++i) {
-    const Point next = domain.at(stations[i]) - origin;
+  Point previous = points[1] - origin;
+  for (std::size_t i = 2; i < points.size(); ++i) {
+    const Point next = points[i] - origin;
     twice += cross(previous, next);
     previous = next;
   }
@@ -142,31 +204,32 @@ bool one_to_one(const Domain& a, const Domain& b) {
     return c.name == d.name && c.shape.index() == d.shape.index() && c.parameters == d.parameters;
   };
   const auto same_loop = [&](const Loop& l, const Loop& m) {
-    return l.role == m.role &&
+    return l.role == m.role && l.open == m.open &&
            std::equal(l.curves.begin(), l.curves.end(), m.curves.begin(), m.curves.end(), same_curve);
   };
   return std::equal(a.loops.begin(), a.loops.end(), b.loops.begin(), b.loops.end(), same_loop);
 }
 
-Domain airfoil_domain(const CstAirfoil& airfoil, const AirfoilDomainOptions& options) {
+Frame::Frame(const Placement& placement)
+    : axis_(placement.chord * direction(placement.rotation_deg / 360.0)),
+      origin_(placement.position),
+      identity_(placement == Placement{}) {}
+
+Domain airfoils_domain(const std::vector<PlacedAirfoil>& airfoils, const AirfoilDomainOptions& options) {
   check_options(options);
-  expect(airfoil.upper.size() >= 2 && airfoil.upper.size() == airfoil.lower.size(), "airfoil coefficients",
-         static_cast<double>(airfoil.lower.size()), "as many lower as upper ones, at least 2");
-  Loop body{
-      .role = LoopRole::hole,
-      .curves = {{.name = "airfoil", .shape = airfoil, .parameters = mirrored_fractions(options.points)}}};
-  if (airfoil.te_upper != airfoil.te_lower) {
-    const Line trailing_edge{.from = airfoil.at(1.0), .to = airfoil.at(0.0)};
-    body.curves.push_back({.name = "airfoil", .shape = trailing_edge, .parameters = {0.0}});
-  }
+  Domain domain;
+  for (const PlacedAirfoil& airfoil : airfoils) domain.loops.push_back(airfoil_loop(airfoil, options.points));
   const Arc circle{.centre = {0.5, 0.0}, .radius = options.farfield_radius};
-  const Loop farfield{
-      .role = LoopRole::outer,
-      .curves = {
-          {.name = "farfield", .shape = circle, .parameters = mirrored_fractions(options.farfield_points)}}};
-  Domain domain{.loops = {std::move(body), farfield}};
-  check_farfield_contains(domain, 0, options);
+  domain.loops.push_back(
+      {.role = LoopRole::outer,
+       .curves = {
+           {.name = "farfield", .shape = circle, .parameters = mirrored_fractions(options.farfield_points)}}});
+  for (std::size_t loop = 0; loop < airfoils.size(); ++loop) check_farfield_contains(domain, loop, options);
   return domain;
+}
+
+Domain airfoil_domain(const CstAirfoil& airfoil, const AirfoilDomainOptions& options) {
+  return airfoils_domain({{.airfoil = airfoil}}, options);
 }
 
 }  // namespace remodel

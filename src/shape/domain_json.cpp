@@ -1,14 +1,13 @@
-// Domains as JSON:
-//
-//   {"loops": [{"role": "hole", "curves": [{"name": "airfoil", "shape": {"kind": "airfoil", ...},
-//                                           "parameters": [0, 0.005, ...]}, ...]}, ...]}
-//
-// where a shape is an airfoil (the keys of airfoil_json.cpp), a line (from, to), a polyline (points) or an
-// arc (centre, radius, start, sweep); points are [x, y].
+// Domains as JSON: docs/domains.md describes the layout. What is written is exact and complete; what is read
+// may also use the short forms for people: stations instead of parameters, airfoils by name or file.
+
+#include <cmath>
 
 #include "airfoil_json.h"
 #include "json_reader.h"
 #include "remodel/domain.h"
+#include "remodel/error.h"
+#include "text_file.h"
 
 namespace remodel {
 namespace {
@@ -45,6 +44,12 @@ ordered_json json_of_shape(const Arc& arc) {
           {"sweep", finite(arc.sweep)}};
 }
 
+ordered_json json_of_shape(const Spline& spline) {
+  ordered_json points = ordered_json::array();
+  for (const Point p : spline.points) points.push_back(json_of(p));
+  return {{"kind", "spline"}, {"points", std::move(points)}};
+}
+
 ordered_json json_of(const Curve& curve) {
   return {{"name", curve.name},
           {"shape", std::visit([](const auto& s) { return json_of_shape(s); }, curve.shape)},
@@ -54,7 +59,14 @@ ordered_json json_of(const Curve& curve) {
 ordered_json json_of(const Loop& loop) {
   ordered_json curves = ordered_json::array();
   for (const Curve& curve : loop.curves) curves.push_back(json_of(curve));
-  return {{"role", loop.role == LoopRole::outer ? "outer" : "hole"}, {"curves", std::move(curves)}};
+  ordered_json result{{"role", name_of(loop.role)}, {"curves", std::move(curves)}};
+  if (loop.open) result["open"] = true;
+  if (!(loop.placement == Placement{})) {
+    result["placement"] = {{"chord", finite(loop.placement.chord)},
+                           {"rotation_deg", finite(loop.placement.rotation_deg)},
+                           {"position", json_of(loop.placement.position)}};
+  }
+  return result;
 }
 
 Point point_of(const JsonReader& reader) {
@@ -63,51 +75,150 @@ Point point_of(const JsonReader& reader) {
   return {values[0], values[1]};
 }
 
-Shape shape_of(const JsonReader& reader) {
-  if (!reader.is_object() || !reader.has("kind")) reader.refuse("expected an object with the key \"kind\"");
-  const std::string kind = reader["kind"].text();
-  if (kind == "airfoil") {
-    reader.expect_keys({"kind", "degree", "upper", "lower"}, {"e1", "e2", "te_upper", "te_lower"});
-    return airfoil_of(reader);
-  }
-  if (kind == "line") {
-    reader.expect_keys({"kind", "from", "to"});
-    return Line{.from = point_of(reader["from"]), .to = point_of(reader["to"])};
-  }
-  if (kind == "polyline") {
-    reader.expect_keys({"kind", "points"});
-    Polyline polyline;
-    for (const JsonReader& element : reader["points"].elements())
-      polyline.points.push_back(point_of(element));
-    if (polyline.points.size() < 2) reader["points"].refuse("expected at least 2 points");
-    return polyline;
-  }
-  if (kind == "arc") {
-    reader.expect_keys({"kind", "centre", "radius", "start", "sweep"});
-    return Arc{.centre = point_of(reader["centre"]),
-               .radius = reader["radius"].number(),
-               .start = reader["start"].number(),
-               .sweep = reader["sweep"].number()};
-  }
-  reader["kind"].refuse("found \"" + kind + "\", expected airfoil, line, polyline or arc");
+std::vector<Point> points_of(const JsonReader& reader) {
+  std::vector<Point> points;
+  for (const JsonReader& element : reader["points"].elements()) points.push_back(point_of(element));
+  if (points.size() < 2) reader["points"].refuse("expected at least 2 points");
+  return points;
 }
 
-Curve curve_of(const JsonReader& reader) {
-  reader.expect_keys({"name", "shape", "parameters"});
-  return {.name = reader["name"].text(),
-          .shape = shape_of(reader["shape"]),
-          .parameters = reader["parameters"].numbers()};
+Spline spline_of(const JsonReader& reader) {
+  try {
+    return spline_through(points_of(reader));
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::argument) throw;
+    reader["points"].refuse(error.what());
+  }
 }
 
-Loop loop_of(const JsonReader& reader) {
-  reader.expect_keys({"role", "curves"});
-  const std::string role = reader["role"].text();
-  if (role != "outer" && role != "hole") {
-    reader["role"].refuse("found \"" + role + "\", expected outer or hole");
+int whole_number(const JsonReader& reader, const char* key, int low, int high) {
+  const double value = reader[key].number();
+  if (value != std::floor(value) || value < low || value > high)
+    reader[key].refuse("expected a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+  return static_cast<int>(value);
+}
+
+// Reads a domain. `directory` is where the names of airfoil files begin; without one, airfoils by name or file
+// are refused.
+class DomainReader {
+ public:
+  explicit DomainReader(const std::filesystem::path* directory) : directory_(directory) {}
+
+  Loop loop_of(const JsonReader& reader) const {
+    if (!reader.is_object()) reader.refuse("expected an object");
+    Loop loop = reader.has("airfoil") ? airfoil_loop(reader) : loop_of_curves(reader);
+    if (reader.has("placement")) loop.placement = placement_of(reader["placement"]);
+    return loop;
   }
-  Loop loop{.role = role == "outer" ? LoopRole::outer : LoopRole::hole, .curves = {}};
-  for (const JsonReader& element : reader["curves"].elements()) loop.curves.push_back(curve_of(element));
-  return loop;
+
+ private:
+  // {"airfoil": SHAPE, "name": ..., "stations": I, "cst_degree": N}: a hole of that shape.
+  Loop airfoil_loop(const JsonReader& reader) const {
+    reader.expect_keys({"airfoil", "stations"}, {"name", "cst_degree", "placement"});
+    const int stations = whole_number(reader, "stations", 8, 100000);
+    if (stations % 2 != 0) reader["stations"].refuse("expected an even number");
+    Domain domain = airfoil_domain(named_airfoil(reader, "airfoil"), {.points = stations});
+    Loop loop = std::move(domain.loops.front());
+    if (reader.has("name"))
+      for (Curve& curve : loop.curves) curve.name = reader["name"].text();
+    return loop;
+  }
+
+  static Loop with_role(const JsonReader& reader) {
+    const std::string role = reader["role"].text();
+    for (const LoopRole each :
+         {LoopRole::outer, LoopRole::hole, LoopRole::internal, LoopRole::left, LoopRole::right})
+      if (role == name_of(each)) return {.role = each, .curves = {}};
+    reader["role"].refuse("found \"" + role + "\", expected outer, hole, internal, left or right");
+  }
+
+  Loop loop_of_curves(const JsonReader& reader) const {
+    reader.expect_keys({"role", "curves"}, {"open", "placement"});
+    Loop loop = with_role(reader);
+    for (const JsonReader& element : reader["curves"].elements()) loop.curves.push_back(curve_of(element));
+    if (reader.has("open")) loop.open = reader["open"].truth();
+    return loop;
+  }
+
+  static Placement placement_of(const JsonReader& reader) {
+    reader.expect_keys({}, {"chord", "rotation_deg", "position"});
+    Placement placement{.chord = reader.number_or("chord", 1.0),
+                        .rotation_deg = reader.number_or("rotation_deg", 0.0)};
+    if (reader.has("position")) placement.position = point_of(reader["position"]);
+    return placement;
+  }
+
+  Curve curve_of(const JsonReader& reader) const {
+    if (!reader.is_object() || !reader.has("stations")) {
+      reader.expect_keys({"name", "shape", "parameters"});
+      return {.name = reader["name"].text(),
+              .shape = shape_of(reader["shape"]),
+              .parameters = reader["parameters"].numbers()};
+    }
+    reader.expect_keys({"name", "shape", "stations"});
+    const int n = whole_number(reader, "stations", 1, 1000000);
+    std::vector<double> parameters;
+    for (int i = 0; i < n; ++i) parameters.push_back(static_cast<double>(i) / n);
+    return {.name = reader["name"].text(),
+            .shape = shape_of(reader["shape"]),
+            .parameters = std::move(parameters)};
+  }
+
+  Shape shape_of(const JsonReader& reader) const {
+    if (!reader.is_object() || !reader.has("kind")) reader.refuse("expected an object with the key \"kind\"");
+    const std::string kind = reader["kind"].text();
+    if (kind == "airfoil") {
+      if (reader.has("shape")) {
+        reader.expect_keys({"kind", "shape"}, {"cst_degree"});
+        return named_airfoil(reader, "shape");
+      }
+      reader.expect_keys({"kind", "degree", "upper", "lower"}, {"e1", "e2", "te_upper", "te_lower"});
+      return airfoil_of(reader);
+    }
+    if (kind == "line") {
+      reader.expect_keys({"kind", "from", "to"});
+      return Line{.from = point_of(reader["from"]), .to = point_of(reader["to"])};
+    }
+    if (kind == "polyline") {
+      reader.expect_keys({"kind", "points"});
+      return Polyline{points_of(reader)};
+    }
+    if (kind == "spline") {
+      reader.expect_keys({"kind", "points"});
+      return spline_of(reader);
+    }
+    if (kind == "arc") {
+      reader.expect_keys({"kind", "centre", "radius", "start", "sweep"});
+      return Arc{.centre = point_of(reader["centre"]),
+                 .radius = reader["radius"].number(),
+                 .start = reader["start"].number(),
+                 .sweep = reader["sweep"].number()};
+    }
+    reader["kind"].refuse("found \"" + kind + "\", expected airfoil, line, polyline, spline or arc");
+  }
+
+  // SHAPE of the command line; files relative to the domain's own.
+  CstAirfoil named_airfoil(const JsonReader& reader, const char* key) const {
+    if (directory_ == nullptr) reader[key].refuse("airfoils by name or file belong into a domain file");
+    const int degree = reader.has("cst_degree") ? whole_number(reader, "cst_degree", 2, 12) : 5;
+    const std::string shape = reader[key].text();
+    const std::filesystem::path file = *directory_ / shape;
+    std::error_code ignored;
+    return load_airfoil(std::filesystem::is_regular_file(file, ignored) ? file.string() : shape, degree);
+  }
+
+  const std::filesystem::path* directory_;
+};
+
+Domain domain_of(std::string_view text, const std::string& source, const std::filesystem::path* directory) {
+  const nlohmann::json parsed = parse_json(text, source);
+  const JsonReader reader(parsed, source);
+  reader.expect_keys({"loops"});
+  const DomainReader domain_reader(directory);
+  Domain domain;
+  for (const JsonReader& element : reader["loops"].elements())
+    domain.loops.push_back(domain_reader.loop_of(element));
+  return domain;
 }
 
 }  // namespace
@@ -119,12 +230,12 @@ std::string domain_to_json(const Domain& domain) {
 }
 
 Domain domain_from_json(std::string_view text, const std::string& source) {
-  const nlohmann::json parsed = parse_json(text, source);
-  const JsonReader reader(parsed, source);
-  reader.expect_keys({"loops"});
-  Domain domain;
-  for (const JsonReader& element : reader["loops"].elements()) domain.loops.push_back(loop_of(element));
-  return domain;
+  return domain_of(text, source, nullptr);
+}
+
+Domain load_domain(const std::filesystem::path& file) {
+  const std::filesystem::path directory = file.parent_path();
+  return domain_of(read_text_file(file), file.string(), &directory);
 }
 
 }  // namespace remodel

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <sstream>
 
 #include "remodel/domain.h"
@@ -68,6 +69,18 @@ void check_shape(const Arc& arc, const std::string& place) {
   }
 }
 
+void check_shape(const Spline& spline, const std::string& place) {
+  const std::size_t n = spline.points.size();
+  const auto increasing = [](const std::vector<double>& knots) {
+    return std::is_sorted(knots.begin(), knots.end(), std::less_equal<>());
+  };
+  if (n < 2 || !std::all_of(spline.points.begin(), spline.points.end(), finite) || spline.knots.size() != n ||
+      spline.second.size() != n || !increasing(spline.knots) || spline.knots.front() != 0.0 ||
+      spline.knots.back() != 1.0) {
+    refuse(place, ": expected a spline of at least 2 finite points, as spline_through() makes it");
+  }
+}
+
 void check_parameters(const std::vector<double>& parameters, const std::string& place) {
   if (parameters.empty() || parameters.front() != 0.0)
     refuse(place, ": expected parameters that begin with 0");
@@ -84,29 +97,31 @@ bool in_range(double v) {
 
 // The sides of one loop's polygon; `first` is the index of the first of them among all.
 std::vector<Side> sides_of(const Domain& domain, std::size_t loop, std::size_t first) {
-  const std::vector<BoundaryStation> stations = domain.stations(loop);
-  std::vector<Point> points;
-  points.reserve(stations.size());
-  for (const BoundaryStation& station : stations) {
-    points.push_back(domain.at(station));
-    if (in_range(points.back().x) && in_range(points.back().y)) continue;
-    refuse(place_of(domain, station), ": expected coordinates that are 0 or of magnitude 1e-60 to 1e60");
+  const std::vector<Point> points = domain.points(loop);
+  const auto place = [&](std::size_t i) { return place_of(domain, domain.stations(loop)[i]); };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!in_range(points[i].x) || !in_range(points[i].y))
+      refuse(place(i), ": expected coordinates that are 0 or of magnitude 1e-60 to 1e60");
   }
+  if (points.size() == 1) return {{.from = points[0], .to = points[0], .first = true}};
+  const bool open = domain.loops[loop].open;
   std::vector<Side> sides;
   sides.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (std::size_t i = 0; i + (open ? 1 : 0) < points.size(); ++i) {
     const std::size_t next = i + 1 == points.size() ? 0 : i + 1;
-    if (points[i] == points[next]) {
-      refuse(place_of(domain, stations[i]),
-             ": found the same point twice in a row, expected different points");
-    }
-    sides.push_back({.from = points[i], .to = points[next], .next = first + next});
+    if (points[i] == points[next])
+      refuse(place(i), ": found the same point twice in a row, expected different points");
+    const bool last = open && i + 2 == points.size();
+    sides.push_back({.from = points[i],
+                     .to = points[next],
+                     .next = last ? no_side : first + next,
+                     .first = open && i == 0});
   }
   return sides;
 }
 
 void check_joints(const Loop& loop, std::size_t first_curve, const Domain& domain) {
-  for (std::size_t c = 0; c < loop.curves.size(); ++c) {
+  for (std::size_t c = 0; c + (loop.open ? 1 : 0) < loop.curves.size(); ++c) {
     const Point end = point_at(loop.curves[c].shape, 1.0);
     const Point begin = point_at(loop.curves[(c + 1) % loop.curves.size()].shape, 0.0);
     const double size = std::max({std::abs(end.x), std::abs(end.y), std::abs(begin.x), std::abs(begin.y)});
@@ -120,31 +135,67 @@ void check_loop(const Domain& domain, std::size_t loop_index, std::size_t first_
   const Loop& loop = domain.loops[loop_index];
   std::size_t points = 0;
   for (std::size_t c = 0; c < loop.curves.size(); ++c) {
-    const std::string place = place_of(domain, first_curve + c);
+    const std::string place = "loop " + std::to_string(loop_index) + ", curve \"" + loop.curves[c].name + "\"";
     std::visit([&](const auto& shape) { check_shape(shape, place); }, loop.curves[c].shape);
     check_parameters(loop.curves[c].parameters, place);
     points += loop.curves[c].parameters.size();
   }
-  if (points < 3) refuse("loop ", loop_index, ": found ", points, " points, expected at least 3");
+  if (!loop.open && points < 3)
+    refuse("loop ", loop_index, ": found ", points, " points, expected at least 3");
+  if (loop.open && points == 0) refuse("loop ", loop_index, ": found an open chain without a curve");
+  if (loop.open && (loop.role == LoopRole::outer || loop.role == LoopRole::hole)) {
+    refuse("loop ", loop_index, ": found an open chain of the role ", name_of(loop.role),
+           ", expected internal, left or right");
+  }
+  const Placement& placement = loop.placement;
+  if (!std::isfinite(placement.chord) || placement.chord <= 0.0 || !std::isfinite(placement.rotation_deg) ||
+      !finite(placement.position)) {
+    refuse("loop ", loop_index,
+           ": expected a placement of positive finite chord, finite rotation and position");
+  }
   check_joints(loop, first_curve, domain);
 }
 
-BoundaryStation station_of_side(const Domain& domain, std::size_t side) {
-  for (std::size_t loop = 0;; ++loop) {
-    const std::vector<BoundaryStation> stations = domain.stations(loop);
-    if (side < stations.size()) return stations[side];
-    side -= stations.size();
+// The place where the side of this index among all begins.
+std::string place_of_side(const Domain& domain, const std::vector<std::vector<Side>>& polygons,
+                          std::size_t side) {
+  std::size_t loop = 0;
+  for (; side >= polygons[loop].size(); ++loop) side -= polygons[loop].size();
+  return place_of(domain, domain.stations(loop)[side]);
+}
+
+struct Box {
+  Point low, high;
+  bool holds(Point p) const { return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y; }
+};
+
+Box box_of(const std::vector<Side>& polygon) {
+  Box box{polygon.front().from, polygon.front().from};
+  for (const Side& side : polygon) {
+    box.low = {std::min(box.low.x, side.from.x), std::min(box.low.y, side.from.y)};
+    box.high = {std::max(box.high.x, side.from.x), std::max(box.high.y, side.from.y)};
   }
+  return box;
+}
+
+bool takes_turns(LoopRole role) {
+  return role == LoopRole::outer || role == LoopRole::hole;
 }
 
 // As no two loops meet, one point of a loop says which loops it lies in. From the outside in, the roles take
 // turns: an outermost loop is outer, what lies directly in an outer loop is a hole, what lies directly in a
-// hole is outer again (an island).
+// hole is outer again (an island). Boundaries of chains may lie between: then this says nothing.
 void check_nesting(const Domain& domain, const std::vector<std::vector<Side>>& polygons) {
+  for (const Loop& loop : domain.loops)
+    if (loop.role == LoopRole::left || loop.role == LoopRole::right) return;
+  std::vector<Box> boxes;
+  for (const std::vector<Side>& polygon : polygons) boxes.push_back(box_of(polygon));
   for (std::size_t i = 0; i < polygons.size(); ++i) {
+    if (!takes_turns(domain.loops[i].role)) continue;
+    const Point p = polygons[i].front().from;
     std::size_t around = 0;
     for (std::size_t j = 0; j < polygons.size(); ++j) {
-      if (j != i && is_inside(polygons[j], polygons[i].front().from)) ++around;
+      if (j != i && takes_turns(domain.loops[j].role) && boxes[j].holds(p) && is_inside(polygons[j], p)) ++around;
     }
     const LoopRole expected = around % 2 == 0 ? LoopRole::outer : LoopRole::hole;
     if (domain.loops[i].role == expected) continue;
@@ -169,8 +220,8 @@ void validate(const Domain& domain) {
     all.insert(all.end(), polygons.back().begin(), polygons.back().end());
   }
   if (const auto pair = find_meeting_sides(all)) {
-    refuse("the sides that begin at ", place_of(domain, station_of_side(domain, pair->first)), " and ",
-           place_of(domain, station_of_side(domain, pair->second)), " touch or cross");
+    refuse("the sides that begin at ", place_of_side(domain, polygons, pair->first), " and ",
+           place_of_side(domain, polygons, pair->second), " touch or cross");
   }
   check_nesting(domain, polygons);
 }

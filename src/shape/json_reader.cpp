@@ -118,6 +118,11 @@ std::string JsonReader::text() const {
   return value_->get<std::string>();
 }
 
+bool JsonReader::truth() const {
+  if (!value_->is_boolean()) refuse_kind("true or false");
+  return value_->get<bool>();
+}
+
 void JsonReader::refuse(const std::string& problem) const {
   throw Error(ErrorCode::format, path_.empty() ? source_ : source_ + ": " + path_, problem);
 }

@@ -37,6 +37,7 @@ class JsonReader {
   double number_or(const char* key, double otherwise) const;
   std::vector<double> numbers() const;
   std::string text() const;
+  bool truth() const;
 
   [[noreturn]] void refuse(const std::string& problem) const;
 

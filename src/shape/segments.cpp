@@ -41,11 +41,29 @@ bool turns_back(double before, double corner, double after) {
   return (before < corner && after < corner) || (before > corner && after > corner);
 }
 
-// The second side begins where the first one ends: they overlap where the path turns straight back.
-bool neighbours_overlap(const Side& a, const Side& b) {
-  const Point corner = a.to;
-  if (!turns_back(a.from.x, corner.x, b.to.x) && !turns_back(a.from.y, corner.y, b.to.y)) return false;
-  return orient2d(a.from, corner, b.to) == 0;
+// Two sides end at one corner: they overlap where the path from one far end to the other turns straight back.
+bool overlap_at(Point corner, Point far_a, Point far_b) {
+  if (!turns_back(far_a.x, corner.x, far_b.x) && !turns_back(far_a.y, corner.y, far_b.y)) return false;
+  return orient2d(far_a, corner, far_b) == 0;
+}
+
+// Sides of different chains, or far apart on one. Joined at an end of a chain they may share that corner.
+bool apart_but_for_joints(const Side& a, const Side& b) {
+  std::size_t joints = 0;
+  const auto overlap_if_joined = [&](Point pa, Point far_a, bool a_end, Point pb, Point far_b, bool b_end) {
+    if (!(pa == pb) || (!a_end && !b_end)) return false;
+    ++joints;
+    return overlap_at(pa, far_a, far_b);
+  };
+  if (overlap_if_joined(a.from, a.to, a.first, b.from, b.to, b.first) ||
+      overlap_if_joined(a.from, a.to, a.first, b.to, b.from, b.last()) ||
+      overlap_if_joined(a.to, a.from, a.last(), b.from, b.to, b.first) ||
+      overlap_if_joined(a.to, a.from, a.last(), b.to, b.from, b.last()))
+    return false;
+  // A single point counts twice, as both of its ends.
+  const bool single = a.from == a.to || b.from == b.to;
+  if (joints > (single ? 2 : 1)) return false;  // the same two ends: the same side twice
+  return joints > 0 || !strangers_meet(a, b);
 }
 
 class MeetingSides {
@@ -96,9 +114,9 @@ class MeetingSides {
   bool meet(std::size_t i, std::size_t j) {
     const Side& a = sides_[i];
     const Side& b = sides_[j];
-    const bool meeting = a.next == j   ? neighbours_overlap(a, b)
-                         : b.next == i ? neighbours_overlap(b, a)
-                                       : strangers_meet(a, b);
+    const bool meeting = a.next == j   ? overlap_at(a.to, a.from, b.to)
+                         : b.next == i ? overlap_at(b.to, b.from, a.to)
+                                       : !apart_but_for_joints(a, b);
     if (meeting) found_ = SidePair{std::min(i, j), std::max(i, j)};
     return meeting;
   }

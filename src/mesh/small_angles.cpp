@@ -1,0 +1,134 @@
+#include "mesh/small_angles.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace remodel {
+
+namespace {
+
+// The angle from u counter-clockwise to v is below 60 degrees.
+bool sharp(Point u, Point v) {
+  return cross(u, v) > 0.0 && dot(u, v) > 0.5 * std::sqrt(dot(u, u) * dot(v, v));
+}
+
+// An edge at a vertex: where it leads, and whether the domain is on its left, seen from the vertex.
+struct Leg {
+  Point direction;
+  bool domain_on_left;
+};
+
+void add_legs(const MeshData& mesh, std::uint32_t k, std::vector<Leg>& legs) {
+  mesh.at_vertex(k, [&](std::uint32_t e) {
+    const Sides& sides = mesh.sides[mesh.loop_of(mesh.at(e).curve)];
+    if (const std::uint32_t next = mesh.at(e).next; next != no_index)
+      legs.push_back({mesh.point(next) - mesh.point(e), sides.left == Region::domain});
+    if (const std::uint32_t previous = mesh.at(e).previous; previous != no_index)
+      legs.push_back({mesh.point(previous) - mesh.point(e), sides.right == Region::domain});
+  });
+}
+
+// In the order of their angles from the positive x axis.
+bool comes_before(const Leg& a, const Leg& b) {
+  const auto lower = [](Point p) { return p.y < 0.0 || (p.y == 0.0 && p.x < 0.0); };
+  if (lower(a.direction) != lower(b.direction)) return lower(b.direction);
+  return cross(a.direction, b.direction) > 0.0;
+}
+
+bool has_sharp_wedge(std::vector<Leg>& legs) {
+  std::sort(legs.begin(), legs.end(), comes_before);
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    const Leg& next = legs[i + 1 == legs.size() ? 0 : i + 1];
+    if (legs[i].domain_on_left && sharp(legs[i].direction, next.direction)) return true;
+  }
+  return false;
+}
+
+// The non-Steiner vertices next to a boundary vertex on its loops, each with the segment of the initial
+// discretisation between (by its first entry). A vertex in the middle of a loop has two.
+struct Neighbour {
+  VertexId corner;
+  std::uint32_t segment;
+};
+template <class Visit>
+void for_each_neighbour(const MeshData& mesh, std::uint32_t k, Visit visit) {
+  mesh.at_vertex(k, [&](std::uint32_t e) {
+    const bool steiner = mesh.at(e).steiner;
+    const std::uint32_t before = steiner ? mesh.non_steiner_before(e) : mesh.at(e).previous;
+    const std::uint32_t after = steiner ? mesh.non_steiner_after(e) : mesh.at(e).next;
+    if (before != no_index && !mesh.at(before).steiner) visit(Neighbour{mesh.at(before).vertex, before});
+    if (after != no_index && !mesh.at(after).steiner)
+      visit(Neighbour{mesh.at(after).vertex, steiner ? before : e});
+  });
+}
+
+}  // namespace
+
+SmallAngles::SmallAngles(const MeshData& mesh) : mesh_(mesh) {
+  std::vector<Leg> legs;
+  for (const std::uint32_t head : mesh.loop_heads)
+    mesh.walk(head, [&](std::uint32_t k) {
+      legs.clear();
+      add_legs(mesh, k, legs);
+      if (has_sharp_wedge(legs)) corners_.push_back(mesh.at(k).vertex);
+    });
+  std::sort(corners_.begin(), corners_.end());
+  corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
+}
+
+bool SmallAngles::is_corner(VertexId v) const {
+  return std::binary_search(corners_.begin(), corners_.end(), v);
+}
+
+bool SmallAngles::seditious(VertexId a, VertexId b) const {
+  if (corners_.empty()) return false;
+  const std::uint32_t ka = mesh_.triangulation[a].boundary, kb = mesh_.triangulation[b].boundary;
+  if (ka == no_index || kb == no_index) return false;
+  bool found = false;
+  for_each_neighbour(mesh_, ka, [&](const Neighbour& from) {
+    for_each_neighbour(mesh_, kb, [&](const Neighbour& to) {
+      if (found || from.corner != to.corner || from.segment == to.segment || !is_corner(from.corner)) return;
+      const Point corner = mesh_.triangulation.point(from.corner);
+      const double da = squared_distance(corner, mesh_.triangulation.point(a));
+      const double db = squared_distance(corner, mesh_.triangulation.point(b));
+      // Shells are hit to rounding; the next shell is four times away.
+      found = std::abs(da - db) <= 1e-6 * (da + db);
+    });
+  });
+  return found;
+}
+
+bool SmallAngles::exempt(const Triangle& triangle) const {
+  if (corners_.empty()) return false;
+  int shortest = 0;
+  double length = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const double l = squared_distance(mesh_.triangulation.point(triangle.vertex[next3(i)]),
+                                      mesh_.triangulation.point(triangle.vertex[previous3(i)]));
+    if (l < length) length = l, shortest = i;
+  }
+  return seditious(triangle.vertex[next3(shortest)], triangle.vertex[previous3(shortest)]);
+}
+
+double SmallAngles::shell_fraction(double length) {
+  int exponent = 0;
+  std::frexp(length * (2.0 / 3.0),
+             &exponent);  // the power of two between a third and two thirds of the length
+  return std::ldexp(0.5, exponent) / length;
+}
+
+std::size_t count_exempt(const MeshData& mesh) {
+  const SmallAngles small_angles(mesh);
+  if (small_angles.none()) return 0;
+  const QualityBounds bounds(mesh.options);
+  std::size_t count = 0;
+  for (std::uint32_t i = 0; i < mesh.triangulation.triangle_slots(); ++i) {
+    const Triangle& t = mesh.triangulation[TriangleId{i}];
+    if (!t.alive() || t.region != Region::domain) continue;
+    if (badness(mesh.triangulation, t, bounds) > 1.0 && small_angles.exempt(t)) ++count;
+  }
+  return count;
+}
+
+}  // namespace remodel

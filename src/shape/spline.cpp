@@ -1,0 +1,101 @@
+#include <algorithm>
+#include <cmath>
+
+#include "remodel/domain.h"
+#include "remodel/error.h"
+
+namespace remodel {
+namespace {
+
+// A symmetric tridiagonal system, diagonally dominant: no pivoting. sub[i] couples rows i and i + 1.
+void solve_tridiagonal(const std::vector<double>& sub, std::vector<double> diagonal, std::vector<Point>& right) {
+  const std::size_t n = right.size();
+  for (std::size_t i = 1; i < n; ++i) {
+    const double factor = sub[i - 1] / diagonal[i - 1];
+    diagonal[i] -= factor * sub[i - 1];
+    right[i] = right[i] - factor * right[i - 1];
+  }
+  for (std::size_t i = n; i-- > 0;) {
+    if (i + 1 < n) right[i] = right[i] - sub[i] * right[i + 1];
+    right[i] = (1.0 / diagonal[i]) * right[i];
+  }
+}
+
+// The same with a coupling `corner` of the first and the last row (Sherman and Morrison).
+void solve_cyclic(const std::vector<double>& sub, std::vector<double> diagonal, double corner,
+                  std::vector<Point>& right) {
+  const std::size_t n = right.size();
+  const double gamma = -diagonal.front(), last_over = corner / gamma;
+  diagonal.front() -= gamma;
+  diagonal.back() -= corner * last_over;
+  std::vector<Point> update(n);
+  update.front().x = gamma;
+  update.back().x = corner;
+  solve_tridiagonal(sub, diagonal, right);
+  solve_tridiagonal(sub, diagonal, update);
+  const double scale = 1.0 / (1.0 + update.front().x + last_over * update.back().x);
+  const Point along = scale * (right.front() + last_over * right.back());
+  for (std::size_t i = 0; i < n; ++i) right[i] = right[i] - update[i].x * along;
+}
+
+void require_points(const std::vector<Point>& points) {
+  const bool closed = points.size() > 1 && points.front() == points.back();
+  const auto refuse = [](const std::string& problem) { throw Error(ErrorCode::argument, "spline", problem); };
+  if (points.size() < 2 || (closed && points.size() < 4))
+    refuse("found " + std::to_string(points.size()) + " points, expected at least 2, or 4 where it is closed");
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y))
+      refuse("point " + std::to_string(i) + " is not finite");
+    if (i > 0 && points[i] == points[i - 1])
+      refuse("found point " + std::to_string(i) + " twice in a row, expected different points");
+  }
+}
+
+// Lengths of the polygon up to each point, over the whole.
+std::vector<double> chord_knots(const std::vector<Point>& points) {
+  std::vector<double> knots{0.0};
+  for (std::size_t i = 1; i < points.size(); ++i)
+    knots.push_back(knots.back() + std::sqrt(squared_distance(points[i - 1], points[i])));
+  const double length = knots.back();
+  for (double& knot : knots) knot /= length;
+  knots.back() = 1.0;
+  return knots;
+}
+
+}  // namespace
+
+// The second derivatives M satisfy, with h the knot distances and s the slopes of the polygon's sides,
+// h[i-1] M[i-1] + 2 (h[i-1] + h[i]) M[i] + h[i] M[i+1] = 6 (s[i] - s[i-1]).
+Spline spline_through(std::vector<Point> points) {
+  require_points(points);
+  Spline spline{.points = std::move(points), .knots = {}, .second = {}};
+  spline.knots = chord_knots(spline.points);
+  const std::size_t n = spline.points.size();
+  std::vector<double> h;
+  std::vector<Point> slope;
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    h.push_back(spline.knots[i + 1] - spline.knots[i]);
+    slope.push_back((1.0 / h[i]) * (spline.points[i + 1] - spline.points[i]));
+  }
+  spline.second.assign(n, {});
+  const bool closed = spline.points.front() == spline.points.back();
+  const std::size_t first = closed ? 0 : 1;  // rows first ... n - 2
+  if (n - 1 <= first) return spline;
+  std::vector<double> diagonal, sub;
+  std::vector<Point> right;
+  for (std::size_t i = first; i + 1 < n; ++i) {
+    const std::size_t before = i == 0 ? n - 2 : i - 1;
+    diagonal.push_back(2.0 * (h[before] + h[i]));
+    sub.push_back(h[i]);
+    right.push_back(6.0 * (slope[i] - slope[before]));
+  }
+  if (closed)
+    solve_cyclic(sub, diagonal, h[n - 2], right);
+  else
+    solve_tridiagonal(sub, diagonal, right);
+  std::copy(right.begin(), right.end(), spline.second.begin() + static_cast<std::ptrdiff_t>(first));
+  if (closed) spline.second.back() = spline.second.front();
+  return spline;
+}
+
+}  // namespace remodel
