@@ -13,6 +13,7 @@ LAYERS = [
     {"name": "geometry", "headers": ["point.h", "predicates.h", "error.h"]},
     {"name": "triangulation", "headers": ["ids.h"]},
     {"name": "shape", "headers": ["airfoil.h", "domain.h"]},
+    {"name": "planar", "headers": ["planar.h"]},
     {"name": "mesh", "headers": ["mesh.h", "frozen_mesh.h"]},
     {"name": "generate", "headers": ["generate.h"]},
     {"name": "remodel", "headers": ["remodel.h"]},

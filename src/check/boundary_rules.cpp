@@ -188,12 +188,16 @@ class OverlapRule {
            exact.orientation(c, d, a) * exact.orientation(c, d, b) <= 0;
   }
 
-  // Loops that do not meet: the winding number on the left of a loop is the same all along it.
+  // Loops that do not meet but at joints: the winding number on the left of a loop is the same all along it. It
+  // is taken at a point that is on no other loop; a loop of joints alone is left to its neighbours.
   void check_winding() {
     const auto loops = subject_.topology.loops();
     for (std::size_t l = 0; l < loops.size(); ++l) {
       int covered = is_counter_clockwise(loops[l]) ? 1 : 0;
-      const std::uint32_t v = edge(loops[l].front()).from;
+      const auto own = std::find_if(loops[l].begin(), loops[l].end(),
+                                    [&](std::uint32_t e) { return !subject_.is_joint(edge(e).from); });
+      if (own == loops[l].end()) continue;
+      const std::uint32_t v = edge(*own).from;
       for (std::size_t other = 0; other < loops.size(); ++other) {
         if (other != l) covered += winding_number(loops[other], v);
       }

@@ -6,6 +6,7 @@
 
 #include "generate/recovery_error.h"
 #include "remodel/predicates.h"
+#include "triangulation/coarse_to_fine.h"
 
 namespace remodel {
 
@@ -27,22 +28,10 @@ void start(MeshData& mesh, const std::vector<std::vector<Point>>& loops) {
   throw RecoveryError("all boundary points lie on one line");
 }
 
-// Every other of the points so far missing, coarse to fine: 0, then n/2, n/4, 3n/4, and so on. In the order
-// of the loop each point would see, and refill, all of the triangles between the first points and the last.
-std::vector<std::size_t> coarse_to_fine(std::size_t n) {
-  std::size_t stride = 1;
-  while (stride < n) stride *= 2;
-  std::vector<std::size_t> order{0};
-  for (; stride > 1; stride /= 2)
-    for (std::size_t i = stride / 2; i < n; i += stride) order.push_back(i);
-  return order;
-}
-
 // The last vertex inserted is where the search for the next loop begins: files list neighbours together.
 void insert_loop(MeshData& mesh, std::size_t loop, const std::vector<Point>& points, VertexId& last) {
   std::vector<VertexId> vertices(points.size());
   for (const std::size_t i : coarse_to_fine(points.size())) {
-    // The nearest point before i that is in: i with its last bit cleared.
     if (i > 0) last = vertices[i & (i - 1)];
     last = vertices[i] = mesh.triangulation.insert(points[i], mesh.triangulation.star(last).triangle).vertex;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "generate/recovery_error.h"
+#include "generate/relabel.h"
 
 namespace remodel {
 
@@ -59,7 +60,17 @@ void Refiner::consider(TriangleId t) {
 
 void Refiner::queue_segment(VertexId a, VertexId b) {
   const std::uint32_t k = mesh_.edge_between(a, b);
-  if (k != no_index) segments_.push_back({k, mesh_.at(k).next});
+  if (k != no_index && !is_refused(a, b)) segments_.push_back({k, mesh_.at(k).next});
+}
+
+// A segment that cannot be split is not asked again.
+void Refiner::refuse(Segment segment) {
+  refused_ = true;
+  refused_segments_.insert(ends(mesh_.at(segment.from).vertex, mesh_.at(segment.to).vertex));
+}
+
+bool Refiner::is_refused(VertexId a, VertexId b) const {
+  return !refused_segments_.empty() && refused_segments_.contains(ends(a, b));
 }
 
 Stopped Refiner::run() {
@@ -117,7 +128,7 @@ bool Refiner::split_blocking_segments(Point p) {
       const Point pa = triangulation_.point(a), pb = triangulation_.point(b);
       if (!(beyond ? cross(pb - pa, p - pa) <= 0.0 : encroaches(p, pa, pb))) continue;
       blocked = true;
-      if (too_short(pa, pb))
+      if (too_short(pa, pb) || is_refused(a, b))
         refused_ = true;
       else
         queue_segment(a, b);
@@ -151,27 +162,37 @@ void Refiner::split(Segment segment, int depth) {
   if (mesh_.at(segment.from).next != segment.to) return;  // split meanwhile
   const VertexId a = mesh_.at(segment.from).vertex, b = mesh_.at(segment.to).vertex;
   const double t = split_parameter(segment);
-  const std::uint32_t curve = mesh_.at(segment.from).curve;
-  const Point p = mesh_.on_curve(curve, t);
+  const Point p = mesh_.on_curve(mesh_.at(segment.from).curve, t);
   if (too_short(mesh_.point(segment.from), mesh_.point(segment.to)) || p == triangulation_.point(a) ||
       p == triangulation_.point(b)) {
-    refused_ = true;
+    refuse(segment);
     return;
   }
-  const auto near = triangulation_.split(*triangulation_.find_edge(a, b), p);
-  const VertexId v = near ? *near : split_far(segment, p, depth);
-  const std::uint32_t k =
-      mesh_.add_boundary_vertex({.vertex = v, .curve = curve, .t = t, .steiner = true}, segment.from);
-  if (!near) {
-    recover(a, v, depth);
-    recover(v, b, depth);
-    if (labelled_ && depth == 0)
-      clear_outside();  // deeper: the edges that asked for this split are not there yet
-  }
-  double scale = std::numeric_limits<double>::infinity();
+  std::uint32_t k = no_index;
+  if (const auto near = triangulation_.split(*triangulation_.find_edge(a, b), p))
+    k = add_split(segment, *near, t);
+  else if (depth > 0 || !labelled_ || triangulation_.journalling())
+    k = split_far(segment, p, t, depth);
+  else
+    k = try_split_far(segment, p, t);
+  if (k == no_index) return;
+  set_split_length_scale(k, a, b);
+  if (labelled_ && depth == 0) consider_star(mesh_.at(k).vertex);
+}
+
+std::uint32_t Refiner::add_split(Segment segment, VertexId v, double t) {
+  return mesh_.add_boundary_vertex(
+      {.vertex = v, .curve = mesh_.at(segment.from).curve, .t = t, .steiner = true}, segment.from);
+}
+
+// The interpolation between the ends a and b, and no more than what propagates from its neighbours.
+void Refiner::set_split_length_scale(std::uint32_t k, VertexId a, VertexId b) {
+  const VertexId v = mesh_.at(k).vertex;
+  const Point p = triangulation_.point(v);
   const double to_a = std::sqrt(squared_distance(triangulation_.point(a), p));
   const double to_b = std::sqrt(squared_distance(triangulation_.point(b), p));
-  scale = (triangulation_[a].length_scale * to_b + triangulation_[b].length_scale * to_a) / (to_a + to_b);
+  double scale =
+      (triangulation_[a].length_scale * to_b + triangulation_[b].length_scale * to_a) / (to_a + to_b);
   const Corner first = triangulation_.star(v);
   Corner c = first;
   do {
@@ -183,7 +204,25 @@ void Refiner::split(Segment segment, int depth) {
     c = triangulation_.counterclockwise(c);
   } while (c.triangle != first.triangle);
   mesh_.set_boundary_length_scale(k, scale);
-  if (labelled_ && depth == 0) consider_star(v);
+}
+
+// A far split that turns out impossible (boundaries closer to each other than points can be rounded) is taken
+// back, and the segment counts as too short. Under a journal of the caller's it is the caller who takes it back.
+std::uint32_t Refiner::try_split_far(Segment segment, Point p, double t) {
+  const std::vector<BoundaryVertex> boundary = mesh_.boundary;
+  const std::vector<std::uint32_t> free_boundary = mesh_.free_boundary;
+  triangulation_.begin();
+  try {
+    const std::uint32_t k = split_far(segment, p, t, 0);
+    triangulation_.commit();
+    return k;
+  } catch (const RecoveryError&) {
+    triangulation_.rollback();
+    mesh_.boundary = boundary;
+    mesh_.free_boundary = free_boundary;
+    refuse(segment);
+    return no_index;
+  }
 }
 
 void Refiner::consider_star(VertexId v) {
@@ -197,13 +236,26 @@ void Refiner::consider_star(VertexId v) {
 
 // The curve point lies beyond the triangles next to its chord (blunt leading edges, cusps): free vertices lie
 // between chord and curve, or another boundary edge does. The chord is given up, the point inserted where it
-// is, and split() recovers both halves.
-VertexId Refiner::split_far(Segment segment, Point p, int depth) {
+// is, and both halves are recovered.
+std::uint32_t Refiner::split_far(Segment segment, Point p, double t, int depth) {
   if (depth > max_depth) throw RecoveryError("boundary splits ask for each other without end");
   const VertexId a = mesh_.at(segment.from).vertex, b = mesh_.at(segment.to).vertex;
   triangulation_.release(a, b);
+  const VertexId v = insert_free(p, a);
+  const std::uint32_t k = add_split(segment, v, t);
+  recover(a, v, depth);
+  recover(v, b, depth);
+  if (labelled_ && depth == 0)
+    clear_outside();  // deeper: the edges that asked for this split are not there yet
+  return k;
+}
+
+// Inserts p; a free vertex that is there already gives way.
+VertexId Refiner::insert_free(Point p, VertexId near) {
   for (;;) {
-    const auto inserted = triangulation_.insert(p, triangulation_.star(a).triangle);
+    const auto inserted = triangulation_.insert(p, triangulation_.star(near).triangle);
+    if (inserted.is_new && triangulation_.at_constraint(inserted.vertex))
+      throw RecoveryError("a curve runs through another boundary edge");
     if (inserted.is_new) return inserted.vertex;
     if (triangulation_[inserted.vertex].boundary != no_index)
       throw RecoveryError("a curve runs through another boundary vertex");
@@ -239,17 +291,10 @@ void Refiner::recover(VertexId a, VertexId b, int depth) {
   throw RecoveryError("a boundary edge cannot be recovered");
 }
 
-// After a far split: labels anew, and free vertices that are outside the domain now go.
+// After a far split: what changed may lie on another side of the boundary now, and free vertices outside go.
 void Refiner::clear_outside() {
-  if (!mesh_.label_regions()) throw RecoveryError(contradicting_sides);
-  std::vector<VertexId> stray;
-  for (std::uint32_t i = 1; i < triangulation_.vertex_slots(); ++i) {
-    const Vertex& v = triangulation_[VertexId{i}];
-    if (v.alive() && v.boundary == no_index && triangulation_[v.star.triangle()].region == Region::outside)
-      stray.push_back(VertexId{i});
-  }
-  for (const VertexId v : stray) triangulation_.remove(v);
-  for (std::uint32_t i = 0; i < triangulation_.triangle_slots(); ++i) consider(TriangleId{i});
+  relabel_touched(mesh_);
+  for (const TriangleId t : triangulation_.touched()) consider(t);
 }
 
 }  // namespace remodel

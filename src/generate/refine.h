@@ -15,6 +15,8 @@
 
 #include <cstdint>
 #include <deque>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "generate/bad_queue.h"
@@ -54,9 +56,19 @@ class Refiner {
   void refine(TriangleId t);
   bool split_blocking_segments(Point p);
   void queue_segment(VertexId a, VertexId b);
+  void refuse(Segment segment);
+  bool is_refused(VertexId a, VertexId b) const;
+  static std::pair<VertexId, VertexId> ends(VertexId a, VertexId b) {
+    return a < b ? std::pair(a, b) : std::pair(b, a);
+  }
   void split(Segment segment, int depth);
   double split_parameter(Segment segment) const;
-  VertexId split_far(Segment segment, Point p, int depth);
+  std::uint32_t add_split(Segment segment, VertexId v, double t);
+  void set_split_length_scale(std::uint32_t k, VertexId a, VertexId b);
+  // These return the new entry of the boundary table.
+  std::uint32_t split_far(Segment segment, Point p, double t, int depth);
+  std::uint32_t try_split_far(Segment segment, Point p, double t);
+  VertexId insert_free(Point p, VertexId near);
   void recover(VertexId a, VertexId b, int depth);
   void clear_outside();
   void consider_star(VertexId v);
@@ -69,6 +81,7 @@ class Refiner {
   SmallAngles small_angles_;
   BadQueue queue_;
   std::deque<Segment> segments_;
+  std::set<std::pair<VertexId, VertexId>> refused_segments_;
   Cavity cavity_;
   double squared_min_edge_ = 0.0;
   std::size_t vertex_limit_;

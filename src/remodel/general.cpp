@@ -219,7 +219,7 @@ class LoopReplacement {
     const std::vector<Point> points = domain_.points(loop);
     for (std::size_t i = 0; i < stations.size(); ++i) {
       const auto [v, is_new] = triangulation_.insert(points[i], hint);
-      if (is_new ? at_constraint(v)
+      if (is_new ? triangulation_.at_constraint(v)
                  : triangulation_[v].boundary != no_index && mesh_.at(triangulation_[v].boundary).steiner)
         throw RecoveryError("a boundary vertex of the new design lies on a curve of another loop");
       hint = triangulation_.star(v).triangle;
@@ -230,12 +230,6 @@ class LoopReplacement {
       if (i == 0) mesh_.loop_heads.push_back(previous);
     }
     if (!domain_.loops[loop].open) mesh_.close_loop(mesh_.loop_heads.back(), previous);
-  }
-
-  bool at_constraint(VertexId v) const {
-    bool found = false;
-    for_each_corner(v, [&](Corner c) { found |= triangulation_.link(Corner{c.triangle, next3(c.index)}).constrained(); });
-    return found;
   }
 
   // A vertex that both models share (the trailing edge, often) keeps triangles from before the step, but not

@@ -83,92 +83,6 @@ void collect(MeshData& mesh, const RemovalRegion& region, std::vector<VertexId>&
   }
 }
 
-// The label of a triangle beside one of its constrained edges.
-Region side_label(const MeshData& mesh, const Triangle& t, int i) {
-  const VertexId a = t.vertex[next3(i)];
-  const std::uint32_t k = mesh.edge_between(a, t.vertex[previous3(i)]);
-  const Sides& sides = mesh.sides[mesh.loop_of(mesh.at(k).curve)];
-  return mesh.at(k).vertex == a ? sides.left : sides.right;  // the triangle lies on the left of a -> b
-}
-
-class Relabelling {
- public:
-  explicit Relabelling(MeshData& mesh) : mesh_(mesh), triangulation_(mesh.triangulation) {
-    for (const TriangleId t : triangulation_.touched())
-      if (triangulation_[t].alive()) touched_.push_back(t);
-  }
-
-  void run() {
-    for (const TriangleId t : touched_) triangulation_.set_region(t, Region::unknown);
-    for (const TriangleId t : touched_) seed_from_boundary(t);
-    flood();
-    for (const TriangleId t : touched_) seed_from_neighbours(t);
-    for (const TriangleId t : touched_) require_agreement(t);
-  }
-
-  // Interior vertices of the triangles that are outside the domain now.
-  std::vector<VertexId> strays() const {
-    std::vector<VertexId> found;
-    for (const auto* list : {&touched_, &relabelled_})
-      for (const TriangleId t : *list)
-        if (triangulation_[t].region == Region::outside)
-          for (const VertexId v : triangulation_[t].vertex)
-            if (v != infinite_vertex && triangulation_[v].boundary == no_index) found.push_back(v);
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-    return found;
-  }
-
- private:
-  void label(TriangleId t, Region region) {
-    if (triangulation_[t].region == region) return;
-    if (triangulation_[t].region != Region::unknown) relabelled_.push_back(t);
-    triangulation_.set_region(t, region);
-    todo_.push_back(t);
-  }
-
-  void flood() {
-    while (!todo_.empty()) {
-      const TriangleId t = todo_.back();
-      todo_.pop_back();
-      const Region region = triangulation_[t].region;
-      for (const Link link : triangulation_[t].link)
-        if (!link.constrained()) label(link.triangle(), region);
-    }
-  }
-
-  void seed_from_boundary(TriangleId t) {
-    for (int i = 0; i < 3; ++i)
-      if (triangulation_[t].link[i].constrained()) label(t, side_label(mesh_, triangulation_[t], i));
-  }
-
-  // Boundary edges that call one part of the plane by two names belong to loops that do not nest.
-  void require_agreement(TriangleId t) const {
-    for (int i = 0; i < 3; ++i)
-      if (triangulation_[t].link[i].constrained() &&
-          triangulation_[t].region != side_label(mesh_, triangulation_[t], i))
-        throw RecoveryError(contradicting_sides);
-    if (triangulation_[t].ghost() && triangulation_[t].region == Region::domain)
-      throw RecoveryError(contradicting_sides);
-  }
-
-  // A part without a boundary edge of its own is labelled like what lies around it.
-  void seed_from_neighbours(TriangleId t) {
-    if (triangulation_[t].region != Region::unknown) return;
-    for (const Link link : triangulation_[t].link) {
-      const Region region = triangulation_[link.triangle()].region;
-      if (link.constrained() || region == Region::unknown) continue;
-      label(t, region);
-      flood();
-      return;
-    }
-  }
-
-  MeshData& mesh_;
-  Triangulation& triangulation_;
-  std::vector<TriangleId> touched_, relabelled_, todo_;
-};
-
 }  // namespace
 
 std::vector<VertexId> vertices_inside(MeshData& mesh, const std::vector<RemovalRegion>& regions) {
@@ -186,6 +100,8 @@ double removal_radius(double distance_factor, double pair_distance, Point centre
 VertexId insert_boundary_point(Triangulation& triangulation, Point p, TriangleId hint) {
   for (;;) {
     const auto inserted = triangulation.insert(p, hint);
+    if (inserted.is_new && triangulation.at_constraint(inserted.vertex))
+      throw RecoveryError("a boundary vertex of the new design lies on another boundary edge");
     if (inserted.is_new) return inserted.vertex;
     if (triangulation[inserted.vertex].boundary != no_index)
       throw RecoveryError("two boundary vertices of the new design lie at one point");
@@ -214,12 +130,6 @@ void restore_outside(MeshData& mesh) {
     });
   for (const TriangleId t : outside) triangulation.refresh_circle(t);
   triangulation.restore_delaunay(outside);
-}
-
-void relabel_touched(MeshData& mesh) {
-  Relabelling relabelling(mesh);
-  relabelling.run();
-  for (const VertexId v : relabelling.strays()) mesh.triangulation.remove(v);
 }
 
 }  // namespace remodel

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "generate/refine.h"
+#include "generate/relabel.h"
 #include "mesh/mesh_data.h"
 
 namespace remodel {
@@ -32,10 +33,5 @@ void restore_outside(MeshData& mesh);
 // Inserts a boundary point; an interior vertex that is there already gives way. Throws RecoveryError where a
 // boundary vertex is there.
 VertexId insert_boundary_point(Triangulation& triangulation, Point p, TriangleId hint);
-
-// After all boundary edges were recovered: labels every touched triangle, and any other whose label changes,
-// by the sides of the boundary edges (RecoveryError if these contradict each other); then removes interior
-// vertices outside the domain. Cost proportional to what was touched and what changes its side.
-void relabel_touched(MeshData& mesh);
 
 }  // namespace remodel

@@ -94,6 +94,16 @@ Corner Triangulation::clockwise(Corner c) const {
   return {link.triangle(), previous3(link.corner())};
 }
 
+bool Triangulation::at_constraint(VertexId v) const {
+  const Corner first = star(v);
+  Corner c = first;
+  do {
+    if (link({c.triangle, next3(c.index)}).constrained()) return true;
+    c = counterclockwise(c);
+  } while (c.triangle != first.triangle);
+  return false;
+}
+
 std::optional<Corner> Triangulation::find_edge(VertexId a, VertexId b) const {
   const Corner first = star(a);
   Corner c = first;

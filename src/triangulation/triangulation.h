@@ -87,6 +87,9 @@ class Triangulation {
   // The corner opposite the directed edge a -> b, in the triangle on its left; none if there is no such edge.
   std::optional<Corner> find_edge(VertexId a, VertexId b) const;
 
+  // Whether a constrained edge ends at the vertex.
+  bool at_constraint(VertexId v) const;
+
   // The triangle that holds p. Walks from hint; a walk that takes too long ends in a search of all triangles.
   Location locate(Point p, TriangleId hint) const;
   // Whether p lies inside t's circumcircle (for a ghost: beyond its hull edge). Exact.

@@ -1,0 +1,285 @@
+#include "planar/arrangement.h"
+
+#include <algorithm>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+#include <sstream>
+
+#include "remodel/error.h"
+#include "remodel/predicates.h"
+#include "triangulation/coarse_to_fine.h"
+
+namespace remodel {
+namespace {
+
+using Rational = boost::multiprecision::cpp_rational;
+
+// The range in which the predicates are exact (predicates.h).
+constexpr double largest_coordinate = 1e60;
+constexpr double smallest_coordinate = 1e-60;
+// A crossing takes its place in memory: what crosses everywhere is refused in order.
+constexpr std::size_t most_vertices = 10'000'000;
+// Of the graph's size: crossings that are nearer than this to another point are that point. The shortest edge
+// that refinement splits is 1e-12 of the size.
+constexpr double snapping = 1e-11;
+
+bool in_range(double v) {
+  return v == 0.0 || (std::abs(v) <= largest_coordinate && std::abs(v) >= smallest_coordinate);
+}
+
+Arrangement::Key key_of(VertexId a, VertexId b) {
+  return a < b ? Arrangement::Key{a, b} : Arrangement::Key{b, a};
+}
+
+[[noreturn]] void refuse(const std::string& source, const std::string& problem) {
+  throw Error(ErrorCode::geometry, source, problem);
+}
+
+std::string text_of(Point p) {
+  std::ostringstream text;
+  text.precision(10);
+  text << "(" << p.x << ", " << p.y << ")";
+  return text.str();
+}
+
+}  // namespace
+
+Arrangement::Arrangement(const PlanarGraph& graph, std::string source, Crossings crossings)
+    : graph_(graph), source_(std::move(source)), policy_(crossings) {
+  insert_points();
+  for (std::size_t i = 0; i < graph.segments.size(); ++i) {
+    const PlanarGraph::Segment& segment = graph.segments[i];
+    if (std::max(segment.from, segment.to) >= vertices_.size())
+      refuse(source_, name_of_segment(i) + " ends at a point that is not there");
+    const VertexId a = vertices_[segment.from], b = vertices_[segment.to];
+    if (a == b)
+      ++findings.empty_segments;
+    else
+      insert_segment({a, b, segment.marker, i});
+  }
+  mark_outside();
+}
+
+void Arrangement::insert_points() {
+  const std::vector<Point>& points = graph_.points;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!in_range(points[i].x) || !in_range(points[i].y))
+      refuse(source_, "point " + std::to_string(i) + " is " + text_of(points[i]) +
+                          ", expected coordinates that are 0 or of magnitude 1e-60 to 1e60");
+  const auto second = std::find_if(points.begin(), points.end(), [&](Point p) { return !(p == points[0]); });
+  const auto third = std::find_if(second, points.end(),
+                                  [&](Point p) { return orient2d(points[0], *second, p) != 0; });
+  if (third == points.end()) refuse(source_, "all points lie on one line, expected a graph that encloses an area");
+  triangulation_.start(points[0], *second, *third);
+  vertices_.resize(points.size());
+  VertexId last{1};
+  std::size_t inserted = 3;
+  for (const std::size_t i : coarse_to_fine(points.size())) {
+    if (i > 0) last = vertices_[i & (i - 1)];
+    last = vertices_[i] = triangulation_.insert(points[i], triangulation_.star(last).triangle).vertex;
+    ++inserted;
+  }
+  findings.duplicate_points = inserted - 3 - triangulation_.vertex_count();
+  Point low = points[0], high = points[0];
+  for (const Point p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  snap_ = snapping * std::sqrt(squared_distance(low, high));
+}
+
+void Arrangement::insert_segment(Piece segment) {
+  todo_.push_back(segment);
+  while (!todo_.empty()) {
+    const Piece piece = todo_.back();
+    todo_.pop_back();
+    if (piece.from == piece.to) continue;  // a crossing that was rounded to an end
+    if (const VertexId near = vertex_near(piece); near) {
+      route(piece, near);
+      continue;
+    }
+    const ConstrainResult result = triangulation_.constrain(piece.from, piece.to);
+    switch (result.kind) {
+      case ConstrainResult::Kind::done:
+        add(piece);
+        break;
+      case ConstrainResult::Kind::vertex:
+        route(piece, result.first);
+        break;
+      case ConstrainResult::Kind::blocked:
+        cross(piece, result.first, result.second);
+        break;
+    }
+  }
+}
+
+void Arrangement::route(const Piece& piece, VertexId through) {
+  ++findings.points_on_segments;
+  todo_.push_back({through, piece.to, piece.marker, piece.segment});
+  todo_.push_back({piece.from, through, piece.marker, piece.segment});
+}
+
+// Whether v is so near to the open segment that no mesh could go between. The detour is so flat that both of its
+// parts are shorter than the segment: detours end.
+bool Arrangement::is_near(VertexId v, VertexId from, VertexId to) const {
+  if (v == infinite_vertex || v == from || v == to) return false;
+  const Point a = point(from), along = point(to) - a, p = point(v) - a;
+  const double length = dot(along, along), projection = dot(p, along), across = remodel::cross(along, p);
+  return std::abs(across) < 0.01 * std::min(projection, length - projection) &&
+         across * across < snap_ * snap_ * length;
+}
+
+// A vertex near to the piece among those of the triangles that it passes, up to the first constrained edge: what
+// lies behind is looked at when the crossing with that has been made.
+VertexId Arrangement::vertex_near(const Piece& piece) const {
+  const Point a = point(piece.from), b = point(piece.to);
+  const auto side = [&](VertexId v) { return v == infinite_vertex ? 0 : orient2d(a, b, point(v)); };
+  const Corner first = triangulation_.star(piece.from);
+  Corner c = first;
+  for (;;) {
+    const VertexId right = triangulation_.following(c), left = triangulation_.preceding(c);
+    if (right == piece.to || left == piece.to) return {};
+    if (right != infinite_vertex && left != infinite_vertex && side(right) < 0 && side(left) > 0) break;
+    c = triangulation_.counterclockwise(c);
+    if (c.triangle == first.triangle) return {};  // it leaves through a vertex
+  }
+  for (;;) {
+    for (const VertexId v : {triangulation_.following(c), triangulation_.preceding(c)})
+      if (is_near(v, piece.from, piece.to)) return v;
+    const Link link = triangulation_.link(c);
+    const VertexId apex = triangulation_.vertex({link.triangle(), link.corner()});
+    const int s = side(apex);
+    if (link.constrained() || apex == piece.to || s == 0) return {};
+    c = {link.triangle(), s > 0 ? next3(link.corner()) : previous3(link.corner())};
+  }
+}
+
+void Arrangement::add(const Piece& piece) {
+  const auto [place, is_new] = edges_.emplace(key_of(piece.from, piece.to), piece.marker);
+  if (is_new) {
+    segment_of_[place->first] = piece.segment;
+  } else {
+    ++findings.overlaps;
+    if (place->second == 0) place->second = piece.marker;
+  }
+}
+
+// Both are given up, and come back in two pieces each. The rounded point may lie beside both of them: what the
+// pieces cross then is found when they are inserted.
+void Arrangement::cross(const Piece& piece, VertexId first, VertexId second) {
+  const Key key = key_of(first, second);
+  const int marker = edges_.at(key);
+  const std::size_t segment = segment_of_.at(key);
+  const Point p = crossing_of(piece, first, second);
+  if (policy_ == Crossings::refuse)
+    refuse(source_, name_of_segment(piece.segment) + " and " + name_of_segment(segment) + " cross at " + text_of(p) +
+                        ", expected segments that meet at their ends only");
+  if (triangulation_.vertex_count() >= most_vertices)
+    refuse(source_, "more than 10 million points and crossings found");
+  ++findings.crossings;
+  triangulation_.release(first, second);
+  edges_.erase(key);
+  const VertexId v = vertex_at(p, first);
+  todo_.push_back({piece.from, v, piece.marker, piece.segment});
+  todo_.push_back({v, piece.to, piece.marker, piece.segment});
+  todo_.push_back({first, v, marker, segment});
+  todo_.push_back({v, second, marker, segment});
+}
+
+// A vertex at p, or one so near that no mesh could go between: where three segments meet in one point, their
+// crossings differ by rounding. Segments that are as near to a new vertex are led through it.
+VertexId Arrangement::vertex_at(Point p, VertexId near) {
+  const Location location = triangulation_.locate(p, triangulation_.star(near).triangle);
+  VertexId best;
+  double distance = snap_ * snap_;
+  const auto consider = [&](VertexId v) {
+    if (v != infinite_vertex && squared_distance(point(v), p) < distance)
+      distance = squared_distance(point(v), p), best = v;
+  };
+  for (const VertexId v : triangulation_[location.triangle].vertex) consider(v);
+  for (const Link link : triangulation_[location.triangle].link)
+    consider(triangulation_.vertex({link.triangle(), link.corner()}));
+  if (best) return best;
+  const auto [v, is_new] = triangulation_.insert(p, location.triangle);
+  if (!is_new) return v;
+  split_edge_at(v);
+  lead_through(v);
+  return v;
+}
+
+void Arrangement::lead_through(VertexId v) {
+  std::vector<Key> near;
+  const Corner first = triangulation_.star(v);
+  Corner c = first;
+  do {
+    const VertexId a = triangulation_.following(c), b = triangulation_.preceding(c);
+    if (triangulation_.link(c).constrained() && is_near(v, a, b)) near.push_back(key_of(a, b));
+    c = triangulation_.counterclockwise(c);
+  } while (c.triangle != first.triangle);
+  for (const Key& key : near) {
+    triangulation_.release(key.first, key.second);
+    route({key.first, key.second, edges_.at(key), segment_of_.at(key)}, v);
+    edges_.erase(key);
+  }
+}
+
+// The new vertex fell exactly on another piece, which the triangulation has split.
+void Arrangement::split_edge_at(VertexId v) {
+  std::vector<VertexId> ends;
+  const Corner first = triangulation_.star(v);
+  Corner c = first;
+  do {
+    if (triangulation_.link({c.triangle, previous3(c.index)}).constrained())
+      ends.push_back(triangulation_.following(c));
+    c = triangulation_.counterclockwise(c);
+  } while (c.triangle != first.triangle);
+  if (ends.size() != 2) return;
+  const Key key = key_of(ends[0], ends[1]);
+  for (const VertexId end : ends) {
+    edges_[key_of(end, v)] = edges_.at(key);
+    segment_of_[key_of(end, v)] = segment_of_.at(key);
+  }
+  edges_.erase(key);
+}
+
+// Exact, then rounded: within the boxes of both, but for the last bit.
+Point Arrangement::crossing_of(const Piece& piece, VertexId first, VertexId second) const {
+  const Point a = point(piece.from), b = point(piece.to), c = point(first), d = point(second);
+  const Rational ax(a.x), ay(a.y), bx(b.x), by(b.y), cx(c.x), cy(c.y), dx(d.x), dy(d.y);
+  const Rational along_x = bx - ax, along_y = by - ay, across_x = dx - cx, across_y = dy - cy;
+  const Rational t = ((cx - ax) * across_y - (cy - ay) * across_x) / (along_x * across_y - along_y * across_x);
+  const Rational x = ax + t * along_x, y = ay + t * along_y;
+  return {x.convert_to<double>(), y.convert_to<double>()};
+}
+
+std::string Arrangement::name_of_segment(std::size_t segment) const {
+  if (segment < graph_.segment_lines.size())
+    return "the segment of line " + std::to_string(graph_.segment_lines[segment]);
+  return "segment " + std::to_string(segment);
+}
+
+// From outside of the hull and from the points in holes, over everything but segments.
+void Arrangement::mark_outside() {
+  outside_.assign(triangulation_.triangle_slots(), false);
+  std::vector<TriangleId> todo;
+  const auto mark = [&](TriangleId t) {
+    if (outside_[t.index]) return;
+    outside_[t.index] = true;
+    todo.push_back(t);
+  };
+  mark(triangulation_.star(infinite_vertex).triangle);
+  for (const Point hole : graph_.holes)
+    mark(triangulation_.locate(hole, triangulation_.star(infinite_vertex).triangle).triangle);
+  while (!todo.empty()) {
+    const TriangleId t = todo.back();
+    todo.pop_back();
+    for (const Link link : triangulation_[t].link)
+      if (!link.constrained()) mark(link.triangle());
+  }
+}
+
+bool Arrangement::domain_on_left(VertexId from, VertexId to) const {
+  return !outside_[triangulation_.find_edge(from, to)->triangle.index];
+}
+
+}  // namespace remodel
