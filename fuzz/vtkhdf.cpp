@@ -22,6 +22,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     read_mesh(file).quick_check();
   } catch (const Error&) {
+    ++fuzz::refusals;
   }
   std::filesystem::remove(file);
   return 0;
