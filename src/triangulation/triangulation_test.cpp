@@ -198,6 +198,11 @@ TEST_P(KernelOnFamily, ComesBackToTheSameBitsAfterRollback) {
       const auto inserted = t.insert(random_point(random, GetParam()), any_triangle(t));
       if (inserted.is_new) vertices.push_back(inserted.vertex);
     }
+    for (int i = 0; i < 8 && vertices.size() > 6; ++i) {  // slots that the step gives out again
+      const std::size_t k = random() % vertices.size();
+      t.remove(vertices[k]);
+      vertices.erase(vertices.begin() + static_cast<std::ptrdiff_t>(k));
+    }
     const Triangulation before = t;
     t.begin();
     std::vector<VertexId> now = vertices;
@@ -278,6 +283,48 @@ TEST(Constraints, OfRandomSegmentsAreKeptThroughInsertionAndRemoval) {
     for (const auto& [a, b] : segments)
       if (t.find_edge(a, b)) t.release(a, b);
     EXPECT_EQ(t.check(), "");
+  }
+}
+
+// A square with its diagonal constrained, domain on one side: what is inserted into a region, and what its
+// removal leaves, has that region.
+TEST(Regions, AreThoseOfTheSurroundingsAfterInsertionAndRemoval) {
+  Triangulation t;
+  t.start({0, 0}, {8, 0}, {8, 8});
+  t.insert({0, 8}, any_triangle(t));
+  ASSERT_EQ(t.constrain(VertexId{1}, VertexId{3}).kind, ConstrainResult::Kind::done);
+  const auto below = [&](const Triangle& triangle) {  // the diagonal
+    Point sum{0, 0};
+    for (const VertexId v : triangle.vertex) sum = sum + t.point(v);
+    return sum.x > sum.y;
+  };
+  for (std::uint32_t i = 0; i < t.triangle_slots(); ++i)
+    if (t[TriangleId{i}].alive() && !t[TriangleId{i}].ghost())
+      t.set_region(TriangleId{i}, below(t[TriangleId{i}]) ? Region::domain : Region::outside);
+  const auto expect_regions = [&] {
+    for (std::uint32_t i = 0; i < t.triangle_slots(); ++i) {
+      const Triangle& triangle = t[TriangleId{i}];
+      if (triangle.alive() && !triangle.ghost()) {
+        ASSERT_EQ(triangle.region, below(triangle) ? Region::domain : Region::outside) << "triangle " << i;
+      }
+    }
+  };
+  const auto seed = test::seed(61);
+  SCOPED_TRACE("REMODEL_TEST_SEED=" + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  std::vector<VertexId> inner;
+  for (int step = 0; step < 200; ++step) {
+    if (inner.size() > 5 && random() % 2 == 0) {
+      const std::size_t k = random() % inner.size();
+      t.remove(inner[k]);
+      inner.erase(inner.begin() + static_cast<std::ptrdiff_t>(k));
+    } else {
+      const Point p{static_cast<double>(random() % 63 + 1) / 8, static_cast<double>(random() % 63 + 1) / 8};
+      if (p.x == p.y) continue;
+      const auto inserted = t.insert(p, any_triangle(t));
+      if (inserted.is_new) inner.push_back(inserted.vertex);
+    }
+    ASSERT_NO_FATAL_FAILURE(expect_regions()) << "step " << step;
   }
 }
 
