@@ -119,6 +119,8 @@ class Case {
     }
     const std::string topology = mesh_->data().triangulation.check_topology() + check_boundary(mesh_->data());
     if (!topology.empty()) return ", but " + topology;
+    if (mesh_->statistics().vertices != mesh_->data().triangulation.vertex_count())
+      return ", but it has vertices outside of the domain";
     if (mesh_->triangle_count() > 20000) return {};  // the slow validator, for all that it takes a second for
     CheckOptions options;
     options.design = &mesh_->domain();
