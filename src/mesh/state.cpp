@@ -88,6 +88,8 @@ void restore_boundary(MeshData& mesh, const MeshState& state, const std::string&
     if (state.vertex_curves[i] < 0) continue;
     if (static_cast<std::size_t>(state.vertex_curves[i]) >= mesh.domain.curve_count())
       refuse(source, "vertex " + std::to_string(i) + " lies on an unknown curve");
+    if (!(state.vertex_parameters[i] >= 0.0 && state.vertex_parameters[i] <= 1.0))
+      refuse(source, "vertex " + std::to_string(i) + " has a parameter outside of 0 to 1");
     entries.push_back({static_cast<std::uint32_t>(state.vertex_curves[i]), state.vertex_parameters[i], i});
   }
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
