@@ -13,6 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const CstFit fit = fit_cst(coordinates, 2 + static_cast<int>(size % 5));
     surfaces_apart(fit.airfoil);
   } catch (const Error&) {
+    ++fuzz::refusals;
   }
   return 0;
 }

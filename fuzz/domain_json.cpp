@@ -17,6 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (result.stopped == Stopped::done && result.exempt_triangles == 0)
       fuzz::require_empty(result.mesh.quick_check());
   } catch (const Error&) {
+    ++fuzz::refusals;
   }
   return 0;
 }

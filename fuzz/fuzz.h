@@ -16,6 +16,9 @@
 
 namespace remodel::fuzz {
 
+// How often an Error ended an input, or a step of one: for fuzz/driver.cpp to count.
+inline long refusals = 0;
+
 [[noreturn]] inline void fail(const std::string& broken) {
   std::fprintf(stderr, "broken: %s\n", broken.c_str());
   std::abort();

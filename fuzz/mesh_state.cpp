@@ -101,6 +101,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     mesh.statistics();
     if (mesh.quick_check().empty()) remodel::remodel(mesh, design(0.9));
   } catch (const Error&) {
+    ++fuzz::refusals;
   }
   return 0;
 }

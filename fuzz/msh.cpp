@@ -10,6 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const FrozenMesh mesh = io::parse_msh(fuzz::text_of(data, size), "input");
     fuzz::use(mesh, [](const FrozenMesh& m) { return io::parse_msh(io::msh_text(m, 41, "again"), "again"); });
   } catch (const Error&) {
+    ++fuzz::refusals;
   }
   return 0;
 }

@@ -59,6 +59,7 @@ class Designs {
       fuzz::require(result.triangles == mesh.triangle_count() && result.preserved <= result.triangles_before,
                     "the counts are wrong");
     } catch (const Error&) {
+      ++fuzz::refusals;
       fuzz::require(mesh.state() == before, "a refused design has changed the mesh");
     }
   }
@@ -79,7 +80,8 @@ class Designs {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
     Designs(fuzz::Bytes(data, size)).run();
-  } catch (const Error&) {  // the first design cannot be meshed
+  } catch (const Error&) {
+    ++fuzz::refusals;  // the first design cannot be meshed
   }
   return 0;
 }

@@ -10,6 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const FrozenMesh mesh = io::parse_vtu(fuzz::text_of(data, size), "input");
     fuzz::use(mesh, [](const FrozenMesh& m) { return io::parse_vtu(io::vtu_text(m), "again"); });
   } catch (const Error&) {
+    ++fuzz::refusals;
   }
   return 0;
 }

@@ -2,6 +2,7 @@
 
 // What several tests share.
 
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
@@ -16,8 +17,8 @@ inline std::optional<std::filesystem::path> shared_file(const std::string& name)
   if (std::filesystem::exists(file)) return file;
   return std::nullopt;
 }
-#define REMODEL_SHARED_FILE(variable, name)                                     \
-  const auto variable##_found = remodel::test::shared_file(name);              \
+#define REMODEL_SHARED_FILE(variable, name)                                                                  \
+  const auto variable##_found = remodel::test::shared_file(name);                                            \
   if (!variable##_found) GTEST_SKIP() << "needs shared/" << (name) << ", which is not beside this checkout"; \
   const std::filesystem::path variable = *variable##_found
 
@@ -25,6 +26,18 @@ inline std::optional<std::filesystem::path> shared_file(const std::string& name)
 inline unsigned long long seed(unsigned long long fallback) {
   const char* given = std::getenv("REMODEL_TEST_SEED");
   return given != nullptr ? std::strtoull(given, nullptr, 10) : fallback;
+}
+
+// How much longer than in an ordinary run a random test goes on: REMODEL_TEST_EFFORT, 1 if not set.
+inline int effort() {
+  const char* given = std::getenv("REMODEL_TEST_EFFORT");
+  const int value = given != nullptr ? std::atoi(given) : 1;
+  return value < 1 ? 1 : value;
+}
+
+// What a test has counted, for scripts/long-tests to add up: "counted 120 faults".
+inline void counted(long long number, const char* what) {
+  std::printf("counted %lld %s\n", number, what);
 }
 
 }  // namespace remodel::test

@@ -97,6 +97,8 @@ TEST(MeshState, ThatIsDamagedIsRefused) {
       {"a boundary vertex on no curve", [&](MeshState& s) { s.vertex_curves[boundary] = -1; }},
       {"a parameter moved", [&](MeshState& s) { s.vertex_parameters[boundary] += 1e-4; }},
       {"a parameter that is no number", [&](MeshState& s) { s.vertex_parameters[boundary] = std::nan(""); }},
+      {"a parameter below 0", [&](MeshState& s) { s.vertex_parameters[boundary] = -0.25; }},
+      {"a parameter above 1", [&](MeshState& s) { s.vertex_parameters[boundary] = 1e300; }},
       {"a corner out of range", [&](MeshState& s) { s.triangle_vertices[3 * triangle] = 1000000; }},
       {"corners in another order",
        [&](MeshState& s) {

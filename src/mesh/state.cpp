@@ -106,8 +106,10 @@ class BoundaryRestorer {
     for (std::uint32_t i = 1; i < state_.vertex_curves.size(); ++i) {
       const std::int32_t curve = state_.vertex_curves[i];
       if (curve < 0) continue;
-      if (static_cast<std::size_t>(curve) >= entries_.size() || std::isnan(state_.vertex_parameters[i]))
+      if (static_cast<std::size_t>(curve) >= entries_.size())
         refuse(source_, "vertex " + std::to_string(i) + " lies on an unknown curve");
+      if (!(state_.vertex_parameters[i] >= 0.0 && state_.vertex_parameters[i] <= 1.0))
+        refuse(source_, "vertex " + std::to_string(i) + " has a parameter outside of 0 to 1");
       entries_[static_cast<std::size_t>(curve)].push_back({state_.vertex_parameters[i], i});
     }
     for (auto& entries : entries_) std::sort(entries.begin(), entries.end());

@@ -1,6 +1,6 @@
-// Failures in the middle: allocations that fail, observers that cancel, trials that end. In every case the
-// mesh is as it was, to the last bit, and goes on as if nothing had been. A program of its own: it replaces
-// operator new.
+// Failures in the middle: allocations that fail, observers that cancel, limits that are reached, trials that
+// end. In every case the mesh is as it was, to the last bit, and goes on as if nothing had been. A program of
+// its own: it replaces operator new.
 
 #include <gtest/gtest.h>
 
@@ -23,8 +23,8 @@ using test::allocations_left;
 using test::catalogue_domain;
 using test::fails_for_good;
 
-// The circles are no part of the state, since they follow from it: where they did not, quick_check() may not
-// see it.
+// The circles are no part of the state, since they follow from it (those outside of the domain only once they
+// are needed): where they did not, quick_check() may not see it.
 void expect_same(const Mesh& mesh, const MeshState& before, const std::string& where) {
   ASSERT_TRUE(mesh.state() == before) << where;
   ASSERT_EQ(mesh.quick_check(), "") << where;
@@ -35,41 +35,62 @@ void expect_same(const Mesh& mesh, const MeshState& before, const std::string& w
     const Triangle& t = now[TriangleId{i}];
     if (!t.alive()) continue;
     const Circle circle = restored.data().triangulation[TriangleId{i}].circle;
-    ASSERT_EQ(t.circle.inside, circle.inside) << where << ", triangle " << i;
+    if (t.region == Region::domain) {
+      ASSERT_EQ(t.circle.inside, circle.inside) << where << ", triangle " << i;
+    }
     ASSERT_EQ(t.badness, 0) << where << ", triangle " << i;
   }
 }
 
-// Fails the n-th allocation of a step for n = 0, 1, 2, ... until the step gets through; a step of very many
-// is sampled. Afterwards the same step gives what it gives a mesh at which nothing ever failed.
-void fail_every_allocation(const Mesh& start, const Domain& domain, const RemodelOptions& options) {
-  const MeshState before = start.state();
-  Mesh untroubled = start;
-  remodel(untroubled, domain, options);
-  const MeshState after = untroubled.state();
-  Mesh mesh = start;
+// The allocation to fail after the n-th: each of the first hundreds, then samples, the denser the more
+// effort.
+long next_fault(long n) {
+  return n + 1 + n / (400L * test::effort());
+}
+
+// Fails the n-th allocation of a call for n = 0, 1, 2, ... until the call gets through; says how many failed.
+// `after` sees each failure.
+template <class Call, class After>
+long fail_allocations(Call call, After after) {
   long faults = 0;
-  for (long n = 0;; n += 1 + n / 400) {
+  for (long n = 0;; n = next_fault(n)) {
     bool failed = false;
     fails_for_good = faults % 2 == 0;
     allocations_left = n;
     try {
-      remodel(mesh, domain, options);
+      call();
     } catch (const std::bad_alloc&) {
       failed = true;
     }
     allocations_left = -1;
     if (!failed) break;
     ++faults;
-    ASSERT_NO_FATAL_FAILURE(expect_same(mesh, before, "allocation " + std::to_string(n)));
-    if (faults % 16 != 0) continue;
-    remodel(mesh, domain, options);
-    ASSERT_TRUE(mesh.state() == after) << "the step after allocation " << n << " failed";
-    mesh = start;
+    after(n);
+    if (testing::Test::HasFatalFailure()) break;
   }
+  test::counted(faults, "faults");
+  return faults;
+}
+
+// Afterwards the same step gives what it gives a mesh at which nothing ever failed.
+void fail_every_allocation(const Mesh& start, const Domain& domain, const RemodelOptions& options) {
+  const MeshState before = start.state();
+  Mesh untroubled = start;
+  remodel(untroubled, domain, options);
+  const MeshState after = untroubled.state();
+  Mesh mesh = start;
+  long failures = 0;
+  const long faults = fail_allocations(
+      [&] { remodel(mesh, domain, options); },
+      [&](long n) {
+        ASSERT_NO_FATAL_FAILURE(expect_same(mesh, before, "allocation " + std::to_string(n)));
+        if (++failures % 16 != 0) return;
+        remodel(mesh, domain, options);
+        ASSERT_TRUE(mesh.state() == after) << "the step after allocation " << n << " failed";
+        mesh = start;
+      });
   EXPECT_TRUE(mesh.state() == after);
   EXPECT_GT(faults, 3);
-  testing::Test::RecordProperty("faults", std::to_string(faults));
 }
 
 CstAirfoil scaled(CstAirfoil airfoil, double factor) {
@@ -117,23 +138,49 @@ TEST(FailedAllocations, RollBackTrials) {
   const MeshState before = mesh.state();
   for (const Domain& domain :
        {airfoil_domain(scaled(airfoil, 1.0001), {.points = 50}), catalogue_domain(4, 50)}) {
-    for (long n = 0;; n += 1 + n / 400) {
-      bool failed = false;
-      allocations_left = n;
-      fails_for_good = true;
-      try {
-        Trial trial(mesh, domain);
-        trial.keep();
-      } catch (const std::bad_alloc&) {
-        failed = true;
-      }
-      allocations_left = -1;
-      if (!failed) break;
-      ASSERT_NO_FATAL_FAILURE(expect_same(mesh, before, "allocation " + std::to_string(n)));
-    }
+    fail_allocations(
+        [&] {
+          Trial trial(mesh, domain);
+          trial.keep();
+        },
+        [&](long n) { expect_same(mesh, before, "allocation " + std::to_string(n)); });
     EXPECT_EQ(mesh.quick_check(), "");
     mesh = Mesh::restore(before, "before");
   }
+}
+
+TEST(FailedAllocations, RollBackStepsOfRandomWalks) {
+  const auto seed = test::seed(17);
+  SCOPED_TRACE("REMODEL_TEST_SEED=" + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  for (int round = 0; round < test::effort(); ++round) {
+    test::Walk walk(random() % 10, 0.02, random);
+    Mesh mesh = generate(walk.domain(50)).mesh;
+    for (int step = 0; step < 3; ++step) {
+      const Domain design = airfoil_domain(walk.sample(step == 0 ? 0.0005 : 0.1), {.points = 50});
+      const RemodelOptions options{.distance = static_cast<double>(random() % 3),
+                                   .method = random() % 3 == 0 ? Method::general : Method::automatic};
+      ASSERT_NO_FATAL_FAILURE(fail_every_allocation(mesh, design, options));
+      remodel(mesh, design, options);
+    }
+  }
+}
+
+TEST(FailedAllocations, LeaveAMeshThatIsReadAsItWas) {
+  const Mesh mesh = generate(catalogue_domain(0, 50)).mesh;
+  const MeshState before = mesh.state();
+  const auto same = [&](long) { ASSERT_TRUE(mesh.state() == before); };
+  fail_allocations([&] { (void)mesh.freeze(); }, same);
+  fail_allocations([&] { (void)Mesh(mesh); }, same);
+  fail_allocations([&] { (void)Mesh::restore(before, "before"); }, same);
+}
+
+TEST(FailedAllocations, EndAGenerationThatGivesTheSameMeshAfterwards) {
+  const Domain domain = catalogue_domain(7, 50);
+  const MeshState expected = generate(domain).mesh.state();
+  MeshState found;
+  fail_allocations([&] { found = generate(domain).mesh.state(); }, [](long) {});
+  EXPECT_TRUE(found == expected);
 }
 
 // The hot path of an optimisation: one vector for the loops that differ, whatever the mesh's size.
@@ -166,6 +213,7 @@ struct Throwing : StepObserver {
 TEST(Observer, CancelsAStepAtAnyPollAndLeavesTheMeshAsItWas) {
   Mesh mesh = generate(catalogue_domain(0, 300)).mesh;
   const MeshState before = mesh.state();
+  long faults = 0;
   for (const Method method : {Method::specialised, Method::general}) {
     int polls = 0;
     for (;; ++polls) {
@@ -178,11 +226,13 @@ TEST(Observer, CancelsAStepAtAnyPollAndLeavesTheMeshAsItWas) {
       EXPECT_EQ(result.preserved, result.triangles);
       EXPECT_FALSE(result.regenerated);
       ASSERT_NO_FATAL_FAILURE(expect_same(mesh, before, "poll " + std::to_string(polls)));
+      ++faults;
     }
     EXPECT_GE(polls, 3);
     EXPECT_EQ(mesh.quick_check(), "");
     mesh = Mesh::restore(before, "before");
   }
+  test::counted(faults, "faults");
 }
 
 TEST(Observer, ThatThrowsLeavesTheMeshAsItWas) {
@@ -200,6 +250,47 @@ TEST(Observer, CancelsGenerationWithAValidMesh) {
   EXPECT_EQ(observer.asked, 3);
   EXPECT_EQ(result.mesh.data().triangulation.check(), "");
   EXPECT_EQ(check_boundary(result.mesh.data()), "");
+}
+
+// ---- limits
+
+// A step that its own budget ends generates afresh and says so, or says where it was stopped: never an
+// invalid mesh, and the same again from the same state.
+TEST(Limits, ThatAStepReachesLeaveAMeshInOrder) {
+  const auto seed = test::seed(19);
+  SCOPED_TRACE("REMODEL_TEST_SEED=" + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  long reached = 0;
+  for (int round = 0; round < 12 * test::effort(); ++round) {
+    QualityOptions quality;
+    Mesh mesh = generate(catalogue_domain(random() % 10, 50), quality).mesh;
+    // Hardly more vertices than there are, or edges that may not be split.
+    MeshState tight = mesh.state();
+    if (round % 3 == 0)
+      tight.options.min_edge = 0.02;
+    else
+      tight.options.max_vertices =
+          static_cast<std::uint32_t>(mesh.data().triangulation.vertex_count() + random() % 40);
+    mesh = Mesh::restore(tight, "tight");
+    Mesh again = mesh;
+    bool promised = true;
+    for (int step = 0; step < 6; ++step) {
+      const Domain design = catalogue_domain(random() % 10, 50 + 10 * static_cast<int>(random() % 3));
+      const Method method = random() % 2 == 0 ? Method::general : Method::automatic;
+      const RemodelResult result = remodel(mesh, design, {.method = method});
+      if (result.stopped != Stopped::done || result.regenerated) ++reached;
+      ASSERT_EQ(mesh.data().triangulation.check_topology(), "") << "round " << round << ", step " << step;
+      ASSERT_EQ(check_boundary(mesh.data()), "") << "round " << round << ", step " << step;
+      promised = result.stopped == Stopped::done && (promised || result.regenerated);
+      if (promised) {
+        ASSERT_EQ(mesh.quick_check(), "") << "round " << round << ", step " << step;
+      }
+      remodel(again, design, {.method = method});
+      ASSERT_TRUE(again.state() == mesh.state());
+    }
+  }
+  test::counted(reached, "faults");
+  EXPECT_GT(reached, 20);
 }
 
 // ---- trials

@@ -118,6 +118,75 @@ TEST_P(KernelOnFamily, HasTheTrianglesOfARebuildFromTheSameVertices) {
   EXPECT_EQ(triangle_set(t), triangle_set(rebuilt));
 }
 
+TEST_P(KernelOnFamily, IsAsItWasAfterAnInsertionAndTheRemovalOfTheSamePoint) {
+  const auto seed = test::seed(41 + static_cast<unsigned long long>(GetParam()));
+  SCOPED_TRACE("REMODEL_TEST_SEED=" + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  Triangulation t = started(random, GetParam());
+  int there_and_back = 0;
+  for (int step = 0; step < 300; ++step) {
+    const std::set<Triple> before = triangle_set(t);
+    const auto inserted = t.insert(random_point(random, GetParam()), any_triangle(t));
+    if (!inserted.is_new) continue;
+    if (step % 4 == 0) continue;  // so that it grows
+    t.remove(inserted.vertex);
+    ASSERT_EQ(triangle_set(t), before) << "step " << step;
+    ++there_and_back;
+  }
+  EXPECT_GT(there_and_back, 5);
+}
+
+// Scaling by a power of two and translations without rounding keep every sign and every tie: the same
+// triangles, ids included. Mirroring keeps the signs, but a tie is broken by the order of coordinates: the
+// same triangles only where there are no ties.
+TEST_P(KernelOnFamily, HasTheTransformedTrianglesOfTransformedPoints) {
+  const auto seed = test::seed(51 + static_cast<unsigned long long>(GetParam()));
+  SCOPED_TRACE("REMODEL_TEST_SEED=" + std::to_string(seed));
+  struct Case {
+    double scale_x, scale_y, shift_x, shift_y;
+    bool exact;  // for this family
+  };
+  const bool ulps = GetParam() == 4, ties = GetParam() != 0;
+  for (const Case& c :
+       {Case{0x1p-90, 0x1p-90, 0, 0, true}, Case{0x1p100, 0x1p100, 0, 0, true}, Case{1, 1, 3, -5, !ulps},
+        Case{1, 1, 0.25, 0.5, true}, Case{-1, 1, 0, 0, !ties}, Case{1, -1, 0, 0, !ties}}) {
+    if (!c.exact) continue;
+    std::mt19937_64 random(seed);
+    const auto image = [&](Point p) {
+      return Point{c.scale_x * p.x + c.shift_x, c.scale_y * p.y + c.shift_y};
+    };
+    Triangulation one = started(random, GetParam()), other;
+    other.start(image(one.point(VertexId{1})), image(one.point(VertexId{2})), image(one.point(VertexId{3})));
+    std::vector<VertexId> vertices;
+    for (int step = 0; step < 400; ++step) {
+      if (vertices.size() > 3 && random() % 3 == 0) {
+        const std::size_t k = random() % vertices.size();
+        one.remove(vertices[k]);
+        other.remove(vertices[k]);
+        vertices.erase(vertices.begin() + static_cast<std::ptrdiff_t>(k));
+      } else {
+        const Point p = random_point(random, GetParam());
+        const auto inserted = one.insert(p, any_triangle(one));
+        const auto same = other.insert(image(p), any_triangle(other));
+        ASSERT_EQ(inserted.vertex, same.vertex);
+        ASSERT_EQ(inserted.is_new, same.is_new);
+        if (inserted.is_new) vertices.push_back(inserted.vertex);
+      }
+      if (step % 10 != 9) continue;
+      std::set<Triple> expected;
+      for (Triple triple : triangle_set(one)) {
+        for (auto& [x, y] : triple) {
+          const Point p = image({x, y});
+          x = p.x, y = p.y;
+        }
+        std::sort(triple.begin(), triple.end());
+        expected.insert(triple);
+      }
+      ASSERT_EQ(triangle_set(other), expected) << "step " << step;
+    }
+  }
+}
+
 TEST_P(KernelOnFamily, ComesBackToTheSameBitsAfterRollback) {
   const auto seed = test::seed(21 + static_cast<unsigned long long>(GetParam()));
   SCOPED_TRACE("REMODEL_TEST_SEED=" + std::to_string(seed));
@@ -128,6 +197,11 @@ TEST_P(KernelOnFamily, ComesBackToTheSameBitsAfterRollback) {
     for (int step = 0; step < 20; ++step) {
       const auto inserted = t.insert(random_point(random, GetParam()), any_triangle(t));
       if (inserted.is_new) vertices.push_back(inserted.vertex);
+    }
+    for (int i = 0; i < 8 && vertices.size() > 6; ++i) {  // slots that the step gives out again
+      const std::size_t k = random() % vertices.size();
+      t.remove(vertices[k]);
+      vertices.erase(vertices.begin() + static_cast<std::ptrdiff_t>(k));
     }
     const Triangulation before = t;
     t.begin();
@@ -209,6 +283,48 @@ TEST(Constraints, OfRandomSegmentsAreKeptThroughInsertionAndRemoval) {
     for (const auto& [a, b] : segments)
       if (t.find_edge(a, b)) t.release(a, b);
     EXPECT_EQ(t.check(), "");
+  }
+}
+
+// A square with its diagonal constrained, domain on one side: what is inserted into a region, and what its
+// removal leaves, has that region.
+TEST(Regions, AreThoseOfTheSurroundingsAfterInsertionAndRemoval) {
+  Triangulation t;
+  t.start({0, 0}, {8, 0}, {8, 8});
+  t.insert({0, 8}, any_triangle(t));
+  ASSERT_EQ(t.constrain(VertexId{1}, VertexId{3}).kind, ConstrainResult::Kind::done);
+  const auto below = [&](const Triangle& triangle) {  // the diagonal
+    Point sum{0, 0};
+    for (const VertexId v : triangle.vertex) sum = sum + t.point(v);
+    return sum.x > sum.y;
+  };
+  for (std::uint32_t i = 0; i < t.triangle_slots(); ++i)
+    if (t[TriangleId{i}].alive() && !t[TriangleId{i}].ghost())
+      t.set_region(TriangleId{i}, below(t[TriangleId{i}]) ? Region::domain : Region::outside);
+  const auto expect_regions = [&] {
+    for (std::uint32_t i = 0; i < t.triangle_slots(); ++i) {
+      const Triangle& triangle = t[TriangleId{i}];
+      if (triangle.alive() && !triangle.ghost()) {
+        ASSERT_EQ(triangle.region, below(triangle) ? Region::domain : Region::outside) << "triangle " << i;
+      }
+    }
+  };
+  const auto seed = test::seed(61);
+  SCOPED_TRACE("REMODEL_TEST_SEED=" + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  std::vector<VertexId> inner;
+  for (int step = 0; step < 200; ++step) {
+    if (inner.size() > 5 && random() % 2 == 0) {
+      const std::size_t k = random() % inner.size();
+      t.remove(inner[k]);
+      inner.erase(inner.begin() + static_cast<std::ptrdiff_t>(k));
+    } else {
+      const Point p{static_cast<double>(random() % 63 + 1) / 8, static_cast<double>(random() % 63 + 1) / 8};
+      if (p.x == p.y) continue;
+      const auto inserted = t.insert(p, any_triangle(t));
+      if (inserted.is_new) inner.push_back(inserted.vertex);
+    }
+    ASSERT_NO_FATAL_FAILURE(expect_regions()) << "step " << step;
   }
 }
 

@@ -5,7 +5,7 @@
 //    "distance": 1, "method": "auto",                                               of remodelling, optional
 //    "designs": [DESIGN, ...], "expected": [OUTCOME, ...],   one outcome a design, or a single one for all
 //    "repeat": 1,                                             passes over the designs, in the same mesh
-//    "seconds": 10, "max_triangles": 100000}                  guards of the whole case and of each mesh
+//    "max_triangles": 100000}                                 of each mesh
 //
 // DESIGN is {"catalogue": NAME, ...}, {"upper": [...], "lower": [...], ...} (CST coefficients) or {"domain":
 // {...}} (the JSON of a domain). Airfoils take "points", "farfield_radius" and "farfield_points", and "sigma"
@@ -18,7 +18,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -120,6 +119,8 @@ class Case {
     }
     const std::string topology = mesh_->data().triangulation.check_topology() + check_boundary(mesh_->data());
     if (!topology.empty()) return ", but " + topology;
+    if (mesh_->statistics().vertices != mesh_->data().triangulation.vertex_count())
+      return ", but it has vertices outside of the domain";
     if (mesh_->triangle_count() > 20000) return {};  // the slow validator, for all that it takes a second for
     CheckOptions options;
     options.design = &mesh_->domain();
@@ -153,7 +154,6 @@ INSTANTIATE_TEST_SUITE_P(Files, Corpus, testing::ValuesIn(corpus_files()),
 TEST_P(Corpus, EndsInOrder) {
   std::ifstream file(REMODEL_SOURCE_DIR "/tests/corpus/" + GetParam() + ".json");
   const json text = json::parse(file);
-  const auto started = std::chrono::steady_clock::now();
   Case chain(text);
   const json &designs = text["designs"], &expected = text["expected"];
   ASSERT_TRUE(expected.size() == 1 || expected.size() == designs.size());
@@ -171,11 +171,6 @@ TEST_P(Corpus, EndsInOrder) {
       }
       EXPECT_LE(chain.triangles(), text["max_triangles"].get<std::size_t>());
     }
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - started;
-#ifdef NDEBUG
-  EXPECT_LT(seconds.count(), text["seconds"].get<double>());
-#endif
-  std::cout << GetParam() << ": " << seconds.count() << " s, " << chain.triangles() << " triangles\n";
 }
 
 }  // namespace

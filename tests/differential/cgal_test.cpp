@@ -97,7 +97,7 @@ TEST_P(AgainstCgal, RandomCommandsGiveTheSameTriangles) {
   SCOPED_TRACE("REMODEL_TEST_SEED=" + std::to_string(seed));
   std::mt19937_64 random(seed);
   std::size_t compared = 0, triangles = 0, ties = 0;
-  for (int round = 0; round < 120; ++round) {
+  for (int round = 0; round < 120 * test::effort(); ++round) {
     Pair pair(random, GetParam());
     const std::size_t most = 8U << (round % 6);
     for (int step = 0; step < 400; ++step) {
@@ -115,6 +115,7 @@ TEST_P(AgainstCgal, RandomCommandsGiveTheSameTriangles) {
   }
   std::cout << compared << " comparisons, " << triangles << " triangles, " << ties
             << " edges chosen by the tie-break\n";
+  test::counted(static_cast<long long>(compared), "differential cases");
   if (GetParam() == test::Family::gridded || GetParam() == test::Family::cocircular) {
     EXPECT_GT(ties, compared);
   }
@@ -156,8 +157,8 @@ TEST(RemodelledMeshes, HaveTheDomainTrianglesOfCgalAndOfARebuild) {
   SCOPED_TRACE("REMODEL_TEST_SEED=" + std::to_string(seed));
   std::mt19937_64 random(seed);
   int compared = 0, full = 0;
-  for (int round = 0; round < 10; ++round) {
-    const CstAirfoil base = airfoil_catalogue()[static_cast<std::size_t>(round)].airfoil();
+  for (int round = 0; round < 10 * test::effort(); ++round) {
+    const CstAirfoil base = airfoil_catalogue()[static_cast<std::size_t>(round % 10)].airfoil();
     const AirfoilDomainOptions options{.points = round % 3 == 0 ? 50 : 100};
     Mesh mesh = generate(airfoil_domain(base, options), {.gradation = 2.0}).mesh;
     for (int step = 0; step < 12; ++step) {
@@ -210,6 +211,7 @@ TEST(RemodelledMeshes, HaveTheDomainTrianglesOfCgalAndOfARebuild) {
     }
   }
   EXPECT_GT(full, 5);
+  test::counted(2LL * compared, "differential cases");
   std::cout << compared << " meshes compared, " << full << " of them after full adjustments\n";
 }
 

@@ -31,7 +31,8 @@ TEST_P(OnFamily, PredicatesHaveTheSignsOfTheDeterminants) {
   const auto seed = test::seed(101 + static_cast<unsigned long long>(GetParam()));
   SCOPED_TRACE(trace(seed));
   std::mt19937_64 random(seed);
-  for (int i = 0; i < 3000; ++i) {
+  const int tuples = 3000 * test::effort();
+  for (int i = 0; i < tuples; ++i) {
     Point p[4];
     for (Point& q : p) q = test::random_point(random, GetParam());
     const int side = reference::orient(p[0], p[1], p[2]);
@@ -40,19 +41,22 @@ TEST_P(OnFamily, PredicatesHaveTheSignsOfTheDeterminants) {
     if (side <= 0 || p[3] == p[0] || p[3] == p[1] || p[3] == p[2]) continue;
     ASSERT_EQ(incircle_sos(p[0], p[1], p[2], p[3]), reference::incircle_lifted(p[0], p[1], p[2], p[3]));
   }
+  test::counted(tuples, "tuples of points");
 }
 
 TEST_P(OnFamily, TrianglesAreThoseWithEmptyCircles) {
   const auto seed = test::seed(111 + static_cast<unsigned long long>(GetParam()));
   SCOPED_TRACE(trace(seed));
   std::mt19937_64 random(seed);
-  for (int round = 0; round < 12; ++round) {
+  const int rounds = 12 * test::effort();
+  for (int round = 0; round < rounds; ++round) {
     test::KernelWalk walk(random, GetParam());
     for (int i = 0; i < 60; ++i) walk.step(16);
     for (const auto& edge : walk.constraints())
       walk.triangulation.release(walk.vertices[edge[0]], walk.vertices[edge[1]]);
     ASSERT_EQ(walk.faces(), reference::delaunay(walk.points())) << "round " << round;
   }
+  test::counted(rounds, "differential cases");
 }
 
 TEST_P(OnFamily, ConstrainedTrianglesAreThoseOfGreedyEdgesAndFlips) {
@@ -60,7 +64,8 @@ TEST_P(OnFamily, ConstrainedTrianglesAreThoseOfGreedyEdgesAndFlips) {
   SCOPED_TRACE(trace(seed));
   std::mt19937_64 random(seed);
   std::size_t constraints = 0;
-  for (int round = 0; round < 25; ++round) {
+  const int rounds = 25 * test::effort();
+  for (int round = 0; round < rounds; ++round) {
     test::KernelWalk walk(random, GetParam());
     for (int i = 0; i < 70; ++i) walk.step(18);
     const auto present = walk.constraints();
@@ -68,6 +73,7 @@ TEST_P(OnFamily, ConstrainedTrianglesAreThoseOfGreedyEdgesAndFlips) {
     ASSERT_EQ(walk.faces(), reference::constrained_delaunay(walk.points(), present)) << "round " << round;
   }
   EXPECT_GT(constraints, 25U);
+  test::counted(rounds, "differential cases");
 }
 
 TEST_P(OnFamily, CavitiesAreTheConnectedTrianglesInConflict) {
@@ -77,7 +83,7 @@ TEST_P(OnFamily, CavitiesAreTheConnectedTrianglesInConflict) {
   std::size_t compared = 0;
   test::KernelWalk walk(random, GetParam());
   const Triangulation& t = walk.triangulation;
-  for (int step = 0; step < 1200; ++step) {
+  for (int step = 0; step < 1200 * test::effort(); ++step) {
     walk.step(40);
     const Point p = test::random_point(random, GetParam());
     const Location where = t.locate(p, t.star(walk.vertices.front()).triangle);
@@ -122,6 +128,7 @@ TEST_P(OnFamily, CavitiesAreTheConnectedTrianglesInConflict) {
     ++compared;
   }
   EXPECT_GT(compared, 100U);
+  test::counted(static_cast<long long>(compared), "differential cases");
 }
 
 Mesh mesh_of(const CstAirfoil& airfoil, int points, double gradation) {
@@ -133,7 +140,8 @@ TEST(RemovalRegions, HoldEveryInteriorVertexInsideAndNoOther) {
   SCOPED_TRACE(trace(seed));
   std::mt19937_64 random(seed);
   std::size_t vertices = 0;
-  for (int round = 0; round < 10; ++round) {
+  const int rounds = 10 * test::effort();
+  for (int round = 0; round < rounds; ++round) {
     Mesh mesh = mesh_of(test::random_design(random, 0.1), 100, 2.0);
     MeshData& data = mesh.data();
     for (int i = 0; i < 200; ++i) {
@@ -159,6 +167,7 @@ TEST(RemovalRegions, HoldEveryInteriorVertexInsideAndNoOther) {
     }
   }
   EXPECT_GT(vertices, 1000U);
+  test::counted(200LL * rounds, "differential cases");
 }
 
 TEST(RemodelResult, CountsWhatACountOfAllTrianglesCounts) {
@@ -166,7 +175,7 @@ TEST(RemodelResult, CountsWhatACountOfAllTrianglesCounts) {
   SCOPED_TRACE(trace(seed));
   std::mt19937_64 random(seed);
   int full = 0, partial = 0;
-  for (int round = 0; round < 6; ++round) {
+  for (int round = 0; round < 6 * test::effort(); ++round) {
     const CstAirfoil base = test::random_design(random, 0.05);
     const int points = round % 2 == 0 ? 50 : 100;
     Mesh mesh = mesh_of(base, points, 2.0);
@@ -201,6 +210,7 @@ TEST(RemodelResult, CountsWhatACountOfAllTrianglesCounts) {
   }
   EXPECT_GT(full, 5);
   EXPECT_GT(partial, 20);
+  test::counted(full + partial, "differential cases");
 }
 
 }  // namespace
