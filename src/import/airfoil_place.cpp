@@ -1,0 +1,272 @@
+// An airfoil in a domain: where it is, its design, and another one in its place.
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "remodel/error.h"
+#include "remodel/import.h"
+#include "shape/airfoil_rows.h"
+
+namespace remodel {
+
+namespace {
+
+// What counts as a corner decides where a chord is drawn, nothing else.
+constexpr double sharp_turn = 120.0 * std::numbers::pi / 180.0;
+constexpr double blunt_turn = 45.0 * std::numbers::pi / 180.0;
+constexpr double longest_base = 0.1;  // of the outline's extent
+constexpr std::size_t polyline_pieces = 8;
+
+using Outline = std::vector<Point>;  // counter-clockwise, closed: the last point is not the first one again
+
+Outline outline_of(const Domain& domain, std::size_t loop) {
+  Outline outline;
+  for (const BoundaryStation& station : domain.stations(loop)) outline.push_back(domain.at(station));
+  if (signed_area(domain, loop) < 0.0) std::reverse(outline.begin(), outline.end());
+  return outline;
+}
+
+double turn_at(const Outline& outline, std::size_t i) {
+  const std::size_t n = outline.size();
+  const Point in = outline[i] - outline[(i + n - 1) % n], out = outline[(i + 1) % n] - outline[i];
+  return std::atan2(cross(in, out), dot(in, out));
+}
+
+// The trailing edge's two ends, counter-clockwise; the same twice if it is sharp.
+struct TrailingEdge {
+  std::size_t lower = 0, upper = 0;
+};
+
+double extent(const Outline& outline) {
+  Point low = outline.front(), high = low;
+  for (const Point p : outline) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  return std::sqrt(squared_distance(low, high));
+}
+
+std::optional<TrailingEdge> blunt_edge(const Outline& outline, const std::vector<double>& turns) {
+  const std::size_t n = outline.size();
+  const double longest = longest_base * extent(outline);
+  std::vector<std::size_t> corners;
+  for (std::size_t i = 0; i < n; ++i)
+    if (turns[i] > blunt_turn) corners.push_back(i);
+  std::optional<TrailingEdge> best;
+  double most = 0.0;
+  for (std::size_t k = 0; k < corners.size() && corners.size() > 1; ++k) {
+    const std::size_t lower = corners[k], upper = corners[(k + 1) % corners.size()];
+    if (squared_distance(outline[lower], outline[upper]) > longest * longest) continue;
+    if (turns[lower] + turns[upper] <= most) continue;
+    most = turns[lower] + turns[upper];
+    best = {lower, upper};
+  }
+  return best;
+}
+
+TrailingEdge trailing_edge_of(const Outline& outline) {
+  std::vector<double> turns;
+  for (std::size_t i = 0; i < outline.size(); ++i) turns.push_back(turn_at(outline, i));
+  const auto sharpest =
+      static_cast<std::size_t>(std::max_element(turns.begin(), turns.end()) - turns.begin());
+  if (turns[sharpest] > sharp_turn) return {sharpest, sharpest};
+  if (const auto blunt = blunt_edge(outline, turns)) return *blunt;
+  const auto rearmost = std::max_element(outline.begin(), outline.end(),
+                                         [](Point a, Point b) { return a.x < b.x; });
+  const auto i = static_cast<std::size_t>(rearmost - outline.begin());
+  return {i, i};
+}
+
+// Between a mesh's coordinates and those of the chord, which runs from (0, 0) to (1, 0).
+class ChordFrame {
+ public:
+  explicit ChordFrame(const AirfoilPlace& place)
+      : origin_(place.leading), along_(place.trailing - place.leading) {}
+  bool is_chord() const { return origin_ == Point{0.0, 0.0} && along_ == Point{1.0, 0.0}; }
+  Point to_chord(Point p) const {
+    const Point d = p - origin_;
+    if (is_chord()) return p;
+    const double square = dot(along_, along_);
+    return {dot(along_, d) / square, cross(along_, d) / square};
+  }
+  Point from_chord(Point p) const {
+    return origin_ + p.x * along_ + p.y * Point{-along_.y, along_.x};
+  }
+
+ private:
+  Point origin_, along_;
+};
+
+std::vector<double> cosine_parameters(std::size_t points) {
+  std::vector<double> parameters;
+  for (std::size_t i = 0; i < points; ++i)
+    parameters.push_back(static_cast<double>(i) / static_cast<double>(points));
+  return parameters;
+}
+
+// The points from the trailing edge's upper end over the leading edge to its lower end, in chords. A sharp
+// trailing edge is the first point and the last.
+Outline around(const Outline& outline, const TrailingEdge& edge, const ChordFrame& frame) {
+  Outline result;
+  const std::size_t n = outline.size();
+  std::size_t i = edge.upper;
+  do {
+    result.push_back(frame.to_chord(outline[i]));
+    i = (i + 1) % n;
+  } while (i != edge.lower);
+  result.push_back(frame.to_chord(outline[i]));
+  return result;
+}
+
+// None where x does not fall all the way to the leading edge and rise all the way back.
+std::optional<std::vector<double>> parameters_of(const Outline& points) {
+  std::size_t nose = 0;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    if (points[i].x < points[nose].x) nose = i;
+  std::vector<double> parameters{0.0};
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    if (!(points[i].x >= 0.0 && points[i].x < 1.0)) return std::nullopt;
+    const double t = std::acos(2.0 * points[i].x - 1.0) / (2.0 * std::numbers::pi);
+    parameters.push_back(i == nose ? 0.5 : i < nose ? t : 1.0 - t);
+  }
+  for (std::size_t i = 1; i < parameters.size(); ++i)
+    if (!(parameters[i] > parameters[i - 1]) || parameters[i] >= 1.0) return std::nullopt;
+  return parameters;
+}
+
+std::vector<double> base_of(const Outline& outline, const TrailingEdge& edge) {
+  std::vector<double> base;
+  const Point from = outline[edge.lower], along = outline[edge.upper] - from;
+  for (std::size_t i = edge.lower; i != edge.upper; i = (i + 1) % outline.size())
+    base.push_back(dot(outline[i] - from, along) / dot(along, along));
+  if (base.empty()) return base;
+  base.front() = 0.0;
+  for (std::size_t i = 1; i < base.size(); ++i)
+    if (!(base[i] > base[i - 1]) || base[i] >= 1.0) return cosine_parameters(base.size());
+  return base;
+}
+
+std::size_t loop_named(const Domain& domain, const std::string& name, const std::string& source) {
+  std::vector<std::size_t> found;
+  std::string names;
+  for (std::size_t i = 0; i < domain.loops.size(); ++i)
+    for (const Curve& curve : domain.loops[i].curves) {
+      if (curve.name == name && (found.empty() || found.back() != i)) found.push_back(i);
+      const std::string quoted = "'" + curve.name + "'";
+      if (names.find(quoted) == std::string::npos) names += (names.empty() ? "" : ", ") + quoted;
+    }
+  const auto refuse = [&](const std::string& problem) {
+    throw Error(ErrorCode::argument, source, problem);
+  };
+  if (found.empty()) refuse("no boundary '" + name + "' found, one of " + names + " expected");
+  if (found.size() > 1)
+    refuse("boundary '" + name + "' has " + std::to_string(found.size()) + " loops, one expected");
+  for (const Curve& curve : domain.loops[found.front()].curves)
+    if (curve.name != name)
+      refuse("the loop of boundary '" + name + "' has edges of '" + curve.name +
+             "' too, one name all around expected");
+  if (domain.loops[found.front()].role != LoopRole::hole)
+    refuse("boundary '" + name + "' surrounds the mesh, the outline of a body in it expected");
+  return found.front();
+}
+
+// The paper's own curve, as airfoil_domain() and with_airfoil() make it.
+std::optional<AirfoilPlace> place_of_curve(const Loop& loop) {
+  if (!std::holds_alternative<CstAirfoil>(loop.curves.front().shape)) return std::nullopt;
+  AirfoilPlace place{.trailing = {1.0, 0.0}, .parameters = loop.curves.front().parameters};
+  if (loop.curves.size() > 1) place.base = loop.curves[1].parameters;
+  return place;
+}
+
+AirfoilPlace place_of_outline(const Outline& outline) {
+  const TrailingEdge edge = trailing_edge_of(outline);
+  AirfoilPlace place;
+  place.trailing = edge.lower == edge.upper ? outline[edge.upper]
+                                            : 0.5 * (outline[edge.lower] + outline[edge.upper]);
+  place.leading = *std::max_element(outline.begin(), outline.end(), [&](Point a, Point b) {
+    return squared_distance(a, place.trailing) < squared_distance(b, place.trailing);
+  });
+  place.base = base_of(outline, edge);
+  const Outline points = around(outline, edge, ChordFrame(place));
+  if (auto parameters = parameters_of(points)) {
+    place.parameters = std::move(*parameters);
+    return place;
+  }
+  const std::size_t even = points.size() - 1 + (points.size() - 1) % 2;
+  return with_points(std::move(place), static_cast<int>(std::max<std::size_t>(even, 8)));
+}
+
+Polyline polyline_of(const CstAirfoil& airfoil, const std::vector<double>& parameters,
+                     const ChordFrame& frame) {
+  Polyline line;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const double from = parameters[i], to = i + 1 < parameters.size() ? parameters[i + 1] : 1.0;
+    for (std::size_t k = 0; k < polyline_pieces; ++k) {
+      const double share = static_cast<double>(k) / static_cast<double>(polyline_pieces);
+      line.points.push_back(frame.from_chord(airfoil.at(k == 0 ? from : from + share * (to - from))));
+    }
+  }
+  line.points.push_back(airfoil.te_upper == airfoil.te_lower ? line.points.front()
+                                                             : frame.from_chord(airfoil.at(1.0)));
+  return line;
+}
+
+}  // namespace
+
+AirfoilPlace find_airfoil(const Domain& domain, const std::string& name, const std::string& source) {
+  const std::size_t loop = loop_named(domain, name, source);
+  std::optional<AirfoilPlace> place = place_of_curve(domain.loops[loop]);
+  if (!place) place = place_of_outline(outline_of(domain, loop));
+  place->loop = loop;
+  return *place;
+}
+
+AirfoilPlace with_points(AirfoilPlace place, int points) {
+  if (points < 8 || points % 2 != 0)
+    throw Error(ErrorCode::argument, "points",
+                "found " + std::to_string(points) + ", expected an even number, at least 8");
+  place.parameters = cosine_parameters(static_cast<std::size_t>(points));
+  if (!place.base.empty()) place.base = {0.0};
+  return place;
+}
+
+CstFit fit_airfoil(const Domain& domain, const AirfoilPlace& place, int degree) {
+  const Loop& loop = domain.loops[place.loop];
+  if (const auto* airfoil = std::get_if<CstAirfoil>(&loop.curves.front().shape)) return {.airfoil = *airfoil};
+  const Outline outline = outline_of(domain, place.loop);
+  const Outline points = around(outline, trailing_edge_of(outline), ChordFrame(place));
+  std::vector<AirfoilRow> rows;
+  for (const Point p : points) rows.push_back({p, 0});
+  const std::string where = "boundary '" + loop.curves.front().name + "'";
+  CstFit fit = fit_cst(surfaces_of_outline(where, rows, where), degree);
+  if (!place.base.empty()) {
+    fit.airfoil.te_upper = points.front().y;
+    fit.airfoil.te_lower = points.back().y;
+  }
+  return fit;
+}
+
+Domain with_airfoil(const Domain& domain, const AirfoilPlace& place, const CstAirfoil& airfoil) {
+  const std::string name = domain.loops[place.loop].curves.front().name;
+  const ChordFrame frame(place);
+  Loop loop{.role = LoopRole::hole, .curves = {{.name = name, .shape = airfoil, .parameters = place.parameters}}};
+  if (!frame.is_chord()) {
+    loop.curves.front().shape = polyline_of(airfoil, place.parameters, frame);
+    loop.curves.front().parameters = cosine_parameters(place.parameters.size());
+  }
+  if (airfoil.te_upper != airfoil.te_lower) {
+    const Shape& curve = loop.curves.front().shape;
+    const Line line{.from = point_at(curve, 1.0), .to = point_at(curve, 0.0)};
+    loop.curves.push_back({.name = name,
+                           .shape = line,
+                           .parameters = place.base.empty() ? std::vector<double>{0.0} : place.base});
+  }
+  Domain result = domain;
+  result.loops[place.loop] = std::move(loop);
+  return result;
+}
+
+}  // namespace remodel
