@@ -15,6 +15,7 @@ LAYERS = [
     {"name": "shape", "headers": ["airfoil.h", "domain.h"]},
     {"name": "mesh", "headers": ["mesh.h", "frozen_mesh.h"]},
     {"name": "generate", "headers": ["generate.h"]},
+    {"name": "import", "headers": ["import.h"]},
     {"name": "remodel", "headers": ["remodel.h"]},
     {"name": "check", "headers": ["check.h"]},
     {"name": "io", "headers": ["io.h"]},
