@@ -73,10 +73,11 @@ void add_start_mesh_options(CLI::App& app, StartMeshOptions& options) {
             "Smallest angle of new triangles in a mesh of another program's, in degrees: 0 to 33"},
            {.low = 0.0, .high = 33.0}, [&](double value) { options.refine_angle_deg = value; });
   static constexpr std::array choices{NonDelaunay::flip, NonDelaunay::keep};
-  add_choice(app,
-             {"--non-delaunay", "WHAT", "flip",
-              "Triangles of another program's that are not Delaunay: flip them, or keep them where untouched"},
-             {"flip", "keep"}, [&](std::size_t choice) { options.non_delaunay = choices[choice]; });
+  add_choice(
+      app,
+      {"--non-delaunay", "WHAT", "flip",
+       "Triangles of another program's that are not Delaunay: flip them, or keep them where untouched"},
+      {"flip", "keep"}, [&](std::size_t choice) { options.non_delaunay = choices[choice]; });
 }
 
 StartMesh read_start_mesh(const std::string& file, const StartMeshOptions& options) {

@@ -32,8 +32,8 @@ struct StartMesh {
   std::optional<ImportResult> imported;  // without its mesh: how the import went
 };
 
-// Any readable format. Throws Error as the readers and import_mesh() do, and for options that a native mesh has
-// its own of.
+// Any readable format. Throws Error as the readers and import_mesh() do, and for options that a native mesh
+// has its own of.
 StartMesh read_start_mesh(const std::string& file, const StartMeshOptions& options);
 
 // The loop that is changed. Throws Error as find_airfoil() does, and where no boundary is named and the mesh

@@ -58,8 +58,9 @@ AirfoilDomainOptions discretisation_of(const Domain& domain) {
   return options;
 }
 
-// The mesh's domain with another airfoil in it, where we made the mesh. Where the trailing edge stays closed, everything else is kept
-// as it is; opening or closing it adds or removes a curve, so the domain is built anew.
+// The mesh's domain with another airfoil in it, where we made the mesh. Where the trailing edge stays closed,
+// everything else is kept as it is; opening or closing it adds or removes a curve, so the domain is built
+// anew.
 Domain generated_with_airfoil(const Domain& old, const CstAirfoil& airfoil, const std::string& file) {
   Domain domain = old;
   CstAirfoil* place = find_airfoil(domain);

@@ -1,7 +1,7 @@
 #pragma once
 
-// Meshes that other programs made, as living meshes: what is in the file stays as it is, triangle by triangle,
-// until a remodelling comes near it. And the way back from a boundary in such a mesh to a design.
+// Meshes that other programs made, as living meshes: what is in the file stays as it is, triangle by
+// triangle, until a remodelling comes near it. And the way back from a boundary in such a mesh to a design.
 //
 // What holds of an imported mesh and where:
 //  - Its *kept* triangles are the file's (birth 0): not better than the file made them. No triangle of the
@@ -31,7 +31,8 @@ enum class NonDelaunay {
 
 struct ImportOptions {
   NonDelaunay non_delaunay = NonDelaunay::flip;
-  double refine_angle_deg = 0.0;  // of new triangles, to 33; 0: 30, or the file's smallest angle from 30 to 33
+  double refine_angle_deg =
+      0.0;  // of new triangles, to 33; 0: 30, or the file's smallest angle from 30 to 33
   double max_gradation = 0.70710678118654752;  // H of QualityOptions
   double gradation = 0.0;                      // G; 0: measured, see ImportResult
   double resolution = 1.0;                     // R
@@ -41,10 +42,10 @@ struct ImportOptions {
 
 struct ImportResult {
   Mesh mesh;
-  double min_angle_deg = 0.0;         // of the file
-  std::size_t turned_triangles = 0;   // clockwise in the file
-  std::size_t unused_points = 0;      // in no triangle: left out
-  std::size_t unnamed_edges = 0;      // of the boundary
+  double min_angle_deg = 0.0;          // of the file
+  std::size_t turned_triangles = 0;    // clockwise in the file
+  std::size_t unused_points = 0;       // in no triangle: left out
+  std::size_t unnamed_edges = 0;       // of the boundary
   std::size_t non_delaunay_edges = 0;  // of the file: a point lies inside a circle
   std::size_t flipped_edges = 0;       // of the file that the living mesh does not have: those, and ties
 };
@@ -58,7 +59,8 @@ struct ImportResult {
 // (counted from 0) for indices out of range, coordinates out of range, triangles without area, points that
 // coincide, triangles that overlap, an edge of more than two triangles, boundaries that touch at a point,
 // named edges that are none of the boundary's or have two names, triangles too flat to compute with.
-ImportResult import_mesh(const FrozenMesh& mesh, const std::string& source, const ImportOptions& options = {});
+ImportResult import_mesh(const FrozenMesh& mesh, const std::string& source,
+                         const ImportOptions& options = {});
 
 // The triangles of a mesh by what they are: see above.
 struct MeshPart {
@@ -77,11 +79,11 @@ MeshParts parts_of(const FrozenMesh& mesh);
 struct AirfoilPlace {
   std::size_t loop = 0;
   Point leading{}, trailing{};  // the chord, in the mesh's coordinates
-  // t of the stations on a design, as in CstAirfoil::at: those that have the loop's own x, if x falls and rises
-  // along it as on an airfoil; 0 is the trailing edge, 0.5 the leading edge.
+  // t of the stations on a design, as in CstAirfoil::at: those that have the loop's own x, if x falls and
+  // rises along it as on an airfoil; 0 is the trailing edge, 0.5 the leading edge.
   std::vector<double> parameters{};
-  // Of the stations on a blunt trailing edge, from the lower end (0) to the upper one (1, left out); empty for
-  // a sharp one.
+  // Of the stations on a blunt trailing edge, from the lower end (0) to the upper one (1, left out); empty
+  // for a sharp one.
   std::vector<double> base{};
 };
 
@@ -95,8 +97,8 @@ AirfoilPlace with_points(AirfoilPlace place, int points);
 // The loop as CST coefficients in chords, as of a coordinate file; a blunt trailing edge stays blunt.
 CstFit fit_airfoil(const Domain& domain, const AirfoilPlace& place, int degree);
 
-// The domain with another airfoil in the place of the old one: chord on chord. The curve is the airfoil itself
-// where the chord is from (0, 0) to (1, 0); elsewhere it is a polyline with eight points a side.
+// The domain with another airfoil in the place of the old one: chord on chord. The curve is the airfoil
+// itself where the chord is from (0, 0) to (1, 0); elsewhere it is a polyline with eight points a side.
 Domain with_airfoil(const Domain& domain, const AirfoilPlace& place, const CstAirfoil& airfoil);
 
 }  // namespace remodel

@@ -43,9 +43,9 @@ class StepObserver {
 
 // What a mesh that was imported (remodel/import.h) remembers of its file; empty for one that was generated.
 //
-// The living mesh is Delaunay. Where flips made it so, the file's own triangles are kept here, face by face: a
-// face is the smallest part of the plane that both triangulations cover. Triangle and vertex ids are those of
-// the living mesh; flips keep the slots, so that a face has the same slots before and after.
+// The living mesh is Delaunay. Where flips made it so, the file's own triangles are kept here, face by face:
+// a face is the smallest part of the plane that both triangulations cover. Triangle and vertex ids are those
+// of the living mesh; flips keep the slots, so that a face has the same slots before and after.
 struct ImportRecord {
   std::vector<std::string> markers;      // boundary names in the order of the file
   std::vector<std::uint32_t> slots;      // triangle slots, the faces one after the other, rising in each

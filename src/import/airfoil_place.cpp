@@ -74,8 +74,8 @@ TrailingEdge trailing_edge_of(const Outline& outline) {
       static_cast<std::size_t>(std::max_element(turns.begin(), turns.end()) - turns.begin());
   if (turns[sharpest] > sharp_turn) return {sharpest, sharpest};
   if (const auto blunt = blunt_edge(outline, turns)) return *blunt;
-  const auto rearmost = std::max_element(outline.begin(), outline.end(),
-                                         [](Point a, Point b) { return a.x < b.x; });
+  const auto rearmost =
+      std::max_element(outline.begin(), outline.end(), [](Point a, Point b) { return a.x < b.x; });
   const auto i = static_cast<std::size_t>(rearmost - outline.begin());
   return {i, i};
 }
@@ -92,9 +92,7 @@ class ChordFrame {
     const double square = dot(along_, along_);
     return {dot(along_, d) / square, cross(along_, d) / square};
   }
-  Point from_chord(Point p) const {
-    return origin_ + p.x * along_ + p.y * Point{-along_.y, along_.x};
-  }
+  Point from_chord(Point p) const { return origin_ + p.x * along_ + p.y * Point{-along_.y, along_.x}; }
 
  private:
   Point origin_, along_;
@@ -158,9 +156,7 @@ std::size_t loop_named(const Domain& domain, const std::string& name, const std:
       const std::string quoted = "'" + curve.name + "'";
       if (names.find(quoted) == std::string::npos) names += (names.empty() ? "" : ", ") + quoted;
     }
-  const auto refuse = [&](const std::string& problem) {
-    throw Error(ErrorCode::argument, source, problem);
-  };
+  const auto refuse = [&](const std::string& problem) { throw Error(ErrorCode::argument, source, problem); };
   if (found.empty()) refuse("no boundary '" + name + "' found, one of " + names + " expected");
   if (found.size() > 1)
     refuse("boundary '" + name + "' has " + std::to_string(found.size()) + " loops, one expected");
@@ -184,8 +180,8 @@ std::optional<AirfoilPlace> place_of_curve(const Loop& loop) {
 AirfoilPlace place_of_outline(const Outline& outline) {
   const TrailingEdge edge = trailing_edge_of(outline);
   AirfoilPlace place;
-  place.trailing = edge.lower == edge.upper ? outline[edge.upper]
-                                            : 0.5 * (outline[edge.lower] + outline[edge.upper]);
+  place.trailing =
+      edge.lower == edge.upper ? outline[edge.upper] : 0.5 * (outline[edge.lower] + outline[edge.upper]);
   place.leading = *std::max_element(outline.begin(), outline.end(), [&](Point a, Point b) {
     return squared_distance(a, place.trailing) < squared_distance(b, place.trailing);
   });
@@ -252,7 +248,8 @@ CstFit fit_airfoil(const Domain& domain, const AirfoilPlace& place, int degree) 
 Domain with_airfoil(const Domain& domain, const AirfoilPlace& place, const CstAirfoil& airfoil) {
   const std::string name = domain.loops[place.loop].curves.front().name;
   const ChordFrame frame(place);
-  Loop loop{.role = LoopRole::hole, .curves = {{.name = name, .shape = airfoil, .parameters = place.parameters}}};
+  Loop loop{.role = LoopRole::hole,
+            .curves = {{.name = name, .shape = airfoil, .parameters = place.parameters}}};
   if (!frame.is_chord()) {
     loop.curves.front().shape = polyline_of(airfoil, place.parameters, frame);
     loop.curves.front().parameters = cosine_parameters(place.parameters.size());

@@ -57,7 +57,8 @@ void link_triangles(std::vector<Triangle>& triangles) {
     if (other == sides.end() || other->from != side.to || other->to != side.from)
       throw RecoveryError("the boundary does not separate inside and outside");
     const bool constrained = triangles[side.triangle].region != triangles[other->triangle].region;
-    triangles[side.triangle].link[side.corner] = Link(TriangleId{other->triangle}, other->corner, constrained);
+    triangles[side.triangle].link[side.corner] =
+        Link(TriangleId{other->triangle}, other->corner, constrained);
   }
 }
 
@@ -86,7 +87,8 @@ void graft(const SoundMesh& mesh, const LoopsOfMesh& loops, MeshData& data) {
   }
   link_triangles(state.triangles);
   for (std::uint32_t i = 0; i < state.triangles.size(); ++i)
-    for (int k = 0; k < 3; ++k) state.vertices[state.triangles[i].vertex[k].index].star = Link(TriangleId{i}, k);
+    for (int k = 0; k < 3; ++k)
+      state.vertices[state.triangles[i].vertex[k].index].star = Link(TriangleId{i}, k);
   if (const std::string broken = state.restore(data.triangulation); !broken.empty())
     throw RecoveryError(broken);
   for (std::uint32_t k = 0; k < data.boundary.size(); ++k) {

@@ -22,8 +22,9 @@ TEST(Import, SharedMesh) {
               imported.mesh.options().min_angle_deg, imported.mesh.options().refine_angle_deg,
               imported.mesh.options().gradation, imported.flipped_edges, imported.non_delaunay_edges);
   const AirfoilPlace place = find_airfoil(imported.mesh.domain(), "airfoil", "f");
-  std::printf("place %g %g %g %g n %zu base %zu t1 %.17g t50 %g\n", place.leading.x, place.leading.y, place.trailing.x,
-              place.trailing.y, place.parameters.size(), place.base.size(), place.parameters[1], place.parameters[50]);
+  std::printf("place %g %g %g %g n %zu base %zu t1 %.17g t50 %g\n", place.leading.x, place.leading.y,
+              place.trailing.x, place.trailing.y, place.parameters.size(), place.base.size(),
+              place.parameters[1], place.parameters[50]);
   const CstFit fit = fit_airfoil(imported.mesh.domain(), place, 5);
   std::printf("fit %g %g\n", fit.max_error, fit.rms_error);
   Mesh m2 = imported.mesh;
@@ -31,10 +32,12 @@ TEST(Import, SharedMesh) {
     Mesh m = imported.mesh;
     RemodelResult r = remodel(m, with_airfoil(m.domain(), place, a));
     MeshParts parts = parts_of(m.freeze());
-    std::printf("before %zu after %zu preserved %zu (%.2f%%) ins %zu rem %zu regen %d %s kept %zu %g refined %zu %g qc '%s'\n",
-                r.triangles_before, r.triangles, r.preserved, r.preserved_percent(), r.inserted, r.removed,
-                r.regenerated, r.reason.c_str(), parts.kept.triangles, parts.kept.min_angle_deg,
-                parts.refined.triangles, parts.refined.min_angle_deg, m.quick_check().c_str());
+    std::printf(
+        "before %zu after %zu preserved %zu (%.2f%%) ins %zu rem %zu regen %d %s kept %zu %g refined %zu %g "
+        "qc '%s'\n",
+        r.triangles_before, r.triangles, r.preserved, r.preserved_percent(), r.inserted, r.removed,
+        r.regenerated, r.reason.c_str(), parts.kept.triangles, parts.kept.min_angle_deg,
+        parts.refined.triangles, parts.refined.min_angle_deg, m.quick_check().c_str());
   }
 }
 

@@ -16,9 +16,9 @@ struct LoopsOfMesh {
   std::vector<std::vector<std::uint32_t>> points;
 };
 
-// One loop a closed chain of boundary edges, the domain on the left, one polyline a run of edges with the same
-// marker, one station a point. Loops come in the order of their first named edges, and begin with the run that
-// has it; a loop of one name begins with that edge.
+// One loop a closed chain of boundary edges, the domain on the left, one polyline a run of edges with the
+// same marker, one station a point. Loops come in the order of their first named edges, and begin with the
+// run that has it; a loop of one name begins with that edge.
 LoopsOfMesh loops_of(const SoundMesh& mesh);
 
 }  // namespace remodel

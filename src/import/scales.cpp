@@ -27,7 +27,8 @@ std::vector<double> mean_scales(const Triangulation& triangulation, double inver
 }
 
 // Raising never makes another triangle bad, so that one pass is enough.
-void raise_where_too_small(const Triangulation& triangulation, double inverse_h, std::vector<double>& scales) {
+void raise_where_too_small(const Triangulation& triangulation, double inverse_h,
+                           std::vector<double>& scales) {
   constexpr double margin = 1.0 + 1e-8;  // that of QualityBounds and rounding
   for_each_domain_triangle(triangulation, [&](const Triangle& t) {
     const double wanted = margin * std::sqrt(t.circle.squared_radius()) * inverse_h;
