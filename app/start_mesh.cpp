@@ -64,10 +64,6 @@ void add_start_mesh_options(CLI::App& app, StartMeshOptions& options) {
            {"--boundary", "NAME", "the airfoil of a native mesh",
             "Marker or physical name of the airfoil in the mesh: the loop that is replaced"},
            Presence::optional, options.boundary);
-  add_integer(app,
-              {"--points", "I", "as many as in the mesh", "Vertices on the new airfoil: even, 8 to 100000"},
-              {.low = 8, .high = 100000, .even = true},
-              [&](std::int64_t value) { options.points = static_cast<int>(value); });
   add_real(app,
            {"--refine-angle", "DEGREES", "30, or the mesh's smallest up to 33",
             "Smallest angle of new triangles in a mesh of another program's, in degrees: 0 to 33"},

@@ -23,7 +23,7 @@ struct StartMeshOptions {
   std::optional<NonDelaunay> non_delaunay;
 };
 
-// --boundary, --points, --refine-angle, --non-delaunay.
+// --boundary, --refine-angle, --non-delaunay.
 void add_start_mesh_options(CLI::App& app, StartMeshOptions& options);
 
 struct StartMesh {

@@ -142,6 +142,10 @@ void add_update_command(CLI::App& program, Action& action) {
            Presence::required, command->mesh);
   add_shape_argument(app, command->shape);
   add_start_mesh_options(app, command->start);
+  add_integer(app,
+              {"--points", "I", "as many as in the mesh", "Vertices on the new airfoil: even, 8 to 100000"},
+              {.low = 8, .high = 100000, .even = true},
+              [command](std::int64_t value) { command->start.points = static_cast<int>(value); });
   command->outputs.add_options(app, Presence::optional);
   add_cst_degree(app, command->cst_degree);
   add_remodel_options(app, command->remodelling);
