@@ -36,11 +36,17 @@ std::string names_of(const Domain& domain) {
   return names;
 }
 
+// The boundary that is meant where none is named: a CstAirfoil, or in a mesh that was imported before the
+// only body.
 std::string boundary_of(const StartMesh& start, const StartMeshOptions& options) {
   if (!options.boundary.empty()) return options.boundary;
   const Domain& domain = start.mesh.domain();
-  for (std::size_t i = 0; i < domain.curve_count(); ++i)
-    if (std::holds_alternative<CstAirfoil>(domain.curve(i).shape)) return domain.curve(i).name;
+  std::vector<const Loop*> bodies;
+  for (const Loop& loop : domain.loops) {
+    if (std::holds_alternative<CstAirfoil>(loop.curves.front().shape)) return loop.curves.front().name;
+    if (loop.role == LoopRole::hole) bodies.push_back(&loop);
+  }
+  if (!start.imported && bodies.size() == 1) return bodies.front()->curves.front().name;
   throw Error(ErrorCode::argument, "--boundary",
               "not given, the airfoil's name in " + start.source + " expected, one of " + names_of(domain));
 }

@@ -85,20 +85,30 @@ struct AirfoilPlace {
   // Of the stations on a blunt trailing edge, from the lower end (0) to the upper one (1, left out); empty
   // for a sharp one.
   std::vector<double> base{};
+  // Of the side that begins at each station of `parameters`, then of `base`: all the same, mostly.
+  std::vector<std::string> names{};
+  // How the loop itself runs: from that one of these stations on, in their order or against it. Where neither
+  // their number nor the names change, polylines follow it, so that vertices correspond one to one.
+  std::size_t first = 0;
+  bool backwards = false;
+  bool one_name() const;
 };
 
-// The loop with edges of that name. Throws Error (argument) naming `source` where there is none, or more than
-// one, or where the loop has other names too; Error (geometry) where the loop is no airfoil.
+// The loop with edges of that name; it may have edges of others too (an upper and a lower side), which they
+// keep. Throws Error (argument) naming `source` where there is none, or more than one, or where the loop is
+// the mesh's outer boundary.
 AirfoilPlace find_airfoil(const Domain& domain, const std::string& name, const std::string& source);
 
-// Stations of an airfoil with that many points instead of the loop's own: x = (1 + cos 2 pi t) / 2.
+// Stations of an airfoil with that many points instead of the loop's own: x = (1 + cos 2 pi t) / 2. Throws
+// Error (argument) for an odd number, one below 8, and where the loop has several names.
 AirfoilPlace with_points(AirfoilPlace place, int points);
 
 // The loop as CST coefficients in chords, as of a coordinate file; a blunt trailing edge stays blunt.
 CstFit fit_airfoil(const Domain& domain, const AirfoilPlace& place, int degree);
 
-// The domain with another airfoil in the place of the old one: chord on chord. The curve is the airfoil
-// itself where the chord is from (0, 0) to (1, 0); elsewhere it is a polyline with eight points a side.
+// The domain with another airfoil in the place of the old one, chord on chord. A loop that is a CstAirfoil
+// stays one. Others become polylines, one a run of equal names, through points of the airfoil: its stations,
+// and seven more on every side.
 Domain with_airfoil(const Domain& domain, const AirfoilPlace& place, const CstAirfoil& airfoil);
 
 }  // namespace remodel

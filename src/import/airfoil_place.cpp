@@ -20,12 +20,27 @@ constexpr double blunt_turn = 45.0 * std::numbers::pi / 180.0;
 constexpr double longest_base = 0.1;  // of the outline's extent
 constexpr std::size_t polyline_pieces = 8;
 
-using Outline = std::vector<Point>;  // counter-clockwise, closed: the last point is not the first one again
+// Counter-clockwise, closed: the last point is not the first one again.
+using Outline = std::vector<Point>;
 
-Outline outline_of(const Domain& domain, std::size_t loop) {
-  Outline outline;
-  for (const BoundaryStation& station : domain.stations(loop)) outline.push_back(domain.at(station));
-  if (signed_area(domain, loop) < 0.0) std::reverse(outline.begin(), outline.end());
+struct NamedOutline {
+  Outline points;
+  std::vector<std::string> names;  // of the side that begins at each point
+  bool reversed = false;           // against the loop
+};
+
+NamedOutline outline_of(const Domain& domain, std::size_t loop) {
+  NamedOutline outline;
+  for (const BoundaryStation& station : domain.stations(loop)) {
+    outline.points.push_back(domain.at(station));
+    outline.names.push_back(domain.curve(station.curve).name);
+  }
+  if (signed_area(domain, loop) > 0.0) return outline;
+  outline.reversed = true;
+  std::reverse(outline.points.begin(), outline.points.end());
+  std::reverse(outline.names.begin(), outline.names.end());
+  // Now each stands with the point where its side ended.
+  std::rotate(outline.names.begin(), outline.names.begin() + 1, outline.names.end());
   return outline;
 }
 
@@ -160,10 +175,6 @@ std::size_t loop_named(const Domain& domain, const std::string& name, const std:
   if (found.empty()) refuse("no boundary '" + name + "' found, one of " + names + " expected");
   if (found.size() > 1)
     refuse("boundary '" + name + "' has " + std::to_string(found.size()) + " loops, one expected");
-  for (const Curve& curve : domain.loops[found.front()].curves)
-    if (curve.name != name)
-      refuse("the loop of boundary '" + name + "' has edges of '" + curve.name +
-             "' too, one name all around expected");
   if (domain.loops[found.front()].role != LoopRole::hole)
     refuse("boundary '" + name + "' surrounds the mesh, the outline of a body in it expected");
   return found.front();
@@ -174,10 +185,12 @@ std::optional<AirfoilPlace> place_of_curve(const Loop& loop) {
   if (!std::holds_alternative<CstAirfoil>(loop.curves.front().shape)) return std::nullopt;
   AirfoilPlace place{.trailing = {1.0, 0.0}, .parameters = loop.curves.front().parameters};
   if (loop.curves.size() > 1) place.base = loop.curves[1].parameters;
+  place.names.assign(place.parameters.size() + place.base.size(), loop.curves.front().name);
   return place;
 }
 
-AirfoilPlace place_of_outline(const Outline& outline) {
+AirfoilPlace place_of_outline(const NamedOutline& named, const std::string& source) {
+  const Outline& outline = named.points;
   const TrailingEdge edge = trailing_edge_of(outline);
   AirfoilPlace place;
   place.trailing =
@@ -186,36 +199,81 @@ AirfoilPlace place_of_outline(const Outline& outline) {
     return squared_distance(a, place.trailing) < squared_distance(b, place.trailing);
   });
   place.base = base_of(outline, edge);
+  for (std::size_t i = 0; i < outline.size(); ++i)
+    place.names.push_back(named.names[(edge.upper + i) % outline.size()]);
   const Outline points = around(outline, edge, ChordFrame(place));
   if (auto parameters = parameters_of(points)) {
     place.parameters = std::move(*parameters);
+    place.backwards = named.reversed;
+    const std::size_t n = outline.size();
+    place.first = ((named.reversed ? n - 1 : 0) + n - edge.upper) % n;
     return place;
   }
+  if (!place.one_name())
+    throw Error(ErrorCode::geometry, source,
+                "the outline of '" + place.names.front() +
+                    "' turns back in x between its two edges, an airfoil's "
+                    "expected where its sides have different names");
   const std::size_t even = points.size() - 1 + (points.size() - 1) % 2;
   return with_points(std::move(place), static_cast<int>(std::max<std::size_t>(even, 8)));
 }
 
-Polyline polyline_of(const CstAirfoil& airfoil, const std::vector<double>& parameters,
-                     const ChordFrame& frame) {
-  Polyline line;
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const double from = parameters[i], to = i + 1 < parameters.size() ? parameters[i + 1] : 1.0;
-    for (std::size_t k = 0; k < polyline_pieces; ++k) {
-      const double share = static_cast<double>(k) / static_cast<double>(polyline_pieces);
-      line.points.push_back(frame.from_chord(airfoil.at(k == 0 ? from : from + share * (to - from))));
+// The points of an airfoil's sides, `polyline_pieces` a side, from one end of the trailing edge to the other,
+// and over a blunt one back to the first.
+std::vector<Point> points_of_sides(const CstAirfoil& airfoil, const AirfoilPlace& place) {
+  const ChordFrame frame(place);
+  std::vector<Point> points;
+  const auto add = [&](const std::vector<double>& stations, auto point) {
+    for (std::size_t i = 0; i < stations.size(); ++i) {
+      const double from = stations[i], to = i + 1 < stations.size() ? stations[i + 1] : 1.0;
+      for (std::size_t k = 0; k < polyline_pieces; ++k) {
+        const double share = static_cast<double>(k) / static_cast<double>(polyline_pieces);
+        points.push_back(frame.from_chord(point(k == 0 ? from : from + share * (to - from))));
+      }
     }
+  };
+  add(place.parameters, [&](double t) { return airfoil.at(t); });
+  const Line line{.from = airfoil.at(1.0), .to = airfoil.at(0.0)};
+  add(place.base, [&](double t) { return point_at(line, t); });
+  return points;
+}
+
+// From counter-clockwise from the trailing edge to how the loop runs: the points of all sides, and the names.
+void follow_loop(const AirfoilPlace& place, std::vector<Point>& points, std::vector<std::string>& names) {
+  const auto first = static_cast<std::ptrdiff_t>(place.first);
+  std::rotate(points.begin(), points.begin() + first * std::ptrdiff_t{polyline_pieces}, points.end());
+  std::rotate(names.begin(), names.begin() + first, names.end());
+  if (!place.backwards) return;
+  std::reverse(points.begin() + 1, points.end());
+  std::reverse(names.begin(), names.end());
+}
+
+// One polyline a run of sides with equal names.
+std::vector<Curve> polylines_of(std::vector<Point> points, const std::vector<std::string>& names) {
+  points.push_back(points.front());
+  std::vector<Curve> curves;
+  for (std::size_t begin = 0, end = 0; begin < names.size(); begin = end) {
+    while (end < names.size() && names[end] == names[begin]) ++end;
+    const auto at = [&](std::size_t side) {
+      return points.begin() + static_cast<std::ptrdiff_t>(side * polyline_pieces);
+    };
+    curves.push_back({.name = names[begin],
+                      .shape = Polyline{{at(begin), at(end) + 1}},
+                      .parameters = cosine_parameters(end - begin)});
   }
-  line.points.push_back(airfoil.te_upper == airfoil.te_lower ? line.points.front()
-                                                             : frame.from_chord(airfoil.at(1.0)));
-  return line;
+  return curves;
 }
 
 }  // namespace
 
+bool AirfoilPlace::one_name() const {
+  return std::all_of(names.begin(), names.end(), [&](const std::string& n) { return n == names.front(); });
+}
+
 AirfoilPlace find_airfoil(const Domain& domain, const std::string& name, const std::string& source) {
   const std::size_t loop = loop_named(domain, name, source);
   std::optional<AirfoilPlace> place = place_of_curve(domain.loops[loop]);
-  if (!place) place = place_of_outline(outline_of(domain, loop));
+  if (!place) place = place_of_outline(outline_of(domain, loop), source);
   place->loop = loop;
   return *place;
 }
@@ -224,15 +282,23 @@ AirfoilPlace with_points(AirfoilPlace place, int points) {
   if (points < 8 || points % 2 != 0)
     throw Error(ErrorCode::argument, "points",
                 "found " + std::to_string(points) + ", expected an even number, at least 8");
+  if (!place.one_name())
+    throw Error(
+        ErrorCode::argument, "points",
+        "given for an outline of several names, expected for one of a single name: each side keeps its own");
   place.parameters = cosine_parameters(static_cast<std::size_t>(points));
+  place.first = 0;
+  place.backwards = false;
   if (!place.base.empty()) place.base = {0.0};
+  const std::string name = place.names.front();
+  place.names.assign(place.parameters.size() + place.base.size(), name);
   return place;
 }
 
 CstFit fit_airfoil(const Domain& domain, const AirfoilPlace& place, int degree) {
   const Loop& loop = domain.loops[place.loop];
   if (const auto* airfoil = std::get_if<CstAirfoil>(&loop.curves.front().shape)) return {.airfoil = *airfoil};
-  const Outline outline = outline_of(domain, place.loop);
+  const Outline outline = outline_of(domain, place.loop).points;
   const Outline points = around(outline, trailing_edge_of(outline), ChordFrame(place));
   std::vector<AirfoilRow> rows;
   for (const Point p : points) rows.push_back({p, 0});
@@ -245,21 +311,23 @@ CstFit fit_airfoil(const Domain& domain, const AirfoilPlace& place, int degree) 
   return fit;
 }
 
-Domain with_airfoil(const Domain& domain, const AirfoilPlace& place, const CstAirfoil& airfoil) {
-  const std::string name = domain.loops[place.loop].curves.front().name;
-  const ChordFrame frame(place);
-  Loop loop{.role = LoopRole::hole,
-            .curves = {{.name = name, .shape = airfoil, .parameters = place.parameters}}};
-  if (!frame.is_chord()) {
-    loop.curves.front().shape = polyline_of(airfoil, place.parameters, frame);
-    loop.curves.front().parameters = cosine_parameters(place.parameters.size());
-  }
-  if (airfoil.te_upper != airfoil.te_lower) {
-    const Shape& curve = loop.curves.front().shape;
-    const Line line{.from = point_at(curve, 1.0), .to = point_at(curve, 0.0)};
-    loop.curves.push_back({.name = name,
-                           .shape = line,
-                           .parameters = place.base.empty() ? std::vector<double>{0.0} : place.base});
+Domain with_airfoil(const Domain& domain, const AirfoilPlace& wanted, const CstAirfoil& airfoil) {
+  AirfoilPlace place = wanted;
+  const bool sharp = airfoil.te_upper == airfoil.te_lower;
+  if (sharp) place.base.clear();
+  if (!sharp && place.base.empty()) place.base = {0.0};
+  place.names.resize(place.parameters.size() + place.base.size(), wanted.names.back());
+  if (place.names.size() != wanted.names.size()) place.first = 0, place.backwards = false;
+  Loop loop{.role = LoopRole::hole, .curves = {}};
+  if (std::holds_alternative<CstAirfoil>(domain.loops[place.loop].curves.front().shape)) {
+    const std::string& name = place.names.front();
+    loop.curves.push_back({.name = name, .shape = airfoil, .parameters = place.parameters});
+    const Line line{.from = airfoil.at(1.0), .to = airfoil.at(0.0)};
+    if (!sharp) loop.curves.push_back({.name = name, .shape = line, .parameters = place.base});
+  } else {
+    std::vector<Point> points = points_of_sides(airfoil, place);
+    follow_loop(place, points, place.names);
+    loop.curves = polylines_of(std::move(points), place.names);
   }
   Domain result = domain;
   result.loops[place.loop] = std::move(loop);

@@ -43,3 +43,29 @@ TEST(Import, SharedMesh) {
 
 }  // namespace
 }  // namespace remodel
+#include <algorithm>
+#include <cmath>
+#include "remodel/generate.h"
+namespace remodel {
+TEST(Import, Calibrate) {
+  for (int points : {50, 100, 200, 400}) {
+    GenerateResult g = generate(airfoil_domain(airfoil_catalogue()[0].airfoil(), {.points = points}),
+                                {.gradation = points / 50.0});
+    FrozenMesh f = g.mesh.freeze();
+    std::vector<double> sum(f.points.size()), n(f.points.size()), ratio;
+    double inv = 1 / g.mesh.options().max_gradation;
+    for (auto& t : f.triangles) {
+      Point a = f.points[t[0]], b = f.points[t[1]], c = f.points[t[2]];
+      double r = std::sqrt(squared_distance(a, b) * squared_distance(b, c) * squared_distance(c, a)) /
+                 (2 * std::abs(cross(b - a, c - a)));
+      for (auto v : t) sum[v] += r * inv, n[v] += 1;
+    }
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      if (f.curve[i] < 0) ratio.push_back(f.length_scale[i] / (sum[i] / n[i]));
+    std::sort(ratio.begin(), ratio.end());
+    std::printf("points %d n %zu ratio q10 %g q25 %g median %g q75 %g q90 %g\n", points, ratio.size(),
+                ratio[ratio.size() / 10], ratio[ratio.size() / 4], ratio[ratio.size() / 2],
+                ratio[ratio.size() * 3 / 4], ratio[ratio.size() * 9 / 10]);
+  }
+}
+}  // namespace remodel

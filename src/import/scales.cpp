@@ -15,10 +15,16 @@ void for_each_domain_triangle(const Triangulation& triangulation, Visit visit) {
   }
 }
 
+// How much larger than the triangles' own sizes length scales are. Below 2, triangles of the sizes of their
+// neighbours would be at the bound, and what is refined would come out smaller than what it replaces.
+// Measured on four meshes of two programs, whole airfoils replaced by others: with 1 there were 1.2 to 1.9
+// times as many new triangles as lost ones, with 2 there are 1.0 to 1.4 times as many.
+constexpr double scale_factor = 2.0;
+
 std::vector<double> mean_scales(const Triangulation& triangulation, double inverse_h) {
   std::vector<double> sum(triangulation.vertex_slots(), 0.0), count(triangulation.vertex_slots(), 0.0);
   for_each_domain_triangle(triangulation, [&](const Triangle& t) {
-    const double scale = std::sqrt(t.circle.squared_radius()) * inverse_h;
+    const double scale = scale_factor * std::sqrt(t.circle.squared_radius()) * inverse_h;
     for (const VertexId v : t.vertex) sum[v.index] += scale, count[v.index] += 1.0;
   });
   for (std::size_t i = 0; i < sum.size(); ++i)

@@ -38,6 +38,7 @@ std::string identity_of(const MeshStart& start) {
   for (const std::uint32_t value : state.triangle_vertices) sum.add(std::uint64_t{value});
   for (const double value : start.place.parameters) sum.add(value);
   for (const double value : start.place.base) sum.add(value);
+  for (const std::string& name : start.place.names) sum.add(name);
   sum.add(std::uint64_t{start.place.loop});
   sum.add(domain_to_json(state.domain));
   return sum.text();
