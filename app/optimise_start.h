@@ -14,7 +14,12 @@ namespace remodel::app {
 struct OptimiseStartOptions {
   std::string from;  // one of these two
   std::string mesh;
-  StartMeshOptions start;
+  // Above 30 degrees refinement spreads: a step keeps the promise, hundreds of steps would wear the mesh out.
+  StartMeshOptions start = [] {
+    StartMeshOptions usual;
+    usual.usual_refine_angle_deg = 30.0;
+    return usual;
+  }();
   std::function<bool(const std::string&)> given;  // whether an option is on the command line
 };
 

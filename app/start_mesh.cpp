@@ -66,12 +66,15 @@ std::string to_text(const MeshPart& part) {
 }  // namespace
 
 void add_start_mesh_options(CLI::App& app, StartMeshOptions& options) {
+  const bool fixed = options.usual_refine_angle_deg > 0.0;
+  const std::string usual =
+      fixed ? short_text(options.usual_refine_angle_deg) : "30, or the mesh's smallest angle up to 33";
   add_text(app,
            {"--boundary", "NAME", "the airfoil of a native mesh",
             "Marker or physical name of the airfoil in the mesh: the loop that is replaced"},
            Presence::optional, options.boundary);
   add_real(app,
-           {"--refine-angle", "DEGREES", "30, or the mesh's smallest up to 33",
+           {"--refine-angle", "DEGREES", usual,
             "Smallest angle of new triangles in a mesh of another program's, in degrees: 0 to 33"},
            {.low = 0.0, .high = 33.0}, [&](double value) { options.refine_angle_deg = value; });
   static constexpr std::array choices{NonDelaunay::flip, NonDelaunay::keep};
@@ -90,7 +93,7 @@ StartMesh read_start_mesh(const std::string& file, const StartMeshOptions& optio
     return {.mesh = std::move(*native), .source = file, .imported = std::nullopt};
   }
   ImportOptions import;
-  import.refine_angle_deg = options.refine_angle_deg.value_or(import.refine_angle_deg);
+  import.refine_angle_deg = options.refine_angle_deg.value_or(options.usual_refine_angle_deg);
   import.gradation = options.gradation.value_or(import.gradation);
   import.non_delaunay = options.non_delaunay.value_or(import.non_delaunay);
   ImportResult imported = import_mesh(read_frozen_mesh(file), file, import);
@@ -134,9 +137,9 @@ void add_part_figures(Report& report, const Mesh& mesh) {
   if (!mesh.imported()) return;
   const MeshParts parts = parts_of(mesh.freeze());
   report.data("kept", to_json(parts.kept));
-  report.data("refined", to_json(parts.refined));
+  report.data("changed", to_json(parts.changed));
   report.line("kept triangles", to_text(parts.kept));
-  report.line("refined triangles", to_text(parts.refined));
+  report.line("changed triangles", to_text(parts.changed));
 }
 
 }  // namespace remodel::app

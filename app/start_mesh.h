@@ -19,6 +19,7 @@ struct StartMeshOptions {
   std::string boundary;  // empty: the airfoil that a native mesh knows
   std::optional<int> points;
   std::optional<double> refine_angle_deg;
+  double usual_refine_angle_deg = 0.0;  // where none is given: as in ImportOptions
   std::optional<double> gradation;
   std::optional<NonDelaunay> non_delaunay;
 };
@@ -42,7 +43,7 @@ AirfoilPlace place_in(const StartMesh& start, const StartMeshOptions& options);
 
 // import{...}: how it went.
 void add_import_figures(Report& report, const StartMesh& start);
-// kept{triangles, min_angle_deg} and refined{...}, of imported meshes.
+// kept{triangles, min_angle_deg} and changed{...}, of imported meshes.
 void add_part_figures(Report& report, const Mesh& mesh);
 
 }  // namespace remodel::app

@@ -6,8 +6,9 @@
 // What holds of an imported mesh and where:
 //  - Its *kept* triangles are the file's (birth 0): not better than the file made them. No triangle of the
 //    mesh ever gets worse than the worst of them: that angle is the mesh's min_angle_deg.
-//  - Its *refined* triangles are those that remodelling made since (birth above 0). Refinement works to
-//    refine_angle_deg, where that is more.
+//  - Its *changed* triangles are the others (birth above 0). What refinement made of them keeps
+//    refine_angle_deg, but for small input angles; where boundary vertices were moved in place and nothing
+//    had to be refined, the mesh's min_angle_deg.
 //  - It is constrained Delaunay. Where the file is not, flips make it so; FrozenMesh shows the file's own
 //    triangles where nothing near was touched, if ImportOptions say so.
 
@@ -68,7 +69,7 @@ struct MeshPart {
   double min_angle_deg = 0.0;  // 0 where there is no triangle
 };
 struct MeshParts {
-  MeshPart kept, refined;
+  MeshPart kept, changed;
 };
 MeshParts parts_of(const FrozenMesh& mesh);
 

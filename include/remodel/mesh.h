@@ -22,8 +22,8 @@ struct QualityOptions {
   double resolution = 1.0;  // R: boundary length scale is the distance to the nearest neighbour / R; > 0
   std::uint32_t max_vertices = 10'000'000;  // vertex budget
   double min_edge = 0.0;  // no edge is split that is shorter than this, chords; 0: 1e-12 of the domain's size
-  // What refinement works to where that is more than min_angle_deg; 0 to 34. For meshes that were imported:
-  // min_angle_deg is what the worst triangle of the file allows, what refinement makes is better.
+  // What refinement works to, where that is more than min_angle_deg; 0 to 34. For meshes that were imported:
+  // min_angle_deg is what the worst triangle of the file allows.
   double refine_angle_deg = 0.0;
   friend bool operator==(const QualityOptions&, const QualityOptions&) = default;
 };

@@ -114,7 +114,7 @@ ImportResult import_mesh(const FrozenMesh& mesh, const std::string& source, cons
 MeshParts parts_of(const FrozenMesh& mesh) {
   MeshParts parts;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    MeshPart& part = i < mesh.birth.size() && mesh.birth[i] > 0 ? parts.refined : parts.kept;
+    MeshPart& part = i < mesh.birth.size() && mesh.birth[i] > 0 ? parts.changed : parts.kept;
     const double angle = smallest_angle_deg(corners(mesh.points, mesh.triangles[i]));
     part.min_angle_deg = part.triangles == 0 ? angle : std::min(part.min_angle_deg, angle);
     ++part.triangles;
