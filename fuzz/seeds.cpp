@@ -37,8 +37,8 @@ Domain square_with_arc() {
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
   const std::filesystem::path root = argv[1];
-  for (const char* target : {"airfoil_text", "airfoil_json", "domain_json", "su2", "msh", "vtu", "vtkhdf",
-                             "mesh_state", "kernel", "remodel"})
+  for (const char* target : {"airfoil_text", "airfoil_json", "domain_json", "import", "su2", "msh", "vtu",
+                             "vtkhdf", "mesh_state", "kernel", "remodel"})
     std::filesystem::create_directories(root / target);
 
   for (const char* digits : {"0012", "4415", "23012"})
@@ -54,6 +54,10 @@ int main(int argc, char** argv) {
   write_text_atomically(root / "domain_json" / "square", domain_to_json(square_with_arc()));
 
   const Mesh mesh = generate(square_with_arc(), {.min_angle_deg = 20, .gradation = 8}).mesh;
+  write_mesh(mesh, root / "import" / "square.su2");
+  const Domain section = airfoil_domain(airfoil_catalogue()[0].airfoil(),
+                                        {.points = 8, .farfield_radius = 2, .farfield_points = 8});
+  write_mesh(generate(section, {.min_angle_deg = 20, .gradation = 1}).mesh, root / "import" / "airfoil.su2");
   for (const char* extension : {"su2", "msh", "vtu", "vtkhdf"}) {
     const auto file = root / extension / (std::string("mesh.") + extension);
     write_mesh(mesh, file);

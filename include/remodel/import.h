@@ -95,9 +95,8 @@ struct AirfoilPlace {
   bool one_name() const;
 };
 
-// The loop with edges of that name; it may have edges of others too (an upper and a lower side), which they
-// keep. Throws Error (argument) naming `source` where there is none, or more than one, or where the loop is
-// the mesh's outer boundary.
+// The body with edges of that name; it may have edges of others too (an upper and a lower side), which they
+// keep. Throws Error (argument) naming `source` where there is none, or more than one.
 AirfoilPlace find_airfoil(const Domain& domain, const std::string& name, const std::string& source);
 
 // Stations of an airfoil with that many points instead of the loop's own: x = (1 + cos 2 pi t) / 2. Throws

@@ -162,22 +162,38 @@ std::vector<double> base_of(const Outline& outline, const TrailingEdge& edge) {
   return base;
 }
 
-std::size_t loop_named(const Domain& domain, const std::string& name, const std::string& source) {
-  std::vector<std::size_t> found;
+bool has_name(const Loop& loop, const std::string& name) {
+  return std::any_of(loop.curves.begin(), loop.curves.end(),
+                     [&](const Curve& curve) { return curve.name == name; });
+}
+
+std::string names_of(const Domain& domain) {
   std::string names;
-  for (std::size_t i = 0; i < domain.loops.size(); ++i)
-    for (const Curve& curve : domain.loops[i].curves) {
-      if (curve.name == name && (found.empty() || found.back() != i)) found.push_back(i);
+  for (const Loop& loop : domain.loops)
+    for (const Curve& curve : loop.curves) {
       const std::string quoted = "'" + curve.name + "'";
       if (names.find(quoted) == std::string::npos) names += (names.empty() ? "" : ", ") + quoted;
     }
+  return names;
+}
+
+std::size_t loop_named(const Domain& domain, const std::string& name, const std::string& source) {
   const auto refuse = [&](const std::string& problem) { throw Error(ErrorCode::argument, source, problem); };
-  if (found.empty()) refuse("no boundary '" + name + "' found, one of " + names + " expected");
-  if (found.size() > 1)
-    refuse("boundary '" + name + "' has " + std::to_string(found.size()) + " loops, one expected");
-  if (domain.loops[found.front()].role != LoopRole::hole)
+  std::vector<std::size_t> bodies;
+  bool outside = false;
+  for (std::size_t i = 0; i < domain.loops.size(); ++i) {
+    if (!has_name(domain.loops[i], name)) continue;
+    if (domain.loops[i].role == LoopRole::hole)
+      bodies.push_back(i);
+    else
+      outside = true;
+  }
+  if (bodies.size() > 1)
+    refuse("boundary '" + name + "' has " + std::to_string(bodies.size()) + " bodies, one expected");
+  if (bodies.empty() && outside)
     refuse("boundary '" + name + "' surrounds the mesh, the outline of a body in it expected");
-  return found.front();
+  if (bodies.empty()) refuse("no boundary '" + name + "' found, one of " + names_of(domain) + " expected");
+  return bodies.front();
 }
 
 // The paper's own curve, as airfoil_domain() and with_airfoil() make it.

@@ -159,7 +159,14 @@ TEST(AirfoilPlace, BoundariesThatAreNoBodyAreRefused) {
   EXPECT_EQ(problem(domain, "outer"),
             "mesh.su2: boundary 'outer' surrounds the mesh, the outline of a body in it expected");
   const Domain holes = test::with_holes({test::circle_hole(0.3, 0.3, 0.1), test::circle_hole(0.7, 0.7, 0.1)});
-  EXPECT_EQ(problem(holes, "hole"), "mesh.su2: boundary 'hole' has 2 loops, one expected");
+  EXPECT_EQ(problem(holes, "hole"), "mesh.su2: boundary 'hole' has 2 bodies, one expected");
+}
+
+// As in a file that names no boundary at all.
+TEST(AirfoilPlace, ANameThatTheOuterBoundaryHasTooMeansTheBody) {
+  Domain domain = domain_of({});
+  for (Loop& loop : domain.loops) loop.curves.front().name = "boundary";
+  EXPECT_EQ(find_airfoil(domain, "boundary", "mesh").loop, 0U);
 }
 
 // Bodies that are no airfoils have a place too: the rearmost point where there is no corner.
