@@ -47,6 +47,10 @@ void dress(CLI::Option* option, const OptionText& text, Presence presence) {
 
 }  // namespace
 
+bool given(const CLI::App& app, const std::string& name) {
+  return app.get_option(name)->count() > 0;
+}
+
 std::int64_t parse_integer(const std::string& option, std::string_view text, IntegerRange range) {
   std::int64_t number = 0;
   const bool whole = parse_whole(text, number);

@@ -59,6 +59,9 @@ void add_text(CLI::App& app, const OptionText& text, Presence presence, std::str
 // The same, but may be given several times.
 void add_texts(CLI::App& app, const OptionText& text, Presence presence, std::vector<std::string>& target);
 
+// Whether an option was given on the command line.
+bool given(const CLI::App& app, const std::string& name);
+
 std::int64_t parse_integer(const std::string& option, std::string_view text, IntegerRange range);
 double parse_real(const std::string& option, std::string_view text, RealRange range);
 // Comma-separated; exactly `count` of them.

@@ -1,4 +1,5 @@
-// remodel optimise --from SHAPE --to SHAPE -o DIR: CMA-ES shape interpolation around one living mesh.
+// remodel optimise --from SHAPE | --mesh MESH --to SHAPE -o DIR: CMA-ES shape interpolation around one living
+// mesh.
 
 #include "remodel/optimise.h"
 
@@ -12,16 +13,18 @@
 #include "command.h"
 #include "figures.h"
 #include "meshing_options.h"
+#include "optimise_start.h"
 #include "outputs.h"
 #include "progress.h"
 #include "remodel/error.h"
+#include "remodel/io.h"
 #include "remodel_options.h"
 
 namespace remodel::app {
 namespace {
 
 struct OptimiseCommand {
-  std::string from;
+  OptimiseStartOptions start;
   std::string to;
   MeshingOptions meshing;
   OptimiseOptions run;
@@ -58,7 +61,7 @@ ProgressStyle progress_style(bool quiet) {
 }
 
 Json options_json(const OptimiseCommand& command) {
-  Json options = to_json(command.meshing);
+  Json options = meshing_json(command.meshing, command.run);
   options["distance"] = command.run.remodel.distance;
   options["method"] = name_of(command.run.remodel.method);
   options["sigma"] = command.run.sigma;
@@ -139,16 +142,23 @@ OptimiseResult run_repeatedly(const OptimiseCommand& command, const CstAirfoil& 
   return result;
 }
 
+// What became of the triangles of the mesh that the run started from.
+void add_last_mesh_figures(Report& report, const OptimiseCommand& command) {
+  const std::filesystem::path last = command.run.directory / "last.vtkhdf";
+  if (command.run.start && std::filesystem::exists(last)) add_part_figures(report, read_mesh(last));
+}
+
 Status run(OptimiseCommand& command) {
   require_run_directory(command.run.directory);
   if (command.run.resume && command.repeat > 1) {
     throw Error(ErrorCode::argument, "--repeat",
                 "found " + std::to_string(command.repeat) + " with --resume, expected 1");
   }
-  const CstAirfoil from = load_airfoil(command.from, command.meshing.cst_degree);
-  const CstAirfoil to = load_airfoil(command.to, command.meshing.cst_degree);
-  command.run.domain = command.meshing.discretisation;
-  command.run.quality = command.meshing.resolved_quality();
+  const OptimiseStart start = read_start(command.start, command.meshing, command.run);
+  const CstAirfoil& from = start.from;
+  CstAirfoil to = load_airfoil(command.to, command.meshing.cst_degree);
+  // A mesh with a blunt trailing edge keeps it.
+  if (start.file) to.te_upper = from.te_upper, to.te_lower = from.te_lower;
   const Json options = options_json(command);
 
   Progress progress(progress_style(command.quiet), command.run.evaluations, "options: " + options.dump());
@@ -156,10 +166,11 @@ Status run(OptimiseCommand& command) {
   progress.finish();
 
   Report report;
-  report.figure("from", "from", command.from);
+  add_start_figures(report, command.start, start);
   report.figure("to", "to", command.to);
   report.data("options", options);
   add_result(report, result);
+  add_last_mesh_figures(report, command);
   report.figure("directory", "run directory", command.run.directory.string());
   report.print(command.json);
   return status_of(result);
@@ -191,8 +202,7 @@ void add_optimise_command(CLI::App& program, Action& action) {
   CLI::App& app = add_subcommand(program, "optimise",
                                  "Changes one airfoil into another by CMA-ES, remodelling one living mesh",
                                  [command, &action] { action = [command] { return run(*command); }; });
-  add_text(app, {"--from", "SHAPE", "", "Airfoil to start from, as for `remodel mesh`"}, Presence::required,
-           command->from);
+  add_optimise_start_options(app, command->start);
   add_text(app, {"--to", "SHAPE", "", "Airfoil whose points the design is to interpolate"},
            Presence::required, command->to);
   add_text(app, {"-o,--output", "DIR", "", "Run directory: new, empty or that of a run"}, Presence::required,

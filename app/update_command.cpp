@@ -13,6 +13,7 @@
 #include "remodel/io.h"
 #include "remodel/remodel.h"
 #include "remodel_options.h"
+#include "start_mesh.h"
 #include "timing.h"
 
 namespace remodel::app {
@@ -20,6 +21,7 @@ namespace {
 
 struct UpdateCommand {
   std::string mesh;
+  StartMeshOptions start;
   std::string shape;
   int cst_degree = 5;
   RemodelOptions remodelling;
@@ -56,9 +58,10 @@ AirfoilDomainOptions discretisation_of(const Domain& domain) {
   return options;
 }
 
-// The mesh's domain with another airfoil in it. Where the trailing edge stays closed, everything else is kept
-// as it is; opening or closing it adds or removes a curve, so the domain is built anew.
-Domain with_airfoil(const Domain& old, const CstAirfoil& airfoil, const std::string& file) {
+// The mesh's domain with another airfoil in it, where we made the mesh. Where the trailing edge stays closed,
+// everything else is kept as it is; opening or closing it adds or removes a curve, so the domain is built
+// anew.
+Domain generated_with_airfoil(const Domain& old, const CstAirfoil& airfoil, const std::string& file) {
   Domain domain = old;
   CstAirfoil* place = find_airfoil(domain);
   if (place == nullptr) {
@@ -85,11 +88,20 @@ void add_figures(Report& report, const RemodelResult& result) {
   if (result.regenerated) report.figure("reason", "because", result.reason);
 }
 
+// Where a boundary is named, or the mesh is another program's, all other loops stay as they are.
+Domain domain_with(const CstAirfoil& airfoil, const StartMesh& start, const UpdateCommand& command) {
+  const bool generated = !start.imported && !start.mesh.imported();
+  if (generated && command.start.boundary.empty() && !command.start.points)
+    return generated_with_airfoil(start.mesh.domain(), airfoil, command.mesh);
+  return with_airfoil(start.mesh.domain(), place_in(start, command.start), airfoil);
+}
+
 Status run(const UpdateCommand& command) {
   command.outputs.require_possible();
-  const Mesh original = read_mesh(command.mesh);
+  const StartMesh start = read_start_mesh(command.mesh, command.start);
+  const Mesh& original = start.mesh;
   const CstAirfoil airfoil = load_airfoil(command.shape, command.cst_degree);
-  const Domain domain = with_airfoil(original.domain(), airfoil, command.mesh);
+  const Domain domain = domain_with(airfoil, start, command);
 
   Mesh mesh;
   RemodelResult result;
@@ -106,7 +118,9 @@ Status run(const UpdateCommand& command) {
   report.line("mesh", command.mesh);
   report.line("shape", command.shape);
   report.line("removal distance D", Json(command.remodelling.distance).dump());
+  add_import_figures(report, start);
   add_figures(report, result);
+  add_part_figures(report, mesh);
   const MeshStatistics statistics = mesh.statistics();
   report.figure("min_angle_deg", "smallest angle", statistics.min_angle_deg, "degrees");
   report.figure("max_gradation", "largest r / (H mean LS)", statistics.max_gradation);
@@ -122,10 +136,16 @@ Status run(const UpdateCommand& command) {
 
 void add_update_command(CLI::App& program, Action& action) {
   auto command = std::make_shared<UpdateCommand>();
-  CLI::App& app = add_subcommand(program, "update", "Remodels a native mesh to another airfoil",
+  CLI::App& app = add_subcommand(program, "update", "Remodels a mesh to another airfoil",
                                  [command, &action] { action = [command] { return run(*command); }; });
-  add_text(app, {"mesh", "MESH", "", "Native mesh (.vtkhdf)"}, Presence::required, command->mesh);
+  add_text(app, {"mesh", "MESH", "", "Mesh: a native one (.vtkhdf), or .su2, .msh, .vtu with --boundary"},
+           Presence::required, command->mesh);
   add_shape_argument(app, command->shape);
+  add_start_mesh_options(app, command->start);
+  add_integer(app,
+              {"--points", "I", "as many as in the mesh", "Vertices on the new airfoil: even, 8 to 100000"},
+              {.low = 8, .high = 100000, .even = true},
+              [command](std::int64_t value) { command->start.points = static_cast<int>(value); });
   command->outputs.add_options(app, Presence::optional);
   add_cst_degree(app, command->cst_degree);
   add_remodel_options(app, command->remodelling);

@@ -50,7 +50,7 @@ void write_corpus_domains(const std::filesystem::path& corpus, const std::filesy
 int main(int argc, char** argv) {
   if (argc != 3) return 2;
   const std::filesystem::path root = argv[1];
-  for (const char* target : {"airfoil_text", "airfoil_json", "domain_json", "su2", "msh", "vtu", "vtkhdf",
+  for (const char* target : {"airfoil_text", "airfoil_json", "domain_json", "import", "su2", "msh", "vtu", "vtkhdf",
                              "vtkhdf_values", "mesh_state", "kernel", "remodel"})
     std::filesystem::create_directories(root / target);
 
@@ -68,6 +68,10 @@ int main(int argc, char** argv) {
   write_corpus_domains(argv[2], root / "domain_json");
 
   const Mesh mesh = generate(square_with_arc(), {.min_angle_deg = 20, .gradation = 8}).mesh;
+  write_mesh(mesh, root / "import" / "square.su2");
+  const Domain section = airfoil_domain(airfoil_catalogue()[0].airfoil(),
+                                        {.points = 8, .farfield_radius = 2, .farfield_points = 8});
+  write_mesh(generate(section, {.min_angle_deg = 20, .gradation = 1}).mesh, root / "import" / "airfoil.su2");
   for (const char* extension : {"su2", "msh", "vtu", "vtkhdf"}) {
     const auto file = root / extension / (std::string("mesh.") + extension);
     write_mesh(mesh, file);

@@ -16,6 +16,7 @@ LAYERS = [
     {"name": "planar", "headers": ["planar.h"]},
     {"name": "mesh", "headers": ["mesh.h", "frozen_mesh.h"]},
     {"name": "generate", "headers": ["generate.h"]},
+    {"name": "import", "headers": ["import.h"]},
     {"name": "remodel", "headers": ["remodel.h"]},
     {"name": "check", "headers": ["check.h"]},
     {"name": "io", "headers": ["io.h"]},

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "remodel/domain.h"
@@ -21,6 +22,9 @@ struct QualityOptions {
   double resolution = 1.0;  // R: boundary length scale is the distance to the nearest neighbour / R; > 0
   std::uint32_t max_vertices = 10'000'000;  // vertex budget
   double min_edge = 0.0;  // no edge is split that is shorter than this, chords; 0: 1e-12 of the domain's size
+  // What refinement works to, where that is more than min_angle_deg; 0 to 34. For meshes that were imported:
+  // min_angle_deg is what the worst triangle of the file allows.
+  double refine_angle_deg = 0.0;
   friend bool operator==(const QualityOptions&, const QualityOptions&) = default;
 };
 
@@ -35,6 +39,20 @@ class StepObserver {
   virtual ~StepObserver() = default;
   // True ends it in order: Stopped::interrupted.
   virtual bool cancelled() { return false; }
+};
+
+// What a mesh that was imported (remodel/import.h) remembers of its file; empty for one that was generated.
+//
+// The living mesh is Delaunay. Where flips made it so, the file's own triangles are kept here, face by face:
+// a face is the smallest part of the plane that both triangulations cover. Triangle and vertex ids are those
+// of the living mesh; flips keep the slots, so that a face has the same slots before and after.
+struct ImportRecord {
+  std::vector<std::string> markers;      // boundary names in the order of the file
+  std::vector<std::uint32_t> slots;      // triangle slots, the faces one after the other, rising in each
+  std::vector<std::uint32_t> faces;      // 1 per slot: number of its face, from 0, not falling
+  std::vector<std::uint32_t> triangles;  // 3 per slot: vertex ids of the file's triangle
+  bool empty() const { return markers.empty(); }
+  friend bool operator==(const ImportRecord&, const ImportRecord&) = default;
 };
 
 // The state of a living mesh as plain arrays, slot by slot, free slots included: what the native file stores.
@@ -57,6 +75,7 @@ struct MeshState {
   std::uint32_t step = 0;  // remodellings since generation
   Domain domain;
   QualityOptions options;
+  ImportRecord imported;
 
   friend bool operator==(const MeshState&, const MeshState&) = default;
 };
@@ -87,7 +106,11 @@ class Mesh {
   std::uint32_t step() const;
   std::size_t triangle_count() const;  // of the domain; O(1)
 
+  // What was imported and what became of it: the file's own triangles stand where both they and all that the
+  // living mesh has in their place are untouched.
   FrozenMesh freeze() const;
+  // Whether triangles of birth 0 are a file's (remodel/import.h), not generate()'s.
+  bool imported() const;
   MeshStatistics statistics() const;
   MeshState state() const;
   // Throws Error (format) where the state is not that of a mesh: sizes, ranges, links that do not return.

@@ -8,16 +8,26 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "remodel/airfoil.h"
 #include "remodel/domain.h"
 #include "remodel/history.h"
+#include "remodel/import.h"
 #include "remodel/mesh.h"
 #include "remodel/remodel.h"
 
 namespace remodel {
+
+// A mesh to start from instead of a generated one: another program's, imported, or one that was written. It is
+// remodelled to the start airfoil in the place of its own; all its other loops stay. Designs are in chords,
+// meshes in the coordinates of the start mesh.
+struct MeshStart {
+  Mesh mesh;
+  AirfoilPlace place;
+};
 
 struct OptimiseOptions {
   AirfoilDomainOptions domain{};
@@ -34,6 +44,7 @@ struct OptimiseOptions {
   std::size_t max_refused = 10000;  // infeasible samples in a row that end the run; at least 1
   bool resume = false;              // go on from the directory's checkpoint
   std::filesystem::path directory{};  // of the run's files; made if missing
+  std::optional<MeshStart> start{};   // then domain and quality say nothing: the mesh has its own
 };
 
 // Why a run ended. Whatever it is, what is finished is kept.
@@ -94,7 +105,8 @@ class OptimiseObserver {
 // must be the same in both airfoils. Where their degrees differ the lower one is raised, which is exact. The
 // objective is the mean square distance in y at 50 stations of each surface, x = (1 + cos 2 pi t) / 2 with t
 // = i/102. A sample is infeasible, and sampled again, unless its surfaces are apart, its polygon's upper
-// vertices lie above the lower ones, and it stays inside the farfield.
+// vertices lie above the lower ones, and it stays inside the farfield. With a start mesh, unless its surfaces
+// are apart and the start mesh's domain is valid with it.
 //
 // With resume the run goes on to the designs, rows (but for their seconds) and meshes of a run that was not
 // interrupted. All options but evaluations, checkpoint_every and max_refused, and both airfoils, must be

@@ -21,6 +21,8 @@ void validate(const QualityOptions& options) {
   const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
   require(options.min_angle_deg >= 0.0 && options.min_angle_deg <= 34.0, "min_angle_deg",
           options.min_angle_deg, "0 to 34 degrees");
+  require(options.refine_angle_deg >= 0.0 && options.refine_angle_deg <= 34.0, "refine_angle_deg",
+          options.refine_angle_deg, "0 to 34 degrees");
   require(positive(options.max_gradation), "max_gradation", options.max_gradation, "a positive number");
   require(positive(options.gradation), "gradation", options.gradation, "a positive number");
   require(positive(options.resolution), "resolution", options.resolution, "a positive number");

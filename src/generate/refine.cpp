@@ -32,7 +32,7 @@ bool encroaches(Point p, Point a, Point b) {
 Refiner::Refiner(MeshData& mesh, StepObserver* observer)
     : mesh_(mesh),
       triangulation_(mesh.triangulation),
-      bounds_(mesh.options),
+      bounds_(QualityBounds::of_refinement(mesh.options)),
       small_angles_(mesh),
       vertex_limit_(mesh.options.max_vertices),
       observer_(observer) {

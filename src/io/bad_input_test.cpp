@@ -155,7 +155,7 @@ std::string msh_problem(int version, const std::string& from, const std::string&
 TEST(BadMshFiles, VersionsThatAreNotReadAreNamed) {
   EXPECT_EQ(msh_problem(41, "4.1 0 8", "4 0 8"), ":2: version '4' found, 4.1 or 2.2 expected");
   EXPECT_EQ(msh_problem(41, "4.1 0 8", "5.0 0 8"), ":2: version '5.0' found, 4.1 or 2.2 expected");
-  EXPECT_EQ(msh_problem(22, "2.2 0 8", "2.2 1 8"), ":2: a binary file found, an ASCII file expected");
+  EXPECT_EQ(msh_problem(22, "2.2 0 8", "2.2 1 8"), ": byte 24: no binary number 1 found, one expected in a binary file");
   EXPECT_EQ(msh_problem(22, "$MeshFormat", "$NOD"), ":1: '$NOD' found, $MeshFormat expected");
 }
 

@@ -135,6 +135,25 @@ std::size_t Scanner::count(std::string_view expected) {
   return static_cast<std::size_t>(value);
 }
 
+void Scanner::begin_binary() {
+  binary_ = true;
+  rest_of_line();
+  if (position_ < text_.size()) ++position_;
+}
+
+std::string_view Scanner::bytes(std::size_t count, std::string_view expected) {
+  if (bytes_left() < count) fail_found("", expected);
+  const std::string_view found = text_.substr(position_, count);
+  position_ += count;
+  return found;
+}
+
+void Scanner::skip_past(std::string_view end) {
+  const std::size_t found = text_.find(end, position_);
+  if (found == std::string_view::npos) fail_found("", end);
+  position_ = found + end.size();
+}
+
 void Scanner::fail(const std::string& problem) const {
   throw Error(ErrorCode::format, place(), problem);
 }

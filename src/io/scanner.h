@@ -41,8 +41,17 @@ class Scanner {
   // wrong header cannot ask for gigabytes.
   std::size_t count(std::string_view expected);
 
+  // Binary data among the text. From then on places are named by their byte.
+  void begin_binary();  // takes the rest of the line, its end included
+  std::string_view bytes(std::size_t count, std::string_view expected);
+  // Everything up to the end of the next place where `end` stands.
+  void skip_past(std::string_view end);
+  std::size_t bytes_left() const { return text_.size() - position_; }
+
   std::size_t line() const { return line_; }  // of the last word
-  std::string place() const { return file_ + ":" + std::to_string(line_); }
+  std::string place() const {
+    return binary_ ? file_ + ": byte " + std::to_string(position_) : file_ + ":" + std::to_string(line_);
+  }
   [[noreturn]] void fail(const std::string& problem) const;
   [[noreturn]] void fail_found(std::string_view found, std::string_view expected) const;
 
@@ -54,6 +63,7 @@ class Scanner {
   char comment_;
   std::size_t position_ = 0;
   std::size_t line_;
+  bool binary_ = false;
 };
 
 }  // namespace remodel::io

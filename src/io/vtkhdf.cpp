@@ -12,9 +12,10 @@ namespace remodel::io {
 
 namespace {
 
-constexpr std::int64_t state_version = 1;
+constexpr std::int64_t state_version = 2;
 const std::string grid_group = "/VTKHDF/";
 const std::string state_group = "/remodel";
+const std::string markers_path = state_group + "/imported_markers";
 
 // ------------------------------------------------------------------------------------- names of the state
 
@@ -33,6 +34,9 @@ void for_each_state_array(State& state, Visitor&& visit) {
   visit("triangle_births", state.triangle_births, 1);
   visit("free_vertices", state.free_vertices, 1);
   visit("free_triangles", state.free_triangles, 1);
+  visit("imported_slots", state.imported.slots, 1);
+  visit("imported_faces", state.imported.faces, 1);
+  visit("imported_triangles", state.imported.triangles, 3);
 }
 
 template <class State, class Visitor>
@@ -44,6 +48,7 @@ void for_each_state_number(State& state, Visitor&& visit) {
   visit("resolution", state.options.resolution);
   visit("max_vertices", state.options.max_vertices);
   visit("min_edge", state.options.min_edge);
+  visit("refine_angle_deg", state.options.refine_angle_deg);
 }
 
 // FNV-1a on 64-bit words, with a shift that carries the high bits down. Each step is a bijection of the hash
@@ -110,6 +115,7 @@ void write_state(Hdf5Writer& out, const MeshState& state) {
   for_each_state_array(state, [&](const std::string& name, const auto& values, std::size_t columns) {
     out.array(state_group + "/" + name, values, columns);
   });
+  if (!state.imported.markers.empty()) out.texts(markers_path, state.imported.markers);
   out.text(state_group + "/domain", domain);
 }
 
@@ -179,6 +185,7 @@ std::uint64_t checksum_of(const MeshState& state, const std::string& domain_text
     sum.add(std::uint64_t{values.size()});
     for (const auto value : values) sum.add(value);
   });
+  for (const std::string& marker : state.imported.markers) sum.add(marker);
   sum.add(domain_text);
   return sum.value();
 }
@@ -206,7 +213,7 @@ MeshState read_vtkhdf_state(const std::filesystem::path& file) {
   }
   const auto version = in.attribute<std::int64_t>(state_group, "format_version");
   if (version[0] != state_version) {
-    in.fail(state_group + "@format_version", std::to_string(version[0]) + " found, 1 expected");
+    in.fail(state_group + "@format_version", std::to_string(version[0]) + " found, 2 expected");
   }
   MeshState state;
   for_each_state_number(state, [&](const std::string& name, auto& value) {
@@ -216,6 +223,7 @@ MeshState read_vtkhdf_state(const std::filesystem::path& file) {
     values =
         in.array<typename std::remove_reference_t<decltype(values)>::value_type>(state_group + "/" + name);
   });
+  if (in.exists(markers_path)) state.imported.markers = in.texts(markers_path);
   const std::string domain = in.text(state_group + "/domain");
   if (in.attribute<std::uint64_t>(state_group, "checksum").front() != checksum_of(state, domain)) {
     in.fail(state_group + "@checksum",

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "mesh/import_record.h"
 #include "mesh/mesh_data.h"
 
 namespace remodel {
@@ -29,6 +30,10 @@ std::uint32_t Mesh::step() const {
 }
 std::size_t Mesh::triangle_count() const {
   return data_->domain_triangles;
+}
+
+bool Mesh::imported() const {
+  return !data_->imported.empty();
 }
 
 MeshStatistics Mesh::statistics() const {
@@ -79,6 +84,7 @@ std::size_t boundary_index(FrozenMesh& frozen, const std::string& name) {
 
 // A vertex where chains join lies on several curves: the view names the one of its first entry.
 void freeze_boundary(const MeshData& mesh, const std::vector<std::uint32_t>& point_of, FrozenMesh& frozen) {
+  for (const std::string& marker : mesh.imported.markers) boundary_index(frozen, marker);
   for (std::size_t curve = 0; curve < mesh.domain.curve_count(); ++curve)
     boundary_index(frozen, mesh.domain.curve(curve).name);
   for (std::size_t loop = 0; loop < mesh.loop_heads.size(); ++loop) {
@@ -113,12 +119,16 @@ FrozenMesh Mesh::freeze() const {
   const Triangulation& triangulation = data_->triangulation;
   FrozenMesh frozen;
   std::vector<std::uint32_t> point_of(triangulation.vertex_slots(), no_index);
+  const auto as_imported = triangles_as_imported(*data_);
   for (std::uint32_t i = 0; i < triangulation.triangle_slots(); ++i) {
     const Triangle& t = triangulation[TriangleId{i}];
     if (!t.alive() || t.region != Region::domain) continue;
     frozen.triangle_ids.push_back(i);
     frozen.birth.push_back(t.birth);
-    frozen.triangles.push_back({t.vertex[0].index, t.vertex[1].index, t.vertex[2].index});
+    const auto kept = as_imported.find(i);
+    frozen.triangles.push_back(kept != as_imported.end()
+                                   ? kept->second
+                                   : std::array{t.vertex[0].index, t.vertex[1].index, t.vertex[2].index});
     for (const VertexId v : t.vertex) point_of[v.index] = 0;
   }
   for (std::uint32_t i = 0; i < triangulation.vertex_slots(); ++i) {

@@ -15,6 +15,12 @@ QualityBounds::QualityBounds(const QualityOptions& options) {
   squared_gradation = margin * options.max_gradation * options.max_gradation;
 }
 
+QualityBounds QualityBounds::of_refinement(const QualityOptions& options) {
+  QualityOptions stricter = options;
+  stricter.min_angle_deg = std::max(options.min_angle_deg, options.refine_angle_deg);
+  return QualityBounds(stricter);
+}
+
 double badness(const Vertex& a, const Vertex& b, const Vertex& c, double squared_radius,
                const QualityBounds& bounds) {
   const double shortest = std::min({squared_distance(a.point, b.point), squared_distance(b.point, c.point),
@@ -39,6 +45,7 @@ MeshData::MeshData(const MeshData& other)
       sides(other.sides),
       domain_triangles(other.domain_triangles),
       step(other.step),
+      imported(other.imported),
       curve_places_(other.curve_places_) {
   if (triangulation.journalling()) triangulation.commit();
 }

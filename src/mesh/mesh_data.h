@@ -62,6 +62,8 @@ class Marks {
 // promised, so that whoever measures a mesh with rounding of his own finds the promise kept.
 struct QualityBounds {
   explicit QualityBounds(const QualityOptions& options);
+  // What refinement works to: at least as strict.
+  static QualityBounds of_refinement(const QualityOptions& options);
   double squared_radius_edge;  // B^2
   double squared_gradation;    // H^2
 };
@@ -77,6 +79,7 @@ class MeshData {
   std::vector<Sides> sides;                  // of each loop
   std::size_t domain_triangles = 0;
   std::uint32_t step = 0;
+  ImportRecord imported;
   std::unique_ptr<MeshCache> cache;
 
   // Scratch of searches: visited triangles and vertices, and a number for each triangle.

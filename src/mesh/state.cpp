@@ -37,6 +37,7 @@ MeshState Mesh::state() const {
   to.step = data_->step;
   to.domain = data_->domain;
   to.options = data_->options;
+  to.imported = data_->imported;
   return to;
 }
 
@@ -173,6 +174,16 @@ class BoundaryRestorer {
   std::vector<std::vector<Entry>> entries_;  // per curve
 };
 
+void require_in_range(const ImportRecord& record, const MeshState& state, const std::string& source) {
+  const std::size_t slots = state.triangle_regions.size(), vertices = state.vertex_stars.size();
+  const auto below = [](std::size_t end) { return [end](std::uint32_t i) { return i < end; }; };
+  if (record.faces.size() != record.slots.size() || record.triangles.size() != 3 * record.slots.size() ||
+      !std::all_of(record.slots.begin(), record.slots.end(), below(slots)) ||
+      !std::all_of(record.triangles.begin(), record.triangles.end(), below(vertices)) ||
+      !std::is_sorted(record.faces.begin(), record.faces.end()))
+    refuse(source, "what it remembers of the imported file does not fit the mesh");
+}
+
 }  // namespace
 
 Mesh Mesh::restore(const MeshState& state, const std::string& source) {
@@ -181,6 +192,8 @@ Mesh Mesh::restore(const MeshState& state, const std::string& source) {
   data.domain = state.domain;
   data.options = state.options;
   data.step = state.step;
+  require_in_range(state.imported, state, source);
+  data.imported = state.imported;
   if (std::string broken = unpack(state, source).restore(data.triangulation); !broken.empty())
     refuse(source, broken);
   data.index_curves();

@@ -35,11 +35,11 @@ void copy_figures(const RemodelResult& result, EvaluationRecord& record) {
 }  // namespace
 
 MeshChain::MeshChain(const OptimiseOptions& options, Mesh mesh)
-    : domain_(options.domain), quality_(options.quality), remodel_(options.remodel), mesh_(std::move(mesh)) {}
+    : domain_of_(options), quality_(quality_of(options)), remodel_(options.remodel), mesh_(std::move(mesh)) {}
 
 Stopped MeshChain::step(const CstAirfoil& design, StepTasks tasks, EvaluationRecord& record) {
   const Stopwatch watch;
-  const Domain domain = airfoil_domain(design, domain_);
+  const Domain domain = domain_of_(design);
   const RemodelResult result = remodel(mesh_, domain, remodel_);
   record.remodel_seconds = watch.seconds();
   copy_figures(result, record);
@@ -86,7 +86,7 @@ Stopped MeshChain::regenerate(const Domain& domain, EvaluationRecord& record) {
 
 Stopped MeshChain::compare(const CstAirfoil& design, EvaluationRecord& record) const {
   const Stopwatch watch;
-  const Domain domain = airfoil_domain(design, domain_);
+  const Domain domain = domain_of_(design);
   const GenerateResult fresh = generate(domain, quality_);
   record.generate_seconds = watch.seconds();
   record.generated_triangles = fresh.mesh.triangle_count();

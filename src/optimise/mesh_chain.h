@@ -3,6 +3,7 @@
 // The mesh's side of a run: one living mesh, remodelled from design to design, timed, validated, and
 // regenerated where it has to be.
 
+#include "optimise/design_domains.h"
 #include "remodel/airfoil.h"
 #include "remodel/history.h"
 #include "remodel/mesh.h"
@@ -30,7 +31,7 @@ class MeshChain {
   Stopped regenerate(const Domain& domain, EvaluationRecord& record);
   Stopped compare(const CstAirfoil& design, EvaluationRecord& record) const;
 
-  AirfoilDomainOptions domain_;
+  DesignDomains domain_of_;
   QualityOptions quality_;
   RemodelOptions remodel_;
   Mesh mesh_;

@@ -10,6 +10,7 @@
 
 #include "optimise/checkpoint.h"
 #include "optimise/checksum.h"
+#include "optimise/design_domains.h"
 #include "optimise/mesh_chain.h"
 #include "optimise/run_directory.h"
 #include "optimise/shape_search.h"
@@ -44,19 +45,20 @@ void require_good(const OptimiseOptions& options) {
 
 // Everything that the designs, rows and meshes of a run depend on, but for the number of evaluations.
 std::string settings_of(const CstAirfoil& from, const CstAirfoil& to, const OptimiseOptions& options) {
-  const nlohmann::ordered_json json = {
+  const QualityOptions& quality = quality_of(options);
+  nlohmann::ordered_json json = {
       {"version", REMODEL_VERSION},
       {"from", nlohmann::ordered_json::parse(airfoil_to_json(from))},
       {"to", nlohmann::ordered_json::parse(airfoil_to_json(to))},
       {"points", options.domain.points},
       {"farfield_radius", options.domain.farfield_radius},
       {"farfield_points", options.domain.farfield_points},
-      {"min_angle_deg", options.quality.min_angle_deg},
-      {"max_gradation", options.quality.max_gradation},
-      {"gradation", options.quality.gradation},
-      {"resolution", options.quality.resolution},
-      {"max_vertices", options.quality.max_vertices},
-      {"min_edge", options.quality.min_edge},
+      {"min_angle_deg", quality.min_angle_deg},
+      {"max_gradation", quality.max_gradation},
+      {"gradation", quality.gradation},
+      {"resolution", quality.resolution},
+      {"max_vertices", quality.max_vertices},
+      {"min_edge", quality.min_edge},
       {"distance", options.remodel.distance},
       {"method", name_of(options.remodel.method)},
       {"sigma", options.sigma},
@@ -64,6 +66,10 @@ std::string settings_of(const CstAirfoil& from, const CstAirfoil& to, const Opti
       {"compare_every", options.compare_every},
       {"full_check_every", options.full_check_every},
   };
+  if (options.start) {
+    json["refine_angle_deg"] = quality.refine_angle_deg;
+    json["start_mesh"] = identity_of(*options.start);
+  }
   return json.dump();
 }
 
@@ -242,6 +248,13 @@ void refuse_unfinished_run(const fs::path& directory) {
                 "holds an unfinished run: expected resume, or another directory");
 }
 
+ShapeSearch search_of(const CstAirfoil& from, const OptimiseOptions& options, Cmaes cmaes) {
+  if (!options.start) return ShapeSearch(from, options.domain, std::move(cmaes));
+  return ShapeSearch(
+      from, std::move(cmaes),
+      [domains = DesignDomains(options)](const CstAirfoil& design) { return domains.feasible(design); });
+}
+
 // The start of a run, complete on the disk before it replaces what the directory holds.
 Progress begin(const CstAirfoil& from, const CstAirfoil& to, const OptimiseOptions& options,
                RunDirectory directory, Mesh mesh) {
@@ -267,7 +280,7 @@ Progress begin(const CstAirfoil& from, const CstAirfoil& to, const OptimiseOptio
   }
   History history = History::resume(options.directory / "history.sqlite", 0);
   return {.directory = std::move(directory),
-          .search = ShapeSearch(from, options.domain, std::move(cmaes)),
+          .search = search_of(from, options, std::move(cmaes)),
           .chain = MeshChain(options, std::move(mesh)),
           .history = std::move(history),
           .summary = {},
@@ -322,13 +335,26 @@ Progress go_on(const CstAirfoil& from, const CstAirfoil& to, const OptimiseOptio
   Checksum written;
   Summary summary = replay(history_file, checkpoint, dimension, written);
   return {.directory = std::move(directory),
-          .search = ShapeSearch(from, options.domain, std::move(cmaes)),
+          .search = search_of(from, options, std::move(cmaes)),
           .chain = MeshChain(options, std::move(mesh)),
           .history = History::resume(history_file, checkpoint.evaluation),
           .summary = std::move(summary),
           .written = written,
           .refused = checkpoint.refused,
           .earlier_seconds = checkpoint.seconds};
+}
+
+// None where a limit keeps it from being finished.
+std::optional<Mesh> first_mesh(const CstAirfoil& from, const OptimiseOptions& options) {
+  const Domain domain = DesignDomains(options)(from);
+  if (options.start) {
+    Mesh mesh = options.start->mesh;
+    if (remodel(mesh, domain, options.remodel).stopped != Stopped::done) return std::nullopt;
+    return mesh;
+  }
+  GenerateResult generated = generate(domain, options.quality);
+  if (generated.stopped != Stopped::done) return std::nullopt;
+  return std::move(generated.mesh);
 }
 
 OptimiseResult unmeshable_start(const CstAirfoil& from, const OptimiseOptions& options) {
@@ -360,11 +386,11 @@ OptimiseResult optimise(const CstAirfoil& start, const CstAirfoil& target, const
     directory.emplace(options.directory);
     refuse_unfinished_run(options.directory);
   }
-  GenerateResult first = generate(airfoil_domain(from, options.domain), options.quality);
-  if (first.stopped != Stopped::done) return unmeshable_start(from, options);
+  std::optional<Mesh> first = first_mesh(from, options);
+  if (!first) return unmeshable_start(from, options);
   if (!directory) directory.emplace(options.directory);
   refuse_unfinished_run(options.directory);
-  Run run(begin(from, to, options, std::move(*directory), std::move(first.mesh)), from, to, options);
+  Run run(begin(from, to, options, std::move(*directory), std::move(*first)), from, to, options);
   return run.finish(run.evaluate_all(listener));
 }
 

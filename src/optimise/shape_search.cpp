@@ -96,7 +96,10 @@ Cmaes initial_distribution(const CstAirfoil& from, double sigma, std::uint64_t s
 }
 
 ShapeSearch::ShapeSearch(const CstAirfoil& like, const AirfoilDomainOptions& domain, Cmaes cmaes)
-    : like_(like), feasible_(like, domain), cmaes_(std::move(cmaes)) {}
+    : ShapeSearch(like, std::move(cmaes), Feasibility(like, domain)) {}
+
+ShapeSearch::ShapeSearch(const CstAirfoil& like, Cmaes cmaes, Feasible feasible)
+    : like_(like), feasible_(std::move(feasible)), cmaes_(std::move(cmaes)) {}
 
 std::optional<Sample> ShapeSearch::next(std::size_t limit) {
   for (std::uint64_t refused = 0; refused < limit; ++refused) {

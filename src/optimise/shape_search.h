@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -75,8 +76,11 @@ struct Sample {
 
 class ShapeSearch {
  public:
+  using Feasible = std::function<bool(const CstAirfoil&)>;
+
   // Designs are like `like` in everything but the coefficients, which cmaes samples.
   ShapeSearch(const CstAirfoil& like, const AirfoilDomainOptions& domain, Cmaes cmaes);
+  ShapeSearch(const CstAirfoil& like, Cmaes cmaes, Feasible feasible);
 
   // The next feasible sample; nothing after `limit` infeasible ones in a row.
   std::optional<Sample> next(std::size_t limit);
@@ -86,7 +90,7 @@ class ShapeSearch {
 
  private:
   CstAirfoil like_;
-  Feasibility feasible_;
+  Feasible feasible_;
   Cmaes cmaes_;
 };
 

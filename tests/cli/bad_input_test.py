@@ -294,15 +294,15 @@ class MeshFiles(ProgramTest):
             outcome = self.run_program("check", "flipped.vtkhdf")
             self.assertIn(outcome.status, (0, 1, 2), f"byte {position}: {outcome}")
 
-    def test_update_needs_a_native_mesh(self):
+    def test_update_needs_the_boundary_of_a_foreign_mesh(self):
         for format in ("su2", "msh", "vtu"):
             self.refused("update", f"a.{format}", "rae2822", "-o", "out.su2", names=f"a.{format}")
 
-    def test_update_needs_the_state_of_a_native_mesh(self):
+    def test_update_needs_the_boundary_of_a_mesh_without_state(self):
         self.succeed("convert", "a.su2", "-o", "stateless.vtkhdf")
         self.refused("update", "stateless.vtkhdf", "rae2822", "-o", "out.su2", names="stateless.vtkhdf")
 
-    def test_update_needs_a_native_mesh_of_this_program(self):
+    def test_update_needs_the_boundary_of_the_shared_mesh(self):
         foreign = shared_file(self, "meshes/mesh_NACA0012_inv.su2")
         self.refused("update", foreign, "rae2822", "-o", "out.su2", names=foreign.name)
 

@@ -1,0 +1,45 @@
+#pragma once
+
+// Where `optimise` starts: an airfoil, around which a mesh is generated, or a mesh, whose airfoil is found.
+
+#include <functional>
+#include <string>
+
+#include "meshing_options.h"
+#include "remodel/optimise.h"
+#include "start_mesh.h"
+
+namespace remodel::app {
+
+struct OptimiseStartOptions {
+  std::string from;  // one of these two
+  std::string mesh;
+  // Above 30 degrees refinement spreads: a step keeps the promise, hundreds of steps would wear the mesh out.
+  StartMeshOptions start = [] {
+    StartMeshOptions usual;
+    usual.usual_refine_angle_deg = 30.0;
+    return usual;
+  }();
+  std::function<bool(const std::string&)> given;  // whether an option is on the command line
+};
+
+void add_optimise_start_options(CLI::App& app, OptimiseStartOptions& options);
+
+struct OptimiseStart {
+  CstAirfoil from;
+  std::optional<StartMesh> file;  // of a mesh start, without its mesh
+  CstFit fit;                     // of the mesh's airfoil
+  RemodelResult first;            // from the file's mesh to the fitted airfoil
+};
+
+// Reads the start and completes run.start, or run.domain and run.quality. Throws Error for options that do
+// not go together.
+OptimiseStart read_start(const OptimiseStartOptions& options, const MeshingOptions& meshing,
+                         OptimiseOptions& run);
+
+// What is resolved of the meshing options: all of them, or those that a start mesh leaves open.
+Json meshing_json(const MeshingOptions& meshing, const OptimiseOptions& run);
+// from, or mesh, boundary, import, fit{} and start{}.
+void add_start_figures(Report& report, const OptimiseStartOptions& options, const OptimiseStart& start);
+
+}  // namespace remodel::app

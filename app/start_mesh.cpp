@@ -1,0 +1,145 @@
+#include "start_mesh.h"
+
+#include <array>
+
+#include "arguments.h"
+#include "number_text.h"
+#include "remodel/error.h"
+#include "remodel/io.h"
+
+namespace remodel::app {
+namespace {
+
+// The file as a living mesh, if it is one.
+std::optional<Mesh> read_native(const std::string& file) {
+  try {
+    return read_mesh(file);
+  } catch (const Error& error) {
+    // Not a native mesh at all, in contrast to one that is damaged.
+    if (error.code() != ErrorCode::argument) throw;
+    return std::nullopt;
+  }
+}
+
+void refuse_for_native(bool given, const char* option, const std::string& file) {
+  if (!given) return;
+  throw Error(ErrorCode::argument, option,
+              "given for '" + file + "', a mesh of another program's expected: a native mesh has its own");
+}
+
+std::string names_of(const Domain& domain) {
+  std::string names;
+  for (std::size_t i = 0; i < domain.curve_count(); ++i) {
+    const std::string quoted = "'" + domain.curve(i).name + "'";
+    if (names.find(quoted) == std::string::npos) names += (names.empty() ? "" : ", ") + quoted;
+  }
+  return names;
+}
+
+// The boundary that is meant where none is named: a CstAirfoil, or in a mesh that was imported before the
+// only body.
+std::string boundary_of(const StartMesh& start, const StartMeshOptions& options) {
+  if (!options.boundary.empty()) return options.boundary;
+  const Domain& domain = start.mesh.domain();
+  std::vector<const Loop*> bodies;
+  for (const Loop& loop : domain.loops) {
+    if (std::holds_alternative<CstAirfoil>(loop.curves.front().shape)) return loop.curves.front().name;
+    if (loop.role == LoopRole::hole) bodies.push_back(&loop);
+  }
+  if (!start.imported && bodies.size() == 1) return bodies.front()->curves.front().name;
+  throw Error(ErrorCode::argument, "--boundary",
+              "not given, the airfoil's name in " + start.source + " expected, one of " + names_of(domain));
+}
+
+Json to_json(const MeshPart& part) {
+  Json result{{"triangles", part.triangles}};
+  result["min_angle_deg"] = part.triangles > 0 ? Json(part.min_angle_deg) : Json(nullptr);
+  return result;
+}
+
+std::string to_text(const MeshPart& part) {
+  std::string text = std::to_string(part.triangles);
+  if (part.triangles > 0) text += ", smallest angle " + short_text(part.min_angle_deg) + " degrees";
+  return text;
+}
+
+}  // namespace
+
+void add_start_mesh_options(CLI::App& app, StartMeshOptions& options) {
+  const bool fixed = options.usual_refine_angle_deg > 0.0;
+  const std::string usual =
+      fixed ? short_text(options.usual_refine_angle_deg) : "30, or the mesh's smallest angle up to 33";
+  add_text(app,
+           {"--boundary", "NAME", "the airfoil of a native mesh",
+            "Marker or physical name of the airfoil in the mesh: the loop that is replaced"},
+           Presence::optional, options.boundary);
+  add_real(app,
+           {"--refine-angle", "DEGREES", usual,
+            "Smallest angle of new triangles in a mesh of another program's, in degrees: 0 to 33"},
+           {.low = 0.0, .high = 33.0}, [&](double value) { options.refine_angle_deg = value; });
+  static constexpr std::array choices{NonDelaunay::flip, NonDelaunay::keep};
+  add_choice(
+      app,
+      {"--non-delaunay", "WHAT", "flip",
+       "Triangles of another program's that are not Delaunay: flip them, or keep them where untouched"},
+      {"flip", "keep"}, [&](std::size_t choice) { options.non_delaunay = choices[choice]; });
+}
+
+StartMesh read_start_mesh(const std::string& file, const StartMeshOptions& options) {
+  if (std::optional<Mesh> native = read_native(file)) {
+    refuse_for_native(options.refine_angle_deg.has_value(), "--refine-angle", file);
+    refuse_for_native(options.gradation.has_value(), "--gradation", file);
+    refuse_for_native(options.non_delaunay.has_value(), "--non-delaunay", file);
+    return {.mesh = std::move(*native), .source = file, .imported = std::nullopt};
+  }
+  ImportOptions import;
+  import.refine_angle_deg = options.refine_angle_deg.value_or(options.usual_refine_angle_deg);
+  import.gradation = options.gradation.value_or(import.gradation);
+  import.non_delaunay = options.non_delaunay.value_or(import.non_delaunay);
+  ImportResult imported = import_mesh(read_frozen_mesh(file), file, import);
+  StartMesh start{.mesh = std::move(imported.mesh), .source = file, .imported = std::nullopt};
+  imported.mesh = Mesh();
+  start.imported = std::move(imported);
+  return start;
+}
+
+AirfoilPlace place_in(const StartMesh& start, const StartMeshOptions& options) {
+  AirfoilPlace place = find_airfoil(start.mesh.domain(), boundary_of(start, options), start.source);
+  return options.points ? with_points(std::move(place), *options.points) : place;
+}
+
+void add_import_figures(Report& report, const StartMesh& start) {
+  if (!start.imported) return;
+  const ImportResult& import = *start.imported;
+  const QualityOptions& promised = start.mesh.options();
+  report.data("import", {{"min_angle_deg", import.min_angle_deg},
+                         {"promised_angle_deg", promised.min_angle_deg},
+                         {"refine_angle_deg", promised.refine_angle_deg},
+                         {"gradation", promised.gradation},
+                         {"turned_triangles", import.turned_triangles},
+                         {"unused_points", import.unused_points},
+                         {"unnamed_edges", import.unnamed_edges},
+                         {"non_delaunay_edges", import.non_delaunay_edges},
+                         {"flipped_edges", import.flipped_edges}});
+  report.line("imported", "smallest angle " + short_text(import.min_angle_deg) + " degrees, G " +
+                              short_text(promised.gradation) + ", new triangles refined to " +
+                              short_text(promised.refine_angle_deg) + " degrees");
+  const auto line = [&](std::size_t count, const char* label, const char* what) {
+    if (count > 0) report.line(label, std::to_string(count) + what);
+  };
+  line(import.turned_triangles, "turned", " clockwise triangles");
+  line(import.unused_points, "left out", " points of no triangle");
+  line(import.unnamed_edges, "named 'boundary'", " boundary edges without a marker");
+  line(import.non_delaunay_edges, "not Delaunay", " edges");
+}
+
+void add_part_figures(Report& report, const Mesh& mesh) {
+  if (!mesh.imported()) return;
+  const MeshParts parts = parts_of(mesh.freeze());
+  report.data("kept", to_json(parts.kept));
+  report.data("changed", to_json(parts.changed));
+  report.line("kept triangles", to_text(parts.kept));
+  report.line("changed triangles", to_text(parts.changed));
+}
+
+}  // namespace remodel::app

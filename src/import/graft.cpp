@@ -1,0 +1,217 @@
+#include "import/graft.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+#include "generate/discretise.h"
+#include "generate/recovery_error.h"
+#include "remodel/predicates.h"
+#include "triangulation/state.h"
+
+namespace remodel {
+
+namespace {
+
+VertexId vertex_of(std::uint32_t point) {
+  return VertexId{point + 1};
+}
+
+// ---- the graft
+
+// Slots of the finished triangulation by those of the boundary's own.
+std::vector<VertexId> renumbered(const MeshData& filler, const LoopsOfMesh& loops) {
+  std::vector<VertexId> result(filler.triangulation.vertex_slots());
+  result[infinite_vertex.index] = infinite_vertex;
+  for (std::size_t loop = 0; loop < loops.points.size(); ++loop) {
+    std::uint32_t k = filler.loop_heads[loop];
+    for (const std::uint32_t point : loops.points[loop]) {
+      result[filler.at(k).vertex.index] = vertex_of(point);
+      k = filler.at(k).next;
+    }
+  }
+  return result;
+}
+
+struct Side {
+  VertexId from, to;
+  std::uint32_t triangle;
+  int corner;
+};
+
+bool before(const Side& a, const Side& b) {
+  return std::tie(a.from, a.to) < std::tie(b.from, b.to);
+}
+
+// Every side is linked to the same edge in the other direction; it is constrained where the regions differ.
+void link_triangles(std::vector<Triangle>& triangles) {
+  std::vector<Side> sides;
+  sides.reserve(3 * triangles.size());
+  for (std::uint32_t i = 0; i < triangles.size(); ++i)
+    for (int k = 0; k < 3; ++k)
+      sides.push_back({triangles[i].vertex[next3(k)], triangles[i].vertex[previous3(k)], i, k});
+  std::sort(sides.begin(), sides.end(), before);
+  for (const Side& side : sides) {
+    const auto other = std::lower_bound(sides.begin(), sides.end(), Side{side.to, side.from, 0, 0}, before);
+    if (other == sides.end() || other->from != side.to || other->to != side.from)
+      throw RecoveryError("the boundary does not separate inside and outside");
+    const bool constrained = triangles[side.triangle].region != triangles[other->triangle].region;
+    triangles[side.triangle].link[side.corner] =
+        Link(TriangleId{other->triangle}, other->corner, constrained);
+  }
+}
+
+}  // namespace
+
+void graft(const SoundMesh& mesh, const LoopsOfMesh& loops, MeshData& data) {
+  discretise(data);
+  const std::vector<VertexId> vertices = renumbered(data, loops);
+  TriangulationState state;
+  state.vertices.resize(mesh.points.size() + 1);
+  state.generations.assign(mesh.points.size() + 1, 1);
+  state.generations[infinite_vertex.index] = 0;
+  for (std::uint32_t i = 0; i < mesh.points.size(); ++i)
+    state.vertices[vertex_of(i).index].point = mesh.points[i];
+  for (const auto& corners : mesh.triangles) {
+    Triangle& t = state.triangles.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) t.vertex[k] = vertex_of(corners[k]);
+    t.region = Region::domain;
+  }
+  for (std::uint32_t i = 0; i < data.triangulation.triangle_slots(); ++i) {
+    const Triangle& filler = data.triangulation[TriangleId{i}];
+    if (!filler.alive() || filler.region != Region::outside) continue;
+    Triangle& t = state.triangles.emplace_back();
+    for (int k = 0; k < 3; ++k) t.vertex[k] = vertices[filler.vertex[k].index];
+    t.region = Region::outside;
+  }
+  link_triangles(state.triangles);
+  for (std::uint32_t i = 0; i < state.triangles.size(); ++i)
+    for (int k = 0; k < 3; ++k)
+      state.vertices[state.triangles[i].vertex[k].index].star = Link(TriangleId{i}, k);
+  if (const std::string broken = state.restore(data.triangulation); !broken.empty())
+    throw RecoveryError(broken);
+  for (std::uint32_t k = 0; k < data.boundary.size(); ++k) {
+    data.boundary[k].vertex = vertices[data.boundary[k].vertex.index];
+    data.triangulation.set_boundary(data.boundary[k].vertex, k);
+  }
+}
+
+// ---- flips
+
+namespace {
+
+using Corners = std::array<std::uint32_t, 3>;  // vertex ids
+
+std::vector<Corners> corners_of(const MeshData& data, std::size_t count) {
+  std::vector<Corners> result;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Triangle& t = data.triangulation[TriangleId{i}];
+    result.push_back({t.vertex[0].index, t.vertex[1].index, t.vertex[2].index});
+  }
+  return result;
+}
+
+// Faces: triangles are joined across the edges that the other triangulation does not have.
+class Faces {
+ public:
+  Faces(const MeshData& data, const std::vector<Corners>& file)
+      : data_(data),
+        file_(file),
+        file_edges_(directed_edges(file)),
+        living_edges_(directed_edges(corners_of(data, file.size()))),
+        parent_(file.size()),
+        proper_(file.size(), false) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+    for (const DirectedEdge& edge : file_edges_) join(edge);
+  }
+
+  const Flips& flips() const { return flips_; }
+
+  // The slots of each face that flips changed, if it is to be recorded. A face's slots are those of the
+  // file's triangles in it: a flip writes both its triangles into the slots of the two before.
+  void record(Record what, ImportRecord& into) {
+    std::vector<std::uint32_t> sizes(file_.size(), 0);
+    for (std::uint32_t i = 0; i < file_.size(); ++i) ++sizes[root(i)];
+    std::map<std::uint32_t, std::vector<std::uint32_t>> slots;  // by the face's root
+    for (std::uint32_t i = 0; i < file_.size(); ++i)
+      if (sizes[root(i)] > 1 && (what == Record::all || !proper_[root(i)])) slots[root(i)].push_back(i);
+    std::uint32_t face = 0;
+    for (const auto& [first, members] : slots) {
+      for (const std::uint32_t slot : members) {
+        into.slots.push_back(slot);
+        into.faces.push_back(face);
+        into.triangles.insert(into.triangles.end(), file_[slot].begin(), file_[slot].end());
+      }
+      ++face;
+    }
+  }
+
+ private:
+  std::uint32_t root(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+
+  std::uint32_t apex(const DirectedEdge& edge) const {
+    for (const std::uint32_t v : file_[edge.triangle])
+      if (v != edge.from && v != edge.to) return v;
+    return 0;
+  }
+
+  void join(const DirectedEdge& edge) {
+    if (edge.from > edge.to) return;  // each edge once
+    const DirectedEdge* other = find_edge(file_edges_, edge.to, edge.from);
+    if (other == nullptr || find_edge(living_edges_, edge.from, edge.to) != nullptr) return;
+    ++flips_.flipped;
+    const auto point = [&](std::uint32_t v) { return data_.triangulation.point(VertexId{v}); };
+    const bool inside =
+        incircle(point(edge.from), point(edge.to), point(apex(edge)), point(apex(*other))) > 0;
+    const std::uint32_t a = root(edge.triangle), b = root(other->triangle);
+    const std::uint32_t low = std::min(a, b);
+    proper_[low] = proper_[a] || proper_[b] || inside;
+    parent_[std::max(a, b)] = low;
+  }
+
+  const MeshData& data_;
+  const std::vector<Corners>& file_;
+  std::vector<DirectedEdge> file_edges_, living_edges_;
+  std::vector<std::uint32_t> parent_;
+  std::vector<bool> proper_;  // of a face's root: an edge of the file in it is not Delaunay
+  Flips flips_;
+};
+
+std::size_t count_non_delaunay(const MeshData& data, std::size_t triangles) {
+  const Triangulation& triangulation = data.triangulation;
+  std::size_t count = 0;
+  for (std::uint32_t i = 0; i < triangles; ++i) {
+    const Triangle& t = triangulation[TriangleId{i}];
+    for (int k = 0; k < 3; ++k) {
+      const Link link = t.link[k];
+      if (link.constrained() || link.triangle().index < i) continue;
+      const Point across = triangulation.point(triangulation[link.triangle()].vertex[link.corner()]);
+      if (incircle(triangulation.point(t.vertex[0]), triangulation.point(t.vertex[1]),
+                   triangulation.point(t.vertex[2]), across) > 0)
+        ++count;
+    }
+  }
+  return count;
+}
+
+}  // namespace
+
+Flips make_delaunay(const SoundMesh& mesh, Record record, MeshData& data) {
+  const std::vector<Corners> file = corners_of(data, mesh.triangles.size());
+  const std::size_t non_delaunay = count_non_delaunay(data, file.size());
+  std::vector<TriangleId> all;
+  for (std::uint32_t i = 0; i < file.size(); ++i) all.push_back(TriangleId{i});
+  data.triangulation.restore_delaunay(all);
+  if (corners_of(data, file.size()) == file) return {};
+  Faces faces(data, file);
+  faces.record(record, data.imported);
+  Flips flips = faces.flips();
+  flips.non_delaunay = non_delaunay;
+  return flips;
+}
+
+}  // namespace remodel

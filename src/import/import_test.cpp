@@ -1,0 +1,388 @@
+#include "remodel/import.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "import/test_foreign.h"
+#include "remodel/check.h"
+#include "remodel/error.h"
+#include "remodel/io.h"
+#include "remodel/remodel.h"
+#include "support.h"
+
+namespace remodel {
+namespace {
+
+using test::all_corners;
+
+ImportResult imported(const FrozenMesh& mesh, const ImportOptions& options = {}) {
+  return import_mesh(mesh, "file.su2", options);
+}
+
+std::string problem(const FrozenMesh& mesh) {
+  try {
+    imported(mesh);
+    return "imported";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+// ---- what goes in comes out
+
+TEST(Import, AMeshComesBackAsItWas) {
+  for (const FrozenMesh& mesh : {test::foreign_airfoil(), test::foreign_holes()}) {
+    const ImportResult result = imported(mesh);
+    EXPECT_EQ(result.mesh.quick_check(), "");
+    EXPECT_EQ(result.flipped_edges, 0U);
+    const FrozenMesh back = result.mesh.freeze();
+    EXPECT_EQ(back.points, mesh.points);
+    EXPECT_EQ(back.triangles, mesh.triangles);
+    ASSERT_EQ(back.boundaries.size(), mesh.boundaries.size());
+    for (std::size_t i = 0; i < mesh.boundaries.size(); ++i) {
+      EXPECT_EQ(back.boundaries[i].name, mesh.boundaries[i].name);
+      const auto sorted = [](auto edges) { return std::sort(edges.begin(), edges.end()), edges; };
+      EXPECT_EQ(sorted(back.boundaries[i].edges), sorted(mesh.boundaries[i].edges));
+    }
+    const CheckResult checked = check(back, {.design = &result.mesh.domain()});
+    EXPECT_TRUE(checked.valid) << checked.violations.front().detail;
+  }
+}
+
+TEST(Import, TriangulationsOfTheSamePointsOnACircleAreKept) {
+  std::mt19937_64 random(1);
+  const FrozenMesh mesh = test::grid(12, random);
+  const ImportResult result = imported(mesh);
+  EXPECT_EQ(result.mesh.quick_check(), "");
+  EXPECT_EQ(result.non_delaunay_edges, 0U);
+  EXPECT_GT(result.flipped_edges, 0U);
+  EXPECT_EQ(result.mesh.freeze().triangles, mesh.triangles);
+}
+
+TEST(Import, MarkersKeepTheirOrderAndLoopsTheirNames) {
+  std::mt19937_64 random(1);
+  const FrozenMesh mesh = test::grid(4, random);
+  const FrozenMesh back = imported(mesh).mesh.freeze();
+  ASSERT_EQ(back.boundaries.size(), 2U);
+  EXPECT_EQ(back.boundaries[0].name, "rest");
+  EXPECT_EQ(back.boundaries[0].edges.size(), 12U);
+  EXPECT_EQ(back.boundaries[1].name, "south");
+  EXPECT_EQ(back.boundaries[1].edges.size(), 4U);
+  EXPECT_TRUE(check(back).valid);
+}
+
+TEST(Import, BoundaryEdgesWithoutANameGetOne) {
+  FrozenMesh mesh = test::foreign_airfoil();
+  mesh.boundaries.erase(mesh.boundaries.begin());
+  mesh.boundaries[0].edges.pop_back();
+  const ImportResult result = imported(mesh, {.unnamed = "wall"});
+  EXPECT_EQ(result.mesh.quick_check(), "");
+  const FrozenMesh back = result.mesh.freeze();
+  ASSERT_EQ(back.boundaries.size(), 2U);
+  EXPECT_EQ(back.boundaries[1].name, "wall");
+  EXPECT_EQ(back.boundaries[1].edges.size(), result.unnamed_edges);
+  EXPECT_GT(result.unnamed_edges, 40U);
+}
+
+TEST(Import, ClockwiseTrianglesAreTurnedAndUnusedPointsLeftOut) {
+  FrozenMesh mesh = test::foreign_holes();
+  const FrozenMesh before = mesh;
+  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3)
+    std::swap(mesh.triangles[i][0], mesh.triangles[i][1]);
+  mesh.points.push_back({7.0, 7.0});
+  const ImportResult result = imported(mesh);
+  EXPECT_EQ(result.turned_triangles, (mesh.triangles.size() + 2) / 3);
+  EXPECT_EQ(result.unused_points, 1U);
+  EXPECT_EQ(result.mesh.freeze().points, before.points);
+  EXPECT_EQ(all_corners(result.mesh.freeze()), all_corners(before));
+}
+
+// ---- meshes that are not Delaunay
+
+TEST(Import, FlipsMakeAMeshDelaunayOrAreNotSeen) {
+  const unsigned long long seed = test::seed(1);
+  SCOPED_TRACE(seed);
+  std::mt19937_64 random(seed);
+  for (int round = 0; round < 10; ++round) {
+    const FrozenMesh delaunay = test::foreign_holes();
+    FrozenMesh mesh = delaunay;
+    test::flip_at_random(mesh, 1 + 5 * round, random);
+    const ImportResult flipped = imported(mesh, {.non_delaunay = NonDelaunay::flip});
+    const ImportResult kept = imported(mesh, {.non_delaunay = NonDelaunay::keep});
+    EXPECT_EQ(flipped.mesh.quick_check(), "");
+    EXPECT_EQ(kept.mesh.quick_check(), "");
+    EXPECT_EQ(all_corners(flipped.mesh.freeze()), all_corners(delaunay));
+    EXPECT_EQ(kept.mesh.freeze().triangles, mesh.triangles);
+    EXPECT_EQ(flipped.non_delaunay_edges > 0, flipped.flipped_edges > 0);
+  }
+}
+
+TEST(Import, WhatIsKeptStaysUntilSomethingTouchesIt) {
+  std::mt19937_64 random(test::seed(2));
+  FrozenMesh mesh = test::foreign_airfoil();
+  test::flip_at_random(mesh, 60, random);
+  ImportResult result = imported(mesh, {.non_delaunay = NonDelaunay::keep});
+  ASSERT_GT(result.non_delaunay_edges, 10U);
+  const std::set<test::Corners> before = all_corners(mesh);
+  const AirfoilPlace place = find_airfoil(result.mesh.domain(), "airfoil", "file.su2");
+  remodel(result.mesh, with_airfoil(result.mesh.domain(), place, airfoil_catalogue()[3].airfoil()));
+  const FrozenMesh after = result.mesh.freeze();
+  const CheckResult checked = check(after, {.delaunay = false, .design = &result.mesh.domain()});
+  EXPECT_TRUE(checked.valid) << checked.violations.front().detail;
+  EXPECT_FALSE(checked.delaunay);
+  std::size_t same = 0;
+  for (const auto& triangle : after.triangles)
+    same += before.contains(test::corners(after, triangle)) ? 1 : 0;
+  const ImportResult flipped = imported(mesh);
+  std::size_t same_if_flipped = 0;
+  for (const test::Corners& corners : all_corners(flipped.mesh.freeze()))
+    same_if_flipped += before.contains(corners) ? 1 : 0;
+  EXPECT_GT(same, same_if_flipped * 8 / 10);
+  // The living mesh is Delaunay all the same.
+  EXPECT_EQ(result.mesh.quick_check(), "");
+}
+
+// ---- what is promised
+
+TEST(Import, TrianglesAwayFromAChangeStayToTheLastBit) {
+  const FrozenMesh mesh = test::foreign_airfoil(100);
+  const std::set<test::Corners> before = all_corners(mesh);
+  for (std::size_t airfoil = 1; airfoil < airfoil_catalogue().size(); ++airfoil) {
+    SCOPED_TRACE(airfoil);
+    ImportResult result = imported(mesh);
+    const AirfoilPlace place = find_airfoil(result.mesh.domain(), "airfoil", "file.su2");
+    const RemodelResult step = remodel(
+        result.mesh, with_airfoil(result.mesh.domain(), place, airfoil_catalogue()[airfoil].airfoil()));
+    ASSERT_EQ(step.stopped, Stopped::done);
+    ASSERT_FALSE(step.regenerated) << step.reason;
+    const FrozenMesh after = result.mesh.freeze();
+    std::size_t same = 0;
+    for (const auto& triangle : after.triangles)
+      same += before.contains(test::corners(after, triangle)) ? 1 : 0;
+    EXPECT_EQ(same, step.preserved);
+    EXPECT_GT(step.preserved_percent(), 50.0);
+    const MeshParts parts = parts_of(after);
+    EXPECT_EQ(parts.kept.triangles + parts.changed.triangles, after.triangles.size());
+    const CheckResult checked = check(after, {.min_angle_deg = result.mesh.options().min_angle_deg,
+                                              .max_gradation = result.mesh.options().max_gradation,
+                                              .design = &result.mesh.domain()});
+    EXPECT_TRUE(checked.valid) << checked.violations.front().detail;
+    EXPECT_GE(checked.min_angle_deg, result.min_angle_deg * (1.0 - 1e-8));
+  }
+}
+
+// Angles of 20 to 30 degrees stay where they are; what refinement makes keeps 30.
+TEST(Import, RefinedTrianglesAreBetterThanTheFiles) {
+  Domain domain = airfoil_domain(airfoil_catalogue()[0].airfoil(), {.points = 60, .farfield_radius = 4});
+  const FrozenMesh mesh = test::foreign(domain, {.min_angle_deg = 20.0, .gradation = 1.0});
+  ImportResult result = imported(mesh);
+  ASSERT_LT(result.min_angle_deg, 25.0);
+  EXPECT_NEAR(result.mesh.options().min_angle_deg, result.min_angle_deg, 1e-6);
+  EXPECT_EQ(result.mesh.options().refine_angle_deg, 30.0);
+  const AirfoilPlace place = find_airfoil(result.mesh.domain(), "airfoil", "file.su2");
+  remodel(result.mesh, with_airfoil(result.mesh.domain(), place, airfoil_catalogue()[2].airfoil()),
+          {.method = Method::general});
+  const MeshParts parts = parts_of(result.mesh.freeze());
+  EXPECT_GT(parts.changed.triangles, 100U);
+  EXPECT_GE(parts.changed.min_angle_deg, 30.0 * (1.0 - 1e-8));
+  EXPECT_GE(parts.kept.min_angle_deg, result.min_angle_deg * (1.0 - 1e-8));
+  EXPECT_LT(parts.kept.min_angle_deg, 30.0);
+}
+
+TEST(Import, AnImportedMeshGoesOnFromItsNativeFile) {
+  std::mt19937_64 random(test::seed(3));
+  FrozenMesh mesh = test::foreign_airfoil();
+  test::flip_at_random(mesh, 30, random);
+  ImportResult result = imported(mesh, {.non_delaunay = NonDelaunay::keep});
+  Mesh restored = Mesh::restore(result.mesh.state(), "state");
+  EXPECT_EQ(restored.state(), result.mesh.state());
+  EXPECT_EQ(restored.freeze().triangles, mesh.triangles);
+  const AirfoilPlace place = find_airfoil(restored.domain(), "airfoil", "file.su2");
+  const Domain next = with_airfoil(restored.domain(), place, airfoil_catalogue()[5].airfoil());
+  remodel(result.mesh, next);
+  remodel(restored, next);
+  EXPECT_EQ(restored.state(), result.mesh.state());
+  EXPECT_EQ(restored.freeze().triangles, result.mesh.freeze().triangles);
+}
+
+TEST(Import, TheSharedMesh) {
+  REMODEL_SHARED_FILE(file, "meshes/mesh_NACA0012_inv.su2");
+  REMODEL_SHARED_FILE(shape, "airfoils/rae2822.dat");
+  const FrozenMesh mesh = read_frozen_mesh(file);
+  ImportResult result = import_mesh(mesh, file.string());
+  EXPECT_EQ(result.flipped_edges, 0U);
+  EXPECT_EQ(result.mesh.freeze().triangles, mesh.triangles);
+  const AirfoilPlace place = find_airfoil(result.mesh.domain(), "airfoil", file.string());
+  EXPECT_EQ(place.leading, (Point{0.0, 0.0}));
+  EXPECT_EQ(place.trailing, (Point{1.0, 0.0}));
+  EXPECT_EQ(place.parameters.size(), 200U);
+  const RemodelResult step =
+      remodel(result.mesh, with_airfoil(result.mesh.domain(), place, load_airfoil(shape.string(), 5)));
+  EXPECT_GT(step.preserved_percent(), 90.0);
+  const CheckResult checked =
+      check(result.mesh.freeze(),
+            {.min_angle_deg = result.min_angle_deg * (1.0 - 1e-9), .design = &result.mesh.domain()});
+  EXPECT_TRUE(checked.valid);
+}
+
+// ---- refusals
+
+TEST(Import, WhatIsNoMeshIsRefusedByName) {
+  std::mt19937_64 random(1);
+  const FrozenMesh good = test::grid(3, random);
+  const auto with = [&](auto change) {
+    FrozenMesh mesh = good;
+    change(mesh);
+    return problem(mesh);
+  };
+  EXPECT_EQ(with([](FrozenMesh& m) { m.triangles.clear(); }),
+            "file.su2: no triangle found, at least one expected");
+  EXPECT_EQ(with([](FrozenMesh& m) { m.triangles[4][1] = 16; }),
+            "file.su2: triangle 4: point 16 found, an index below 16 expected");
+  EXPECT_EQ(
+      with([](FrozenMesh& m) { m.points[5].x = NAN; }),
+      "file.su2: point 5: (nan, 1) found, coordinates that are 0 or of magnitude 1e-60 to 1e60 expected");
+  EXPECT_EQ(with([](FrozenMesh& m) { m.points[5] = m.points[9]; }),
+            "file.su2: points 5 and 9 coincide at (1, 2), different points expected");
+  EXPECT_EQ(with([](FrozenMesh& m) {
+              m.triangles[2] = {0, 1, 2};
+            }),
+            "file.su2: triangle 2 (points 0, 1, 2) has no area, one with an area expected");
+  EXPECT_EQ(with([](FrozenMesh& m) { m.triangles.push_back(m.triangles[3]); }).substr(0, 38),
+            "file.su2: triangles 3 and 18 overlap: ");
+  EXPECT_EQ(
+      with([](FrozenMesh& m) {
+        m.boundaries[1].edges.push_back({5, 6});
+      }),
+      "file.su2: marker 'south': the edge of points 5 and 6 has a triangle on both sides, an edge of the "
+      "boundary expected");
+  EXPECT_EQ(with([](FrozenMesh& m) {
+              m.boundaries[1].edges.push_back({0, 2});
+            }),
+            "file.su2: marker 'south': the edge of points 0 and 2 is no triangle's, an edge of the boundary "
+            "expected");
+  EXPECT_EQ(with([](FrozenMesh& m) { m.boundaries[1].edges.push_back(m.boundaries[0].edges[0]); }),
+            "file.su2: marker 'south': the edge of points 3 and 7 is in marker 'rest' too, one name an edge "
+            "expected");
+}
+
+// Two triangles that share a point only.
+TEST(Import, BoundariesThatTouchAreRefused) {
+  const FrozenMesh mesh{.points = {{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}},
+                        .triangles = {{0, 1, 2}, {0, 3, 4}},
+                        .boundaries = {},
+                        .length_scale = {},
+                        .vertex_ids = {},
+                        .triangle_ids = {},
+                        .birth = {},
+                        .curve = {},
+                        .parameter = {}};
+  EXPECT_EQ(problem(mesh), "file.su2: point 0: boundaries touch here, loops without a common point expected");
+}
+
+// Each triangle is fine, each edge has one on either side, and the plane is covered twice.
+TEST(Import, AMeshThatWindsOverItselfIsRefused) {
+  FrozenMesh mesh = test::foreign_holes();
+  const auto count = static_cast<std::uint32_t>(mesh.points.size());
+  for (std::uint32_t i = 0; i < count; ++i) mesh.points.push_back(mesh.points[i] + Point{0.37, 0.21});
+  const std::size_t triangles = mesh.triangles.size();
+  for (std::size_t i = 0; i < triangles; ++i) {
+    const auto [a, b, c] = mesh.triangles[i];
+    mesh.triangles.push_back({a + count, b + count, c + count});
+  }
+  EXPECT_EQ(problem(mesh).substr(0, 17), "file.su2: domain:") << problem(mesh);
+}
+
+// ---- anything at all
+
+void mutate(FrozenMesh& mesh, std::mt19937_64& random) {
+  const auto any = [&](std::size_t n) { return static_cast<std::uint32_t>(random() % n); };
+  const auto point = [&] { return any(mesh.points.size()); };
+  const auto triangle = [&]() -> auto& {
+    return mesh.triangles[any(mesh.triangles.size())];
+  };
+  auto& edges = mesh.boundaries[any(mesh.boundaries.size())].edges;
+  switch (random() % 12) {
+    case 0:
+      triangle()[any(3)] = point();
+      break;
+    case 1:
+      std::swap(triangle()[0], triangle()[1]);
+      break;
+    case 2:
+      mesh.triangles.erase(mesh.triangles.begin() + any(mesh.triangles.size()));
+      break;
+    case 3:
+      mesh.triangles.push_back(triangle());
+      break;
+    case 4:
+      mesh.points[point()] = mesh.points[point()];
+      break;
+    case 5:
+      mesh.points[point()].x += 1e-3 * (static_cast<double>(any(2001)) - 1000.0);
+      break;
+    case 6:
+      mesh.points[point()].y *= 1.0 + 1e-9 * static_cast<double>(any(2001));
+      break;
+    case 7:
+      mesh.points[point()].y = random() % 2 == 0 ? 1e300 : NAN;
+      break;
+    case 8:
+      if (!edges.empty()) edges.erase(edges.begin() + any(edges.size()));
+      break;
+    case 9:
+      edges.push_back({point(), point()});
+      break;
+    case 10:
+      std::swap(mesh.points[point()], mesh.points[point()]);
+      break;
+    default:
+      test::flip_at_random(mesh, 3, random);
+      break;
+  }
+}
+
+// What was imported can be remodelled.
+void remodel_to_any(Mesh& mesh, std::mt19937_64& random) {
+  const AirfoilPlace place = find_airfoil(mesh.domain(), "airfoil", "file.su2");
+  const CstAirfoil airfoil = airfoil_catalogue()[random() % airfoil_catalogue().size()].airfoil();
+  const RemodelResult step = remodel(mesh, with_airfoil(mesh.domain(), place, airfoil));
+  if (step.stopped == Stopped::done && !step.regenerated) {
+    ASSERT_EQ(mesh.quick_check(), "");
+  }
+}
+
+TEST(Import, AnythingIsImportedWholeOrRefusedInOneLine) {
+  const unsigned long long seed = test::seed(4);
+  SCOPED_TRACE(seed);
+  std::mt19937_64 random(seed);
+  const std::vector<FrozenMesh> originals{test::foreign_airfoil(16), test::foreign_holes(),
+                                          test::grid(6, random)};
+  std::size_t imports = 0, refusals = 0;
+  for (int round = 0; round < 3000; ++round) {
+    FrozenMesh mesh = originals[static_cast<std::size_t>(round) % originals.size()];
+    for (std::uint64_t i = random() % 3; i < 3; ++i) mutate(mesh, random);
+    try {
+      ImportResult result =
+          imported(mesh, {.non_delaunay = round % 2 == 0 ? NonDelaunay::keep : NonDelaunay::flip});
+      ++imports;
+      ASSERT_EQ(result.mesh.quick_check(), "") << round;
+      if (round % 3 == 0) remodel_to_any(result.mesh, random);
+      if (round % 10 != 0) continue;
+      const CheckResult checked =
+          check(result.mesh.freeze(), {.delaunay = false, .design = &result.mesh.domain()});
+      ASSERT_TRUE(checked.valid) << round << ' ' << checked.violations.front().detail;
+    } catch (const Error& error) {
+      ++refusals;
+      const std::string text = error.what();
+      const bool named = text.starts_with("file.su2: ") || text.starts_with("domain: ");
+      ASSERT_TRUE(named && text.find('\n') == std::string::npos) << text;
+    }
+  }
+  EXPECT_GT(imports, 300U);
+  EXPECT_GT(refusals, 300U);
+}
+
+}  // namespace
+}  // namespace remodel

@@ -1,0 +1,93 @@
+#include "import/loops.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "remodel/ids.h"
+
+namespace remodel {
+
+namespace {
+
+using Chain = std::vector<BoundaryEdge>;  // closed
+
+std::vector<Chain> chains_of(const SoundMesh& mesh) {
+  std::vector<std::uint32_t> leaving(mesh.points.size(), no_index);
+  for (std::uint32_t i = 0; i < mesh.boundary.size(); ++i) leaving[mesh.boundary[i].from] = i;
+  std::vector<Chain> chains;
+  for (const BoundaryEdge& first : mesh.boundary) {
+    if (leaving[first.from] == no_index) continue;
+    Chain& chain = chains.emplace_back();
+    for (std::uint32_t v = first.from; leaving[v] != no_index;) {
+      const std::uint32_t edge = std::exchange(leaving[v], no_index);
+      chain.push_back(mesh.boundary[edge]);
+      v = chain.back().to;
+    }
+  }
+  return chains;
+}
+
+std::ptrdiff_t first_named(const Chain& chain) {
+  return std::min_element(chain.begin(), chain.end(),
+                          [](const BoundaryEdge& a, const BoundaryEdge& b) { return a.place < b.place; }) -
+         chain.begin();
+}
+
+// Rotated to begin with the run that has the first named edge.
+void begin_with_first(Chain& chain) {
+  const auto n = static_cast<std::ptrdiff_t>(chain.size());
+  const std::ptrdiff_t named = first_named(chain);
+  std::ptrdiff_t begin = named;
+  const auto before = [&](std::ptrdiff_t i) { return (i + n - 1) % n; };
+  const auto marker = [&](std::ptrdiff_t i) { return chain[static_cast<std::size_t>(i)].marker; };
+  while (marker(before(begin)) == marker(named)) {
+    begin = before(begin);
+    if (begin == named) break;  // one name all around
+  }
+  std::rotate(chain.begin(), chain.begin() + begin, chain.end());
+}
+
+Curve curve_of(const SoundMesh& mesh, Chain::const_iterator begin, Chain::const_iterator end) {
+  Curve curve{.name = mesh.markers[begin->marker], .shape = {}, .parameters = {}};
+  Polyline line;
+  const auto pieces = static_cast<double>(end - begin);
+  for (auto edge = begin; edge != end; ++edge) {
+    line.points.push_back(mesh.points[edge->from]);
+    curve.parameters.push_back(static_cast<double>(edge - begin) / pieces);
+  }
+  line.points.push_back(mesh.points[(end - 1)->to]);
+  curve.shape = std::move(line);
+  return curve;
+}
+
+Loop loop_of(const SoundMesh& mesh, const Chain& chain) {
+  Loop loop;
+  for (auto begin = chain.begin(), end = begin; begin != chain.end(); begin = end) {
+    while (end != chain.end() && end->marker == begin->marker) ++end;
+    loop.curves.push_back(curve_of(mesh, begin, end));
+  }
+  return loop;
+}
+
+}  // namespace
+
+LoopsOfMesh loops_of(const SoundMesh& mesh) {
+  std::vector<Chain> chains = chains_of(mesh);
+  for (Chain& chain : chains) begin_with_first(chain);
+  std::sort(chains.begin(), chains.end(), [](const Chain& a, const Chain& b) {
+    return a[static_cast<std::size_t>(first_named(a))].place <
+           b[static_cast<std::size_t>(first_named(b))].place;
+  });
+  LoopsOfMesh result;
+  for (const Chain& chain : chains) {
+    result.domain.loops.push_back(loop_of(mesh, chain));
+    auto& points = result.points.emplace_back();
+    for (const BoundaryEdge& edge : chain) points.push_back(edge.from);
+  }
+  // With the domain on the left, outlines run counter-clockwise and holes clockwise.
+  for (std::size_t i = 0; i < result.domain.loops.size(); ++i)
+    result.domain.loops[i].role = signed_area(result.domain, i) > 0.0 ? LoopRole::outer : LoopRole::hole;
+  return result;
+}
+
+}  // namespace remodel

@@ -1,0 +1,43 @@
+#pragma once
+
+// A foreign mesh, judged and mended: what can be said of it before there is a domain.
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "remodel/frozen_mesh.h"
+
+namespace remodel {
+
+// An edge of one triangle only, the domain on its left.
+struct BoundaryEdge {
+  std::uint32_t from = 0, to = 0;
+  std::uint32_t marker = 0;
+  std::uint32_t place = 0;  // among all named edges, in the order of the file
+};
+
+// Counter-clockwise triangles, every edge in one of them or, in opposite directions, in two; no two points
+// coincide; at every point of the boundary one boundary edge ends and one begins. Points keep their order.
+struct SoundMesh {
+  std::vector<Point> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::string> markers;
+  std::vector<BoundaryEdge> boundary;  // in the order of their first points
+  std::size_t turned = 0, unused = 0, unnamed = 0;
+};
+
+// Throws Error (geometry) as import_mesh() does.
+SoundMesh make_sound(const FrozenMesh& mesh, const std::string& source, const std::string& unnamed);
+
+// A directed edge and the triangle on its left.
+struct DirectedEdge {
+  std::uint32_t from = 0, to = 0, triangle = 0;
+};
+// All edges of the triangles, sorted by both ends.
+std::vector<DirectedEdge> directed_edges(const std::vector<std::array<std::uint32_t, 3>>& triangles);
+// The one from -> to, or null.
+const DirectedEdge* find_edge(const std::vector<DirectedEdge>& edges, std::uint32_t from, std::uint32_t to);
+
+}  // namespace remodel
