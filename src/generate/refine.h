@@ -10,14 +10,13 @@
 //  - A triangle of the domain is *bad* if r / e_min > B or r / mean LS > H; the larger of the two ratios over
 //    their bounds is its badness.
 //
-// Order: encroached segments first; then the worst triangle, by classes of badness (four an octave of its
-// square), first in first out within a class.
+// Order: encroached segments first; then bad triangles by classes of badness (see mesh/bad_triangles.h).
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <vector>
 
-#include "generate/bad_queue.h"
 #include "generate/small_angles.h"
 #include "mesh/mesh_data.h"
 
@@ -27,7 +26,10 @@ class Refiner {
  public:
   // Precondition: regions are labelled, length scales set, the triangulation is constrained Delaunay.
   explicit Refiner(MeshData& mesh, StepObserver* observer = nullptr);
-  ~Refiner() { queue_.clear(triangulation_); }  // a limit or an exception leaves no marks behind
+  // A limit or an exception leaves no marks behind.
+  ~Refiner() {
+    while (next_bad()) continue;
+  }
   Refiner(const Refiner&) = delete;
   Refiner& operator=(const Refiner&) = delete;
 
@@ -51,7 +53,13 @@ class Refiner {
     std::uint32_t from, to;
   };
 
+  // Marks a triangle, given the largest squared radius with which it is good.
+  void mark(TriangleId t, double bound);
+  // The next triangle to refine, no longer marked; none if none is left.
+  TriangleId next_bad();
+  TriangleId next_candidate();
   void refine(TriangleId t);
+  void judge_star(VertexId v);
   bool split_blocking_segments(Point p);
   void queue_segment(VertexId a, VertexId b);
   void split(Segment segment, int depth);
@@ -66,10 +74,16 @@ class Refiner {
   MeshData& mesh_;
   Triangulation& triangulation_;
   QualityBounds bounds_;
+  double inverse_gradation_;
   SmallAngles small_angles_;
-  BadQueue queue_;
+  // Candidates on their way from memory: a pass jumps about in a large mesh, so what it will need is fetched
+  // a few triangles ahead.
+  static constexpr std::size_t look_ahead = 8;
+  std::array<TriangleId, look_ahead> ahead_;
+  std::size_t turn_ = 0;
   std::deque<Segment> segments_;
   Cavity cavity_;
+  Buffer<double> scales_;  // of the ring
   double squared_min_edge_ = 0.0;
   std::size_t vertex_limit_;
   StepObserver* observer_;

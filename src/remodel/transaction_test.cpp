@@ -24,7 +24,7 @@ using test::catalogue_domain;
 using test::fails_for_good;
 
 // The circles are no part of the state, since they follow from it: where they did not, quick_check() may not
-// see it.
+// see it. In holes they are not kept up by full adjustments.
 void expect_same(const Mesh& mesh, const MeshState& before, const std::string& where) {
   ASSERT_TRUE(mesh.state() == before) << where;
   ASSERT_EQ(mesh.quick_check(), "") << where;
@@ -35,7 +35,9 @@ void expect_same(const Mesh& mesh, const MeshState& before, const std::string& w
     const Triangle& t = now[TriangleId{i}];
     if (!t.alive()) continue;
     const Circle circle = restored.data().triangulation[TriangleId{i}].circle;
-    ASSERT_EQ(t.circle.inside, circle.inside) << where << ", triangle " << i;
+    if (t.region == Region::domain) {
+      ASSERT_EQ(t.circle.inside, circle.inside) << where << ", triangle " << i;
+    }
     ASSERT_EQ(t.badness, 0) << where << ", triangle " << i;
   }
 }
