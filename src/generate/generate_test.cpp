@@ -6,9 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "generate/bad_queue.h"
-#include "mesh/small_angles.h"
 #include "mesh/mesh_data.h"
+#include "mesh/small_angles.h"
 #include "remodel/check.h"
 #include "remodel/error.h"
 #include "remodel/test_designs.h"
@@ -312,37 +311,6 @@ TEST(SmallAngles, ShellsArePowersOfTwoBetweenAThirdAndTwoThirds) {
     EXPECT_LE(shell, length * 0.667);
     const double exponent = std::log2(shell);
     EXPECT_NEAR(exponent, std::round(exponent), 1e-9);
-  }
-}
-
-TEST(BadQueue, GivesTheWorstClassFirstAndSkipsWhatChanged) {
-  Triangulation t;
-  t.start({0, 0}, {1, 0}, {0, 1});
-  BadQueue queue;
-  queue.push(t, TriangleId{0}, 1.1);
-  queue.push(t, TriangleId{1}, 9.0);
-  queue.push(t, TriangleId{2}, 9.1);
-  queue.push(t, TriangleId{3}, 2.0);
-  queue.push(t, TriangleId{0}, 100.0);  // worse now
-  t.set_badness(TriangleId{3}, 0);      // good now
-  EXPECT_EQ(queue.pop(t), TriangleId{0});
-  EXPECT_EQ(queue.pop(t), TriangleId{1});
-  EXPECT_EQ(queue.pop(t), TriangleId{2});
-  EXPECT_EQ(queue.pop(t), TriangleId{});
-  queue.push(t, TriangleId{1}, 1e300);
-  queue.clear(t);
-  EXPECT_EQ(t[TriangleId{1}].badness, 0);
-  EXPECT_EQ(queue.pop(t), TriangleId{});
-}
-
-TEST(BadQueue, ClassesGrowWithBadness) {
-  EXPECT_EQ(BadQueue::class_of(std::nextafter(1.0, 2.0)), 1);
-  EXPECT_EQ(BadQueue::class_of(1e300), BadQueue::classes);
-  EXPECT_EQ(BadQueue::class_of(INFINITY), BadQueue::classes);
-  int before = 0;
-  for (double bad = 1.0001; bad < 1e6; bad *= 1.05) {
-    EXPECT_GE(BadQueue::class_of(bad), before);
-    before = BadQueue::class_of(bad);
   }
 }
 

@@ -33,6 +33,7 @@ Refiner::Refiner(MeshData& mesh, StepObserver* observer)
     : mesh_(mesh),
       triangulation_(mesh.triangulation),
       bounds_(QualityBounds::of_refinement(mesh.options)),
+      inverse_gradation_(1.0 / mesh.options.gradation),
       small_angles_(mesh),
       vertex_limit_(mesh.options.max_vertices),
       observer_(observer) {
@@ -54,8 +55,43 @@ void Refiner::consider(TriangleId t) {
                    triangulation_.point(b)))
       queue_segment(a, b);
   }
-  const double bad = badness(triangulation_, triangle, bounds_);
-  if (bad > 1.0) queue_.push(triangulation_, t, bad);
+  const Vertex &a = triangulation_[triangle.vertex[0]], &b = triangulation_[triangle.vertex[1]],
+               &c = triangulation_[triangle.vertex[2]];
+  const double shortest = std::min({squared_distance(a.point, b.point), squared_distance(b.point, c.point),
+                                    squared_distance(c.point, a.point)});
+  mark(t, largest_squared_radius(shortest, a.length_scale + b.length_scale + c.length_scale, bounds_));
+}
+
+void Refiner::mark(TriangleId t, double bound) {
+  const std::uint8_t c = BadTriangles::class_of(triangulation_[t].circle.squared_radius(), bound);
+  mesh_.bad_triangles.set(t, c);  // first: it may throw
+  triangulation_.set_badness(t, c);
+}
+
+TriangleId Refiner::next_bad() {
+  for (;;) {
+    const TriangleId t = next_candidate();
+    // A candidate's slot may have been written anew while it waited. Its record says whether it is still bad.
+    if (t && triangulation_[t].badness == 0) continue;
+    if (t) triangulation_.set_badness(t, 0);
+    return t;
+  }
+}
+
+// A small mesh lies in the caches: there the order is strict.
+TriangleId Refiner::next_candidate() {
+  if (triangulation_.triangle_slots() < 8192) return mesh_.bad_triangles.take();
+  for (std::size_t idle = 0; idle < look_ahead;) {
+    const TriangleId t = ahead_[turn_], fetched = mesh_.bad_triangles.take();
+    ahead_[turn_] = fetched;
+    if (fetched) triangulation_.prefetch(fetched);
+    idle = fetched ? 0 : idle + 1;
+    const TriangleId soon = ahead_[(turn_ + look_ahead / 2) % look_ahead];
+    if (soon && triangulation_[soon].badness != 0) triangulation_.prefetch_around(soon);
+    turn_ = (turn_ + 1) % look_ahead;
+    if (t) return t;
+  }
+  return {};
 }
 
 void Refiner::queue_segment(VertexId a, VertexId b) {
@@ -83,7 +119,7 @@ Stopped Refiner::run() {
       split(segment, 0);
       continue;
     }
-    const TriangleId t = queue_.pop(triangulation_);
+    const TriangleId t = next_bad();
     if (!t) break;
     refine(t);
   }
@@ -103,22 +139,32 @@ void Refiner::refine(TriangleId t) {
     return;
   }
   const VertexId v = triangulation_.fill_cavity(p, cavity_);
+  judge_star(v);
+}
+
+// The length scale of a new vertex, from its ring, and the badness of the triangles at it.
+void Refiner::judge_star(VertexId v) {
+  const std::span<const Spoke> spokes = triangulation_.spokes();
+  scales_.clear();
   double scale = std::numeric_limits<double>::infinity();
-  for (const RingEdge& edge : cavity_.ring) {
-    const Vertex& u = triangulation_[edge.from];
-    scale =
-        std::min(scale, u.length_scale + std::sqrt(squared_distance(u.point, p)) / mesh_.options.gradation);
+  for (std::size_t k = 0; k < spokes.size(); ++k) {
+    scales_.push_back(triangulation_[cavity_.ring[k].from].length_scale);
+    scale = std::min(scale, scales_[k] + std::sqrt(spokes[k].squared_length) * inverse_gradation_);
   }
   triangulation_.set_length_scale(v, scale);
-  for (const TriangleId created : triangulation_.new_star()) {
-    const double bad = badness(triangulation_, triangulation_[created], bounds_);
-    if (bad > 1.0) queue_.push(triangulation_, created, bad);
+  const std::span<const TriangleId> star = triangulation_.new_star();
+  for (std::size_t k = 0; k < spokes.size(); ++k) {
+    const std::size_t next = k + 1 == spokes.size() ? 0 : k + 1;
+    const double shortest = std::min({spokes[k].squared_length, spokes[next].squared_length,
+                                      squared_distance(spokes[k].edge, spokes[next].edge)});
+    mark(star[k], largest_squared_radius(shortest, scale + (scales_[k] + scales_[next]), bounds_));
   }
 }
 
 // Queues what p encroaches on, or failing that what lies between p and the cavity. True if p must not be
 // inserted.
 bool Refiner::split_blocking_segments(Point p) {
+  if (!cavity_.constrained) return false;
   bool blocked = false;
   for (const bool beyond : {false, true}) {
     for (std::size_t k = 0; k < cavity_.ring.size(); ++k) {
@@ -185,14 +231,19 @@ std::uint32_t Refiner::add_split(Segment segment, VertexId v, double t) {
       {.vertex = v, .curve = mesh_.at(segment.from).curve, .t = t, .steiner = true}, segment.from);
 }
 
+// By length between the ends a and b of the segment that v splits.
+double Refiner::interpolated_scale(VertexId v, VertexId a, VertexId b) const {
+  const Point p = triangulation_.point(v);
+  const double to_a = std::sqrt(squared_distance(triangulation_.point(a), p));
+  const double to_b = std::sqrt(squared_distance(triangulation_.point(b), p));
+  return (triangulation_[a].length_scale * to_b + triangulation_[b].length_scale * to_a) / (to_a + to_b);
+}
+
 // The interpolation between the ends a and b, and no more than what propagates from its neighbours.
 void Refiner::set_split_length_scale(std::uint32_t k, VertexId a, VertexId b) {
   const VertexId v = mesh_.at(k).vertex;
   const Point p = triangulation_.point(v);
-  const double to_a = std::sqrt(squared_distance(triangulation_.point(a), p));
-  const double to_b = std::sqrt(squared_distance(triangulation_.point(b), p));
-  double scale =
-      (triangulation_[a].length_scale * to_b + triangulation_[b].length_scale * to_a) / (to_a + to_b);
+  double scale = interpolated_scale(v, a, b);
   const Corner first = triangulation_.star(v);
   Corner c = first;
   do {
@@ -242,6 +293,7 @@ std::uint32_t Refiner::split_far(Segment segment, Point p, double t, int depth) 
   const VertexId a = mesh_.at(segment.from).vertex, b = mesh_.at(segment.to).vertex;
   triangulation_.release(a, b);
   const VertexId v = insert_free(p, a);
+  triangulation_.set_length_scale(v, interpolated_scale(v, a, b));  // splits that recovery asks for look at it
   const std::uint32_t k = add_split(segment, v, t);
   recover(a, v, depth);
   recover(v, b, depth);

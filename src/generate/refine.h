@@ -10,16 +10,15 @@
 //  - A triangle of the domain is *bad* if r / e_min > B or r / mean LS > H; the larger of the two ratios over
 //    their bounds is its badness.
 //
-// Order: encroached segments first; then the worst triangle, by classes of badness (four an octave of its
-// square), first in first out within a class.
+// Order: encroached segments first; then bad triangles by classes of badness (see mesh/bad_triangles.h).
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <set>
 #include <utility>
 #include <vector>
 
-#include "generate/bad_queue.h"
 #include "mesh/mesh_data.h"
 #include "mesh/small_angles.h"
 
@@ -29,7 +28,10 @@ class Refiner {
  public:
   // Precondition: regions are labelled, length scales set, the triangulation is constrained Delaunay.
   explicit Refiner(MeshData& mesh, StepObserver* observer = nullptr);
-  ~Refiner() { queue_.clear(triangulation_); }  // a limit or an exception leaves no marks behind
+  // A limit or an exception leaves no marks behind.
+  ~Refiner() {
+    while (next_bad()) continue;
+  }
   Refiner(const Refiner&) = delete;
   Refiner& operator=(const Refiner&) = delete;
 
@@ -53,7 +55,13 @@ class Refiner {
     std::uint32_t from, to;
   };
 
+  // Marks a triangle, given the largest squared radius with which it is good.
+  void mark(TriangleId t, double bound);
+  // The next triangle to refine, no longer marked; none if none is left.
+  TriangleId next_bad();
+  TriangleId next_candidate();
   void refine(TriangleId t);
+  void judge_star(VertexId v);
   bool split_blocking_segments(Point p);
   void queue_segment(VertexId a, VertexId b);
   void refuse(Segment segment);
@@ -64,6 +72,7 @@ class Refiner {
   void split(Segment segment, int depth);
   double split_parameter(Segment segment) const;
   std::uint32_t add_split(Segment segment, VertexId v, double t);
+  double interpolated_scale(VertexId v, VertexId a, VertexId b) const;
   void set_split_length_scale(std::uint32_t k, VertexId a, VertexId b);
   // These return the new entry of the boundary table.
   std::uint32_t split_far(Segment segment, Point p, double t, int depth);
@@ -78,11 +87,17 @@ class Refiner {
   MeshData& mesh_;
   Triangulation& triangulation_;
   QualityBounds bounds_;
+  double inverse_gradation_;
   SmallAngles small_angles_;
-  BadQueue queue_;
+  // Candidates on their way from memory: a pass jumps about in a large mesh, so what it will need is fetched
+  // a few triangles ahead.
+  static constexpr std::size_t look_ahead = 8;
+  std::array<TriangleId, look_ahead> ahead_;
+  std::size_t turn_ = 0;
   std::deque<Segment> segments_;
   std::set<std::pair<VertexId, VertexId>> refused_segments_;
   Cavity cavity_;
+  Buffer<double> scales_;  // of the ring
   double squared_min_edge_ = 0.0;
   std::size_t vertex_limit_;
   StepObserver* observer_;

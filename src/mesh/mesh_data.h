@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "mesh/bad_triangles.h"
 #include "remodel/domain.h"
 #include "remodel/mesh.h"
 #include "triangulation/triangulation.h"
@@ -86,6 +87,7 @@ class MeshData {
   Marks marks;
   Marks vertex_marks;
   std::vector<std::uint32_t> numbers;
+  BadTriangles bad_triangles;  // none when no refinement is under way
 
   MeshData() = default;
   MeshData(const MeshData& other);  // under a journal: a copy as if it were committed
@@ -175,14 +177,20 @@ class MeshData {
 // the domain on its side.
 std::string check_boundary(const MeshData& mesh);
 
+// The largest squared radius that both bounds allow a triangle with this shortest edge (squared) and this sum
+// of length scales.
+inline double largest_squared_radius(double shortest, double scales, const QualityBounds& bounds) {
+  const double mean = scales * (1.0 / 3.0);
+  return std::min(bounds.squared_radius_edge * shortest, bounds.squared_gradation * (mean * mean));
+}
+
 // Whether a triangle keeps both bounds; the same as badness <= 1 up to the last rounding, without a division.
 inline bool is_good(const Vertex& a, const Vertex& b, const Vertex& c, double squared_radius,
                     const QualityBounds& bounds) {
   const double shortest = std::min({squared_distance(a.point, b.point), squared_distance(b.point, c.point),
                                     squared_distance(c.point, a.point)});
-  const double mean = (a.length_scale + b.length_scale + c.length_scale) * (1.0 / 3.0);
-  return squared_radius <= bounds.squared_radius_edge * shortest &&
-         squared_radius <= bounds.squared_gradation * (mean * mean);
+  return squared_radius <=
+         largest_squared_radius(shortest, a.length_scale + b.length_scale + c.length_scale, bounds);
 }
 
 // The largest of the two squared ratios over their squared bounds: above 1 the triangle is bad.

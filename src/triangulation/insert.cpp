@@ -16,28 +16,32 @@
 
 namespace remodel {
 
-// Depth first, the edges of each triangle in counter-clockwise order: the ring comes out in order.
+// Depth first, the edges of each triangle in counter-clockwise order: the ring comes out in order. An edge is
+// kept as its link and the vertex where it begins, both as seen from the inside. Behind it lie, in order, the
+// neighbour's edge that begins at the same vertex and the one that begins at the neighbour's apex.
 void Triangulation::find_cavity(Point p, TriangleId start, Cavity& cavity) const {
   cavity.triangles.clear();
   cavity.ring.clear();
+  cavity.constrained = false;
   cavity.triangles.push_back(start);
-  std::vector<Link>& todo = cavity.todo;  // edges to be crossed, each as its triangle and opposite corner
+  Buffer<RingEdge>& todo = cavity.todo;
   todo.clear();
-  for (int i = 2; i >= 0; --i) todo.emplace_back(start, i);
+  const Triangle& first = triangles_[start.index];
+  for (int i = 2; i >= 0; --i) todo.push_back({first.vertex[next3(i)], first.link[i]});
   while (!todo.empty()) {
-    const Link edge = todo.back();
+    auto [from, link] = todo.back();
     todo.pop_back();
-    const Triangle& inner = triangles_[edge.triangle().index];
-    const Link link = inner.link[edge.corner()];
-    if (link.constrained() || !in_conflict(link.triangle(), p)) {
-      cavity.ring.push_back({inner.vertex[next3(edge.corner())], link});
-      prefetch(inner.vertex[next3(edge.corner())]);
-      continue;
+    while (!link.constrained() && in_conflict(link.triangle(), p)) {
+      const Triangle& triangle = triangles_[link.triangle().index];
+      const int apex = link.corner();
+      cavity.triangles.push_back(link.triangle());
+      todo.push_back({triangle.vertex[apex], triangle.link[previous3(apex)]});
+      prefetch(triangle.link[previous3(apex)].triangle());
+      link = triangle.link[next3(apex)];
     }
-    cavity.triangles.push_back(link.triangle());
-    prefetch(triangles_[link.triangle().index].link[previous3(link.corner())].triangle());
-    todo.emplace_back(link.triangle(), previous3(link.corner()));
-    todo.emplace_back(link.triangle(), next3(link.corner()));
+    cavity.ring.push_back({from, link});
+    cavity.constrained |= link.constrained();
+    prefetch(from);
   }
 }
 
@@ -46,16 +50,18 @@ void Triangulation::find_cavity(Point p, TriangleId start, Cavity& cavity) const
 VertexId Triangulation::fill_cavity(Point p, const Cavity& cavity) {
   const std::size_t n = cavity.ring.size();
   const Region region = triangles_[cavity.triangles.front().index].region;
-  new_star_.assign(cavity.triangles.begin(), cavity.triangles.end());
+  new_star_.clear();
+  for (const TriangleId t : cavity.triangles) new_star_.push_back(t);
   while (new_star_.size() < n) new_star_.push_back(new_triangle());
   assert(new_star_.size() == n);
   const VertexId v = new_vertex(p);
-  spokes_.resize(n);
-  for (std::size_t k = 0; k < n; ++k) {
-    const Point e = point(cavity.ring[k].from) - p;
-    spokes_[k] = {e, dot(e, e)};
+  spokes_.clear();
+  for (const RingEdge& edge : cavity.ring) {
+    const Point e = point(edge.from) - p;
+    spokes_.push_back({e, dot(e, e)});
   }
-  for (std::size_t k = 0; k < n; ++k) {
+  std::size_t before = n - 1;
+  for (std::size_t k = 0; k < n; before = k++) {
     const std::size_t next = k + 1 == n ? 0 : k + 1;
     const TriangleId t = new_star_[k];
     const RingEdge& edge = cavity.ring[k];
@@ -65,11 +71,11 @@ VertexId Triangulation::fill_cavity(Point p, const Cavity& cavity) {
     triangle.vertex[2] = cavity.ring[next].from;
     triangle.link[0] = edge.outer;
     triangle.link[1] = Link(new_star_[next], 2);
-    triangle.link[2] = Link(new_star_[k == 0 ? n - 1 : k - 1], 1);
-    triangle.circle = edge.from == infinite_vertex || cavity.ring[next].from == infinite_vertex
-                          ? Circle{}
-                          : certified_circle(p, spokes_[k].edge, spokes_[next].edge,
-                                             spokes_[k].squared_length, spokes_[next].squared_length);
+    triangle.link[2] = Link(new_star_[before], 1);
+    const Spoke &first = spokes_[k], &second = spokes_[next];
+    triangle.circle =
+        certified_circle(p, first.edge, second.edge, first.squared_length, second.squared_length);
+    if (edge.from == infinite_vertex || triangle.vertex[2] == infinite_vertex) triangle.circle = {};
     triangle.birth = step_;
     triangle.region = region;
     triangle.badness = 0;
@@ -102,7 +108,7 @@ void append_side(const Cavity& side, Link edge, Cavity& whole) {
   while (side.ring[gap].outer != edge) ++gap;
   for (std::size_t k = 1; k < side.ring.size(); ++k)
     whole.ring.push_back(side.ring[(gap + k) % side.ring.size()]);
-  whole.triangles.insert(whole.triangles.end(), side.triangles.begin(), side.triangles.end());
+  for (const TriangleId t : side.triangles) whole.triangles.push_back(t);
 }
 
 }  // namespace

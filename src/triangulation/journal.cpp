@@ -62,9 +62,9 @@ void Triangulation::rollback() {
   for (auto entry = vertex_journal_.rbegin(); entry != vertex_journal_.rend(); ++entry)
     vertices_[entry->id.index] = entry->vertex;
   for (const std::uint32_t index : generation_journal_) --generations_[index];
-  vertices_.resize(vertex_slots_before_);
-  generations_.resize(vertex_slots_before_);
-  triangles_.resize(triangle_slots_before_);
+  vertices_.truncate(vertex_slots_before_);
+  generations_.truncate(vertex_slots_before_);
+  triangles_.truncate(triangle_slots_before_);
   for (FreeList* list : {&free_vertices_, &free_triangles_}) {
     list->count = list->slots.size();
     list->pending.clear();

@@ -5,7 +5,10 @@
 namespace remodel {
 
 TriangulationState TriangulationState::of(const Triangulation& t) {
-  TriangulationState state{t.vertices_, t.generations_, t.triangles_, t.free_vertices_.slots,
+  TriangulationState state{{t.vertices_.begin(), t.vertices_.end()},
+                           {t.generations_.begin(), t.generations_.end()},
+                           {t.triangles_.begin(), t.triangles_.end()},
+                           t.free_vertices_.slots,
                            t.free_triangles_.slots};
   const auto as_committed = [](const Triangulation::FreeList& list, std::vector<std::uint32_t>& slots) {
     slots.resize(list.count);
@@ -57,9 +60,9 @@ std::string TriangulationState::check_ranges() const {
 std::string TriangulationState::restore(Triangulation& result) const {
   if (std::string broken = check_ranges(); !broken.empty()) return broken;
   Triangulation t;
-  t.vertices_ = vertices;
-  t.generations_ = generations;
-  t.triangles_ = triangles;
+  t.vertices_ = SlotArray<Vertex>(vertices);
+  t.generations_ = SlotArray<std::uint32_t>(generations);
+  t.triangles_ = SlotArray<Triangle>(triangles);
   t.free_vertices_ = {free_vertices, free_vertices.size(), {}};
   t.free_triangles_ = {free_triangles, free_triangles.size(), {}};
   for (std::size_t i = 1; i < vertices.size(); ++i) t.live_vertices_ += vertices[i].alive() ? 1 : 0;

@@ -4,10 +4,10 @@
 // its vertices, its neighbours and a certified circle, so that most conflict tests touch nothing else.
 
 #include <cstdint>
-#include <limits>
 
 #include "remodel/ids.h"
 #include "remodel/point.h"
+#include "triangulation/circle.h"
 
 namespace remodel {
 
@@ -50,20 +50,6 @@ struct Link {
 // Labels of the two sides of a boundary. Void is the inside of a hole or the outside of everything:
 // triangulated too, but no part of the domain.
 enum class Region : std::uint8_t { outside = 0, domain = 1, unknown = 255 };
-
-// A circumcircle in floating point that says what it is sure of. Made by certified_circle().
-struct Circle {
-  Point centre;          // rounded
-  double inside = -1.0;  // a squared distance from centre below this is certainly inside the true circle
-  double outside = std::numeric_limits<double>::infinity();  // above this certainly outside
-
-  // Infinite where nothing is certain: slivers, ghosts.
-  double squared_radius() const { return 0.5 * (inside + outside); }
-  bool certain() const { return inside > 0.0; }  // then its triangle is certainly counter-clockwise too
-};
-Circle certified_circle(Point a, Point b, Point c);
-// The same from a, the edges e1 = b - a and e2 = c - a as rounded, and their squared lengths.
-Circle certified_circle(Point a, Point e1, Point e2, double l1, double l2);
 
 struct alignas(64) Triangle {
   VertexId

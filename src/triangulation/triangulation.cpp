@@ -15,7 +15,7 @@ namespace remodel {
 
 TriangleId Triangulation::new_triangle() {
   if (free_triangles_.count > 0) return TriangleId{free_triangles_.slots[--free_triangles_.count]};
-  triangles_.emplace_back();
+  triangles_.push_back({});
   return TriangleId{static_cast<std::uint32_t>(triangles_.size() - 1)};
 }
 
@@ -39,7 +39,7 @@ VertexId Triangulation::new_vertex(Point p) {
     v = VertexId{free_vertices_.slots[--free_vertices_.count]};
   } else {
     v = VertexId{static_cast<std::uint32_t>(vertices_.size())};
-    vertices_.emplace_back();
+    vertices_.push_back({});
     generations_.push_back(0);
   }
   Vertex& vertex = edit(v);
@@ -65,9 +65,15 @@ void Triangulation::free_vertex(VertexId v) {
   ++free_vertices_.count;
 }
 
+void Triangulation::reserve(std::size_t triangles) {
+  triangles_.reserve(triangles);
+  vertices_.reserve(triangles / 2);
+  generations_.reserve(triangles / 2);
+}
+
 void Triangulation::start(Point a, Point b, Point c) {
   assert(vertices_.empty());
-  vertices_.emplace_back();  // the infinite vertex
+  vertices_.push_back({});  // the infinite vertex
   generations_.push_back(0);
   if (orient2d(a, b, c) < 0) std::swap(b, c);
   const VertexId va = new_vertex(a), vb = new_vertex(b), vc = new_vertex(c);
@@ -119,11 +125,6 @@ void Triangulation::connect(Corner a, Corner b, bool constrained) {
   edit(b.triangle).link[b.index] = Link(a.triangle, a.index, constrained);
 }
 
-void Triangulation::set_star(VertexId v, TriangleId t, int corner) {
-  const Link star(t, corner);
-  if (vertices_[v.index].star != star) edit(v).star = star;
-}
-
 void Triangulation::set_constraint(Corner c, bool constrained) {
   const Link link = triangles_[c.triangle.index].link[c.index];
   connect(c, {link.triangle(), link.corner()}, constrained);
@@ -143,40 +144,7 @@ void Triangulation::write(TriangleId t, VertexId a, VertexId b, VertexId c, Regi
   set_star(c, t, 2);
 }
 
-// ---- circles
-//
-// The circle is relative to corner a: with e1 = b - a, e2 = c - a, D = e1 x e2, s = |D| / (|e1||e2|) the sine
-// at a, the centre is a + u, u = perp(e2 |e1|^2 - e1 |e2|^2) / 2D. With eps = 2^-53 and rounded operations:
-//   numerator of u: |error| <= 8 eps |e1||e2|(|e1|+|e2|); D: |error| <= 4 eps |e1||e2|, relative 4 eps / s;
-//   so |u - computed u| <= eps (|e1|+|e2|) 10 / s^2 <= 40 eps r / s^2       (|e1|, |e2| <= 2r; s >= 2^-20
-//   below) and rounding the centre itself adds eps (|cx|+|cy|) (1 + eps).
-// Let delta be their sum: the true centre is within delta of the stored one, and the true radius within delta
-// of |u|. A point is certainly inside if its distance from the stored centre is below |u| - 2 delta,
-// certainly outside above |u| + 2 delta. Squared: r^2 -+ 4 r delta, with 16 eps r^2 for the rounding of the
-// squares here and in the query. tolerance below is that sum with each constant rounded up by a quarter or
-// more.
-Circle certified_circle(Point a, Point b, Point c) {
-  const Point e1 = b - a, e2 = c - a;
-  return certified_circle(a, e1, e2, dot(e1, e1), dot(e2, e2));
-}
-
-Circle certified_circle(Point a, Point e1, Point e2, double l1, double l2) {
-  Circle circle;
-  const double d = cross(e1, e2);
-  const double half_inverse = 0.5 / d;
-  const Point u{(e2.y * l1 - e1.y * l2) * half_inverse, (e1.x * l2 - e2.x * l1) * half_inverse};
-  circle.centre = a + u;
-  const double r2 = dot(u, u);
-  const double inverse_s2 = 4.0 * l1 * l2 * half_inverse * half_inverse;
-  constexpr double eps = 0x1p-53;
-  const double tolerance =
-      eps * ((200.0 * inverse_s2 + 32.0) * r2 +
-             6.0 * std::sqrt(r2) * (std::abs(circle.centre.x) + std::abs(circle.centre.y)));
-  if (!(d > 0.0) || !(inverse_s2 < 0x1p40) || !(tolerance < 0.25 * r2)) return circle;
-  circle.inside = r2 - tolerance;
-  circle.outside = r2 + tolerance;
-  return circle;
-}
+// ---- circles and conflicts
 
 void Triangulation::compute_circle(Triangle& triangle) const {
   triangle.circle = triangle.ghost() ? Circle{}

@@ -21,21 +21,11 @@
 #include <string>
 #include <vector>
 
+#include "triangulation/cavity.h"
+#include "triangulation/slot_array.h"
 #include "triangulation/triangle.h"
 
 namespace remodel {
-
-// The triangles that a new point destroys (those whose circumcircle holds it, not crossing constraints) and
-// their boundary in counter-clockwise order.
-struct RingEdge {
-  VertexId from;  // the edge runs to the next ring edge's from
-  Link outer;     // the triangle beyond, and whether the edge is constrained
-};
-struct Cavity {
-  std::vector<TriangleId> triangles;
-  std::vector<RingEdge> ring;
-  std::vector<Link> todo;  // scratch of the search
-};
 
 struct Location {
   enum class Kind { inside, on_edge, on_vertex, outside } kind = Kind::inside;
@@ -103,15 +93,20 @@ class Triangulation {
 
   // ---- changing. Each function invalidates the triangles it names, and no vertex but the removed one.
 
+  // Room for about this many triangles and half as many vertices, so that they need not be moved on the way
+  // there.
+  void reserve(std::size_t triangles);
   // The first triangle. Precondition: no vertices yet, a, b, c not collinear.
   void start(Point a, Point b, Point c);
 
   // Collects the cavity of p from a triangle in conflict with it. Read only.
   void find_cavity(Point p, TriangleId start, Cavity& cavity) const;
   // Replaces the cavity by the star of a new vertex at p. Precondition: every ring edge is seen from p,
-  // strictly from its left. Invalidates the cavity's triangles; new_star() lists the new ones.
+  // strictly from its left. Invalidates the cavity's triangles; new_star() lists the new ones in the order of
+  // the ring, spokes() the edges from p to the ring's vertices.
   VertexId fill_cavity(Point p, const Cavity& cavity);
-  std::span<const TriangleId> new_star() const { return new_star_; }
+  std::span<const TriangleId> new_star() const { return {new_star_.begin(), new_star_.size()}; }
+  std::span<const Spoke> spokes() const { return {spokes_.begin(), spokes_.size()}; }
 
   // Replaces a constrained edge a-b, given by a corner opposite it, by a-p and p-b, both constrained; the
   // regions on both sides stay on their sides. p need not lie on the edge (boundaries are curved), but it
@@ -186,7 +181,10 @@ class Triangulation {
   }
   void remember(TriangleId t);
   std::string check_triangle(std::uint32_t index) const;
-  void set_star(VertexId v, TriangleId t, int corner);
+  void set_star(VertexId v, TriangleId t, int corner) {
+    const Link star(t, corner);
+    if (vertices_[v.index].star != star) edit(v).star = star;
+  }
   void connect(Corner a, Corner b, bool constrained);
   TriangleId new_triangle();
   void free_triangle(TriangleId t);
@@ -213,9 +211,9 @@ class Triangulation {
   ConstrainResult find_crossings(VertexId a, VertexId b, std::vector<Crossing>& crossings) const;
   void flip_crossings(VertexId a, VertexId b, std::vector<Crossing>& crossings);
 
-  std::vector<Vertex> vertices_;
-  std::vector<std::uint32_t> generations_;
-  std::vector<Triangle> triangles_;
+  SlotArray<Vertex> vertices_;
+  SlotArray<std::uint32_t> generations_;
+  SlotArray<Triangle> triangles_;
   // Free slots; those before the count are there to be given out (last first). A slot freed under a journal
   // joins them at commit(), so that no id is given out twice within one step.
   struct FreeList {
@@ -241,12 +239,8 @@ class Triangulation {
   std::size_t vertex_slots_before_ = 0, triangle_slots_before_ = 0, live_vertices_before_ = 0;
   std::uint32_t inserted_ = 0, removed_ = 0;
 
-  struct Spoke {
-    Point edge;
-    double squared_length;
-  };
-  std::vector<Spoke> spokes_;  // scratch of fill_cavity
-  std::vector<TriangleId> new_star_;
+  Buffer<Spoke> spokes_;
+  Buffer<TriangleId> new_star_;
   Cavity cavity_;
   std::vector<Corner> stack_;
 };

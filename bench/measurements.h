@@ -1,0 +1,25 @@
+#pragma once
+
+// What compare measures of ours. Each is a list of rows: a name and figures, in the order of the columns.
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace remodel::bench {
+
+using Rows = std::vector<nlohmann::ordered_json>;
+
+// The paper's six pairs of I and G around RAE 2822, in turn with the yardstick, the design different each
+// time so that no branch predictor learns it. With others: CGAL's Mesh_2 and Gmsh too, once each.
+Rows generation(int rounds, bool others);
+// The same at larger scale: I and G grow together.
+Rows large_generation(int rounds, bool ten_million);
+
+// A full adjustment at I = 700, G = 14; and one partial step in a mesh of 5,000 triangles and in one of a
+// million, whose farfield alone is finer.
+Rows adjustment(int rounds);
+Rows step_scale(int rounds);
+
+}  // namespace remodel::bench

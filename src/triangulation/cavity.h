@@ -1,0 +1,76 @@
+#pragma once
+
+// The cavity of a point, and what filling it computes on the way.
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <utility>
+
+#include "triangulation/triangle.h"
+
+namespace remodel {
+
+// A list that is filled anew for every vertex: clear() keeps the storage, and nothing is constructed twice.
+// Copies begin empty.
+template <class T>
+class Buffer {
+ public:
+  Buffer() = default;
+  Buffer(const Buffer&) {}
+  Buffer(Buffer&& other) noexcept { *this = std::move(other); }
+  Buffer& operator=(const Buffer&) { return *this; }
+  Buffer& operator=(Buffer&& other) noexcept {
+    std::swap(storage_, other.storage_);
+    std::swap(size_, other.size_);
+    std::swap(capacity_, other.capacity_);
+    return *this;
+  }
+
+  void clear() { size_ = 0; }
+  void push_back(const T& value) {
+    if (size_ == capacity_) grow();
+    storage_[size_++] = value;
+  }
+  void pop_back() { --size_; }
+  const T& front() const { return storage_[0]; }
+  const T& back() const { return storage_[size_ - 1]; }
+  const T& operator[](std::size_t i) const { return storage_[i]; }
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  const T* begin() const { return storage_.get(); }
+  const T* end() const { return storage_.get() + size_; }
+
+ private:
+  void grow() {
+    const std::size_t capacity = 2 * capacity_ + 32;
+    auto larger = std::make_unique<T[]>(capacity);
+    std::copy(begin(), end(), larger.get());
+    storage_ = std::move(larger);
+    capacity_ = capacity;
+  }
+
+  std::unique_ptr<T[]> storage_;
+  std::size_t size_ = 0, capacity_ = 0;
+};
+
+// The triangles that a new point destroys (those whose circumcircle holds it, not crossing constraints) and
+// their boundary in counter-clockwise order.
+struct RingEdge {
+  VertexId from;  // the edge runs to the next ring edge's from
+  Link outer;     // the triangle beyond, and whether the edge is constrained
+};
+struct Cavity {
+  Buffer<TriangleId> triangles;
+  Buffer<RingEdge> ring;
+  bool constrained = false;  // whether an edge of the ring is
+  Buffer<RingEdge> todo;     // scratch of the search
+};
+
+// The edge from a new vertex to a vertex of its ring.
+struct Spoke {
+  Point edge;
+  double squared_length;
+};
+
+}  // namespace remodel
