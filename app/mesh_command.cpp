@@ -1,4 +1,4 @@
-// remodel mesh SHAPE [-o MESH]...: a fresh quality mesh.
+// remodel mesh SHAPE... [-o MESH]...: a fresh quality mesh.
 
 #include <map>
 #include <memory>
@@ -9,13 +9,14 @@
 #include "meshing_options.h"
 #include "outputs.h"
 #include "remodel/generate.h"
+#include "shape_input.h"
 #include "timing.h"
 
 namespace remodel::app {
 namespace {
 
 struct MeshCommand {
-  std::string shape;
+  ShapeInputOptions shapes;
   MeshingOptions meshing;
   MeshOutputs outputs;
   int repeat = 1;
@@ -24,26 +25,27 @@ struct MeshCommand {
 
 Status run(const MeshCommand& command) {
   command.outputs.require_possible();
-  const CstAirfoil airfoil = load_airfoil(command.shape, command.meshing.cst_degree);
-  const Domain domain = airfoil_domain(airfoil, command.meshing.discretisation);
+  const ShapeInput input =
+      read_shapes(command.shapes, command.meshing.discretisation, command.meshing.cst_degree);
   const QualityOptions quality = command.meshing.resolved_quality();
 
   GenerateResult result;
   std::vector<double> seconds;
   for (int i = 0; i < command.repeat; ++i) {
     const Stopwatch watch;
-    GenerateResult generated = generate(domain, quality);
+    GenerateResult generated = generate(input.domain, quality);
     seconds.push_back(watch.seconds());
     result = std::move(generated);
   }
   command.outputs.write(result.mesh);
 
   Report report;
-  report.figure("shape", "shape", command.shape);
+  for (const std::string& shape : command.shapes.shapes) report.line("shape", shape);
+  report.data("shape", command.shapes.shapes.size() == 1 ? Json(command.shapes.shapes[0]) : Json(command.shapes.shapes));
+  add_findings(report, input);
   describe(report, command.meshing);
   add_mesh_figures(report, result.mesh.freeze(), result.mesh.statistics());
-  report.figure("exempt_triangles", "exempt triangles", result.exempt_triangles,
-                "(below the angle bound at a small input angle)");
+  report.figure("small_angles", "input angles below 60 degrees", result.small_angles);
   report.figure("seconds", command.repeat > 1 ? "generation, median" : "generation", median(seconds),
                 "seconds");
   report.figure("stopped", "stopped", name_of(result.stopped));
@@ -56,9 +58,9 @@ Status run(const MeshCommand& command) {
 
 void add_mesh_command(CLI::App& program, Action& action) {
   auto command = std::make_shared<MeshCommand>();
-  CLI::App& app = add_subcommand(program, "mesh", "Generates a quality mesh around an airfoil",
+  CLI::App& app = add_subcommand(program, "mesh", "Generates a quality mesh around airfoils, or of any domain",
                                  [command, &action] { action = [command] { return run(*command); }; });
-  add_shape_argument(app, command->shape);
+  add_shape_input(app, command->shapes);
   command->outputs.add_options(app, Presence::optional);
   add_meshing_options(app, command->meshing);
   add_repeat(app, command->repeat);

@@ -173,5 +173,7 @@ Domain domain_from_json(std::string_view text, const std::string& source);
 // The same from a file, where airfoils may be named as load_airfoil() takes them; their files are looked for in
 // the file's own directory first. Throws Error.
 Domain load_domain(const std::filesystem::path& file);
+// Whether a JSON file is meant to be a domain, rather than an airfoil: it has the key "loops". Throws Error.
+bool holds_domain(const std::filesystem::path& file);
 
 }  // namespace remodel

@@ -6,6 +6,7 @@
 
 #include "mesh/import_record.h"
 #include "mesh/mesh_data.h"
+#include "mesh/small_angles.h"
 
 namespace remodel {
 
@@ -39,7 +40,9 @@ bool Mesh::imported() const {
 MeshStatistics Mesh::statistics() const {
   const Triangulation& triangulation = data_->triangulation;
   MeshStatistics result;
-  double radius_edge = 0.0, gradation = 0.0;  // squared
+  double radius_edge = 0.0, held_radius_edge = 0.0, gradation = 0.0;  // squared
+  const SmallAngles small_angles(*data_);
+  const QualityBounds bounds(data_->options);
   std::vector<bool> used(triangulation.vertex_slots(), false);
   for (std::uint32_t i = 0; i < triangulation.triangle_slots(); ++i) {
     const Triangle& t = triangulation[TriangleId{i}];
@@ -59,6 +62,11 @@ MeshStatistics Mesh::statistics() const {
         cross(triangulation.point(t.vertex[1]) - a, triangulation.point(t.vertex[2]) - a);
     const double r2 = longest_product / (4.0 * twice_area * twice_area);
     radius_edge = std::max(radius_edge, r2 / shortest);
+    if (badness(triangulation, t, bounds) > 1.0 && small_angles.exempt(t)) {
+      ++result.exempt_triangles;
+      continue;
+    }
+    held_radius_edge = std::max(held_radius_edge, r2 / shortest);
     gradation = std::max(gradation, r2 / (scale * scale));
   }
   result.vertices = static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
@@ -67,8 +75,11 @@ MeshStatistics Mesh::statistics() const {
                 [&](std::uint32_t k) { result.steiner_boundary_vertices += data_->at(k).steiner ? 1 : 0; });
   result.max_radius_edge = std::sqrt(radius_edge);
   result.max_gradation = std::sqrt(gradation) / data_->options.max_gradation;
-  if (result.triangles > 0)
-    result.min_angle_deg = std::asin(0.5 / result.max_radius_edge) * 180.0 / std::numbers::pi;
+  const auto degrees = [](double squared_ratio) {
+    return squared_ratio > 0.0 ? std::asin(0.5 / std::sqrt(squared_ratio)) * 180.0 / std::numbers::pi : 0.0;
+  };
+  result.min_angle_deg = degrees(radius_edge);
+  result.min_held_angle_deg = degrees(held_radius_edge);
   return result;
 }
 

@@ -233,6 +233,11 @@ Domain domain_from_json(std::string_view text, const std::string& source) {
   return domain_of(text, source, nullptr);
 }
 
+bool holds_domain(const std::filesystem::path& file) {
+  const nlohmann::json parsed = parse_json(read_text_file(file), file.string());
+  return parsed.is_object() && parsed.contains("loops");
+}
+
 Domain load_domain(const std::filesystem::path& file) {
   const std::filesystem::path directory = file.parent_path();
   return domain_of(read_text_file(file), file.string(), &directory);
