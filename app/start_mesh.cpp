@@ -1,5 +1,6 @@
 #include "start_mesh.h"
 
+#include <algorithm>
 #include <array>
 
 #include "arguments.h"
@@ -131,6 +132,15 @@ void add_import_figures(Report& report, const StartMesh& start) {
   line(import.unused_points, "left out", " points of no triangle");
   line(import.unnamed_edges, "named 'boundary'", " boundary edges without a marker");
   line(import.non_delaunay_edges, "not Delaunay", " edges");
+}
+
+double smallest_angle(const Mesh& mesh) {
+  if (!mesh.imported()) return mesh.statistics().min_angle_deg;
+  const MeshParts parts = parts_of(mesh.freeze());
+  double angle = 180.0;
+  for (const MeshPart& part : {parts.kept, parts.changed})
+    if (part.triangles > 0) angle = std::min(angle, part.min_angle_deg);
+  return angle;
 }
 
 void add_part_figures(Report& report, const Mesh& mesh) {

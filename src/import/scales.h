@@ -6,8 +6,8 @@
 
 namespace remodel {
 
-// The largest circumradius over shortest edge of the domain's triangles, squared; infinite where a triangle
-// is so flat that its circle cannot be computed.
+// The largest circumradius over shortest edge of the domain's triangles and of the file's that may be shown
+// in their place, squared; infinite where a triangle is so flat that its circle cannot be computed.
 double worst_squared_radius_edge(const MeshData& mesh);
 
 // Sets the length scale of every vertex: twice the mean of r / H over its triangles of the domain, raised
