@@ -73,10 +73,10 @@ struct MeshParts {
 };
 MeshParts parts_of(const FrozenMesh& mesh);
 
-// An airfoil as one closed loop of a domain, whoever drew it. Trailing edge: the sharpest corner of the
-// outline (turning by more than 120 degrees); two corners of more than 45 degrees each with a base between
-// them of at most a tenth of the outline's extent, the trailing edge is blunt; without a corner it is the
-// point of largest x. Leading edge: the point farthest from the trailing edge (its middle).
+// An airfoil as one closed loop of a domain, whoever drew it. Trailing edge: the corner of the outline that
+// turns by more than 120 degrees, of several the one of largest x; without one, two corners of more than 45
+// degrees each with a base between them of at most a tenth of the outline's extent: it is blunt; without
+// these, the point of largest x. Leading edge: the point farthest from the trailing edge (its middle).
 struct AirfoilPlace {
   std::size_t loop = 0;
   Point leading{}, trailing{};  // the chord, in the mesh's coordinates
