@@ -76,8 +76,8 @@ void add_start_mesh_options(CLI::App& app, StartMeshOptions& options) {
            Presence::optional, options.boundary);
   add_real(app,
            {"--refine-angle", "DEGREES", usual,
-            "Smallest angle of new triangles in a mesh of another program's, in degrees: 0 to 33"},
-           {.low = 0.0, .high = 33.0}, [&](double value) { options.refine_angle_deg = value; });
+            "Smallest angle of new triangles in a mesh of another program's, in degrees: 1 to 33"},
+           {.low = 1.0, .high = 33.0}, [&](double value) { options.refine_angle_deg = value; });
   static constexpr std::array choices{NonDelaunay::flip, NonDelaunay::keep};
   add_choice(
       app,
