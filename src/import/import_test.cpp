@@ -172,6 +172,30 @@ TEST(Import, TrianglesAwayFromAChangeStayToTheLastBit) {
   }
 }
 
+TEST(Import, OtherBodiesStay) {
+  Domain domain = test::with_holes({test::star_hole(0.3, 0.3, 0.15), test::circle_hole(0.7, 0.7, 0.15, 32)});
+  domain.loops[1].curves[0].name = "star";
+  const FrozenMesh mesh = test::foreign(domain);
+  ImportResult result = imported(mesh);
+  const AirfoilPlace place = find_airfoil(result.mesh.domain(), "hole", "file.su2");
+  const Domain next = with_airfoil(result.mesh.domain(), place, airfoil_catalogue()[0].airfoil());
+  ASSERT_FALSE(remodel(result.mesh, next).regenerated);
+  EXPECT_EQ(result.mesh.quick_check(), "");
+  const FrozenMesh after = result.mesh.freeze();
+  const auto places = [](const FrozenMesh& m, const std::string& name) {
+    std::set<std::pair<double, double>> points;
+    for (const FrozenBoundary& boundary : m.boundaries)
+      for (const auto& edge : boundary.edges)
+        if (boundary.name == name) points.emplace(m.points[edge[0]].x, m.points[edge[0]].y);
+    return points;
+  };
+  EXPECT_EQ(places(after, "star"), places(mesh, "star"));
+  EXPECT_NE(places(after, "hole"), places(mesh, "hole"));
+  EXPECT_EQ(after.boundaries.size(), mesh.boundaries.size());
+  for (std::size_t i = 0; i < mesh.boundaries.size(); ++i)
+    EXPECT_EQ(after.boundaries[i].name, mesh.boundaries[i].name);
+}
+
 // Angles of 20 to 30 degrees stay where they are; what refinement makes keeps 30.
 TEST(Import, RefinedTrianglesAreBetterThanTheFiles) {
   Domain domain = airfoil_domain(airfoil_catalogue()[0].airfoil(), {.points = 60, .farfield_radius = 4});
