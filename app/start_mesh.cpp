@@ -1,5 +1,6 @@
 #include "start_mesh.h"
 
+#include <algorithm>
 #include <array>
 
 #include "arguments.h"
@@ -75,8 +76,8 @@ void add_start_mesh_options(CLI::App& app, StartMeshOptions& options) {
            Presence::optional, options.boundary);
   add_real(app,
            {"--refine-angle", "DEGREES", usual,
-            "Smallest angle of new triangles in a mesh of another program's, in degrees: 0 to 33"},
-           {.low = 0.0, .high = 33.0}, [&](double value) { options.refine_angle_deg = value; });
+            "Smallest angle of new triangles in a mesh of another program's, in degrees: 1 to 33"},
+           {.low = 1.0, .high = 33.0}, [&](double value) { options.refine_angle_deg = value; });
   static constexpr std::array choices{NonDelaunay::flip, NonDelaunay::keep};
   add_choice(
       app,
@@ -131,6 +132,15 @@ void add_import_figures(Report& report, const StartMesh& start) {
   line(import.unused_points, "left out", " points of no triangle");
   line(import.unnamed_edges, "named 'boundary'", " boundary edges without a marker");
   line(import.non_delaunay_edges, "not Delaunay", " edges");
+}
+
+double smallest_angle(const Mesh& mesh) {
+  if (!mesh.imported()) return mesh.statistics().min_angle_deg;
+  const MeshParts parts = parts_of(mesh.freeze());
+  double angle = 180.0;
+  for (const MeshPart& part : {parts.kept, parts.changed})
+    if (part.triangles > 0) angle = std::min(angle, part.min_angle_deg);
+  return angle;
 }
 
 void add_part_figures(Report& report, const Mesh& mesh) {

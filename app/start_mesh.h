@@ -45,5 +45,7 @@ AirfoilPlace place_in(const StartMesh& start, const StartMeshOptions& options);
 void add_import_figures(Report& report, const StartMesh& start);
 // kept{triangles, min_angle_deg} and changed{...}, of imported meshes.
 void add_part_figures(Report& report, const Mesh& mesh);
+// The smallest angle of what is written.
+double smallest_angle(const Mesh& mesh);
 
 }  // namespace remodel::app

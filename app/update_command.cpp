@@ -122,7 +122,7 @@ Status run(const UpdateCommand& command) {
   add_figures(report, result);
   add_part_figures(report, mesh);
   const MeshStatistics statistics = mesh.statistics();
-  report.figure("min_angle_deg", "smallest angle", statistics.min_angle_deg, "degrees");
+  report.figure("min_angle_deg", "smallest angle", smallest_angle(mesh), "degrees");
   report.figure("max_gradation", "largest r / (H mean LS)", statistics.max_gradation);
   report.figure("seconds", command.repeat > 1 ? "remodelling, median" : "remodelling", median(seconds),
                 "seconds");

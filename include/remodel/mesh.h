@@ -114,6 +114,8 @@ class Mesh {
   FrozenMesh freeze() const;
   // Whether triangles of birth 0 are a file's (remodel/import.h), not generate()'s.
   bool imported() const;
+  // Whether freeze() may show triangles that are not the living mesh's, which need not be Delaunay.
+  bool shows_file_triangles() const;
   MeshStatistics statistics() const;
   MeshState state() const;
   // Throws Error (format) where the state is not that of a mesh: sizes, ranges, links that do not return.

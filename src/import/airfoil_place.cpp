@@ -82,17 +82,23 @@ std::optional<TrailingEdge> blunt_edge(const Outline& outline, const std::vector
   return best;
 }
 
+// The point of largest x that qualifies.
+template <class Qualifies>
+std::optional<std::size_t> rearmost(const Outline& outline, Qualifies qualifies) {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < outline.size(); ++i)
+    if (qualifies(i) && (!best || outline[i].x > outline[*best].x)) best = i;
+  return best;
+}
+
 TrailingEdge trailing_edge_of(const Outline& outline) {
   std::vector<double> turns;
   for (std::size_t i = 0; i < outline.size(); ++i) turns.push_back(turn_at(outline, i));
-  const auto sharpest =
-      static_cast<std::size_t>(std::max_element(turns.begin(), turns.end()) - turns.begin());
-  if (turns[sharpest] > sharp_turn) return {sharpest, sharpest};
+  if (const auto sharp = rearmost(outline, [&](std::size_t i) { return turns[i] > sharp_turn; }))
+    return {*sharp, *sharp};
   if (const auto blunt = blunt_edge(outline, turns)) return *blunt;
-  const auto rearmost =
-      std::max_element(outline.begin(), outline.end(), [](Point a, Point b) { return a.x < b.x; });
-  const auto i = static_cast<std::size_t>(rearmost - outline.begin());
-  return {i, i};
+  const std::size_t round = *rearmost(outline, [](std::size_t) { return true; });
+  return {round, round};
 }
 
 // Between a mesh's coordinates and those of the chord, which runs from (0, 0) to (1, 0).

@@ -162,6 +162,15 @@ TEST(AirfoilPlace, BoundariesThatAreNoBodyAreRefused) {
   EXPECT_EQ(problem(holes, "hole"), "mesh.su2: boundary 'hole' has 2 bodies, one expected");
 }
 
+TEST(AirfoilPlace, OfTwoSharpEdgesTheRearmostTrails) {
+  Domain domain = domain_of({});
+  domain.loops[0] = test::polygon(LoopRole::hole, "wing", {{1, 1}, {2, 0.9}, {3, 1}, {2, 1.1}}, 5);
+  const AirfoilPlace place = find_airfoil(domain, "wing", "mesh");
+  EXPECT_EQ(place.trailing, (Point{3, 1}));
+  EXPECT_EQ(place.leading, (Point{1, 1}));
+  EXPECT_EQ(place.parameters.size(), 20U);
+}
+
 // As in a file that names no boundary at all.
 TEST(AirfoilPlace, ANameThatTheOuterBoundaryHasTooMeansTheBody) {
   Domain domain = domain_of({});

@@ -37,6 +37,10 @@ bool Mesh::imported() const {
   return !data_->imported.empty();
 }
 
+bool Mesh::shows_file_triangles() const {
+  return !data_->imported.slots.empty();
+}
+
 MeshStatistics Mesh::statistics() const {
   const Triangulation& triangulation = data_->triangulation;
   MeshStatistics result;

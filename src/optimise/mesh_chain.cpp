@@ -62,6 +62,7 @@ std::string MeshChain::broken_rule(const Domain& domain, StepTasks tasks) const 
   if (!broken.empty() || !tasks.full_check) return broken;
   const CheckResult result = check(mesh_.freeze(), {.min_angle_deg = quality_.min_angle_deg,
                                                     .max_gradation = quality_.max_gradation,
+                                                    .delaunay = !mesh_.shows_file_triangles(),
                                                     .design = &domain,
                                                     .max_violations = 1});
   if (result.valid) return {};

@@ -258,6 +258,7 @@ RemodelResult regenerate(Mesh& mesh, const Domain& domain, StepObserver* observe
   if (fresh.stopped == Stopped::interrupted) return unchanged(mesh.data(), Stopped::interrupted);
   MeshData& data = fresh.mesh.data();
   data.step = mesh.step() + 1;
+  data.imported.markers = mesh.data().imported.markers;
   for (std::uint32_t i = 0; i < data.triangulation.triangle_slots(); ++i)
     data.triangulation.set_birth(TriangleId{i}, data.step);
   RemodelResult result;

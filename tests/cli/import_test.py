@@ -137,8 +137,11 @@ class Imports(ProgramTest):
         bad = self.path(self.write("bad.su2", "\n".join(text) + "\n"))
         for how in ("flip", "keep"):
             figures = self.figures(
-                "update", bad, "rae2822", "--boundary", "airfoil", "--non-delaunay", how, "-o", f"{how}.su2"
+                "update", bad, "rae2822", "--boundary", "airfoil", "--non-delaunay", how, "-o", f"{how}.su2",
+                "-o", f"{how}.vtkhdf",
             )
+            self.assertTrue(self.figures("check", f"{how}.vtkhdf")["valid"])
+            self.assertEqual(self.figures("check", f"{how}.su2")["min_angle_deg"], figures["min_angle_deg"])
             self.assertGreater(figures["import"]["non_delaunay_edges"], 20)
             checked = self.figures("check", f"{how}.su2")
             self.assertTrue(checked["valid"])

@@ -1,7 +1,7 @@
 """Deliberate breaks of the library: (name, file under src/, search, replacement). The search text occurs exactly once
 in its file; scripts/mutate refuses to run where it does not."""
 
-T, M, G, R, C = "triangulation/", "mesh/", "generate/", "remodel/", "check/"
+T, M, G, I, R, C = "triangulation/", "mesh/", "generate/", "import/", "remodel/", "check/"
 
 MUTATIONS = [
     ("flip forgets a neighbour", T + "triangulation.cpp", "  attach({first, 0}, u.link[next3(j)]);\n", ""),
@@ -101,4 +101,20 @@ MUTATIONS = [
     ("old boundary not released", R + "general.cpp", "    release_old();\n", ""),
     ("rollback forgets the boundary table", R + "remodel.cpp", "    mesh_.boundary.swap(boundary_);\n", ""),
     ("crossing surfaces not refused", R + "remodel.cpp", "  require_surfaces_apart(domain);\n", ""),
+    ("overlapping triangles not refused", I + "sound.cpp", "    refuse_shared_edges();\n", ""),
+    ("points that coincide not refused", I + "sound.cpp", "    refuse_coinciding_points();\n", ""),
+    ("clockwise triangles not turned", I + "sound.cpp", "      std::swap(b, c);\n", ""),
+    ("names of boundary edges by the other marker", I + "sound.cpp", "found->marker = number;", "found->marker = 0;"),
+    ("imported loops not validated", I + "import.cpp", "  validate(loops.domain);\n", ""),
+    ("imported triangles not flipped", I + "graft.cpp", "  data.triangulation.restore_delaunay(all);\n", ""),
+    ("faces that are no ties always shown", I + "graft.cpp", "!proper_[root(i)]", "(true || !proper_[root(i)])"),
+    ("length scales not raised for large triangles", I + "scales.cpp",
+     "    for (const VertexId v : t) scales[v.index] *= margin * wanted / mean;\n", ""),
+    ("promised angle of the living triangles only", I + "scales.cpp",
+     "for (std::size_t i = 0; i < file.size(); i += 3)", "for (std::size_t i = file.size(); i < file.size(); i += 3)"),
+    ("file's triangles shown where some are gone", M + "import_record.cpp",
+     "if (!t.alive() || t.birth != 0 || t.region != Region::domain) return false;", "if (!t.alive()) return false;"),
+    ("vertices of a replaced airfoil in the wrong order", I + "airfoil_place.cpp",
+     "  std::reverse(points.begin() + 1, points.end());\n", ""),
+    ("blunt trailing edge closed by the fit", I + "airfoil_place.cpp", "    fit.airfoil.te_upper = points.front().y;\n", ""),
 ]
