@@ -9,14 +9,14 @@
 #include "meshing_options.h"
 #include "outputs.h"
 #include "remodel/generate.h"
-#include "shape_input.h"
+#include "domain_input.h"
 #include "timing.h"
 
 namespace remodel::app {
 namespace {
 
 struct MeshCommand {
-  ShapeInputOptions shapes;
+  DomainInputOptions shapes;
   MeshingOptions meshing;
   MeshOutputs outputs;
   int repeat = 1;
@@ -25,8 +25,8 @@ struct MeshCommand {
 
 Status run(const MeshCommand& command) {
   command.outputs.require_possible();
-  const ShapeInput input =
-      read_shapes(command.shapes, command.meshing.discretisation, command.meshing.cst_degree);
+  const DomainInput input =
+      read_domain(command.shapes, command.meshing.discretisation, command.meshing.cst_degree);
   const QualityOptions quality = command.meshing.resolved_quality();
 
   GenerateResult result;
@@ -60,7 +60,7 @@ void add_mesh_command(CLI::App& program, Action& action) {
   auto command = std::make_shared<MeshCommand>();
   CLI::App& app = add_subcommand(program, "mesh", "Generates a quality mesh around airfoils, or of any domain",
                                  [command, &action] { action = [command] { return run(*command); }; });
-  add_shape_input(app, command->shapes);
+  add_domain_input(app, command->shapes);
   command->outputs.add_options(app, Presence::optional);
   add_meshing_options(app, command->meshing);
   add_repeat(app, command->repeat);

@@ -1,41 +1,13 @@
 #pragma once
 
-// What is meshed: an airfoil in its farfield, several airfoils with their places, a domain file, or a planar graph.
-
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "remodel/domain.h"
-#include "remodel/planar.h"
-#include "report.h"
-
-namespace CLI {
-class App;
-}
+#include "remodel/airfoil.h"
 
 namespace remodel::app {
 
-struct ShapeInputOptions {
-  std::vector<std::string> shapes;
-  std::vector<std::string> places;  // "CHORD,DEGREES,X,Y", in the order of the shapes
-  Crossings crossings = Crossings::insert;
-};
-
-// SHAPE..., --place, --crossings.
-void add_shape_input(CLI::App& app, ShapeInputOptions& options);
-
-// Whether this is one airfoil where it lies, as opposed to a domain.
-bool is_single_airfoil(const ShapeInputOptions& options);
-
-struct ShapeInput {
-  Domain domain;
-  std::optional<PlanarFindings> findings;  // of a planar graph
-};
-// Throws Error as the readers do, and for more places than shapes.
-ShapeInput read_shapes(const ShapeInputOptions& options, const AirfoilDomainOptions& discretisation, int cst_degree);
-
-// input{...}: what was found in a planar graph, and mended.
-void add_findings(Report& report, const ShapeInput& input);
+// A SHAPE with its fit errors: those of the table for a catalogue name, zero for a .json file of
+// coefficients, those of a fit of the degree for everything else. Throws Error as load_airfoil() does.
+CstFit fit_shape(const std::string& shape, int degree);
 
 }  // namespace remodel::app
