@@ -57,7 +57,7 @@ struct CheckResult {
   std::size_t triangles = 0;
   std::size_t vertices = 0;
   double min_angle_deg = 0.0;       // of all triangles
-  double min_held_angle_deg = 0.0;  // of those that are not exempt
+  double min_held_angle_deg = 0.0;  // of those that are not exempt; NaN if all are
   // Below min_angle_deg, but exempt: the shortest edge joins two boundary points at the same distance from a
   // corner of less than 60 degrees in the domain, on both of its sides (a small input angle).
   std::size_t exempt_triangles = 0;

@@ -226,7 +226,7 @@ bool exceeds(double value, double bound) {
 // The smallest angle's sine is e_min / 2r. Sets the smallest of all, and that of what is not exempt, in degrees.
 void check_angles(const FrozenMesh& mesh, const Exemption* exemption, double bound_deg, CheckResult& result,
                   Report& report) {
-  double smallest_sine = 1.0, smallest_held = 1.0;
+  double smallest_sine = 1.0, smallest_held = std::nan("");
   const double largest_ratio = 0.5 / std::sin(bound_deg / degrees);
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const Circle circle = circumscribed(mesh, t);
@@ -237,7 +237,7 @@ void check_angles(const FrozenMesh& mesh, const Exemption* exemption, double bou
       ++result.exempt_triangles;
       continue;
     }
-    smallest_held = std::isnan(sine) ? 0.0 : std::min(smallest_held, sine);
+    smallest_held = std::isnan(sine) ? 0.0 : std::fmin(smallest_held, sine);
     if (!below) continue;
     report.add("angle", {t},
                sentence("triangle ", t, " has radius-edge ratio ", circle.radius / circle.shortest_edge,

@@ -87,6 +87,11 @@ std::uint32_t MeshData::add_boundary_vertex(BoundaryVertex vertex, std::uint32_t
   vertex.previous = previous;
   vertex.next = next;
   vertex.twin = k;
+  const std::uint32_t station_before = previous == no_index ? no_index : boundary[previous].station;
+  vertex.station = vertex.steiner ? station_before : k;
+  vertex.previous_station = vertex.steiner ? no_index : station_before;
+  vertex.next_station = no_index;
+  if (!vertex.steiner && station_before != no_index) boundary[station_before].next_station = k;
   boundary[k] = vertex;
   if (previous != no_index) boundary[previous].next = k;
   if (next != no_index) boundary[next].previous = k;
@@ -100,6 +105,8 @@ std::uint32_t MeshData::add_boundary_vertex(BoundaryVertex vertex, std::uint32_t
 void MeshData::close_loop(std::uint32_t head, std::uint32_t last) {
   boundary[head].previous = last;
   boundary[last].next = head;
+  boundary[head].previous_station = boundary[last].station;
+  boundary[boundary[last].station].next_station = head;
 }
 
 void MeshData::remove_boundary_vertex(std::uint32_t k) {
@@ -179,18 +186,6 @@ void MeshData::count_domain_triangles() {
     const Triangle& t = triangulation[TriangleId{i}];
     if (t.alive() && t.region == Region::domain) ++domain_triangles;
   }
-}
-
-std::uint32_t MeshData::non_steiner_before(std::uint32_t k) const {
-  do k = boundary[k].previous;
-  while (k != no_index && boundary[k].steiner);
-  return k;
-}
-
-std::uint32_t MeshData::non_steiner_after(std::uint32_t k) const {
-  do k = boundary[k].next;
-  while (k != no_index && boundary[k].steiner);
-  return k;
 }
 
 double MeshData::base_length_scale(std::uint32_t k) const {

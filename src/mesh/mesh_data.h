@@ -25,6 +25,8 @@ struct BoundaryVertex {
   double scale_factor = 1.0;  // length scale over what the curves alone would give: see base_length_scale()
   std::uint32_t next = no_index, previous = no_index;  // indices of the boundary table; none at chains' ends
   std::uint32_t twin = no_index;  // another one at the same vertex, in a ring: itself where it is the only one
+  std::uint32_t station = no_index;  // the last non-Steiner entry up to here: itself, if it is one
+  std::uint32_t next_station = no_index, previous_station = no_index;  // of a non-Steiner entry
 };
 
 // What lies beside a loop, looking along it.
@@ -161,8 +163,10 @@ class MeshData {
   // length between its two non-Steiner neighbours (equation LS_bs; chords for arcs, between whose length ratios
   // the difference is of second order). 1 for a single point, which has none.
   double base_length_scale(std::uint32_t k) const;
-  std::uint32_t non_steiner_before(std::uint32_t k) const;  // no_index at the end of a chain
-  std::uint32_t non_steiner_after(std::uint32_t k) const;
+  std::uint32_t non_steiner_before(std::uint32_t k) const {  // no_index at the end of a chain
+    return boundary[k].steiner ? boundary[k].station : boundary[k].previous_station;
+  }
+  std::uint32_t non_steiner_after(std::uint32_t k) const { return boundary[boundary[k].station].next_station; }
   // Sets the length scale, and the factor from it.
   void set_boundary_length_scale(std::uint32_t k, double value);
 
