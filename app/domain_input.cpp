@@ -22,7 +22,8 @@ bool is_domain_file(const std::string& shape) {
 Placement placement_of(const std::string& text) {
   const std::vector<double> values = parse_reals("--place", text, 4);
   if (!(values[0] > 0.0))
-    throw Error(ErrorCode::argument, "--place", "found '" + text + "', expected a chord of more than 0 first");
+    throw Error(ErrorCode::argument, "--place",
+                "found '" + text + "', expected a chord of more than 0 first");
   return {.chord = values[0], .rotation_deg = values[1], .position = {values[2], values[3]}};
 }
 
@@ -31,9 +32,9 @@ std::string name_of(const std::string& shape, const std::vector<PlacedAirfoil>& 
   std::string name = std::filesystem::path(shape).stem().string();
   name.erase(0, name.rfind(':') + 1);
   const auto taken = [&](const std::string& candidate) {
-    return candidate == "farfield" || std::any_of(before.begin(), before.end(), [&](const PlacedAirfoil& airfoil) {
-             return airfoil.name == candidate;
-           });
+    return candidate == "farfield" ||
+           std::any_of(before.begin(), before.end(),
+                       [&](const PlacedAirfoil& airfoil) { return airfoil.name == candidate; });
   };
   std::string candidate = name;
   for (int i = 2; taken(candidate); ++i) candidate = name + "_" + std::to_string(i);
@@ -50,11 +51,13 @@ void require_alone(const DomainInputOptions& options, const std::string& shape) 
 void add_domain_input(CLI::App& app, DomainInputOptions& options) {
   add_texts(app,
             {"shape", "SHAPE...", "",
-             std::string(shape_help) + "; several airfoils share a farfield; or a domain file (.json), or Triangle's .poly"},
+             std::string(shape_help) +
+                 "; several airfoils share a farfield; or a domain file (.json), or Triangle's .poly"},
             Presence::required, options.shapes);
   add_texts(app,
             {"--place", "CHORD,DEGREES,X,Y", "1,0,0,0",
-             "Place of an airfoil: scaled by CHORD, turned counter-clockwise about its leading edge, which comes to "
+             "Place of an airfoil: scaled by CHORD, turned counter-clockwise about its leading edge, which "
+             "comes to "
              "X,Y; may be repeated, in the order of the airfoils"},
             Presence::optional, options.places);
   add_choice(app,
@@ -71,7 +74,7 @@ bool is_single_airfoil(const DomainInputOptions& options) {
 }
 
 DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOptions& discretisation,
-                       int cst_degree) {
+                        int cst_degree) {
   DomainInput input;
   for (const std::string& shape : options.shapes) {
     if (is_graph_file(shape)) {
@@ -88,8 +91,9 @@ DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOp
   }
   if (options.places.size() > options.shapes.size())
     throw Error(ErrorCode::argument, "--place",
-                "found " + std::to_string(options.places.size()) + " places, expected at most one for each of " +
-                    std::to_string(options.shapes.size()) + " airfoils");
+                "found " + std::to_string(options.places.size()) +
+                    " places, expected at most one for each of " + std::to_string(options.shapes.size()) +
+                    " airfoils");
   std::vector<PlacedAirfoil> airfoils;
   for (std::size_t i = 0; i < options.shapes.size(); ++i) {
     PlacedAirfoil placed{.airfoil = load_airfoil(options.shapes[i], cst_degree)};

@@ -1,6 +1,7 @@
 #pragma once
 
-// What is meshed: an airfoil in its farfield, several airfoils with their places, a domain file, or a planar graph.
+// What is meshed: an airfoil in its farfield, several airfoils with their places, a domain file, or a planar
+// graph.
 
 #include <optional>
 #include <string>
@@ -33,7 +34,8 @@ struct DomainInput {
   std::optional<PlanarFindings> findings;  // of a planar graph
 };
 // Throws Error as the readers do, and for more places than shapes.
-DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOptions& discretisation, int cst_degree);
+DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOptions& discretisation,
+                        int cst_degree);
 
 // input{...}: what was found in a planar graph, and mended.
 void add_findings(Report& report, const DomainInput& input);

@@ -1,7 +1,8 @@
 #pragma once
 
 // A domain: the part of the plane to be meshed, bounded by closed loops of named, parametrised curves, with
-// open chains and internal curves where there are any. The airfoil in its farfield is one case. Knows no mesh.
+// open chains and internal curves where there are any. The airfoil in its farfield is one case. Knows no
+// mesh.
 
 #include <cstddef>
 #include <filesystem>
@@ -32,14 +33,14 @@ struct Arc {
   double sweep = 6.283185307179586;
   friend bool operator==(const Arc&, const Arc&) = default;
 };
-// The cubic spline through points[0] ... points[n-1], twice continuously differentiable, parametrised by chord
-// length: t of a point is the length of the polygon up to it over its whole length. Natural at its ends;
-// closed (last point == first point) it is periodic. Made by spline_through(); the vectors below points follow
-// from them.
+// The cubic spline through points[0] ... points[n-1], twice continuously differentiable, parametrised by
+// chord length: t of a point is the length of the polygon up to it over its whole length. Natural at its
+// ends; closed (last point == first point) it is periodic. Made by spline_through(); the vectors below points
+// follow from them.
 struct Spline {
   std::vector<Point> points;
-  std::vector<double> knots;          // per point: its t; 0 to 1
-  std::vector<Point> second;          // per point: the second derivative by t
+  std::vector<double> knots;  // per point: its t; 0 to 1
+  std::vector<Point> second;  // per point: the second derivative by t
   friend bool operator==(const Spline&, const Spline&) = default;
 };
 // Throws Error (argument) for fewer than 2 points (closed: 4, the first one again at the end), points that
@@ -92,10 +93,10 @@ class Frame {
   bool identity_;
 };
 
-// Curves that follow each other: a closed loop, or an open chain. A chain runs from its first curve's beginning
-// to its last curve's end, which is a station too. Its role is internal, left or right. Ends of chains may lie
-// on stations of other loops and chains (and on each other): there they are joined. An open chain of one Line
-// of no length is a single point.
+// Curves that follow each other: a closed loop, or an open chain. A chain runs from its first curve's
+// beginning to its last curve's end, which is a station too. Its role is internal, left or right. Ends of
+// chains may lie on stations of other loops and chains (and on each other): there they are joined. An open
+// chain of one Line of no length is a single point.
 struct Loop {
   LoopRole role = LoopRole::outer;
   std::vector<Curve> curves;
@@ -127,13 +128,13 @@ struct Domain {
 
 // Throws Error (geometry) unless there is a loop, every closed loop has at least three distinct consecutive
 // points, parameters begin with 0 and increase strictly below 1, every curve ends where the next one of its
-// loop begins (up to rounding), coordinates are finite and in the range of predicates.h, and no two segments of
-// the discretised loops cross, touch or overlap, but for the ends of open chains on other stations (exactly
-// decided; names the loop, the curve and the place). Airfoils must have their surfaces apart. Among outer loops
-// and holes roles take turns from the outside in: outermost loops are outer, what lies directly inside an outer
-// loop is a hole, what lies directly inside a hole is outer again. Where boundaries are made of chains (left,
-// right), it is generate() that finds sides that contradict each other. Loops may run either way round. About
-// n log n: 0.2 ms for 700 airfoil points.
+// loop begins (up to rounding), coordinates are finite and in the range of predicates.h, and no two segments
+// of the discretised loops cross, touch or overlap, but for the ends of open chains on other stations
+// (exactly decided; names the loop, the curve and the place). Airfoils must have their surfaces apart. Among
+// outer loops and holes roles take turns from the outside in: outermost loops are outer, what lies directly
+// inside an outer loop is a hole, what lies directly inside a hole is outer again. Where boundaries are made
+// of chains (left, right), it is generate() that finds sides that contradict each other. Loops may run either
+// way round. About n log n: 0.2 ms for 700 airfoil points.
 void validate(const Domain& domain);
 
 // Signed area of the discretised loop, positive for counter-clockwise.
@@ -156,8 +157,8 @@ struct AirfoilDomainOptions {
 };
 Domain airfoil_domain(const CstAirfoil& airfoil, const AirfoilDomainOptions& options = {});
 
-// Several airfoils in one farfield, each a loop of its own name and place, `points` vertices each; the farfield
-// is the last loop. One airfoil "airfoil" at no other place is airfoil_domain(). Throws as it does.
+// Several airfoils in one farfield, each a loop of its own name and place, `points` vertices each; the
+// farfield is the last loop. One airfoil "airfoil" at no other place is airfoil_domain(). Throws as it does.
 struct PlacedAirfoil {
   std::string name = "airfoil";
   CstAirfoil airfoil;
@@ -166,12 +167,12 @@ struct PlacedAirfoil {
 Domain airfoils_domain(const std::vector<PlacedAirfoil>& airfoils, const AirfoilDomainOptions& options = {});
 
 // JSON text of a domain, exact; docs/domains.md describes the layout with an example of each kind. from_json
-// throws Error (format) naming the key; it does not validate(). to_json throws Error (argument) for what is not
-// finite.
+// throws Error (format) naming the key; it does not validate(). to_json throws Error (argument) for what is
+// not finite.
 std::string domain_to_json(const Domain& domain);
 Domain domain_from_json(std::string_view text, const std::string& source);
-// The same from a file, where airfoils may be named as load_airfoil() takes them; their files are looked for in
-// the file's own directory first. Throws Error.
+// The same from a file, where airfoils may be named as load_airfoil() takes them; their files are looked for
+// in the file's own directory first. Throws Error.
 Domain load_domain(const std::filesystem::path& file);
 // Whether a JSON file is meant to be a domain, rather than an airfoil: it has the key "loops". Throws Error.
 bool holds_domain(const std::filesystem::path& file);

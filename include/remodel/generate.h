@@ -10,8 +10,9 @@ namespace remodel {
 struct GenerateResult {
   Mesh mesh;
   Stopped stopped = Stopped::done;
-  std::size_t small_angles = 0;      // vertices where boundary edges meet at less than 60 degrees in the domain
-  std::size_t exempt_triangles = 0;  // beyond a bound because of one of these: their shortest edge joins its sides
+  std::size_t small_angles = 0;  // vertices where boundary edges meet at less than 60 degrees in the domain
+  std::size_t exempt_triangles =
+      0;  // beyond a bound because of one of these: their shortest edge joins its sides
 };
 
 // Throws Error (argument) for options out of range, Error (geometry) for a domain that validate() refuses.

@@ -41,10 +41,10 @@ void write_text_atomically(const std::filesystem::path& file, std::string_view t
 // The whole file as text; Error (file) if it is missing, a directory, unreadable or larger than limit bytes.
 std::string read_text(const std::filesystem::path& file, std::size_t limit = std::size_t{1} << 32);
 
-// Triangle's .poly file (https://www.cs.cmu.edu/~quake/triangle.poly.html): vertices, segments, holes, regional
-// attributes (which are ignored); attributes and markers may be there or not, numbering starts at 0 or 1,
-// comments begin with #. A file without vertices has them in the .node file of the same name. At most 256 MiB.
-// Throws Error (file, format) naming file and line.
+// Triangle's .poly file (https://www.cs.cmu.edu/~quake/triangle.poly.html): vertices, segments, holes,
+// regional attributes (which are ignored); attributes and markers may be there or not, numbering starts at 0
+// or 1, comments begin with #. A file without vertices has them in the .node file of the same name. At most
+// 256 MiB. Throws Error (file, format) naming file and line.
 PlanarGraph read_poly(const std::filesystem::path& file);
 PlanarGraph parse_poly(std::string_view poly, const std::string& source, std::string_view node = {},
                        const std::string& node_source = {});

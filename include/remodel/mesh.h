@@ -87,7 +87,8 @@ struct MeshStatistics {
   std::size_t steiner_boundary_vertices = 0;
   double min_angle_deg = 0.0;       // of all triangles
   double min_held_angle_deg = 0.0;  // but for exempt ones
-  // Beyond a bound because of a small input angle: the shortest edge joins the sides of one, at equal distances.
+  // Beyond a bound because of a small input angle: the shortest edge joins the sides of one, at equal
+  // distances.
   std::size_t exempt_triangles = 0;
   double max_radius_edge = 0.0;  // max r / e_min
   double max_gradation = 0.0;    // max r / (H mean LS) but for exempt triangles: at most 1

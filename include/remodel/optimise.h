@@ -21,9 +21,9 @@
 
 namespace remodel {
 
-// A mesh to start from instead of a generated one: another program's, imported, or one that was written. It is
-// remodelled to the start airfoil in the place of its own; all its other loops stay. Designs are in chords,
-// meshes in the coordinates of the start mesh.
+// A mesh to start from instead of a generated one: another program's, imported, or one that was written. It
+// is remodelled to the start airfoil in the place of its own; all its other loops stay. Designs are in
+// chords, meshes in the coordinates of the start mesh.
 struct MeshStart {
   Mesh mesh;
   AirfoilPlace place;
@@ -111,9 +111,9 @@ class OptimiseObserver {
 // With resume the run goes on to the designs, rows (but for their seconds) and meshes of a run that was not
 // interrupted. All options but evaluations, checkpoint_every and max_refused, and both airfoils, must be
 // those of the checkpoint. Without resume, a directory that holds the checkpoint of an unfinished run is
-// refused, and the files of a finished one are replaced, once the start of the new run is complete on the disk.
-// A checkpoint, its mesh or a history that is damaged is refused before anything is written. One run at a time
-// holds the directory, by flock; a second one is refused.
+// refused, and the files of a finished one are replaced, once the start of the new run is complete on the
+// disk. A checkpoint, its mesh or a history that is damaged is refused before anything is written. One run at
+// a time holds the directory, by flock; a second one is refused.
 //
 // Throws Error (argument, file, format, geometry). Both airfoils must have their surfaces apart.
 OptimiseResult optimise(const CstAirfoil& from, const CstAirfoil& to, const OptimiseOptions& options,

@@ -1,8 +1,8 @@
 #pragma once
 
 // Planar straight-line graphs: points, segments in any order that may cross, overlap and share points, and
-// points in holes. Triangle's .poly files hold them (read_poly() of io.h). They become a Domain: what the segments enclose, holes left
-// out, segments inside kept as internal constraints.
+// points in holes. Triangle's .poly files hold them (read_poly() of io.h). They become a Domain: what the
+// segments enclose, holes left out, segments inside kept as internal constraints.
 
 #include <cstdint>
 #include <string>
@@ -19,7 +19,7 @@ struct PlanarGraph {
   };
   std::vector<Point> points;
   std::vector<Segment> segments;
-  std::vector<Point> holes;  // a point in each
+  std::vector<Point> holes;                // a point in each
   std::vector<std::size_t> segment_lines;  // of each segment in its file, for messages; may be empty
 };
 
@@ -37,15 +37,14 @@ struct PlanarFindings {
   std::size_t outside_points = 0;      // points of no segment that lie there: left out
 };
 
-// The domain of a graph. What lies on what, and what crosses, is decided exactly. Crossings are rounded, and what
-// is nearer than 1e-11 of the graph's size to a point (crossings and segments, not two points of the graph) is led
-// through it, as no mesh could go between; where that moves a segment over another one, that is a crossing too,
-// and resolved. Boundary curves are named
-// by their markers ("3"), "boundary" for 0; inner ones "internal" for 0. Chains run between the points where more
-// or fewer than two segments end. A point of no segment inside is kept as a vertex. Throws Error (geometry)
-// where the graph encloses nothing, coordinates are out of range, or segments cross and that is refused (naming
-// the two and the place).
-Domain planar_domain(const PlanarGraph& graph, const std::string& source, Crossings crossings = Crossings::insert,
-                     PlanarFindings* findings = nullptr);
+// The domain of a graph. What lies on what, and what crosses, is decided exactly. Crossings are rounded, and
+// what is nearer than 1e-11 of the graph's size to a point (crossings and segments, not two points of the
+// graph) is led through it, as no mesh could go between; where that moves a segment over another one, that is
+// a crossing too, and resolved. Boundary curves are named by their markers ("3"), "boundary" for 0; inner
+// ones "internal" for 0. Chains run between the points where more or fewer than two segments end. A point of
+// no segment inside is kept as a vertex. Throws Error (geometry) where the graph encloses nothing,
+// coordinates are out of range, or segments cross and that is refused (naming the two and the place).
+Domain planar_domain(const PlanarGraph& graph, const std::string& source,
+                     Crossings crossings = Crossings::insert, PlanarFindings* findings = nullptr);
 
 }  // namespace remodel

@@ -188,8 +188,8 @@ class OverlapRule {
            exact.orientation(c, d, a) * exact.orientation(c, d, b) <= 0;
   }
 
-  // Loops that do not meet but at joints: the winding number on the left of a loop is the same all along it. It
-  // is taken at a point that is on no other loop; a loop of joints alone is left to its neighbours.
+  // Loops that do not meet but at joints: the winding number on the left of a loop is the same all along it.
+  // It is taken at a point that is on no other loop; a loop of joints alone is left to its neighbours.
   void check_winding() {
     const auto loops = subject_.topology.loops();
     for (std::size_t l = 0; l < loops.size(); ++l) {

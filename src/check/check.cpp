@@ -144,8 +144,8 @@ std::size_t fan_size(const Subject& subject, std::uint32_t v, std::uint32_t star
   return size;
 }
 
-// A vertex's triangles form one fan: they are all reached by turning around it. Two fans touch like a bow tie,
-// which only a design may ask for, where its chains are joined. Returns the fans of all vertices.
+// A vertex's triangles form one fan: they are all reached by turning around it. Two fans touch like a bow
+// tie, which only a design may ask for, where its chains are joined. Returns the fans of all vertices.
 std::size_t check_fans(const Subject& subject, Report& report) {
   const std::vector<std::uint32_t> expected = triangles_per_point(subject.mesh);
   std::vector<std::size_t> fans(subject.mesh.points.size(), 0), reached(subject.mesh.points.size(), 0);
@@ -223,7 +223,8 @@ bool exceeds(double value, double bound) {
   return !(value <= bound * (1.0 + ratio_tolerance));
 }
 
-// The smallest angle's sine is e_min / 2r. Sets the smallest of all, and that of what is not exempt, in degrees.
+// The smallest angle's sine is e_min / 2r. Sets the smallest of all, and that of what is not exempt, in
+// degrees.
 void check_angles(const FrozenMesh& mesh, const Exemption* exemption, double bound_deg, CheckResult& result,
                   Report& report) {
   double smallest_sine = 1.0, smallest_held = std::nan("");

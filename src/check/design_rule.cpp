@@ -119,7 +119,8 @@ class DesignRule {
 
   // Every station is a point of the mesh. Where chains are joined the point names another loop's curve: it is
   // known by its place, and becomes a member of this loop too.
-  void add_stations(std::size_t loop, Members& members, const std::map<Coordinates, std::uint32_t>& point_at) {
+  void add_stations(std::size_t loop, Members& members,
+                    const std::map<Coordinates, std::uint32_t>& point_at) {
     const std::vector<BoundaryStation> stations = design_.stations(loop);
     const std::vector<Point> points = design_.points(loop);
     for (std::size_t i = 0; i < stations.size(); ++i) {
@@ -162,19 +163,20 @@ class DesignRule {
     const bool is_there = e != none && subject_.topology.edges()[e].is_boundary() != inner &&
                           (inner || subject_.topology.edges()[e].from == from);
     if (!is_there) {
-      report_.add("design", {from, to},
-                  sentence("points ", from, " and ", to, " follow each other on curve ", on_curve, ", but no ",
-                           inner ? "inner edge joins them" : "boundary edge leads from the first to the second"));
+      report_.add(
+          "design", {from, to},
+          sentence("points ", from, " and ", to, " follow each other on curve ", on_curve, ", but no ",
+                   inner ? "inner edge joins them" : "boundary edge leads from the first to the second"));
       return;
     }
     const std::uint32_t n = subject_.name_of_edge[e];
     const std::string& expected = curve(on_curve).name;
     if (n != none && mesh_.boundaries[n].name == expected) return;
     if (n == none && !inner) return;  // rule "boundary" has told
-    report_.add("design", {from, to},
-                sentence("the edge of points ", from, " and ", to, " is named \"",
-                         n == none ? std::string() : mesh_.boundaries[n].name, "\", its curve \"", expected,
-                         "\""));
+    report_.add(
+        "design", {from, to},
+        sentence("the edge of points ", from, " and ", to, " is named \"",
+                 n == none ? std::string() : mesh_.boundaries[n].name, "\", its curve \"", expected, "\""));
   }
 
   const Subject& subject_;

@@ -55,7 +55,8 @@ std::vector<Exemption::Reached> Exemption::corners_from(std::uint32_t v) const {
   std::vector<Reached> result;
   for (const std::uint32_t first : neighbours_[v]) {
     std::uint32_t before = v, here = first;
-    for (int steps = 0; corners_[here].empty() && neighbours_[here].size() == 2 && steps < longest_walk; ++steps) {
+    for (int steps = 0; corners_[here].empty() && neighbours_[here].size() == 2 && steps < longest_walk;
+         ++steps) {
       const std::uint32_t next = neighbours_[here][0] == before ? neighbours_[here][1] : neighbours_[here][0];
       before = std::exchange(here, next);
     }
@@ -67,7 +68,9 @@ std::vector<Exemption::Reached> Exemption::corners_from(std::uint32_t v) const {
 bool Exemption::exempts(std::uint32_t triangle) const {
   const auto& corners = mesh_.triangles[triangle];
   std::size_t shortest = 0;
-  const auto length = [&](std::size_t k) { return squared_length(direction(corners[k], corners[(k + 1) % 3])); };
+  const auto length = [&](std::size_t k) {
+    return squared_length(direction(corners[k], corners[(k + 1) % 3]));
+  };
   for (std::size_t k = 1; k < 3; ++k)
     if (length(k) < length(shortest)) shortest = k;
   const std::uint32_t a = corners[shortest], b = corners[(shortest + 1) % 3];
@@ -75,7 +78,8 @@ bool Exemption::exempts(std::uint32_t triangle) const {
   for (const Reached& one : from_a)
     for (const Reached& other : from_b) {
       if (one.corner != other.corner) continue;
-      const double da = squared_length(direction(one.corner, a)), db = squared_length(direction(one.corner, b));
+      const double da = squared_length(direction(one.corner, a)),
+                   db = squared_length(direction(one.corner, b));
       if (std::abs(da - db) > equal_distance * (da + db)) continue;
       for (const auto& [left, right] : corners_[one.corner])
         if ((left == one.along && right == other.along) || (left == other.along && right == one.along))

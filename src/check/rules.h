@@ -20,7 +20,7 @@ struct Subject {
   const Topology& topology;
   const ExactPoints& exact;
   std::vector<std::uint32_t> name_of_edge;  // per edge of the topology: index of its boundary, or none
-  std::vector<bool> joints;                 // per point: whether chains of the design are joined there; may be empty
+  std::vector<bool> joints;  // per point: whether chains of the design are joined there; may be empty
 
   bool is_joint(std::uint32_t v) const { return !joints.empty() && joints[v]; }
 };

@@ -13,7 +13,8 @@ struct RecoveryError : std::runtime_error {
 
 // What it says where loops call one part of the plane by two names.
 inline constexpr const char* contradicting_sides =
-    "the loops lie on the wrong sides of each other: a part of the plane is called domain by one and outside by "
+    "the loops lie on the wrong sides of each other: a part of the plane is called domain by one and outside "
+    "by "
     "another, or the boundary is not closed";
 
 }  // namespace remodel

@@ -258,7 +258,8 @@ void Refiner::set_split_length_scale(std::uint32_t k, VertexId a, VertexId b) {
 }
 
 // A far split that turns out impossible (boundaries closer to each other than points can be rounded) is taken
-// back, and the segment counts as too short. Under a journal of the caller's it is the caller who takes it back.
+// back, and the segment counts as too short. Under a journal of the caller's it is the caller who takes it
+// back.
 std::uint32_t Refiner::try_split_far(Segment segment, Point p, double t) {
   const std::vector<BoundaryVertex> boundary = mesh_.boundary;
   const std::vector<std::uint32_t> free_boundary = mesh_.free_boundary;
@@ -293,7 +294,8 @@ std::uint32_t Refiner::split_far(Segment segment, Point p, double t, int depth) 
   const VertexId a = mesh_.at(segment.from).vertex, b = mesh_.at(segment.to).vertex;
   triangulation_.release(a, b);
   const VertexId v = insert_free(p, a);
-  triangulation_.set_length_scale(v, interpolated_scale(v, a, b));  // splits that recovery asks for look at it
+  triangulation_.set_length_scale(v,
+                                  interpolated_scale(v, a, b));  // splits that recovery asks for look at it
   const std::uint32_t k = add_split(segment, v, t);
   recover(a, v, depth);
   recover(v, b, depth);

@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::size_t largest_file = std::size_t{256} << 20;
 
-// The lines that hold something, as scanners of their own: what a line does not have cannot come from the next.
+// The lines that hold something, as scanners of their own: what a line does not have cannot come from the
+// next.
 class Lines {
  public:
   Lines(std::string_view text, const std::string& file) : text_(text), file_(file) {}
@@ -36,7 +37,8 @@ class Lines {
   // A number of lines that follow, bounded by what is left of the text.
   std::size_t count(io::Scanner& line, const char* expected) const {
     const std::int64_t value = line.integer(expected);
-    if (value < 0 || static_cast<std::size_t>(value) > (text_.size() - std::min(position_, text_.size())) / 2 + 1)
+    if (value < 0 ||
+        static_cast<std::size_t>(value) > (text_.size() - std::min(position_, text_.size())) / 2 + 1)
       line.fail_found(std::to_string(value), expected);
     return static_cast<std::size_t>(value);
   }
@@ -111,7 +113,8 @@ class PolyReader {
 
   static int marker_of(io::Scanner& line) {
     const std::int64_t marker = line.integer("a boundary marker");
-    if (marker < -1'000'000'000 || marker > 1'000'000'000) line.fail("expected a marker of at most nine digits");
+    if (marker < -1'000'000'000 || marker > 1'000'000'000)
+      line.fail("expected a marker of at most nine digits");
     return static_cast<int>(marker);
   }
 
@@ -148,7 +151,8 @@ PlanarGraph read_poly(const std::filesystem::path& file) {
   node.replace_extension(".node");
   std::error_code ignored;
   const bool beside = std::filesystem::is_regular_file(node, ignored);
-  return parse_poly(poly, file.string(), beside ? read_text(node, largest_file) : std::string(), node.string());
+  return parse_poly(poly, file.string(), beside ? read_text(node, largest_file) : std::string(),
+                    node.string());
 }
 
 }  // namespace remodel

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesh/import_record.h"
 #include "mesh/mesh_data.h"
 #include "mesh/small_angles.h"
 
@@ -85,80 +84,6 @@ MeshStatistics Mesh::statistics() const {
   result.min_angle_deg = degrees(radius_edge);
   result.min_held_angle_deg = degrees(held_radius_edge);
   return result;
-}
-
-namespace {
-
-// Names in the order of the design's curves, each once.
-std::size_t boundary_index(FrozenMesh& frozen, const std::string& name) {
-  for (std::size_t i = 0; i < frozen.boundaries.size(); ++i)
-    if (frozen.boundaries[i].name == name) return i;
-  frozen.boundaries.push_back({name, {}});
-  return frozen.boundaries.size() - 1;
-}
-
-// A vertex where chains join lies on several curves: the view names the one of its first entry.
-void freeze_boundary(const MeshData& mesh, const std::vector<std::uint32_t>& point_of, FrozenMesh& frozen) {
-  for (const std::string& marker : mesh.imported.markers) boundary_index(frozen, marker);
-  for (std::size_t curve = 0; curve < mesh.domain.curve_count(); ++curve)
-    boundary_index(frozen, mesh.domain.curve(curve).name);
-  for (std::size_t loop = 0; loop < mesh.loop_heads.size(); ++loop) {
-    struct Named {
-      std::size_t boundary;
-      std::array<std::uint32_t, 2> edge;
-    };
-    std::vector<Named> edges;  // along the loop
-    mesh.walk_edges(mesh.loop_heads[loop], [&](std::uint32_t k, std::uint32_t next) {
-      const BoundaryVertex& from = mesh.at(k);
-      edges.push_back({boundary_index(frozen, mesh.curve(from.curve).name),
-                       {point_of[from.vertex.index], point_of[mesh.at(next).vertex.index]}});
-    });
-    mesh.walk(mesh.loop_heads[loop], [&](std::uint32_t k) {
-      if (mesh.triangulation[mesh.at(k).vertex].boundary != k) return;
-      const std::uint32_t p = point_of[mesh.at(k).vertex.index];
-      frozen.curve[p] = static_cast<std::int32_t>(mesh.at(k).curve);
-      frozen.parameter[p] = mesh.at(k).t;
-    });
-    if (mesh.sides[loop].left != Region::domain) {
-      std::reverse(edges.begin(), edges.end());
-      for (Named& named : edges) std::swap(named.edge[0], named.edge[1]);
-    }
-    for (const Named& named : edges) frozen.boundaries[named.boundary].edges.push_back(named.edge);
-  }
-}
-
-}  // namespace
-
-// Points in the order of vertex ids, triangles in the order of triangle ids.
-FrozenMesh Mesh::freeze() const {
-  const Triangulation& triangulation = data_->triangulation;
-  FrozenMesh frozen;
-  std::vector<std::uint32_t> point_of(triangulation.vertex_slots(), no_index);
-  const auto as_imported = triangles_as_imported(*data_);
-  for (std::uint32_t i = 0; i < triangulation.triangle_slots(); ++i) {
-    const Triangle& t = triangulation[TriangleId{i}];
-    if (!t.alive() || t.region != Region::domain) continue;
-    frozen.triangle_ids.push_back(i);
-    frozen.birth.push_back(t.birth);
-    const auto kept = as_imported.find(i);
-    frozen.triangles.push_back(kept != as_imported.end()
-                                   ? kept->second
-                                   : std::array{t.vertex[0].index, t.vertex[1].index, t.vertex[2].index});
-    for (const VertexId v : t.vertex) point_of[v.index] = 0;
-  }
-  for (std::uint32_t i = 0; i < triangulation.vertex_slots(); ++i) {
-    if (point_of[i] == no_index) continue;
-    point_of[i] = static_cast<std::uint32_t>(frozen.points.size());
-    frozen.points.push_back(triangulation.point(VertexId{i}));
-    frozen.length_scale.push_back(triangulation[VertexId{i}].length_scale);
-    frozen.vertex_ids.push_back(i);
-  }
-  for (auto& triangle : frozen.triangles)
-    for (std::uint32_t& v : triangle) v = point_of[v];
-  frozen.curve.assign(frozen.points.size(), -1);
-  frozen.parameter.assign(frozen.points.size(), 0.0);
-  freeze_boundary(*data_, point_of, frozen);
-  return frozen;
 }
 
 }  // namespace remodel

@@ -15,8 +15,8 @@
 
 namespace remodel {
 
-// A place of a loop or chain at a vertex. The constrained edge from it runs to `next`. Where the ends of chains
-// join other loops, one vertex has several of these; its own record names the first.
+// A place of a loop or chain at a vertex. The constrained edge from it runs to `next`. Where the ends of
+// chains join other loops, one vertex has several of these; its own record names the first.
 struct BoundaryVertex {
   VertexId vertex;
   std::uint32_t curve = 0;  // index over all curves of the domain
@@ -24,7 +24,8 @@ struct BoundaryVertex {
   bool steiner = false;       // inserted by refinement, not part of the initial discretisation
   double scale_factor = 1.0;  // length scale over what the curves alone would give: see base_length_scale()
   std::uint32_t next = no_index, previous = no_index;  // indices of the boundary table; none at chains' ends
-  std::uint32_t twin = no_index;  // another one at the same vertex, in a ring: itself where it is the only one
+  std::uint32_t twin =
+      no_index;  // another one at the same vertex, in a ring: itself where it is the only one
   std::uint32_t station = no_index;  // the last non-Steiner entry up to here: itself, if it is one
   std::uint32_t next_station = no_index, previous_station = no_index;  // of a non-Steiner entry
 };
@@ -33,7 +34,6 @@ struct BoundaryVertex {
 struct Sides {
   Region left = Region::outside, right = Region::outside;
 };
-
 
 // What a later stage keeps with a mesh to be faster next time. Never copied, never part of the state.
 struct MeshCache {
@@ -145,8 +145,8 @@ class MeshData {
   // The curve parameter where the boundary edge from k ends: its next vertex's, or 1 where the curve ends
   // there.
   double end_parameter(std::uint32_t k) const;
-  // Adds an entry behind `previous` (no_index: alone in a new chain); returns its index. A loop is closed when
-  // all of its stations are there.
+  // Adds an entry behind `previous` (no_index: alone in a new chain); returns its index. A loop is closed
+  // when all of its stations are there.
   std::uint32_t add_boundary_vertex(BoundaryVertex vertex, std::uint32_t previous);
   void close_loop(std::uint32_t head, std::uint32_t last);
   // Takes it out of its loop. Precondition: a Steiner vertex.
@@ -159,14 +159,16 @@ class MeshData {
   void count_domain_triangles();
 
   // What the curves alone say of the length scale at k: for a non-Steiner vertex the distance to the nearest
-  // non-Steiner neighbour over R (equation LS_b; on all of its loops), for a Steiner vertex the interpolation by
-  // length between its two non-Steiner neighbours (equation LS_bs; chords for arcs, between whose length ratios
-  // the difference is of second order). 1 for a single point, which has none.
+  // non-Steiner neighbour over R (equation LS_b; on all of its loops), for a Steiner vertex the interpolation
+  // by length between its two non-Steiner neighbours (equation LS_bs; chords for arcs, between whose length
+  // ratios the difference is of second order). 1 for a single point, which has none.
   double base_length_scale(std::uint32_t k) const;
   std::uint32_t non_steiner_before(std::uint32_t k) const {  // no_index at the end of a chain
     return boundary[k].steiner ? boundary[k].station : boundary[k].previous_station;
   }
-  std::uint32_t non_steiner_after(std::uint32_t k) const { return boundary[boundary[k].station].next_station; }
+  std::uint32_t non_steiner_after(std::uint32_t k) const {
+    return boundary[boundary[k].station].next_station;
+  }
   // Sets the length scale, and the factor from it.
   void set_boundary_length_scale(std::uint32_t k, double value);
 

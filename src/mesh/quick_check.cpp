@@ -80,12 +80,14 @@ std::string check_boundary_vertex(const MeshData& mesh, std::uint32_t k) {
   if (const std::uint32_t first = mesh.triangulation[v.vertex].boundary; first != no_index)
     mesh.at_vertex(first, [&](std::uint32_t e) { recorded |= e == k; });
   if (!recorded) return name + ": record and vertex disagree";
-  if (!(mesh.triangulation.point(v.vertex) == mesh.on_curve(v.curve, v.t))) return name + ": not on the design";
+  if (!(mesh.triangulation.point(v.vertex) == mesh.on_curve(v.curve, v.t)))
+    return name + ": not on the design";
   if (!(mesh.triangulation[v.vertex].length_scale > 0.0)) return name + ": no length scale";
   return {};
 }
 
-std::string check_boundary_edge(const MeshData& mesh, const Sides& sides, std::uint32_t k, std::uint32_t next) {
+std::string check_boundary_edge(const MeshData& mesh, const Sides& sides, std::uint32_t k,
+                                std::uint32_t next) {
   const std::string name = "boundary vertex " + std::to_string(mesh.at(k).vertex.index);
   const auto edge = mesh.triangulation.find_edge(mesh.at(k).vertex, mesh.at(next).vertex);
   if (!edge || !mesh.triangulation.link(*edge).constrained()) return name + ": boundary edge is missing";
@@ -136,7 +138,8 @@ std::string Mesh::quick_check() const {
   for (std::uint32_t i = 0; i < triangulation.triangle_slots(); ++i) {
     if (!triangulation[TriangleId{i}].alive()) continue;
     if (triangulation[TriangleId{i}].region == Region::domain) ++count;
-    if (std::string broken = check_triangle(*data_, i, promised, small_angles); !broken.empty()) return broken;
+    if (std::string broken = check_triangle(*data_, i, promised, small_angles); !broken.empty())
+      return broken;
     if (std::string broken = check_links(*data_, i); !broken.empty()) return broken;
   }
   if (count != data_->domain_triangles)

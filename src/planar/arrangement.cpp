@@ -67,9 +67,10 @@ void Arrangement::insert_points() {
       refuse(source_, "point " + std::to_string(i) + " is " + text_of(points[i]) +
                           ", expected coordinates that are 0 or of magnitude 1e-60 to 1e60");
   const auto second = std::find_if(points.begin(), points.end(), [&](Point p) { return !(p == points[0]); });
-  const auto third = std::find_if(second, points.end(),
-                                  [&](Point p) { return orient2d(points[0], *second, p) != 0; });
-  if (third == points.end()) refuse(source_, "all points lie on one line, expected a graph that encloses an area");
+  const auto third =
+      std::find_if(second, points.end(), [&](Point p) { return orient2d(points[0], *second, p) != 0; });
+  if (third == points.end())
+    refuse(source_, "all points lie on one line, expected a graph that encloses an area");
   triangulation_.start(points[0], *second, *third);
   vertices_.resize(points.size());
   VertexId last{1};
@@ -119,8 +120,8 @@ void Arrangement::route(const Piece& piece, VertexId through) {
   todo_.push_back({piece.from, through, piece.marker, piece.segment});
 }
 
-// Whether v is so near to the open segment that no mesh could go between. The detour is so flat that both of its
-// parts are shorter than the segment: detours end.
+// Whether v is so near to the open segment that no mesh could go between. The detour is so flat that both of
+// its parts are shorter than the segment: detours end.
 bool Arrangement::is_near(VertexId v, VertexId from, VertexId to) const {
   if (v == infinite_vertex || v == from || v == to) return false;
   const Point a = point(from), along = point(to) - a, p = point(v) - a;
@@ -129,8 +130,8 @@ bool Arrangement::is_near(VertexId v, VertexId from, VertexId to) const {
          across * across < snap_ * snap_ * length;
 }
 
-// A vertex near to the piece among those of the triangles that it passes, up to the first constrained edge: what
-// lies behind is looked at when the crossing with that has been made.
+// A vertex near to the piece among those of the triangles that it passes, up to the first constrained edge:
+// what lies behind is looked at when the crossing with that has been made.
 VertexId Arrangement::vertex_near(const Piece& piece) const {
   const Point a = point(piece.from), b = point(piece.to);
   const auto side = [&](VertexId v) { return v == infinite_vertex ? 0 : orient2d(a, b, point(v)); };
@@ -164,16 +165,16 @@ void Arrangement::add(const Piece& piece) {
   }
 }
 
-// Both are given up, and come back in two pieces each. The rounded point may lie beside both of them: what the
-// pieces cross then is found when they are inserted.
+// Both are given up, and come back in two pieces each. The rounded point may lie beside both of them: what
+// the pieces cross then is found when they are inserted.
 void Arrangement::cross(const Piece& piece, VertexId first, VertexId second) {
   const Key key = key_of(first, second);
   const int marker = edges_.at(key);
   const std::size_t segment = segment_of_.at(key);
   const Point p = crossing_of(piece, first, second);
   if (policy_ == Crossings::refuse)
-    refuse(source_, name_of_segment(piece.segment) + " and " + name_of_segment(segment) + " cross at " + text_of(p) +
-                        ", expected segments that meet at their ends only");
+    refuse(source_, name_of_segment(piece.segment) + " and " + name_of_segment(segment) + " cross at " +
+                        text_of(p) + ", expected segments that meet at their ends only");
   if (triangulation_.vertex_count() >= most_vertices)
     refuse(source_, "more than 10 million points and crossings found");
   ++findings.crossings;
@@ -247,7 +248,8 @@ Point Arrangement::crossing_of(const Piece& piece, VertexId first, VertexId seco
   const Point a = point(piece.from), b = point(piece.to), c = point(first), d = point(second);
   const Rational ax(a.x), ay(a.y), bx(b.x), by(b.y), cx(c.x), cy(c.y), dx(d.x), dy(d.y);
   const Rational along_x = bx - ax, along_y = by - ay, across_x = dx - cx, across_y = dy - cy;
-  const Rational t = ((cx - ax) * across_y - (cy - ay) * across_x) / (along_x * across_y - along_y * across_x);
+  const Rational t =
+      ((cx - ax) * across_y - (cy - ay) * across_x) / (along_x * across_y - along_y * across_x);
   const Rational x = ax + t * along_x, y = ay + t * along_y;
   return {x.convert_to<double>(), y.convert_to<double>()};
 }

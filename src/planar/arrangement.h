@@ -1,6 +1,7 @@
 #pragma once
 
-// The arrangement of a planar graph: its segments as constrained edges of a triangulation, split where they meet.
+// The arrangement of a planar graph: its segments as constrained edges of a triangulation, split where they
+// meet.
 
 #include <map>
 #include <string>
@@ -17,15 +18,15 @@ class Arrangement {
   // Throws Error as planar_domain() does.
   Arrangement(const PlanarGraph& graph, std::string source, Crossings crossings);
 
-  // The pieces of the segments, by their two vertices, the smaller first: the marker of the first segment there
-  // that has one.
+  // The pieces of the segments, by their two vertices, the smaller first: the marker of the first segment
+  // there that has one.
   using Key = std::pair<VertexId, VertexId>;
   const std::map<Key, int>& edges() const { return edges_; }
   const std::vector<VertexId>& vertices() const { return vertices_; }  // of the graph's points
   Point point(VertexId v) const { return triangulation_.point(v); }
 
-  // Whether the plane beside the directed edge, or around a vertex without edges, belongs to the domain: it is
-  // enclosed, and in no hole.
+  // Whether the plane beside the directed edge, or around a vertex without edges, belongs to the domain: it
+  // is enclosed, and in no hole.
   bool domain_on_left(VertexId from, VertexId to) const;
   bool domain_around(VertexId v) const { return !outside_[triangulation_.star(v).triangle.index]; }
 

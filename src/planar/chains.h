@@ -1,7 +1,7 @@
 #pragma once
 
-// The pieces of an arrangement, linked to chains: each runs between two points where not exactly two pieces end,
-// or around.
+// The pieces of an arrangement, linked to chains: each runs between two points where not exactly two pieces
+// end, or around.
 
 #include <vector>
 

@@ -54,7 +54,8 @@ Mesh meshed(const Domain& domain) {
   const CheckResult checked = check(result.mesh.freeze(), {.min_angle_deg = options.min_angle_deg,
                                                            .max_gradation = options.max_gradation,
                                                            .design = &result.mesh.domain()});
-  for (const Violation& violation : checked.violations) ADD_FAILURE() << violation.rule << ": " << violation.detail;
+  for (const Violation& violation : checked.violations)
+    ADD_FAILURE() << violation.rule << ": " << violation.detail;
   EXPECT_GE(checked.min_held_angle_deg, 30.0 - 1e-6);
   const Mesh restored = Mesh::restore(result.mesh.state(), "state");
   EXPECT_TRUE(restored.state() == result.mesh.state());
@@ -105,14 +106,15 @@ TEST(Planar, ACrackIsAnOpenChainWithTheMeshOnBothSides) {
   const Domain domain = planar_domain(graph, "graph");
   ASSERT_EQ(domain.loops.size(), 2U);
   EXPECT_TRUE(has_curve(domain, "7"));
-  EXPECT_TRUE(std::any_of(domain.loops.begin(), domain.loops.end(), [](const Loop& loop) { return loop.open; }));
+  EXPECT_TRUE(
+      std::any_of(domain.loops.begin(), domain.loops.end(), [](const Loop& loop) { return loop.open; }));
   EXPECT_DOUBLE_EQ(area(domain), 16.0);
   meshed(domain);
 }
 
 TEST(Planar, ACrackFromTheBoundaryJoinsItThere) {
   PlanarGraph graph = polygons({square(0, 0, 2)});
-  add_segment(graph, {-2, 0}, {0, 0});      // ends on a side of the square: points on segments
+  add_segment(graph, {-2, 0}, {0, 0});       // ends on a side of the square: points on segments
   add_segment(graph, {0, 0}, {1.5, 0.001});  // shares a point with it, at a small angle to the next
   add_segment(graph, {0, 0}, {1.5, 0.2});
   const PlanarFindings findings = findings_of(graph);
@@ -143,9 +145,9 @@ TEST(Planar, CrossingSegmentsAreSplitAtTheCrossing) {
 
 TEST(Planar, OverlappingSegmentsBecomeOne) {
   PlanarGraph graph = polygons({square(0, 0, 2)});
-  add_segment(graph, {-1, -2}, {1, -2}, 3);   // on a side
+  add_segment(graph, {-1, -2}, {1, -2}, 3);  // on a side
   add_segment(graph, {-1, 0}, {1, 0});
-  add_segment(graph, {0.5, 0}, {-3, 0});      // over the one before, and out of the square
+  add_segment(graph, {0.5, 0}, {-3, 0});  // over the one before, and out of the square
   add_segment(graph, {0.25, 0.25}, {0.25, 0.25});
   const PlanarFindings findings = findings_of(graph);
   EXPECT_EQ(findings.empty_segments, 1U);
@@ -190,8 +192,8 @@ TEST(Planar, OutlinesThatDoNotCloseAreRefused) {
   EXPECT_THROW(planar_domain(nan, "graph"), Error);
 }
 
-// Random segments in a box: whatever crosses and overlaps, the result is a valid domain of the box's area, and
-// what it is made of does not cross any more.
+// Random segments in a box: whatever crosses and overlaps, the result is a valid domain of the box's area,
+// and what it is made of does not cross any more.
 TEST(Planar, RandomCrossingSegmentsGiveAValidDomain) {
   for (unsigned seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -213,8 +215,7 @@ TEST(Planar, RandomCrossingSegmentsGiveAValidDomain) {
 // Nearly parallel lines, whose crossings round by much along them.
 TEST(Planar, NearlyParallelCrossingsEnd) {
   PlanarGraph graph = polygons({square(0, 0, 2)});
-  for (int i = 0; i < 30; ++i)
-    add_segment(graph, {-1, i * 1e-15}, {1, (30 - i) * 1e-15});
+  for (int i = 0; i < 30; ++i) add_segment(graph, {-1, i * 1e-15}, {1, (30 - i) * 1e-15});
   const Domain domain = planar_domain(graph, "graph");
   EXPECT_NO_THROW(validate(domain));
   EXPECT_NEAR(area(domain), 16.0, 1e-9);

@@ -99,7 +99,8 @@ class LoopReplacement {
   void match_loops() {
     std::multimap<std::pair<double, double>, std::size_t> old_loop_at;  // by their first points
     const auto first_point = [](const Domain& domain, std::size_t loop) {
-      const Point p = Frame(domain.loops[loop].placement)(point_at(domain.loops[loop].curves.front().shape, 0.0));
+      const Point p =
+          Frame(domain.loops[loop].placement)(point_at(domain.loops[loop].curves.front().shape, 0.0));
       return std::pair(p.x, p.y);
     };
     for (std::size_t j = 0; j < old_domain_.loops.size(); ++j)
@@ -223,10 +224,9 @@ class LoopReplacement {
                  : triangulation_[v].boundary != no_index && mesh_.at(triangulation_[v].boundary).steiner)
         throw RecoveryError("a boundary vertex of the new design lies on a curve of another loop");
       hint = triangulation_.star(v).triangle;
-      previous = mesh_.add_boundary_vertex({.vertex = v,
-                                            .curve = static_cast<std::uint32_t>(stations[i].curve),
-                                            .t = stations[i].t},
-                                           previous);
+      previous = mesh_.add_boundary_vertex(
+          {.vertex = v, .curve = static_cast<std::uint32_t>(stations[i].curve), .t = stations[i].t},
+          previous);
       if (i == 0) mesh_.loop_heads.push_back(previous);
     }
     if (!domain_.loops[loop].open) mesh_.close_loop(mesh_.loop_heads.back(), previous);

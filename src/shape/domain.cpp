@@ -96,8 +96,8 @@ Loop airfoil_loop(const PlacedAirfoil& placed, int points) {
   const CstAirfoil& airfoil = placed.airfoil;
   expect(airfoil.upper.size() >= 2 && airfoil.upper.size() == airfoil.lower.size(), "airfoil coefficients",
          static_cast<double>(airfoil.lower.size()), "as many lower as upper ones, at least 2");
-  expect(placed.placement.chord > 0.0 && std::isfinite(placed.placement.chord), "chord", placed.placement.chord,
-         "more than 0");
+  expect(placed.placement.chord > 0.0 && std::isfinite(placed.placement.chord), "chord",
+         placed.placement.chord, "more than 0");
   Loop body{.role = LoopRole::hole,
             .curves = {{.name = placed.name, .shape = airfoil, .parameters = mirrored_fractions(points)}},
             .placement = placed.placement};
@@ -171,8 +171,9 @@ std::vector<BoundaryStation> Domain::stations(std::size_t loop) const {
   std::size_t first_curve = 0;
   for (std::size_t l = 0; l < loop; ++l) first_curve += loops[l].curves.size();
   std::vector<BoundaryStation> result;
-  for_each_station(loops[loop],
-                   [&](std::size_t curve, double t) { result.push_back({first_curve + curve, t}); });
+  for_each_station(loops[loop], [&](std::size_t curve, double t) {
+    result.push_back({first_curve + curve, t});
+  });
   return result;
 }
 
@@ -220,10 +221,10 @@ Domain airfoils_domain(const std::vector<PlacedAirfoil>& airfoils, const Airfoil
   Domain domain;
   for (const PlacedAirfoil& airfoil : airfoils) domain.loops.push_back(airfoil_loop(airfoil, options.points));
   const Arc circle{.centre = {0.5, 0.0}, .radius = options.farfield_radius};
-  domain.loops.push_back(
-      {.role = LoopRole::outer,
-       .curves = {
-           {.name = "farfield", .shape = circle, .parameters = mirrored_fractions(options.farfield_points)}}});
+  domain.loops.push_back({.role = LoopRole::outer,
+                          .curves = {{.name = "farfield",
+                                      .shape = circle,
+                                      .parameters = mirrored_fractions(options.farfield_points)}}});
   for (std::size_t loop = 0; loop < airfoils.size(); ++loop) check_farfield_contains(domain, loop, options);
   return domain;
 }

@@ -98,8 +98,8 @@ int whole_number(const JsonReader& reader, const char* key, int low, int high) {
   return static_cast<int>(value);
 }
 
-// Reads a domain. `directory` is where the names of airfoil files begin; without one, airfoils by name or file
-// are refused.
+// Reads a domain. `directory` is where the names of airfoil files begin; without one, airfoils by name or
+// file are refused.
 class DomainReader {
  public:
   explicit DomainReader(const std::filesystem::path* directory) : directory_(directory) {}

@@ -135,7 +135,8 @@ void check_loop(const Domain& domain, std::size_t loop_index, std::size_t first_
   const Loop& loop = domain.loops[loop_index];
   std::size_t points = 0;
   for (std::size_t c = 0; c < loop.curves.size(); ++c) {
-    const std::string place = "loop " + std::to_string(loop_index) + ", curve \"" + loop.curves[c].name + "\"";
+    const std::string place =
+        "loop " + std::to_string(loop_index) + ", curve \"" + loop.curves[c].name + "\"";
     std::visit([&](const auto& shape) { check_shape(shape, place); }, loop.curves[c].shape);
     check_parameters(loop.curves[c].parameters, place);
     points += loop.curves[c].parameters.size();
@@ -195,7 +196,8 @@ void check_nesting(const Domain& domain, const std::vector<std::vector<Side>>& p
     const Point p = polygons[i].front().from;
     std::size_t around = 0;
     for (std::size_t j = 0; j < polygons.size(); ++j) {
-      if (j != i && takes_turns(domain.loops[j].role) && boxes[j].holds(p) && is_inside(polygons[j], p)) ++around;
+      if (j != i && takes_turns(domain.loops[j].role) && boxes[j].holds(p) && is_inside(polygons[j], p))
+        ++around;
     }
     const LoopRole expected = around % 2 == 0 ? LoopRole::outer : LoopRole::hole;
     if (domain.loops[i].role == expected) continue;

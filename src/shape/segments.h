@@ -28,8 +28,8 @@ struct SidePair {
 };
 
 // Two sides that cross, touch or overlap, if there are any. Neighbours may share their corner and nothing
-// else; an end of a chain may lie on corners of others. Polygons have at least three sides. Around n log n for
-// sides that are listed polygon by polygon in order.
+// else; an end of a chain may lie on corners of others. Polygons have at least three sides. Around n log n
+// for sides that are listed polygon by polygon in order.
 std::optional<SidePair> find_meeting_sides(std::span<const Side> sides);
 
 // True where p is inside the closed polygon of these sides; p is on none of them.

@@ -8,7 +8,8 @@ namespace remodel {
 namespace {
 
 // A symmetric tridiagonal system, diagonally dominant: no pivoting. sub[i] couples rows i and i + 1.
-void solve_tridiagonal(const std::vector<double>& sub, std::vector<double> diagonal, std::vector<Point>& right) {
+void solve_tridiagonal(const std::vector<double>& sub, std::vector<double> diagonal,
+                       std::vector<Point>& right) {
   const std::size_t n = right.size();
   for (std::size_t i = 1; i < n; ++i) {
     const double factor = sub[i - 1] / diagonal[i - 1];
@@ -42,7 +43,8 @@ void require_points(const std::vector<Point>& points) {
   const bool closed = points.size() > 1 && points.front() == points.back();
   const auto refuse = [](const std::string& problem) { throw Error(ErrorCode::argument, "spline", problem); };
   if (points.size() < 2 || (closed && points.size() < 4))
-    refuse("found " + std::to_string(points.size()) + " points, expected at least 2, or 4 where it is closed");
+    refuse("found " + std::to_string(points.size()) +
+           " points, expected at least 2, or 4 where it is closed");
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y))
       refuse("point " + std::to_string(i) + " is not finite");

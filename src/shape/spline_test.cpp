@@ -24,7 +24,8 @@ std::vector<Point> circle(int n) {
 }
 
 TEST(Spline, PassesThroughItsPointsExactly) {
-  for (const std::vector<Point>& points : {std::vector<Point>{{0, 0}, {1, 0.3}, {1.5, 2}, {4, 1}}, circle(9)}) {
+  for (const std::vector<Point>& points :
+       {std::vector<Point>{{0, 0}, {1, 0.3}, {1.5, 2}, {4, 1}}, circle(9)}) {
     const Spline spline = spline_through(points);
     for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(at(spline, spline.knots[i]), points[i]);
     EXPECT_EQ(at(spline, 0.0), points.front());
@@ -40,7 +41,8 @@ TEST(Spline, ThroughTwoPointsIsTheLine) {
   }
 }
 
-// Second differences on both sides of each knot agree: twice continuously differentiable, all around if closed.
+// Second differences on both sides of each knot agree: twice continuously differentiable, all around if
+// closed.
 TEST(Spline, IsTwiceContinuouslyDifferentiable) {
   const std::vector<Point> open{{0, 0}, {1, 0.3}, {1.5, 2}, {4, 1}, {5, 5}};
   for (const bool closed : {false, true}) {
