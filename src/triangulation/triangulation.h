@@ -66,12 +66,13 @@ class Triangulation {
     }
   }
 
-  // The neighbours of its neighbours, which were loaded before.
+  // What its neighbours, which were loaded before, lead to.
   void prefetch_second_ring(TriangleId t) const {
     for (const Link link : triangles_[t.index].link) {
       const Triangle& neighbour = triangles_[link.triangle().index];
       prefetch(neighbour.link[next3(link.corner())].triangle());
       prefetch(neighbour.link[previous3(link.corner())].triangle());
+      prefetch(neighbour.vertex[link.corner()]);
     }
   }
 
