@@ -17,9 +17,10 @@ Rows generation(int rounds, bool others);
 // The same at larger scale: I and G grow together.
 Rows large_generation(int rounds, bool ten_million);
 
-// A full adjustment at I = 700, G = 14; and one partial step in a mesh of 5,000 triangles and in one of a
-// million, whose farfield alone is finer.
+// A full adjustment at I = 700, G = 14.
 Rows adjustment(int rounds);
+// Steps around the same airfoil in a mesh of 5,000 triangles and in two of a million: one is graded more
+// gently, in the other the farfield alone is finer.
 Rows step_scale(int rounds);
 
 }  // namespace remodel::bench

@@ -56,22 +56,28 @@ Rows adjustment(int rounds) {
 }
 
 Rows step_scale(int rounds) {
+  struct Case {
+    double gradation;
+    int farfield;
+  };
   Rows rows;
   std::vector<double> whole, partial;
-  for (const int farfield : {50, 95'000}) {
+  for (const auto& [gradation, farfield] : {Case{4.0, 50}, Case{105.0, 50}, Case{4.0, 95'000}}) {
     const AirfoilDomainOptions options{.points = 200, .farfield_points = farfield};
-    Mesh mesh = generate(design(options, 1.0), {.gradation = 4.0}).mesh;
+    Mesh mesh = generate(design(options, 1.0), {.gradation = gradation}).mesh;
     int full = 0, none = 0;
     const double adjusted =
         step_seconds(mesh, {design(options, 1.0 + 1e-6), design(options, 1.0)}, rounds, full);
     const double replaced = step_seconds(mesh, {design(options, 1.05), design(options, 1.0)}, rounds, none);
     whole.push_back(adjusted);
     partial.push_back(replaced);
-    rows.push_back({{"triangles", mesh.triangle_count()},
+    rows.push_back({{"G", gradation},
+                    {"farfield stations", farfield},
+                    {"triangles", mesh.triangle_count()},
                     {"full adjustment, microseconds", 1e6 * adjusted},
+                    {"over the first", adjusted / whole.front()},
                     {"partial step, microseconds", 1e6 * replaced},
-                    {"full, over the smallest", adjusted / whole.front()},
-                    {"partial, over the smallest", replaced / partial.front()}});
+                    {"partial, over the first", replaced / partial.front()}});
   }
   return rows;
 }

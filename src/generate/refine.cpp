@@ -86,8 +86,10 @@ TriangleId Refiner::next_candidate() {
     ahead_[turn_] = fetched;
     if (fetched) triangulation_.prefetch(fetched);
     idle = fetched ? 0 : idle + 1;
-    const TriangleId soon = ahead_[(turn_ + look_ahead / 2) % look_ahead];
-    if (soon && triangulation_[soon].badness != 0) triangulation_.prefetch_around(soon);
+    const TriangleId later = ahead_[(turn_ + look_ahead / 2) % look_ahead];
+    if (later && triangulation_[later].badness != 0) triangulation_.prefetch_around(later);
+    const TriangleId soon = ahead_[(turn_ + look_ahead / 4) % look_ahead];
+    if (soon && triangulation_[soon].badness != 0) triangulation_.prefetch_second_ring(soon);
     turn_ = (turn_ + 1) % look_ahead;
     if (t) return t;
   }

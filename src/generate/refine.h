@@ -91,7 +91,7 @@ class Refiner {
   SmallAngles small_angles_;
   // Candidates on their way from memory: a pass jumps about in a large mesh, so what it will need is fetched
   // a few triangles ahead.
-  static constexpr std::size_t look_ahead = 8;
+  static constexpr std::size_t look_ahead = 32;
   std::array<TriangleId, look_ahead> ahead_;
   std::size_t turn_ = 0;
   std::deque<Segment> segments_;

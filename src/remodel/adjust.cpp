@@ -179,12 +179,19 @@ bool counterclockwise(const Triangulation& t, const VertexId (&v)[3]) {
   return orient2d(t.point(v[0]), t.point(v[1]), t.point(v[2])) > 0;
 }
 
+// Affected records lie all over the mesh, and between two steps a solver has used the caches: they are
+// fetched this many turns ahead.
+constexpr std::size_t look_ahead = 8;
+
 // Sets good and circle of every affected triangle, the mesh being at the new positions.
 bool evaluate(const MeshData& mesh, AdjustCache& cache) {
   const Triangulation& triangulation = mesh.triangulation;
   const QualityBounds bounds(mesh.options);
   bool all = true;
-  for (Affected& a : cache.affected) {
+  for (std::size_t i = 0; i < cache.affected.size(); ++i) {
+    if (i + look_ahead < cache.affected.size())
+      for (const VertexId v : cache.affected[i + look_ahead].vertex) triangulation.prefetch(v);
+    Affected& a = cache.affected[i];
     const Vertex &v0 = triangulation[a.vertex[0]], &v1 = triangulation[a.vertex[1]],
                  &v2 = triangulation[a.vertex[2]];
     if (a.domain) {
@@ -246,6 +253,18 @@ bool AdjustCache::finite() const {
                      [](Point p) { return std::isfinite(p.x) && std::isfinite(p.y); });
 }
 
+void AdjustCache::clear() {
+  stale = false;
+  non_steiner = 0;
+  loops.clear();
+  moving.clear();
+  basis.clear();
+  affected.clear();
+  stars.clear();
+  edges.clear();
+  segments.clear();
+}
+
 bool same_basis(const CstAirfoil& a, const CstAirfoil& b) {
   return a.upper.size() == b.upper.size() && a.e1 == b.e1 && a.e2 == b.e2;
 }
@@ -254,11 +273,17 @@ AdjustCache& adjust_cache(MeshData& mesh, const std::vector<std::size_t>& moving
   auto* present = dynamic_cast<AdjustCache*>(mesh.cache.get());
   if (present != nullptr && present->loops != moving_loops) present = nullptr;
   if (present != nullptr && !present->stale) return *present;
-  auto made = std::make_unique<AdjustCache>();
+  auto made =
+      present != nullptr && present->spare ? std::move(present->spare) : std::make_unique<AdjustCache>();
+  made->clear();
   made->loops = moving_loops;
   list_moving(mesh, *made, present);
   list_affected(mesh, *made);
   list_edges(mesh, *made);
+  if (present != nullptr) {
+    mesh.cache.release();
+    made->spare.reset(present);
+  }
   AdjustCache& result = *made;
   mesh.cache = std::move(made);
   return result;
@@ -274,7 +299,10 @@ bool adjust_all(MeshData& mesh, AdjustCache& cache, const Domain& domain) {
     return false;
   }
   mark_moved(cache);
-  for (const Affected& a : cache.affected) {
+  for (std::size_t i = 0; i < cache.affected.size(); ++i) {
+    if (i + look_ahead < cache.affected.size())
+      mesh.triangulation.prefetch(cache.affected[i + look_ahead].triangle);
+    const Affected& a = cache.affected[i];
     if (a.domain) mesh.triangulation.set_circle(a.triangle, a.circle);
     if (a.moved) mesh.triangulation.set_birth(a.triangle, mesh.step + 1);
   }

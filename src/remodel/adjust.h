@@ -7,6 +7,7 @@
 // *affected* triangles are those with a moving vertex.
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "mesh/mesh_data.h"
@@ -56,6 +57,7 @@ struct AdjustCache : MeshCache {
   std::vector<Segment> segments;
 
   bool finite() const;  // all new points of the step are
+  void clear();         // all lists; their storage stays
 
   // The curves and places of the loops on the new design; after a full adjustment, on the one before it.
   std::vector<Shape> shapes;
@@ -65,6 +67,9 @@ struct AdjustCache : MeshCache {
   std::vector<Point> old_points, new_points;
   std::vector<double> old_scales, new_scales;
   std::vector<bool> accepted;
+
+  // The cache before this one: the next one is built in its storage.
+  std::unique_ptr<AdjustCache> spare;
 };
 
 // Whether the cached CST basis of one airfoil serves the other: degree and class exponents are the same.

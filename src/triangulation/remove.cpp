@@ -9,12 +9,6 @@
 
 namespace remodel {
 
-// A vertex of the star's boundary polygon and the edge from it to the next one.
-struct Triangulation::StarEdge {
-  VertexId from;
-  Link outer;
-};
-
 namespace {
 
 std::size_t before(std::size_t i, std::size_t n) {
@@ -27,17 +21,22 @@ std::size_t after(std::size_t i, std::size_t n) {
 }  // namespace
 
 // Whether the triangle at polygon vertex i can be cut off: it is counter-clockwise and no other vertex of the
-// polygon lies in its circle (delaunay) or in its closed area (otherwise).
-bool Triangulation::is_ear(const std::vector<StarEdge>& polygon, std::size_t i, bool delaunay) const {
+// polygon lies in its circle (delaunay) or in its closed area (otherwise). The circle decides nearly always,
+// and is kept until a neighbour is cut off.
+bool Triangulation::is_ear(std::vector<StarEdge>& polygon, std::size_t i, bool delaunay) const {
   const std::size_t n = polygon.size();
   const VertexId a = polygon[before(i, n)].from, b = polygon[i].from, c = polygon[after(i, n)].from;
   const bool ghost = a == infinite_vertex || b == infinite_vertex || c == infinite_vertex;
-  if (!ghost && orient2d(point(a), point(b), point(c)) <= 0) return false;
+  std::optional<Circle>& circle = polygon[i].circle;
+  if (!circle) circle = ghost ? Circle{} : certified_circle(point(a), point(b), point(c));
+  if (!ghost && !circle->certain() && orient2d(point(a), point(b), point(c)) <= 0) return false;
   for (const StarEdge& edge : polygon) {
     const VertexId q = edge.from;
     if (q == a || q == b || q == c || q == infinite_vertex) continue;
+    const double distance = squared_distance(circle->centre, point(q));
+    if (distance > circle->outside) continue;
     if (delaunay || ghost) {
-      if (in_conflict(a, b, c, q)) return false;
+      if (distance < circle->inside || in_conflict(a, b, c, q)) return false;
     } else if (orient2d(point(a), point(b), point(q)) >= 0 && orient2d(point(b), point(c), point(q)) >= 0 &&
                orient2d(point(c), point(a), point(q)) >= 0) {
       return false;
@@ -46,7 +45,7 @@ bool Triangulation::is_ear(const std::vector<StarEdge>& polygon, std::size_t i, 
   return true;
 }
 
-std::size_t Triangulation::find_ear(const std::vector<StarEdge>& polygon, bool delaunay) const {
+std::size_t Triangulation::find_ear(std::vector<StarEdge>& polygon, bool delaunay) const {
   std::size_t i = 0;
   while (i < polygon.size() && !is_ear(polygon, i, delaunay)) ++i;
   return i;
@@ -59,7 +58,8 @@ void Triangulation::clip_ear(std::vector<StarEdge>& polygon, std::size_t i, Tria
   const auto attach = [this](Corner inner, Link outer) {
     connect(inner, {outer.triangle(), outer.corner()}, outer.constrained());
   };
-  write(slot, polygon[p].from, polygon[i].from, polygon[s].from, region);
+  const VertexId a = polygon[p].from, b = polygon[i].from, c = polygon[s].from;
+  write(slot, a, b, c, region, polygon[i].circle ? *polygon[i].circle : circle_of(a, b, c));
   attach({slot, 0}, polygon[i].outer);
   attach({slot, 2}, polygon[p].outer);
   if (n == 3) {
@@ -67,24 +67,27 @@ void Triangulation::clip_ear(std::vector<StarEdge>& polygon, std::size_t i, Tria
     return;
   }
   polygon[p].outer = Link(slot, 1);
+  polygon[p].circle.reset();
+  polygon[s].circle.reset();
   polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(i));
 }
 
 void Triangulation::remove(VertexId v) {
-  std::vector<StarEdge> polygon;
-  std::vector<TriangleId> slots;
+  std::vector<StarEdge>& polygon = polygon_;
+  std::vector<TriangleId>& slots = slots_;
+  polygon.clear();
+  slots.clear();
   const Corner first = star(v);
   const Region region = triangles_[first.triangle.index].region;
   Corner c = first;
   do {
     assert(!link({c.triangle, next3(c.index)}).constrained());
-    polygon.push_back({following(c), link(c)});
+    polygon.push_back({following(c), link(c), std::nullopt});
     slots.push_back(c.triangle);
     c = counterclockwise(c);
   } while (c.triangle != first.triangle);
 
-  std::vector<TriangleId>
-      uncertain;  // triangles of ears that only a constraint behind the polygon makes Delaunay
+  std::vector<TriangleId> uncertain;  // of ears that only a constraint behind the polygon makes Delaunay
   std::size_t used = 0;
   while (polygon.size() >= 3) {
     const bool last = polygon.size() == 3;

@@ -130,7 +130,8 @@ void Triangulation::set_constraint(Corner c, bool constrained) {
   connect(c, {link.triangle(), link.corner()}, constrained);
 }
 
-void Triangulation::write(TriangleId t, VertexId a, VertexId b, VertexId c, Region region) {
+void Triangulation::write(TriangleId t, VertexId a, VertexId b, VertexId c, Region region,
+                          const Circle& circle) {
   Triangle& triangle = edit(t);
   triangle.vertex[0] = a;
   triangle.vertex[1] = b;
@@ -138,7 +139,7 @@ void Triangulation::write(TriangleId t, VertexId a, VertexId b, VertexId c, Regi
   triangle.region = region;
   triangle.birth = step_;
   triangle.badness = 0;
-  compute_circle(triangle);
+  triangle.circle = circle;
   set_star(a, t, 0);
   set_star(b, t, 1);
   set_star(c, t, 2);
@@ -146,10 +147,9 @@ void Triangulation::write(TriangleId t, VertexId a, VertexId b, VertexId c, Regi
 
 // ---- circles and conflicts
 
-void Triangulation::compute_circle(Triangle& triangle) const {
-  triangle.circle = triangle.ghost() ? Circle{}
-                                     : certified_circle(point(triangle.vertex[0]), point(triangle.vertex[1]),
-                                                        point(triangle.vertex[2]));
+Circle Triangulation::circle_of(VertexId a, VertexId b, VertexId c) const {
+  const bool ghost = a == infinite_vertex || b == infinite_vertex || c == infinite_vertex;
+  return ghost ? Circle{} : certified_circle(point(a), point(b), point(c));
 }
 
 bool Triangulation::in_conflict_exact(const Triangle& t, Point p) const {

@@ -66,6 +66,16 @@ class Triangulation {
     }
   }
 
+  // What its neighbours, which were loaded before, lead to.
+  void prefetch_second_ring(TriangleId t) const {
+    for (const Link link : triangles_[t.index].link) {
+      const Triangle& neighbour = triangles_[link.triangle().index];
+      prefetch(neighbour.link[next3(link.corner())].triangle());
+      prefetch(neighbour.link[previous3(link.corner())].triangle());
+      prefetch(neighbour.vertex[link.corner()]);
+    }
+  }
+
   // The corners around a vertex: counter-clockwise and clockwise neighbours of a corner at the same vertex.
   Corner star(VertexId v) const { return corner(vertices_[v.index].star); }
   Corner counterclockwise(Corner c) const;
@@ -190,8 +200,14 @@ class Triangulation {
   void free_triangle(TriangleId t);
   VertexId new_vertex(Point p);
   void free_vertex(VertexId v);
-  void write(TriangleId t, VertexId a, VertexId b, VertexId c, Region region);
-  void compute_circle(Triangle& triangle) const;
+  void write(TriangleId t, VertexId a, VertexId b, VertexId c, Region region) {
+    write(t, a, b, c, region, circle_of(a, b, c));
+  }
+  void write(TriangleId t, VertexId a, VertexId b, VertexId c, Region region, const Circle& circle);
+  Circle circle_of(VertexId a, VertexId b, VertexId c) const;
+  void compute_circle(Triangle& triangle) const {
+    triangle.circle = circle_of(triangle.vertex[0], triangle.vertex[1], triangle.vertex[2]);
+  }
   bool in_conflict_exact(const Triangle& triangle, Point p) const;
   bool in_conflict(VertexId a, VertexId b, VertexId c, VertexId d) const;
 
@@ -202,9 +218,15 @@ class Triangulation {
   void set_constraint(Corner c, bool constrained);
   Location search_all(Point p) const;
 
-  struct StarEdge;  // remove.cpp
-  std::size_t find_ear(const std::vector<StarEdge>& polygon, bool delaunay) const;
-  bool is_ear(const std::vector<StarEdge>& polygon, std::size_t i, bool delaunay) const;
+  // remove.cpp: a vertex of the boundary polygon of a removed vertex' star, the edge from it to the next one,
+  // and the circle through it and both neighbours, once it is known.
+  struct StarEdge {
+    VertexId from;
+    Link outer;
+    std::optional<Circle> circle;
+  };
+  std::size_t find_ear(std::vector<StarEdge>& polygon, bool delaunay) const;
+  bool is_ear(std::vector<StarEdge>& polygon, std::size_t i, bool delaunay) const;
   void clip_ear(std::vector<StarEdge>& polygon, std::size_t i, TriangleId slot, Region region);
 
   struct Crossing;  // constrain.cpp
@@ -239,6 +261,8 @@ class Triangulation {
   std::size_t vertex_slots_before_ = 0, triangle_slots_before_ = 0, live_vertices_before_ = 0;
   std::uint32_t inserted_ = 0, removed_ = 0;
 
+  std::vector<StarEdge> polygon_;  // scratch of remove()
+  std::vector<TriangleId> slots_;
   Buffer<Spoke> spokes_;
   Buffer<TriangleId> new_star_;
   Cavity cavity_;
