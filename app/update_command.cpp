@@ -1,4 +1,4 @@
-// remodel update MESH SHAPE [-o MESH]...: the same mesh, remodelled to another shape.
+// remodel update MESH SHAPE... [-o MESH]...: the same mesh, remodelled to another shape.
 
 #include <algorithm>
 #include <memory>
@@ -6,6 +6,7 @@
 
 #include "arguments.h"
 #include "command.h"
+#include "domain_input.h"
 #include "figures.h"
 #include "meshing_options.h"
 #include "outputs.h"
@@ -22,7 +23,7 @@ namespace {
 struct UpdateCommand {
   std::string mesh;
   StartMeshOptions start;
-  std::string shape;
+  DomainInputOptions shapes;
   int cst_degree = 5;
   RemodelOptions remodelling;
   MeshOutputs outputs;
@@ -96,12 +97,24 @@ Domain domain_with(const CstAirfoil& airfoil, const StartMesh& start, const Upda
   return with_airfoil(start.mesh.domain(), place_in(start, command.start), airfoil);
 }
 
+// One airfoil takes the place of the mesh's own; several, or a domain, are all that there is afterwards.
+DomainInput new_domain(const StartMesh& start, const UpdateCommand& command) {
+  if (is_single_airfoil(command.shapes)) {
+    const CstAirfoil airfoil = load_airfoil(command.shapes.shapes[0], command.cst_degree);
+    return {.domain = domain_with(airfoil, start, command), .findings = std::nullopt};
+  }
+  if (!command.start.boundary.empty())
+    throw Error(ErrorCode::argument, "--boundary", "given with a whole domain, expected one airfoil to put there");
+  AirfoilDomainOptions discretisation = discretisation_of(start.mesh.domain());
+  if (command.start.points) discretisation.points = *command.start.points;
+  return read_domain(command.shapes, discretisation, command.cst_degree);
+}
+
 Status run(const UpdateCommand& command) {
   command.outputs.require_possible();
   const StartMesh start = read_start_mesh(command.mesh, command.start);
   const Mesh& original = start.mesh;
-  const CstAirfoil airfoil = load_airfoil(command.shape, command.cst_degree);
-  const Domain domain = domain_with(airfoil, start, command);
+  const DomainInput input = new_domain(start, command);
 
   Mesh mesh;
   RemodelResult result;
@@ -109,14 +122,15 @@ Status run(const UpdateCommand& command) {
   for (int i = 0; i < command.repeat; ++i) {
     mesh = original;
     const Stopwatch watch;
-    result = remodel(mesh, domain, command.remodelling);
+    result = remodel(mesh, input.domain, command.remodelling);
     seconds.push_back(watch.seconds());
   }
   command.outputs.write(mesh);
 
   Report report;
   report.line("mesh", command.mesh);
-  report.line("shape", command.shape);
+  for (const std::string& shape : command.shapes.shapes) report.line("shape", shape);
+  add_findings(report, input);
   report.line("removal distance D", Json(command.remodelling.distance).dump());
   add_import_figures(report, start);
   add_figures(report, result);
@@ -136,11 +150,11 @@ Status run(const UpdateCommand& command) {
 
 void add_update_command(CLI::App& program, Action& action) {
   auto command = std::make_shared<UpdateCommand>();
-  CLI::App& app = add_subcommand(program, "update", "Remodels a mesh to another airfoil",
+  CLI::App& app = add_subcommand(program, "update", "Remodels a mesh to another airfoil, or to another domain",
                                  [command, &action] { action = [command] { return run(*command); }; });
   add_text(app, {"mesh", "MESH", "", "Mesh: a native one (.vtkhdf), or .su2, .msh, .vtu with --boundary"},
            Presence::required, command->mesh);
-  add_shape_argument(app, command->shape);
+  add_domain_input(app, command->shapes);
   add_start_mesh_options(app, command->start);
   add_integer(app,
               {"--points", "I", "as many as in the mesh", "Vertices on the new airfoil: even, 8 to 100000"},
