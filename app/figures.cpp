@@ -36,8 +36,8 @@ void add_mesh_figures(Report& report, const FrozenMesh& mesh, const MeshStatisti
                 statistics.steiner_boundary_vertices);
   report.figure("min_angle_deg", "smallest angle", statistics.min_angle_deg, "degrees");
   if (statistics.exempt_triangles > 0)
-    report.figure("min_held_angle_deg", "smallest angle but for exempt triangles", statistics.min_held_angle_deg,
-                  "degrees");
+    report.figure("min_held_angle_deg", "smallest angle but for exempt triangles",
+                  statistics.min_held_angle_deg, "degrees");
   report.figure("exempt_triangles", "exempt triangles", statistics.exempt_triangles,
                 "(at input angles below 60 degrees)");
   report.figure("max_radius_edge", "largest radius-edge ratio", statistics.max_radius_edge);

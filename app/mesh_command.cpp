@@ -5,11 +5,11 @@
 
 #include "arguments.h"
 #include "command.h"
+#include "domain_input.h"
 #include "figures.h"
 #include "meshing_options.h"
 #include "outputs.h"
 #include "remodel/generate.h"
-#include "domain_input.h"
 #include "timing.h"
 
 namespace remodel::app {
@@ -41,7 +41,8 @@ Status run(const MeshCommand& command) {
 
   Report report;
   for (const std::string& shape : command.shapes.shapes) report.line("shape", shape);
-  report.data("shape", command.shapes.shapes.size() == 1 ? Json(command.shapes.shapes[0]) : Json(command.shapes.shapes));
+  report.data("shape", command.shapes.shapes.size() == 1 ? Json(command.shapes.shapes[0])
+                                                         : Json(command.shapes.shapes));
   add_findings(report, input);
   describe(report, command.meshing);
   add_mesh_figures(report, result.mesh.freeze(), result.mesh.statistics());
@@ -58,8 +59,9 @@ Status run(const MeshCommand& command) {
 
 void add_mesh_command(CLI::App& program, Action& action) {
   auto command = std::make_shared<MeshCommand>();
-  CLI::App& app = add_subcommand(program, "mesh", "Generates a quality mesh around airfoils, or of any domain",
-                                 [command, &action] { action = [command] { return run(*command); }; });
+  CLI::App& app =
+      add_subcommand(program, "mesh", "Generates a quality mesh around airfoils, or of any domain",
+                     [command, &action] { action = [command] { return run(*command); }; });
   add_domain_input(app, command->shapes);
   command->outputs.add_options(app, Presence::optional);
   add_meshing_options(app, command->meshing);

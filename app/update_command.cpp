@@ -104,7 +104,8 @@ DomainInput new_domain(const StartMesh& start, const UpdateCommand& command) {
     return {.domain = domain_with(airfoil, start, command), .findings = std::nullopt};
   }
   if (!command.start.boundary.empty())
-    throw Error(ErrorCode::argument, "--boundary", "given with a whole domain, expected one airfoil to put there");
+    throw Error(ErrorCode::argument, "--boundary",
+                "given with a whole domain, expected one airfoil to put there");
   AirfoilDomainOptions discretisation = discretisation_of(start.mesh.domain());
   if (command.start.points) discretisation.points = *command.start.points;
   return read_domain(command.shapes, discretisation, command.cst_degree);
@@ -150,8 +151,9 @@ Status run(const UpdateCommand& command) {
 
 void add_update_command(CLI::App& program, Action& action) {
   auto command = std::make_shared<UpdateCommand>();
-  CLI::App& app = add_subcommand(program, "update", "Remodels a mesh to another airfoil, or to another domain",
-                                 [command, &action] { action = [command] { return run(*command); }; });
+  CLI::App& app =
+      add_subcommand(program, "update", "Remodels a mesh to another airfoil, or to another domain",
+                     [command, &action] { action = [command] { return run(*command); }; });
   add_text(app, {"mesh", "MESH", "", "Mesh: a native one (.vtkhdf), or .su2, .msh, .vtu with --boundary"},
            Presence::required, command->mesh);
   add_domain_input(app, command->shapes);

@@ -2,8 +2,9 @@
 //
 //   high_lift [SETTINGS] [SEED] [PREFIX]
 //
-// A row for every setting; with PREFIX the first and the last mesh as PREFIX-first.vtkhdf and PREFIX-last.vtkhdf.
-// Settings whose elements would touch are refused and drawn again. Exit status 1 if a mesh is invalid.
+// A row for every setting; with PREFIX the first and the last mesh as PREFIX-first.vtkhdf and
+// PREFIX-last.vtkhdf. Settings whose elements would touch are refused and drawn again. Exit status 1 if a
+// mesh is invalid.
 
 #include <algorithm>
 #include <cstdint>
@@ -73,7 +74,8 @@ int run(int settings, std::uint64_t seed, const std::string& prefix) {
   Random random(seed);
   Mesh mesh = generate(three_elements({}), {.gradation = 2.4}).mesh;
   if (!prefix.empty()) write_mesh(mesh, prefix + "-first.vtkhdf");
-  std::puts("setting,slat_deg,flap_deg,flap_shift,triangles,preserved_percent,min_angle_deg,exempt,method,valid");
+  std::puts(
+      "setting,slat_deg,flap_deg,flap_shift,triangles,preserved_percent,min_angle_deg,exempt,method,valid");
   int invalid = 0, regenerated = 0, refused = 0;
   double preserved = 0.0, smallest = 90.0;
   for (int i = 1; i <= settings;) {
@@ -97,7 +99,8 @@ int run(int settings, std::uint64_t seed, const std::string& prefix) {
     ++i;
   }
   std::fprintf(stderr,
-               "%d settings, %d refused: %d invalid, %d generated afresh, %.1f %% preserved on average, smallest angle "
+               "%d settings, %d refused: %d invalid, %d generated afresh, %.1f %% preserved on average, "
+               "smallest angle "
                "%.4f degrees, %zu triangles at the end, %zu in a fresh mesh\n",
                settings, refused, invalid, regenerated, preserved, smallest, mesh.triangle_count(),
                generate(mesh.domain(), mesh.options()).mesh.triangle_count());

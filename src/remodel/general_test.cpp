@@ -1,5 +1,6 @@
-// The general case: any domain into any other. Loops that move across the mesh, appear, vanish, merge; chains,
-// cracks, single points; placed elements; domains that correspond one to one without an airfoil in them.
+// The general case: any domain into any other. Loops that move across the mesh, appear, vanish, merge;
+// chains, cracks, single points; placed elements; domains that correspond one to one without an airfoil in
+// them.
 
 #include <gtest/gtest.h>
 
@@ -32,8 +33,9 @@ void expect_valid(const Mesh& mesh, const std::string& where) {
     ADD_FAILURE() << where << ": " << violation.rule << ": " << violation.detail;
 }
 
-RemodelResult step(Mesh& mesh, const Domain& domain, const std::string& where) {
-  const RemodelResult result = remodel(mesh, domain);
+RemodelResult step(Mesh& mesh, const Domain& domain, const std::string& where,
+                   Method method = Method::automatic) {
+  const RemodelResult result = remodel(mesh, domain, {.method = method});
   EXPECT_EQ(result.stopped, Stopped::done) << where;
   EXPECT_FALSE(result.regenerated) << where << ": " << result.reason;
   expect_valid(mesh, where);
@@ -48,7 +50,8 @@ Loop chain(LoopRole role, std::string name, std::vector<Point> points) {
 }
 
 Loop crack(Point from, Point to) {
-  return chain(LoopRole::internal, "crack", {from, {0.5 * (from.x + to.x), 0.5 * (from.y + to.y) + 0.01}, to});
+  return chain(LoopRole::internal, "crack",
+               {from, {0.5 * (from.x + to.x), 0.5 * (from.y + to.y) + 0.01}, to});
 }
 
 Loop point(Point p) {
@@ -77,15 +80,16 @@ std::vector<std::pair<std::string, Domain>> domains() {
   graph.segments.insert(graph.segments.end(), {{4, 5, 7}, {6, 7, 8}, {8, 9, 0}});
   const Domain crossed = planar_domain(graph, "graph");
   const Domain one = with_holes({circle_hole(0.3, 0.5, 0.12)});
-  const Spline blob = spline_through({{0.7, 0.5}, {0.6, 0.7}, {0.4, 0.6}, {0.35, 0.4}, {0.55, 0.3}, {0.7, 0.5}});
+  const Spline blob =
+      spline_through({{0.7, 0.5}, {0.6, 0.7}, {0.4, 0.6}, {0.35, 0.4}, {0.55, 0.3}, {0.7, 0.5}});
   return {
       {"empty", with_holes({})},
       {"circle", one},
       {"two circles", with_holes({circle_hole(0.3, 0.5, 0.12), circle_hole(0.7, 0.5, 0.1)})},
       {"square", with_holes({square_hole(0.5, 0.5, 0.2)})},
       {"star", with_holes({star_hole(0.5, 0.5, 0.3)})},
-      {"many", with_holes({square_hole(0.2, 0.2, 0.05), circle_hole(0.8, 0.2, 0.1, 24), star_hole(0.5, 0.75, 0.15, 7),
-                           circle_hole(0.2, 0.8, 0.01, 8)})},
+      {"many", with_holes({square_hole(0.2, 0.2, 0.05), circle_hole(0.8, 0.2, 0.1, 24),
+                           star_hole(0.5, 0.75, 0.15, 7), circle_hole(0.2, 0.8, 0.01, 8)})},
       {"crack", with_holes({crack({0.2, 0.5}, {0.8, 0.55})})},
       {"crack and hole", with_holes({crack({0.1, 0.1}, {0.4, 0.2}), circle_hole(0.6, 0.6, 0.2)})},
       {"points", with_holes({point({0.31, 0.47}), point({0.77, 0.7})})},
@@ -116,6 +120,8 @@ TEST(GeneralCase, EveryDomainIntoEveryOtherAndBack) {
       const std::size_t fresh = generate(to).mesh.triangle_count();
       EXPECT_LE(mesh.triangle_count(), 2 * std::max(fresh, there.triangles_before) + 200) << where;
       step(mesh, from, where + " and back");
+      Mesh by_general = start.mesh;
+      step(by_general, to, where + ", general", Method::general);
       const Mesh restored = Mesh::restore(mesh.state(), "state");
       EXPECT_TRUE(restored.state() == mesh.state()) << where;
     }
@@ -181,7 +187,9 @@ TEST(GeneralCase, WhatIsFarFromTheChangeIsNotTouched) {
     left.insert({after.vertex_ids[t[0]], after.vertex_ids[t[1]], after.vertex_ids[t[2]]});
   std::size_t far = 0;
   for (const auto& t : before.triangles) {
-    const auto distant = [&](std::uint32_t v) { return before.points[v].x > 0.6 || before.points[v].y > 0.6; };
+    const auto distant = [&](std::uint32_t v) {
+      return before.points[v].x > 0.6 || before.points[v].y > 0.6;
+    };
     if (!std::all_of(t.begin(), t.end(), distant)) continue;
     ++far;
     EXPECT_TRUE(left.contains({before.vertex_ids[t[0]], before.vertex_ids[t[1]], before.vertex_ids[t[2]]}));
@@ -193,18 +201,21 @@ TEST(GeneralCase, WhatIsFarFromTheChangeIsNotTouched) {
 
 TEST(OneToOne, ARigidMotionOfOneElementIsAFullAdjustment) {
   const auto design = [](double degrees, double x) {
-    return with_holes({placed(star_hole(0, 0, 0.2), {1.0, degrees, {0.4 + x, 0.5}}), circle_hole(0.85, 0.5, 0.05)});
+    return with_holes(
+        {placed(star_hole(0, 0, 0.2), {1.0, degrees, {0.4 + x, 0.5}}), circle_hole(0.85, 0.5, 0.05)});
   };
   Mesh mesh = generate(design(0, 0)).mesh;
   const RemodelResult result = step(mesh, design(1e-3, 1e-6), "a little");
   EXPECT_TRUE(result.full_adjustment);
   EXPECT_EQ(result.method, Method::specialised);
-  EXPECT_EQ(result.moved, 10U + mesh.statistics().steiner_boundary_vertices - [&] {
-    std::size_t fixed = 0;  // Steiner vertices of the loops that stay
-    for (std::size_t loop : {0U, 2U})
-      mesh.data().walk(mesh.data().loop_heads[loop], [&](std::uint32_t k) { fixed += mesh.data().at(k).steiner; });
-    return fixed;
-  }());
+  EXPECT_EQ(
+      result.moved, 10U + mesh.statistics().steiner_boundary_vertices - [&] {
+        std::size_t fixed = 0;  // Steiner vertices of the loops that stay
+        for (std::size_t loop : {0U, 2U})
+          mesh.data().walk(mesh.data().loop_heads[loop],
+                           [&](std::uint32_t k) { fixed += mesh.data().at(k).steiner; });
+        return fixed;
+      }());
   for (int i = 1; i <= 40; ++i) step(mesh, design(9.0 * i, 0.001 * i), "degrees " + std::to_string(9 * i));
 }
 
