@@ -14,12 +14,14 @@
 #include <functional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "remodel/airfoil.h"
 #include "remodel/domain.h"
 #include "remodel/error.h"
 #include "remodel/generate.h"
+#include "remodel/planar.h"
 #include "remodel/remodel.h"
 
 namespace {
@@ -132,6 +134,37 @@ int print_chains() {
   return 0;
 }
 
+// Domains without an airfoil: a graph of segments that cross, and a spline that turns, each into the other.
+int print_domains() {
+  Chance chance(3);
+  PlanarGraph graph{.points = {{-2, -2}, {2, -2}, {2, 2}, {-2, 2}},
+                    .segments = {{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    for (int end = 0; end < 2; ++end) graph.points.push_back({1.9 * chance(), 1.9 * chance()});
+    graph.segments.push_back({4 + 2 * i, 5 + 2 * i});
+  }
+  const Domain crossed = planar_domain(graph, "graph");
+  const Spline blob = spline_through({{0.6, 0}, {0.1, 0.5}, {-0.5, 0.3}, {-0.2, -0.4}, {0.6, 0}});
+  std::vector<double> parameters;
+  for (int i = 0; i < 30; ++i) parameters.push_back(i / 30.0);
+  Mesh mesh = generate(crossed).mesh;
+  for (int i = 0; i < 12; ++i) {
+    Domain turned = crossed;
+    std::erase_if(turned.loops, [](const Loop& loop) { return loop.role == LoopRole::internal; });
+    turned.loops.push_back({.role = LoopRole::right,
+                            .curves = {{.name = "blob", .shape = blob, .parameters = parameters}},
+                            .placement = {1.0 + 0.05 * i, 7.0 * i, {0.03 * i, 0.1}}});
+    for (const Domain* domain : {&std::as_const(turned), &crossed}) {
+      if (i % 3 != 0 && domain == &crossed) continue;
+      remodel::remodel(mesh, *domain);
+      std::printf("domain %d: %zu triangles, %016" PRIx64 "\n", i, mesh.triangle_count(),
+                  hash_of(mesh.state()));
+    }
+  }
+  print_in_full(mesh.state());
+  return 0;
+}
+
 int compare_threads() {
   const std::vector<Chain> chains = {{1, 60, 60, Method::automatic},
                                      {2, 60, 60, Method::general},
@@ -158,7 +191,8 @@ int compare_threads() {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  return argc > 1 && std::strcmp(argv[1], "threads") == 0 ? compare_threads() : print_chains();
+  return argc > 1 && std::strcmp(argv[1], "threads") == 0 ? compare_threads()
+                                                          : print_chains() + print_domains();
 } catch (const remodel::Error& error) {
   std::fprintf(stderr, "trace: %s\n", error.what());
   return 2;
