@@ -23,6 +23,8 @@
   X(airfoil_text)            \
   X(airfoil_json)            \
   X(domain_json)             \
+  X(poly)                    \
+  X(import)                  \
   X(su2)                     \
   X(msh)                     \
   X(vtu)                     \

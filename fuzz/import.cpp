@@ -21,6 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       fuzz::require(check(imported.mesh.freeze(), {.delaunay = false}).valid, "an update is not valid");
     }
   } catch (const Error&) {
+    ++fuzz::refusals;
   }
   return 0;
 }

@@ -34,6 +34,31 @@ Domain square_with_arc() {
            {LoopRole::hole, {{"hole", Arc{{2, 2}, 1, 0, 6.283185307179586}, {0, 0.25, 0.5, 0.75}}}}}};
 }
 
+// Graphs with what a domain may have besides closed loops: cracks, joints, inner loops, single points, small
+// angles, crossings, holes.
+struct NamedGraph {
+  const char* name;
+  const char* poly;
+};
+constexpr NamedGraph graphs[] = {
+    {"hole",
+     "8 2 0 1\n1 0 0 1\n2 4 0 1\n3 4 4 1\n4 0 4 1\n5 1 1 2\n6 3 1 2\n7 3 3 2\n8 1 3 2\n"
+     "8 1\n1 1 2 1\n2 2 3 1\n3 3 4 1\n4 4 1 1\n5 5 6 2\n6 6 7 2\n7 7 8 2\n8 8 5 2\n1\n1 2 2\n"},
+    {"cracks",
+     "# a crack, one from the side, a fan of small angles and a point\n"
+     "11 2 0 0\n0 0 0\n1 4 0\n2 4 4\n3 0 4\n4 0.5 3\n5 1.5 3.25\n6 1 1\n7 3 1.2\n8 3 1.6\n9 2.5 2.5\n10 0 1\n"
+     "9 1\n0 0 1 1\n1 1 2 1\n2 2 3 2\n3 3 10 3\n4 10 0 3\n5 4 5 7\n6 10 6 0\n7 6 7 0\n8 6 8 0\n0\n"},
+    {"crossings",
+     "12 2 0 0\n0 0 0\n1 4 0\n2 4 4\n3 0 4\n4 1 -1\n5 3 5\n6 -1 2.25\n7 5 2\n8 1 1\n9 3 1\n10 2 3\n11 2 -2\n"
+     "10 0\n0 0 1\n1 1 2\n2 2 3\n3 3 0\n4 4 5\n5 6 7\n6 8 9\n7 9 10\n8 10 8\n9 11 10\n0\n"},
+    {"inner_loop",
+     "10 2 0 0\n0 0 0\n1 4 0\n2 4 4\n3 0 4\n4 1 1\n5 3 1\n6 3 3\n7 1 3\n8 2 2\n9 4 2\n"
+     "11 1\n0 0 1 1\n1 1 9 1\n2 9 2 1\n3 2 3 1\n4 3 0 1\n5 4 5 5\n6 5 6 5\n7 6 7 6\n8 7 4 5\n9 8 6 0\n10 6 9 0\n0\n"},
+    {"nested_holes",
+     "12 2 0 0\n0 0 0\n1 8 0\n2 8 8\n3 0 8\n4 2 2\n5 6 2\n6 6 6\n7 2 6\n8 3 3\n9 5 3\n10 5 5\n11 3 5\n"
+     "12 0\n0 0 1\n1 1 2\n2 2 3\n3 3 0\n4 4 5\n5 5 6\n6 6 7\n7 7 4\n8 8 9\n9 9 10\n10 10 11\n11 11 8\n1\n0 2.5 2.5\n"},
+};
+
 void write_corpus_domains(const std::filesystem::path& corpus, const std::filesystem::path& directory) {
   for (const auto& entry : std::filesystem::directory_iterator(corpus)) {
     if (entry.path().extension() != ".json") continue;
@@ -50,7 +75,7 @@ void write_corpus_domains(const std::filesystem::path& corpus, const std::filesy
 int main(int argc, char** argv) {
   if (argc != 3) return 2;
   const std::filesystem::path root = argv[1];
-  for (const char* target : {"airfoil_text", "airfoil_json", "domain_json", "import", "su2", "msh", "vtu", "vtkhdf",
+  for (const char* target : {"airfoil_text", "airfoil_json", "domain_json", "poly", "import", "su2", "msh", "vtu", "vtkhdf",
                              "vtkhdf_values", "mesh_state", "kernel", "remodel"})
     std::filesystem::create_directories(root / target);
 
@@ -66,6 +91,11 @@ int main(int argc, char** argv) {
   }
   write_text_atomically(root / "domain_json" / "square", domain_to_json(square_with_arc()));
   write_corpus_domains(argv[2], root / "domain_json");
+  for (const NamedGraph& graph : graphs) {
+    write_text_atomically(root / "poly" / graph.name, graph.poly);
+    write_text_atomically(root / "domain_json" / (std::string("graph_") + graph.name),
+                          domain_to_json(planar_domain(parse_poly(graph.poly, graph.name), graph.name)));
+  }
 
   const Mesh mesh = generate(square_with_arc(), {.min_angle_deg = 20, .gradation = 8}).mesh;
   write_mesh(mesh, root / "import" / "square.su2");

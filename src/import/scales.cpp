@@ -34,9 +34,9 @@ std::vector<double> mean_scales(const Triangulation& triangulation, double inver
   return sum;
 }
 
-using Corners = std::array<VertexId, 3>;
+using Vertices = std::array<VertexId, 3>;
 
-double squared_radius(const Triangulation& triangulation, const Corners& t) {
+double squared_radius(const Triangulation& triangulation, const Vertices& t) {
   return certified_circle(triangulation.point(t[0]), triangulation.point(t[1]), triangulation.point(t[2]))
       .squared_radius();
 }
@@ -45,17 +45,17 @@ double squared_radius(const Triangulation& triangulation, const Corners& t) {
 template <class Visit>
 void for_each_triangle_shown(const MeshData& mesh, Visit visit) {
   for_each_domain_triangle(mesh.triangulation, [&](const Triangle& t) {
-    visit(Corners{t.vertex[0], t.vertex[1], t.vertex[2]});
+    visit(Vertices{t.vertex[0], t.vertex[1], t.vertex[2]});
   });
   const std::vector<std::uint32_t>& file = mesh.imported.triangles;
   for (std::size_t i = 0; i < file.size(); i += 3)
-    visit(Corners{VertexId{file[i]}, VertexId{file[i + 1]}, VertexId{file[i + 2]}});
+    visit(Vertices{VertexId{file[i]}, VertexId{file[i + 1]}, VertexId{file[i + 2]}});
 }
 
 // Raising never makes another triangle bad, so that one pass is enough.
 void raise_where_too_small(const MeshData& mesh, double inverse_h, std::vector<double>& scales) {
   constexpr double margin = 1.0 + 1e-8;  // that of QualityBounds and rounding
-  for_each_triangle_shown(mesh, [&](const Corners& t) {
+  for_each_triangle_shown(mesh, [&](const Vertices& t) {
     const double wanted = margin * std::sqrt(squared_radius(mesh.triangulation, t)) * inverse_h;
     double mean = 0.0;
     for (const VertexId v : t) mean += scales[v.index] / 3.0;
@@ -68,7 +68,7 @@ void raise_where_too_small(const MeshData& mesh, double inverse_h, std::vector<d
 
 double worst_squared_radius_edge(const MeshData& mesh) {
   double worst = 0.0;
-  for_each_triangle_shown(mesh, [&](const Corners& t) {
+  for_each_triangle_shown(mesh, [&](const Vertices& t) {
     double shortest = INFINITY;
     for (std::size_t k = 0; k < 3; ++k)
       shortest = std::min(shortest, squared_distance(mesh.triangulation.point(t[k]),

@@ -18,7 +18,7 @@ bool in_range(double v) {
   return v == 0.0 || (std::abs(v) <= 1e60 && std::abs(v) >= 1e-60);
 }
 
-bool before(const DirectedEdge& a, const DirectedEdge& b) {
+bool listed_before(const DirectedEdge& a, const DirectedEdge& b) {
   return std::tie(a.from, a.to) < std::tie(b.from, b.to);
 }
 
@@ -103,7 +103,7 @@ class Mender {
 
   void refuse_shared_edges() const {
     for (std::size_t i = 1; i < edges_.size(); ++i)
-      if (!before(edges_[i - 1], edges_[i]))
+      if (!listed_before(edges_[i - 1], edges_[i]))
         refuse("triangles ", edges_[i - 1].triangle, " and ", edges_[i].triangle,
                " overlap: both have the edge of points ", number_[edges_[i].from], " and ",
                number_[edges_[i].to], " with the same side, one triangle on each side expected");
@@ -193,7 +193,7 @@ std::vector<DirectedEdge> directed_edges(const std::vector<std::array<std::uint3
 }
 
 const DirectedEdge* find_edge(const std::vector<DirectedEdge>& edges, std::uint32_t from, std::uint32_t to) {
-  const auto found = std::lower_bound(edges.begin(), edges.end(), DirectedEdge{from, to, 0}, before);
+  const auto found = std::lower_bound(edges.begin(), edges.end(), DirectedEdge{from, to, 0}, listed_before);
   return found != edges.end() && found->from == from && found->to == to ? &*found : nullptr;
 }
 

@@ -41,7 +41,7 @@ std::string place_of(const Domain& domain, BoundaryStation station) {
   return text.str();
 }
 
-bool finite(Point p) {
+bool is_finite(Point p) {
   return std::isfinite(p.x) && std::isfinite(p.y);
 }
 
@@ -55,15 +55,15 @@ void check_shape(const CstAirfoil& airfoil, const std::string& place) {
   }
 }
 void check_shape(const Line& line, const std::string& place) {
-  if (!finite(line.from) || !finite(line.to)) refuse(place, ": expected a line with finite ends");
+  if (!is_finite(line.from) || !is_finite(line.to)) refuse(place, ": expected a line with finite ends");
 }
 void check_shape(const Polyline& polyline, const std::string& place) {
-  if (polyline.points.size() < 2 || !std::all_of(polyline.points.begin(), polyline.points.end(), finite)) {
+  if (polyline.points.size() < 2 || !std::all_of(polyline.points.begin(), polyline.points.end(), is_finite)) {
     refuse(place, ": expected a polyline of at least 2 finite points");
   }
 }
 void check_shape(const Arc& arc, const std::string& place) {
-  if (!finite(arc.centre) || !std::isfinite(arc.start) || !std::isfinite(arc.sweep) || !(arc.radius > 0.0) ||
+  if (!is_finite(arc.centre) || !std::isfinite(arc.start) || !std::isfinite(arc.sweep) || !(arc.radius > 0.0) ||
       !std::isfinite(arc.radius)) {
     refuse(place, ": expected an arc of finite centre, angles and radius, the radius positive");
   }
@@ -74,7 +74,7 @@ void check_shape(const Spline& spline, const std::string& place) {
   const auto increasing = [](const std::vector<double>& knots) {
     return std::is_sorted(knots.begin(), knots.end(), std::less_equal<>());
   };
-  if (n < 2 || !std::all_of(spline.points.begin(), spline.points.end(), finite) || spline.knots.size() != n ||
+  if (n < 2 || !std::all_of(spline.points.begin(), spline.points.end(), is_finite) || spline.knots.size() != n ||
       spline.second.size() != n || !increasing(spline.knots) || spline.knots.front() != 0.0 ||
       spline.knots.back() != 1.0) {
     refuse(place, ": expected a spline of at least 2 finite points, as spline_through() makes it");
@@ -150,7 +150,7 @@ void check_loop(const Domain& domain, std::size_t loop_index, std::size_t first_
   }
   const Placement& placement = loop.placement;
   if (!std::isfinite(placement.chord) || placement.chord <= 0.0 || !std::isfinite(placement.rotation_deg) ||
-      !finite(placement.position)) {
+      !is_finite(placement.position)) {
     refuse("loop ", loop_index,
            ": expected a placement of positive finite chord, finite rotation and position");
   }
@@ -165,13 +165,13 @@ std::string place_of_side(const Domain& domain, const std::vector<std::vector<Si
   return place_of(domain, domain.stations(loop)[side]);
 }
 
-struct Box {
+struct LoopBox {
   Point low, high;
   bool holds(Point p) const { return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y; }
 };
 
-Box box_of(const std::vector<Side>& polygon) {
-  Box box{polygon.front().from, polygon.front().from};
+LoopBox box_of(const std::vector<Side>& polygon) {
+  LoopBox box{polygon.front().from, polygon.front().from};
   for (const Side& side : polygon) {
     box.low = {std::min(box.low.x, side.from.x), std::min(box.low.y, side.from.y)};
     box.high = {std::max(box.high.x, side.from.x), std::max(box.high.y, side.from.y)};
@@ -189,7 +189,7 @@ bool takes_turns(LoopRole role) {
 void check_nesting(const Domain& domain, const std::vector<std::vector<Side>>& polygons) {
   for (const Loop& loop : domain.loops)
     if (loop.role == LoopRole::left || loop.role == LoopRole::right) return;
-  std::vector<Box> boxes;
+  std::vector<LoopBox> boxes;
   for (const std::vector<Side>& polygon : polygons) boxes.push_back(box_of(polygon));
   for (std::size_t i = 0; i < polygons.size(); ++i) {
     if (!takes_turns(domain.loops[i].role)) continue;
