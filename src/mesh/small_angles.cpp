@@ -36,6 +36,16 @@ bool comes_before(const Leg& a, const Leg& b) {
   return cross(a.direction, b.direction) > 0.0;
 }
 
+// Cheap, for most vertices: two edges that meet at 60 degrees or more.
+bool may_be_sharp(const MeshData& mesh, std::uint32_t k) {
+  const BoundaryVertex& v = mesh.at(k);
+  if (v.twin != k) return true;
+  if (v.next == no_index || v.previous == no_index) return false;
+  const Point p = mesh.point(k), u = mesh.point(v.next) - p, w = mesh.point(v.previous) - p;
+  const double product = dot(u, w);
+  return product > 0.0 && product * product >= 0.24 * (dot(u, u) * dot(w, w));
+}
+
 bool has_sharp_wedge(std::vector<Leg>& legs) {
   std::sort(legs.begin(), legs.end(), comes_before);
   for (std::size_t i = 0; i < legs.size(); ++i) {
@@ -43,6 +53,12 @@ bool has_sharp_wedge(std::vector<Leg>& legs) {
     if (legs[i].domain_on_left && sharp(legs[i].direction, next.direction)) return true;
   }
   return false;
+}
+
+bool is_sharp(const MeshData& mesh, std::uint32_t k, std::vector<Leg>& legs) {
+  legs.clear();
+  add_legs(mesh, k, legs);
+  return has_sharp_wedge(legs);
 }
 
 // The non-Steiner vertices next to a boundary vertex on its loops, each with the segment of the initial
@@ -69,9 +85,7 @@ SmallAngles::SmallAngles(const MeshData& mesh) : mesh_(mesh) {
   std::vector<Leg> legs;
   for (const std::uint32_t head : mesh.loop_heads)
     mesh.walk(head, [&](std::uint32_t k) {
-      legs.clear();
-      add_legs(mesh, k, legs);
-      if (has_sharp_wedge(legs)) corners_.push_back(mesh.at(k).vertex);
+      if (may_be_sharp(mesh, k) && is_sharp(mesh, k, legs)) corners_.push_back(mesh.at(k).vertex);
     });
   std::sort(corners_.begin(), corners_.end());
   corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
