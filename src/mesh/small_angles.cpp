@@ -106,8 +106,10 @@ bool SmallAngles::seditious(VertexId a, VertexId b) const {
       const Point corner = mesh_.triangulation.point(from.corner);
       const double da = squared_distance(corner, mesh_.triangulation.point(a));
       const double db = squared_distance(corner, mesh_.triangulation.point(b));
-      // Shells are hit to rounding; the next shell is four times away.
-      found = std::abs(da - db) <= 1e-6 * (da + db);
+      const double ab = squared_distance(mesh_.triangulation.point(a), mesh_.triangulation.point(b));
+      // Shells are hit to rounding; the next shell is four times away. The angle between the sides is the
+      // small one: a corner may have others.
+      found = std::abs(da - db) <= 1e-6 * (da + db) && ab < da;
     });
   });
   return found;

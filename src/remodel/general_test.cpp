@@ -241,6 +241,19 @@ TEST(OneToOne, AFreeCrackMoves) {
     EXPECT_EQ(step(mesh, design(0.01 * i), "step " + std::to_string(i)).method, Method::specialised);
 }
 
+// Without a loop that stays nothing would hold the mesh while all of the old boundary is gone.
+TEST(OneToOne, WhereEveryLoopMovesTheGeneralMethodTakesOver) {
+  const auto design = [](double x, double degrees) {
+    const Placement placement{1.0, degrees, {x, 0}};
+    return Domain{{placed(rectangle(LoopRole::outer, "outer", {-1, -1}, {1, 1}, 3), placement),
+                   placed(star_hole(0, 0, 0.5), placement)}};
+  };
+  Mesh mesh = generate(design(0, 0)).mesh;
+  EXPECT_TRUE(step(mesh, design(1e-6, 0), "a little").full_adjustment);
+  EXPECT_EQ(step(mesh, design(5, 40), "far").method, Method::general);
+  EXPECT_EQ(step(mesh, design(5.3, 50), "less far").method, Method::general);
+}
+
 // What joins a chain that moves would be torn off it: the general method replaces both.
 TEST(OneToOne, WhatIsJoinedIsReplacedByTheGeneralMethod) {
   const auto design = [](double y) {

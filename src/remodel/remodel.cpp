@@ -288,15 +288,28 @@ void require_possible(const Mesh& mesh, const RemodelOptions& options, bool one_
                 "a trial of another design is under way, expected it to be kept or ended");
 }
 
+// The specialised method removes lost vertices before it inserts new ones: a loop that stays has to hold the
+// mesh meanwhile.
+bool keeps_a_loop(const MeshData& mesh, const AdjustCache& cache) {
+  std::size_t closed = 0;
+  for (const Loop& loop : mesh.domain.loops) closed += loop.open ? 0 : 1;
+  for (const std::size_t loop : cache.loops) closed -= mesh.domain.loops[loop].open ? 0 : 1;
+  return closed > 0;
+}
+
 // One step, which `undo` can take back. A full adjustment is the exception: it is journalled if undo is when
 // the step begins (trials), otherwise it cannot be taken back, and does not need to be.
-RemodelResult remodel_step(Mesh& mesh, const Domain& domain, const RemodelOptions& options, Method method,
+RemodelResult remodel_step(Mesh& mesh, const Domain& domain, const RemodelOptions& options, Method& method,
                            Undo& undo) {
   MeshData& data = mesh.data();
   AdjustCache* cache = nullptr;
   if (method == Method::specialised) {
     cache = &adjust_cache(data, moving_loops(data.domain, domain));
     if (adjust_all(data, *cache, domain)) return full_adjustment(data, *cache);
+    if (!keeps_a_loop(data, *cache)) {
+      cache = nullptr;
+      method = Method::general;
+    }
   }
   // A design that corresponds to the present one and cannot be meshed is found out by the replacement itself,
   // exactly: its loops cannot be recovered or do not nest. Then generation says where.
@@ -324,8 +337,7 @@ RemodelResult remodel(Mesh& mesh, const Domain& domain, const RemodelOptions& op
     return result;
   }
   require_surfaces_apart(domain);
-  const Method method =
-      one_to_one && options.method != Method::general ? Method::specialised : Method::general;
+  Method method = one_to_one && options.method != Method::general ? Method::specialised : Method::general;
   if (journal == Journal::always) undo.begin();
   RemodelResult result = remodel_step(mesh, domain, options, method, undo);
   result.method = method;
