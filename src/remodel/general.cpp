@@ -237,7 +237,21 @@ class LoopReplacement {
   void set_length_scale(std::uint32_t k) {
     if (mesh_.at(k).steiner) return;
     mesh_.set_boundary_length_scale(k, neighbour_length_scale(mesh_, k));
+    keep_scales_beside(k);
     for_each_corner(mesh_.at(k).vertex, [&](Corner c) { triangulation_.refresh_circle(c.triangle); });
+  }
+
+  // Steiner vertices up to the next stations keep their length scales. What their factors refer to follows
+  // the station's.
+  void keep_scales_beside(std::uint32_t k) {
+    const auto keep = [&](std::uint32_t s, std::uint32_t BoundaryVertex::* step) {
+      for (; s != no_index && mesh_.at(s).steiner; s = mesh_.at(s).*step)
+        mesh_.set_boundary_length_scale(s, mesh_.length_scale(s));
+    };
+    mesh_.at_vertex(k, [&](std::uint32_t e) {
+      keep(mesh_.at(e).next, &BoundaryVertex::next);
+      keep(mesh_.at(e).previous, &BoundaryVertex::previous);
+    });
   }
 
   template <class Visit>

@@ -91,9 +91,9 @@ std::string unkept(const MeshData& data) {
       if (std::abs(data.length_scale(k) - expected) > 1e-9 * expected)
         return "boundary vertex " + std::to_string(k) + " has a length scale of " +
                std::to_string(data.length_scale(k)) + ", not " + std::to_string(expected);
-      ++boundary;
+      if (t[data.at(k).vertex].boundary == k) ++boundary;  // joints have several entries
       k = data.at(k).next;
-    } while (k != head);
+    } while (k != head && k != no_index);
   }
   std::size_t inner = 0;
   for (std::uint32_t v = 1; v < t.vertex_slots(); ++v) {
@@ -509,6 +509,86 @@ TEST(GeneralMethod, ChangesTheOuterBoundaryToo) {
     domain.loops[0] = test::rectangle(LoopRole::outer, "outer", {1 - size, 1 - size}, {size, size}, 3);
     const RemodelResult result = step(mesh, domain, {.method = Method::general});
     EXPECT_EQ(full_check(mesh), "") << size << ' ' << result.reason;
+  }
+}
+
+// ---- chains
+
+// The unit square with a chain from the middle of its lower side to a joint, and one from there on: no two
+// edges meet at less than 60 degrees.
+Loop chain(std::string name, Point from, Point to, std::size_t pieces) {
+  Loop result = test::loop(LoopRole::internal, std::move(name), Line{from, to}, pieces);
+  result.open = true;
+  return result;
+}
+Domain with_chains(Point joint, Point tip, std::size_t pieces = 2) {
+  return test::with_holes({chain("stem", {0.5, 0}, joint, pieces), chain("twig", joint, tip, pieces)});
+}
+Domain with_stem(Point tip) {
+  return test::with_holes({chain("stem", {0.5, 0}, tip, 2)});
+}
+std::size_t entries_at(const MeshData& data, Point p) {
+  std::size_t count = 0;
+  for (const std::uint32_t head : data.loop_heads)
+    data.walk(head, [&](std::uint32_t k) { count += data.point(k) == p ? 1 : 0; });
+  return count;
+}
+
+TEST(Chains, AreReplacedWhileTheOnesThatTheyJoinStay) {
+  const Point joint{0.5, 0.5};
+  Mesh mesh = generated(with_chains(joint, {0.8, 0.8}));
+  for (const Point tip : {Point{0.2, 0.8}, Point{0.8, 0.6}, Point{0.51, 0.51}, Point{0.8, 0.8}}) {
+    const RemodelResult result = step(mesh, with_chains(joint, tip));
+    EXPECT_EQ(result.method, Method::general);  // what is joined does not move in place
+    EXPECT_FALSE(result.regenerated) << result.reason;
+    EXPECT_EQ(entries_at(mesh.data(), joint), 2U);
+    EXPECT_EQ(entries_at(mesh.data(), {0.5, 0}), 2U);
+    EXPECT_EQ(full_check(mesh), "");
+  }
+}
+
+TEST(Chains, AndTheirJointsMoveAppearAndVanish) {
+  Mesh mesh = generated(with_chains({0.5, 0.5}, {0.8, 0.8}));
+  const unsigned long long seed = test::seed(12);
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53 - 0.5; };
+  for (int i = 0; i < 60; ++i) {
+    SCOPED_TRACE(i);
+    const Point joint{0.5 + 0.2 * uniform(), 0.5 + 0.2 * uniform()};
+    const Point tip{0.8 + 0.2 * uniform(), 0.8 + 0.2 * uniform()};
+    const Domain designs[] = {with_chains(joint, tip), with_chains(joint, tip, 1 + random() % 6),
+                              with_stem(joint), with_stem(tip), test::with_holes({})};
+    const RemodelResult result = step(mesh, designs[random() % 5]);
+    EXPECT_FALSE(result.regenerated) << result.reason;
+    if (i % 10 == 0) {
+      EXPECT_EQ(full_check(mesh), "");
+    }
+  }
+}
+
+TEST(Chains, ThatAreFreeMoveInPlace) {
+  const auto crack = [](double x, double y) {
+    return test::with_holes({chain("crack", {0.3 + x, 0.3 + y}, {0.7 + x, 0.5 - y}, 3)});
+  };
+  Mesh mesh = generated(crack(0, 0));
+  for (const double x : {0.001, 0.002, 0.05, -0.1, -0.101, 0.1}) {
+    SCOPED_TRACE(x);
+    const RemodelResult result = step(mesh, crack(x, 0.5 * x));
+    EXPECT_EQ(result.method, Method::specialised);
+    EXPECT_FALSE(result.regenerated) << result.reason;
+    EXPECT_EQ(full_check(mesh), "");
+  }
+}
+
+// A free end that comes to lie on a station of the square, and leaves it again.
+TEST(Chains, MayJoinAndPartWithoutChangingTheirNumber) {
+  const auto crack = [](Point from) { return test::with_holes({chain("crack", from, {0.5, 0.6}, 3)}); };
+  Mesh mesh = generated(crack({0.5, 0.2}));
+  for (const Point from : {Point{0.5, 0}, Point{0.5, 0.1}, Point{0.25, 0}, Point{0.4, 0.3}, Point{0.5, 1}}) {
+    SCOPED_TRACE(std::to_string(from.x) + ", " + std::to_string(from.y));
+    step(mesh, crack(from));
+    EXPECT_EQ(full_check(mesh), "");
   }
 }
 
