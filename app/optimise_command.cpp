@@ -64,6 +64,7 @@ Json options_json(const OptimiseCommand& command) {
   Json options = meshing_json(command.meshing, command.run);
   options["distance"] = command.run.remodel.distance;
   options["method"] = name_of(command.run.remodel.method);
+  options["strategy"] = name_of(command.run.remodel.strategy);
   options["sigma"] = command.run.sigma;
   options["seed"] = command.run.seed;
   options["evaluations"] = command.run.evaluations;

@@ -25,8 +25,16 @@ struct QualityOptions {
   // What refinement works to, where that is more than min_angle_deg; 0 to 34. For meshes that were imported:
   // min_angle_deg is what the worst triangle of the file allows.
   double refine_angle_deg = 0.0;
+  // How much of H triangles may take that a step leaves as they are: they are promised r / mean LS <= keep H,
+  // new ones H. Above 1 for meshes whose length scales are renewed (Strategy::renew); at least 1.
+  double keep = 1.0;
   friend bool operator==(const QualityOptions&, const QualityOptions&) = default;
 };
+
+// The gradation that every triangle of a mesh keeps: r / mean LS is at most this.
+inline double promised_gradation(const QualityOptions& options) {
+  return options.keep * options.max_gradation;
+}
 
 // Why refinement ended. Anything but done leaves a valid constrained Delaunay mesh of lower quality.
 enum class Stopped { done, vertex_budget, minimum_edge, interrupted };
@@ -55,6 +63,14 @@ struct ImportRecord {
   friend bool operator==(const ImportRecord&, const ImportRecord&) = default;
 };
 
+// What Strategy::renew (remodel/remodel.h) remembers of a mesh from step to step.
+struct RenewalState {
+  double count_factor = 0.0;    // K: triangles of a fresh mesh over their size S; 0: not measured yet
+  double interior_size = -1.0;  // the part of S in triangles without a boundary vertex; negative: unknown
+  std::uint32_t full_adjustments = 0;  // in a row
+  friend bool operator==(const RenewalState&, const RenewalState&) = default;
+};
+
 // The state of a living mesh as plain arrays, slot by slot, free slots included: what the native file stores.
 // A mesh restored from it goes on to the same bytes as one that never left memory.
 struct MeshState {
@@ -75,6 +91,7 @@ struct MeshState {
   std::uint32_t step = 0;  // remodellings since generation
   Domain domain;
   QualityOptions options;
+  RenewalState renewal;
   ImportRecord imported;
 
   friend bool operator==(const MeshState&, const MeshState&) = default;
@@ -87,7 +104,7 @@ struct MeshStatistics {
   std::size_t steiner_boundary_vertices = 0;
   double min_angle_deg = 0.0;
   double max_radius_edge = 0.0;  // max r / e_min
-  double max_gradation = 0.0;    // max r / (H mean LS): at most 1
+  double max_gradation = 0.0;    // max r / (H mean LS): at most QualityOptions::keep
 };
 
 class MeshData;  // src/mesh/mesh_data.h: the library's own view

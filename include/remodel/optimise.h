@@ -32,7 +32,7 @@ struct MeshStart {
 struct OptimiseOptions {
   AirfoilDomainOptions domain{};
   QualityOptions quality{};
-  RemodelOptions remodel{};
+  RemodelOptions remodel{.strategy = Strategy::renew};
   double sigma = 0.05;             // initial standard deviation of the coefficients; > 0
   std::uint64_t seed = 1;          // of the samples; the designs depend on nothing else of these options but
                                    // sigma and, where samples are refused, on domain

@@ -18,6 +18,7 @@
 #include "remodel/error.h"
 #include "remodel/generate.h"
 #include "remodel/io.h"
+#include "remodel/strategy.h"
 
 namespace remodel {
 namespace {
@@ -61,6 +62,8 @@ std::string settings_of(const CstAirfoil& from, const CstAirfoil& to, const Opti
       {"min_edge", quality.min_edge},
       {"distance", options.remodel.distance},
       {"method", name_of(options.remodel.method)},
+      {"strategy", name_of(options.remodel.strategy)},
+      {"keep", resolved_keep(options.remodel, quality)},
       {"sigma", options.sigma},
       {"seed", options.seed},
       {"compare_every", options.compare_every},
@@ -344,6 +347,9 @@ Progress go_on(const CstAirfoil& from, const CstAirfoil& to, const OptimiseOptio
           .earlier_seconds = checkpoint.seconds};
 }
 
+// A run is long: it can afford to know K within one percent.
+constexpr int calibration_samples = 20;
+
 // None where a limit keeps it from being finished.
 std::optional<Mesh> first_mesh(const CstAirfoil& from, const OptimiseOptions& options) {
   const Domain domain = DesignDomains(options)(from);
@@ -354,6 +360,7 @@ std::optional<Mesh> first_mesh(const CstAirfoil& from, const OptimiseOptions& op
   }
   GenerateResult generated = generate(domain, options.quality);
   if (generated.stopped != Stopped::done) return std::nullopt;
+  if (options.remodel.strategy == Strategy::renew) calibrate(generated.mesh.data(), calibration_samples);
   return std::move(generated.mesh);
 }
 

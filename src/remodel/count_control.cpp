@@ -1,0 +1,122 @@
+#include "remodel/count_control.h"
+
+#include <algorithm>
+
+#include "remodel/generate.h"
+
+namespace remodel {
+
+namespace {
+
+double size_of(const Vertex& a, const Vertex& b, const Vertex& c, double h) {
+  const double area = 0.5 * cross(b.point - a.point, c.point - a.point);
+  const double mean = (a.length_scale + b.length_scale + c.length_scale) * (1.0 / 3.0) * h;
+  return area / (mean * mean);
+}
+
+bool is_interior(const Vertex& a, const Vertex& b, const Vertex& c) {
+  return a.boundary == no_index && b.boundary == no_index && c.boundary == no_index;
+}
+
+double interior_size_of(const MeshData& mesh, const Triangle& t) {
+  if (!t.alive() || t.region != Region::domain) return 0.0;
+  const Triangulation& triangulation = mesh.triangulation;
+  const Vertex &a = triangulation[t.vertex[0]], &b = triangulation[t.vertex[1]],
+               &c = triangulation[t.vertex[2]];
+  return is_interior(a, b, c) ? size_of(a, b, c, mesh.options.max_gradation) : 0.0;
+}
+
+// Vertices as they were when the journal began, where they differ in what sizes depend on.
+class VerticesBefore {
+ public:
+  explicit VerticesBefore(MeshData& mesh) : triangulation_(mesh.triangulation) {
+    mesh.vertex_marks.clear(triangulation_.vertex_slots());
+    for (const Triangulation::VertexBefore& before : triangulation_.earlier_vertices())
+      if (mesh.vertex_marks.visit(before.id.index) && differs(before)) changed_.push_back(before);
+    std::sort(changed_.begin(), changed_.end(),
+              [](const auto& a, const auto& b) { return a.id < b.id; });
+  }
+  const Vertex& operator[](VertexId v) const {
+    const auto found = std::lower_bound(changed_.begin(), changed_.end(), v,
+                                        [](const auto& entry, VertexId id) { return entry.id < id; });
+    return found != changed_.end() && found->id == v ? found->vertex : triangulation_[v];
+  }
+
+ private:
+  bool differs(const Triangulation::VertexBefore& before) const {
+    const Vertex& now = triangulation_[before.id];
+    return !(now.point == before.vertex.point) || now.length_scale != before.vertex.length_scale ||
+           now.boundary != before.vertex.boundary || !now.alive();
+  }
+
+  const Triangulation& triangulation_;
+  std::vector<Triangulation::VertexBefore> changed_;
+};
+
+// A fresh mesh's triangles per size; 0 where it cannot be finished.
+double fresh_count_factor(const MeshData& like, double h_factor, StepObserver* observer) {
+  QualityOptions options = like.options;
+  options.max_gradation *= h_factor;
+  GenerateResult fresh = generate(like.domain, options, observer);
+  if (fresh.stopped != Stopped::done) return 0.0;
+  MeshData& mesh = fresh.mesh.data();
+  mesh.options.max_gradation = like.options.max_gradation;
+  return static_cast<double>(mesh.domain_triangles) / (interior_size(mesh) + boundary_size(mesh));
+}
+
+}  // namespace
+
+double interior_size(const MeshData& mesh) {
+  double sum = 0.0;
+  for (std::uint32_t i = 0; i < mesh.triangulation.triangle_slots(); ++i)
+    sum += interior_size_of(mesh, mesh.triangulation[TriangleId{i}]);
+  return sum;
+}
+
+double corrected_interior_size(MeshData& mesh, double before) {
+  const Triangulation& triangulation = mesh.triangulation;
+  const VerticesBefore vertices(mesh);
+  double sum = before;
+  for (const Triangulation::Earlier& earlier : triangulation.earlier()) {
+    const Triangle& t = earlier.triangle;
+    if (!t.alive() || t.region != Region::domain) continue;
+    const Vertex &a = vertices[t.vertex[0]], &b = vertices[t.vertex[1]], &c = vertices[t.vertex[2]];
+    if (is_interior(a, b, c)) sum -= size_of(a, b, c, mesh.options.max_gradation);
+  }
+  for (const TriangleId t : triangulation.touched()) sum += interior_size_of(mesh, triangulation[t]);
+  return sum;
+}
+
+double boundary_size(MeshData& mesh) {
+  const Triangulation& triangulation = mesh.triangulation;
+  double sum = 0.0;
+  mesh.marks.clear(triangulation.triangle_slots());
+  for (const std::uint32_t head : mesh.loop_heads)
+    mesh.walk(head, [&](std::uint32_t k) {
+      const Corner first = triangulation.star(mesh.at(k).vertex);
+      Corner c = first;
+      do {
+        const Triangle& t = triangulation[c.triangle];
+        if (t.region == Region::domain && mesh.marks.visit(c.triangle.index))
+          sum += size_of(triangulation[t.vertex[0]], triangulation[t.vertex[1]], triangulation[t.vertex[2]],
+                         mesh.options.max_gradation);
+        c = triangulation.counterclockwise(c);
+      } while (c.triangle != first.triangle);
+    });
+  return sum;
+}
+
+double measured_count_factor(const MeshData& mesh, int samples, StepObserver* observer) {
+  double sum = 0.0;
+  int finished = 0;
+  for (int i = 0; i < samples; ++i) {
+    const double position = samples == 1 ? 0.5 : static_cast<double>(i) / (samples - 1);  // 0 to 1
+    const double factor = fresh_count_factor(mesh, 1.0 + 0.01 * (position - 0.5), observer);
+    if (factor == 0.0) continue;
+    sum += factor;
+    ++finished;
+  }
+  return finished == 0 ? 0.0 : sum / finished;
+}
+
+}  // namespace remodel
