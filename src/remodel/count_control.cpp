@@ -3,6 +3,9 @@
 #include <algorithm>
 
 #include "remodel/generate.h"
+#include "remodel/renew.h"
+#include <cstdio>
+#include <cstdlib>
 
 namespace remodel {
 
@@ -26,31 +29,23 @@ double interior_size_of(const MeshData& mesh, const Triangle& t) {
   return is_interior(a, b, c) ? size_of(a, b, c, mesh.options.max_gradation) : 0.0;
 }
 
-// Vertices as they were when the journal began, where they differ in what sizes depend on.
+// Vertices as they were when the journal began.
 class VerticesBefore {
  public:
-  explicit VerticesBefore(MeshData& mesh) : triangulation_(mesh.triangulation) {
-    mesh.vertex_marks.clear(triangulation_.vertex_slots());
-    for (const Triangulation::VertexBefore& before : triangulation_.earlier_vertices())
-      if (mesh.vertex_marks.visit(before.id.index) && differs(before)) changed_.push_back(before);
-    std::sort(changed_.begin(), changed_.end(),
-              [](const auto& a, const auto& b) { return a.id < b.id; });
+  explicit VerticesBefore(MeshData& mesh) : mesh_(mesh), earlier_(mesh.triangulation.earlier_vertices()) {
+    mesh.vertex_marks.clear(mesh.triangulation.vertex_slots());
+    mesh.numbers.resize(std::max(mesh.numbers.size(), mesh.triangulation.vertex_slots()));
+    for (std::uint32_t i = 0; i < earlier_.size(); ++i)
+      if (mesh.vertex_marks.visit(earlier_[i].id.index)) mesh.numbers[earlier_[i].id.index] = i;
   }
   const Vertex& operator[](VertexId v) const {
-    const auto found = std::lower_bound(changed_.begin(), changed_.end(), v,
-                                        [](const auto& entry, VertexId id) { return entry.id < id; });
-    return found != changed_.end() && found->id == v ? found->vertex : triangulation_[v];
+    return mesh_.vertex_marks.visited(v.index) ? earlier_[mesh_.numbers[v.index]].vertex
+                                               : mesh_.triangulation[v];
   }
 
  private:
-  bool differs(const Triangulation::VertexBefore& before) const {
-    const Vertex& now = triangulation_[before.id];
-    return !(now.point == before.vertex.point) || now.length_scale != before.vertex.length_scale ||
-           now.boundary != before.vertex.boundary || !now.alive();
-  }
-
-  const Triangulation& triangulation_;
-  std::vector<Triangulation::VertexBefore> changed_;
+  const MeshData& mesh_;
+  std::span<const Triangulation::VertexBefore> earlier_;
 };
 
 // A fresh mesh's triangles per size; 0 where it cannot be finished.
@@ -61,6 +56,12 @@ double fresh_count_factor(const MeshData& like, double h_factor, StepObserver* o
   if (fresh.stopped != Stopped::done) return 0.0;
   MeshData& mesh = fresh.mesh.data();
   mesh.options.max_gradation = like.options.max_gradation;
+  if (getenv("DBG")) {
+    const double si = interior_size(mesh), sb = boundary_size(mesh);
+    auto ls = propagated_length_scales(mesh);
+    for (std::uint32_t i = 1; i < ls.size(); ++i) mesh.triangulation.set_length_scale(VertexId{i}, ls[i]);
+    fprintf(stderr, "fresh N %zu S ins %.1f + %.1f prop %.1f + %.1f\n", mesh.domain_triangles, si, sb, interior_size(mesh), boundary_size(mesh));
+  }
   return static_cast<double>(mesh.domain_triangles) / (interior_size(mesh) + boundary_size(mesh));
 }
 

@@ -254,7 +254,7 @@ Stopped refine_touched(MeshData& mesh, StepObserver* observer) {
 
 // The vertices moved in place.
 std::vector<VertexId> replace_boundary(MeshData& mesh, AdjustCache* cache, const Domain& domain,
-                                       const ReplaceOptions& options) {
+                                       const ReplaceOptions& options, std::size_t budget) {
   std::vector<VertexId> moved;
   std::vector<std::size_t> loops;
   if (cache != nullptr) {
@@ -264,7 +264,7 @@ std::vector<VertexId> replace_boundary(MeshData& mesh, AdjustCache* cache, const
     replace_loops(mesh, domain, options);
     for (std::size_t i = 0; i < domain.loops.size(); ++i) loops.push_back(i);
   }
-  if (options.renewing) renew_replaced(mesh, loops);
+  if (options.renewing) renew_replaced(mesh, loops, budget);
   return moved;
 }
 
@@ -275,9 +275,9 @@ std::optional<std::string> replace(Transaction& transaction, MeshData& mesh, Adj
                                    RemodelResult& result) {
   const bool renewing = renews(mesh, options);
   try {
-    if (renewing) prepare_renewal(mesh, options.observer);
+    const std::size_t budget = renewing ? prepare_renewal(mesh, options.observer) : 0;
     const std::vector<VertexId> moved =
-        replace_boundary(mesh, cache, domain, {.distance = options.distance, .renewing = renewing});
+        replace_boundary(mesh, cache, domain, {.distance = options.distance, .renewing = renewing}, budget);
     result.stopped =
         cancelled(options.observer) ? Stopped::interrupted : refine_touched(mesh, options.observer);
     if (result.stopped != Stopped::done) return std::string("refinement stopped: ") + name_of(result.stopped);

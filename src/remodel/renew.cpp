@@ -86,7 +86,10 @@ class Renewal {
   void add_vertices(TriangleId t) {
     if (triangulation_[t].region != Region::domain) return;
     for (const VertexId v : triangulation_[t].vertex)
-      if (mesh_.vertex_marks.visit(v.index) && !is_given(mesh_, v)) suspects_.push({scale(v), v});
+      if (mesh_.vertex_marks.visit(v.index) && !is_given(mesh_, v)) suspect_unless_fine(v);
+  }
+  void suspect_unless_fine(VertexId v) {
+    if (std::abs(support(v) - scale(v)) > renewal_tolerance * scale(v)) suspects_.push({scale(v), v});
   }
 
   // F(v) by the present length scales; those that are invalid are infinite.
@@ -107,16 +110,16 @@ class Renewal {
       if (found <= old * (1.0 + renewal_tolerance)) continue;
       change(v, infinity);
       invalid_.push_back(v);
-      suspect_dependents(v, old);
+      suspect_higher(v, old);
     }
     for (const VertexId v : invalid_) rising_or_falling_.push({support(v), v});
   }
 
-  void suspect_dependents(VertexId v, double old) {
-    for_each_neighbour(mesh_, v, [&](VertexId u, double step) {
-      const double theirs = scale(u);
-      const bool from_here = theirs > old && old + step <= theirs * (1.0 + renewal_tolerance);
-      if (from_here && theirs != infinity && !is_given(mesh_, u)) suspects_.push({theirs, u});
+  // All that lie higher, not only those that v accounts for: refinement sets length scales once, before later
+  // vertices come between, so that some of them have nothing any more that accounts for them.
+  void suspect_higher(VertexId v, double old) {
+    for_each_neighbour(mesh_, v, [&](VertexId u, double) {
+      if (scale(u) > old && scale(u) != infinity && !is_given(mesh_, u)) suspects_.push({scale(u), u});
     });
   }
 

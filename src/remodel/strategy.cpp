@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 #include "remodel/coarsen.h"
 #include "remodel/count_control.h"
@@ -48,18 +50,20 @@ void calibrate(MeshData& mesh, int samples, StepObserver* observer) {
   mesh.renewal.count_factor = measured_count_factor(mesh, samples, observer);
 }
 
-void prepare_renewal(MeshData& mesh, StepObserver* observer) {
-  if (mesh.renewal.interior_size < 0.0) mesh.renewal.interior_size = interior_size(mesh);
-  if (mesh.renewal.count_factor != 0.0) return;
-  mesh.renewal.count_factor =
-      mesh.step == 0 ? triangles_per_size(mesh) : measured_count_factor(mesh, samples_on_the_way, observer);
+std::size_t prepare_renewal(MeshData& mesh, StepObserver* observer) {
+  RenewalState& renewal = mesh.renewal;
+  if (renewal.interior_size < 0.0) renewal.interior_size = interior_size(mesh);
+  if (renewal.count_factor == 0.0)
+    renewal.count_factor =
+        mesh.step == 0 ? triangles_per_size(mesh) : measured_count_factor(mesh, samples_on_the_way, observer);
+  const double too_many = static_cast<double>(mesh.domain_triangles) - renewal.count_factor * size_of(mesh);
+  return static_cast<std::size_t>(std::max(0.0, 0.5 * too_many));
 }
 
-void renew_replaced(MeshData& mesh, std::span<const std::size_t> loops) {
+void renew_replaced(MeshData& mesh, std::span<const std::size_t> loops, std::size_t budget) {
   renew_length_scales(mesh, loops);
-  const double size = corrected_interior_size(mesh, mesh.renewal.interior_size) + boundary_size(mesh);
-  const double too_many = static_cast<double>(mesh.domain_triangles) - mesh.renewal.count_factor * size;
-  coarsen_touched(mesh, static_cast<std::size_t>(std::max(0.0, 0.5 * too_many)));  // two triangles a vertex
+  const auto r = coarsen_touched(mesh, budget);
+  if (getenv("DBG")) fprintf(stderr, "renew step %u N %zu KS %.0f K %.4f budget %zu removed %zu touched %zu\n", mesh.step, mesh.domain_triangles, (double)mesh.domain_triangles - 2.0*(double)budget, mesh.renewal.count_factor, budget, r, mesh.triangulation.touched().size());
 }
 
 void finish_renewal(MeshData& mesh) {
