@@ -3,9 +3,6 @@
 #include <algorithm>
 
 #include "remodel/generate.h"
-#include "remodel/renew.h"
-#include <cstdio>
-#include <cstdlib>
 
 namespace remodel {
 
@@ -56,12 +53,6 @@ double fresh_count_factor(const MeshData& like, double h_factor, StepObserver* o
   if (fresh.stopped != Stopped::done) return 0.0;
   MeshData& mesh = fresh.mesh.data();
   mesh.options.max_gradation = like.options.max_gradation;
-  if (getenv("DBG")) {
-    const double si = interior_size(mesh), sb = boundary_size(mesh);
-    auto ls = propagated_length_scales(mesh);
-    for (std::uint32_t i = 1; i < ls.size(); ++i) mesh.triangulation.set_length_scale(VertexId{i}, ls[i]);
-    fprintf(stderr, "fresh N %zu S ins %.1f + %.1f prop %.1f + %.1f\n", mesh.domain_triangles, si, sb, interior_size(mesh), boundary_size(mesh));
-  }
   return static_cast<double>(mesh.domain_triangles) / (interior_size(mesh) + boundary_size(mesh));
 }
 

@@ -71,7 +71,7 @@ class Renewal {
       mesh_.walk(mesh_.loop_heads[loop], [&](std::uint32_t k) { add_around(mesh_.at(k).vertex); });
     for (const TriangleId t : triangulation_.touched())
       if (triangulation_[t].alive()) add_vertices(t);
-    invalidate();
+    raise();
     spread();
     keep_small_changes();
   }
@@ -92,47 +92,61 @@ class Renewal {
     if (std::abs(support(v) - scale(v)) > renewal_tolerance * scale(v)) suspects_.push({scale(v), v});
   }
 
-  // F(v) by the present length scales; those that are invalid are infinite.
-  double support(VertexId v) const {
+  // F(v) by the present length scales of the neighbours that `counts` says.
+  template <class Counts>
+  double support(VertexId v, Counts counts) const {
     double least = interpolation(mesh_, v);
-    for_each_neighbour(mesh_, v, [&](VertexId u, double step) { least = std::min(least, scale(u) + step); });
+    for_each_neighbour(mesh_, v, [&](VertexId u, double step) {
+      if (counts(u)) least = std::min(least, scale(u) + step);
+    });
     return least;
   }
+  double support(VertexId v) const {
+    return support(v, [](VertexId) { return true; });
+  }
 
-  // ---- phase 1: invalid is whose F is too large. What lies lower was decided before.
-  void invalidate() {
+  // ---- phase 1: in ascending order, so that all that lies lower is final but for what phase 2 lowers. What
+  // nothing lower accounts for rises; it never waits for vertices that may have their length scale from it.
+  void raise() {
+    mesh_.vertex_marks.clear(triangulation_.vertex_slots());  // of those that rose
+    VertexId last;
     while (!suspects_.empty()) {
       const auto [old, v] = suspects_.top();
       suspects_.pop();
-      if (scale(v) == infinity) continue;
-      const double found = support(v);
-      if (found < old * (1.0 - renewal_tolerance)) rising_or_falling_.push({found, v});
+      if (v == last) continue;
+      last = v;
+      const double found = support(v, [&, limit = old](VertexId u) {
+        return scale(u) < limit || mesh_.vertex_marks.visited(u.index);
+      });
+      if (found < old * (1.0 - renewal_tolerance)) falling_.push({found, v});
       if (found <= old * (1.0 + renewal_tolerance)) continue;
-      change(v, infinity);
-      invalid_.push_back(v);
       suspect_higher(v, old);
+      mesh_.vertex_marks.visit(v.index);
+      change(v, found);
+      raised_.push_back(v);
     }
-    for (const VertexId v : invalid_) rising_or_falling_.push({support(v), v});
+    for (const VertexId v : raised_) falling_.push({support(v), v});
   }
 
   // All that lie higher, not only those that v accounts for: refinement sets length scales once, before later
   // vertices come between, so that some of them have nothing any more that accounts for them.
   void suspect_higher(VertexId v, double old) {
     for_each_neighbour(mesh_, v, [&](VertexId u, double) {
-      if (scale(u) > old && scale(u) != infinity && !is_given(mesh_, u)) suspects_.push({scale(u), u});
+      if (scale(u) > old && !mesh_.vertex_marks.visited(u.index) && !is_given(mesh_, u))
+        suspects_.push({scale(u), u});
     });
   }
 
   // ---- phase 2: Dijkstra's algorithm
   void spread() {
-    while (!rising_or_falling_.empty()) {
-      const auto [found, v] = rising_or_falling_.top();
-      rising_or_falling_.pop();
+    while (!falling_.empty()) {
+      const auto [found, v] = falling_.top();
+      falling_.pop();
       if (!(found < scale(v) * (1.0 - renewal_tolerance)) || found == infinity) continue;
       change(v, found);
       for_each_neighbour(mesh_, v, [&, reached = found](VertexId u, double step) {
         if (reached + step < scale(u) * (1.0 - renewal_tolerance) && !is_given(mesh_, u))
-          rising_or_falling_.push({reached + step, u});
+          falling_.push({reached + step, u});
       });
     }
   }
@@ -172,8 +186,8 @@ class Renewal {
 
   MeshData& mesh_;
   Triangulation& triangulation_;
-  Heap suspects_, rising_or_falling_;
-  std::vector<VertexId> invalid_;
+  Heap suspects_, falling_;
+  std::vector<VertexId> raised_;
   std::vector<Change> changes_;
 };
 

@@ -17,14 +17,13 @@
 // |uv| / G an edge: errors of one sign come to at most renewal_tolerance * (1 + G LS / |uv|).
 
 #include <span>
-#include <cstdlib>
 #include <vector>
 
 #include "mesh/mesh_data.h"
 
 namespace remodel {
 
-inline double renewal_tolerance = getenv("EPS") ? atof(getenv("EPS")) : 0.01;  // relative
+inline constexpr double renewal_tolerance = 0.02;  // relative
 
 // Under a journal: renews the length scales of the vertices around the given loops and of touched triangles,
 // and on from there as far as they change by more than the tolerance. Triangles whose length scales change

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "remodel/coarsen.h"
 #include "remodel/count_control.h"
@@ -62,8 +60,7 @@ std::size_t prepare_renewal(MeshData& mesh, StepObserver* observer) {
 
 void renew_replaced(MeshData& mesh, std::span<const std::size_t> loops, std::size_t budget) {
   renew_length_scales(mesh, loops);
-  const auto r = coarsen_touched(mesh, budget);
-  if (getenv("DBG")) fprintf(stderr, "renew step %u N %zu KS %.0f K %.4f budget %zu removed %zu touched %zu\n", mesh.step, mesh.domain_triangles, (double)mesh.domain_triangles - 2.0*(double)budget, mesh.renewal.count_factor, budget, r, mesh.triangulation.touched().size());
+  coarsen_touched(mesh, budget);
 }
 
 void finish_renewal(MeshData& mesh) {
