@@ -42,6 +42,7 @@ Status run(const MeshCommand& command) {
   report.figure("shape", "shape", command.shape);
   describe(report, command.meshing);
   add_mesh_figures(report, result.mesh.freeze(), result.mesh.statistics());
+  add_gradation_error(report, result.mesh.gradation_error());
   report.figure("exempt_triangles", "exempt triangles", result.exempt_triangles,
                 "(below the angle bound at a small input angle)");
   report.figure("seconds", command.repeat > 1 ? "generation, median" : "generation", median(seconds),

@@ -68,6 +68,7 @@ struct RenewalState {
   double count_factor = 0.0;    // K: triangles of a fresh mesh over their size S; 0: not measured yet
   double interior_size = -1.0;  // the part of S in triangles without a boundary vertex; negative: unknown
   std::uint32_t full_adjustments = 0;  // in a row
+  std::uint32_t sampled_at = 0;        // the step at which K was last looked after
   friend bool operator==(const RenewalState&, const RenewalState&) = default;
 };
 
@@ -107,6 +108,15 @@ struct MeshStatistics {
   double max_gradation = 0.0;    // max r / (H mean LS): at most QualityOptions::keep
 };
 
+// How the size of triangles follows the design, whatever length scales a mesh has gathered: over the domain's
+// triangles, e = ln(r / (H mean LS*)), where LS*(x) is the least LS_b + |x - b| / G of the design's own
+// (non-Steiner) boundary vertices b. A bias or a deviation above a fresh mesh's is what a chain of steps has
+// left behind.
+struct GradationError {
+  double bias = 0.0;       // mean of e
+  double deviation = 0.0;  // standard deviation of e
+};
+
 class MeshData;  // src/mesh/mesh_data.h: the library's own view
 
 class Mesh {
@@ -129,6 +139,7 @@ class Mesh {
   // Whether triangles of birth 0 are a file's (remodel/import.h), not generate()'s.
   bool imported() const;
   MeshStatistics statistics() const;
+  GradationError gradation_error() const;
   MeshState state() const;
   // Throws Error (format) where the state is not that of a mesh: sizes, ranges, links that do not return.
   static Mesh restore(const MeshState& state, const std::string& source);

@@ -29,6 +29,7 @@ void copy_figures(const RemodelResult& result, EvaluationRecord& record) {
   record.inserted = result.inserted;
   record.removed = result.removed;
   record.full_adjustment = result.full_adjustment;
+  record.refreshed = result.refreshed;
   record.regenerated = result.regenerated;
   record.detail = result.reason;
 }
@@ -80,21 +81,21 @@ Stopped MeshChain::regenerate(const Domain& domain, EvaluationRecord& record) {
   record.triangles = mesh_.triangle_count();
   record.preserved = record.moved = record.inserted = record.removed = 0;
   record.preserved_percent = 0.0;
-  record.full_adjustment = false;
+  record.full_adjustment = record.refreshed = false;
   record.regenerated = true;
   return Stopped::done;
 }
 
 // Where the optimiser has converged, designs hardly differ any more, and neither would the meshes that they are
 // compared with: one mesh with many or few triangles, by chance, would decide the mean of hundreds.
-CstAirfoil MeshChain::compared_design(const CstAirfoil& design, const EvaluationRecord& record) {
+CstAirfoil MeshChain::compared_design(const CstAirfoil& design, const EvaluationRecord& record) const {
   constexpr double converged = 0.003, jitter = 0.001;  // standard deviation of samples; of coefficients, relative
   if (record.sigma >= converged) return design;
   portable::Generator random(record.evaluation);
   CstAirfoil jittered = design;
   for (auto* surface : {&jittered.upper, &jittered.lower})
     for (double& coefficient : *surface) coefficient *= 1.0 + jitter * random.normal();
-  return surfaces_apart(jittered) ? jittered : design;
+  return domain_of_.feasible(jittered) ? jittered : design;
 }
 
 Stopped MeshChain::compare(const CstAirfoil& design, EvaluationRecord& record) const {
@@ -103,6 +104,11 @@ Stopped MeshChain::compare(const CstAirfoil& design, EvaluationRecord& record) c
   const GenerateResult fresh = generate(domain, quality_);
   record.generate_seconds = watch.seconds();
   record.generated_triangles = fresh.mesh.triangle_count();
+  const GradationError error = mesh_.gradation_error(), fresh_error = fresh.mesh.gradation_error();
+  record.gradation_bias = error.bias;
+  record.gradation_deviation = error.deviation;
+  record.generated_gradation_bias = fresh_error.bias;
+  record.generated_gradation_deviation = fresh_error.deviation;
   return fresh.stopped;
 }
 

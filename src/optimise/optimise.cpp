@@ -105,14 +105,16 @@ void add(Checksum& sum, const EvaluationRecord& record) {
   for (const double coefficient : record.coefficients) sum.add(coefficient);
   for (const double value :
        {record.objective, record.best_objective, record.sigma, record.preserved_percent, record.min_angle_deg,
-        record.remodel_seconds, record.generate_seconds.value_or(-1.0)})
+        record.remodel_seconds, record.generate_seconds.value_or(-1.0), record.gradation_bias.value_or(0.0),
+        record.gradation_deviation.value_or(-1.0), record.generated_gradation_bias.value_or(0.0),
+        record.generated_gradation_deviation.value_or(-1.0)})
     sum.add(value);
   for (const std::size_t count : {record.triangles_before, record.triangles, record.preserved, record.moved,
                                   record.inserted, record.removed, record.generated_triangles.value_or(0)})
     sum.add(std::uint64_t{count});
   sum.add(record.infeasible_samples);
   for (const bool flag :
-       {record.full_adjustment, record.regenerated, record.checked == Checked::full, record.valid})
+       {record.full_adjustment, record.refreshed, record.regenerated, record.checked == Checked::full, record.valid})
     sum.add(flag ? "1" : "0");
   sum.add(record.detail);
 }

@@ -1,9 +1,6 @@
 #include "remodel/count_control.h"
 
 #include <algorithm>
-
-#include "remodel/generate.h"
-
 namespace remodel {
 
 namespace {
@@ -45,17 +42,6 @@ class VerticesBefore {
   std::span<const Triangulation::VertexBefore> earlier_;
 };
 
-// A fresh mesh's triangles per size; 0 where it cannot be finished.
-double fresh_count_factor(const MeshData& like, double h_factor, StepObserver* observer) {
-  QualityOptions options = like.options;
-  options.max_gradation *= h_factor;
-  GenerateResult fresh = generate(like.domain, options, observer);
-  if (fresh.stopped != Stopped::done) return 0.0;
-  MeshData& mesh = fresh.mesh.data();
-  mesh.options.max_gradation = like.options.max_gradation;
-  return static_cast<double>(mesh.domain_triangles) / (interior_size(mesh) + boundary_size(mesh));
-}
-
 }  // namespace
 
 double interior_size(const MeshData& mesh) {
@@ -63,6 +49,10 @@ double interior_size(const MeshData& mesh) {
   for (std::uint32_t i = 0; i < mesh.triangulation.triangle_slots(); ++i)
     sum += interior_size_of(mesh, mesh.triangulation[TriangleId{i}]);
   return sum;
+}
+
+double triangles_per_size(MeshData& mesh) {
+  return static_cast<double>(mesh.domain_triangles) / (mesh.renewal.interior_size + boundary_size(mesh));
 }
 
 double corrected_interior_size(MeshData& mesh, double before) {
@@ -98,14 +88,23 @@ double boundary_size(MeshData& mesh) {
   return sum;
 }
 
+GenerateResult fresh_sample(const MeshData& like, double h_factor, StepObserver* observer) {
+  QualityOptions options = like.options;
+  options.max_gradation *= h_factor;
+  GenerateResult fresh = generate(like.domain, options, observer);
+  fresh.mesh.data().options = like.options;
+  fresh.mesh.data().renewal.interior_size = interior_size(fresh.mesh.data());
+  return fresh;
+}
+
 double measured_count_factor(const MeshData& mesh, int samples, StepObserver* observer) {
   double sum = 0.0;
   int finished = 0;
   for (int i = 0; i < samples; ++i) {
-    const double position = samples == 1 ? 0.5 : static_cast<double>(i) / (samples - 1);  // 0 to 1
-    const double factor = fresh_count_factor(mesh, 1.0 + 0.01 * (position - 0.5), observer);
-    if (factor == 0.0) continue;
-    sum += factor;
+    const double h_factor = 1.0 - 0.005 * i / samples;
+    GenerateResult fresh = fresh_sample(mesh, h_factor, observer);
+    if (fresh.stopped != Stopped::done) continue;
+    sum += triangles_per_size(fresh.mesh.data()) * h_factor * h_factor;
     ++finished;
   }
   return finished == 0 ? 0.0 : sum / finished;

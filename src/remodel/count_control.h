@@ -14,6 +14,7 @@
 #include <cstddef>
 
 #include "mesh/mesh_data.h"
+#include "remodel/generate.h"
 
 namespace remodel {
 
@@ -24,8 +25,14 @@ double corrected_interior_size(MeshData& mesh, double before);
 // The part in triangles with a boundary vertex: O(boundary).
 double boundary_size(MeshData& mesh);
 
-// K from `samples` fresh meshes of the mesh's domain, with H varied by up to 0.5 % either way: a triangle
-// count is chaotic, one mesh says little. Meshes that cannot be finished are left out.
+// N / S. Precondition: the mesh's interior_size is known.
+double triangles_per_size(MeshData& mesh);
+
+// A fresh mesh of the same domain, made to H times a factor of at most 1, with its S. A triangle count is
+// chaotic: meshes with factors that differ by a tenth of a percent are samples. Their count is in proportion
+// to 1 / h_factor^2.
+GenerateResult fresh_sample(const MeshData& like, double h_factor, StepObserver* observer);
+// K from that many samples; those that cannot be finished are left out.
 double measured_count_factor(const MeshData& mesh, int samples, StepObserver* observer);
 
 }  // namespace remodel

@@ -331,20 +331,13 @@ RemodelResult regenerate(Mesh& mesh, const Domain& domain, StepObserver* observe
   return result;
 }
 
-// After a full adjustment under Strategy::renew. Under a journal where a refresh is due.
-RemodelResult refresh_where_due(Mesh& mesh, RemodelResult&& adjusted, StepObserver* observer, Undo& undo) {
-  RenewalState& renewal = mesh.data().renewal;
-  const bool known = renewal.count_factor != 0.0 && renewal.interior_size >= 0.0;
-  if (++renewal.full_adjustments != full_adjustments_before_refresh || !known) return std::move(adjusted);
+// After a full adjustment under a journal.
+RemodelResult refresh(Mesh& mesh, RemodelResult&& adjusted, StepObserver* observer, Undo& undo) {
   std::optional<GenerateResult> fresh = nearer_to_fresh(mesh.data(), observer);
   if (!fresh) return std::move(adjusted);
   RemodelResult result = exchange(mesh, std::move(*fresh), undo);
   result.refreshed = true;
   return result;
-}
-
-bool refresh_may_be_due(const MeshData& mesh) {
-  return mesh.renewal.full_adjustments + 1 == full_adjustments_before_refresh;
 }
 
 void require_possible(const Mesh& mesh, const RemodelOptions& options, bool one_to_one) {
@@ -371,10 +364,12 @@ RemodelResult remodel_step(Mesh& mesh, const Domain& domain, const RemodelOption
   if (renewing) data.options.keep = std::max(data.options.keep, resolved_keep(options, data.options));
   if (method == Method::specialised) {
     cache = &adjust_cache(data, moving_loops(data.domain, domain));
-    if (renewing && refresh_may_be_due(data) && !undo.journalling()) undo.begin();
+    const bool due = renewing && refresh_is_due(data, data.renewal.full_adjustments);
+    if (due && !undo.journalling()) undo.begin();
     if (adjust_all(data, *cache, domain)) {
       RemodelResult result = full_adjustment(data, *cache);
-      return renewing ? refresh_where_due(mesh, std::move(result), options.observer, undo) : result;
+      if (renewing) ++data.renewal.full_adjustments;
+      return due ? refresh(mesh, std::move(result), options.observer, undo) : result;
     }
   }
   // A design that corresponds to the present one and cannot be meshed is found out by the replacement itself,

@@ -92,17 +92,11 @@ class Renewal {
     if (std::abs(support(v) - scale(v)) > renewal_tolerance * scale(v)) suspects_.push({scale(v), v});
   }
 
-  // F(v) by the present length scales of the neighbours that `counts` says.
-  template <class Counts>
-  double support(VertexId v, Counts counts) const {
-    double least = interpolation(mesh_, v);
-    for_each_neighbour(mesh_, v, [&](VertexId u, double step) {
-      if (counts(u)) least = std::min(least, scale(u) + step);
-    });
-    return least;
-  }
+  // F(v) by the present length scales.
   double support(VertexId v) const {
-    return support(v, [](VertexId) { return true; });
+    double least = interpolation(mesh_, v);
+    for_each_neighbour(mesh_, v, [&](VertexId u, double step) { least = std::min(least, scale(u) + step); });
+    return least;
   }
 
   // ---- phase 1: in ascending order, so that all that lies lower is final but for what phase 2 lowers. What
@@ -115,26 +109,31 @@ class Renewal {
       suspects_.pop();
       if (v == last) continue;
       last = v;
-      const double found = support(v, [&, limit = old](VertexId u) {
-        return scale(u) < limit || mesh_.vertex_marks.visited(u.index);
-      });
-      if (found < old * (1.0 - renewal_tolerance)) falling_.push({found, v});
-      if (found <= old * (1.0 + renewal_tolerance)) continue;
-      suspect_higher(v, old);
-      mesh_.vertex_marks.visit(v.index);
-      change(v, found);
-      raised_.push_back(v);
+      look_at(v, old);
     }
-    for (const VertexId v : raised_) falling_.push({support(v), v});
+    for (const VertexId v : waiting_) falling_.push({support(v), v});
   }
 
-  // All that lie higher, not only those that v accounts for: refinement sets length scales once, before later
-  // vertices come between, so that some of them have nothing any more that accounts for them.
-  void suspect_higher(VertexId v, double old) {
-    for_each_neighbour(mesh_, v, [&](VertexId u, double) {
-      if (scale(u) > old && !mesh_.vertex_marks.visited(u.index) && !is_given(mesh_, u))
-        suspects_.push({scale(u), u});
+  bool rose(VertexId v) const { return mesh_.vertex_marks.visited(v.index); }
+
+  void look_at(VertexId v, double old) {
+    double found = interpolation(mesh_, v), undecided = infinity;
+    higher_.clear();
+    for_each_neighbour(mesh_, v, [&](VertexId u, double step) {
+      const double theirs = scale(u);
+      const bool decided = theirs < old || rose(u);
+      (decided ? found : undecided) = std::min(decided ? found : undecided, theirs + step);
+      if (theirs > old && !decided) higher_.push_back(u);
     });
+    if (found < old * (1.0 - renewal_tolerance)) falling_.push({found, v});
+    if (found <= old * (1.0 + renewal_tolerance)) return;
+    mesh_.vertex_marks.visit(v.index);
+    change(v, found);
+    if (undecided < found) waiting_.push_back(v);
+    // All that lie higher, not only those that v accounts for: refinement sets length scales once, before later
+    // vertices come between, so that some of them have nothing any more that accounts for them.
+    for (const VertexId u : higher_)
+      if (!is_given(mesh_, u)) suspects_.push({scale(u), u});
   }
 
   // ---- phase 2: Dijkstra's algorithm
@@ -158,12 +157,9 @@ class Renewal {
 
   // ---- what fell back to about where it was did not change: its triangles need no second look.
   void keep_small_changes() {
-    std::stable_sort(changes_.begin(), changes_.end(),
-                     [](const Change& a, const Change& b) { return a.vertex < b.vertex; });
-    VertexId last;
+    mesh_.vertex_marks.clear(triangulation_.vertex_slots());
     for (const auto& [v, old] : changes_) {
-      if (v == last) continue;  // the first change of each has the length scale from before
-      last = v;
+      if (!mesh_.vertex_marks.visit(v.index)) continue;  // the first change has the length scale from before
       if (std::abs(scale(v) - old) <= renewal_tolerance * old)
         triangulation_.set_length_scale(v, old);
       else
@@ -187,7 +183,8 @@ class Renewal {
   MeshData& mesh_;
   Triangulation& triangulation_;
   Heap suspects_, falling_;
-  std::vector<VertexId> raised_;
+  std::vector<VertexId> waiting_;  // rose, but may have risen too far: something undecided offered less
+  std::vector<VertexId> higher_;   // scratch
   std::vector<Change> changes_;
 };
 

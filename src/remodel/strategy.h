@@ -3,8 +3,8 @@
 // Strategy::renew: what it adds to a step of the paper's methods.
 //
 //   once:  K, triangles of a fresh mesh per size (count_control.h)
-//   step:  all vertices moved in place: nothing else; after many such steps in a row a mesh whose triangle
-//          count is off is generated afresh, if that brings it nearer to K
+//   step:  all vertices moved in place: nothing else; after many such steps in a row K is sampled again, and
+//          a mesh whose triangle count is off is generated afresh, if that brings it nearer to K
 //          otherwise: replace, renew length scales, coarsen within what the count allows, refine new
 //          triangles to H and the kept ones where they exceed keep H
 
@@ -35,10 +35,12 @@ void renew_replaced(MeshData& mesh, std::span<const std::size_t> loops, std::siz
 // After refinement.
 void finish_renewal(MeshData& mesh);
 
-// How many full adjustments in a row make the count worth a look.
-inline constexpr std::uint32_t full_adjustments_before_refresh = 25;
-// A mesh of the same domain whose count is nearer to what K says, generated if that of `mesh` is off by more
-// than 2 %; none if it is not, or if none of a few is nearer.
+// Whether the triangle count is worth a look after so many full adjustments in a row: the samples that this
+// takes cost as much as many steps.
+bool refresh_is_due(const MeshData& mesh, std::uint32_t full_adjustments);
+// Generates a few meshes of the same domain. They correct K, which differs from design to design; then, if
+// the count of `mesh` is off by more than 2 %, the one that is nearest to K is returned, if it is off by less
+// than half as much.
 std::optional<GenerateResult> nearer_to_fresh(MeshData& mesh, StepObserver* observer);
 
 }  // namespace remodel
