@@ -27,7 +27,7 @@ CheckOptions rules_for(const CheckCommand& command, const MeshInput& input) {
   if (input.living) {
     options.design = &input.living->domain();
     options.min_angle_deg = input.living->options().min_angle_deg;
-    options.max_gradation = input.living->options().max_gradation;
+    options.max_gradation = promised_gradation(input.living->options());
     options.delaunay = !input.living->shows_file_triangles();
   } else {
     options.delaunay = false;

@@ -44,6 +44,11 @@ void add_mesh_figures(Report& report, const FrozenMesh& mesh, const MeshStatisti
   report.figure("max_gradation", "largest r / (H mean LS)", statistics.max_gradation);
 }
 
+void add_gradation_error(Report& report, const GradationError& error) {
+  report.figure("gradation_bias", "gradation error, bias", error.bias);
+  report.figure("gradation_deviation", "gradation error, deviation", error.deviation);
+}
+
 void add_output_figures(Report& report, const std::vector<std::string>& files) {
   report.data("written", files);
   for (const std::string& file : files) report.line("written", file);

@@ -28,6 +28,7 @@ void add_mesh_argument(CLI::App& app, std::string& mesh);  // of any format
 // triangles, vertices, boundary{name: edges}, steiner_boundary_vertices, min_angle_deg, max_radius_edge,
 // max_gradation.
 void add_mesh_figures(Report& report, const FrozenMesh& mesh, const MeshStatistics& statistics);
+void add_gradation_error(Report& report, const GradationError& error);  // gradation_bias, gradation_deviation
 void add_boundary_figures(Report& report, const std::map<std::string, std::size_t>& boundary);
 void add_output_figures(Report& report, const std::vector<std::string>& files);
 

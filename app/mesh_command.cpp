@@ -47,6 +47,7 @@ Status run(const MeshCommand& command) {
   describe(report, command.meshing);
   add_mesh_figures(report, result.mesh.freeze(), result.mesh.statistics());
   report.figure("small_angles", "input angles below 60 degrees", result.small_angles);
+  add_gradation_error(report, result.mesh.gradation_error());
   report.figure("seconds", command.repeat > 1 ? "generation, median" : "generation", median(seconds),
                 "seconds");
   report.figure("stopped", "stopped", name_of(result.stopped));

@@ -64,6 +64,7 @@ Json options_json(const OptimiseCommand& command) {
   Json options = meshing_json(command.meshing, command.run);
   options["distance"] = command.run.remodel.distance;
   options["method"] = name_of(command.run.remodel.method);
+  options["strategy"] = name_of(command.run.remodel.strategy);
   options["sigma"] = command.run.sigma;
   options["seed"] = command.run.seed;
   options["evaluations"] = command.run.evaluations;
@@ -77,7 +78,7 @@ struct Figure {
   const char* label;
   const char* unit;
 };
-constexpr std::array<Figure, 21> figures{{
+constexpr std::array<Figure, 26> figures{{
     {"evaluations", "evaluations", ""},
     {"infeasible_samples", "infeasible samples, drawn again", ""},
     {"full_adjustments", "full adjustments", ""},
@@ -88,12 +89,17 @@ constexpr std::array<Figure, 21> figures{{
     {"triangles_mean", "triangles, mean", ""},
     {"generated_triangles_mean", "of a fresh mesh, mean", ""},
     {"surplus_percent", "surplus, mean", "%"},
+    {"gradation_bias", "gradation error, mean bias", ""},
+    {"gradation_deviation", "gradation error, mean deviation", ""},
+    {"generated_gradation_bias", "of a fresh mesh, bias", ""},
+    {"generated_gradation_deviation", "of a fresh mesh, deviation", ""},
     {"remodel_ms_mean", "remodelling, mean", "ms"},
     {"generate_ms_mean", "generation, mean", "ms"},
     {"speedup", "speed-up", "times"},
     {"min_angle_deg", "smallest angle of all meshes", "degrees"},
     {"invalid_meshes", "invalid meshes", ""},
     {"recoveries", "recoveries by generation", ""},
+    {"refreshes", "meshes generated afresh by the strategy", ""},
     {"seconds", "wall time", "seconds"},
     {"stopped", "stopped", ""},
     {"detail", "detail", ""},

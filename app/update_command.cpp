@@ -85,6 +85,7 @@ void add_figures(Report& report, const RemodelResult& result) {
   report.figure("removed", "removed", result.removed, "vertices");
   report.figure("full_adjustment", "full adjustment", result.full_adjustment);
   report.figure("method", "method", name_of(result.method));
+  report.figure("refreshed", "generated afresh by the strategy", result.refreshed);
   report.figure("regenerated", "generated afresh", result.regenerated);
   if (result.regenerated) report.figure("reason", "because", result.reason);
 }
@@ -139,6 +140,7 @@ Status run(const UpdateCommand& command) {
   const MeshStatistics statistics = mesh.statistics();
   report.figure("min_angle_deg", "smallest angle", smallest_angle(mesh), "degrees");
   report.figure("max_gradation", "largest r / (H mean LS)", statistics.max_gradation);
+  add_gradation_error(report, mesh.gradation_error());
   report.figure("seconds", command.repeat > 1 ? "remodelling, median" : "remodelling", median(seconds),
                 "seconds");
   report.figure("stopped", "stopped", name_of(result.stopped));

@@ -25,8 +25,16 @@ struct QualityOptions {
   // What refinement works to, where that is more than min_angle_deg; 0 to 34. For meshes that were imported:
   // min_angle_deg is what the worst triangle of the file allows.
   double refine_angle_deg = 0.0;
+  // How much of H triangles may take that a step leaves as they are: they are promised r / mean LS <= keep H,
+  // new ones H. Above 1 for meshes whose length scales are renewed (Strategy::renew); at least 1.
+  double keep = 1.0;
   friend bool operator==(const QualityOptions&, const QualityOptions&) = default;
 };
+
+// The gradation that every triangle of a mesh keeps: r / mean LS is at most this.
+inline double promised_gradation(const QualityOptions& options) {
+  return options.keep * options.max_gradation;
+}
 
 // Why refinement ended. Anything but done leaves a valid constrained Delaunay mesh of lower quality.
 enum class Stopped { done, vertex_budget, minimum_edge, interrupted };
@@ -55,6 +63,15 @@ struct ImportRecord {
   friend bool operator==(const ImportRecord&, const ImportRecord&) = default;
 };
 
+// What Strategy::renew (remodel/remodel.h) remembers of a mesh from step to step.
+struct RenewalState {
+  double count_factor = 0.0;    // K: triangles of a fresh mesh over their size S; 0: not measured yet
+  double interior_size = -1.0;  // the part of S in triangles without a boundary vertex; negative: unknown
+  std::uint32_t full_adjustments = 0;  // in a row
+  std::uint32_t sampled_at = 0;        // the step at which K was last looked after
+  friend bool operator==(const RenewalState&, const RenewalState&) = default;
+};
+
 // The state of a living mesh as plain arrays, slot by slot, free slots included: what the native file stores.
 // A mesh restored from it goes on to the same bytes as one that never left memory.
 struct MeshState {
@@ -75,6 +92,7 @@ struct MeshState {
   std::uint32_t step = 0;  // remodellings since generation
   Domain domain;
   QualityOptions options;
+  RenewalState renewal;
   ImportRecord imported;
 
   friend bool operator==(const MeshState&, const MeshState&) = default;
@@ -91,7 +109,16 @@ struct MeshStatistics {
   // distances.
   std::size_t exempt_triangles = 0;
   double max_radius_edge = 0.0;  // max r / e_min
-  double max_gradation = 0.0;    // max r / (H mean LS) but for exempt triangles: at most 1
+  double max_gradation = 0.0;    // max r / (H mean LS) but for exempt triangles: at most QualityOptions::keep
+};
+
+// How the size of triangles follows the design, whatever length scales a mesh has gathered: over the domain's
+// triangles, e = ln(r / (H mean LS*)), where LS*(x) is the least LS_b + |x - b| / G of the design's own
+// (non-Steiner) boundary vertices b. A bias or a deviation above a fresh mesh's is what a chain of steps has
+// left behind.
+struct GradationError {
+  double bias = 0.0;       // mean of e
+  double deviation = 0.0;  // standard deviation of e
 };
 
 class MeshData;  // src/mesh/mesh_data.h: the library's own view
@@ -118,6 +145,7 @@ class Mesh {
   // Whether freeze() may show triangles that are not the living mesh's, which need not be Delaunay.
   bool shows_file_triangles() const;
   MeshStatistics statistics() const;
+  GradationError gradation_error() const;
   MeshState state() const;
   // Throws Error (format) where the state is not that of a mesh: sizes, ranges, links that do not return.
   static Mesh restore(const MeshState& state, const std::string& source);

@@ -32,7 +32,7 @@ struct MeshStart {
 struct OptimiseOptions {
   AirfoilDomainOptions domain{};
   QualityOptions quality{};
-  RemodelOptions remodel{};
+  RemodelOptions remodel{.strategy = Strategy::renew};
   double sigma = 0.05;             // initial standard deviation of the coefficients; > 0
   std::uint64_t seed = 1;          // of the samples; the designs depend on nothing else of these options but
                                    // sigma and, where samples are refused, on domain
@@ -70,12 +70,15 @@ struct OptimiseResult {
   double triangles_mean = none;            // over all evaluations
   double generated_triangles_mean = none;  // over the compared evaluations
   double surplus_percent = none;  // mean of (triangles - generated) / generated over the compared evaluations
+  double gradation_bias = none, gradation_deviation = none;  // GradationError: means over the compared evaluations
+  double generated_gradation_bias = none, generated_gradation_deviation = none;  // the same of the fresh meshes
   double remodel_ms_mean = none;  // over all evaluations
   double generate_ms_mean = none;    // over the compared evaluations
   double speedup = none;             // generate_ms_mean / remodel_ms_mean
   double min_angle_deg = none;       // smallest of all meshes
   std::uint64_t invalid_meshes = 0;  // remodelled meshes that failed validation
   std::uint64_t recoveries = 0;      // evaluations whose mesh had to be regenerated
+  std::uint64_t refreshes = 0;       // evaluations whose mesh the strategy generated afresh
   double seconds = 0.0;              // wall time, checks and files included, resumed parts added up
 
   OptimiseStopped stopped = OptimiseStopped::done;

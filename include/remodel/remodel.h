@@ -14,9 +14,25 @@ namespace remodel {
 enum class Method { automatic, specialised, general };
 const char* name_of(Method method);  // "auto", "specialised", "general"
 
+// What is done about what a chain of steps leaves behind.
+enum class Strategy {
+  // The paper's method, to the letter. Length scales inside the mesh are never renewed, and nothing is
+  // coarsened: triangles accumulate.
+  chain,
+  // After a replacement length scales are renewed from the boundary, kept triangles need only hold keep H,
+  // and Steiner vertices are removed while the mesh has more triangles than a fresh one would; after 25 full
+  // adjustments in a row a mesh whose count is off is generated afresh. The angle bound never relaxes.
+  // Imported meshes, whose length scales are measured, are remodelled as by chain.
+  renew,
+};
+const char* name_of(Strategy strategy);  // "chain", "renew"
+
 struct RemodelOptions {
   double distance = 1.0;  // D: removal radius over the distance of a pair of old and new vertices; >= 0
   Method method = Method::automatic;  // automatic: specialised where the domains correspond one to one
+  Strategy strategy = Strategy::chain;
+  double keep = 0.0;  // renew: QualityOptions::keep of the mesh is at least this from now on; 1 or more, or
+                      // 0: 1.1 for gradations up to 2, otherwise 1.25
   StepObserver* observer = nullptr;  // if cancelled, the mesh stays as it was and the result says interrupted
 };
 
@@ -29,7 +45,8 @@ struct RemodelResult {
   std::size_t removed = 0;
   bool full_adjustment = false;         // every boundary vertex moved in place, connectivity unchanged
   Method method = Method::specialised;  // the one that ran
-  bool regenerated = false;             // remodelling could not be completed: the mesh was generated afresh
+  bool refreshed = false;    // the strategy generated the mesh afresh: its triangle count was off
+  bool regenerated = false;  // remodelling could not be completed: the mesh was generated afresh
   std::string reason;                   // why it was regenerated
   Stopped stopped = Stopped::done;
   double preserved_percent() const {

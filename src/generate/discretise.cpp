@@ -55,7 +55,7 @@ void constrain_loop(MeshData& mesh, std::uint32_t head) {
 
 }  // namespace
 
-double neighbour_length_scale(const MeshData& mesh, std::uint32_t k) {
+double neighbour_length_scale(const MeshData& mesh, std::uint32_t k, Neighbours neighbours) {
   const Triangulation& triangulation = mesh.triangulation;
   const VertexId v = mesh.at(k).vertex;
   double scale = mesh.base_length_scale(k);
@@ -67,8 +67,10 @@ double neighbour_length_scale(const MeshData& mesh, std::uint32_t k) {
         const Vertex& neighbour = triangulation[u];
         const double distance = std::sqrt(squared_distance(neighbour.point, triangulation.point(v)));
         const bool station = neighbour.boundary != no_index && !mesh.at(neighbour.boundary).steiner;
-        scale = std::min(scale, station ? distance / mesh.options.resolution
-                                        : neighbour.length_scale + distance / mesh.options.gradation);
+        if (station)
+          scale = std::min(scale, distance / mesh.options.resolution);
+        else if (neighbours == Neighbours::all)
+          scale = std::min(scale, neighbour.length_scale + distance / mesh.options.gradation);
       }
     c = triangulation.counterclockwise(c);
   } while (c.triangle != first.triangle);

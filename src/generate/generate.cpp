@@ -24,6 +24,7 @@ void validate(const QualityOptions& options) {
   require(options.refine_angle_deg >= 0.0 && options.refine_angle_deg <= 34.0, "refine_angle_deg",
           options.refine_angle_deg, "0 to 34 degrees");
   require(positive(options.max_gradation), "max_gradation", options.max_gradation, "a positive number");
+  require(std::isfinite(options.keep) && options.keep >= 1.0, "keep", options.keep, "1 or more");
   require(positive(options.gradation), "gradation", options.gradation, "a positive number");
   require(positive(options.resolution), "resolution", options.resolution, "a positive number");
   require(std::isfinite(options.min_edge) && options.min_edge >= 0.0, "min_edge", options.min_edge,

@@ -33,19 +33,21 @@ Refiner::Refiner(MeshData& mesh, StepObserver* observer)
     : mesh_(mesh),
       triangulation_(mesh.triangulation),
       bounds_(QualityBounds::of_refinement(mesh.options)),
+      promised_(bounds_),
       inverse_gradation_(1.0 / mesh.options.gradation),
       small_angles_(mesh),
       vertex_limit_(mesh.options.max_vertices),
       observer_(observer) {
   const double shortest = mesh.options.min_edge > 0.0 ? mesh.options.min_edge : 1e-12 * domain_size(mesh);
   squared_min_edge_ = shortest * shortest;
+  promised_.squared_gradation = QualityBounds(mesh.options).squared_gradation;
 }
 
 bool Refiner::too_short(Point a, Point b) const {
   return squared_distance(a, b) < squared_min_edge_;
 }
 
-void Refiner::consider(TriangleId t) {
+void Refiner::consider(TriangleId t, const QualityBounds& bounds) {
   const Triangle& triangle = triangulation_[t];
   if (!triangle.alive() || triangle.region != Region::domain) return;
   for (int i = 0; i < 3; ++i) {
@@ -59,7 +61,7 @@ void Refiner::consider(TriangleId t) {
                &c = triangulation_[triangle.vertex[2]];
   const double shortest = std::min({squared_distance(a.point, b.point), squared_distance(b.point, c.point),
                                     squared_distance(c.point, a.point)});
-  mark(t, largest_squared_radius(shortest, a.length_scale + b.length_scale + c.length_scale, bounds_));
+  mark(t, largest_squared_radius(shortest, a.length_scale + b.length_scale + c.length_scale, bounds));
 }
 
 void Refiner::mark(TriangleId t, double bound) {

@@ -36,7 +36,9 @@ class Refiner {
   Refiner& operator=(const Refiner&) = delete;
 
   // Queues a triangle that is bad, and its boundary edges that are encroached.
-  void consider(TriangleId t);
+  void consider(TriangleId t) { consider(t, bounds_); }
+  // The same for a triangle that need only keep what the mesh promises.
+  void consider_kept(TriangleId t) { consider(t, promised_); }
   // Refines until nothing queued is left or a limit is reached.
   Stopped run();
 
@@ -55,6 +57,7 @@ class Refiner {
     std::uint32_t from, to;
   };
 
+  void consider(TriangleId t, const QualityBounds& bounds);
   // Marks a triangle, given the largest squared radius with which it is good.
   void mark(TriangleId t, double bound);
   // The next triangle to refine, no longer marked; none if none is left.
@@ -86,7 +89,7 @@ class Refiner {
 
   MeshData& mesh_;
   Triangulation& triangulation_;
-  QualityBounds bounds_;
+  QualityBounds bounds_, promised_;  // of new triangles; of all
   double inverse_gradation_;
   SmallAngles small_angles_;
   // Candidates on their way from memory: a pass jumps about in a large mesh, so what it will need is fetched

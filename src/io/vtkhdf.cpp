@@ -12,7 +12,7 @@ namespace remodel::io {
 
 namespace {
 
-constexpr std::int64_t state_version = 2;
+constexpr std::int64_t state_version = 3;
 const std::string grid_group = "/VTKHDF/";
 const std::string state_group = "/remodel";
 const std::string markers_path = state_group + "/imported_markers";
@@ -49,6 +49,11 @@ void for_each_state_number(State& state, Visitor&& visit) {
   visit("max_vertices", state.options.max_vertices);
   visit("min_edge", state.options.min_edge);
   visit("refine_angle_deg", state.options.refine_angle_deg);
+  visit("keep", state.options.keep);
+  visit("count_factor", state.renewal.count_factor);
+  visit("interior_size", state.renewal.interior_size);
+  visit("full_adjustments", state.renewal.full_adjustments);
+  visit("sampled_at", state.renewal.sampled_at);
 }
 
 // FNV-1a on 64-bit words, with a shift that carries the high bits down. Each step is a bijection of the hash
@@ -213,7 +218,7 @@ MeshState read_vtkhdf_state(const std::filesystem::path& file) {
   }
   const auto version = in.attribute<std::int64_t>(state_group, "format_version");
   if (version[0] != state_version) {
-    in.fail(state_group + "@format_version", std::to_string(version[0]) + " found, 2 expected");
+    in.fail(state_group + "@format_version", std::to_string(version[0]) + " found, 3 expected");
   }
   MeshState state;
   for_each_state_number(state, [&](const std::string& name, auto& value) {

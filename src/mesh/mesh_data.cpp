@@ -12,12 +12,13 @@ QualityBounds::QualityBounds(const QualityOptions& options) {
   const double sine = std::sin(options.min_angle_deg * std::numbers::pi / 180.0);
   const double infinity = std::numeric_limits<double>::infinity();
   squared_radius_edge = sine > 0.0 ? margin * 0.25 / (sine * sine) : infinity;
-  squared_gradation = margin * options.max_gradation * options.max_gradation;
+  squared_gradation = margin * promised_gradation(options) * promised_gradation(options);
 }
 
 QualityBounds QualityBounds::of_refinement(const QualityOptions& options) {
   QualityOptions stricter = options;
   stricter.min_angle_deg = std::max(options.min_angle_deg, options.refine_angle_deg);
+  stricter.keep = 1.0;
   return QualityBounds(stricter);
 }
 
@@ -45,6 +46,7 @@ MeshData::MeshData(const MeshData& other)
       sides(other.sides),
       domain_triangles(other.domain_triangles),
       step(other.step),
+      renewal(other.renewal),
       imported(other.imported),
       curve_places_(other.curve_places_) {
   if (triangulation.journalling()) triangulation.commit();

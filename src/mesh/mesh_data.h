@@ -65,10 +65,10 @@ class Marks {
 // promised, so that whoever measures a mesh with rounding of his own finds the promise kept.
 struct QualityBounds {
   explicit QualityBounds(const QualityOptions& options);
-  // What refinement works to: at least as strict.
+  // What refinement makes: at least as strict.
   static QualityBounds of_refinement(const QualityOptions& options);
   double squared_radius_edge;  // B^2
-  double squared_gradation;    // H^2
+  double squared_gradation;    // (keep H)^2; H^2 of refinement
 };
 
 class MeshData {
@@ -82,6 +82,7 @@ class MeshData {
   std::vector<Sides> sides;                  // of each loop
   std::size_t domain_triangles = 0;
   std::uint32_t step = 0;
+  RenewalState renewal;
   ImportRecord imported;
   std::unique_ptr<MeshCache> cache;
 

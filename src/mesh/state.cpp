@@ -37,6 +37,7 @@ MeshState Mesh::state() const {
   to.step = data_->step;
   to.domain = data_->domain;
   to.options = data_->options;
+  to.renewal = data_->renewal;
   to.imported = data_->imported;
   return to;
 }
@@ -192,6 +193,7 @@ Mesh Mesh::restore(const MeshState& state, const std::string& source) {
   data.domain = state.domain;
   data.options = state.options;
   data.step = state.step;
+  data.renewal = state.renewal;
   require_in_range(state.imported, state, source);
   data.imported = state.imported;
   if (std::string broken = unpack(state, source).restore(data.triangulation); !broken.empty())

@@ -15,7 +15,7 @@ constexpr std::size_t batch = 250;  // records a transaction
 
 // The order of the columns is that of bind() and read_row().
 constexpr const char* schema = R"(
-PRAGMA user_version = 1;
+PRAGMA user_version = 2;
 CREATE TABLE run (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE evaluations (
   evaluation INTEGER PRIMARY KEY,
@@ -33,17 +33,22 @@ CREATE TABLE evaluations (
   inserted INTEGER NOT NULL,
   removed INTEGER NOT NULL,
   full_adjustment INTEGER NOT NULL,
+  refreshed INTEGER NOT NULL,
   regenerated INTEGER NOT NULL,
   min_angle_deg REAL NOT NULL,
   remodel_seconds REAL NOT NULL,
   generated_triangles INTEGER,
+  gradation_bias REAL,
+  gradation_deviation REAL,
+  generated_gradation_bias REAL,
+  generated_gradation_deviation REAL,
   generate_seconds REAL,
   checked TEXT NOT NULL,
   valid INTEGER NOT NULL,
   detail TEXT
 );)";
 constexpr const char* insert_row =
-    "INSERT INTO evaluations VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)";
+    "INSERT INTO evaluations VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)";
 
 std::string coefficients_to_json(const std::vector<double>& coefficients) {
   return nlohmann::json(coefficients).dump();  // nlohmann writes doubles so that they read back exactly
@@ -164,10 +169,15 @@ void bind(Statement& row, const EvaluationRecord& record) {
   row.bind_integer(record.inserted);
   row.bind_integer(record.removed);
   row.bind_integer(record.full_adjustment);
+  row.bind_integer(record.refreshed);
   row.bind_integer(record.regenerated);
   row.bind(record.min_angle_deg);
   row.bind(record.remodel_seconds);
   row.bind_integer(record.generated_triangles);
+  row.bind(record.gradation_bias);
+  row.bind(record.gradation_deviation);
+  row.bind(record.generated_gradation_bias);
+  row.bind(record.generated_gradation_deviation);
   row.bind(record.generate_seconds);
   row.bind(std::string(record.checked == Checked::full ? "full" : "quick"));
   row.bind_integer(record.valid);
@@ -192,10 +202,15 @@ EvaluationRecord read_row(Statement& row) {
   record.inserted = row.integer();
   record.removed = row.integer();
   record.full_adjustment = row.integer() != 0;
+  record.refreshed = row.integer() != 0;
   record.regenerated = row.integer() != 0;
   record.min_angle_deg = row.real();
   record.remodel_seconds = row.real();
   record.generated_triangles = row.optional_integer();
+  record.gradation_bias = row.optional_real();
+  record.gradation_deviation = row.optional_real();
+  record.generated_gradation_bias = row.optional_real();
+  record.generated_gradation_deviation = row.optional_real();
   record.generate_seconds = row.optional_real();
   record.checked = row.text() == "full" ? Checked::full : Checked::quick;
   record.valid = row.integer() != 0;
@@ -243,9 +258,9 @@ template <typename Database>
 void require_version(const Database& database) {
   Statement version(database, "PRAGMA user_version");
   version.step();
-  if (const std::uint64_t found = version.integer(); found != 1)
+  if (const std::uint64_t found = version.integer(); found != 2)
     throw Error(ErrorCode::format, database.file.string(),
-                "expected the history of a run, version 1, found version " + std::to_string(found));
+                "expected the history of a run, version 2, found version " + std::to_string(found));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 
+#include "optimise/portable_math.h"
 #include "remodel/check.h"
 #include "remodel/generate.h"
 
@@ -28,6 +29,7 @@ void copy_figures(const RemodelResult& result, EvaluationRecord& record) {
   record.inserted = result.inserted;
   record.removed = result.removed;
   record.full_adjustment = result.full_adjustment;
+  record.refreshed = result.refreshed;
   record.regenerated = result.regenerated;
   record.detail = result.reason;
 }
@@ -54,14 +56,14 @@ Stopped MeshChain::step(const CstAirfoil& design, StepTasks tasks, EvaluationRec
     if (const Stopped stopped = regenerate(domain, record); stopped != Stopped::done) return stopped;
   }
   record.min_angle_deg = mesh_.statistics().min_angle_deg;
-  return tasks.compare ? compare(design, record) : Stopped::done;
+  return tasks.compare ? compare(compared_design(design, record), record) : Stopped::done;
 }
 
 std::string MeshChain::broken_rule(const Domain& domain, StepTasks tasks) const {
   std::string broken = mesh_.quick_check();
   if (!broken.empty() || !tasks.full_check) return broken;
   const CheckResult result = check(mesh_.freeze(), {.min_angle_deg = quality_.min_angle_deg,
-                                                    .max_gradation = quality_.max_gradation,
+                                                    .max_gradation = promised_gradation(mesh_.options()),
                                                     .delaunay = !mesh_.shows_file_triangles(),
                                                     .design = &domain,
                                                     .max_violations = 1});
@@ -80,9 +82,21 @@ Stopped MeshChain::regenerate(const Domain& domain, EvaluationRecord& record) {
   record.triangles = mesh_.triangle_count();
   record.preserved = record.moved = record.inserted = record.removed = 0;
   record.preserved_percent = 0.0;
-  record.full_adjustment = false;
+  record.full_adjustment = record.refreshed = false;
   record.regenerated = true;
   return Stopped::done;
+}
+
+// Where the optimiser has converged, designs hardly differ any more, and neither would the meshes that they are
+// compared with: one mesh with many or few triangles, by chance, would decide the mean of hundreds.
+CstAirfoil MeshChain::compared_design(const CstAirfoil& design, const EvaluationRecord& record) const {
+  constexpr double converged = 0.003, jitter = 0.001;  // standard deviation of samples; of coefficients, relative
+  if (record.sigma >= converged) return design;
+  portable::Generator random(record.evaluation);
+  CstAirfoil jittered = design;
+  for (auto* surface : {&jittered.upper, &jittered.lower})
+    for (double& coefficient : *surface) coefficient *= 1.0 + jitter * random.normal();
+  return domain_of_.feasible(jittered) ? jittered : design;
 }
 
 Stopped MeshChain::compare(const CstAirfoil& design, EvaluationRecord& record) const {
@@ -91,6 +105,11 @@ Stopped MeshChain::compare(const CstAirfoil& design, EvaluationRecord& record) c
   const GenerateResult fresh = generate(domain, quality_);
   record.generate_seconds = watch.seconds();
   record.generated_triangles = fresh.mesh.triangle_count();
+  const GradationError error = mesh_.gradation_error(), fresh_error = fresh.mesh.gradation_error();
+  record.gradation_bias = error.bias;
+  record.gradation_deviation = error.deviation;
+  record.generated_gradation_bias = fresh_error.bias;
+  record.generated_gradation_deviation = fresh_error.deviation;
   return fresh.stopped;
 }
 

@@ -29,6 +29,7 @@ class MeshChain {
  private:
   std::string broken_rule(const Domain& domain, StepTasks tasks) const;
   Stopped regenerate(const Domain& domain, EvaluationRecord& record);
+  CstAirfoil compared_design(const CstAirfoil& design, const EvaluationRecord& record) const;
   Stopped compare(const CstAirfoil& design, EvaluationRecord& record) const;
 
   DesignDomains domain_of_;

@@ -18,6 +18,7 @@
 #include "remodel/error.h"
 #include "remodel/generate.h"
 #include "remodel/io.h"
+#include "remodel/strategy.h"
 
 namespace remodel {
 namespace {
@@ -61,6 +62,8 @@ std::string settings_of(const CstAirfoil& from, const CstAirfoil& to, const Opti
       {"min_edge", quality.min_edge},
       {"distance", options.remodel.distance},
       {"method", name_of(options.remodel.method)},
+      {"strategy", name_of(options.remodel.strategy)},
+      {"keep", resolved_keep(options.remodel, quality)},
       {"sigma", options.sigma},
       {"seed", options.seed},
       {"compare_every", options.compare_every},
@@ -102,14 +105,16 @@ void add(Checksum& sum, const EvaluationRecord& record) {
   for (const double coefficient : record.coefficients) sum.add(coefficient);
   for (const double value :
        {record.objective, record.best_objective, record.sigma, record.preserved_percent, record.min_angle_deg,
-        record.remodel_seconds, record.generate_seconds.value_or(-1.0)})
+        record.remodel_seconds, record.generate_seconds.value_or(-1.0), record.gradation_bias.value_or(0.0),
+        record.gradation_deviation.value_or(-1.0), record.generated_gradation_bias.value_or(0.0),
+        record.generated_gradation_deviation.value_or(-1.0)})
     sum.add(value);
   for (const std::size_t count : {record.triangles_before, record.triangles, record.preserved, record.moved,
                                   record.inserted, record.removed, record.generated_triangles.value_or(0)})
     sum.add(std::uint64_t{count});
   sum.add(record.infeasible_samples);
   for (const bool flag :
-       {record.full_adjustment, record.regenerated, record.checked == Checked::full, record.valid})
+       {record.full_adjustment, record.refreshed, record.regenerated, record.checked == Checked::full, record.valid})
     sum.add(flag ? "1" : "0");
   sum.add(record.detail);
 }
@@ -344,6 +349,9 @@ Progress go_on(const CstAirfoil& from, const CstAirfoil& to, const OptimiseOptio
           .earlier_seconds = checkpoint.seconds};
 }
 
+// A run is long: it can afford to know K within one percent.
+constexpr int calibration_samples = 20;
+
 // None where a limit keeps it from being finished.
 std::optional<Mesh> first_mesh(const CstAirfoil& from, const OptimiseOptions& options) {
   const Domain domain = DesignDomains(options)(from);
@@ -354,6 +362,7 @@ std::optional<Mesh> first_mesh(const CstAirfoil& from, const OptimiseOptions& op
   }
   GenerateResult generated = generate(domain, options.quality);
   if (generated.stopped != Stopped::done) return std::nullopt;
+  if (options.remodel.strategy == Strategy::renew) calibrate(generated.mesh.data(), calibration_samples);
   return std::move(generated.mesh);
 }
 

@@ -123,6 +123,26 @@ TEST_F(OptimiseRun, EvaluatesTheSameDesignsWhateverTheMesh) {
   for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_EQ(rows[i].coefficients, others[i].coefficients);
 }
 
+TEST_F(OptimiseRun, EvaluatesTheSameDesignsWhateverTheStrategy) {
+  OptimiseOptions chain = options("chain"), renew = options("renew");
+  chain.remodel.strategy = Strategy::chain;
+  renew.remodel.strategy = Strategy::renew;
+  chain.sigma = renew.sigma = 0.25;
+  optimise(from_, to_, chain);
+  optimise(from_, to_, renew);
+  const auto rows = History::open(chain.directory / "history.sqlite").records();
+  const auto others = History::open(renew.directory / "history.sqlite").records();
+  ASSERT_EQ(rows.size(), others.size());
+  bool other_meshes = false;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i].coefficients, others[i].coefficients);
+    EXPECT_EQ(rows[i].objective, others[i].objective);
+    EXPECT_EQ(rows[i].infeasible_samples, others[i].infeasible_samples);
+    other_meshes |= rows[i].triangles != others[i].triangles;
+  }
+  EXPECT_TRUE(other_meshes);
+}
+
 TEST_F(OptimiseRun, GoesOnFromAnInterruptToTheSameHistoryAndMesh) {
   optimise(from_, to_, options("whole"));
   OptimiseOptions parts = options("parts");

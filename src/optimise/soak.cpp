@@ -69,6 +69,7 @@ class Soak {
         std::max(0.5, setting.domain.points / 50.0 * pick(std::array{0.5, 1.0, 1.0, 2.0}));
     setting.remodel.distance = pick(std::array{0.5, 1.0, 2.0, 4.0});
     setting.remodel.method = pick(std::array{Method::automatic, Method::automatic, Method::general});
+    setting.remodel.strategy = pick(std::array{Strategy::renew, Strategy::chain});
     setting.sigma = 0.25 * portable::exp(-6.0 * random_.uniform());  // 0.0006 to 0.25
     setting.centre = any_airfoil();
     return setting;
@@ -126,7 +127,7 @@ class Soak {
     if (options_.full_check_every == 0 || result_.steps % options_.full_check_every != 0) return;
     ++result_.full_checks;
     const CheckResult checked = check(mesh.freeze(), {.min_angle_deg = mesh.options().min_angle_deg,
-                                                      .max_gradation = mesh.options().max_gradation,
+                                                      .max_gradation = promised_gradation(mesh.options()),
                                                       .design = &mesh.domain()});
     result_.min_angle_deg = std::min(result_.min_angle_deg, checked.min_angle_deg);
     if (!checked.valid) fail(checked.violations.front().rule + ": " + checked.violations.front().detail);

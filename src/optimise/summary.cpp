@@ -25,6 +25,7 @@ void Summary::add(const EvaluationRecord& record) {
   full_adjustments_ += record.full_adjustment;
   invalid_ += !record.valid;
   recoveries_ += record.regenerated;
+  refreshes_ += record.refreshed;
   if (record.objective < best_objective_) {
     best_objective_ = record.objective;
     best_coefficients_ = record.coefficients;
@@ -43,6 +44,10 @@ void Summary::add(const EvaluationRecord& record) {
     generated_triangles_.add(generated);
     surplus_percent_.add(100.0 * (triangles - generated) / generated);
   }
+  gradation_bias_.add(record.gradation_bias);
+  gradation_deviation_.add(record.gradation_deviation);
+  generated_gradation_bias_.add(record.generated_gradation_bias);
+  generated_gradation_deviation_.add(record.generated_gradation_deviation);
   if (record.generate_seconds) generate_ms_.add(1e3 * *record.generate_seconds);
 }
 
@@ -65,6 +70,11 @@ OptimiseResult Summary::result() const {
   result.speedup = result.generate_ms_mean / result.remodel_ms_mean;
   result.invalid_meshes = invalid_;
   result.recoveries = recoveries_;
+  result.refreshes = refreshes_;
+  result.gradation_bias = gradation_bias_.value();
+  result.gradation_deviation = gradation_deviation_.value();
+  result.generated_gradation_bias = generated_gradation_bias_.value();
+  result.generated_gradation_deviation = generated_gradation_deviation_.value();
   result.detail = detail_;
   return result;
 }
@@ -82,12 +92,17 @@ std::string optimise_result_to_json(const OptimiseResult& result) {
       {"triangles_mean", result.triangles_mean},
       {"generated_triangles_mean", result.generated_triangles_mean},
       {"surplus_percent", result.surplus_percent},
+      {"gradation_bias", result.gradation_bias},
+      {"gradation_deviation", result.gradation_deviation},
+      {"generated_gradation_bias", result.generated_gradation_bias},
+      {"generated_gradation_deviation", result.generated_gradation_deviation},
       {"remodel_ms_mean", result.remodel_ms_mean},
       {"generate_ms_mean", result.generate_ms_mean},
       {"speedup", result.speedup},
       {"min_angle_deg", result.min_angle_deg},
       {"invalid_meshes", result.invalid_meshes},
       {"recoveries", result.recoveries},
+      {"refreshes", result.refreshes},
       {"seconds", result.seconds},
       {"stopped", name_of(result.stopped)},
       {"detail", result.detail},

@@ -25,18 +25,23 @@ class Summary {
       sum += value;
       ++count;
     }
+    void add(std::optional<double> value) {
+      if (value) add(*value);
+    }
     double value() const { return count == 0 ? OptimiseResult::none : sum / static_cast<double>(count); }
     double sum = 0.0;
     std::size_t count = 0;
   };
 
   std::uint64_t evaluations_ = 0, infeasible_samples_ = 0, full_adjustments_ = 0, invalid_ = 0,
-                recoveries_ = 0;
+                recoveries_ = 0,
+                refreshes_ = 0;
   double best_objective_ = std::numeric_limits<double>::infinity();
   double min_angle_deg_ = std::numeric_limits<double>::infinity();
   std::vector<double> best_coefficients_;
   Mean preserved_percent_, lost_, triangles_, generated_triangles_, surplus_percent_, remodel_ms_,
-      generate_ms_;
+      generate_ms_, gradation_bias_, gradation_deviation_, generated_gradation_bias_,
+      generated_gradation_deviation_;
   std::string detail_;
 };
 

@@ -67,12 +67,12 @@ class Nearest {
 
 class LoopReplacement {
  public:
-  LoopReplacement(MeshData& mesh, const Domain& domain, double distance)
+  LoopReplacement(MeshData& mesh, const Domain& domain, const ReplaceOptions& options)
       : mesh_(mesh),
         triangulation_(mesh.triangulation),
         old_domain_(mesh.domain),
         domain_(domain),
-        distance_(distance) {}
+        options_(options) {}
 
   void run() {
     match_loops();
@@ -130,7 +130,7 @@ class LoopReplacement {
         const double nearest = std::sqrt(other.squared_distance_to(model.points[i]));
         const double pair = std::isfinite(nearest) ? nearest : 0.0;
         result.push_back({model.points[i],
-                          removal_radius(distance_, pair, model.points[i], model.before[i], model.after[i]),
+                          removal_radius(options_, pair, model.points[i], model.before[i], model.after[i]),
                           hint});
         hint = triangulation_.locate(model.points[i], hint).triangle;
       }
@@ -236,7 +236,8 @@ class LoopReplacement {
   // its length scale: they count as touched, so that refinement judges them anew.
   void set_length_scale(std::uint32_t k) {
     if (mesh_.at(k).steiner) return;
-    mesh_.set_boundary_length_scale(k, neighbour_length_scale(mesh_, k));
+    const Neighbours neighbours = options_.renewing ? Neighbours::stations : Neighbours::all;
+    mesh_.set_boundary_length_scale(k, neighbour_length_scale(mesh_, k, neighbours));
     keep_scales_beside(k);
     for_each_corner(mesh_.at(k).vertex, [&](Corner c) { triangulation_.refresh_circle(c.triangle); });
   }
@@ -269,14 +270,14 @@ class LoopReplacement {
   Triangulation& triangulation_;
   const Domain old_domain_;
   const Domain& domain_;
-  double distance_;
+  ReplaceOptions options_;
   std::vector<std::size_t> kept_, old_loops_, new_loops_;
 };
 
 }  // namespace
 
-void replace_loops(MeshData& mesh, const Domain& domain, double distance) {
-  LoopReplacement(mesh, domain, distance).run();
+void replace_loops(MeshData& mesh, const Domain& domain, const ReplaceOptions& options) {
+  LoopReplacement(mesh, domain, options).run();
 }
 
 }  // namespace remodel

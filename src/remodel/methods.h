@@ -7,15 +7,16 @@
 #include "mesh/mesh_data.h"
 #include "remodel/adjust.h"
 #include "remodel/remodel.h"
+#include "remodel/replace.h"
 
 namespace remodel {
 
 // The paper's section 4.2 after adjust_all() returned false: adjusts what can be, replaces the rest.
 // Returns the vertices moved in place.
 std::vector<VertexId> replace_where_needed(MeshData& mesh, AdjustCache& cache, const Domain& domain,
-                                           double distance);
+                                           const ReplaceOptions& options);
 
 // The paper's section 3: replaces all loops that are not the same in both domains.
-void replace_loops(MeshData& mesh, const Domain& domain, double distance);
+void replace_loops(MeshData& mesh, const Domain& domain, const ReplaceOptions& options);
 
 }  // namespace remodel

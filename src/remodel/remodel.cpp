@@ -10,6 +10,7 @@
 #include "remodel/error.h"
 #include "remodel/generate.h"
 #include "remodel/methods.h"
+#include "remodel/strategy.h"
 
 namespace remodel {
 
@@ -39,7 +40,8 @@ class Transaction {
         sides_(mesh.sides),
         domain_(mesh.domain),
         domain_triangles_(mesh.domain_triangles),
-        step_(mesh.step) {
+        step_(mesh.step),
+        renewal_(mesh.renewal) {
     mesh.triangulation.begin();
     mesh.triangulation.set_step(mesh.step + 1);
   }
@@ -56,6 +58,7 @@ class Transaction {
     mesh_.index_curves();
     mesh_.domain_triangles = domain_triangles_;
     mesh_.step = step_;
+    mesh_.renewal = renewal_;
     if (mesh_.cache && replaced_) mesh_.cache->stale = stale_;
   }
   // A replacement is complete: the mesh is that of the new design, and can still be taken back.
@@ -91,6 +94,7 @@ class Transaction {
   Domain domain_;
   std::size_t domain_triangles_;
   std::uint32_t step_;
+  RenewalState renewal_;
   bool replaced_ = false, stale_ = false;  // stale_: of the cache, before replaced()
   bool committed_ = false;
 };
@@ -98,28 +102,38 @@ class Transaction {
 // How a step is taken back: unless kept, when this goes.
 class Undo {
  public:
-  explicit Undo(Mesh& mesh) : mesh_(mesh) {}
+  explicit Undo(Mesh& mesh) : mesh_(mesh), keep_(mesh.options().keep) {}
   Undo(const Undo&) = delete;
   Undo& operator=(const Undo&) = delete;
   ~Undo() {
+    if (kept_) return;
+    transaction_.reset();
     if (before_) mesh_ = std::move(*before_);
+    mesh_.data().options.keep = keep_;
   }
   bool journalling() const { return transaction_.has_value(); }
   void begin() { transaction_.emplace(mesh_.data()); }
   Transaction& transaction() { return *transaction_; }
-  void roll_back() { transaction_.reset(); }
+  void roll_back() {
+    transaction_.reset();
+    mesh_.data().options.keep = keep_;
+  }
   void replace_mesh(Mesh&& fresh) {
+    roll_back();
     before_ = std::move(mesh_);
     mesh_ = std::move(fresh);
   }
   void keep() {
     if (transaction_) transaction_->commit();
+    kept_ = true;
     transaction_.reset();
     before_.reset();
   }
 
  private:
   Mesh& mesh_;
+  double keep_;  // of the mesh's options
+  bool kept_ = false;
   std::optional<Transaction> transaction_;
   std::optional<Mesh> before_;  // a mesh that was generated afresh takes its place
 };
@@ -214,13 +228,45 @@ bool cancelled(StepObserver* observer) {
   return observer != nullptr && observer->cancelled();
 }
 
+bool same_corners(const Triangle& a, const Triangle& b) {
+  const int i = b.corner_of(a.vertex[0]);
+  return a.vertex[0] == b.vertex[i] && a.vertex[1] == b.vertex[next3(i)] &&
+         a.vertex[2] == b.vertex[previous3(i)];
+}
+
 // Refinement of what was touched. A refinement that needs several times the old mesh is running away.
+// Triangles that still join the same vertices are kept: they need only hold what the mesh promises.
 Stopped refine_touched(MeshData& mesh, StepObserver* observer) {
+  const Triangulation& triangulation = mesh.triangulation;
   Refiner refiner(mesh, observer);
-  const std::size_t runaway = 4 * mesh.triangulation.vertex_count() + 10000;
+  const std::size_t runaway = 4 * triangulation.vertex_count() + 10000;
   refiner.limit_vertices(std::min<std::size_t>(mesh.options.max_vertices, runaway));
-  for (const TriangleId t : mesh.triangulation.touched()) refiner.consider(t);
+  auto earlier = triangulation.earlier().begin();  // in the order of touched(), without new slots
+  for (const TriangleId t : triangulation.touched()) {
+    const bool was_there = earlier != triangulation.earlier().end() && earlier->id == t;
+    if (was_there && same_corners(earlier->triangle, triangulation[t]))
+      refiner.consider_kept(t);
+    else
+      refiner.consider(t);
+    if (was_there) ++earlier;
+  }
   return refiner.run();
+}
+
+// The vertices moved in place.
+std::vector<VertexId> replace_boundary(MeshData& mesh, AdjustCache* cache, const Domain& domain,
+                                       const ReplaceOptions& options, std::size_t budget) {
+  std::vector<VertexId> moved;
+  std::vector<std::size_t> loops;
+  if (cache != nullptr) {
+    moved = replace_where_needed(mesh, *cache, domain, options);
+    loops = cache->loops;
+  } else {
+    replace_loops(mesh, domain, options);
+    for (std::size_t i = 0; i < domain.loops.size(); ++i) loops.push_back(i);
+  }
+  if (options.renewing) renew_replaced(mesh, loops, budget);
+  return moved;
 }
 
 // The paper's remodelling after a full adjustment was not possible (cache) or does not apply (no cache),
@@ -228,16 +274,19 @@ Stopped refine_touched(MeshData& mesh, StepObserver* observer) {
 std::optional<std::string> replace(Transaction& transaction, MeshData& mesh, AdjustCache* cache,
                                    const Domain& domain, const RemodelOptions& options,
                                    RemodelResult& result) {
+  const bool renewing = renews(mesh, options);
   try {
-    std::vector<VertexId> moved;
-    if (cache != nullptr)
-      moved = replace_where_needed(mesh, *cache, domain, options.distance);
-    else
-      replace_loops(mesh, domain, options.distance);
+    const std::size_t budget = renewing ? prepare_renewal(mesh, options.observer) : 0;
+    const std::vector<VertexId> moved =
+        replace_boundary(mesh, cache, domain, {.distance = options.distance, .renewing = renewing}, budget);
     result.stopped =
         cancelled(options.observer) ? Stopped::interrupted : refine_touched(mesh, options.observer);
     if (result.stopped != Stopped::done) return std::string("refinement stopped: ") + name_of(result.stopped);
     count(mesh, moved, result);
+    if (renewing)
+      finish_renewal(mesh);
+    else
+      mesh.renewal.interior_size = -1.0;  // not kept up
   } catch (const RecoveryError& error) {
     return error.what();
   }
@@ -253,10 +302,9 @@ RemodelResult unchanged(const MeshData& mesh, Stopped stopped) {
   return result;
 }
 
-RemodelResult regenerate(Mesh& mesh, const Domain& domain, StepObserver* observer, std::string&& reason,
-                         Undo& undo) {
-  GenerateResult fresh = generate(domain, mesh.options(), observer);
-  if (fresh.stopped == Stopped::interrupted) return unchanged(mesh.data(), Stopped::interrupted);
+// A fresh mesh takes the place of the one from before the step.
+RemodelResult exchange(Mesh& mesh, GenerateResult&& fresh, Undo& undo) {
+  undo.roll_back();
   MeshData& data = fresh.mesh.data();
   data.step = mesh.step() + 1;
   data.imported.markers = mesh.data().imported.markers;
@@ -268,10 +316,29 @@ RemodelResult regenerate(Mesh& mesh, const Domain& domain, StepObserver* observe
   result.triangles_before = mesh.triangle_count();
   result.triangles = fresh.mesh.triangle_count();
   result.preserved = result.moved = 0;
-  result.regenerated = true;
-  result.reason = std::move(reason);
   result.stopped = fresh.stopped;
   undo.replace_mesh(std::move(fresh.mesh));
+  return result;
+}
+
+// After a step that failed and was taken back.
+RemodelResult regenerate(Mesh& mesh, const Domain& domain, StepObserver* observer, std::string&& reason,
+                         Undo& undo) {
+  GenerateResult fresh = generate(domain, mesh.options(), observer);
+  if (fresh.stopped == Stopped::interrupted) return unchanged(mesh.data(), Stopped::interrupted);
+  fresh.mesh.data().renewal.count_factor = mesh.data().renewal.count_factor;
+  RemodelResult result = exchange(mesh, std::move(fresh), undo);
+  result.regenerated = true;
+  result.reason = std::move(reason);
+  return result;
+}
+
+// After a full adjustment under a journal.
+RemodelResult refresh(Mesh& mesh, RemodelResult&& adjusted, StepObserver* observer, Undo& undo) {
+  std::optional<GenerateResult> fresh = nearer_to_fresh(mesh.data(), observer);
+  if (!fresh) return std::move(adjusted);
+  RemodelResult result = exchange(mesh, std::move(*fresh), undo);
+  result.refreshed = true;
   return result;
 }
 
@@ -279,6 +346,9 @@ void require_possible(const Mesh& mesh, const RemodelOptions& options, bool one_
   if (!std::isfinite(options.distance) || options.distance < 0.0)
     throw Error(ErrorCode::argument, "distance",
                 "found " + std::to_string(options.distance) + ", expected 0 or more");
+  if (!(options.keep == 0.0 || (std::isfinite(options.keep) && options.keep >= 1.0)))
+    throw Error(ErrorCode::argument, "keep",
+                "found " + std::to_string(options.keep) + ", expected 1 or more, or 0 for the usual");
   if (options.method == Method::specialised && !one_to_one)
     throw Error(
         ErrorCode::argument, "method",
@@ -303,9 +373,17 @@ RemodelResult remodel_step(Mesh& mesh, const Domain& domain, const RemodelOption
                            Undo& undo) {
   MeshData& data = mesh.data();
   AdjustCache* cache = nullptr;
+  const bool renewing = renews(data, options);
+  if (renewing) data.options.keep = std::max(data.options.keep, resolved_keep(options, data.options));
   if (method == Method::specialised) {
     cache = &adjust_cache(data, moving_loops(data.domain, domain));
-    if (adjust_all(data, *cache, domain)) return full_adjustment(data, *cache);
+    const bool due = renewing && refresh_is_due(data, data.renewal.full_adjustments);
+    if (due && !undo.journalling()) undo.begin();
+    if (adjust_all(data, *cache, domain)) {
+      RemodelResult result = full_adjustment(data, *cache);
+      if (renewing) ++data.renewal.full_adjustments;
+      return due ? refresh(mesh, std::move(result), options.observer, undo) : result;
+    }
     if (!keeps_a_loop(data, *cache)) {
       cache = nullptr;
       method = Method::general;

@@ -92,9 +92,10 @@ std::vector<VertexId> vertices_inside(MeshData& mesh, const std::vector<RemovalR
   return found;
 }
 
-double removal_radius(double distance_factor, double pair_distance, Point centre, Point before, Point after) {
-  const double lower = std::sqrt(std::max(squared_distance(centre, before), squared_distance(centre, after)));
-  return std::max(distance_factor * pair_distance, lower);
+double removal_radius(const ReplaceOptions& options, double pair_distance, Point centre, Point before,
+                      Point after) {
+  const auto [nearer, farther] = std::minmax({squared_distance(centre, before), squared_distance(centre, after)});
+  return std::max(options.distance * pair_distance, std::sqrt(options.renewing ? nearer : farther));
 }
 
 VertexId insert_boundary_point(Triangulation& triangulation, Point p, TriangleId hint) {

@@ -23,8 +23,17 @@ struct RemovalRegion {
 // the centre's own triangle has no vertex inside.
 std::vector<VertexId> vertices_inside(MeshData& mesh, const std::vector<RemovalRegion>& regions);
 
-// The radius of a region: max(D * distance of the pair, longest distance to the two boundary neighbours).
-double removal_radius(double distance_factor, double pair_distance, Point centre, Point before, Point after);
+struct ReplaceOptions {
+  double distance = 1.0;  // D
+  // False, the paper's: new boundary vertices take length scales from what is around them too, and removal
+  // regions reach to the farther boundary neighbour. True: the curves alone decide length scales, all others
+  // are the caller's to renew, and regions reach to the nearer neighbour.
+  bool renewing = false;
+};
+
+// The radius of a region: max(D * distance of the pair, distance to a boundary neighbour).
+double removal_radius(const ReplaceOptions& options, double pair_distance, Point centre, Point before,
+                      Point after);
 
 // Makes the triangles outside the domain at all boundary vertices Delaunay again, which full adjustments do
 // not.

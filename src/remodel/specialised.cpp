@@ -17,8 +17,8 @@ namespace {
 
 class Replacement {
  public:
-  Replacement(MeshData& mesh, AdjustCache& cache, double distance)
-      : mesh_(mesh), triangulation_(mesh.triangulation), cache_(cache), distance_(distance) {}
+  Replacement(MeshData& mesh, AdjustCache& cache, const ReplaceOptions& options)
+      : mesh_(mesh), triangulation_(mesh.triangulation), cache_(cache), options_(options) {}
 
   void run() {
     restore_delaunay();
@@ -30,7 +30,7 @@ class Replacement {
     mesh_.orient_loops();
     recover();
     relabel_touched(mesh_);
-    for (std::size_t i = 0; i < cache_.non_steiner; ++i)
+    for (std::size_t i = 0; i < cache_.non_steiner && !options_.renewing; ++i)
       if (lost(i)) set_length_scale(cache_.moving[i].boundary);
   }
 
@@ -75,7 +75,7 @@ class Replacement {
       const double leftwards = cross(along, news[i] - olds[i]);
       const double pair = std::sqrt(squared_distance(olds[i], news[i]));
       const auto add = [&](const std::vector<Point>& points) {
-        const double radius = removal_radius(distance_, pair, points[i], points[m.before], points[m.after]);
+        const double radius = removal_radius(options_, pair, points[i], points[m.before], points[m.after]);
         result.push_back({points[i], radius, triangulation_.star(m.vertex).triangle});
       };
       const Sides& sides = mesh_.sides[mesh_.loop_of(m.curve)];
@@ -121,9 +121,9 @@ class Replacement {
       const std::uint32_t k = moving(i).boundary;
       const VertexId v = insert_boundary_point(triangulation_, cache_.new_points[i], hint_near(k));
       triangulation_.set_boundary(v, k);
-      triangulation_.set_length_scale(v, cache_.new_scales[i]);  // until its neighbours are known
+      triangulation_.set_length_scale(v, cache_.new_scales[i]);  // until its neighbours are known, or for good
       mesh_.boundary[k].vertex = v;
-      mesh_.boundary[k].scale_factor = 1.0;
+      if (!options_.renewing) mesh_.boundary[k].scale_factor = 1.0;
     }
   }
 
@@ -151,16 +151,16 @@ class Replacement {
   MeshData& mesh_;
   Triangulation& triangulation_;
   AdjustCache& cache_;
-  double distance_;
+  ReplaceOptions options_;
 };
 
 }  // namespace
 
 std::vector<VertexId> replace_where_needed(MeshData& mesh, AdjustCache& cache, const Domain& domain,
-                                           double distance) {
+                                           const ReplaceOptions& options) {
   adjust_some(mesh, cache);
   mesh.domain = domain;
-  Replacement(mesh, cache, distance).run();
+  Replacement(mesh, cache, options).run();
   std::vector<VertexId> moved;
   for (std::size_t i = 0; i < cache.moving.size(); ++i)
     if (cache.accepted[i] && !(cache.new_points[i] == cache.old_points[i]))

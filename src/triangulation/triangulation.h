@@ -131,6 +131,12 @@ class Triangulation {
   Inserted insert(Point p, TriangleId hint);
   // Removes a vertex at which no constrained edge ends. Invalidates its star.
   void remove(VertexId v);
+  // The triangles that remove() would put in the place of v's star. False where they are Delaunay only because
+  // of a constraint behind the star: then remove() would change more than that.
+  struct Ear {
+    VertexId vertex[3];
+  };
+  bool plan_removal(VertexId v, std::vector<Ear>& ears) const;
 
   ConstrainResult constrain(VertexId a, VertexId b);
   // Lifts the constraint of an edge and restores invariant (3).
@@ -152,6 +158,7 @@ class Triangulation {
   void set_badness(TriangleId t, std::uint8_t badness) {
     triangles_[t.index].badness = badness;
   }                                                    // not journalled
+  void touch(TriangleId t) { edit(t); }  // counts as changed: see touched()
   void set_step(std::uint32_t step) { step_ = step; }  // the birth of triangles made from now on
 
   // ---- journal. An exception out of any function of this class leaves the journal able to roll back;
@@ -168,6 +175,13 @@ class Triangulation {
   };
   std::span<const TriangleId> touched() const { return touched_; }
   std::span<const Earlier> earlier() const { return triangle_journal_; }
+  // The states of vertices before each change since begin(): of several of one vertex the first is that at
+  // begin(). Vertices made since then are not in it.
+  struct VertexBefore {
+    VertexId id;
+    Vertex vertex;
+  };
+  std::span<const VertexBefore> earlier_vertices() const { return vertex_journal_; }
   std::uint32_t vertices_inserted() const { return inserted_; }  // since begin()
   std::uint32_t vertices_removed() const { return removed_; }
 
@@ -250,10 +264,6 @@ class Triangulation {
   bool journalling_ = false;
   std::uint16_t journals_ = 0;  // the last one's number
   std::uint16_t journal_ = 0;   // of the journal under way; 0, as in records of new slots, when there is none
-  struct VertexBefore {
-    VertexId id;
-    Vertex vertex;
-  };
   std::vector<Earlier> triangle_journal_;
   std::vector<TriangleId> touched_;
   std::vector<VertexBefore> vertex_journal_;

@@ -1,0 +1,90 @@
+#include "remodel/coarsen.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace remodel {
+
+namespace {
+
+// A vertex's star loses two of about six triangles with it, and those that are left are larger by half. Where
+// no triangle is smaller than this, squared, that is too much for the others.
+constexpr double small = 0.4;
+
+class Coarsening {
+ public:
+  explicit Coarsening(MeshData& mesh)
+      : mesh_(mesh),
+        triangulation_(mesh.triangulation),
+        bounds_(QualityBounds::of_refinement(mesh.options)) {}
+
+  std::size_t run(std::size_t budget) {
+    std::size_t removed = 0;
+    mesh_.vertex_marks.clear(triangulation_.vertex_slots());
+    for (const auto& [density, v] : candidates()) {
+      if (removed == budget) break;
+      if (!mesh_.vertex_marks.visit(v.index) || !can_go(v)) continue;
+      triangulation_.remove(v);
+      ++removed;
+    }
+    return removed;
+  }
+
+ private:
+  // The interior vertices of triangles that are much smaller than they may be, the smallest first; ids break
+  // ties.
+  std::vector<std::pair<double, VertexId>> candidates() const {
+    std::vector<std::pair<double, VertexId>> found;
+    for (const TriangleId t : triangulation_.touched()) {
+      const Triangle& triangle = triangulation_[t];
+      if (!triangle.alive() || triangle.region != Region::domain) continue;
+      const double ratio = squared_ratio(triangle);
+      if (ratio > small) continue;
+      for (const VertexId v : triangle.vertex)
+        if (triangulation_[v].boundary == no_index) found.emplace_back(ratio, v);
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
+  // (r / (H mean LS))^2
+  double squared_ratio(const Triangle& t) const {
+    double mean = 0.0;
+    for (const VertexId v : t.vertex) mean += triangulation_[v].length_scale * (1.0 / 3.0);
+    return t.circle.squared_radius() / (bounds_.squared_gradation * mean * mean);
+  }
+
+  bool can_go(VertexId v) {
+    return triangulation_.plan_removal(v, ears_) &&
+           std::all_of(ears_.begin(), ears_.end(), [&](const Triangulation::Ear& ear) { return is_fine(ear); });
+  }
+
+  bool is_fine(const Triangulation::Ear& ear) const {
+    const Vertex &a = triangulation_[ear.vertex[0]], &b = triangulation_[ear.vertex[1]],
+                 &c = triangulation_[ear.vertex[2]];
+    const Circle circle = certified_circle(a.point, b.point, c.point);
+    if (!circle.certain() || !is_good(a, b, c, circle.squared_radius(), bounds_)) return false;
+    for (int i = 0; i < 3; ++i)
+      if (encroaches(ear.vertex[i], ear.vertex[next3(i)], ear.vertex[previous3(i)])) return false;
+    return true;
+  }
+
+  bool encroaches(VertexId apex, VertexId a, VertexId b) const {
+    const Point p = triangulation_.point(apex);
+    return dot(triangulation_.point(a) - p, triangulation_.point(b) - p) < 0.0 &&
+           mesh_.edge_between(a, b) != no_index;
+  }
+
+  MeshData& mesh_;
+  Triangulation& triangulation_;
+  QualityBounds bounds_;
+  std::vector<Triangulation::Ear> ears_;  // scratch
+};
+
+}  // namespace
+
+std::size_t coarsen_touched(MeshData& mesh, std::size_t budget) {
+  return budget == 0 ? 0 : Coarsening(mesh).run(budget);
+}
+
+}  // namespace remodel

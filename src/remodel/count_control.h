@@ -1,0 +1,38 @@
+#pragma once
+
+// How many triangles a mesh should have, without generating another one.
+//
+// Words: the *size* of a mesh is S = sum over the domain triangles of area / (H mean LS)^2. It depends on the
+// design and hardly on the triangles, and fresh meshes of one discretisation and gradation have nearly the
+// same number of triangles per size, whatever the design: the *count factor* K. A mesh of N triangles has a
+// surplus of about N / (K S) - 1.
+//
+// S comes in two parts. Triangles with a boundary vertex, which every step changes, are summed when needed;
+// they are in proportion to the boundary. The sum over all others is kept from step to step and corrected by
+// what the journal says.
+
+#include <cstddef>
+
+#include "mesh/mesh_data.h"
+#include "remodel/generate.h"
+
+namespace remodel {
+
+// The part of S in triangles without a boundary vertex, of the whole mesh: O(triangles).
+double interior_size(const MeshData& mesh);
+// The same under a journal that began when it was `before`: O(what changed).
+double corrected_interior_size(MeshData& mesh, double before);
+// The part in triangles with a boundary vertex: O(boundary).
+double boundary_size(MeshData& mesh);
+
+// N / S. Precondition: the mesh's interior_size is known.
+double triangles_per_size(MeshData& mesh);
+
+// A fresh mesh of the same domain, made to H times a factor of at most 1, with its S. A triangle count is
+// chaotic: meshes with factors that differ by a tenth of a percent are samples. Their count is in proportion
+// to 1 / h_factor^2.
+GenerateResult fresh_sample(const MeshData& like, double h_factor, StepObserver* observer);
+// K from that many samples; those that cannot be finished are left out.
+double measured_count_factor(const MeshData& mesh, int samples, StepObserver* observer);
+
+}  // namespace remodel

@@ -1,0 +1,220 @@
+#include "remodel/renew.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+
+namespace remodel {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Vertices in ascending order of a length scale; ids break ties.
+using Entry = std::pair<double, VertexId>;
+using Heap = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
+
+bool is_given(const MeshData& mesh, VertexId v) {
+  const std::uint32_t k = mesh.triangulation[v].boundary;
+  return k != no_index && !mesh.at(k).steiner;
+}
+
+// An upper bound from the curves, for Steiner vertices on them.
+double interpolation(const MeshData& mesh, VertexId v) {
+  const std::uint32_t k = mesh.triangulation[v].boundary;
+  return k == no_index ? infinity : mesh.base_length_scale(k);
+}
+
+// Visits the neighbours of v along domain edges: visit(u, |uv| / G). Those on the boundary's own edges may
+// come twice.
+template <class Visit>
+void for_each_neighbour(const MeshData& mesh, VertexId v, Visit visit) {
+  const Triangulation& triangulation = mesh.triangulation;
+  const Point p = triangulation.point(v);
+  const double inverse_gradation = 1.0 / mesh.options.gradation;
+  const auto visit_one = [&](VertexId u) {
+    visit(u, std::sqrt(squared_distance(triangulation.point(u), p)) * inverse_gradation);
+  };
+  const Corner first = triangulation.star(v);
+  Corner c = first;
+  do {
+    if (triangulation[c.triangle].region == Region::domain) {
+      visit_one(triangulation.following(c));
+      // Otherwise the next triangle's.
+      if (triangulation.link({c.triangle, next3(c.index)}).constrained())
+        visit_one(triangulation.preceding(c));
+    }
+    c = triangulation.counterclockwise(c);
+  } while (c.triangle != first.triangle);
+}
+
+template <class Visit>
+void for_each_triangle(const Triangulation& triangulation, VertexId v, Visit visit) {
+  const Corner first = triangulation.star(v);
+  Corner c = first;
+  do {
+    visit(c.triangle);
+    c = triangulation.counterclockwise(c);
+  } while (c.triangle != first.triangle);
+}
+
+class Renewal {
+ public:
+  explicit Renewal(MeshData& mesh) : mesh_(mesh), triangulation_(mesh.triangulation) {}
+
+  void run(std::span<const std::size_t> loops) {
+    mesh_.vertex_marks.clear(triangulation_.vertex_slots());
+    for (const std::size_t loop : loops)
+      mesh_.walk(mesh_.loop_heads[loop], [&](std::uint32_t k) { add_around(mesh_.at(k).vertex); });
+    for (const TriangleId t : triangulation_.touched())
+      if (triangulation_[t].alive()) add_vertices(t);
+    raise();
+    spread();
+    keep_small_changes();
+  }
+
+ private:
+  double scale(VertexId v) const { return triangulation_[v].length_scale; }
+
+  // ---- what is looked at first
+  void add_around(VertexId v) {
+    for_each_triangle(triangulation_, v, [&](TriangleId t) { add_vertices(t); });
+  }
+  void add_vertices(TriangleId t) {
+    if (triangulation_[t].region != Region::domain) return;
+    for (const VertexId v : triangulation_[t].vertex)
+      if (mesh_.vertex_marks.visit(v.index) && !is_given(mesh_, v)) suspect_unless_fine(v);
+  }
+  void suspect_unless_fine(VertexId v) {
+    if (std::abs(support(v) - scale(v)) > renewal_tolerance * scale(v)) suspects_.push({scale(v), v});
+  }
+
+  // F(v) by the present length scales.
+  double support(VertexId v) const {
+    double least = interpolation(mesh_, v);
+    for_each_neighbour(mesh_, v, [&](VertexId u, double step) { least = std::min(least, scale(u) + step); });
+    return least;
+  }
+
+  // ---- phase 1: in ascending order, so that all that lies lower is final but for what phase 2 lowers. What
+  // nothing lower accounts for rises; it never waits for vertices that may have their length scale from it.
+  void raise() {
+    mesh_.vertex_marks.clear(triangulation_.vertex_slots());  // of those that rose
+    VertexId last;
+    while (!suspects_.empty()) {
+      const auto [old, v] = suspects_.top();
+      suspects_.pop();
+      if (v == last) continue;
+      last = v;
+      look_at(v, old);
+    }
+    for (const VertexId v : waiting_) falling_.push({support(v), v});
+  }
+
+  bool rose(VertexId v) const { return mesh_.vertex_marks.visited(v.index); }
+
+  void look_at(VertexId v, double old) {
+    double found = interpolation(mesh_, v), undecided = infinity;
+    higher_.clear();
+    for_each_neighbour(mesh_, v, [&](VertexId u, double step) {
+      const double theirs = scale(u);
+      const bool decided = theirs < old || rose(u);
+      (decided ? found : undecided) = std::min(decided ? found : undecided, theirs + step);
+      if (theirs > old && !decided) higher_.push_back(u);
+    });
+    if (found < old * (1.0 - renewal_tolerance)) falling_.push({found, v});
+    if (found <= old * (1.0 + renewal_tolerance)) return;
+    mesh_.vertex_marks.visit(v.index);
+    change(v, found);
+    if (undecided < found) waiting_.push_back(v);
+    // All that lie higher, not only those that v accounts for: refinement sets length scales once, before later
+    // vertices come between, so that some of them have nothing any more that accounts for them.
+    for (const VertexId u : higher_)
+      if (!is_given(mesh_, u)) suspects_.push({scale(u), u});
+  }
+
+  // ---- phase 2: Dijkstra's algorithm
+  void spread() {
+    while (!falling_.empty()) {
+      const auto [found, v] = falling_.top();
+      falling_.pop();
+      if (!(found < scale(v) * (1.0 - renewal_tolerance)) || found == infinity) continue;
+      change(v, found);
+      for_each_neighbour(mesh_, v, [&, reached = found](VertexId u, double step) {
+        if (reached + step < scale(u) * (1.0 - renewal_tolerance) && !is_given(mesh_, u))
+          falling_.push({reached + step, u});
+      });
+    }
+  }
+
+  void change(VertexId v, double value) {
+    changes_.push_back({v, scale(v)});
+    triangulation_.set_length_scale(v, value);
+  }
+
+  // ---- what fell back to about where it was did not change: its triangles need no second look.
+  void keep_small_changes() {
+    mesh_.vertex_marks.clear(triangulation_.vertex_slots());
+    for (const auto& [v, old] : changes_) {
+      if (!mesh_.vertex_marks.visit(v.index)) continue;  // the first change has the length scale from before
+      if (std::abs(scale(v) - old) <= renewal_tolerance * old)
+        triangulation_.set_length_scale(v, old);
+      else
+        announce(v);
+    }
+  }
+
+  void announce(VertexId v) {
+    if (const std::uint32_t k = triangulation_[v].boundary; k != no_index)
+      mesh_.set_boundary_length_scale(k, scale(v));
+    for_each_triangle(triangulation_, v, [&](TriangleId t) {
+      if (triangulation_[t].region == Region::domain) triangulation_.touch(t);
+    });
+  }
+
+  struct Change {
+    VertexId vertex;
+    double old;
+  };
+
+  MeshData& mesh_;
+  Triangulation& triangulation_;
+  Heap suspects_, falling_;
+  std::vector<VertexId> waiting_;  // rose, but may have risen too far: something undecided offered less
+  std::vector<VertexId> higher_;   // scratch
+  std::vector<Change> changes_;
+};
+
+}  // namespace
+
+void renew_length_scales(MeshData& mesh, std::span<const std::size_t> loops) {
+  Renewal(mesh).run(loops);
+}
+
+std::vector<double> propagated_length_scales(const MeshData& mesh) {
+  const Triangulation& triangulation = mesh.triangulation;
+  std::vector<double> scales(triangulation.vertex_slots(), infinity);
+  Heap heap;
+  for (const std::uint32_t head : mesh.loop_heads)
+    mesh.walk(head, [&](std::uint32_t k) {
+      const VertexId v = mesh.at(k).vertex;
+      heap.push({mesh.at(k).steiner ? interpolation(mesh, v) : mesh.length_scale(k), v});
+    });
+  while (!heap.empty()) {
+    const auto [found, v] = heap.top();
+    heap.pop();
+    if (!(found < scales[v.index])) continue;
+    scales[v.index] = found;
+    for_each_neighbour(mesh, v, [&, reached = found](VertexId u, double step) {
+      if (reached + step < scales[u.index] && !is_given(mesh, u)) heap.push({reached + step, u});
+    });
+  }
+  for (std::uint32_t i = 0; i < scales.size(); ++i)
+    if (scales[i] == infinity) scales[i] = triangulation[VertexId{i}].length_scale;
+  return scales;
+}
+
+}  // namespace remodel

@@ -1,0 +1,97 @@
+#include "remodel/strategy.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "remodel/coarsen.h"
+#include "remodel/count_control.h"
+#include "remodel/renew.h"
+
+namespace remodel {
+
+namespace {
+
+constexpr int samples_on_the_way = 5;  // for a mesh of unknown history: K within about 2 %
+constexpr std::uint32_t full_adjustments_before_refresh = 25, steps_between_refreshes = 250;
+constexpr double tolerated_excess = 0.02;
+constexpr int samples_at_refresh = 3;
+constexpr double weight_of_refresh = 1.0 / 3.0;  // of a refresh's samples in K
+
+double excess(MeshData& mesh) {
+  return triangles_per_size(mesh) / mesh.renewal.count_factor - 1.0;
+}
+
+}  // namespace
+
+const char* name_of(Strategy strategy) {
+  return strategy == Strategy::chain ? "chain" : "renew";
+}
+
+bool renews(const MeshData& mesh, const RemodelOptions& options) {
+  return options.strategy == Strategy::renew && mesh.imported.empty();
+}
+
+double resolved_keep(const RemodelOptions& options, const QualityOptions& quality) {
+  if (options.strategy == Strategy::chain) return 1.0;
+  if (options.keep != 0.0) return options.keep;
+  return quality.gradation <= 2.0 ? 1.1 : 1.25;
+}
+
+void calibrate(MeshData& mesh, int samples, StepObserver* observer) {
+  mesh.renewal.interior_size = interior_size(mesh);
+  mesh.renewal.count_factor = measured_count_factor(mesh, samples, observer);
+}
+
+std::size_t prepare_renewal(MeshData& mesh, StepObserver* observer) {
+  RenewalState& renewal = mesh.renewal;
+  if (renewal.interior_size < 0.0) renewal.interior_size = interior_size(mesh);
+  if (renewal.count_factor == 0.0)
+    renewal.count_factor =
+        mesh.step == 0 ? triangles_per_size(mesh) : measured_count_factor(mesh, samples_on_the_way, observer);
+  if (renewal.count_factor == 0.0) return 0;  // no fresh mesh could be finished
+  const double too_many = static_cast<double>(mesh.domain_triangles) - renewal.count_factor * (renewal.interior_size + boundary_size(mesh));
+  return static_cast<std::size_t>(std::max(0.0, 0.5 * too_many));
+}
+
+void renew_replaced(MeshData& mesh, std::span<const std::size_t> loops, std::size_t budget) {
+  renew_length_scales(mesh, loops);
+  coarsen_touched(mesh, budget);
+}
+
+bool refresh_is_due(const MeshData& mesh, std::uint32_t full_adjustments) {
+  const RenewalState& renewal = mesh.renewal;
+  return full_adjustments >= full_adjustments_before_refresh && renewal.count_factor != 0.0 &&
+         renewal.interior_size >= 0.0 && mesh.step >= renewal.sampled_at + steps_between_refreshes;
+}
+
+void finish_renewal(MeshData& mesh) {
+  mesh.renewal.interior_size = corrected_interior_size(mesh, mesh.renewal.interior_size);
+  mesh.renewal.full_adjustments = 0;
+}
+
+// Counts are chaotic: the same design with bounds that differ by a fraction of a percent is another sample.
+std::optional<GenerateResult> nearer_to_fresh(MeshData& mesh, StepObserver* observer) {
+  RenewalState& renewal = mesh.renewal;
+  renewal.sampled_at = mesh.step;
+  std::vector<GenerateResult> samples;
+  double mean = 0.0;
+  for (int i = 0; i < samples_at_refresh; ++i) {
+    const double h_factor = 1.0 - 0.0001 * ((mesh.step + 17 * i) % 51);
+    samples.push_back(fresh_sample(mesh, h_factor, observer));
+    if (samples.back().stopped != Stopped::done) return std::nullopt;
+    mean += triangles_per_size(samples.back().mesh.data()) * h_factor * h_factor / samples_at_refresh;
+  }
+  renewal.count_factor += weight_of_refresh * (mean - renewal.count_factor);
+  if (std::abs(excess(mesh)) <= tolerated_excess) return std::nullopt;
+  const auto off = [&](GenerateResult& sample) {
+    return std::abs(triangles_per_size(sample.mesh.data()) / renewal.count_factor - 1.0);
+  };
+  GenerateResult& best = *std::min_element(samples.begin(), samples.end(),
+                                           [&](auto& a, auto& b) { return off(a) < off(b); });
+  if (off(best) > 0.5 * std::abs(excess(mesh))) return std::nullopt;
+  best.mesh.data().renewal.count_factor = renewal.count_factor;
+  best.mesh.data().renewal.sampled_at = mesh.step;
+  return std::move(best);
+}
+
+}  // namespace remodel

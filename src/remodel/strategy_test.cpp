@@ -1,0 +1,297 @@
+// Strategy::renew: what its parts promise, and what a chain of its steps leaves behind.
+
+#include "remodel/strategy.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <random>
+
+#include "generate/refine.h"
+#include "remodel/check.h"
+#include "remodel/coarsen.h"
+#include "remodel/count_control.h"
+#include "remodel/error.h"
+#include "remodel/io.h"
+#include "remodel/renew.h"
+#include "remodel/test_designs.h"
+#include "support.h"
+
+namespace remodel {
+namespace {
+
+using test::Walk;
+
+constexpr RemodelOptions renewing{.strategy = Strategy::renew};
+
+Mesh generated(const Domain& domain, const QualityOptions& options) {
+  GenerateResult result = generate(domain, options);
+  EXPECT_EQ(result.stopped, Stopped::done);
+  return std::move(result.mesh);
+}
+
+void set_length_scales(MeshData& mesh, const std::vector<double>& scales) {
+  for (std::uint32_t i = 1; i < scales.size(); ++i)
+    if (mesh.triangulation[VertexId{i}].alive())
+      mesh.triangulation.set_length_scale(VertexId{i}, scales[i]);
+}
+
+std::vector<std::size_t> all_loops(const MeshData& mesh) {
+  std::vector<std::size_t> loops(mesh.loop_heads.size());
+  for (std::size_t i = 0; i < loops.size(); ++i) loops[i] = i;
+  return loops;
+}
+
+// The mean and the largest size of the relative difference to a fresh propagation on the same mesh.
+struct Difference {
+  double mean = 0.0, largest = 0.0;
+};
+Difference difference_to_propagation(const MeshData& mesh) {
+  const std::vector<double> fresh = propagated_length_scales(mesh);
+  Difference result;
+  for (std::uint32_t i = 1; i < fresh.size(); ++i) {
+    const Vertex& v = mesh.triangulation[VertexId{i}];
+    if (!v.alive()) continue;
+    const double relative = v.length_scale / fresh[i] - 1.0;
+    result.mean += relative / static_cast<double>(mesh.triangulation.vertex_count());
+    result.largest = std::max(result.largest, std::abs(relative));
+  }
+  return result;
+}
+
+// The bound of renew.h for the mesh's shortest edges by their length scale.
+double error_bound(const MeshData& mesh) {
+  const Triangulation& t = mesh.triangulation;
+  double most = 0.0;
+  for (std::uint32_t i = 0; i < t.triangle_slots(); ++i) {
+    const Triangle& triangle = t[TriangleId{i}];
+    if (!triangle.alive() || triangle.region != Region::domain) continue;
+    for (int k = 0; k < 3; ++k) {
+      const VertexId u = triangle.vertex[k], v = triangle.vertex[next3(k)];
+      most = std::max(most, std::max(t[u].length_scale, t[v].length_scale) /
+                                std::sqrt(squared_distance(t.point(u), t.point(v))));
+    }
+  }
+  return renewal_tolerance * (1.0 + mesh.options.gradation * most);
+}
+
+// Given length scales change at random, on a tenth of the boundary each time, up and down.
+TEST(Renewal, IsWithinItsBoundOfAFreshPropagation) {
+  const auto seed = test::seed(1);
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  for (const double gradation : {1.0, 4.0, 14.0}) {
+    SCOPED_TRACE("gradation " + std::to_string(gradation));
+    Mesh mesh = generated(test::catalogue_domain(0, 100), {.gradation = gradation});
+    MeshData& data = mesh.data();
+    const std::vector<std::size_t> loops = all_loops(data);
+    set_length_scales(data, propagated_length_scales(data));
+    for (int round = 0; round < 40; ++round) {
+      data.triangulation.begin();
+      for (std::uint32_t k = 0; k < data.boundary.size(); ++k) {
+        if (data.at(k).steiner || random() % 10 != 0) continue;
+        const double factor = std::exp2(static_cast<double>(random() % 2001) / 1000.0 - 1.0);
+        data.set_boundary_length_scale(k, data.base_length_scale(k) * factor);
+      }
+      renew_length_scales(data, loops);
+      data.triangulation.commit();
+      const Difference difference = difference_to_propagation(data);
+      ASSERT_LE(difference.largest, error_bound(data));
+      ASSERT_LE(std::abs(difference.mean), 2.0 * renewal_tolerance);
+    }
+  }
+}
+
+TEST(Renewal, ChangesNothingWhereNothingChanged) {
+  Mesh mesh = generated(test::catalogue_domain(2, 100), {.gradation = 2.0});
+  MeshData& data = mesh.data();
+  set_length_scales(data, propagated_length_scales(data));
+  const MeshState before = mesh.state();
+  data.triangulation.begin();
+  renew_length_scales(data, all_loops(data));
+  EXPECT_TRUE(data.triangulation.touched().empty());
+  data.triangulation.commit();
+  EXPECT_TRUE(mesh.state() == before);
+}
+
+// A mesh made to a smaller H has vertices that can go.
+TEST(Coarsening, KeepsItsBudgetAndLeavesRefinementNothingToDo) {
+  Mesh mesh = generated(test::catalogue_domain(0, 100), {.max_gradation = 0.5, .gradation = 4.0});
+  MeshData& data = mesh.data();
+  data.options.max_gradation = 0.8;
+  for (const std::size_t budget : {0U, 1U, 40U, 100000U}) {
+    data.triangulation.begin();
+    for (std::uint32_t i = 0; i < data.triangulation.triangle_slots(); ++i)
+      if (data.triangulation[TriangleId{i}].alive()) data.triangulation.touch(TriangleId{i});
+    const std::size_t vertices = data.triangulation.vertex_count();
+    const std::size_t removed = coarsen_touched(data, budget);
+    EXPECT_LE(removed, budget);
+    EXPECT_GE(removed, std::min<std::size_t>(budget, 40));
+    EXPECT_EQ(data.triangulation.vertex_count(), vertices - removed);
+    {
+      Refiner refiner(data);
+      for (const TriangleId t : data.triangulation.touched()) refiner.consider(t);
+      EXPECT_EQ(refiner.run(), Stopped::done);
+    }
+    EXPECT_EQ(data.triangulation.vertex_count(), vertices - removed);
+    data.count_domain_triangles();
+    data.triangulation.commit();
+    EXPECT_EQ(mesh.quick_check(), "");
+  }
+}
+
+// A walk of designs; visit is called after every step.
+template <class Visit>
+void walk(Mesh& mesh, Walk& designs, int points, int steps, const RemodelOptions& options, Visit visit) {
+  for (int i = 0; i < steps; ++i) {
+    designs.next();
+    const RemodelResult result = remodel(mesh, designs.domain(points), options);
+    ASSERT_EQ(mesh.quick_check(), "") << "step " << i;
+    visit(result);
+  }
+}
+
+TEST(Renew, KeepsTheSizeThatItCorrectsStepByStep) {
+  const auto seed = test::seed(2);
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  Walk designs(1, 0.05, random);
+  Mesh mesh = generated(designs.domain(100), {.gradation = 2.0});
+  int known = 0;
+  walk(mesh, designs, 100, 100, renewing, [&](const RemodelResult&) {
+    if (mesh.data().renewal.interior_size < 0.0) return;
+    const double size = interior_size(mesh.data());
+    ASSERT_NEAR(mesh.data().renewal.interior_size, size, 1e-9 * size);
+    ++known;
+  });
+  EXPECT_GT(known, 0);
+}
+
+// The paper's surplus, and that it is gone. Fresh counts are chaotic: the mean over the last designs counts.
+TEST(Renew, LeavesFewerTrianglesThanAChain) {
+  const auto seed = test::seed(3);
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  double surplus[2] = {};
+  for (const Strategy strategy : {Strategy::chain, Strategy::renew}) {
+    std::mt19937_64 random(seed);
+    Walk designs(1, 0.1, random);
+    const QualityOptions quality{.gradation = 4.0};
+    Mesh mesh = generated(designs.domain(200), quality);
+    int step = 0, compared = 0;
+    walk(mesh, designs, 200, 200, {.strategy = strategy}, [&](const RemodelResult&) {
+      if (++step <= 100 || step % 10 != 0) return;
+      const double fresh = static_cast<double>(generated(mesh.domain(), quality).triangle_count());
+      surplus[static_cast<int>(strategy)] += static_cast<double>(mesh.triangle_count()) / fresh - 1.0;
+      ++compared;
+    });
+    surplus[static_cast<int>(strategy)] /= compared;
+  }
+  EXPECT_GT(surplus[0], 0.10);
+  EXPECT_LT(std::abs(surplus[1]), 0.06);
+}
+
+TEST(Renew, ValidatesInFullAndNeverRelaxesTheAngle) {
+  const auto seed = test::seed(4);
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  for (const Method method : {Method::specialised, Method::general}) {
+    Walk designs(3, 0.1, random);
+    Mesh mesh = generated(designs.domain(50), {.gradation = 1.0});
+    RemodelOptions options = renewing;
+    options.method = method;
+    walk(mesh, designs, 50, 30, options, [&](const RemodelResult& result) {
+      EXPECT_FALSE(result.regenerated) << result.reason;
+      const CheckResult checked = check(mesh.freeze(), {.min_angle_deg = 30.0,
+                                                        .max_gradation = promised_gradation(mesh.options()),
+                                                        .design = &mesh.domain(),
+                                                        .max_violations = 1});
+      EXPECT_TRUE(checked.valid) << (checked.violations.empty() ? "" : checked.violations[0].detail);
+    });
+    EXPECT_EQ(mesh.options().keep, 1.1);
+  }
+}
+
+// Twenty-five steps that move nothing but a little, then one that is due for a look at the count.
+void rest(Mesh& mesh, const CstAirfoil& airfoil, int points, int steps) {
+  CstAirfoil design = airfoil;
+  for (int i = 0; i < steps; ++i) {
+    design.upper[2] += i % 2 == 0 ? 1e-7 : -1e-7;
+    ASSERT_TRUE(remodel(mesh, airfoil_domain(design, {.points = points}), renewing).full_adjustment);
+  }
+}
+
+TEST(Renew, GeneratesAMeshAfreshWhoseCountIsOff) {
+  const auto seed = test::seed(5);
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  Walk designs(1, 0.2, random);
+  Mesh mesh = generated(designs.domain(200), {.gradation = 4.0});
+  walk(mesh, designs, 200, 100, {}, [](const RemodelResult&) {});  // a chain's surplus
+  designs.next();
+  ASSERT_FALSE(remodel(mesh, designs.domain(200), renewing).full_adjustment);
+  mesh.data().renewal.full_adjustments = 0;
+  mesh.data().step += 1000;
+  rest(mesh, designs.airfoil(), 200, 25);
+  CstAirfoil last = designs.airfoil();
+  last.upper[2] += 1e-7;
+  const MeshState before = mesh.state();
+  {
+    const Trial trial(mesh, airfoil_domain(last, {.points = 200}), renewing);
+    EXPECT_TRUE(trial.result().refreshed);
+    EXPECT_EQ(trial.result().preserved, 0U);
+    EXPECT_LT(trial.result().triangles, trial.result().triangles_before);
+    EXPECT_EQ(mesh.quick_check(), "");
+  }
+  EXPECT_TRUE(mesh.state() == before);
+  EXPECT_TRUE(remodel(mesh, airfoil_domain(last, {.points = 200}), renewing).refreshed);
+  EXPECT_EQ(mesh.step(), before.step + 1);
+  EXPECT_EQ(mesh.data().renewal.full_adjustments, 0U);
+}
+
+TEST(Renew, ReturnsFromATrialToTheLastBit) {
+  const auto seed = test::seed(6);
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  Walk designs(0, 0.1, random);
+  Mesh mesh = generated(designs.domain(100), {.gradation = 2.0});
+  for (int i = 0; i < 20; ++i) {
+    const MeshState before = mesh.state();
+    designs.next();
+    { const Trial trial(mesh, designs.domain(100), renewing); }
+    ASSERT_TRUE(mesh.state() == before) << "step " << i;
+    remodel(mesh, designs.domain(100), renewing);
+  }
+}
+
+// What a step needs of those before is in the file.
+TEST(Renew, GoesOnFromAFileToTheSameBytes) {
+  const auto file = std::filesystem::temp_directory_path() / "remodel-strategy-test.vtkhdf";
+  const auto seed = test::seed(7);
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  Walk designs(4, 0.1, random);
+  Mesh mesh = generated(designs.domain(50), {.gradation = 1.0});
+  Mesh other = mesh;
+  for (int i = 0; i < 20; ++i) {
+    write_mesh(other, file);
+    other = read_mesh(file);
+    designs.next();
+    remodel(mesh, designs.domain(50), renewing);
+    remodel(other, designs.domain(50), renewing);
+    ASSERT_TRUE(mesh.state() == other.state()) << "step " << i;
+  }
+  std::filesystem::remove(file);
+}
+
+TEST(Renew, RefusesAKeepBelowOne) {
+  Mesh mesh = generated(test::catalogue_domain(0, 50), {.gradation = 1.0});
+  const Domain domain = test::catalogue_domain(1, 50);
+  EXPECT_THROW(remodel(mesh, domain, {.strategy = Strategy::renew, .keep = 0.9}), Error);
+  EXPECT_THROW(remodel(mesh, domain, {.strategy = Strategy::renew, .keep = std::nan("")}), Error);
+  EXPECT_EQ(mesh.options().keep, 1.0);
+}
+
+}  // namespace
+}  // namespace remodel
