@@ -512,6 +512,21 @@ TEST(GeneralMethod, ChangesTheOuterBoundaryToo) {
   }
 }
 
+// A hole's corner comes to lie on the side of a dent that the outline's stations do not show.
+TEST(GeneralMethod, NeverPutsAVertexOnAnotherBoundary) {
+  Domain domain{{test::loop(LoopRole::outer, "outer",
+                            Polyline{{{0, 0}, {1, 0}, {1, 1}, {0.5, 0.75}, {0, 1}, {0, 0}}}, 5)}};
+  domain.loops[0].curves[0].parameters = {0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.8, 0.85, 0.9, 0.95};
+  Mesh mesh = generated(domain);
+  domain.loops.push_back(
+      test::polygon(LoopRole::hole, "hole", {{0.84375, 0.921875}, {0.8, 0.5}, {0.7, 0.5}}));
+  const RemodelResult result = remodel(mesh, domain);
+  EXPECT_TRUE(result.regenerated);
+  EXPECT_NE(result.reason.find("lies on a curve of another loop"), std::string::npos) << result.reason;
+  EXPECT_EQ(mesh.data().triangulation.check(), "");
+  EXPECT_EQ(check_boundary(mesh.data()), "");
+}
+
 // ---- chains
 
 // The unit square with a chain from the middle of its lower side to a joint, and one from there on: no two
