@@ -222,7 +222,54 @@ TEST(SmallInputAngles, OfStarsWithThinTips) {
   EXPECT_GT(result.exempt_triangles, 0U);
 }
 
+// A triangle may be left alone while one of the edges at its small angle is in one piece, which is split later.
+TEST(SmallInputAngles, StayExemptWhenTheirEdgesAreSplit) {
+  const auto line = [](LoopRole role, std::vector<Point> points) {
+    Loop chain = test::loop(role, "line", Polyline{points}, points.size() - 1);
+    chain.open = true;
+    return chain;
+  };
+  const GenerateResult result =
+      generate({{line(LoopRole::left, {{4, 2}, {4, 4}, {0, 4}, {0, 0}, {2, 1}}),
+                 line(LoopRole::left, {{2, 1}, {3, 1}, {3, 1.5}}), line(LoopRole::right, {{4, 2}, {3, 1.5}}),
+                 line(LoopRole::internal, {{2, 1}, {3, 1.5}}), line(LoopRole::internal, {{3, 3}, {3, 1.5}}),
+                 line(LoopRole::internal, {{3, 3}, {1, 3}, {1, 1}, {2, 1}}),
+                 line(LoopRole::internal, {{3, 3}, {4, 2}}), line(LoopRole::internal, {{2, 2}, {3, 3}})}});
+  EXPECT_EQ(result.stopped, Stopped::done);
+  EXPECT_GT(result.exempt_triangles, 0U);
+  EXPECT_EQ(result.mesh.quick_check(), "");
+}
+
+TEST(LengthScales, OfStationsAreTheDistanceToTheNearestNeighbour) {
+  const Domain domain = outer({{0, 0}, {4, 0}, {4, 4}, {1, 4}, {0, 0.5}});
+  const Mesh mesh = valid(domain);
+  const std::vector<Point> points = domain.points(0);
+  std::size_t i = 0;
+  mesh.data().walk(mesh.data().loop_heads[0], [&](std::uint32_t k) {
+    if (mesh.data().at(k).steiner) return;
+    const Point here = points[i], before = points[(i + 4) % 5], after = points[(i + 1) % 5];
+    EXPECT_DOUBLE_EQ(
+        mesh.data().base_length_scale(k),
+        std::sqrt(std::min(squared_distance(here, before), squared_distance(here, after))));
+    ++i;
+  });
+  EXPECT_EQ(i, 5U);
+}
+
 // ---- limits
+
+// The outline's upper side dents the square between its stations, where a hole touches it: the stations do not
+// show that. The split that would is taken back whole.
+TEST(Limits, CurvesThatTouchBetweenTheirStationsEndInOrder) {
+  Domain domain{{test::loop(LoopRole::outer, "outer", Polyline{{{0, 0}, {1, 0}, {1, 1}, {0.5, 0.75}, {0, 1}, {0, 0}}}, 5),
+                 test::polygon(LoopRole::hole, "hole", {{0.84375, 0.921875}, {0.8, 0.5}, {0.7, 0.5}})}};
+  domain.loops[0].curves[0].parameters.erase(domain.loops[0].curves[0].parameters.begin() + 3);
+  const GenerateResult result = generate(domain);
+  EXPECT_EQ(result.stopped, Stopped::minimum_edge);
+  EXPECT_EQ(result.mesh.data().triangulation.check(), "");
+  EXPECT_EQ(check_boundary(result.mesh.data()), "");
+  EXPECT_TRUE(Mesh::restore(result.mesh.state(), "state").state() == result.mesh.state());
+}
 
 TEST(Limits, TheVertexBudgetEndsInOrder) {
   for (const std::uint32_t budget : {10U, 100U, 150U, 400U}) {

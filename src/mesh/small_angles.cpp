@@ -62,7 +62,8 @@ bool is_sharp(const MeshData& mesh, std::uint32_t k, std::vector<Leg>& legs) {
 }
 
 // The non-Steiner vertices next to a boundary vertex on its loops, each with the segment of the initial
-// discretisation between (by its first entry). A vertex in the middle of a loop has two.
+// discretisation between (by its first entry), split or not: what is exempt stays so. A vertex in the middle
+// of a loop has two.
 struct Neighbour {
   VertexId corner;
   std::uint32_t segment;
@@ -70,12 +71,9 @@ struct Neighbour {
 template <class Visit>
 void for_each_neighbour(const MeshData& mesh, std::uint32_t k, Visit visit) {
   mesh.at_vertex(k, [&](std::uint32_t e) {
-    const bool steiner = mesh.at(e).steiner;
-    const std::uint32_t before = steiner ? mesh.non_steiner_before(e) : mesh.at(e).previous;
-    const std::uint32_t after = steiner ? mesh.non_steiner_after(e) : mesh.at(e).next;
-    if (before != no_index && !mesh.at(before).steiner) visit(Neighbour{mesh.at(before).vertex, before});
-    if (after != no_index && !mesh.at(after).steiner)
-      visit(Neighbour{mesh.at(after).vertex, steiner ? before : e});
+    const std::uint32_t before = mesh.non_steiner_before(e), after = mesh.non_steiner_after(e);
+    if (before != no_index) visit(Neighbour{mesh.at(before).vertex, before});
+    if (after != no_index) visit(Neighbour{mesh.at(after).vertex, mesh.at(e).steiner ? before : e});
   });
 }
 
