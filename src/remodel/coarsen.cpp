@@ -18,10 +18,11 @@ class Coarsening {
         triangulation_(mesh.triangulation),
         bounds_(QualityBounds::of_refinement(mesh.options)) {}
 
-  std::size_t run(std::size_t budget) {
+  std::size_t run(std::span<const VertexId> around, std::size_t budget) {
     std::size_t removed = 0;
+    list_candidates(around);
     mesh_.vertex_marks.clear(triangulation_.vertex_slots());
-    for (const auto& [density, v] : candidates()) {
+    for (const auto& [ratio, v] : candidates_) {
       if (removed == budget) break;
       if (!mesh_.vertex_marks.visit(v.index) || !can_go(v)) continue;
       triangulation_.remove(v);
@@ -33,18 +34,27 @@ class Coarsening {
  private:
   // The interior vertices of triangles that are much smaller than they may be, the smallest first; ids break
   // ties.
-  std::vector<std::pair<double, VertexId>> candidates() const {
-    std::vector<std::pair<double, VertexId>> found;
-    for (const TriangleId t : triangulation_.touched()) {
-      const Triangle& triangle = triangulation_[t];
-      if (!triangle.alive() || triangle.region != Region::domain) continue;
-      const double ratio = squared_ratio(triangle);
-      if (ratio > small) continue;
-      for (const VertexId v : triangle.vertex)
-        if (triangulation_[v].boundary == no_index) found.emplace_back(ratio, v);
+  void list_candidates(std::span<const VertexId> around) {
+    mesh_.marks.clear(triangulation_.triangle_slots());
+    for (const TriangleId t : triangulation_.touched()) add_vertices(t);
+    for (const VertexId v : around) {
+      const Corner first = triangulation_.star(v);
+      Corner c = first;
+      do {
+        add_vertices(c.triangle);
+        c = triangulation_.counterclockwise(c);
+      } while (c.triangle != first.triangle);
     }
-    std::sort(found.begin(), found.end());
-    return found;
+    std::sort(candidates_.begin(), candidates_.end());
+  }
+
+  void add_vertices(TriangleId t) {
+    const Triangle& triangle = triangulation_[t];
+    if (!triangle.alive() || triangle.region != Region::domain || !mesh_.marks.visit(t.index)) return;
+    const double ratio = squared_ratio(triangle);
+    if (ratio > small) return;
+    for (const VertexId v : triangle.vertex)
+      if (triangulation_[v].boundary == no_index) candidates_.emplace_back(ratio, v);
   }
 
   // (r / (H mean LS))^2
@@ -78,13 +88,14 @@ class Coarsening {
   MeshData& mesh_;
   Triangulation& triangulation_;
   QualityBounds bounds_;
+  std::vector<std::pair<double, VertexId>> candidates_;
   std::vector<Triangulation::Ear> ears_;  // scratch
 };
 
 }  // namespace
 
-std::size_t coarsen_touched(MeshData& mesh, std::size_t budget) {
-  return budget == 0 ? 0 : Coarsening(mesh).run(budget);
+std::size_t coarsen_touched(MeshData& mesh, std::span<const VertexId> around, std::size_t budget) {
+  return budget == 0 ? 0 : Coarsening(mesh).run(around, budget);
 }
 
 }  // namespace remodel

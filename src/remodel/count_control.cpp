@@ -36,6 +36,14 @@ class VerticesBefore {
     return mesh_.vertex_marks.visited(v.index) ? earlier_[mesh_.numbers[v.index]].vertex
                                                : mesh_.triangulation[v];
   }
+  template <class Visit>
+  void for_each_with_another_scale(Visit visit) const {
+    for (std::uint32_t i = 0; i < earlier_.size(); ++i) {
+      const auto& [v, vertex] = earlier_[i];
+      const Vertex& now = mesh_.triangulation[v];
+      if (mesh_.numbers[v.index] == i && now.alive() && now.length_scale != vertex.length_scale) visit(v);
+    }
+  }
 
  private:
   const MeshData& mesh_;
@@ -59,13 +67,29 @@ double corrected_interior_size(MeshData& mesh, double before) {
   const Triangulation& triangulation = mesh.triangulation;
   const VerticesBefore vertices(mesh);
   double sum = before;
-  for (const Triangulation::Earlier& earlier : triangulation.earlier()) {
-    const Triangle& t = earlier.triangle;
-    if (!t.alive() || t.region != Region::domain) continue;
+  const auto subtract = [&](const Triangle& t) {
+    if (!t.alive() || t.region != Region::domain) return;
     const Vertex &a = vertices[t.vertex[0]], &b = vertices[t.vertex[1]], &c = vertices[t.vertex[2]];
     if (is_interior(a, b, c)) sum -= size_of(a, b, c, mesh.options.max_gradation);
+  };
+  for (const Triangulation::Earlier& earlier : triangulation.earlier()) subtract(earlier.triangle);
+  mesh.marks.clear(triangulation.triangle_slots());
+  for (const TriangleId t : triangulation.touched()) {
+    sum += interior_size_of(mesh, triangulation[t]);
+    mesh.marks.visit(t.index);
   }
-  for (const TriangleId t : triangulation.touched()) sum += interior_size_of(mesh, triangulation[t]);
+  // Triangles that are as they were, at vertices whose length scale is not.
+  vertices.for_each_with_another_scale([&](VertexId v) {
+    const Corner first = triangulation.star(v);
+    Corner c = first;
+    do {
+      if (mesh.marks.visit(c.triangle.index)) {
+        subtract(triangulation[c.triangle]);
+        sum += interior_size_of(mesh, triangulation[c.triangle]);
+      }
+      c = triangulation.counterclockwise(c);
+    } while (c.triangle != first.triangle);
+  });
   return sum;
 }
 

@@ -65,7 +65,7 @@ class Renewal {
  public:
   explicit Renewal(MeshData& mesh) : mesh_(mesh), triangulation_(mesh.triangulation) {}
 
-  void run(std::span<const std::size_t> loops) {
+  std::vector<VertexId> run(std::span<const std::size_t> loops) {
     mesh_.vertex_marks.clear(triangulation_.vertex_slots());
     for (const std::size_t loop : loops)
       mesh_.walk(mesh_.loop_heads[loop], [&](std::uint32_t k) { add_around(mesh_.at(k).vertex); });
@@ -74,6 +74,7 @@ class Renewal {
     raise();
     spread();
     keep_small_changes();
+    return std::move(risen_);
   }
 
  private:
@@ -155,24 +156,24 @@ class Renewal {
     triangulation_.set_length_scale(v, value);
   }
 
-  // ---- what fell back to about where it was did not change: its triangles need no second look.
+  // ---- what came back to about where it was did not change. Triangles at a vertex that fell may be bad now.
   void keep_small_changes() {
     mesh_.vertex_marks.clear(triangulation_.vertex_slots());
     for (const auto& [v, old] : changes_) {
       if (!mesh_.vertex_marks.visit(v.index)) continue;  // the first change has the length scale from before
-      if (std::abs(scale(v) - old) <= renewal_tolerance * old)
+      if (std::abs(scale(v) - old) <= renewal_tolerance * old) {
         triangulation_.set_length_scale(v, old);
+        continue;
+      }
+      if (const std::uint32_t k = triangulation_[v].boundary; k != no_index)
+        mesh_.set_boundary_length_scale(k, scale(v));
+      if (scale(v) > old)
+        risen_.push_back(v);
       else
-        announce(v);
+        for_each_triangle(triangulation_, v, [&](TriangleId t) {
+          if (triangulation_[t].region == Region::domain) triangulation_.touch(t);
+        });
     }
-  }
-
-  void announce(VertexId v) {
-    if (const std::uint32_t k = triangulation_[v].boundary; k != no_index)
-      mesh_.set_boundary_length_scale(k, scale(v));
-    for_each_triangle(triangulation_, v, [&](TriangleId t) {
-      if (triangulation_[t].region == Region::domain) triangulation_.touch(t);
-    });
   }
 
   struct Change {
@@ -186,12 +187,13 @@ class Renewal {
   std::vector<VertexId> waiting_;  // rose, but may have risen too far: something undecided offered less
   std::vector<VertexId> higher_;   // scratch
   std::vector<Change> changes_;
+  std::vector<VertexId> risen_;
 };
 
 }  // namespace
 
-void renew_length_scales(MeshData& mesh, std::span<const std::size_t> loops) {
-  Renewal(mesh).run(loops);
+std::vector<VertexId> renew_length_scales(MeshData& mesh, std::span<const std::size_t> loops) {
+  return Renewal(mesh).run(loops);
 }
 
 std::vector<double> propagated_length_scales(const MeshData& mesh) {

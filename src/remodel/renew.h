@@ -23,16 +23,17 @@
 
 namespace remodel {
 
-inline constexpr double renewal_tolerance = 0.02;  // relative
+inline constexpr double renewal_tolerance = 0.04;  // relative
 
 // Under a journal: renews the length scales of the vertices around the given loops and of touched triangles,
-// and on from there as far as they change by more than the tolerance. Triangles whose length scales change
-// count as touched. The cost is proportional to the vertices visited (and the logarithm of their number).
+// and on from there as far as they change by more than the tolerance. Triangles at vertices whose length scale
+// fell count as touched; those whose length scale rose are returned. The cost is proportional to the vertices
+// visited (and the logarithm of their number).
 //
 // Source: the two phases of G. Ramalingam and T. Reps, "An incremental algorithm for a generalization of the
 // shortest-path problem", 1996, with a tolerance: first those that lost what their length scale came from are
 // invalidated, in ascending order; then Dijkstra's algorithm goes over these and what falls.
-void renew_length_scales(MeshData& mesh, std::span<const std::size_t> loops);
+std::vector<VertexId> renew_length_scales(MeshData& mesh, std::span<const std::size_t> loops);
 
 // The solution of LS = F for all vertices, by slot: what renewal approximates. Those of no domain triangle
 // keep what they have. O(n log n).

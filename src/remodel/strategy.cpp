@@ -54,8 +54,8 @@ std::size_t prepare_renewal(MeshData& mesh, StepObserver* observer) {
 }
 
 void renew_replaced(MeshData& mesh, std::span<const std::size_t> loops, std::size_t budget) {
-  renew_length_scales(mesh, loops);
-  coarsen_touched(mesh, budget);
+  const std::vector<VertexId> risen = renew_length_scales(mesh, loops);
+  coarsen_touched(mesh, risen, budget);
 }
 
 bool refresh_is_due(const MeshData& mesh, std::uint32_t full_adjustments) {

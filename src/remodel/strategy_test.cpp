@@ -126,7 +126,7 @@ TEST(Coarsening, KeepsItsBudgetAndLeavesRefinementNothingToDo) {
     for (std::uint32_t i = 0; i < data.triangulation.triangle_slots(); ++i)
       if (data.triangulation[TriangleId{i}].alive()) data.triangulation.touch(TriangleId{i});
     const std::size_t vertices = data.triangulation.vertex_count();
-    const std::size_t removed = coarsen_touched(data, budget);
+    const std::size_t removed = coarsen_touched(data, {}, budget);
     EXPECT_LE(removed, budget);
     EXPECT_GE(removed, std::min<std::size_t>(budget, 40));
     EXPECT_EQ(data.triangulation.vertex_count(), vertices - removed);
