@@ -74,7 +74,8 @@ class Designs {
   fuzz::Bytes bytes_;
   CstAirfoil airfoil_;
   AirfoilDomainOptions options_;
-  bool limited_ = false;  // a step ended at the vertex budget: later ones leave what it left, far from changes
+  bool limited_ =
+      false;  // a step ended at the vertex budget: later ones leave what it left, far from changes
 };
 
 }  // namespace

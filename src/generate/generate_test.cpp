@@ -222,7 +222,8 @@ TEST(SmallInputAngles, OfStarsWithThinTips) {
   EXPECT_GT(result.exempt_triangles, 0U);
 }
 
-// A triangle may be left alone while one of the edges at its small angle is in one piece, which is split later.
+// A triangle may be left alone while one of the edges at its small angle is in one piece, which is split
+// later.
 TEST(SmallInputAngles, StayExemptWhenTheirEdgesAreSplit) {
   const auto line = [](LoopRole role, std::vector<Point> points) {
     Loop chain = test::loop(role, "line", Polyline{points}, points.size() - 1);
@@ -248,9 +249,8 @@ TEST(LengthScales, OfStationsAreTheDistanceToTheNearestNeighbour) {
   mesh.data().walk(mesh.data().loop_heads[0], [&](std::uint32_t k) {
     if (mesh.data().at(k).steiner) return;
     const Point here = points[i], before = points[(i + 4) % 5], after = points[(i + 1) % 5];
-    EXPECT_DOUBLE_EQ(
-        mesh.data().base_length_scale(k),
-        std::sqrt(std::min(squared_distance(here, before), squared_distance(here, after))));
+    EXPECT_DOUBLE_EQ(mesh.data().base_length_scale(k),
+                     std::sqrt(std::min(squared_distance(here, before), squared_distance(here, after))));
     ++i;
   });
   EXPECT_EQ(i, 5U);
@@ -258,10 +258,11 @@ TEST(LengthScales, OfStationsAreTheDistanceToTheNearestNeighbour) {
 
 // ---- limits
 
-// The outline's upper side dents the square between its stations, where a hole touches it: the stations do not
-// show that. The split that would is taken back whole.
+// The outline's upper side dents the square between its stations, where a hole touches it: the stations do
+// not show that. The split that would is taken back whole.
 TEST(Limits, CurvesThatTouchBetweenTheirStationsEndInOrder) {
-  Domain domain{{test::loop(LoopRole::outer, "outer", Polyline{{{0, 0}, {1, 0}, {1, 1}, {0.5, 0.75}, {0, 1}, {0, 0}}}, 5),
+  Domain domain{{test::loop(LoopRole::outer, "outer",
+                            Polyline{{{0, 0}, {1, 0}, {1, 1}, {0.5, 0.75}, {0, 1}, {0, 0}}}, 5),
                  test::polygon(LoopRole::hole, "hole", {{0.84375, 0.921875}, {0.8, 0.5}, {0.7, 0.5}})}};
   domain.loops[0].curves[0].parameters.erase(domain.loops[0].curves[0].parameters.begin() + 3);
   const GenerateResult result = generate(domain);

@@ -245,7 +245,7 @@ class LoopReplacement {
   // Steiner vertices up to the next stations keep their length scales. What their factors refer to follows
   // the station's.
   void keep_scales_beside(std::uint32_t k) {
-    const auto keep = [&](std::uint32_t s, std::uint32_t BoundaryVertex::* step) {
+    const auto keep = [&](std::uint32_t s, std::uint32_t BoundaryVertex::*step) {
       for (; s != no_index && mesh_.at(s).steiner; s = mesh_.at(s).*step)
         mesh_.set_boundary_length_scale(s, mesh_.length_scale(s));
     };

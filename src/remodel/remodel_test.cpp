@@ -479,8 +479,8 @@ TEST(GeneralMethod, DoesNotTouchWhatIsFarFromTheChange) {
 }
 
 // The designs share the corner at (1/2, 1/2). Its length scale falls, and triangles from before the step, out
-// of reach of the removal, become too large for it. A soak of 793,564 steps found this; the pairs were found by
-// trial, and which of them show it depends on the order in which refinement goes.
+// of reach of the removal, become too large for it. A soak of 793,564 steps found this; the pairs were found
+// by trial, and which of them show it depends on the order in which refinement goes.
 TEST(GeneralMethod, JudgesTheTrianglesOfASharedVertexAnew) {
   const auto wedge = [](Point a, Point b) {
     return test::with_holes({test::polygon(LoopRole::hole, "hole", {{0.5, 0.5}, a, b}, 4)});
@@ -523,7 +523,8 @@ TEST(GeneralMethod, ChangesTheOuterBoundaryToo) {
 TEST(GeneralMethod, NeverPutsAVertexOnAnotherBoundary) {
   Domain domain{{test::loop(LoopRole::outer, "outer",
                             Polyline{{{0, 0}, {1, 0}, {1, 1}, {0.5, 0.75}, {0, 1}, {0, 0}}}, 5)}};
-  domain.loops[0].curves[0].parameters = {0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.8, 0.85, 0.9, 0.95};
+  domain.loops[0].curves[0].parameters = {0,    0.05, 0.1, 0.15, 0.2, 0.25, 0.3,
+                                          0.35, 0.4,  0.8, 0.85, 0.9, 0.95};
   Mesh mesh = generated(domain);
   domain.loops.push_back(
       test::polygon(LoopRole::hole, "hole", {{0.84375, 0.921875}, {0.8, 0.5}, {0.7, 0.5}}));

@@ -63,8 +63,8 @@ void check_shape(const Polyline& polyline, const std::string& place) {
   }
 }
 void check_shape(const Arc& arc, const std::string& place) {
-  if (!is_finite(arc.centre) || !std::isfinite(arc.start) || !std::isfinite(arc.sweep) || !(arc.radius > 0.0) ||
-      !std::isfinite(arc.radius)) {
+  if (!is_finite(arc.centre) || !std::isfinite(arc.start) || !std::isfinite(arc.sweep) ||
+      !(arc.radius > 0.0) || !std::isfinite(arc.radius)) {
     refuse(place, ": expected an arc of finite centre, angles and radius, the radius positive");
   }
 }
@@ -74,9 +74,9 @@ void check_shape(const Spline& spline, const std::string& place) {
   const auto increasing = [](const std::vector<double>& knots) {
     return std::is_sorted(knots.begin(), knots.end(), std::less_equal<>());
   };
-  if (n < 2 || !std::all_of(spline.points.begin(), spline.points.end(), is_finite) || spline.knots.size() != n ||
-      spline.second.size() != n || !increasing(spline.knots) || spline.knots.front() != 0.0 ||
-      spline.knots.back() != 1.0) {
+  if (n < 2 || !std::all_of(spline.points.begin(), spline.points.end(), is_finite) ||
+      spline.knots.size() != n || spline.second.size() != n || !increasing(spline.knots) ||
+      spline.knots.front() != 0.0 || spline.knots.back() != 1.0) {
     refuse(place, ": expected a spline of at least 2 finite points, as spline_through() makes it");
   }
 }
