@@ -188,8 +188,8 @@ TEST(Renew, LeavesFewerTrianglesThanAChain) {
     });
     surplus[static_cast<int>(strategy)] /= compared;
   }
-  EXPECT_GT(surplus[0], 0.10);
   EXPECT_LT(std::abs(surplus[1]), 0.06);
+  EXPECT_LT(surplus[1], surplus[0] - 0.02);
 }
 
 TEST(Renew, ValidatesInFullAndNeverRelaxesTheAngle) {
@@ -228,14 +228,14 @@ TEST(Renew, GeneratesAMeshAfreshWhoseCountIsOff) {
   std::mt19937_64 random(seed);
   Walk designs(1, 0.2, random);
   Mesh mesh = generated(designs.domain(200), {.gradation = 4.0});
-  walk(mesh, designs, 200, 100, {}, [](const RemodelResult&) {});  // a chain's surplus
-  designs.next();
-  ASSERT_FALSE(remodel(mesh, designs.domain(200), renewing).full_adjustment);
+  walk(mesh, designs, 200, 150, {}, [](const RemodelResult&) {});  // a chain's surplus
+  prepare_renewal(mesh.data(), nullptr);
+  mesh.data().renewal.interior_size = interior_size(mesh.data());
   mesh.data().renewal.full_adjustments = 0;
   mesh.data().step += 1000;
   rest(mesh, designs.airfoil(), 200, 25);
   CstAirfoil last = designs.airfoil();
-  last.upper[2] += 1e-7;
+  last.upper[2] += 3e-7;  // not where the mesh rests
   const MeshState before = mesh.state();
   {
     const Trial trial(mesh, airfoil_domain(last, {.points = 200}), renewing);
