@@ -145,7 +145,8 @@ std::vector<std::size_t> moving_loops(const Domain& from, const Domain& to) {
   return loops;
 }
 
-// Whether the vertices of the two domains correspond one to one, and no other chain is joined to one that moves.
+// Whether the vertices of the two domains correspond one to one, and no other chain is joined to one that
+// moves.
 bool corresponds(const MeshData& mesh, const Domain& domain) {
   if (!one_to_one(mesh.domain, domain)) return false;
   const auto open = [](const Loop& loop) { return loop.open; };
@@ -348,7 +349,9 @@ void require_possible(const Mesh& mesh, const RemodelOptions& options, bool one_
     throw Error(ErrorCode::argument, "keep",
                 "found " + std::to_string(options.keep) + ", expected 1 or more, or 0 for the usual");
   if (options.method == Method::specialised && !one_to_one)
-    throw Error(ErrorCode::argument, "method", "specialised needs two domains that correspond one to one, and no chain that joins what moves");
+    throw Error(
+        ErrorCode::argument, "method",
+        "specialised needs two domains that correspond one to one, and no chain that joins what moves");
   if (mesh.data().triangulation.journalling())
     throw Error(ErrorCode::argument, "mesh",
                 "a trial of another design is under way, expected it to be kept or ended");
