@@ -22,11 +22,12 @@ void add_remodel_options(CLI::App& app, RemodelOptions& options) {
   static constexpr std::array strategies{Strategy::chain, Strategy::renew};
   std::vector<std::string> names;
   for (const Strategy strategy : strategies) names.emplace_back(name_of(strategy));
-  add_choice(app,
-             {"--strategy", "STRATEGY", "renew",
-              "renew (length scales are renewed, what is too dense is coarsened) or chain (the paper's method to "
-              "the letter, and all that imported meshes have)"},
-             names, [&](std::size_t choice) { options.strategy = strategies[choice]; });
+  add_choice(
+      app,
+      {"--strategy", "STRATEGY", "renew",
+       "renew (length scales are renewed, what is too dense is coarsened) or chain (the paper's method to "
+       "the letter, and all that imported meshes have)"},
+      names, [&](std::size_t choice) { options.strategy = strategies[choice]; });
   add_real(app,
            {"--keep", "FACTOR", "1.1 for G up to 2, otherwise 1.25",
             "renew: kept triangles may take this times --max-gradation: 1 to 10"},

@@ -27,8 +27,8 @@ class DesignScales {
     for (const Run& run : runs_) {
       if (run.least + std::sqrt(run.squared_distance_to(p)) * inverse_gradation_ >= least) continue;
       for (std::size_t i = run.begin; i < run.end; ++i)
-        least = std::min(least,
-                         sources_[i].scale + std::sqrt(squared_distance(sources_[i].point, p)) * inverse_gradation_);
+        least = std::min(least, sources_[i].scale +
+                                    std::sqrt(squared_distance(sources_[i].point, p)) * inverse_gradation_);
     }
     return least;
   }
@@ -44,14 +44,16 @@ class DesignScales {
     double least = infinity;
     Point low{infinity, infinity}, high{-infinity, -infinity};
     double squared_distance_to(Point p) const {
-      const double dx = std::max({low.x - p.x, 0.0, p.x - high.x}), dy = std::max({low.y - p.y, 0.0, p.y - high.y});
+      const double dx = std::max({low.x - p.x, 0.0, p.x - high.x}),
+                   dy = std::max({low.y - p.y, 0.0, p.y - high.y});
       return dx * dx + dy * dy;
     }
   };
   static constexpr std::size_t run_length = 16;
 
   void add(Source source) {
-    if (sources_.size() % run_length == 0) runs_.push_back({.begin = sources_.size(), .end = sources_.size()});
+    if (sources_.size() % run_length == 0)
+      runs_.push_back({.begin = sources_.size(), .end = sources_.size()});
     sources_.push_back(source);
     Run& run = runs_.back();
     ++run.end;
@@ -80,7 +82,8 @@ GradationError Mesh::gradation_error() const {
       if (scales[v.index] == 0.0) scales[v.index] = design.at(triangulation.point(v));
       mean += scales[v.index] / 3.0;
     }
-    const double e = 0.5 * std::log(t.circle.squared_radius()) - std::log(data_->options.max_gradation * mean);
+    const double e =
+        0.5 * std::log(t.circle.squared_radius()) - std::log(data_->options.max_gradation * mean);
     sum += e;
     squares += e * e;
     count += 1.0;

@@ -87,10 +87,11 @@ Stopped MeshChain::regenerate(const Domain& domain, EvaluationRecord& record) {
   return Stopped::done;
 }
 
-// Where the optimiser has converged, designs hardly differ any more, and neither would the meshes that they are
-// compared with: one mesh with many or few triangles, by chance, would decide the mean of hundreds.
+// Where the optimiser has converged, designs hardly differ any more, and neither would the meshes that they
+// are compared with: one mesh with many or few triangles, by chance, would decide the mean of hundreds.
 CstAirfoil MeshChain::compared_design(const CstAirfoil& design, const EvaluationRecord& record) const {
-  constexpr double converged = 0.003, jitter = 0.001;  // standard deviation of samples; of coefficients, relative
+  constexpr double converged = 0.003,
+                   jitter = 0.001;  // standard deviation of samples; of coefficients, relative
   if (record.sigma >= converged) return design;
   portable::Generator random(record.evaluation);
   CstAirfoil jittered = design;

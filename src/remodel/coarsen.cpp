@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace remodel {
 
@@ -64,9 +65,8 @@ class Coarsening {
     return t.circle.squared_radius() / (bounds_.squared_gradation * mean * mean);
   }
 
-  bool can_go(VertexId v) {
-    return triangulation_.plan_removal(v, ears_) &&
-           std::all_of(ears_.begin(), ears_.end(), [&](const Triangulation::Ear& ear) { return is_fine(ear); });
+  bool can_go(VertexId v) const {
+    return triangulation_.plan_removal(v, [this](const Triangulation::Ear& ear) { return is_fine(ear); });
   }
 
   bool is_fine(const Triangulation::Ear& ear) const {
@@ -89,7 +89,6 @@ class Coarsening {
   Triangulation& triangulation_;
   QualityBounds bounds_;
   std::vector<std::pair<double, VertexId>> candidates_;
-  std::vector<Triangulation::Ear> ears_;  // scratch
 };
 
 }  // namespace

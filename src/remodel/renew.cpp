@@ -131,8 +131,8 @@ class Renewal {
     mesh_.vertex_marks.visit(v.index);
     change(v, found);
     if (undecided < found) waiting_.push_back(v);
-    // All that lie higher, not only those that v accounts for: refinement sets length scales once, before later
-    // vertices come between, so that some of them have nothing any more that accounts for them.
+    // All that lie higher, not only those that v accounts for: refinement sets length scales once, before
+    // later vertices come between, so that some of them have nothing any more that accounts for them.
     for (const VertexId u : higher_)
       if (!is_given(mesh_, u)) suspects_.push({scale(u), u});
   }

@@ -23,12 +23,14 @@
 
 namespace remodel {
 
-inline constexpr double renewal_tolerance = 0.04;  // relative
+// Relative. Measured at I = 100 to 400: from 1 to 4 % surplus and gradation error stay the same and the cost
+// falls by a third; at 6 % the surplus grows.
+inline constexpr double renewal_tolerance = 0.04;
 
 // Under a journal: renews the length scales of the vertices around the given loops and of touched triangles,
-// and on from there as far as they change by more than the tolerance. Triangles at vertices whose length scale
-// fell count as touched; those whose length scale rose are returned. The cost is proportional to the vertices
-// visited (and the logarithm of their number).
+// and on from there as far as they change by more than the tolerance. Triangles at vertices whose length
+// scale fell count as touched; those whose length scale rose are returned. The cost is proportional to the
+// vertices visited (and the logarithm of their number).
 //
 // Source: the two phases of G. Ramalingam and T. Reps, "An incremental algorithm for a generalization of the
 // shortest-path problem", 1996, with a tolerance: first those that lost what their length scale came from are

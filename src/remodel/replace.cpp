@@ -94,7 +94,8 @@ std::vector<VertexId> vertices_inside(MeshData& mesh, const std::vector<RemovalR
 
 double removal_radius(const ReplaceOptions& options, double pair_distance, Point centre, Point before,
                       Point after) {
-  const auto [nearer, farther] = std::minmax({squared_distance(centre, before), squared_distance(centre, after)});
+  const auto [nearer, farther] =
+      std::minmax({squared_distance(centre, before), squared_distance(centre, after)});
   return std::max(options.distance * pair_distance, std::sqrt(options.renewing ? nearer : farther));
 }
 

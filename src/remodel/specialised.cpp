@@ -121,7 +121,8 @@ class Replacement {
       const std::uint32_t k = moving(i).boundary;
       const VertexId v = insert_boundary_point(triangulation_, cache_.new_points[i], hint_near(k));
       triangulation_.set_boundary(v, k);
-      triangulation_.set_length_scale(v, cache_.new_scales[i]);  // until its neighbours are known, or for good
+      triangulation_.set_length_scale(v,
+                                      cache_.new_scales[i]);  // until its neighbours are known, or for good
       mesh_.boundary[k].vertex = v;
       if (!options_.renewing) mesh_.boundary[k].scale_factor = 1.0;
     }

@@ -49,7 +49,8 @@ std::size_t prepare_renewal(MeshData& mesh, StepObserver* observer) {
     renewal.count_factor =
         mesh.step == 0 ? triangles_per_size(mesh) : measured_count_factor(mesh, samples_on_the_way, observer);
   if (renewal.count_factor == 0.0) return 0;  // no fresh mesh could be finished
-  const double too_many = static_cast<double>(mesh.domain_triangles) - renewal.count_factor * (renewal.interior_size + boundary_size(mesh));
+  const double too_many = static_cast<double>(mesh.domain_triangles) -
+                          renewal.count_factor * (renewal.interior_size + boundary_size(mesh));
   return static_cast<std::size_t>(std::max(0.0, 0.5 * too_many));
 }
 
@@ -86,8 +87,8 @@ std::optional<GenerateResult> nearer_to_fresh(MeshData& mesh, StepObserver* obse
   const auto off = [&](GenerateResult& sample) {
     return std::abs(triangles_per_size(sample.mesh.data()) / renewal.count_factor - 1.0);
   };
-  GenerateResult& best = *std::min_element(samples.begin(), samples.end(),
-                                           [&](auto& a, auto& b) { return off(a) < off(b); });
+  GenerateResult& best =
+      *std::min_element(samples.begin(), samples.end(), [&](auto& a, auto& b) { return off(a) < off(b); });
   if (off(best) > 0.5 * std::abs(excess(mesh))) return std::nullopt;
   best.mesh.data().renewal.count_factor = renewal.count_factor;
   best.mesh.data().renewal.sampled_at = mesh.step;

@@ -26,8 +26,8 @@ double resolved_keep(const RemodelOptions& options, const QualityOptions& qualit
 // Measures K from fresh meshes of the mesh's present domain, and notes S.
 void calibrate(MeshData& mesh, int samples, StepObserver* observer = nullptr);
 
-// Under a journal, before the replacement: K and S are known from then on. Without an earlier measurement of K
-// a mesh that was never remodelled is its own; otherwise a few are generated. Returns how many vertices
+// Under a journal, before the replacement: K and S are known from then on. Without an earlier measurement of
+// K a mesh that was never remodelled is its own; otherwise a few are generated. Returns how many vertices
 // coarsening may remove, two triangles each: half of N - K S.
 std::size_t prepare_renewal(MeshData& mesh, StepObserver* observer);
 // After the replacement around the given loops, before refinement.

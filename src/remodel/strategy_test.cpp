@@ -34,8 +34,7 @@ Mesh generated(const Domain& domain, const QualityOptions& options) {
 
 void set_length_scales(MeshData& mesh, const std::vector<double>& scales) {
   for (std::uint32_t i = 1; i < scales.size(); ++i)
-    if (mesh.triangulation[VertexId{i}].alive())
-      mesh.triangulation.set_length_scale(VertexId{i}, scales[i]);
+    if (mesh.triangulation[VertexId{i}].alive()) mesh.triangulation.set_length_scale(VertexId{i}, scales[i]);
 }
 
 std::vector<std::size_t> all_loops(const MeshData& mesh) {
@@ -99,7 +98,7 @@ TEST(Renewal, IsWithinItsBoundOfAFreshPropagation) {
       data.triangulation.commit();
       const Difference difference = difference_to_propagation(data);
       ASSERT_LE(difference.largest, error_bound(data));
-      ASSERT_LE(std::abs(difference.mean), 2.0 * renewal_tolerance);
+      ASSERT_LE(std::abs(difference.mean), renewal_tolerance);
     }
   }
 }
@@ -188,8 +187,8 @@ TEST(Renew, LeavesFewerTrianglesThanAChain) {
     });
     surplus[static_cast<int>(strategy)] /= compared;
   }
-  EXPECT_LT(std::abs(surplus[1]), 0.06);
-  EXPECT_LT(surplus[1], surplus[0] - 0.02);
+  EXPECT_LT(std::abs(surplus[1]), 0.04);
+  EXPECT_GT(surplus[0], std::abs(surplus[1]) + 0.03);
 }
 
 TEST(Renew, ValidatesInFullAndNeverRelaxesTheAngle) {
@@ -228,14 +227,14 @@ TEST(Renew, GeneratesAMeshAfreshWhoseCountIsOff) {
   std::mt19937_64 random(seed);
   Walk designs(1, 0.2, random);
   Mesh mesh = generated(designs.domain(200), {.gradation = 4.0});
-  walk(mesh, designs, 200, 150, {}, [](const RemodelResult&) {});  // a chain's surplus
-  prepare_renewal(mesh.data(), nullptr);
-  mesh.data().renewal.interior_size = interior_size(mesh.data());
+  walk(mesh, designs, 200, 100, {}, [](const RemodelResult&) {});  // a chain's surplus
+  designs.next();
+  ASSERT_FALSE(remodel(mesh, designs.domain(200), renewing).full_adjustment);
   mesh.data().renewal.full_adjustments = 0;
   mesh.data().step += 1000;
   rest(mesh, designs.airfoil(), 200, 25);
   CstAirfoil last = designs.airfoil();
-  last.upper[2] += 3e-7;  // not where the mesh rests
+  last.upper[2] += 2e-7;
   const MeshState before = mesh.state();
   {
     const Trial trial(mesh, airfoil_domain(last, {.points = 200}), renewing);

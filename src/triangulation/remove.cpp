@@ -72,7 +72,7 @@ void Triangulation::clip_ear(std::vector<StarEdge>& polygon, std::size_t i, Tria
   polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(i));
 }
 
-bool Triangulation::plan_removal(VertexId v, std::vector<Ear>& ears) const {
+bool Triangulation::plan_removal(VertexId v, const std::function<bool(const Ear&)>& fine) const {
   std::vector<StarEdge> polygon;
   const Corner first = star(v);
   Corner c = first;
@@ -80,11 +80,10 @@ bool Triangulation::plan_removal(VertexId v, std::vector<Ear>& ears) const {
     polygon.push_back({following(c), link(c), std::nullopt});
     c = counterclockwise(c);
   } while (c.triangle != first.triangle);
-  ears.clear();
   for (;;) {
     const std::size_t n = polygon.size(), ear = n == 3 ? 1 : find_ear(polygon, true);
     if (ear == n) return false;
-    ears.push_back({polygon[before(ear, n)].from, polygon[ear].from, polygon[after(ear, n)].from});
+    if (!fine({polygon[before(ear, n)].from, polygon[ear].from, polygon[after(ear, n)].from})) return false;
     if (n == 3) return true;
     polygon[before(ear, n)].circle.reset();
     polygon[after(ear, n)].circle.reset();

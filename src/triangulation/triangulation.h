@@ -16,6 +16,7 @@
 // their number, to the last bit.
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -131,12 +132,12 @@ class Triangulation {
   Inserted insert(Point p, TriangleId hint);
   // Removes a vertex at which no constrained edge ends. Invalidates its star.
   void remove(VertexId v);
-  // The triangles that remove() would put in the place of v's star. False where they are Delaunay only because
-  // of a constraint behind the star: then remove() would change more than that.
+  // Whether all triangles that remove() would put in the place of v's star are fine. False too where one would
+  // be Delaunay only because of a constraint behind the star: then remove() would change more than the star.
   struct Ear {
     VertexId vertex[3];
   };
-  bool plan_removal(VertexId v, std::vector<Ear>& ears) const;
+  bool plan_removal(VertexId v, const std::function<bool(const Ear&)>& fine) const;
 
   ConstrainResult constrain(VertexId a, VertexId b);
   // Lifts the constraint of an edge and restores invariant (3).
