@@ -109,7 +109,7 @@ struct MeshStatistics {
   // distances.
   std::size_t exempt_triangles = 0;
   double max_radius_edge = 0.0;  // max r / e_min
-  double max_gradation = 0.0;    // max r / (H mean LS) but for exempt triangles: at most QualityOptions::keep
+  double max_gradation = 0.0;    // max r / (keep H mean LS) but for exempt triangles: at most 1
 };
 
 // How the size of triangles follows the design, whatever length scales a mesh has gathered: over the domain's

@@ -77,7 +77,7 @@ MeshStatistics Mesh::statistics() const {
     data_->walk(head,
                 [&](std::uint32_t k) { result.steiner_boundary_vertices += data_->at(k).steiner ? 1 : 0; });
   result.max_radius_edge = std::sqrt(radius_edge);
-  result.max_gradation = std::sqrt(gradation) / data_->options.max_gradation;
+  result.max_gradation = std::sqrt(gradation) / promised_gradation(data_->options);
   const auto degrees = [](double squared_ratio) {
     return squared_ratio > 0.0 ? std::asin(0.5 / std::sqrt(squared_ratio)) * 180.0 / std::numbers::pi : 0.0;
   };

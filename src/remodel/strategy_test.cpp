@@ -206,6 +206,7 @@ TEST(Renew, ValidatesInFullAndNeverRelaxesTheAngle) {
                                                         .max_gradation = promised_gradation(mesh.options()),
                                                         .design = &mesh.domain(),
                                                         .max_violations = 1});
+      EXPECT_LE(mesh.statistics().max_gradation, 1.0 + 1e-9);
       EXPECT_TRUE(checked.valid) << (checked.violations.empty() ? "" : checked.violations[0].detail);
     });
     EXPECT_EQ(mesh.options().keep, 1.1);
