@@ -24,7 +24,7 @@ std::string unescaped(std::string_view text) {
   return result;
 }
 
-bool is_blank(char c) {
+bool is_xml_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n';
 }
 
@@ -88,11 +88,11 @@ XmlTag XmlScanner::read_tag(std::size_t begin) const {
   std::size_t at = begin + 1;
   const auto current = [&] { return at < text_.size() ? text_[at] : '\0'; };
   const auto skip_blanks = [&] {
-    while (is_blank(current())) ++at;
+    while (is_xml_blank(current())) ++at;
   };
   const auto read_name = [&] {
     const std::size_t start = at;
-    while (at < text_.size() && !is_blank(text_[at]) && text_.substr(at, 1).find_first_of("=/><\"") != 0)
+    while (at < text_.size() && !is_xml_blank(text_[at]) && text_.substr(at, 1).find_first_of("=/><\"") != 0)
       ++at;
     if (at == start) fail(at, in_quotes(text_.substr(at, 1)) + " found, a name expected");
     return std::string(text_.substr(start, at - start));
