@@ -70,12 +70,7 @@ Status run(const CheckCommand& command) {
   report.figure("triangles", "triangles", result.triangles);
   report.figure("vertices", "vertices", result.vertices);
   report.figure("min_angle_deg", "smallest angle", result.min_angle_deg, "degrees");
-  if (result.exempt_triangles > 0) {
-    report.figure("min_held_angle_deg", "smallest angle but for exempt triangles", result.min_held_angle_deg,
-                  "degrees");
-  }
-  report.figure("exempt_triangles", "exempt triangles", result.exempt_triangles,
-                "(at input angles below 60 degrees)");
+  add_exemption_figures(report, result.exempt_triangles, result.min_held_angle_deg);
   report.figure("max_gradation", "largest r / (H mean LS)", result.max_gradation);
   report.figure("delaunay", "Delaunay", result.delaunay);
   add_boundary_figures(report, result.boundary);

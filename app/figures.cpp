@@ -26,6 +26,13 @@ void add_boundary_figures(Report& report, const std::map<std::string, std::size_
   report.data("boundary", edges);
 }
 
+void add_exemption_figures(Report& report, std::size_t exempt, double min_held_angle_deg) {
+  if (exempt > 0)
+    report.figure("min_held_angle_deg", "smallest angle but for exempt triangles", min_held_angle_deg,
+                  "degrees");
+  report.figure("exempt_triangles", "exempt triangles", exempt, "(at input angles below 60 degrees)");
+}
+
 void add_mesh_figures(Report& report, const FrozenMesh& mesh, const MeshStatistics& statistics) {
   report.figure("triangles", "triangles", statistics.triangles);
   report.figure("vertices", "vertices", statistics.vertices);
@@ -35,11 +42,7 @@ void add_mesh_figures(Report& report, const FrozenMesh& mesh, const MeshStatisti
   report.figure("steiner_boundary_vertices", "Steiner vertices on the boundary",
                 statistics.steiner_boundary_vertices);
   report.figure("min_angle_deg", "smallest angle", statistics.min_angle_deg, "degrees");
-  if (statistics.exempt_triangles > 0)
-    report.figure("min_held_angle_deg", "smallest angle but for exempt triangles",
-                  statistics.min_held_angle_deg, "degrees");
-  report.figure("exempt_triangles", "exempt triangles", statistics.exempt_triangles,
-                "(at input angles below 60 degrees)");
+  add_exemption_figures(report, statistics.exempt_triangles, statistics.min_held_angle_deg);
   report.figure("max_radius_edge", "largest radius-edge ratio", statistics.max_radius_edge);
   report.figure("max_gradation", "largest r / (H mean LS)", statistics.max_gradation);
 }

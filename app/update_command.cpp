@@ -139,12 +139,7 @@ Status run(const UpdateCommand& command) {
   add_part_figures(report, mesh);
   const MeshStatistics statistics = mesh.statistics();
   report.figure("min_angle_deg", "smallest angle", smallest_angle(mesh), "degrees");
-  if (statistics.exempt_triangles > 0) {
-    report.figure("min_held_angle_deg", "smallest angle but for exempt triangles",
-                  statistics.min_held_angle_deg, "degrees");
-  }
-  report.figure("exempt_triangles", "exempt triangles", statistics.exempt_triangles,
-                "(at input angles below 60 degrees)");
+  add_exemption_figures(report, statistics.exempt_triangles, statistics.min_held_angle_deg);
   report.figure("keep", "kept triangles take up to", mesh.options().keep, "H");
   report.figure("max_gradation", "largest r / (keep H mean LS)", statistics.max_gradation);
   add_gradation_error(report, mesh.gradation_error());

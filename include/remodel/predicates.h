@@ -8,9 +8,17 @@
 // else. Coordinates must be finite and their products must neither overflow nor underflow: magnitudes from
 // 1e-60 to 1e60 (and exact zeros) are safe.
 
+#include <cmath>
+
 #include "remodel/point.h"
 
 namespace remodel {
+
+// Whether both coordinates are in the range that is safe: not for infinities and NaN.
+inline bool safe_for_predicates(Point p) {
+  const auto safe = [](double v) { return v == 0.0 || (std::abs(v) <= 1e60 && std::abs(v) >= 1e-60); };
+  return safe(p.x) && safe(p.y);
+}
 
 // The sign of the signed area of triangle abc: +1 counter-clockwise, -1 clockwise, 0 collinear.
 //  (1) orient2d(a,b,c) == orient2d(b,c,a) == -orient2d(b,a,c)

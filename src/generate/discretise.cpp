@@ -59,21 +59,18 @@ double neighbour_length_scale(const MeshData& mesh, std::uint32_t k, Neighbours 
   const Triangulation& triangulation = mesh.triangulation;
   const VertexId v = mesh.at(k).vertex;
   double scale = mesh.base_length_scale(k);
-  const Corner first = triangulation.star(v);
-  Corner c = first;
-  do {
-    if (triangulation[c.triangle].region == Region::domain)
-      for (const VertexId u : {triangulation.following(c), triangulation.preceding(c)}) {
-        const Vertex& neighbour = triangulation[u];
-        const double distance = std::sqrt(squared_distance(neighbour.point, triangulation.point(v)));
-        const bool station = neighbour.boundary != no_index && !mesh.at(neighbour.boundary).steiner;
-        if (station)
-          scale = std::min(scale, distance / mesh.options.resolution);
-        else if (neighbours == Neighbours::all)
-          scale = std::min(scale, neighbour.length_scale + distance / mesh.options.gradation);
-      }
-    c = triangulation.counterclockwise(c);
-  } while (c.triangle != first.triangle);
+  triangulation.for_each_corner(v, [&](Corner c) {
+    if (triangulation[c.triangle].region != Region::domain) return;
+    for (const VertexId u : {triangulation.following(c), triangulation.preceding(c)}) {
+      const Vertex& neighbour = triangulation[u];
+      const double distance = std::sqrt(squared_distance(neighbour.point, triangulation.point(v)));
+      const bool station = neighbour.boundary != no_index && !mesh.at(neighbour.boundary).steiner;
+      if (station)
+        scale = std::min(scale, distance / mesh.options.resolution);
+      else if (neighbours == Neighbours::all)
+        scale = std::min(scale, neighbour.length_scale + distance / mesh.options.gradation);
+    }
+  });
   return scale;
 }
 

@@ -106,11 +106,11 @@ void Refiner::queue_segment(VertexId a, VertexId b) {
 // A segment that cannot be split is not asked again.
 void Refiner::refuse(Segment segment) {
   refused_ = true;
-  refused_segments_.insert(ends(mesh_.at(segment.from).vertex, mesh_.at(segment.to).vertex));
+  refused_segments_.insert(undirected(mesh_.at(segment.from).vertex, mesh_.at(segment.to).vertex));
 }
 
 bool Refiner::is_refused(VertexId a, VertexId b) const {
-  return !refused_segments_.empty() && refused_segments_.contains(ends(a, b));
+  return !refused_segments_.empty() && refused_segments_.contains(undirected(a, b));
 }
 
 Stopped Refiner::run() {
@@ -248,16 +248,13 @@ void Refiner::set_split_length_scale(std::uint32_t k, VertexId a, VertexId b) {
   const VertexId v = mesh_.at(k).vertex;
   const Point p = triangulation_.point(v);
   double scale = interpolated_scale(v, a, b);
-  const Corner first = triangulation_.star(v);
-  Corner c = first;
-  do {
-    if (triangulation_[c.triangle].region == Region::domain)
-      for (const VertexId u : {triangulation_.following(c), triangulation_.preceding(c)})
-        scale = std::min(
-            scale, triangulation_[u].length_scale +
-                       std::sqrt(squared_distance(triangulation_.point(u), p)) / mesh_.options.gradation);
-    c = triangulation_.counterclockwise(c);
-  } while (c.triangle != first.triangle);
+  triangulation_.for_each_corner(v, [&](Corner c) {
+    if (triangulation_[c.triangle].region != Region::domain) return;
+    for (const VertexId u : {triangulation_.following(c), triangulation_.preceding(c)})
+      scale = std::min(scale,
+                       triangulation_[u].length_scale +
+                           std::sqrt(squared_distance(triangulation_.point(u), p)) / mesh_.options.gradation);
+  });
   mesh_.set_boundary_length_scale(k, scale);
 }
 
@@ -282,12 +279,7 @@ std::uint32_t Refiner::try_split_far(Segment segment, Point p, double t) {
 }
 
 void Refiner::consider_star(VertexId v) {
-  const Corner first = triangulation_.star(v);
-  Corner c = first;
-  do {
-    consider(c.triangle);
-    c = triangulation_.counterclockwise(c);
-  } while (c.triangle != first.triangle);
+  triangulation_.for_each_corner(v, [&](Corner c) { consider(c.triangle); });
 }
 
 // The curve point lies beyond the triangles next to its chord (blunt leading edges, cusps): free vertices lie

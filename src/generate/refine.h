@@ -69,9 +69,6 @@ class Refiner {
   void queue_segment(VertexId a, VertexId b);
   void refuse(Segment segment);
   bool is_refused(VertexId a, VertexId b) const;
-  static std::pair<VertexId, VertexId> ends(VertexId a, VertexId b) {
-    return a < b ? std::pair(a, b) : std::pair(b, a);
-  }
   void split(Segment segment, int depth);
   double split_parameter(Segment segment) const;
   std::uint32_t add_split(Segment segment, VertexId v, double t);

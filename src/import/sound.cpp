@@ -14,10 +14,6 @@ namespace remodel {
 
 namespace {
 
-bool in_range(double v) {
-  return v == 0.0 || (std::abs(v) <= 1e60 && std::abs(v) >= 1e-60);
-}
-
 bool listed_before(const DirectedEdge& a, const DirectedEdge& b) {
   return std::tie(a.from, a.to) < std::tie(b.from, b.to);
 }
@@ -64,7 +60,7 @@ class Mender {
         continue;
       }
       const Point p = mesh_.points[v];
-      if (!in_range(p.x) || !in_range(p.y))
+      if (!safe_for_predicates(p))
         refuse("point ", v, ": (", p.x, ", ", p.y,
                ") found, coordinates that are 0 or of magnitude 1e-60 to 1e60 expected");
       index[v] = static_cast<std::uint32_t>(sound_.points.size());

@@ -14,22 +14,11 @@ namespace {
 
 using Rational = boost::multiprecision::cpp_rational;
 
-// The range in which the predicates are exact (predicates.h).
-constexpr double largest_coordinate = 1e60;
-constexpr double smallest_coordinate = 1e-60;
 // A crossing takes its place in memory: what crosses everywhere is refused in order.
 constexpr std::size_t most_vertices = 10'000'000;
 // Of the graph's size: crossings that are nearer than this to another point are that point. The shortest edge
 // that refinement splits is 1e-12 of the size.
 constexpr double snapping = 1e-11;
-
-bool in_range(double v) {
-  return v == 0.0 || (std::abs(v) <= largest_coordinate && std::abs(v) >= smallest_coordinate);
-}
-
-Arrangement::Key key_of(VertexId a, VertexId b) {
-  return a < b ? Arrangement::Key{a, b} : Arrangement::Key{b, a};
-}
 
 [[noreturn]] void refuse(const std::string& source, const std::string& problem) {
   throw Error(ErrorCode::geometry, source, problem);
@@ -63,7 +52,7 @@ Arrangement::Arrangement(const PlanarGraph& graph, std::string source, Crossings
 void Arrangement::insert_points() {
   const std::vector<Point>& points = graph_.points;
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (!in_range(points[i].x) || !in_range(points[i].y))
+    if (!safe_for_predicates(points[i]))
       refuse(source_, "point " + std::to_string(i) + " is " + text_of(points[i]) +
                           ", expected coordinates that are 0 or of magnitude 1e-60 to 1e60");
   const auto second = std::find_if(points.begin(), points.end(), [&](Point p) { return !(p == points[0]); });
@@ -156,7 +145,7 @@ VertexId Arrangement::vertex_near(const Piece& piece) const {
 }
 
 void Arrangement::add(const Piece& piece) {
-  const auto [place, is_new] = edges_.emplace(key_of(piece.from, piece.to), piece.marker);
+  const auto [place, is_new] = edges_.emplace(undirected(piece.from, piece.to), piece.marker);
   if (is_new) {
     segment_of_[place->first] = piece.segment;
   } else {
@@ -168,7 +157,7 @@ void Arrangement::add(const Piece& piece) {
 // Both are given up, and come back in two pieces each. The rounded point may lie beside both of them: what
 // the pieces cross then is found when they are inserted.
 void Arrangement::cross(const Piece& piece, VertexId first, VertexId second) {
-  const Key key = key_of(first, second);
+  const Key key = undirected(first, second);
   const int marker = edges_.at(key);
   const std::size_t segment = segment_of_.at(key);
   const Point p = crossing_of(piece, first, second);
@@ -210,13 +199,10 @@ VertexId Arrangement::vertex_at(Point p, VertexId near) {
 
 void Arrangement::lead_through(VertexId v) {
   std::vector<Key> near;
-  const Corner first = triangulation_.star(v);
-  Corner c = first;
-  do {
+  triangulation_.for_each_corner(v, [&](Corner c) {
     const VertexId a = triangulation_.following(c), b = triangulation_.preceding(c);
-    if (triangulation_.link(c).constrained() && is_near(v, a, b)) near.push_back(key_of(a, b));
-    c = triangulation_.counterclockwise(c);
-  } while (c.triangle != first.triangle);
+    if (triangulation_.link(c).constrained() && is_near(v, a, b)) near.push_back(undirected(a, b));
+  });
   for (const Key& key : near) {
     triangulation_.release(key.first, key.second);
     route({key.first, key.second, edges_.at(key), segment_of_.at(key)}, v);
@@ -227,18 +213,15 @@ void Arrangement::lead_through(VertexId v) {
 // The new vertex fell exactly on another piece, which the triangulation has split.
 void Arrangement::split_edge_at(VertexId v) {
   std::vector<VertexId> ends;
-  const Corner first = triangulation_.star(v);
-  Corner c = first;
-  do {
+  triangulation_.for_each_corner(v, [&](Corner c) {
     if (triangulation_.link({c.triangle, previous3(c.index)}).constrained())
       ends.push_back(triangulation_.following(c));
-    c = triangulation_.counterclockwise(c);
-  } while (c.triangle != first.triangle);
+  });
   if (ends.size() != 2) return;
-  const Key key = key_of(ends[0], ends[1]);
+  const Key key = undirected(ends[0], ends[1]);
   for (const VertexId end : ends) {
-    edges_[key_of(end, v)] = edges_.at(key);
-    segment_of_[key_of(end, v)] = segment_of_.at(key);
+    edges_[undirected(end, v)] = edges_.at(key);
+    segment_of_[undirected(end, v)] = segment_of_.at(key);
   }
   edges_.erase(key);
 }

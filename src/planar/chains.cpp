@@ -31,24 +31,20 @@ class Linker {
   using Directed = std::pair<VertexId, VertexId>;
 
   void follow(VertexId from, VertexId to, bool joined) {
-    if (!arrangement_.edges().contains(key(from, to)) || used_[key(from, to)]) return;
+    if (!arrangement_.edges().contains(undirected(from, to)) || used_[undirected(from, to)]) return;
     Chain chain{.vertices = {from}, .markers = {}, .joined = joined};
     chain.domain_left = arrangement_.domain_on_left(from, to);
     chain.domain_right = arrangement_.domain_on_left(to, from);
     const VertexId start = from;
     for (;;) {
-      used_[key(from, to)] = true;
+      used_[undirected(from, to)] = true;
       chain.vertices.push_back(to);
-      chain.markers.push_back(arrangement_.edges().at(key(from, to)));
+      chain.markers.push_back(arrangement_.edges().at(undirected(from, to)));
       const std::vector<VertexId>& next = neighbours_.at(to);
       if (next.size() != 2 || to == start) break;
       from = std::exchange(to, next[0] == from ? next[1] : next[0]);
     }
     chains_.push_back(std::move(chain));
-  }
-
-  static Arrangement::Key key(VertexId a, VertexId b) {
-    return a < b ? Arrangement::Key{a, b} : Arrangement::Key{b, a};
   }
 
   Arrangement& arrangement_;

@@ -56,16 +56,6 @@ void list_moving(const MeshData& mesh, AdjustCache& cache, const AdjustCache* ea
   }
 }
 
-template <class Visit>
-void for_each_star_triangle(const Triangulation& triangulation, VertexId v, Visit visit) {
-  const Corner first = triangulation.star(v);
-  Corner c = first;
-  do {
-    if (!triangulation[c.triangle].ghost()) visit(c.triangle);
-    c = triangulation.counterclockwise(c);
-  } while (c.triangle != first.triangle);
-}
-
 // Affected triangles, each once, and the star lists. mesh.numbers holds a listed triangle's position.
 void list_affected(MeshData& mesh, AdjustCache& cache) {
   const Triangulation& triangulation = mesh.triangulation;
@@ -73,7 +63,9 @@ void list_affected(MeshData& mesh, AdjustCache& cache) {
   mesh.numbers.resize(triangulation.triangle_slots());
   for (Moving& m : cache.moving) {
     m.star_begin = cache.stars.size();
-    for_each_star_triangle(triangulation, m.vertex, [&](TriangleId t) {
+    triangulation.for_each_corner(m.vertex, [&](Corner c) {
+      const TriangleId t = c.triangle;
+      if (triangulation[t].ghost()) return;
       if (mesh.marks.visit(t.index)) {
         mesh.numbers[t.index] = static_cast<std::uint32_t>(cache.affected.size());
         const Triangle& triangle = triangulation[t];

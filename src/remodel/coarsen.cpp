@@ -38,14 +38,8 @@ class Coarsening {
   void list_candidates(std::span<const VertexId> around) {
     mesh_.marks.clear(triangulation_.triangle_slots());
     for (const TriangleId t : triangulation_.touched()) add_vertices(t);
-    for (const VertexId v : around) {
-      const Corner first = triangulation_.star(v);
-      Corner c = first;
-      do {
-        add_vertices(c.triangle);
-        c = triangulation_.counterclockwise(c);
-      } while (c.triangle != first.triangle);
-    }
+    for (const VertexId v : around)
+      triangulation_.for_each_corner(v, [&](Corner c) { add_vertices(c.triangle); });
     std::sort(candidates_.begin(), candidates_.end());
   }
 

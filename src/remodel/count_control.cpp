@@ -1,6 +1,7 @@
 #include "remodel/count_control.h"
 
 #include <algorithm>
+
 namespace remodel {
 
 namespace {
@@ -80,15 +81,11 @@ double corrected_interior_size(MeshData& mesh, double before) {
   }
   // Triangles that are as they were, at vertices whose length scale is not.
   vertices.for_each_with_another_scale([&](VertexId v) {
-    const Corner first = triangulation.star(v);
-    Corner c = first;
-    do {
-      if (mesh.marks.visit(c.triangle.index)) {
-        subtract(triangulation[c.triangle]);
-        sum += interior_size_of(mesh, triangulation[c.triangle]);
-      }
-      c = triangulation.counterclockwise(c);
-    } while (c.triangle != first.triangle);
+    triangulation.for_each_corner(v, [&](Corner c) {
+      if (!mesh.marks.visit(c.triangle.index)) return;
+      subtract(triangulation[c.triangle]);
+      sum += interior_size_of(mesh, triangulation[c.triangle]);
+    });
   });
   return sum;
 }
@@ -99,15 +96,12 @@ double boundary_size(MeshData& mesh) {
   mesh.marks.clear(triangulation.triangle_slots());
   for (const std::uint32_t head : mesh.loop_heads)
     mesh.walk(head, [&](std::uint32_t k) {
-      const Corner first = triangulation.star(mesh.at(k).vertex);
-      Corner c = first;
-      do {
+      triangulation.for_each_corner(mesh.at(k).vertex, [&](Corner c) {
         const Triangle& t = triangulation[c.triangle];
         if (t.region == Region::domain && mesh.marks.visit(c.triangle.index))
           sum += size_of(triangulation[t.vertex[0]], triangulation[t.vertex[1]], triangulation[t.vertex[2]],
                          mesh.options.max_gradation);
-        c = triangulation.counterclockwise(c);
-      } while (c.triangle != first.triangle);
+      });
     });
   return sum;
 }

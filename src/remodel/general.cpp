@@ -239,7 +239,8 @@ class LoopReplacement {
     const Neighbours neighbours = options_.renewing ? Neighbours::stations : Neighbours::all;
     mesh_.set_boundary_length_scale(k, neighbour_length_scale(mesh_, k, neighbours));
     keep_scales_beside(k);
-    for_each_corner(mesh_.at(k).vertex, [&](Corner c) { triangulation_.refresh_circle(c.triangle); });
+    triangulation_.for_each_corner(mesh_.at(k).vertex,
+                                   [&](Corner c) { triangulation_.refresh_circle(c.triangle); });
   }
 
   // Steiner vertices up to the next stations keep their length scales. What their factors refer to follows
@@ -253,16 +254,6 @@ class LoopReplacement {
       keep(mesh_.at(e).next, &BoundaryVertex::next);
       keep(mesh_.at(e).previous, &BoundaryVertex::previous);
     });
-  }
-
-  template <class Visit>
-  void for_each_corner(VertexId v, Visit visit) const {
-    const Corner first = triangulation_.star(v);
-    Corner c = first;
-    do {
-      visit(c);
-      c = triangulation_.counterclockwise(c);
-    } while (c.triangle != first.triangle);
   }
 
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();

@@ -38,27 +38,12 @@ void for_each_neighbour(const MeshData& mesh, VertexId v, Visit visit) {
   const auto visit_one = [&](VertexId u) {
     visit(u, std::sqrt(squared_distance(triangulation.point(u), p)) * inverse_gradation);
   };
-  const Corner first = triangulation.star(v);
-  Corner c = first;
-  do {
-    if (triangulation[c.triangle].region == Region::domain) {
-      visit_one(triangulation.following(c));
-      // Otherwise the next triangle's.
-      if (triangulation.link({c.triangle, next3(c.index)}).constrained())
-        visit_one(triangulation.preceding(c));
-    }
-    c = triangulation.counterclockwise(c);
-  } while (c.triangle != first.triangle);
-}
-
-template <class Visit>
-void for_each_triangle(const Triangulation& triangulation, VertexId v, Visit visit) {
-  const Corner first = triangulation.star(v);
-  Corner c = first;
-  do {
-    visit(c.triangle);
-    c = triangulation.counterclockwise(c);
-  } while (c.triangle != first.triangle);
+  triangulation.for_each_corner(v, [&](Corner c) {
+    if (triangulation[c.triangle].region != Region::domain) return;
+    visit_one(triangulation.following(c));
+    // Otherwise the next triangle's.
+    if (triangulation.link({c.triangle, next3(c.index)}).constrained()) visit_one(triangulation.preceding(c));
+  });
 }
 
 class Renewal {
@@ -82,7 +67,7 @@ class Renewal {
 
   // ---- what is looked at first
   void add_around(VertexId v) {
-    for_each_triangle(triangulation_, v, [&](TriangleId t) { add_vertices(t); });
+    triangulation_.for_each_corner(v, [&](Corner c) { add_vertices(c.triangle); });
   }
   void add_vertices(TriangleId t) {
     if (triangulation_[t].region != Region::domain) return;
@@ -170,8 +155,8 @@ class Renewal {
       if (scale(v) > old)
         risen_.push_back(v);
       else
-        for_each_triangle(triangulation_, v, [&](TriangleId t) {
-          if (triangulation_[t].region == Region::domain) triangulation_.touch(t);
+        triangulation_.for_each_corner(v, [&](Corner c) {
+          if (triangulation_[c.triangle].region == Region::domain) triangulation_.touch(c.triangle);
         });
     }
   }

@@ -121,14 +121,11 @@ void restore_outside(MeshData& mesh) {
   mesh.marks.clear(triangulation.triangle_slots());
   for (const std::uint32_t head : mesh.loop_heads)
     mesh.walk(head, [&](std::uint32_t k) {
-      const Corner first = triangulation.star(mesh.at(k).vertex);
-      Corner c = first;
-      do {
+      triangulation.for_each_corner(mesh.at(k).vertex, [&](Corner c) {
         const Triangle& t = triangulation[c.triangle];
         if (t.region == Region::outside && !t.ghost() && mesh.marks.visit(c.triangle.index))
           outside.push_back(c.triangle);
-        c = triangulation.counterclockwise(c);
-      } while (c.triangle != first.triangle);
+      });
     });
   for (const TriangleId t : outside) triangulation.refresh_circle(t);
   triangulation.restore_delaunay(outside);

@@ -8,14 +8,12 @@
 
 #include "remodel/domain.h"
 #include "remodel/error.h"
+#include "remodel/predicates.h"
 #include "segments.h"
 
 namespace remodel {
 namespace {
 
-// The range in which the predicates are exact (predicates.h).
-constexpr double largest_coordinate = 1e60;
-constexpr double smallest_coordinate = 1e-60;
 // A curve ends where the next one begins up to rounding, relative to the coordinates. Decides nothing but
 // whether the description makes sense: the polygon takes the next curve's first point.
 constexpr double joint_tolerance = 1e-9;
@@ -91,16 +89,12 @@ void check_parameters(const std::vector<double>& parameters, const std::string& 
   }
 }
 
-bool in_range(double v) {
-  return v == 0.0 || (std::abs(v) <= largest_coordinate && std::abs(v) >= smallest_coordinate);
-}
-
 // The sides of one loop's polygon; `first` is the index of the first of them among all.
 std::vector<Side> sides_of(const Domain& domain, std::size_t loop, std::size_t first) {
   const std::vector<Point> points = domain.points(loop);
   const auto place = [&](std::size_t i) { return place_of(domain, domain.stations(loop)[i]); };
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!in_range(points[i].x) || !in_range(points[i].y))
+    if (!safe_for_predicates(points[i]))
       refuse(place(i), ": expected coordinates that are 0 or of magnitude 1e-60 to 1e60");
   }
   if (points.size() == 1) return {{.from = points[0], .to = points[0], .first = true}};

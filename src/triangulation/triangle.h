@@ -4,6 +4,7 @@
 // its vertices, its neighbours and a certified circle, so that most conflict tests touch nothing else.
 
 #include <cstdint>
+#include <utility>
 
 #include "remodel/ids.h"
 #include "remodel/point.h"
@@ -19,6 +20,11 @@ inline constexpr int next3(int i) {
 }
 inline constexpr int previous3(int i) {
   return i == 0 ? 2 : i - 1;
+}
+
+// An edge by its two ends, the smaller id first.
+inline std::pair<VertexId, VertexId> undirected(VertexId a, VertexId b) {
+  return a < b ? std::pair(a, b) : std::pair(b, a);
 }
 
 // A triangle together with one of its three corners, or, which is the same pair, the edge opposite that

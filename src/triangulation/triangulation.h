@@ -85,6 +85,17 @@ class Triangulation {
   VertexId following(Corner c) const { return triangles_[c.triangle.index].vertex[next3(c.index)]; }
   VertexId preceding(Corner c) const { return triangles_[c.triangle.index].vertex[previous3(c.index)]; }
   Link link(Corner c) const { return triangles_[c.triangle.index].link[c.index]; }
+  // Visits the corners at a vertex counter-clockwise, those of ghosts too: visit(corner). The visit must not
+  // change the star.
+  template <class Visit>
+  void for_each_corner(VertexId v, Visit visit) const {
+    const Corner first = star(v);
+    Corner c = first;
+    do {
+      visit(c);
+      c = counterclockwise(c);
+    } while (c.triangle != first.triangle);
+  }
   // The corner opposite the directed edge a -> b, in the triangle on its left; none if there is no such edge.
   std::optional<Corner> find_edge(VertexId a, VertexId b) const;
 
@@ -132,8 +143,9 @@ class Triangulation {
   Inserted insert(Point p, TriangleId hint);
   // Removes a vertex at which no constrained edge ends. Invalidates its star.
   void remove(VertexId v);
-  // Whether all triangles that remove() would put in the place of v's star are fine. False too where one would
-  // be Delaunay only because of a constraint behind the star: then remove() would change more than the star.
+  // Whether all triangles that remove() would put in the place of v's star are fine. False too where one
+  // would be Delaunay only because of a constraint behind the star: then remove() would change more than the
+  // star.
   struct Ear {
     VertexId vertex[3];
   };
@@ -159,7 +171,7 @@ class Triangulation {
   void set_badness(TriangleId t, std::uint8_t badness) {
     triangles_[t.index].badness = badness;
   }                                                    // not journalled
-  void touch(TriangleId t) { edit(t); }  // counts as changed: see touched()
+  void touch(TriangleId t) { edit(t); }                // counts as changed: see touched()
   void set_step(std::uint32_t step) { step_ = step; }  // the birth of triangles made from now on
 
   // ---- journal. An exception out of any function of this class leaves the journal able to roll back;
