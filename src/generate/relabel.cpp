@@ -99,7 +99,7 @@ class Relabelling {
 void relabel_touched(MeshData& mesh) {
   Relabelling relabelling(mesh);
   relabelling.run();
-  for (const VertexId v : relabelling.strays()) mesh.triangulation.remove(v);
+  mesh.triangulation.remove(relabelling.strays());
 }
 
 }  // namespace remodel

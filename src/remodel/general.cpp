@@ -79,11 +79,12 @@ class LoopReplacement {
     restore_outside(mesh_);
     const std::vector<VertexId> inside = vertices_inside(mesh_, regions());
     release_old();
-    for (const VertexId v : inside) triangulation_.remove(v);
+    triangulation_.remove(inside);
     const std::vector<VertexId> old_boundary = forget_old();
     rebuild_table();
-    for (const VertexId v : old_boundary)
-      if (triangulation_[v].boundary == no_index) triangulation_.remove(v);
+    std::vector<VertexId> left = old_boundary;
+    std::erase_if(left, [&](VertexId v) { return triangulation_[v].boundary != no_index; });
+    triangulation_.remove(left);
     Refiner refiner(mesh_);
     for (const std::size_t loop : new_loops_) refiner.recover_loop(mesh_.loop_heads[loop]);
     relabel_touched(mesh_);

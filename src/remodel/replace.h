@@ -8,20 +8,9 @@
 #include "generate/refine.h"
 #include "generate/relabel.h"
 #include "mesh/mesh_data.h"
+#include "remodel/removal_regions.h"
 
 namespace remodel {
-
-// A circular removal region: every interior vertex strictly inside goes (the paper's section 3).
-struct RemovalRegion {
-  Point centre;
-  double radius;
-  TriangleId hint;  // a triangle near the centre
-};
-
-// The interior vertices inside the regions, each once. Changes scratch only. Triangles that a disc meets are
-// connected through edges that it meets, so the search from the centre's triangle finds them all, also where
-// the centre's own triangle has no vertex inside.
-std::vector<VertexId> vertices_inside(MeshData& mesh, const std::vector<RemovalRegion>& regions);
 
 struct ReplaceOptions {
   double distance = 1.0;  // D

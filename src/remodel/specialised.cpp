@@ -24,8 +24,8 @@ class Replacement {
     restore_delaunay();
     const std::vector<VertexId> inside = vertices_inside(mesh_, regions());
     release_boundary();
-    for (const VertexId v : inside) triangulation_.remove(v);
-    remove_lost();
+    triangulation_.remove(inside);
+    triangulation_.remove(take_lost());
     insert_new();
     mesh_.orient_loops();
     recover();
@@ -103,16 +103,19 @@ class Replacement {
     }
   }
 
-  void remove_lost() {
+  // The lost vertices leave the boundary table.
+  std::vector<VertexId> take_lost() {
+    std::vector<VertexId> going;
     for (std::size_t i = 0; i < cache_.moving.size(); ++i) {
       if (!lost(i)) continue;
       const std::uint32_t k = moving(i).boundary;
-      triangulation_.remove(mesh_.at(k).vertex);
+      going.push_back(mesh_.at(k).vertex);
       if (i >= cache_.non_steiner)
         mesh_.remove_boundary_vertex(k);
       else
         mesh_.boundary[k].vertex = VertexId{};
     }
+    return going;
   }
 
   void insert_new() {

@@ -141,15 +141,16 @@ class Triangulation {
     bool is_new = true;
   };
   Inserted insert(Point p, TriangleId hint);
-  // Removes a vertex at which no constrained edge ends. Invalidates its star.
+  // Removes a vertex at which no constrained edge ends, or several different ones. Invalidates their stars.
   void remove(VertexId v);
+  void remove(std::span<const VertexId> vertices);
   // Whether all triangles that remove() would put in the place of v's star are fine. False too where one
   // would be Delaunay only because of a constraint behind the star: then remove() would change more than the
-  // star.
+  // star; and at the hull.
   struct Ear {
     VertexId vertex[3];
   };
-  bool plan_removal(VertexId v, const std::function<bool(const Ear&)>& fine) const;
+  bool plan_removal(VertexId v, const std::function<bool(const Ear&)>& fine);
 
   ConstrainResult constrain(VertexId a, VertexId b);
   // Lifts the constraint of an edge and restores invariant (3).
@@ -245,16 +246,44 @@ class Triangulation {
   void set_constraint(Corner c, bool constrained);
   Location search_all(Point p) const;
 
-  // remove.cpp: a vertex of the boundary polygon of a removed vertex' star, the edge from it to the next one,
-  // and the circle through it and both neighbours, once it is known.
+  // remove.cpp: a vertex of the boundary polygon of a removed vertex' star, and the edge from it to the next
+  // one.
   struct StarEdge {
     VertexId from;
     Link outer;
-    std::optional<Circle> circle;
+    Point point;
   };
-  std::size_t find_ear(std::vector<StarEdge>& polygon, bool delaunay) const;
-  bool is_ear(std::vector<StarEdge>& polygon, std::size_t i, bool delaunay) const;
-  void clip_ear(std::vector<StarEdge>& polygon, std::size_t i, TriangleId slot, Region region);
+  // A triangle of three vertices of the polygon, by position: first < apex < last. Behind its edge from last
+  // to first lies the edge of piece `parent` opposite corner `side`; the polygon's last edge, if none.
+  struct Piece {
+    std::uint32_t first, last;
+    std::uint32_t parent;
+    int side;
+    std::uint32_t apex = no_index;
+    Circle circle{};
+  };
+  struct Hole {
+    Buffer<StarEdge> polygon;  // its border, counter-clockwise
+    Buffer<TriangleId> slots;
+    Buffer<Piece> pieces, todo;
+    bool ghost = false,
+         constrained = false;  // whether the polygon has the infinite vertex, constrained edges
+    Buffer<VertexId> patch;    // of several vertices: those that go
+    Buffer<StarEdge> border;   // its edges, and where they end, in no order
+    Buffer<VertexId> to;
+    void clear();
+  };
+  void collect_star(VertexId v, Hole& hole) const;
+  void grow_patch(VertexId seed, std::size_t size, Hole& hole);
+  bool collect_border(Hole& hole);
+  std::size_t find_apex(const Hole& hole, std::size_t i, std::size_t j, Circle& circle) const;
+  bool cut(Hole& hole) const;
+  bool delaunay(const Hole& hole, const Piece& piece) const;
+  void remove_patch(VertexId seed, std::size_t size);
+  void fill(Hole& hole, std::span<const VertexId> removed, bool is_cut);
+  void write_pieces(const Hole& hole, Region region);
+  bool is_ear(const std::vector<StarEdge>& polygon, std::size_t i) const;
+  void write_ears(const Hole& hole, Region region);
 
   struct Crossing;  // constrain.cpp
   ConstrainResult find_crossings(VertexId a, VertexId b, std::vector<Crossing>& crossings) const;
@@ -284,8 +313,13 @@ class Triangulation {
   std::size_t vertex_slots_before_ = 0, triangle_slots_before_ = 0, live_vertices_before_ = 0;
   std::uint32_t inserted_ = 0, removed_ = 0;
 
-  std::vector<StarEdge> polygon_;  // scratch of remove()
-  std::vector<TriangleId> slots_;
+  // Scratch of remove(). The marks of triangles in a hole are in `badness`, which nobody else uses meanwhile.
+  static constexpr std::uint8_t in_hole = 255;
+  static constexpr std::size_t largest_patch = 64;
+  enum class Removal : std::uint8_t { none, waiting, taken };
+  Hole hole_;
+  std::vector<Removal> removal_;          // of each vertex slot; none between two calls
+  std::vector<std::uint32_t> edge_from_;  // border edge that begins at a vertex
   Buffer<Spoke> spokes_;
   Buffer<TriangleId> new_star_;
   Cavity cavity_;

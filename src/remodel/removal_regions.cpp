@@ -1,0 +1,178 @@
+#include "remodel/removal_regions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace remodel {
+
+namespace {
+
+double squared(double v) {
+  return v * v;
+}
+
+double squared_distance_to_edge(Point p, Point a, Point b) {
+  const Point e = b - a;
+  const double along = dot(p - a, e), length = dot(e, e);
+  if (along <= 0.0) return squared_distance(p, a);
+  if (along >= length) return squared_distance(p, b);
+  const double across = cross(e, p - a);
+  return across * across / length;
+}
+
+// A few discs that lie together.
+class Discs {
+ public:
+  // Regions come in the order of their loop, and neighbours overlap: together they are searched once. More of
+  // them would make each test longer.
+  static constexpr std::size_t most = 16;
+
+  explicit Discs(std::span<const RemovalRegion> regions)
+      : regions_(regions), low_(regions[0].centre), high_(low_) {
+    for (const RemovalRegion& region : regions) {
+      low_ = {std::min(low_.x, region.centre.x), std::min(low_.y, region.centre.y)};
+      high_ = {std::max(high_.x, region.centre.x), std::max(high_.y, region.centre.y)};
+      largest_ = std::max(largest_, squared(region.radius));
+    }
+  }
+
+  // Whether the point lies strictly inside one of them.
+  bool contain(Point p) {
+    if (holds(last_, p)) return true;
+    if (far(p, p)) return false;
+    for (std::size_t i = 0; i < regions_.size(); ++i)
+      if (holds(i, p)) return last_ = i, true;
+    return false;
+  }
+  // Whether the edge comes nearer to the centre of one than its radius.
+  bool meet(Point a, Point b) const {
+    const auto [x0, x1] = std::minmax(a.x, b.x);
+    const auto [y0, y1] = std::minmax(a.y, b.y);
+    if (far({x0, y0}, {x1, y1})) return false;
+    for (const RemovalRegion& region : regions_)
+      if (squared_distance_to_edge(region.centre, a, b) < squared(region.radius)) return true;
+    return false;
+  }
+
+ private:
+  bool holds(std::size_t i, Point p) const {
+    return squared_distance(p, regions_[i].centre) < squared(regions_[i].radius);
+  }
+  // Whether a box is out of reach of all centres.
+  bool far(Point low, Point high) const {
+    const double x = std::max({low_.x - high.x, low.x - high_.x, 0.0});
+    const double y = std::max({low_.y - high.y, low.y - high_.y, 0.0});
+    return x * x + y * y >= largest_;
+  }
+
+  std::span<const RemovalRegion> regions_;
+  Point low_, high_;      // box of the centres
+  double largest_ = 0.0;  // radius, squared
+  std::size_t last_ = 0;  // the region that held the last point
+};
+
+// The corner of a ghost that is the infinite vertex; 3 for a finite triangle.
+int infinite_corner(const Triangle& t) {
+  int i = 0;
+  while (i < 3 && t.vertex[i] != infinite_vertex) ++i;
+  return i;
+}
+
+// A finite triangle that meets the region's disc, if one does: the hint, if a corner of it is inside; else
+// the one that holds the centre. For a centre outside the hull it is the one behind the nearest hull edge.
+// Distances fall towards it along the hull edges that face the centre, since those lie in the triangle of the
+// centre and any two of their points.
+TriangleId start_of(const Triangulation& triangulation, const RemovalRegion& region) {
+  if (!triangulation[region.hint].ghost())
+    for (const VertexId v : triangulation[region.hint].vertex)
+      if (squared_distance(triangulation.point(v), region.centre) < squared(region.radius))
+        return region.hint;
+  TriangleId t = triangulation.locate(region.centre, region.hint).triangle;
+  if (!triangulation[t].ghost()) return t;
+  const auto distance = [&](TriangleId ghost) {
+    const Triangle& g = triangulation[ghost];
+    const int i = infinite_corner(g);
+    return squared_distance_to_edge(region.centre, triangulation.point(g.vertex[next3(i)]),
+                                    triangulation.point(g.vertex[previous3(i)]));
+  };
+  for (bool nearer = true; nearer;) {
+    nearer = false;
+    const Triangle& ghost = triangulation[t];
+    const int i = infinite_corner(ghost);
+    for (const int side : {next3(i), previous3(i)}) {
+      const TriangleId next = ghost.link[side].triangle();
+      if (!triangulation.in_conflict(next, region.centre) || distance(next) >= distance(t)) continue;
+      t = next;
+      nearer = true;
+      break;
+    }
+  }
+  const Triangle& ghost = triangulation[t];
+  return ghost.link[infinite_corner(ghost)].triangle();
+}
+
+// The search through all triangles that meet one of a few discs.
+class Search {
+ public:
+  Search(MeshData& mesh, std::span<const RemovalRegion> regions, std::vector<VertexId>& found)
+      : mesh_(mesh), triangulation_(mesh.triangulation), discs_(regions), found_(found) {
+    mesh_.marks.clear(triangulation_.triangle_slots());
+    mesh_.vertex_marks.clear(triangulation_.vertex_slots());
+    for (const RemovalRegion& region : regions) visit(start_of(triangulation_, region));
+    while (!todo_.empty()) {
+      const TriangleId t = todo_.back();
+      todo_.pop_back();
+      pass_on(triangulation_[t]);
+    }
+  }
+
+ private:
+  void visit(TriangleId t) {
+    if (mesh_.marks.visit(t.index)) todo_.push_back(t);
+  }
+
+  // Asked once a vertex; mesh.numbers holds the answer.
+  bool inside(VertexId v) {
+    if (!mesh_.vertex_marks.visit(v.index)) return mesh_.numbers[v.index] != 0;
+    const Vertex& vertex = triangulation_[v];
+    const bool result = discs_.contain(vertex.point);
+    mesh_.numbers[v.index] = result ? 1 : 0;
+    if (result && vertex.boundary == no_index) found_.push_back(v);
+    return result;
+  }
+
+  // An edge with an end inside meets a disc; only the others need a closer look.
+  void pass_on(const Triangle& t) {
+    bool is_inside[3];
+    for (int i = 0; i < 3; ++i) is_inside[i] = inside(t.vertex[i]);
+    for (int i = 0; i < 3; ++i) {
+      const TriangleId next = t.link[i].triangle();
+      if (mesh_.marks.visited(next.index) || triangulation_[next].ghost()) continue;
+      const int from = next3(i), to = previous3(i);
+      if (is_inside[from] || is_inside[to] ||
+          discs_.meet(triangulation_.point(t.vertex[from]), triangulation_.point(t.vertex[to])))
+        visit(next);
+    }
+  }
+
+  MeshData& mesh_;
+  const Triangulation& triangulation_;
+  Discs discs_;
+  std::vector<TriangleId> todo_;
+  std::vector<VertexId>& found_;
+};
+
+}  // namespace
+
+std::vector<VertexId> vertices_inside(MeshData& mesh, std::span<const RemovalRegion> regions) {
+  std::vector<VertexId> found;
+  mesh.numbers.resize(std::max(mesh.triangulation.triangle_slots(), mesh.triangulation.vertex_slots()));
+  for (std::size_t i = 0; i < regions.size(); i += Discs::most)
+    Search(mesh, regions.subspan(i, std::min(Discs::most, regions.size() - i)), found);
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+}  // namespace remodel
