@@ -19,8 +19,9 @@ Region side_label(const MeshData& mesh, const Triangle& t, int i) {
 class Relabelling {
  public:
   explicit Relabelling(MeshData& mesh) : mesh_(mesh), triangulation_(mesh.triangulation) {
-    for (const TriangleId t : triangulation_.touched())
-      if (triangulation_[t].alive()) touched_.push_back(t);
+    triangulation_.for_each_touched([&](TriangleId t, bool same) {
+      if (!same) touched_.push_back(t);
+    });
   }
 
   void run() {

@@ -200,9 +200,12 @@ void count(MeshData& mesh, const std::vector<VertexId>& moved, RemodelResult& re
   const Triangulation& triangulation = mesh.triangulation;
   mesh.vertex_marks.clear(triangulation.vertex_slots());
   for (const VertexId v : moved) mesh.vertex_marks.visit(v.index);
-  const auto survives = [&](const Triangle& t) {
+  const auto survives = [&](TriangleId id, const Triangle& t) {
     for (const VertexId v : t.vertex)
       if (!triangulation[v].alive() || mesh.vertex_marks.visited(v.index)) return false;
+    if (const Triangle& now = triangulation[id];
+        now.alive() && now.region == Region::domain && Triangulation::same_edges(t, now))
+      return true;
     const auto corner = triangulation.find_edge(t.vertex[0], t.vertex[1]);
     return corner && triangulation.vertex(*corner) == t.vertex[2] &&
            triangulation[corner->triangle].region == Region::domain;
@@ -211,7 +214,7 @@ void count(MeshData& mesh, const std::vector<VertexId>& moved, RemodelResult& re
   for (const Triangulation::Earlier& earlier : triangulation.earlier()) {
     if (!earlier.triangle.alive() || earlier.triangle.region != Region::domain) continue;
     ++before;
-    if (!survives(earlier.triangle)) ++lost;
+    if (!survives(earlier.id, earlier.triangle)) ++lost;
   }
   for (const TriangleId t : triangulation.touched())
     if (triangulation[t].alive() && triangulation[t].region == Region::domain) ++after;
@@ -228,12 +231,6 @@ bool cancelled(StepObserver* observer) {
   return observer != nullptr && observer->cancelled();
 }
 
-bool same_corners(const Triangle& a, const Triangle& b) {
-  const int i = b.corner_of(a.vertex[0]);
-  return a.vertex[0] == b.vertex[i] && a.vertex[1] == b.vertex[next3(i)] &&
-         a.vertex[2] == b.vertex[previous3(i)];
-}
-
 // Refinement of what was touched. A refinement that needs several times the old mesh is running away.
 // Triangles that still join the same vertices are kept: they need only hold what the mesh promises.
 Stopped refine_touched(MeshData& mesh, StepObserver* observer) {
@@ -241,15 +238,8 @@ Stopped refine_touched(MeshData& mesh, StepObserver* observer) {
   Refiner refiner(mesh, observer);
   const std::size_t runaway = 4 * triangulation.vertex_count() + 10000;
   refiner.limit_vertices(std::min<std::size_t>(mesh.options.max_vertices, runaway));
-  auto earlier = triangulation.earlier().begin();  // in the order of touched(), without new slots
-  for (const TriangleId t : triangulation.touched()) {
-    const bool was_there = earlier != triangulation.earlier().end() && earlier->id == t;
-    if (was_there && same_corners(earlier->triangle, triangulation[t]))
-      refiner.consider_kept(t);
-    else
-      refiner.consider(t);
-    if (was_there) ++earlier;
-  }
+  triangulation.for_each_touched(
+      [&](TriangleId t, bool same) { same ? refiner.consider_kept(t) : refiner.consider(t); });
   return refiner.run();
 }
 

@@ -19,6 +19,13 @@ void Triangulation::remember(TriangleId t) {
   triangles_[t.index].journal = journal_;
 }
 
+bool Triangulation::same_edges(const Triangle& a, const Triangle& b) {
+  const int shift = b.corner_of(a.vertex[0]);
+  for (int i = 0, j = shift; i < 3; ++i, j = next3(j))
+    if (a.vertex[i] != b.vertex[j] || a.link[i].constrained() != b.link[j].constrained()) return false;
+  return true;
+}
+
 void Triangulation::begin() {
   assert(!journalling_);
   for (FreeList* list : {&free_vertices_, &free_triangles_}) list->slots.resize(list->count);

@@ -189,6 +189,21 @@ class Triangulation {
   };
   std::span<const TriangleId> touched() const { return touched_; }
   std::span<const Earlier> earlier() const { return triangle_journal_; }
+  // Whether two states of a triangle have the same vertices, and the same edges constrained.
+  static bool same_edges(const Triangle& a, const Triangle& b);
+  // Visits the touched triangles that are there: visit(id, whether it is at the vertices, and behind the
+  // constraints, that it had at begin()).
+  template <class Visit>
+  void for_each_touched(Visit visit) const {
+    auto before = triangle_journal_.begin();  // in the order of touched_, without new slots
+    for (std::size_t i = 0; i < touched_.size(); ++i) {
+      const TriangleId t = touched_[i];
+      const bool was_there = before != triangle_journal_.end() && before->id == t;
+      const Triangle* earlier = was_there ? &(before++)->triangle : nullptr;
+      const Triangle& now = triangles_[t.index];
+      if (now.alive()) visit(t, earlier != nullptr && earlier->alive() && same_edges(*earlier, now));
+    }
+  }
   // The states of vertices before each change since begin(): of several of one vertex the first is that at
   // begin(). Vertices made since then are not in it.
   struct VertexBefore {
@@ -218,6 +233,7 @@ class Triangulation {
     return vertices_[v.index];
   }
   void remember(TriangleId t);
+
   std::string check_triangle(std::uint32_t index) const;
   void set_star(VertexId v, TriangleId t, int corner) {
     const Link star(t, corner);
