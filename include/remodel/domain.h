@@ -6,7 +6,10 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <initializer_list>
+#include <memory>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -51,13 +54,44 @@ using Shape = std::variant<CstAirfoil, Line, Polyline, Arc, Spline>;
 
 Point point_at(const Shape& shape, double t);
 
+// A list of numbers that its copies share, so that a copied domain, of which a design changes one loop, is
+// compared with the original without a look at all stations of the others. Otherwise like a const vector.
+class Parameters {
+ public:
+  Parameters() = default;
+  Parameters(std::vector<double> values)
+      : values_(std::make_shared<const std::vector<double>>(std::move(values))) {}
+  Parameters(std::initializer_list<double> values) : Parameters(std::vector<double>(values)) {}
+  static Parameters uniform(std::size_t pieces);  // i / pieces, from 0
+
+  operator const std::vector<double>&() const { return values_ ? *values_ : none(); }
+  const std::vector<double>& values() const { return *this; }
+  std::size_t size() const { return values().size(); }
+  bool empty() const { return values().empty(); }
+  double operator[](std::size_t i) const { return values()[i]; }
+  double front() const { return values().front(); }
+  double back() const { return values().back(); }
+  std::vector<double>::const_iterator begin() const { return values().begin(); }
+  std::vector<double>::const_iterator end() const { return values().end(); }
+  friend bool operator==(const Parameters& a, const Parameters& b) {
+    return a.values_ == b.values_ || a.values() == b.values();
+  }
+
+ private:
+  static const std::vector<double>& none() {
+    static const std::vector<double> empty;
+    return empty;
+  }
+  std::shared_ptr<const std::vector<double>> values_;
+};
+
 // One curve of a loop. name becomes the boundary marker of the mesh ("airfoil", "farfield", "inlet"); several
 // curves may share it. parameters is the initial discretisation, strictly increasing from 0, the curve's end
 // (1) left out: it is the first point of the loop's next curve.
 struct Curve {
   std::string name;
   Shape shape;
-  std::vector<double> parameters;
+  Parameters parameters;
   friend bool operator==(const Curve&, const Curve&) = default;
 };
 
@@ -144,6 +178,7 @@ double signed_area(const Domain& domain, std::size_t loop);
 // vertices correspond one to one (the premise of the specialised method, section 4.2). Placements may differ,
 // and the ends of chains may be joined otherwise.
 bool one_to_one(const Domain& a, const Domain& b);
+bool one_to_one(const Loop& a, const Loop& b);
 
 // The paper's case: an airfoil of `points` vertices, x = (1 + cos 2 pi t)/2 at t = i/points, in a circle
 // about (0.5, 0). Loop 0 is the airfoil, loop 1 the farfield, both counter-clockwise. Names: "airfoil",

@@ -264,7 +264,9 @@ TEST(Limits, CurvesThatTouchBetweenTheirStationsEndInOrder) {
   Domain domain{{test::loop(LoopRole::outer, "outer",
                             Polyline{{{0, 0}, {1, 0}, {1, 1}, {0.5, 0.75}, {0, 1}, {0, 0}}}, 5),
                  test::polygon(LoopRole::hole, "hole", {{0.84375, 0.921875}, {0.8, 0.5}, {0.7, 0.5}})}};
-  domain.loops[0].curves[0].parameters.erase(domain.loops[0].curves[0].parameters.begin() + 3);
+  std::vector<double> stations = domain.loops[0].curves[0].parameters;
+  stations.erase(stations.begin() + 3);
+  domain.loops[0].curves[0].parameters = stations;
   const GenerateResult result = generate(domain);
   EXPECT_EQ(result.stopped, Stopped::minimum_edge);
   EXPECT_EQ(result.mesh.data().triangulation.check(), "");
@@ -342,14 +344,14 @@ TEST(SmallAngles, FindsCornersInsideTheDomainOnly) {
   options.max_vertices = 1;
   const Mesh mesh = generate(wedge, options).mesh;
   const SmallAngles angles(mesh.data());
-  EXPECT_FALSE(angles.none());
+  EXPECT_GT(angles.count(), 0);
   for (const std::uint32_t k : {0U, 1U, 2U})
     EXPECT_EQ(angles.is_corner(mesh.data().at(k).vertex), mesh.data().point(k) == (Point{0, 0}));
   const Mesh hole =
       generate(test::with_holes({polygon(LoopRole::hole, "hole", {{0.2, 0.2}, {0.8, 0.2}, {0.8, 0.3}})}),
                options)
           .mesh;
-  EXPECT_TRUE(SmallAngles(hole.data()).none());
+  EXPECT_EQ(SmallAngles(hole.data()).count(), 0);
 }
 
 TEST(SmallAngles, ShellsArePowersOfTwoBetweenAThirdAndTwoThirds) {

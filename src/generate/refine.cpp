@@ -12,17 +12,6 @@ namespace {
 
 constexpr int max_depth = 12;  // of splits that other splits ask for: see split_far()
 
-double domain_size(const MeshData& mesh) {
-  Point low = mesh.point(mesh.loop_heads.front()), high = low;
-  for (const std::uint32_t head : mesh.loop_heads)
-    mesh.walk(head, [&](std::uint32_t k) {
-      const Point p = mesh.point(k);
-      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    });
-  return std::sqrt(squared_distance(low, high));
-}
-
 bool encroaches(Point p, Point a, Point b) {
   return dot(a - p, b - p) < 0.0;
 }
@@ -38,7 +27,7 @@ Refiner::Refiner(MeshData& mesh, StepObserver* observer)
       small_angles_(mesh),
       vertex_limit_(mesh.options.max_vertices),
       observer_(observer) {
-  const double shortest = mesh.options.min_edge > 0.0 ? mesh.options.min_edge : 1e-12 * domain_size(mesh);
+  const double shortest = mesh.options.min_edge > 0.0 ? mesh.options.min_edge : 1e-12 * mesh.extent();
   squared_min_edge_ = shortest * shortest;
   promised_.squared_gradation = QualityBounds(mesh.options).squared_gradation;
 }
@@ -262,17 +251,16 @@ void Refiner::set_split_length_scale(std::uint32_t k, VertexId a, VertexId b) {
 // back, and the segment counts as too short. Under a journal of the caller's it is the caller who takes it
 // back.
 std::uint32_t Refiner::try_split_far(Segment segment, Point p, double t) {
-  const std::vector<BoundaryVertex> boundary = mesh_.boundary;
-  const std::vector<std::uint32_t> free_boundary = mesh_.free_boundary;
   triangulation_.begin();
+  mesh_.boundary.begin();
   try {
     const std::uint32_t k = split_far(segment, p, t, 0);
     triangulation_.commit();
+    mesh_.boundary.commit();
     return k;
   } catch (const RecoveryError&) {
     triangulation_.rollback();
-    mesh_.boundary = boundary;
-    mesh_.free_boundary = free_boundary;
+    mesh_.boundary.rollback();
     refuse(segment);
     return no_index;
   }

@@ -45,10 +45,9 @@ Domain domain_of(const Drawn& drawn) {
     const auto begin = outline.begin() + static_cast<std::ptrdiff_t>(k * sides);
     const auto end =
         k + 1 == drawn.names.size() ? outline.end() : begin + static_cast<std::ptrdiff_t>(sides) + 1;
-    Curve curve{.name = drawn.names[k], .shape = Polyline{{begin, end}}, .parameters = {}};
-    for (std::ptrdiff_t i = 0; i + 1 < end - begin; ++i)
-      curve.parameters.push_back(static_cast<double>(i) / static_cast<double>(end - begin - 1));
-    loop.curves.push_back(std::move(curve));
+    loop.curves.push_back({.name = drawn.names[k],
+                           .shape = Polyline{{begin, end}},
+                           .parameters = Parameters::uniform(static_cast<std::size_t>(end - begin - 1))});
   }
   Domain domain{{loop, test::rectangle(LoopRole::outer, "outer", {-2, -2}, {6, 6}, 8)}};
   validate(domain);

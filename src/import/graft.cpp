@@ -92,7 +92,7 @@ void graft(const SoundMesh& mesh, const LoopsOfMesh& loops, MeshData& data) {
   if (const std::string broken = state.restore(data.triangulation); !broken.empty())
     throw RecoveryError(broken);
   for (std::uint32_t k = 0; k < data.boundary.size(); ++k) {
-    data.boundary[k].vertex = vertices[data.boundary[k].vertex.index];
+    data.boundary.edit(k).vertex = vertices[data.boundary[k].vertex.index];
     data.triangulation.set_boundary(data.boundary[k].vertex, k);
   }
 }

@@ -48,16 +48,12 @@ void begin_with_first(Chain& chain) {
 }
 
 Curve curve_of(const SoundMesh& mesh, Chain::const_iterator begin, Chain::const_iterator end) {
-  Curve curve{.name = mesh.markers[begin->marker], .shape = {}, .parameters = {}};
   Polyline line;
-  const auto pieces = static_cast<double>(end - begin);
-  for (auto edge = begin; edge != end; ++edge) {
-    line.points.push_back(mesh.points[edge->from]);
-    curve.parameters.push_back(static_cast<double>(edge - begin) / pieces);
-  }
+  for (auto edge = begin; edge != end; ++edge) line.points.push_back(mesh.points[edge->from]);
   line.points.push_back(mesh.points[(end - 1)->to]);
-  curve.shape = std::move(line);
-  return curve;
+  return {.name = mesh.markers[begin->marker],
+          .shape = std::move(line),
+          .parameters = Parameters::uniform(static_cast<std::size_t>(end - begin))};
 }
 
 Loop loop_of(const SoundMesh& mesh, const Chain& chain) {

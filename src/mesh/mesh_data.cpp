@@ -41,7 +41,6 @@ MeshData::MeshData(const MeshData& other)
       domain(other.domain),
       options(other.options),
       boundary(other.boundary),
-      free_boundary(other.free_boundary),
       loop_heads(other.loop_heads),
       sides(other.sides),
       domain_triangles(other.domain_triangles),
@@ -49,7 +48,9 @@ MeshData::MeshData(const MeshData& other)
       renewal(other.renewal),
       imported(other.imported),
       curve_places_(other.curve_places_) {
-  if (triangulation.journalling()) triangulation.commit();
+  if (!triangulation.journalling()) return;
+  triangulation.commit();
+  boundary.commit();
 }
 
 void MeshData::index_curves() {
@@ -78,13 +79,7 @@ double MeshData::end_parameter(std::uint32_t k) const {
 }
 
 std::uint32_t MeshData::add_boundary_vertex(BoundaryVertex vertex, std::uint32_t previous) {
-  auto k = static_cast<std::uint32_t>(boundary.size());
-  if (free_boundary.empty()) {
-    boundary.emplace_back();
-  } else {
-    k = free_boundary.back();
-    free_boundary.pop_back();
-  }
+  const std::uint32_t k = boundary.add();
   const std::uint32_t next = previous == no_index ? no_index : boundary[previous].next;
   vertex.previous = previous;
   vertex.next = next;
@@ -93,29 +88,28 @@ std::uint32_t MeshData::add_boundary_vertex(BoundaryVertex vertex, std::uint32_t
   vertex.station = vertex.steiner ? station_before : k;
   vertex.previous_station = vertex.steiner ? no_index : station_before;
   vertex.next_station = no_index;
-  if (!vertex.steiner && station_before != no_index) boundary[station_before].next_station = k;
-  boundary[k] = vertex;
-  if (previous != no_index) boundary[previous].next = k;
-  if (next != no_index) boundary[next].previous = k;
+  if (!vertex.steiner && station_before != no_index) boundary.edit(station_before).next_station = k;
+  boundary.edit(k) = vertex;
+  if (previous != no_index) boundary.edit(previous).next = k;
+  if (next != no_index) boundary.edit(next).previous = k;
   if (const std::uint32_t other = triangulation[vertex.vertex].boundary; other != no_index)
-    std::swap(boundary[k].twin, boundary[other].twin);
+    std::swap(boundary.edit(k).twin, boundary.edit(other).twin);
   else
     triangulation.set_boundary(vertex.vertex, k);
   return k;
 }
 
 void MeshData::close_loop(std::uint32_t head, std::uint32_t last) {
-  boundary[head].previous = last;
-  boundary[last].next = head;
-  boundary[head].previous_station = boundary[last].station;
-  boundary[boundary[last].station].next_station = head;
+  boundary.edit(head).previous = last;
+  boundary.edit(last).next = head;
+  boundary.edit(head).previous_station = boundary[last].station;
+  boundary.edit(boundary[last].station).next_station = head;
 }
 
 void MeshData::remove_boundary_vertex(std::uint32_t k) {
-  boundary[boundary[k].previous].next = boundary[k].next;
-  boundary[boundary[k].next].previous = boundary[k].previous;
-  boundary[k] = {};
-  free_boundary.push_back(k);
+  boundary.edit(boundary[k].previous).next = boundary[k].next;
+  boundary.edit(boundary[k].next).previous = boundary[k].previous;
+  boundary.drop(k);
 }
 
 namespace {
@@ -139,16 +133,31 @@ Sides sides_of(LoopRole role, bool counterclockwise) {
 
 }  // namespace
 
-void MeshData::orient_loops() {
-  sides.clear();
-  for (std::size_t loop = 0; loop < loop_heads.size(); ++loop) {
-    const Point origin = point(loop_heads[loop]);
-    double twice_area = 0.0;
-    walk_edges(loop_heads[loop], [&](std::uint32_t k, std::uint32_t next) {
-      twice_area += cross(point(k) - origin, point(next) - origin);
+double MeshData::extent() const {
+  if (extent_ >= 0.0) return extent_;
+  Point low = point(loop_heads.front()), high = low;
+  for (const std::uint32_t head : loop_heads)
+    walk(head, [&](std::uint32_t k) {
+      const Point p = point(k);
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
     });
-    sides.push_back(sides_of(domain.loops[loop].role, twice_area > 0.0));
-  }
+  return extent_ = std::sqrt(squared_distance(low, high));
+}
+
+void MeshData::orient_loops() {
+  forget_extent();
+  sides.resize(loop_heads.size());
+  for (std::size_t loop = 0; loop < loop_heads.size(); ++loop) orient_loop(loop);
+}
+
+void MeshData::orient_loop(std::size_t loop) {
+  const Point origin = point(loop_heads[loop]);
+  double twice_area = 0.0;
+  walk_edges(loop_heads[loop], [&](std::uint32_t k, std::uint32_t next) {
+    twice_area += cross(point(k) - origin, point(next) - origin);
+  });
+  sides[loop] = sides_of(domain.loops[loop].role, twice_area > 0.0);
 }
 
 bool MeshData::label_regions() {
@@ -210,7 +219,7 @@ double MeshData::base_length_scale(std::uint32_t k) const {
 void MeshData::set_boundary_length_scale(std::uint32_t k, double value) {
   triangulation.set_length_scale(boundary[k].vertex, value);
   const double factor = value / base_length_scale(k);
-  at_vertex(k, [&](std::uint32_t e) { boundary[e].scale_factor = factor; });
+  at_vertex(k, [&](std::uint32_t e) { boundary.edit(e).scale_factor = factor; });
 }
 
 }  // namespace remodel

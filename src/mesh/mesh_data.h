@@ -9,26 +9,12 @@
 #include <vector>
 
 #include "mesh/bad_triangles.h"
+#include "mesh/boundary_table.h"
 #include "remodel/domain.h"
 #include "remodel/mesh.h"
 #include "triangulation/triangulation.h"
 
 namespace remodel {
-
-// A place of a loop or chain at a vertex. The constrained edge from it runs to `next`. Where the ends of
-// chains join other loops, one vertex has several of these; its own record names the first.
-struct BoundaryVertex {
-  VertexId vertex;
-  std::uint32_t curve = 0;  // index over all curves of the domain
-  double t = 0.0;
-  bool steiner = false;       // inserted by refinement, not part of the initial discretisation
-  double scale_factor = 1.0;  // length scale over what the curves alone would give: see base_length_scale()
-  std::uint32_t next = no_index, previous = no_index;  // indices of the boundary table; none at chains' ends
-  std::uint32_t twin =
-      no_index;  // another one at the same vertex, in a ring: itself where it is the only one
-  std::uint32_t station = no_index;  // the last non-Steiner entry up to here: itself, if it is one
-  std::uint32_t next_station = no_index, previous_station = no_index;  // of a non-Steiner entry
-};
 
 // What lies beside a loop, looking along it.
 struct Sides {
@@ -76,10 +62,9 @@ class MeshData {
   Triangulation triangulation;
   Domain domain;
   QualityOptions options;
-  std::vector<BoundaryVertex> boundary;      // order without meaning; see walk()
-  std::vector<std::uint32_t> free_boundary;  // unused indices of the boundary table
-  std::vector<std::uint32_t> loop_heads;     // boundary index of each loop's first station
-  std::vector<Sides> sides;                  // of each loop
+  BoundaryTable boundary;                 // see walk()
+  std::vector<std::uint32_t> loop_heads;  // boundary index of each loop's first station
+  std::vector<Sides> sides;               // of each loop
   std::size_t domain_triangles = 0;
   std::uint32_t step = 0;
   RenewalState renewal;
@@ -152,8 +137,16 @@ class MeshData {
   void close_loop(std::uint32_t head, std::uint32_t last);
   // Takes it out of its loop. Precondition: a Steiner vertex.
   void remove_boundary_vertex(std::uint32_t k);
-  // Sets the sides from the roles and the vertices of the loops.
+  // The diagonal of the box of all boundary vertices; kept until a loop moves that may be the outermost.
+  double extent() const;
+  void loop_moved(std::size_t loop) {
+    if (domain.loops[loop].role != LoopRole::hole) forget_extent();
+  }
+  void forget_extent() { extent_ = -1.0; }
+
+  // Sets the sides from the roles and the vertices of the loops: of all, or of one.
   void orient_loops();
+  void orient_loop(std::size_t loop);
   // Labels all triangles from the constrained edges of all loops: O(triangles). False where loops contradict
   // each other.
   bool label_regions();
@@ -178,6 +171,7 @@ class MeshData {
     std::uint32_t loop, position;
   };
   std::vector<CurvePlace> curve_places_;
+  mutable double extent_ = -1.0;  // negative: unknown
 };
 
 // Empty, or what is wrong with the boundary: vertices on the design's curves, edges there and constrained,

@@ -305,7 +305,7 @@ TEST_F(BrokenMesh, ByABoundaryVertexWithoutALengthScale) {
 }
 
 TEST_F(BrokenMesh, ByAStationThatBecameSteiner) {
-  data.boundary[boundary].steiner = true;
+  data.boundary.edit(boundary).steiner = true;
   expect("stations of the design are missing");
 }
 
@@ -315,7 +315,7 @@ TEST_F(BrokenMesh, ByALoopThatRunsTheOtherWay) {
 }
 
 TEST_F(BrokenMesh, ByAVertexSplitOffTheBoundary) {
-  data.boundary[data.at(boundary).previous].next = data.at(boundary).next;
+  data.boundary.edit(data.at(boundary).previous).next = data.at(boundary).next;
   EXPECT_NE(mesh.quick_check(), "");
 }
 

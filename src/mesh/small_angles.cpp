@@ -13,7 +13,8 @@ bool sharp(Point u, Point v) {
   return cross(u, v) > 0.0 && dot(u, v) > 0.5 * std::sqrt(dot(u, u) * dot(v, v));
 }
 
-// An edge at a vertex: where it leads, and whether the domain is on its left, seen from the vertex.
+// An edge of the initial discretisation at a vertex, so that no split changes what is small: where it leads,
+// and whether the domain is on its left, seen from the vertex.
 struct Leg {
   Point direction;
   bool domain_on_left;
@@ -22,9 +23,9 @@ struct Leg {
 void add_legs(const MeshData& mesh, std::uint32_t k, std::vector<Leg>& legs) {
   mesh.at_vertex(k, [&](std::uint32_t e) {
     const Sides& sides = mesh.sides[mesh.loop_of(mesh.at(e).curve)];
-    if (const std::uint32_t next = mesh.at(e).next; next != no_index)
+    if (const std::uint32_t next = mesh.at(e).next_station; next != no_index)
       legs.push_back({mesh.point(next) - mesh.point(e), sides.left == Region::domain});
-    if (const std::uint32_t previous = mesh.at(e).previous; previous != no_index)
+    if (const std::uint32_t previous = mesh.at(e).previous_station; previous != no_index)
       legs.push_back({mesh.point(previous) - mesh.point(e), sides.right == Region::domain});
   });
 }
@@ -40,8 +41,8 @@ bool comes_before(const Leg& a, const Leg& b) {
 bool may_be_sharp(const MeshData& mesh, std::uint32_t k) {
   const BoundaryVertex& v = mesh.at(k);
   if (v.twin != k) return true;
-  if (v.next == no_index || v.previous == no_index) return false;
-  const Point p = mesh.point(k), u = mesh.point(v.next) - p, w = mesh.point(v.previous) - p;
+  if (v.next_station == no_index || v.previous_station == no_index) return false;
+  const Point p = mesh.point(k), u = mesh.point(v.next_station) - p, w = mesh.point(v.previous_station) - p;
   const double product = dot(u, w);
   return product > 0.0 && product * product >= 0.24 * (dot(u, u) * dot(w, w));
 }
@@ -79,22 +80,24 @@ void for_each_neighbour(const MeshData& mesh, std::uint32_t k, Visit visit) {
 
 }  // namespace
 
-SmallAngles::SmallAngles(const MeshData& mesh) : mesh_(mesh) {
-  std::vector<Leg> legs;
-  for (const std::uint32_t head : mesh.loop_heads)
-    mesh.walk(head, [&](std::uint32_t k) {
-      if (may_be_sharp(mesh, k) && is_sharp(mesh, k, legs)) corners_.push_back(mesh.at(k).vertex);
+std::size_t SmallAngles::count() const {
+  std::vector<VertexId> corners;
+  for (const std::uint32_t head : mesh_.loop_heads)
+    mesh_.walk(head, [&](std::uint32_t k) {
+      if (is_corner(mesh_.at(k).vertex)) corners.push_back(mesh_.at(k).vertex);
     });
-  std::sort(corners_.begin(), corners_.end());
-  corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
+  std::sort(corners.begin(), corners.end());
+  return static_cast<std::size_t>(std::unique(corners.begin(), corners.end()) - corners.begin());
 }
 
 bool SmallAngles::is_corner(VertexId v) const {
-  return std::binary_search(corners_.begin(), corners_.end(), v);
+  const std::uint32_t k = mesh_.triangulation[v].boundary;
+  if (!may_be_sharp(mesh_, k)) return false;
+  std::vector<Leg> legs;
+  return is_sharp(mesh_, k, legs);
 }
 
 bool SmallAngles::seditious(VertexId a, VertexId b) const {
-  if (corners_.empty()) return false;
   const std::uint32_t ka = mesh_.triangulation[a].boundary, kb = mesh_.triangulation[b].boundary;
   if (ka == no_index || kb == no_index) return false;
   bool found = false;
@@ -114,7 +117,6 @@ bool SmallAngles::seditious(VertexId a, VertexId b) const {
 }
 
 bool SmallAngles::exempt(const Triangle& triangle) const {
-  if (corners_.empty()) return false;
   int shortest = 0;
   double length = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
@@ -134,7 +136,7 @@ double SmallAngles::shell_fraction(double length) {
 
 std::size_t count_exempt(const MeshData& mesh) {
   const SmallAngles small_angles(mesh);
-  if (small_angles.none()) return 0;
+  if (small_angles.count() == 0) return 0;
   const QualityBounds bounds(mesh.options);
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < mesh.triangulation.triangle_slots(); ++i) {

@@ -14,11 +14,10 @@ namespace remodel {
 
 class SmallAngles {
  public:
-  // O(boundary vertices). Looks at the boundary table alone: its edges need not be in the triangulation.
-  explicit SmallAngles(const MeshData& mesh);
+  // Looks at the boundary table alone: its edges need not be in the triangulation.
+  explicit SmallAngles(const MeshData& mesh) : mesh_(mesh) {}
 
-  bool none() const { return corners_.empty(); }
-  std::size_t count() const { return corners_.size(); }
+  std::size_t count() const;  // of small corners: O(boundary vertices)
   // Whether the boundary vertex is a corner of less than 60 degrees inside the domain.
   bool is_corner(VertexId v) const;
   // Whether the edge a-b joins two edges at one small corner at the same distance from it.
@@ -30,7 +29,6 @@ class SmallAngles {
 
  private:
   const MeshData& mesh_;
-  std::vector<VertexId> corners_;  // ascending
 };
 
 // The triangles of the domain that are bad and exempt. O(triangles) where there are small angles.

@@ -25,10 +25,10 @@ void begin_at_a_change(Chain& chain) {
 }
 
 Curve curve_through(std::string name, std::vector<Point>&& points) {
-  Curve curve{.name = std::move(name), .shape = Line{points.front(), points.back()}, .parameters = {}};
   const std::size_t pieces = points.size() - 1;
-  for (std::size_t i = 0; i < pieces; ++i)
-    curve.parameters.push_back(static_cast<double>(i) / static_cast<double>(pieces));
+  Curve curve{.name = std::move(name),
+              .shape = Line{points.front(), points.back()},
+              .parameters = Parameters::uniform(pieces)};
   if (pieces > 1) curve.shape = Polyline{std::move(points)};
   return curve;
 }

@@ -37,7 +37,7 @@ void add_moving(const MeshData& mesh, AdjustCache& cache, std::uint32_t k, const
   cache.moving.push_back(moving);
 }
 
-void list_moving(const MeshData& mesh, AdjustCache& cache, const AdjustCache* earlier) {
+void list_moving(MeshData& mesh, AdjustCache& cache, const AdjustCache* earlier) {
   for (const bool steiner : {false, true}) {
     for (const std::size_t loop : cache.loops)
       mesh.walk(mesh.loop_heads[loop], [&](std::uint32_t k) {
@@ -45,7 +45,8 @@ void list_moving(const MeshData& mesh, AdjustCache& cache, const AdjustCache* ea
       });
     if (!steiner) cache.non_steiner = cache.moving.size();
   }
-  std::vector<std::uint32_t> position(mesh.boundary.size(), no_index);
+  std::vector<std::uint32_t>& position = mesh.numbers;  // in cache.moving, of the boundary's entries there
+  if (position.size() < mesh.boundary.size()) position.resize(mesh.boundary.size());
   for (std::uint32_t i = 0; i < cache.moving.size(); ++i) position[cache.moving[i].boundary] = i;
   for (Moving& m : cache.moving) {
     std::uint32_t before = mesh.non_steiner_before(m.boundary), after = mesh.non_steiner_after(m.boundary);

@@ -174,10 +174,8 @@ class LoopReplacement {
   // The boundary table of the new domain: kept loops as they are, new ones inserted. A vertex that is already
   // at a station (the trailing edge, often) becomes the boundary vertex.
   void rebuild_table() {
-    const std::vector<BoundaryVertex> old_table = std::move(mesh_.boundary);
+    const std::vector<BoundaryVertex> old_table = mesh_.boundary.take_all();
     const std::vector<std::uint32_t> old_heads = std::move(mesh_.loop_heads);
-    mesh_.boundary.clear();
-    mesh_.free_boundary.clear();
     mesh_.loop_heads.clear();
     mesh_.domain = domain_;
     mesh_.index_curves();

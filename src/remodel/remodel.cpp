@@ -32,16 +32,19 @@ namespace {
 // The adjustment cache stays: it holds for the mesh as it was before the step.
 class Transaction {
  public:
-  explicit Transaction(MeshData& mesh)
+  // The step changes these loops at most: all, if not given.
+  Transaction(MeshData& mesh, const std::optional<std::vector<std::size_t>>& loops)
       : mesh_(mesh),
-        boundary_(mesh.boundary),
-        free_boundary_(mesh.free_boundary),
         loop_heads_(mesh.loop_heads),
         sides_(mesh.sides),
-        domain_(mesh.domain),
+        loops_(loops),
+        domain_(loops ? Domain{} : mesh.domain),
         domain_triangles_(mesh.domain_triangles),
         step_(mesh.step),
         renewal_(mesh.renewal) {
+    if (loops)
+      for (const std::size_t loop : *loops) domain_.loops.push_back(mesh.domain.loops[loop]);
+    mesh.boundary.begin();
     mesh.triangulation.begin();
     mesh.triangulation.set_step(mesh.step + 1);
   }
@@ -50,12 +53,16 @@ class Transaction {
   ~Transaction() {
     if (committed_) return;
     mesh_.triangulation.rollback();
-    mesh_.boundary.swap(boundary_);
-    mesh_.free_boundary.swap(free_boundary_);
+    mesh_.boundary.rollback();
     mesh_.loop_heads.swap(loop_heads_);
     mesh_.sides.swap(sides_);
-    mesh_.domain.loops.swap(domain_.loops);
+    if (loops_)
+      for (std::size_t i = 0; i < loops_->size(); ++i)
+        std::swap(mesh_.domain.loops[(*loops_)[i]], domain_.loops[i]);
+    else
+      mesh_.domain.loops.swap(domain_.loops);
     mesh_.index_curves();
+    mesh_.forget_extent();
     mesh_.domain_triangles = domain_triangles_;
     mesh_.step = step_;
     mesh_.renewal = renewal_;
@@ -66,32 +73,37 @@ class Transaction {
     ++mesh_.step;
     replaced_ = true;
     if (!mesh_.cache) return;
-    if (!same_rows(domain_, mesh_.domain))
+    if (!same_rows())
       mesh_.cache.reset();
     else
       stale_ = std::exchange(mesh_.cache->stale, true);
   }
   void commit() {
     mesh_.triangulation.commit();
+    mesh_.boundary.commit();
     committed_ = true;
   }
 
  private:
   // Whether what a stale cache keeps of the non-Steiner vertices holds for both domains.
-  static bool same_rows(const Domain& a, const Domain& b) {
-    if (!one_to_one(a, b)) return false;
-    for (std::size_t i = 0; i < a.curve_count(); ++i) {
-      const auto* airfoil = std::get_if<CstAirfoil>(&a.curve(i).shape);
-      if (airfoil != nullptr && !same_basis(*airfoil, std::get<CstAirfoil>(b.curve(i).shape))) return false;
+  bool same_rows() const {
+    if (!loops_) return false;
+    for (std::size_t i = 0; i < loops_->size(); ++i) {
+      const Loop &a = domain_.loops[i], &b = mesh_.domain.loops[(*loops_)[i]];
+      for (std::size_t c = 0; c < a.curves.size(); ++c) {
+        const auto* airfoil = std::get_if<CstAirfoil>(&a.curves[c].shape);
+        if (airfoil != nullptr && !same_basis(*airfoil, std::get<CstAirfoil>(b.curves[c].shape)))
+          return false;
+      }
     }
     return true;
   }
 
   MeshData& mesh_;
-  std::vector<BoundaryVertex> boundary_;
-  std::vector<std::uint32_t> free_boundary_, loop_heads_;
+  std::vector<std::uint32_t> loop_heads_;
   std::vector<Sides> sides_;
-  Domain domain_;
+  std::optional<std::vector<std::size_t>> loops_;
+  Domain domain_;  // those loops, or all
   std::size_t domain_triangles_;
   std::uint32_t step_;
   RenewalState renewal_;
@@ -112,7 +124,9 @@ class Undo {
     mesh_.data().options.keep = keep_;
   }
   bool journalling() const { return transaction_.has_value(); }
-  void begin() { transaction_.emplace(mesh_.data()); }
+  void begin(const std::optional<std::vector<std::size_t>>& loops) {
+    transaction_.emplace(mesh_.data(), loops);
+  }
   Transaction& transaction() { return *transaction_; }
   void roll_back() {
     transaction_.reset();
@@ -138,23 +152,24 @@ class Undo {
   std::optional<Mesh> before_;  // a mesh that was generated afresh takes its place
 };
 
-std::vector<std::size_t> moving_loops(const Domain& from, const Domain& to) {
-  std::vector<std::size_t> loops;
-  for (std::size_t i = 0; i < from.loops.size(); ++i)
-    if (!(from.loops[i] == to.loops[i])) loops.push_back(i);
-  return loops;
-}
+using Loops = std::vector<std::size_t>;
 
-// Whether the vertices of the two domains correspond one to one, and no other chain is joined to one that
-// moves.
-bool corresponds(const MeshData& mesh, const Domain& domain) {
-  if (!one_to_one(mesh.domain, domain)) return false;
-  const auto open = [](const Loop& loop) { return loop.open; };
-  if (std::none_of(domain.loops.begin(), domain.loops.end(), open)) return true;
-  bool joined = false;
-  for (const std::size_t loop : moving_loops(mesh.domain, domain))
-    mesh.walk(mesh.loop_heads[loop], [&](std::uint32_t k) { joined |= mesh.at(k).twin != k; });
-  return !joined;
+// The loops that are not the same in the mesh's own domain and in the other: where the vertices of the two
+// correspond one to one, and no other chain is joined to one that moves.
+std::optional<Loops> moving_loops(const MeshData& mesh, const Domain& domain) {
+  const std::vector<Loop>&from = mesh.domain.loops, &to = domain.loops;
+  if (from.size() != to.size()) return std::nullopt;
+  Loops moving;
+  bool open = false, joined = false;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    open |= to[i].open;
+    if (from[i] == to[i]) continue;
+    if (!one_to_one(from[i], to[i])) return std::nullopt;
+    moving.push_back(i);
+  }
+  for (std::size_t i = 0; open && i < moving.size(); ++i)
+    mesh.walk(mesh.loop_heads[moving[i]], [&](std::uint32_t k) { joined |= mesh.at(k).twin != k; });
+  return joined ? std::nullopt : std::optional(std::move(moving));
 }
 
 // Airfoils whose surfaces cross are refused here, before anything is touched: this is cheap enough for every
@@ -183,6 +198,7 @@ RemodelResult full_adjustment(MeshData& mesh, AdjustCache& cache) {
   for (std::size_t i = 0; i < cache.loops.size(); ++i) {
     Loop& loop = mesh.domain.loops[cache.loops[i]];
     std::swap(loop.placement, cache.placements[i]);
+    mesh.loop_moved(cache.loops[i]);
     for (Curve& curve : loop.curves) {
       curve.shape.swap(cache.shapes[n]);
       if (const auto* airfoil = std::get_if<CstAirfoil>(&curve.shape))
@@ -359,16 +375,16 @@ bool keeps_a_loop(const MeshData& mesh, const AdjustCache& cache) {
 
 // One step, which `undo` can take back. A full adjustment is the exception: it is journalled if undo is when
 // the step begins (trials), otherwise it cannot be taken back, and does not need to be.
-RemodelResult remodel_step(Mesh& mesh, const Domain& domain, const RemodelOptions& options, Method& method,
-                           Undo& undo) {
+RemodelResult remodel_step(Mesh& mesh, const Domain& domain, const std::optional<Loops>& moving,
+                           const RemodelOptions& options, Method& method, Undo& undo) {
   MeshData& data = mesh.data();
   AdjustCache* cache = nullptr;
   const bool renewing = renews(data, options);
   if (renewing) data.options.keep = std::max(data.options.keep, resolved_keep(options, data.options));
   if (method == Method::specialised) {
-    cache = &adjust_cache(data, moving_loops(data.domain, domain));
+    cache = &adjust_cache(data, *moving);
     const bool due = renewing && refresh_is_due(data, data.renewal.full_adjustments);
-    if (due && !undo.journalling()) undo.begin();
+    if (due && !undo.journalling()) undo.begin(moving);
     if (adjust_all(data, *cache, domain)) {
       RemodelResult result = full_adjustment(data, *cache);
       if (renewing) ++data.renewal.full_adjustments;
@@ -383,7 +399,7 @@ RemodelResult remodel_step(Mesh& mesh, const Domain& domain, const RemodelOption
   // exactly: its loops cannot be recovered or do not nest. Then generation says where.
   if (cache == nullptr || !cache->finite()) validate(domain);
   if (cancelled(options.observer)) return undo.roll_back(), unchanged(data, Stopped::interrupted);
-  if (!undo.journalling()) undo.begin();
+  if (!undo.journalling()) undo.begin(moving);
   RemodelResult result;
   auto failure = replace(undo.transaction(), data, cache, domain, options, result);
   if (!failure) return result;
@@ -397,17 +413,18 @@ enum class Journal { when_needed, always };
 
 RemodelResult remodel(Mesh& mesh, const Domain& domain, const RemodelOptions& options, Journal journal,
                       Undo& undo) {
-  const bool one_to_one = corresponds(mesh.data(), domain);
-  require_possible(mesh, options, one_to_one);
-  if (mesh.domain() == domain) {
+  std::optional<Loops> moving = moving_loops(mesh.data(), domain);
+  require_possible(mesh, options, moving.has_value());
+  if (moving && moving->empty()) {
     RemodelResult result = unchanged(mesh.data(), Stopped::done);
     result.full_adjustment = true;
     return result;
   }
   require_surfaces_apart(domain);
-  Method method = one_to_one && options.method != Method::general ? Method::specialised : Method::general;
-  if (journal == Journal::always) undo.begin();
-  RemodelResult result = remodel_step(mesh, domain, options, method, undo);
+  if (options.method == Method::general) moving.reset();
+  Method method = moving ? Method::specialised : Method::general;
+  if (journal == Journal::always) undo.begin(moving);
+  RemodelResult result = remodel_step(mesh, domain, moving, options, method, undo);
   result.method = method;
   return result;
 }

@@ -27,7 +27,7 @@ class Replacement {
     triangulation_.remove(inside);
     triangulation_.remove(take_lost());
     insert_new();
-    mesh_.orient_loops();
+    for (const std::size_t loop : cache_.loops) mesh_.orient_loop(loop);
     recover();
     relabel_touched(mesh_);
     for (std::size_t i = 0; i < cache_.non_steiner && !options_.renewing; ++i)
@@ -113,7 +113,7 @@ class Replacement {
       if (i >= cache_.non_steiner)
         mesh_.remove_boundary_vertex(k);
       else
-        mesh_.boundary[k].vertex = VertexId{};
+        mesh_.boundary.edit(k).vertex = VertexId{};
     }
     return going;
   }
@@ -126,8 +126,8 @@ class Replacement {
       triangulation_.set_boundary(v, k);
       triangulation_.set_length_scale(v,
                                       cache_.new_scales[i]);  // until its neighbours are known, or for good
-      mesh_.boundary[k].vertex = v;
-      if (!options_.renewing) mesh_.boundary[k].scale_factor = 1.0;
+      mesh_.boundary.edit(k).vertex = v;
+      if (!options_.renewing) mesh_.boundary.edit(k).scale_factor = 1.0;
     }
   }
 
@@ -163,7 +163,10 @@ class Replacement {
 std::vector<VertexId> replace_where_needed(MeshData& mesh, AdjustCache& cache, const Domain& domain,
                                            const ReplaceOptions& options) {
   adjust_some(mesh, cache);
-  mesh.domain = domain;
+  for (const std::size_t loop : cache.loops) {
+    mesh.domain.loops[loop] = domain.loops[loop];
+    mesh.loop_moved(loop);
+  }
   Replacement(mesh, cache, options).run();
   std::vector<VertexId> moved;
   for (std::size_t i = 0; i < cache.moving.size(); ++i)

@@ -200,15 +200,23 @@ double signed_area(const Domain& domain, std::size_t loop) {
   return 0.5 * twice;
 }
 
-bool one_to_one(const Domain& a, const Domain& b) {
+Parameters Parameters::uniform(std::size_t pieces) {
+  std::vector<double> values(pieces);
+  for (std::size_t i = 0; i < pieces; ++i) values[i] = static_cast<double>(i) / static_cast<double>(pieces);
+  return values;
+}
+
+bool one_to_one(const Loop& a, const Loop& b) {
   const auto same_curve = [](const Curve& c, const Curve& d) {
     return c.name == d.name && c.shape.index() == d.shape.index() && c.parameters == d.parameters;
   };
-  const auto same_loop = [&](const Loop& l, const Loop& m) {
-    return l.role == m.role && l.open == m.open &&
-           std::equal(l.curves.begin(), l.curves.end(), m.curves.begin(), m.curves.end(), same_curve);
-  };
-  return std::equal(a.loops.begin(), a.loops.end(), b.loops.begin(), b.loops.end(), same_loop);
+  return a.role == b.role && a.open == b.open &&
+         std::equal(a.curves.begin(), a.curves.end(), b.curves.begin(), b.curves.end(), same_curve);
+}
+
+bool one_to_one(const Domain& a, const Domain& b) {
+  return std::equal(a.loops.begin(), a.loops.end(), b.loops.begin(), b.loops.end(),
+                    [](const Loop& l, const Loop& m) { return one_to_one(l, m); });
 }
 
 Frame::Frame(const Placement& placement)

@@ -78,15 +78,21 @@ TEST(Validate, RefusesDomainsWithoutLoopsOrWithTooFewPoints) {
   EXPECT_EQ(refusal({.loops = {polygon(LoopRole::outer, {{0, 0}, {0, 1}, {1, 0}})}}), "");  // clockwise
 }
 
+void set_parameter(Curve& curve, std::size_t i, double value) {
+  std::vector<double> parameters = curve.parameters;
+  parameters[i] = value;
+  curve.parameters = std::move(parameters);
+}
+
 TEST(Validate, RefusesParametersOutOfOrder) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double wrong : {0.25, 0.2, 1.0, 1.5, -0.1, nan}) {
     Domain domain{.loops = {square(LoopRole::outer, 0.0, 1.0)}};
-    domain.loops[0].curves[0].parameters[2] = wrong;
+    set_parameter(domain.loops[0].curves[0], 2, wrong);
     EXPECT_TRUE(says(refusal(domain), "increasing")) << wrong;
   }
   Domain late{.loops = {square(LoopRole::outer, 0.0, 1.0)}};
-  late.loops[0].curves[0].parameters[0] = 0.1;
+  set_parameter(late.loops[0].curves[0], 0, 0.1);
   EXPECT_TRUE(says(refusal(late), "begin with 0"));
 }
 

@@ -152,8 +152,9 @@ TEST(RemovalRegions, HoldEveryInteriorVertexInsideAndNoOther) {
       const double radius = std::ldexp(test::unit(random), static_cast<int>(random() % 12) - 8) * far;
       std::uint32_t hint = 1 + static_cast<std::uint32_t>(random() % (data.triangulation.vertex_slots() - 1));
       while (!data.triangulation[VertexId{hint}].alive()) hint = hint % 50 + 1;
-      auto found =
-          vertices_inside(data, {{centre, radius, data.triangulation.star(VertexId{hint}).triangle}});
+      auto found = vertices_inside(
+          data,
+          std::vector<RemovalRegion>{{centre, radius, data.triangulation.star(VertexId{hint}).triangle}});
       std::sort(found.begin(), found.end());  // the order is without meaning
       std::vector<VertexId> expected;
       for (std::uint32_t v = 1; v < data.triangulation.vertex_slots(); ++v) {
