@@ -16,7 +16,6 @@
 #include "optimise/shape_search.h"
 #include "optimise/summary.h"
 #include "remodel/error.h"
-#include "remodel/generate.h"
 #include "remodel/io.h"
 #include "remodel/strategy.h"
 
@@ -347,23 +346,6 @@ Progress go_on(const CstAirfoil& from, const CstAirfoil& to, const OptimiseOptio
           .written = written,
           .refused = checkpoint.refused,
           .earlier_seconds = checkpoint.seconds};
-}
-
-// A run is long: it can afford to know K within one percent.
-constexpr int calibration_samples = 20;
-
-// None where a limit keeps it from being finished.
-std::optional<Mesh> first_mesh(const CstAirfoil& from, const OptimiseOptions& options) {
-  const Domain domain = DesignDomains(options)(from);
-  if (options.start) {
-    Mesh mesh = options.start->mesh;
-    if (remodel(mesh, domain, options.remodel).stopped != Stopped::done) return std::nullopt;
-    return mesh;
-  }
-  GenerateResult generated = generate(domain, options.quality);
-  if (generated.stopped != Stopped::done) return std::nullopt;
-  if (options.remodel.strategy == Strategy::renew) calibrate(generated.mesh.data(), calibration_samples);
-  return std::move(generated.mesh);
 }
 
 OptimiseResult unmeshable_start(const CstAirfoil& from, const OptimiseOptions& options) {
