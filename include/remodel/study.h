@@ -5,7 +5,6 @@
 // to do is a list of jobs, each a pure function of bytes; whoever does them, in whatever order, the rows in
 // the study's database are the same but for their times.
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
