@@ -8,17 +8,17 @@
 namespace remodel {
 namespace {
 
-using Json = nlohmann::json;
+using Cbor = nlohmann::json;
 
 template <typename Row>
-Json json_of(const Row& row) {
-  Json result = Json::array();
+Cbor cbor_of(const Row& row) {
+  Cbor result = Cbor::array();
   std::apply([&](const auto&... column) { (result.push_back(column), ...); }, Row::columns(row));
   return result;
 }
 
 template <typename Row>
-Row row_of(const Json& json) {
+Row row_of(const Cbor& json) {
   Row row;
   std::size_t index = 0;
   std::apply([&](auto&... column) { (json.at(index++).get_to(column), ...); }, Row::columns(row));
@@ -26,24 +26,24 @@ Row row_of(const Json& json) {
 }
 
 template <typename Row>
-Json json_of(const std::vector<Row>& rows) {
-  Json result = Json::array();
-  for (const Row& row : rows) result.push_back(json_of(row));
+Cbor cbor_of(const std::vector<Row>& rows) {
+  Cbor result = Cbor::array();
+  for (const Row& row : rows) result.push_back(cbor_of(row));
   return result;
 }
 
 template <typename Row>
-std::vector<Row> rows_of(const Json& json) {
+std::vector<Row> rows_of(const Cbor& json) {
   std::vector<Row> result;
-  for (const Json& row : json) result.push_back(row_of<Row>(row));
+  for (const Cbor& row : json) result.push_back(row_of<Row>(row));
   return result;
 }
 
-Json json_of(const StudyPath& path) {
+Cbor cbor_of(const StudyPath& path) {
   return {{"dimension", path.dimension}, {"values", path.values}};
 }
 
-StudyPath path_of(const Json& json) {
+StudyPath path_of(const Cbor& json) {
   StudyPath path;
   json.at("dimension").get_to(path.dimension);
   json.at("values").get_to(path.values);
@@ -51,9 +51,9 @@ StudyPath path_of(const Json& json) {
   return path;
 }
 
-std::string bytes_of(const Json& json) {
+std::string bytes_of(const Cbor& json) {
   std::string bytes;
-  Json::to_cbor(json, bytes);
+  Cbor::to_cbor(json, bytes);
   return bytes;
 }
 
@@ -61,7 +61,7 @@ std::string bytes_of(const Json& json) {
 template <typename Read>
 auto parse(const std::string& bytes, const char* what, Read read) {
   try {
-    const Json json = Json::from_cbor(bytes);
+    const Cbor json = Cbor::from_cbor(bytes);
     if (json.at("version") != REMODEL_VERSION) throw std::invalid_argument("of another version");
     return read(json);
   } catch (const Error&) {
@@ -86,14 +86,14 @@ std::string encode(const StudyWork& work) {
                    {"all_points", work.points},
                    {"points", work.pair.points},
                    {"gradation", work.pair.gradation},
-                   {"path", json_of(work.path)},
+                   {"path", cbor_of(work.path)},
                    {"distance", work.distance},
                    {"strategy", work.strategy},
-                   {"fresh", json_of(work.fresh)}});
+                   {"fresh", cbor_of(work.fresh)}});
 }
 
 StudyWork decode_work(const std::string& bytes) {
-  return parse(bytes, "a study's job", [](const Json& json) {
+  return parse(bytes, "a study's job", [](const Cbor& json) {
     StudyWork work;
     work.kind = static_cast<JobKind>(json.at("kind").get<int>());
     work.from = airfoil_from_json(json.at("from").get<std::string>(), "a study's job");
@@ -114,23 +114,23 @@ StudyWork decode_work(const std::string& bytes) {
 }
 
 std::string encode(const StudyRows& rows) {
-  Json json = {{"version", REMODEL_VERSION}, {"kind", rows.index()}};
+  Cbor json = {{"version", REMODEL_VERSION}, {"kind", rows.index()}};
   if (const auto* path = std::get_if<PathRows>(&rows)) {
-    json["row"] = json_of(*path);
-    json["path"] = json_of(path->path);
+    json["row"] = cbor_of(*path);
+    json["path"] = cbor_of(path->path);
   } else if (const auto* fresh = std::get_if<FreshRows>(&rows)) {
-    json["rows"] = json_of(*fresh);
+    json["rows"] = cbor_of(*fresh);
   } else {
     const auto& replay = std::get<ReplayRows>(rows);
-    json["row"] = json_of(replay.replay);
-    json["blocks"] = json_of(replay.blocks);
-    json["comparisons"] = json_of(replay.comparisons);
+    json["row"] = cbor_of(replay.replay);
+    json["blocks"] = cbor_of(replay.blocks);
+    json["comparisons"] = cbor_of(replay.comparisons);
   }
   return bytes_of(json);
 }
 
 StudyRows decode_rows(const std::string& bytes) {
-  return parse(bytes, "a study's rows", [](const Json& json) -> StudyRows {
+  return parse(bytes, "a study's rows", [](const Cbor& json) -> StudyRows {
     switch (static_cast<JobKind>(json.at("kind").get<int>())) {
       case JobKind::path: {
         PathRows rows = row_of<PathRows>(json.at("row"));
