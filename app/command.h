@@ -32,5 +32,6 @@ void add_draw_command(CLI::App& program, Action& action);
 void add_convert_command(CLI::App& program, Action& action);
 void add_shapes_command(CLI::App& program, Action& action);
 void add_soak_command(CLI::App& program, Action& action);
+void add_study_command(CLI::App& program, Action& action);
 
 }  // namespace remodel::app
