@@ -39,13 +39,20 @@ std::string explain(const CLI::ParseError& error, const CLI::App& program, int a
     const std::string found = argc > 1 ? "'" + std::string(argv[1]) + "'" : "nothing";
     return "command line: found " + found + ", expected one of " + list_of_subcommands(program);
   }
+  // A subcommand of a subcommand is the one that was asked for.
+  const CLI::App* asked = chosen.front();
+  std::string name = asked->get_name();
+  while (!asked->get_subcommands().empty()) {
+    asked = asked->get_subcommands().front();
+    name += " " + asked->get_name();
+  }
   std::string problem = error.what();
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
     problem = "found unexpected";
-    for (const std::string& argument : chosen.front()->remaining()) problem += " '" + argument + "'";
+    for (const std::string& argument : asked->remaining()) problem += " '" + argument + "'";
     problem += ", expected only known options and arguments";
   }
-  return problem + " (see `remodel " + chosen.front()->get_name() + " --help`)";
+  return problem + " (see `remodel " + name + " --help`)";
 }
 
 int run(int argc, char** argv) {
@@ -60,7 +67,7 @@ int run(int argc, char** argv) {
   Action action;
   for (const auto add :
        {add_mesh_command, add_update_command, add_check_command, add_fit_command, add_optimise_command,
-        add_draw_command, add_convert_command, add_shapes_command, add_soak_command}) {
+        add_draw_command, add_convert_command, add_shapes_command, add_soak_command, add_study_command}) {
     add(program, action);
   }
   try {

@@ -1,0 +1,251 @@
+// The paper's figures 2 to 4 and A11 to A37 as SVG: one panel for each sigma, the figure over I, one line for
+// each D, solid ours and dashed the paper's. And surplus against lost triangles.
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <set>
+
+#include "remodel/study_report.h"
+#include "report/names.h"
+#include "report/svg.h"
+
+namespace remodel {
+
+namespace {
+
+using report::short_number;
+using report::Svg;
+
+constexpr double panel_width = 250, panel_height = 210, left = 58, top = 44, gap = 18, bottom = 44,
+                 legend = 26;
+// Four hues that people with any sight tell apart (Okabe and Ito 2008).
+constexpr std::array<const char*, 4> colors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7"};
+
+struct Series {
+  std::size_t color = 0;
+  bool dashed = false;  // the paper's
+  bool joined = true;
+  std::vector<Point> points;
+};
+struct Panel {
+  std::string title;
+  std::vector<Series> series;
+};
+struct Entry {
+  std::string label;
+  std::size_t color;
+  bool dashed;
+};
+
+// About five round numbers that span the values.
+std::vector<double> round_ticks(double low, double high) {
+  if (!(high > low)) high = low + 1.0;
+  const double raw = (high - low) / 5.0;
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  double step = power;
+  for (const double factor : {2.0, 5.0, 10.0})
+    if (step < raw) step = factor * power;
+  std::vector<double> ticks;
+  for (double k = std::floor(low / step); k * step < high + step; k += 1.0) ticks.push_back(k * step);
+  return ticks;
+}
+
+// Positions along an axis, 0 to 1, with the numbers to be written.
+struct Axis {
+  std::string title;
+  std::vector<double> ticks;
+  bool logarithmic = false;
+  double at(double value) const {
+    const auto scale = [&](double v) { return logarithmic ? std::log(v) : v; };
+    return (scale(value) - scale(ticks.front())) / (scale(ticks.back()) - scale(ticks.front()));
+  }
+};
+
+template <typename Get>
+Axis axis_of(const std::vector<Panel>& panels, const std::string& title, Get get) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const Panel& panel : panels)
+    for (const Series& series : panel.series)
+      for (const Point p : series.points) {
+        low = std::min(low, get(p));
+        high = std::max(high, get(p));
+      }
+  return {title, round_ticks(low, high), false};
+}
+
+void draw_axes(Svg& svg, Point corner, const Panel& panel, const Axis& x, const Axis& y, bool labels) {
+  svg.text({corner.x + panel_width / 2, corner.y - 8}, panel.title, "text-anchor='middle' font-weight='600'");
+  for (const double tick : y.ticks) {
+    const double at = corner.y + panel_height * (1.0 - y.at(tick));
+    svg.line({corner.x, at}, {corner.x + panel_width, at}, "stroke='currentColor' stroke-opacity='.15'");
+    if (labels)
+      svg.text({corner.x - 6, at + 4}, short_number(std::round(tick * 1e6) / 1e6), "text-anchor='end'");
+  }
+  for (const double tick : x.ticks) {
+    const double at = corner.x + panel_width * x.at(tick);
+    svg.line({at, corner.y + panel_height}, {at, corner.y + panel_height + 4}, "stroke='currentColor'");
+    svg.text({at, corner.y + panel_height + 17}, short_number(std::round(tick * 1e6) / 1e6),
+             "text-anchor='middle'");
+  }
+  svg.line({corner.x, corner.y + panel_height}, {corner.x + panel_width, corner.y + panel_height},
+           "stroke='currentColor'");
+  svg.text({corner.x + panel_width / 2, corner.y + panel_height + 34}, x.title, "text-anchor='middle'");
+}
+
+void draw_series(Svg& svg, Point corner, const Series& series, const Axis& x, const Axis& y) {
+  std::vector<Point> pixels;
+  for (const Point p : series.points)
+    pixels.push_back({corner.x + panel_width * x.at(p.x), corner.y + panel_height * (1.0 - y.at(p.y))});
+  const std::string color = colors[series.color % colors.size()];
+  if (series.joined)
+    svg.polyline(pixels, "fill='none' stroke='" + color + "' stroke-width='1.6'" +
+                             (series.dashed ? " stroke-dasharray='5 4' stroke-opacity='.8'" : ""));
+  for (const Point p : pixels)
+    svg.circle(p, 2.6, series.dashed ? "fill='none' stroke='" + color + "'" : "fill='" + color + "'");
+}
+
+std::string draw_chart(const std::string& title, const std::vector<Panel>& panels, const Axis& x,
+                       const Axis& y, const std::vector<Entry>& entries) {
+  const auto count = static_cast<double>(panels.size());
+  Svg svg(left + count * (panel_width + gap), top + panel_height + bottom + legend, title);
+  svg.text({12, top + panel_height / 2}, y.title,
+           "text-anchor='middle' transform='rotate(-90 12 " + report::pixels(top + panel_height / 2) + ")'");
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    const Point corner{left + static_cast<double>(i) * (panel_width + gap), top};
+    draw_axes(svg, corner, panels[i], x, y, i == 0);
+    for (const Series& series : panels[i].series) draw_series(svg, corner, series, x, y);
+  }
+  double at = left;
+  for (const Entry& entry : entries) {
+    const double height = top + panel_height + bottom + legend - 10;
+    const std::string color = colors[entry.color % colors.size()];
+    svg.line({at, height - 4}, {at + 22, height - 4},
+             "stroke='" + color + "' stroke-width='2'" + (entry.dashed ? " stroke-dasharray='5 4'" : ""));
+    svg.text({at + 27, height}, entry.label);
+    at += 40 + 7.0 * static_cast<double>(entry.label.size());
+  }
+  return svg.finish();
+}
+
+struct Quantity {
+  StudyFigure figure;
+  const char* name;
+  const char* title;
+  const char* axis;
+};
+constexpr std::array quantities = {
+    Quantity{StudyFigure::preserved_percent, "preservation", "Element preservation", "preservation, %"},
+    Quantity{StudyFigure::surplus_percent, "surplus", "Element surplus", "surplus, %"},
+    Quantity{StudyFigure::speedup, "speed-up", "Speed-up", "speed-up"}};
+
+using Rows = std::vector<const StudyRow*>;
+
+template <typename Key>
+std::set<Key> values_of(const Rows& rows, Key StudyCase::*member) {
+  std::set<Key> values;
+  for (const StudyRow* row : rows) values.insert(row->at.*member);
+  return values;
+}
+
+Panel panel_over_points(const Rows& rows, double sigma, StudyFigure figure,
+                        const std::set<double>& distances) {
+  Panel panel{"σ = " + short_number(sigma), {}};
+  std::size_t color = 0;
+  for (const double distance : distances) {
+    Series ours{.color = color, .dashed = false, .joined = true, .points = {}};
+    Series papers{.color = color, .dashed = true, .joined = true, .points = {}};
+    for (const StudyRow* row : rows) {
+      if (row->at.sigma != sigma || row->at.distance != distance) continue;
+      const double at = row->at.points;
+      if (const double mean = (*row)[figure].mean; !std::isnan(mean)) ours.points.push_back({at, mean});
+      if (const PaperRow* paper = paper_row(row->at))
+        papers.points.push_back({at, paper->figures[static_cast<std::size_t>(figure)]});
+    }
+    panel.series.push_back(std::move(papers));
+    panel.series.push_back(std::move(ours));
+    ++color;
+  }
+  return panel;
+}
+
+StudySvg chart_over_points(const Rows& rows, const Quantity& quantity, const std::string& name) {
+  const std::set<double> distances = values_of(rows, &StudyCase::distance);
+  const std::set<int> points = values_of(rows, &StudyCase::points);
+  std::vector<Panel> panels;
+  for (const double sigma : values_of(rows, &StudyCase::sigma))
+    panels.push_back(panel_over_points(rows, sigma, quantity.figure, distances));
+  std::vector<Entry> entries;
+  for (const double distance : distances)
+    entries.push_back({"D = " + short_number(distance), entries.size(), false});
+  entries.push_back({"dashed: the paper", 0, true});
+  Axis x{"I", {points.begin(), points.end()}, true};
+  if (x.ticks.size() == 1) x.ticks = {x.ticks.front() / 2, x.ticks.front(), x.ticks.front() * 2};
+  const Axis y = axis_of(panels, quantity.axis, [](Point p) { return p.y; });
+  const std::string title = std::string(quantity.title) + ", " + report::title_of(rows.front()->at.airfoil) +
+                            ", " + rows.front()->strategy;
+  return {name, title, draw_chart(title, panels, x, y, entries)};
+}
+
+Panel panel_of_losses(const Rows& rows, double sigma, const std::vector<std::string>& strategies) {
+  Panel panel{"σ = " + short_number(sigma), {}};
+  for (std::size_t k = 0; k < strategies.size(); ++k) {
+    Series series{.color = k + 1, .dashed = false, .joined = false, .points = {}};
+    for (const StudyRow* row : rows) {
+      if (row->at.sigma != sigma || row->strategy != strategies[k]) continue;
+      const double lost = (*row)[StudyFigure::lost].mean, surplus = (*row)[StudyFigure::surplus_percent].mean;
+      if (lost > 0.0 && !std::isnan(surplus)) series.points.push_back({lost, surplus});
+    }
+    panel.series.push_back(std::move(series));
+  }
+  Series papers{.color = 0, .dashed = true, .joined = false, .points = {}};
+  for (const StudyRow* row : rows) {
+    const PaperRow* paper =
+        row->at.sigma == sigma && row->strategy == strategies.front() ? paper_row(row->at) : nullptr;
+    if (paper != nullptr) papers.points.push_back({report::papers_lost(*paper), paper->figures[5]});
+  }
+  panel.series.push_back(std::move(papers));
+  return panel;
+}
+
+StudySvg chart_of_losses(const Rows& rows, const std::vector<std::string>& strategies,
+                         const std::string& name) {
+  std::vector<Panel> panels;
+  for (const double sigma : values_of(rows, &StudyCase::sigma))
+    panels.push_back(panel_of_losses(rows, sigma, strategies));
+  std::vector<Entry> entries = {{"the paper", 0, true}};
+  for (const std::string& strategy : strategies) entries.push_back({strategy, entries.size(), false});
+  Axis x{"triangles lost a step", {50, 100, 200, 500, 1000, 2000, 5000}, true};
+  const Axis found = axis_of(panels, "", [](Point p) { return p.x; });
+  while (x.ticks.size() > 2 && x.ticks[x.ticks.size() - 2] > found.ticks.back()) x.ticks.pop_back();
+  const Axis y = axis_of(panels, "surplus, %", [](Point p) { return p.y; });
+  const std::string title = "Surplus against lost triangles, " + report::title_of(rows.front()->at.airfoil);
+  return {name, title, draw_chart(title, panels, x, y, entries)};
+}
+
+}  // namespace
+
+std::vector<StudySvg> study_charts(const StudyContents& study) {
+  std::vector<StudySvg> charts;
+  std::map<std::string, std::map<std::string, Rows>> groups;  // by airfoil, by strategy
+  for (const StudyRow& row : study.rows) groups[row.at.airfoil][row.strategy].push_back(&row);
+  for (const StudyOutline& airfoil : study.airfoils) {
+    const auto found = groups.find(airfoil.name);
+    if (found == groups.end()) continue;
+    const std::string file = report::file_name_of(airfoil.name);
+    std::vector<std::string> strategies;
+    Rows all;
+    for (const auto& [strategy, rows] : found->second) {
+      for (const Quantity& quantity : quantities)
+        charts.push_back(chart_over_points(
+            rows, quantity, file + "-" + report::file_name_of(strategy) + "-" + quantity.name));
+      strategies.push_back(strategy);
+      all.insert(all.end(), rows.begin(), rows.end());
+    }
+    charts.push_back(chart_of_losses(all, strategies, file + "-lost"));
+  }
+  return charts;
+}
+
+}  // namespace remodel
