@@ -4,7 +4,6 @@
 
 const study = JSON.parse(document.getElementById("data").textContent);
 const PAPER = "the paper";
-const DASHES = [[1, 0], [2, 3], [8, 3, 2, 3], [1, 4]];
 const D_COLORS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8c6d1f", "#56b4e9"];
 
 // Of the paper's seven figures: heading, decimals, and what a difference is. A difference of `bound` is the
@@ -12,10 +11,10 @@ const D_COLORS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8c6d1f", "#56b4e
 const percent = (ours, papers) => 100 * (ours / papers - 1);
 const points = (ours, papers) => ours - papers;
 const FIGURES = [
-  { title: "generation: triangles", decimals: 0, difference: percent, unit: " %", bound: 5, shared: true },
-  { title: "generation: ms", decimals: 2, difference: percent, unit: " %", shared: true },
-  { title: "remodelling: triangles", decimals: 0, difference: percent, unit: " %", bound: 5 },
-  { title: "remodelling: ms", decimals: 3, difference: percent, unit: " %" },
+  { title: "generation\ntriangles", decimals: 0, difference: percent, unit: " %", bound: 5, shared: true },
+  { title: "generation\nms", decimals: 2, difference: percent, unit: " %", shared: true },
+  { title: "remodelling\ntriangles", decimals: 0, difference: percent, unit: " %", bound: 5 },
+  { title: "remodelling\nms", decimals: 3, difference: percent, unit: " %" },
   { title: "preservation %", decimals: 2, difference: points, unit: "", bound: 1 },
   { title: "surplus %", decimals: 2, difference: points, unit: "", bound: 5 },
   { title: "speed-up", decimals: 1, difference: percent, unit: " %", bound: 50 },
@@ -66,8 +65,10 @@ function showRun() {
 
 function showVerdict() {
   const target = section("verdict");
-  target.append(element("p", {}, study.verdict.sentence));
-  if (study.verdict.lines.length === 0) return;
+  if (study.verdict.lines.length === 0) {
+    target.append(element("p", {}, study.verdict.sentence));
+    return;
+  }
   target.append(element("p", { class: "note" },
     "Ours by chain, the paper's method, less the paper's: from the least to the largest difference of a table's rows. " +
     "Speed-ups are ratios; absolute times are of different machines, and only reported."));
@@ -235,7 +236,7 @@ const distanceScale = (rows) => {
 function chartValues(rows, k) {
   const values = [];
   const add = (row, source, value) => {
-    if (value !== null && value !== undefined) values.push({ panel: `σ = ${row.sigma}`, I: row.I, D: row.D, source, value });
+    if (value !== null && value !== undefined) values.push({ panel: `σ = ${row.sigma}`, I: row.I, D: row.D, source, by: source === PAPER ? PAPER : "ours", value });
   };
   for (const row of rows) {
     add(row, row.strategy, row.means[k]);
@@ -261,11 +262,8 @@ function overPoints(rows, k, title) {
              axis: { values: ticks, grid: false, labelOverlap: false } },
         y: { field: "value", type: "quantitative", title, scale: { zero: false } },
         color: { field: "D", type: "ordinal", title: "D", scale: distanceScale(rows) },
-        strokeDash: { field: "source", type: "nominal", title: null, sort: [PAPER],
-                      scale: { domain: [PAPER, ...strategies], range: [[5, 4], ...strategies.map(() => [1, 0])] },
-                      legend: { values: [PAPER, ...strategies] } },
+        strokeDash: { field: "by", type: "nominal", title: null, scale: { domain: ["ours", PAPER], range: [[1, 0], [5, 4]] } },
         opacity: { condition: { param: "picked", value: 1 }, value: 0.08 },
-        detail: [{ field: "source" }],
         tooltip: ["source", "I", "D", { field: "value", title, format: ".2f" }].map((field) => (typeof field === "string" ? { field } : field)),
       },
     },
@@ -299,7 +297,7 @@ function losses(rows) {
         y: { field: "surplus", type: "quantitative", title: "surplus, %" },
         color: { field: "source", type: "nominal", title: null,
                  scale: { domain: [PAPER, ...strategies], range: ["#8a8f94", ...D_COLORS] } },
-        shape: { field: "D", type: "ordinal", title: "D" },
+        shape: { field: "D", type: "nominal", sort: null, title: "D" },
         opacity: { condition: { param: "picked", value: 1 }, value: 0.08 },
         tooltip: [{ field: "source" }, { field: "I" }, { field: "D" }, { field: "lost", format: ".0f" }, { field: "surplus", format: ".2f" }],
       },
@@ -316,7 +314,7 @@ function blockValues(airfoil) {
 
 function overRun(values) {
   const ticks = numbered(values.map((value) => value.I));
-  const panel = (field, title, scale) => ({
+  const panel = (field, title, scale, axis) => ({
     transform: [{ filter: `isValid(datum.${field})` }],
     facet: { column: { field: "panel", title: null, sort: null } },
     spec: {
@@ -324,7 +322,7 @@ function overRun(values) {
       mark: { type: "line", strokeWidth: 1.4, tooltip: true },
       encoding: {
         x: { field: "evaluation", type: "quantitative", title: "evaluation", axis: { grid: false, tickCount: 5 } },
-        y: { field, type: "quantitative", title, scale },
+        y: { field, type: "quantitative", title, scale, axis },
         color: { field: "I", type: "ordinal", scale: { domain: ticks, range: ["#440154", "#3b528b", "#21918c", "#5ec962", "#e0a80d", "#d55e00"] } },
       },
     },
@@ -333,7 +331,8 @@ function overRun(values) {
     data: { values },
     params: [strategyParameter],
     transform: [strategyFilter],
-    vconcat: [panel("triangles", "triangles", { type: "log", nice: false }), panel("preservation", "preservation, %", { zero: false }),
+    vconcat: [panel("triangles", "triangles", { type: "log", nice: false }, { values: [1000, 2000, 5000, 10000, 20000, 50000, 100000] }),
+              panel("preservation", "preservation, %", { zero: false }),
               panel("surplus", "surplus, %", { zero: false })],
   };
 }

@@ -22,7 +22,7 @@ using report::pixels;
 using report::Svg;
 
 constexpr double figure_width = 1100;
-constexpr Point low{-0.12, -0.21}, high{1.12, 0.21};  // the window, chords
+constexpr Point low{-0.12, -0.24}, high{1.12, 0.24};  // the window, chords
 
 constexpr double scale = figure_width / (high.x - low.x);
 constexpr double plot_height = scale * (high.y - low.y);
@@ -112,7 +112,7 @@ void draw_regions(Svg& svg, const std::vector<Point>& olds, const std::vector<Po
 
 StudySvg removal_regions(const StudyPath& path, const CstAirfoil& target) {
   constexpr int points = 150;
-  const std::vector<CstAirfoil> designs = designs_of(path, target, points, 2);
+  const std::vector<CstAirfoil> designs = designs_of(path, target, points, 1);
   const AirfoilDomainOptions options{.points = points};
   const Domain from = airfoil_domain(designs.front(), options), to = airfoil_domain(designs.back(), options);
   const std::string title =
@@ -202,7 +202,7 @@ void fill_by_gradation(Svg& svg, const Mesh& living, const FrozenMesh& mesh) {
   }
   for (std::size_t i = 0; i < bands.size(); ++i)
     svg.path(paths[i], "fill='" + std::string(bands[i].color) +
-                           "' stroke='#333' stroke-opacity='.45' stroke-width='.35'");
+                           "' stroke='#333' stroke-opacity='.4' stroke-width='.25'");
 }
 
 void draw_bands(Svg& svg, double y) {
