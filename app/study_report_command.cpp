@@ -29,6 +29,13 @@ std::string extension_of(const std::string& file) {
   return std::filesystem::path(file).extension().string();
 }
 
+// What is to be a directory: it can be made.
+void require_missing(const std::string& directory) {
+  if (std::filesystem::exists(directory))
+    throw Error(ErrorCode::file, directory, "found a file, expected a directory, or none yet");
+  require_writable(directory);
+}
+
 void require_outputs(const StudyReportCommand& command) {
   if (command.outputs.empty() && command.csv.empty() && command.svg.empty())
     throw Error(ErrorCode::argument, "study report",
@@ -38,6 +45,8 @@ void require_outputs(const StudyReportCommand& command) {
       throw Error(ErrorCode::argument, file, "found extension '" + extension + "', expected .html or .md");
     require_writable(file);
   }
+  for (const std::string& directory : {command.csv, command.svg})
+    if (!directory.empty() && !std::filesystem::is_directory(directory)) require_missing(directory);
 }
 
 // The directory itself may be missing, not the one it lies in.
