@@ -1,6 +1,7 @@
 #include "arguments.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <utility>
@@ -85,10 +86,23 @@ std::vector<double> parse_reals(const std::string& option, std::string_view text
   refuse(option, text, std::to_string(count) + " finite numbers separated by commas");
 }
 
+std::vector<std::string> parse_list(const std::string& option, const std::string& text) {
+  std::vector<std::string> words;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    words.push_back(text.substr(begin, end - begin));
+    if (words.back().empty()) refuse(option, text, "values separated by commas");
+    begin = end + 1;
+  }
+  return words;
+}
+
 CLI::App& add_subcommand(CLI::App& program, const std::string& name, const std::string& description,
                          std::function<void()> chosen) {
   CLI::App* app = program.add_subcommand(name, description);
-  app->callback(std::move(chosen));
+  app->callback([app, chosen = std::move(chosen)] {
+    if (app->get_subcommands().empty()) chosen();
+  });
   return *app;
 }
 

@@ -39,7 +39,8 @@ struct OptionText {
   std::string description;
 };
 
-// `chosen` is called when the subcommand is the one given, after its options are set.
+// `chosen` is called when the subcommand is the one given, after its options are set, and none of its own
+// subcommands.
 CLI::App& add_subcommand(CLI::App& program, const std::string& name, const std::string& description,
                          std::function<void()> chosen);
 
@@ -66,5 +67,7 @@ std::int64_t parse_integer(const std::string& option, std::string_view text, Int
 double parse_real(const std::string& option, std::string_view text, RealRange range);
 // Comma-separated; exactly `count` of them.
 std::vector<double> parse_reals(const std::string& option, std::string_view text, std::size_t count);
+// Comma-separated; none of them empty.
+std::vector<std::string> parse_list(const std::string& option, const std::string& text);
 
 }  // namespace remodel::app

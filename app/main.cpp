@@ -11,11 +11,14 @@
 
 #include "command.h"
 #include "remodel/error.h"
+#include "study_ranks.h"
 
 namespace remodel::app {
 namespace {
 
 int fail(Status status, std::string message) {
+  // All ranks of an MPI program refuse the same input: one of them says so.
+  if (status == Status::bad_input && launched_rank() > 0) return static_cast<int>(status);
   // File names and foreign content may hold anything; the message stays one line.
   for (char& c : message) {
     const auto byte = static_cast<unsigned char>(c);

@@ -3,8 +3,6 @@
 
 #include "remodel/optimise.h"
 
-#include <unistd.h>
-
 #include <array>
 #include <filesystem>
 #include <memory>
@@ -53,11 +51,6 @@ void require_run_directory(const std::filesystem::path& directory) {
     throw Error(ErrorCode::file, directory.string(),
                 "is a directory with other files, expected a new, an empty or a run directory");
   }
-}
-
-ProgressStyle progress_style(bool quiet) {
-  if (quiet) return ProgressStyle::none;
-  return isatty(STDERR_FILENO) != 0 ? ProgressStyle::bar : ProgressStyle::lines;
 }
 
 Json options_json(const OptimiseCommand& command) {

@@ -1,9 +1,25 @@
 #include "progress.h"
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
 namespace remodel::app {
+
+ProgressStyle progress_style(bool quiet) {
+  if (quiet) return ProgressStyle::none;
+  return isatty(STDERR_FILENO) != 0 ? ProgressStyle::bar : ProgressStyle::lines;
+}
+
+std::string bar_of(double part) {
+  constexpr std::size_t width = 20;
+  const auto full = static_cast<std::size_t>(width * std::clamp(part, 0.0, 1.0) + 1e-9);
+  std::string text(width, '.');
+  text.replace(0, full, full, '#');
+  return text;
+}
 
 void Progress::evaluated(const EvaluationRecord& record) {
   if (style_ == ProgressStyle::none) return;
@@ -29,19 +45,13 @@ void Progress::show(const EvaluationRecord& record, double seconds) {
                 static_cast<std::size_t>(record.evaluation), evaluations_, record.best_objective,
                 record.sigma, record.triangles, preserved_sum_ / done, left);
   if (style_ == ProgressStyle::bar) {
-    std::fprintf(stderr, "\r[%s] %s\033[K", bar(record.evaluation).c_str(), figures.data());
+    std::fprintf(stderr, "\r[%s] %s\033[K",
+                 bar_of(static_cast<double>(record.evaluation) / static_cast<double>(evaluations_)).c_str(),
+                 figures.data());
   } else {
     std::fprintf(stderr, "%s\n", figures.data());
   }
   std::fflush(stderr);
-}
-
-std::string Progress::bar(std::size_t evaluation) const {
-  constexpr std::size_t width = 20;
-  const std::size_t full = evaluations_ == 0 ? width : width * evaluation / evaluations_;
-  std::string text(width, '.');
-  text.replace(0, full, full, '#');
-  return text;
 }
 
 void Progress::finish() {

@@ -18,6 +18,11 @@ enum class ProgressStyle {
   lines  // one line every few seconds: for a log
 };
 
+// For a file that is no terminal lines, which stay readable in a log.
+ProgressStyle progress_style(bool quiet);
+// part of 1 as a bar of 20 characters.
+std::string bar_of(double part);
+
 class Progress : public OptimiseObserver {
  public:
   // heading is the first line: what was resolved.
@@ -31,7 +36,6 @@ class Progress : public OptimiseObserver {
 
  private:
   void show(const EvaluationRecord& record, double seconds);
-  std::string bar(std::size_t evaluation) const;
 
   ProgressStyle style_;
   std::size_t evaluations_;

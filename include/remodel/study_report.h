@@ -94,10 +94,11 @@ struct StudyGap {  // what an unfinished study lacks
   std::size_t replays = 0, expected = 0;
 };
 
-struct StudyPath {  // what an optimiser's path follows from
+struct StudyPictured {  // the scenario that the mesh figures are of
   std::string airfoil;
   double sigma = 0.0;
   std::uint64_t seed = 0;
+  std::vector<CstAirfoil> designs;  // the start, and the first thousand or so of its path
 };
 
 struct StudyContents {
@@ -109,7 +110,7 @@ struct StudyContents {
   std::size_t replays = 0, expected_replays = 0;
   std::uint64_t evaluations = 0;  // asked for, a scenario
   double seconds = 0.0;           // of all scenarios, fresh meshes and replays: processor time of one core
-  StudyPath drawn;                // of the mesh figures: RAE 2822 with the largest sigma, if it is there
+  StudyPictured pictured;  // RAE 2822 with the largest sigma, if it is there; no designs without a path
   std::vector<StudyOutline> airfoils;  // of the store, the paper's order first
   std::vector<StudyRow> rows;          // by airfoil, sigma, I, G, D, strategy
   std::vector<StudyBlock> blocks;      // by row, then evaluation

@@ -1,11 +1,10 @@
 #include "remodel/history.h"
 
-#include <sqlite3.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "optimise/sqlite.h"
 #include "remodel/error.h"
 
 namespace remodel {
@@ -56,102 +55,14 @@ std::string coefficients_to_json(const std::vector<double>& coefficients) {
 
 }  // namespace
 
-// The connection, and every call on it that can fail.
 struct History::Database {
-  explicit Database(std::filesystem::path path) : file(std::move(path)) {}
-  ~Database() { sqlite3_close(connection); }
-  Database(const Database&) = delete;
-  Database& operator=(const Database&) = delete;
-
-  [[noreturn]] void fail(const std::string& action) const {
-    const char* reason = connection ? sqlite3_errmsg(connection) : "out of memory";
-    throw Error(ErrorCode::file, file.string(), "cannot " + action + " the run's history: " + reason);
-  }
-  void open(int flags) {
-    if (sqlite3_open_v2(file.c_str(), &connection, flags, nullptr) != SQLITE_OK) fail("open");
-    // A reader that looks into a running history holds a commit up for a moment: wait for it.
-    sqlite3_busy_timeout(connection, 30'000);
-  }
-  void execute(const char* sql) const {
-    if (sqlite3_exec(connection, sql, nullptr, nullptr, nullptr) != SQLITE_OK) fail("write");
-  }
-
-  std::filesystem::path file;
-  sqlite3* connection = nullptr;
+  Database(std::filesystem::path path, Sqlite::Open how)
+      : sqlite(std::move(path), "the run's history", how) {}
+  Sqlite sqlite;
   std::vector<EvaluationRecord> pending;
 };
 
 namespace {
-
-// One prepared statement; parameters and columns are visited from left to right.
-class Statement {
- public:
-  template <typename Database>
-  Statement(const Database& database, const char* sql)
-      : connection_(database.connection), fail_([&database] { database.fail("use"); }) {
-    check(sqlite3_prepare_v2(connection_, sql, -1, &statement_, nullptr));
-  }
-  ~Statement() { sqlite3_finalize(statement_); }
-  Statement(const Statement&) = delete;
-  Statement& operator=(const Statement&) = delete;
-
-  void bind(double value) { check(sqlite3_bind_double(statement_, ++parameter_, value)); }
-  void bind_integer(std::uint64_t value) {
-    check(sqlite3_bind_int64(statement_, ++parameter_, static_cast<sqlite3_int64>(value)));
-  }
-  void bind(const std::string& value) {
-    check(sqlite3_bind_text(statement_, ++parameter_, value.data(), static_cast<int>(value.size()),
-                            SQLITE_TRANSIENT));
-  }
-  void bind_null() { check(sqlite3_bind_null(statement_, ++parameter_)); }
-  void bind(std::optional<double> value) {
-    if (value) return bind(*value);
-    bind_null();
-  }
-  void bind_integer(std::optional<std::size_t> value) {
-    if (value) return bind_integer(std::uint64_t{*value});
-    bind_null();
-  }
-
-  // True if there is a row.
-  bool step() {
-    column_ = 0;
-    const int status = sqlite3_step(statement_);
-    if (status != SQLITE_ROW && status != SQLITE_DONE) fail_();
-    return status == SQLITE_ROW;
-  }
-  void reset() {
-    check(sqlite3_reset(statement_));
-    parameter_ = 0;
-  }
-
-  double real() { return sqlite3_column_double(statement_, column_++); }
-  std::uint64_t integer() { return static_cast<std::uint64_t>(sqlite3_column_int64(statement_, column_++)); }
-  std::optional<double> optional_real() { return null() ? skip() : std::optional(real()); }
-  std::optional<std::size_t> optional_integer() {
-    return null() ? skip() : std::optional<std::size_t>(integer());
-  }
-  std::string text() {
-    const auto* characters = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column_));
-    const int size = sqlite3_column_bytes(statement_, column_++);
-    return characters ? std::string(characters, static_cast<std::size_t>(size)) : std::string();
-  }
-
- private:
-  bool null() const { return sqlite3_column_type(statement_, column_) == SQLITE_NULL; }
-  std::nullopt_t skip() {
-    ++column_;
-    return std::nullopt;
-  }
-  void check(int status) const {
-    if (status != SQLITE_OK) fail_();
-  }
-  sqlite3* connection_;
-  std::function<void()> fail_;
-  sqlite3_stmt* statement_ = nullptr;
-  int parameter_ = 0;
-  int column_ = 0;
-};
 
 void bind(Statement& row, const EvaluationRecord& record) {
   row.bind_integer(record.evaluation);
@@ -235,55 +146,48 @@ History History::create(const std::filesystem::path& file, const std::map<std::s
   journal += "-journal";  // of a killed run: it would be rolled back into the new file
   std::filesystem::remove(journal, ignored);
 
-  auto database = std::make_unique<Database>(file);
-  database->open(SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
-  database->execute("BEGIN");
-  database->execute(schema);
-  {
-    Statement row(*database, "INSERT INTO run VALUES (?,?)");
-    for (const auto& [key, value] : run) {
-      row.bind(key);
-      row.bind(value);
-      row.step();
-      row.reset();
-    }
+  auto database = std::make_unique<Database>(file, Sqlite::Open::create);
+  Transaction transaction(database->sqlite);
+  database->sqlite.execute(schema);
+  Statement row(database->sqlite, "INSERT INTO run VALUES (?,?)");
+  for (const auto& [key, value] : run) {
+    row.bind(key);
+    row.bind(value);
+    row.run();
   }
-  database->execute("COMMIT");
+  transaction.commit();
   return History(std::move(database));
 }
 
 namespace {
 
-template <typename Database>
-void require_version(const Database& database) {
+void require_version(const Sqlite& database) {
   Statement version(database, "PRAGMA user_version");
   version.step();
   if (const std::uint64_t found = version.integer(); found != 2)
-    throw Error(ErrorCode::format, database.file.string(),
+    throw Error(ErrorCode::format, database.file().string(),
                 "expected the history of a run, version 2, found version " + std::to_string(found));
 }
 
 }  // namespace
 
 History History::open(const std::filesystem::path& file) {
-  auto database = std::make_unique<Database>(file);
+  auto database = std::make_unique<Database>(file, Sqlite::Open::existing);
   // A killed run may have left a transaction half written, which only a writer can take back. Where the file
   // cannot be written SQLite opens it to read.
-  database->open(SQLITE_OPEN_READWRITE);
-  require_version(*database);
+  require_version(database->sqlite);
   return History(std::move(database));
 }
 
 History History::resume(const std::filesystem::path& file, std::uint64_t last) {
-  auto database = std::make_unique<Database>(file);
-  database->open(SQLITE_OPEN_READWRITE);
-  require_version(*database);
+  auto database = std::make_unique<Database>(file, Sqlite::Open::existing);
+  require_version(database->sqlite);
   {
-    Statement later(*database, "DELETE FROM evaluations WHERE evaluation > ?");
+    Statement later(database->sqlite, "DELETE FROM evaluations WHERE evaluation > ?");
     later.bind_integer(last);
     later.step();
   }
-  Statement count(*database, "SELECT count(*) FROM evaluations WHERE evaluation >= 1");
+  Statement count(database->sqlite, "SELECT count(*) FROM evaluations WHERE evaluation >= 1");
   count.step();
   if (const std::uint64_t found = count.integer(); found != last)
     throw Error(ErrorCode::format, file.string(),
@@ -299,25 +203,19 @@ void History::append(const EvaluationRecord& record) {
 
 void History::commit() {
   if (database_->pending.empty()) return;
-  database_->execute("BEGIN IMMEDIATE");
-  try {
-    Statement row(*database_, insert_row);
-    for (const EvaluationRecord& record : database_->pending) {
-      bind(row, record);
-      row.step();
-      row.reset();
-    }
-    database_->execute("COMMIT");
-  } catch (...) {
-    sqlite3_exec(database_->connection, "ROLLBACK", nullptr, nullptr, nullptr);
-    throw;
+  Transaction transaction(database_->sqlite);
+  Statement row(database_->sqlite, insert_row);
+  for (const EvaluationRecord& record : database_->pending) {
+    bind(row, record);
+    row.run();
   }
+  transaction.commit();
   database_->pending.clear();
 }
 
 std::map<std::string, std::string> History::run() const {
   std::map<std::string, std::string> result;
-  Statement row(*database_, "SELECT key, value FROM run");
+  Statement row(database_->sqlite, "SELECT key, value FROM run");
   while (row.step()) {
     const std::string key = row.text();
     result[key] = row.text();
@@ -326,14 +224,14 @@ std::map<std::string, std::string> History::run() const {
 }
 
 void History::each(const std::function<void(const EvaluationRecord&)>& visit) const {
-  Statement row(*database_, "SELECT * FROM evaluations ORDER BY evaluation");
+  Statement row(database_->sqlite, "SELECT * FROM evaluations ORDER BY evaluation");
   while (row.step()) {
     EvaluationRecord record;
     try {
       record = read_row(row);
     } catch (const nlohmann::json::exception&) {
       throw Error(
-          ErrorCode::format, database_->file.string(),
+          ErrorCode::format, database_->sqlite.file().string(),
           "evaluation " + std::to_string(record.evaluation) + ": expected coefficients as a JSON array");
     }
     visit(record);

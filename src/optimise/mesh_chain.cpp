@@ -1,24 +1,15 @@
 #include "optimise/mesh_chain.h"
 
-#include <chrono>
 #include <utility>
 
-#include "optimise/portable_math.h"
+#include "optimise/comparison.h"
+#include "optimise/stopwatch.h"
 #include "remodel/check.h"
 #include "remodel/generate.h"
+#include "remodel/strategy.h"
 
 namespace remodel {
 namespace {
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 void copy_figures(const RemodelResult& result, EvaluationRecord& record) {
   record.triangles_before = result.triangles_before;
@@ -34,7 +25,23 @@ void copy_figures(const RemodelResult& result, EvaluationRecord& record) {
   record.detail = result.reason;
 }
 
+// A run is long: it can afford to know K within one percent.
+constexpr int calibration_samples = 20;
+
 }  // namespace
+
+std::optional<Mesh> first_mesh(const CstAirfoil& from, const OptimiseOptions& options) {
+  const Domain domain = DesignDomains(options)(from);
+  if (options.start) {
+    Mesh mesh = options.start->mesh;
+    if (remodel(mesh, domain, options.remodel).stopped != Stopped::done) return std::nullopt;
+    return mesh;
+  }
+  GenerateResult generated = generate(domain, options.quality);
+  if (generated.stopped != Stopped::done) return std::nullopt;
+  if (options.remodel.strategy == Strategy::renew) calibrate(generated.mesh.data(), calibration_samples);
+  return std::move(generated.mesh);
+}
 
 MeshChain::MeshChain(const OptimiseOptions& options, Mesh mesh)
     : domain_of_(options), quality_(quality_of(options)), remodel_(options.remodel), mesh_(std::move(mesh)) {}
@@ -56,7 +63,7 @@ Stopped MeshChain::step(const CstAirfoil& design, StepTasks tasks, EvaluationRec
     if (const Stopped stopped = regenerate(domain, record); stopped != Stopped::done) return stopped;
   }
   record.min_angle_deg = mesh_.statistics().min_angle_deg;
-  return tasks.compare ? compare(compared_design(design, record), record) : Stopped::done;
+  return tasks.compare ? compare(design, record) : Stopped::done;
 }
 
 std::string MeshChain::broken_rule(const Domain& domain, StepTasks tasks) const {
@@ -87,30 +94,10 @@ Stopped MeshChain::regenerate(const Domain& domain, EvaluationRecord& record) {
   return Stopped::done;
 }
 
-// Where the optimiser has converged, designs hardly differ any more, and neither would the meshes that they
-// are compared with: one mesh with many or few triangles, by chance, would decide the mean of hundreds.
-CstAirfoil MeshChain::compared_design(const CstAirfoil& design, const EvaluationRecord& record) const {
-  constexpr double converged = 0.003,
-                   jitter = 0.001;  // standard deviation of samples; of coefficients, relative
-  if (record.sigma >= converged) return design;
-  portable::Generator random(record.evaluation);
-  CstAirfoil jittered = design;
-  for (auto* surface : {&jittered.upper, &jittered.lower})
-    for (double& coefficient : *surface) coefficient *= 1.0 + jitter * random.normal();
-  return domain_of_.feasible(jittered) ? jittered : design;
-}
-
 Stopped MeshChain::compare(const CstAirfoil& design, EvaluationRecord& record) const {
-  const Stopwatch watch;
-  const Domain domain = domain_of_(design);
-  const GenerateResult fresh = generate(domain, quality_);
-  record.generate_seconds = watch.seconds();
-  record.generated_triangles = fresh.mesh.triangle_count();
-  const GradationError error = mesh_.gradation_error(), fresh_error = fresh.mesh.gradation_error();
-  record.gradation_bias = error.bias;
-  record.gradation_deviation = error.deviation;
-  record.generated_gradation_bias = fresh_error.bias;
-  record.generated_gradation_deviation = fresh_error.deviation;
+  const FreshMesh fresh =
+      fresh_mesh(domain_of_, quality_, compared_design(domain_of_, design, record.evaluation, record.sigma));
+  add_comparison(fresh, mesh_.gradation_error(), record);
   return fresh.stopped;
 }
 

@@ -3,6 +3,9 @@
 // The mesh's side of a run: one living mesh, remodelled from design to design, timed, validated, and
 // regenerated where it has to be.
 
+#include <optional>
+#include <string>
+
 #include "optimise/design_domains.h"
 #include "remodel/airfoil.h"
 #include "remodel/history.h"
@@ -17,6 +20,9 @@ struct StepTasks {
   bool full_check = false;  // check() too
 };
 
+// The mesh of the start, as a chain begins with it. None where a limit keeps it from being finished.
+std::optional<Mesh> first_mesh(const CstAirfoil& from, const OptimiseOptions& options);
+
 class MeshChain {
  public:
   MeshChain(const OptimiseOptions& options, Mesh mesh);
@@ -29,7 +35,6 @@ class MeshChain {
  private:
   std::string broken_rule(const Domain& domain, StepTasks tasks) const;
   Stopped regenerate(const Domain& domain, EvaluationRecord& record);
-  CstAirfoil compared_design(const CstAirfoil& design, const EvaluationRecord& record) const;
   Stopped compare(const CstAirfoil& design, EvaluationRecord& record) const;
 
   DesignDomains domain_of_;

@@ -16,7 +16,6 @@
 #include "optimise/shape_search.h"
 #include "optimise/summary.h"
 #include "remodel/error.h"
-#include "remodel/generate.h"
 #include "remodel/io.h"
 #include "remodel/strategy.h"
 
@@ -24,15 +23,6 @@ namespace remodel {
 namespace {
 
 namespace fs = std::filesystem;
-
-void require_same_family(const CstAirfoil& from, const CstAirfoil& to) {
-  if (from.e1 != to.e1 || from.e2 != to.e2 || from.te_upper != to.te_upper || from.te_lower != to.te_lower)
-    throw Error(ErrorCode::argument, "start and target airfoils",
-                "expected the same class exponents and trailing edges: only shape coefficients are searched");
-  for (const auto& [airfoil, name] : {std::pair{&from, "start airfoil"}, std::pair{&to, "target airfoil"}}) {
-    if (!surfaces_apart(*airfoil)) throw Error(ErrorCode::geometry, name, "its surfaces touch or cross");
-  }
-}
 
 void require_good(const OptimiseOptions& options) {
   const auto require = [](bool good, const char* option, const char* expected) {
@@ -113,8 +103,8 @@ void add(Checksum& sum, const EvaluationRecord& record) {
                                   record.inserted, record.removed, record.generated_triangles.value_or(0)})
     sum.add(std::uint64_t{count});
   sum.add(record.infeasible_samples);
-  for (const bool flag :
-       {record.full_adjustment, record.refreshed, record.regenerated, record.checked == Checked::full, record.valid})
+  for (const bool flag : {record.full_adjustment, record.refreshed, record.regenerated,
+                          record.checked == Checked::full, record.valid})
     sum.add(flag ? "1" : "0");
   sum.add(record.detail);
 }
@@ -255,9 +245,9 @@ void refuse_unfinished_run(const fs::path& directory) {
 
 ShapeSearch search_of(const CstAirfoil& from, const OptimiseOptions& options, Cmaes cmaes) {
   if (!options.start) return ShapeSearch(from, options.domain, std::move(cmaes));
-  return ShapeSearch(
-      from, std::move(cmaes),
-      [domains = DesignDomains(options)](const CstAirfoil& design) { return domains.feasible(design); });
+  return ShapeSearch(from, std::move(cmaes), [domains = DesignDomains(options)](const CstAirfoil& design) {
+    return domains.feasible(design);
+  });
 }
 
 // The start of a run, complete on the disk before it replaces what the directory holds.
@@ -347,23 +337,6 @@ Progress go_on(const CstAirfoil& from, const CstAirfoil& to, const OptimiseOptio
           .written = written,
           .refused = checkpoint.refused,
           .earlier_seconds = checkpoint.seconds};
-}
-
-// A run is long: it can afford to know K within one percent.
-constexpr int calibration_samples = 20;
-
-// None where a limit keeps it from being finished.
-std::optional<Mesh> first_mesh(const CstAirfoil& from, const OptimiseOptions& options) {
-  const Domain domain = DesignDomains(options)(from);
-  if (options.start) {
-    Mesh mesh = options.start->mesh;
-    if (remodel(mesh, domain, options.remodel).stopped != Stopped::done) return std::nullopt;
-    return mesh;
-  }
-  GenerateResult generated = generate(domain, options.quality);
-  if (generated.stopped != Stopped::done) return std::nullopt;
-  if (options.remodel.strategy == Strategy::renew) calibrate(generated.mesh.data(), calibration_samples);
-  return std::move(generated.mesh);
 }
 
 OptimiseResult unmeshable_start(const CstAirfoil& from, const OptimiseOptions& options) {

@@ -1,12 +1,7 @@
 #include "optimise/run_directory.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -40,34 +35,9 @@ bool is_temporary(const std::string& name) {
 
 }  // namespace
 
-RunDirectory::RunDirectory(fs::path directory) : directory_(std::move(directory)) {
-  std::error_code problem;
-  fs::create_directories(directory_, problem);
-  if (problem)
-    throw Error(ErrorCode::file, directory_.string(), "cannot make the directory: " + problem.message());
-  lock();
+RunDirectory::RunDirectory(fs::path directory) : directory_(std::move(directory)), lock_(directory_) {
   remove_temporaries();
   drop_start();
-}
-
-RunDirectory::RunDirectory(RunDirectory&& other) noexcept
-    : directory_(std::move(other.directory_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
-
-RunDirectory::~RunDirectory() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
-
-// The lock is on the directory itself, so that there is no lock file to be left behind. Some network file
-// systems cannot lock a directory: there it is up to the user.
-void RunDirectory::lock() {
-  descriptor_ = ::open(directory_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor_ < 0)
-    throw Error(ErrorCode::file, directory_.string(),
-                "cannot be opened: " + std::generic_category().message(errno));
-  if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
-  ::close(std::exchange(descriptor_, -1));
-  throw Error(ErrorCode::file, directory_.string(),
-              "is in use by another run: expected another directory, or that the run has ended");
 }
 
 void RunDirectory::remove_temporaries() const noexcept {
@@ -106,17 +76,12 @@ void RunDirectory::publish_start() const {
     require(problem, name);
   }
   for (const std::string_view name : start_files) {
-    if (name == start_files.back()) sync();
+    if (name == start_files.back()) lock_.sync();
     fs::rename(directory_ / start_name / name, directory_ / name, problem);
     require(problem, name);
   }
-  sync();
+  lock_.sync();
   drop_start();
-}
-
-// Not every file system can flush a directory: that is no error.
-void RunDirectory::sync() const {
-  static_cast<void>(::fsync(descriptor_));
 }
 
 }  // namespace remodel

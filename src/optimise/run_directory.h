@@ -9,6 +9,8 @@
 
 #include <filesystem>
 
+#include "optimise/directory_lock.h"
+
 namespace remodel {
 
 class RunDirectory {
@@ -17,21 +19,16 @@ class RunDirectory {
   // Throws Error (file), also where another process holds the lock. The lock ends with the process, however
   // it ends.
   explicit RunDirectory(std::filesystem::path directory);
-  ~RunDirectory();
-  RunDirectory(RunDirectory&& other) noexcept;
-  RunDirectory& operator=(RunDirectory&&) = delete;
 
   std::filesystem::path make_start() const;  // the empty subdirectory
   void publish_start() const;                // its files replace those of the run before
   void drop_start() const noexcept;
 
  private:
-  void lock();
   void remove_temporaries() const noexcept;
-  void sync() const;
 
   std::filesystem::path directory_;
-  int descriptor_ = -1;
+  DirectoryLock lock_;
 };
 
 }  // namespace remodel

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "remodel/error.h"
+
 namespace remodel {
 namespace {
 
@@ -22,6 +24,15 @@ void raise(std::vector<double>& coefficients) {
 }
 
 }  // namespace
+
+void require_same_family(const CstAirfoil& from, const CstAirfoil& to) {
+  if (from.e1 != to.e1 || from.e2 != to.e2 || from.te_upper != to.te_upper || from.te_lower != to.te_lower)
+    throw Error(ErrorCode::argument, "start and target airfoils",
+                "expected the same class exponents and trailing edges: only shape coefficients are searched");
+  for (const auto& [airfoil, name] : {std::pair{&from, "start airfoil"}, std::pair{&to, "target airfoil"}}) {
+    if (!surfaces_apart(*airfoil)) throw Error(ErrorCode::geometry, name, "its surfaces touch or cross");
+  }
+}
 
 CstAirfoil raise_degree(const CstAirfoil& airfoil, int degree) {
   CstAirfoil result = airfoil;

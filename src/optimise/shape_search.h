@@ -15,6 +15,10 @@
 
 namespace remodel {
 
+// Throws Error (argument, geometry) unless the search can lead from one to the other: it changes shape
+// coefficients alone, and both must have their surfaces apart.
+void require_same_family(const CstAirfoil& from, const CstAirfoil& to);
+
 // The same airfoil with shape functions of a higher degree: exact but for rounding.
 CstAirfoil raise_degree(const CstAirfoil& airfoil, int degree);
 

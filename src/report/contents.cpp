@@ -7,10 +7,12 @@
 #include <set>
 #include <tuple>
 
+#include "optimise/shape_search.h"
 #include "remodel/error.h"
 #include "remodel/study_report.h"
 #include "report/database.h"
 #include "report/names.h"
+#include "study/store.h"
 
 namespace remodel {
 
@@ -77,19 +79,33 @@ void read_scenarios(const Database& database, StudyContents& study) {
   Query count(database, "SELECT count(*) FROM scenarios WHERE evaluations IS NOT NULL");
   count.next();
   study.scenarios = static_cast<std::size_t>(count.integer());
-  // The mesh figures are of the paper's own case, where the study has it.
-  Query drawn(database,
-              "SELECT airfoil, sigma, seed FROM scenarios "
-              "ORDER BY scenario, airfoil = 'rae2822' DESC, sigma DESC, id LIMIT 1");
-  if (drawn.next()) {
-    const std::string airfoil = drawn.text();
-    const double sigma = drawn.real();
-    study.drawn = {airfoil, sigma, static_cast<std::uint64_t>(drawn.integer())};
-  }
   for (const char* table : {"scenarios", "fresh", "replays"}) {
     Query seconds(database, std::string("SELECT total(seconds) FROM ") + table);
     seconds.next();
     study.seconds += seconds.real();
+  }
+}
+
+// The mesh figures are of the paper's own case, where the study has it.
+void read_pictured(const Database& database, StudyContents& study) {
+  constexpr std::size_t most_designs = 1001;
+  Query row(database,
+            "SELECT airfoil, sigma, seed, path FROM scenarios WHERE path IS NOT NULL "
+            "ORDER BY scenario, airfoil = 'rae2822' DESC, sigma DESC, id LIMIT 1");
+  if (!row.next()) return;
+  StudyPictured& pictured = study.pictured;
+  pictured.airfoil = row.text();
+  pictured.sigma = row.real();
+  pictured.seed = static_cast<std::uint64_t>(row.integer());
+  const StudyPath path = read_study_path(row.text(), database.file().string());
+  const auto degree = static_cast<int>(path.dimension / 2) - 1;
+  const CstAirfoil start = study_start().design;
+  if (degree < start.degree() || path.dimension % 2 != 0) return;  // not a path of this start
+  pictured.designs.push_back(raise_degree(start, degree));
+  for (std::size_t i = 0; i < path.evaluations() && pictured.designs.size() < most_designs; ++i) {
+    const auto coefficients = path.coefficients(i);
+    pictured.designs.push_back(
+        with_coefficients(pictured.designs.front(), {coefficients.begin(), coefficients.end()}));
   }
 }
 
@@ -244,6 +260,7 @@ StudyContents read_study(const std::filesystem::path& directory) {
   read_options(database, study);
   read_airfoils(database, study);
   read_scenarios(database, study);
+  read_pictured(database, study);
   read_blocks(database, read_rows(database, study), study);
   if (study.rows.empty())
     throw Error(ErrorCode::format, database.file().string(),

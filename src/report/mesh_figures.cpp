@@ -6,7 +6,6 @@
 #include <cmath>
 #include <set>
 
-#include "optimise/shape_search.h"
 #include "remodel/generate.h"
 #include "remodel/remodel.h"
 #include "remodel/study_report.h"
@@ -29,31 +28,6 @@ constexpr double plot_height = scale * (high.y - low.y);
 
 Point pixel(Point p) {
   return {scale * (p.x - low.x), scale * (high.y - p.y)};
-}
-
-const CstAirfoil* target_of(const StudyContents& study) {
-  for (const StudyOutline& airfoil : study.airfoils)
-    if (airfoil.name == study.drawn.airfoil && airfoil.design) return &*airfoil.design;
-  return nullptr;
-}
-
-// The first designs of a search, as in optimise().
-std::vector<CstAirfoil> designs_of(const StudyPath& path, const CstAirfoil& target, int points,
-                                   std::size_t count) {
-  CstAirfoil start = load_airfoil("naca0012", target.degree());
-  start = raise_degree(start, std::max(start.degree(), target.degree()));
-  const CstAirfoil to = raise_degree(target, start.degree());
-  const InterpolationObjective objective(to);
-  ShapeSearch search(start, AirfoilDomainOptions{.points = points},
-                     initial_distribution(start, path.sigma, path.seed));
-  std::vector<CstAirfoil> designs{start};
-  while (designs.size() <= count) {
-    const std::optional<Sample> sample = search.next(10000);
-    if (!sample) break;
-    search.tell(*sample, objective.mean_square(sample->design));
-    designs.push_back(sample->design);
-  }
-  return designs;
 }
 
 bool in_window(Point a, Point b, Point c) {
@@ -110,18 +84,17 @@ void draw_regions(Svg& svg, const std::vector<Point>& olds, const std::vector<Po
   }
 }
 
-StudySvg removal_regions(const StudyPath& path, const CstAirfoil& target) {
-  constexpr int points = 150;
-  const std::vector<CstAirfoil> designs = designs_of(path, target, points, 1);
-  const AirfoilDomainOptions options{.points = points};
-  const Domain from = airfoil_domain(designs.front(), options), to = airfoil_domain(designs.back(), options);
+StudySvg removal_regions(const StudyPictured& pictured) {
+  const AirfoilDomainOptions options{.points = 150};
+  const Domain from = airfoil_domain(pictured.designs[0], options);
+  const Domain to = airfoil_domain(pictured.designs[1], options);
   const std::string title =
-      "Circular removal regions: " + std::to_string(points) +
-      " vertices, D = 1, from the start to evaluation " + std::to_string(designs.size() - 1) +
-      " of σ = " + report::short_number(path.sigma) + ", seed " + std::to_string(path.seed);
+      "Circular removal regions: 150 vertices, D = 1, from the start to the first design of " +
+      report::title_of(pictured.airfoil) + ", σ = " + report::short_number(pictured.sigma) + ", seed " +
+      std::to_string(pictured.seed);
   Svg svg(figure_width, plot_height + 24, title);
   open_plot(svg);
-  draw_edges(svg, generate(from, {.gradation = points / 50.0}).mesh.freeze());
+  draw_edges(svg, generate(from, {.gradation = 3.0}).mesh.freeze());
   draw_regions(svg, from.points(0), to.points(0), 1.0);
   svg.polyline(closed(from.points(0)), "fill='none' stroke='currentColor' stroke-width='1.6'");
   svg.polyline(closed(to.points(0)),
@@ -239,21 +212,32 @@ Mesh remodelled(const std::vector<CstAirfoil>& designs, const AirfoilDomainOptio
   return mesh;
 }
 
+// The paper's I, or the nearest below it that the study has: its designs are feasible for those alone.
+int points_of(const StudyContents& study, int wanted) {
+  int best = 0;
+  for (const StudyRow& row : study.rows)
+    if (row.at.airfoil == study.pictured.airfoil && (row.at.points <= wanted || best == 0))
+      best = best > wanted ? row.at.points : std::max(best, row.at.points);
+  return best == 0 ? wanted : best;
+}
+
 }  // namespace
 
 std::vector<StudySvg> study_mesh_figures(const StudyContents& study, const MeshFigureOptions& options) {
-  const CstAirfoil* target = target_of(study);
-  if (target == nullptr) return {};
-  std::vector<StudySvg> figures{removal_regions(study.drawn, *target)};
-  const std::vector<CstAirfoil> designs =
-      designs_of(study.drawn, *target, options.points, options.evaluations);
-  const AirfoilDomainOptions domain{.points = options.points};
-  const QualityOptions quality{.gradation = options.points / 50.0};
-  const std::string of = " (I = " + std::to_string(options.points) +
+  const StudyPictured& pictured = study.pictured;
+  if (pictured.designs.size() < 2) return {};
+  const std::size_t count = std::min(pictured.designs.size(), options.evaluations + 1);
+  const std::vector<CstAirfoil> designs(pictured.designs.begin(),
+                                        pictured.designs.begin() + static_cast<std::ptrdiff_t>(count));
+  const int points = points_of(study, options.points);
+  const AirfoilDomainOptions domain{.points = points};
+  const QualityOptions quality{.gradation = points / 50.0};
+  const std::string of = " (I = " + std::to_string(points) +
                          ", G = " + report::short_number(quality.gradation) +
-                         ", D = 1, σ = " + report::short_number(study.drawn.sigma) + ", " +
-                         report::title_of(study.drawn.airfoil) + ")";
-  const std::string steps = " after " + std::to_string(designs.size() - 1) + " remodellings";
+                         ", D = 1, σ = " + report::short_number(pictured.sigma) + ", " +
+                         report::title_of(pictured.airfoil) + ")";
+  const std::string steps = " after " + std::to_string(count - 1) + " remodellings";
+  std::vector<StudySvg> figures{removal_regions(pictured)};
   figures.push_back(gradation_figure(remodelled(designs, domain, quality, Strategy::chain), "figure-5-chain",
                                      "chain" + steps + of));
   figures.push_back(gradation_figure(remodelled(designs, domain, quality, Strategy::renew), "figure-5-renew",

@@ -228,14 +228,15 @@ TEST(StudyAirfoilFigures, GiveThicknessAndCamber) {
 
 TEST(StudyMeshFigures, AreTheSameEveryTime) {
   StudyContents study;
-  study.airfoils = {{"rae2822", "RAE 2822", load_airfoil("rae2822", 5)}};
-  study.drawn = {"rae2822", 0.25, 1};
+  const CstAirfoil from = load_airfoil("naca0012", 5), to = load_airfoil("rae2822", 5);
+  study.pictured = {.airfoil = "rae2822", .sigma = 0.25, .seed = 1, .designs = {}};
+  for (int i = 0; i <= 20; ++i) study.pictured.designs.push_back(i % 2 == 0 ? from : to);
   const MeshFigureOptions small{.points = 50, .evaluations = 20};
   const std::vector<StudySvg> once = study_mesh_figures(study, small),
                               again = study_mesh_figures(study, small);
   ASSERT_EQ(once.size(), 4u);
   for (std::size_t i = 0; i < once.size(); ++i) EXPECT_EQ(once[i].text, again[i].text);
-  study.drawn.airfoil = "missing";
+  study.pictured.designs.clear();
   EXPECT_TRUE(study_mesh_figures(study, small).empty());
 }
 

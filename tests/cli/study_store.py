@@ -8,6 +8,7 @@ import csv
 import json
 import random
 import sqlite3
+import struct
 import sys
 from pathlib import Path
 
@@ -88,8 +89,17 @@ class Store:
         if found:
             return found[0]
         return self.connection.execute(
-            "INSERT INTO scenarios (airfoil, sigma, scenario, seed, evaluations, infeasible_samples, seconds) "
-            "VALUES (?,?,?,?,?,?,?)", (airfoil, sigma, number, number, self.evaluations, 10, 0.5)).lastrowid
+            "INSERT INTO scenarios (airfoil, sigma, scenario, seed, evaluations, infeasible_samples, seconds, path) "
+            "VALUES (?,?,?,?,?,?,?,?)", (airfoil, sigma, number, number, self.evaluations, 10, 0.5, self.path())).lastrowid
+
+    def path(self, designs=40):
+        """Thick and thin sections in turn, so that every design is feasible."""
+        values = []
+        for _ in range(designs):
+            upper = [0.17 + self.random.uniform(-0.02, 0.02) for _ in range(6)]
+            lower = [-0.17 + self.random.uniform(-0.02, 0.02) for _ in range(6)]
+            values += [0.05, 1e-4, *upper, *lower]
+        return b"RMPATH01" + struct.pack(f"<QQ{len(values)}d", 12, designs, *values)
 
     def near(self, value, relative):
         return value * (1 + self.random.uniform(-relative, relative))

@@ -1,0 +1,30 @@
+#include "study/strategies.h"
+
+#include <array>
+
+#include "remodel/error.h"
+#include "remodel/study.h"
+
+namespace remodel {
+namespace {
+
+constexpr std::array strategies{Strategy::chain, Strategy::renew};
+
+}  // namespace
+
+std::vector<std::string> study_strategies() {
+  std::vector<std::string> names;
+  for (const Strategy strategy : strategies) names.emplace_back(name_of(strategy));
+  return names;
+}
+
+Strategy strategy_named(const std::string& name) {
+  std::string expected;
+  for (const Strategy strategy : strategies) {
+    if (name_of(strategy) == name) return strategy;
+    expected += (expected.empty() ? "" : ", ") + std::string(name_of(strategy));
+  }
+  throw Error(ErrorCode::argument, "strategies", "found '" + name + "', expected one of " + expected);
+}
+
+}  // namespace remodel
