@@ -34,7 +34,7 @@ StudySvg outline(const StudyOutline& airfoil, const CstAirfoil& design) {
     const Point other = design.at(1.0 - t);
     middle.push_back({other.x, (points.back().y + other.y) / 2});
   }
-  const double height = (high - low) * scale + 2 * margin + 20;
+  const double height = (high - low) * scale + 2 * margin;
   const auto pixel = [&](Point& p) { p = {margin + scale * p.x, margin + scale * (high - p.y)}; };
   for (Point& p : points) pixel(p);
   for (Point& p : middle) pixel(p);
@@ -44,7 +44,6 @@ StudySvg outline(const StudyOutline& airfoil, const CstAirfoil& design) {
   Svg svg(scale + 2 * margin, height, title);
   svg.polyline(points, "fill='currentColor' fill-opacity='.07' stroke='currentColor' stroke-width='1.4'");
   svg.polyline(middle, "fill='none' stroke='#0072b2' stroke-dasharray='5 4'");
-  svg.text({margin, height - 8}, words);
   return {"airfoil-" + report::file_name_of(airfoil.name), title, svg.finish()};
 }
 

@@ -101,8 +101,9 @@ Json verdict_json(const StudyContents& study) {
                          {"remark", report::remark_on(row)}});
     }
   }
-  return {
-      {"sentence", report::verdict_sentence(verdict_share(tables))}, {"lines", lines}, {"outside", outside}};
+  return {{"sentence", report::verdict_sentence(study, verdict_share(tables))},
+          {"lines", lines},
+          {"outside", outside}};
 }
 
 // Blocks of the D nearest to 1 alone: the others look the same, and there are a hundred blocks a row.

@@ -126,7 +126,17 @@ TEST(Verdict, IsOfOneStrategyAndLeavesOutWhatWasNotCompared) {
   EXPECT_EQ(tables[0].rows.size(), 1u);
   EXPECT_EQ(verdict_share(tables).rows, 0u);  // the coarse one is not judged
   EXPECT_EQ(judge_study(study, "renew").at(0).rows.size(), 1u);
-  EXPECT_NE(report::verdict_sentence(verdict_share(tables)).find("no row"), std::string::npos);
+  EXPECT_NE(report::verdict_sentence(study, verdict_share(tables)).find("no row"), std::string::npos);
+}
+
+TEST(Verdict, SaysWhereRunsAreShorterThanThePapers) {
+  const VerdictShare share{.rows = 4, .inside = 3, .generation_inside = 4, .preserved_inside = 3};
+  StudyContents study;
+  study.evaluations = 9000;
+  EXPECT_NE(report::verdict_sentence(study, share).find("3 of 4 (75 %)"), std::string::npos);
+  EXPECT_EQ(report::verdict_sentence(study, share).find("evaluations"), std::string::npos);
+  study.evaluations = 400;
+  EXPECT_NE(report::verdict_sentence(study, share).find("have 400 evaluations"), std::string::npos);
 }
 
 TEST(Verdict, RemarksNameTheBoundAndTheScatter) {

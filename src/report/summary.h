@@ -21,7 +21,8 @@ struct VerdictSummary {
 };
 VerdictSummary summarise(const VerdictTable& table);  // of at least one row
 
-std::string verdict_sentence(const VerdictShare& share);
+// One sentence, and where the study's scenarios are shorter than the paper's a second one that says so.
+std::string verdict_sentence(const StudyContents& study, const VerdictShare& share);
 // Which bound a row breaks, and whether the scatter of the scenarios is as large.
 std::string remark_on(const VerdictRow& row);
 

@@ -156,7 +156,7 @@ std::string verdict_markdown(const StudyContents& study) {
   std::string text = "## Verdict\n\n";
   if (tables.empty()) return text + "The study holds no row of the paper's tables by `chain`.\n";
   text +=
-      report::verdict_sentence(verdict_share(tables)) +
+      report::verdict_sentence(study, verdict_share(tables)) +
       "\n\nOurs by `chain` beside the paper's, from the least to the largest difference of a table's rows: "
       "triangles of generation and of remodelling in per cent, preservation and surplus in percentage "
       "points, speed-up as a ratio (both times are of one machine each; the paper does not name its own).\n\n"
