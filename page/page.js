@@ -4,6 +4,7 @@
 
 const study = JSON.parse(document.getElementById("data").textContent);
 const PAPER = "the paper";
+const I_COLORS = ["#440154", "#3b528b", "#21918c", "#5ec962", "#e0a80d", "#d55e00"];
 const D_COLORS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8c6d1f", "#56b4e9"];
 
 // Of the paper's seven figures: heading, decimals, and what a difference is. A difference of `bound` is the
@@ -323,7 +324,7 @@ function overRun(values) {
       encoding: {
         x: { field: "evaluation", type: "quantitative", title: "evaluation", axis: { grid: false, tickCount: 5 } },
         y: { field, type: "quantitative", title, scale, axis },
-        color: { field: "I", type: "ordinal", scale: { domain: ticks, range: ["#440154", "#3b528b", "#21918c", "#5ec962", "#e0a80d", "#d55e00"] } },
+        color: { field: "I", type: "ordinal", scale: { domain: ticks, range: ticks.map((_, i) => I_COLORS[Math.round((i * (I_COLORS.length - 1)) / Math.max(1, ticks.length - 1)) % I_COLORS.length]) } },
       },
     },
   });
