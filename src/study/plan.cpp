@@ -10,21 +10,14 @@
 namespace remodel {
 namespace {
 
-// Estimates of the time of jobs, measured on one core of a machine of 2023. They decide the order of jobs and
-// how much seems to be left, nothing else.
-
-constexpr double path_ms = 0.02;  // an evaluation
-
-// Power laws in the number of points, about as the triangles grow.
-double fresh_ms(const StudyPair& pair) {
-  return 0.3 + 0.01 * std::pow(pair.points / 50.0, 2.6);
+// Estimates of the time of jobs, measured on one core of 2023. They decide the order of jobs and how much
+// seems to be left, nothing else. In small meshes the boundary takes the time, in large ones the triangles,
+// of which every mesh is checked.
+double milliseconds(double boundary, double triangles, const StudyPair& pair) {
+  const double size = pair.points / 50.0;
+  return boundary * size + triangles * std::pow(size, 2.4);
 }
-double step_ms(const StudyPair& pair) {
-  return 0.15 * std::pow(pair.points / 50.0, 1.7);
-}
-double check_ms(const StudyPair& pair) {
-  return 2.5 * std::pow(pair.points / 50.0, 1.5);
-}
+constexpr double path_ms = 0.01;  // an evaluation
 
 double core_seconds(const StudyOptions& options, const JobKey& key) {
   const double evaluations = static_cast<double>(options.evaluations);
@@ -34,9 +27,9 @@ double core_seconds(const StudyOptions& options, const JobKey& key) {
     case JobKind::path:
       return 1e-3 * evaluations * path_ms;
     case JobKind::fresh:
-      return 1e-3 * compared * fresh_ms(pair);
+      return 1e-3 * compared * milliseconds(0.25, 0.009, pair);
     case JobKind::replay:
-      return 1e-3 * (evaluations * step_ms(pair) + compared * check_ms(pair));
+      return 1e-3 * (evaluations * milliseconds(0.15, 0.024, pair) + compared * milliseconds(1.2, 0.2, pair));
   }
   return 0.0;
 }

@@ -47,6 +47,18 @@ void remove_temporaries(const fs::path& directory) {
   for (const fs::path& file : found) fs::remove(file);
 }
 
+void begin(const fs::path& directory, const StudyOptions& options, bool remove_if_refused) {
+  require_new(directory);  // again, now that nobody else can begin
+  remove_temporaries(directory);
+  try {
+    StudyStore::create(directory, options);
+  } catch (...) {
+    std::error_code ignored;
+    if (remove_if_refused) fs::remove(directory, ignored);
+    throw;
+  }
+}
+
 }  // namespace
 
 const char* name_of(StudyStopped stopped) {
@@ -63,13 +75,10 @@ StudyResult study(const fs::path& directory, const StudyOptions& options, StudyM
   const Stopwatch watch;
   require_good(options);
   mode == StudyMode::begin ? require_new(directory) : require_study(directory);
+  const bool missing = !fs::exists(directory);
   const DirectoryLock lock(directory);
-  if (mode == StudyMode::begin) {
-    require_new(directory);
-    remove_temporaries(directory);
-    StudyStore::create(directory, options);
-    lock.sync();
-  }
+  if (mode == StudyMode::begin) begin(directory, options, missing);
+  lock.sync();
   StudyStore store(directory);
   if (mode == StudyMode::resume) {
     const StudyOptions all = grown(store.options(), options, directory.string());

@@ -186,6 +186,50 @@ class Options(ProgramTest):
         self.refuse("--method", "fast", command=run)
         self.refuse("--points", 7, command=run)
 
+    def test_study(self):
+        study = ("study", "-o", "s")
+        for option in ("--sigmas", "--distances", "--pairs", "--strategy"):
+            self.refuse(option, "", ",", "1,,2", command=study)
+        self.refuse("--sigmas", 0, "nan", "x", "0.1,0.10", command=study)
+        self.refuse("--distances", -1, "nan", "1;2", command=study)
+        self.refuse("--pairs", "6", "many", "50/1,50", command=study)
+        self.refuse("--strategy", "hope", "chain,chain", command=study)
+        # Of these the line names the part that is refused.
+        for option, value, part in (
+            ("--sigmas", "0.1,-1", "'-1'"),
+            ("--pairs", "51/1", "'51'"),
+            ("--pairs", "50/0", "'0'"),
+            ("--pairs", "50/", "''"),
+            ("--pairs", "/1", "''"),
+            ("--pairs", "50/1/2", "'1/2'"),
+            ("--strategy", "chain,hope", "'hope'"),
+        ):
+            with self.subTest(f"{option} {value}"):
+                self.assertIn(part, self.refused(*study, option, value, names=option))
+        self.refuse("--scenarios", 0, 10000, "x", command=study)
+        self.refuse("--evaluations", 0, "1e4", command=study)
+        self.refuse("--compare-every", -1, command=study)
+        self.refuse("--seed", -1, command=study)
+        self.refuse("--threads", 0, 2000, "all", command=study)
+        self.refuse("--time-limit", 0, "nan", command=study)
+        self.refuse("--rank-timeout", 0, "x", command=study)
+        self.refused("study", names="-o")
+        self.refused("study", "-o", "s", "--airfoils", "rae2822,rae9999", names="rae9999")
+        self.refused("study", "-o", "s", "--resume", names="s/study.sqlite")
+        self.refused("study", "-o", "s", "--resume", "--full", names="--full")
+        self.refused("study", "-o", "no/such/s", names="no/such/s")
+        self.write("file", "text")
+        self.refused("study", "-o", "file", names="file")
+        self.path("thesis").mkdir()
+        self.write("thesis/chapter1.tex", "years of work")
+        self.refused("study", "-o", "thesis", names="thesis")
+        self.refused("study", "-o", "thesis", "--resume", names="thesis")
+        self.path("foreign").mkdir()
+        self.write("foreign/study.sqlite", BINARY)
+        self.refused("study", "-o", "foreign", "--resume", names="foreign/study.sqlite")
+        self.write("foreign/study.sqlite", b"")
+        self.refused("study", "-o", "foreign", "--resume", names="foreign/study.sqlite")
+
     def test_draw(self):
         self.succeed("mesh", "naca:0012", "--points", 50, "-o", "a.vtkhdf")
         draw = ("draw", "a.vtkhdf", "-o", "a.png")
