@@ -18,22 +18,24 @@ namespace {
 using report::short_number;
 using report::Svg;
 
-constexpr double panel_width = 250, panel_height = 210, left = 58, top = 44, gap = 18, bottom = 44,
-                 legend = 26;
+// Of a panel and around it, pixels.
+constexpr struct {
+  double width = 250, height = 210, left = 58, top = 44, gap = 18, bottom = 44, legend = 26;
+} panel_layout;
 // Four hues that people with any sight tell apart (Okabe and Ito 2008).
-constexpr std::array<const char*, 4> colors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7"};
+constexpr std::array<const char*, 4> line_colors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7"};
 
-struct Series {
+struct ChartSeries {
   std::size_t color = 0;
   bool dashed = false;  // the paper's
   bool joined = true;
   std::vector<Point> points;
 };
-struct Panel {
+struct ChartPanel {
   std::string title;
-  std::vector<Series> series;
+  std::vector<ChartSeries> series;
 };
-struct Entry {
+struct LegendEntry {
   std::string label;
   std::size_t color;
   bool dashed;
@@ -53,7 +55,7 @@ std::vector<double> round_ticks(double low, double high) {
 }
 
 // Positions along an axis, 0 to 1, with the numbers to be written.
-struct Axis {
+struct ChartAxis {
   std::string title;
   std::vector<double> ticks;
   bool logarithmic = false;
@@ -64,10 +66,10 @@ struct Axis {
 };
 
 template <typename Get>
-Axis axis_of(const std::vector<Panel>& panels, const std::string& title, Get get) {
+ChartAxis axis_of(const std::vector<ChartPanel>& panels, const std::string& title, Get get) {
   double low = HUGE_VAL, high = -HUGE_VAL;
-  for (const Panel& panel : panels)
-    for (const Series& series : panel.series)
+  for (const ChartPanel& panel : panels)
+    for (const ChartSeries& series : panel.series)
       for (const Point p : series.points) {
         low = std::min(low, get(p));
         high = std::max(high, get(p));
@@ -75,30 +77,36 @@ Axis axis_of(const std::vector<Panel>& panels, const std::string& title, Get get
   return {title, round_ticks(low, high), false};
 }
 
-void draw_axes(Svg& svg, Point corner, const Panel& panel, const Axis& x, const Axis& y, bool labels) {
-  svg.text({corner.x + panel_width / 2, corner.y - 8}, panel.title, "text-anchor='middle' font-weight='600'");
+void draw_axes(Svg& svg, Point corner, const ChartPanel& panel, const ChartAxis& x, const ChartAxis& y,
+               bool labels) {
+  svg.text({corner.x + panel_layout.width / 2, corner.y - 8}, panel.title,
+           "text-anchor='middle' font-weight='600'");
   for (const double tick : y.ticks) {
-    const double at = corner.y + panel_height * (1.0 - y.at(tick));
-    svg.line({corner.x, at}, {corner.x + panel_width, at}, "stroke='currentColor' stroke-opacity='.15'");
+    const double at = corner.y + panel_layout.height * (1.0 - y.at(tick));
+    svg.line({corner.x, at}, {corner.x + panel_layout.width, at},
+             "stroke='currentColor' stroke-opacity='.15'");
     if (labels)
       svg.text({corner.x - 6, at + 4}, short_number(std::round(tick * 1e6) / 1e6), "text-anchor='end'");
   }
   for (const double tick : x.ticks) {
-    const double at = corner.x + panel_width * x.at(tick);
-    svg.line({at, corner.y + panel_height}, {at, corner.y + panel_height + 4}, "stroke='currentColor'");
-    svg.text({at, corner.y + panel_height + 17}, short_number(std::round(tick * 1e6) / 1e6),
+    const double at = corner.x + panel_layout.width * x.at(tick);
+    svg.line({at, corner.y + panel_layout.height}, {at, corner.y + panel_layout.height + 4},
+             "stroke='currentColor'");
+    svg.text({at, corner.y + panel_layout.height + 17}, short_number(std::round(tick * 1e6) / 1e6),
              "text-anchor='middle'");
   }
-  svg.line({corner.x, corner.y + panel_height}, {corner.x + panel_width, corner.y + panel_height},
-           "stroke='currentColor'");
-  svg.text({corner.x + panel_width / 2, corner.y + panel_height + 34}, x.title, "text-anchor='middle'");
+  svg.line({corner.x, corner.y + panel_layout.height},
+           {corner.x + panel_layout.width, corner.y + panel_layout.height}, "stroke='currentColor'");
+  svg.text({corner.x + panel_layout.width / 2, corner.y + panel_layout.height + 34}, x.title,
+           "text-anchor='middle'");
 }
 
-void draw_series(Svg& svg, Point corner, const Series& series, const Axis& x, const Axis& y) {
+void draw_series(Svg& svg, Point corner, const ChartSeries& series, const ChartAxis& x, const ChartAxis& y) {
   std::vector<Point> pixels;
   for (const Point p : series.points)
-    pixels.push_back({corner.x + panel_width * x.at(p.x), corner.y + panel_height * (1.0 - y.at(p.y))});
-  const std::string color = colors[series.color % colors.size()];
+    pixels.push_back(
+        {corner.x + panel_layout.width * x.at(p.x), corner.y + panel_layout.height * (1.0 - y.at(p.y))});
+  const std::string color = line_colors[series.color % line_colors.size()];
   if (series.joined)
     svg.polyline(pixels, "fill='none' stroke='" + color + "' stroke-width='1.6'" +
                              (series.dashed ? " stroke-dasharray='5 4' stroke-opacity='.8'" : ""));
@@ -106,21 +114,25 @@ void draw_series(Svg& svg, Point corner, const Series& series, const Axis& x, co
     svg.circle(p, 2.6, series.dashed ? "fill='none' stroke='" + color + "'" : "fill='" + color + "'");
 }
 
-std::string draw_chart(const std::string& title, const std::vector<Panel>& panels, const Axis& x,
-                       const Axis& y, const std::vector<Entry>& entries) {
+std::string draw_chart(const std::string& title, const std::vector<ChartPanel>& panels, const ChartAxis& x,
+                       const ChartAxis& y, const std::vector<LegendEntry>& entries) {
   const auto count = static_cast<double>(panels.size());
-  Svg svg(left + count * (panel_width + gap), top + panel_height + bottom + legend, title);
-  svg.text({12, top + panel_height / 2}, y.title,
-           "text-anchor='middle' transform='rotate(-90 12 " + report::pixels(top + panel_height / 2) + ")'");
+  Svg svg(panel_layout.left + count * (panel_layout.width + panel_layout.gap),
+          panel_layout.top + panel_layout.height + panel_layout.bottom + panel_layout.legend, title);
+  svg.text({12, panel_layout.top + panel_layout.height / 2}, y.title,
+           "text-anchor='middle' transform='rotate(-90 12 " +
+               report::pixels(panel_layout.top + panel_layout.height / 2) + ")'");
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    const Point corner{left + static_cast<double>(i) * (panel_width + gap), top};
+    const Point corner{panel_layout.left + static_cast<double>(i) * (panel_layout.width + panel_layout.gap),
+                       panel_layout.top};
     draw_axes(svg, corner, panels[i], x, y, i == 0);
-    for (const Series& series : panels[i].series) draw_series(svg, corner, series, x, y);
+    for (const ChartSeries& series : panels[i].series) draw_series(svg, corner, series, x, y);
   }
-  double at = left;
-  for (const Entry& entry : entries) {
-    const double height = top + panel_height + bottom + legend - 10;
-    const std::string color = colors[entry.color % colors.size()];
+  double at = panel_layout.left;
+  for (const LegendEntry& entry : entries) {
+    const double height =
+        panel_layout.top + panel_layout.height + panel_layout.bottom + panel_layout.legend - 10;
+    const std::string color = line_colors[entry.color % line_colors.size()];
     svg.line({at, height - 4}, {at + 22, height - 4},
              "stroke='" + color + "' stroke-width='2'" + (entry.dashed ? " stroke-dasharray='5 4'" : ""));
     svg.text({at + 27, height}, entry.label);
@@ -129,33 +141,33 @@ std::string draw_chart(const std::string& title, const std::vector<Panel>& panel
   return svg.finish();
 }
 
-struct Quantity {
+struct ChartQuantity {
   StudyFigure figure;
   const char* name;
   const char* title;
   const char* axis;
 };
 constexpr std::array quantities = {
-    Quantity{StudyFigure::preserved_percent, "preservation", "Element preservation", "preservation, %"},
-    Quantity{StudyFigure::surplus_percent, "surplus", "Element surplus", "surplus, %"},
-    Quantity{StudyFigure::speedup, "speed-up", "Speed-up", "speed-up"}};
+    ChartQuantity{StudyFigure::preserved_percent, "preservation", "Element preservation", "preservation, %"},
+    ChartQuantity{StudyFigure::surplus_percent, "surplus", "Element surplus", "surplus, %"},
+    ChartQuantity{StudyFigure::speedup, "speed-up", "Speed-up", "speed-up"}};
 
-using Rows = std::vector<const StudyRow*>;
+using ChartRows = std::vector<const StudyRow*>;
 
 template <typename Key>
-std::set<Key> values_of(const Rows& rows, Key StudyCase::*member) {
+std::set<Key> values_of(const ChartRows& rows, Key StudyCase::*member) {
   std::set<Key> values;
   for (const StudyRow* row : rows) values.insert(row->at.*member);
   return values;
 }
 
-Panel panel_over_points(const Rows& rows, double sigma, StudyFigure figure,
-                        const std::set<double>& distances) {
-  Panel panel{"σ = " + short_number(sigma), {}};
+ChartPanel panel_over_points(const ChartRows& rows, double sigma, StudyFigure figure,
+                             const std::set<double>& distances) {
+  ChartPanel panel{"σ = " + short_number(sigma), {}};
   std::size_t color = 0;
   for (const double distance : distances) {
-    Series ours{.color = color, .dashed = false, .joined = true, .points = {}};
-    Series papers{.color = color, .dashed = true, .joined = true, .points = {}};
+    ChartSeries ours{.color = color, .dashed = false, .joined = true, .points = {}};
+    ChartSeries papers{.color = color, .dashed = true, .joined = true, .points = {}};
     for (const StudyRow* row : rows) {
       if (row->at.sigma != sigma || row->at.distance != distance) continue;
       const double at = row->at.points;
@@ -170,28 +182,28 @@ Panel panel_over_points(const Rows& rows, double sigma, StudyFigure figure,
   return panel;
 }
 
-StudySvg chart_over_points(const Rows& rows, const Quantity& quantity, const std::string& name) {
+StudySvg chart_over_points(const ChartRows& rows, const ChartQuantity& quantity, const std::string& name) {
   const std::set<double> distances = values_of(rows, &StudyCase::distance);
   const std::set<int> points = values_of(rows, &StudyCase::points);
-  std::vector<Panel> panels;
+  std::vector<ChartPanel> panels;
   for (const double sigma : values_of(rows, &StudyCase::sigma))
     panels.push_back(panel_over_points(rows, sigma, quantity.figure, distances));
-  std::vector<Entry> entries;
+  std::vector<LegendEntry> entries;
   for (const double distance : distances)
     entries.push_back({"D = " + short_number(distance), entries.size(), false});
   entries.push_back({"dashed: the paper", 0, true});
-  Axis x{"I", {points.begin(), points.end()}, true};
+  ChartAxis x{"I", {points.begin(), points.end()}, true};
   if (x.ticks.size() == 1) x.ticks = {x.ticks.front() / 2, x.ticks.front(), x.ticks.front() * 2};
-  const Axis y = axis_of(panels, quantity.axis, [](Point p) { return p.y; });
+  const ChartAxis y = axis_of(panels, quantity.axis, [](Point p) { return p.y; });
   const std::string title = std::string(quantity.title) + ", " + report::title_of(rows.front()->at.airfoil) +
                             ", " + rows.front()->strategy;
   return {name, title, draw_chart(title, panels, x, y, entries)};
 }
 
-Panel panel_of_losses(const Rows& rows, double sigma, const std::vector<std::string>& strategies) {
-  Panel panel{"σ = " + short_number(sigma), {}};
+ChartPanel panel_of_losses(const ChartRows& rows, double sigma, const std::vector<std::string>& strategies) {
+  ChartPanel panel{"σ = " + short_number(sigma), {}};
   for (std::size_t k = 0; k < strategies.size(); ++k) {
-    Series series{.color = k + 1, .dashed = false, .joined = false, .points = {}};
+    ChartSeries series{.color = k + 1, .dashed = false, .joined = false, .points = {}};
     for (const StudyRow* row : rows) {
       if (row->at.sigma != sigma || row->strategy != strategies[k]) continue;
       const double lost = (*row)[StudyFigure::lost].mean, surplus = (*row)[StudyFigure::surplus_percent].mean;
@@ -199,7 +211,7 @@ Panel panel_of_losses(const Rows& rows, double sigma, const std::vector<std::str
     }
     panel.series.push_back(std::move(series));
   }
-  Series papers{.color = 0, .dashed = true, .joined = false, .points = {}};
+  ChartSeries papers{.color = 0, .dashed = true, .joined = false, .points = {}};
   for (const StudyRow* row : rows) {
     const PaperRow* paper =
         row->at.sigma == sigma && row->strategy == strategies.front() ? paper_row(row->at) : nullptr;
@@ -209,17 +221,17 @@ Panel panel_of_losses(const Rows& rows, double sigma, const std::vector<std::str
   return panel;
 }
 
-StudySvg chart_of_losses(const Rows& rows, const std::vector<std::string>& strategies,
+StudySvg chart_of_losses(const ChartRows& rows, const std::vector<std::string>& strategies,
                          const std::string& name) {
-  std::vector<Panel> panels;
+  std::vector<ChartPanel> panels;
   for (const double sigma : values_of(rows, &StudyCase::sigma))
     panels.push_back(panel_of_losses(rows, sigma, strategies));
-  std::vector<Entry> entries = {{"the paper", 0, true}};
+  std::vector<LegendEntry> entries = {{"the paper", 0, true}};
   for (const std::string& strategy : strategies) entries.push_back({strategy, entries.size(), false});
-  Axis x{"triangles lost a step", {50, 100, 200, 500, 1000, 2000, 5000}, true};
-  const Axis found = axis_of(panels, "", [](Point p) { return p.x; });
+  ChartAxis x{"triangles lost a step", {50, 100, 200, 500, 1000, 2000, 5000}, true};
+  const ChartAxis found = axis_of(panels, "", [](Point p) { return p.x; });
   while (x.ticks.size() > 2 && x.ticks[x.ticks.size() - 2] > found.ticks.back()) x.ticks.pop_back();
-  const Axis y = axis_of(panels, "surplus, %", [](Point p) { return p.y; });
+  const ChartAxis y = axis_of(panels, "surplus, %", [](Point p) { return p.y; });
   const std::string title = "Surplus against lost triangles, " + report::title_of(rows.front()->at.airfoil);
   return {name, title, draw_chart(title, panels, x, y, entries)};
 }
@@ -228,16 +240,16 @@ StudySvg chart_of_losses(const Rows& rows, const std::vector<std::string>& strat
 
 std::vector<StudySvg> study_charts(const StudyContents& study) {
   std::vector<StudySvg> charts;
-  std::map<std::string, std::map<std::string, Rows>> groups;  // by airfoil, by strategy
+  std::map<std::string, std::map<std::string, ChartRows>> groups;  // by airfoil, by strategy
   for (const StudyRow& row : study.rows) groups[row.at.airfoil][row.strategy].push_back(&row);
   for (const StudyOutline& airfoil : study.airfoils) {
     const auto found = groups.find(airfoil.name);
     if (found == groups.end()) continue;
     const std::string file = report::file_name_of(airfoil.name);
     std::vector<std::string> strategies;
-    Rows all;
+    ChartRows all;
     for (const auto& [strategy, rows] : found->second) {
-      for (const Quantity& quantity : quantities)
+      for (const ChartQuantity& quantity : quantities)
         charts.push_back(chart_over_points(
             rows, quantity, file + "-" + report::file_name_of(strategy) + "-" + quantity.name));
       strategies.push_back(strategy);

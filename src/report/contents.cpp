@@ -20,7 +20,7 @@ namespace {
 
 using report::Database;
 using report::Query;
-using Json = nlohmann::json;
+using OptionsJson = nlohmann::json;
 
 constexpr const char* store_version = "1";
 
@@ -40,13 +40,13 @@ void read_study_table(const Database& database, StudyContents& study) {
   study.machine = values["machine"];
 }
 
-std::size_t size_of(const Json& options, const char* key) {
+std::size_t size_of(const OptionsJson& options, const char* key) {
   return options.contains(key) && options[key].is_array() ? options[key].size() : 0;
 }
 
 // What the study is to hold, of its options; what it holds may be less.
 void read_options(const Database& database, StudyContents& study) {
-  const Json options = Json::parse(study.options, nullptr, false);
+  const OptionsJson options = OptionsJson::parse(study.options, nullptr, false);
   const auto number = [&](const char* key) -> std::size_t {
     const auto found = options.find(key);
     return found != options.end() && found->is_number_unsigned() ? found->get<std::size_t>() : 0;
@@ -212,11 +212,11 @@ void read_blocks(const Database& database, const std::map<std::int64_t, std::siz
 }
 
 void find_gaps(StudyContents& study) {
-  const Json options = Json::parse(study.options, nullptr, false);
+  const OptionsJson options = OptionsJson::parse(study.options, nullptr, false);
   if (study.expected_scenarios == 0 || study.finished()) return;
   const std::size_t groups = size_of(options, "airfoils") * size_of(options, "sigmas");
-  for (const Json& airfoil : options["airfoils"]) {
-    for (const Json& sigma : options["sigmas"]) {
+  for (const OptionsJson& airfoil : options["airfoils"]) {
+    for (const OptionsJson& sigma : options["sigmas"]) {
       if (!airfoil.is_string() || !sigma.is_number()) continue;
       StudyGap gap{airfoil.get<std::string>(), sigma.get<double>(), 0, study.expected_replays / groups};
       for (const StudyRow& row : study.rows)

@@ -21,18 +21,18 @@ using report::pixels;
 using report::Svg;
 
 constexpr double figure_width = 1100;
-constexpr Point low{-0.12, -0.24}, high{1.12, 0.24};  // the window, chords
+constexpr Point window_low{-0.12, -0.24}, window_high{1.12, 0.24};  // the window, chords
 
-constexpr double scale = figure_width / (high.x - low.x);
-constexpr double plot_height = scale * (high.y - low.y);
+constexpr double figure_scale = figure_width / (window_high.x - window_low.x);
+constexpr double plot_height = figure_scale * (window_high.y - window_low.y);
 
-Point pixel(Point p) {
-  return {scale * (p.x - low.x), scale * (high.y - p.y)};
+Point figure_pixel(Point p) {
+  return {figure_scale * (p.x - window_low.x), figure_scale * (window_high.y - p.y)};
 }
 
 bool in_window(Point a, Point b, Point c) {
-  return std::max({a.x, b.x, c.x}) >= low.x && std::min({a.x, b.x, c.x}) <= high.x &&
-         std::max({a.y, b.y, c.y}) >= low.y && std::min({a.y, b.y, c.y}) <= high.y;
+  return std::max({a.x, b.x, c.x}) >= window_low.x && std::min({a.x, b.x, c.x}) <= window_high.x &&
+         std::max({a.y, b.y, c.y}) >= window_low.y && std::min({a.y, b.y, c.y}) <= window_high.y;
 }
 
 void open_plot(Svg& svg) {
@@ -44,7 +44,7 @@ void close_plot(Svg& svg) {
 }
 
 std::string triangle_path(Point a, Point b, Point c) {
-  return 'M' + pixels(pixel(a)) + 'L' + pixels(pixel(b)) + ' ' + pixels(pixel(c)) + 'z';
+  return 'M' + pixels(figure_pixel(a)) + 'L' + pixels(figure_pixel(b)) + ' ' + pixels(figure_pixel(c)) + 'z';
 }
 
 void draw_edges(Svg& svg, const FrozenMesh& mesh) {
@@ -54,14 +54,14 @@ void draw_edges(Svg& svg, const FrozenMesh& mesh) {
     if (!in_window(mesh.points[a], mesh.points[b], mesh.points[c])) continue;
     for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}})
       if (drawn.insert({std::min(from, to), std::max(from, to)}).second)
-        d += 'M' + pixels(pixel(mesh.points[from])) + 'L' + pixels(pixel(mesh.points[to]));
+        d += 'M' + pixels(figure_pixel(mesh.points[from])) + 'L' + pixels(figure_pixel(mesh.points[to]));
   }
   svg.path(d, "fill='none' stroke='currentColor' stroke-opacity='.28' stroke-width='.6'");
 }
 
 std::vector<Point> closed(std::vector<Point> points) {
   points.push_back(points.front());
-  for (Point& p : points) p = pixel(p);
+  for (Point& p : points) p = figure_pixel(p);
   return points;
 }
 
@@ -79,7 +79,7 @@ void draw_regions(Svg& svg, const std::vector<Point>& olds, const std::vector<Po
         std::max(squared_distance(outer[i], outer[before]), squared_distance(outer[i], outer[after]));
     const double radius =
         std::max(distance * std::sqrt(squared_distance(olds[i], news[i])), std::sqrt(farther));
-    svg.circle(pixel(outer[i]), scale * radius,
+    svg.circle(figure_pixel(outer[i]), figure_scale * radius,
                "fill='#d55e00' fill-opacity='.08' stroke='#d55e00' stroke-width='.8'");
   }
 }
@@ -107,18 +107,18 @@ StudySvg removal_regions(const StudyPictured& pictured) {
 }
 
 // Sizes over those that the design asks for, and their colours: what is too fine is blue, too coarse orange.
-struct Band {
+struct GradationBand {
   double below;
   const char* color;
 };
-constexpr std::array<Band, 8> bands = {{{0.35, "#08306b"},
-                                        {0.45, "#2166ac"},
-                                        {0.55, "#6baed6"},
-                                        {0.65, "#c6dbef"},
-                                        {0.85, "#f2efe6"},
-                                        {1.0, "#fdd9a8"},
-                                        {1.15, "#f79646"},
-                                        {HUGE_VAL, "#a63603"}}};
+constexpr std::array<GradationBand, 8> gradation_bands = {{{0.35, "#08306b"},
+                                                           {0.45, "#2166ac"},
+                                                           {0.55, "#6baed6"},
+                                                           {0.65, "#c6dbef"},
+                                                           {0.85, "#f2efe6"},
+                                                           {1.0, "#fdd9a8"},
+                                                           {1.15, "#f79646"},
+                                                           {HUGE_VAL, "#a63603"}}};
 
 // The length scale that a design asks for at a place: LS*(x), the least LS_b + |x - b| / G of its boundary.
 class DesignScale {
@@ -163,28 +163,29 @@ void fill_by_gradation(Svg& svg, const Mesh& living, const FrozenMesh& mesh) {
     if (asked[point] < 0.0) asked[point] = scales.at(mesh.points[point]);
     return asked[point];
   };
-  std::array<std::string, bands.size()> paths;
+  std::array<std::string, gradation_bands.size()> paths;
   for (const auto& [a, b, c] : mesh.triangles) {
     const Point p = mesh.points[a], q = mesh.points[b], r = mesh.points[c];
     if (!in_window(p, q, r)) continue;
     const double mean = (scale_at(a) + scale_at(b) + scale_at(c)) / 3.0;
     const double size = circumradius(p, q, r) / (living.options().max_gradation * mean);
     std::size_t band = 0;
-    while (size >= bands[band].below) ++band;
+    while (size >= gradation_bands[band].below) ++band;
     paths[band] += triangle_path(p, q, r);
   }
-  for (std::size_t i = 0; i < bands.size(); ++i)
-    svg.path(paths[i], "fill='" + std::string(bands[i].color) +
+  for (std::size_t i = 0; i < gradation_bands.size(); ++i)
+    svg.path(paths[i], "fill='" + std::string(gradation_bands[i].color) +
                            "' stroke='#333' stroke-opacity='.4' stroke-width='.25'");
 }
 
 void draw_bands(Svg& svg, double y) {
   double x = 4;
-  for (std::size_t i = 0; i < bands.size(); ++i) {
+  for (std::size_t i = 0; i < gradation_bands.size(); ++i) {
     svg.rectangle({x, y - 11}, 14, 14,
-                  "fill='" + std::string(bands[i].color) + "' stroke='#333' stroke-width='.4'");
-    const std::string label = i + 1 < bands.size() ? "< " + report::short_number(bands[i].below)
-                                                   : "≥ " + report::short_number(bands[i - 1].below);
+                  "fill='" + std::string(gradation_bands[i].color) + "' stroke='#333' stroke-width='.4'");
+    const std::string label = i + 1 < gradation_bands.size()
+                                  ? "< " + report::short_number(gradation_bands[i].below)
+                                  : "≥ " + report::short_number(gradation_bands[i - 1].below);
     svg.text({x + 19, y}, label);
     x += 66;
   }

@@ -13,8 +13,8 @@ namespace {
 using report::fixed;
 using report::Svg;
 
-constexpr double scale = 420, margin = 14;  // pixels a chord, pixels
-constexpr int stations = 200;
+constexpr double outline_scale = 420, outline_margin = 14;  // pixels a chord, pixels
+constexpr int outline_stations = 200;
 
 std::string extreme_text(const char* what, const Extreme& extreme) {
   if (std::abs(extreme.value) < 5e-5) return std::string(what) + " 0";
@@ -25,23 +25,25 @@ std::string extreme_text(const char* what, const Extreme& extreme) {
 StudySvg outline(const StudyOutline& airfoil, const CstAirfoil& design) {
   std::vector<Point> points, middle;
   double low = 0.0, high = 0.0;
-  for (int i = 0; i <= stations; ++i) {
-    const double t = static_cast<double>(i) / stations;
+  for (int i = 0; i <= outline_stations; ++i) {
+    const double t = static_cast<double>(i) / outline_stations;
     points.push_back(design.at(t));
     low = std::min(low, points.back().y);
     high = std::max(high, points.back().y);
-    if (2 * i > stations) continue;
+    if (2 * i > outline_stations) continue;
     const Point other = design.at(1.0 - t);
     middle.push_back({other.x, (points.back().y + other.y) / 2});
   }
-  const double height = (high - low) * scale + 2 * margin;
-  const auto pixel = [&](Point& p) { p = {margin + scale * p.x, margin + scale * (high - p.y)}; };
+  const double height = (high - low) * outline_scale + 2 * outline_margin;
+  const auto pixel = [&](Point& p) {
+    p = {outline_margin + outline_scale * p.x, outline_margin + outline_scale * (high - p.y)};
+  };
   for (Point& p : points) pixel(p);
   for (Point& p : middle) pixel(p);
   const std::string words =
       extreme_text("thickness", max_thickness(design)) + ", " + extreme_text("camber", max_camber(design));
   const std::string title = airfoil.title + ": " + words;
-  Svg svg(scale + 2 * margin, height, title);
+  Svg svg(outline_scale + 2 * outline_margin, height, title);
   svg.polyline(points, "fill='currentColor' fill-opacity='.07' stroke='currentColor' stroke-width='1.4'");
   svg.polyline(middle, "fill='none' stroke='#0072b2' stroke-dasharray='5 4'");
   return {"airfoil-" + report::file_name_of(airfoil.name), title, svg.finish()};

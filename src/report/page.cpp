@@ -16,21 +16,21 @@ namespace remodel {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using PageJson = nlohmann::ordered_json;
 
 // Seven digits are more than a reader or a chart can tell, and halve the page. NaN becomes null.
-Json number(double value) {
+PageJson page_number(double value) {
   if (!std::isfinite(value)) return nullptr;
   char digits[40];
   std::snprintf(digits, sizeof digits, "%.7g", value);
   return std::strtod(digits, nullptr);
 }
 
-Json row_json(const StudyRow& row) {
-  Json means = Json::array(), deviations = Json::array();
+PageJson row_json(const StudyRow& row) {
+  PageJson means = PageJson::array(), deviations = PageJson::array();
   for (const StudyMean& figure : row.figures) {
-    means.push_back(number(figure.mean));
-    deviations.push_back(number(figure.deviation));
+    means.push_back(page_number(figure.mean));
+    deviations.push_back(page_number(figure.deviation));
   }
   return {{"airfoil", row.at.airfoil},
           {"sigma", row.at.sigma},
@@ -41,15 +41,15 @@ Json row_json(const StudyRow& row) {
           {"scenarios", row.scenarios},
           {"means", means},
           {"deviations", deviations},
-          {"min_angle", number(row.min_angle_deg)},
+          {"min_angle", page_number(row.min_angle_deg)},
           {"invalid", row.invalid_meshes},
           {"recoveries", row.recoveries},
           {"refreshes", row.refreshes}};
 }
 
 // The paper's row beside each case that the study holds.
-Json paper_json(const StudyContents& study) {
-  Json rows = Json::array();
+PageJson paper_json(const StudyContents& study) {
+  PageJson rows = PageJson::array();
   const StudyCase* before = nullptr;
   for (const StudyRow& row : study.rows) {
     if (before != nullptr && *before == row.at) continue;
@@ -63,18 +63,18 @@ Json paper_json(const StudyContents& study) {
                     {"G", row.at.gradation},
                     {"D", row.at.distance},
                     {"means", paper->figures},
-                    {"lost", number(report::papers_lost(*paper))}});
+                    {"lost", page_number(report::papers_lost(*paper))}});
   }
   return rows;
 }
 
-Json range_json(const report::Range& range) {
-  return {number(range.low), number(range.high)};
+PageJson range_json(const report::Range& range) {
+  return {page_number(range.low), page_number(range.high)};
 }
 
-Json verdict_json(const StudyContents& study) {
+PageJson verdict_json(const StudyContents& study) {
   const std::vector<VerdictTable> tables = judge_study(study);
-  Json lines = Json::array(), outside = Json::array();
+  PageJson lines = PageJson::array(), outside = PageJson::array();
   for (const VerdictTable& table : tables) {
     const report::VerdictSummary s = report::summarise(table);
     lines.push_back({{"table", table.table},
@@ -94,10 +94,10 @@ Json verdict_json(const StudyContents& study) {
                          {"I", row.at.points},
                          {"D", row.at.distance},
                          {"scenarios", row.scenarios},
-                         {"generation", number(row.generation_percent)},
-                         {"preservation", number(row.preserved_points)},
-                         {"error", number(row.preserved_error)},
-                         {"surplus", number(row.surplus_points)},
+                         {"generation", page_number(row.generation_percent)},
+                         {"preservation", page_number(row.preserved_points)},
+                         {"error", page_number(row.preserved_error)},
+                         {"surplus", page_number(row.surplus_points)},
                          {"remark", report::remark_on(row)}});
     }
   }
@@ -115,32 +115,32 @@ bool drawn_over_run(const StudyContents& study, const StudyRow& row) {
   return std::abs(std::log2(row.at.distance)) == nearest;
 }
 
-Json blocks_json(const StudyContents& study) {
+PageJson blocks_json(const StudyContents& study) {
   std::vector<bool> wanted;
   for (const StudyRow& row : study.rows) wanted.push_back(drawn_over_run(study, row));
-  Json blocks = Json::array();
+  PageJson blocks = PageJson::array();
   for (const StudyBlock& block : study.blocks) {
     if (!wanted[block.row]) continue;
-    blocks.push_back({block.row, block.first, block.last, number(block.triangles.mean),
-                      number(block.preserved_percent.mean), number(block.surplus_percent.mean)});
+    blocks.push_back({block.row, block.first, block.last, page_number(block.triangles.mean),
+                      page_number(block.preserved_percent.mean), page_number(block.surplus_percent.mean)});
   }
   return blocks;
 }
 
-Json pictures_json(const std::vector<StudySvg>& figures) {
-  Json list = Json::array();
+PageJson pictures_json(const std::vector<StudySvg>& figures) {
+  PageJson list = PageJson::array();
   for (const StudySvg& figure : figures)
     list.push_back({{"name", figure.name}, {"title", figure.title}, {"svg", figure.text}});
   return list;
 }
 
-Json data_of(const StudyContents& study, const std::vector<StudySvg>& mesh_figures) {
-  Json rows = Json::array(), airfoils = Json::array(), summary = Json::array();
+PageJson data_of(const StudyContents& study, const std::vector<StudySvg>& mesh_figures) {
+  PageJson rows = PageJson::array(), airfoils = PageJson::array(), summary = PageJson::array();
   for (const StudyRow& row : study.rows) rows.push_back(row_json(row));
   for (const StudyOutline& airfoil : study.airfoils)
     airfoils.push_back({{"name", airfoil.name}, {"title", airfoil.title}});
   for (const auto& [label, value] : report::summary_lines(study)) summary.push_back({label, value});
-  Json keys = Json::array();
+  PageJson keys = PageJson::array();
   for (std::size_t i = 0; i < study_figure_count; ++i) keys.push_back(key_of(static_cast<StudyFigure>(i)));
   return {{"summary", summary},
           {"finished", study.finished()},
@@ -182,7 +182,7 @@ std::string study_page(const StudyContents& study, const std::vector<StudySvg>& 
         ErrorCode::file, "page",
         "found no scripts of the page in this program, expected it built after scripts/install-dependencies");
   const std::string data =
-      for_script(data_of(study, mesh_figures).dump(-1, ' ', false, Json::error_handler_t::replace));
+      for_script(data_of(study, mesh_figures).dump(-1, ' ', false, PageJson::error_handler_t::replace));
   const std::array<std::pair<std::string_view, std::string_view>, 6> parts = {
       {{"/*style*/", embedded_style()},
        {"/*vega*/", embedded_vega()},

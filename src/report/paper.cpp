@@ -13,7 +13,7 @@ namespace remodel {
 
 namespace {
 
-std::string_view take(std::string_view& text, char end) {
+std::string_view take_field(std::string_view& text, char end) {
   const std::size_t at = text.find(end);
   const std::string_view part = text.substr(0, at);
   text.remove_prefix(at == std::string_view::npos ? text.size() : at + 1);
@@ -21,7 +21,7 @@ std::string_view take(std::string_view& text, char end) {
 }
 
 double take_number(std::string_view& line) {
-  const std::string_view field = take(line, ',');
+  const std::string_view field = take_field(line, ',');
   double number = 0.0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), number);
   if (error != std::errc() || end != field.data() + field.size())
@@ -30,16 +30,16 @@ double take_number(std::string_view& line) {
   return number;
 }
 
-std::vector<PaperRow> parse(std::string_view text) {
+std::vector<PaperRow> parse_paper_tables(std::string_view text) {
   std::vector<PaperRow> rows;
   bool header = true;
   while (!text.empty()) {
-    std::string_view line = take(text, '\n');
+    std::string_view line = take_field(text, '\n');
     if (line.empty() || line.front() == '#') continue;
     if (std::exchange(header, false)) continue;
     PaperRow row;
-    row.table = take(line, ',');
-    row.at.airfoil = take(line, ',');
+    row.table = take_field(line, ',');
+    row.at.airfoil = take_field(line, ',');
     row.at.sigma = take_number(line);
     row.at.points = static_cast<int>(take_number(line));
     row.at.gradation = take_number(line);
@@ -53,7 +53,7 @@ std::vector<PaperRow> parse(std::string_view text) {
 }  // namespace
 
 const std::vector<PaperRow>& paper_rows() {
-  static const std::vector<PaperRow> rows = parse(report::embedded_paper_tables());
+  static const std::vector<PaperRow> rows = parse_paper_tables(report::embedded_paper_tables());
   return rows;
 }
 

@@ -10,7 +10,7 @@ namespace remodel::report {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using SummaryJson = nlohmann::ordered_json;
 
 constexpr std::uint64_t papers_evaluations = 9000;
 
@@ -24,19 +24,19 @@ std::string percent_of(std::size_t part, std::size_t whole) {
   return fixed(100.0 * static_cast<double>(part) / static_cast<double>(whole), 0) + " %";
 }
 
-std::string dump(const Json& value) {
+std::string dump(const SummaryJson& value) {
   if (value.is_number_float()) return short_number(value.get<double>());
   return value.is_string() ? value.get<std::string>()
-                           : value.dump(-1, ' ', false, Json::error_handler_t::replace);
+                           : value.dump(-1, ' ', false, SummaryJson::error_handler_t::replace);
 }
 
 // A value of the options or of the machine: lists with commas, pairs as I/G.
-std::string words_of(const Json& value) {
+std::string words_of(const SummaryJson& value) {
   if (value.is_object() && value.contains("points") && value.contains("gradation"))
     return dump(value["points"]) + "/" + dump(value["gradation"]);
   if (!value.is_array()) return dump(value);
   std::string text;
-  for (const Json& item : value) text += (text.empty() ? "" : ", ") + words_of(item);
+  for (const SummaryJson& item : value) text += (text.empty() ? "" : ", ") + words_of(item);
   return text;
 }
 
@@ -94,10 +94,10 @@ std::string remark_on(const VerdictRow& row) {
 std::vector<std::pair<std::string, std::string>> summary_lines(const StudyContents& study) {
   std::vector<std::pair<std::string, std::string>> lines;
   lines.emplace_back("made by", "remodel " + study.version + ", " + study.created);
-  const Json options = Json::parse(study.options, nullptr, false);
+  const SummaryJson options = SummaryJson::parse(study.options, nullptr, false);
   if (options.is_object())
     for (const auto& [key, value] : options.items()) lines.emplace_back(label_of(key), words_of(value));
-  const Json machine = Json::parse(study.machine, nullptr, false);
+  const SummaryJson machine = SummaryJson::parse(study.machine, nullptr, false);
   if (machine.is_object())
     for (const auto& [key, value] : machine.items())
       lines.emplace_back("machine, " + label_of(key), words_of(value));

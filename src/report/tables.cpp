@@ -1,7 +1,6 @@
 // The tables of a study and its verdict as CSV and as Markdown.
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "remodel/study_report.h"
 #include "report/names.h"
@@ -48,12 +47,12 @@ std::string heading_of(const StudyCase& at, const PaperRow* paper) {
          ", σ = " + short_number(at.sigma);
 }
 
-constexpr std::array<int, paper_figure_count> decimals = {0, 2, 0, 3, 2, 2, 1};
+constexpr std::array<int, paper_figure_count> table_decimals = {0, 2, 0, 3, 2, 2, 1};
 
 // "mean (the paper's)", the latter where there is one.
 std::string markdown_cell(const StudyRow& row, const PaperRow* paper, std::size_t figure) {
-  const std::string ours = fixed(row.figures[figure].mean, decimals[figure]);
-  return paper ? ours + " (" + fixed(paper->figures[figure], decimals[figure]) + ")" : ours;
+  const std::string ours = fixed(row.figures[figure].mean, table_decimals[figure]);
+  return paper ? ours + " (" + fixed(paper->figures[figure], table_decimals[figure]) + ")" : ours;
 }
 
 std::string markdown_row(const StudyRow& row) {

@@ -1,7 +1,6 @@
 // How far the paper's method, as we have it, reproduces the paper's tables.
 
 #include <cmath>
-#include <map>
 
 #include "remodel/study_report.h"
 
@@ -9,20 +8,20 @@ namespace remodel {
 
 namespace {
 
-double percent_of(double ours, double papers) {
+double percent_above(double ours, double papers) {
   return 100.0 * (ours / papers - 1.0);
 }
 
-VerdictRow compare(const StudyRow& row, const PaperRow& paper) {
+VerdictRow compare_with_paper(const StudyRow& row, const PaperRow& paper) {
   using enum StudyFigure;
   const auto papers = [&](StudyFigure figure) { return paper.figures[static_cast<std::size_t>(figure)]; };
   const StudyMean& preserved = row[preserved_percent];
   return {.at = row.at,
           .scenarios = row.scenarios,
-          .generation_percent = percent_of(row[generated_triangles].mean, papers(generated_triangles)),
+          .generation_percent = percent_above(row[generated_triangles].mean, papers(generated_triangles)),
           .preserved_points = preserved.mean - papers(preserved_percent),
           .surplus_points = row[surplus_percent].mean - papers(surplus_percent),
-          .triangles_percent = percent_of(row[triangles].mean, papers(triangles)),
+          .triangles_percent = percent_above(row[triangles].mean, papers(triangles)),
           .speedup_ratio = row[speedup].mean / papers(speedup),
           .preserved_error = preserved.deviation / std::sqrt(static_cast<double>(preserved.count))};
 }
@@ -41,7 +40,7 @@ std::vector<VerdictTable> judge_study(const StudyContents& study, const std::str
   for (const StudyRow& row : study.rows) {
     const PaperRow* paper = row.strategy == strategy ? paper_row(row.at) : nullptr;
     if (paper == nullptr) continue;
-    const VerdictRow verdict = compare(row, *paper);
+    const VerdictRow verdict = compare_with_paper(row, *paper);
     if (std::isnan(verdict.generation_percent) || std::isnan(verdict.preserved_points) ||
         std::isnan(verdict.surplus_points))
       continue;
