@@ -20,6 +20,7 @@ namespace {
 struct StudyReportCommand {
   std::string study;
   std::vector<std::string> outputs;
+  std::string verdict;
   std::string csv;
   std::string svg;
   bool json = false;
@@ -37,14 +38,15 @@ void require_missing(const std::string& directory) {
 }
 
 void require_outputs(const StudyReportCommand& command) {
-  if (command.outputs.empty() && command.csv.empty() && command.svg.empty())
+  if (command.outputs.empty() && command.verdict.empty() && command.csv.empty() && command.svg.empty())
     throw Error(ErrorCode::argument, "study report",
-                "found no output, expected -o FILE, --csv DIR or --svg DIR");
+                "found no output, expected -o FILE, --verdict FILE, --csv DIR or --svg DIR");
   for (const std::string& file : command.outputs) {
     if (const std::string extension = extension_of(file); extension != ".html" && extension != ".md")
       throw Error(ErrorCode::argument, file, "found extension '" + extension + "', expected .html or .md");
     require_writable(file);
   }
+  if (!command.verdict.empty()) require_writable(command.verdict);
   for (const std::string& directory : {command.csv, command.svg})
     if (!directory.empty() && !std::filesystem::is_directory(directory)) require_missing(directory);
 }
@@ -96,6 +98,10 @@ Status run(const StudyReportCommand& command) {
     write_text_atomically(file, extension_of(file) == ".html" ? page : study_markdown(study));
     written.push_back(file);
   }
+  if (!command.verdict.empty()) {
+    write_text_atomically(command.verdict, verdict_markdown(study));
+    written.push_back(command.verdict);
+  }
   const auto add = [&](const std::vector<std::filesystem::path>& files) {
     for (const std::filesystem::path& file : files) written.push_back(file.string());
   };
@@ -136,6 +142,8 @@ void add_study_report_command(CLI::App& study, Action& action) {
        "File to write, by extension: .html (one page with everything in it, to be opened from disk) or .md "
        "(what was run, the verdict, all tables); may be repeated"},
       Presence::optional, command->outputs);
+  add_text(app, {"--verdict", "FILE", "", "Markdown of what was run and the verdict alone"},
+           Presence::optional, command->verdict);
   add_text(app,
            {"--csv", "DIR", "",
             "Directory for tables.csv, blocks.csv (over the run) and verdict.csv; made if missing"},

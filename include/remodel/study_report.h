@@ -146,7 +146,7 @@ struct VerdictRow {
   double speedup_ratio = 0.0;      // ours over the paper's
   double preserved_error = 0.0;    // standard error of ours, points; NaN for one scenario
 
-  bool judged() const { return at.points >= 200; }  // finer meshes alone: coarse ones are at one's mercy
+  bool judged() const { return at.points >= 200; }  // what the shares count
   bool generation_inside() const;                   // within verdict_generation_percent
   bool preserved_inside() const;                    // within verdict_preserved_points
   bool inside() const { return generation_inside() && preserved_inside(); }
@@ -169,7 +169,8 @@ struct VerdictShare {
 VerdictShare verdict_share(const std::vector<VerdictTable>& tables);
 
 // Text of the outputs. Tables as CSV: one row a case and strategy, means, deviations and the paper's figures,
-// 17 significant digits; as Markdown: the verdict first, then a table for each airfoil and sigma.
+// 17 significant digits; as Markdown: what was run and the verdict, and in study_markdown() a table for each
+// airfoil and sigma after them.
 std::string study_csv(const StudyContents& study);
 std::string study_blocks_csv(const StudyContents& study);
 std::string verdict_csv(const std::vector<VerdictTable>& tables);

@@ -96,6 +96,21 @@ std::string outside_rows(const std::vector<VerdictTable>& tables) {
          lines;
 }
 
+std::string verdict_section(const StudyContents& study) {
+  const std::vector<VerdictTable> tables = judge_study(study);
+  std::string text = "## Verdict\n\n";
+  if (tables.empty()) return text + "The study holds no row of the paper's tables by `chain`.\n";
+  text +=
+      report::verdict_sentence(study, verdict_share(tables)) +
+      "\n\nOurs by `chain` beside the paper's, from the least to the largest difference of a table's rows: "
+      "triangles of generation and of remodelling in per cent, preservation and surplus in percentage "
+      "points, speed-up as a ratio (both times are of one machine each; the paper does not name its own).\n\n"
+      "| table | airfoil | σ | rows | generation % | remodelling % | preservation points | surplus points | "
+      "speed-up ratio | inside, I ≥ 200 |\n|---|---|---:|---:|---|---|---|---|---|---|\n";
+  for (const VerdictTable& table : tables) text += verdict_line(table);
+  return text + "\n### Rows outside\n\n" + outside_rows(tables);
+}
+
 }  // namespace
 
 std::string study_csv(const StudyContents& study) {
@@ -151,27 +166,16 @@ std::string verdict_csv(const std::vector<VerdictTable>& tables) {
 }
 
 std::string verdict_markdown(const StudyContents& study) {
-  const std::vector<VerdictTable> tables = judge_study(study);
-  std::string text = "## Verdict\n\n";
-  if (tables.empty()) return text + "The study holds no row of the paper's tables by `chain`.\n";
-  text +=
-      report::verdict_sentence(study, verdict_share(tables)) +
-      "\n\nOurs by `chain` beside the paper's, from the least to the largest difference of a table's rows: "
-      "triangles of generation and of remodelling in per cent, preservation and surplus in percentage "
-      "points, speed-up as a ratio (both times are of one machine each; the paper does not name its own).\n\n"
-      "| table | airfoil | σ | rows | generation % | remodelling % | preservation points | surplus points | "
-      "speed-up ratio | inside, I ≥ 200 |\n|---|---|---:|---:|---|---|---|---|---|---|\n";
-  for (const VerdictTable& table : tables) text += verdict_line(table);
-  return text + "\n### Rows outside\n\n" + outside_rows(tables);
-}
-
-std::string study_markdown(const StudyContents& study) {
   std::string text = "# Study\n\n";
   for (const auto& [label, value] : report::summary_lines(study))
     text += "- " + label + ": " + markdown_text(value) + '\n';
-  text += '\n' + verdict_markdown(study) +
-          "\n## Tables\n\nMeans over the scenarios, the paper's in parentheses. Times are in milliseconds, "
-          "wall clock.\n";
+  return text + '\n' + verdict_section(study);
+}
+
+std::string study_markdown(const StudyContents& study) {
+  std::string text = verdict_markdown(study) +
+                     "\n## Tables\n\nMeans over the scenarios, the paper's in parentheses. Times are in "
+                     "milliseconds, wall clock.\n";
   const StudyRow* before = nullptr;
   for (const StudyRow& row : study.rows) {
     if (before == nullptr || before->at.airfoil != row.at.airfoil || before->at.sigma != row.at.sigma) {

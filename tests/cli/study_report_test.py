@@ -88,6 +88,42 @@ class Tables(StoreTest):
         self.assertEqual(len(re.findall(r"^### Table A\d+: ", text, re.MULTILINE)), 4)
         self.assertEqual(len(re.findall(r"^\| \d+ \| \d+ \| \d+ \| (chain|renew) \|", text, re.MULTILINE)), 2 * 2 * 3 * 2 * 2)
 
+    def test_verdict_alone(self):
+        self.store()
+        self.succeed("study", "report", "study", "--verdict", "verdict.md", "-o", "report.md")
+        verdict = self.path("verdict.md").read_text()
+        self.assertIn("4 of 4 (100 %)", verdict)
+        self.assertNotIn("## Tables", verdict)
+        self.assertTrue(self.path("report.md").read_text().startswith(verdict))
+
+    def test_store_that_a_study_is_writing(self):
+        self.store(missing=1)
+        before = self.figures("study", "report", "study", "--verdict", "verdict.md")
+        writer = sqlite3.connect(self.path("study") / "study.sqlite")
+        self.addCleanup(writer.close)
+        writer.execute("PRAGMA journal_mode = WAL")
+        writer.execute("DELETE FROM replays WHERE id = 1")
+        writer.commit()
+        writer.execute("DELETE FROM replays")  # not committed
+        self.assertTrue((self.path("study") / "study.sqlite-wal").exists())
+        during = self.figures("study", "report", "study", "--verdict", "verdict.md")
+        self.assertEqual((before["replays"], during["replays"]), (47, 46))
+
+    def test_real_study(self):
+        """The engine's own store, and that the one that tests make up has its tables and columns."""
+        self.succeed("study", "-o", "real", "--pairs", "50/1", "--sigmas", "0.05", "--distances", "1", "--evaluations", 40,
+                     "--compare-every", 10, "--threads", 1, "--quiet")
+        figures = self.figures("study", "report", "real", "-o", "report.md", "--csv", "tables", "--svg", "figures")
+        self.assertTrue(figures["finished"])
+        self.assertEqual(figures["rows"], len(self.csv_rows("tables/tables.csv")))
+        self.assertIn("figure-5-chain.svg", [path.name for path in self.path("figures").iterdir()])
+        self.store("made-up")
+        tables = "SELECT name FROM sqlite_master WHERE type = 'table' ORDER BY name"
+        self.assertEqual(self.rows_of(tables, name="made-up"), self.rows_of(tables, name="real"))
+        for (table,) in self.rows_of(tables, name="real"):
+            columns = f"SELECT name FROM pragma_table_info('{table}') ORDER BY name"
+            self.assertEqual(self.rows_of(columns, name="made-up"), self.rows_of(columns, name="real"), table)
+
     def test_figures_are_well_formed_svg(self):
         self.store()
         self.succeed("study", "report", "study", "--svg", "figures")
