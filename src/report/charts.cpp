@@ -20,7 +20,7 @@ using report::Svg;
 
 // Of a panel and around it, pixels.
 constexpr struct {
-  double width = 250, height = 210, left = 58, top = 44, gap = 18, bottom = 44, legend = 26;
+  double width = 250, height = 210, left = 58, top = 44, gap = 22, bottom = 44, legend = 26;
 } panel_layout;
 // Four hues that people with any sight tell apart (Okabe and Ito 2008).
 constexpr std::array<const char*, 4> line_colors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7"};
@@ -39,6 +39,7 @@ struct LegendEntry {
   std::string label;
   std::size_t color;
   bool dashed;
+  bool joined = true;
 };
 
 // About five round numbers that span the values.
@@ -54,27 +55,48 @@ std::vector<double> round_ticks(double low, double high) {
   return ticks;
 }
 
-// Positions along an axis, 0 to 1, with the numbers to be written.
+// Positions along an axis from low to high, 0 to 1, with the numbers to be written.
 struct ChartAxis {
   std::string title;
-  std::vector<double> ticks;
+  std::vector<double> ticks = {};
+  double low = 0.0, high = 1.0;
   bool logarithmic = false;
+
   double at(double value) const {
     const auto scale = [&](double v) { return logarithmic ? std::log(v) : v; };
-    return (scale(value) - scale(ticks.front())) / (scale(ticks.back()) - scale(ticks.front()));
+    return (scale(value) - scale(low)) / (scale(high) - scale(low));
   }
 };
 
-template <typename Get>
-ChartAxis axis_of(const std::vector<ChartPanel>& panels, const std::string& title, Get get) {
+struct Extent {
   double low = HUGE_VAL, high = -HUGE_VAL;
+};
+
+template <typename Get>
+Extent extent_of(const std::vector<ChartPanel>& panels, Get get) {
+  Extent extent;
   for (const ChartPanel& panel : panels)
     for (const ChartSeries& series : panel.series)
-      for (const Point p : series.points) {
-        low = std::min(low, get(p));
-        high = std::max(high, get(p));
-      }
-  return {title, round_ticks(low, high), false};
+      for (const Point p : series.points)
+        extent = {std::min(extent.low, get(p)), std::max(extent.high, get(p))};
+  return extent.low <= extent.high ? extent : Extent{0.0, 1.0};
+}
+
+ChartAxis vertical_axis(const std::vector<ChartPanel>& panels, const std::string& title) {
+  const Extent extent = extent_of(panels, [](Point p) { return p.y; });
+  ChartAxis axis{.title = title, .ticks = round_ticks(extent.low, extent.high)};
+  axis.low = axis.ticks.front();
+  axis.high = axis.ticks.back();
+  return axis;
+}
+
+// Logarithmic, with a little room on both sides of the values.
+ChartAxis horizontal_axis(const std::string& title, const std::vector<double>& ticks, Extent extent) {
+  ChartAxis axis{
+      .title = title, .ticks = {}, .low = extent.low / 1.15, .high = extent.high * 1.15, .logarithmic = true};
+  for (const double tick : ticks)
+    if (tick >= axis.low && tick <= axis.high) axis.ticks.push_back(tick);
+  return axis;
 }
 
 void draw_axes(Svg& svg, Point corner, const ChartPanel& panel, const ChartAxis& x, const ChartAxis& y,
@@ -101,6 +123,10 @@ void draw_axes(Svg& svg, Point corner, const ChartPanel& panel, const ChartAxis&
            "text-anchor='middle'");
 }
 
+void draw_point(Svg& svg, Point at, const std::string& color, bool hollow) {
+  svg.circle(at, 2.6, hollow ? "fill='none' stroke='" + color + "'" : "fill='" + color + "'");
+}
+
 void draw_series(Svg& svg, Point corner, const ChartSeries& series, const ChartAxis& x, const ChartAxis& y) {
   std::vector<Point> pixels;
   for (const Point p : series.points)
@@ -110,8 +136,7 @@ void draw_series(Svg& svg, Point corner, const ChartSeries& series, const ChartA
   if (series.joined)
     svg.polyline(pixels, "fill='none' stroke='" + color + "' stroke-width='1.6'" +
                              (series.dashed ? " stroke-dasharray='5 4' stroke-opacity='.8'" : ""));
-  for (const Point p : pixels)
-    svg.circle(p, 2.6, series.dashed ? "fill='none' stroke='" + color + "'" : "fill='" + color + "'");
+  for (const Point p : pixels) draw_point(svg, p, color, series.dashed);
 }
 
 std::string draw_chart(const std::string& title, const std::vector<ChartPanel>& panels, const ChartAxis& x,
@@ -133,8 +158,11 @@ std::string draw_chart(const std::string& title, const std::vector<ChartPanel>& 
     const double height =
         panel_layout.top + panel_layout.height + panel_layout.bottom + panel_layout.legend - 10;
     const std::string color = line_colors[entry.color % line_colors.size()];
-    svg.line({at, height - 4}, {at + 22, height - 4},
-             "stroke='" + color + "' stroke-width='2'" + (entry.dashed ? " stroke-dasharray='5 4'" : ""));
+    if (entry.joined)
+      svg.line({at, height - 4}, {at + 22, height - 4},
+               "stroke='" + color + "' stroke-width='2'" + (entry.dashed ? " stroke-dasharray='5 4'" : ""));
+    else
+      draw_point(svg, {at + 16, height - 4}, color, entry.dashed);
     svg.text({at + 27, height}, entry.label);
     at += 40 + 7.0 * static_cast<double>(entry.label.size());
   }
@@ -192,9 +220,10 @@ StudySvg chart_over_points(const ChartRows& rows, const ChartQuantity& quantity,
   for (const double distance : distances)
     entries.push_back({"D = " + short_number(distance), entries.size(), false});
   entries.push_back({"dashed: the paper", 0, true});
-  ChartAxis x{"I", {points.begin(), points.end()}, true};
-  if (x.ticks.size() == 1) x.ticks = {x.ticks.front() / 2, x.ticks.front(), x.ticks.front() * 2};
-  const ChartAxis y = axis_of(panels, quantity.axis, [](Point p) { return p.y; });
+  const ChartAxis x =
+      horizontal_axis("I", {points.begin(), points.end()},
+                      {static_cast<double>(*points.begin()), static_cast<double>(*points.rbegin())});
+  const ChartAxis y = vertical_axis(panels, quantity.axis);
   const std::string title = std::string(quantity.title) + ", " + report::title_of(rows.front()->at.airfoil) +
                             ", " + rows.front()->strategy;
   return {name, title, draw_chart(title, panels, x, y, entries)};
@@ -226,12 +255,12 @@ StudySvg chart_of_losses(const ChartRows& rows, const std::vector<std::string>& 
   std::vector<ChartPanel> panels;
   for (const double sigma : values_of(rows, &StudyCase::sigma))
     panels.push_back(panel_of_losses(rows, sigma, strategies));
-  std::vector<LegendEntry> entries = {{"the paper", 0, true}};
-  for (const std::string& strategy : strategies) entries.push_back({strategy, entries.size(), false});
-  ChartAxis x{"triangles lost a step", {50, 100, 200, 500, 1000, 2000, 5000}, true};
-  const ChartAxis found = axis_of(panels, "", [](Point p) { return p.x; });
-  while (x.ticks.size() > 2 && x.ticks[x.ticks.size() - 2] > found.ticks.back()) x.ticks.pop_back();
-  const ChartAxis y = axis_of(panels, "surplus, %", [](Point p) { return p.y; });
+  std::vector<LegendEntry> entries = {{"the paper", 0, true, false}};
+  for (const std::string& strategy : strategies) entries.push_back({strategy, entries.size(), false, false});
+  const ChartAxis x =
+      horizontal_axis("triangles lost a step", {20, 50, 100, 200, 500, 1000, 2000, 5000, 10000},
+                      extent_of(panels, [](Point p) { return p.x; }));
+  const ChartAxis y = vertical_axis(panels, "surplus, %");
   const std::string title = "Surplus against lost triangles, " + report::title_of(rows.front()->at.airfoil);
   return {name, title, draw_chart(title, panels, x, y, entries)};
 }

@@ -227,6 +227,16 @@ TEST(StudyCharts, SayInEachPanelWhatTheStudyHolds) {
   EXPECT_EQ(count(charts[0].text, "<circle"), 3u * 2u * 2u * 6u);
 }
 
+TEST(StudyCharts, StandWithoutAComparison) {
+  StudyContents study;
+  study.airfoils = {{"mine", "mine", {}}};
+  study.rows = {row_of({"mine", 0.1, 50, 1.0, 1.0}, nan, 91.0, nan)};
+  for (const StudySvg& chart : study_charts(study)) {
+    EXPECT_EQ(chart.text.find("nan"), std::string::npos) << chart.name;
+    EXPECT_EQ(chart.text.find("inf"), std::string::npos) << chart.name;
+  }
+}
+
 TEST(StudyAirfoilFigures, GiveThicknessAndCamber) {
   StudyContents study;
   study.airfoils = {{"naca2412", "NACA 2412", load_airfoil("naca2412", 5)}, {"broken", "broken", {}}};
