@@ -80,15 +80,14 @@ Status status_of(const StudyResult& result) {
 // Rank 0 of an MPI program, or the only process.
 Status run_study(const StudyCommand& command, StudyCrew& crew) {
   const StudyOptions options = options_of(command);
-  const Json resolved = to_json(options);
-  StudyProgressLine progress(progress_style(command.quiet), "options: " + resolved.dump(),
+  StudyProgressLine progress(progress_style(command.quiet), "options: " + to_json(options).dump(),
                              command.time_limit);
   const StudyResult result = study(command.directory, options,
                                    command.resume ? StudyMode::resume : StudyMode::begin, crew, &progress);
   progress.finish();
 
   Report report;
-  report.data("options", resolved);
+  report.data("options", to_json(read_study_options(command.directory)));
   add_result(report, result);
   report.figure("directory", "study", command.directory.string());
   report.print(command.json);

@@ -5,7 +5,6 @@
 // to do is a list of jobs, each a pure function of bytes; whoever does them, in whatever order, the rows in
 // the study's database are the same but for their times.
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -40,7 +39,7 @@ struct StudyOptions {
   std::vector<double> distances{0.5, 1, 2, 4};            // D: at least 0
   std::vector<std::string> strategies{"chain", "renew"};  // of study_strategies()
   std::size_t scenarios = 1;  // of each airfoil and sigma: 1 to 9999. Scenario k has the seed `seed` + k - 1
-  std::size_t evaluations = 1000;  // feasible samples of a scenario: at least 1
+  std::size_t evaluations = 900;   // feasible samples of a scenario: at least 1
   std::size_t compare_every = 20;  // every K-th evaluation is compared with a fresh mesh, and goes through
                                    // check() besides quick_check(); 0: never
   std::uint64_t seed = 1;

@@ -74,7 +74,8 @@ ReplayRow replay_row(const OptimiseResult& figures, OptimiseStopped stopped, dou
 class Replay {
  public:
   explicit Replay(const StudyWork& work) : work_(work), options_(mesh_options(work)) {
-    options_.remodel = {.distance = work.distance, .strategy = strategy_named(work.strategy)};
+    options_.remodel.distance = work.distance;
+    set_strategy(work.strategy, options_);
     block_size_ = (work.path.evaluations() + max_blocks - 1) / max_blocks;
   }
   ReplayRows run(const StudyCancelQuestion& cancelled);

@@ -85,7 +85,8 @@ void require_good(const StudyOptions& options) {
   }
   for (const double distance : options.distances)
     require(distance >= 0.0 && std::isfinite(distance), "distances", "at least 0");
-  for (const std::string& strategy : options.strategies) strategy_named(strategy);
+  OptimiseOptions ignored;
+  for (const std::string& strategy : options.strategies) set_strategy(strategy, ignored);
   require(options.scenarios >= 1 && options.scenarios <= most_scenarios, "scenarios",
           "1 to " + std::to_string(most_scenarios));
   require(options.evaluations >= 1, "evaluations", "at least 1");

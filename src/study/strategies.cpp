@@ -18,10 +18,13 @@ std::vector<std::string> study_strategies() {
   return names;
 }
 
-Strategy strategy_named(const std::string& name) {
+void set_strategy(const std::string& name, OptimiseOptions& options) {
   std::string expected;
   for (const Strategy strategy : strategies) {
-    if (name_of(strategy) == name) return strategy;
+    if (name_of(strategy) == name) {
+      options.remodel.strategy = strategy;
+      return;
+    }
     expected += (expected.empty() ? "" : ", ") + std::string(name_of(strategy));
   }
   throw Error(ErrorCode::argument, "strategies", "found '" + name + "', expected one of " + expected);

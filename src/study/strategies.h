@@ -4,10 +4,11 @@
 
 #include <string>
 
-#include "remodel/remodel.h"
+#include "remodel/optimise.h"
 
 namespace remodel {
 
-Strategy strategy_named(const std::string& name);  // throws Error (argument)
+// Sets what the strategy of that name is made of. Throws Error (argument) for a name that is none.
+void set_strategy(const std::string& name, OptimiseOptions& options);
 
 }  // namespace remodel

@@ -359,6 +359,15 @@ TEST_F(Study, RefusesADatabaseThatIsNone) {
   EXPECT_THROW(resume("a", tiny()), Error);
 }
 
+TEST_F(Study, RefusesTheStudyOfAnotherVersion) {
+  begin("a", tiny());
+  {
+    const Sqlite database(root_ / "a" / "study.sqlite", "the study", Sqlite::Open::existing);
+    database.execute("UPDATE study SET value = '0.0.1' WHERE key = 'version'");
+  }
+  EXPECT_THROW(resume("a", tiny()), Error);
+}
+
 TEST_F(Study, RefusesADamagedPath) {
   begin("a", tiny());
   {
