@@ -33,5 +33,7 @@ void add_convert_command(CLI::App& program, Action& action);
 void add_shapes_command(CLI::App& program, Action& action);
 void add_soak_command(CLI::App& program, Action& action);
 void add_study_command(CLI::App& program, Action& action);
+// A subcommand of `study`.
+void add_study_report_command(CLI::App& study, Action& action);
 
 }  // namespace remodel::app

@@ -42,13 +42,20 @@ std::string explain(const CLI::ParseError& error, const CLI::App& program, int a
     const std::string found = argc > 1 ? "'" + std::string(argv[1]) + "'" : "nothing";
     return "command line: found " + found + ", expected one of " + list_of_subcommands(program);
   }
+  // A subcommand of a subcommand is the one that was asked for.
+  const CLI::App* asked = chosen.front();
+  std::string name = asked->get_name();
+  while (!asked->get_subcommands().empty()) {
+    asked = asked->get_subcommands().front();
+    name += " " + asked->get_name();
+  }
   std::string problem = error.what();
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
     problem = "found unexpected";
-    for (const std::string& argument : chosen.front()->remaining()) problem += " '" + argument + "'";
+    for (const std::string& argument : asked->remaining()) problem += " '" + argument + "'";
     problem += ", expected only known options and arguments";
   }
-  return problem + " (see `remodel " + chosen.front()->get_name() + " --help`)";
+  return problem + " (see `remodel " + name + " --help`)";
 }
 
 int run(int argc, char** argv) {

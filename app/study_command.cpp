@@ -220,7 +220,11 @@ void add_study_command(CLI::App& program, Action& action) {
       add_subcommand(program, "study",
                      "Runs the paper's study, or a part of it: optimisations replayed for every I, G, D "
                      "and strategy",
-                     [command, &action] { action = [command] { return run(*command); }; });
+                     [command, &action] {
+                       if (!action)
+                         action = [command] { return run(*command); };  // else its subcommand was given
+                     });
+  add_study_report_command(app, action);
   add_text(app, {"-o,--output", "DIR", "", "Directory of the study: new, empty, or with --resume a study's"},
            Presence::optional, [command](const std::string& text) { command->directory = text; });
   add_lists(app, *command);

@@ -23,6 +23,7 @@ LAYERS = [
     {"name": "draw", "headers": ["draw.h"]},
     {"name": "optimise", "headers": ["optimise.h", "cmaes.h", "history.h", "soak.h"]},
     {"name": "study", "headers": ["study.h"]},
+    {"name": "report", "headers": ["study_report.h"]},
     {"name": "app", "headers": []},
 ]
 # Some layers see less than everything below them.

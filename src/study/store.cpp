@@ -330,4 +330,8 @@ void StudyStore::add_totals(StudyResult& result) const {
   result.core_seconds = row.real();
 }
 
+StudyPath read_study_path(std::string_view blob, const std::string& source) {
+  return path_of(blob, source);
+}
+
 }  // namespace remodel

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <set>
+#include <string>
+#include <string_view>
 
 #include "optimise/sqlite.h"
 #include "remodel/study.h"
@@ -41,5 +43,8 @@ class StudyStore {
   Sqlite database_;
   StudyOptions options_;
 };
+
+// A scenario's path from its column. Throws Error (format) naming source.
+StudyPath read_study_path(std::string_view blob, const std::string& source);
 
 }  // namespace remodel

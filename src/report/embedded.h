@@ -1,0 +1,18 @@
+#pragma once
+
+// Files that are part of the program: the paper's tables and the parts of the page.
+
+#include <string_view>
+
+namespace remodel::report {
+
+std::string_view embedded_paper_tables();  // data/paper_tables.csv
+std::string_view embedded_page();          // page/page.html
+std::string_view embedded_style();         // page/page.css
+std::string_view embedded_script();        // page/page.js
+// Vega, Vega-Lite and Vega-Embed one after the other; empty where the program was built without them.
+std::string_view embedded_vega();
+std::string_view embedded_vega_lite();
+std::string_view embedded_vega_embed();
+
+}  // namespace remodel::report
