@@ -169,6 +169,7 @@ void add_update_command(CLI::App& program, Action& action) {
   command->outputs.add_options(app, Presence::optional);
   add_cst_degree(app, command->cst_degree);
   add_remodel_options(app, command->remodelling);
+  add_step_strategy(app, command->remodelling);
   add_repeat(app, command->repeat);
   add_json_flag(app, command->json);
 }

@@ -29,8 +29,9 @@ struct EvaluationRecord {
   double best_objective = 0.0;           // so far, this evaluation included
   double sigma = 0.0;                    // of the distribution that it was sampled from
   std::uint64_t infeasible_samples = 0;  // refused since the evaluation before
+  std::uint64_t worker = 1;              // whose mesh it was, from 1
 
-  std::size_t triangles_before = 0;  // of the mesh of the evaluation before
+  std::size_t triangles_before = 0;  // of the mesh that the same worker had for its evaluation before
   std::size_t triangles = 0;
   std::size_t preserved = 0;
   double preserved_percent = 0.0;

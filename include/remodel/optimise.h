@@ -2,7 +2,8 @@
 
 // Shape interpolation by CMA-ES around one living mesh: the paper's section 5.1. Starting from one airfoil,
 // the shape coefficients of both surfaces are changed until the design interpolates points of the target;
-// every feasible sample is meshed by remodelling the mesh of the sample before.
+// every feasible sample is meshed by remodelling the mesh of the sample before. Where there are workers, each
+// has a living mesh of its own.
 
 #include <cstddef>
 #include <cstdint>
@@ -29,10 +30,32 @@ struct MeshStart {
   AirfoilPlace place;
 };
 
+// Which mesh a design's is made from.
+enum class MeshUse {
+  // The one that the same worker had for its design before.
+  chain,
+  // The hub: one mesh that is kept near the mean of the optimiser's distribution. Each design is tried on a
+  // copy of it, which then returns to it. Losses are counted against the mesh that the same worker solved on
+  // before: a triangle is preserved where the same three vertices, by id, at the same coordinates, are joined
+  // in both.
+  hub,
+  // As chain, but for the designs that a criterion chooses the mesh is generated: the paper's section 6. That
+  // is where the largest distance between the vertices of the last design and this one is over 8 local length
+  // scales, and once after ten full adjustments in a row.
+  regenerate,
+};
+const char* name_of(MeshUse use);  // "chain", "hub", "regenerate"
+
 struct OptimiseOptions {
   AirfoilDomainOptions domain{};
   QualityOptions quality{};
-  RemodelOptions remodel{.strategy = Strategy::renew};
+  RemodelOptions remodel{.strategy = Strategy::renew};  // its observer is asked by all threads
+  MeshUse use = MeshUse::chain;
+  // Living meshes. The designs of a generation are handed to the workers whose last designs are nearest, and
+  // evaluated at once. Meshes, rows and figures depend on it; designs do not. 0: as many as samples a
+  // generation.
+  std::size_t workers = 1;
+  std::size_t threads = 0;  // nothing but times depends on it; 0: as many as cores. At most one a worker
   double sigma = 0.05;             // initial standard deviation of the coefficients; > 0
   std::uint64_t seed = 1;          // of the samples; the designs depend on nothing else of these options but
                                    // sigma and, where samples are refused, on domain
@@ -96,13 +119,15 @@ class OptimiseObserver {
   virtual ~OptimiseObserver() = default;
   // After each evaluation.
   virtual void evaluated(const EvaluationRecord& record) { static_cast<void>(record); }
-  // Asked before each evaluation; true ends the run in order, with a checkpoint.
+  // Asked before each evaluation, or where there are workers before those that they do at once; true ends the
+  // run in order, with a checkpoint.
   virtual bool cancelled() { return false; }
 };
 
 // Runs, and leaves in the directory: history.sqlite; best.json (the best design); result.json; first.vtkhdf
 // (the start), middle.vtkhdf (after half of the evaluations) and last.vtkhdf, native meshes; checkpoint.json
-// and the mesh it names.
+// and the meshes it names. Where there are workers, middle and last are meshes of the worker that evaluated
+// that design.
 //
 // The search is over the coefficients of both surfaces; class exponents and trailing edges are fixed, and
 // must be the same in both airfoils. Where their degrees differ the lower one is raised, which is exact. The
@@ -112,8 +137,8 @@ class OptimiseObserver {
 // are apart and the start mesh's domain is valid with it.
 //
 // With resume the run goes on to the designs, rows (but for their seconds) and meshes of a run that was not
-// interrupted. All options but evaluations, checkpoint_every and max_refused, and both airfoils, must be
-// those of the checkpoint. Without resume, a directory that holds the checkpoint of an unfinished run is
+// interrupted. All options but evaluations, checkpoint_every, max_refused and threads, and both airfoils,
+// must be those of the checkpoint. Without resume, a directory that holds the checkpoint of an unfinished run is
 // refused, and the files of a finished one are replaced, once the start of the new run is complete on the
 // disk. A checkpoint, its mesh or a history that is damaged is refused before anything is written. One run at
 // a time holds the directory, by flock; a second one is refused.

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 
+#include "mesh/mesh_data.h"
 #include "optimise/portable_math.h"
 #include "remodel/check.h"
 #include "remodel/generate.h"
@@ -37,13 +38,32 @@ void copy_figures(const RemodelResult& result, EvaluationRecord& record) {
 }  // namespace
 
 MeshChain::MeshChain(const OptimiseOptions& options, Mesh mesh)
-    : domain_of_(options), quality_(quality_of(options)), remodel_(options.remodel), mesh_(std::move(mesh)) {}
+    : mesh_(std::move(mesh)), domain_of_(options), quality_(quality_of(options)), remodel_(options.remodel) {}
+
+RemodelResult MeshChain::advance(const Domain& domain) {
+  return remodel(mesh_, domain, remodel_);
+}
+
+RemodelResult MeshChain::generate_instead(const Domain& domain) {
+  GenerateResult fresh = generate(domain, quality_);
+  RemodelResult result;
+  result.stopped = fresh.stopped;
+  result.regenerated = fresh.stopped != Stopped::done;  // nothing is left to be tried
+  result.refreshed = !result.regenerated;
+  result.triangles_before = mesh().triangle_count();
+  result.removed = mesh().data().triangulation.vertex_count();
+  result.inserted = fresh.mesh.data().triangulation.vertex_count();
+  result.triangles = fresh.mesh.triangle_count();
+  if (result.refreshed) put(std::move(fresh.mesh));
+  return result;
+}
 
 Stopped MeshChain::step(const CstAirfoil& design, StepTasks tasks, EvaluationRecord& record) {
   const Stopwatch watch;
   const Domain domain = domain_of_(design);
-  const RemodelResult result = remodel(mesh_, domain, remodel_);
+  RemodelResult result = tasks.generate ? generate_instead(domain) : advance(domain);
   record.remodel_seconds = watch.seconds();
+  count_losses(result);
   copy_figures(result, record);
 
   const std::string broken = broken_rule(domain, tasks);
@@ -55,18 +75,19 @@ Stopped MeshChain::step(const CstAirfoil& design, StepTasks tasks, EvaluationRec
   if (!record.valid || result.stopped != Stopped::done) {
     if (const Stopped stopped = regenerate(domain, record); stopped != Stopped::done) return stopped;
   }
-  record.min_angle_deg = mesh_.statistics().min_angle_deg;
+  record.min_angle_deg = mesh().statistics().min_angle_deg;
   return tasks.compare ? compare(compared_design(design, record), record) : Stopped::done;
 }
 
 std::string MeshChain::broken_rule(const Domain& domain, StepTasks tasks) const {
-  std::string broken = mesh_.quick_check();
+  const Mesh& mesh = this->mesh();
+  std::string broken = mesh.quick_check();
   if (!broken.empty() || !tasks.full_check) return broken;
-  const CheckResult result = check(mesh_.freeze(), {.min_angle_deg = quality_.min_angle_deg,
-                                                    .max_gradation = promised_gradation(mesh_.options()),
-                                                    .delaunay = !mesh_.shows_file_triangles(),
-                                                    .design = &domain,
-                                                    .max_violations = 1});
+  const CheckResult result = check(mesh.freeze(), {.min_angle_deg = quality_.min_angle_deg,
+                                                   .max_gradation = promised_gradation(mesh.options()),
+                                                   .delaunay = !mesh.shows_file_triangles(),
+                                                   .design = &domain,
+                                                   .max_violations = 1});
   if (result.valid) return {};
   if (result.violations.empty()) return "check: not valid";
   return result.violations.front().rule + ": " + result.violations.front().detail;
@@ -78,8 +99,8 @@ Stopped MeshChain::regenerate(const Domain& domain, EvaluationRecord& record) {
   GenerateResult fresh = generate(domain, quality_);
   record.remodel_seconds += watch.seconds();
   if (fresh.stopped != Stopped::done) return fresh.stopped;
-  mesh_ = std::move(fresh.mesh);
-  record.triangles = mesh_.triangle_count();
+  put(std::move(fresh.mesh));
+  record.triangles = mesh().triangle_count();
   record.preserved = record.moved = record.inserted = record.removed = 0;
   record.preserved_percent = 0.0;
   record.full_adjustment = record.refreshed = false;
@@ -106,7 +127,7 @@ Stopped MeshChain::compare(const CstAirfoil& design, EvaluationRecord& record) c
   const GenerateResult fresh = generate(domain, quality_);
   record.generate_seconds = watch.seconds();
   record.generated_triangles = fresh.mesh.triangle_count();
-  const GradationError error = mesh_.gradation_error(), fresh_error = fresh.mesh.gradation_error();
+  const GradationError error = mesh().gradation_error(), fresh_error = fresh.mesh.gradation_error();
   record.gradation_bias = error.bias;
   record.gradation_deviation = error.deviation;
   record.generated_gradation_bias = fresh_error.bias;

@@ -19,6 +19,18 @@ const char* name_of(OptimiseStopped stopped) {
   return "unknown";
 }
 
+const char* name_of(MeshUse use) {
+  switch (use) {
+    case MeshUse::chain:
+      return "chain";
+    case MeshUse::hub:
+      return "hub";
+    case MeshUse::regenerate:
+      return "regenerate";
+  }
+  return "unknown";
+}
+
 void Summary::add(const EvaluationRecord& record) {
   ++evaluations_;
   infeasible_samples_ += record.infeasible_samples;

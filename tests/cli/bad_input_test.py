@@ -184,7 +184,19 @@ class Options(ProgramTest):
         self.refuse("--seed", -1, "x", command=run)
         self.refuse("--distance", -1, "nan", "inf", command=run)
         self.refuse("--method", "fast", command=run)
+        self.refuse("--strategy", "best", "Chain", "", command=run)
+        self.refuse("--workers", 0, -1, 1001, "2.5", "x", command=run)
+        self.refuse("--threads", 0, -1, 1001, "x", command=run)
         self.refuse("--points", 7, command=run)
+
+    def test_strategies_of_a_run_are_not_those_of_a_step(self):
+        self.succeed("mesh", "naca:0012", "--points", 50, "-o", "a.vtkhdf")
+        self.refuse("--strategy", "hub", "pool", "regenerate", "x", command=("update", "a.vtkhdf", "rae2822"))
+        self.refused("update", "a.vtkhdf", "rae2822", "--workers", 2, names="--workers")
+        self.refused(
+            "optimise", "--mesh", "a.vtkhdf", "--to", "rae2822", "--strategy", "regenerate", "-o", "run",
+            names="regenerate",
+        )
 
     def test_draw(self):
         self.succeed("mesh", "naca:0012", "--points", 50, "-o", "a.vtkhdf")
