@@ -45,7 +45,7 @@ struct EvaluationRecord {
   double remodel_seconds = 0.0;  // making the domain and remodel(), the recovery too if there was one
 
   std::optional<std::size_t>
-      generated_triangles;                 // compared evaluations only: a fresh mesh of the same design
+      generated_triangles;  // compared evaluations only: a fresh mesh of the same design
   std::optional<double> gradation_bias, gradation_deviation;  // of the remodelled mesh: GradationError
   std::optional<double> generated_gradation_bias, generated_gradation_deviation;  // of the fresh one
   std::optional<double> generate_seconds;  // making the domain and generate()

@@ -56,11 +56,11 @@ struct OptimiseOptions {
   // generation.
   std::size_t workers = 1;
   std::size_t threads = 0;  // nothing but times depends on it; 0: as many as cores. At most one a worker
-  double sigma = 0.05;             // initial standard deviation of the coefficients; > 0
-  std::uint64_t seed = 1;          // of the samples; the designs depend on nothing else of these options but
-                                   // sigma and, where samples are refused, on domain
-  std::size_t evaluations = 9000;  // feasible samples, one remodelling each; at least 1
-  std::size_t compare_every = 0;   // every K-th evaluation also generates a fresh mesh; 0: never
+  double sigma = 0.05;      // initial standard deviation of the coefficients; > 0
+  std::uint64_t seed = 1;   // of the samples; the designs depend on nothing else of these options but
+                            // sigma and, where samples are refused, on domain
+  std::size_t evaluations = 9000;    // feasible samples, one remodelling each; at least 1
+  std::size_t compare_every = 0;     // every K-th evaluation also generates a fresh mesh; 0: never
   std::size_t full_check_every = 0;  // every K-th mesh goes through check() too; 0: as compare_every
   std::size_t checkpoint_every =
       500;                          // evaluations between checkpoints; 0: at the start, the end, an interrupt
@@ -93,16 +93,18 @@ struct OptimiseResult {
   double triangles_mean = none;            // over all evaluations
   double generated_triangles_mean = none;  // over the compared evaluations
   double surplus_percent = none;  // mean of (triangles - generated) / generated over the compared evaluations
-  double gradation_bias = none, gradation_deviation = none;  // GradationError: means over the compared evaluations
-  double generated_gradation_bias = none, generated_gradation_deviation = none;  // the same of the fresh meshes
-  double remodel_ms_mean = none;  // over all evaluations
-  double generate_ms_mean = none;    // over the compared evaluations
-  double speedup = none;             // generate_ms_mean / remodel_ms_mean
-  double min_angle_deg = none;       // smallest of all meshes
-  std::uint64_t invalid_meshes = 0;  // remodelled meshes that failed validation
-  std::uint64_t recoveries = 0;      // evaluations whose mesh had to be regenerated
-  std::uint64_t refreshes = 0;       // evaluations whose mesh the strategy generated afresh
-  double seconds = 0.0;              // wall time, checks and files included, resumed parts added up
+  double gradation_bias = none,
+         gradation_deviation = none;  // GradationError: means over the compared evaluations
+  double generated_gradation_bias = none,
+         generated_gradation_deviation = none;  // the same of the fresh meshes
+  double remodel_ms_mean = none;                // over all evaluations
+  double generate_ms_mean = none;               // over the compared evaluations
+  double speedup = none;                        // generate_ms_mean / remodel_ms_mean
+  double min_angle_deg = none;                  // smallest of all meshes
+  std::uint64_t invalid_meshes = 0;             // remodelled meshes that failed validation
+  std::uint64_t recoveries = 0;                 // evaluations whose mesh had to be regenerated
+  std::uint64_t refreshes = 0;                  // evaluations whose mesh the strategy generated afresh
+  double seconds = 0.0;  // wall time, checks and files included, resumed parts added up
 
   OptimiseStopped stopped = OptimiseStopped::done;
   std::string detail;  // the first broken rule or reason of a recovery, if any
@@ -138,8 +140,8 @@ class OptimiseObserver {
 //
 // With resume the run goes on to the designs, rows (but for their seconds) and meshes of a run that was not
 // interrupted. All options but evaluations, checkpoint_every, max_refused and threads, and both airfoils,
-// must be those of the checkpoint. Without resume, a directory that holds the checkpoint of an unfinished run is
-// refused, and the files of a finished one are replaced, once the start of the new run is complete on the
+// must be those of the checkpoint. Without resume, a directory that holds the checkpoint of an unfinished run
+// is refused, and the files of a finished one are replaced, once the start of the new run is complete on the
 // disk. A checkpoint, its mesh or a history that is damaged is refused before anything is written. One run at
 // a time holds the directory, by flock; a second one is refused.
 //

@@ -205,6 +205,8 @@ class Options(ProgramTest):
         self.refuse("--color", "red", command=draw)
         self.refuse("--width", 0, 100000, command=draw)
         self.refused("draw", "a.vtkhdf", "-o", "a.pdf", names="a.pdf")
+        self.succeed("convert", "a.vtkhdf", "-o", "a.su2")
+        self.refused("draw", "a.su2", "-o", "a.png", "--color", "gradation", names="a.su2")
 
     def test_unknown_arguments(self):
         self.refused(names="command line")
