@@ -198,6 +198,23 @@ class Options(ProgramTest):
             names="regenerate",
         )
 
+    def test_batch(self):
+        self.succeed("mesh", "naca:0012", "--points", 50, "-o", "a.vtkhdf")
+        batch = ("batch", "a.vtkhdf", "rae2822", "-o", "out")
+        self.refuse("--order", "farthest", "", command=batch)
+        self.refuse("--meshes", "png", command=batch)
+        self.refuse("--strategy", "pool", command=batch)
+        self.refused("batch", "a.vtkhdf", "-o", "out", names="shapes")
+        self.refused("batch", "a.vtkhdf", "rae2822", names="--output")
+        self.refused("batch", "no.vtkhdf", "rae2822", "-o", "out", names="no.vtkhdf")
+        self.refused("batch", "a.vtkhdf", "rae2822", "no.dat", "-o", "out", names="no.dat")
+        self.refused("batch", "a.vtkhdf", "rae2822", "-o", "a.vtkhdf", names="a.vtkhdf")
+        self.refused("batch", "a.vtkhdf", "rae2822", "-o", "no/out", names="no")
+        # A design that is no domain, after one that is: nothing is meshed.
+        crossing = {"degree": 3, "upper": [0.17, -0.9, 0.14, 0.14], "lower": [-0.17, -0.16, -0.14, -0.14]}
+        self.write("crossing.json", json.dumps(crossing))
+        self.refused("batch", "a.vtkhdf", "rae2822", "crossing.json", "-o", "out", names="crossing.json")
+
     def test_draw(self):
         self.succeed("mesh", "naca:0012", "--points", 50, "-o", "a.vtkhdf")
         draw = ("draw", "a.vtkhdf", "-o", "a.png")
