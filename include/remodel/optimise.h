@@ -37,11 +37,11 @@ enum class MeshUse {
   // The hub: one mesh that is kept near the mean of the optimiser's distribution. Each design is tried on a
   // copy of it, which then returns to it. Losses are counted against the mesh that the same worker solved on
   // before: a triangle is preserved where the same three vertices, by id, at the same coordinates, are joined
-  // in both.
+  // in both. Meshes, unlike losses, do not depend on the number of workers.
   hub,
-  // As chain, but for the designs that a criterion chooses the mesh is generated: the paper's section 6. That
-  // is where the largest distance between the vertices of the last design and this one is over 8 local length
-  // scales, and once after ten full adjustments in a row.
+  // As chain, but for the designs that a criterion chooses the mesh is generated: the paper's section 5,
+  // "Improvements". That is where a vertex of the last design and its place on this one are more than 8 local
+  // length scales apart, and once after ten full adjustments in a row.
   regenerate,
 };
 const char* name_of(MeshUse use);  // "chain", "hub", "regenerate"

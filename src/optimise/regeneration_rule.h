@@ -1,6 +1,6 @@
 #pragma once
 
-// MeshUse::regenerate: the two ideas of the paper's last section, for which it has no figures.
+// MeshUse::regenerate: two ideas of the paper's section 5 ("Improvements"), for which it has no figures.
 //
 //  (1) A criterion chooses between generation and remodelling for each design: "the variation in the shape
 //      coefficient vector", here what that does to a mesh, the displacement from the last design

@@ -88,6 +88,24 @@ TEST_F(WorkerRun, GivesTheSameBytesOnAnyNumberOfThreads) {
   }
 }
 
+TEST_F(WorkerRun, HasTheSameMeshesFromAHubWithAnyNumberOfWorkers) {
+  optimise(from_, to_, options_of(uses[3], "one"));
+  optimise(from_, to_, options_of(uses[4], "four"));
+  const auto one = rows("one"), four = rows("four");
+  ASSERT_EQ(one.size(), four.size());
+  bool other_losses = false;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].triangles, four[i].triangles);
+    EXPECT_EQ(one[i].full_adjustment, four[i].full_adjustment);
+    EXPECT_EQ(one[i].min_angle_deg, four[i].min_angle_deg);
+    EXPECT_EQ(one[i].gradation_bias, four[i].gradation_bias);
+    other_losses |= one[i].preserved != four[i].preserved;
+  }
+  EXPECT_TRUE(other_losses);
+  EXPECT_TRUE(read_mesh(root_ / "one" / "last.vtkhdf").state() ==
+              read_mesh(root_ / "four" / "last.vtkhdf").state());
+}
+
 TEST_F(WorkerRun, GoesOnFromInterruptsAndKillsToTheSameHistoryAndMeshes) {
   for (const Use& use : uses) {
     SCOPED_TRACE(use.name);
