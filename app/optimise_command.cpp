@@ -82,7 +82,7 @@ Json options_json(const OptimiseCommand& command) {
   options["distance"] = command.run.remodel.distance;
   options["method"] = name_of(command.run.remodel.method);
   options["strategy"] = command.strategy;
-  options["workers"] = command.run.workers;
+  if (command.run.workers != 0) options["workers"] = command.run.workers;
   options["sigma"] = command.run.sigma;
   options["seed"] = command.run.seed;
   options["evaluations"] = command.run.evaluations;
@@ -96,7 +96,7 @@ struct Figure {
   const char* label;
   const char* unit;
 };
-constexpr std::array<Figure, 26> figures{{
+constexpr std::array<Figure, 27> figures{{
     {"evaluations", "evaluations", ""},
     {"infeasible_samples", "infeasible samples, drawn again", ""},
     {"full_adjustments", "full adjustments", ""},
@@ -119,6 +119,7 @@ constexpr std::array<Figure, 26> figures{{
     {"recoveries", "recoveries by generation", ""},
     {"refreshes", "meshes generated afresh by the strategy", ""},
     {"seconds", "wall time", "seconds"},
+    {"workers", "workers", ""},
     {"stopped", "stopped", ""},
     {"detail", "detail", ""},
     {"seed", "seed", ""},

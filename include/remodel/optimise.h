@@ -106,6 +106,7 @@ struct OptimiseResult {
   std::uint64_t refreshes = 0;                  // evaluations whose mesh the strategy generated afresh
   double seconds = 0.0;  // wall time, checks and files included, resumed parts added up
 
+  std::uint64_t workers = 0;  // living meshes
   OptimiseStopped stopped = OptimiseStopped::done;
   std::string detail;  // the first broken rule or reason of a recovery, if any
   std::uint64_t seed = 0;

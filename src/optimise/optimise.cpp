@@ -284,6 +284,7 @@ OptimiseResult Run::finish(OptimiseStopped stopped) {
   result.infeasible_samples += progress_.refused;
   result.stopped = stopped;
   result.seed = options_.seed;
+  result.workers = progress_.workers.count();
   result.best = from_;
   if (result.evaluations > 0) {
     result.best = with_coefficients(from_, progress_.summary.best_coefficients());
@@ -446,6 +447,7 @@ OptimiseResult unmeshable_start(const CstAirfoil& from, const OptimiseOptions& o
   OptimiseResult result;
   result.stopped = OptimiseStopped::mesh_limit;
   result.seed = options.seed;
+  result.workers = worker_count(options, population_of(from, options));
   result.best = from;
   return result;
 }

@@ -116,6 +116,7 @@ std::string optimise_result_to_json(const OptimiseResult& result) {
       {"recoveries", result.recoveries},
       {"refreshes", result.refreshes},
       {"seconds", result.seconds},
+      {"workers", result.workers},
       {"stopped", name_of(result.stopped)},
       {"detail", result.detail},
       {"seed", result.seed},

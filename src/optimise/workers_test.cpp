@@ -39,6 +39,7 @@ class WorkerRun : public OptimiseRun {
   OptimiseOptions options_of(const Use& use, const std::string& name, std::size_t evaluations = 60) const {
     OptimiseOptions result = options(name, evaluations);
     result.sigma = 0.25;
+    result.compare_every = 20;
     result.remodel.strategy = use.step;
     result.use = use.use;
     result.workers = use.workers;

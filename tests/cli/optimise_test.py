@@ -72,6 +72,7 @@ class Runs(ProgramTest):
             figures = self.figures(*self.arguments(44, directory, "--strategy", strategy, *given, "--compare-every", 11))
             self.assertEqual(figures["invalid_meshes"], 0)
             self.assertEqual(figures["options"]["strategy"], strategy)
+            self.assertEqual(figures["workers"], workers)
             used = self.rows(directory, "select distinct worker from evaluations order by worker")
             self.assertEqual([worker for worker, in used], list(range(1, workers + 1)))
             designs = self.rows(directory, "select coefficients from evaluations")
