@@ -25,6 +25,7 @@ using Action = std::function<Status()>;
 // Each registers one subcommand, which sets `action` when it is chosen. One file each: <name>_command.cpp.
 void add_mesh_command(CLI::App& program, Action& action);
 void add_update_command(CLI::App& program, Action& action);
+void add_batch_command(CLI::App& program, Action& action);
 void add_check_command(CLI::App& program, Action& action);
 void add_fit_command(CLI::App& program, Action& action);
 void add_optimise_command(CLI::App& program, Action& action);

@@ -12,6 +12,7 @@
 #include "outputs.h"
 #include "remodel/error.h"
 #include "remodel/io.h"
+#include "remodel/mesh.h"
 
 namespace remodel::app {
 namespace {
@@ -39,9 +40,18 @@ void require_picture(const std::string& file) {
   require_writable(file);
 }
 
+// Gradation errors are a matter of the living mesh: its design and its options.
+FrozenMesh read(const DrawCommand& command) {
+  if (command.options.color != DrawColor::gradation) return read_frozen_mesh(command.mesh);
+  const Mesh mesh = read_mesh(command.mesh);
+  FrozenMesh frozen = mesh.freeze();
+  frozen.gradation_error = mesh.gradation_errors(frozen);
+  return frozen;
+}
+
 Status run(const DrawCommand& command) {
   require_picture(command.output);
-  const FrozenMesh mesh = read_frozen_mesh(command.mesh);
+  const FrozenMesh mesh = read(command);
   draw(mesh, command.output, command.options);
   Report report;
   report.figure("mesh", "mesh", command.mesh);
@@ -62,12 +72,15 @@ void add_draw_command(CLI::App& program, Action& action) {
            Presence::required, command->output);
   add_text(app, {"--window", "X0,Y0,X1,Y1", "the whole mesh", "Part of the plane to draw: corners in chords"},
            Presence::optional, [command](const std::string& text) { set_window(*command, text); });
-  static constexpr std::array colors{DrawColor::quality, DrawColor::length_scale, DrawColor::age};
-  add_choice(app,
-             {"--color", "COLOR", "quality",
-              "quality (smallest angle), length-scale (its logarithm) or age (remodelling steps)"},
-             {"quality", "length-scale", "age"},
-             [command](std::size_t choice) { command->options.color = colors[choice]; });
+  static constexpr std::array colors{DrawColor::quality, DrawColor::length_scale, DrawColor::age,
+                                     DrawColor::gradation};
+  add_choice(
+      app,
+      {"--color", "COLOR", "quality",
+       "quality (smallest angle), length-scale (its logarithm), age (remodelling steps) or gradation (size "
+       "against what the design alone asks for; native meshes)"},
+      {"quality", "length-scale", "age", "gradation"},
+      [command](std::size_t choice) { command->options.color = colors[choice]; });
   add_integer(app, {"--width", "PIXELS", "1600", "Width in pixels, 16 to 20000; the height follows"},
               {.low = 16, .high = 20000},
               [command](std::int64_t value) { command->options.width = static_cast<int>(value); });

@@ -69,8 +69,9 @@ int run(int argc, char** argv) {
       "defaults.");
   Action action;
   for (const auto add :
-       {add_mesh_command, add_update_command, add_check_command, add_fit_command, add_optimise_command,
-        add_draw_command, add_convert_command, add_shapes_command, add_soak_command, add_study_command}) {
+       {add_mesh_command, add_update_command, add_batch_command, add_check_command, add_fit_command,
+        add_optimise_command, add_draw_command, add_convert_command, add_shapes_command, add_soak_command,
+        add_study_command}) {
     add(program, action);
   }
   try {

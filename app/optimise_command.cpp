@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "arguments.h"
 #include "command.h"
@@ -21,11 +22,27 @@
 namespace remodel::app {
 namespace {
 
+// What --strategy chooses: how a step is made, and which mesh it starts from.
+struct RunStrategy {
+  const char* name;
+  Strategy step;
+  MeshUse use;
+};
+constexpr std::array<RunStrategy, 5> run_strategies{{
+    {"chain", Strategy::chain, MeshUse::chain},
+    {"renew", Strategy::renew, MeshUse::chain},
+    {"hub", Strategy::renew, MeshUse::hub},
+    {"pool", Strategy::renew, MeshUse::chain},
+    {"regenerate", Strategy::chain, MeshUse::regenerate},
+}};
+
 struct OptimiseCommand {
   OptimiseStartOptions start;
   std::string to;
   MeshingOptions meshing;
   OptimiseOptions run;
+  std::string strategy = "renew";
+  std::optional<std::size_t> workers;
   int repeat = 1;
   bool quiet = false;
   bool json = false;
@@ -57,7 +74,8 @@ Json options_json(const OptimiseCommand& command) {
   Json options = meshing_json(command.meshing, command.run);
   options["distance"] = command.run.remodel.distance;
   options["method"] = name_of(command.run.remodel.method);
-  options["strategy"] = name_of(command.run.remodel.strategy);
+  options["strategy"] = command.strategy;
+  if (command.run.workers != 0) options["workers"] = command.run.workers;
   options["sigma"] = command.run.sigma;
   options["seed"] = command.run.seed;
   options["evaluations"] = command.run.evaluations;
@@ -71,7 +89,7 @@ struct Figure {
   const char* label;
   const char* unit;
 };
-constexpr std::array<Figure, 26> figures{{
+constexpr std::array<Figure, 27> figures{{
     {"evaluations", "evaluations", ""},
     {"infeasible_samples", "infeasible samples, drawn again", ""},
     {"full_adjustments", "full adjustments", ""},
@@ -94,6 +112,7 @@ constexpr std::array<Figure, 26> figures{{
     {"recoveries", "recoveries by generation", ""},
     {"refreshes", "meshes generated afresh by the strategy", ""},
     {"seconds", "wall time", "seconds"},
+    {"workers", "workers", ""},
     {"stopped", "stopped", ""},
     {"detail", "detail", ""},
     {"seed", "seed", ""},
@@ -147,7 +166,13 @@ void add_last_mesh_figures(Report& report, const OptimiseCommand& command) {
   if (command.run.start && std::filesystem::exists(last)) add_part_figures(report, read_mesh(last));
 }
 
+// A pool is a mesh for each sample of a generation, unless it is to have fewer.
+void resolve_workers(OptimiseCommand& command) {
+  command.run.workers = command.workers.value_or(command.strategy == "pool" ? 0 : 1);
+}
+
 Status run(OptimiseCommand& command) {
+  resolve_workers(command);
   require_run_directory(command.run.directory);
   if (command.run.resume && command.repeat > 1) {
     throw Error(ErrorCode::argument, "--repeat",
@@ -173,6 +198,35 @@ Status run(OptimiseCommand& command) {
   report.figure("directory", "run directory", command.run.directory.string());
   report.print(command.json);
   return status_of(result);
+}
+
+void add_strategy(CLI::App& app, OptimiseCommand& command) {
+  std::vector<std::string> names;
+  for (const RunStrategy& strategy : run_strategies) names.emplace_back(strategy.name);
+  add_choice(
+      app,
+      {"--strategy", "STRATEGY", "renew",
+       "renew (length scales are renewed, what is too dense is coarsened), chain (the paper's method to "
+       "the letter, and all that imported meshes have), pool (renew, with as many workers as samples a "
+       "generation), hub (renew, all designs from one mesh near their mean) or regenerate (chain, and "
+       "generation where a criterion asks for it)"},
+      names, [&](std::size_t choice) {
+        command.strategy = run_strategies[choice].name;
+        command.run.remodel.strategy = run_strategies[choice].step;
+        command.run.use = run_strategies[choice].use;
+      });
+  add_integer(
+      app,
+      {"--workers", "W", "1, pool: as many as samples a generation",
+       "Living meshes; a design goes to the worker whose last one is nearest. The result depends on it; "
+       "1 to 1000"},
+      {.low = 1, .high = 1000},
+      [&](std::int64_t value) { command.workers = static_cast<std::size_t>(value); });
+  add_integer(app,
+              {"--threads", "T", "as many as cores, at most one a worker",
+               "Workers that evaluate at the same time. The result does not depend on it; 1 to 1000"},
+              {.low = 1, .high = 1000},
+              [&](std::int64_t value) { command.run.threads = static_cast<std::size_t>(value); });
 }
 
 void add_search_options(CLI::App& app, OptimiseOptions& run) {
@@ -208,6 +262,7 @@ void add_optimise_command(CLI::App& program, Action& action) {
            [command](const std::string& text) { command->run.directory = text; });
   add_meshing_options(app, command->meshing);
   add_remodel_options(app, command->run.remodel);
+  add_strategy(app, *command);
   add_search_options(app, command->run);
   add_flag(app, "--resume", "Go on from the checkpoint in the run directory", command->run.resume);
   add_repeat(app, command->repeat);

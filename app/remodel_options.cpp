@@ -18,6 +18,13 @@ void add_remodel_options(CLI::App& app, RemodelOptions& options) {
              {"--method", "METHOD", "auto",
               "auto, specialised (vertices correspond one to one) or general (any loops)"},
              words, [&](std::size_t choice) { options.method = methods[choice]; });
+  add_real(app,
+           {"--keep", "FACTOR", "1.1 for G up to 2, otherwise 1.25",
+            "renew: kept triangles may take this times --max-gradation: 1 to 10"},
+           {.low = 1.0, .high = 10.0}, [&](double value) { options.keep = value; });
+}
+
+void add_step_strategy(CLI::App& app, RemodelOptions& options) {
   options.strategy = Strategy::renew;
   static constexpr std::array strategies{Strategy::chain, Strategy::renew};
   std::vector<std::string> names;
@@ -28,10 +35,6 @@ void add_remodel_options(CLI::App& app, RemodelOptions& options) {
        "renew (length scales are renewed, what is too dense is coarsened) or chain (the paper's method to "
        "the letter, and all that imported meshes have)"},
       names, [&](std::size_t choice) { options.strategy = strategies[choice]; });
-  add_real(app,
-           {"--keep", "FACTOR", "1.1 for G up to 2, otherwise 1.25",
-            "renew: kept triangles may take this times --max-gradation: 1 to 10"},
-           {.low = 1.0, .high = 10.0}, [&](double value) { options.keep = value; });
 }
 
 }  // namespace remodel::app

@@ -1,6 +1,6 @@
 #pragma once
 
-// The options that `update` and `optimise` share: how the mesh is remodelled.
+// How a mesh is remodelled: the options that `update`, `batch` and `optimise` share, and those of one step.
 
 #include "remodel/remodel.h"
 
@@ -11,5 +11,7 @@ class App;
 namespace remodel::app {
 
 void add_remodel_options(CLI::App& app, RemodelOptions& options);
+// --strategy of a single step: chain or renew.
+void add_step_strategy(CLI::App& app, RemodelOptions& options);
 
 }  // namespace remodel::app

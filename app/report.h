@@ -19,6 +19,8 @@ class Report {
   void data(const std::string& key, Json value);
   void line(const std::string& label, const std::string& text);
 
+  // The JSON object as text, with a line's end.
+  std::string json_text() const;
   // Throws Error (file) where standard output does not take it.
   void print_json() const;
   void print_text() const;

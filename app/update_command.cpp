@@ -9,6 +9,7 @@
 #include "domain_input.h"
 #include "figures.h"
 #include "meshing_options.h"
+#include "new_airfoil.h"
 #include "outputs.h"
 #include "remodel/error.h"
 #include "remodel/io.h"
@@ -31,50 +32,6 @@ struct UpdateCommand {
   bool json = false;
 };
 
-bool closed_trailing_edge(const CstAirfoil& airfoil) {
-  return airfoil.te_upper == airfoil.te_lower;
-}
-
-CstAirfoil* find_airfoil(Domain& domain) {
-  for (Loop& loop : domain.loops) {
-    for (Curve& curve : loop.curves) {
-      if (auto* airfoil = std::get_if<CstAirfoil>(&curve.shape)) return airfoil;
-    }
-  }
-  return nullptr;
-}
-
-// The discretisation that airfoil_domain() was given, read back from its result.
-AirfoilDomainOptions discretisation_of(const Domain& domain) {
-  AirfoilDomainOptions options;
-  for (std::size_t i = 0; i < domain.curve_count(); ++i) {
-    const Curve& curve = domain.curve(i);
-    const int points = static_cast<int>(curve.parameters.size());
-    if (std::holds_alternative<CstAirfoil>(curve.shape)) options.points = points;
-    if (const auto* circle = std::get_if<Arc>(&curve.shape)) {
-      options.farfield_radius = circle->radius;
-      options.farfield_points = points;
-    }
-  }
-  return options;
-}
-
-// The mesh's domain with another airfoil in it, where we made the mesh. Where the trailing edge stays closed,
-// everything else is kept as it is; opening or closing it adds or removes a curve, so the domain is built
-// anew.
-Domain generated_with_airfoil(const Domain& old, const CstAirfoil& airfoil, const std::string& file) {
-  Domain domain = old;
-  CstAirfoil* place = find_airfoil(domain);
-  if (place == nullptr) {
-    throw Error(ErrorCode::argument, file, "found a mesh without an airfoil, expected one to remodel");
-  }
-  if (!closed_trailing_edge(*place) || !closed_trailing_edge(airfoil)) {
-    return airfoil_domain(airfoil, discretisation_of(old));
-  }
-  *place = airfoil;
-  return domain;
-}
-
 void add_figures(Report& report, const RemodelResult& result) {
   report.figure("triangles_before", "triangles before", result.triangles_before);
   report.figure("triangles", "triangles", result.triangles);
@@ -90,19 +47,11 @@ void add_figures(Report& report, const RemodelResult& result) {
   if (result.regenerated) report.figure("reason", "because", result.reason);
 }
 
-// Where a boundary is named, or the mesh is another program's, all other loops stay as they are.
-Domain domain_with(const CstAirfoil& airfoil, const StartMesh& start, const UpdateCommand& command) {
-  const bool generated = !start.imported && !start.mesh.imported();
-  if (generated && command.start.boundary.empty() && !command.start.points)
-    return generated_with_airfoil(start.mesh.domain(), airfoil, command.mesh);
-  return with_airfoil(start.mesh.domain(), place_in(start, command.start), airfoil);
-}
-
 // One airfoil takes the place of the mesh's own; several, or a domain, are all that there is afterwards.
 DomainInput new_domain(const StartMesh& start, const UpdateCommand& command) {
   if (is_single_airfoil(command.shapes)) {
     const CstAirfoil airfoil = load_airfoil(command.shapes.shapes[0], command.cst_degree);
-    return {.domain = domain_with(airfoil, start, command), .findings = std::nullopt};
+    return {.domain = with_new_airfoil(start, command.start, airfoil), .findings = std::nullopt};
   }
   if (!command.start.boundary.empty())
     throw Error(ErrorCode::argument, "--boundary",
@@ -169,6 +118,7 @@ void add_update_command(CLI::App& program, Action& action) {
   command->outputs.add_options(app, Presence::optional);
   add_cst_degree(app, command->cst_degree);
   add_remodel_options(app, command->remodelling);
+  add_step_strategy(app, command->remodelling);
   add_repeat(app, command->repeat);
   add_json_flag(app, command->json);
 }

@@ -21,7 +21,7 @@ LAYERS = [
     {"name": "check", "headers": ["check.h"]},
     {"name": "io", "headers": ["io.h"]},
     {"name": "draw", "headers": ["draw.h"]},
-    {"name": "optimise", "headers": ["optimise.h", "cmaes.h", "history.h", "soak.h"]},
+    {"name": "optimise", "headers": ["optimise.h", "batch.h", "cmaes.h", "history.h", "soak.h"]},
     {"name": "study", "headers": ["study.h"]},
     {"name": "report", "headers": ["study_report.h"]},
     {"name": "app", "headers": []},

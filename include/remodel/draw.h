@@ -14,6 +14,7 @@ enum class DrawColor {
   quality,       // minimum angle
   length_scale,  // logarithm of the mean length scale of the triangle
   age,           // how many remodelling steps ago the triangle was made
+  gradation,  // ln(r / (H mean LS*)): 0 where a triangle is as large as the design allows; see GradationError
 };
 
 struct DrawOptions {

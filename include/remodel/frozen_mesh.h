@@ -30,6 +30,8 @@ struct FrozenMesh {
   std::vector<std::uint32_t> birth;         // per triangle: the remodelling step that made it, 0 = generation
   std::vector<std::int32_t> curve;          // per point: index of its curve in the design, -1 in the interior
   std::vector<double> parameter;            // per point: t on that curve, 0 in the interior
+  // Per triangle: ln(r / (H mean LS*)), only where it was asked for (Mesh::gradation_errors()).
+  std::vector<double> gradation_error{};
 };
 
 }  // namespace remodel

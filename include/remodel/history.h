@@ -29,8 +29,9 @@ struct EvaluationRecord {
   double best_objective = 0.0;           // so far, this evaluation included
   double sigma = 0.0;                    // of the distribution that it was sampled from
   std::uint64_t infeasible_samples = 0;  // refused since the evaluation before
+  std::uint64_t worker = 1;              // whose mesh it was, from 1
 
-  std::size_t triangles_before = 0;  // of the mesh of the evaluation before
+  std::size_t triangles_before = 0;  // of the mesh that the same worker had for its evaluation before
   std::size_t triangles = 0;
   std::size_t preserved = 0;
   double preserved_percent = 0.0;
@@ -44,7 +45,7 @@ struct EvaluationRecord {
   double remodel_seconds = 0.0;  // making the domain and remodel(), the recovery too if there was one
 
   std::optional<std::size_t>
-      generated_triangles;                 // compared evaluations only: a fresh mesh of the same design
+      generated_triangles;  // compared evaluations only: a fresh mesh of the same design
   std::optional<double> gradation_bias, gradation_deviation;  // of the remodelled mesh: GradationError
   std::optional<double> generated_gradation_bias, generated_gradation_deviation;  // of the fresh one
   std::optional<double> generate_seconds;  // making the domain and generate()

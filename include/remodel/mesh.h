@@ -146,6 +146,8 @@ class Mesh {
   bool shows_file_triangles() const;
   MeshStatistics statistics() const;
   GradationError gradation_error() const;
+  // e of each triangle of a frozen view of this mesh, for FrozenMesh::gradation_error.
+  std::vector<double> gradation_errors(const FrozenMesh& frozen) const;
   MeshState state() const;
   // Throws Error (format) where the state is not that of a mesh: sizes, ranges, links that do not return.
   static Mesh restore(const MeshState& state, const std::string& source);

@@ -63,34 +63,68 @@ ColorScale age_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& t
   return scale;
 }
 
-}  // namespace
+// From half of the size that the design allows to twice that: what is beyond has the colour of the end.
+ColorScale gradation_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& triangles) {
+  if (mesh.gradation_error.empty()) {
+    throw Error(ErrorCode::argument, "color gradation",
+                "a mesh without gradation errors found, one with them expected");
+  }
+  constexpr double most = std::numbers::ln2;
+  ColorScale scale{"ln(r / (H mean LS*))", "\u2212ln 2: half", "ln 2: twice", {}, ColorMap::diverging};
+  for (const auto triangle : triangles)
+    scale.positions.push_back(std::clamp(0.5 + 0.5 * mesh.gradation_error[triangle] / most, 0.0, 1.0));
+  return scale;
+}
 
-// Seventeen samples of the map "viridis" (van der Walt and Smith 2015, public domain), linear between them.
-Color color_at(double t) {
-  static constexpr std::array<std::array<int, 3>, 17> samples = {{{68, 1, 84},
-                                                                  {72, 24, 106},
-                                                                  {71, 45, 123},
-                                                                  {66, 64, 134},
-                                                                  {59, 82, 139},
-                                                                  {51, 99, 141},
-                                                                  {44, 114, 142},
-                                                                  {38, 130, 142},
-                                                                  {33, 145, 140},
-                                                                  {31, 160, 136},
-                                                                  {40, 174, 128},
-                                                                  {63, 188, 115},
-                                                                  {94, 201, 98},
-                                                                  {132, 212, 75},
-                                                                  {173, 220, 48},
-                                                                  {216, 226, 25},
-                                                                  {253, 231, 37}}};
-  const double at = std::clamp(t, 0.0, 1.0) * (samples.size() - 1);
-  const auto below = std::min(static_cast<std::size_t>(at), samples.size() - 2);
+// Linear between samples at equal distances.
+template <std::size_t n>
+Color between(const std::array<std::array<int, 3>, n>& samples, double t) {
+  const double at = std::clamp(t, 0.0, 1.0) * (n - 1);
+  const auto below = std::min(static_cast<std::size_t>(at), n - 2);
   const double part = at - static_cast<double>(below);
   const auto mixed = [&](std::size_t k) {
     return ((1.0 - part) * samples[below][k] + part * samples[below + 1][k]) / 255.0;
   };
   return {mixed(0), mixed(1), mixed(2)};
+}
+
+// Seventeen samples of the map "viridis" (van der Walt and Smith 2015, public domain).
+constexpr std::array<std::array<int, 3>, 17> viridis = {{{68, 1, 84},
+                                                         {72, 24, 106},
+                                                         {71, 45, 123},
+                                                         {66, 64, 134},
+                                                         {59, 82, 139},
+                                                         {51, 99, 141},
+                                                         {44, 114, 142},
+                                                         {38, 130, 142},
+                                                         {33, 145, 140},
+                                                         {31, 160, 136},
+                                                         {40, 174, 128},
+                                                         {63, 188, 115},
+                                                         {94, 201, 98},
+                                                         {132, 212, 75},
+                                                         {173, 220, 48},
+                                                         {216, 226, 25},
+                                                         {253, 231, 37}}};
+// Blue to red over grey, as light at both ends.
+constexpr std::array<std::array<int, 3>, 9> blue_to_red = {{{59, 76, 192},
+                                                            {98, 130, 234},
+                                                            {141, 176, 254},
+                                                            {184, 208, 249},
+                                                            {221, 221, 221},
+                                                            {245, 196, 173},
+                                                            {244, 154, 123},
+                                                            {222, 96, 77},
+                                                            {180, 4, 38}}};
+
+}  // namespace
+
+Color color_at(ColorMap map, double t) {
+  return map == ColorMap::sequential ? between(viridis, t) : between(blue_to_red, t);
+}
+
+double dark_end(ColorMap map) {
+  return map == ColorMap::sequential ? 0.2 : 0.0;
 }
 
 ColorScale color_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& triangles, DrawColor color) {
@@ -101,6 +135,8 @@ ColorScale color_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>&
       return length_scale_scale(mesh, triangles);
     case DrawColor::age:
       return age_scale(mesh, triangles);
+    case DrawColor::gradation:
+      return gradation_scale(mesh, triangles);
   }
   return quality_scale(mesh, triangles);
 }

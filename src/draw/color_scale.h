@@ -14,14 +14,20 @@ struct Color {
   double red, green, blue;
 };
 
-// A perceptually uniform map from dark blue (0) to bright yellow (1).
-Color color_at(double t);
+enum class ColorMap {
+  sequential,  // perceptually uniform, from dark blue (0) to bright yellow (1)
+  diverging,   // blue (0), grey (0.5), red (1)
+};
+Color color_at(ColorMap map, double t);
+// Below this position dark lines cannot be seen.
+double dark_end(ColorMap map);
 
 // The scale of a picture: one position in [0, 1] for each of the given triangles.
 struct ColorScale {
   std::string title;
   std::string low, high;  // labels of its ends
   std::vector<double> positions;
+  ColorMap map = ColorMap::sequential;
 };
 
 // Throws Error (argument) if the mesh does not carry what the colouring shows.

@@ -108,6 +108,10 @@ TEST(Draw, EachColouringIsAnotherPicture) {
   EXPECT_NE(quality, length);
   EXPECT_NE(quality, age);
   EXPECT_NE(length, age);
+  FrozenMesh with_errors = mesh;
+  with_errors.gradation_error.assign(mesh.triangles.size(), -0.2);
+  const auto gradation = drawn(with_errors, "a.png", {.color = DrawColor::gradation});
+  for (const auto* other : {&quality, &length, &age}) EXPECT_NE(gradation, *other);
 }
 
 TEST(Draw, RefusesOtherExtensionsEmptyWindowsAndMissingData) {
@@ -122,6 +126,8 @@ TEST(Draw, RefusesOtherExtensionsEmptyWindowsAndMissingData) {
             "color age: a mesh without birth steps found, one with them expected");
   EXPECT_EQ(error_of([&] { draw(mesh, "a.png", {.color = DrawColor::length_scale}); }),
             "color length-scale: a mesh without length scales found, one with them expected");
+  EXPECT_EQ(error_of([&] { draw(mesh, "a.png", {.color = DrawColor::gradation}); }),
+            "color gradation: a mesh without gradation errors found, one with them expected");
   EXPECT_EQ(error_of([&] { draw(mesh, "a.png", {.width = 0}); }),
             "width: 0 found, 100 to 8000 pixels expected");
   EXPECT_EQ(error_of([&] { draw({}, "a.png"); }), "draw: an empty mesh found, one with points expected");
@@ -142,6 +148,22 @@ TEST(ColorScale, TheNewestTrianglesAreBrightest) {
   EXPECT_EQ(scale.positions, (std::vector<double>{0.0, 1.0}));
   EXPECT_EQ(scale.low, "9");
   EXPECT_EQ(scale.high, "0");
+}
+
+TEST(ColorScale, GradationErrorsRunFromHalfToTwiceAndDivergeAtZero) {
+  FrozenMesh mesh = test::full_square_ring();
+  mesh.gradation_error.assign(mesh.triangles.size(), 0.0);
+  mesh.gradation_error[0] = -std::log(2.0);
+  mesh.gradation_error[1] = 0.5 * std::log(2.0);
+  mesh.gradation_error[3] = 2.0;
+  const auto scale = draw_detail::color_scale(mesh, {0, 1, 2, 3}, DrawColor::gradation);
+  EXPECT_EQ(scale.positions, (std::vector<double>{0.0, 0.75, 0.5, 1.0}));
+  EXPECT_EQ(scale.map, draw_detail::ColorMap::diverging);
+  const auto blue = draw_detail::color_at(scale.map, 0.0), grey = draw_detail::color_at(scale.map, 0.5),
+             red = draw_detail::color_at(scale.map, 1.0);
+  EXPECT_GT(blue.blue, blue.red);
+  EXPECT_GT(red.red, red.blue);
+  EXPECT_EQ(grey.red, grey.blue);
 }
 
 TEST(Clip, KeepsWhatIsInsideAndCutsWhatIsNot) {

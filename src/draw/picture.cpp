@@ -127,7 +127,7 @@ void Picture::fill_triangles(cairo_t* cairo, Seams seams) const {
       const auto& [a, b, c] = mesh_.triangles[triangle];
       add_polygon(cairo, clip_polygon({mesh_.points[a], mesh_.points[b], mesh_.points[c]}, seen_));
     }
-    set_color(cairo, color_at(static_cast<double>(level) / (color_levels - 1)));
+    set_color(cairo, color_at(scale_.map, static_cast<double>(level) / (color_levels - 1)));
     if (seams == Seams::fill) {
       cairo_fill_preserve(cairo);
       cairo_stroke(cairo);
@@ -146,7 +146,7 @@ double Picture::side_in_pixels(std::uint32_t triangle) const {
 
 void Picture::stroke_edges(cairo_t* cairo) const {
   constexpr std::size_t strengths = 16;  // one path for each, on dark and on bright colours
-  constexpr double dark = 0.2;           // below this position of the colour map, dark lines cannot be seen
+  const double dark = dark_end(scale_.map);
   std::array<std::array<EdgeList, strengths>, 2> edges;
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
     const double strength = edge_strength(side_in_pixels(triangles_[i]) / layout_.unit);
@@ -201,7 +201,7 @@ void Picture::color_bar(cairo_t* cairo, double left, double right, double top, d
   constexpr int steps = 128;
   for (int i = 0; i < steps; ++i) {
     const double from = left + (right - left) * i / steps;
-    set_color(cairo, color_at((i + 0.5) / steps));
+    set_color(cairo, color_at(scale_.map, (i + 0.5) / steps));
     cairo_rectangle(cairo, from, top, right - from, bottom - top);
     cairo_fill(cairo);
   }

@@ -93,4 +93,20 @@ GradationError Mesh::gradation_error() const {
   return {.bias = bias, .deviation = std::sqrt(std::max(0.0, squares / count - bias * bias))};
 }
 
+std::vector<double> Mesh::gradation_errors(const FrozenMesh& frozen) const {
+  const DesignScales design(*data_);
+  std::vector<double> scales, errors;
+  scales.reserve(frozen.points.size());
+  for (const Point p : frozen.points) scales.push_back(design.at(p));
+  errors.reserve(frozen.triangles.size());
+  for (const auto& [a, b, c] : frozen.triangles) {
+    const Point p = frozen.points[a], q = frozen.points[b], s = frozen.points[c];
+    const double sides = squared_distance(p, q) * squared_distance(q, s) * squared_distance(s, p);
+    const double radius = std::sqrt(sides) / (2.0 * cross(q - p, s - p));
+    const double mean = (scales[a] + scales[b] + scales[c]) / 3.0;
+    errors.push_back(std::log(radius / (data_->options.max_gradation * mean)));
+  }
+  return errors;
+}
+
 }  // namespace remodel

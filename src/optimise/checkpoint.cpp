@@ -1,10 +1,9 @@
 #include "optimise/checkpoint.h"
 
 #include <algorithm>
-#include <array>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-#include <string_view>
 
 #include "optimise/checksum.h"
 #include "remodel/error.h"
@@ -16,7 +15,12 @@ namespace {
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr std::array<const char*, 2> mesh_names = {"checkpoint-a.vtkhdf", "checkpoint-b.vtkhdf"};
+constexpr int version = 3;
+
+// Mesh number i, from 0, of one of the two sets.
+std::string mesh_name(char set, std::size_t i) {
+  return std::string("checkpoint-") + set + (i == 0 ? "" : "-" + std::to_string(i + 1)) + ".vtkhdf";
+}
 
 fs::path file_of(const fs::path& directory) {
   return directory / "checkpoint.json";
@@ -28,21 +32,50 @@ std::string checksum(std::string_view bytes) {
   return sum.text();
 }
 
+struct StoredMesh {
+  std::string file;
+  std::string checksum;
+};
+
 struct Stored {
   Checkpoint checkpoint;
-  std::string mesh;  // file name
-  std::string mesh_checksum;
+  std::vector<StoredMesh> meshes;
 };
+
+void require(bool good, const char* problem) {
+  if (!good) throw std::invalid_argument(problem);
+}
+
+Json to_json(const WorkersState& state) {
+  Json workers = Json::array();
+  for (const WorkerState& worker : state.workers)
+    workers.push_back({{"coefficients", worker.coefficients},
+                       {"evaluated", worker.evaluated},
+                       {"full_adjustments", worker.full_adjustments},
+                       {"row", worker.row}});
+  return {{"last", state.last}, {"each", std::move(workers)}};
+}
+
+WorkersState workers_from(const Json& json) {
+  WorkersState state;
+  json.at("last").get_to(state.last);
+  for (const Json& each : json.at("each")) {
+    WorkerState& worker = state.workers.emplace_back();
+    each.at("coefficients").get_to(worker.coefficients);
+    each.at("evaluated").get_to(worker.evaluated);
+    each.at("full_adjustments").get_to(worker.full_adjustments);
+    each.at("row").get_to(worker.row);
+  }
+  require(state.last < state.workers.size(), "it names a worker that there is not");
+  return state;
+}
 
 Stored parse(const std::string& text) {
   Json content = Json::parse(text);
-  const auto require = [](bool good, const char* problem) {
-    if (!good) throw std::invalid_argument(problem);
-  };
   const std::string expected = content.at("checksum").get<std::string>();
   content.erase("checksum");
   require(checksum(content.dump()) == expected, "its checksum is another");
-  require(content.at("format") == "remodel-checkpoint" && content.at("version") == 2,
+  require(content.at("format") == "remodel-checkpoint" && content.at("version") == version,
           "it is of another version");
   Stored stored;
   content.at("settings").get_to(stored.checkpoint.settings);
@@ -52,9 +85,12 @@ Stored parse(const std::string& text) {
   content.at("seconds").get_to(stored.checkpoint.seconds);
   content.at("cmaes").get_to(stored.checkpoint.cmaes);
   content.at("history_checksum").get_to(stored.checkpoint.history_checksum);
-  content.at("mesh").get_to(stored.mesh);
-  content.at("mesh_checksum").get_to(stored.mesh_checksum);
-  require(std::find(mesh_names.begin(), mesh_names.end(), stored.mesh) != mesh_names.end(),
+  stored.checkpoint.workers = workers_from(content.at("workers"));
+  for (const Json& mesh : content.at("meshes"))
+    stored.meshes.push_back({mesh.at("file").get<std::string>(), mesh.at("checksum").get<std::string>()});
+  require(!stored.meshes.empty() &&
+              std::all_of(stored.meshes.begin(), stored.meshes.end(),
+                          [](const StoredMesh& mesh) { return is_checkpoint_mesh(mesh.file); }),
           "it names no mesh of a checkpoint");
   return stored;
 }
@@ -70,32 +106,57 @@ Stored read_stored(const fs::path& directory) {
   }
 }
 
-// The mesh file that the present checkpoint, if there is one, does not name.
-std::string free_mesh_name(const fs::path& directory) {
-  if (!has_checkpoint(directory)) return mesh_names[0];
-  return read_stored(directory).mesh == mesh_names[0] ? mesh_names[1] : mesh_names[0];
+// The set that the present checkpoint, if there is one, does not name.
+char free_set(const fs::path& directory) {
+  if (!has_checkpoint(directory)) return 'a';
+  return read_stored(directory).meshes.front().file.starts_with("checkpoint-a") ? 'b' : 'a';
+}
+
+// Writes the meshes and returns what the checkpoint says of them.
+Json write_meshes(const fs::path& directory, std::span<const Mesh* const> meshes) {
+  const char set = free_set(directory);
+  std::map<const Mesh*, Json> written;
+  Json list = Json::array();
+  for (const Mesh* mesh : meshes) {
+    if (!written.contains(mesh)) {
+      const std::string name = mesh_name(set, written.size());
+      write_mesh(*mesh, directory / name);
+      written[mesh] = {{"file", name}, {"checksum", checksum(read_text(directory / name))}};
+    }
+    list.push_back(written[mesh]);
+  }
+  return list;
 }
 
 }  // namespace
+
+bool is_checkpoint_mesh(std::string_view name) {
+  const bool framed =
+      name.ends_with(".vtkhdf") && (name.starts_with("checkpoint-a") || name.starts_with("checkpoint-b"));
+  if (!framed) return false;
+  const std::string_view number = name.substr(12, name.size() - 12 - 7);
+  if (number.empty()) return true;
+  return number.size() > 1 && number[0] == '-' &&
+         number.find_first_not_of("0123456789", 1) == std::string_view::npos;
+}
 
 bool has_checkpoint(const fs::path& directory) {
   return fs::exists(file_of(directory));
 }
 
-void write_checkpoint(const fs::path& directory, const Checkpoint& checkpoint, const Mesh& mesh) {
-  const std::string mesh_name = free_mesh_name(directory);
-  write_mesh(mesh, directory / mesh_name);
+void write_checkpoint(const fs::path& directory, const Checkpoint& checkpoint,
+                      std::span<const Mesh* const> meshes) {
   Json content = {{"format", "remodel-checkpoint"},
-                  {"version", 2},
+                  {"version", version},
                   {"settings", checkpoint.settings},
                   {"evaluation", checkpoint.evaluation},
                   {"refused", checkpoint.refused},
                   {"finished", checkpoint.finished},
                   {"seconds", checkpoint.seconds},
                   {"cmaes", checkpoint.cmaes},
+                  {"workers", to_json(checkpoint.workers)},
                   {"history_checksum", checkpoint.history_checksum},
-                  {"mesh", mesh_name},
-                  {"mesh_checksum", checksum(read_text(directory / mesh_name))}};
+                  {"meshes", write_meshes(directory, meshes)}};
   content["checksum"] = checksum(content.dump());
   write_text_atomically(file_of(directory), content.dump());
 }
@@ -104,13 +165,16 @@ Checkpoint read_checkpoint(const fs::path& directory) {
   return read_stored(directory).checkpoint;
 }
 
-Mesh read_checkpoint_mesh(const fs::path& directory) {
-  const Stored stored = read_stored(directory);
-  const fs::path file = directory / stored.mesh;
-  if (checksum(read_text(file)) != stored.mesh_checksum)
-    throw Error(ErrorCode::format, file.string(),
-                "expected the mesh of checkpoint.json: its checksum is another");
-  return read_mesh(file);
+std::vector<Mesh> read_checkpoint_meshes(const fs::path& directory) {
+  std::vector<Mesh> meshes;
+  for (const StoredMesh& stored : read_stored(directory).meshes) {
+    const fs::path file = directory / stored.file;
+    if (checksum(read_text(file)) != stored.checksum)
+      throw Error(ErrorCode::format, file.string(),
+                  "expected the mesh of checkpoint.json: its checksum is another");
+    meshes.push_back(read_mesh(file));
+  }
+  return meshes;
 }
 
 }  // namespace remodel

@@ -1,17 +1,21 @@
 #pragma once
 
-// What a run goes on from: the state of the CMA-ES, the living mesh and where the history stands, as of one
+// What a run goes on from: the state of the CMA-ES, the living meshes and where the history stands, as of one
 // moment.
 //
 // checkpoint.json is the only thing that is replaced, at once, when a checkpoint is made. It names the mesh
-// file that belongs to it, one of two that are written in turn, so that a run killed at any point leaves the
-// old checkpoint with its mesh or the new one with its own. Checksums of both, and of the history as it was,
-// tell damage, not forgery.
+// files that belong to it, one of two sets that are written in turn, so that a run killed at any point leaves
+// the old checkpoint with its meshes or the new one with its own. Checksums of all, and of the history as it
+// was, tell damage, not forgery.
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "optimise/workers.h"
 #include "remodel/mesh.h"
 
 namespace remodel {
@@ -23,13 +27,21 @@ struct Checkpoint {
   bool finished = false;      // all evaluations were done
   double seconds = 0.0;
   std::string cmaes;
+  WorkersState workers;
   std::string history_checksum;  // of the history's run and rows as of then
 };
 
 bool has_checkpoint(const std::filesystem::path& directory);
-// Both throw Error (file, format).
-void write_checkpoint(const std::filesystem::path& directory, const Checkpoint& checkpoint, const Mesh& mesh);
+// All throw Error (file, format). The meshes are those of the workers in order, then the hub; one that is
+// several workers' is written once.
+void write_checkpoint(const std::filesystem::path& directory, const Checkpoint& checkpoint,
+                      std::span<const Mesh* const> meshes);
 Checkpoint read_checkpoint(const std::filesystem::path& directory);
-Mesh read_checkpoint_mesh(const std::filesystem::path& directory);
+std::vector<Mesh> read_checkpoint_meshes(const std::filesystem::path& directory);
+
+// Whether a checkpoint may have a mesh file of that name: checkpoint-a.vtkhdf, checkpoint-b-2.vtkhdf.
+bool is_checkpoint_mesh(std::string_view name);
+// The one that the first checkpoint of a directory has, with one mesh.
+inline constexpr std::string_view first_checkpoint_mesh = "checkpoint-a.vtkhdf";
 
 }  // namespace remodel

@@ -14,7 +14,7 @@ constexpr std::size_t batch = 250;  // records a transaction
 
 // The order of the columns is that of bind() and read_row().
 constexpr const char* schema = R"(
-PRAGMA user_version = 2;
+PRAGMA user_version = 3;
 CREATE TABLE run (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE evaluations (
   evaluation INTEGER PRIMARY KEY,
@@ -24,6 +24,7 @@ CREATE TABLE evaluations (
   best_objective REAL NOT NULL,
   sigma REAL NOT NULL,
   infeasible_samples INTEGER NOT NULL,
+  worker INTEGER NOT NULL,
   triangles_before INTEGER NOT NULL,
   triangles INTEGER NOT NULL,
   preserved INTEGER NOT NULL,
@@ -47,7 +48,7 @@ CREATE TABLE evaluations (
   detail TEXT
 );)";
 constexpr const char* insert_row =
-    "INSERT INTO evaluations VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)";
+    "INSERT INTO evaluations VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)";
 
 std::string coefficients_to_json(const std::vector<double>& coefficients) {
   return nlohmann::json(coefficients).dump();  // nlohmann writes doubles so that they read back exactly
@@ -72,6 +73,7 @@ void bind(Statement& row, const EvaluationRecord& record) {
   row.bind(record.best_objective);
   row.bind(record.sigma);
   row.bind_integer(record.infeasible_samples);
+  row.bind_integer(record.worker);
   row.bind_integer(record.triangles_before);
   row.bind_integer(record.triangles);
   row.bind_integer(record.preserved);
@@ -105,6 +107,7 @@ EvaluationRecord read_row(Statement& row) {
   record.best_objective = row.real();
   record.sigma = row.real();
   record.infeasible_samples = row.integer();
+  record.worker = row.integer();
   record.triangles_before = row.integer();
   record.triangles = row.integer();
   record.preserved = row.integer();
@@ -164,9 +167,9 @@ namespace {
 void require_version(const Sqlite& database) {
   Statement version(database, "PRAGMA user_version");
   version.step();
-  if (const std::uint64_t found = version.integer(); found != 2)
+  if (const std::uint64_t found = version.integer(); found != 3)
     throw Error(ErrorCode::format, database.file().string(),
-                "expected the history of a run, version 2, found version " + std::to_string(found));
+                "expected the history of a run, version 3, found version " + std::to_string(found));
 }
 
 }  // namespace

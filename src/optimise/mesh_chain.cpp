@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "mesh/mesh_data.h"
 #include "optimise/comparison.h"
 #include "optimise/stopwatch.h"
 #include "remodel/check.h"
@@ -44,13 +45,32 @@ std::optional<Mesh> first_mesh(const CstAirfoil& from, const OptimiseOptions& op
 }
 
 MeshChain::MeshChain(const OptimiseOptions& options, Mesh mesh)
-    : domain_of_(options), quality_(quality_of(options)), remodel_(options.remodel), mesh_(std::move(mesh)) {}
+    : mesh_(std::move(mesh)), domain_of_(options), quality_(quality_of(options)), remodel_(options.remodel) {}
+
+RemodelResult MeshChain::advance(const Domain& domain) {
+  return remodel(mesh_, domain, remodel_);
+}
+
+RemodelResult MeshChain::generate_instead(const Domain& domain) {
+  GenerateResult fresh = generate(domain, quality_);
+  RemodelResult result;
+  result.stopped = fresh.stopped;
+  result.regenerated = fresh.stopped != Stopped::done;  // nothing is left to be tried
+  result.refreshed = !result.regenerated;
+  result.triangles_before = mesh().triangle_count();
+  result.removed = mesh().data().triangulation.vertex_count();
+  result.inserted = fresh.mesh.data().triangulation.vertex_count();
+  result.triangles = fresh.mesh.triangle_count();
+  if (result.refreshed) put(std::move(fresh.mesh));
+  return result;
+}
 
 Stopped MeshChain::step(const CstAirfoil& design, StepTasks tasks, EvaluationRecord& record) {
   const Stopwatch watch;
   const Domain domain = domain_of_(design);
-  const RemodelResult result = remodel(mesh_, domain, remodel_);
+  RemodelResult result = tasks.generate ? generate_instead(domain) : advance(domain);
   record.remodel_seconds = watch.seconds();
+  count_losses(result);
   copy_figures(result, record);
 
   const std::string broken = broken_rule(domain, tasks);
@@ -62,18 +82,19 @@ Stopped MeshChain::step(const CstAirfoil& design, StepTasks tasks, EvaluationRec
   if (!record.valid || result.stopped != Stopped::done) {
     if (const Stopped stopped = regenerate(domain, record); stopped != Stopped::done) return stopped;
   }
-  record.min_angle_deg = mesh_.statistics().min_angle_deg;
+  record.min_angle_deg = mesh().statistics().min_angle_deg;
   return tasks.compare ? compare(design, record) : Stopped::done;
 }
 
 std::string MeshChain::broken_rule(const Domain& domain, StepTasks tasks) const {
-  std::string broken = mesh_.quick_check();
+  const Mesh& mesh = this->mesh();
+  std::string broken = mesh.quick_check();
   if (!broken.empty() || !tasks.full_check) return broken;
-  const CheckResult result = check(mesh_.freeze(), {.min_angle_deg = quality_.min_angle_deg,
-                                                    .max_gradation = promised_gradation(mesh_.options()),
-                                                    .delaunay = !mesh_.shows_file_triangles(),
-                                                    .design = &domain,
-                                                    .max_violations = 1});
+  const CheckResult result = check(mesh.freeze(), {.min_angle_deg = quality_.min_angle_deg,
+                                                   .max_gradation = promised_gradation(mesh.options()),
+                                                   .delaunay = !mesh.shows_file_triangles(),
+                                                   .design = &domain,
+                                                   .max_violations = 1});
   if (result.valid) return {};
   if (result.violations.empty()) return "check: not valid";
   return result.violations.front().rule + ": " + result.violations.front().detail;
@@ -85,8 +106,8 @@ Stopped MeshChain::regenerate(const Domain& domain, EvaluationRecord& record) {
   GenerateResult fresh = generate(domain, quality_);
   record.remodel_seconds += watch.seconds();
   if (fresh.stopped != Stopped::done) return fresh.stopped;
-  mesh_ = std::move(fresh.mesh);
-  record.triangles = mesh_.triangle_count();
+  put(std::move(fresh.mesh));
+  record.triangles = mesh().triangle_count();
   record.preserved = record.moved = record.inserted = record.removed = 0;
   record.preserved_percent = 0.0;
   record.full_adjustment = record.refreshed = false;
@@ -97,7 +118,7 @@ Stopped MeshChain::regenerate(const Domain& domain, EvaluationRecord& record) {
 Stopped MeshChain::compare(const CstAirfoil& design, EvaluationRecord& record) const {
   const FreshMesh fresh =
       fresh_mesh(domain_of_, quality_, compared_design(domain_of_, design, record.evaluation, record.sigma));
-  add_comparison(fresh, mesh_.gradation_error(), record);
+  add_comparison(fresh, mesh().gradation_error(), record);
   return fresh.stopped;
 }
 

@@ -18,6 +18,7 @@ namespace remodel {
 struct StepTasks {
   bool compare = false;     // generate a fresh mesh
   bool full_check = false;  // check() too
+  bool generate = false;    // the mesh is generated, not remodelled
 };
 
 // The mesh of the start, as a chain begins with it. None where a limit keeps it from being finished.
@@ -26,21 +27,36 @@ std::optional<Mesh> first_mesh(const CstAirfoil& from, const OptimiseOptions& op
 class MeshChain {
  public:
   MeshChain(const OptimiseOptions& options, Mesh mesh);
+  virtual ~MeshChain() = default;
+  MeshChain(MeshChain&&) = default;
+  MeshChain& operator=(MeshChain&&) = default;
 
   // Remodels to the design and fills in the record's figures of the mesh. Stopped::done, or the limit that
   // kept the mesh from being finished.
   Stopped step(const CstAirfoil& design, StepTasks tasks, EvaluationRecord& record);
-  const Mesh& mesh() const { return mesh_; }
+  // Of the last design.
+  virtual const Mesh& mesh() const { return mesh_; }
+
+ protected:
+  // The timed part of a step: from the last design's mesh to that of this one.
+  virtual RemodelResult advance(const Domain& domain);
+  // Corrects what advance() says was before and is preserved. Not timed.
+  virtual void count_losses(RemodelResult& result) { static_cast<void>(result); }
+  // A fresh mesh takes the place of the last design's.
+  virtual void put(Mesh&& fresh) { mesh_ = std::move(fresh); }
+
+  const RemodelOptions& remodel_options() const { return remodel_; }
+  Mesh mesh_;
 
  private:
   std::string broken_rule(const Domain& domain, StepTasks tasks) const;
+  RemodelResult generate_instead(const Domain& domain);
   Stopped regenerate(const Domain& domain, EvaluationRecord& record);
   Stopped compare(const CstAirfoil& design, EvaluationRecord& record) const;
 
   DesignDomains domain_of_;
   QualityOptions quality_;
   RemodelOptions remodel_;
-  Mesh mesh_;
 };
 
 }  // namespace remodel

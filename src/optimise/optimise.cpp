@@ -11,10 +11,10 @@
 #include "optimise/checkpoint.h"
 #include "optimise/checksum.h"
 #include "optimise/design_domains.h"
-#include "optimise/mesh_chain.h"
 #include "optimise/run_directory.h"
 #include "optimise/shape_search.h"
 #include "optimise/summary.h"
+#include "optimise/workers.h"
 #include "remodel/error.h"
 #include "remodel/io.h"
 #include "remodel/strategy.h"
@@ -24,6 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t most_workers = 1000;
+
 void require_good(const OptimiseOptions& options) {
   const auto require = [](bool good, const char* option, const char* expected) {
     if (!good) throw Error(ErrorCode::argument, option, expected);
@@ -31,11 +33,16 @@ void require_good(const OptimiseOptions& options) {
   require(options.evaluations >= 1, "evaluations", "expected at least 1");
   require(options.max_refused >= 1, "max_refused", "expected at least 1");
   require(options.sigma > 0.0 && std::isfinite(options.sigma), "sigma", "expected more than 0");
+  require(options.workers <= most_workers, "workers", "expected 0 to 1000");
+  require(options.threads <= most_workers, "threads", "expected 0 to 1000");
+  require(options.use != MeshUse::regenerate || !options.start, "use",
+          "expected chain or hub with a start mesh: regenerate would replace it");
   require(!options.directory.empty(), "directory", "expected the run's directory");
 }
 
 // Everything that the designs, rows and meshes of a run depend on, but for the number of evaluations.
-std::string settings_of(const CstAirfoil& from, const CstAirfoil& to, const OptimiseOptions& options) {
+std::string settings_of(const CstAirfoil& from, const CstAirfoil& to, const OptimiseOptions& options,
+                        std::size_t workers) {
   const QualityOptions& quality = quality_of(options);
   nlohmann::ordered_json json = {
       {"version", REMODEL_VERSION},
@@ -53,6 +60,8 @@ std::string settings_of(const CstAirfoil& from, const CstAirfoil& to, const Opti
       {"distance", options.remodel.distance},
       {"method", name_of(options.remodel.method)},
       {"strategy", name_of(options.remodel.strategy)},
+      {"mesh_use", name_of(options.use)},
+      {"workers", workers},
       {"keep", resolved_keep(options.remodel, quality)},
       {"sigma", options.sigma},
       {"seed", options.seed},
@@ -103,6 +112,7 @@ void add(Checksum& sum, const EvaluationRecord& record) {
                                   record.inserted, record.removed, record.generated_triangles.value_or(0)})
     sum.add(std::uint64_t{count});
   sum.add(record.infeasible_samples);
+  sum.add(record.worker);
   for (const bool flag : {record.full_adjustment, record.refreshed, record.regenerated,
                           record.checked == Checked::full, record.valid})
     sum.add(flag ? "1" : "0");
@@ -113,7 +123,7 @@ void add(Checksum& sum, const EvaluationRecord& record) {
 struct Progress {
   RunDirectory directory;
   ShapeSearch search;
-  MeshChain chain;
+  Workers workers;
   History history;
   Summary summary;
   Checksum written;           // of the history
@@ -128,17 +138,22 @@ class Run {
         from_(from),
         target_(to),
         options_(options),
-        settings_(settings_of(from, to, options)) {}
+        population_(static_cast<std::size_t>(progress_.search.cmaes().population())),
+        settings_(settings_of(from, to, options, progress_.workers.count())) {}
 
   void checkpoint();
   OptimiseStopped evaluate_all(OptimiseObserver& observer);
   OptimiseResult finish(OptimiseStopped stopped);
 
  private:
-  OptimiseStopped evaluate(OptimiseObserver& observer);
-  EvaluationRecord record_of(const Sample& sample) const;
+  OptimiseStopped evaluate_some(OptimiseObserver& observer);
+  void begin_generation();
+  std::size_t at_once() const;
+  Job job_of(const Sample& sample, std::uint64_t evaluation) const;
+  void complete(const Sample& sample, EvaluationRecord& record);
   StepTasks tasks(std::uint64_t evaluation) const;
-  void write_best_and_result(const OptimiseResult& result) const;
+  std::uint64_t evaluations() const { return progress_.summary.evaluations(); }
+  std::uint64_t middle() const { return (options_.evaluations + 1) / 2; }
   double seconds() const {
     return progress_.earlier_seconds + std::chrono::duration<double>(Clock::now() - began_).count();
   }
@@ -149,49 +164,82 @@ class Run {
   CstAirfoil from_;
   InterpolationObjective target_;
   const OptimiseOptions& options_;
+  std::size_t population_;
   std::string settings_;
 };
 
 OptimiseStopped Run::evaluate_all(OptimiseObserver& observer) {
-  while (progress_.summary.evaluations() < options_.evaluations) {
+  while (evaluations() < options_.evaluations) {
     if (observer.cancelled()) return OptimiseStopped::interrupted;
-    if (const OptimiseStopped stopped = evaluate(observer); stopped != OptimiseStopped::done) return stopped;
+    if (const OptimiseStopped stopped = evaluate_some(observer); stopped != OptimiseStopped::done)
+      return stopped;
   }
   return OptimiseStopped::done;
 }
 
-OptimiseStopped Run::evaluate(OptimiseObserver& observer) {
-  const std::optional<Sample> sample = progress_.search.next(options_.max_refused);
-  if (!sample) {
+// The distribution changes between generations only: what is evaluated at once is of one generation, and ends
+// where a mesh or a checkpoint is written. One worker has nothing to do at once.
+std::size_t Run::at_once() const {
+  if (progress_.workers.count() == 1) return 1;
+  const std::uint64_t done = evaluations();
+  std::uint64_t number = std::min(population_ - done % population_, options_.evaluations - done);
+  if (options_.checkpoint_every != 0)
+    number = std::min(number, options_.checkpoint_every - done % options_.checkpoint_every);
+  if (done < middle()) number = std::min(number, middle() - done);
+  return number;
+}
+
+OptimiseStopped Run::evaluate_some(OptimiseObserver& observer) {
+  if (evaluations() % population_ == 0) begin_generation();
+  std::vector<Sample> samples;
+  std::vector<Job> jobs;
+  const std::size_t wanted = at_once();
+  while (jobs.size() < wanted) {
+    std::optional<Sample> sample = progress_.search.next(options_.max_refused);
+    if (!sample) break;
+    jobs.push_back(job_of(*sample, evaluations() + jobs.size() + 1));
+    samples.push_back(std::move(*sample));
+  }
+  progress_.workers.evaluate(jobs);
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    if (jobs[i].stopped != Stopped::done) return OptimiseStopped::mesh_limit;
+    complete(samples[i], jobs[i].record);
+    observer.evaluated(jobs[i].record);
+  }
+  if (jobs.size() < wanted) {
     progress_.refused += options_.max_refused;
     return OptimiseStopped::infeasible;
   }
-  EvaluationRecord record = record_of(*sample);
-  const Stopped mesh = progress_.chain.step(sample->design, tasks(record.evaluation), record);
-  if (mesh != Stopped::done) return OptimiseStopped::mesh_limit;
-
-  progress_.search.tell(*sample, record.objective);
-  progress_.history.append(record);
-  progress_.summary.add(record);
-  add(progress_.written, record);
-  progress_.refused = 0;
-  observer.evaluated(record);
-  if (record.evaluation == (options_.evaluations + 1) / 2)
-    write_mesh(progress_.chain.mesh(), options_.directory / "middle.vtkhdf");
-  if (every(options_.checkpoint_every, record.evaluation)) checkpoint();
+  if (evaluations() == middle())
+    write_mesh(progress_.workers.last_mesh(), options_.directory / "middle.vtkhdf");
+  if (every(options_.checkpoint_every, evaluations())) checkpoint();
   return OptimiseStopped::done;
 }
 
-EvaluationRecord Run::record_of(const Sample& sample) const {
-  EvaluationRecord record;
-  record.evaluation = progress_.summary.evaluations() + 1;
-  record.generation = progress_.search.cmaes().generation();
-  record.coefficients = sample.coefficients;
-  record.objective = target_.mean_square(sample.design);
+void Run::begin_generation() {
+  const bool hub = options_.use == MeshUse::hub;
+  progress_.workers.begin_generation(hub ? progress_.search.mean_design() : std::nullopt);
+}
+
+Job Run::job_of(const Sample& sample, std::uint64_t evaluation) const {
+  Job job{.design = sample.design, .tasks = tasks(evaluation), .record = {}};
+  job.record.evaluation = evaluation;
+  job.record.generation = progress_.search.cmaes().generation();
+  job.record.coefficients = sample.coefficients;
+  job.record.objective = target_.mean_square(sample.design);
+  job.record.sigma = progress_.search.cmaes().sigma();
+  return job;
+}
+
+// Completes the row of an evaluation and tells everybody.
+void Run::complete(const Sample& sample, EvaluationRecord& record) {
   record.best_objective = std::min(progress_.summary.best_objective(), record.objective);
-  record.sigma = progress_.search.cmaes().sigma();
   record.infeasible_samples = progress_.refused + sample.refused;
-  return record;
+  progress_.refused = 0;
+  progress_.search.tell(sample, record.objective);
+  progress_.history.append(record);
+  progress_.summary.add(record);
+  add(progress_.written, record);
 }
 
 StepTasks Run::tasks(std::uint64_t evaluation) const {
@@ -203,29 +251,30 @@ StepTasks Run::tasks(std::uint64_t evaluation) const {
 // The history first: a checkpoint never stands for rows that are not on disk.
 void Run::checkpoint() {
   progress_.history.commit();
-  const std::uint64_t evaluations = progress_.summary.evaluations();
   write_checkpoint(options_.directory,
                    {.settings = settings_,
-                    .evaluation = evaluations,
+                    .evaluation = evaluations(),
                     .refused = progress_.refused,
-                    .finished = evaluations >= options_.evaluations,
+                    .finished = evaluations() >= options_.evaluations,
                     .seconds = seconds(),
                     .cmaes = progress_.search.cmaes().state(),
+                    .workers = progress_.workers.state(),
                     .history_checksum = progress_.written.text()},
-                   progress_.chain.mesh());
+                   progress_.workers.meshes());
 }
 
 OptimiseResult Run::finish(OptimiseStopped stopped) {
   progress_.history.commit();
   // At a mesh limit the mesh is not that of the last row: the checkpoint before is what can be gone on from.
   if (stopped != OptimiseStopped::mesh_limit) {
-    write_mesh(progress_.chain.mesh(), options_.directory / "last.vtkhdf");
+    write_mesh(progress_.workers.last_mesh(), options_.directory / "last.vtkhdf");
     checkpoint();
   }
   OptimiseResult result = progress_.summary.result();
   result.infeasible_samples += progress_.refused;
   result.stopped = stopped;
   result.seed = options_.seed;
+  result.workers = progress_.workers.count();
   result.best = from_;
   if (result.evaluations > 0) {
     result.best = with_coefficients(from_, progress_.summary.best_coefficients());
@@ -243,6 +292,11 @@ void refuse_unfinished_run(const fs::path& directory) {
                 "holds an unfinished run: expected resume, or another directory");
 }
 
+// Samples a generation: the dimension decides.
+std::size_t population_of(const CstAirfoil& from, const OptimiseOptions& options) {
+  return static_cast<std::size_t>(initial_distribution(from, options.sigma, options.seed).population());
+}
+
 ShapeSearch search_of(const CstAirfoil& from, const OptimiseOptions& options, Cmaes cmaes) {
   if (!options.start) return ShapeSearch(from, options.domain, std::move(cmaes));
   return ShapeSearch(from, std::move(cmaes), [domains = DesignDomains(options)](const CstAirfoil& design) {
@@ -252,22 +306,29 @@ ShapeSearch search_of(const CstAirfoil& from, const OptimiseOptions& options, Cm
 
 // The start of a run, complete on the disk before it replaces what the directory holds.
 Progress begin(const CstAirfoil& from, const CstAirfoil& to, const OptimiseOptions& options,
-               RunDirectory directory, Mesh mesh) {
-  const std::map<std::string, std::string> run = {{"version", REMODEL_VERSION},
-                                                  {"options", settings_of(from, to, options)},
-                                                  {"seed", std::to_string(options.seed)},
-                                                  {"from", airfoil_to_json(from)},
-                                                  {"to", airfoil_to_json(to)}};
+               RunDirectory directory, const Mesh& mesh) {
   Cmaes cmaes = initial_distribution(from, options.sigma, options.seed);
+  const std::size_t population = population_of(from, options);
+  Workers workers(options, population, from, mesh);
+  const std::map<std::string, std::string> run = {
+      {"version", REMODEL_VERSION},
+      {"options", settings_of(from, to, options, workers.count())},
+      {"seed", std::to_string(options.seed)},
+      {"from", airfoil_to_json(from)},
+      {"to", airfoil_to_json(to)}};
   Checksum written;
   add(written, run);
   try {
     const fs::path start = directory.make_start();
     write_mesh(mesh, start / "first.vtkhdf");
     History::create(start / "history.sqlite", run);
-    write_checkpoint(
-        start, {.settings = run.at("options"), .cmaes = cmaes.state(), .history_checksum = written.text()},
-        mesh);
+    const std::vector<const Mesh*> everywhere(mesh_count(options, population), &mesh);
+    write_checkpoint(start,
+                     {.settings = run.at("options"),
+                      .cmaes = cmaes.state(),
+                      .workers = workers.state(),
+                      .history_checksum = written.text()},
+                     everywhere);
     directory.publish_start();
   } catch (...) {
     directory.drop_start();
@@ -276,7 +337,7 @@ Progress begin(const CstAirfoil& from, const CstAirfoil& to, const OptimiseOptio
   History history = History::resume(options.directory / "history.sqlite", 0);
   return {.directory = std::move(directory),
           .search = search_of(from, options, std::move(cmaes)),
-          .chain = MeshChain(options, std::move(mesh)),
+          .workers = std::move(workers),
           .history = std::move(history),
           .summary = {},
           .written = written};
@@ -313,25 +374,41 @@ Summary replay(const fs::path& file, const Checkpoint& checkpoint, std::size_t d
   return summary;
 }
 
+Workers restored_workers(const OptimiseOptions& options, std::size_t population, const CstAirfoil& from,
+                         const Checkpoint& checkpoint) {
+  std::vector<Mesh> meshes = read_checkpoint_meshes(options.directory);
+  const std::size_t workers = worker_count(options, population), dimension = coefficients_of(from).size();
+  const auto fits = [&](const WorkerState& worker) { return worker.coefficients.size() == dimension; };
+  const std::vector<WorkerState>& states = checkpoint.workers.workers;
+  if (states.size() != workers || meshes.size() != mesh_count(options, population) ||
+      !std::all_of(states.begin(), states.end(), fits))
+    throw Error(ErrorCode::format, (options.directory / "checkpoint.json").string(),
+                "expected " + std::to_string(workers) + " workers with a mesh and " +
+                    std::to_string(dimension) + " coefficients each");
+  return Workers(options, population, from, checkpoint.workers, std::move(meshes));
+}
+
 Progress go_on(const CstAirfoil& from, const CstAirfoil& to, const OptimiseOptions& options) {
   if (!has_checkpoint(options.directory)) read_checkpoint(options.directory);  // says that it is missing
   RunDirectory directory(options.directory);
   const fs::path checkpoint_file = options.directory / "checkpoint.json";
   const fs::path history_file = options.directory / "history.sqlite";
   const Checkpoint checkpoint = read_checkpoint(options.directory);
-  require_settings(checkpoint.settings, settings_of(from, to, options), options.directory);
+  const std::size_t population = population_of(from, options);
+  require_settings(checkpoint.settings, settings_of(from, to, options, worker_count(options, population)),
+                   options.directory);
   Cmaes cmaes = Cmaes::restore(checkpoint.cmaes, checkpoint_file.string());
   const std::size_t dimension = coefficients_of(from).size();
   if (cmaes.mean().size() != dimension)
     throw Error(ErrorCode::format, checkpoint_file.string(),
                 "expected " + std::to_string(dimension) + " coefficients, found " +
                     std::to_string(cmaes.mean().size()));
-  Mesh mesh = read_checkpoint_mesh(options.directory);
+  Workers workers = restored_workers(options, population, from, checkpoint);
   Checksum written;
   Summary summary = replay(history_file, checkpoint, dimension, written);
   return {.directory = std::move(directory),
           .search = search_of(from, options, std::move(cmaes)),
-          .chain = MeshChain(options, std::move(mesh)),
+          .workers = std::move(workers),
           .history = History::resume(history_file, checkpoint.evaluation),
           .summary = std::move(summary),
           .written = written,
@@ -343,6 +420,7 @@ OptimiseResult unmeshable_start(const CstAirfoil& from, const OptimiseOptions& o
   OptimiseResult result;
   result.stopped = OptimiseStopped::mesh_limit;
   result.seed = options.seed;
+  result.workers = worker_count(options, population_of(from, options));
   result.best = from;
   return result;
 }
@@ -372,7 +450,7 @@ OptimiseResult optimise(const CstAirfoil& start, const CstAirfoil& target, const
   if (!first) return unmeshable_start(from, options);
   if (!directory) directory.emplace(options.directory);
   refuse_unfinished_run(options.directory);
-  Run run(begin(from, to, options, std::move(*directory), std::move(*first)), from, to, options);
+  Run run(begin(from, to, options, std::move(*directory), *first), from, to, options);
   return run.finish(run.evaluate_all(listener));
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "optimise/checkpoint.h"
 #include "remodel/error.h"
 
 namespace remodel {
@@ -16,21 +17,31 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* start_name = ".remodel-start";
-// Everything that a run leaves, in the order in which it is removed.
-constexpr std::array<std::string_view, 10> run_files = {
-    "checkpoint.json", "checkpoint-a.vtkhdf",   "checkpoint-b.vtkhdf", "result.json",
-    "best.json",       "middle.vtkhdf",         "last.vtkhdf",         "first.vtkhdf",
-    "history.sqlite",  "history.sqlite-journal"};
+// Everything that a run leaves, in the order in which it is removed; then the meshes of checkpoints.
+constexpr std::array<std::string_view, 8> run_files = {
+    "checkpoint.json", "result.json",  "best.json",      "middle.vtkhdf",
+    "last.vtkhdf",     "first.vtkhdf", "history.sqlite", "history.sqlite-journal"};
 // What a run starts with, in the order in which it appears: with the checkpoint the run is there.
 constexpr std::array<std::string_view, 4> start_files = {"first.vtkhdf", "history.sqlite",
-                                                         "checkpoint-a.vtkhdf", "checkpoint.json"};
+                                                         first_checkpoint_mesh, "checkpoint.json"};
 
 // Whether write_atomically() would make a file of that name for one of the run's:
 // ".FILE.PROCESS.COUNTER.tmp".
-bool is_temporary(const std::string& name) {
-  return name.ends_with(".tmp") &&
-         std::any_of(run_files.begin(), run_files.end(),
-                     [&](std::string_view file) { return name.starts_with("." + std::string(file) + "."); });
+bool is_temporary(std::string_view name) {
+  if (!name.starts_with('.') || !name.ends_with(".tmp")) return false;
+  name.remove_prefix(1);
+  for (int part = 0; part < 3; ++part) name = name.substr(0, name.rfind('.'));
+  return is_checkpoint_mesh(name) || std::find(run_files.begin(), run_files.end(), name) != run_files.end();
+}
+
+std::vector<fs::path> files_with(const fs::path& directory, bool (*wanted)(std::string_view)) {
+  std::error_code ignored;
+  std::vector<fs::path> found;
+  for (fs::directory_iterator file(directory, ignored), end; file != end && !ignored;
+       file.increment(ignored)) {
+    if (wanted(file->path().filename().string())) found.push_back(file->path());
+  }
+  return found;
 }
 
 }  // namespace
@@ -42,12 +53,7 @@ RunDirectory::RunDirectory(fs::path directory) : directory_(std::move(directory)
 
 void RunDirectory::remove_temporaries() const noexcept {
   std::error_code ignored;
-  std::vector<fs::path> found;
-  for (fs::directory_iterator file(directory_, ignored), end; file != end && !ignored;
-       file.increment(ignored)) {
-    if (is_temporary(file->path().filename().string())) found.push_back(file->path());
-  }
-  for (const fs::path& file : found) fs::remove(file, ignored);
+  for (const fs::path& file : files_with(directory_, is_temporary)) fs::remove(file, ignored);
 }
 
 fs::path RunDirectory::make_start() const {
@@ -74,6 +80,10 @@ void RunDirectory::publish_start() const {
   for (const std::string_view name : run_files) {
     fs::remove(directory_ / name, problem);
     require(problem, name);
+  }
+  for (const fs::path& file : files_with(directory_, is_checkpoint_mesh)) {
+    fs::remove(file, problem);
+    require(problem, file.filename().string());
   }
   for (const std::string_view name : start_files) {
     if (name == start_files.back()) lock_.sync();

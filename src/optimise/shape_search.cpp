@@ -121,4 +121,11 @@ std::optional<Sample> ShapeSearch::next(std::size_t limit) {
   return std::nullopt;
 }
 
+std::optional<CstAirfoil> ShapeSearch::mean_design() const {
+  const auto mean = cmaes_.mean();
+  CstAirfoil design = with_coefficients(like_, {mean.begin(), mean.end()});
+  if (!feasible_(design)) return std::nullopt;
+  return design;
+}
+
 }  // namespace remodel

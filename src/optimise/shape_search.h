@@ -90,6 +90,9 @@ class ShapeSearch {
   std::optional<Sample> next(std::size_t limit);
   void tell(const Sample& sample, double value) { cmaes_.tell(sample.coefficients, value); }
 
+  // The design at the distribution's mean, if it is feasible.
+  std::optional<CstAirfoil> mean_design() const;
+
   const Cmaes& cmaes() const { return cmaes_; }
 
  private:

@@ -19,6 +19,18 @@ const char* name_of(OptimiseStopped stopped) {
   return "unknown";
 }
 
+const char* name_of(MeshUse use) {
+  switch (use) {
+    case MeshUse::chain:
+      return "chain";
+    case MeshUse::hub:
+      return "hub";
+    case MeshUse::regenerate:
+      return "regenerate";
+  }
+  return "unknown";
+}
+
 void Summary::add(const EvaluationRecord& record) {
   ++evaluations_;
   infeasible_samples_ += record.infeasible_samples;
@@ -104,6 +116,7 @@ std::string optimise_result_to_json(const OptimiseResult& result) {
       {"recoveries", result.recoveries},
       {"refreshes", result.refreshes},
       {"seconds", result.seconds},
+      {"workers", result.workers},
       {"stopped", name_of(result.stopped)},
       {"detail", result.detail},
       {"seed", result.seed},

@@ -34,8 +34,7 @@ class Summary {
   };
 
   std::uint64_t evaluations_ = 0, infeasible_samples_ = 0, full_adjustments_ = 0, invalid_ = 0,
-                recoveries_ = 0,
-                refreshes_ = 0;
+                recoveries_ = 0, refreshes_ = 0;
   double best_objective_ = std::numeric_limits<double>::infinity();
   double min_angle_deg_ = std::numeric_limits<double>::infinity();
   std::vector<double> best_coefficients_;

@@ -293,5 +293,23 @@ TEST(Renew, RefusesAKeepBelowOne) {
   EXPECT_EQ(mesh.options().keep, 1.0);
 }
 
+TEST(GradationErrors, HaveTheMeanAndDeviationThatAreReported) {
+  std::mt19937_64 random(4);
+  Walk walk(0, 0.05, random);
+  Mesh mesh = generated(walk.domain(80), {.gradation = 1.6});
+  for (int i = 0; i < 10; ++i) {
+    walk.next();
+    remodel(mesh, walk.domain(80), renewing);
+  }
+  const FrozenMesh frozen = mesh.freeze();
+  const std::vector<double> errors = mesh.gradation_errors(frozen);
+  ASSERT_EQ(errors.size(), frozen.triangles.size());
+  double mean = 0.0, squares = 0.0;
+  for (const double e : errors) mean += e / static_cast<double>(errors.size());
+  for (const double e : errors) squares += (e - mean) * (e - mean) / static_cast<double>(errors.size());
+  EXPECT_NEAR(mean, mesh.gradation_error().bias, 1e-9);
+  EXPECT_NEAR(std::sqrt(squares), mesh.gradation_error().deviation, 1e-9);
+}
+
 }  // namespace
 }  // namespace remodel

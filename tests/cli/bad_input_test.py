@@ -184,6 +184,9 @@ class Options(ProgramTest):
         self.refuse("--seed", -1, "x", command=run)
         self.refuse("--distance", -1, "nan", "inf", command=run)
         self.refuse("--method", "fast", command=run)
+        self.refuse("--strategy", "best", "Chain", "", command=run)
+        self.refuse("--workers", 0, -1, 1001, "2.5", "x", command=run)
+        self.refuse("--threads", 0, -1, 1001, "x", command=run)
         self.refuse("--points", 7, command=run)
 
     def test_study(self):
@@ -230,6 +233,32 @@ class Options(ProgramTest):
         self.write("foreign/study.sqlite", b"")
         self.refused("study", "-o", "foreign", "--resume", names="foreign/study.sqlite")
 
+    def test_strategies_of_a_run_are_not_those_of_a_step(self):
+        self.succeed("mesh", "naca:0012", "--points", 50, "-o", "a.vtkhdf")
+        self.refuse("--strategy", "hub", "pool", "regenerate", "x", command=("update", "a.vtkhdf", "rae2822"))
+        self.refused("update", "a.vtkhdf", "rae2822", "--workers", 2, names="--workers")
+        self.refused(
+            "optimise", "--mesh", "a.vtkhdf", "--to", "rae2822", "--strategy", "regenerate", "-o", "run",
+            names="regenerate",
+        )
+
+    def test_batch(self):
+        self.succeed("mesh", "naca:0012", "--points", 50, "-o", "a.vtkhdf")
+        batch = ("batch", "a.vtkhdf", "rae2822", "-o", "out")
+        self.refuse("--order", "farthest", "", command=batch)
+        self.refuse("--meshes", "png", command=batch)
+        self.refuse("--strategy", "pool", command=batch)
+        self.refused("batch", "a.vtkhdf", "-o", "out", names="shapes")
+        self.refused("batch", "a.vtkhdf", "rae2822", names="--output")
+        self.refused("batch", "no.vtkhdf", "rae2822", "-o", "out", names="no.vtkhdf")
+        self.refused("batch", "a.vtkhdf", "rae2822", "no.dat", "-o", "out", names="no.dat")
+        self.refused("batch", "a.vtkhdf", "rae2822", "-o", "a.vtkhdf", names="a.vtkhdf")
+        self.refused("batch", "a.vtkhdf", "rae2822", "-o", "no/out", names="no")
+        # A design that is no domain, after one that is: nothing is meshed.
+        crossing = {"degree": 3, "upper": [0.17, -0.9, 0.14, 0.14], "lower": [-0.17, -0.16, -0.14, -0.14]}
+        self.write("crossing.json", json.dumps(crossing))
+        self.refused("batch", "a.vtkhdf", "rae2822", "crossing.json", "-o", "out", names="crossing.json")
+
     def test_draw(self):
         self.succeed("mesh", "naca:0012", "--points", 50, "-o", "a.vtkhdf")
         draw = ("draw", "a.vtkhdf", "-o", "a.png")
@@ -237,6 +266,8 @@ class Options(ProgramTest):
         self.refuse("--color", "red", command=draw)
         self.refuse("--width", 0, 100000, command=draw)
         self.refused("draw", "a.vtkhdf", "-o", "a.pdf", names="a.pdf")
+        self.succeed("convert", "a.vtkhdf", "-o", "a.su2")
+        self.refused("draw", "a.su2", "-o", "a.png", "--color", "gradation", names="a.su2")
 
     def test_unknown_arguments(self):
         self.refused(names="command line")

@@ -117,7 +117,7 @@ class Damage(CrashTest):
     def setUp(self):
         super().setUp()
         self.succeed(*self.run_arguments(30))
-        self.mesh = "run/" + json.loads(self.path("run/checkpoint.json").read_text())["mesh"]
+        self.mesh = "run/" + json.loads(self.path("run/checkpoint.json").read_text())["meshes"][0]["file"]
 
     def refused_or_the_same(self, name, damaged, whole):
         """True if the damage was refused; otherwise it was in bytes that mean nothing."""

@@ -65,6 +65,25 @@ class Runs(ProgramTest):
         self.assertEqual(self.designs("a"), self.designs("b"))
         self.assertEqual(self.path("a/last.vtkhdf").read_bytes(), self.path("b/last.vtkhdf").read_bytes())
 
+    def test_strategies_and_workers(self):
+        for strategy, workers in (("chain", 1), ("renew", 1), ("hub", 1), ("pool", 11), ("regenerate", 1), ("hub", 3)):
+            given = () if workers in (1, 11) else ("--workers", workers)
+            directory = f"{strategy}-{workers}"
+            figures = self.figures(*self.arguments(44, directory, "--strategy", strategy, *given, "--compare-every", 11))
+            self.assertEqual(figures["invalid_meshes"], 0)
+            self.assertEqual(figures["options"]["strategy"], strategy)
+            self.assertEqual(figures["workers"], workers)
+            used = self.rows(directory, "select distinct worker from evaluations order by worker")
+            self.assertEqual([worker for worker, in used], list(range(1, workers + 1)))
+            designs = self.rows(directory, "select coefficients from evaluations")
+            self.assertEqual(designs, self.rows("chain-1", "select coefficients from evaluations"))
+
+    def test_threads_change_nothing(self):
+        for threads in (1, 2, 4):
+            self.succeed(*self.arguments(60, f"on{threads}", "--workers", 3, "--threads", threads))
+            self.assertEqual(self.designs("on1"), self.designs(f"on{threads}"))
+            self.assertEqual(self.path("on1/last.vtkhdf").read_bytes(), self.path(f"on{threads}/last.vtkhdf").read_bytes())
+
     def test_repeat_reports_the_median(self):
         figures = self.figures(*self.arguments(20, "run", "--repeat", 3, "--compare-every", 5))
         self.assertEqual(figures["evaluations"], 20)

@@ -114,6 +114,44 @@ class Help(ProgramTest):
         self.assertRegex(self.succeed("--version").stdout, r"^\d+\.\d+\.\d+\n$")
 
 
+class Batches(ProgramTest):
+    SHAPES = ("rae2822", "naca:0014", "naca:2412", "naca:0013", "naca:0012", "naca:4412")
+
+    def setUp(self):
+        super().setUp()
+        self.succeed("mesh", "naca:0012", "--points", 100, "-o", "a.vtkhdf")
+
+    def test_meshes_and_report(self):
+        figures = self.figures("batch", "a.vtkhdf", *self.SHAPES, "-o", "out", "--meshes", "vtkhdf")
+        self.assertEqual(figures, json.loads(self.path("out/report.json").read_text()))
+        designs = figures["designs"]
+        self.assertEqual([design["shape"] for design in designs], list(self.SHAPES))
+        # From NACA 0012 to itself, and then in small steps.
+        in_order = sorted(designs, key=lambda design: design["position"])
+        reached = [design["shape"] for design in in_order]
+        self.assertEqual(reached, ["naca:0012", "naca:0013", "naca:0014", "naca:2412", "naca:4412", "rae2822"])
+        self.assertEqual(figures["lost_mean"], sum(design["lost"] for design in designs) / 6)
+        for design in designs:
+            checked = self.figures("check", f"out/{design['mesh']}")
+            self.assertTrue(checked["valid"])
+            self.assertEqual(checked["triangles"], design["triangles"])
+        for before, after in zip(in_order, in_order[1:]):
+            self.assertEqual(after["triangles_before"], before["triangles"])
+
+    def test_the_given_order_loses_more(self):
+        nearest = self.figures("batch", "a.vtkhdf", *self.SHAPES, "-o", "out")
+        given = self.figures("batch", "a.vtkhdf", *self.SHAPES, "-o", "out", "--order", "given")
+        self.assertEqual([design["position"] for design in given["designs"]], [1, 2, 3, 4, 5, 6])
+        self.assertLess(nearest["lost_mean"], given["lost_mean"])
+        self.assertEqual([path.name for path in self.path("out").iterdir()], ["report.json"])
+
+    def test_a_mesh_of_another_program(self):
+        self.succeed("convert", "a.vtkhdf", "-o", "a.su2")
+        figures = self.figures("batch", "a.su2", "naca:2412", "naca:0013", "--boundary", "airfoil", "-o", "out")
+        self.assertEqual([design["position"] for design in figures["designs"]], [2, 1])
+        self.assertEqual(figures["invalid_meshes"], 0)
+
+
 class Updates(ProgramTest):
     def mesh(self, shape="naca:0012", points=200):
         self.succeed("mesh", shape, "--points", points, "-o", "a.vtkhdf")

@@ -1,0 +1,225 @@
+// remodel batch MESH SHAPE... -o DIR: one living mesh, remodelled to designs that are all known before.
+
+#include "remodel/batch.h"
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <numeric>
+#include <optional>
+
+#include "arguments.h"
+#include "command.h"
+#include "figures.h"
+#include "interrupt.h"
+#include "meshing_options.h"
+#include "new_airfoil.h"
+#include "outputs.h"
+#include "remodel/error.h"
+#include "remodel/io.h"
+#include "remodel/remodel.h"
+#include "remodel_options.h"
+#include "report.h"
+#include "start_mesh.h"
+#include "timing.h"
+
+namespace remodel::app {
+namespace {
+
+enum class Order { given, nearest };
+
+struct BatchCommand {
+  std::string mesh;
+  StartMeshOptions start;
+  std::vector<std::string> shapes;
+  std::filesystem::path directory;
+  Order order = Order::nearest;
+  std::optional<std::string> meshes;  // extension of the files to write
+  int cst_degree = 5;
+  RemodelOptions remodelling;
+  bool json = false;
+};
+
+struct Design {
+  std::string shape;
+  CstAirfoil airfoil;
+  Domain domain;
+};
+
+// All of them, each found to be a domain before the first is meshed.
+std::vector<Design> read_designs(const BatchCommand& command, const StartMesh& start) {
+  std::vector<Design> designs;
+  for (const std::string& shape : command.shapes) {
+    const CstAirfoil airfoil = load_airfoil(shape, command.cst_degree);
+    try {
+      Domain domain = with_new_airfoil(start, command.start, airfoil);
+      validate(domain);
+      designs.push_back({shape, airfoil, std::move(domain)});
+    } catch (const Error& error) {
+      throw Error(error.code(), shape, error.what());
+    }
+  }
+  return designs;
+}
+
+std::vector<std::size_t> order_of(const BatchCommand& command, const StartMesh& start,
+                                  const std::vector<Design>& designs) {
+  if (command.order == Order::given) {
+    std::vector<std::size_t> order(designs.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    return order;
+  }
+  std::vector<CstAirfoil> airfoils;
+  for (const Design& design : designs) airfoils.push_back(design.airfoil);
+  return order_designs(present_airfoil(start, command.start, command.cst_degree), airfoils,
+                       {.points = discretisation_of(start.mesh.domain()).points});
+}
+
+void require_directory(const std::filesystem::path& directory) {
+  std::error_code error;
+  if (!std::filesystem::exists(directory, error)) {
+    require_writable(directory.has_filename() ? directory : directory.parent_path());
+    return;
+  }
+  if (!std::filesystem::is_directory(directory, error))
+    throw Error(ErrorCode::file, directory.string(), "is a file, expected a directory");
+  require_writable(directory / "report.json");
+}
+
+std::string file_of(std::size_t number, const std::string& extension) {
+  std::string digits = std::to_string(number);
+  if (digits.size() < 3) digits.insert(0, 3 - digits.size(), '0');
+  return digits + "." + extension;
+}
+
+// What becomes of one design. Sums are over the designs so far.
+class Batch {
+ public:
+  Batch(const BatchCommand& command, Mesh mesh)
+      : command_(command), mesh_(std::move(mesh)), designs_(Json::array()) {
+    for (std::size_t i = 0; i < command.shapes.size(); ++i) designs_.push_back(nullptr);
+  }
+
+  // False where a limit kept the mesh from being finished.
+  bool evaluate(const Design& design, std::size_t index) {
+    const Stopwatch watch;
+    const RemodelResult result = remodel(mesh_, design.domain, command_.remodelling);
+    const double seconds = watch.seconds();
+    const std::string broken = mesh_.quick_check();
+    const std::size_t lost = result.triangles_before - result.preserved;
+    Json entry = {{"design", index + 1},
+                  {"shape", design.shape},
+                  {"position", ++done_},
+                  {"triangles_before", result.triangles_before},
+                  {"triangles", result.triangles},
+                  {"preserved", result.preserved},
+                  {"preserved_percent", result.preserved_percent()},
+                  {"lost", lost},
+                  {"moved", result.moved},
+                  {"inserted", result.inserted},
+                  {"removed", result.removed},
+                  {"full_adjustment", result.full_adjustment},
+                  {"refreshed", result.refreshed},
+                  {"regenerated", result.regenerated},
+                  {"valid", broken.empty()},
+                  {"min_angle_deg", smallest_angle(mesh_)},
+                  {"seconds", seconds},
+                  {"stopped", name_of(result.stopped)}};
+    if (!broken.empty()) entry["detail"] = broken;
+    if (command_.meshes) {
+      const std::string file = file_of(index + 1, *command_.meshes);
+      write_mesh(mesh_, command_.directory / file);
+      entry["mesh"] = file;
+    }
+    designs_[index] = std::move(entry);
+    lost_ += static_cast<double>(lost);
+    preserved_percent_ += result.preserved_percent();
+    seconds_ += seconds;
+    full_adjustments_ += result.full_adjustment;
+    invalid_ += !broken.empty();
+    return result.stopped == Stopped::done;
+  }
+
+  void add_figures(Report& report) const {
+    const double n = static_cast<double>(done_);
+    const auto mean = [&](double sum) { return done_ == 0 ? Json() : Json(sum / n); };
+    report.figure("evaluations", "designs meshed", done_);
+    report.figure("full_adjustments", "full adjustments", full_adjustments_);
+    report.figure("preserved_percent", "preserved, mean", mean(preserved_percent_), "%");
+    report.figure("lost_mean", "lost, mean", mean(lost_), "triangles");
+    report.figure("remodel_ms_mean", "remodelling, mean", mean(1e3 * seconds_), "ms");
+    report.figure("invalid_meshes", "invalid meshes", invalid_);
+    Json all = Json::array();  // those that were reached, in the order of the command line
+    for (const Json& entry : designs_)
+      if (!entry.is_null()) all.push_back(entry);
+    report.data("designs", std::move(all));
+  }
+  std::size_t invalid() const { return invalid_; }
+
+ private:
+  const BatchCommand& command_;
+  Mesh mesh_;
+  Json designs_;
+  std::size_t done_ = 0, full_adjustments_ = 0, invalid_ = 0;
+  double lost_ = 0.0, preserved_percent_ = 0.0, seconds_ = 0.0;
+};
+
+Status run(const BatchCommand& command) {
+  require_directory(command.directory);
+  const StartMesh start = read_start_mesh(command.mesh, command.start);
+  const std::vector<Design> designs = read_designs(command, start);
+  const std::vector<std::size_t> order = order_of(command, start, designs);
+  std::filesystem::create_directories(command.directory);
+
+  const InterruptFlag interrupt;
+  Batch batch(command, start.mesh);
+  bool finished = true;
+  for (const std::size_t index : order) {
+    finished = !interrupt.raised() && batch.evaluate(designs[index], index);
+    if (!finished) break;
+  }
+
+  Report report;
+  report.figure("mesh", "mesh", command.mesh);
+  report.figure("order", "order", command.order == Order::given ? "given" : "nearest");
+  report.figure("strategy", "strategy", name_of(command.remodelling.strategy));
+  batch.add_figures(report);
+  write_text_atomically(command.directory / "report.json", report.json_text());
+  report.line("written", (command.directory / "report.json").string());
+  report.print(command.json);
+  if (!finished) return Status::limit;
+  return batch.invalid() == 0 ? Status::done : Status::answer_is_no;
+}
+
+}  // namespace
+
+void add_batch_command(CLI::App& program, Action& action) {
+  auto command = std::make_shared<BatchCommand>();
+  CLI::App& app =
+      add_subcommand(program, "batch", "Remodels a mesh to one airfoil after the other, nearest first",
+                     [command, &action] { action = [command] { return run(*command); }; });
+  add_text(app, {"mesh", "MESH", "", "Mesh: a native one (.vtkhdf), or .su2, .msh, .vtu with --boundary"},
+           Presence::required, command->mesh);
+  add_texts(app, {"shapes", "SHAPE", "", shape_help}, Presence::required, command->shapes);
+  add_start_mesh_options(app, command->start);
+  add_text(app, {"-o,--output", "DIR", "", "Directory for report.json and the meshes, made if it is missing"},
+           Presence::required, [command](const std::string& text) { command->directory = text; });
+  add_choice(
+      app,
+      {"--order", "ORDER", "nearest",
+       "nearest (always the design that is nearest to the last one) or given (as on the command line)"},
+      {"nearest", "given"},
+      [command](std::size_t choice) { command->order = choice == 0 ? Order::nearest : Order::given; });
+  static constexpr std::array formats{"vtkhdf", "su2", "msh", "vtu"};
+  add_choice(app,
+             {"--meshes", "FORMAT", "none",
+              "Also write the mesh of each design as DIR/001.FORMAT and so on: vtkhdf, su2, msh or vtu"},
+             {formats.begin(), formats.end()},
+             [command](std::size_t choice) { command->meshes = formats[choice]; });
+  add_cst_degree(app, command->cst_degree);
+  add_remodel_options(app, command->remodelling);
+  add_step_strategy(app, command->remodelling);
+  add_json_flag(app, command->json);
+}
+
+}  // namespace remodel::app

@@ -1,0 +1,71 @@
+#include "new_airfoil.h"
+
+#include "remodel/error.h"
+#include "remodel/import.h"
+
+namespace remodel::app {
+namespace {
+
+bool closed_trailing_edge(const CstAirfoil& airfoil) {
+  return airfoil.te_upper == airfoil.te_lower;
+}
+
+CstAirfoil* find_airfoil(Domain& domain) {
+  for (Loop& loop : domain.loops) {
+    for (Curve& curve : loop.curves) {
+      if (auto* airfoil = std::get_if<CstAirfoil>(&curve.shape)) return airfoil;
+    }
+  }
+  return nullptr;
+}
+
+// The mesh's domain with another airfoil in it, where we made the mesh. Where the trailing edge stays closed,
+// everything else is kept as it is; opening or closing it adds or removes a curve, so the domain is built
+// anew.
+Domain generated_with_airfoil(const Domain& old, const CstAirfoil& airfoil, const std::string& file) {
+  Domain domain = old;
+  CstAirfoil* place = find_airfoil(domain);
+  if (place == nullptr) {
+    throw Error(ErrorCode::argument, file, "found a mesh without an airfoil, expected one to remodel");
+  }
+  if (!closed_trailing_edge(*place) || !closed_trailing_edge(airfoil)) {
+    return airfoil_domain(airfoil, discretisation_of(old));
+  }
+  *place = airfoil;
+  return domain;
+}
+
+bool generated_here(const StartMesh& start, const StartMeshOptions& options) {
+  return !start.imported && !start.mesh.imported() && options.boundary.empty() && !options.points;
+}
+
+}  // namespace
+
+AirfoilDomainOptions discretisation_of(const Domain& domain) {
+  AirfoilDomainOptions options;
+  for (std::size_t i = 0; i < domain.curve_count(); ++i) {
+    const Curve& curve = domain.curve(i);
+    const int points = static_cast<int>(curve.parameters.size());
+    if (std::holds_alternative<CstAirfoil>(curve.shape)) options.points = points;
+    if (const auto* circle = std::get_if<Arc>(&curve.shape)) {
+      options.farfield_radius = circle->radius;
+      options.farfield_points = points;
+    }
+  }
+  return options;
+}
+
+Domain with_new_airfoil(const StartMesh& start, const StartMeshOptions& options, const CstAirfoil& airfoil) {
+  const Domain& old = start.mesh.domain();
+  if (generated_here(start, options)) return generated_with_airfoil(old, airfoil, start.source);
+  return with_airfoil(old, place_in(start, options), airfoil);
+}
+
+CstAirfoil present_airfoil(const StartMesh& start, const StartMeshOptions& options, int degree) {
+  Domain domain = start.mesh.domain();
+  if (generated_here(start, options))
+    if (const CstAirfoil* own = find_airfoil(domain)) return *own;
+  return fit_airfoil(domain, place_in(start, options), degree).airfoil;
+}
+
+}  // namespace remodel::app
