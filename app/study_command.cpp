@@ -52,6 +52,7 @@ Json to_json(const StudyOptions& options) {
           {"scenarios", options.scenarios},
           {"evaluations", options.evaluations},
           {"compare_every", options.compare_every},
+          {"check_every", options.check_every},
           {"strategies", options.strategies},
           {"seed", options.seed}};
 }
@@ -194,6 +195,8 @@ void add_counts(CLI::App& app, StudyCommand& command) {
   add({"--compare-every", "K", "20",
        "Every K-th evaluation is compared with a fresh mesh and validated in full; 0: never"},
       {.low = 0, .high = 1'000'000'000}, &StudyOptions::compare_every);
+  add({"--check-every", "K", "1", "Every K-th mesh goes through the quick check: at least 1"},
+      {.low = 1, .high = 1'000'000'000}, &StudyOptions::check_every);
   add({"--seed", "N", "1", "Seed of the first scenario: at least 0"}, {.low = 0, .high = 1'000'000'000'000},
       &StudyOptions::seed);
 }

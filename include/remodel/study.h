@@ -42,6 +42,8 @@ struct StudyOptions {
   std::size_t evaluations = 900;   // feasible samples of a scenario: at least 1
   std::size_t compare_every = 20;  // every K-th evaluation is compared with a fresh mesh, and goes through
                                    // check() besides quick_check(); 0: never
+  std::size_t check_every = 1;     // every K-th mesh goes through quick_check(), which takes as long as a
+                                   // step: at least 1
   std::uint64_t seed = 1;
 };
 
@@ -140,9 +142,9 @@ enum class StudyMode { begin, resume };
 // Runs a study, and leaves DIR/study.sqlite: the tables are described in src/study/schema.h. One process at a
 // time holds the directory, by flock.
 //
-// begin: the directory is missing or empty. resume: it holds a study whose pairs, evaluations, compare_every
-// and seed are the same; airfoils, sigmas, distances, strategies and scenarios may be more than the study had
-// (its own are kept), and only what is missing is done.
+// begin: the directory is missing or empty. resume: it holds a study whose pairs, evaluations, compare_every,
+// check_every and seed are the same; airfoils, sigmas, distances, strategies and scenarios may be more than
+// the study had (its own are kept), and only what is missing is done.
 //
 // Throws Error (argument, file, format, geometry).
 StudyResult study(const std::filesystem::path& directory, const StudyOptions& options, StudyMode mode,

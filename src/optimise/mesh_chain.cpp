@@ -1,5 +1,6 @@
 #include "optimise/mesh_chain.h"
 
+#include <limits>
 #include <utility>
 
 #include "mesh/mesh_data.h"
@@ -28,6 +29,8 @@ void copy_figures(const RemodelResult& result, EvaluationRecord& record) {
 
 // A run is long: it can afford to know K within one percent.
 constexpr int calibration_samples = 20;
+
+constexpr double unmeasured_angle = std::numeric_limits<double>::infinity();  // never the smallest
 
 }  // namespace
 
@@ -73,7 +76,7 @@ Stopped MeshChain::step(const CstAirfoil& design, StepTasks tasks, EvaluationRec
   count_losses(result);
   copy_figures(result, record);
 
-  const std::string broken = broken_rule(domain, tasks);
+  const std::string broken = tasks.quick_check ? broken_rule(domain, tasks) : std::string();
   record.checked = tasks.full_check ? Checked::full : Checked::quick;
   record.valid = broken.empty();
   if (!broken.empty()) record.detail = broken;
@@ -82,7 +85,7 @@ Stopped MeshChain::step(const CstAirfoil& design, StepTasks tasks, EvaluationRec
   if (!record.valid || result.stopped != Stopped::done) {
     if (const Stopped stopped = regenerate(domain, record); stopped != Stopped::done) return stopped;
   }
-  record.min_angle_deg = mesh().statistics().min_angle_deg;
+  record.min_angle_deg = tasks.quick_check ? mesh().statistics().min_angle_deg : unmeasured_angle;
   return tasks.compare ? compare(design, record) : Stopped::done;
 }
 

@@ -17,6 +17,7 @@ namespace remodel {
 // What else is done with the mesh of one design.
 struct StepTasks {
   bool compare = false;     // generate a fresh mesh
+  bool quick_check = true;  // of the mesh; without, its smallest angle is not measured
   bool full_check = false;  // check() too
   bool generate = false;    // the mesh is generated, not remodelled
 };

@@ -1,6 +1,7 @@
 #include "remodel/domain.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -61,6 +62,16 @@ std::vector<double> mirrored_fractions(int n) {
   return fractions;
 }
 
+// The same, shared: the designs of a run have one airfoil's and one farfield's stations over and over, so the
+// last two lists are kept.
+Parameters shared_fractions(int n) {
+  thread_local std::array<Parameters, 2> last;
+  for (const Parameters& parameters : last)
+    if (parameters.size() == static_cast<std::size_t>(n)) return parameters;
+  std::swap(last[0], last[1]);
+  return last[0] = mirrored_fractions(n);
+}
+
 void expect(bool fulfilled, const char* option, double found, const char* expected) {
   if (fulfilled) return;
   std::ostringstream problem;
@@ -99,7 +110,7 @@ Loop airfoil_loop(const PlacedAirfoil& placed, int points) {
   expect(placed.placement.chord > 0.0 && std::isfinite(placed.placement.chord), "chord",
          placed.placement.chord, "more than 0");
   Loop body{.role = LoopRole::hole,
-            .curves = {{.name = placed.name, .shape = airfoil, .parameters = mirrored_fractions(points)}},
+            .curves = {{.name = placed.name, .shape = airfoil, .parameters = shared_fractions(points)}},
             .placement = placed.placement};
   if (airfoil.te_upper != airfoil.te_lower) {
     const Line trailing_edge{.from = airfoil.at(1.0), .to = airfoil.at(0.0)};
@@ -229,10 +240,10 @@ Domain airfoils_domain(const std::vector<PlacedAirfoil>& airfoils, const Airfoil
   Domain domain;
   for (const PlacedAirfoil& airfoil : airfoils) domain.loops.push_back(airfoil_loop(airfoil, options.points));
   const Arc circle{.centre = {0.5, 0.0}, .radius = options.farfield_radius};
-  domain.loops.push_back({.role = LoopRole::outer,
-                          .curves = {{.name = "farfield",
-                                      .shape = circle,
-                                      .parameters = mirrored_fractions(options.farfield_points)}}});
+  domain.loops.push_back(
+      {.role = LoopRole::outer,
+       .curves = {
+           {.name = "farfield", .shape = circle, .parameters = shared_fractions(options.farfield_points)}}});
   for (std::size_t loop = 0; loop < airfoils.size(); ++loop) check_farfield_contains(domain, loop, options);
   return domain;
 }

@@ -65,6 +65,7 @@ StudyWork Schedule::work_of(const JobKey& key) const {
   work.to = raise_degree(to, degree);
   work.evaluations = options.evaluations;
   work.compare_every = options.compare_every;
+  work.check_every = options.check_every;
   if (key.kind == JobKind::path) {
     work.sigma = options.sigmas[key.sigma];
     work.seed = scenario_seed(options, key);

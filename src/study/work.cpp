@@ -81,6 +81,7 @@ std::string encode(const StudyWork& work) {
                    {"to", airfoil_to_json(work.to)},
                    {"evaluations", work.evaluations},
                    {"compare_every", work.compare_every},
+                   {"check_every", work.check_every},
                    {"sigma", work.sigma},
                    {"seed", work.seed},
                    {"all_points", work.points},
@@ -100,6 +101,7 @@ StudyWork decode_work(const std::string& bytes) {
     work.to = airfoil_from_json(json.at("to").get<std::string>(), "a study's job");
     json.at("evaluations").get_to(work.evaluations);
     json.at("compare_every").get_to(work.compare_every);
+    json.at("check_every").get_to(work.check_every);
     json.at("sigma").get_to(work.sigma);
     json.at("seed").get_to(work.seed);
     json.at("all_points").get_to(work.points);

@@ -212,6 +212,7 @@ class Options(ProgramTest):
         self.refuse("--scenarios", 0, 10000, "x", command=study)
         self.refuse("--evaluations", 0, "1e4", command=study)
         self.refuse("--compare-every", -1, command=study)
+        self.refuse("--check-every", 0, "x", command=study)
         self.refuse("--seed", -1, command=study)
         self.refuse("--threads", 0, 2000, "all", command=study)
         self.refuse("--time-limit", 0, "nan", command=study)
