@@ -57,12 +57,21 @@ void list_moving(MeshData& mesh, AdjustCache& cache, const AdjustCache* earlier)
   }
 }
 
+// What moves and is affected lie all over the mesh, and between two steps a solver has used the caches: they
+// are fetched this many turns ahead.
+constexpr std::size_t look_ahead = 8;
+
 // Affected triangles, each once, and the star lists. mesh.numbers holds a listed triangle's position.
 void list_affected(MeshData& mesh, AdjustCache& cache) {
   const Triangulation& triangulation = mesh.triangulation;
   mesh.marks.clear(triangulation.triangle_slots());
   mesh.numbers.resize(triangulation.triangle_slots());
-  for (Moving& m : cache.moving) {
+  for (std::size_t i = 0; i < cache.moving.size(); ++i) {
+    if (i + 2 * look_ahead < cache.moving.size())
+      triangulation.prefetch(cache.moving[i + 2 * look_ahead].vertex);
+    if (i + look_ahead < cache.moving.size())
+      triangulation.prefetch(triangulation.star(cache.moving[i + look_ahead].vertex).triangle);
+    Moving& m = cache.moving[i];
     m.star_begin = cache.stars.size();
     triangulation.for_each_corner(m.vertex, [&](Corner c) {
       const TriangleId t = c.triangle;
@@ -84,6 +93,8 @@ void list_affected(MeshData& mesh, AdjustCache& cache) {
 void list_edges(MeshData& mesh, AdjustCache& cache) {
   const Triangulation& triangulation = mesh.triangulation;
   for (std::uint32_t i = 0; i < cache.affected.size(); ++i) {
+    if (i + look_ahead < cache.affected.size())
+      triangulation.prefetch_around(cache.affected[i + look_ahead].triangle);
     if (!cache.affected[i].domain) continue;
     const Triangle& triangle = triangulation[cache.affected[i].triangle];
     for (int k = 0; k < 3; ++k) {
@@ -171,10 +182,6 @@ void write(MeshData& mesh, const AdjustCache& cache, const std::vector<Point>& p
 bool counterclockwise(const Triangulation& t, const VertexId (&v)[3]) {
   return orient2d(t.point(v[0]), t.point(v[1]), t.point(v[2])) > 0;
 }
-
-// Affected records lie all over the mesh, and between two steps a solver has used the caches: they are
-// fetched this many turns ahead.
-constexpr std::size_t look_ahead = 8;
 
 // Sets good and circle of every affected triangle, the mesh being at the new positions.
 bool evaluate(const MeshData& mesh, AdjustCache& cache) {
