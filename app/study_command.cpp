@@ -53,6 +53,7 @@ Json to_json(const StudyOptions& options) {
           {"evaluations", options.evaluations},
           {"compare_every", options.compare_every},
           {"check_every", options.check_every},
+          {"validate_every", options.validate_every},
           {"strategies", options.strategies},
           {"seed", options.seed}};
 }
@@ -192,11 +193,12 @@ void add_counts(CLI::App& app, StudyCommand& command) {
   add({"--evaluations", "N", std::to_string(StudyOptions().evaluations),
        "Feasible designs of each optimisation, one remodelling each and replay: at least 1"},
       {.low = 1, .high = 1'000'000'000}, &StudyOptions::evaluations);
-  add({"--compare-every", "K", "20",
-       "Every K-th evaluation is compared with a fresh mesh and validated in full; 0: never"},
+  add({"--compare-every", "K", "20", "Every K-th evaluation is compared with a fresh mesh; 0: never"},
       {.low = 0, .high = 1'000'000'000}, &StudyOptions::compare_every);
   add({"--check-every", "K", "1", "Every K-th mesh goes through the quick check: at least 1"},
       {.low = 1, .high = 1'000'000'000}, &StudyOptions::check_every);
+  add({"--validate-every", "K", "20", "Every K-th mesh goes through the validator: at least 1"},
+      {.low = 1, .high = 1'000'000'000}, &StudyOptions::validate_every);
   add({"--seed", "N", "1", "Seed of the first scenario: at least 0"}, {.low = 0, .high = 1'000'000'000'000},
       &StudyOptions::seed);
 }

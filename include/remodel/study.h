@@ -40,10 +40,11 @@ struct StudyOptions {
   std::vector<std::string> strategies{"chain", "renew"};  // of study_strategies()
   std::size_t scenarios = 1;  // of each airfoil and sigma: 1 to 9999. Scenario k has the seed `seed` + k - 1
   std::size_t evaluations = 900;   // feasible samples of a scenario: at least 1
-  std::size_t compare_every = 20;  // every K-th evaluation is compared with a fresh mesh, and goes through
-                                   // check() besides quick_check(); 0: never
-  std::size_t check_every = 1;     // every K-th mesh goes through quick_check(), which takes as long as a
-                                   // step: at least 1
+  std::size_t compare_every = 20;  // every K-th evaluation is compared with a fresh mesh; 0: never
+  // Every K-th mesh goes through quick_check(), which takes longer than most steps, and through check(),
+  // which takes hundreds of times as long: at least 1.
+  std::size_t check_every = 1;
+  std::size_t validate_every = 20;
   std::uint64_t seed = 1;
 };
 
@@ -143,8 +144,8 @@ enum class StudyMode { begin, resume };
 // time holds the directory, by flock.
 //
 // begin: the directory is missing or empty. resume: it holds a study whose pairs, evaluations, compare_every,
-// check_every and seed are the same; airfoils, sigmas, distances, strategies and scenarios may be more than
-// the study had (its own are kept), and only what is missing is done.
+// check_every, validate_every and seed are the same; airfoils, sigmas, distances, strategies and scenarios
+// may be more than the study had (its own are kept), and only what is missing is done.
 //
 // Throws Error (argument, file, format, geometry).
 StudyResult study(const std::filesystem::path& directory, const StudyOptions& options, StudyMode mode,

@@ -125,11 +125,10 @@ bool Replay::evaluate(MeshChain& chain, std::size_t index) {
   const bool compared = is_compared(work_, record.evaluation);
   const FreshRow* fresh = compared ? fresh_of(record.evaluation) : nullptr;
   if (compared && !fresh) return false;
-  if (chain.step(
-          design_at(work_, index),
-          {.quick_check = compared || record.evaluation % work_.check_every == 0, .full_check = compared},
-          record) != Stopped::done)
-    return false;
+  const auto due = [&](std::uint64_t every) { return record.evaluation % every == 0; };
+  const StepTasks tasks{.quick_check = due(work_.check_every) || due(work_.validate_every),
+                        .full_check = due(work_.validate_every)};
+  if (chain.step(design_at(work_, index), tasks, record) != Stopped::done) return false;
   if (fresh) {
     const GradationError error = chain.mesh().gradation_error();
     add_comparison({.triangles = fresh->triangles,

@@ -104,6 +104,7 @@ std::string to_json(const StudyOptions& options) {
               {"evaluations", options.evaluations},
               {"compare_every", options.compare_every},
               {"check_every", options.check_every},
+              {"validate_every", options.validate_every},
               {"strategies", options.strategies},
               {"seed", options.seed}}
       .dump();
@@ -123,6 +124,7 @@ StudyOptions study_options_from_json(const std::string& text, const std::string&
     json.at("evaluations").get_to(options.evaluations);
     json.at("compare_every").get_to(options.compare_every);
     options.check_every = json.value("check_every", options.check_every);
+    options.validate_every = json.value("validate_every", options.validate_every);
     json.at("strategies").get_to(options.strategies);
     json.at("seed").get_to(options.seed);
     return options;
@@ -140,6 +142,7 @@ StudyOptions grown(const StudyOptions& study, const StudyOptions& wanted, const 
   require_same(study.evaluations == wanted.evaluations, "evaluations");
   require_same(study.compare_every == wanted.compare_every, "compare_every");
   require_same(study.check_every == wanted.check_every, "check_every");
+  require_same(study.validate_every == wanted.validate_every, "validate_every");
   require_same(study.seed == wanted.seed, "seed");
   for (const StudyAirfoil& airfoil : wanted.airfoils)
     for (const StudyAirfoil& known : study.airfoils)

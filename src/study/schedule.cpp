@@ -66,6 +66,7 @@ StudyWork Schedule::work_of(const JobKey& key) const {
   work.evaluations = options.evaluations;
   work.compare_every = options.compare_every;
   work.check_every = options.check_every;
+  work.validate_every = options.validate_every;
   if (key.kind == JobKind::path) {
     work.sigma = options.sigmas[key.sigma];
     work.seed = scenario_seed(options, key);

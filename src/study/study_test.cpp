@@ -189,6 +189,7 @@ TEST_F(Study, RefusesToGoOnWithOtherOptions) {
       {"evaluations", [](StudyOptions& options) { options.evaluations = 40; }},
       {"compare_every", [](StudyOptions& options) { options.compare_every = 5; }},
       {"check_every", [](StudyOptions& options) { options.check_every = 5; }},
+      {"validate_every", [](StudyOptions& options) { options.validate_every = 7; }},
       {"seed", [](StudyOptions& options) { options.seed = 2; }},
       {"the design of rae2822", [](StudyOptions& options) { options.airfoils[0].design.upper[1] *= 1.01; }},
   };

@@ -82,6 +82,7 @@ std::string encode(const StudyWork& work) {
                    {"evaluations", work.evaluations},
                    {"compare_every", work.compare_every},
                    {"check_every", work.check_every},
+                   {"validate_every", work.validate_every},
                    {"sigma", work.sigma},
                    {"seed", work.seed},
                    {"all_points", work.points},
@@ -102,6 +103,7 @@ StudyWork decode_work(const std::string& bytes) {
     json.at("evaluations").get_to(work.evaluations);
     json.at("compare_every").get_to(work.compare_every);
     json.at("check_every").get_to(work.check_every);
+    json.at("validate_every").get_to(work.validate_every);
     json.at("sigma").get_to(work.sigma);
     json.at("seed").get_to(work.seed);
     json.at("all_points").get_to(work.points);

@@ -20,7 +20,7 @@ enum class JobKind {
 struct StudyWork {
   JobKind kind = JobKind::path;
   CstAirfoil from, to;  // of the same degree
-  std::uint64_t evaluations = 0, compare_every = 0, check_every = 1;
+  std::uint64_t evaluations = 0, compare_every = 0, check_every = 1, validate_every = 1;
   // path
   double sigma = 0.0;
   std::uint64_t seed = 0;

@@ -213,6 +213,7 @@ class Options(ProgramTest):
         self.refuse("--evaluations", 0, "1e4", command=study)
         self.refuse("--compare-every", -1, command=study)
         self.refuse("--check-every", 0, "x", command=study)
+        self.refuse("--validate-every", 0, command=study)
         self.refuse("--seed", -1, command=study)
         self.refuse("--threads", 0, 2000, "all", command=study)
         self.refuse("--time-limit", 0, "nan", command=study)
