@@ -90,16 +90,6 @@ void Triangulation::start(Point a, Point b, Point c) {
 
 // ---- corners and links
 
-Corner Triangulation::counterclockwise(Corner c) const {
-  const Link link = triangles_[c.triangle.index].link[next3(c.index)];
-  return {link.triangle(), next3(link.corner())};
-}
-
-Corner Triangulation::clockwise(Corner c) const {
-  const Link link = triangles_[c.triangle.index].link[previous3(c.index)];
-  return {link.triangle(), previous3(link.corner())};
-}
-
 bool Triangulation::at_constraint(VertexId v) const {
   const Corner first = star(v);
   Corner c = first;

@@ -79,8 +79,14 @@ class Triangulation {
 
   // The corners around a vertex: counter-clockwise and clockwise neighbours of a corner at the same vertex.
   Corner star(VertexId v) const { return corner(vertices_[v.index].star); }
-  Corner counterclockwise(Corner c) const;
-  Corner clockwise(Corner c) const;
+  Corner counterclockwise(Corner c) const {
+    const Link link = triangles_[c.triangle.index].link[next3(c.index)];
+    return {link.triangle(), next3(link.corner())};
+  }
+  Corner clockwise(Corner c) const {
+    const Link link = triangles_[c.triangle.index].link[previous3(c.index)];
+    return {link.triangle(), previous3(link.corner())};
+  }
   VertexId vertex(Corner c) const { return triangles_[c.triangle.index].vertex[c.index]; }
   VertexId following(Corner c) const { return triangles_[c.triangle.index].vertex[next3(c.index)]; }
   VertexId preceding(Corner c) const { return triangles_[c.triangle.index].vertex[previous3(c.index)]; }
