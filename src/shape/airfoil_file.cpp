@@ -26,7 +26,7 @@ constexpr double end_tolerance = 0.02;
 constexpr double crossing_tolerance = 2e-3;
 
 template <typename... Parts>
-[[noreturn]] void refuse(const std::string& where, const Parts&... parts) {
+[[noreturn]] void refuse_file(const std::string& where, const Parts&... parts) {
   std::ostringstream problem;
   problem.precision(10);
   (problem << ... << parts);
@@ -59,16 +59,16 @@ bool begins_with_counts(const Rows& rows) {
 Rows outline_of_lednicer(const Rows& rows, const std::string& source) {
   const Point counts = rows.front().point;
   if (counts.x + counts.y != static_cast<double>(rows.size() - 1)) {
-    refuse(place(source, rows.front()), "found counts of ", counts.x, " and ", counts.y, " points, but ",
-           rows.size() - 1, " points follow");
+    refuse_file(place(source, rows.front()), "found counts of ", counts.x, " and ", counts.y, " points, but ",
+                rows.size() - 1, " points follow");
   }
   const auto middle = rows.begin() + 1 + static_cast<std::ptrdiff_t>(counts.x);
   const Rows upper(rows.begin() + 1, middle);
   Rows lower(middle, rows.end());
   for (const Rows* surface : {&upper, static_cast<const Rows*>(&lower)}) {
     if (!(surface->front().point.x < surface->back().point.x)) {
-      refuse(place(source, surface->front()), "found a surface from x = ", surface->front().point.x,
-             " to x = ", surface->back().point.x, ", expected it from the leading to the trailing edge");
+      refuse_file(place(source, surface->front()), "found a surface from x = ", surface->front().point.x,
+                  " to x = ", surface->back().point.x, ", expected it from the leading to the trailing edge");
     }
   }
   if (lower.front().point == upper.front().point) lower.erase(lower.begin());
@@ -80,7 +80,8 @@ Rows outline_of_lednicer(const Rows& rows, const std::string& source) {
 void check_no_repetition(const Rows& outline, const std::string& source) {
   for (std::size_t i = 1; i < outline.size(); ++i) {
     if (outline[i].point == outline[i - 1].point) {
-      refuse(place(source, outline[i]), "found the same point twice in a row, expected different points");
+      refuse_file(place(source, outline[i]),
+                  "found the same point twice in a row, expected different points");
     }
   }
 }
@@ -112,7 +113,7 @@ void drop_trailing_edge_base(Rows& surface) {
 
 void check_order(const Rows& surface, const std::string& source) {
   if (surface.size() < 3) {
-    refuse(
+    refuse_file(
         place(source, surface.back()), "found a surface of ", surface.size(),
         " points, expected at least 3, and the trailing edge first (Selig) or the points counted (Lednicer)");
   }
@@ -120,8 +121,8 @@ void check_order(const Rows& surface, const std::string& source) {
   for (std::size_t i = 1; i < surface.size(); ++i) {
     const double x = surface[i].point.x;
     if (x > surface[i - 1].point.x || x == nose) continue;
-    refuse(place(source, surface[i]), "found x = ", x, " beside x = ", surface[i - 1].point.x,
-           ", expected x to grow from the leading to the trailing edge");
+    refuse_file(place(source, surface[i]), "found x = ", x, " beside x = ", surface[i - 1].point.x,
+                ", expected x to grow from the leading to the trailing edge");
   }
 }
 
@@ -133,10 +134,10 @@ void normalise(Rows& upper, Rows& lower, const std::string& source) {
   const Point tail = 0.5 * (upper.back().point + lower.back().point);
   const double chord = tail.x - nose.x;
   if (std::abs(upper.back().point.x - lower.back().point.x) > end_tolerance * chord) {
-    refuse(source, "found surfaces that end at x = ", upper.back().point.x, " and x = ", lower.back().point.x,
-           ", expected both at the trailing edge");
+    refuse_file(source, "found surfaces that end at x = ", upper.back().point.x,
+                " and x = ", lower.back().point.x, ", expected both at the trailing edge");
   }
-  if (!(chord >= 1e-6)) refuse(source, "found a chord of ", chord, ", expected at least 1e-6");
+  if (!(chord >= 1e-6)) refuse_file(source, "found a chord of ", chord, ", expected at least 1e-6");
   for (Rows* surface : {&upper, &lower}) {
     for (AirfoilRow& row : *surface) {
       const double x = (row.point.x - nose.x) / chord;
@@ -159,8 +160,8 @@ void check_above(const Rows& points, const Rows& other, double sign, const std::
   for (const AirfoilRow& row : points) {
     const Point p = row.point;
     if (p.x <= 0.0 || p.x >= 1.0 || sign * (p.y - interpolated(other, p.x)) >= -crossing_tolerance) continue;
-    refuse(place(source, row), "found the surfaces crossed at x = ", p.x,
-           " chords, expected the upper one above the lower one");
+    refuse_file(place(source, row), "found the surfaces crossed at x = ", p.x,
+                " chords, expected the upper one above the lower one");
   }
 }
 
@@ -192,7 +193,7 @@ AirfoilCoordinates surfaces_of_outline(std::string name, const Rows& outline, co
 
 AirfoilCoordinates parse_airfoil(std::string_view text, const std::string& source) {
   AirfoilRows file = read_airfoil_rows(text, source);
-  if (file.rows.empty()) refuse(source, "found no coordinates, expected lines of two numbers, x and y");
+  if (file.rows.empty()) refuse_file(source, "found no coordinates, expected lines of two numbers, x and y");
   const Rows outline = begins_with_counts(file.rows) ? outline_of_lednicer(file.rows, source) : file.rows;
   return surfaces_of_outline(std::move(file.name), outline, source);
 }
