@@ -14,5 +14,8 @@ std::string_view embedded_script();        // page/page.js
 std::string_view embedded_vega();
 std::string_view embedded_vega_lite();
 std::string_view embedded_vega_embed();
+std::string_view embedded_vega_licence();
+std::string_view embedded_vega_lite_licence();
+std::string_view embedded_vega_embed_licence();
 
 }  // namespace remodel::report

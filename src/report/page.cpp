@@ -173,6 +173,16 @@ std::string for_script(std::string_view json) {
   return text;
 }
 
+// The page passes on scripts of others: whoever gets it gets their licences.
+std::string licences() {
+  std::string text;
+  for (const auto& [name, licence] :
+       {std::pair("Vega", embedded_vega_licence()), std::pair("Vega-Lite", embedded_vega_lite_licence()),
+        std::pair("Vega-Embed", embedded_vega_embed_licence())})
+    text += std::string(name) + "\n\n" + escaped(licence) + "\n";
+  return text;
+}
+
 }  // namespace report
 
 std::string study_page(const StudyContents& study, const std::vector<StudySvg>& mesh_figures) {
@@ -183,8 +193,10 @@ std::string study_page(const StudyContents& study, const std::vector<StudySvg>& 
         "found no scripts of the page in this program, expected it built after scripts/install-dependencies");
   const std::string data =
       for_script(data_of(study, mesh_figures).dump(-1, ' ', false, PageJson::error_handler_t::replace));
-  const std::array<std::pair<std::string_view, std::string_view>, 6> parts = {
+  const std::string licence_texts = licences();
+  const std::array<std::pair<std::string_view, std::string_view>, 7> parts = {
       {{"/*style*/", embedded_style()},
+       {"/*licences*/", licence_texts},
        {"/*vega*/", embedded_vega()},
        {"/*vega-lite*/", embedded_vega_lite()},
        {"/*vega-embed*/", embedded_vega_embed()},
