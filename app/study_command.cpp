@@ -40,24 +40,6 @@ StudyOptions options_of(const StudyCommand& command) {
   return options;
 }
 
-Json to_json(const StudyOptions& options) {
-  Json airfoils = Json::array(), pairs = Json::array();
-  for (const StudyAirfoil& airfoil : options.airfoils) airfoils.push_back(airfoil.name);
-  for (const StudyPair& pair : options.pairs)
-    pairs.push_back({{"points", pair.points}, {"gradation", pair.gradation}});
-  return {{"airfoils", airfoils},
-          {"sigmas", options.sigmas},
-          {"pairs", pairs},
-          {"distances", options.distances},
-          {"scenarios", options.scenarios},
-          {"evaluations", options.evaluations},
-          {"compare_every", options.compare_every},
-          {"check_every", options.check_every},
-          {"validate_every", options.validate_every},
-          {"strategies", options.strategies},
-          {"seed", options.seed}};
-}
-
 void add_result(Report& report, const StudyResult& result) {
   report.figure("jobs", "jobs", result.jobs);
   report.figure("done", "done", result.done);
@@ -82,14 +64,14 @@ Status status_of(const StudyResult& result) {
 // Rank 0 of an MPI program, or the only process.
 Status run_study(const StudyCommand& command, StudyCrew& crew) {
   const StudyOptions options = options_of(command);
-  StudyProgressLine progress(progress_style(command.quiet), "options: " + to_json(options).dump(),
+  StudyProgressLine progress(progress_style(command.quiet), "options: " + study_options_to_json(options),
                              command.time_limit);
   const StudyResult result = study(command.directory, options,
                                    command.resume ? StudyMode::resume : StudyMode::begin, crew, &progress);
   progress.finish();
 
   Report report;
-  report.data("options", to_json(read_study_options(command.directory)));
+  report.data("options", Json::parse(study_options_to_json(read_study_options(command.directory))));
   add_result(report, result);
   report.figure("directory", "study", command.directory.string());
   report.print(command.json);

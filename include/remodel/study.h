@@ -53,6 +53,9 @@ std::vector<std::string> study_strategies();
 // The paper's whole study: nine airfoils, three sigmas, six pairs, four D, thirty scenarios of 9000
 // evaluations.
 StudyOptions full_study();
+// One JSON object: the members under their names; of airfoils the names, whose designs the store has in a
+// table of their own.
+std::string study_options_to_json(const StudyOptions& options);
 // The start of every scenario: NACA 0012.
 StudyAirfoil study_start();
 

@@ -5,6 +5,7 @@
 #include "generate/discretise.h"
 #include "generate/recovery_error.h"
 #include "generate/refine.h"
+#include "generate/require_option.h"
 #include "mesh/small_angles.h"
 #include "remodel/error.h"
 
@@ -12,23 +13,19 @@ namespace remodel {
 
 namespace {
 
-void require(bool holds, const char* option, double found, const char* expected) {
-  if (!holds)
-    throw Error(ErrorCode::argument, option, "found " + std::to_string(found) + ", expected " + expected);
-}
-
 void validate(const QualityOptions& options) {
   const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
-  require(options.min_angle_deg >= 0.0 && options.min_angle_deg <= 34.0, "min_angle_deg",
-          options.min_angle_deg, "0 to 34 degrees");
-  require(options.refine_angle_deg >= 0.0 && options.refine_angle_deg <= 34.0, "refine_angle_deg",
-          options.refine_angle_deg, "0 to 34 degrees");
-  require(positive(options.max_gradation), "max_gradation", options.max_gradation, "a positive number");
-  require(std::isfinite(options.keep) && options.keep >= 1.0, "keep", options.keep, "1 or more");
-  require(positive(options.gradation), "gradation", options.gradation, "a positive number");
-  require(positive(options.resolution), "resolution", options.resolution, "a positive number");
-  require(std::isfinite(options.min_edge) && options.min_edge >= 0.0, "min_edge", options.min_edge,
-          "0 or more chords");
+  require_option(options.min_angle_deg >= 0.0 && options.min_angle_deg <= 34.0, "min_angle_deg",
+                 options.min_angle_deg, "0 to 34 degrees");
+  require_option(options.refine_angle_deg >= 0.0 && options.refine_angle_deg <= 34.0, "refine_angle_deg",
+                 options.refine_angle_deg, "0 to 34 degrees");
+  require_option(positive(options.max_gradation), "max_gradation", options.max_gradation,
+                 "a positive number");
+  require_option(std::isfinite(options.keep) && options.keep >= 1.0, "keep", options.keep, "1 or more");
+  require_option(positive(options.gradation), "gradation", options.gradation, "a positive number");
+  require_option(positive(options.resolution), "resolution", options.resolution, "a positive number");
+  require_option(std::isfinite(options.min_edge) && options.min_edge >= 0.0, "min_edge", options.min_edge,
+                 "0 or more chords");
 }
 
 // About how many triangles there will be. Around a boundary whose n vertices are a length scale h apart,

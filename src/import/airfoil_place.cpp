@@ -119,13 +119,6 @@ class ChordFrame {
   Point origin_, along_;
 };
 
-std::vector<double> cosine_parameters(std::size_t points) {
-  std::vector<double> parameters;
-  for (std::size_t i = 0; i < points; ++i)
-    parameters.push_back(static_cast<double>(i) / static_cast<double>(points));
-  return parameters;
-}
-
 // The points from the trailing edge's upper end over the leading edge to its lower end, in chords. A sharp
 // trailing edge is the first point and the last.
 Outline around(const Outline& outline, const TrailingEdge& edge, const ChordFrame& frame) {
@@ -164,7 +157,7 @@ std::vector<double> base_of(const Outline& outline, const TrailingEdge& edge) {
   if (base.empty()) return base;
   base.front() = 0.0;
   for (std::size_t i = 1; i < base.size(); ++i)
-    if (!(base[i] > base[i - 1]) || base[i] >= 1.0) return cosine_parameters(base.size());
+    if (!(base[i] > base[i - 1]) || base[i] >= 1.0) return Parameters::uniform(base.size());
   return base;
 }
 
@@ -281,7 +274,7 @@ std::vector<Curve> polylines_of(std::vector<Point> points, const std::vector<std
     };
     curves.push_back({.name = names[begin],
                       .shape = Polyline{{at(begin), at(end) + 1}},
-                      .parameters = cosine_parameters(end - begin)});
+                      .parameters = Parameters::uniform(end - begin)});
   }
   return curves;
 }
@@ -308,7 +301,7 @@ AirfoilPlace with_points(AirfoilPlace place, int points) {
     throw Error(
         ErrorCode::argument, "points",
         "given for an outline of several names, expected for one of a single name: each side keeps its own");
-  place.parameters = cosine_parameters(static_cast<std::size_t>(points));
+  place.parameters = Parameters::uniform(static_cast<std::size_t>(points));
   place.first = 0;
   place.backwards = false;
   if (!place.base.empty()) place.base = {0.0};

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "generate/recovery_error.h"
+#include "generate/require_option.h"
 #include "import/graft.h"
 #include "import/loops.h"
 #include "import/scales.h"
@@ -19,19 +20,15 @@ namespace {
 constexpr double largest_refine_angle = 33.0;
 constexpr double usual_angle = 30.0;
 
-void require(bool holds, const char* option, double found, const char* expected) {
-  if (!holds)
-    throw Error(ErrorCode::argument, option, "found " + std::to_string(found) + ", expected " + expected);
-}
-
 void validate(const ImportOptions& options) {
   const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
-  require(options.refine_angle_deg >= 0.0 && options.refine_angle_deg <= largest_refine_angle,
-          "refine_angle_deg", options.refine_angle_deg, "0 to 33 degrees");
-  require(positive(options.max_gradation), "max_gradation", options.max_gradation, "a positive number");
-  require(options.gradation == 0.0 || positive(options.gradation), "gradation", options.gradation,
-          "0 or a positive number");
-  require(positive(options.resolution), "resolution", options.resolution, "a positive number");
+  require_option(options.refine_angle_deg >= 0.0 && options.refine_angle_deg <= largest_refine_angle,
+                 "refine_angle_deg", options.refine_angle_deg, "0 to 33 degrees");
+  require_option(positive(options.max_gradation), "max_gradation", options.max_gradation,
+                 "a positive number");
+  require_option(options.gradation == 0.0 || positive(options.gradation), "gradation", options.gradation,
+                 "0 or a positive number");
+  require_option(positive(options.resolution), "resolution", options.resolution, "a positive number");
 }
 
 double angle_deg(double squared_radius_edge) {

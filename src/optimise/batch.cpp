@@ -40,7 +40,7 @@ std::vector<DesignProfile> profiles_of(const std::vector<const CstAirfoil*>& des
   if (points < 8 || points % 2 != 0)
     throw Error(ErrorCode::argument, "points",
                 "found " + std::to_string(points) + ", expected an even number, at least 8");
-  const std::vector<double> parameters = even_parameters(static_cast<std::size_t>(points));
+  const Parameters parameters = Parameters::uniform(static_cast<std::size_t>(points));
   std::vector<DesignProfile> profiles;
   for (const CstAirfoil* design : designs) {
     std::vector<Point> outline;

@@ -31,11 +31,4 @@ DesignProfile ProfileMaker::operator()(const CstAirfoil& design) const {
   return DesignProfile(std::move(outline));
 }
 
-std::vector<double> even_parameters(std::size_t points) {
-  std::vector<double> parameters(points);
-  for (std::size_t i = 0; i < points; ++i)
-    parameters[i] = static_cast<double>(i) / static_cast<double>(points);
-  return parameters;
-}
-
 }  // namespace remodel

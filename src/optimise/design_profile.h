@@ -33,7 +33,4 @@ class ProfileMaker {
   std::vector<CachedStation> stations_;
 };
 
-// t of the vertices of an airfoil with that many: remodel/domain.h.
-std::vector<double> even_parameters(std::size_t points);
-
 }  // namespace remodel

@@ -18,9 +18,9 @@ struct Worker {
   std::vector<Job*> jobs{};  // handed to it, in order
 };
 
-std::vector<double> stations_of(const OptimiseOptions& options) {
-  return options.start ? options.start->place.parameters
-                       : even_parameters(static_cast<std::size_t>(options.domain.points));
+Parameters stations_of(const OptimiseOptions& options) {
+  if (options.start) return options.start->place.parameters;
+  return Parameters::uniform(static_cast<std::size_t>(options.domain.points));
 }
 
 std::size_t thread_count(const OptimiseOptions& options, std::size_t workers) {

@@ -28,12 +28,14 @@ const char* name_of(Method method) {
 
 namespace {
 
+using Loops = std::vector<std::size_t>;  // of a domain
+
 // All that a step changes besides the triangulation, which has its own journal. Taken back unless committed.
 // The adjustment cache stays: it holds for the mesh as it was before the step.
 class Transaction {
  public:
   // The step changes these loops at most: all, if not given.
-  Transaction(MeshData& mesh, const std::optional<std::vector<std::size_t>>& loops)
+  Transaction(MeshData& mesh, const std::optional<Loops>& loops)
       : mesh_(mesh),
         loop_heads_(mesh.loop_heads),
         sides_(mesh.sides),
@@ -102,7 +104,7 @@ class Transaction {
   MeshData& mesh_;
   std::vector<std::uint32_t> loop_heads_;
   std::vector<Sides> sides_;
-  std::optional<std::vector<std::size_t>> loops_;
+  std::optional<Loops> loops_;
   Domain domain_;  // those loops, or all
   std::size_t domain_triangles_;
   std::uint32_t step_;
@@ -124,9 +126,7 @@ class Undo {
     mesh_.data().options.keep = keep_;
   }
   bool journalling() const { return transaction_.has_value(); }
-  void begin(const std::optional<std::vector<std::size_t>>& loops) {
-    transaction_.emplace(mesh_.data(), loops);
-  }
+  void begin(const std::optional<Loops>& loops) { transaction_.emplace(mesh_.data(), loops); }
   Transaction& transaction() { return *transaction_; }
   void roll_back() {
     transaction_.reset();
@@ -151,8 +151,6 @@ class Undo {
   std::optional<Transaction> transaction_;
   std::optional<Mesh> before_;  // a mesh that was generated afresh takes its place
 };
-
-using Loops = std::vector<std::size_t>;
 
 // The loops that are not the same in the mesh's own domain and in the other: where the vertices of the two
 // correspond one to one, and no other chain is joined to one that moves.

@@ -18,10 +18,7 @@ inline Domain catalogue_domain(std::size_t airfoil, int points) {
 }
 
 inline Loop loop(LoopRole role, std::string name, Shape shape, std::size_t stations) {
-  std::vector<double> parameters(stations);
-  for (std::size_t i = 0; i < stations; ++i)
-    parameters[i] = static_cast<double>(i) / static_cast<double>(stations);
-  return {role, {{std::move(name), std::move(shape), std::move(parameters)}}};
+  return {role, {{std::move(name), std::move(shape), Parameters::uniform(stations)}}};
 }
 
 // A closed polygon with every side in the given number of pieces.

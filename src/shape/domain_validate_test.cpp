@@ -17,10 +17,9 @@ const CstAirfoil plain{.upper = {0.17, 0.15, 0.15}, .lower = {-0.17, -0.15, -0.1
 
 Loop polygon(LoopRole role, std::vector<Point> corners) {
   const std::size_t n = corners.size();
-  std::vector<double> parameters;
-  for (std::size_t i = 0; i < n; ++i) parameters.push_back(static_cast<double>(i) / static_cast<double>(n));
   corners.push_back(corners.front());
-  return {.role = role, .curves = {{.name = "wall", .shape = Polyline{corners}, .parameters = parameters}}};
+  return {.role = role,
+          .curves = {{.name = "wall", .shape = Polyline{corners}, .parameters = Parameters::uniform(n)}}};
 }
 
 Loop square(LoopRole role, double centre, double half) {

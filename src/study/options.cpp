@@ -92,7 +92,7 @@ void require_good(const StudyOptions& options) {
   require(options.evaluations >= 1, "evaluations", "at least 1");
 }
 
-std::string to_json(const StudyOptions& options) {
+std::string study_options_to_json(const StudyOptions& options) {
   Json pairs = Json::array();
   for (const StudyPair& pair : options.pairs)
     pairs.push_back({{"points", pair.points}, {"gradation", pair.gradation}});

@@ -11,9 +11,8 @@ namespace remodel {
 // Throws Error (argument, geometry).
 void require_good(const StudyOptions& options);
 
-// Without the designs of the airfoils, which have a table of their own.
-std::string to_json(const StudyOptions& options);
-// Throws Error (format), naming `source`. Airfoils have their names alone.
+// The inverse of study_options_to_json(). Throws Error (format), naming `source`. Airfoils have their names
+// alone.
 StudyOptions study_options_from_json(const std::string& text, const std::string& source);
 
 // The study with what `wanted` has more of; what a study is made of stays in its order. Throws Error

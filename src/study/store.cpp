@@ -172,7 +172,7 @@ void StudyStore::create(const fs::path& directory, const StudyOptions& options) 
       database.execute(study_schema);
       set(database, "version", REMODEL_VERSION);
       set(database, "schema", study_schema_version);
-      set(database, "options", to_json(options));
+      set(database, "options", study_options_to_json(options));
       set(database, "machine", machine_json());
       set(database, "created", time_now());
       insert_airfoils_and_scenarios(database, options);
@@ -192,7 +192,7 @@ StudyStore::StudyStore(const fs::path& directory)
 
 void StudyStore::extend(const StudyOptions& options) {
   Transaction transaction(database_);
-  set(database_, "options", to_json(options));
+  set(database_, "options", study_options_to_json(options));
   insert_airfoils_and_scenarios(database_, options);
   transaction.commit();
   options_ = options;

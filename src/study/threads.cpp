@@ -1,11 +1,11 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
-#include <exception>
 #include <mutex>
-#include <thread>
-#include <vector>
+#include <optional>
+#include <string>
 
+#include "optimise/threads.h"
 #include "remodel/study.h"
 
 namespace remodel {
@@ -15,19 +15,16 @@ class Workers {
  public:
   explicit Workers(StudyJobs& jobs) : jobs_(jobs) {}
 
+  // A worker that fails ends the others.
   void run() {
     try {
       while (!failed_ && !jobs_.ended()) one_job();
     } catch (...) {
-      const std::scoped_lock lock(mutex_);
-      if (!failure_) failure_ = std::current_exception();
       failed_ = true;
+      news_.notify_all();
+      throw;
     }
     news_.notify_all();
-  }
-
-  void rethrow() const {
-    if (failure_) std::rethrow_exception(failure_);
   }
 
  private:
@@ -49,19 +46,13 @@ class Workers {
   std::mutex mutex_;
   std::condition_variable news_;
   std::atomic<bool> failed_ = false;
-  std::exception_ptr failure_;
 };
 
 }  // namespace
 
 void StudyThreads::work(StudyJobs& jobs) {
   Workers workers(jobs);
-  {
-    std::vector<std::jthread> others;
-    for (std::size_t i = 1; i < threads_; ++i) others.emplace_back([&workers] { workers.run(); });
-    workers.run();
-  }
-  workers.rethrow();
+  ThreadTeam(threads_).run(threads_, [&workers](std::size_t) { workers.run(); });
 }
 
 }  // namespace remodel

@@ -19,6 +19,17 @@
 
 namespace remodel {
 
+namespace {
+
+// Whether p lies inside the circle of the counter-clockwise triangle abc.
+bool lies_inside(const Circle& circle, Point a, Point b, Point c, Point p) {
+  const double distance = squared_distance(circle.centre, p);
+  if (distance > circle.outside) return false;
+  return distance < circle.inside || incircle_sos(a, b, c, p) > 0;
+}
+
+}  // namespace
+
 void Triangulation::Hole::clear() {
   polygon.clear();
   slots.clear();
@@ -50,9 +61,7 @@ std::size_t Triangulation::find_apex(const Hole& hole, std::size_t i, std::size_
   for (std::size_t c = i + 1; c < j; ++c) {
     const Point p = hole.polygon[c].point;
     if (best != j) {
-      const double distance = squared_distance(circle.centre, p);
-      if (distance > circle.outside) continue;
-      if (distance >= circle.inside && incircle_sos(a, hole.polygon[best].point, b, p) <= 0) continue;
+      if (!lies_inside(circle, a, hole.polygon[best].point, b, p)) continue;
     }
     const Circle next = certified_circle(a, p, b);
     if (!next.certain() && orient2d(a, p, b) <= 0) continue;
@@ -85,10 +94,7 @@ bool Triangulation::delaunay(const Hole& hole, const Piece& piece) const {
               c = hole.polygon[piece.last].point;
   for (std::size_t k = 0; k < hole.polygon.size(); ++k) {
     if (k == piece.first || k == piece.apex || k == piece.last) continue;
-    const Point p = hole.polygon[k].point;
-    const double distance = squared_distance(piece.circle.centre, p);
-    if (distance > piece.circle.outside) continue;
-    if (distance < piece.circle.inside || incircle_sos(a, b, c, p) > 0) return false;
+    if (lies_inside(piece.circle, a, b, c, hole.polygon[k].point)) return false;
   }
   return true;
 }
