@@ -97,14 +97,14 @@ struct OptimiseResult {
          gradation_deviation = none;  // GradationError: means over the compared evaluations
   double generated_gradation_bias = none,
          generated_gradation_deviation = none;  // the same of the fresh meshes
-  double remodel_ms_mean = none;                // over all evaluations
-  double generate_ms_mean = none;               // over the compared evaluations
-  double speedup = none;                        // generate_ms_mean / remodel_ms_mean
-  double min_angle_deg = none;                  // smallest of all meshes
-  std::uint64_t invalid_meshes = 0;             // remodelled meshes that failed validation
-  std::uint64_t recoveries = 0;                 // evaluations whose mesh had to be regenerated
-  std::uint64_t refreshes = 0;                  // evaluations whose mesh the strategy generated afresh
-  double seconds = 0.0;  // wall time, checks and files included, resumed parts added up
+  double remodel_ms_mean = none;     // over all evaluations, processor time of the thread, as the next one
+  double generate_ms_mean = none;    // over the compared evaluations
+  double speedup = none;             // generate_ms_mean / remodel_ms_mean
+  double min_angle_deg = none;       // smallest of all meshes
+  std::uint64_t invalid_meshes = 0;  // remodelled meshes that failed validation
+  std::uint64_t recoveries = 0;      // evaluations whose mesh had to be regenerated
+  std::uint64_t refreshes = 0;       // evaluations whose mesh the strategy generated afresh
+  double seconds = 0.0;              // wall time, checks and files included, resumed parts added up
 
   std::uint64_t workers = 0;  // living meshes
   OptimiseStopped stopped = OptimiseStopped::done;

@@ -8,7 +8,7 @@ namespace remodel {
 
 FreshMesh fresh_mesh(const DesignDomains& domain_of, const QualityOptions& quality,
                      const CstAirfoil& design) {
-  const Stopwatch watch;
+  const ThreadStopwatch watch;
   const GenerateResult generated = generate(domain_of(design), quality);
   const double seconds = watch.seconds();
   return {.stopped = generated.stopped,

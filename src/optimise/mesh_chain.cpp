@@ -69,7 +69,7 @@ RemodelResult MeshChain::generate_instead(const Domain& domain) {
 }
 
 Stopped MeshChain::step(const CstAirfoil& design, StepTasks tasks, EvaluationRecord& record) {
-  const Stopwatch watch;
+  const ThreadStopwatch watch;
   const Domain domain = domain_of_(design);
   RemodelResult result = tasks.generate ? generate_instead(domain) : advance(domain);
   record.remodel_seconds = watch.seconds();
@@ -105,7 +105,7 @@ std::string MeshChain::broken_rule(const Domain& domain, StepTasks tasks) const 
 
 // The time counts as remodelling: a method that has to be helped out is not faster for it.
 Stopped MeshChain::regenerate(const Domain& domain, EvaluationRecord& record) {
-  const Stopwatch watch;
+  const ThreadStopwatch watch;
   GenerateResult fresh = generate(domain, quality_);
   record.remodel_seconds += watch.seconds();
   if (fresh.stopped != Stopped::done) return fresh.stopped;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <sstream>
 
@@ -89,9 +90,23 @@ void check_options(const AirfoilDomainOptions& options) {
          options.farfield_radius, "more than 1 and at most 1e6 chords");
 }
 
+// No point of the airfoil is farther from (0.5, 0): x / chord is in [0, 1], and where the exponents are not
+// negative, neither the class function nor a Bernstein polynomial exceeds one. NaN if a coefficient is.
+double reach_bound(const PlacedAirfoil& placed) {
+  const CstAirfoil& airfoil = placed.airfoil;
+  if (!(airfoil.e1 >= 0.0 && airfoil.e2 >= 0.0)) return std::numeric_limits<double>::infinity();
+  double height = std::abs(airfoil.te_upper) + std::abs(airfoil.te_lower);
+  for (const auto* surface : {&airfoil.upper, &airfoil.lower})
+    for (const double coefficient : *surface) height += std::abs(coefficient);
+  const Placement& at = placed.placement;
+  return std::abs(at.position.x - 0.5) + std::abs(at.position.y) + at.chord * (1.0 + height);
+}
+
 // The farfield is a polygon: what it surely contains is its inscribed circle.
-void check_farfield_contains(const Domain& domain, std::size_t loop, const AirfoilDomainOptions& options) {
+void check_farfield_contains(const Domain& domain, std::size_t loop, const PlacedAirfoil& airfoil,
+                             const AirfoilDomainOptions& options) {
   const double inside = options.farfield_radius * std::cos(std::numbers::pi / options.farfield_points);
+  if (reach_bound(airfoil) < inside * (1.0 - 1e-9)) return;
   for (const Point p : domain.points(loop)) {
     const double distance = std::hypot(p.x - 0.5, p.y);
     if (distance < inside) continue;
@@ -244,7 +259,8 @@ Domain airfoils_domain(const std::vector<PlacedAirfoil>& airfoils, const Airfoil
       {.role = LoopRole::outer,
        .curves = {
            {.name = "farfield", .shape = circle, .parameters = shared_fractions(options.farfield_points)}}});
-  for (std::size_t loop = 0; loop < airfoils.size(); ++loop) check_farfield_contains(domain, loop, options);
+  for (std::size_t loop = 0; loop < airfoils.size(); ++loop)
+    check_farfield_contains(domain, loop, airfoils[loop], options);
   return domain;
 }
 

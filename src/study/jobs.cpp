@@ -95,7 +95,7 @@ class Replay {
 };
 
 ReplayRows Replay::run(const StudyCancelQuestion& cancelled) {
-  const Stopwatch watch;
+  const ThreadStopwatch watch;
   const OptimiseStopped stopped = evaluate_all(cancelled);
   rows_.replay = replay_row(summary_.result(), stopped, watch.seconds());
   return std::move(rows_);
@@ -163,7 +163,7 @@ void Replay::end_block(std::uint64_t last) {
 }  // namespace
 
 PathRows compute_path(const StudyWork& work, const StudyCancelQuestion& cancelled) {
-  const Stopwatch watch;
+  const ThreadStopwatch watch;
   std::vector<Feasibility> of_pairs;
   for (const int points : work.points)
     of_pairs.emplace_back(work.from, AirfoilDomainOptions{.points = points});
