@@ -79,12 +79,14 @@ void list_affected(MeshData& mesh, AdjustCache& cache) {
       if (mesh.marks.visit(t.index)) {
         mesh.numbers[t.index] = static_cast<std::uint32_t>(cache.affected.size());
         const Triangle& triangle = triangulation[t];
+        if (triangle.region == Region::domain) cache.in_domain.push_back(mesh.numbers[t.index]);
         cache.affected.push_back({.triangle = t,
                                   .vertex = {triangle.vertex[0], triangle.vertex[1], triangle.vertex[2]},
                                   .circle = {},
                                   .domain = triangle.region == Region::domain});
       }
       cache.stars.push_back(mesh.numbers[t.index]);
+      ++cache.affected[mesh.numbers[t.index]].movable;
     });
     m.star_end = cache.stars.size();
   }
@@ -183,23 +185,74 @@ bool counterclockwise(const Triangulation& t, const VertexId (&v)[3]) {
   return orient2d(t.point(v[0]), t.point(v[1]), t.point(v[2])) > 0;
 }
 
+// Several triangles side by side: loops over the lanes compile to vector instructions.
+class Lanes {
+ public:
+  static constexpr std::size_t count = 8;
+
+  void load(std::size_t lane, const Vertex& a, const Vertex& b, const Vertex& c) {
+    ax_[lane] = a.point.x, ay_[lane] = a.point.y;
+    bx_[lane] = b.point.x, by_[lane] = b.point.y;
+    cx_[lane] = c.point.x, cy_[lane] = c.point.y;
+    scales_[lane] = a.length_scale + b.length_scale + c.length_scale;
+  }
+  // The same bits as certified_circle(a, b, c), and the same answer as is_good() for its radius.
+  void judge(const QualityBounds& bounds) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const Point a{ax_[i], ay_[i]}, b{bx_[i], by_[i]}, c{cx_[i], cy_[i]};
+      const Point e1 = b - a, e2 = c - a;
+      const double l1 = dot(e1, e1), l2 = dot(e2, e2);
+      const Circle circle = certified_circle(a, e1, e2, l1, l2);
+      const double shortest = std::min(std::min(l1, l2), squared_distance(b, c));
+      const double largest = largest_squared_radius(shortest, scales_[i], bounds);
+      centre_x_[i] = circle.centre.x, centre_y_[i] = circle.centre.y;
+      inside_[i] = circle.inside, outside_[i] = circle.outside;
+      spare_[i] = largest - circle.squared_radius();
+    }
+  }
+  Circle circle(std::size_t lane) const {
+    return {{centre_x_[lane], centre_y_[lane]}, inside_[lane], outside_[lane]};
+  }
+  bool good(std::size_t lane) const { return spare_[lane] >= 0.0; }  // uncertain ones: -infinity
+
+ private:
+  double ax_[count], ay_[count], bx_[count], by_[count], cx_[count], cy_[count], scales_[count];
+  double centre_x_[count], centre_y_[count], inside_[count], outside_[count], spare_[count];
+};
+
+// Sets good and circle of the affected triangles in the domain. Whether all are good.
+bool evaluate_domain(const MeshData& mesh, AdjustCache& cache) {
+  const Triangulation& triangulation = mesh.triangulation;
+  const QualityBounds bounds(mesh.options);
+  const std::vector<std::uint32_t>& list = cache.in_domain;
+  Lanes lanes;
+  bool all = true;
+  for (std::size_t begin = 0; begin < list.size(); begin += Lanes::count) {
+    const std::size_t end = std::min(begin + Lanes::count, list.size());
+    for (std::size_t i = end; i < std::min(end + Lanes::count, list.size()); ++i)
+      for (const VertexId v : cache.affected[list[i]].vertex) triangulation.prefetch(v);
+    for (std::size_t lane = 0; lane < Lanes::count; ++lane) {
+      const Affected& a = cache.affected[list[std::min(begin + lane, end - 1)]];
+      lanes.load(lane, triangulation[a.vertex[0]], triangulation[a.vertex[1]], triangulation[a.vertex[2]]);
+    }
+    lanes.judge(bounds);
+    for (std::size_t i = begin; i < end; ++i) {
+      Affected& a = cache.affected[list[i]];
+      a.circle = lanes.circle(i - begin);
+      a.good = lanes.good(i - begin);
+      all &= a.good;
+    }
+  }
+  return all;
+}
+
 // Sets good and circle of every affected triangle, the mesh being at the new positions.
 bool evaluate(const MeshData& mesh, AdjustCache& cache) {
   const Triangulation& triangulation = mesh.triangulation;
-  const QualityBounds bounds(mesh.options);
-  bool all = true;
-  for (std::size_t i = 0; i < cache.affected.size(); ++i) {
-    if (i + look_ahead < cache.affected.size())
-      for (const VertexId v : cache.affected[i + look_ahead].vertex) triangulation.prefetch(v);
-    Affected& a = cache.affected[i];
-    const Vertex &v0 = triangulation[a.vertex[0]], &v1 = triangulation[a.vertex[1]],
-                 &v2 = triangulation[a.vertex[2]];
-    if (a.domain) {
-      a.circle = certified_circle(v0.point, v1.point, v2.point);
-      a.good = a.circle.certain() && is_good(v0, v1, v2, a.circle.squared_radius(), bounds);
-    } else {
-      a.good = orient2d(v0.point, v1.point, v2.point) > 0;
-    }
+  bool all = evaluate_domain(mesh, cache);
+  for (Affected& a : cache.affected) {
+    if (a.domain) continue;
+    a.good = counterclockwise(triangulation, a.vertex);
     all &= a.good;
   }
   for (const AdjustCache::Edge& edge : cache.edges) {
@@ -238,6 +291,7 @@ bool may_move(const MeshData& mesh, const AdjustCache& cache, std::size_t i) {
   for (std::size_t s = m.star_begin; s < m.star_end; ++s) {
     const Affected& a = cache.affected[cache.stars[s]];
     if (!a.good) return false;
+    if (a.movable == 1) continue;  // it is as it was, or as it will be
     Point p[3];
     for (int k = 0; k < 3; ++k)
       p[k] = a.vertex[k] == m.vertex ? cache.new_points[i] : triangulation.point(a.vertex[k]);
@@ -260,6 +314,7 @@ void AdjustCache::clear() {
   moving.clear();
   basis.clear();
   affected.clear();
+  in_domain.clear();
   stars.clear();
   edges.clear();
   segments.clear();

@@ -32,8 +32,9 @@ struct AdjustCache : MeshCache {
     VertexId vertex[3];
     Circle circle;  // at the new positions
     bool domain;
-    bool moved = false;  // a vertex of it has another position
-    bool good = false;   // at the new positions
+    std::uint8_t movable = 0;  // how many of its vertices are moving
+    bool moved = false;        // a vertex of it has another position
+    bool good = false;         // at the new positions
   };
   // An unconstrained edge of the domain with an affected triangle beside it: is `apex` outside its circle?
   struct Edge {
@@ -52,6 +53,7 @@ struct AdjustCache : MeshCache {
   std::vector<Moving> moving;
   std::vector<double> basis;
   std::vector<Affected> affected;
+  std::vector<std::uint32_t> in_domain;  // positions in `affected`
   std::vector<std::uint32_t> stars;
   std::vector<Edge> edges;
   std::vector<Segment> segments;

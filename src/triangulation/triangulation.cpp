@@ -14,7 +14,10 @@ namespace remodel {
 // ---- slots
 
 TriangleId Triangulation::new_triangle() {
-  if (free_triangles_.count > 0) return TriangleId{free_triangles_.slots[--free_triangles_.count]};
+  if (free_triangles_.count > 0) {
+    if (const std::uint32_t* later = free_triangles_.ahead()) __builtin_prefetch(&triangles_[*later], 1);
+    return TriangleId{free_triangles_.slots[--free_triangles_.count]};
+  }
   triangles_.push_back({});
   return TriangleId{static_cast<std::uint32_t>(triangles_.size() - 1)};
 }
@@ -36,6 +39,10 @@ void Triangulation::free_triangle(TriangleId t) {
 VertexId Triangulation::new_vertex(Point p) {
   VertexId v;
   if (free_vertices_.count > 0) {
+    if (const std::uint32_t* later = free_vertices_.ahead()) {
+      __builtin_prefetch(&vertices_[*later], 1);
+      __builtin_prefetch(&generations_[*later], 1);
+    }
     v = VertexId{free_vertices_.slots[--free_vertices_.count]};
   } else {
     v = VertexId{static_cast<std::uint32_t>(vertices_.size())};

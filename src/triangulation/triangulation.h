@@ -320,6 +320,8 @@ class Triangulation {
     std::vector<std::uint32_t> slots;
     std::size_t count = 0;
     std::vector<std::uint32_t> pending;
+    // The slot to be given out a few turns later, which nobody has used since the last step; if there is one.
+    const std::uint32_t* ahead() const { return count > 8 ? &slots[count - 9] : nullptr; }
   };
   FreeList free_vertices_, free_triangles_;
   std::size_t live_vertices_ = 0;
