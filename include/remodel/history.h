@@ -19,7 +19,10 @@
 
 namespace remodel {
 
-enum class Checked { quick, full };  // Mesh::quick_check() alone, or check() as well
+// How a remodelled mesh was validated: not at all; by the rules of Mesh::quick_check() where the step changed
+// it, which is enough if the mesh before was valid; by quick_check(); by check() of check.h as well.
+enum class Checked { nothing, changes, quick, full };
+const char* name_of(Checked checked);
 
 struct EvaluationRecord {
   std::uint64_t evaluation = 0;          // from 1
@@ -41,7 +44,7 @@ struct EvaluationRecord {
   bool full_adjustment = false;
   bool refreshed = false;        // the strategy generated the mesh afresh
   bool regenerated = false;      // the mesh had to be regenerated: a recovery
-  double min_angle_deg = 0.0;    // of the mesh
+  double min_angle_deg = 0.0;    // of the mesh; where its changes were checked, of these
   double remodel_seconds = 0.0;  // making the domain and remodel(), the recovery too if there was one
 
   std::optional<std::size_t>

@@ -40,6 +40,23 @@ bool Mesh::shows_file_triangles() const {
   return !data_->imported.slots.empty();
 }
 
+TriangleMeasures measure(const Triangulation& triangulation, const Triangle& t) {
+  double shortest = INFINITY, product = 1.0;
+  for (int k = 0; k < 3; ++k) {
+    const double l = squared_distance(triangulation.point(t.vertex[next3(k)]),
+                                      triangulation.point(t.vertex[previous3(k)]));
+    shortest = std::min(shortest, l);
+    product *= l;
+  }
+  const Point a = triangulation.point(t.vertex[0]);
+  const double twice_area = cross(triangulation.point(t.vertex[1]) - a, triangulation.point(t.vertex[2]) - a);
+  return {product / (4.0 * twice_area * twice_area), shortest};
+}
+
+double angle_of(double squared_ratio) {
+  return squared_ratio > 0.0 ? std::asin(0.5 / std::sqrt(squared_ratio)) * 180.0 / std::numbers::pi : 0.0;
+}
+
 MeshStatistics Mesh::statistics() const {
   const Triangulation& triangulation = data_->triangulation;
   MeshStatistics result;
@@ -51,19 +68,12 @@ MeshStatistics Mesh::statistics() const {
     const Triangle& t = triangulation[TriangleId{i}];
     if (!t.alive() || t.region != Region::domain) continue;
     ++result.triangles;
-    double shortest = INFINITY, longest_product = 1.0, scale = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      used[t.vertex[k].index] = true;
-      const double l = squared_distance(triangulation.point(t.vertex[next3(k)]),
-                                        triangulation.point(t.vertex[previous3(k)]));
-      shortest = std::min(shortest, l);
-      longest_product *= l;
-      scale += triangulation[t.vertex[k]].length_scale / 3.0;
+    double scale = 0.0;
+    for (const VertexId v : t.vertex) {
+      used[v.index] = true;
+      scale += triangulation[v].length_scale / 3.0;
     }
-    const Point a = triangulation.point(t.vertex[0]);
-    const double twice_area =
-        cross(triangulation.point(t.vertex[1]) - a, triangulation.point(t.vertex[2]) - a);
-    const double r2 = longest_product / (4.0 * twice_area * twice_area);
+    const auto [r2, shortest] = measure(triangulation, t);
     radius_edge = std::max(radius_edge, r2 / shortest);
     if (badness(triangulation, t, bounds) > 1.0 && small_angles.exempt(t)) {
       ++result.exempt_triangles;
@@ -78,11 +88,8 @@ MeshStatistics Mesh::statistics() const {
                 [&](std::uint32_t k) { result.steiner_boundary_vertices += data_->at(k).steiner ? 1 : 0; });
   result.max_radius_edge = std::sqrt(radius_edge);
   result.max_gradation = std::sqrt(gradation) / promised_gradation(data_->options);
-  const auto degrees = [](double squared_ratio) {
-    return squared_ratio > 0.0 ? std::asin(0.5 / std::sqrt(squared_ratio)) * 180.0 / std::numbers::pi : 0.0;
-  };
-  result.min_angle_deg = degrees(radius_edge);
-  result.min_held_angle_deg = degrees(held_radius_edge);
+  result.min_angle_deg = angle_of(radius_edge);
+  result.min_held_angle_deg = angle_of(held_radius_edge);
   return result;
 }
 

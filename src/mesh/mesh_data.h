@@ -199,4 +199,12 @@ double badness(const Vertex& a, const Vertex& b, const Vertex& c, double squared
                const QualityBounds& bounds);
 double badness(const Triangulation& triangulation, const Triangle& triangle, const QualityBounds& bounds);
 
+// Of a finite triangle, from its corners.
+struct TriangleMeasures {
+  double squared_radius, squared_shortest;  // of the circumcircle; edge
+};
+TriangleMeasures measure(const Triangulation& triangulation, const Triangle& triangle);
+// The smallest angle, in degrees, of triangles whose largest (radius / shortest edge)^2 this is; 0 for none.
+double angle_of(double squared_radius_edge);
+
 }  // namespace remodel

@@ -1,10 +1,7 @@
-// The quick validation of a living mesh: everything that a step can break, in one pass, with the library's
-// own exact predicates (the slow, independent validator is src/check).
+#include "mesh/quick_check.h"
 
 #include <cmath>
 
-#include "mesh/mesh_data.h"
-#include "mesh/small_angles.h"
 #include "remodel/predicates.h"
 
 namespace remodel {
@@ -57,10 +54,6 @@ std::string check_triangle(const MeshData& mesh, std::uint32_t i, const QualityB
   return {};
 }
 
-}  // namespace
-
-namespace {
-
 // Entries that name each other: then walks along loops end.
 std::string check_boundary_links(const MeshData& mesh) {
   for (std::uint32_t k = 0; k < mesh.boundary.size(); ++k) {
@@ -99,48 +92,62 @@ std::string check_boundary_edge(const MeshData& mesh, const Sides& sides, std::u
 
 }  // namespace
 
-std::string check_boundary(const MeshData& mesh) {
+QuickCheck::QuickCheck(const MeshData& mesh) : mesh_(mesh), promised_(mesh.options), small_angles_(mesh) {
+  promised_.squared_radius_edge *= 1.0 + 2e-9;
+  promised_.squared_gradation *= 1.0 + 2e-9;
+}
+
+std::string QuickCheck::triangle(TriangleId t) const {
+  std::string broken = check_triangle(mesh_, t.index, promised_, small_angles_);
+  return broken.empty() ? check_links(mesh_, t.index) : broken;
+}
+
+std::string QuickCheck::loop(std::size_t loop) const {
   std::string broken;
   const auto note = [&](std::string&& found) {
     if (broken.empty()) broken = std::move(found);
   };
-  std::size_t visited = 0, recorded = 0, found = 0, expected = 0;
-  note(check_boundary_links(mesh));
-  for (std::size_t loop = 0; loop < mesh.loop_heads.size() && broken.empty(); ++loop) {
-    mesh.walk(mesh.loop_heads[loop], [&](std::uint32_t k) {
-      found += mesh.at(k).steiner ? 0 : 1;
-      visited += mesh.triangulation[mesh.at(k).vertex].boundary == k ? 1 : 0;
-      note(check_boundary_vertex(mesh, k));
-    });
-    if (!broken.empty()) break;
-    mesh.walk_edges(mesh.loop_heads[loop], [&](std::uint32_t k, std::uint32_t next) {
-      note(check_boundary_edge(mesh, mesh.sides[loop], k, next));
-    });
-    expected += mesh.domain.stations(loop).size();
-  }
+  std::size_t stations = 0;
+  mesh_.walk(mesh_.loop_heads[loop], [&](std::uint32_t k) {
+    stations += mesh_.at(k).steiner ? 0 : 1;
+    note(check_boundary_vertex(mesh_, k));
+  });
   if (!broken.empty()) return broken;
+  mesh_.walk_edges(mesh_.loop_heads[loop], [&](std::uint32_t k, std::uint32_t next) {
+    note(check_boundary_edge(mesh_, mesh_.sides[loop], k, next));
+  });
+  if (broken.empty() && stations != mesh_.domain.stations(loop).size())
+    return "boundary: stations of the design are missing";
+  return broken;
+}
+
+std::string check_boundary(const MeshData& mesh) {
+  if (std::string broken = check_boundary_links(mesh); !broken.empty()) return broken;
+  const QuickCheck check(mesh);
+  std::size_t visited = 0, recorded = 0;
+  for (std::size_t loop = 0; loop < mesh.loop_heads.size(); ++loop) {
+    if (std::string broken = check.loop(loop); !broken.empty()) return broken;
+    mesh.walk(mesh.loop_heads[loop], [&](std::uint32_t k) {
+      visited += mesh.triangulation[mesh.at(k).vertex].boundary == k ? 1 : 0;
+    });
+  }
   for (std::uint32_t i = 1; i < mesh.triangulation.vertex_slots(); ++i) {
     const Vertex& v = mesh.triangulation[VertexId{i}];
     recorded += v.alive() && v.boundary != no_index ? 1 : 0;
   }
-  if (visited != recorded) return "boundary: vertices say that they are on it, but no loop has them";
-  return found == expected ? std::string{} : "boundary: stations of the design are missing";
+  return visited == recorded ? std::string{}
+                             : "boundary: vertices say that they are on it, but no loop has them";
 }
 
 std::string Mesh::quick_check() const {
   const Triangulation& triangulation = data_->triangulation;
-  QualityBounds promised(data_->options);
-  promised.squared_radius_edge *= 1.0 + 2e-9;
-  promised.squared_gradation *= 1.0 + 2e-9;
   if (std::string broken = check_boundary_links(*data_); !broken.empty()) return broken;
-  const SmallAngles small_angles(*data_);
+  const QuickCheck check(*data_);
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < triangulation.triangle_slots(); ++i) {
     if (!triangulation[TriangleId{i}].alive()) continue;
     if (triangulation[TriangleId{i}].region == Region::domain) ++count;
-    if (std::string broken = check_triangle(*data_, i, promised, small_angles); !broken.empty())
-      return broken;
-    if (std::string broken = check_links(*data_, i); !broken.empty()) return broken;
+    if (std::string broken = check.triangle(TriangleId{i}); !broken.empty()) return broken;
   }
   if (count != data_->domain_triangles)
     return "triangle count: " + std::to_string(count) + " found, " + std::to_string(data_->domain_triangles) +

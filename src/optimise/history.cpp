@@ -10,6 +10,14 @@
 namespace remodel {
 namespace {
 
+constexpr const char* checked_names[] = {"nothing", "changes", "quick", "full"};
+
+Checked checked_named(const std::string& name) {
+  const auto* found = std::find(std::begin(checked_names), std::end(checked_names), name);
+  return found == std::end(checked_names) ? Checked::nothing
+                                          : static_cast<Checked>(found - std::begin(checked_names));
+}
+
 constexpr std::size_t batch = 250;  // records a transaction
 
 // The order of the columns is that of bind() and read_row().
@@ -56,6 +64,10 @@ std::string coefficients_to_json(const std::vector<double>& coefficients) {
 
 }  // namespace
 
+const char* name_of(Checked checked) {
+  return checked_names[static_cast<std::size_t>(checked)];
+}
+
 struct History::Database {
   Database(std::filesystem::path path, Sqlite::Open how)
       : sqlite(std::move(path), "the run's history", how) {}
@@ -92,7 +104,7 @@ void bind(Statement& row, const EvaluationRecord& record) {
   row.bind(record.generated_gradation_bias);
   row.bind(record.generated_gradation_deviation);
   row.bind(record.generate_seconds);
-  row.bind(std::string(record.checked == Checked::full ? "full" : "quick"));
+  row.bind(std::string(name_of(record.checked)));
   row.bind_integer(record.valid);
   if (record.detail.empty()) return row.bind_null();
   row.bind(record.detail);
@@ -126,7 +138,7 @@ EvaluationRecord read_row(Statement& row) {
   record.generated_gradation_bias = row.optional_real();
   record.generated_gradation_deviation = row.optional_real();
   record.generate_seconds = row.optional_real();
-  record.checked = row.text() == "full" ? Checked::full : Checked::quick;
+  record.checked = checked_named(row.text());
   record.valid = row.integer() != 0;
   record.detail = row.text();
   return record;

@@ -51,6 +51,8 @@ class HubChain : public MeshChain {
  protected:
   RemodelResult advance(const Domain& domain) override;
   void count_losses(RemodelResult& result) override;
+  // The hub has moved on since the mesh before.
+  StepCheck check_changes(const RemodelResult&) const override { return check_whole(mesh()); }
   void put(Mesh&& fresh) override;
 
  private:

@@ -76,31 +76,36 @@ Stopped MeshChain::step(const CstAirfoil& design, StepTasks tasks, EvaluationRec
   count_losses(result);
   copy_figures(result, record);
 
-  const std::string broken = tasks.quick_check ? broken_rule(domain, tasks) : std::string();
-  record.checked = tasks.full_check ? Checked::full : Checked::quick;
-  record.valid = broken.empty();
-  if (!broken.empty()) record.detail = broken;
+  const StepCheck check = checked(domain, result, tasks.check);
+  record.checked = tasks.check;
+  record.valid = check.broken.empty();
+  record.min_angle_deg = check.min_angle_deg;
+  if (!record.valid) record.detail = check.broken;
   if (result.regenerated && result.stopped != Stopped::done) return result.stopped;
   if (result.stopped != Stopped::done) record.detail = name_of(result.stopped);
   if (!record.valid || result.stopped != Stopped::done) {
     if (const Stopped stopped = regenerate(domain, record); stopped != Stopped::done) return stopped;
+    record.min_angle_deg = mesh().statistics().min_angle_deg;
   }
-  record.min_angle_deg = tasks.quick_check ? mesh().statistics().min_angle_deg : unmeasured_angle;
   return tasks.compare ? compare(design, record) : Stopped::done;
 }
 
-std::string MeshChain::broken_rule(const Domain& domain, StepTasks tasks) const {
-  const Mesh& mesh = this->mesh();
-  std::string broken = mesh.quick_check();
-  if (!broken.empty() || !tasks.full_check) return broken;
-  const CheckResult result = check(mesh.freeze(), {.min_angle_deg = quality_.min_angle_deg,
-                                                   .max_gradation = promised_gradation(mesh.options()),
-                                                   .delaunay = !mesh.shows_file_triangles(),
-                                                   .design = &domain,
-                                                   .max_violations = 1});
-  if (result.valid) return {};
-  if (result.violations.empty()) return "check: not valid";
-  return result.violations.front().rule + ": " + result.violations.front().detail;
+StepCheck MeshChain::checked(const Domain& domain, const RemodelResult& result, Checked how) const {
+  if (how == Checked::nothing) return {.broken = {}, .min_angle_deg = unmeasured_angle};
+  if (how == Checked::changes) return check_changes(result);
+  StepCheck check = check_whole(mesh());
+  if (!check.broken.empty() || how != Checked::full) return check;
+  const CheckResult full =
+      remodel::check(mesh().freeze(), {.min_angle_deg = quality_.min_angle_deg,
+                                       .max_gradation = promised_gradation(mesh().options()),
+                                       .delaunay = !mesh().shows_file_triangles(),
+                                       .design = &domain,
+                                       .max_violations = 1});
+  if (full.valid) return check;
+  check.broken = full.violations.empty()
+                     ? "check: not valid"
+                     : full.violations.front().rule + ": " + full.violations.front().detail;
+  return check;
 }
 
 // The time counts as remodelling: a method that has to be helped out is not faster for it.

@@ -11,15 +11,15 @@
 #include "remodel/history.h"
 #include "remodel/mesh.h"
 #include "remodel/optimise.h"
+#include "remodel/step_check.h"
 
 namespace remodel {
 
 // What else is done with the mesh of one design.
 struct StepTasks {
-  bool compare = false;     // generate a fresh mesh
-  bool quick_check = true;  // of the mesh; without, its smallest angle is not measured
-  bool full_check = false;  // check() too
-  bool generate = false;    // the mesh is generated, not remodelled
+  bool compare = false;              // generate a fresh mesh
+  Checked check = Checked::changes;  // how the mesh is validated; by nothing, no angle is measured
+  bool generate = false;             // the mesh is generated, not remodelled
 };
 
 // The mesh of the start, as a chain begins with it. None where a limit keeps it from being finished.
@@ -43,6 +43,8 @@ class MeshChain {
   virtual RemodelResult advance(const Domain& domain);
   // Corrects what advance() says was before and is preserved. Not timed.
   virtual void count_losses(RemodelResult& result) { static_cast<void>(result); }
+  // What the last advance() changed, or all that it may have changed.
+  virtual StepCheck check_changes(const RemodelResult& result) const { return check_step(mesh_, result); }
   // A fresh mesh takes the place of the last design's.
   virtual void put(Mesh&& fresh) { mesh_ = std::move(fresh); }
 
@@ -50,7 +52,7 @@ class MeshChain {
   Mesh mesh_;
 
  private:
-  std::string broken_rule(const Domain& domain, StepTasks tasks) const;
+  StepCheck checked(const Domain& domain, const RemodelResult& result, Checked how) const;
   RemodelResult generate_instead(const Domain& domain);
   Stopped regenerate(const Domain& domain, EvaluationRecord& record);
   Stopped compare(const CstAirfoil& design, EvaluationRecord& record) const;

@@ -242,10 +242,18 @@ void Run::complete(const Sample& sample, EvaluationRecord& record) {
   add(progress_.written, record);
 }
 
+// In the first generation every worker's mesh is checked as a whole; from then on what a step changed, and
+// the whole now and then. So each triangle that ever was is checked once, and the smallest of all angles
+// known.
 StepTasks Run::tasks(std::uint64_t evaluation) const {
-  const std::size_t check_every =
+  constexpr std::size_t quick_check_every = 20;
+  const std::size_t full_check_every =
       options_.full_check_every != 0 ? options_.full_check_every : options_.compare_every;
-  return {.compare = every(options_.compare_every, evaluation), .full_check = every(check_every, evaluation)};
+  const bool quick = evaluation <= population_ || every(quick_check_every, evaluation);
+  return {.compare = every(options_.compare_every, evaluation),
+          .check = every(full_check_every, evaluation) ? Checked::full
+                   : quick                             ? Checked::quick
+                                                       : Checked::changes};
 }
 
 // The history first: a checkpoint never stands for rows that are not on disk.

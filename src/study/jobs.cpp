@@ -126,8 +126,9 @@ bool Replay::evaluate(MeshChain& chain, std::size_t index) {
   const FreshRow* fresh = compared ? fresh_of(record.evaluation) : nullptr;
   if (compared && !fresh) return false;
   const auto due = [&](std::uint64_t every) { return record.evaluation % every == 0; };
-  const StepTasks tasks{.quick_check = due(work_.check_every) || due(work_.validate_every),
-                        .full_check = due(work_.validate_every)};
+  const StepTasks tasks{.check = due(work_.validate_every) ? Checked::full
+                                 : due(work_.check_every)  ? Checked::quick
+                                                           : Checked::nothing};
   if (chain.step(design_at(work_, index), tasks, record) != Stopped::done) return false;
   if (fresh) {
     const GradationError error = chain.mesh().gradation_error();

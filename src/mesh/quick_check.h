@@ -1,0 +1,32 @@
+#pragma once
+
+// The quick validation of a living mesh: everything that a step can break, with the library's own exact
+// predicates (the slow, independent validator is src/check). Mesh::quick_check() asks it for all triangles
+// and loops, check_step() for those that a step changed.
+
+#include <string>
+
+#include "mesh/mesh_data.h"
+#include "mesh/small_angles.h"
+
+namespace remodel {
+
+// Answers are empty, or the broken rule with the ids concerned.
+class QuickCheck {
+ public:
+  explicit QuickCheck(const MeshData& mesh);
+
+  // A triangle that is there: its links return, it is counter-clockwise, locally Delaunay, and as good as
+  // promised.
+  std::string triangle(TriangleId t) const;
+  // The vertices and edges of a loop are the design's, and constrained between the right regions.
+  // Precondition: the entries of the boundary table name each other.
+  std::string loop(std::size_t loop) const;
+
+ private:
+  const MeshData& mesh_;
+  QualityBounds promised_;
+  SmallAngles small_angles_;
+};
+
+}  // namespace remodel
