@@ -69,6 +69,7 @@ struct RenewalState {
   double interior_size = -1.0;  // the part of S in triangles without a boundary vertex; negative: unknown
   std::uint32_t full_adjustments = 0;  // in a row
   std::uint32_t sampled_at = 0;        // the step at which K was last looked after
+  std::uint32_t samplings = 0;         // of K since the mesh was generated: the next one waits the longer
   friend bool operator==(const RenewalState&, const RenewalState&) = default;
 };
 

@@ -54,6 +54,7 @@ void for_each_state_number(State& state, Visitor&& visit) {
   visit("interior_size", state.renewal.interior_size);
   visit("full_adjustments", state.renewal.full_adjustments);
   visit("sampled_at", state.renewal.sampled_at);
+  visit("samplings", state.renewal.samplings);
 }
 
 // FNV-1a on 64-bit words, with a shift that carries the high bits down. Each step is a bijection of the hash

@@ -12,7 +12,8 @@ namespace remodel {
 namespace {
 
 constexpr int samples_on_the_way = 5;  // for a mesh of unknown history: K within about 2 %
-constexpr std::uint32_t full_adjustments_before_refresh = 25, steps_between_refreshes = 250;
+constexpr std::uint32_t full_adjustments_before_refresh = 25;
+constexpr std::uint64_t steps_before_sampling = 250;  // doubled with each one
 constexpr double tolerated_excess = 0.02;
 constexpr int samples_at_refresh = 3;
 constexpr double weight_of_refresh = 1.0 / 3.0;  // of a refresh's samples in K
@@ -59,10 +60,12 @@ void renew_replaced(MeshData& mesh, std::span<const std::size_t> loops, std::siz
   coarsen_touched(mesh, risen, budget);
 }
 
+// Samples cost many steps, and most say that the mesh is as it should be: the more of them, the longer the wait.
 bool refresh_is_due(const MeshData& mesh, std::uint32_t full_adjustments) {
   const RenewalState& renewal = mesh.renewal;
+  const std::uint64_t wait = steps_before_sampling << std::min(renewal.samplings, 20U);
   return full_adjustments >= full_adjustments_before_refresh && renewal.count_factor != 0.0 &&
-         renewal.interior_size >= 0.0 && mesh.step >= renewal.sampled_at + steps_between_refreshes;
+         renewal.interior_size >= 0.0 && mesh.step >= renewal.sampled_at + wait;
 }
 
 void finish_renewal(MeshData& mesh) {
@@ -74,6 +77,7 @@ void finish_renewal(MeshData& mesh) {
 std::optional<GenerateResult> nearer_to_fresh(MeshData& mesh, StepObserver* observer) {
   RenewalState& renewal = mesh.renewal;
   renewal.sampled_at = mesh.step;
+  ++renewal.samplings;
   std::vector<GenerateResult> samples;
   double mean = 0.0;
   for (int i = 0; i < samples_at_refresh; ++i) {
