@@ -250,6 +250,26 @@ TEST(Renew, GeneratesAMeshAfreshWhoseCountIsOff) {
   EXPECT_EQ(mesh.data().renewal.full_adjustments, 0U);
 }
 
+// A mesh that stays as it is costs ever fewer samples.
+TEST(Renew, LooksAtTheCountEverMoreRarely) {
+  const CstAirfoil airfoil = airfoil_catalogue()[2].airfoil();
+  Mesh mesh = generated(airfoil_domain(airfoil, {.points = 200}), {.gradation = 4.0});
+  calibrate(mesh.data(), 3);
+  rest(mesh, airfoil, 200, 25);
+  std::vector<std::uint32_t> waits;
+  std::uint32_t last = 0;
+  for (int i = 0; i < 100; ++i) {
+    mesh.data().step += 48;
+    rest(mesh, airfoil, 200, 2);
+    const std::uint32_t sampled = mesh.data().renewal.sampled_at;
+    if (sampled != last) waits.push_back(sampled - last);
+    last = sampled;
+  }
+  ASSERT_GE(waits.size(), 3U);
+  for (std::size_t i = 1; i < waits.size(); ++i) EXPECT_GE(waits[i] + 100, 2 * waits[i - 1]) << i;
+  EXPECT_LE(waits.front(), 350U);
+}
+
 TEST(Renew, ReturnsFromATrialToTheLastBit) {
   const auto seed = test::seed(6);
   SCOPED_TRACE("seed " + std::to_string(seed));
