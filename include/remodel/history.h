@@ -42,16 +42,17 @@ struct EvaluationRecord {
   std::size_t inserted = 0;
   std::size_t removed = 0;
   bool full_adjustment = false;
-  bool refreshed = false;        // the strategy generated the mesh afresh
-  bool regenerated = false;      // the mesh had to be regenerated: a recovery
-  double min_angle_deg = 0.0;    // of the mesh; where its changes were checked, of these
-  double remodel_seconds = 0.0;  // making the domain and remodel(), the recovery too if there was one
+  bool refreshed = false;      // the strategy generated the mesh afresh
+  bool regenerated = false;    // the mesh had to be regenerated: a recovery
+  double min_angle_deg = 0.0;  // of the mesh; where its changes were checked, of these
+  // Making the domain and remodel(), the recovery too if there was one: processor time of the thread.
+  double remodel_seconds = 0.0;
 
   std::optional<std::size_t>
       generated_triangles;  // compared evaluations only: a fresh mesh of the same design
   std::optional<double> gradation_bias, gradation_deviation;  // of the remodelled mesh: GradationError
   std::optional<double> generated_gradation_bias, generated_gradation_deviation;  // of the fresh one
-  std::optional<double> generate_seconds;  // making the domain and generate()
+  std::optional<double> generate_seconds;  // making the domain and generate(): likewise
 
   Checked checked = Checked::quick;
   bool valid = true;   // what the remodelled mesh was before any recovery

@@ -59,9 +59,12 @@ struct OptimiseOptions {
   double sigma = 0.05;      // initial standard deviation of the coefficients; > 0
   std::uint64_t seed = 1;   // of the samples; the designs depend on nothing else of these options but
                             // sigma and, where samples are refused, on domain
-  std::size_t evaluations = 9000;    // feasible samples, one remodelling each; at least 1
-  std::size_t compare_every = 0;     // every K-th evaluation also generates a fresh mesh; 0: never
-  std::size_t full_check_every = 0;  // every K-th mesh goes through check() too; 0: as compare_every
+  std::size_t evaluations = 9000;  // feasible samples, one remodelling each; at least 1
+  std::size_t compare_every = 0;   // every K-th evaluation also generates a fresh mesh; 0: never
+  // Every K-th mesh goes through check() too; 0: as compare_every. Of the others every 20th is checked as a
+  // whole, as is each worker's first, by Mesh::quick_check(), and the rest by its rules where the step
+  // changed them. `hub` checks all as a whole.
+  std::size_t full_check_every = 0;
   std::size_t checkpoint_every =
       500;                          // evaluations between checkpoints; 0: at the start, the end, an interrupt
   std::size_t max_refused = 10000;  // infeasible samples in a row that end the run; at least 1

@@ -12,7 +12,7 @@ namespace remodel::io {
 
 namespace {
 
-constexpr std::int64_t state_version = 3;
+constexpr std::int64_t state_version = 4;
 const std::string grid_group = "/VTKHDF/";
 const std::string state_group = "/remodel";
 const std::string markers_path = state_group + "/imported_markers";
@@ -219,7 +219,8 @@ MeshState read_vtkhdf_state(const std::filesystem::path& file) {
   }
   const auto version = in.attribute<std::int64_t>(state_group, "format_version");
   if (version[0] != state_version) {
-    in.fail(state_group + "@format_version", std::to_string(version[0]) + " found, 3 expected");
+    in.fail(state_group + "@format_version",
+            std::to_string(version[0]) + " found, " + std::to_string(state_version) + " expected");
   }
   MeshState state;
   for_each_state_number(state, [&](const std::string& name, auto& value) {

@@ -121,7 +121,7 @@ TEST(NativeFile, AnotherStateVersionIsNamed) {
   out.attribute("/remodel", "format_version", std::vector<std::int64_t>{9});
   write_text_atomically(file, out.bytes());
   EXPECT_EQ(error_of([&] { io::read_vtkhdf_state(file); }),
-            file.string() + ":/remodel@format_version: 9 found, 3 expected");
+            file.string() + ":/remodel@format_version: 9 found, 4 expected");
 }
 
 // ------------------------------------------------------------------------------------- the VTKHDF layout

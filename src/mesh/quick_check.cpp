@@ -54,14 +54,18 @@ std::string check_triangle(const MeshData& mesh, std::uint32_t i, const QualityB
   return {};
 }
 
+std::string links_do_not_return(const MeshData& mesh, std::uint32_t k) {
+  return "boundary vertex " + std::to_string(mesh.at(k).vertex.index) +
+         ": neighbours on its loop do not return";
+}
+
 // Entries that name each other: then walks along loops end.
 std::string check_boundary_links(const MeshData& mesh) {
   for (std::uint32_t k = 0; k < mesh.boundary.size(); ++k) {
     const BoundaryVertex& v = mesh.at(k);
     const bool returns = (v.next == no_index || mesh.at(v.next).previous == k) &&
                          (v.previous == no_index || mesh.at(v.previous).next == k);
-    if (v.vertex && !returns)
-      return "boundary vertex " + std::to_string(v.vertex.index) + ": neighbours on its loop do not return";
+    if (v.vertex && !returns) return links_do_not_return(mesh, k);
   }
   return {};
 }
@@ -102,23 +106,22 @@ std::string QuickCheck::triangle(TriangleId t) const {
   return broken.empty() ? check_links(mesh_, t.index) : broken;
 }
 
+// Ends whatever the entries say: a link is followed only where it returns.
 std::string QuickCheck::loop(std::size_t loop) const {
-  std::string broken;
-  const auto note = [&](std::string&& found) {
-    if (broken.empty()) broken = std::move(found);
-  };
-  std::size_t stations = 0;
-  mesh_.walk(mesh_.loop_heads[loop], [&](std::uint32_t k) {
+  const std::uint32_t head = mesh_.loop_heads[loop];
+  std::size_t stations = 0, visited = 0;
+  for (std::uint32_t k = head, next; k != no_index; k = next == head ? no_index : next) {
+    next = mesh_.at(k).next;
+    if (++visited > mesh_.boundary.size() || (next != no_index && mesh_.at(next).previous != k))
+      return links_do_not_return(mesh_, k);
     stations += mesh_.at(k).steiner ? 0 : 1;
-    note(check_boundary_vertex(mesh_, k));
-  });
-  if (!broken.empty()) return broken;
-  mesh_.walk_edges(mesh_.loop_heads[loop], [&](std::uint32_t k, std::uint32_t next) {
-    note(check_boundary_edge(mesh_, mesh_.sides[loop], k, next));
-  });
-  if (broken.empty() && stations != mesh_.domain.stations(loop).size())
-    return "boundary: stations of the design are missing";
-  return broken;
+    if (std::string broken = check_boundary_vertex(mesh_, k); !broken.empty()) return broken;
+    if (next == no_index) continue;
+    if (std::string broken = check_boundary_edge(mesh_, mesh_.sides[loop], k, next); !broken.empty())
+      return broken;
+  }
+  return stations == mesh_.domain.stations(loop).size() ? std::string{}
+                                                        : "boundary: stations of the design are missing";
 }
 
 std::string check_boundary(const MeshData& mesh) {

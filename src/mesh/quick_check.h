@@ -19,8 +19,8 @@ class QuickCheck {
   // A triangle that is there: its links return, it is counter-clockwise, locally Delaunay, and as good as
   // promised.
   std::string triangle(TriangleId t) const;
-  // The vertices and edges of a loop are the design's, and constrained between the right regions.
-  // Precondition: the entries of the boundary table name each other.
+  // The entries of a loop name each other, its vertices and edges are the design's, and constrained between
+  // the right regions.
   std::string loop(std::size_t loop) const;
 
  private:

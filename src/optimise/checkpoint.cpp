@@ -52,7 +52,8 @@ Json to_json(const WorkersState& state) {
     workers.push_back({{"coefficients", worker.coefficients},
                        {"evaluated", worker.evaluated},
                        {"full_adjustments", worker.full_adjustments},
-                       {"row", worker.row}});
+                       {"row", worker.row},
+                       {"checked", worker.checked}});
   return {{"last", state.last}, {"each", std::move(workers)}};
 }
 
@@ -65,6 +66,7 @@ WorkersState workers_from(const Json& json) {
     each.at("evaluated").get_to(worker.evaluated);
     each.at("full_adjustments").get_to(worker.full_adjustments);
     each.at("row").get_to(worker.row);
+    each.at("checked").get_to(worker.checked);
   }
   require(state.last < state.workers.size(), "it names a worker that there is not");
   return state;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <utility>
 
 #include "optimise/sqlite.h"
@@ -14,8 +15,9 @@ constexpr const char* checked_names[] = {"nothing", "changes", "quick", "full"};
 
 Checked checked_named(const std::string& name) {
   const auto* found = std::find(std::begin(checked_names), std::end(checked_names), name);
-  return found == std::end(checked_names) ? Checked::nothing
-                                          : static_cast<Checked>(found - std::begin(checked_names));
+  if (found == std::end(checked_names))
+    throw std::invalid_argument("expected nothing, changes, quick or full under `checked`");
+  return static_cast<Checked>(found - std::begin(checked_names));
 }
 
 constexpr std::size_t batch = 250;  // records a transaction
@@ -110,8 +112,7 @@ void bind(Statement& row, const EvaluationRecord& record) {
   row.bind(record.detail);
 }
 
-EvaluationRecord read_row(Statement& row) {
-  EvaluationRecord record;
+void read_row(Statement& row, EvaluationRecord& record) {
   record.evaluation = row.integer();
   record.generation = row.integer();
   record.coefficients = nlohmann::json::parse(row.text()).get<std::vector<double>>();
@@ -141,7 +142,6 @@ EvaluationRecord read_row(Statement& row) {
   record.checked = checked_named(row.text());
   record.valid = row.integer() != 0;
   record.detail = row.text();
-  return record;
 }
 
 }  // namespace
@@ -242,12 +242,16 @@ void History::each(const std::function<void(const EvaluationRecord&)>& visit) co
   Statement row(database_->sqlite, "SELECT * FROM evaluations ORDER BY evaluation");
   while (row.step()) {
     EvaluationRecord record;
+    const auto refuse = [&](const std::string& problem) {
+      throw Error(ErrorCode::format, database_->sqlite.file().string(),
+                  "evaluation " + std::to_string(record.evaluation) + ": " + problem);
+    };
     try {
-      record = read_row(row);
+      read_row(row, record);
     } catch (const nlohmann::json::exception&) {
-      throw Error(
-          ErrorCode::format, database_->sqlite.file().string(),
-          "evaluation " + std::to_string(record.evaluation) + ": expected coefficients as a JSON array");
+      refuse("expected coefficients as a JSON array");
+    } catch (const std::invalid_argument& problem) {
+      refuse(problem.what());
     }
     visit(record);
   }

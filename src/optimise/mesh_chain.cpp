@@ -1,6 +1,7 @@
 #include "optimise/mesh_chain.h"
 
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "mesh/mesh_data.h"
@@ -77,7 +78,7 @@ Stopped MeshChain::step(const CstAirfoil& design, StepTasks tasks, EvaluationRec
   copy_figures(result, record);
 
   const StepCheck check = checked(domain, result, tasks.check);
-  record.checked = tasks.check;
+  record.checked = tasks.check == Checked::changes && check.whole ? Checked::quick : tasks.check;
   record.valid = check.broken.empty();
   record.min_angle_deg = check.min_angle_deg;
   if (!record.valid) record.detail = check.broken;
@@ -85,13 +86,15 @@ Stopped MeshChain::step(const CstAirfoil& design, StepTasks tasks, EvaluationRec
   if (result.stopped != Stopped::done) record.detail = name_of(result.stopped);
   if (!record.valid || result.stopped != Stopped::done) {
     if (const Stopped stopped = regenerate(domain, record); stopped != Stopped::done) return stopped;
-    record.min_angle_deg = mesh().statistics().min_angle_deg;
+    const StepCheck fresh = check_whole(mesh());
+    if (!fresh.broken.empty()) throw std::logic_error("a fresh mesh is not valid: " + fresh.broken);
+    record.min_angle_deg = fresh.min_angle_deg;
   }
   return tasks.compare ? compare(design, record) : Stopped::done;
 }
 
 StepCheck MeshChain::checked(const Domain& domain, const RemodelResult& result, Checked how) const {
-  if (how == Checked::nothing) return {.broken = {}, .min_angle_deg = unmeasured_angle};
+  if (how == Checked::nothing) return {.broken = {}, .min_angle_deg = unmeasured_angle, .whole = false};
   if (how == Checked::changes) return check_changes(result);
   StepCheck check = check_whole(mesh());
   if (!check.broken.empty() || how != Checked::full) return check;

@@ -113,8 +113,8 @@ void add(Checksum& sum, const EvaluationRecord& record) {
     sum.add(std::uint64_t{count});
   sum.add(record.infeasible_samples);
   sum.add(record.worker);
-  for (const bool flag : {record.full_adjustment, record.refreshed, record.regenerated,
-                          record.checked == Checked::full, record.valid})
+  sum.add(std::string(name_of(record.checked)));
+  for (const bool flag : {record.full_adjustment, record.refreshed, record.regenerated, record.valid})
     sum.add(flag ? "1" : "0");
   sum.add(record.detail);
 }
@@ -242,18 +242,16 @@ void Run::complete(const Sample& sample, EvaluationRecord& record) {
   add(progress_.written, record);
 }
 
-// In the first generation every worker's mesh is checked as a whole; from then on what a step changed, and
-// the whole now and then. So each triangle that ever was is checked once, and the smallest of all angles
-// known.
+// What a step changed is checked always, the whole mesh now and then, and at each worker's first step: so
+// every triangle that ever was is checked once, and the smallest of all angles is known.
 StepTasks Run::tasks(std::uint64_t evaluation) const {
   constexpr std::size_t quick_check_every = 20;
   const std::size_t full_check_every =
       options_.full_check_every != 0 ? options_.full_check_every : options_.compare_every;
-  const bool quick = evaluation <= population_ || every(quick_check_every, evaluation);
   return {.compare = every(options_.compare_every, evaluation),
-          .check = every(full_check_every, evaluation) ? Checked::full
-                   : quick                             ? Checked::quick
-                                                       : Checked::changes};
+          .check = every(full_check_every, evaluation)    ? Checked::full
+                   : every(quick_check_every, evaluation) ? Checked::quick
+                                                          : Checked::changes};
 }
 
 // The history first: a checkpoint never stands for rows that are not on disk.

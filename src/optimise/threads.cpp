@@ -3,10 +3,19 @@
 namespace remodel {
 
 ThreadTeam::ThreadTeam(std::size_t threads) {
-  for (std::size_t i = 1; i < threads; ++i) threads_.emplace_back([this] { wait_for_work(); });
+  try {
+    for (std::size_t i = 1; i < threads; ++i) threads_.emplace_back([this] { wait_for_work(); });
+  } catch (...) {
+    close();
+    throw;
+  }
 }
 
 ThreadTeam::~ThreadTeam() {
+  close();
+}
+
+void ThreadTeam::close() {
   {
     const std::lock_guard lock(mutex_);
     closing_ = true;

@@ -28,6 +28,7 @@ class ThreadTeam {
  private:
   void wait_for_work();
   void take_tasks(std::unique_lock<std::mutex>& lock);
+  void close();
 
   std::mutex mutex_;
   std::condition_variable work_, done_;

@@ -1,15 +1,14 @@
 #include "optimise/workers.h"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <thread>
 #include <utility>
 
+#include "optimise/stopwatch.h"
+
 namespace remodel {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 struct Worker {
   std::unique_ptr<MeshChain> chain;
@@ -108,6 +107,7 @@ void Workers::Crew::evaluate(Worker& worker, Job& job) const {
   WorkerState& state = worker.state;
   if (options.use == MeshUse::regenerate)
     job.tasks.generate = RegenerationRule::generate(job.squared_displacement, state.row);
+  if (!std::exchange(state.checked, true)) job.tasks.check = std::max(job.tasks.check, Checked::quick);
   job.stopped = worker.chain->step(job.design, job.tasks, job.record);
   state.full_adjustments += job.record.full_adjustment ? 1 : 0;
   if (options.use == MeshUse::regenerate)
@@ -144,9 +144,9 @@ void Workers::begin_generation(const std::optional<CstAirfoil>& mean) {
     before.full_adjustments += std::exchange(worker.state.full_adjustments, 0);
   }
   if (!crew_->hub || !mean) return;
-  const Clock::time_point began = Clock::now();
+  const ThreadStopwatch watch;
   crew_->hub_refreshed |= crew_->hub->follow(*mean, before);
-  crew_->hub_seconds += std::chrono::duration<double>(Clock::now() - began).count();
+  crew_->hub_seconds += watch.seconds();
 }
 
 void Workers::evaluate(std::vector<Job>& jobs) {

@@ -39,6 +39,7 @@ struct WorkerState {
   std::uint64_t evaluated = 0;       // of this generation
   std::uint64_t full_adjustments = 0;
   RegenerationRule::Row row = 0;
+  bool checked = false;  // its mesh, as a whole, since the start
 };
 
 struct WorkersState {

@@ -60,6 +60,80 @@ TEST_P(StepCheckOf, StepsSeesEveryTriangleThatIsNewAndTheSmallestAngle) {
 INSTANTIATE_TEST_SUITE_P(Strategies, StepCheckOf, testing::Values(Strategy::chain, Strategy::renew),
                          [](const auto& given) { return std::string(name_of(given.param)); });
 
+// The first triangle of the domain that the step made, or any.
+TriangleId made_by(const Mesh& mesh, std::uint32_t step) {
+  const Triangulation& triangulation = mesh.data().triangulation;
+  for (std::uint32_t t = 0; t < triangulation.triangle_slots(); ++t) {
+    const Triangle& triangle = triangulation[TriangleId{t}];
+    if (triangle.alive() && triangle.birth == step && triangle.region == Region::domain) return TriangleId{t};
+  }
+  ADD_FAILURE() << "no triangle of step " << step;
+  return {};
+}
+
+TEST(StepCheck, OfTheGeneralMethodSeesWhatItMade) {
+  Mesh mesh = generate(test::with_holes({test::square_hole(0.5, 0.5, 0.1)}), {}).mesh;
+  const RemodelResult step =
+      remodel(mesh, test::with_holes({test::circle_hole(0.4, 0.5, 0.1), test::star_hole(0.8, 0.8, 0.1)}));
+  ASSERT_EQ(step.method, Method::general);
+  EXPECT_EQ(check_step(mesh, step).broken, "");
+  EXPECT_TRUE(sees(mesh, step, made_by(mesh, mesh.step())));
+}
+
+TEST(StepCheck, OfOneLoopAmongSeveralSeesWhatItMadeAndLooksAtNoOther) {
+  const auto domain = [](double x) {
+    return test::with_holes({test::circle_hole(0.25, 0.5, 0.1), test::circle_hole(x, 0.5, 0.1)});
+  };
+  Mesh mesh = generate(domain(0.7), {}).mesh;
+  const RemodelResult step = remodel(mesh, domain(0.75), {.method = Method::specialised});
+  ASSERT_EQ(check_step(mesh, step).broken, "");
+  EXPECT_FALSE(check_step(mesh, step).whole);
+  EXPECT_TRUE(sees(mesh, step, made_by(mesh, mesh.step())));
+}
+
+TEST(StepCheck, LooksAtTheWholeMeshWhereNothingMoved) {
+  const Domain domain = test::catalogue_domain(0, 60);
+  Mesh mesh = generate(domain, {.gradation = 2.0}).mesh;
+  remodel(mesh, test::catalogue_domain(1, 60));
+  const RemodelResult step = remodel(mesh, test::catalogue_domain(1, 60));
+  const StepCheck check = check_step(mesh, step);
+  EXPECT_EQ(check.broken, "");
+  EXPECT_TRUE(check.whole);
+  EXPECT_EQ(check.min_angle_deg, mesh.statistics().min_angle_deg);
+}
+
+class Cancel : public StepObserver {
+ public:
+  explicit Cancel(int questions) : left_(questions) {}
+  bool cancelled() override { return left_-- <= 0; }
+
+ private:
+  int left_;
+};
+
+TEST(StepCheck, OfAStepThatWasInterruptedFindsTheMeshAsItWas) {
+  Mesh mesh = generate(test::catalogue_domain(0, 60), {.gradation = 2.0}).mesh;
+  int interrupted = 0;
+  for (int questions = 0; questions < 40; ++questions) {
+    Cancel observer(questions);
+    const RemodelResult step = remodel(mesh, test::catalogue_domain(1, 60), {.observer = &observer});
+    EXPECT_EQ(check_step(mesh, step).broken, "");
+    if (step.stopped == Stopped::done) break;
+    ++interrupted;
+    EXPECT_TRUE(mesh.data().triangulation.touched().empty());
+  }
+  EXPECT_GT(interrupted, 0);
+}
+
+TEST(StepCheck, EndsAtALoopThatRunsInCircles) {
+  Mesh mesh = generate(test::catalogue_domain(0, 60), {.gradation = 2.0}).mesh;
+  const RemodelResult step = remodel(mesh, test::catalogue_domain(1, 60));
+  MeshData& data = mesh.data();
+  const std::uint32_t k = data.at(data.loop_heads[0]).next;
+  data.boundary.edit(data.at(k).next).next = k;
+  EXPECT_NE(check_step(mesh, step).broken, "");
+}
+
 TEST(StepCheck, SeesABoundaryVertexThatIsNotOnTheNewDesign) {
   Mesh mesh = generate(test::catalogue_domain(0, 60), {.gradation = 2.0}).mesh;
   const RemodelResult step = remodel(mesh, test::catalogue_domain(1, 60));

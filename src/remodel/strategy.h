@@ -4,7 +4,8 @@
 //
 //   once:  K, triangles of a fresh mesh per size (count_control.h)
 //   step:  all vertices moved in place: nothing else; after many such steps in a row K is sampled again, and
-//          a mesh whose triangle count is off is generated afresh, if that brings it nearer to K
+//          a mesh whose triangle count is off is generated afresh, if that brings it nearer to K. Between two
+//          samplings are 250 steps at least, twice as many after each one that changed nothing
 //          otherwise: replace, renew length scales, coarsen within what the count allows, refine new
 //          triangles to H and the kept ones where they exceed keep H
 

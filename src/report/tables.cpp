@@ -175,7 +175,7 @@ std::string verdict_markdown(const StudyContents& study) {
 std::string study_markdown(const StudyContents& study) {
   std::string text = verdict_markdown(study) +
                      "\n## Tables\n\nMeans over the scenarios, the paper's in parentheses. Times are in "
-                     "milliseconds, wall clock.\n";
+                     "milliseconds of the thread's processor time.\n";
   const StudyRow* before = nullptr;
   for (const StudyRow& row : study.rows) {
     if (before == nullptr || before->at.airfoil != row.at.airfoil || before->at.sigma != row.at.sigma) {

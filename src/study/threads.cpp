@@ -52,7 +52,8 @@ class Workers {
 
 void StudyThreads::work(StudyJobs& jobs) {
   Workers workers(jobs);
-  ThreadTeam(threads_).run(threads_, [&workers](std::size_t) { workers.run(); });
+  const std::size_t threads = std::max<std::size_t>(threads_, 1);
+  ThreadTeam(threads).run(threads, [&workers](std::size_t) { workers.run(); });
 }
 
 }  // namespace remodel

@@ -77,6 +77,9 @@ void Triangulation::rollback() {
     list->pending.clear();
   }
   live_vertices_ = live_vertices_before_;
+  touched_.clear();
+  triangle_journal_.clear();
+  vertex_journal_.clear();
 }
 
 // Invariants (1) and (2) at one triangle.
