@@ -163,20 +163,26 @@ class Studies(StudyTest):
         self.assertEqual([path.name for path in self.path("s").iterdir()], ["study.sqlite"])
 
 
-class Ranks(StudyTest):
+class RankTest(StudyTest):
+    launcher = ()
+    mpirun_options = ("--oversubscribe",)
+
     def setUp(self):
         super().setUp()
         if shutil.which("mpirun") is None:
             self.skipTest("needs mpirun (openmpi-bin)")
-        outcome = self.mpirun(2, (), "probe", *SMALL, "--time-limit", 0.001)
-        if b"built without MPI" in outcome[1]:
+        outcome = self.run_program(
+            *self.study("probe", *SMALL, "--time-limit", 0.001), env={**os.environ, "OMPI_COMM_WORLD_SIZE": "2"}
+        )
+        if "built without MPI" in outcome.stderr:
             self.skipTest("the program was built without MPI")
 
     def start_ranks(self, ranks, options, *arguments):
         # Without these two mpirun refuses to be root, as in containers.
         root = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
         return subprocess.Popen(
-            ["mpirun", "--oversubscribe", *options, "-n", str(ranks), harness.PROGRAM, *map(str, arguments)],
+            [*self.launcher, "mpirun", *self.mpirun_options, *options, "-n", str(ranks), harness.PROGRAM,
+             *map(str, arguments)],
             cwd=self.directory, env={**os.environ, **root}, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
         )  # fmt: skip
@@ -185,6 +191,8 @@ class Ranks(StudyTest):
         process = self.start_ranks(ranks, options, *self.study(directory, *more))
         return process, process.communicate(timeout=120)[1]
 
+
+class Ranks(RankTest):
     def kill_rank(self, process, rank):
         """SIGKILL to the rank of this mpirun: by its number, as a user would have it from `ps`."""
         for entry in Path("/proc").iterdir():
