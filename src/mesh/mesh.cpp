@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "mesh/mesh_data.h"
 #include "mesh/small_angles.h"
@@ -38,23 +37,6 @@ bool Mesh::imported() const {
 
 bool Mesh::shows_file_triangles() const {
   return !data_->imported.slots.empty();
-}
-
-TriangleMeasures measure(const Triangulation& triangulation, const Triangle& t) {
-  double shortest = INFINITY, product = 1.0;
-  for (int k = 0; k < 3; ++k) {
-    const double l = squared_distance(triangulation.point(t.vertex[next3(k)]),
-                                      triangulation.point(t.vertex[previous3(k)]));
-    shortest = std::min(shortest, l);
-    product *= l;
-  }
-  const Point a = triangulation.point(t.vertex[0]);
-  const double twice_area = cross(triangulation.point(t.vertex[1]) - a, triangulation.point(t.vertex[2]) - a);
-  return {product / (4.0 * twice_area * twice_area), shortest};
-}
-
-double angle_of(double squared_ratio) {
-  return squared_ratio > 0.0 ? std::asin(0.5 / std::sqrt(squared_ratio)) * 180.0 / std::numbers::pi : 0.0;
 }
 
 MeshStatistics Mesh::statistics() const {

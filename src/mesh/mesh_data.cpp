@@ -36,6 +36,23 @@ double badness(const Triangulation& triangulation, const Triangle& t, const Qual
                  t.circle.squared_radius(), bounds);
 }
 
+TriangleMeasures measure(const Triangulation& triangulation, const Triangle& t) {
+  double shortest = INFINITY, product = 1.0;
+  for (int k = 0; k < 3; ++k) {
+    const double l = squared_distance(triangulation.point(t.vertex[next3(k)]),
+                                      triangulation.point(t.vertex[previous3(k)]));
+    shortest = std::min(shortest, l);
+    product *= l;
+  }
+  const Point a = triangulation.point(t.vertex[0]);
+  const double twice_area = cross(triangulation.point(t.vertex[1]) - a, triangulation.point(t.vertex[2]) - a);
+  return {product / (4.0 * twice_area * twice_area), shortest};
+}
+
+double angle_of(double squared_ratio) {
+  return squared_ratio > 0.0 ? std::asin(0.5 / std::sqrt(squared_ratio)) * 180.0 / std::numbers::pi : 0.0;
+}
+
 MeshData::MeshData(const MeshData& other)
     : triangulation(other.triangulation),
       domain(other.domain),

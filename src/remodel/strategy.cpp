@@ -60,7 +60,8 @@ void renew_replaced(MeshData& mesh, std::span<const std::size_t> loops, std::siz
   coarsen_touched(mesh, risen, budget);
 }
 
-// Samples cost many steps, and most say that the mesh is as it should be: the more of them, the longer the wait.
+// Samples cost many steps, and most say that the mesh is as it should be: the more of them, the longer the
+// wait.
 bool refresh_is_due(const MeshData& mesh, std::uint32_t full_adjustments) {
   const RenewalState& renewal = mesh.renewal;
   const std::uint64_t wait = steps_before_sampling << std::min(renewal.samplings, 20U);

@@ -5,7 +5,7 @@
 //   once:  K, triangles of a fresh mesh per size (count_control.h)
 //   step:  all vertices moved in place: nothing else; after many such steps in a row K is sampled again, and
 //          a mesh whose triangle count is off is generated afresh, if that brings it nearer to K. Between two
-//          samplings are 250 steps at least, twice as many after each one that changed nothing
+//          samplings are 250 steps at least, twice as many with each one, until the mesh is generated afresh
 //          otherwise: replace, renew length scales, coarsen within what the count allows, refine new
 //          triangles to H and the kept ones where they exceed keep H
 
