@@ -235,7 +235,7 @@ TEST_F(BrokenMesh, ByACircleThatIsNotTheTriangles) {
   Circle circle = data.triangulation[triangle].circle;
   circle.inside *= 4.0;
   circle.outside *= 4.0;
-  data.triangulation.set_circle(triangle, circle);
+  data.triangulation.refresh(triangle, circle, data.triangulation[triangle].birth);
   EXPECT_NE(mesh.quick_check(), "");
 }
 

@@ -176,10 +176,8 @@ void scale(const MeshData& mesh, AdjustCache& cache) {
 
 void write(MeshData& mesh, const AdjustCache& cache, const std::vector<Point>& points,
            const std::vector<double>& scales) {
-  for (std::size_t i = 0; i < cache.moving.size(); ++i) {
-    mesh.triangulation.set_point(cache.moving[i].vertex, points[i]);
-    mesh.triangulation.set_length_scale(cache.moving[i].vertex, scales[i]);
-  }
+  for (std::size_t i = 0; i < cache.moving.size(); ++i)
+    mesh.triangulation.move(cache.moving[i].vertex, points[i], scales[i]);
 }
 
 bool counterclockwise(const Triangulation& t, const VertexId (&v)[3]) {
@@ -242,7 +240,7 @@ bool evaluate(const MeshData& mesh, AdjustCache& cache) {
 }
 
 void mark_moved(AdjustCache& cache) {
-  for (Affected& a : cache.affected) a.moved = false;
+  for (Affected& a : cache.affected) a.moved = false, a.kept = true;
   for (std::size_t i = 0; i < cache.moving.size(); ++i) {
     if (cache.new_points[i] == cache.old_points[i]) continue;
     const Moving& m = cache.moving[i];
@@ -324,8 +322,9 @@ bool adjust_all(MeshData& mesh, AdjustCache& cache, const Domain& domain) {
     if (i + look_ahead < cache.affected.size())
       mesh.triangulation.prefetch(cache.affected[i + look_ahead].triangle);
     const Affected& a = cache.affected[i];
-    if (a.domain) mesh.triangulation.set_circle(a.triangle, a.circle);
-    if (a.moved) mesh.triangulation.set_birth(a.triangle, mesh.step + 1);
+    if (!a.moved) continue;
+    const Circle& circle = a.domain ? a.circle : mesh.triangulation[a.triangle].circle;
+    mesh.triangulation.refresh(a.triangle, circle, mesh.step + 1);
   }
   return true;
 }
@@ -335,11 +334,10 @@ void adjust_some(MeshData& mesh, AdjustCache& cache) {
   cache.accepted.assign(cache.moving.size(), false);
   for (std::size_t i = 0; i < cache.moving.size(); ++i) {
     const Moving& m = cache.moving[i];
-    mesh.triangulation.set_length_scale(m.vertex, cache.new_scales[i]);
-    if (i >= cache.non_steiner && !(cache.accepted[m.before] && cache.accepted[m.after])) continue;
-    if (!may_move(mesh, cache, i)) continue;
-    mesh.triangulation.set_point(m.vertex, cache.new_points[i]);
-    cache.accepted[i] = true;
+    const bool between_lost = i >= cache.non_steiner && !(cache.accepted[m.before] && cache.accepted[m.after]);
+    cache.accepted[i] = !between_lost && may_move(mesh, cache, i);
+    const Point p = cache.accepted[i] ? cache.new_points[i] : cache.old_points[i];
+    mesh.triangulation.move(m.vertex, p, cache.new_scales[i]);
   }
 }
 

@@ -230,6 +230,8 @@ void count(MeshData& mesh, const std::vector<VertexId>& moved, RemodelResult& re
     ++before;
     if (!survives(earlier.id, earlier.triangle)) ++lost;
   }
+  for (const Triangulation::Refreshed& kept : triangulation.refreshed())  // a vertex of it moved
+    if (triangulation[kept.id].region == Region::domain && !triangulation.is_touched(kept.id)) ++lost;
   for (const TriangleId t : triangulation.touched())
     if (triangulation[t].alive() && triangulation[t].region == Region::domain) ++after;
   result.triangles_before = mesh.domain_triangles;
@@ -269,7 +271,7 @@ std::vector<VertexId> replace_boundary(MeshData& mesh, AdjustCache* cache, const
     replace_loops(mesh, domain, options);
     for (std::size_t i = 0; i < domain.loops.size(); ++i) loops.push_back(i);
   }
-  if (options.renewing) renew_replaced(mesh, loops, budget);
+  if (options.renewing) renew_replaced(mesh, loops, moved, budget);
   return moved;
 }
 

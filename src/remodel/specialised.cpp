@@ -41,25 +41,26 @@ class Replacement {
   // What the paper omits: a partial adjustment leaves edges that are not Delaunay, since vertices moved for
   // which the triangles are good only once their neighbours have moved too. In holes every move does.
   //
-  // A triangle of the domain without a lost vertex is where adjust_all() evaluated it, and good there: its
-  // edges need a look from its lost neighbours only.
+  // A triangle of the domain without a lost vertex is where adjust_all() evaluated it, and good there: nothing
+  // needs to look at it again, and its edges need a look from its lost neighbours only. The others are gone
+  // soon, or in holes.
   void restore_delaunay() {
-    std::vector<bool> at_lost(cache_.affected.size(), false);
     for (std::size_t i = 0; i < cache_.moving.size(); ++i)
       for (std::size_t s = moving(i).star_begin; lost(i) && s < moving(i).star_end; ++s)
-        at_lost[cache_.stars[s]] = true;
+        cache_.affected[cache_.stars[s]].kept = false;
     std::vector<TriangleId> uncertain;
-    for (std::size_t i = 0; i < cache_.affected.size(); ++i) {
-      const AdjustCache::Affected& a = cache_.affected[i];
-      if (a.moved) triangulation_.set_birth(a.triangle, mesh_.step + 1);
-      if (a.domain && !at_lost[i]) {
-        if (a.moved) triangulation_.set_circle(a.triangle, a.circle);
-        continue;
-      }
-      triangulation_.refresh_circle(a.triangle);
-      uncertain.push_back(a.triangle);
+    for (const AdjustCache::Affected& a : cache_.affected) {
+      const bool known = a.domain && a.kept;
+      const std::uint32_t birth = a.moved ? mesh_.step + 1 : triangulation_[a.triangle].birth;
+      if (!known) uncertain.push_back(a.triangle);
+      if (!known || a.moved)
+        triangulation_.refresh(a.triangle, known ? a.circle : circle_of(a.vertex), birth);
     }
     triangulation_.restore_delaunay(uncertain);
+  }
+  Circle circle_of(const VertexId (&v)[3]) const {
+    return certified_circle(triangulation_.point(v[0]), triangulation_.point(v[1]),
+                            triangulation_.point(v[2]));
   }
 
   // One region for each lost pair, about the outermost of the two: the one farther into the domain. Where the

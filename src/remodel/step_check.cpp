@@ -21,6 +21,13 @@ class Changes {
     const auto [squared_radius, shortest] = measure(mesh_.triangulation, mesh_.triangulation[t]);
     worst_ = std::max(worst_, squared_radius / shortest);
   }
+  // What the last journal lists.
+  void journal() {
+    const Triangulation& triangulation = mesh_.triangulation;
+    for (const TriangleId t : triangulation.touched()) triangle(t);
+    for (const Triangulation::Refreshed& kept : triangulation.refreshed())
+      if (!triangulation.is_touched(kept.id)) triangle(kept.id);
+  }
   // The loop, and the triangles at it that the step left as they were, but for their length scales.
   void loop(std::size_t loop) {
     if (broken_.empty()) broken_ = check_.loop(loop);
@@ -64,7 +71,7 @@ StepCheck check_step(const Mesh& mesh, const RemodelResult& step) {
   if (step.full_adjustment)
     for (const AdjustCache::Affected& a : cache->affected) changes.triangle(a.triangle);
   else
-    for (const TriangleId t : data.triangulation.touched()) changes.triangle(t);
+    changes.journal();
   for (std::size_t loop = 0; loop < data.loop_heads.size(); ++loop)
     if (!specialised || std::binary_search(cache->loops.begin(), cache->loops.end(), loop))
       changes.loop(loop);

@@ -18,9 +18,9 @@ namespace {
 bool sees(Mesh& mesh, const RemodelResult& step, TriangleId t) {
   Triangulation& triangulation = mesh.data().triangulation;
   const Circle circle = triangulation[t].circle;
-  triangulation.set_circle(t, {circle.centre, 4.0 * circle.inside, 4.0 * circle.outside});
+  triangulation.refresh(t, {circle.centre, 4.0 * circle.inside, 4.0 * circle.outside}, triangulation[t].birth);
   const bool seen = !check_step(mesh, step).broken.empty();
-  triangulation.set_circle(t, circle);
+  triangulation.refresh(t, circle, triangulation[t].birth);
   return seen;
 }
 

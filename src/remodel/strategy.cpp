@@ -55,9 +55,11 @@ std::size_t prepare_renewal(MeshData& mesh, StepObserver* observer) {
   return static_cast<std::size_t>(std::max(0.0, 0.5 * too_many));
 }
 
-void renew_replaced(MeshData& mesh, std::span<const std::size_t> loops, std::size_t budget) {
-  const std::vector<VertexId> risen = renew_length_scales(mesh, loops);
-  coarsen_touched(mesh, risen, budget);
+void renew_replaced(MeshData& mesh, std::span<const std::size_t> loops, std::span<const VertexId> moved,
+                    std::size_t budget) {
+  std::vector<VertexId> around = renew_length_scales(mesh, loops);
+  around.insert(around.end(), moved.begin(), moved.end());
+  coarsen_touched(mesh, around, budget);
 }
 
 // Samples cost many steps, and most say that the mesh is as it should be: the more of them, the longer the

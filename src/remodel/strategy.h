@@ -31,8 +31,10 @@ void calibrate(MeshData& mesh, int samples, StepObserver* observer = nullptr);
 // K a mesh that was never remodelled is its own; otherwise a few are generated. Returns how many vertices
 // coarsening may remove, two triangles each: half of N - K S.
 std::size_t prepare_renewal(MeshData& mesh, StepObserver* observer);
-// After the replacement around the given loops, before refinement.
-void renew_replaced(MeshData& mesh, std::span<const std::size_t> loops, std::size_t budget);
+// After the replacement around the given loops, in which these vertices were moved in place; before
+// refinement.
+void renew_replaced(MeshData& mesh, std::span<const std::size_t> loops, std::span<const VertexId> moved,
+                    std::size_t budget);
 // After refinement.
 void finish_renewal(MeshData& mesh);
 

@@ -165,8 +165,21 @@ class Triangulation {
   // Moves a vertex and refreshes nothing: the caller calls refresh_circle() for its star and then
   // restore_delaunay(), or keeps the Delaunay property by its own checks.
   void set_point(VertexId v, Point p) { edit(v).point = p; }
+  void move(VertexId v, Point p, double length_scale) {
+    Vertex& vertex = edit(v);
+    vertex.point = p;
+    vertex.length_scale = length_scale;
+  }
   void refresh_circle(TriangleId t) { compute_circle(edit(t)); }
-  void set_circle(TriangleId t, const Circle& circle) { edit(t).circle = circle; }
+  // What has become of a triangle whose vertices moved: the circle is known already. Cheaper under a journal
+  // than a change of another kind, and listed by refreshed().
+  void refresh(TriangleId t, const Circle& circle, std::uint32_t birth) {
+    Triangle& triangle = triangles_[t.index];
+    if (journalling_ && triangle.journal != journal_)
+      refresh_journal_.push_back({t, triangle.birth, triangle.circle});
+    triangle.circle = circle;
+    triangle.birth = birth;
+  }
   // Lawson flips from the edges opposite all corners of the given triangles.
   void restore_delaunay(std::span<const TriangleId> triangles);
 
@@ -194,7 +207,16 @@ class Triangulation {
     Triangle triangle;
   };
   std::span<const TriangleId> touched() const { return touched_; }
+  bool is_touched(TriangleId t) const { return triangles_[t.index].journal == journals_; }
   std::span<const Earlier> earlier() const { return triangle_journal_; }
+  // The triangles that were given to refresh() before anything else of them changed, with what they had: apart
+  // from touched(), which holds those of them that changed afterwards.
+  struct Refreshed {
+    TriangleId id;
+    std::uint32_t birth;
+    Circle circle;
+  };
+  std::span<const Refreshed> refreshed() const { return refresh_journal_; }
   // Whether two states of a triangle have the same vertices, and the same edges constrained.
   static bool same_edges(const Triangle& a, const Triangle& b);
   // Visits the touched triangles that are there: visit(id, whether it is at the vertices, and behind the
@@ -331,6 +353,7 @@ class Triangulation {
   std::uint16_t journals_ = 0;  // the last one's number
   std::uint16_t journal_ = 0;   // of the journal under way; 0, as in records of new slots, when there is none
   std::vector<Earlier> triangle_journal_;
+  std::vector<Refreshed> refresh_journal_;
   std::vector<TriangleId> touched_;
   std::vector<VertexBefore> vertex_journal_;
   std::vector<std::uint32_t> generation_journal_;
