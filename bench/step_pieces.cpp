@@ -108,6 +108,7 @@ void renew_local(benchmark::State& state) {
     data.boundary.begin();
     lower_some(data, loops[0]);
     const std::size_t before = data.triangulation.earlier_vertices().size();
+    const Arena::Scope scope(data.arena);
     state.ResumeTiming();
     benchmark::DoNotOptimize(renew_length_scales(data, loops));
     state.PauseTiming();

@@ -50,6 +50,7 @@ GenerateResult generate(const Domain& domain, const QualityOptions& options, Ste
   try {
     discretise(mesh);
     mesh.triangulation.reserve(expected_triangles(mesh));
+    const Arena::Scope scope(mesh.arena);
     Refiner refiner(mesh, observer);
     for (std::uint32_t i = 0; i < mesh.triangulation.triangle_slots(); ++i) refiner.consider(TriangleId{i});
     result.stopped = refiner.run();

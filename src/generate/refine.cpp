@@ -25,6 +25,10 @@ Refiner::Refiner(MeshData& mesh, StepObserver* observer)
       promised_(bounds_),
       inverse_gradation_(1.0 / mesh.options.gradation),
       small_angles_(mesh),
+      cavity_(mesh.cavity),
+      scales_(mesh.ring_scales),
+      segments_(&mesh.arena),
+      refused_segments_(&mesh.arena),
       vertex_limit_(mesh.options.max_vertices),
       observer_(observer) {
   const double shortest = mesh.options.min_edge > 0.0 ? mesh.options.min_edge : 1e-12 * mesh.extent();

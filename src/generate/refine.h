@@ -15,6 +15,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <memory_resource>
 #include <set>
 #include <utility>
 #include <vector>
@@ -26,7 +27,8 @@ namespace remodel {
 
 class Refiner {
  public:
-  // Precondition: regions are labelled, length scales set, the triangulation is constrained Delaunay.
+  // Precondition: regions are labelled, length scales set, the triangulation is constrained Delaunay. Uses the
+  // mesh's arena: within a scope of it.
   explicit Refiner(MeshData& mesh, StepObserver* observer = nullptr);
   // A limit or an exception leaves no marks behind.
   ~Refiner() {
@@ -94,10 +96,10 @@ class Refiner {
   static constexpr std::size_t look_ahead = 32;
   std::array<TriangleId, look_ahead> ahead_;
   std::size_t turn_ = 0;
-  std::deque<Segment> segments_;
-  std::set<std::pair<VertexId, VertexId>> refused_segments_;
-  Cavity cavity_;
-  Buffer<double> scales_;  // of the ring
+  Cavity& cavity_;
+  Buffer<double>& scales_;  // of its ring
+  std::pmr::deque<Segment> segments_;
+  std::pmr::set<std::pair<VertexId, VertexId>> refused_segments_;
   double squared_min_edge_ = 0.0;
   std::size_t vertex_limit_;
   StepObserver* observer_;

@@ -18,7 +18,12 @@ Region side_label(const MeshData& mesh, const Triangle& t, int i) {
 
 class Relabelling {
  public:
-  explicit Relabelling(MeshData& mesh) : mesh_(mesh), triangulation_(mesh.triangulation) {
+  explicit Relabelling(MeshData& mesh)
+      : mesh_(mesh),
+        triangulation_(mesh.triangulation),
+        touched_(&mesh.arena),
+        relabelled_(&mesh.arena),
+        todo_(&mesh.arena) {
     triangulation_.for_each_touched([&](TriangleId t, bool same) {
       if (!same) touched_.push_back(t);
     });
@@ -33,8 +38,8 @@ class Relabelling {
   }
 
   // Interior vertices of the triangles that are outside the domain now.
-  std::vector<VertexId> strays() const {
-    std::vector<VertexId> found;
+  List<VertexId> strays() const {
+    List<VertexId> found(&mesh_.arena);
     for (const auto* list : {&touched_, &relabelled_})
       for (const TriangleId t : *list)
         if (triangulation_[t].region == Region::outside)
@@ -92,12 +97,13 @@ class Relabelling {
 
   MeshData& mesh_;
   Triangulation& triangulation_;
-  std::vector<TriangleId> touched_, relabelled_, todo_;
+  List<TriangleId> touched_, relabelled_, todo_;
 };
 
 }  // namespace
 
 void relabel_touched(MeshData& mesh) {
+  const Arena::Scope scope(mesh.arena);
   Relabelling relabelling(mesh);
   relabelling.run();
   mesh.triangulation.remove(relabelling.strays());

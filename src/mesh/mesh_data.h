@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "mesh/arena.h"
 #include "mesh/bad_triangles.h"
 #include "mesh/boundary_table.h"
 #include "remodel/domain.h"
@@ -57,6 +58,15 @@ struct QualityBounds {
   double squared_gradation;    // (keep H)^2; H^2 of refinement
 };
 
+// What a step changes besides the triangulation and the boundary table, as it was before: see Transaction in
+// remodel/. Kept with the mesh for its storage.
+struct Backup {
+  std::vector<std::uint32_t> loop_heads;
+  std::vector<Sides> sides;
+  std::vector<std::size_t> changing;  // the loops that the step may change; empty: all, in any way
+  std::vector<Loop> loops;            // of the domain: those, or all
+};
+
 class MeshData {
  public:
   Triangulation triangulation;
@@ -76,6 +86,10 @@ class MeshData {
   Marks vertex_marks;
   std::vector<std::uint32_t> numbers;
   BadTriangles bad_triangles;  // none when no refinement is under way
+  Cavity cavity;               // of refinement, and the length scales of its ring
+  Buffer<double> ring_scales;
+  Arena arena;      // for lists of the step under way
+  Backup backup;    // of the step under way
 
   MeshData() = default;
   MeshData(const MeshData& other);  // under a journal: a copy as if it were committed

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <memory_resource>
 
 namespace remodel {
 
@@ -20,7 +22,9 @@ struct Leg {
   bool domain_on_left;
 };
 
-void add_legs(const MeshData& mesh, std::uint32_t k, std::vector<Leg>& legs) {
+using Legs = std::pmr::vector<Leg>;
+
+void add_legs(const MeshData& mesh, std::uint32_t k, Legs& legs) {
   mesh.at_vertex(k, [&](std::uint32_t e) {
     const Sides& sides = mesh.sides[mesh.loop_of(mesh.at(e).curve)];
     if (const std::uint32_t next = mesh.at(e).next_station; next != no_index)
@@ -47,7 +51,7 @@ bool may_be_sharp(const MeshData& mesh, std::uint32_t k) {
   return product > 0.0 && product * product >= 0.24 * (dot(u, u) * dot(w, w));
 }
 
-bool has_sharp_wedge(std::vector<Leg>& legs) {
+bool has_sharp_wedge(Legs& legs) {
   std::sort(legs.begin(), legs.end(), comes_before);
   for (std::size_t i = 0; i < legs.size(); ++i) {
     const Leg& next = legs[i + 1 == legs.size() ? 0 : i + 1];
@@ -56,7 +60,7 @@ bool has_sharp_wedge(std::vector<Leg>& legs) {
   return false;
 }
 
-bool is_sharp(const MeshData& mesh, std::uint32_t k, std::vector<Leg>& legs) {
+bool is_sharp(const MeshData& mesh, std::uint32_t k, Legs& legs) {
   legs.clear();
   add_legs(mesh, k, legs);
   return has_sharp_wedge(legs);
@@ -93,7 +97,9 @@ std::size_t SmallAngles::count() const {
 bool SmallAngles::is_corner(VertexId v) const {
   const std::uint32_t k = mesh_.triangulation[v].boundary;
   if (!may_be_sharp(mesh_, k)) return false;
-  std::vector<Leg> legs;
+  std::array<std::byte, 16 * sizeof(Leg)> storage;  // few vertices have more
+  std::pmr::monotonic_buffer_resource memory(storage.data(), storage.size());
+  Legs legs(&memory);
   return is_sharp(mesh_, k, legs);
 }
 

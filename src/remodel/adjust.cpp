@@ -288,14 +288,14 @@ bool same_basis(const CstAirfoil& a, const CstAirfoil& b) {
   return a.upper.size() == b.upper.size() && a.e1 == b.e1 && a.e2 == b.e2;
 }
 
-AdjustCache& adjust_cache(MeshData& mesh, const std::vector<std::size_t>& moving_loops) {
+AdjustCache& adjust_cache(MeshData& mesh, std::span<const std::size_t> moving_loops) {
   auto* present = dynamic_cast<AdjustCache*>(mesh.cache.get());
-  if (present != nullptr && present->loops != moving_loops) present = nullptr;
+  if (present != nullptr && !std::ranges::equal(present->loops, moving_loops)) present = nullptr;
   if (present != nullptr && !present->stale) return *present;
   auto made =
       present != nullptr && present->spare ? std::move(present->spare) : std::make_unique<AdjustCache>();
   made->clear();
-  made->loops = moving_loops;
+  made->loops.assign(moving_loops.begin(), moving_loops.end());
   list_moving(mesh, *made, present);
   list_affected(mesh, *made);
   list_edges(mesh, *made);

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "mesh/mesh_data.h"
@@ -79,7 +80,7 @@ struct AdjustCache : MeshCache {
 bool same_basis(const CstAirfoil& a, const CstAirfoil& b);
 
 // Builds the cache for the given loops, or keeps the one that the mesh has.
-AdjustCache& adjust_cache(MeshData& mesh, const std::vector<std::size_t>& moving_loops);
+AdjustCache& adjust_cache(MeshData& mesh, std::span<const std::size_t> moving_loops);
 
 // Evaluates all moving vertices at their places on `domain` at once. If every affected triangle is good
 // there, moves them and returns true: a full adjustment, connectivity unchanged. Otherwise the mesh is

@@ -17,7 +17,8 @@ class Coarsening {
   explicit Coarsening(MeshData& mesh)
       : mesh_(mesh),
         triangulation_(mesh.triangulation),
-        bounds_(QualityBounds::of_refinement(mesh.options)) {}
+        bounds_(QualityBounds::of_refinement(mesh.options)),
+        candidates_(&mesh.arena) {}
 
   std::size_t run(std::span<const VertexId> around, std::size_t budget) {
     std::size_t removed = 0;
@@ -82,7 +83,7 @@ class Coarsening {
   MeshData& mesh_;
   Triangulation& triangulation_;
   QualityBounds bounds_;
-  std::vector<std::pair<double, VertexId>> candidates_;
+  List<std::pair<double, VertexId>> candidates_;
 };
 
 }  // namespace

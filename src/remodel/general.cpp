@@ -77,7 +77,7 @@ class LoopReplacement {
   void run() {
     match_loops();
     restore_outside(mesh_);
-    const std::vector<VertexId> inside = vertices_inside(mesh_, regions());
+    const List<VertexId> inside = vertices_inside(mesh_, regions());
     release_old();
     triangulation_.remove(inside);
     const std::vector<VertexId> old_boundary = forget_old();

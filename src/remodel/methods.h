@@ -13,8 +13,8 @@ namespace remodel {
 
 // The paper's section 4.2 after adjust_all() returned false: adjusts what can be, replaces the rest.
 // Returns the vertices moved in place.
-std::vector<VertexId> replace_where_needed(MeshData& mesh, AdjustCache& cache, const Domain& domain,
-                                           const ReplaceOptions& options);
+List<VertexId> replace_where_needed(MeshData& mesh, AdjustCache& cache, const Domain& domain,
+                                    const ReplaceOptions& options);
 
 // The paper's section 3: replaces all loops that are not the same in both domains.
 void replace_loops(MeshData& mesh, const Domain& domain, const ReplaceOptions& options);

@@ -28,7 +28,7 @@ const char* name_of(Method method) {
 
 namespace {
 
-using Loops = std::vector<std::size_t>;  // of a domain
+using Loops = List<std::size_t>;  // of a domain
 
 // All that a step changes besides the triangulation, which has its own journal. Taken back unless committed.
 // The adjustment cache stays: it holds for the mesh as it was before the step.
@@ -37,15 +37,20 @@ class Transaction {
   // The step changes these loops at most: all, if not given.
   Transaction(MeshData& mesh, const std::optional<Loops>& loops)
       : mesh_(mesh),
-        loop_heads_(mesh.loop_heads),
-        sides_(mesh.sides),
-        loops_(loops),
-        domain_(loops ? Domain{} : mesh.domain),
+        backup_(mesh.backup),
+        structure_stays_(loops.has_value()),
         domain_triangles_(mesh.domain_triangles),
         step_(mesh.step),
         renewal_(mesh.renewal) {
-    if (loops)
-      for (const std::size_t loop : *loops) domain_.loops.push_back(mesh.domain.loops[loop]);
+    backup_.loop_heads = mesh.loop_heads;
+    backup_.sides = mesh.sides;
+    if (loops) {
+      backup_.changing.assign(loops->begin(), loops->end());
+      backup_.loops.resize(loops->size());
+      for (std::size_t i = 0; i < loops->size(); ++i) backup_.loops[i] = mesh.domain.loops[(*loops)[i]];
+    } else {
+      backup_.loops = mesh.domain.loops;
+    }
     mesh.boundary.begin();
     mesh.triangulation.begin();
     mesh.triangulation.set_step(mesh.step + 1);
@@ -56,13 +61,13 @@ class Transaction {
     if (committed_) return;
     mesh_.triangulation.rollback();
     mesh_.boundary.rollback();
-    mesh_.loop_heads.swap(loop_heads_);
-    mesh_.sides.swap(sides_);
-    if (loops_)
-      for (std::size_t i = 0; i < loops_->size(); ++i)
-        std::swap(mesh_.domain.loops[(*loops_)[i]], domain_.loops[i]);
+    mesh_.loop_heads.swap(backup_.loop_heads);
+    mesh_.sides.swap(backup_.sides);
+    if (structure_stays_)
+      for (std::size_t i = 0; i < backup_.changing.size(); ++i)
+        std::swap(mesh_.domain.loops[backup_.changing[i]], backup_.loops[i]);
     else
-      mesh_.domain.loops.swap(domain_.loops);
+      mesh_.domain.loops.swap(backup_.loops);
     mesh_.index_curves();
     mesh_.forget_extent();
     mesh_.domain_triangles = domain_triangles_;
@@ -89,9 +94,9 @@ class Transaction {
  private:
   // Whether what a stale cache keeps of the non-Steiner vertices holds for both domains.
   bool same_rows() const {
-    if (!loops_) return false;
-    for (std::size_t i = 0; i < loops_->size(); ++i) {
-      const Loop &a = domain_.loops[i], &b = mesh_.domain.loops[(*loops_)[i]];
+    if (!structure_stays_) return false;
+    for (std::size_t i = 0; i < backup_.changing.size(); ++i) {
+      const Loop &a = backup_.loops[i], &b = mesh_.domain.loops[backup_.changing[i]];
       for (std::size_t c = 0; c < a.curves.size(); ++c) {
         const auto* airfoil = std::get_if<CstAirfoil>(&a.curves[c].shape);
         if (airfoil != nullptr && !same_basis(*airfoil, std::get<CstAirfoil>(b.curves[c].shape)))
@@ -102,10 +107,8 @@ class Transaction {
   }
 
   MeshData& mesh_;
-  std::vector<std::uint32_t> loop_heads_;
-  std::vector<Sides> sides_;
-  std::optional<Loops> loops_;
-  Domain domain_;  // those loops, or all
+  Backup& backup_;
+  bool structure_stays_;
   std::size_t domain_triangles_;
   std::uint32_t step_;
   RenewalState renewal_;
@@ -154,10 +157,10 @@ class Undo {
 
 // The loops that are not the same in the mesh's own domain and in the other: where the vertices of the two
 // correspond one to one, and no other chain is joined to one that moves.
-std::optional<Loops> moving_loops(const MeshData& mesh, const Domain& domain) {
+std::optional<Loops> moving_loops(const MeshData& mesh, const Domain& domain, Arena& arena) {
   const std::vector<Loop>&from = mesh.domain.loops, &to = domain.loops;
   if (from.size() != to.size()) return std::nullopt;
-  Loops moving;
+  Loops moving(&arena);
   bool open = false, joined = false;
   for (std::size_t i = 0; i < from.size(); ++i) {
     open |= to[i].open;
@@ -210,7 +213,7 @@ RemodelResult full_adjustment(MeshData& mesh, AdjustCache& cache) {
 }
 
 // Counts what the journal's step left of the old domain triangles, and keeps the mesh's own count.
-void count(MeshData& mesh, const std::vector<VertexId>& moved, RemodelResult& result) {
+void count(MeshData& mesh, std::span<const VertexId> moved, RemodelResult& result) {
   const Triangulation& triangulation = mesh.triangulation;
   mesh.vertex_marks.clear(triangulation.vertex_slots());
   for (const VertexId v : moved) mesh.vertex_marks.visit(v.index);
@@ -260,13 +263,13 @@ Stopped refine_touched(MeshData& mesh, StepObserver* observer) {
 }
 
 // The vertices moved in place.
-std::vector<VertexId> replace_boundary(MeshData& mesh, AdjustCache* cache, const Domain& domain,
-                                       const ReplaceOptions& options, std::size_t budget) {
-  std::vector<VertexId> moved;
-  std::vector<std::size_t> loops;
+List<VertexId> replace_boundary(MeshData& mesh, AdjustCache* cache, const Domain& domain,
+                                const ReplaceOptions& options, std::size_t budget) {
+  List<VertexId> moved(&mesh.arena);
+  Loops loops(&mesh.arena);
   if (cache != nullptr) {
     moved = replace_where_needed(mesh, *cache, domain, options);
-    loops = cache->loops;
+    loops.assign(cache->loops.begin(), cache->loops.end());
   } else {
     replace_loops(mesh, domain, options);
     for (std::size_t i = 0; i < domain.loops.size(); ++i) loops.push_back(i);
@@ -283,7 +286,7 @@ std::optional<std::string> replace(Transaction& transaction, MeshData& mesh, Adj
   const bool renewing = renews(mesh, options);
   try {
     const std::size_t budget = renewing ? prepare_renewal(mesh, options.observer) : 0;
-    const std::vector<VertexId> moved =
+    const List<VertexId> moved =
         replace_boundary(mesh, cache, domain, {.distance = options.distance, .renewing = renewing}, budget);
     result.stopped =
         cancelled(options.observer) ? Stopped::interrupted : refine_touched(mesh, options.observer);
@@ -413,7 +416,8 @@ enum class Journal { when_needed, always };
 
 RemodelResult remodel(Mesh& mesh, const Domain& domain, const RemodelOptions& options, Journal journal,
                       Undo& undo) {
-  std::optional<Loops> moving = moving_loops(mesh.data(), domain);
+  const Arena::Scope scope(mesh.data().arena);
+  std::optional<Loops> moving = moving_loops(mesh.data(), domain, mesh.data().arena);
   require_possible(mesh, options, moving.has_value());
   if (moving && moving->empty()) {
     RemodelResult result = unchanged(mesh.data(), Stopped::done);

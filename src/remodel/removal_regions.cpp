@@ -115,8 +115,9 @@ TriangleId start_of(const Triangulation& triangulation, const RemovalRegion& reg
 // The search through all triangles that meet one of a few discs.
 class Search {
  public:
-  Search(MeshData& mesh, std::span<const RemovalRegion> regions, std::vector<VertexId>& found)
-      : mesh_(mesh), triangulation_(mesh.triangulation), discs_(regions), found_(found) {
+  Search(MeshData& mesh, std::span<const RemovalRegion> regions, List<TriangleId>& todo,
+         List<VertexId>& found)
+      : mesh_(mesh), triangulation_(mesh.triangulation), discs_(regions), todo_(todo), found_(found) {
     mesh_.marks.clear(triangulation_.triangle_slots());
     mesh_.vertex_marks.clear(triangulation_.vertex_slots());
     for (const RemovalRegion& region : regions) visit(start_of(triangulation_, region));
@@ -159,19 +160,20 @@ class Search {
   MeshData& mesh_;
   const Triangulation& triangulation_;
   Discs discs_;
-  std::vector<TriangleId> todo_;
-  std::vector<VertexId>& found_;
+  List<TriangleId>& todo_;  // empty before and after
+  List<VertexId>& found_;
 };
 
 }  // namespace
 
-std::vector<VertexId> vertices_inside(MeshData& mesh, std::span<const RemovalRegion> regions) {
-  std::vector<VertexId> found;
+List<VertexId> vertices_inside(MeshData& mesh, std::span<const RemovalRegion> regions) {
+  List<VertexId> found(&mesh.arena);
+  List<TriangleId> todo(&mesh.arena);
   mesh.numbers.resize(std::max(mesh.triangulation.triangle_slots(), mesh.triangulation.vertex_slots()));
   for (std::size_t i = 0; i < regions.size(); i += Discs::most)
-    Search(mesh, regions.subspan(i, std::min(Discs::most, regions.size() - i)), found);
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+    Search(mesh, regions.subspan(i, std::min(Discs::most, regions.size() - i)), todo, found);
+  mesh.vertex_marks.clear(mesh.triangulation.vertex_slots());
+  std::erase_if(found, [&](VertexId v) { return !mesh.vertex_marks.visit(v.index); });
   return found;
 }
 

@@ -15,7 +15,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Vertices in ascending order of a length scale; ids break ties.
 using Entry = std::pair<double, VertexId>;
-using Heap = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
+using Heap = std::priority_queue<Entry, List<Entry>, std::greater<>>;
 
 bool is_given(const MeshData& mesh, VertexId v) {
   const std::uint32_t k = mesh.triangulation[v].boundary;
@@ -48,9 +48,17 @@ void for_each_neighbour(const MeshData& mesh, VertexId v, Visit visit) {
 
 class Renewal {
  public:
-  explicit Renewal(MeshData& mesh) : mesh_(mesh), triangulation_(mesh.triangulation) {}
+  explicit Renewal(MeshData& mesh)
+      : mesh_(mesh),
+        triangulation_(mesh.triangulation),
+        suspects_(std::greater<>(), List<Entry>(&mesh.arena)),
+        falling_(std::greater<>(), List<Entry>(&mesh.arena)),
+        waiting_(&mesh.arena),
+        higher_(&mesh.arena),
+        changes_(&mesh.arena),
+        risen_(&mesh.arena) {}
 
-  std::vector<VertexId> run(std::span<const std::size_t> loops) {
+  List<VertexId> run(std::span<const std::size_t> loops) {
     mesh_.vertex_marks.clear(triangulation_.vertex_slots());
     for (const std::size_t loop : loops)
       mesh_.walk(mesh_.loop_heads[loop], [&](std::uint32_t k) { add_around(mesh_.at(k).vertex); });
@@ -169,15 +177,15 @@ class Renewal {
   MeshData& mesh_;
   Triangulation& triangulation_;
   Heap suspects_, falling_;
-  std::vector<VertexId> waiting_;  // rose, but may have risen too far: something undecided offered less
-  std::vector<VertexId> higher_;   // scratch
-  std::vector<Change> changes_;
-  std::vector<VertexId> risen_;
+  List<VertexId> waiting_;  // rose, but may have risen too far: something undecided offered less
+  List<VertexId> higher_;   // scratch
+  List<Change> changes_;
+  List<VertexId> risen_;
 };
 
 }  // namespace
 
-std::vector<VertexId> renew_length_scales(MeshData& mesh, std::span<const std::size_t> loops) {
+List<VertexId> renew_length_scales(MeshData& mesh, std::span<const std::size_t> loops) {
   return Renewal(mesh).run(loops);
 }
 

@@ -35,7 +35,7 @@ inline constexpr double renewal_tolerance = 0.04;
 // Source: the two phases of G. Ramalingam and T. Reps, "An incremental algorithm for a generalization of the
 // shortest-path problem", 1996, with a tolerance: first those that lost what their length scale came from are
 // invalidated, in ascending order; then Dijkstra's algorithm goes over these and what falls.
-std::vector<VertexId> renew_length_scales(MeshData& mesh, std::span<const std::size_t> loops);
+List<VertexId> renew_length_scales(MeshData& mesh, std::span<const std::size_t> loops);
 
 // The solution of LS = F for all vertices, by slot: what renewal approximates. Those of no domain triangle
 // keep what they have. O(n log n).

@@ -22,7 +22,7 @@ class Replacement {
 
   void run() {
     restore_delaunay();
-    const std::vector<VertexId> inside = vertices_inside(mesh_, regions());
+    const List<VertexId> inside = vertices_inside(mesh_, regions());
     release_boundary();
     triangulation_.remove(inside);
     triangulation_.remove(take_lost());
@@ -48,7 +48,7 @@ class Replacement {
     for (std::size_t i = 0; i < cache_.moving.size(); ++i)
       for (std::size_t s = moving(i).star_begin; lost(i) && s < moving(i).star_end; ++s)
         cache_.affected[cache_.stars[s]].kept = false;
-    std::vector<TriangleId> uncertain;
+    List<TriangleId> uncertain(&mesh_.arena);
     for (const AdjustCache::Affected& a : cache_.affected) {
       const bool known = a.domain && a.kept;
       const std::uint32_t birth = a.moved ? mesh_.step + 1 : triangulation_[a.triangle].birth;
@@ -65,8 +65,8 @@ class Replacement {
 
   // One region for each lost pair, about the outermost of the two: the one farther into the domain. Where the
   // domain is on both sides, that is one for each of the two.
-  std::vector<RemovalRegion> regions() const {
-    std::vector<RemovalRegion> result;
+  List<RemovalRegion> regions() const {
+    List<RemovalRegion> result(&mesh_.arena);
     for (std::size_t i = 0; i < cache_.non_steiner; ++i) {
       if (!lost(i)) continue;
       const AdjustCache::Moving& m = moving(i);
@@ -105,8 +105,8 @@ class Replacement {
   }
 
   // The lost vertices leave the boundary table.
-  std::vector<VertexId> take_lost() {
-    std::vector<VertexId> going;
+  List<VertexId> take_lost() {
+    List<VertexId> going(&mesh_.arena);
     for (std::size_t i = 0; i < cache_.moving.size(); ++i) {
       if (!lost(i)) continue;
       const std::uint32_t k = moving(i).boundary;
@@ -161,15 +161,15 @@ class Replacement {
 
 }  // namespace
 
-std::vector<VertexId> replace_where_needed(MeshData& mesh, AdjustCache& cache, const Domain& domain,
-                                           const ReplaceOptions& options) {
+List<VertexId> replace_where_needed(MeshData& mesh, AdjustCache& cache, const Domain& domain,
+                                    const ReplaceOptions& options) {
   adjust_some(mesh, cache);
   for (const std::size_t loop : cache.loops) {
     mesh.domain.loops[loop] = domain.loops[loop];
     mesh.loop_moved(loop);
   }
   Replacement(mesh, cache, options).run();
-  std::vector<VertexId> moved;
+  List<VertexId> moved(&mesh.arena);
   for (std::size_t i = 0; i < cache.moving.size(); ++i)
     if (cache.accepted[i] && !(cache.new_points[i] == cache.old_points[i]))
       moved.push_back(cache.moving[i].vertex);

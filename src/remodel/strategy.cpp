@@ -57,7 +57,7 @@ std::size_t prepare_renewal(MeshData& mesh, StepObserver* observer) {
 
 void renew_replaced(MeshData& mesh, std::span<const std::size_t> loops, std::span<const VertexId> moved,
                     std::size_t budget) {
-  std::vector<VertexId> around = renew_length_scales(mesh, loops);
+  List<VertexId> around = renew_length_scales(mesh, loops);
   around.insert(around.end(), moved.begin(), moved.end());
   coarsen_touched(mesh, around, budget);
 }

@@ -108,6 +108,29 @@ TEST(FailedAllocations, RollBackAFullAdjustment) {
   fail_every_allocation(mesh, next, {});
 }
 
+// Lists keep their storage from step to step: once they have been as long as they get, steps need no memory.
+// Every now and then one is longer than ever; then its storage doubles.
+TEST(Allocations, AreRareInTheSteadyState) {
+  const CstAirfoil airfoil = airfoil_catalogue()[0].airfoil();
+  std::mt19937 random(5);
+  for (const Strategy strategy : {Strategy::chain, Strategy::renew}) {
+    Mesh mesh = generate(airfoil_domain(airfoil, {.points = 100}), {.gradation = 2.0}).mesh;
+    int partial = 0, allocating = 0;
+    for (int step = 0; step < 400; ++step) {
+      const double spread = step % 4 == 0 ? 1e-4 : 0.3;
+      const double factor = 1.0 + spread * (static_cast<double>(random() % 2001) / 1000.0 - 1.0);
+      const Domain next = airfoil_domain(scaled(airfoil, factor), {.points = 100});
+      const long before = allocations;
+      const RemodelResult result = remodel(mesh, next, {.strategy = strategy});
+      if (step < 200 || result.refreshed || result.regenerated) continue;
+      if (!result.full_adjustment) ++partial;
+      if (allocations != before) ++allocating;
+    }
+    EXPECT_GT(partial, 50);
+    EXPECT_LE(allocating, 10) << name_of(strategy);
+  }
+}
+
 TEST(FailedAllocations, RollBackPartialSteps) {
   const Mesh mesh = generate(catalogue_domain(0, 50)).mesh;
   for (const std::size_t to : {1U, 5U, 9U}) fail_every_allocation(mesh, catalogue_domain(to, 50), {});

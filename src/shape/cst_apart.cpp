@@ -6,22 +6,26 @@
 // g(x) = x^(1-e1) (1-x)^(-e2).
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory_resource>
+#include <span>
+#include <vector>
 
 #include "remodel/airfoil.h"
 
 namespace remodel {
 namespace {
 
-using Coefficients = std::vector<double>;
+using Coefficients = std::pmr::vector<double>;
 
 // An interval halved this often is 1e-12 chords long. Surfaces that could not be told apart by then count as
 // touching: a design is refused rather than meshed on a guess.
 constexpr int depth_limit = 40;
 
-bool all_finite(const std::vector<double>& values) {
+bool all_finite(std::span<const double> values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
@@ -66,8 +70,8 @@ class Positivity {
     if (positive) return true;
     if (depth == depth_limit) return false;
 
-    Coefficients left(d.size());
-    Coefficients right = d;
+    Coefficients left(d.size(), d.get_allocator());
+    Coefficients right(d, d.get_allocator());
     for (std::size_t i = 0; i < d.size(); ++i) {  // de Casteljau at the middle
       left[i] = right[0];
       for (std::size_t j = 0; j + 1 + i < d.size(); ++j) right[j] = 0.5 * right[j] + 0.5 * right[j + 1];
@@ -96,7 +100,9 @@ bool surfaces_apart(const CstAirfoil& airfoil) {
   if (!usable(airfoil)) return false;
   const double gap = airfoil.te_upper - airfoil.te_lower;
   if (gap < 0.0) return false;
-  Coefficients d(airfoil.upper.size());
+  std::array<std::byte, 4096> storage;  // enough for most: each step of an optimiser asks
+  std::pmr::monotonic_buffer_resource memory(storage.data(), storage.size());
+  Coefficients d(airfoil.upper.size(), &memory);
   for (std::size_t i = 0; i < d.size(); ++i) d[i] = airfoil.upper[i] - airfoil.lower[i];
   if (!all_finite(d)) return false;
   if (gap == 0.0) divide_out_trailing_edge(d);

@@ -1,21 +1,14 @@
 // Constraints: an edge is recovered by flipping the edges that it crosses (S. W. Sloan, "A fast algorithm for
 // generating constrained Delaunay triangulations", 1993).
 
-#include <deque>
-
 #include "remodel/predicates.h"
 #include "triangulation/triangulation.h"
 
 namespace remodel {
 
-// An edge that the segment crosses, its ends right and left of the segment.
-struct Triangulation::Crossing {
-  VertexId right, left;
-};
-
-ConstrainResult Triangulation::find_crossings(VertexId a, VertexId b,
-                                              std::vector<Crossing>& crossings) const {
+ConstrainResult Triangulation::find_crossings(VertexId a, VertexId b) {
   using Kind = ConstrainResult::Kind;
+  crossings_.clear();
   const Point pa = point(a), pb = point(b);
   const auto side = [&](VertexId v) { return v == infinite_vertex ? 0 : orient2d(pa, pb, point(v)); };
   // The triangle at a that the segment leaves through its opposite edge.
@@ -32,7 +25,7 @@ ConstrainResult Triangulation::find_crossings(VertexId a, VertexId b,
     const VertexId right = following(edge), left = preceding(edge);
     const Link link = this->link(edge);
     if (link.constrained()) return {Kind::blocked, right, left};
-    crossings.push_back({right, left});
+    crossings_.push_back({right, left});
     const VertexId apex = vertex({link.triangle(), link.corner()});
     if (apex == b) return {};
     const int s = side(apex);
@@ -45,15 +38,13 @@ ConstrainResult Triangulation::find_crossings(VertexId a, VertexId b,
 
 // Flips until no edge crosses a-b. An edge whose two triangles do not form a strictly convex quadrilateral
 // waits.
-void Triangulation::flip_crossings(VertexId a, VertexId b, std::vector<Crossing>& crossings) {
-  std::deque<Crossing> todo(crossings.begin(), crossings.end());
-  std::vector<std::pair<VertexId, VertexId>> made;
-  while (!todo.empty()) {
-    const Crossing crossing = todo.front();
-    todo.pop_front();
+void Triangulation::flip_crossings(VertexId a, VertexId b) {
+  made_.clear();
+  for (std::size_t i = 0; i < crossings_.size(); ++i) {
+    const Crossing crossing = crossings_[i];
     const Corner c = *find_edge(crossing.right, crossing.left);
     if (!flippable(c)) {
-      todo.push_back(crossing);
+      crossings_.push_back(crossing);
       continue;
     }
     const Link across = link(c);
@@ -64,13 +55,13 @@ void Triangulation::flip_crossings(VertexId a, VertexId b, std::vector<Crossing>
     };
     const int sp = side(p), sq = side(q);
     if (sp * sq < 0)
-      todo.push_back(sp < 0 ? Crossing{p, q} : Crossing{q, p});
+      crossings_.push_back(sp < 0 ? Crossing{p, q} : Crossing{q, p});
     else
-      made.emplace_back(p, q);
+      made_.push_back({p, q});
   }
   set_constraint(*find_edge(a, b), true);
   stack_.clear();
-  for (const auto& [p, q] : made)
+  for (const auto& [p, q] : made_)
     if (const auto c = find_edge(p, q)) stack_.push_back(*c);
   legalise(stack_);
 }
@@ -80,9 +71,8 @@ ConstrainResult Triangulation::constrain(VertexId a, VertexId b) {
     set_constraint(*c, true);
     return {};
   }
-  std::vector<Crossing> crossings;
-  const ConstrainResult result = find_crossings(a, b, crossings);
-  if (result.kind == ConstrainResult::Kind::done) flip_crossings(a, b, crossings);
+  const ConstrainResult result = find_crossings(a, b);
+  if (result.kind == ConstrainResult::Kind::done) flip_crossings(a, b);
   return result;
 }
 

@@ -125,17 +125,18 @@ std::optional<VertexId> Triangulation::split(Corner edge, Point p) {
     return std::nullopt;
   const VertexId a = following(edge), b = preceding(edge);
   const Region far_region = triangles_[other.triangle.index].region;
-  Cavity near, far, whole;
-  find_cavity(p, edge.triangle, near);
-  append_side(near, link(edge), whole);
-  const std::size_t near_edges = whole.ring.size();
+  cavity_.triangles.clear();
+  cavity_.ring.clear();
+  find_cavity(p, edge.triangle, near_);
+  append_side(near_, link(edge), cavity_);
+  const std::size_t near_edges = cavity_.ring.size();
   if (in_conflict(other.triangle, p)) {
-    find_cavity(p, other.triangle, far);
-    append_side(far, link(other), whole);
+    find_cavity(p, other.triangle, far_);
+    append_side(far_, link(other), cavity_);
   } else {
-    whole.ring.push_back({a, Link(other.triangle, other.index, false)});
+    cavity_.ring.push_back({a, Link(other.triangle, other.index, false)});
   }
-  const VertexId v = fill_cavity(p, whole);
+  const VertexId v = fill_cavity(p, cavity_);
   for (std::size_t k = near_edges; k < new_star_.size(); ++k) set_region(new_star_[k], far_region);
   set_constraint(*find_edge(v, a), true);
   set_constraint(*find_edge(v, b), true);

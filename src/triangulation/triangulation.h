@@ -329,9 +329,12 @@ class Triangulation {
   bool is_ear(const std::vector<StarEdge>& polygon, std::size_t i) const;
   void write_ears(const Hole& hole, Region region);
 
-  struct Crossing;  // constrain.cpp
-  ConstrainResult find_crossings(VertexId a, VertexId b, std::vector<Crossing>& crossings) const;
-  void flip_crossings(VertexId a, VertexId b, std::vector<Crossing>& crossings);
+  // constrain.cpp: an edge that a segment crosses, its ends right and left of the segment.
+  struct Crossing {
+    VertexId right, left;
+  };
+  ConstrainResult find_crossings(VertexId a, VertexId b);
+  void flip_crossings(VertexId a, VertexId b);
 
   SlotArray<Vertex> vertices_;
   SlotArray<std::uint32_t> generations_;
@@ -369,8 +372,9 @@ class Triangulation {
   std::vector<std::uint32_t> edge_from_;  // border edge that begins at a vertex
   Buffer<Spoke> spokes_;
   Buffer<TriangleId> new_star_;
-  Cavity cavity_;
+  Cavity cavity_, near_, far_;  // the last two: of the sides of an edge that is split
   std::vector<Corner> stack_;
+  Buffer<Crossing> crossings_, made_;  // of constrain(): to be flipped, oldest first; flipped
 };
 
 }  // namespace remodel
