@@ -306,12 +306,15 @@ VertexId Refiner::insert_free(Point p, VertexId near) {
 }
 
 void Refiner::recover_loop(std::uint32_t head) {
+  mesh_.walk_edges(head, [&](std::uint32_t k, std::uint32_t) { recover_edge(k); });
+}
+
+void Refiner::recover_edge(std::uint32_t k) {
+  const VertexId a = mesh_.at(k).vertex, b = mesh_.at(mesh_.at(k).next).vertex;
+  const auto edge = triangulation_.find_edge(a, b);
+  if (edge && triangulation_.link(*edge).constrained()) return;
   labelled_ = false;
-  mesh_.walk_edges(head, [&](std::uint32_t k, std::uint32_t next) {
-    const VertexId a = mesh_.at(k).vertex, b = mesh_.at(next).vertex;
-    const auto edge = triangulation_.find_edge(a, b);
-    if (!edge || !triangulation_.link(*edge).constrained()) recover(a, b, 0);
-  });
+  recover(a, b, 0);
   labelled_ = true;
 }
 

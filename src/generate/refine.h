@@ -48,6 +48,7 @@ class Refiner {
   // vertices on it are removed, boundary edges that cross it are split. Region labels are left to the caller.
   // Throws RecoveryError.
   void recover_loop(std::uint32_t head);
+  void recover_edge(std::uint32_t k);  // the same for the edge from this entry
 
   std::size_t small_angles() const { return small_angles_.count(); }
   // Ends with Stopped::vertex_budget once the mesh has this many vertices.

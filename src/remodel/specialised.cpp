@@ -25,10 +25,11 @@ class Replacement {
     const List<VertexId> inside = vertices_inside(mesh_, regions());
     release_boundary();
     triangulation_.remove(inside);
-    triangulation_.remove(take_lost());
+    List<std::uint32_t> loose(&mesh_.arena);
+    triangulation_.remove(take_lost(loose));
     insert_new();
     for (const std::size_t loop : cache_.loops) mesh_.orient_loop(loop);
-    recover();
+    recover(loose);
     relabel_touched(mesh_);
     for (std::size_t i = 0; i < cache_.non_steiner && !options_.renewing; ++i)
       if (lost(i)) set_length_scale(cache_.moving[i].boundary);
@@ -104,13 +105,16 @@ class Replacement {
     }
   }
 
-  // The lost vertices leave the boundary table.
-  List<VertexId> take_lost() {
+  // The lost vertices leave the boundary table. The entries of which boundary edges are missing then are
+  // `loose`, some of them twice; Steiner vertices among them may be lost too.
+  List<VertexId> take_lost(List<std::uint32_t>& loose) {
     List<VertexId> going(&mesh_.arena);
     for (std::size_t i = 0; i < cache_.moving.size(); ++i) {
       if (!lost(i)) continue;
       const std::uint32_t k = moving(i).boundary;
       going.push_back(mesh_.at(k).vertex);
+      for (const std::uint32_t from : {mesh_.at(k).previous, k})
+        if (from != no_index && (loose.empty() || loose.back() != from)) loose.push_back(from);
       if (i >= cache_.non_steiner)
         mesh_.remove_boundary_vertex(k);
       else
@@ -144,9 +148,10 @@ class Replacement {
     return triangulation_.star(VertexId{any}).triangle;
   }
 
-  void recover() {
+  void recover(std::span<const std::uint32_t> loose) {
     Refiner refiner(mesh_);
-    for (const std::size_t loop : cache_.loops) refiner.recover_loop(mesh_.loop_heads[loop]);
+    for (const std::uint32_t k : loose)
+      if (mesh_.at(k).vertex && mesh_.at(k).next != no_index) refiner.recover_edge(k);
   }
 
   void set_length_scale(std::uint32_t k) {
