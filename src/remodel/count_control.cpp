@@ -37,12 +37,14 @@ class VerticesBefore {
     return mesh_.vertex_marks.visited(v.index) ? earlier_[mesh_.numbers[v.index]].vertex
                                                : mesh_.triangulation[v];
   }
+  // Those on boundaries are left out.
   template <class Visit>
   void for_each_with_another_scale(Visit visit) const {
     for (std::uint32_t i = 0; i < earlier_.size(); ++i) {
       const auto& [v, vertex] = earlier_[i];
+      if (vertex.boundary != no_index || mesh_.numbers[v.index] != i) continue;
       const Vertex& now = mesh_.triangulation[v];
-      if (mesh_.numbers[v.index] == i && now.alive() && now.length_scale != vertex.length_scale) visit(v);
+      if (now.alive() && now.length_scale != vertex.length_scale) visit(v);
     }
   }
 
@@ -73,11 +75,21 @@ double corrected_interior_size(MeshData& mesh, double before) {
     const Vertex &a = vertices[t.vertex[0]], &b = vertices[t.vertex[1]], &c = vertices[t.vertex[2]];
     if (is_interior(a, b, c)) sum -= size_of(a, b, c, mesh.options.max_gradation);
   };
-  for (const Triangulation::Earlier& earlier : triangulation.earlier()) subtract(earlier.triangle);
+  constexpr std::size_t look_ahead = 8;
+  const auto earlier = triangulation.earlier();
+  for (std::size_t i = 0; i < earlier.size(); ++i) {
+    if (i + look_ahead < earlier.size())
+      for (const VertexId v : earlier[i + look_ahead].triangle.vertex) triangulation.prefetch(v);
+    subtract(earlier[i].triangle);
+  }
+  const auto touched = triangulation.touched();
   mesh.marks.clear(triangulation.triangle_slots());
-  for (const TriangleId t : triangulation.touched()) {
-    sum += interior_size_of(mesh, triangulation[t]);
-    mesh.marks.visit(t.index);
+  for (std::size_t i = 0; i < touched.size(); ++i) {
+    if (i + 2 * look_ahead < touched.size()) triangulation.prefetch(touched[i + 2 * look_ahead]);
+    if (i + look_ahead < touched.size())
+      for (const VertexId v : triangulation[touched[i + look_ahead]].vertex) triangulation.prefetch(v);
+    sum += interior_size_of(mesh, triangulation[touched[i]]);
+    mesh.marks.visit(touched[i].index);
   }
   // Triangles that are as they were, at vertices whose length scale is not.
   vertices.for_each_with_another_scale([&](VertexId v) {

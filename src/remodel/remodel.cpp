@@ -259,6 +259,11 @@ Stopped refine_touched(MeshData& mesh, StepObserver* observer) {
   refiner.limit_vertices(std::min<std::size_t>(mesh.options.max_vertices, runaway));
   triangulation.for_each_touched(
       [&](TriangleId t, bool same) { same ? refiner.consider_kept(t) : refiner.consider(t); });
+  // Adjusted triangles keep what the mesh promises: of an imported mesh that is less than what refinement makes.
+  if (QualityBounds::of_refinement(mesh.options).squared_radius_edge <
+      QualityBounds(mesh.options).squared_radius_edge)
+    for (const Triangulation::Refreshed& adjusted : triangulation.refreshed())
+      refiner.consider_kept(adjusted.id);
   return refiner.run();
 }
 
