@@ -2,12 +2,14 @@
 // into one Action and every failure into one line and an exit status.
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <new>
 #include <string>
+#include <thread>
 
 #include "command.h"
 #include "remodel/error.h"
@@ -17,8 +19,13 @@ namespace remodel::app {
 namespace {
 
 int fail(Status status, std::string message) {
-  // All ranks of an MPI program refuse the same input: one of them says so.
-  if (status == Status::bad_input && launched_rank() > 0) return static_cast<int>(status);
+  // All ranks of an MPI program refuse the same input: rank 0 says so, and its end is that of the others. One
+  // that ended before would be the end of rank 0, unheard. One that is still there after a while has found
+  // what the others have not.
+  if (status == Status::bad_input && launched_rank() > 0) {
+    std::this_thread::sleep_for(std::chrono::seconds(5));
+    message = "rank " + std::to_string(launched_rank()) + ": " + message;
+  }
   // File names and foreign content may hold anything; the message stays one line.
   for (char& c : message) {
     const auto byte = static_cast<unsigned char>(c);
