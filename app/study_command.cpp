@@ -175,11 +175,13 @@ void add_counts(CLI::App& app, StudyCommand& command) {
   add({"--evaluations", "N", std::to_string(StudyOptions().evaluations),
        "Feasible designs of each optimisation, one remodelling each and replay: at least 1"},
       {.low = 1, .high = 1'000'000'000}, &StudyOptions::evaluations);
-  add({"--compare-every", "K", "20", "Every K-th evaluation is compared with a fresh mesh; 0: never"},
+  add({"--compare-every", "K", std::to_string(StudyOptions().compare_every), "Every K-th evaluation is compared with a fresh mesh; 0: never"},
       {.low = 0, .high = 1'000'000'000}, &StudyOptions::compare_every);
-  add({"--check-every", "K", "1", "Every K-th mesh goes through the quick check: at least 1"},
+  add({"--check-every", "K", std::to_string(StudyOptions().check_every),
+       "Every K-th mesh goes through the quick check, the others where they changed: at least 1"},
       {.low = 1, .high = 1'000'000'000}, &StudyOptions::check_every);
-  add({"--validate-every", "K", "20", "Every K-th mesh goes through the validator: at least 1"},
+  add({"--validate-every", "K", std::to_string(StudyOptions().validate_every),
+       "Every K-th mesh goes through the validator: at least 1"},
       {.low = 1, .high = 1'000'000'000}, &StudyOptions::validate_every);
   add({"--seed", "N", "1", "Seed of the first scenario: at least 0"}, {.low = 0, .high = 1'000'000'000'000},
       &StudyOptions::seed);

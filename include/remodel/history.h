@@ -19,9 +19,9 @@
 
 namespace remodel {
 
-// How a remodelled mesh was validated: not at all; by the rules of Mesh::quick_check() where the step changed
-// it, which is enough if the mesh before was valid; by quick_check(); by check() of check.h as well.
-enum class Checked { nothing, changes, quick, full };
+// How a remodelled mesh was validated: by the rules of Mesh::quick_check() where the step changed it, which is
+// enough if the mesh before was valid; by quick_check(); by check() of check.h as well.
+enum class Checked { changes, quick, full };
 const char* name_of(Checked checked);
 
 struct EvaluationRecord {

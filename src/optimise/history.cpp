@@ -11,12 +11,12 @@
 namespace remodel {
 namespace {
 
-constexpr const char* checked_names[] = {"nothing", "changes", "quick", "full"};
+constexpr const char* checked_names[] = {"changes", "quick", "full"};
 
 Checked checked_named(const std::string& name) {
   const auto* found = std::find(std::begin(checked_names), std::end(checked_names), name);
   if (found == std::end(checked_names))
-    throw std::invalid_argument("expected nothing, changes, quick or full under `checked`");
+    throw std::invalid_argument("expected changes, quick or full under `checked`");
   return static_cast<Checked>(found - std::begin(checked_names));
 }
 

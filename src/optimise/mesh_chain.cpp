@@ -1,6 +1,5 @@
 #include "optimise/mesh_chain.h"
 
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -30,8 +29,6 @@ void copy_figures(const RemodelResult& result, EvaluationRecord& record) {
 
 // A run is long: it can afford to know K within one percent.
 constexpr int calibration_samples = 20;
-
-constexpr double unmeasured_angle = std::numeric_limits<double>::infinity();  // never the smallest
 
 }  // namespace
 
@@ -94,7 +91,6 @@ Stopped MeshChain::step(const CstAirfoil& design, StepTasks tasks, EvaluationRec
 }
 
 StepCheck MeshChain::checked(const Domain& domain, const RemodelResult& result, Checked how) const {
-  if (how == Checked::nothing) return {.broken = {}, .min_angle_deg = unmeasured_angle, .whole = false};
   if (how == Checked::changes) return check_changes(result);
   StepCheck check = check_whole(mesh());
   if (!check.broken.empty() || how != Checked::full) return check;

@@ -18,7 +18,7 @@ namespace remodel {
 // What else is done with the mesh of one design.
 struct StepTasks {
   bool compare = false;              // generate a fresh mesh
-  Checked check = Checked::changes;  // how the mesh is validated; by nothing, no angle is measured
+  Checked check = Checked::changes;  // how the mesh is validated
   bool generate = false;             // the mesh is generated, not remodelled
 };
 

@@ -128,7 +128,7 @@ bool Replay::evaluate(MeshChain& chain, std::size_t index) {
   const auto due = [&](std::uint64_t every) { return record.evaluation % every == 0; };
   const StepTasks tasks{.check = due(work_.validate_every) ? Checked::full
                                  : due(work_.check_every)  ? Checked::quick
-                                                           : Checked::nothing};
+                                                           : Checked::changes};
   if (chain.step(design_at(work_, index), tasks, record) != Stopped::done) return false;
   if (fresh) {
     const GradationError error = chain.mesh().gradation_error();

@@ -66,7 +66,6 @@ StudyOptions full_study() {
   for (const CatalogueEntry& entry : airfoil_catalogue())
     if (entry.name != "naca0012") options.airfoils.push_back({std::string(entry.name), entry.airfoil()});
   options.scenarios = 30;
-  options.evaluations = 9000;
   return options;
 }
 

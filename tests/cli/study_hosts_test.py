@@ -17,6 +17,7 @@ HOSTS = 3
 # Two core seconds.
 STUDY = (
     "--pairs", "50/1,100/2", "--sigmas", "0.05,0.25", "--distances", "1", "--evaluations", 200, "--scenarios", 2,
+    "--compare-every", 20,
 )  # fmt: skip
 # Starts mpirun's daemon on the host with the address, as `ssh address command` would.
 AGENT = """#!/bin/sh
@@ -188,8 +189,8 @@ class Hosts(RankTest):
         self.assertWhole("s")
 
     def test_a_host_that_dies(self):
-        """All processes of a host are killed. Depending on what mpirun notices first, it ends the study in order or
-        lets it go on, and then waits as above: in either case the other hosts resume it."""
+        """All processes of a host are killed. Depending on what mpirun notices first, it ends the study, in order or
+        not, or lets it go on, and then waits as above: in each case the other hosts resume it."""
         process = self.start_on_hosts(
             HOSTS, ("--enable-recovery",), *self.study("s", *STUDY, "--rank-timeout", 2, "--json")
         )
@@ -198,7 +199,8 @@ class Hosts(RankTest):
         self.wait_until(lambda: process.poll() is not None or not any(self.ranks(k) for k in (0, 1)), "ranks are left")
         self.interrupt(process)
         stdout, message = self.end(process)
-        self.assertIn(json.loads(stdout)["stopped"], ("interrupted", "done"), message)
+        if stdout:  # which mpirun loses where it ends all ranks at once
+            self.assertIn(json.loads(stdout)["stopped"], ("interrupted", "done"), message)
         process = self.start_on_hosts(2, (), *self.study("s", "--resume"))
         message = process.communicate(timeout=120)[1]
         self.assertEqual(process.returncode, 0, message)
