@@ -25,7 +25,9 @@ SMALL = (
     "--pairs", "50/1,100/2", "--sigmas", "0.05,0.25", "--distances", "1,2", "--evaluations", 60, "--compare-every", 20,
 )  # fmt: skip
 # A core second or two.
-LONGER = ("--pairs", "50/1,100/2", "--sigmas", "0.05,0.25", "--distances", "1", "--evaluations", 400, "--compare-every", 20)
+LONGER = (
+    "--pairs", "50/1,100/2", "--sigmas", "0.05,0.25", "--distances", "1", "--evaluations", 400, "--compare-every", 20,
+)  # fmt: skip
 # Hours.
 ENDLESS = ("--pairs", "50/1", "--sigmas", "0.25", "--evaluations", 10000000, "--compare-every", 0)
 
