@@ -18,14 +18,19 @@
 namespace remodel::app {
 namespace {
 
+// All ranks of an MPI program refuse the same input: rank 0 says so. Another that ended before could be the
+// end of rank 0, unheard, so it waits. Where input differs it does from host to host: the first rank of each
+// other host says so then, if the end of rank 0 was not its own.
+bool is_heard(Status status) {
+  constexpr std::chrono::seconds patience{5};
+  if (status != Status::bad_input || launched_rank() == 0) return true;
+  std::this_thread::sleep_for(patience);
+  return launched_local_rank() == 0;
+}
+
 int fail(Status status, std::string message) {
-  // All ranks of an MPI program refuse the same input: rank 0 says so, and its end is that of the others. One
-  // that ended before would be the end of rank 0, unheard. One that is still there after a while has found
-  // what the others have not.
-  if (status == Status::bad_input && launched_rank() > 0) {
-    std::this_thread::sleep_for(std::chrono::seconds(5));
-    message = "rank " + std::to_string(launched_rank()) + ": " + message;
-  }
+  if (!is_heard(status)) return static_cast<int>(status);
+  if (launched_rank() > 0) message = "rank " + std::to_string(launched_rank()) + ": " + message;
   // File names and foreign content may hold anything; the message stays one line.
   for (char& c : message) {
     const auto byte = static_cast<unsigned char>(c);
@@ -75,10 +80,9 @@ int run(int argc, char** argv) {
       "bug.\nLengths are in chords, angles in degrees; `remodel SUBCOMMAND --help` names units and "
       "defaults.");
   Action action;
-  for (const auto add :
-       {add_mesh_command, add_update_command, add_batch_command, add_check_command, add_fit_command,
-        add_optimise_command, add_draw_command, add_convert_command, add_shapes_command, add_soak_command,
-        add_study_command}) {
+  for (const auto add : {add_mesh_command, add_update_command, add_batch_command, add_check_command,
+                         add_fit_command, add_optimise_command, add_draw_command, add_convert_command,
+                         add_shapes_command, add_soak_command, add_study_command}) {
     add(program, action);
   }
   try {

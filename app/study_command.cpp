@@ -175,7 +175,8 @@ void add_counts(CLI::App& app, StudyCommand& command) {
   add({"--evaluations", "N", std::to_string(StudyOptions().evaluations),
        "Feasible designs of each optimisation, one remodelling each and replay: at least 1"},
       {.low = 1, .high = 1'000'000'000}, &StudyOptions::evaluations);
-  add({"--compare-every", "K", std::to_string(StudyOptions().compare_every), "Every K-th evaluation is compared with a fresh mesh; 0: never"},
+  add({"--compare-every", "K", std::to_string(StudyOptions().compare_every),
+       "Every K-th evaluation is compared with a fresh mesh; 0: never"},
       {.low = 0, .high = 1'000'000'000}, &StudyOptions::compare_every);
   add({"--check-every", "K", std::to_string(StudyOptions().check_every),
        "Every K-th mesh goes through the quick check, the others where they changed: at least 1"},

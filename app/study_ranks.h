@@ -12,6 +12,7 @@ namespace remodel::app {
 
 // The rank of this process, as mpirun tells it, and 0 outside of an MPI program; how many there are, or 1.
 int launched_rank();
+int launched_local_rank();  // on its host
 int launched_ranks();
 
 struct RanksOptions {

@@ -19,8 +19,8 @@
 
 namespace remodel {
 
-// How a remodelled mesh was validated: by the rules of Mesh::quick_check() where the step changed it, which is
-// enough if the mesh before was valid; by quick_check(); by check() of check.h as well.
+// How a remodelled mesh was validated: by the rules of Mesh::quick_check() where the step changed it, which
+// is enough if the mesh before was valid; by quick_check(); by check() of check.h as well.
 enum class Checked { changes, quick, full };
 const char* name_of(Checked checked);
 

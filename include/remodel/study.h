@@ -41,8 +41,8 @@ struct StudyOptions {
   std::size_t scenarios = 1;  // of each airfoil and sigma: 1 to 9999. Scenario k has the seed `seed` + k - 1
   std::size_t evaluations = 9000;   // feasible samples of a scenario: at least 1
   std::size_t compare_every = 100;  // every K-th evaluation is compared with a fresh mesh; 0: never
-  // Every mesh is checked where the step changed it. Every K-th goes through quick_check(), which takes longer
-  // than most steps, and through check(), which takes hundreds of times as long: at least 1.
+  // Every mesh is checked where the step changed it. Every K-th goes through quick_check(), which takes
+  // longer than most steps, and through check(), which takes hundreds of times as long: at least 1.
   std::size_t check_every = 100;
   std::size_t validate_every = 3000;
   std::uint64_t seed = 1;

@@ -27,8 +27,8 @@ namespace remodel {
 
 class Refiner {
  public:
-  // Precondition: regions are labelled, length scales set, the triangulation is constrained Delaunay. Uses the
-  // mesh's arena: within a scope of it.
+  // Precondition: regions are labelled, length scales set, the triangulation is constrained Delaunay. Uses
+  // the mesh's arena: within a scope of it.
   explicit Refiner(MeshData& mesh, StepObserver* observer = nullptr);
   // A limit or an exception leaves no marks behind.
   ~Refiner() {

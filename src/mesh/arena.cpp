@@ -18,8 +18,8 @@ void* Arena::do_allocate(std::size_t bytes, std::size_t alignment) {
     used_ = blocks_[block_].size - left + bytes;
     return at;
   }
-  const std::size_t wanted = std::max({smallest_block, 2 * bytes + alignment,
-                                       blocks_.empty() ? 0 : 2 * blocks_.back().size});
+  const std::size_t wanted =
+      std::max({smallest_block, 2 * bytes + alignment, blocks_.empty() ? 0 : 2 * blocks_.back().size});
   blocks_.reserve(blocks_.size() + 1);
   blocks_.push_back({std::make_unique_for_overwrite<std::byte[]>(wanted), wanted});
   return do_allocate(bytes, alignment);

@@ -10,9 +10,13 @@
 namespace remodel {
 
 // Gives out memory in order, and takes it back at the end of a Scope: all that was given out since it began.
-// The blocks stay. Scopes nest: what is older than one must not grow while it lasts.
+// The blocks stay until its own end. Scopes nest: what is older than one must not grow while it lasts.
 class Arena : public std::pmr::memory_resource {
  public:
+  Arena() = default;
+  Arena(const Arena&) = delete;
+  Arena& operator=(const Arena&) = delete;
+
   class Scope {
    public:
     explicit Scope(Arena& arena) : arena_(arena), block_(arena.block_), used_(arena.used_) {}

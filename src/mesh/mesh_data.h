@@ -63,7 +63,7 @@ struct QualityBounds {
 struct Backup {
   std::vector<std::uint32_t> loop_heads;
   std::vector<Sides> sides;
-  std::vector<std::size_t> changing;  // the loops that the step may change; empty: all, in any way
+  std::vector<std::size_t> changing;  // the loops that the step may change, if not all in any way
   std::vector<Loop> loops;            // of the domain: those, or all
 };
 
@@ -88,8 +88,8 @@ class MeshData {
   BadTriangles bad_triangles;  // none when no refinement is under way
   Cavity cavity;               // of refinement, and the length scales of its ring
   Buffer<double> ring_scales;
-  Arena arena;      // for lists of the step under way
-  Backup backup;    // of the step under way
+  Arena arena;    // for lists of the step under way
+  Backup backup;  // of the step under way
 
   MeshData() = default;
   MeshData(const MeshData& other);  // under a journal: a copy as if it were committed

@@ -210,7 +210,7 @@ class BrokenMesh : public testing::Test {
 };
 
 TEST_F(BrokenMesh, ByAVertexThatMovedAcrossAnEdge) {
-  data.triangulation.set_point(inner, {30.0, 30.0});
+  data.triangulation.move(inner, {30.0, 30.0}, data.triangulation[inner].length_scale);
   expect("not counter-clockwise");
 }
 
@@ -220,7 +220,8 @@ TEST_F(BrokenMesh, ByAVertexThatMovedALittle) {
   Point sum{0, 0};
   for (const VertexId v : t.vertex) sum = sum + data.triangulation.point(v);
   const Point centroid{sum.x / 3, sum.y / 3}, p = data.triangulation.point(inner);
-  data.triangulation.set_point(inner, {p.x + 0.9 * (centroid.x - p.x), p.y + 0.9 * (centroid.y - p.y)});
+  data.triangulation.move(inner, {p.x + 0.9 * (centroid.x - p.x), p.y + 0.9 * (centroid.y - p.y)},
+                          data.triangulation[inner].length_scale);
   const Corner first = data.triangulation.star(inner);
   Corner c = first;
   do data.triangulation.refresh_circle(c.triangle), c = data.triangulation.counterclockwise(c);
@@ -235,7 +236,7 @@ TEST_F(BrokenMesh, ByACircleThatIsNotTheTriangles) {
   Circle circle = data.triangulation[triangle].circle;
   circle.inside *= 4.0;
   circle.outside *= 4.0;
-  data.triangulation.refresh(triangle, circle, data.triangulation[triangle].birth);
+  data.triangulation.set_moved(triangle, circle, data.triangulation[triangle].birth);
   EXPECT_NE(mesh.quick_check(), "");
 }
 

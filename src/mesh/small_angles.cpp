@@ -100,6 +100,7 @@ bool SmallAngles::is_corner(VertexId v) const {
   std::array<std::byte, 16 * sizeof(Leg)> storage;  // few vertices have more
   std::pmr::monotonic_buffer_resource memory(storage.data(), storage.size());
   Legs legs(&memory);
+  legs.reserve(15);
   return is_sharp(mesh_, k, legs);
 }
 

@@ -324,7 +324,7 @@ bool adjust_all(MeshData& mesh, AdjustCache& cache, const Domain& domain) {
     const Affected& a = cache.affected[i];
     if (!a.moved) continue;
     const Circle& circle = a.domain ? a.circle : mesh.triangulation[a.triangle].circle;
-    mesh.triangulation.refresh(a.triangle, circle, mesh.step + 1);
+    mesh.triangulation.set_moved(a.triangle, circle, mesh.step + 1);
   }
   return true;
 }
@@ -334,7 +334,8 @@ void adjust_some(MeshData& mesh, AdjustCache& cache) {
   cache.accepted.assign(cache.moving.size(), false);
   for (std::size_t i = 0; i < cache.moving.size(); ++i) {
     const Moving& m = cache.moving[i];
-    const bool between_lost = i >= cache.non_steiner && !(cache.accepted[m.before] && cache.accepted[m.after]);
+    const bool between_lost =
+        i >= cache.non_steiner && !(cache.accepted[m.before] && cache.accepted[m.after]);
     cache.accepted[i] = !between_lost && may_move(mesh, cache, i);
     const Point p = cache.accepted[i] ? cache.new_points[i] : cache.old_points[i];
     mesh.triangulation.move(m.vertex, p, cache.new_scales[i]);

@@ -35,7 +35,7 @@ struct AdjustCache : MeshCache {
     bool domain;
     std::uint8_t movable = 0;  // how many of its vertices are moving
     bool moved = false;        // a vertex of it has another position
-    bool kept = true;          // none of its vertices is lost
+    bool kept = true;          // none of its vertices is lost, as far as adjust_some() was followed up
     bool good = false;         // at the new positions
   };
   // An unconstrained edge of the domain with an affected triangle beside it: is `apex` outside its circle?

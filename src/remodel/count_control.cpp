@@ -76,18 +76,20 @@ double corrected_interior_size(MeshData& mesh, double before) {
     if (is_interior(a, b, c)) sum -= size_of(a, b, c, mesh.options.max_gradation);
   };
   constexpr std::size_t look_ahead = 8;
+  const auto prefetch_vertices = [&](const Triangle& t) {
+    for (const VertexId v : t.vertex)
+      if (t.alive()) triangulation.prefetch(v);
+  };
   const auto earlier = triangulation.earlier();
   for (std::size_t i = 0; i < earlier.size(); ++i) {
-    if (i + look_ahead < earlier.size())
-      for (const VertexId v : earlier[i + look_ahead].triangle.vertex) triangulation.prefetch(v);
+    if (i + look_ahead < earlier.size()) prefetch_vertices(earlier[i + look_ahead].triangle);
     subtract(earlier[i].triangle);
   }
   const auto touched = triangulation.touched();
   mesh.marks.clear(triangulation.triangle_slots());
   for (std::size_t i = 0; i < touched.size(); ++i) {
     if (i + 2 * look_ahead < touched.size()) triangulation.prefetch(touched[i + 2 * look_ahead]);
-    if (i + look_ahead < touched.size())
-      for (const VertexId v : triangulation[touched[i + look_ahead]].vertex) triangulation.prefetch(v);
+    if (i + look_ahead < touched.size()) prefetch_vertices(triangulation[touched[i + look_ahead]]);
     sum += interior_size_of(mesh, triangulation[touched[i]]);
     mesh.marks.visit(touched[i].index);
   }

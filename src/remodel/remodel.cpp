@@ -233,7 +233,8 @@ void count(MeshData& mesh, std::span<const VertexId> moved, RemodelResult& resul
     ++before;
     if (!survives(earlier.id, earlier.triangle)) ++lost;
   }
-  for (const Triangulation::Refreshed& kept : triangulation.refreshed())  // a vertex of it moved
+  for (const Triangulation::MovedInPlace& kept :
+       triangulation.moved_in_place())  // a vertex of it moved, or is gone and it too
     if (triangulation[kept.id].region == Region::domain && !triangulation.is_touched(kept.id)) ++lost;
   for (const TriangleId t : triangulation.touched())
     if (triangulation[t].alive() && triangulation[t].region == Region::domain) ++after;
@@ -259,11 +260,11 @@ Stopped refine_touched(MeshData& mesh, StepObserver* observer) {
   refiner.limit_vertices(std::min<std::size_t>(mesh.options.max_vertices, runaway));
   triangulation.for_each_touched(
       [&](TriangleId t, bool same) { same ? refiner.consider_kept(t) : refiner.consider(t); });
-  // Adjusted triangles keep what the mesh promises: of an imported mesh that is less than what refinement makes.
+  // Adjusted triangles are as good as the mesh promises, which may be less than what refinement makes.
   if (QualityBounds::of_refinement(mesh.options).squared_radius_edge <
       QualityBounds(mesh.options).squared_radius_edge)
-    for (const Triangulation::Refreshed& adjusted : triangulation.refreshed())
-      refiner.consider_kept(adjusted.id);
+    for (const Triangulation::MovedInPlace& adjusted : triangulation.moved_in_place())
+      if (!triangulation.is_touched(adjusted.id)) refiner.consider_kept(adjusted.id);
   return refiner.run();
 }
 

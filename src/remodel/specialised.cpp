@@ -42,9 +42,9 @@ class Replacement {
   // What the paper omits: a partial adjustment leaves edges that are not Delaunay, since vertices moved for
   // which the triangles are good only once their neighbours have moved too. In holes every move does.
   //
-  // A triangle of the domain without a lost vertex is where adjust_all() evaluated it, and good there: nothing
-  // needs to look at it again, and its edges need a look from its lost neighbours only. The others are gone
-  // soon, or in holes.
+  // A triangle of the domain without a lost vertex is where adjust_all() evaluated it, and good there:
+  // nothing needs to look at it again, and its edges need a look from its lost neighbours only. The others
+  // are gone soon, or in holes.
   void restore_delaunay() {
     for (std::size_t i = 0; i < cache_.moving.size(); ++i)
       for (std::size_t s = moving(i).star_begin; lost(i) && s < moving(i).star_end; ++s)
@@ -55,7 +55,7 @@ class Replacement {
       const std::uint32_t birth = a.moved ? mesh_.step + 1 : triangulation_[a.triangle].birth;
       if (!known) uncertain.push_back(a.triangle);
       if (!known || a.moved)
-        triangulation_.refresh(a.triangle, known ? a.circle : circle_of(a.vertex), birth);
+        triangulation_.set_moved(a.triangle, known ? a.circle : circle_of(a.vertex), birth);
     }
     triangulation_.restore_delaunay(uncertain);
   }

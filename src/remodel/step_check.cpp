@@ -25,7 +25,7 @@ class Changes {
   void journal() {
     const Triangulation& triangulation = mesh_.triangulation;
     for (const TriangleId t : triangulation.touched()) triangle(t);
-    for (const Triangulation::Refreshed& kept : triangulation.refreshed())
+    for (const Triangulation::MovedInPlace& kept : triangulation.moved_in_place())
       if (!triangulation.is_touched(kept.id)) triangle(kept.id);
   }
   // The loop, and the triangles at it that the step left as they were, but for their length scales.

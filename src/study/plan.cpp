@@ -11,8 +11,7 @@ namespace remodel {
 namespace {
 
 // Estimates of the time of jobs, measured on one core of 2023. They decide the order of jobs and how much
-// seems to be left, nothing else. In small meshes the boundary takes the time, in large ones the triangles,
-// of which every mesh is checked.
+// seems to be left, nothing else. In small meshes the boundary takes the time, in large ones the triangles.
 double milliseconds(double boundary, double triangles, const StudyPair& pair) {
   const double size = pair.points / 50.0;
   return boundary * size + triangles * std::pow(size, 2.4);
@@ -22,6 +21,8 @@ constexpr double path_ms = 0.01;  // an evaluation
 double core_seconds(const StudyOptions& options, const JobKey& key) {
   const double evaluations = static_cast<double>(options.evaluations);
   const double compared = compares(options) ? evaluations / static_cast<double>(options.compare_every) : 0.0;
+  const double checked = evaluations / static_cast<double>(options.check_every);
+  const double validated = evaluations / static_cast<double>(options.validate_every);
   const StudyPair& pair = options.pairs[key.pair];
   switch (key.kind) {
     case JobKind::path:
@@ -29,7 +30,9 @@ double core_seconds(const StudyOptions& options, const JobKey& key) {
     case JobKind::fresh:
       return 1e-3 * compared * milliseconds(0.25, 0.009, pair);
     case JobKind::replay:
-      return 1e-3 * (evaluations * milliseconds(0.15, 0.024, pair) + compared * milliseconds(1.2, 0.2, pair));
+      return 1e-3 * (evaluations * milliseconds(0.024, 0.0009, pair) +
+                     (checked + compared) * milliseconds(0.02, 0.012, pair) +
+                     validated * milliseconds(1.2, 0.2, pair));
   }
   return 0.0;
 }

@@ -36,28 +36,31 @@ ConstrainResult Triangulation::find_crossings(VertexId a, VertexId b) {
   }
 }
 
-// Flips until no edge crosses a-b. An edge whose two triangles do not form a strictly convex quadrilateral
-// waits.
+// Flips until no edge crosses a-b, round by round. An edge whose two triangles do not form a strictly convex
+// quadrilateral waits, like one that a flip made and that crosses too.
 void Triangulation::flip_crossings(VertexId a, VertexId b) {
   made_.clear();
-  for (std::size_t i = 0; i < crossings_.size(); ++i) {
-    const Crossing crossing = crossings_[i];
-    const Corner c = *find_edge(crossing.right, crossing.left);
-    if (!flippable(c)) {
-      crossings_.push_back(crossing);
-      continue;
+  while (!crossings_.empty()) {
+    waiting_.clear();
+    for (const Crossing crossing : crossings_) {
+      const Corner c = *find_edge(crossing.right, crossing.left);
+      if (!flippable(c)) {
+        waiting_.push_back(crossing);
+        continue;
+      }
+      const Link across = link(c);
+      const VertexId p = vertex(c), q = vertex({across.triangle(), across.corner()});
+      flip(c);
+      const auto side = [&](VertexId v) {
+        return v == a || v == b ? 0 : orient2d(point(a), point(b), point(v));
+      };
+      const int sp = side(p), sq = side(q);
+      if (sp * sq < 0)
+        waiting_.push_back(sp < 0 ? Crossing{p, q} : Crossing{q, p});
+      else
+        made_.push_back({p, q});
     }
-    const Link across = link(c);
-    const VertexId p = vertex(c), q = vertex({across.triangle(), across.corner()});
-    flip(c);
-    const auto side = [&](VertexId v) {
-      return v == a || v == b ? 0 : orient2d(point(a), point(b), point(v));
-    };
-    const int sp = side(p), sq = side(q);
-    if (sp * sq < 0)
-      crossings_.push_back(sp < 0 ? Crossing{p, q} : Crossing{q, p});
-    else
-      made_.push_back({p, q});
+    std::swap(crossings_, waiting_);
   }
   set_constraint(*find_edge(a, b), true);
   stack_.clear();

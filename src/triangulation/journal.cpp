@@ -33,7 +33,7 @@ void Triangulation::begin() {
   triangle_slots_before_ = triangles_.size();
   live_vertices_before_ = live_vertices_;
   triangle_journal_.clear();
-  refresh_journal_.clear();
+  moved_journal_.clear();
   touched_.clear();
   vertex_journal_.clear();
   generation_journal_.clear();
@@ -67,7 +67,7 @@ void Triangulation::rollback() {
   journal_ = 0;
   for (auto entry = triangle_journal_.rbegin(); entry != triangle_journal_.rend(); ++entry)
     triangles_[entry->id.index] = entry->triangle;
-  for (auto entry = refresh_journal_.rbegin(); entry != refresh_journal_.rend(); ++entry) {
+  for (auto entry = moved_journal_.rbegin(); entry != moved_journal_.rend(); ++entry) {
     triangles_[entry->id.index].circle = entry->circle;
     triangles_[entry->id.index].birth = entry->birth;
   }
@@ -84,7 +84,7 @@ void Triangulation::rollback() {
   live_vertices_ = live_vertices_before_;
   touched_.clear();
   triangle_journal_.clear();
-  refresh_journal_.clear();
+  moved_journal_.clear();
   vertex_journal_.clear();
 }
 

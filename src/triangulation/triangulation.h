@@ -162,9 +162,8 @@ class Triangulation {
   // Lifts the constraint of an edge and restores invariant (3).
   void release(VertexId a, VertexId b);
 
-  // Moves a vertex and refreshes nothing: the caller calls refresh_circle() for its star and then
-  // restore_delaunay(), or keeps the Delaunay property by its own checks.
-  void set_point(VertexId v, Point p) { edit(v).point = p; }
+  // Moves a vertex and refreshes nothing: the caller calls refresh_circle() or set_moved() for its star and
+  // then restore_delaunay(), or keeps the Delaunay property by its own checks.
   void move(VertexId v, Point p, double length_scale) {
     Vertex& vertex = edit(v);
     vertex.point = p;
@@ -172,11 +171,11 @@ class Triangulation {
   }
   void refresh_circle(TriangleId t) { compute_circle(edit(t)); }
   // What has become of a triangle whose vertices moved: the circle is known already. Cheaper under a journal
-  // than a change of another kind, and listed by refreshed().
-  void refresh(TriangleId t, const Circle& circle, std::uint32_t birth) {
+  // than a change of another kind, and listed by moved_in_place().
+  void set_moved(TriangleId t, const Circle& circle, std::uint32_t birth) {
     Triangle& triangle = triangles_[t.index];
     if (journalling_ && triangle.journal != journal_)
-      refresh_journal_.push_back({t, triangle.birth, triangle.circle});
+      moved_journal_.push_back({t, triangle.birth, triangle.circle});
     triangle.circle = circle;
     triangle.birth = birth;
   }
@@ -200,23 +199,25 @@ class Triangulation {
   void commit();
   void rollback();
   bool journalling() const { return journalling_; }
-  // The triangle slots changed since begin(), new ones included, each once, in the order of their first
-  // change; and the earlier state of those that were there at begin(). Both lists grow with every change.
+  // The triangle slots changed since begin() by more than set_moved(), new ones included, each once, in the
+  // order of their first change; and the earlier state of those that were there at begin(). Both lists grow
+  // with every change.
   struct Earlier {
     TriangleId id;
     Triangle triangle;
   };
   std::span<const TriangleId> touched() const { return touched_; }
-  bool is_touched(TriangleId t) const { return triangles_[t.index].journal == journals_; }
+  // Whether it is among them; after commit() too, until the next begin().
+  bool is_touched(TriangleId t) const { return journals_ != 0 && triangles_[t.index].journal == journals_; }
   std::span<const Earlier> earlier() const { return triangle_journal_; }
-  // The triangles that were given to refresh() before anything else of them changed, with what they had: apart
-  // from touched(), which holds those of them that changed afterwards.
-  struct Refreshed {
+  // The triangles that were given to set_moved() before anything else of them changed, with what they had.
+  // Those that changed afterwards are in both lists; one that is given twice is here twice.
+  struct MovedInPlace {
     TriangleId id;
     std::uint32_t birth;
     Circle circle;
   };
-  std::span<const Refreshed> refreshed() const { return refresh_journal_; }
+  std::span<const MovedInPlace> moved_in_place() const { return moved_journal_; }
   // Whether two states of a triangle have the same vertices, and the same edges constrained.
   static bool same_edges(const Triangle& a, const Triangle& b);
   // Visits the touched triangles that are there: visit(id, whether it is at the vertices, and behind the
@@ -250,7 +251,7 @@ class Triangulation {
   friend struct TriangulationState;
 
   static Corner corner(Link link) { return {link.triangle(), link.corner()}; }
-  // Every change of a record goes through these two.
+  // Every change of a record goes through these two, or set_moved().
   Triangle& edit(TriangleId t) {
     Triangle& triangle = triangles_[t.index];
     if (triangle.journal != journal_) remember(t);
@@ -356,7 +357,7 @@ class Triangulation {
   std::uint16_t journals_ = 0;  // the last one's number
   std::uint16_t journal_ = 0;   // of the journal under way; 0, as in records of new slots, when there is none
   std::vector<Earlier> triangle_journal_;
-  std::vector<Refreshed> refresh_journal_;
+  std::vector<MovedInPlace> moved_journal_;
   std::vector<TriangleId> touched_;
   std::vector<VertexBefore> vertex_journal_;
   std::vector<std::uint32_t> generation_journal_;
@@ -374,7 +375,7 @@ class Triangulation {
   Buffer<TriangleId> new_star_;
   Cavity cavity_, near_, far_;  // the last two: of the sides of an edge that is split
   std::vector<Corner> stack_;
-  Buffer<Crossing> crossings_, made_;  // of constrain(): to be flipped, oldest first; flipped
+  Buffer<Crossing> crossings_, waiting_, made_;  // of constrain(): to be flipped, in the next round, flipped
 };
 
 }  // namespace remodel

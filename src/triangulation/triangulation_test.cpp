@@ -215,6 +215,9 @@ TEST_P(KernelOnFamily, ComesBackToTheSameBitsAfterRollback) {
         const auto inserted = t.insert(random_point(random, GetParam()), any_triangle(t));
         if (inserted.is_new) now.push_back(inserted.vertex);
       }
+      // A circle that is sure of nothing is right for any triangle.
+      const TriangleId moved{static_cast<std::uint32_t>(random() % t.triangle_slots())};
+      if (t[moved].alive()) t.set_moved(moved, {}, 1000U + static_cast<std::uint32_t>(step));
     }
     t.rollback();
     ASSERT_EQ(t.vertex_slots(), before.vertex_slots());
@@ -224,6 +227,10 @@ TEST_P(KernelOnFamily, ComesBackToTheSameBitsAfterRollback) {
         ASSERT_EQ(t[TriangleId{i}].vertex[k], before[TriangleId{i}].vertex[k]);
         ASSERT_EQ(t[TriangleId{i}].link[k], before[TriangleId{i}].link[k]);
       }
+    for (std::uint32_t i = 0; i < t.triangle_slots(); ++i) {
+      ASSERT_EQ(t[TriangleId{i}].birth, before[TriangleId{i}].birth);
+      ASSERT_EQ(t[TriangleId{i}].circle.outside, before[TriangleId{i}].circle.outside);
+    }
     for (std::uint32_t i = 0; i < t.vertex_slots(); ++i) {
       ASSERT_EQ(t[VertexId{i}].star, before[VertexId{i}].star);
       ASSERT_EQ(t.generation(VertexId{i}), before.generation(VertexId{i}));

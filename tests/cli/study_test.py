@@ -241,7 +241,9 @@ class Ranks(RankTest):
     def test_bad_input_is_refused_once(self):
         process, message = self.mpirun(3, (), "s", "--sigmas", "-1")
         self.assertEqual(process.returncode, 2, message)
-        self.assertEqual(message.count(b"remodel: error:"), 1, message)
+        self.assertEqual(message.count(b"error: --sigmas"), 1, message)
+        message = self.mpirun(3, ("--enable-recovery",), "s", "--sigmas", "-1")[1]
+        self.assertEqual(message.count(b"error: --sigmas"), 1, message)
         self.write("taken", "")
         process, message = self.mpirun(3, (), "taken", *SMALL)
         self.assertEqual(process.returncode, 2, message)
