@@ -232,28 +232,6 @@ TEST(PartialSteps, KeepTheIdsAndPlacesOfWhatSurvives) {
   }
 }
 
-// Where refinement asks for more than the mesh promises, full adjustments may use what is between; a partial
-// step mends all that it changes.
-TEST(PartialSteps, RefineWhatMovedInPlaceToTheAngleOfRefinement) {
-  Mesh mesh = generate(catalogue_domain(0, 100), {.min_angle_deg = 20.0, .refine_angle_deg = 30.0}).mesh;
-  std::size_t moved = 0;
-  for (int n = 1; n <= 60; ++n) {
-    CstAirfoil airfoil = airfoil_catalogue()[0].airfoil();
-    for (double& c : airfoil.upper) c *= 1.0 + 0.01 * (n % 20);
-    if (step(mesh, airfoil_domain(airfoil, {.points = 100}), {.strategy = Strategy::chain}).full_adjustment)
-      continue;
-    const MeshData& data = mesh.data();
-    for (const Triangulation::MovedInPlace& kept : data.triangulation.moved_in_place()) {
-      const Triangle& t = data.triangulation[kept.id];
-      if (!t.alive() || t.region != Region::domain) continue;
-      const auto [squared_radius, shortest] = measure(data.triangulation, t);
-      ASSERT_GE(angle_of(squared_radius / shortest), 30.0 * (1.0 - 1e-8)) << "step " << n;
-      ++moved;
-    }
-  }
-  EXPECT_GT(moved, 1000U);
-}
-
 TEST(PartialSteps, NeverGiveAnIdOutTwiceWithinOneStep) {
   Mesh mesh = generated(catalogue_domain(0, 50));
   for (std::size_t to = 1; to < 40; ++to) {
