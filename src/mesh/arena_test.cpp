@@ -15,9 +15,9 @@ namespace {
 // Lists that grow in turn keep what they hold: no two are given the same memory.
 TEST(Arena, KeepsListsApart) {
   Arena arena;
-  const auto seed = static_cast<std::mt19937::result_type>(test::seed(7));
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937 random(seed);
+  const auto seed = test::seed(7);
+  SCOPED_TRACE("REMODEL_TEST_SEED=" + std::to_string(seed));
+  std::mt19937_64 random(seed);
   const Arena::Scope scope(arena);
   std::vector<List<std::uint64_t>> lists;
   for (std::size_t i = 0; i < 8; ++i) lists.emplace_back(&arena);

@@ -233,9 +233,9 @@ void count(MeshData& mesh, std::span<const VertexId> moved, RemodelResult& resul
     ++before;
     if (!survives(earlier.id, earlier.triangle)) ++lost;
   }
-  for (const Triangulation::MovedInPlace& kept :
-       triangulation.moved_in_place())  // a vertex of it moved, or is gone and it too
-    if (triangulation[kept.id].region == Region::domain && !triangulation.is_touched(kept.id)) ++lost;
+  triangulation.for_each_moved_only([&](TriangleId t) {  // a vertex of it moved
+    if (triangulation[t].region == Region::domain) ++lost;
+  });
   for (const TriangleId t : triangulation.touched())
     if (triangulation[t].alive() && triangulation[t].region == Region::domain) ++after;
   result.triangles_before = mesh.domain_triangles;
@@ -263,8 +263,7 @@ Stopped refine_touched(MeshData& mesh, StepObserver* observer) {
   // Adjusted triangles are as good as the mesh promises, which may be less than what refinement makes.
   if (QualityBounds::of_refinement(mesh.options).squared_radius_edge <
       QualityBounds(mesh.options).squared_radius_edge)
-    for (const Triangulation::MovedInPlace& adjusted : triangulation.moved_in_place())
-      if (!triangulation.is_touched(adjusted.id)) refiner.consider_kept(adjusted.id);
+    triangulation.for_each_moved_only([&](TriangleId t) { refiner.consider_kept(t); });
   return refiner.run();
 }
 

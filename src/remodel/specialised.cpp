@@ -55,13 +55,11 @@ class Replacement {
       const std::uint32_t birth = a.moved ? mesh_.step + 1 : triangulation_[a.triangle].birth;
       if (!known) uncertain.push_back(a.triangle);
       if (!known || a.moved)
-        triangulation_.set_moved(a.triangle, known ? a.circle : circle_of(a.vertex), birth);
+        triangulation_.set_moved(
+            a.triangle, known ? a.circle : triangulation_.circle_of(a.vertex[0], a.vertex[1], a.vertex[2]),
+            birth);
     }
     triangulation_.restore_delaunay(uncertain);
-  }
-  Circle circle_of(const VertexId (&v)[3]) const {
-    return certified_circle(triangulation_.point(v[0]), triangulation_.point(v[1]),
-                            triangulation_.point(v[2]));
   }
 
   // One region for each lost pair, about the outermost of the two: the one farther into the domain. Where the

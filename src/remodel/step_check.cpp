@@ -25,8 +25,7 @@ class Changes {
   void journal() {
     const Triangulation& triangulation = mesh_.triangulation;
     for (const TriangleId t : triangulation.touched()) triangle(t);
-    for (const Triangulation::MovedInPlace& kept : triangulation.moved_in_place())
-      if (!triangulation.is_touched(kept.id)) triangle(kept.id);
+    triangulation.for_each_moved_only([this](TriangleId t) { triangle(t); });
   }
   // The loop, and the triangles at it that the step left as they were, but for their length scales.
   void loop(std::size_t loop) {

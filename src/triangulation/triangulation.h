@@ -110,6 +110,8 @@ class Triangulation {
 
   // The triangle that holds p. Walks from hint; a walk that takes too long ends in a search of all triangles.
   Location locate(Point p, TriangleId hint) const;
+  // The circle of three vertices; one that is sure of nothing, if the infinite one is among them.
+  Circle circle_of(VertexId a, VertexId b, VertexId c) const;
   // Whether p lies inside t's circumcircle (for a ghost: beyond its hull edge). Exact.
   bool in_conflict(TriangleId t, Point p) const {
     const Triangle& triangle = triangles_[t.index];
@@ -218,6 +220,12 @@ class Triangulation {
     Circle circle;
   };
   std::span<const MovedInPlace> moved_in_place() const { return moved_journal_; }
+  // Visits those of them that did not change afterwards: visit(id).
+  template <class Visit>
+  void for_each_moved_only(Visit visit) const {
+    for (const MovedInPlace& moved : moved_journal_)
+      if (!is_touched(moved.id)) visit(moved.id);
+  }
   // Whether two states of a triangle have the same vertices, and the same edges constrained.
   static bool same_edges(const Triangle& a, const Triangle& b);
   // Visits the touched triangles that are there: visit(id, whether it is at the vertices, and behind the
@@ -277,7 +285,6 @@ class Triangulation {
     write(t, a, b, c, region, circle_of(a, b, c));
   }
   void write(TriangleId t, VertexId a, VertexId b, VertexId c, Region region, const Circle& circle);
-  Circle circle_of(VertexId a, VertexId b, VertexId c) const;
   void compute_circle(Triangle& triangle) const {
     triangle.circle = circle_of(triangle.vertex[0], triangle.vertex[1], triangle.vertex[2]);
   }
