@@ -24,10 +24,6 @@ double squared_distance_to_edge(Point p, Point a, Point b) {
 // A few discs that lie together.
 class Discs {
  public:
-  // Regions come in the order of their loop, and neighbours overlap: together they are searched once. More of
-  // them would make each test longer.
-  static constexpr std::size_t most = 16;
-
   explicit Discs(std::span<const RemovalRegion> regions)
       : regions_(regions), low_(regions[0].centre), high_(low_) {
     for (const RemovalRegion& region : regions) {
@@ -164,14 +160,29 @@ class Search {
   List<VertexId>& found_;
 };
 
+// Regions come in the order of their loop, and neighbours overlap: a few are searched together, and as many
+// more as have their centres inside the first one. Others would only make each test longer.
+std::size_t end_of_group(std::span<const RemovalRegion> regions, std::size_t begin) {
+  constexpr std::size_t few = 16, most = 64;
+  const RemovalRegion& first = regions[begin];
+  const auto overlaps = [&](const RemovalRegion& region) {
+    return squared_distance(region.centre, first.centre) < squared(first.radius);
+  };
+  std::size_t end = std::min(begin + few, regions.size());
+  while (end < std::min(begin + most, regions.size()) && overlaps(regions[end])) ++end;
+  return end;
+}
+
 }  // namespace
 
 List<VertexId> vertices_inside(MeshData& mesh, std::span<const RemovalRegion> regions) {
   List<VertexId> found(&mesh.arena);
   List<TriangleId> todo(&mesh.arena);
   mesh.numbers.resize(std::max(mesh.triangulation.triangle_slots(), mesh.triangulation.vertex_slots()));
-  for (std::size_t i = 0; i < regions.size(); i += Discs::most)
-    Search(mesh, regions.subspan(i, std::min(Discs::most, regions.size() - i)), todo, found);
+  for (std::size_t begin = 0, end = 0; begin < regions.size(); begin = end) {
+    end = end_of_group(regions, begin);
+    Search(mesh, regions.subspan(begin, end - begin), todo, found);
+  }
   mesh.vertex_marks.clear(mesh.triangulation.vertex_slots());
   std::erase_if(found, [&](VertexId v) { return !mesh.vertex_marks.visit(v.index); });
   return found;
