@@ -99,7 +99,7 @@ void lower_some(MeshData& mesh, std::size_t loop) {
 void renew_local(benchmark::State& state) {
   Mesh mesh = fresh_mesh(static_cast<int>(state.range(0)));
   MeshData& data = mesh.data();
-  const std::size_t loops[] = {airfoil_loop(data)};
+  const std::uint32_t loops[] = {static_cast<std::uint32_t>(airfoil_loop(data))};
   std::size_t around = 0, changes = 0;
   data.walk(data.loop_heads[loops[0]], [&](std::uint32_t) { ++around; });
   for (auto _ : state) {
@@ -110,7 +110,7 @@ void renew_local(benchmark::State& state) {
     const std::size_t before = data.triangulation.earlier_vertices().size();
     const Arena::Scope scope(data.arena);
     state.ResumeTiming();
-    benchmark::DoNotOptimize(renew_length_scales(data, loops));
+    benchmark::DoNotOptimize(renew_length_scales(data, loops, {}));
     state.PauseTiming();
     changes = data.triangulation.earlier_vertices().size() - before;
     data.triangulation.rollback();

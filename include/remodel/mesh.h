@@ -70,6 +70,9 @@ struct RenewalState {
   std::uint32_t full_adjustments = 0;  // in a row
   std::uint32_t sampled_at = 0;        // the step at which K was last looked after
   std::uint32_t samplings = 0;         // of K since the mesh was generated: the next one waits the longer
+  std::uint32_t until_renewal = 0;     // replacements before the next one that renews length scales
+  std::vector<std::uint32_t> pending_vertices;  // slots: at triangles made since the last renewal
+  std::vector<std::uint32_t> pending_loops;     // that moved since
   friend bool operator==(const RenewalState&, const RenewalState&) = default;
 };
 

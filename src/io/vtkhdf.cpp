@@ -12,7 +12,7 @@ namespace remodel::io {
 
 namespace {
 
-constexpr std::int64_t state_version = 4;
+constexpr std::int64_t state_version = 5;
 const std::string grid_group = "/VTKHDF/";
 const std::string state_group = "/remodel";
 const std::string markers_path = state_group + "/imported_markers";
@@ -34,6 +34,8 @@ void for_each_state_array(State& state, Visitor&& visit) {
   visit("triangle_births", state.triangle_births, 1);
   visit("free_vertices", state.free_vertices, 1);
   visit("free_triangles", state.free_triangles, 1);
+  visit("pending_vertices", state.renewal.pending_vertices, 1);
+  visit("pending_loops", state.renewal.pending_loops, 1);
   visit("imported_slots", state.imported.slots, 1);
   visit("imported_faces", state.imported.faces, 1);
   visit("imported_triangles", state.imported.triangles, 3);
@@ -55,6 +57,7 @@ void for_each_state_number(State& state, Visitor&& visit) {
   visit("full_adjustments", state.renewal.full_adjustments);
   visit("sampled_at", state.renewal.sampled_at);
   visit("samplings", state.renewal.samplings);
+  visit("until_renewal", state.renewal.until_renewal);
 }
 
 // FNV-1a on 64-bit words, with a shift that carries the high bits down. Each step is a bijection of the hash

@@ -38,6 +38,8 @@ MeshState some_state() {
   state.free_vertices = {800001, 800002, 800003};
   state.free_triangles = {};
   state.step = 12345;
+  state.renewal.until_renewal = 4;
+  state.renewal.pending_vertices = {900001, 900002};
   state.domain.loops = {
       {LoopRole::outer, {{"wall", Polyline{{{0, 0}, {1, 0}, {0, 1.0 / 3}}}, {0, 1.0 / 3, 2.0 / 3}}}}};
   state.options.min_angle_deg = 27.5;
@@ -79,7 +81,8 @@ TEST(NativeFile, AFlippedBitInAnyPartOfTheStateIsRefusedByTheChecksum) {
       bytes_of(1.25),    bytes_of(2.0 / 7), bytes_of(100001U), bytes_of(200002U),
       bytes_of(300003),  bytes_of(0.456),   bytes_of(0.987),   bytes_of(400003U) + bytes_of(no_index),
       bytes_of(500006U), bytes_of(600002U), bytes_of(700001U), bytes_of(800003U),
-      bytes_of(12345U),  bytes_of(27.5),    bytes_of(987654U), "loops",
+      bytes_of(900002U), bytes_of(12345U),  bytes_of(27.5),    bytes_of(987654U),
+      "\"loops\"",
   };
   for (const std::string& mark : marks) {
     const auto at = whole.find(mark);
@@ -121,7 +124,7 @@ TEST(NativeFile, AnotherStateVersionIsNamed) {
   out.attribute("/remodel", "format_version", std::vector<std::int64_t>{9});
   write_text_atomically(file, out.bytes());
   EXPECT_EQ(error_of([&] { io::read_vtkhdf_state(file); }),
-            file.string() + ":/remodel@format_version: 9 found, 4 expected");
+            file.string() + ":/remodel@format_version: 9 found, 5 expected");
 }
 
 // ------------------------------------------------------------------------------------- the VTKHDF layout

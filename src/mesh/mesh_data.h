@@ -65,6 +65,7 @@ struct Backup {
   std::vector<Sides> sides;
   std::vector<std::size_t> changing;  // the loops that the step may change, if not all in any way
   std::vector<Loop> loops;            // of the domain: those, or all
+  RenewalState renewal;
 };
 
 class MeshData {

@@ -115,6 +115,11 @@ TEST(MeshState, ThatIsDamagedIsRefused) {
       {"a free slot out of range", [&](MeshState& s) { s.free_triangles.push_back(1000000); }},
       {"a free triangle that is alive",
        [&](MeshState& s) { s.free_triangles.push_back(static_cast<std::uint32_t>(triangle)); }},
+      {"a pending vertex out of range", [&](MeshState& s) { s.renewal.pending_vertices = {1000000}; }},
+      {"a pending loop out of range",
+       [&](MeshState& s) {
+         s.renewal.pending_loops = {0, 2};
+       }},
       {"another design", [&](MeshState& s) { s.domain = catalogue_domain(9, 50); }},
       {"another discretisation", [&](MeshState& s) { s.domain = catalogue_domain(5, 52); }},
       {"a design without loops", [&](MeshState& s) { s.domain.loops.clear(); }},

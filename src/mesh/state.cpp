@@ -175,14 +175,20 @@ class BoundaryRestorer {
   std::vector<std::vector<Entry>> entries_;  // per curve
 };
 
-void require_in_range(const ImportRecord& record, const MeshState& state, const std::string& source) {
+bool all_below(const std::vector<std::uint32_t>& values, std::size_t end) {
+  return std::all_of(values.begin(), values.end(), [end](std::uint32_t i) { return i < end; });
+}
+
+void require_in_range(const MeshState& state, const std::string& source) {
   const std::size_t slots = state.triangle_regions.size(), vertices = state.vertex_stars.size();
-  const auto below = [](std::size_t end) { return [end](std::uint32_t i) { return i < end; }; };
+  const ImportRecord& record = state.imported;
   if (record.faces.size() != record.slots.size() || record.triangles.size() != 3 * record.slots.size() ||
-      !std::all_of(record.slots.begin(), record.slots.end(), below(slots)) ||
-      !std::all_of(record.triangles.begin(), record.triangles.end(), below(vertices)) ||
+      !all_below(record.slots, slots) || !all_below(record.triangles, vertices) ||
       !std::is_sorted(record.faces.begin(), record.faces.end()))
     refuse(source, "what it remembers of the imported file does not fit the mesh");
+  if (!all_below(state.renewal.pending_vertices, vertices) ||
+      !all_below(state.renewal.pending_loops, state.domain.loops.size()))
+    refuse(source, "what the renewal of length scales has to look at does not fit the mesh");
 }
 
 }  // namespace
@@ -194,7 +200,7 @@ Mesh Mesh::restore(const MeshState& state, const std::string& source) {
   data.options = state.options;
   data.step = state.step;
   data.renewal = state.renewal;
-  require_in_range(state.imported, state, source);
+  require_in_range(state, source);
   data.imported = state.imported;
   if (std::string broken = unpack(state, source).restore(data.triangulation); !broken.empty())
     refuse(source, broken);

@@ -8,8 +8,9 @@ namespace {
 
 double size_of(const Vertex& a, const Vertex& b, const Vertex& c, double h) {
   const double area = 0.5 * cross(b.point - a.point, c.point - a.point);
-  const double mean = (a.length_scale + b.length_scale + c.length_scale) * (1.0 / 3.0) * h;
-  return area / (mean * mean);
+  const double la = a.length_scale * a.length_scale, lb = b.length_scale * b.length_scale,
+               lc = c.length_scale * c.length_scale;
+  return area * (la * lb + lb * lc + lc * la) / (3.0 * h * h * la * lb * lc);
 }
 
 bool is_interior(const Vertex& a, const Vertex& b, const Vertex& c) {
@@ -24,34 +25,61 @@ double interior_size_of(const MeshData& mesh, const Triangle& t) {
   return is_interior(a, b, c) ? size_of(a, b, c, mesh.options.max_gradation) : 0.0;
 }
 
-// Vertices as they were when the journal began.
+// Vertices as they were when the journal had `from` entries of them.
 class VerticesBefore {
  public:
-  explicit VerticesBefore(MeshData& mesh) : mesh_(mesh), earlier_(mesh.triangulation.earlier_vertices()) {
+  VerticesBefore(MeshData& mesh, std::size_t from)
+      : mesh_(mesh), earlier_(mesh.triangulation.earlier_vertices()) {
     mesh.vertex_marks.clear(mesh.triangulation.vertex_slots());
     mesh.numbers.resize(std::max(mesh.numbers.size(), mesh.triangulation.vertex_slots()));
-    for (std::uint32_t i = 0; i < earlier_.size(); ++i)
-      if (mesh.vertex_marks.visit(earlier_[i].id.index)) mesh.numbers[earlier_[i].id.index] = i;
+    for (std::size_t i = from; i < earlier_.size(); ++i)
+      if (mesh.vertex_marks.visit(earlier_[i].id.index))
+        mesh.numbers[earlier_[i].id.index] = static_cast<std::uint32_t>(i);
   }
   const Vertex& operator[](VertexId v) const {
     return mesh_.vertex_marks.visited(v.index) ? earlier_[mesh_.numbers[v.index]].vertex
                                                : mesh_.triangulation[v];
-  }
-  // Those on boundaries are left out.
-  template <class Visit>
-  void for_each_with_another_scale(Visit visit) const {
-    for (std::uint32_t i = 0; i < earlier_.size(); ++i) {
-      const auto& [v, vertex] = earlier_[i];
-      if (vertex.boundary != no_index || mesh_.numbers[v.index] != i) continue;
-      const Vertex& now = mesh_.triangulation[v];
-      if (now.alive() && now.length_scale != vertex.length_scale) visit(v);
-    }
   }
 
  private:
   const MeshData& mesh_;
   std::span<const Triangulation::VertexBefore> earlier_;
 };
+
+constexpr std::size_t ahead = 8;  // in lists whose triangles and vertices are fetched before their turn
+
+void prefetch_vertices(const MeshData& mesh, const Triangle& t) {
+  for (const VertexId v : t.vertex)
+    if (t.alive()) mesh.triangulation.prefetch(v);
+}
+
+// The size of the journal's triangles [from, end) as they were when it had `vertices` entries of vertices.
+double size_before(MeshData& mesh, std::size_t from, std::size_t end, std::size_t vertices) {
+  if (from == end) return 0.0;
+  const VerticesBefore before(mesh, vertices);
+  const auto earlier = mesh.triangulation.earlier();
+  double sum = 0.0;
+  for (std::size_t i = from; i < end; ++i) {
+    if (i + ahead < end) prefetch_vertices(mesh, earlier[i + ahead].triangle);
+    const Triangle& t = earlier[i].triangle;
+    if (!t.alive() || t.region != Region::domain) continue;
+    const Vertex &a = before[t.vertex[0]], &b = before[t.vertex[1]], &c = before[t.vertex[2]];
+    if (is_interior(a, b, c)) sum += size_of(a, b, c, mesh.options.max_gradation);
+  }
+  return sum;
+}
+
+double touched_size(const MeshData& mesh) {
+  const Triangulation& triangulation = mesh.triangulation;
+  const auto touched = triangulation.touched();
+  double sum = 0.0;
+  for (std::size_t i = 0; i < touched.size(); ++i) {
+    if (i + 2 * ahead < touched.size()) triangulation.prefetch(touched[i + 2 * ahead]);
+    if (i + ahead < touched.size()) prefetch_vertices(mesh, triangulation[touched[i + ahead]]);
+    sum += interior_size_of(mesh, triangulation[touched[i]]);
+  }
+  return sum;
+}
 
 }  // namespace
 
@@ -66,42 +94,25 @@ double triangles_per_size(MeshData& mesh) {
   return static_cast<double>(mesh.domain_triangles) / (mesh.renewal.interior_size + boundary_size(mesh));
 }
 
-double corrected_interior_size(MeshData& mesh, double before) {
+double free_area(const MeshData& mesh, VertexId v) {
   const Triangulation& triangulation = mesh.triangulation;
-  const VerticesBefore vertices(mesh);
-  double sum = before;
-  const auto subtract = [&](const Triangle& t) {
-    if (!t.alive() || t.region != Region::domain) return;
-    const Vertex &a = vertices[t.vertex[0]], &b = vertices[t.vertex[1]], &c = vertices[t.vertex[2]];
-    if (is_interior(a, b, c)) sum -= size_of(a, b, c, mesh.options.max_gradation);
-  };
-  constexpr std::size_t look_ahead = 8;
-  const auto prefetch_vertices = [&](const Triangle& t) {
-    for (const VertexId v : t.vertex)
-      if (t.alive()) triangulation.prefetch(v);
-  };
-  const auto earlier = triangulation.earlier();
-  for (std::size_t i = 0; i < earlier.size(); ++i) {
-    if (i + look_ahead < earlier.size()) prefetch_vertices(earlier[i + look_ahead].triangle);
-    subtract(earlier[i].triangle);
-  }
-  const auto touched = triangulation.touched();
-  mesh.marks.clear(triangulation.triangle_slots());
-  for (std::size_t i = 0; i < touched.size(); ++i) {
-    if (i + 2 * look_ahead < touched.size()) triangulation.prefetch(touched[i + 2 * look_ahead]);
-    if (i + look_ahead < touched.size()) prefetch_vertices(triangulation[touched[i + look_ahead]]);
-    sum += interior_size_of(mesh, triangulation[touched[i]]);
-    mesh.marks.visit(touched[i].index);
-  }
-  // Triangles that are as they were, at vertices whose length scale is not.
-  vertices.for_each_with_another_scale([&](VertexId v) {
-    triangulation.for_each_corner(v, [&](Corner c) {
-      if (!mesh.marks.visit(c.triangle.index)) return;
-      subtract(triangulation[c.triangle]);
-      sum += interior_size_of(mesh, triangulation[c.triangle]);
-    });
+  if (triangulation[v].boundary != no_index) return 0.0;
+  const Point p = triangulation.point(v);
+  double twice = 0.0;
+  triangulation.for_each_corner(v, [&](Corner c) {
+    const Vertex &a = triangulation[triangulation.following(c)],
+                 &b = triangulation[triangulation.preceding(c)];
+    if (a.boundary != no_index || b.boundary != no_index || triangulation.is_touched(c.triangle)) return;
+    twice += cross(a.point - p, b.point - p);
   });
-  return sum;
+  return 0.5 * twice;
+}
+
+double corrected_interior_size(MeshData& mesh, double before, const std::optional<RenewedSize>& renewed) {
+  const std::size_t end = mesh.triangulation.earlier().size(), middle = renewed ? renewed->triangles : end;
+  double sum = before - size_before(mesh, 0, middle, 0);
+  if (renewed) sum += renewed->change - size_before(mesh, middle, end, renewed->vertices);
+  return sum + touched_size(mesh);
 }
 
 double boundary_size(MeshData& mesh) {

@@ -40,8 +40,8 @@ class Transaction {
         backup_(mesh.backup),
         structure_stays_(loops.has_value()),
         domain_triangles_(mesh.domain_triangles),
-        step_(mesh.step),
-        renewal_(mesh.renewal) {
+        step_(mesh.step) {
+    backup_.renewal = mesh.renewal;
     backup_.loop_heads = mesh.loop_heads;
     backup_.sides = mesh.sides;
     if (loops) {
@@ -72,7 +72,7 @@ class Transaction {
     mesh_.forget_extent();
     mesh_.domain_triangles = domain_triangles_;
     mesh_.step = step_;
-    mesh_.renewal = renewal_;
+    std::swap(mesh_.renewal, backup_.renewal);
     if (mesh_.cache && replaced_) mesh_.cache->stale = stale_;
   }
   // A replacement is complete: the mesh is that of the new design, and can still be taken back.
@@ -111,7 +111,6 @@ class Transaction {
   bool structure_stays_;
   std::size_t domain_triangles_;
   std::uint32_t step_;
-  RenewalState renewal_;
   bool replaced_ = false, stale_ = false;  // stale_: of the cache, before replaced()
   bool committed_ = false;
 };
@@ -269,18 +268,14 @@ Stopped refine_touched(MeshData& mesh, StepObserver* observer) {
 
 // The vertices moved in place.
 List<VertexId> replace_boundary(MeshData& mesh, AdjustCache* cache, const Domain& domain,
-                                const ReplaceOptions& options, std::size_t budget) {
-  List<VertexId> moved(&mesh.arena);
-  Loops loops(&mesh.arena);
+                                const ReplaceOptions& options) {
   if (cache != nullptr) {
-    moved = replace_where_needed(mesh, *cache, domain, options);
-    loops.assign(cache->loops.begin(), cache->loops.end());
-  } else {
-    replace_loops(mesh, domain, options);
-    for (std::size_t i = 0; i < domain.loops.size(); ++i) loops.push_back(i);
+    if (options.renewing) note_moved(mesh, cache->loops);
+    return replace_where_needed(mesh, *cache, domain, options);
   }
-  if (options.renewing) renew_replaced(mesh, loops, moved, budget);
-  return moved;
+  replace_loops(mesh, domain, options);
+  if (options.renewing) note_all_moved(mesh);
+  return List<VertexId>(&mesh.arena);
 }
 
 // The paper's remodelling after a full adjustment was not possible (cache) or does not apply (no cache),
@@ -290,15 +285,18 @@ std::optional<std::string> replace(Transaction& transaction, MeshData& mesh, Adj
                                    RemodelResult& result) {
   const bool renewing = renews(mesh, options);
   try {
-    const std::size_t budget = renewing ? prepare_renewal(mesh, options.observer) : 0;
+    const bool due = renewing && renewal_is_due(mesh);
+    const std::size_t budget = due ? prepare_renewal(mesh, options.observer) : 0;
     const List<VertexId> moved =
-        replace_boundary(mesh, cache, domain, {.distance = options.distance, .renewing = renewing}, budget);
+        replace_boundary(mesh, cache, domain, {.distance = options.distance, .renewing = renewing});
+    std::optional<RenewedSize> renewed;
+    if (due) renewed = renew_replaced(mesh, moved, budget);
     result.stopped =
         cancelled(options.observer) ? Stopped::interrupted : refine_touched(mesh, options.observer);
     if (result.stopped != Stopped::done) return std::string("refinement stopped: ") + name_of(result.stopped);
     count(mesh, moved, result);
     if (renewing)
-      finish_renewal(mesh);
+      finish_replacement(mesh, renewed);
     else
       mesh.renewal.interior_size = -1.0;  // not kept up
   } catch (const RecoveryError& error) {
@@ -392,10 +390,11 @@ RemodelResult remodel_step(Mesh& mesh, const Domain& domain, const std::optional
   if (method == Method::specialised) {
     cache = &adjust_cache(data, *moving);
     const bool due = renewing && refresh_is_due(data, data.renewal.full_adjustments);
+    if (renewing) data.renewal.pending_loops.reserve(data.domain.loops.size());  // nothing may throw below
     if (due && !undo.journalling()) undo.begin(moving);
     if (adjust_all(data, *cache, domain)) {
       RemodelResult result = full_adjustment(data, *cache);
-      if (renewing) ++data.renewal.full_adjustments;
+      if (renewing) ++data.renewal.full_adjustments, note_moved(data, cache->loops);
       return due ? refresh(mesh, std::move(result), options.observer, undo) : result;
     }
     if (!keeps_a_loop(data, *cache)) {

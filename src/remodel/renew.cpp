@@ -58,16 +58,18 @@ class Renewal {
         changes_(&mesh.arena),
         risen_(&mesh.arena) {}
 
-  List<VertexId> run(std::span<const std::size_t> loops) {
+  Renewed run(std::span<const std::uint32_t> loops, std::span<const std::uint32_t> vertices) {
     mesh_.vertex_marks.clear(triangulation_.vertex_slots());
-    for (const std::size_t loop : loops)
+    for (const std::uint32_t loop : loops)
       mesh_.walk(mesh_.loop_heads[loop], [&](std::uint32_t k) { add_around(mesh_.at(k).vertex); });
     for (const TriangleId t : triangulation_.touched())
       if (triangulation_[t].alive()) add_vertices(t);
+    for (const std::uint32_t v : vertices)
+      if (triangulation_[VertexId{v}].alive()) add(VertexId{v});
     raise();
     spread();
     keep_small_changes();
-    return std::move(risen_);
+    return {std::move(risen_), size_};
   }
 
  private:
@@ -79,8 +81,10 @@ class Renewal {
   }
   void add_vertices(TriangleId t) {
     if (triangulation_[t].region != Region::domain) return;
-    for (const VertexId v : triangulation_[t].vertex)
-      if (mesh_.vertex_marks.visit(v.index) && !is_given(mesh_, v)) suspect_unless_fine(v);
+    for (const VertexId v : triangulation_[t].vertex) add(v);
+  }
+  void add(VertexId v) {
+    if (mesh_.vertex_marks.visit(v.index) && !is_given(mesh_, v)) suspect_unless_fine(v);
   }
   void suspect_unless_fine(VertexId v) {
     if (std::abs(support(v) - scale(v)) > renewal_tolerance * scale(v)) suspects_.push({scale(v), v});
@@ -145,19 +149,21 @@ class Renewal {
   }
 
   void change(VertexId v, double value) {
-    changes_.push_back({v, scale(v)});
+    changes_.push_back({v, scale(v), free_area(mesh_, v)});
     triangulation_.set_length_scale(v, value);
   }
 
   // ---- what came back to about where it was did not change. Triangles at a vertex that fell may be bad now.
   void keep_small_changes() {
+    size_.triangles = triangulation_.earlier().size();
     mesh_.vertex_marks.clear(triangulation_.vertex_slots());
-    for (const auto& [v, old] : changes_) {
+    for (const auto& [v, old, area] : changes_) {
       if (!mesh_.vertex_marks.visit(v.index)) continue;  // the first change has the length scale from before
       if (std::abs(scale(v) - old) <= renewal_tolerance * old) {
         triangulation_.set_length_scale(v, old);
         continue;
       }
+      size_.change += area * (1.0 / (scale(v) * scale(v)) - 1.0 / (old * old));
       if (const std::uint32_t k = triangulation_[v].boundary; k != no_index)
         mesh_.set_boundary_length_scale(k, scale(v));
       if (scale(v) > old)
@@ -167,11 +173,14 @@ class Renewal {
           if (triangulation_[c.triangle].region == Region::domain) triangulation_.touch(c.triangle);
         });
     }
+    size_.change /= 3.0 * mesh_.options.max_gradation * mesh_.options.max_gradation;
+    size_.vertices = triangulation_.earlier_vertices().size();
   }
 
   struct Change {
     VertexId vertex;
     double old;
+    double area;  // free_area()
   };
 
   MeshData& mesh_;
@@ -181,12 +190,14 @@ class Renewal {
   List<VertexId> higher_;   // scratch
   List<Change> changes_;
   List<VertexId> risen_;
+  RenewedSize size_;
 };
 
 }  // namespace
 
-List<VertexId> renew_length_scales(MeshData& mesh, std::span<const std::size_t> loops) {
-  return Renewal(mesh).run(loops);
+Renewed renew_length_scales(MeshData& mesh, std::span<const std::uint32_t> loops,
+                            std::span<const std::uint32_t> vertices) {
+  return Renewal(mesh).run(loops, vertices);
 }
 
 std::vector<double> propagated_length_scales(const MeshData& mesh) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "remodel/coarsen.h"
 #include "remodel/count_control.h"
@@ -11,12 +12,25 @@ namespace remodel {
 
 namespace {
 
+constexpr std::uint32_t replacements_between_renewals = 5;
 constexpr int samples_on_the_way = 5;  // for a mesh of unknown history: K within about 2 %
 constexpr std::uint32_t full_adjustments_before_refresh = 25;
-constexpr std::uint64_t steps_before_sampling = 250;  // doubled with each one
+constexpr std::uint64_t steps_before_sampling = 1000;  // doubled with each one
 constexpr double tolerated_excess = 0.02;
-constexpr int samples_at_refresh = 3;
+constexpr int samples_at_refresh = 2;
 constexpr double weight_of_refresh = 1.0 / 3.0;  // of a refresh's samples in K
+
+// The vertices of the domain triangles that a step has made, for the next renewal.
+void note_touched(MeshData& mesh) {
+  const Triangulation& triangulation = mesh.triangulation;
+  mesh.vertex_marks.clear(triangulation.vertex_slots());
+  for (const TriangleId t : triangulation.touched()) {
+    const Triangle& triangle = triangulation[t];
+    if (!triangle.alive() || triangle.region != Region::domain) continue;
+    for (const VertexId v : triangle.vertex)
+      if (mesh.vertex_marks.visit(v.index)) mesh.renewal.pending_vertices.push_back(v.index);
+  }
+}
 
 double excess(MeshData& mesh) {
   return triangles_per_size(mesh) / mesh.renewal.count_factor - 1.0;
@@ -55,11 +69,28 @@ std::size_t prepare_renewal(MeshData& mesh, StepObserver* observer) {
   return static_cast<std::size_t>(std::max(0.0, 0.5 * too_many));
 }
 
-void renew_replaced(MeshData& mesh, std::span<const std::size_t> loops, std::span<const VertexId> moved,
-                    std::size_t budget) {
-  List<VertexId> around = renew_length_scales(mesh, loops);
+bool renewal_is_due(const MeshData& mesh) {
+  return mesh.renewal.until_renewal == 0 || mesh.renewal.interior_size < 0.0;
+}
+
+void note_moved(MeshData& mesh, std::span<const std::size_t> loops) {
+  std::vector<std::uint32_t>& pending = mesh.renewal.pending_loops;
+  for (const std::size_t loop : loops)
+    if (std::find(pending.begin(), pending.end(), loop) == pending.end())
+      pending.push_back(static_cast<std::uint32_t>(loop));
+}
+
+void note_all_moved(MeshData& mesh) {
+  mesh.renewal.pending_loops.resize(mesh.domain.loops.size());
+  std::iota(mesh.renewal.pending_loops.begin(), mesh.renewal.pending_loops.end(), 0U);
+}
+
+RenewedSize renew_replaced(MeshData& mesh, std::span<const VertexId> moved, std::size_t budget) {
+  Renewed renewed = renew_length_scales(mesh, mesh.renewal.pending_loops, mesh.renewal.pending_vertices);
+  List<VertexId>& around = renewed.risen;
   around.insert(around.end(), moved.begin(), moved.end());
   coarsen_touched(mesh, around, budget);
+  return renewed.size;
 }
 
 // Samples cost many steps, and most say that the mesh is as it should be: the more of them, the longer the
@@ -71,9 +102,18 @@ bool refresh_is_due(const MeshData& mesh, std::uint32_t full_adjustments) {
          renewal.interior_size >= 0.0 && mesh.step >= renewal.sampled_at + wait;
 }
 
-void finish_renewal(MeshData& mesh) {
-  mesh.renewal.interior_size = corrected_interior_size(mesh, mesh.renewal.interior_size);
-  mesh.renewal.full_adjustments = 0;
+void finish_replacement(MeshData& mesh, const std::optional<RenewedSize>& renewed) {
+  RenewalState& renewal = mesh.renewal;
+  renewal.interior_size = corrected_interior_size(mesh, renewal.interior_size, renewed);
+  renewal.full_adjustments = 0;
+  if (renewed) {
+    renewal.until_renewal = replacements_between_renewals;
+    renewal.pending_vertices.clear();
+    renewal.pending_loops.clear();
+  } else {
+    --renewal.until_renewal;
+    note_touched(mesh);
+  }
 }
 
 // Counts are chaotic: the same design with bounds that differ by a fraction of a percent is another sample.
@@ -99,6 +139,7 @@ std::optional<GenerateResult> nearer_to_fresh(MeshData& mesh, StepObserver* obse
   if (off(best) > 0.5 * std::abs(excess(mesh))) return std::nullopt;
   best.mesh.data().renewal.count_factor = renewal.count_factor;
   best.mesh.data().renewal.sampled_at = mesh.step;
+  best.mesh.data().renewal.samplings = renewal.samplings;
   return std::move(best);
 }
 

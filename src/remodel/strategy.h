@@ -5,14 +5,15 @@
 //   once:  K, triangles of a fresh mesh per size (count_control.h)
 //   step:  all vertices moved in place: nothing else; after many such steps in a row K is sampled again, and
 //          a mesh whose triangle count is off is generated afresh, if that brings it nearer to K. Between two
-//          samplings are 250 steps at least, twice as many with each one, until the mesh is generated afresh
-//          otherwise: replace, renew length scales, coarsen within what the count allows, refine new
-//          triangles to H and the kept ones where they exceed keep H
+//          samplings are 1000 steps at least, twice as many with each one
+//          otherwise: replace, every sixth time renew length scales and coarsen within what the count
+//          allows, refine new triangles to H and the kept ones where they exceed keep H
 
 #include <optional>
 #include <span>
 
 #include "mesh/mesh_data.h"
+#include "remodel/count_control.h"
 #include "remodel/generate.h"
 #include "remodel/remodel.h"
 
@@ -27,16 +28,21 @@ double resolved_keep(const RemodelOptions& options, const QualityOptions& qualit
 // Measures K from fresh meshes of the mesh's present domain, and notes S.
 void calibrate(MeshData& mesh, int samples, StepObserver* observer = nullptr);
 
-// Under a journal, before the replacement: K and S are known from then on. Without an earlier measurement of
-// K a mesh that was never remodelled is its own; otherwise a few are generated. Returns how many vertices
-// coarsening may remove, two triangles each: half of N - K S.
+// Whether the next replacement renews length scales, and those of all replacements since the last one with
+// it: much of what changes changes back with the designs, and what two of them change is looked at once.
+bool renewal_is_due(const MeshData& mesh);
+// That these loops have moved, or all of them: the next renewal looks around them.
+void note_moved(MeshData& mesh, std::span<const std::size_t> loops);
+void note_all_moved(MeshData& mesh);
+
+// Under a journal, before a replacement that renews: K and S are known from then on. Without an earlier
+// measurement of K a mesh that was never remodelled is its own; otherwise a few are generated. Returns how
+// many vertices coarsening may remove, two triangles each: half of N - K S.
 std::size_t prepare_renewal(MeshData& mesh, StepObserver* observer);
-// After the replacement around the given loops, in which these vertices were moved in place; before
-// refinement.
-void renew_replaced(MeshData& mesh, std::span<const std::size_t> loops, std::span<const VertexId> moved,
-                    std::size_t budget);
-// After refinement.
-void finish_renewal(MeshData& mesh);
+// After that replacement, in which these vertices were moved in place; before refinement.
+RenewedSize renew_replaced(MeshData& mesh, std::span<const VertexId> moved, std::size_t budget);
+// After refinement, of each replacement.
+void finish_replacement(MeshData& mesh, const std::optional<RenewedSize>& renewed);
 
 // Whether the triangle count is worth a look after so many full adjustments in a row: the samples that this
 // takes cost as much as many steps.

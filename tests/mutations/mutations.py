@@ -166,4 +166,11 @@ MUTATIONS = [
     ("vertices of a replaced airfoil in the wrong order", I + "airfoil_place.cpp",
      "  std::reverse(points.begin() + 1, points.end());\n", ""),
     ("blunt trailing edge closed by the fit", I + "airfoil_place.cpp", "    fit.airfoil.te_upper = points.front().y;\n", ""),
+    ("renewal: what a replacement made is not remembered", R + "strategy.cpp", "    note_touched(mesh);\n", ""),
+    ("renewal: does not look at what waits", R + "renew.cpp", "if (triangulation_[VertexId{v}].alive()) add(VertexId{v});",
+     "static_cast<void>(v);"),
+    ("S: stars of other length scales left out", R + "renew.cpp", "      size_.change += area * ", "      size_.change += 0.0 * area * "),
+    ("S: later triangles at the length scales of before", R + "count_control.cpp",
+     "size_before(mesh, middle, end, renewed->vertices)", "size_before(mesh, middle, end, 0)"),
+    ("S: triangles of the journal twice", R + "count_control.cpp", " || triangulation.is_touched(c.triangle)) return;", ") return;"),
 ]
