@@ -298,7 +298,7 @@ std::optional<std::string> replace(Transaction& transaction, MeshData& mesh, Adj
     if (renewing)
       finish_replacement(mesh, renewed);
     else
-      mesh.renewal.interior_size = -1.0;  // not kept up
+      forget_renewal(mesh);
   } catch (const RecoveryError& error) {
     return error.what();
   }

@@ -116,6 +116,14 @@ void finish_replacement(MeshData& mesh, const std::optional<RenewedSize>& renewe
   }
 }
 
+void forget_renewal(MeshData& mesh) {
+  RenewalState& renewal = mesh.renewal;
+  renewal.interior_size = -1.0;
+  renewal.until_renewal = 0;
+  renewal.pending_vertices.clear();
+  renewal.pending_loops.clear();
+}
+
 // Counts are chaotic: the same design with bounds that differ by a fraction of a percent is another sample.
 std::optional<GenerateResult> nearer_to_fresh(MeshData& mesh, StepObserver* observer) {
   RenewalState& renewal = mesh.renewal;

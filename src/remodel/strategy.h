@@ -44,6 +44,9 @@ RenewedSize renew_replaced(MeshData& mesh, std::span<const VertexId> moved, std:
 // After refinement, of each replacement.
 void finish_replacement(MeshData& mesh, const std::optional<RenewedSize>& renewed);
 
+// After a replacement that does not renew: S and what waits for renewal are not kept up.
+void forget_renewal(MeshData& mesh);
+
 // Whether the triangle count is worth a look after so many full adjustments in a row: the samples that this
 // takes cost as much as many steps.
 bool refresh_is_due(const MeshData& mesh, std::uint32_t full_adjustments);

@@ -361,6 +361,28 @@ TEST(Renew, GoesOnFromAFileToTheSameBytes) {
   std::filesystem::remove(file);
 }
 
+// Whatever was pending, a step of the other strategy to a domain with fewer loops leaves nothing of it.
+TEST(Renew, GoesOnAfterStepsOfTheOtherStrategy) {
+  const auto seed = test::seed(9);
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  Walk designs(1, 0.1, random);
+  const auto with_holes = [&](int holes, double shift) {
+    Domain domain = designs.domain(50);
+    for (int i = 0; i < holes; ++i)
+      domain.loops.push_back(test::square_hole(3.0 + 2.0 * i, 3.0 + shift, 0.5));
+    return domain;
+  };
+  Mesh mesh = generated(with_holes(2, 0.0), {.gradation = 1.0});
+  for (int i = 0; i < 24; ++i) {
+    const int holes = (i / 3) % 3;
+    designs.next();
+    remodel(mesh, with_holes(holes, 0.2 * (i % 2)), {.strategy = i % 3 == 0 ? Strategy::chain : Strategy::renew});
+    ASSERT_EQ(mesh.quick_check(), "") << "step " << i;
+    ASSERT_TRUE(Mesh::restore(mesh.state(), "state").state() == mesh.state()) << "step " << i;
+  }
+}
+
 TEST(Renew, RefusesAKeepBelowOne) {
   Mesh mesh = generated(test::catalogue_domain(0, 50), {.gradation = 1.0});
   const Domain domain = test::catalogue_domain(1, 50);
