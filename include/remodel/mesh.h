@@ -69,10 +69,17 @@ struct RenewalState {
   double interior_size = -1.0;  // the part of S in triangles without a boundary vertex; negative: unknown
   std::uint32_t full_adjustments = 0;  // in a row
   std::uint32_t sampled_at = 0;        // the step at which K was last looked after
-  std::uint32_t samplings = 0;         // of K since the mesh was generated: the next one waits the longer
+  std::uint32_t samplings = 0;         // of K: the next one waits the longer
   std::uint32_t until_renewal = 0;     // replacements before the next one that renews length scales
-  std::vector<std::uint32_t> pending_vertices;  // slots: at triangles made since the last renewal
-  std::vector<std::uint32_t> pending_loops;     // that moved since
+  std::vector<std::uint32_t>
+      pending_vertices;  // slots: at triangles that renewing steps made since the last one
+  std::vector<std::uint32_t> pending_loops;  // that moved since, ascending
+  // K and when it was sampled, for a fresh mesh that takes the place of another.
+  void take_count_factor(const RenewalState& other) {
+    count_factor = other.count_factor;
+    sampled_at = other.sampled_at;
+    samplings = other.samplings;
+  }
   friend bool operator==(const RenewalState&, const RenewalState&) = default;
 };
 

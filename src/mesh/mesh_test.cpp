@@ -116,6 +116,11 @@ TEST(MeshState, ThatIsDamagedIsRefused) {
       {"a free triangle that is alive",
        [&](MeshState& s) { s.free_triangles.push_back(static_cast<std::uint32_t>(triangle)); }},
       {"a pending vertex out of range", [&](MeshState& s) { s.renewal.pending_vertices = {1000000}; }},
+      {"the infinite vertex pending", [&](MeshState& s) { s.renewal.pending_vertices = {0}; }},
+      {"a pending loop twice",
+       [&](MeshState& s) {
+         s.renewal.pending_loops = {1, 1};
+       }},
       {"a pending loop out of range",
        [&](MeshState& s) {
          s.renewal.pending_loops = {0, 2};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -186,8 +187,11 @@ void require_in_range(const MeshState& state, const std::string& source) {
       !all_below(record.slots, slots) || !all_below(record.triangles, vertices) ||
       !std::is_sorted(record.faces.begin(), record.faces.end()))
     refuse(source, "what it remembers of the imported file does not fit the mesh");
+  const auto& pending = state.renewal.pending_loops;
   if (!all_below(state.renewal.pending_vertices, vertices) ||
-      !all_below(state.renewal.pending_loops, state.domain.loops.size()))
+      std::count(state.renewal.pending_vertices.begin(), state.renewal.pending_vertices.end(), 0U) != 0 ||
+      !all_below(pending, state.domain.loops.size()) ||
+      !std::is_sorted(pending.begin(), pending.end(), std::less_equal<>()))
     refuse(source, "what the renewal of length scales has to look at does not fit the mesh");
 }
 

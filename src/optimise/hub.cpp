@@ -28,8 +28,10 @@ RemodelResult HubChain::advance(const Domain& domain) {
   instead_.reset();
   if (version_ != hub_.version()) {
     mesh_ = hub_.mesh();
-    // Whether the count is worth a look is the hub's affair, not that of every trial.
+    // Whether the count is worth a look is the hub's affair, not that of every trial; and a replacement that
+    // is tried renews, however many the hub has kept.
     mesh_.data().renewal.full_adjustments = 0;
+    mesh_.data().renewal.until_renewal = 0;
     version_ = hub_.version();
   }
   trial_.emplace(mesh_, domain, remodel_options());

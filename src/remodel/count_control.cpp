@@ -8,9 +8,8 @@ namespace {
 
 double size_of(const Vertex& a, const Vertex& b, const Vertex& c, double h) {
   const double area = 0.5 * cross(b.point - a.point, c.point - a.point);
-  const double la = a.length_scale * a.length_scale, lb = b.length_scale * b.length_scale,
-               lc = c.length_scale * c.length_scale;
-  return area * (la * lb + lb * lc + lc * la) / (3.0 * h * h * la * lb * lc);
+  const auto part = [area, h](const Vertex& v) { return area / (v.length_scale * v.length_scale * h * h); };
+  return (part(a) + part(b) + part(c)) * (1.0 / 3.0);
 }
 
 bool is_interior(const Vertex& a, const Vertex& b, const Vertex& c) {
@@ -112,7 +111,7 @@ double corrected_interior_size(MeshData& mesh, double before, const std::optiona
   const std::size_t end = mesh.triangulation.earlier().size(), middle = renewed ? renewed->triangles : end;
   double sum = before - size_before(mesh, 0, middle, 0);
   if (renewed) sum += renewed->change - size_before(mesh, middle, end, renewed->vertices);
-  return sum + touched_size(mesh);
+  return std::max(0.0, sum + touched_size(mesh));  // a negative one would count as unknown
 }
 
 double boundary_size(MeshData& mesh) {

@@ -270,11 +270,11 @@ Stopped refine_touched(MeshData& mesh, StepObserver* observer) {
 List<VertexId> replace_boundary(MeshData& mesh, AdjustCache* cache, const Domain& domain,
                                 const ReplaceOptions& options) {
   if (cache != nullptr) {
-    if (options.renewing) note_moved(mesh, cache->loops);
+    note_moved(mesh, cache->loops);
     return replace_where_needed(mesh, *cache, domain, options);
   }
   replace_loops(mesh, domain, options);
-  if (options.renewing) note_all_moved(mesh);
+  note_all_moved(mesh);
   return List<VertexId>(&mesh.arena);
 }
 
@@ -298,7 +298,7 @@ std::optional<std::string> replace(Transaction& transaction, MeshData& mesh, Adj
     if (renewing)
       finish_replacement(mesh, renewed);
     else
-      forget_renewal(mesh);
+      forget_size(mesh);
   } catch (const RecoveryError& error) {
     return error.what();
   }
@@ -338,7 +338,7 @@ RemodelResult regenerate(Mesh& mesh, const Domain& domain, StepObserver* observe
                          Undo& undo) {
   GenerateResult fresh = generate(domain, mesh.options(), observer);
   if (fresh.stopped == Stopped::interrupted) return unchanged(mesh.data(), Stopped::interrupted);
-  fresh.mesh.data().renewal.count_factor = mesh.data().renewal.count_factor;
+  fresh.mesh.data().renewal.take_count_factor(mesh.data().renewal);
   RemodelResult result = exchange(mesh, std::move(fresh), undo);
   result.regenerated = true;
   result.reason = std::move(reason);
@@ -390,11 +390,12 @@ RemodelResult remodel_step(Mesh& mesh, const Domain& domain, const std::optional
   if (method == Method::specialised) {
     cache = &adjust_cache(data, *moving);
     const bool due = renewing && refresh_is_due(data, data.renewal.full_adjustments);
-    if (renewing) data.renewal.pending_loops.reserve(data.domain.loops.size());  // nothing may throw below
+    data.renewal.pending_loops.reserve(data.domain.loops.size());  // below nothing may throw
     if (due && !undo.journalling()) undo.begin(moving);
     if (adjust_all(data, *cache, domain)) {
       RemodelResult result = full_adjustment(data, *cache);
-      if (renewing) ++data.renewal.full_adjustments, note_moved(data, cache->loops);
+      note_moved(data, cache->loops);
+      if (renewing) ++data.renewal.full_adjustments;
       return due ? refresh(mesh, std::move(result), options.observer, undo) : result;
     }
     if (!keeps_a_loop(data, *cache)) {

@@ -163,7 +163,7 @@ class Renewal {
         triangulation_.set_length_scale(v, old);
         continue;
       }
-      size_.change += area * (1.0 / (scale(v) * scale(v)) - 1.0 / (old * old));
+      size_.change += area / (scale(v) * scale(v)) - area / (old * old);
       if (const std::uint32_t k = triangulation_[v].boundary; k != no_index)
         mesh_.set_boundary_length_scale(k, scale(v));
       if (scale(v) > old)

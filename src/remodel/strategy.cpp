@@ -75,9 +75,11 @@ bool renewal_is_due(const MeshData& mesh) {
 
 void note_moved(MeshData& mesh, std::span<const std::size_t> loops) {
   std::vector<std::uint32_t>& pending = mesh.renewal.pending_loops;
-  for (const std::size_t loop : loops)
-    if (std::find(pending.begin(), pending.end(), loop) == pending.end())
-      pending.push_back(static_cast<std::uint32_t>(loop));
+  if (std::includes(pending.begin(), pending.end(), loops.begin(), loops.end())) return;
+  for (const std::size_t loop : loops) {
+    const auto place = std::lower_bound(pending.begin(), pending.end(), loop);
+    if (place == pending.end() || *place != loop) pending.insert(place, static_cast<std::uint32_t>(loop));
+  }
 }
 
 void note_all_moved(MeshData& mesh) {
@@ -116,12 +118,9 @@ void finish_replacement(MeshData& mesh, const std::optional<RenewedSize>& renewe
   }
 }
 
-void forget_renewal(MeshData& mesh) {
-  RenewalState& renewal = mesh.renewal;
-  renewal.interior_size = -1.0;
-  renewal.until_renewal = 0;
-  renewal.pending_vertices.clear();
-  renewal.pending_loops.clear();
+void forget_size(MeshData& mesh) {
+  mesh.renewal.interior_size = -1.0;
+  mesh.renewal.until_renewal = 0;
 }
 
 // Counts are chaotic: the same design with bounds that differ by a fraction of a percent is another sample.
@@ -145,9 +144,7 @@ std::optional<GenerateResult> nearer_to_fresh(MeshData& mesh, StepObserver* obse
   GenerateResult& best =
       *std::min_element(samples.begin(), samples.end(), [&](auto& a, auto& b) { return off(a) < off(b); });
   if (off(best) > 0.5 * std::abs(excess(mesh))) return std::nullopt;
-  best.mesh.data().renewal.count_factor = renewal.count_factor;
-  best.mesh.data().renewal.sampled_at = mesh.step;
-  best.mesh.data().renewal.samplings = renewal.samplings;
+  best.mesh.data().renewal.take_count_factor(renewal);
   return std::move(best);
 }
 

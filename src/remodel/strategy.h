@@ -31,7 +31,8 @@ void calibrate(MeshData& mesh, int samples, StepObserver* observer = nullptr);
 // Whether the next replacement renews length scales, and those of all replacements since the last one with
 // it: much of what changes changes back with the designs, and what two of them change is looked at once.
 bool renewal_is_due(const MeshData& mesh);
-// That these loops have moved, or all of them: the next renewal looks around them.
+// That these loops have moved, or all of them: the next renewal looks around them. The first, of ascending
+// loops, throws nothing where pending_loops has room for all.
 void note_moved(MeshData& mesh, std::span<const std::size_t> loops);
 void note_all_moved(MeshData& mesh);
 
@@ -44,8 +45,8 @@ RenewedSize renew_replaced(MeshData& mesh, std::span<const VertexId> moved, std:
 // After refinement, of each replacement.
 void finish_replacement(MeshData& mesh, const std::optional<RenewedSize>& renewed);
 
-// After a replacement that does not renew: S and what waits for renewal are not kept up.
-void forget_renewal(MeshData& mesh);
+// After a replacement by chain: S is not kept up, and the next replacement renews.
+void forget_size(MeshData& mesh);
 
 // Whether the triangle count is worth a look after so many full adjustments in a row: the samples that this
 // takes cost as much as many steps.

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <numeric>
 #include <random>
+#include <set>
 
 #include "generate/refine.h"
 #include "remodel/check.h"
@@ -181,14 +182,18 @@ TEST(Renew, KeepsTheSizeThatItCorrectsStepByStep) {
   std::mt19937_64 random(seed);
   Walk designs(1, 0.05, random);
   Mesh mesh = generated(designs.domain(100), {.gradation = 2.0});
-  int known = 0;
-  walk(mesh, designs, 100, 100, renewing, [&](const RemodelResult&) {
-    if (mesh.data().renewal.interior_size < 0.0) return;
-    const double size = interior_size(mesh.data());
-    ASSERT_NEAR(mesh.data().renewal.interior_size, size, 1e-9 * size);
-    ++known;
-  });
-  EXPECT_GT(known, 0);
+  for (const Method method : {Method::specialised, Method::general}) {
+    int renewals = 0, others = 0;
+    const RemodelOptions options{.method = method, .strategy = Strategy::renew};
+    walk(mesh, designs, 100, 60, options, [&](const RemodelResult& result) {
+      if (result.full_adjustment) return;
+      const double size = interior_size(mesh.data());
+      ASSERT_NEAR(mesh.data().renewal.interior_size, size, 1e-9 * size);
+      ++(mesh.data().renewal.pending_vertices.empty() ? renewals : others);
+    });
+    EXPECT_GT(renewals, 3);
+    EXPECT_GT(others, 15);
+  }
 }
 
 // Of several replacements one renews; until then the vertices of what the others made wait for it.
@@ -199,26 +204,29 @@ TEST(Renew, RemembersWhatTheNextRenewalHasToLookAt) {
   Walk designs(1, 0.1, random);
   Mesh mesh = generated(designs.domain(100), {.gradation = 2.0});
   int renewals = 0, others = 0;
+  std::uint32_t renewed_at = 0;
   walk(mesh, designs, 100, 40, renewing, [&](const RemodelResult& result) {
     if (result.full_adjustment) return;
     const RenewalState& renewal = mesh.data().renewal;
     const Triangulation& t = mesh.data().triangulation;
     if (renewal.pending_vertices.empty()) {
       ++renewals;
+      renewed_at = mesh.step();
       EXPECT_GT(renewal.until_renewal, 0U);
       return;
     }
     ++others;
-    EXPECT_EQ(renewal.pending_loops.size(), 1U);  // the airfoil
+    ASSERT_EQ(renewal.pending_loops.size(), 1U);  // the airfoil
+    const std::set<std::uint32_t> pending(renewal.pending_vertices.begin(), renewal.pending_vertices.end());
     for (std::uint32_t i = 0; i < t.triangle_slots(); ++i) {
       const Triangle& triangle = t[TriangleId{i}];
-      if (!triangle.alive() || triangle.region != Region::domain || triangle.birth != mesh.step()) continue;
-      const auto waits = [&](VertexId v) {
-        const auto& pending = renewal.pending_vertices;
-        return std::find(pending.begin(), pending.end(), v.index) != pending.end();
+      if (!triangle.alive() || triangle.region != Region::domain || triangle.birth <= renewed_at) continue;
+      const auto waits = [&](VertexId v) { return pending.contains(v.index); };
+      const auto on_the_loop = [&](VertexId v) {
+        const std::uint32_t k = t[v].boundary;
+        return k != no_index && mesh.data().loop_of(mesh.data().at(k).curve) == renewal.pending_loops[0];
       };
-      const bool looked_at_with_its_loop = std::any_of(triangle.vertex, triangle.vertex + 3,
-                                                       [&](VertexId v) { return t[v].boundary != no_index; });
+      const bool looked_at_with_its_loop = std::any_of(triangle.vertex, triangle.vertex + 3, on_the_loop);
       ASSERT_TRUE(looked_at_with_its_loop || std::all_of(triangle.vertex, triangle.vertex + 3, waits));
     }
   });
@@ -304,6 +312,8 @@ TEST(Renew, GeneratesAMeshAfreshWhoseCountIsOff) {
   EXPECT_TRUE(remodel(mesh, airfoil_domain(last, {.points = 200}), renewing).refreshed);
   EXPECT_EQ(mesh.step(), before.step + 1);
   EXPECT_EQ(mesh.data().renewal.full_adjustments, 0U);
+  EXPECT_EQ(mesh.data().renewal.samplings, before.renewal.samplings + 1);
+  EXPECT_EQ(mesh.data().renewal.sampled_at, mesh.step());
 }
 
 // A mesh that stays as it is costs ever fewer samples.
@@ -377,9 +387,12 @@ TEST(Renew, GoesOnAfterStepsOfTheOtherStrategy) {
   for (int i = 0; i < 24; ++i) {
     const int holes = (i / 3) % 3;
     designs.next();
-    remodel(mesh, with_holes(holes, 0.2 * (i % 2)), {.strategy = i % 3 == 0 ? Strategy::chain : Strategy::renew});
+    remodel(mesh, with_holes(holes, 0.2 * (i % 2)),
+            {.strategy = i % 3 == 0 ? Strategy::chain : Strategy::renew});
     ASSERT_EQ(mesh.quick_check(), "") << "step " << i;
     ASSERT_TRUE(Mesh::restore(mesh.state(), "state").state() == mesh.state()) << "step " << i;
+    for (const std::uint32_t loop : mesh.data().renewal.pending_loops)
+      ASSERT_LT(loop, mesh.domain().loops.size()) << "step " << i;
   }
 }
 

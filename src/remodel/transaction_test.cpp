@@ -106,6 +106,7 @@ TEST(FailedAllocations, RollBackAFullAdjustment) {
   Mesh copy = mesh;
   ASSERT_TRUE(remodel(copy, next).full_adjustment);
   fail_every_allocation(mesh, next, {});
+  fail_every_allocation(mesh, next, {.strategy = Strategy::renew});
 }
 
 // Lists keep their storage from step to step: once they have been as long as they get, steps need no memory.
@@ -136,6 +137,13 @@ TEST(Allocations, AreRareInTheSteadyState) {
 TEST(FailedAllocations, RollBackPartialSteps) {
   const Mesh mesh = generate(catalogue_domain(0, 50)).mesh;
   for (const std::size_t to : {1U, 5U, 9U}) fail_every_allocation(mesh, catalogue_domain(to, 50), {});
+  // A step that renews, then one that leaves what it makes for later.
+  Mesh renewed = mesh;
+  for (const std::size_t to : {1U, 5U}) {
+    fail_every_allocation(renewed, catalogue_domain(to, 50), {.strategy = Strategy::renew});
+    remodel(renewed, catalogue_domain(to, 50), {.strategy = Strategy::renew});
+  }
+  EXPECT_FALSE(renewed.state().renewal.pending_vertices.empty());
 }
 
 TEST(FailedAllocations, RollBackGeneralSteps) {

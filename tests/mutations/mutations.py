@@ -169,8 +169,12 @@ MUTATIONS = [
     ("renewal: what a replacement made is not remembered", R + "strategy.cpp", "    note_touched(mesh);\n", ""),
     ("renewal: does not look at what waits", R + "renew.cpp", "if (triangulation_[VertexId{v}].alive()) add(VertexId{v});",
      "static_cast<void>(v);"),
-    ("S: stars of other length scales left out", R + "renew.cpp", "      size_.change += area * ", "      size_.change += 0.0 * area * "),
+    ("S: stars of other length scales left out", R + "renew.cpp", "      size_.change += area / ", "      size_.change += 0.0 * area / "),
     ("S: later triangles at the length scales of before", R + "count_control.cpp",
      "size_before(mesh, middle, end, renewed->vertices)", "size_before(mesh, middle, end, 0)"),
+    ("renewal: only what the last replacement made is remembered", R + "strategy.cpp",
+     "    --renewal.until_renewal;\n", "    --renewal.until_renewal;\n    renewal.pending_vertices.clear();\n"),
+    ("renewal: no room for loops before a full adjustment", R + "remodel.cpp",
+     "    data.renewal.pending_loops.reserve(data.domain.loops.size());  // below nothing may throw\n", ""),
     ("S: triangles of the journal twice", R + "count_control.cpp", " || triangulation.is_touched(c.triangle)) return;", ") return;"),
 ]
