@@ -71,9 +71,10 @@ struct RenewalState {
   std::uint32_t sampled_at = 0;        // the step at which K was last looked after
   std::uint32_t samplings = 0;         // of K: the next one waits the longer
   std::uint32_t until_renewal = 0;     // replacements before the next one that renews length scales
-  std::vector<std::uint32_t>
-      pending_vertices;  // slots: at triangles that renewing steps made since the last one
-  std::vector<std::uint32_t> pending_loops;  // that moved since, ascending
+  // What that renewal looks at first: slots of the vertices of triangles that replacements by `renew` have
+  // made since the last one, some of them more than once; and the loops that moved since, ascending.
+  std::vector<std::uint32_t> pending_vertices;
+  std::vector<std::uint32_t> pending_loops;
   // K and when it was sampled, for a fresh mesh that takes the place of another.
   void take_count_factor(const RenewalState& other) {
     count_factor = other.count_factor;
