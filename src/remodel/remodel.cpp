@@ -393,8 +393,8 @@ RemodelResult remodel_step(Mesh& mesh, const Domain& domain, const std::optional
     data.renewal.pending_loops.reserve(data.domain.loops.size());  // below nothing may throw
     if (due && !undo.journalling()) undo.begin(moving);
     if (adjust_all(data, *cache, domain)) {
-      RemodelResult result = full_adjustment(data, *cache);
       note_moved(data, cache->loops);
+      RemodelResult result = full_adjustment(data, *cache);  // the cache may be gone after it
       if (renewing) ++data.renewal.full_adjustments;
       return due ? refresh(mesh, std::move(result), options.observer, undo) : result;
     }
