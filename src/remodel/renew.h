@@ -28,6 +28,11 @@ namespace remodel {
 // falls by a third; at 6 % the surplus grows.
 inline constexpr double renewal_tolerance = 0.04;
 
+struct Renewed {
+  List<VertexId> risen;  // vertices whose length scale rose
+  RenewedSize size;
+};
+
 // Under a journal: renews the length scales of the vertices around the given loops, of the given vertices as
 // far as they are still there, and of touched triangles, and on from there as far as they change by more than
 // the tolerance. Triangles at vertices whose length scale fell count as touched. The cost is proportional to
@@ -36,10 +41,6 @@ inline constexpr double renewal_tolerance = 0.04;
 // Source: the two phases of G. Ramalingam and T. Reps, "An incremental algorithm for a generalization of the
 // shortest-path problem", 1996, with a tolerance: first those that lost what their length scale came from are
 // invalidated, in ascending order; then Dijkstra's algorithm goes over these and what falls.
-struct Renewed {
-  List<VertexId> risen;  // those whose length scale rose
-  RenewedSize size;
-};
 Renewed renew_length_scales(MeshData& mesh, std::span<const std::uint32_t> loops,
                             std::span<const std::uint32_t> vertices);
 

@@ -371,7 +371,7 @@ TEST(Renew, GoesOnFromAFileToTheSameBytes) {
   std::filesystem::remove(file);
 }
 
-// Whatever was pending, a step of the other strategy to a domain with fewer loops leaves nothing of it.
+// What is pending fits the domain, also after a step of the other strategy to one with fewer loops.
 TEST(Renew, GoesOnAfterStepsOfTheOtherStrategy) {
   const auto seed = test::seed(9);
   SCOPED_TRACE("seed " + std::to_string(seed));
