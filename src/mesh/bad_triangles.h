@@ -68,6 +68,13 @@ class BadTriangles {
     levels_[level].resize(blocks * block);
   }
 
+  // Of a block. A loop that is vectorised, unlike std::max_element().
+  static std::uint8_t largest(const std::uint8_t* values) {
+    std::uint8_t result = 0;
+    for (std::size_t i = 0; i < block; ++i) result = std::max(result, values[i]);
+    return result;
+  }
+
   // The first value of the pass in [from, end) of a level; end, a multiple of 8, if there is none. Eight
   // bytes at a time: as no value is above 127, adding 128 - threshold sets the top bit of exactly those bytes
   // that are at least the threshold.
@@ -94,8 +101,7 @@ class BadTriangles {
       const std::size_t end = from / block * block + block;
       from = scan(values, from, end);
       if (from < end) return from;
-      levels_[level + 1][end / block - 1] =
-          *std::max_element(values.data() + end - block, values.data() + end);
+      levels_[level + 1][end / block - 1] = largest(values.data() + end - block);
       from = next(level + 1, end / block) * block;
     }
     return values.size();

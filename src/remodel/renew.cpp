@@ -174,7 +174,7 @@ class Renewal {
         });
     }
     size_.change /= 3.0 * mesh_.options.max_gradation * mesh_.options.max_gradation;
-    size_.vertices = triangulation_.earlier_vertices().size();
+    size_.vertices = triangulation_.begin_part_of_earlier_vertices();
   }
 
   struct Change {

@@ -1,5 +1,6 @@
 // The journal: what changed since begin(), so that it can be taken back; and the check of the invariants.
 
+#include <algorithm>
 #include <cassert>
 
 #include "remodel/predicates.h"
@@ -19,6 +20,22 @@ void Triangulation::remember(TriangleId t) {
   triangles_[t.index].journal = journal_;
 }
 
+// Its first change in a part of the list of earlier vertices.
+void Triangulation::remember(VertexId v) {
+  if (!journalling_) return;
+  if (v.index < vertex_slots_before_) earlier_vertices_.push_back({v, vertices_[v.index]});
+  vertex_journals_[v.index] = vertex_journal_;
+}
+
+std::size_t Triangulation::begin_part_of_earlier_vertices() {
+  if (++vertex_parts_ == 0) {  // marks of as many parts ago would be mistaken for new ones
+    std::fill(vertex_journals_.begin(), vertex_journals_.end(), 0);
+    vertex_parts_ = 1;
+  }
+  vertex_journal_ = vertex_parts_;
+  return earlier_vertices_.size();
+}
+
 bool Triangulation::same_edges(const Triangle& a, const Triangle& b) {
   const int shift = b.corner_of(a.vertex[0]);
   for (int i = 0, j = shift; i < 3; ++i, j = next3(j))
@@ -35,7 +52,7 @@ void Triangulation::begin() {
   triangle_journal_.clear();
   moved_journal_.clear();
   touched_.clear();
-  vertex_journal_.clear();
+  earlier_vertices_.clear();
   generation_journal_.clear();
   inserted_ = removed_ = 0;
   if (++journals_ == 0) {  // marks of 65535 journals ago would be mistaken for new ones
@@ -43,6 +60,7 @@ void Triangulation::begin() {
     journals_ = 1;
   }
   journal_ = journals_;
+  begin_part_of_earlier_vertices();
   journalling_ = true;
 }
 
@@ -59,23 +77,26 @@ void Triangulation::commit() {
   }
   journalling_ = false;
   journal_ = 0;
+  vertex_journal_ = 0;
 }
 
 void Triangulation::rollback() {
   assert(journalling_);
   journalling_ = false;
   journal_ = 0;
+  vertex_journal_ = 0;
   for (auto entry = triangle_journal_.rbegin(); entry != triangle_journal_.rend(); ++entry)
     triangles_[entry->id.index] = entry->triangle;
   for (auto entry = moved_journal_.rbegin(); entry != moved_journal_.rend(); ++entry) {
     triangles_[entry->id.index].circle = entry->circle;
     triangles_[entry->id.index].birth = entry->birth;
   }
-  for (auto entry = vertex_journal_.rbegin(); entry != vertex_journal_.rend(); ++entry)
+  for (auto entry = earlier_vertices_.rbegin(); entry != earlier_vertices_.rend(); ++entry)
     vertices_[entry->id.index] = entry->vertex;
   for (const std::uint32_t index : generation_journal_) --generations_[index];
   vertices_.truncate(vertex_slots_before_);
   generations_.truncate(vertex_slots_before_);
+  vertex_journals_.truncate(vertex_slots_before_);
   triangles_.truncate(triangle_slots_before_);
   for (FreeList* list : {&free_vertices_, &free_triangles_}) {
     list->count = list->slots.size();
@@ -85,7 +106,7 @@ void Triangulation::rollback() {
   touched_.clear();
   triangle_journal_.clear();
   moved_journal_.clear();
-  vertex_journal_.clear();
+  earlier_vertices_.clear();
 }
 
 // Invariants (1) and (2) at one triangle.

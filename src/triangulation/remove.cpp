@@ -58,16 +58,16 @@ void Triangulation::collect_star(VertexId v, Hole& hole) const {
 std::size_t Triangulation::find_apex(const Hole& hole, std::size_t i, std::size_t j, Circle& circle) const {
   const Point a = hole.polygon[i].point, b = hole.polygon[j].point;
   std::size_t best = j;
-  for (std::size_t c = i + 1; c < j; ++c) {
+  const auto look_at = [&](std::size_t c) {
     const Point p = hole.polygon[c].point;
-    if (best != j) {
-      if (!lies_inside(circle, a, hole.polygon[best].point, b, p)) continue;
-    }
+    if (best != j && !lies_inside(circle, a, hole.polygon[best].point, b, p)) return;
     const Circle next = certified_circle(a, p, b);
-    if (!next.certain() && orient2d(a, p, b) <= 0) continue;
+    if (!next.certain() && orient2d(a, p, b) <= 0) return;
     best = c;
     circle = next;
-  }
+  };
+  look_at(j - 1);  // the ends are likely, and a small circle early leaves little to compute
+  for (std::size_t c = i + 1; c + 1 < j; ++c) look_at(c);
   return best;
 }
 

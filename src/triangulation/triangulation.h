@@ -228,8 +228,8 @@ class Triangulation {
   }
   // Whether two states of a triangle have the same vertices, and the same edges constrained.
   static bool same_edges(const Triangle& a, const Triangle& b);
-  // Visits the touched triangles that are there: visit(id, whether it is at the vertices, and behind the
-  // constraints, that it had at begin()).
+  // Visits the touched slots that hold a triangle: visit(id, whether it is at the vertices, and behind the
+  // constraints, that the slot had at begin()).
   template <class Visit>
   void for_each_touched(Visit visit) const {
     auto before = triangle_journal_.begin();  // in the order of touched_, without new slots
@@ -241,13 +241,16 @@ class Triangulation {
       if (now.alive()) visit(t, earlier != nullptr && earlier->alive() && same_edges(*earlier, now));
     }
   }
-  // The states of vertices before each change since begin(): of several of one vertex the first is that at
-  // begin(). Vertices made since then are not in it.
+  // The states of vertices before their first change since begin(), and again before their first change since
+  // each new part of this list: of several of one vertex the first is that at begin(). Vertices in slots made
+  // since then are not in it.
   struct VertexBefore {
     VertexId id;
     Vertex vertex;
   };
-  std::span<const VertexBefore> earlier_vertices() const { return vertex_journal_; }
+  std::span<const VertexBefore> earlier_vertices() const { return earlier_vertices_; }
+  // Begins a new part; returns where. Precondition: journalling.
+  std::size_t begin_part_of_earlier_vertices();
   std::uint32_t vertices_inserted() const { return inserted_; }  // since begin()
   std::uint32_t vertices_removed() const { return removed_; }
 
@@ -266,10 +269,11 @@ class Triangulation {
     return triangle;
   }
   Vertex& edit(VertexId v) {
-    if (journalling_ && v.index < vertex_slots_before_) vertex_journal_.push_back({v, vertices_[v.index]});
+    if (vertex_journals_[v.index] != vertex_journal_) remember(v);
     return vertices_[v.index];
   }
   void remember(TriangleId t);
+  void remember(VertexId v);
 
   std::string check_triangle(std::uint32_t index) const;
   void set_star(VertexId v, TriangleId t, int corner) {
@@ -346,9 +350,11 @@ class Triangulation {
 
   SlotArray<Vertex> vertices_;
   SlotArray<std::uint32_t> generations_;
+  SlotArray<std::uint32_t> vertex_journals_;  // the part of a journal that holds a vertex's earlier state
   SlotArray<Triangle> triangles_;
-  // Free slots; those before the count are there to be given out (last first). A slot freed under a journal
-  // joins them at commit(), so that no id is given out twice within one step.
+  // Free slots; those before the count are there to be given out (last first). Slots freed under a journal
+  // join them at commit(): no vertex id is given out twice within one step. Triangles' slots are, the last
+  // freed first: they lie in the caches.
   struct FreeList {
     std::vector<std::uint32_t> slots;
     std::size_t count = 0;
@@ -366,14 +372,16 @@ class Triangulation {
   std::vector<Earlier> triangle_journal_;
   std::vector<MovedInPlace> moved_journal_;
   std::vector<TriangleId> touched_;
-  std::vector<VertexBefore> vertex_journal_;
+  std::vector<VertexBefore> earlier_vertices_;
+  std::uint32_t vertex_parts_ = 0;    // the number of the last part of a list of earlier vertices
+  std::uint32_t vertex_journal_ = 0;  // of the part under way; 0, as for new slots, when there is no journal
   std::vector<std::uint32_t> generation_journal_;
   std::size_t vertex_slots_before_ = 0, triangle_slots_before_ = 0, live_vertices_before_ = 0;
   std::uint32_t inserted_ = 0, removed_ = 0;
 
   // Scratch of remove(). The marks of triangles in a hole are in `badness`, which nobody else uses meanwhile.
   static constexpr std::uint8_t in_hole = 255;
-  static constexpr std::size_t largest_patch = 64;
+  static constexpr std::size_t largest_patch = 128;
   enum class Removal : std::uint8_t { none, waiting, taken };
   Hole hole_;
   std::vector<Removal> removal_;          // of each vertex slot; none between two calls

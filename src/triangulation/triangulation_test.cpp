@@ -239,6 +239,61 @@ TEST_P(KernelOnFamily, ComesBackToTheSameBitsAfterRollback) {
   }
 }
 
+TEST_P(KernelOnFamily, KnowsTheVerticesOfTheBeginningAndOfAPartOfAJournal) {
+  const auto seed = test::seed(26 + static_cast<unsigned long long>(GetParam()));
+  SCOPED_TRACE("REMODEL_TEST_SEED=" + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  Triangulation t = started(random, GetParam());
+  std::vector<VertexId> vertices;
+  const auto change = [&](int steps) {
+    for (int step = 0; step < steps; ++step) {
+      if (vertices.size() > 3 && random() % 2 == 0) {
+        const std::size_t k = random() % vertices.size();
+        t.remove(vertices[k]);
+        vertices.erase(vertices.begin() + static_cast<std::ptrdiff_t>(k));
+      } else if (const auto inserted = t.insert(random_point(random, GetParam()), any_triangle(t));
+                 inserted.is_new) {
+        vertices.push_back(inserted.vertex);
+      }
+    }
+  };
+  for (int round = 0; round < 20; ++round) {
+    change(10);
+    const Triangulation first = t;
+    t.begin();
+    change(10);
+    const std::size_t part = t.begin_part_of_earlier_vertices();
+    const Triangulation second = t;
+    change(10);
+    const auto expect = [&](const Triangulation& then, std::span<const Triangulation::VertexBefore> entries) {
+      for (std::uint32_t i = 0; i < first.vertex_slots(); ++i) {
+        const auto entry =
+            std::find_if(entries.begin(), entries.end(), [i](const auto& e) { return e.id.index == i; });
+        const Vertex& found = entry == entries.end() ? t[VertexId{i}] : entry->vertex;
+        ASSERT_EQ(found.star, then[VertexId{i}].star);
+        ASSERT_EQ(found.point, then[VertexId{i}].point);
+      }
+    };
+    expect(first, t.earlier_vertices());
+    expect(second, t.earlier_vertices().subspan(part));
+    t.commit();
+  }
+}
+
+TEST(Journal, GivesFreedTrianglesOutAgain) {
+  const auto seed = test::seed(29);
+  SCOPED_TRACE("REMODEL_TEST_SEED=" + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  Triangulation t = started(random, 0);
+  for (int i = 0; i < 100; ++i) t.insert(random_point(random, 0), any_triangle(t));
+  const std::size_t slots = t.triangle_slots();
+  t.begin();
+  for (int i = 0; i < 100; ++i) t.remove(t.insert(random_point(random, 0), any_triangle(t)).vertex);
+  EXPECT_LE(t.triangle_slots(), slots + 2);
+  t.rollback();
+  EXPECT_EQ(t.check(), "");
+}
+
 INSTANTIATE_TEST_SUITE_P(Families, KernelOnFamily, testing::Range(0, 5));
 
 TEST(Constraints, OfRandomSegmentsAreKeptThroughInsertionAndRemoval) {
