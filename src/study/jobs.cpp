@@ -126,8 +126,10 @@ bool Replay::evaluate(MeshChain& chain, std::size_t index) {
   const FreshRow* fresh = compared ? fresh_of(record.evaluation) : nullptr;
   if (compared && !fresh) return false;
   const auto due = [&](std::uint64_t every) { return record.evaluation % every == 0; };
+  // At the first step too, as optimise() does: so the smallest of all angles is known.
+  const bool whole = index == 0 || due(work_.check_every);
   const StepTasks tasks{.check = due(work_.validate_every) ? Checked::full
-                                 : due(work_.check_every)  ? Checked::quick
+                                 : whole                   ? Checked::quick
                                                            : Checked::changes};
   if (chain.step(design_at(work_, index), tasks, record) != Stopped::done) return false;
   if (fresh) {
