@@ -67,8 +67,7 @@ class Coarsening {
   bool is_fine(const Triangulation::Ear& ear) const {
     const Vertex &a = triangulation_[ear.vertex[0]], &b = triangulation_[ear.vertex[1]],
                  &c = triangulation_[ear.vertex[2]];
-    const Circle circle = certified_circle(a.point, b.point, c.point);
-    if (!circle.certain() || !is_good(a, b, c, circle.squared_radius(), bounds_)) return false;
+    if (!ear.circle.certain() || !is_good(a, b, c, ear.circle.squared_radius(), bounds_)) return false;
     for (int i = 0; i < 3; ++i)
       if (encroaches(ear.vertex[i], ear.vertex[next3(i)], ear.vertex[previous3(i)])) return false;
     return true;

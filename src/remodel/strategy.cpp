@@ -12,13 +12,18 @@ namespace remodel {
 
 namespace {
 
-constexpr std::uint32_t replacements_between_renewals = 5;
+constexpr double small_gradation = 2.0;  // up to it meshes have a few thousand triangles
 constexpr int samples_on_the_way = 5;  // for a mesh of unknown history: K within about 2 %
 constexpr std::uint32_t full_adjustments_before_refresh = 25;
 constexpr std::uint64_t steps_before_sampling = 1000;  // doubled with each one
 constexpr double tolerated_excess = 0.02;
 constexpr int samples_at_refresh = 2;
 constexpr double weight_of_refresh = 1.0 / 3.0;  // of a refresh's samples in K
+
+// In a small mesh a renewal looks at most of it, whatever has changed: it waits longer.
+std::uint32_t replacements_between_renewals(const MeshData& mesh) {
+  return mesh.options.gradation <= small_gradation ? 9 : 5;
+}
 
 // The vertices of the domain triangles that a step has made, for the next renewal.
 void note_touched(MeshData& mesh) {
@@ -49,7 +54,7 @@ bool renews(const MeshData& mesh, const RemodelOptions& options) {
 double resolved_keep(const RemodelOptions& options, const QualityOptions& quality) {
   if (options.strategy == Strategy::chain) return 1.0;
   if (options.keep != 0.0) return options.keep;
-  return quality.gradation <= 2.0 ? 1.1 : 1.25;
+  return quality.gradation <= small_gradation ? 1.1 : 1.25;
 }
 
 void calibrate(MeshData& mesh, int samples, StepObserver* observer) {
@@ -109,7 +114,7 @@ void finish_replacement(MeshData& mesh, const std::optional<RenewedSize>& renewe
   renewal.interior_size = corrected_interior_size(mesh, renewal.interior_size, renewed);
   renewal.full_adjustments = 0;
   if (renewed) {
-    renewal.until_renewal = replacements_between_renewals;
+    renewal.until_renewal = replacements_between_renewals(mesh);
     renewal.pending_vertices.clear();
     renewal.pending_loops.clear();
   } else {

@@ -71,21 +71,26 @@ std::size_t Triangulation::find_apex(const Hole& hole, std::size_t i, std::size_
   return best;
 }
 
-// Cuts the hole into pieces, on paper. False where that gets stuck.
-bool Triangulation::cut(Hole& hole) const {
+// Cuts the hole into pieces, on paper. False where that gets stuck, or a piece is not accepted.
+template <class Accept>
+bool Triangulation::cut(Hole& hole, Accept accept) const {
   if (hole.ghost) return false;
   hole.todo.push_back({0, static_cast<std::uint32_t>(hole.polygon.size() - 1), no_index, 0});
   while (!hole.todo.empty()) {
     Piece piece = hole.todo.back();
     hole.todo.pop_back();
     piece.apex = static_cast<std::uint32_t>(find_apex(hole, piece.first, piece.last, piece.circle));
-    if (piece.apex == piece.last) return false;
+    if (piece.apex == piece.last || !accept(piece)) return false;
     const auto number = static_cast<std::uint32_t>(hole.pieces.size());
     hole.pieces.push_back(piece);
     if (piece.apex + 1 < piece.last) hole.todo.push_back({piece.apex, piece.last, number, 0});
     if (piece.first + 1 < piece.apex) hole.todo.push_back({piece.first, piece.apex, number, 2});
   }
   return true;
+}
+
+bool Triangulation::cut(Hole& hole) const {
+  return cut(hole, [](const Piece&) { return true; });
 }
 
 // Whether no vertex of the polygon lies in the piece's circle.
@@ -193,14 +198,12 @@ void Triangulation::write_ears(const Hole& hole, Region region) {
 
 bool Triangulation::plan_removal(VertexId v, const std::function<bool(const Ear&)>& fine) {
   collect_star(v, hole_);
-  if (!cut(hole_)) return false;
-  for (const Piece& piece : hole_.pieces) {
+  return cut(hole_, [&](const Piece& piece) {
     if (hole_.constrained && !delaunay(hole_, piece)) return false;
-    if (!fine({hole_.polygon[piece.first].from, hole_.polygon[piece.apex].from,
-               hole_.polygon[piece.last].from}))
-      return false;
-  }
-  return true;
+    return fine({{hole_.polygon[piece.first].from, hole_.polygon[piece.apex].from,
+                  hole_.polygon[piece.last].from},
+                 piece.circle});
+  });
 }
 
 // The rest of a removal, the hole being known and cut or not: its triangles and the vertices in it go.

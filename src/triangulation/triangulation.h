@@ -157,6 +157,7 @@ class Triangulation {
   // star; and at the hull.
   struct Ear {
     VertexId vertex[3];
+    Circle circle;
   };
   bool plan_removal(VertexId v, const std::function<bool(const Ear&)>& fine);
 
@@ -333,6 +334,8 @@ class Triangulation {
   void grow_patch(VertexId seed, std::size_t size, Hole& hole);
   bool collect_border(Hole& hole);
   std::size_t find_apex(const Hole& hole, std::size_t i, std::size_t j, Circle& circle) const;
+  template <class Accept>
+  bool cut(Hole& hole, Accept accept) const;
   bool cut(Hole& hole) const;
   bool delaunay(const Hole& hole, const Piece& piece) const;
   void remove_patch(VertexId seed, std::size_t size);
