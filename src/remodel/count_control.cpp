@@ -89,8 +89,12 @@ double interior_size(const MeshData& mesh) {
   return sum;
 }
 
+double total_size(MeshData& mesh) {
+  return mesh.renewal.interior_size + boundary_size(mesh);
+}
+
 double triangles_per_size(MeshData& mesh) {
-  return static_cast<double>(mesh.domain_triangles) / (mesh.renewal.interior_size + boundary_size(mesh));
+  return static_cast<double>(mesh.domain_triangles) / total_size(mesh);
 }
 
 double free_area(const MeshData& mesh, VertexId v) {

@@ -37,7 +37,8 @@ double corrected_interior_size(MeshData& mesh, double before, const std::optiona
 // The part in triangles with a boundary vertex: O(boundary).
 double boundary_size(MeshData& mesh);
 
-// N / S. Precondition: the mesh's interior_size is known.
+// S, and N / S. Precondition: the mesh's interior_size is known.
+double total_size(MeshData& mesh);
 double triangles_per_size(MeshData& mesh);
 
 // A fresh mesh of the same domain, made to H times a factor of at most 1, with its S. A triangle count is

@@ -13,7 +13,7 @@ namespace remodel {
 namespace {
 
 constexpr double small_gradation = 2.0;  // up to it meshes have a few thousand triangles
-constexpr int samples_on_the_way = 5;  // for a mesh of unknown history: K within about 2 %
+constexpr int samples_on_the_way = 5;    // for a mesh of unknown history: K within about 2 %
 constexpr std::uint32_t full_adjustments_before_refresh = 25;
 constexpr std::uint64_t steps_before_sampling = 1000;  // doubled with each one
 constexpr double tolerated_excess = 0.02;
@@ -35,10 +35,6 @@ void note_touched(MeshData& mesh) {
     for (const VertexId v : triangle.vertex)
       if (mesh.vertex_marks.visit(v.index)) mesh.renewal.pending_vertices.push_back(v.index);
   }
-}
-
-double excess(MeshData& mesh) {
-  return triangles_per_size(mesh) / mesh.renewal.count_factor - 1.0;
 }
 
 }  // namespace
@@ -69,8 +65,8 @@ std::size_t prepare_renewal(MeshData& mesh, StepObserver* observer) {
     renewal.count_factor =
         mesh.step == 0 ? triangles_per_size(mesh) : measured_count_factor(mesh, samples_on_the_way, observer);
   if (renewal.count_factor == 0.0) return 0;  // no fresh mesh could be finished
-  const double too_many = static_cast<double>(mesh.domain_triangles) -
-                          renewal.count_factor * (renewal.interior_size + boundary_size(mesh));
+  const double too_many =
+      static_cast<double>(mesh.domain_triangles) - renewal.count_factor * total_size(mesh);
   return static_cast<std::size_t>(std::max(0.0, 0.5 * too_many));
 }
 
@@ -129,26 +125,30 @@ void forget_size(MeshData& mesh) {
 }
 
 // Counts are chaotic: the same design with bounds that differ by a fraction of a percent is another sample.
+// So the mesh is not compared with the samples' counts, but with what K makes of their size. That of the mesh
+// itself, whose length scales differ from a fresh mesh's within the tolerance of renewal, may be 2 % off.
 std::optional<GenerateResult> nearer_to_fresh(MeshData& mesh, StepObserver* observer) {
   RenewalState& renewal = mesh.renewal;
   renewal.sampled_at = mesh.step;
   ++renewal.samplings;
   std::vector<GenerateResult> samples;
-  double mean = 0.0;
+  double per_size = 0.0, size = 0.0;  // means
   for (int i = 0; i < samples_at_refresh; ++i) {
     const double h_factor = 1.0 - 0.0001 * ((mesh.step + 17 * i) % 51);
     samples.push_back(fresh_sample(mesh, h_factor, observer));
     if (samples.back().stopped != Stopped::done) return std::nullopt;
-    mean += triangles_per_size(samples.back().mesh.data()) * h_factor * h_factor / samples_at_refresh;
+    per_size += triangles_per_size(samples.back().mesh.data()) * h_factor * h_factor / samples_at_refresh;
+    size += total_size(samples.back().mesh.data()) / samples_at_refresh;
   }
-  renewal.count_factor += weight_of_refresh * (mean - renewal.count_factor);
-  if (std::abs(excess(mesh)) <= tolerated_excess) return std::nullopt;
+  renewal.count_factor += weight_of_refresh * (per_size - renewal.count_factor);
+  const double excess = static_cast<double>(mesh.domain_triangles) / (renewal.count_factor * size) - 1.0;
+  if (std::abs(excess) <= tolerated_excess) return std::nullopt;
   const auto off = [&](GenerateResult& sample) {
     return std::abs(triangles_per_size(sample.mesh.data()) / renewal.count_factor - 1.0);
   };
   GenerateResult& best =
       *std::min_element(samples.begin(), samples.end(), [&](auto& a, auto& b) { return off(a) < off(b); });
-  if (off(best) > 0.5 * std::abs(excess(mesh))) return std::nullopt;
+  if (off(best) > 0.5 * std::abs(excess)) return std::nullopt;
   best.mesh.data().renewal.take_count_factor(renewal);
   return std::move(best);
 }
