@@ -5,7 +5,8 @@
 
 namespace remodel {
 
-// Ids are stable while what they name lives, and are not given out again within one remodelling.
+// Ids are stable while what they name lives. A vertex's is not given out again within one remodelling; a
+// triangle's may be: with the step of its birth it names one triangle of all meshes between steps.
 inline constexpr std::uint32_t no_index = 0xffffffffU;
 
 struct VertexId {

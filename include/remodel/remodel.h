@@ -19,8 +19,10 @@ enum class Strategy {
   // The paper's method, to the letter. Length scales inside the mesh are never renewed, and nothing is
   // coarsened: triangles accumulate.
   chain,
-  // At every sixth replacement length scales are renewed from the boundary; kept triangles need only hold keep
-  // H, and Steiner vertices are removed while the mesh has more triangles than a fresh one would; after 25 full
+  // At every sixth replacement (tenth for G <= 2) length scales are renewed; kept triangles need only hold
+  // keep
+  // H, and Steiner vertices are removed while the mesh has more triangles than a fresh one would; after 25
+  // full
   // adjustments in a row a mesh whose count is off is generated afresh. The angle bound never relaxes.
   // Imported meshes, whose length scales are measured, are remodelled as by chain.
   renew,
@@ -45,8 +47,8 @@ struct RemodelResult {
   std::size_t removed = 0;
   bool full_adjustment = false;         // every boundary vertex moved in place, connectivity unchanged
   Method method = Method::specialised;  // the one that ran
-  bool refreshed = false;    // the strategy generated the mesh afresh: its triangle count was off
-  bool regenerated = false;  // remodelling could not be completed: the mesh was generated afresh
+  bool refreshed = false;               // the strategy generated the mesh afresh: its triangle count was off
+  bool regenerated = false;             // remodelling could not be completed: the mesh was generated afresh
   std::string reason;                   // why it was regenerated
   Stopped stopped = Stopped::done;
   double preserved_percent() const {

@@ -12,15 +12,15 @@ namespace remodel {
 
 namespace {
 
-constexpr double small_gradation = 2.0;  // up to it meshes have a few thousand triangles
-constexpr int samples_on_the_way = 5;    // for a mesh of unknown history: K within about 2 %
+constexpr double small_gradation = 2.0;
+constexpr int samples_on_the_way = 5;  // for a mesh of unknown history: K within about 2 %
 constexpr std::uint32_t full_adjustments_before_refresh = 25;
 constexpr std::uint64_t steps_before_sampling = 1000;  // doubled with each one
 constexpr double tolerated_excess = 0.02;
 constexpr int samples_at_refresh = 2;
 constexpr double weight_of_refresh = 1.0 / 3.0;  // of a refresh's samples in K
 
-// In a small mesh a renewal looks at most of it, whatever has changed: it waits longer.
+// Where the gradation is small, a renewal looks at most of the mesh, whatever has changed: it waits longer.
 std::uint32_t replacements_between_renewals(const MeshData& mesh) {
   return mesh.options.gradation <= small_gradation ? 9 : 5;
 }

@@ -20,19 +20,18 @@ void Triangulation::remember(TriangleId t) {
   triangles_[t.index].journal = journal_;
 }
 
-// Its first change in a part of the list of earlier vertices.
+// Its first change in a part of the list. Precondition: journalling.
 void Triangulation::remember(VertexId v) {
-  if (!journalling_) return;
   if (v.index < vertex_slots_before_) earlier_vertices_.push_back({v, vertices_[v.index]});
-  vertex_journals_[v.index] = vertex_journal_;
+  listed_in_part_[v.index] = part_;
 }
 
 std::size_t Triangulation::begin_part_of_earlier_vertices() {
-  if (++vertex_parts_ == 0) {  // marks of as many parts ago would be mistaken for new ones
-    std::fill(vertex_journals_.begin(), vertex_journals_.end(), 0);
-    vertex_parts_ = 1;
+  assert(journalling_);
+  if (++part_ == 0) {  // marks of as many parts ago would be mistaken for new ones
+    std::fill(listed_in_part_.begin(), listed_in_part_.end(), 0);
+    part_ = 1;
   }
-  vertex_journal_ = vertex_parts_;
   return earlier_vertices_.size();
 }
 
@@ -60,8 +59,8 @@ void Triangulation::begin() {
     journals_ = 1;
   }
   journal_ = journals_;
-  begin_part_of_earlier_vertices();
   journalling_ = true;
+  begin_part_of_earlier_vertices();
 }
 
 void Triangulation::commit() {
@@ -77,14 +76,12 @@ void Triangulation::commit() {
   }
   journalling_ = false;
   journal_ = 0;
-  vertex_journal_ = 0;
 }
 
 void Triangulation::rollback() {
   assert(journalling_);
   journalling_ = false;
   journal_ = 0;
-  vertex_journal_ = 0;
   for (auto entry = triangle_journal_.rbegin(); entry != triangle_journal_.rend(); ++entry)
     triangles_[entry->id.index] = entry->triangle;
   for (auto entry = moved_journal_.rbegin(); entry != moved_journal_.rend(); ++entry) {
@@ -96,7 +93,7 @@ void Triangulation::rollback() {
   for (const std::uint32_t index : generation_journal_) --generations_[index];
   vertices_.truncate(vertex_slots_before_);
   generations_.truncate(vertex_slots_before_);
-  vertex_journals_.truncate(vertex_slots_before_);
+  listed_in_part_.truncate(vertex_slots_before_);
   triangles_.truncate(triangle_slots_before_);
   for (FreeList* list : {&free_vertices_, &free_triangles_}) {
     list->count = list->slots.size();

@@ -200,9 +200,9 @@ bool Triangulation::plan_removal(VertexId v, const std::function<bool(const Ear&
   collect_star(v, hole_);
   return cut(hole_, [&](const Piece& piece) {
     if (hole_.constrained && !delaunay(hole_, piece)) return false;
-    return fine({{hole_.polygon[piece.first].from, hole_.polygon[piece.apex].from,
-                  hole_.polygon[piece.last].from},
-                 piece.circle});
+    return fine(
+        {{hole_.polygon[piece.first].from, hole_.polygon[piece.apex].from, hole_.polygon[piece.last].from},
+         piece.circle});
   });
 }
 

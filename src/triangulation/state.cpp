@@ -62,7 +62,7 @@ std::string TriangulationState::restore(Triangulation& result) const {
   Triangulation t;
   t.vertices_ = SlotArray<Vertex>(vertices);
   t.generations_ = SlotArray<std::uint32_t>(generations);
-  t.vertex_journals_ = SlotArray<std::uint32_t>(std::vector<std::uint32_t>(vertices.size(), 0));
+  t.listed_in_part_ = SlotArray<std::uint32_t>(std::vector<std::uint32_t>(vertices.size(), 0));
   t.triangles_ = SlotArray<Triangle>(triangles);
   t.free_vertices_ = {free_vertices, free_vertices.size(), {}};
   t.free_triangles_ = {free_triangles, free_triangles.size(), {}};

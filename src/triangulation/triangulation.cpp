@@ -47,14 +47,14 @@ VertexId Triangulation::new_vertex(Point p) {
     if (const std::uint32_t* later = free_vertices_.ahead()) {
       __builtin_prefetch(&vertices_[*later], 1);
       __builtin_prefetch(&generations_[*later], 1);
-      __builtin_prefetch(&vertex_journals_[*later], 1);
+      __builtin_prefetch(&listed_in_part_[*later], 1);
     }
     v = VertexId{free_vertices_.slots[--free_vertices_.count]};
   } else {
     v = VertexId{static_cast<std::uint32_t>(vertices_.size())};
     vertices_.push_back({});
     generations_.push_back(0);
-    vertex_journals_.push_back(0);
+    listed_in_part_.push_back(0);
   }
   Vertex& vertex = edit(v);
   vertex = Vertex{};
@@ -83,14 +83,14 @@ void Triangulation::reserve(std::size_t triangles) {
   triangles_.reserve(triangles);
   vertices_.reserve(triangles / 2);
   generations_.reserve(triangles / 2);
-  vertex_journals_.reserve(triangles / 2);
+  listed_in_part_.reserve(triangles / 2);
 }
 
 void Triangulation::start(Point a, Point b, Point c) {
   assert(vertices_.empty());
   vertices_.push_back({});  // the infinite vertex
   generations_.push_back(0);
-  vertex_journals_.push_back(0);
+  listed_in_part_.push_back(0);
   if (orient2d(a, b, c) < 0) std::swap(b, c);
   const VertexId va = new_vertex(a), vb = new_vertex(b), vc = new_vertex(c);
   const TriangleId inner = new_triangle();

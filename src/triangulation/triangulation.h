@@ -229,8 +229,8 @@ class Triangulation {
   }
   // Whether two states of a triangle have the same vertices, and the same edges constrained.
   static bool same_edges(const Triangle& a, const Triangle& b);
-  // Visits the touched slots that hold a triangle: visit(id, whether it is at the vertices, and behind the
-  // constraints, that the slot had at begin()).
+  // Visits the touched slots that hold a triangle: visit(id, whether it is of the region, at the vertices and
+  // behind the constraints that the slot had at begin()).
   template <class Visit>
   void for_each_touched(Visit visit) const {
     auto before = triangle_journal_.begin();  // in the order of touched_, without new slots
@@ -239,7 +239,9 @@ class Triangulation {
       const bool was_there = before != triangle_journal_.end() && before->id == t;
       const Triangle* earlier = was_there ? &(before++)->triangle : nullptr;
       const Triangle& now = triangles_[t.index];
-      if (now.alive()) visit(t, earlier != nullptr && earlier->alive() && same_edges(*earlier, now));
+      if (!now.alive()) continue;
+      visit(t, earlier != nullptr && earlier->alive() && earlier->region == now.region &&
+                   same_edges(*earlier, now));
     }
   }
   // The states of vertices before their first change since begin(), and again before their first change since
@@ -270,7 +272,7 @@ class Triangulation {
     return triangle;
   }
   Vertex& edit(VertexId v) {
-    if (vertex_journals_[v.index] != vertex_journal_) remember(v);
+    if (journalling_ && listed_in_part_[v.index] != part_) remember(v);
     return vertices_[v.index];
   }
   void remember(TriangleId t);
@@ -353,11 +355,11 @@ class Triangulation {
 
   SlotArray<Vertex> vertices_;
   SlotArray<std::uint32_t> generations_;
-  SlotArray<std::uint32_t> vertex_journals_;  // the part of a journal that holds a vertex's earlier state
+  SlotArray<std::uint32_t> listed_in_part_;  // the last part of earlier_vertices_ that a vertex is in
   SlotArray<Triangle> triangles_;
-  // Free slots; those before the count are there to be given out (last first). Slots freed under a journal
-  // join them at commit(): no vertex id is given out twice within one step. Triangles' slots are, the last
-  // freed first: they lie in the caches.
+  // Free slots; those before the count are there to be given out (last first). A triangle's slot that is
+  // freed under a journal is given out again at once, while it lies in the caches; a vertex's only after
+  // commit().
   struct FreeList {
     std::vector<std::uint32_t> slots;
     std::size_t count = 0;
@@ -376,15 +378,14 @@ class Triangulation {
   std::vector<MovedInPlace> moved_journal_;
   std::vector<TriangleId> touched_;
   std::vector<VertexBefore> earlier_vertices_;
-  std::uint32_t vertex_parts_ = 0;    // the number of the last part of a list of earlier vertices
-  std::uint32_t vertex_journal_ = 0;  // of the part under way; 0, as for new slots, when there is no journal
+  std::uint32_t part_ = 0;  // the number of the last part of a list of earlier vertices
   std::vector<std::uint32_t> generation_journal_;
   std::size_t vertex_slots_before_ = 0, triangle_slots_before_ = 0, live_vertices_before_ = 0;
   std::uint32_t inserted_ = 0, removed_ = 0;
 
   // Scratch of remove(). The marks of triangles in a hole are in `badness`, which nobody else uses meanwhile.
   static constexpr std::uint8_t in_hole = 255;
-  static constexpr std::size_t largest_patch = 128;
+  static constexpr std::size_t largest_patch = 64;
   enum class Removal : std::uint8_t { none, waiting, taken };
   Hole hole_;
   std::vector<Removal> removal_;          // of each vertex slot; none between two calls

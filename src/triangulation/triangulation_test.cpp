@@ -207,6 +207,7 @@ TEST_P(KernelOnFamily, ComesBackToTheSameBitsAfterRollback) {
     t.begin();
     std::vector<VertexId> now = vertices;
     for (int step = 0; step < 30; ++step) {
+      if (step == 15) t.begin_part_of_earlier_vertices();
       if (now.size() > 3 && random() % 2 == 0) {
         const std::size_t k = random() % now.size();
         t.remove(now[k]);
@@ -255,6 +256,8 @@ TEST_P(KernelOnFamily, KnowsTheVerticesOfTheBeginningAndOfAPartOfAJournal) {
                  inserted.is_new) {
         vertices.push_back(inserted.vertex);
       }
+      if (!vertices.empty())
+        t.set_length_scale(vertices[random() % vertices.size()], static_cast<double>(random() % 1000));
     }
   };
   for (int round = 0; round < 20; ++round) {
@@ -272,10 +275,15 @@ TEST_P(KernelOnFamily, KnowsTheVerticesOfTheBeginningAndOfAPartOfAJournal) {
         const Vertex& found = entry == entries.end() ? t[VertexId{i}] : entry->vertex;
         ASSERT_EQ(found.star, then[VertexId{i}].star);
         ASSERT_EQ(found.point, then[VertexId{i}].point);
+        ASSERT_EQ(found.length_scale, then[VertexId{i}].length_scale);
       }
     };
     expect(first, t.earlier_vertices());
     expect(second, t.earlier_vertices().subspan(part));
+    for (const auto entries : {t.earlier_vertices().first(part), t.earlier_vertices().subspan(part)}) {
+      std::set<std::uint32_t> once;
+      for (const auto& entry : entries) ASSERT_TRUE(once.insert(entry.id.index).second);
+    }
     t.commit();
   }
 }
