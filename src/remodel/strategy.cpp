@@ -137,8 +137,11 @@ std::optional<GenerateResult> nearer_to_fresh(MeshData& mesh, StepObserver* obse
     const double h_factor = 1.0 - 0.0001 * ((mesh.step + 17 * i) % 51);
     samples.push_back(fresh_sample(mesh, h_factor, observer));
     if (samples.back().stopped != Stopped::done) return std::nullopt;
-    per_size += triangles_per_size(samples.back().mesh.data()) * h_factor * h_factor / samples_at_refresh;
-    size += total_size(samples.back().mesh.data()) / samples_at_refresh;
+    MeshData& sample = samples.back().mesh.data();
+    const double its_size = total_size(sample);
+    const double its_triangles = static_cast<double>(sample.domain_triangles);
+    per_size += its_triangles / its_size * h_factor * h_factor / samples_at_refresh;
+    size += its_size / samples_at_refresh;
   }
   renewal.count_factor += weight_of_refresh * (per_size - renewal.count_factor);
   const double excess = static_cast<double>(mesh.domain_triangles) / (renewal.count_factor * size) - 1.0;

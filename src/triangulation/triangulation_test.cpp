@@ -70,6 +70,19 @@ Triangulation started(std::mt19937_64& random, int family) {
   }
 }
 
+// Removes one of the vertices, one time in `removal_in` while there are more than three, or inserts one.
+void insert_or_remove(Triangulation& t, std::vector<VertexId>& vertices, int family, unsigned removal_in,
+                      std::mt19937_64& random) {
+  if (vertices.size() > 3 && random() % removal_in == 0) {
+    const std::size_t k = random() % vertices.size();
+    t.remove(vertices[k]);
+    vertices.erase(vertices.begin() + static_cast<std::ptrdiff_t>(k));
+  } else {
+    const auto inserted = t.insert(random_point(random, family), any_triangle(t));
+    if (inserted.is_new) vertices.push_back(inserted.vertex);
+  }
+}
+
 class KernelOnFamily : public testing::TestWithParam<int> {};
 
 TEST_P(KernelOnFamily, StaysValidUnderRandomInsertionAndRemoval) {
@@ -79,14 +92,7 @@ TEST_P(KernelOnFamily, StaysValidUnderRandomInsertionAndRemoval) {
   Triangulation t = started(random, GetParam());
   std::vector<VertexId> vertices;
   for (int step = 0; step < 600; ++step) {
-    if (vertices.size() > 3 && random() % 3 == 0) {
-      const std::size_t k = random() % vertices.size();
-      t.remove(vertices[k]);
-      vertices.erase(vertices.begin() + static_cast<std::ptrdiff_t>(k));
-    } else {
-      const auto inserted = t.insert(random_point(random, GetParam()), any_triangle(t));
-      if (inserted.is_new) vertices.push_back(inserted.vertex);
-    }
+    insert_or_remove(t, vertices, GetParam(), 3, random);
     ASSERT_EQ(t.check(), "") << "step " << step;
   }
 }
@@ -208,14 +214,7 @@ TEST_P(KernelOnFamily, ComesBackToTheSameBitsAfterRollback) {
     std::vector<VertexId> now = vertices;
     for (int step = 0; step < 30; ++step) {
       if (step == 15) t.begin_part_of_earlier_vertices();
-      if (now.size() > 3 && random() % 2 == 0) {
-        const std::size_t k = random() % now.size();
-        t.remove(now[k]);
-        now.erase(now.begin() + static_cast<std::ptrdiff_t>(k));
-      } else {
-        const auto inserted = t.insert(random_point(random, GetParam()), any_triangle(t));
-        if (inserted.is_new) now.push_back(inserted.vertex);
-      }
+      insert_or_remove(t, now, GetParam(), 2, random);
       // A circle that is sure of nothing is right for any triangle.
       const TriangleId moved{static_cast<std::uint32_t>(random() % t.triangle_slots())};
       if (t[moved].alive()) t.set_moved(moved, {}, 1000U + static_cast<std::uint32_t>(step));
@@ -248,14 +247,7 @@ TEST_P(KernelOnFamily, KnowsTheVerticesOfTheBeginningAndOfAPartOfAJournal) {
   std::vector<VertexId> vertices;
   const auto change = [&](int steps) {
     for (int step = 0; step < steps; ++step) {
-      if (vertices.size() > 3 && random() % 2 == 0) {
-        const std::size_t k = random() % vertices.size();
-        t.remove(vertices[k]);
-        vertices.erase(vertices.begin() + static_cast<std::ptrdiff_t>(k));
-      } else if (const auto inserted = t.insert(random_point(random, GetParam()), any_triangle(t));
-                 inserted.is_new) {
-        vertices.push_back(inserted.vertex);
-      }
+      insert_or_remove(t, vertices, GetParam(), 2, random);
       if (!vertices.empty())
         t.set_length_scale(vertices[random() % vertices.size()], static_cast<double>(random() % 1000));
     }
