@@ -13,9 +13,7 @@ namespace {
 using Moving = AdjustCache::Moving;
 using Affected = AdjustCache::Affected;
 
-// The rows of non-Steiner vertices depend on the design's parameters only: those of the cache that this one
-// replaces, if there is one, are taken over.
-void add_moving(const MeshData& mesh, AdjustCache& cache, std::uint32_t k, const AdjustCache* earlier) {
+Moving moving_vertex(const MeshData& mesh, AdjustCache& cache, std::uint32_t k) {
   const BoundaryVertex& from = mesh.at(k);
   Moving moving{};
   moving.boundary = k;
@@ -25,48 +23,61 @@ void add_moving(const MeshData& mesh, AdjustCache& cache, std::uint32_t k, const
     moving.row = cache.basis.size();
     moving.basis_size = airfoil->upper.size();
     cache.basis.resize(moving.row + moving.basis_size);
-    if (earlier != nullptr && !from.steiner) {
-      const Moving& same = earlier->moving[cache.moving.size()];
-      moving.station = same.station;
-      std::copy_n(earlier->basis.begin() + static_cast<std::ptrdiff_t>(same.row), moving.basis_size,
-                  cache.basis.begin() + static_cast<std::ptrdiff_t>(moving.row));
-    } else {
-      moving.station = cst_basis(from.t, airfoil->degree(), airfoil->e1, airfoil->e2,
-                                 {cache.basis.data() + moving.row, moving.basis_size});
-    }
+    moving.station = cst_basis(from.t, airfoil->degree(), airfoil->e1, airfoil->e2,
+                               {cache.basis.data() + moving.row, moving.basis_size});
   }
-  cache.moving.push_back(moving);
+  return moving;
 }
 
-void list_moving(MeshData& mesh, AdjustCache& cache, const AdjustCache* earlier) {
-  for (const bool steiner : {false, true}) {
-    for (const std::size_t loop : cache.loops)
-      mesh.walk(mesh.loop_heads[loop], [&](std::uint32_t k) {
-        if (mesh.at(k).steiner == steiner) add_moving(mesh, cache, k, earlier);
-      });
-    if (!steiner) cache.non_steiner = cache.moving.size();
-  }
+// Of the non-Steiner vertices that the cache knows from before, only the ids may have changed: their rows
+// depend on the design's parameters alone.
+void list_moving(MeshData& mesh, AdjustCache& cache) {
+  const std::size_t known = cache.non_steiner;
+  cache.moving.resize(known);
+  cache.basis.resize(cache.non_steiner_basis);
+  List<std::uint32_t> steiner(&mesh.arena);
+  std::size_t n = 0;
+  for (const std::size_t loop : cache.loops)
+    mesh.walk(mesh.loop_heads[loop], [&](std::uint32_t k) {
+      const BoundaryVertex& vertex = mesh.at(k);
+      if (vertex.steiner) {
+        steiner.push_back(k);
+      } else if (n++ < known) {
+        cache.moving[n - 1].boundary = k;
+        cache.moving[n - 1].vertex = vertex.vertex;
+      } else {
+        cache.moving.push_back(moving_vertex(mesh, cache, k));
+      }
+    });
+  const std::size_t basis = cache.basis.size();
+  for (const std::uint32_t k : steiner) cache.moving.push_back(moving_vertex(mesh, cache, k));
+
   std::vector<std::uint32_t>& position = mesh.numbers;  // in cache.moving, of the boundary's entries there
   if (position.size() < mesh.boundary.size()) position.resize(mesh.boundary.size());
-  for (std::uint32_t i = 0; i < cache.moving.size(); ++i) position[cache.moving[i].boundary] = i;
-  for (Moving& m : cache.moving) {
+  for (std::uint32_t i = 0; i < n; ++i) position[cache.moving[i].boundary] = i;
+  for (std::size_t i = known; i < cache.moving.size(); ++i) {
+    Moving& m = cache.moving[i];
     std::uint32_t before = mesh.non_steiner_before(m.boundary), after = mesh.non_steiner_after(m.boundary);
     if (before == no_index) before = after;
     if (after == no_index) after = before;
     m.before = position[before == no_index ? m.boundary : before];
     m.after = position[after == no_index ? m.boundary : after];
   }
+  cache.non_steiner = n;
+  cache.non_steiner_basis = basis;
 }
 
 // What moves and is affected lie all over the mesh, and between two steps a solver has used the caches: they
 // are fetched this many turns ahead.
 constexpr std::size_t look_ahead = 8;
 
-// Affected triangles, each once, and the star lists. mesh.numbers holds a listed triangle's position.
+// Affected triangles, each once, and the star lists. mesh.numbers holds a listed triangle's position,
+// no_index for ghosts.
 void list_affected(MeshData& mesh, AdjustCache& cache) {
   const Triangulation& triangulation = mesh.triangulation;
   mesh.marks.clear(triangulation.triangle_slots());
   mesh.numbers.resize(triangulation.triangle_slots());
+  std::uint32_t listed = 0;
   for (std::size_t i = 0; i < cache.moving.size(); ++i) {
     if (i + 2 * look_ahead < cache.moving.size())
       triangulation.prefetch(cache.moving[i + 2 * look_ahead].vertex);
@@ -75,19 +86,21 @@ void list_affected(MeshData& mesh, AdjustCache& cache) {
     Moving& m = cache.moving[i];
     m.star_begin = cache.stars.size();
     triangulation.for_each_corner(m.vertex, [&](Corner c) {
-      const TriangleId t = c.triangle;
-      if (triangulation[t].ghost()) return;
-      if (mesh.marks.visit(t.index)) {
-        mesh.numbers[t.index] = static_cast<std::uint32_t>(cache.affected.size());
-        const Triangle& triangle = triangulation[t];
-        if (triangle.region == Region::domain) cache.in_domain.push_back(mesh.numbers[t.index]);
-        cache.affected.push_back({.triangle = t,
+      std::uint32_t& number = mesh.numbers[c.triangle.index];
+      if (mesh.marks.visit(c.triangle.index)) {
+        const Triangle& triangle = triangulation[c.triangle];
+        number = triangle.ghost() ? no_index : listed++;
+        if (number == no_index) return;
+        const bool domain = triangle.region == Region::domain;
+        if (domain) cache.in_domain.push_back(number);
+        cache.affected.push_back({.triangle = c.triangle,
                                   .vertex = {triangle.vertex[0], triangle.vertex[1], triangle.vertex[2]},
                                   .circle = {},
-                                  .domain = triangle.region == Region::domain});
+                                  .domain = domain});
       }
-      cache.stars.push_back(mesh.numbers[t.index]);
-      ++cache.affected[mesh.numbers[t.index]].movable;
+      if (number == no_index) return;
+      cache.stars.push_back(number);
+      ++cache.affected[number].movable;
     });
     m.star_end = cache.stars.size();
   }
@@ -240,11 +253,11 @@ bool evaluate(const MeshData& mesh, AdjustCache& cache) {
 }
 
 void mark_moved(AdjustCache& cache) {
-  for (Affected& a : cache.affected) a.moved = false, a.kept = true;
+  for (Affected& a : cache.affected) a.moved = a.movable, a.kept = true;
   for (std::size_t i = 0; i < cache.moving.size(); ++i) {
-    if (cache.new_points[i] == cache.old_points[i]) continue;
+    if (!(cache.new_points[i] == cache.old_points[i])) continue;
     const Moving& m = cache.moving[i];
-    for (std::size_t s = m.star_begin; s < m.star_end; ++s) cache.affected[cache.stars[s]].moved = true;
+    for (std::size_t s = m.star_begin; s < m.star_end; ++s) --cache.affected[cache.stars[s]].moved;
   }
 }
 
@@ -271,12 +284,7 @@ bool AdjustCache::finite() const {
                      [](Point p) { return std::isfinite(p.x) && std::isfinite(p.y); });
 }
 
-void AdjustCache::clear() {
-  stale = false;
-  non_steiner = 0;
-  loops.clear();
-  moving.clear();
-  basis.clear();
+void AdjustCache::forget_connectivity() {
   affected.clear();
   in_domain.clear();
   stars.clear();
@@ -290,22 +298,20 @@ bool same_basis(const CstAirfoil& a, const CstAirfoil& b) {
 
 AdjustCache& adjust_cache(MeshData& mesh, std::span<const std::size_t> moving_loops) {
   auto* present = dynamic_cast<AdjustCache*>(mesh.cache.get());
-  if (present != nullptr && !std::ranges::equal(present->loops, moving_loops)) present = nullptr;
-  if (present != nullptr && !present->stale) return *present;
-  auto made =
-      present != nullptr && present->spare ? std::move(present->spare) : std::make_unique<AdjustCache>();
-  made->clear();
-  made->loops.assign(moving_loops.begin(), moving_loops.end());
-  list_moving(mesh, *made, present);
-  list_affected(mesh, *made);
-  list_edges(mesh, *made);
-  if (present != nullptr) {
-    mesh.cache.release();
-    made->spare.reset(present);
+  if (present == nullptr || !std::ranges::equal(present->loops, moving_loops)) {
+    auto made = std::make_unique<AdjustCache>();
+    made->loops.assign(moving_loops.begin(), moving_loops.end());
+    made->stale = true;
+    present = made.get();
+    mesh.cache = std::move(made);
   }
-  AdjustCache& result = *made;
-  mesh.cache = std::move(made);
-  return result;
+  if (!present->stale) return *present;
+  present->forget_connectivity();
+  list_moving(mesh, *present);
+  list_affected(mesh, *present);
+  list_edges(mesh, *present);
+  present->stale = false;
+  return *present;
 }
 
 bool adjust_all(MeshData& mesh, AdjustCache& cache, const Domain& domain) {

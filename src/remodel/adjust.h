@@ -7,7 +7,6 @@
 // *affected* triangles are those with a moving vertex.
 
 #include <cstddef>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -34,7 +33,7 @@ struct AdjustCache : MeshCache {
     Circle circle;  // at the new positions
     bool domain;
     std::uint8_t movable = 0;  // how many of its vertices are moving
-    bool moved = false;        // a vertex of it has another position
+    std::uint8_t moved = 0;    // how many of them have another position
     bool kept = true;          // none of its vertices is lost, as far as adjust_some() was followed up
     bool good = false;         // at the new positions
   };
@@ -54,14 +53,15 @@ struct AdjustCache : MeshCache {
   std::size_t non_steiner = 0;     // moving[0 .. non_steiner) are the non-Steiner vertices, in loop order
   std::vector<Moving> moving;
   std::vector<double> basis;
+  std::size_t non_steiner_basis = 0;  // where the Steiner vertices' rows begin
   std::vector<Affected> affected;
   std::vector<std::uint32_t> in_domain;  // positions in `affected`
   std::vector<std::uint32_t> stars;
   std::vector<Edge> edges;
   std::vector<Segment> segments;
 
-  bool finite() const;  // all new points of the step are
-  void clear();         // all lists; their storage stays
+  bool finite() const;         // all new points of the step are
+  void forget_connectivity();  // all lists of triangles; their storage stays
 
   // The curves and places of the loops on the new design; after a full adjustment, on the one before it.
   std::vector<Shape> shapes;
@@ -71,15 +71,13 @@ struct AdjustCache : MeshCache {
   std::vector<Point> old_points, new_points;
   std::vector<double> old_scales, new_scales;
   std::vector<bool> accepted;
-
-  // The cache before this one: the next one is built in its storage.
-  std::unique_ptr<AdjustCache> spare;
 };
 
 // Whether the cached CST basis of one airfoil serves the other: degree and class exponents are the same.
 bool same_basis(const CstAirfoil& a, const CstAirfoil& b);
 
-// Builds the cache for the given loops, or keeps the one that the mesh has.
+// Builds the cache for the given loops, or keeps the one that the mesh has; one that is stale is brought up
+// to date.
 AdjustCache& adjust_cache(MeshData& mesh, std::span<const std::size_t> moving_loops);
 
 // Evaluates all moving vertices at their places on `domain` at once. If every affected triangle is good

@@ -15,14 +15,14 @@ namespace {
 constexpr double small_gradation = 2.0;
 constexpr int samples_on_the_way = 5;  // for a mesh of unknown history: K within about 2 %
 constexpr std::uint32_t full_adjustments_before_refresh = 25;
-constexpr std::uint64_t steps_before_sampling = 1000;  // doubled with each one
+constexpr std::uint64_t steps_before_sampling = 1000;  // four times as many with each one
 constexpr double tolerated_excess = 0.02;
-constexpr int samples_at_refresh = 2;
+constexpr std::size_t samples_at_refresh = 2;    // at most
 constexpr double weight_of_refresh = 1.0 / 3.0;  // of a refresh's samples in K
 
 // Where the gradation is small, a renewal looks at most of the mesh, whatever has changed: it waits longer.
 std::uint32_t replacements_between_renewals(const MeshData& mesh) {
-  return mesh.options.gradation <= small_gradation ? 9 : 5;
+  return mesh.options.gradation <= small_gradation ? 14 : 5;
 }
 
 // The vertices of the domain triangles that a step has made, for the next renewal.
@@ -100,7 +100,7 @@ RenewedSize renew_replaced(MeshData& mesh, std::span<const VertexId> moved, std:
 // wait.
 bool refresh_is_due(const MeshData& mesh, std::uint32_t full_adjustments) {
   const RenewalState& renewal = mesh.renewal;
-  const std::uint64_t wait = steps_before_sampling << std::min(renewal.samplings, 20U);
+  const std::uint64_t wait = steps_before_sampling << std::min(2 * renewal.samplings, 40U);
   return full_adjustments >= full_adjustments_before_refresh && renewal.count_factor != 0.0 &&
          renewal.interior_size >= 0.0 && mesh.step >= renewal.sampled_at + wait;
 }
@@ -132,19 +132,22 @@ std::optional<GenerateResult> nearer_to_fresh(MeshData& mesh, StepObserver* obse
   renewal.sampled_at = mesh.step;
   ++renewal.samplings;
   std::vector<GenerateResult> samples;
-  double per_size = 0.0, size = 0.0;  // means
-  for (int i = 0; i < samples_at_refresh; ++i) {
-    const double h_factor = 1.0 - 0.0001 * ((mesh.step + 17 * i) % 51);
+  double per_size = 0.0, size = 0.0;  // sums
+  double factor = 0.0, excess = 0.0;
+  do {
+    const std::size_t n = samples.size();
+    const double h_factor = 1.0 - 0.0001 * static_cast<double>((mesh.step + 17 * n) % 51);
     samples.push_back(fresh_sample(mesh, h_factor, observer));
     if (samples.back().stopped != Stopped::done) return std::nullopt;
     MeshData& sample = samples.back().mesh.data();
     const double its_size = total_size(sample);
-    const double its_triangles = static_cast<double>(sample.domain_triangles);
-    per_size += its_triangles / its_size * h_factor * h_factor / samples_at_refresh;
-    size += its_size / samples_at_refresh;
-  }
-  renewal.count_factor += weight_of_refresh * (per_size - renewal.count_factor);
-  const double excess = static_cast<double>(mesh.domain_triangles) / (renewal.count_factor * size) - 1.0;
+    per_size += static_cast<double>(sample.domain_triangles) / its_size * h_factor * h_factor;
+    size += its_size;
+    const double made = static_cast<double>(samples.size());
+    factor = renewal.count_factor + weight_of_refresh * (per_size / made - renewal.count_factor);
+    excess = static_cast<double>(mesh.domain_triangles) / (factor * size / made) - 1.0;
+  } while (std::abs(excess) > tolerated_excess && samples.size() < samples_at_refresh);
+  renewal.count_factor = factor;
   if (std::abs(excess) <= tolerated_excess) return std::nullopt;
   const auto off = [&](GenerateResult& sample) {
     return std::abs(triangles_per_size(sample.mesh.data()) / renewal.count_factor - 1.0);

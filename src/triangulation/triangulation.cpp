@@ -216,17 +216,22 @@ bool Triangulation::flippable(Corner corner) const {
   return orient2d(point(a), point(b), point(d)) > 0 && orient2d(point(a), point(d), point(c)) > 0;
 }
 
+// Whether the edge opposite the corner may be flipped and is not Delaunay.
+bool Triangulation::illegal(Corner c) const {
+  const Triangle& t = triangles_[c.triangle.index];
+  if (!t.alive() || t.ghost() || t.link[c.index].constrained()) return false;
+  const Link link = t.link[c.index];
+  const Triangle& u = triangles_[link.triangle().index];
+  return !u.ghost() && in_conflict(c.triangle, point(u.vertex[link.corner()]));
+}
+
 // Lawson's algorithm. Ends because each flip lowers the (symbolically perturbed) lifted surface.
 void Triangulation::legalise(std::vector<Corner>& stack) {
   while (!stack.empty()) {
     const Corner c = stack.back();
     stack.pop_back();
-    const Triangle& t = triangles_[c.triangle.index];
-    if (!t.alive() || t.ghost() || t.link[c.index].constrained()) continue;
-    const Link link = t.link[c.index];
-    const Triangle& u = triangles_[link.triangle().index];
-    if (u.ghost() || !in_conflict(c.triangle, point(u.vertex[link.corner()]))) continue;
-    const TriangleId first = c.triangle, second = link.triangle();
+    if (!illegal(c)) continue;
+    const TriangleId first = c.triangle, second = link(c).triangle();
     flip(c);
     for (const Corner next : {Corner{first, 0}, Corner{first, 2}, Corner{second, 0}, Corner{second, 1}})
       stack.push_back(next);
@@ -236,7 +241,8 @@ void Triangulation::legalise(std::vector<Corner>& stack) {
 void Triangulation::restore_delaunay(std::span<const TriangleId> triangles) {
   stack_.clear();
   for (const TriangleId t : triangles)
-    for (int i = 0; i < 3; ++i) stack_.push_back({t, i});
+    for (int i = 0; i < 3; ++i)
+      if (illegal({t, i})) stack_.push_back({t, i});
   legalise(stack_);
 }
 

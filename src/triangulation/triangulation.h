@@ -299,6 +299,7 @@ class Triangulation {
   bool in_conflict(VertexId a, VertexId b, VertexId c, VertexId d) const;
 
   void flip(Corner c);
+  bool illegal(Corner c) const;
   bool flippable(Corner c) const;
   bool holds(TriangleId t, Point p) const;
   void legalise(std::vector<Corner>& stack);
