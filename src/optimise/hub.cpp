@@ -4,8 +4,10 @@
 
 namespace remodel {
 
-Hub::Hub(const OptimiseOptions& options, Mesh mesh)
-    : domain_of_(options), remodel_(options.remodel), mesh_(std::move(mesh)) {}
+Hub::Hub(const OptimiseOptions& options, std::size_t population, Mesh mesh)
+    : domain_of_(options), remodel_(options.remodel), mesh_(std::move(mesh)) {
+  remodel_.designs_a_step = static_cast<std::uint32_t>(population);
+}
 
 bool Hub::follow(const CstAirfoil& mean, const Generation& before) {
   const Domain domain = domain_of_(mean);

@@ -20,7 +20,8 @@ namespace remodel {
 
 class Hub {
  public:
-  Hub(const OptimiseOptions& options, Mesh mesh);
+  // Each of its steps stands for a generation of so many designs.
+  Hub(const OptimiseOptions& options, std::size_t population, Mesh mesh);
 
   // What the generation before came to.
   struct Generation {

@@ -45,8 +45,10 @@ std::optional<Mesh> first_mesh(const CstAirfoil& from, const OptimiseOptions& op
   return std::move(generated.mesh);
 }
 
-MeshChain::MeshChain(const OptimiseOptions& options, Mesh mesh)
-    : mesh_(std::move(mesh)), domain_of_(options), quality_(quality_of(options)), remodel_(options.remodel) {}
+MeshChain::MeshChain(const OptimiseOptions& options, Mesh mesh, std::size_t meshes)
+    : mesh_(std::move(mesh)), domain_of_(options), quality_(quality_of(options)), remodel_(options.remodel) {
+  remodel_.designs_a_step = static_cast<std::uint32_t>(meshes);
+}
 
 RemodelResult MeshChain::advance(const Domain& domain) {
   return remodel(mesh_, domain, remodel_);

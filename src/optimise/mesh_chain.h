@@ -27,7 +27,8 @@ std::optional<Mesh> first_mesh(const CstAirfoil& from, const OptimiseOptions& op
 
 class MeshChain {
  public:
-  MeshChain(const OptimiseOptions& options, Mesh mesh);
+  // One of so many meshes that share the designs.
+  MeshChain(const OptimiseOptions& options, Mesh mesh, std::size_t meshes = 1);
   virtual ~MeshChain() = default;
   MeshChain(MeshChain&&) = default;
   MeshChain& operator=(MeshChain&&) = default;

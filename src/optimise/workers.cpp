@@ -43,7 +43,8 @@ struct Workers::Crew {
       : options(given),
         like(family),
         profile_of(stations_of(given), family),
-        share((population + worker_count(given, population) - 1) / worker_count(given, population)),
+        meshes(worker_count(given, population)),
+        share((population + meshes - 1) / meshes),
         team(thread_count(given, worker_count(given, population))) {}
 
   void add(WorkerState state, Mesh mesh);
@@ -54,6 +55,7 @@ struct Workers::Crew {
   const OptimiseOptions& options;
   CstAirfoil like;
   ProfileMaker profile_of;
+  std::size_t meshes;
   std::size_t share;  // the most designs of a generation that one worker takes
   ThreadTeam team;
   std::optional<Hub> hub;
@@ -67,7 +69,7 @@ struct Workers::Crew {
 void Workers::Crew::add(WorkerState state, Mesh mesh) {
   const CstAirfoil design = with_coefficients(like, state.coefficients);
   auto chain = hub ? std::make_unique<HubChain>(options, *hub, std::move(mesh))
-                   : std::make_unique<MeshChain>(options, std::move(mesh));
+                   : std::make_unique<MeshChain>(options, std::move(mesh), meshes);
   workers.push_back({.chain = std::move(chain), .state = std::move(state), .profile = profile_of(design)});
 }
 
@@ -117,7 +119,7 @@ void Workers::Crew::evaluate(Worker& worker, Job& job) const {
 Workers::Workers(const OptimiseOptions& options, std::size_t population, const CstAirfoil& from,
                  const Mesh& mesh)
     : crew_(std::make_unique<Crew>(options, population, from)) {
-  if (options.use == MeshUse::hub) crew_->hub.emplace(options, mesh);
+  if (options.use == MeshUse::hub) crew_->hub.emplace(options, population, mesh);
   for (std::size_t i = 0; i < worker_count(options, population); ++i)
     crew_->add({.coefficients = coefficients_of(from)}, mesh);
 }
@@ -125,7 +127,7 @@ Workers::Workers(const OptimiseOptions& options, std::size_t population, const C
 Workers::Workers(const OptimiseOptions& options, std::size_t population, const CstAirfoil& like,
                  const WorkersState& state, std::vector<Mesh> meshes)
     : crew_(std::make_unique<Crew>(options, population, like)) {
-  if (options.use == MeshUse::hub) crew_->hub.emplace(options, std::move(meshes.back()));
+  if (options.use == MeshUse::hub) crew_->hub.emplace(options, population, std::move(meshes.back()));
   for (std::size_t i = 0; i < state.workers.size(); ++i) crew_->add(state.workers[i], std::move(meshes[i]));
   crew_->last = state.last;
 }

@@ -302,7 +302,7 @@ TEST(Hub, FollowsInPlaceAtOnceAndOtherwiseWhenItPays) {
   const OptimiseOptions options{.domain = {.points = 60}, .quality = {.gradation = 1.2}, .use = MeshUse::hub};
   const Domain domain = airfoil_domain(from, options.domain);
   const Mesh start = generate(domain, options.quality).mesh;
-  Hub hub(options, start);
+  Hub hub(options, 10, start);
   EXPECT_FALSE(hub.follow(from, {.evaluated = 11, .full_adjustments = 0}));
   EXPECT_EQ(hub.version(), 1u);  // nothing to do
   hub.follow(near, {.evaluated = 11, .full_adjustments = 11});

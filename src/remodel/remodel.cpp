@@ -361,6 +361,8 @@ void require_possible(const Mesh& mesh, const RemodelOptions& options, bool one_
   if (!(options.keep == 0.0 || (std::isfinite(options.keep) && options.keep >= 1.0)))
     throw Error(ErrorCode::argument, "keep",
                 "found " + std::to_string(options.keep) + ", expected 1 or more, or 0 for the usual");
+  if (options.designs_a_step == 0)
+    throw Error(ErrorCode::argument, "designs_a_step", "found 0, expected 1 or more");
   if (options.method == Method::specialised && !one_to_one)
     throw Error(
         ErrorCode::argument, "method",
@@ -389,7 +391,7 @@ RemodelResult remodel_step(Mesh& mesh, const Domain& domain, const std::optional
   if (renewing) data.options.keep = std::max(data.options.keep, resolved_keep(options, data.options));
   if (method == Method::specialised) {
     cache = &adjust_cache(data, *moving);
-    const bool due = renewing && refresh_is_due(data, data.renewal.full_adjustments);
+    const bool due = renewing && refresh_is_due(data, data.renewal.full_adjustments, options.designs_a_step);
     data.renewal.pending_loops.reserve(data.domain.loops.size());  // below nothing may throw
     if (due && !undo.journalling()) undo.begin(moving);
     if (adjust_all(data, *cache, domain)) {

@@ -15,7 +15,7 @@ namespace {
 constexpr double small_gradation = 2.0;
 constexpr int samples_on_the_way = 5;  // for a mesh of unknown history: K within about 2 %
 constexpr std::uint32_t full_adjustments_before_refresh = 25;
-constexpr std::uint64_t steps_before_sampling = 1000;  // four times as many with each one
+constexpr std::uint64_t designs_before_sampling = 1000;  // four times as many with each one
 constexpr double tolerated_excess = 0.02;
 constexpr std::size_t samples_at_refresh = 2;    // at most
 constexpr double weight_of_refresh = 1.0 / 3.0;  // of a refresh's samples in K
@@ -98,9 +98,10 @@ RenewedSize renew_replaced(MeshData& mesh, std::span<const VertexId> moved, std:
 
 // Samples cost many steps, and most say that the mesh is as it should be: the more of them, the longer the
 // wait.
-bool refresh_is_due(const MeshData& mesh, std::uint32_t full_adjustments) {
+bool refresh_is_due(const MeshData& mesh, std::uint32_t full_adjustments, std::uint32_t designs_a_step) {
   const RenewalState& renewal = mesh.renewal;
-  const std::uint64_t wait = steps_before_sampling << std::min(2 * renewal.samplings, 40U);
+  const std::uint64_t wait =
+      (designs_before_sampling << std::min(2 * renewal.samplings, 40U)) / designs_a_step;
   return full_adjustments >= full_adjustments_before_refresh && renewal.count_factor != 0.0 &&
          renewal.interior_size >= 0.0 && mesh.step >= renewal.sampled_at + wait;
 }

@@ -5,7 +5,7 @@
 //   once:  K, triangles of a fresh mesh per size (count_control.h)
 //   step:  all vertices moved in place: nothing else; after many such steps in a row K is sampled again, and
 //          a mesh whose triangle count is off is generated afresh, if that brings it nearer to K. Between two
-//          samplings are 1000 steps at least, four times as many with each one
+//          samplings are 1000 designs at least, four times as many with each one
 //          otherwise: replace, every sixth time (fifteenth for G <= 2) renew length scales and coarsen within
 //          what the count allows, refine new triangles to H and the kept ones where they exceed keep H
 
@@ -50,7 +50,7 @@ void forget_size(MeshData& mesh);
 
 // Whether the triangle count is worth a look after so many full adjustments in a row: the samples that this
 // takes cost as much as many steps.
-bool refresh_is_due(const MeshData& mesh, std::uint32_t full_adjustments);
+bool refresh_is_due(const MeshData& mesh, std::uint32_t full_adjustments, std::uint32_t designs_a_step);
 // Generates a mesh of the same domain, and another one if the count seems to be off. They correct K, which
 // differs from design to design; then, if the count of `mesh` is off by more than 2 % from what K makes of
 // their size, the one that is nearest to K is returned, if it is off by less than half as much.

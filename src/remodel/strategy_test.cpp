@@ -336,6 +336,24 @@ TEST(Renew, LooksAtTheCountEverMoreRarely) {
   EXPECT_LE(waits.front(), 1100U);
 }
 
+// A mesh that is one of ten, which share the designs, takes a tenth of the steps.
+TEST(Renew, LooksAtTheCountEarlierWhereOtherMeshesShareTheDesigns) {
+  const CstAirfoil airfoil = airfoil_catalogue()[2].airfoil();
+  RemodelOptions options = renewing;
+  for (const std::uint32_t designs : {1U, 10U}) {
+    options.designs_a_step = designs;
+    Mesh mesh = generated(airfoil_domain(airfoil, {.points = 100}), {.gradation = 2.0});
+    calibrate(mesh.data(), 3);
+    std::uint32_t step = 0;
+    CstAirfoil design = airfoil;
+    for (; mesh.data().renewal.samplings == 0 && step < 1200; ++step) {
+      design.upper[2] = airfoil.upper[2] + (step % 2 == 0 ? 1e-7 : 0.0);
+      remodel(mesh, airfoil_domain(design, {.points = 100}), options);
+    }
+    EXPECT_EQ(step, 1000 / designs + 1);
+  }
+}
+
 TEST(Renew, ReturnsFromATrialToTheLastBit) {
   const auto seed = test::seed(6);
   SCOPED_TRACE("seed " + std::to_string(seed));
