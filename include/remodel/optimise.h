@@ -49,7 +49,8 @@ const char* name_of(MeshUse use);  // "chain", "hub", "regenerate"
 struct OptimiseOptions {
   AirfoilDomainOptions domain{};
   QualityOptions quality{};
-  RemodelOptions remodel{.strategy = Strategy::renew};  // its observer is asked by all threads
+  // Its observer is asked by all threads; designs_a_step is set from what follows.
+  RemodelOptions remodel{.strategy = Strategy::renew};
   MeshUse use = MeshUse::chain;
   // Living meshes. The designs of a generation are handed to the workers whose last designs are nearest, and
   // evaluated at once. Meshes, rows and figures depend on it; designs do not. 0: as many as samples a

@@ -20,7 +20,7 @@ namespace remodel {
 
 class Hub {
  public:
-  // Each of its steps stands for a generation of so many designs.
+  // Each of its steps stands for a generation that it follows, of so many designs.
   Hub(const OptimiseOptions& options, std::size_t population, Mesh mesh);
 
   // What the generation before came to.

@@ -43,8 +43,8 @@ struct Workers::Crew {
       : options(given),
         like(family),
         profile_of(stations_of(given), family),
-        meshes(worker_count(given, population)),
-        share((population + meshes - 1) / meshes),
+        at_work(std::min(worker_count(given, population), population)),
+        share((population + at_work - 1) / at_work),
         team(thread_count(given, worker_count(given, population))) {}
 
   void add(WorkerState state, Mesh mesh);
@@ -55,8 +55,8 @@ struct Workers::Crew {
   const OptimiseOptions& options;
   CstAirfoil like;
   ProfileMaker profile_of;
-  std::size_t meshes;
-  std::size_t share;  // the most designs of a generation that one worker takes
+  std::size_t at_work;  // at most, in a generation
+  std::size_t share;    // the most designs of a generation that one worker takes
   ThreadTeam team;
   std::optional<Hub> hub;
   std::vector<Worker> workers;
@@ -69,7 +69,7 @@ struct Workers::Crew {
 void Workers::Crew::add(WorkerState state, Mesh mesh) {
   const CstAirfoil design = with_coefficients(like, state.coefficients);
   auto chain = hub ? std::make_unique<HubChain>(options, *hub, std::move(mesh))
-                   : std::make_unique<MeshChain>(options, std::move(mesh), meshes);
+                   : std::make_unique<MeshChain>(options, std::move(mesh), at_work);
   workers.push_back({.chain = std::move(chain), .state = std::move(state), .profile = profile_of(design)});
 }
 

@@ -107,6 +107,20 @@ TEST_F(WorkerRun, HasTheSameMeshesFromAHubWithAnyNumberOfWorkers) {
               read_mesh(root_ / "four" / "last.vtkhdf").state());
 }
 
+// None of a pool's meshes, and no hub, takes a thousand steps in this run.
+TEST_F(WorkerRun, LooksAtMeshesThatShareTheDesignsAsEarlyAsAtOne) {
+  for (const Use& use : {uses[2], uses[3]}) {
+    SCOPED_TRACE(use.name);
+    OptimiseOptions given = options_of(use, use.name, 1200);
+    given.sigma = 0.001;
+    given.compare_every = 0;
+    optimise(from_, to_, given);
+    const Mesh last = read_mesh(given.directory / "last.vtkhdf");
+    EXPECT_LT(last.step(), 1000U);
+    EXPECT_GT(last.state().renewal.samplings, 0U);
+  }
+}
+
 TEST_F(WorkerRun, GoesOnFromInterruptsAndKillsToTheSameHistoryAndMeshes) {
   for (const Use& use : uses) {
     SCOPED_TRACE(use.name);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
+#include <utility>
 
 #include "remodel/coarsen.h"
 #include "remodel/count_control.h"
@@ -100,8 +102,9 @@ RenewedSize renew_replaced(MeshData& mesh, std::span<const VertexId> moved, std:
 // wait.
 bool refresh_is_due(const MeshData& mesh, std::uint32_t full_adjustments, std::uint32_t designs_a_step) {
   const RenewalState& renewal = mesh.renewal;
+  const std::uint64_t designs = designs_before_sampling << std::min(2 * renewal.samplings, 40U);
   const std::uint64_t wait =
-      (designs_before_sampling << std::min(2 * renewal.samplings, 40U)) / designs_a_step;
+      std::max<std::uint64_t>(designs / designs_a_step, full_adjustments_before_refresh);
   return full_adjustments >= full_adjustments_before_refresh && renewal.count_factor != 0.0 &&
          renewal.interior_size >= 0.0 && mesh.step >= renewal.sampled_at + wait;
 }
@@ -130,6 +133,7 @@ void forget_size(MeshData& mesh) {
 // itself, whose length scales differ from a fresh mesh's within the tolerance of renewal, may be 2 % off.
 std::optional<GenerateResult> nearer_to_fresh(MeshData& mesh, StepObserver* observer) {
   RenewalState& renewal = mesh.renewal;
+  const auto [earlier_at, earlier] = std::pair(renewal.sampled_at, renewal.samplings);
   renewal.sampled_at = mesh.step;
   ++renewal.samplings;
   std::vector<GenerateResult> samples;
@@ -139,6 +143,8 @@ std::optional<GenerateResult> nearer_to_fresh(MeshData& mesh, StepObserver* obse
     const std::size_t n = samples.size();
     const double h_factor = 1.0 - 0.0001 * static_cast<double>((mesh.step + 17 * n) % 51);
     samples.push_back(fresh_sample(mesh, h_factor, observer));
+    if (samples.back().stopped == Stopped::interrupted)  // the next step looks again
+      std::tie(renewal.sampled_at, renewal.samplings) = std::pair(earlier_at, earlier);
     if (samples.back().stopped != Stopped::done) return std::nullopt;
     MeshData& sample = samples.back().mesh.data();
     const double its_size = total_size(sample);
