@@ -280,6 +280,39 @@ TEST_P(KernelOnFamily, KnowsTheVerticesOfTheBeginningAndOfAPartOfAJournal) {
   }
 }
 
+TEST(Moves, LeaveADelaunayTriangulationOnceItIsRestored) {
+  const auto seed = test::seed(15);
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  Triangulation t = started(random, 0);
+  for (int i = 0; i < 400; ++i) t.insert(random_point(random, 0), any_triangle(t));
+  for (int round = 0; round < 20; ++round) {
+    std::set<TriangleId> moved;
+    for (std::uint32_t i = 1; i < t.vertex_slots(); ++i) {
+      const VertexId v{i};
+      bool inner = true;
+      t.for_each_corner(v, [&](Corner c) { inner &= !t[c.triangle].ghost(); });
+      if (!inner) continue;
+      const Point before = t.point(v), there = random_point(random, 0);
+      const auto valid = [&] {
+        bool result = true;
+        t.for_each_corner(v, [&](Corner c) {
+          const Triangle& star = t[c.triangle];
+          result &= orient2d(t.point(star.vertex[0]), t.point(star.vertex[1]), t.point(star.vertex[2])) > 0;
+        });
+        return result;
+      };
+      t.move(v, before + 0.03 * (there - before), 0.0);
+      if (!valid()) t.move(v, before, 0.0);
+      t.for_each_corner(v, [&](Corner c) { moved.insert(c.triangle); });
+    }
+    for (const TriangleId triangle : moved) t.refresh_circle(triangle);
+    ASSERT_NE(t.check(), "");  // or nothing is tested
+    t.restore_delaunay(std::vector<TriangleId>(moved.begin(), moved.end()));
+    ASSERT_EQ(t.check(), "");
+  }
+}
+
 TEST(Journal, GivesFreedTrianglesOutAgain) {
   const auto seed = test::seed(29);
   SCOPED_TRACE("REMODEL_TEST_SEED=" + std::to_string(seed));
