@@ -19,11 +19,10 @@ enum class Strategy {
   // The paper's method, to the letter. Length scales inside the mesh are never renewed, and nothing is
   // coarsened: triangles accumulate.
   chain,
-  // At every sixth replacement (fifteenth for G <= 2) length scales are renewed; kept triangles need only
-  // hold
-  // keep H, and Steiner vertices are removed while the mesh has more triangles than a fresh one would; after
-  // 25 full adjustments in a row a mesh whose count is off is generated afresh. The angle bound never
-  // relaxes. Imported meshes, whose length scales are measured, are remodelled as by chain.
+  // At every sixth replacement (fifteenth for G <= 2) length scales are renewed from the boundary; kept
+  // triangles need only hold keep H, and Steiner vertices are removed while the mesh has more triangles than
+  // a fresh one would; after 25 full adjustments in a row a mesh whose count is off is generated afresh. The
+  // angle bound never relaxes. Imported meshes, whose length scales are measured, are remodelled as by chain.
   renew,
 };
 const char* name_of(Strategy strategy);  // "chain", "renew"
@@ -34,9 +33,9 @@ struct RemodelOptions {
   Strategy strategy = Strategy::chain;
   double keep = 0.0;  // renew: QualityOptions::keep of the mesh is at least this from now on; 1 or more, or
                       // 0: 1.1 for gradations up to 2, otherwise 1.25
-  std::uint32_t designs_a_step =
-      1;  // renew: of how many designs, tried on other meshes too, a step of this mesh is
-          // one: its triangle count is looked at so much earlier; 1 or more
+  // renew: of how many designs, tried on other meshes too, a step of this mesh is one; 1 or more. Its
+  // triangle count is looked at so much earlier.
+  std::uint32_t designs_a_step = 1;
   StepObserver* observer = nullptr;  // if cancelled, the mesh stays as it was and the result says interrupted
 };
 

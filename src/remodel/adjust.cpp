@@ -42,12 +42,15 @@ void list_moving(MeshData& mesh, AdjustCache& cache) {
       const BoundaryVertex& vertex = mesh.at(k);
       if (vertex.steiner) {
         steiner.push_back(k);
-      } else if (n++ < known) {
-        cache.moving[n - 1].boundary = k;
-        cache.moving[n - 1].vertex = vertex.vertex;
+        return;
+      }
+      if (n < known) {
+        cache.moving[n].boundary = k;
+        cache.moving[n].vertex = vertex.vertex;
       } else {
         cache.moving.push_back(moving_vertex(mesh, cache, k));
       }
+      ++n;
     });
   const std::size_t basis = cache.basis.size();
   for (const std::uint32_t k : steiner) cache.moving.push_back(moving_vertex(mesh, cache, k));

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <tuple>
-#include <utility>
 
 #include "remodel/coarsen.h"
 #include "remodel/count_control.h"
@@ -133,9 +131,10 @@ void forget_size(MeshData& mesh) {
 // itself, whose length scales differ from a fresh mesh's within the tolerance of renewal, may be 2 % off.
 std::optional<GenerateResult> nearer_to_fresh(MeshData& mesh, StepObserver* observer) {
   RenewalState& renewal = mesh.renewal;
-  const auto [earlier_at, earlier] = std::pair(renewal.sampled_at, renewal.samplings);
-  renewal.sampled_at = mesh.step;
-  ++renewal.samplings;
+  const auto note_sampling = [&] {
+    renewal.sampled_at = mesh.step;
+    ++renewal.samplings;
+  };
   std::vector<GenerateResult> samples;
   double per_size = 0.0, size = 0.0;  // sums
   double factor = 0.0, excess = 0.0;
@@ -143,9 +142,8 @@ std::optional<GenerateResult> nearer_to_fresh(MeshData& mesh, StepObserver* obse
     const std::size_t n = samples.size();
     const double h_factor = 1.0 - 0.0001 * static_cast<double>((mesh.step + 17 * n) % 51);
     samples.push_back(fresh_sample(mesh, h_factor, observer));
-    if (samples.back().stopped == Stopped::interrupted)  // the next step looks again
-      std::tie(renewal.sampled_at, renewal.samplings) = std::pair(earlier_at, earlier);
-    if (samples.back().stopped != Stopped::done) return std::nullopt;
+    if (samples.back().stopped == Stopped::interrupted) return std::nullopt;  // the next step looks again
+    if (samples.back().stopped != Stopped::done) return note_sampling(), std::nullopt;
     MeshData& sample = samples.back().mesh.data();
     const double its_size = total_size(sample);
     per_size += static_cast<double>(sample.domain_triangles) / its_size * h_factor * h_factor;
@@ -154,6 +152,7 @@ std::optional<GenerateResult> nearer_to_fresh(MeshData& mesh, StepObserver* obse
     factor = renewal.count_factor + weight_of_refresh * (per_size / made - renewal.count_factor);
     excess = static_cast<double>(mesh.domain_triangles) / (factor * size / made) - 1.0;
   } while (std::abs(excess) > tolerated_excess && samples.size() < samples_at_refresh);
+  note_sampling();
   renewal.count_factor = factor;
   if (std::abs(excess) <= tolerated_excess) return std::nullopt;
   const auto off = [&](GenerateResult& sample) {

@@ -354,6 +354,32 @@ TEST(Renew, LooksAtTheCountEarlierWhereOtherMeshesShareTheDesigns) {
   }
 }
 
+struct CancelsAfter : StepObserver {
+  explicit CancelsAfter(int polls) : left(polls) {}
+  bool cancelled() override { return left-- <= 0; }
+  int left;
+};
+
+TEST(Renew, LooksAgainAfterALookThatWasCancelled) {
+  const CstAirfoil airfoil = airfoil_catalogue()[2].airfoil();
+  Mesh mesh = generated(airfoil_domain(airfoil, {.points = 100}), {.gradation = 2.0});
+  calibrate(mesh.data(), 3);
+  rest(mesh, airfoil, 100, 1000);
+  const double count_factor = mesh.data().renewal.count_factor;
+  RemodelOptions options = renewing;
+  CancelsAfter observer(1);  // it is asked before the step too
+  options.observer = &observer;
+  CstAirfoil design = airfoil;
+  design.upper[2] += 2e-7;
+  EXPECT_TRUE(remodel(mesh, airfoil_domain(design, {.points = 100}), options).full_adjustment);
+  EXPECT_LT(observer.left, 0);
+  EXPECT_EQ(mesh.data().renewal.samplings, 0U);
+  EXPECT_EQ(mesh.data().renewal.sampled_at, 0U);
+  EXPECT_EQ(mesh.data().renewal.count_factor, count_factor);
+  remodel(mesh, airfoil_domain(airfoil, {.points = 100}), renewing);
+  EXPECT_EQ(mesh.data().renewal.samplings, 1U);
+}
+
 TEST(Renew, ReturnsFromATrialToTheLastBit) {
   const auto seed = test::seed(6);
   SCOPED_TRACE("seed " + std::to_string(seed));

@@ -99,7 +99,7 @@ MUTATIONS = [
      "mesh.triangulation.move(m.vertex, p, cache.new_scales[i]);", "mesh.triangulation.move(m.vertex, p, cache.old_scales[i]);"),
     ("stale circle after adjustment", R + "adjust.cpp", "const Circle& circle = a.domain ? a.circle : mesh", "const Circle& circle = mesh"),
     ("stale cache kept", R + "adjust.cpp", "  if (!present->stale) return *present;", "  if (!present->stale || present->non_steiner != 0) return *present;"),
-    ("replaced vertices unknown to the cache", R + "adjust.cpp", "        cache.moving[n - 1].vertex = vertex.vertex;\n", ""),
+    ("replaced vertices unknown to the cache", R + "adjust.cpp", "        cache.moving[n].vertex = vertex.vertex;\n", ""),
     ("triangles that stay count as moved", R + "adjust.cpp", "--cache.affected[cache.stars[s]].moved;", "(void)s;"),
     ("samples of K as often at the end", R + "strategy.cpp", "std::min(2 * renewal.samplings, 40U)", "0U * renewal.samplings"),
     ("rows of another basis kept", R + "remodel.cpp", "if (!same_rows())", "if (false)"),
