@@ -57,12 +57,6 @@ void Refiner::consider(TriangleId t, const QualityBounds& bounds) {
   mark(t, largest_squared_radius(shortest, a.length_scale + b.length_scale + c.length_scale, bounds));
 }
 
-void Refiner::mark(TriangleId t, double bound) {
-  const std::uint8_t c = BadTriangles::class_of(triangulation_[t].circle.squared_radius(), bound);
-  mesh_.bad_triangles.set(t, c);  // first: it may throw
-  triangulation_.set_badness(t, c);
-}
-
 TriangleId Refiner::next_bad() {
   for (;;) {
     const TriangleId t = next_candidate();
@@ -141,20 +135,18 @@ void Refiner::refine(TriangleId t) {
 
 // The length scale of a new vertex, from its ring, and the badness of the triangles at it.
 void Refiner::judge_star(VertexId v) {
-  const std::span<const Spoke> spokes = triangulation_.spokes();
-  scales_.clear();
+  const Spokes& spokes = triangulation_.spokes();
+  const std::size_t n = spokes.size();
+  scales_.resize(n);
   double scale = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < spokes.size(); ++k) {
-    scales_.push_back(triangulation_[cavity_.ring[k].from].length_scale);
-    scale = std::min(scale, scales_[k] + std::sqrt(spokes[k].squared_length) * inverse_gradation_);
+  for (std::size_t k = 0; k < n; ++k) {
+    scales_[k] = triangulation_[cavity_.ring[k].from].length_scale;
+    scale = std::min(scale, scales_[k] + spokes.length(k) * inverse_gradation_);
   }
   triangulation_.set_length_scale(v, scale);
-  const std::span<const TriangleId> star = triangulation_.new_star();
-  for (std::size_t k = 0; k < spokes.size(); ++k) {
-    const std::size_t next = k + 1 == spokes.size() ? 0 : k + 1;
-    const double shortest = std::min({spokes[k].squared_length, spokes[next].squared_length,
-                                      squared_distance(spokes[k].edge, spokes[next].edge)});
-    mark(star[k], largest_squared_radius(shortest, scale + (scales_[k] + scales_[next]), bounds_));
+  for (std::size_t k = 0; k < n; ++k) {
+    const double scales = scale + (scales_[k] + scales_[k + 1 == n ? 0 : k + 1]);
+    mark(cavity_.triangles[k], largest_squared_radius(spokes.squared_shortest(k), scales, bounds_));
   }
 }
 

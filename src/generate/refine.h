@@ -62,7 +62,11 @@ class Refiner {
 
   void consider(TriangleId t, const QualityBounds& bounds);
   // Marks a triangle, given the largest squared radius with which it is good.
-  void mark(TriangleId t, double bound);
+  void mark(TriangleId t, double bound) {
+    const std::uint8_t c = BadTriangles::class_of(triangulation_[t].circle.squared_radius(), bound);
+    mesh_.bad_triangles.set(t, c);  // first: it may throw
+    triangulation_.set_badness(t, c);
+  }
   // The next triangle to refine, no longer marked; none if none is left.
   TriangleId next_bad();
   TriangleId next_candidate();

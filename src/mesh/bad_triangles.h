@@ -28,9 +28,9 @@ class BadTriangles {
   // ratio, four classes an octave. The bits of a positive double, as an integer, are nearly a logarithm of
   // it, exact at powers of two and never off by more than 0.09 octaves: that saves the division.
   static std::uint8_t class_of(double squared_radius, double bound) {
-    if (squared_radius <= bound) return 0;
     const auto ratio = std::bit_cast<std::uint64_t>(squared_radius) - std::bit_cast<std::uint64_t>(bound);
-    return static_cast<std::uint8_t>(std::min<std::uint64_t>((ratio >> 50) + 1, classes));
+    const std::uint64_t c = std::min<std::uint64_t>((ratio >> 50) + 1, classes);
+    return static_cast<std::uint8_t>(c & (std::uint64_t{0} - std::uint64_t{squared_radius > bound}));
   }
 
   void set(TriangleId t, std::uint8_t badness) {
@@ -61,7 +61,7 @@ class BadTriangles {
 
   // Room for at least `size` values of a level. Maxima grow first: whichever allocation fails, each value has
   // one above it.
-  void grow(std::size_t level, std::size_t size) {
+  [[gnu::noinline]] void grow(std::size_t level, std::size_t size) {
     if (level == levels_.size()) return;
     const std::size_t blocks = size / block + 1;
     grow(level + 1, blocks);

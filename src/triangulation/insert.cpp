@@ -20,69 +20,63 @@ namespace remodel {
 // kept as its link and the vertex where it begins, both as seen from the inside. Behind it lie, in order, the
 // neighbour's edge that begins at the same vertex and the one that begins at the neighbour's apex.
 void Triangulation::find_cavity(Point p, TriangleId start, Cavity& cavity) const {
-  cavity.triangles.clear();
-  cavity.ring.clear();
-  cavity.constrained = false;
-  cavity.triangles.push_back(start);
-  Buffer<RingEdge>& todo = cavity.todo;
-  todo.clear();
+  Buffer<TriangleId>::Writer triangles(cavity.triangles);
+  Buffer<RingEdge>::Writer ring(cavity.ring), todo(cavity.todo);
+  bool constrained = false;
+  triangles.push_back(start);
   const Triangle& first = triangles_[start.index];
   for (int i = 2; i >= 0; --i) todo.push_back({first.vertex[next3(i)], first.link[i]});
   while (!todo.empty()) {
-    auto [from, link] = todo.back();
-    todo.pop_back();
+    auto [from, link] = todo.pop();
     while (!link.constrained() && in_conflict(link.triangle(), p)) {
       const Triangle& triangle = triangles_[link.triangle().index];
       const int apex = link.corner();
-      cavity.triangles.push_back(link.triangle());
-      todo.push_back({triangle.vertex[apex], triangle.link[previous3(apex)]});
-      prefetch(triangle.link[previous3(apex)].triangle());
+      const Link later = triangle.link[previous3(apex)];
+      triangles.push_back(link.triangle());
+      todo.push_back({triangle.vertex[apex], later});
+      prefetch(later.triangle());
       link = triangle.link[next3(apex)];
     }
-    cavity.ring.push_back({from, link});
-    cavity.constrained |= link.constrained();
+    ring.push_back({from, link});
+    constrained |= link.constrained();
     prefetch(from);
   }
+  cavity.constrained = constrained;
 }
 
-// New triangle k is (p, from_k, from_k+1); the cavity's own slots are used first, then two more. Edges from p
-// are shared by two triangles, and what is computed of them too.
-VertexId Triangulation::fill_cavity(Point p, const Cavity& cavity) {
+// New triangle k is (p, from_k, from_k+1); the cavity's own slots are used first, then two more.
+VertexId Triangulation::fill_cavity(Point p, Cavity& cavity) {
   const std::size_t n = cavity.ring.size();
   const Region region = triangles_[cavity.triangles.front().index].region;
-  new_star_.clear();
-  for (const TriangleId t : cavity.triangles) new_star_.push_back(t);
-  while (new_star_.size() < n) new_star_.push_back(new_triangle());
-  assert(new_star_.size() == n);
+  while (cavity.triangles.size() < n) cavity.triangles.push_back(new_triangle());
+  assert(cavity.triangles.size() == n);
   const VertexId v = new_vertex(p);
-  spokes_.clear();
-  for (const RingEdge& edge : cavity.ring) {
-    const Point e = point(edge.from) - p;
-    spokes_.push_back({e, dot(e, e)});
-  }
-  std::size_t before = n - 1;
-  for (std::size_t k = 0; k < n; before = k++) {
-    const std::size_t next = k + 1 == n ? 0 : k + 1;
-    const TriangleId t = new_star_[k];
-    const RingEdge& edge = cavity.ring[k];
+  spokes_.begin(p, n);
+  for (std::size_t k = 0; k < n; ++k) spokes_.set(k, point(cavity.ring[k].from));
+  spokes_.compute();
+  TriangleId before = cavity.triangles[n - 1], t = cavity.triangles[0];
+  RingEdge edge = cavity.ring[0];
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t following = k + 1 == n ? 0 : k + 1;
+    const TriangleId next = cavity.triangles[following];
+    const RingEdge next_edge = cavity.ring[following];
     Triangle& triangle = edit(t);
     triangle.vertex[0] = v;
     triangle.vertex[1] = edge.from;
-    triangle.vertex[2] = cavity.ring[next].from;
+    triangle.vertex[2] = next_edge.from;
     triangle.link[0] = edge.outer;
-    triangle.link[1] = Link(new_star_[next], 2);
-    triangle.link[2] = Link(new_star_[before], 1);
-    const Spoke &first = spokes_[k], &second = spokes_[next];
-    triangle.circle =
-        certified_circle(p, first.edge, second.edge, first.squared_length, second.squared_length);
-    if (edge.from == infinite_vertex || triangle.vertex[2] == infinite_vertex) triangle.circle = {};
+    triangle.link[1] = Link(next, 2);
+    triangle.link[2] = Link(before, 1);
+    triangle.circle = spokes_.circle(k);
+    if (edge.from == infinite_vertex || next_edge.from == infinite_vertex) triangle.circle = {};
     triangle.birth = step_;
     triangle.region = region;
     triangle.badness = 0;
     edit(edge.outer.triangle()).link[edge.outer.corner()] = Link(t, 0, edge.outer.constrained());
     set_star(edge.from, t, 1);
+    before = t, t = next, edge = next_edge;
   }
-  set_star(v, new_star_[0], 0);
+  set_star(v, cavity.triangles[0], 0);
   return v;
 }
 
@@ -137,7 +131,7 @@ std::optional<VertexId> Triangulation::split(Corner edge, Point p) {
     cavity_.ring.push_back({a, Link(other.triangle, other.index, false)});
   }
   const VertexId v = fill_cavity(p, cavity_);
-  for (std::size_t k = near_edges; k < new_star_.size(); ++k) set_region(new_star_[k], far_region);
+  for (std::size_t k = near_edges; k < cavity_.triangles.size(); ++k) set_region(cavity_.triangles[k], far_region);
   set_constraint(*find_edge(v, a), true);
   set_constraint(*find_edge(v, b), true);
   return v;

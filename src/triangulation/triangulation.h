@@ -24,6 +24,7 @@
 
 #include "triangulation/cavity.h"
 #include "triangulation/slot_array.h"
+#include "triangulation/spokes.h"
 #include "triangulation/triangle.h"
 
 namespace remodel {
@@ -134,9 +135,8 @@ class Triangulation {
   // Replaces the cavity by the star of a new vertex at p. Precondition: every ring edge is seen from p,
   // strictly from its left. Invalidates the cavity's triangles; new_star() lists the new ones in the order of
   // the ring, spokes() the edges from p to the ring's vertices.
-  VertexId fill_cavity(Point p, const Cavity& cavity);
-  std::span<const TriangleId> new_star() const { return {new_star_.begin(), new_star_.size()}; }
-  std::span<const Spoke> spokes() const { return {spokes_.begin(), spokes_.size()}; }
+  VertexId fill_cavity(Point p, Cavity& cavity);
+  const Spokes& spokes() const { return spokes_; }
 
   // Replaces a constrained edge a-b, given by a corner opposite it, by a-p and p-b, both constrained; the
   // regions on both sides stay on their sides. p need not lie on the edge (boundaries are curved), but it
@@ -391,8 +391,7 @@ class Triangulation {
   Hole hole_;
   std::vector<Removal> removal_;          // of each vertex slot; none between two calls
   std::vector<std::uint32_t> edge_from_;  // border edge that begins at a vertex
-  Buffer<Spoke> spokes_;
-  Buffer<TriangleId> new_star_;
+  Spokes spokes_;
   Cavity cavity_, near_, far_;  // the last two: of the sides of an edge that is split
   std::vector<Corner> stack_;
   Buffer<Crossing> crossings_, waiting_, made_;  // of constrain(): to be flipped, in the next round, flipped
