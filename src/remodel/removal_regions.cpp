@@ -1,8 +1,10 @@
 #include "remodel/removal_regions.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
 #include <span>
+
+#include "geometry/vector_clones.h"
 
 namespace remodel {
 
@@ -21,40 +23,69 @@ double squared_distance_to_edge(Point p, Point a, Point b) {
   return across * across / length;
 }
 
+constexpr std::size_t few = 16, most = 64, lanes = 4;
+
+// Discs side by side: loops over them compile to vector instructions.
+struct DiscRows {
+  double x[most], y[most], squared_radius[most];
+  std::size_t vectors = 0;  // of `lanes` discs; what fills up the last one holds nothing
+};
+
+// Whether the point lies strictly inside a disc.
+REMODEL_VECTOR_CLONES
+bool holds(const DiscRows& discs, Point p) {
+  std::int64_t found = 0;
+  for (std::size_t i = 0; i < discs.vectors * lanes; ++i) {
+    const Point u{p.x - discs.x[i], p.y - discs.y[i]};
+    found |= dot(u, u) < discs.squared_radius[i] ? 1 : 0;
+  }
+  return found != 0;
+}
+
+// Whether the open edge from a to b comes nearer to the centre of a disc than its radius, beside the centre: at its
+// ends it may do so unseen.
+REMODEL_VECTOR_CLONES
+bool passes(const DiscRows& discs, Point a, Point b) {
+  const Point e{b.x - a.x, b.y - a.y};
+  const double length = dot(e, e);
+  std::int64_t found = 0;
+  for (std::size_t i = 0; i < discs.vectors * lanes; ++i) {
+    const Point u{discs.x[i] - a.x, discs.y[i] - a.y};
+    const double along = dot(u, e), across = cross(e, u);
+    const bool beside = (along > 0.0) & (along < length);
+    found |= beside & (across * across < discs.squared_radius[i] * length) ? 1 : 0;
+  }
+  return found != 0;
+}
+
 // A few discs that lie together.
 class Discs {
  public:
-  explicit Discs(std::span<const RemovalRegion> regions)
-      : regions_(regions), low_(regions[0].centre), high_(low_) {
+  explicit Discs(std::span<const RemovalRegion> regions) : low_(regions[0].centre), high_(low_) {
     for (const RemovalRegion& region : regions) {
       low_ = {std::min(low_.x, region.centre.x), std::min(low_.y, region.centre.y)};
       high_ = {std::max(high_.x, region.centre.x), std::max(high_.y, region.centre.y)};
       largest_ = std::max(largest_, squared(region.radius));
     }
+    rows_.vectors = (regions.size() + lanes - 1) / lanes;
+    for (std::size_t i = 0; i < rows_.vectors * lanes; ++i) {
+      const RemovalRegion& region = regions[std::min(i, regions.size() - 1)];
+      rows_.x[i] = region.centre.x;
+      rows_.y[i] = region.centre.y;
+      rows_.squared_radius[i] = squared(region.radius);
+    }
   }
 
   // Whether the point lies strictly inside one of them.
-  bool contain(Point p) {
-    if (holds(last_, p)) return true;
-    if (far(p, p)) return false;
-    for (std::size_t i = 0; i < regions_.size(); ++i)
-      if (holds(i, p)) return last_ = i, true;
-    return false;
-  }
-  // Whether the edge comes nearer to the centre of one than its radius.
+  bool contain(Point p) const { return !far(p, p) && holds(rows_, p); }
+  // Whether the edge, whose ends lie in none of them, comes nearer to the centre of one than its radius.
   bool meet(Point a, Point b) const {
     const auto [x0, x1] = std::minmax(a.x, b.x);
     const auto [y0, y1] = std::minmax(a.y, b.y);
-    if (far({x0, y0}, {x1, y1})) return false;
-    for (const RemovalRegion& region : regions_)
-      if (squared_distance_to_edge(region.centre, a, b) < squared(region.radius)) return true;
-    return false;
+    return !far({x0, y0}, {x1, y1}) && passes(rows_, a, b);
   }
 
  private:
-  bool holds(std::size_t i, Point p) const {
-    return squared_distance(p, regions_[i].centre) < squared(regions_[i].radius);
-  }
   // Whether a box is out of reach of all centres.
   bool far(Point low, Point high) const {
     const double x = std::max({low_.x - high.x, low.x - high_.x, 0.0});
@@ -62,10 +93,9 @@ class Discs {
     return x * x + y * y >= largest_;
   }
 
-  std::span<const RemovalRegion> regions_;
+  DiscRows rows_;
   Point low_, high_;      // box of the centres
   double largest_ = 0.0;  // radius, squared
-  std::size_t last_ = 0;  // the region that held the last point
 };
 
 // The corner of a ghost that is the infinite vertex; 3 for a finite triangle.
@@ -163,7 +193,6 @@ class Search {
 // Regions come in the order of their loop, and neighbours overlap: a few are searched together, and as many
 // more as have their centres inside the first one. Others would only make each test longer.
 std::size_t end_of_group(std::span<const RemovalRegion> regions, std::size_t begin) {
-  constexpr std::size_t few = 16, most = 64;
   const RemovalRegion& first = regions[begin];
   const auto overlaps = [&](const RemovalRegion& region) {
     return squared_distance(region.centre, first.centre) < squared(first.radius);
