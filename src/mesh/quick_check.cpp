@@ -155,7 +155,11 @@ std::string Mesh::quick_check() const {
   if (std::string broken = check_boundary_links(*data_); !broken.empty()) return broken;
   const QuickCheck check(*data_);
   std::size_t count = 0;
-  for (std::uint32_t i = 0; i < triangulation.triangle_slots(); ++i) {
+  constexpr std::uint32_t ahead = 16;
+  const auto slots = static_cast<std::uint32_t>(triangulation.triangle_slots());
+  for (std::uint32_t i = 0; i < slots; ++i) {
+    if (i + ahead < slots && triangulation[TriangleId{i + ahead}].alive())
+      triangulation.prefetch_around(TriangleId{i + ahead});
     if (!triangulation[TriangleId{i}].alive()) continue;
     if (triangulation[TriangleId{i}].region == Region::domain) ++count;
     if (std::string broken = check.triangle(TriangleId{i}); !broken.empty()) return broken;
