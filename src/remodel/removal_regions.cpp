@@ -42,8 +42,8 @@ bool holds(const DiscRows& discs, Point p) {
   return found != 0;
 }
 
-// Whether the open edge from a to b comes nearer to the centre of a disc than its radius, beside the centre: at its
-// ends it may do so unseen.
+// Whether the open edge from a to b comes nearer to the centre of a disc than its radius, beside the centre:
+// at its ends it may do so unseen.
 REMODEL_VECTOR_CLONES
 bool passes(const DiscRows& discs, Point a, Point b) {
   const Point e{b.x - a.x, b.y - a.y};

@@ -48,8 +48,8 @@ class Buffer {
   T* begin() { return storage_.get(); }
   const T* end() const { return storage_.get() + size_; }
 
-  // Fills a buffer anew, from the start, as a stack. Its state is two pointers, which a loop keeps in registers; the
-  // buffer has its size when the writer ends.
+  // Fills a buffer anew, from the start, as a stack. Its state is two pointers, which a loop keeps in
+  // registers; the buffer has its size when the writer ends.
   class Writer {
    public:
     explicit Writer(Buffer& buffer)

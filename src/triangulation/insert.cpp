@@ -131,7 +131,8 @@ std::optional<VertexId> Triangulation::split(Corner edge, Point p) {
     cavity_.ring.push_back({a, Link(other.triangle, other.index, false)});
   }
   const VertexId v = fill_cavity(p, cavity_);
-  for (std::size_t k = near_edges; k < cavity_.triangles.size(); ++k) set_region(cavity_.triangles[k], far_region);
+  for (std::size_t k = near_edges; k < cavity_.triangles.size(); ++k)
+    set_region(cavity_.triangles[k], far_region);
   set_constraint(*find_edge(v, a), true);
   set_constraint(*find_edge(v, b), true);
   return v;

@@ -32,8 +32,8 @@ void Spokes::compute() {
   for (std::size_t k = size_; k < edges_.size(); ++k) edges_[k] = edges_[0];
   double* rows[row_count];
   for (std::size_t r = 0; r < row_count; ++r) rows[r] = rows_.begin() + r * stride_;
-  compute_rows(centre_, edges_.begin(), stride_ / lanes, rows[x_row], rows[y_row], rows[inside_row], rows[outside_row],
-               rows[shortest_row], rows[length_row]);
+  compute_rows(centre_, edges_.begin(), stride_ / lanes, rows[x_row], rows[y_row], rows[inside_row],
+               rows[outside_row], rows[shortest_row], rows[length_row]);
 }
 
 }  // namespace remodel

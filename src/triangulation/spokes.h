@@ -7,8 +7,8 @@
 
 namespace remodel {
 
-// The edges from a new vertex to the vertices of its ring, and the triangles between an edge and the next. These
-// are computed several at once: loops over rows of numbers compile to vector instructions.
+// The edges from a new vertex to the vertices of its ring, and the triangles between an edge and the next.
+// These are computed several at once: loops over rows of numbers compile to vector instructions.
 class Spokes {
  public:
   // Of a vertex at p with n neighbours: set() each, then compute().
