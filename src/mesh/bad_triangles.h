@@ -30,7 +30,7 @@ class BadTriangles {
   static std::uint8_t class_of(double squared_radius, double bound) {
     const auto ratio = std::bit_cast<std::uint64_t>(squared_radius) - std::bit_cast<std::uint64_t>(bound);
     const std::uint64_t c = std::min<std::uint64_t>((ratio >> 50) + 1, classes);
-    return static_cast<std::uint8_t>(c & (std::uint64_t{0} - std::uint64_t{squared_radius > bound}));
+    return static_cast<std::uint8_t>(c & (std::uint64_t{0} - std::uint64_t{!(squared_radius <= bound)}));
   }
 
   void set(TriangleId t, std::uint8_t badness) {

@@ -64,6 +64,7 @@ TEST(BadTriangles, ClassesGrowWithBadness) {
   EXPECT_EQ(BadTriangles::class_of(std::nextafter(1.0, 2.0), 1.0), 1);
   EXPECT_EQ(class_of(1e300), BadTriangles::classes);
   EXPECT_EQ(class_of(INFINITY), BadTriangles::classes);
+  EXPECT_EQ(BadTriangles::class_of(1.0, NAN), BadTriangles::classes);  // as is_good() says
   int before = 1;
   for (double ratio = 1.0001; ratio < 1e6; ratio *= 1.05) {
     EXPECT_GE(class_of(ratio), before);

@@ -124,9 +124,10 @@ bool SmallAngles::seditious(VertexId a, VertexId b) const {
 }
 
 bool SmallAngles::exempt(const Triangle& triangle) const {
-  int free = 0;
-  for (const VertexId v : triangle.vertex) free += mesh_.triangulation[v].boundary == no_index ? 1 : 0;
-  if (free > 1) return false;
+  // The shortest edge must join two vertices of the boundary: where two corners are inside, none does.
+  int inside = 0;
+  for (const VertexId v : triangle.vertex) inside += mesh_.triangulation[v].boundary == no_index ? 1 : 0;
+  if (inside > 1) return false;
   int shortest = 0;
   double length = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {

@@ -13,7 +13,7 @@ class Lanes {
   static constexpr std::size_t count = 8;
   struct Rows {
     double ax[count], ay[count], bx[count], by[count], cx[count], cy[count], scales[count];
-    double x[count], y[count], inside[count], outside[count], spare[count];
+    double centre_x[count], centre_y[count], inside[count], outside[count], spare[count];
   };
 
   void load(std::size_t lane, const Vertex& a, const Vertex& b, const Vertex& c) {
@@ -25,7 +25,7 @@ class Lanes {
   // The same bits as certified_circle(a, b, c), and the same answer as is_good() for its radius.
   void judge(const QualityBounds& bounds);
   Circle circle(std::size_t lane) const {
-    return {{rows_.x[lane], rows_.y[lane]}, rows_.inside[lane], rows_.outside[lane]};
+    return {{rows_.centre_x[lane], rows_.centre_y[lane]}, rows_.inside[lane], rows_.outside[lane]};
   }
   bool good(std::size_t lane) const { return rows_.spare[lane] >= 0.0; }  // uncertain ones: -infinity
 

@@ -23,37 +23,36 @@ double squared_distance_to_edge(Point p, Point a, Point b) {
   return across * across / length;
 }
 
-constexpr std::size_t few = 16, most = 64, lanes = 4;
+constexpr std::size_t few_regions = 16, most_regions = 64;
 
 // Discs side by side: loops over them compile to vector instructions.
 struct DiscRows {
-  double x[most], y[most], squared_radius[most];
-  std::size_t vectors = 0;  // of `lanes` discs; what fills up the last one holds nothing
+  double x[most_regions], y[most_regions], squared_radius[most_regions];
+  std::size_t vectors = 0;  // the last one is filled up with copies of the last disc
 };
 
 // Whether the point lies strictly inside a disc.
 REMODEL_VECTOR_CLONES
 bool holds(const DiscRows& discs, Point p) {
   std::int64_t found = 0;
-  for (std::size_t i = 0; i < discs.vectors * lanes; ++i) {
+  for (std::size_t i = 0; i < discs.vectors * vector_lanes; ++i) {
     const Point u{p.x - discs.x[i], p.y - discs.y[i]};
     found |= dot(u, u) < discs.squared_radius[i] ? 1 : 0;
   }
   return found != 0;
 }
 
-// Whether the open edge from a to b comes nearer to the centre of a disc than its radius, beside the centre:
-// at its ends it may do so unseen.
+// Whether an edge from a to b whose ends lie outside all discs passes through one.
 REMODEL_VECTOR_CLONES
 bool passes(const DiscRows& discs, Point a, Point b) {
   const Point e{b.x - a.x, b.y - a.y};
   const double length = dot(e, e);
   std::int64_t found = 0;
-  for (std::size_t i = 0; i < discs.vectors * lanes; ++i) {
+  for (std::size_t i = 0; i < discs.vectors * vector_lanes; ++i) {
     const Point u{discs.x[i] - a.x, discs.y[i] - a.y};
     const double along = dot(u, e), across = cross(e, u);
     const bool beside = (along > 0.0) & (along < length);
-    found |= beside & (across * across < discs.squared_radius[i] * length) ? 1 : 0;
+    found |= beside & (across * across / length < discs.squared_radius[i]) ? 1 : 0;
   }
   return found != 0;
 }
@@ -67,8 +66,8 @@ class Discs {
       high_ = {std::max(high_.x, region.centre.x), std::max(high_.y, region.centre.y)};
       largest_ = std::max(largest_, squared(region.radius));
     }
-    rows_.vectors = (regions.size() + lanes - 1) / lanes;
-    for (std::size_t i = 0; i < rows_.vectors * lanes; ++i) {
+    rows_.vectors = whole_vectors(regions.size());
+    for (std::size_t i = 0; i < rows_.vectors * vector_lanes; ++i) {
       const RemovalRegion& region = regions[std::min(i, regions.size() - 1)];
       rows_.x[i] = region.centre.x;
       rows_.y[i] = region.centre.y;
@@ -78,7 +77,7 @@ class Discs {
 
   // Whether the point lies strictly inside one of them.
   bool contain(Point p) const { return !far(p, p) && holds(rows_, p); }
-  // Whether the edge, whose ends lie in none of them, comes nearer to the centre of one than its radius.
+  // Whether the edge, whose ends lie in none of them, passes through one.
   bool meet(Point a, Point b) const {
     const auto [x0, x1] = std::minmax(a.x, b.x);
     const auto [y0, y1] = std::minmax(a.y, b.y);
@@ -197,8 +196,8 @@ std::size_t end_of_group(std::span<const RemovalRegion> regions, std::size_t beg
   const auto overlaps = [&](const RemovalRegion& region) {
     return squared_distance(region.centre, first.centre) < squared(first.radius);
   };
-  std::size_t end = std::min(begin + few, regions.size());
-  while (end < std::min(begin + most, regions.size()) && overlaps(regions[end])) ++end;
+  std::size_t end = std::min(begin + few_regions, regions.size());
+  while (end < std::min(begin + most_regions, regions.size()) && overlaps(regions[end])) ++end;
   return end;
 }
 

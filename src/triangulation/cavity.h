@@ -1,6 +1,6 @@
 #pragma once
 
-// The cavity of a point, and what filling it computes on the way.
+// The cavity of a point, and the lists that it is kept in.
 
 #include <algorithm>
 #include <cstddef>
@@ -47,6 +47,7 @@ class Buffer {
   const T* begin() const { return storage_.get(); }
   T* begin() { return storage_.get(); }
   const T* end() const { return storage_.get() + size_; }
+  T* end() { return storage_.get() + size_; }
 
   // Fills a buffer anew, from the start, as a stack. Its state is two pointers, which a loop keeps in
   // registers; the buffer has its size when the writer ends.

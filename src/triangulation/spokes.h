@@ -2,22 +2,25 @@
 
 #include <cstddef>
 
+#include "geometry/vector_clones.h"
 #include "triangulation/cavity.h"
 #include "triangulation/circle.h"
 
 namespace remodel {
 
 // The edges from a new vertex to the vertices of its ring, and the triangles between an edge and the next.
-// These are computed several at once: loops over rows of numbers compile to vector instructions.
+// These are computed several at once: loops over rows of numbers compile to vector instructions. Good until
+// the next vertex; a copy is to be begun anew.
 class Spokes {
  public:
   // Of a vertex at p with n neighbours: set() each, then compute().
   void begin(Point p, std::size_t n) {
+    const std::size_t stride = whole_vectors(n) * vector_lanes;
+    edges_.resize(stride + 1);
+    rows_.resize(row_count * stride);
     centre_ = p;
     size_ = n;
-    stride_ = (n + lanes - 1) / lanes * lanes;
-    edges_.resize(stride_ + 1);
-    rows_.resize(row_count * stride_);
+    stride_ = stride;
   }
   void set(std::size_t k, Point neighbour) { edges_[k] = neighbour - centre_; }
   void compute();
@@ -30,8 +33,6 @@ class Spokes {
   }
   double squared_shortest(std::size_t k) const { return row(shortest_row)[k]; }
 
-  static constexpr std::size_t lanes = 4;
-
  private:
   enum Row : std::size_t { x_row, y_row, inside_row, outside_row, shortest_row, length_row, row_count };
 
@@ -39,7 +40,7 @@ class Spokes {
 
   Point centre_;
   std::size_t size_ = 0, stride_ = 0;  // of edges; of a row, whole vectors
-  Buffer<Point> edges_;                // filled up with the first, and once more
+  Buffer<Point> edges_;                // continued around the ring to whole vectors, and one more
   Buffer<double> rows_;
 };
 

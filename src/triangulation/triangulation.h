@@ -133,15 +133,15 @@ class Triangulation {
   // Collects the cavity of p from a triangle in conflict with it. Read only.
   void find_cavity(Point p, TriangleId start, Cavity& cavity) const;
   // Replaces the cavity by the star of a new vertex at p. Precondition: every ring edge is seen from p,
-  // strictly from its left. Invalidates the cavity's triangles; new_star() lists the new ones in the order of
-  // the ring, spokes() the edges from p to the ring's vertices.
+  // strictly from its left. Invalidates the cavity's triangles; cavity.triangles lists the new ones instead,
+  // in the order of the ring, and spokes() what was computed of them.
   VertexId fill_cavity(Point p, Cavity& cavity);
   const Spokes& spokes() const { return spokes_; }
 
   // Replaces a constrained edge a-b, given by a corner opposite it, by a-p and p-b, both constrained; the
   // regions on both sides stay on their sides. p need not lie on the edge (boundaries are curved), but it
   // must lie in one of the two triangles next to it, and not on a vertex: otherwise nothing is changed and
-  // there is no result. new_star() lists the new triangles.
+  // there is no result.
   std::optional<VertexId> split(Corner edge, Point p);
   // Inserts p; a vertex that is already at p is returned instead. A constrained edge that p lies on is split.
   struct Inserted {

@@ -153,16 +153,24 @@ TEST(RemovalRegions, HoldEveryInteriorVertexInsideAndNoOther) {
       std::uint32_t hint = 1 + static_cast<std::uint32_t>(random() % (data.triangulation.vertex_slots() - 1));
       while (!data.triangulation[VertexId{hint}].alive()) hint = hint % 50 + 1;
       // More than are searched together, sometimes: what several hold comes once all the same.
-      const std::vector<RemovalRegion> regions(
-          i % 7 == 0 ? 20 : 1, {centre, radius, data.triangulation.star(VertexId{hint}).triangle});
+      std::vector<RemovalRegion> regions{{centre, radius, data.triangulation.star(VertexId{hint}).triangle}};
+      for (std::size_t k = i % 4 == 0 ? random() % 80 : 0; k > 0; --k) {
+        const Point offset{radius * (4.0 * test::unit(random) - 2.0),
+                           radius * (4.0 * test::unit(random) - 2.0)};
+        regions.push_back({centre + offset, radius * test::unit(random), regions.front().hint});
+      }
+      const auto held = [&](Point p) {
+        return std::any_of(regions.begin(), regions.end(), [&](const RemovalRegion& region) {
+          return squared_distance(p, region.centre) < region.radius * region.radius;
+        });
+      };
       const Arena::Scope scope(data.arena);
       List<VertexId> found = vertices_inside(data, regions);
       std::sort(found.begin(), found.end());  // the order is without meaning
       List<VertexId> expected(&data.arena);
       for (std::uint32_t v = 1; v < data.triangulation.vertex_slots(); ++v) {
         const Vertex& vertex = data.triangulation[VertexId{v}];
-        if (vertex.alive() && vertex.boundary == no_index &&
-            squared_distance(vertex.point, centre) < radius * radius)
+        if (vertex.alive() && vertex.boundary == no_index && held(vertex.point))
           expected.push_back(VertexId{v});
       }
       ASSERT_EQ(found, expected) << "round " << round << ", region " << i;
