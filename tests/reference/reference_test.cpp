@@ -181,6 +181,44 @@ TEST(RemovalRegions, HoldEveryInteriorVertexInsideAndNoOther) {
   test::counted(200LL * rounds, "differential cases");
 }
 
+// A disc that reaches a vertex across an edge alone: its centre lies just behind the edge opposite an obtuse
+// corner, whose vertex is nearer than the edge's ends.
+TEST(RemovalRegions, ReachAVertexBehindAnEdgeWhoseEndsAreOutside) {
+  const auto seed = test::seed(142);
+  SCOPED_TRACE(trace(seed));
+  std::mt19937_64 random(seed);
+  Mesh mesh = mesh_of(test::random_design(random, 0.1), 100, 2.0);
+  MeshData& data = mesh.data();
+  const Triangulation& t = data.triangulation;
+  int reached = 0;
+  for (std::uint32_t i = 0; i < t.triangle_slots(); ++i) {
+    const Triangle& triangle = t[TriangleId{i}];
+    if (!triangle.alive() || triangle.ghost() || triangle.region != Region::domain) continue;
+    for (int k = 0; k < 3; ++k) {
+      const VertexId v = triangle.vertex[k];
+      const Point d = t.point(v), a = t.point(triangle.vertex[next3(k)]),
+                  b = t.point(triangle.vertex[previous3(k)]);
+      if (t[v].boundary != no_index || dot(a - d, b - d) >= 0.0) continue;
+      const Point edge = b - a, foot = a + (dot(d - a, edge) / dot(edge, edge)) * edge;
+      const Point centre = d + 1.01 * (foot - d);
+      const double radius = 1.001 * std::sqrt(squared_distance(centre, d));
+      const Location where = t.locate(centre, TriangleId{i});
+      const Triangle& behind = t[where.triangle];
+      if (where.triangle != triangle.link[k].triangle() || behind.ghost()) continue;
+      if (std::any_of(std::begin(behind.vertex), std::end(behind.vertex), [&](VertexId corner) {
+            return squared_distance(t.point(corner), centre) < radius * radius;
+          }))
+        continue;
+      const Arena::Scope scope(data.arena);
+      const std::vector<RemovalRegion> region{{centre, radius, where.triangle}};
+      const List<VertexId> found = vertices_inside(data, region);
+      ASSERT_TRUE(std::find(found.begin(), found.end(), v) != found.end()) << "vertex " << v.index;
+      ++reached;
+    }
+  }
+  EXPECT_GT(reached, 10);
+}
+
 TEST(RemodelResult, CountsWhatACountOfAllTrianglesCounts) {
   const auto seed = test::seed(151);
   SCOPED_TRACE(trace(seed));
