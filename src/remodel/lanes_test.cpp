@@ -2,21 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "support.h"
+#include "triangulation/test_circle.h"
 
 namespace remodel {
 namespace {
-
-std::uint64_t bits(double value) {
-  return std::bit_cast<std::uint64_t>(value);
-}
 
 Vertex vertex_at(Point p, double length_scale) {
   Vertex v;
@@ -57,12 +52,7 @@ TEST(Lanes, GiveTheBitsOfACircleAndTheAnswerOfIsGood) {
     for (std::size_t lane = 0; lane < Lanes::count; ++lane) {
       const auto& [a, b, c] = all[lane];
       const Circle circle = certified_circle(a.point, b.point, c.point), found = lanes.circle(lane);
-      EXPECT_EQ(bits(found.inside), bits(circle.inside));
-      EXPECT_EQ(bits(found.outside), bits(circle.outside));
-      if (circle.certain()) {
-        EXPECT_EQ(bits(found.centre.x), bits(circle.centre.x));
-        EXPECT_EQ(bits(found.centre.y), bits(circle.centre.y));
-      }
+      test::expect_same_bits(found, circle);
       const bool expected = circle.certain() && is_good(a, b, c, circle.squared_radius(), bounds);
       EXPECT_EQ(lanes.good(lane), expected);
       good += expected ? 1 : 0;

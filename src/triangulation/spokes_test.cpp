@@ -3,21 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "support.h"
+#include "triangulation/test_circle.h"
 
 namespace remodel {
 namespace {
-
-std::uint64_t bits(double value) {
-  return std::bit_cast<std::uint64_t>(value);
-}
 
 // Rings of all lengths, not all around the point: some triangles are flat or clockwise.
 TEST(Spokes, GiveTheBitsOfEachCircleAndLength) {
@@ -41,15 +36,10 @@ TEST(Spokes, GiveTheBitsOfEachCircleAndLength) {
     for (std::size_t k = 0; k < n; ++k) {
       const Point e1 = ring[k] - p, e2 = ring[(k + 1) % n] - p;
       const Circle circle = certified_circle(p, ring[k], ring[(k + 1) % n]), found = spokes.circle(k);
-      EXPECT_EQ(bits(found.inside), bits(circle.inside));
-      EXPECT_EQ(bits(found.outside), bits(circle.outside));
-      if (circle.certain()) {
-        EXPECT_EQ(bits(found.centre.x), bits(circle.centre.x));
-        EXPECT_EQ(bits(found.centre.y), bits(circle.centre.y));
-      }
-      EXPECT_EQ(bits(spokes.length(k)), bits(std::sqrt(dot(e1, e1))));
-      EXPECT_EQ(bits(spokes.squared_shortest(k)),
-                bits(std::min({dot(e1, e1), dot(e2, e2), squared_distance(e1, e2)})));
+      test::expect_same_bits(found, circle);
+      EXPECT_EQ(test::bits(spokes.length(k)), test::bits(std::sqrt(dot(e1, e1))));
+      EXPECT_EQ(test::bits(spokes.squared_shortest(k)),
+                test::bits(std::min({dot(e1, e1), dot(e2, e2), squared_distance(e1, e2)})));
       ++(circle.certain() ? certain : uncertain);
     }
   }

@@ -70,6 +70,13 @@ Triangulation started(std::mt19937_64& random, int family) {
   }
 }
 
+// Of so many random points more, of the first family.
+Triangulation triangulation_of(std::mt19937_64& random, int points) {
+  Triangulation t = started(random, 0);
+  for (int i = 0; i < points; ++i) t.insert(random_point(random, 0), any_triangle(t));
+  return t;
+}
+
 // Removes one of the vertices, one time in `removal_in` while there are more than three, or inserts one.
 void insert_or_remove(Triangulation& t, std::vector<VertexId>& vertices, int family, unsigned removal_in,
                       std::mt19937_64& random) {
@@ -284,8 +291,7 @@ TEST(Moves, LeaveADelaunayTriangulationOnceItIsRestored) {
   const auto seed = test::seed(15);
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937_64 random(seed);
-  Triangulation t = started(random, 0);
-  for (int i = 0; i < 400; ++i) t.insert(random_point(random, 0), any_triangle(t));
+  Triangulation t = triangulation_of(random, 400);
   for (int round = 0; round < 20; ++round) {
     std::set<TriangleId> moved;
     for (std::uint32_t i = 1; i < t.vertex_slots(); ++i) {
@@ -317,8 +323,7 @@ TEST(Journal, GivesFreedTrianglesOutAgain) {
   const auto seed = test::seed(29);
   SCOPED_TRACE("REMODEL_TEST_SEED=" + std::to_string(seed));
   std::mt19937_64 random(seed);
-  Triangulation t = started(random, 0);
-  for (int i = 0; i < 100; ++i) t.insert(random_point(random, 0), any_triangle(t));
+  Triangulation t = triangulation_of(random, 100);
   const std::size_t slots = t.triangle_slots();
   t.begin();
   for (int i = 0; i < 100; ++i) t.remove(t.insert(random_point(random, 0), any_triangle(t)).vertex);
