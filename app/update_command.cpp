@@ -37,7 +37,7 @@ void add_figures(Report& report, const RemodelResult& result) {
   report.figure("triangles", "triangles", result.triangles);
   report.figure("preserved", "preserved", result.preserved, "triangles");
   report.figure("preserved_percent", "preserved", result.preserved_percent(), "%");
-  report.figure("moved", "moved in place", result.moved, "boundary vertices");
+  report.figure("moved", "moved", result.moved, "boundary vertices");
   report.figure("inserted", "inserted", result.inserted, "vertices");
   report.figure("removed", "removed", result.removed, "vertices");
   report.figure("full_adjustment", "full adjustment", result.full_adjustment);

@@ -43,7 +43,7 @@ struct RemodelResult {
   std::size_t triangles_before = 0;
   std::size_t triangles = 0;
   std::size_t preserved = 0;  // old domain triangles still there with all three vertices unmoved
-  std::size_t moved = 0;      // boundary vertices moved in place
+  std::size_t moved = 0;      // boundary vertices at another place than before, but the same
   std::size_t inserted = 0;   // vertices
   std::size_t removed = 0;
   bool full_adjustment = false;         // every boundary vertex moved in place, connectivity unchanged

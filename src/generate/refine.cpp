@@ -67,9 +67,10 @@ TriangleId Refiner::next_bad() {
   }
 }
 
-// A small mesh lies in the caches: there the order is strict.
+// A small mesh lies in the caches, and so does what a step has changed: there the order is strict.
 TriangleId Refiner::next_candidate() {
-  if (triangulation_.triangle_slots() < 8192) return mesh_.bad_triangles.take();
+  if (triangulation_.triangle_slots() < 8192 || triangulation_.journalling())
+    return mesh_.bad_triangles.take();
   for (std::size_t idle = 0; idle < look_ahead;) {
     const TriangleId t = ahead_[turn_], fetched = mesh_.bad_triangles.take();
     ahead_[turn_] = fetched;

@@ -18,30 +18,26 @@ Region side_label(const MeshData& mesh, const Triangle& t, int i) {
 
 class Relabelling {
  public:
-  explicit Relabelling(MeshData& mesh)
+  Relabelling(MeshData& mesh, std::span<const TriangleId> uncertain)
       : mesh_(mesh),
         triangulation_(mesh.triangulation),
-        touched_(&mesh.arena),
+        uncertain_(uncertain),
         relabelled_(&mesh.arena),
-        todo_(&mesh.arena) {
-    triangulation_.for_each_touched([&](TriangleId t, bool same) {
-      if (!same) touched_.push_back(t);
-    });
-  }
+        todo_(&mesh.arena) {}
 
   void run() {
-    for (const TriangleId t : touched_) triangulation_.set_region(t, Region::unknown);
-    for (const TriangleId t : touched_) seed_from_boundary(t);
+    for (const TriangleId t : uncertain_) triangulation_.set_region(t, Region::unknown);
+    for (const TriangleId t : uncertain_) seed_from_boundary(t);
     flood();
-    for (const TriangleId t : touched_) seed_from_neighbours(t);
-    for (const TriangleId t : touched_) require_agreement(t);
+    for (const TriangleId t : uncertain_) seed_from_neighbours(t);
+    for (const TriangleId t : uncertain_) require_agreement(t);
   }
 
   // Interior vertices of the triangles that are outside the domain now.
   List<VertexId> strays() const {
     List<VertexId> found(&mesh_.arena);
-    for (const auto* list : {&touched_, &relabelled_})
-      for (const TriangleId t : *list)
+    for (const std::span<const TriangleId> list : {uncertain_, std::span<const TriangleId>(relabelled_)})
+      for (const TriangleId t : list)
         if (triangulation_[t].region == Region::outside)
           for (const VertexId v : triangulation_[t].vertex)
             if (v != infinite_vertex && triangulation_[v].boundary == no_index) found.push_back(v);
@@ -97,16 +93,26 @@ class Relabelling {
 
   MeshData& mesh_;
   Triangulation& triangulation_;
-  List<TriangleId> touched_, relabelled_, todo_;
+  std::span<const TriangleId> uncertain_;
+  List<TriangleId> relabelled_, todo_;
 };
 
 }  // namespace
 
-void relabel_touched(MeshData& mesh) {
+void relabel(MeshData& mesh, std::span<const TriangleId> uncertain) {
   const Arena::Scope scope(mesh.arena);
-  Relabelling relabelling(mesh);
+  Relabelling relabelling(mesh, uncertain);
   relabelling.run();
   mesh.triangulation.remove(relabelling.strays());
+}
+
+void relabel_touched(MeshData& mesh) {
+  const Arena::Scope scope(mesh.arena);
+  List<TriangleId> changed(&mesh.arena);
+  mesh.triangulation.for_each_touched([&](TriangleId t, bool same) {
+    if (!same) changed.push_back(t);
+  });
+  relabel(mesh, changed);
 }
 
 }  // namespace remodel

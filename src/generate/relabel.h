@@ -1,13 +1,16 @@
 #pragma once
 
+#include <span>
+
 #include "mesh/mesh_data.h"
 
 namespace remodel {
 
-// Under a journal, after all boundary edges were recovered: labels every touched triangle, and any other
-// whose label changes, by the sides of the boundary edges (RecoveryError if these contradict each other);
-// then removes interior vertices outside the domain. Cost proportional to what was touched and what changes
-// its side.
+// Under a journal, after all boundary edges were recovered: labels the given triangles, and any other whose
+// label changes, by the sides of the boundary edges (RecoveryError if these contradict each other); then
+// removes interior vertices outside the domain. Cost proportional to what is given and what changes its side.
+void relabel(MeshData& mesh, std::span<const TriangleId> uncertain);
+// The same for every touched triangle that is not as it was.
 void relabel_touched(MeshData& mesh);
 
 }  // namespace remodel

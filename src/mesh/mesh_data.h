@@ -41,6 +41,7 @@ class Marks {
     stamps_[slot] = now_;
     return true;
   }
+  void prefetch(std::uint32_t slot) const { __builtin_prefetch(&stamps_[slot]); }
   bool visited(std::uint32_t slot) const { return stamps_[slot] == now_; }
 
  private:

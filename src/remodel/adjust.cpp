@@ -86,6 +86,8 @@ void list_affected(MeshData& mesh, AdjustCache& cache) {
       triangulation.prefetch(cache.moving[i + 2 * look_ahead].vertex);
     if (i + look_ahead < cache.moving.size())
       triangulation.prefetch(triangulation.star(cache.moving[i + look_ahead].vertex).triangle);
+    if (i + look_ahead / 2 < cache.moving.size())
+      triangulation.prefetch_around(triangulation.star(cache.moving[i + look_ahead / 2].vertex).triangle);
     Moving& m = cache.moving[i];
     m.star_begin = cache.stars.size();
     triangulation.for_each_corner(m.vertex, [&](Corner c) {
@@ -256,7 +258,7 @@ bool evaluate(const MeshData& mesh, AdjustCache& cache) {
 }
 
 void mark_moved(AdjustCache& cache) {
-  for (Affected& a : cache.affected) a.moved = a.movable, a.kept = true;
+  for (Affected& a : cache.affected) a.moved = a.movable;
   for (std::size_t i = 0; i < cache.moving.size(); ++i) {
     if (!(cache.new_points[i] == cache.old_points[i])) continue;
     const Moving& m = cache.moving[i];
@@ -327,11 +329,13 @@ bool adjust_all(MeshData& mesh, AdjustCache& cache, const Domain& domain) {
     return false;
   }
   mark_moved(cache);
+  cache.changed = 0;
   for (std::size_t i = 0; i < cache.affected.size(); ++i) {
     if (i + look_ahead < cache.affected.size())
       mesh.triangulation.prefetch(cache.affected[i + look_ahead].triangle);
     const Affected& a = cache.affected[i];
     if (!a.moved) continue;
+    if (a.domain) ++cache.changed;
     const Circle& circle = a.domain ? a.circle : mesh.triangulation[a.triangle].circle;
     mesh.triangulation.set_moved(a.triangle, circle, mesh.step + 1);
   }

@@ -34,7 +34,6 @@ struct AdjustCache : MeshCache {
     bool domain;
     std::uint8_t movable = 0;  // how many of its vertices are moving
     std::uint8_t moved = 0;    // how many of them have another position
-    bool kept = true;          // none of its vertices is lost, as far as adjust_some() was followed up
     bool good = false;         // at the new positions
   };
   // An unconstrained edge of the domain with an affected triangle beside it: is `apex` outside its circle?
@@ -71,6 +70,7 @@ struct AdjustCache : MeshCache {
   std::vector<Point> old_points, new_points;
   std::vector<double> old_scales, new_scales;
   std::vector<bool> accepted;
+  std::size_t changed = 0;  // by a full adjustment: domain triangles with a vertex that moved
 };
 
 // Whether the cached CST basis of one airfoil serves the other: degree and class exponents are the same.

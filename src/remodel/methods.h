@@ -12,7 +12,7 @@
 namespace remodel {
 
 // The paper's section 4.2 after adjust_all() returned false: adjusts what can be, replaces the rest.
-// Returns the vertices moved in place, in the mesh's arena.
+// Returns the vertices that are at other places, but are the same, in the mesh's arena.
 List<VertexId> replace_where_needed(MeshData& mesh, AdjustCache& cache, const Domain& domain,
                                     const ReplaceOptions& options);
 

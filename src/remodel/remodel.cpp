@@ -188,9 +188,7 @@ RemodelResult full_adjustment(MeshData& mesh, AdjustCache& cache) {
   RemodelResult result;
   result.triangles_before = result.triangles = mesh.domain_triangles;
   result.full_adjustment = true;
-  result.preserved = mesh.domain_triangles;
-  for (const AdjustCache::Affected& a : cache.affected)
-    if (a.domain && a.moved) --result.preserved;
+  result.preserved = mesh.domain_triangles - cache.changed;
   for (std::size_t i = 0; i < cache.moving.size(); ++i)
     if (!(cache.new_points[i] == cache.old_points[i])) ++result.moved;
   bool basis_kept = true;
@@ -266,7 +264,7 @@ Stopped refine_touched(MeshData& mesh, StepObserver* observer) {
   return refiner.run();
 }
 
-// The vertices moved in place.
+// The vertices that are at other places, but are the same.
 List<VertexId> replace_boundary(MeshData& mesh, AdjustCache* cache, const Domain& domain,
                                 const ReplaceOptions& options) {
   if (cache != nullptr) {

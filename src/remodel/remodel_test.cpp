@@ -232,6 +232,25 @@ TEST(PartialSteps, KeepTheIdsAndPlacesOfWhatSurvives) {
   }
 }
 
+TEST(PartialSteps, KeepTheBoundaryVerticesThatCanBeRelocated) {
+  CstAirfoil airfoil = airfoil_catalogue()[0].airfoil();
+  Mesh mesh = generated(airfoil_domain(airfoil, {.points = 100}));
+  for (const double factor : {1.05, 1.0 / 1.05, 0.93, 1.1}) {
+    const MeshState before = mesh.state();
+    airfoil = scaled(airfoil, factor);
+    ASSERT_FALSE(step(mesh, airfoil_domain(airfoil, {.points = 100})).full_adjustment);
+    const MeshState after = mesh.state();
+    std::size_t boundary = 0, kept = 0;
+    for (std::size_t v = 1; v < before.vertex_stars.size(); ++v) {
+      if (before.vertex_stars[v] == no_index || before.vertex_curves[v] < 0) continue;
+      ++boundary;
+      kept +=
+          after.vertex_stars[v] != no_index && before.vertex_generations[v] == after.vertex_generations[v];
+    }
+    EXPECT_GT(10 * kept, 9 * boundary) << kept << " of " << boundary;
+  }
+}
+
 TEST(PartialSteps, NeverGiveAnIdOutTwiceWithinOneStep) {
   Mesh mesh = generated(catalogue_domain(0, 50));
   for (std::size_t to = 1; to < 40; ++to) {

@@ -137,26 +137,36 @@ TriangleId start_of(const Triangulation& triangulation, const RemovalRegion& reg
   return ghost.link[infinite_corner(ghost)].triangle();
 }
 
-// The search through all triangles that meet one of a few discs.
+// An edge on the way into the triangle behind it, its ends as seen from there.
+struct Crossing {
+  Link link;
+  bool from_inside, to_inside;
+};
+
+// The search through all triangles that meet one of a few discs, first in, first out: what comes is known
+// ahead.
 class Search {
  public:
-  Search(MeshData& mesh, std::span<const RemovalRegion> regions, List<TriangleId>& todo,
-         List<VertexId>& found)
+  Search(MeshData& mesh, std::span<const RemovalRegion> regions, List<Crossing>& todo, List<VertexId>& found)
       : mesh_(mesh), triangulation_(mesh.triangulation), discs_(regions), todo_(todo), found_(found) {
     mesh_.marks.clear(triangulation_.triangle_slots());
     mesh_.vertex_marks.clear(triangulation_.vertex_slots());
-    for (const RemovalRegion& region : regions) visit(start_of(triangulation_, region));
-    while (!todo_.empty()) {
-      const TriangleId t = todo_.back();
-      todo_.pop_back();
-      pass_on(triangulation_[t]);
+    for (const RemovalRegion& region : regions) {
+      const TriangleId t = start_of(triangulation_, region);
+      if (!mesh_.marks.visit(t.index)) continue;
+      bool is_inside[3];
+      for (int i = 0; i < 3; ++i) is_inside[i] = inside(triangulation_[t].vertex[i]);
+      for (const int i : {0, 1, 2}) visit(triangulation_[t], i, is_inside[next3(i)], is_inside[previous3(i)]);
     }
+    for (std::size_t k = 0; k < todo_.size(); ++k) {
+      if (k + look_ahead < todo_.size()) prefetch_behind(todo_[k + look_ahead].link);
+      pass_on(Crossing(todo_[k]));
+    }
+    todo_.clear();
   }
 
  private:
-  void visit(TriangleId t) {
-    if (mesh_.marks.visit(t.index)) todo_.push_back(t);
-  }
+  static constexpr std::size_t look_ahead = 4;
 
   // Asked once a vertex; mesh.numbers holds the answer.
   bool inside(VertexId v) {
@@ -168,24 +178,40 @@ class Search {
     return result;
   }
 
+  // The triangle itself was asked for when the edge was met.
+  void prefetch_behind(Link link) const {
+    const Triangle& t = triangulation_[link.triangle()];
+    const VertexId apex = t.vertex[link.corner()];
+    triangulation_.prefetch(apex);
+    mesh_.vertex_marks.prefetch(apex.index);
+    for (const Link other : t.link) mesh_.marks.prefetch(other.triangle().index);
+  }
+
   // An edge with an end inside meets a disc; only the others need a closer look.
-  void pass_on(const Triangle& t) {
-    bool is_inside[3];
-    for (int i = 0; i < 3; ++i) is_inside[i] = inside(t.vertex[i]);
-    for (int i = 0; i < 3; ++i) {
-      const TriangleId next = t.link[i].triangle();
-      if (mesh_.marks.visited(next.index) || triangulation_[next].ghost()) continue;
-      const int from = next3(i), to = previous3(i);
-      if (is_inside[from] || is_inside[to] ||
-          discs_.meet(triangulation_.point(t.vertex[from]), triangulation_.point(t.vertex[to])))
-        visit(next);
-    }
+  void visit(const Triangle& t, int i, bool from_inside, bool to_inside) {
+    const TriangleId next = t.link[i].triangle();
+    if (mesh_.marks.visited(next.index)) return;
+    if (!from_inside && !to_inside &&
+        !discs_.meet(triangulation_.point(t.vertex[next3(i)]), triangulation_.point(t.vertex[previous3(i)])))
+      return;
+    mesh_.marks.visit(next.index);
+    triangulation_.prefetch(next);
+    todo_.push_back({t.link[i], to_inside, from_inside});
+  }
+
+  void pass_on(const Crossing& crossing) {
+    const Triangle& t = triangulation_[crossing.link.triangle()];
+    const int i = crossing.link.corner();
+    if (t.vertex[i] == infinite_vertex) return;
+    const bool apex_inside = inside(t.vertex[i]);
+    visit(t, next3(i), crossing.to_inside, apex_inside);
+    visit(t, previous3(i), apex_inside, crossing.from_inside);
   }
 
   MeshData& mesh_;
   const Triangulation& triangulation_;
   Discs discs_;
-  List<TriangleId>& todo_;  // empty before and after
+  List<Crossing>& todo_;  // empty before and after
   List<VertexId>& found_;
 };
 
@@ -205,7 +231,7 @@ std::size_t end_of_group(std::span<const RemovalRegion> regions, std::size_t beg
 
 List<VertexId> vertices_inside(MeshData& mesh, std::span<const RemovalRegion> regions) {
   List<VertexId> found(&mesh.arena);
-  List<TriangleId> todo(&mesh.arena);
+  List<Crossing> todo(&mesh.arena);
   mesh.numbers.resize(std::max(mesh.triangulation.triangle_slots(), mesh.triangulation.vertex_slots()));
   for (std::size_t begin = 0, end = 0; begin < regions.size(); begin = end) {
     end = end_of_group(regions, begin);

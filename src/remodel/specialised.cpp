@@ -1,14 +1,21 @@
 // The specialised method's removal and replacement (the paper's section 4.2).
 //
-// Words: a moving vertex is *kept* if it was moved in place, otherwise *lost*: it is removed, and a
-// non-Steiner vertex comes back as a new vertex at its new place. Lost Steiner vertices do not come back:
-// refinement splits the restored segment again where it must.
+// Words: a moving vertex is *kept* if it was moved in place and all triangles at it are good, otherwise
+// *lost*: a non-Steiner vertex then comes to its place on the new design whatever becomes of its triangles,
+// and a Steiner vertex goes for good. Refinement splits the restored segment again where it must.
+//
+// The paper removes lost vertices and inserts others at their new places. The constrained Delaunay
+// triangulation of the same points and segments is the same, however it comes about: with the Steiner
+// vertices of the removal regions gone, most lost vertices can be *relocated*, moved so that all triangles
+// stay counter-clockwise, and most lost Steiner vertices *dissolved*: their two segments become one. Neither
+// tears the boundary, so that the regions stay as they are. Those that are *stuck* are removed and inserted.
 
 #include <algorithm>
 #include <cmath>
 
 #include "generate/discretise.h"
 #include "remodel/methods.h"
+#include "remodel/predicates.h"
 #include "remodel/replace.h"
 
 namespace remodel {
@@ -18,48 +25,121 @@ namespace {
 class Replacement {
  public:
   Replacement(MeshData& mesh, AdjustCache& cache, const ReplaceOptions& options)
-      : mesh_(mesh), triangulation_(mesh.triangulation), cache_(cache), options_(options) {}
+      : mesh_(mesh),
+        triangulation_(mesh.triangulation),
+        cache_(cache),
+        options_(options),
+        stuck_(&mesh.arena),
+        moved_(&mesh.arena) {}
 
-  void run() {
+  // The vertices that are at other places than before, but are the same.
+  List<VertexId> run() {
+    triangulation_.remove(vertices_inside(mesh_, regions()));
+    list_kept();
+    dissolve_steiner();
+    relocate();
     restore_delaunay();
-    const List<VertexId> inside = vertices_inside(mesh_, regions());
-    release_boundary();
-    triangulation_.remove(inside);
-    List<std::uint32_t> loose(&mesh_.arena);
-    triangulation_.remove(take_lost(loose));
-    insert_new();
-    for (const std::size_t loop : cache_.loops) mesh_.orient_loop(loop);
-    recover(loose);
-    relabel_touched(mesh_);
+    if (!stuck_.empty()) reinsert();
     for (std::size_t i = 0; i < cache_.non_steiner && !options_.renewing; ++i)
       if (lost(i)) set_length_scale(cache_.moving[i].boundary);
+    return std::move(moved_);
   }
 
  private:
   bool lost(std::size_t i) const { return !cache_.accepted[i]; }
   const AdjustCache::Moving& moving(std::size_t i) const { return cache_.moving[i]; }
 
+  bool changes_place(std::size_t i) const { return !(cache_.new_points[i] == cache_.old_points[i]); }
+
+  void list_kept() {
+    for (std::size_t i = 0; i < cache_.moving.size(); ++i)
+      if (!lost(i) && changes_place(i)) moved_.push_back(moving(i).vertex);
+  }
+
+  void dissolve_steiner() {
+    for (std::size_t i = cache_.non_steiner; i < cache_.moving.size(); ++i) {
+      if (!lost(i)) continue;
+      if (triangulation_.unsplit(moving(i).vertex))
+        mesh_.remove_boundary_vertex(moving(i).boundary);
+      else
+        stuck_.push_back(i);
+    }
+  }
+
+  void relocate() {
+    for (std::size_t i = 0; i < cache_.non_steiner; ++i) {
+      if (!lost(i)) continue;
+      if (!options_.renewing) mesh_.boundary.edit(moving(i).boundary).scale_factor = 1.0;
+      const VertexId v = moving(i).vertex;
+      if (!may_relocate(v, cache_.new_points[i])) {
+        stuck_.push_back(i);
+        continue;
+      }
+      triangulation_.move(v, cache_.new_points[i], cache_.new_scales[i]);
+      if (changes_place(i)) moved_.push_back(v);
+    }
+  }
+
+  // Whether all triangles at the vertex stay counter-clockwise.
+  bool may_relocate(VertexId v, Point p) const {
+    const Corner first = triangulation_.star(v);
+    Corner c = first;
+    do {
+      const VertexId a = triangulation_.following(c), b = triangulation_.preceding(c);
+      if (a == infinite_vertex || b == infinite_vertex) return false;
+      if (orient2d(p, triangulation_.point(a), triangulation_.point(b)) <= 0) return false;
+      c = triangulation_.counterclockwise(c);
+    } while (c.triangle != first.triangle);
+    return true;
+  }
+
   // What the paper omits: a partial adjustment leaves edges that are not Delaunay, since vertices moved for
-  // which the triangles are good only once their neighbours have moved too. In holes every move does.
+  // which the triangles are good only once their neighbours have moved too. In holes every move does, and so
+  // does relocation.
   //
   // A triangle of the domain without a lost vertex is where adjust_all() evaluated it, and good there:
-  // nothing needs to look at it again, and its edges need a look from its lost neighbours only. The others
-  // are gone soon, or in holes.
+  // nothing needs to look at it again, and its edges need a look from its lost neighbours only.
   void restore_delaunay() {
-    for (std::size_t i = 0; i < cache_.moving.size(); ++i)
-      for (std::size_t s = moving(i).star_begin; lost(i) && s < moving(i).star_end; ++s)
-        cache_.affected[cache_.stars[s]].kept = false;
     List<TriangleId> uncertain(&mesh_.arena);
+    mesh_.marks.clear(triangulation_.triangle_slots());
+    const auto add = [&](TriangleId t) {
+      if (!mesh_.marks.visit(t.index)) return false;
+      uncertain.push_back(t);
+      return true;
+    };
+    for (std::size_t i = 0; i < cache_.non_steiner; ++i)
+      if (lost(i))
+        triangulation_.for_each_corner(moving(i).vertex, [&](Corner c) {
+          if (!triangulation_[c.triangle].ghost() && add(c.triangle)) {
+            triangulation_.refresh_circle(c.triangle);
+            triangulation_.set_birth(c.triangle, mesh_.step + 1);
+          }
+        });
     for (const AdjustCache::Affected& a : cache_.affected) {
-      const bool known = a.domain && a.kept;
-      const std::uint32_t birth = a.moved ? mesh_.step + 1 : triangulation_[a.triangle].birth;
-      if (!known) uncertain.push_back(a.triangle);
-      if (!known || a.moved)
+      const Triangle& t = triangulation_[a.triangle];
+      if (!std::ranges::equal(t.vertex, a.vertex) || mesh_.marks.visited(a.triangle.index)) continue;
+      if (!a.domain) add(a.triangle);
+      if (!a.domain || a.moved)
         triangulation_.set_moved(
-            a.triangle, known ? a.circle : triangulation_.circle_of(a.vertex[0], a.vertex[1], a.vertex[2]),
-            birth);
+            a.triangle, a.domain ? a.circle : triangulation_.circle_of(a.vertex[0], a.vertex[1], a.vertex[2]),
+            a.moved ? mesh_.step + 1 : t.birth);
     }
+    for (const TriangleId t : triangulation_.touched())
+      if (triangulation_[t].alive() && !triangulation_[t].ghost()) add(t);
     triangulation_.restore_delaunay(uncertain);
+  }
+
+  // Those that are stuck: what is left of the paper's way. Boundary edges are torn, so regions are found
+  // anew.
+  void reinsert() {
+    triangulation_.set_step(torn);
+    release_boundary();
+    List<std::uint32_t> loose(&mesh_.arena);
+    triangulation_.remove(take_stuck(loose));
+    insert_new();
+    for (const std::size_t loop : cache_.loops) mesh_.orient_loop(loop);
+    recover(loose);
+    relabel(mesh_, made_since_torn());
   }
 
   // One region for each lost pair, about the outermost of the two: the one farther into the domain. Where the
@@ -90,9 +170,20 @@ class Replacement {
     return result;
   }
 
+  // Their birth, which is the step's from now on, has told them apart.
+  List<TriangleId> made_since_torn() {
+    triangulation_.set_step(mesh_.step + 1);
+    List<TriangleId> result(&mesh_.arena);
+    for (const TriangleId t : triangulation_.touched()) {
+      if (!triangulation_[t].alive() || triangulation_[t].birth != torn) continue;
+      triangulation_.set_birth(t, mesh_.step + 1);
+      result.push_back(t);
+    }
+    return result;
+  }
+
   void release_boundary() {
-    for (std::size_t i = 0; i < cache_.moving.size(); ++i) {
-      if (!lost(i)) continue;
+    for (const std::size_t i : stuck_) {
       const BoundaryVertex& v = mesh_.at(moving(i).boundary);
       for (const std::uint32_t neighbour : {v.previous, v.next}) {
         if (neighbour == no_index) continue;
@@ -103,12 +194,11 @@ class Replacement {
     }
   }
 
-  // The lost vertices leave the boundary table. The entries of which boundary edges are missing then are
-  // `loose`, some of them twice; Steiner vertices among them may be lost too.
-  List<VertexId> take_lost(List<std::uint32_t>& loose) {
+  // The stuck vertices leave the boundary table. The entries of which boundary edges are missing then are
+  // `loose`, some of them twice; Steiner vertices among them may be stuck too.
+  List<VertexId> take_stuck(List<std::uint32_t>& loose) {
     List<VertexId> going(&mesh_.arena);
-    for (std::size_t i = 0; i < cache_.moving.size(); ++i) {
-      if (!lost(i)) continue;
+    for (const std::size_t i : stuck_) {
       const std::uint32_t k = moving(i).boundary;
       going.push_back(mesh_.at(k).vertex);
       for (const std::uint32_t from : {mesh_.at(k).previous, k})
@@ -122,15 +212,14 @@ class Replacement {
   }
 
   void insert_new() {
-    for (std::size_t i = 0; i < cache_.non_steiner; ++i) {
-      if (!lost(i)) continue;
+    for (const std::size_t i : stuck_) {
+      if (i >= cache_.non_steiner) continue;
       const std::uint32_t k = moving(i).boundary;
       const VertexId v = insert_boundary_point(triangulation_, cache_.new_points[i], hint_near(k));
       triangulation_.set_boundary(v, k);
       triangulation_.set_length_scale(v,
                                       cache_.new_scales[i]);  // until its neighbours are known, or for good
       mesh_.boundary.edit(k).vertex = v;
-      if (!options_.renewing) mesh_.boundary.edit(k).scale_factor = 1.0;
     }
   }
 
@@ -160,6 +249,9 @@ class Replacement {
   Triangulation& triangulation_;
   AdjustCache& cache_;
   ReplaceOptions options_;
+  static constexpr std::uint32_t torn = no_index;  // birth of triangles made while edges are missing
+  List<std::size_t> stuck_;                        // lost vertices, as positions in cache_.moving
+  List<VertexId> moved_;                           // kept and relocated ones
 };
 
 }  // namespace
@@ -171,12 +263,7 @@ List<VertexId> replace_where_needed(MeshData& mesh, AdjustCache& cache, const Do
     mesh.domain.loops[loop] = domain.loops[loop];
     mesh.loop_moved(loop);
   }
-  Replacement(mesh, cache, options).run();
-  List<VertexId> moved(&mesh.arena);
-  for (std::size_t i = 0; i < cache.moving.size(); ++i)
-    if (cache.accepted[i] && !(cache.new_points[i] == cache.old_points[i]))
-      moved.push_back(cache.moving[i].vertex);
-  return moved;
+  return Replacement(mesh, cache, options).run();
 }
 
 }  // namespace remodel

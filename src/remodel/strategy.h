@@ -40,7 +40,7 @@ void note_all_moved(MeshData& mesh);
 // measurement of K a mesh that was never remodelled is its own; otherwise a few are generated. Returns how
 // many vertices coarsening may remove, two triangles each: half of N - K S.
 std::size_t prepare_renewal(MeshData& mesh, StepObserver* observer);
-// After that replacement, in which these vertices were moved in place; before refinement.
+// After that replacement, in which these vertices changed their places; before refinement.
 RenewedSize renew_replaced(MeshData& mesh, std::span<const VertexId> moved, std::size_t budget);
 // After refinement, of each replacement.
 void finish_replacement(MeshData& mesh, const std::optional<RenewedSize>& renewed);

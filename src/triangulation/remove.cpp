@@ -224,6 +224,42 @@ void Triangulation::remove(VertexId v) {
   fill(hole_, {&v, 1}, cut(hole_));
 }
 
+// The triangles at the vertex of `first`, from its edge to the following vertex, a constrained one, to the
+// next constrained edge. The last edge of the polygon joins the ends of the two. Returns the corner after
+// these.
+Corner Triangulation::collect_side(Corner first, Hole& side) const {
+  side.clear();
+  Corner c = first;
+  for (bool last = false; !last; c = counterclockwise(c)) {
+    for (const VertexId v : {following(c), preceding(c)}) side.ghost |= v == infinite_vertex;
+    side.polygon.push_back({following(c), link(c), point(following(c))});
+    side.slots.push_back(c.triangle);
+    last = link({c.triangle, next3(c.index)}).constrained();
+    if (last) side.polygon.push_back({preceding(c), Link{}, point(preceding(c))});
+  }
+  return c;
+}
+
+bool Triangulation::unsplit(VertexId v) {
+  Corner first = star(v);
+  while (!link({first.triangle, previous3(first.index)}).constrained()) first = counterclockwise(first);
+  Hole &left = hole_, &right = other_hole_;
+  if (collect_side(collect_side(first, left), right).triangle != first.triangle) return false;
+  for (Hole* side : {&left, &right})
+    if (side->slots.size() < 2 || !cut(*side)) return false;
+  const Region regions[] = {triangles_[left.slots[0].index].region, triangles_[right.slots[0].index].region};
+  for (Hole* side : {&left, &right}) {
+    free_triangle(side->slots[side->slots.size() - 1]);
+    Hole& other = side == &left ? right : left;
+    side->polygon[side->polygon.size() - 1].outer = Link(other.slots[0], 1, true);
+  }
+  free_vertex(v);
+  write_pieces(left, regions[0]);
+  write_pieces(right, regions[1]);
+  for (const Hole* side : {&left, &right}) restore_delaunay({side->slots.begin(), side->slots.size() - 1});
+  return true;
+}
+
 // The triangles at the vertices of a patch, which grows from `seed` by neighbours that wait to be removed.
 // They are marked.
 void Triangulation::grow_patch(VertexId seed, std::size_t size, Hole& hole) {

@@ -143,6 +143,10 @@ class Triangulation {
   // must lie in one of the two triangles next to it, and not on a vertex: otherwise nothing is changed and
   // there is no result.
   std::optional<VertexId> split(Corner edge, Point p);
+  // The inverse of split(): removes a vertex at which two constrained edges end, a-v and v-b, and no third,
+  // and constrains a-b in their place; the regions stay on their sides. False, and nothing is changed, where
+  // a-b does not cut v's star in two, and at the hull.
+  bool unsplit(VertexId v);
   // Inserts p; a vertex that is already at p is returned instead. A constrained edge that p lies on is split.
   struct Inserted {
     VertexId vertex;
@@ -334,6 +338,7 @@ class Triangulation {
     void clear();
   };
   void collect_star(VertexId v, Hole& hole) const;
+  Corner collect_side(Corner first, Hole& side) const;
   void grow_patch(VertexId seed, std::size_t size, Hole& hole);
   bool collect_border(Hole& hole);
   std::size_t find_apex(const Hole& hole, std::size_t i, std::size_t j, Circle& circle) const;
@@ -388,7 +393,7 @@ class Triangulation {
   static constexpr std::uint8_t in_hole = 255;
   static constexpr std::size_t largest_patch = 64;
   enum class Removal : std::uint8_t { none, waiting, taken };
-  Hole hole_;
+  Hole hole_, other_hole_;                // the second: the other side of unsplit()
   std::vector<Removal> removal_;          // of each vertex slot; none between two calls
   std::vector<std::uint32_t> edge_from_;  // border edge that begins at a vertex
   Spokes spokes_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <random>
 #include <set>
 
@@ -426,6 +427,114 @@ TEST(Regions, AreThoseOfTheSurroundingsAfterInsertionAndRemoval) {
     }
     ASSERT_NO_FATAL_FAILURE(expect_regions()) << "step " << step;
   }
+}
+
+// A random polygon that is star-shaped about the middle of the unit square, constrained among random points;
+// the domain is inside.
+struct PolygonAmongPoints {
+  explicit PolygonAmongPoints(std::mt19937_64& random) {
+    triangulation.start({0, 0}, {1, 0}, {1, 1});
+    triangulation.insert({0, 1}, any_triangle(triangulation));
+    const auto uniform = [&](double low, double high) {
+      return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+    };
+    const std::size_t corners = 6 + random() % 30;
+    for (std::size_t i = 0; i < corners; ++i) {
+      const double angle = 6.283 * static_cast<double>(i) / static_cast<double>(corners);
+      const double radius = uniform(0.3, 0.36);
+      polygon.push_back(insert({0.5 + radius * std::cos(angle), 0.5 + radius * std::sin(angle)}));
+    }
+    for (std::size_t i = 0; i < corners; ++i)
+      constrained &=
+          triangulation.constrain(polygon[i], polygon[(i + 1) % corners]).kind == ConstrainResult::Kind::done;
+    for (std::size_t i = random() % 200; i > 0; --i) insert({uniform(0.0, 1.0), uniform(0.0, 1.0)});
+    for (std::uint32_t i = 0; i < triangulation.triangle_slots(); ++i)
+      triangulation.set_region(TriangleId{i}, region_of(triangulation[TriangleId{i}]));
+  }
+  VertexId insert(Point p) { return triangulation.insert(p, any_triangle(triangulation)).vertex; }
+  Region region_of(const Triangle& t) const {
+    if (!t.alive() || t.ghost()) return Region::outside;
+    Point p{0, 0};
+    for (const VertexId v : t.vertex) p = p + (1.0 / 3.0) * triangulation.point(v);
+    bool inside = false;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Point a = triangulation.point(polygon[i]),
+                  b = triangulation.point(polygon[(i + 1) % polygon.size()]);
+      if ((a.y > p.y) != (b.y > p.y)) inside ^= (cross(b - a, p - a) > 0.0) == (b.y > a.y);
+    }
+    return inside ? Region::domain : Region::outside;
+  }
+  // The same vertices and polygon, put together from nothing.
+  std::set<Triple> rebuilt() const {
+    Triangulation t;
+    t.start({0, 0}, {1, 0}, {1, 1});
+    for (std::uint32_t i = 1; i < triangulation.vertex_slots(); ++i)
+      if (const Vertex& v = triangulation[VertexId{i}]; v.alive()) t.insert(v.point, any_triangle(t));
+    const auto copy_of = [&](VertexId v) { return t.insert(triangulation.point(v), any_triangle(t)).vertex; };
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+      t.constrain(copy_of(polygon[i]), copy_of(polygon[(i + 1) % polygon.size()]));
+    return triangle_set(t);
+  }
+
+  Triangulation triangulation;
+  std::vector<VertexId> polygon;
+  bool constrained = true;
+};
+
+TEST(Unsplitting, LeavesTheConstrainedTriangulationOfTheOthersWithRegionsOnTheirSides) {
+  const auto seed = test::seed(67);
+  SCOPED_TRACE("REMODEL_TEST_SEED=" + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  int done = 0, refused = 0;
+  for (int round = 0; round < 60; ++round) {
+    PolygonAmongPoints made(random);
+    if (!made.constrained) continue;
+    Triangulation& t = made.triangulation;
+    for (int step = 0; step < 20 && made.polygon.size() > 4; ++step) {
+      const auto place = made.polygon.begin() + static_cast<std::ptrdiff_t>(random() % made.polygon.size());
+      const std::set<Triple> before = triangle_set(t);
+      const bool back = random() % 2 == 0;
+      if (back) t.begin();
+      const std::vector<VertexId> polygon = made.polygon;
+      if (t.unsplit(*place)) {
+        ++done;
+        EXPECT_FALSE(t[*place].alive());
+        made.polygon.erase(place);
+        EXPECT_EQ(triangle_set(t), made.rebuilt());
+        for (std::uint32_t i = 0; i < t.triangle_slots(); ++i)
+          ASSERT_EQ(t[TriangleId{i}].alive() ? t[TriangleId{i}].region : Region::outside,
+                    made.region_of(t[TriangleId{i}]));
+      } else {
+        ++refused;
+        EXPECT_EQ(triangle_set(t), before);
+      }
+      ASSERT_EQ(t.check(), "") << "round " << round << " step " << step;
+      if (!back) continue;
+      t.rollback();
+      made.polygon = polygon;
+      EXPECT_EQ(triangle_set(t), before);
+      ASSERT_EQ(t.check(), "");
+    }
+  }
+  EXPECT_GT(done, 100);
+  EXPECT_GT(refused, 20);
+}
+
+TEST(Unsplitting, IsRefusedAtTheHullAndWhereThreeConstrainedEdgesMeet) {
+  Triangulation t;
+  t.start({0, 0}, {4, 0}, {4, 4});
+  const VertexId a = t.insert({0, 0}, any_triangle(t)).vertex, b = t.insert({4, 0}, any_triangle(t)).vertex,
+                 c = t.insert({4, 4}, any_triangle(t)).vertex, d = t.insert({0, 4}, any_triangle(t)).vertex,
+                 m = t.insert({2, 1}, any_triangle(t)).vertex;
+  t.insert({2, 3}, any_triangle(t));
+  for (const VertexId v : {a, b}) t.constrain(v, m);
+  t.constrain(a, d);
+  EXPECT_FALSE(t.unsplit(a));
+  t.constrain(m, c);
+  EXPECT_FALSE(t.unsplit(m));
+  t.release(m, c);
+  EXPECT_FALSE(t.unsplit(m)) << "a-b is there already";
+  EXPECT_EQ(t.check(), "");
 }
 
 TEST(Constraints, AreRefusedWhereTheyCrossAnotherOrPassThroughAVertex) {

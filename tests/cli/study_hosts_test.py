@@ -16,7 +16,7 @@ from study_test import RankTest
 HOSTS = 3
 # Two core seconds.
 STUDY = (
-    "--pairs", "50/1,100/2", "--sigmas", "0.05,0.25", "--distances", "1", "--evaluations", 200, "--scenarios", 2,
+    "--pairs", "50/1,100/2", "--sigmas", "0.05,0.25", "--distances", "1", "--evaluations", 1000, "--scenarios", 2,
     "--compare-every", 20,
 )  # fmt: skip
 # Starts mpirun's daemon on the host with the address, as `ssh address command` would.
