@@ -31,6 +31,7 @@ class Relabelling {
     flood();
     for (const TriangleId t : uncertain_) seed_from_neighbours(t);
     for (const TriangleId t : uncertain_) require_agreement(t);
+    for (const TriangleId t : relabelled_) require_agreement(t);
   }
 
   // Interior vertices of the triangles that are outside the domain now.

@@ -6,7 +6,8 @@
 
 namespace remodel {
 
-// Under a journal, after all boundary edges were recovered: labels the given triangles, and any other whose
+// Under a journal, after all boundary edges were recovered, all other triangles being labelled as they were
+// before these edges were torn: labels the given triangles, and any other whose
 // label changes, by the sides of the boundary edges (RecoveryError if these contradict each other); then
 // removes interior vertices outside the domain. Cost proportional to what is given and what changes its side.
 void relabel(MeshData& mesh, std::span<const TriangleId> uncertain);

@@ -85,8 +85,8 @@ AdjustCache& adjust_cache(MeshData& mesh, std::span<const std::size_t> moving_lo
 // unchanged, and the cache says which triangles are not good. Needs no journal: outside of one nothing throws
 // once the mesh is touched. Under one, an exception leaves the mesh to rollback().
 //
-// In holes triangles need only stay counter-clockwise, and their circles are not kept up: whoever changes
-// connectivity there refreshes them first.
+// In holes triangles need only stay counter-clockwise, and their circles are not kept up: whoever looks at
+// one there refreshes it first.
 //
 // Departure from the paper: the intermediate states of a vertex-by-vertex adjustment are not tested here, as
 // the final state alone is kept. The test is the same for every triangle with one moving vertex.

@@ -23,10 +23,9 @@ class Coarsening {
   std::size_t run(std::span<const VertexId> around, std::size_t budget) {
     std::size_t removed = 0;
     list_candidates(around);
-    mesh_.vertex_marks.clear(triangulation_.vertex_slots());
     for (const auto& [ratio, v] : candidates_) {
       if (removed == budget) break;
-      if (!mesh_.vertex_marks.visit(v.index) || !can_go(v)) continue;
+      if (!can_go(v)) continue;
       triangulation_.remove(v);
       ++removed;
     }
@@ -34,10 +33,12 @@ class Coarsening {
   }
 
  private:
-  // The interior vertices of triangles that are much smaller than they may be, the smallest first; ids break
-  // ties.
+  // The interior vertices of triangles that are much smaller than they may be, those of the smallest first;
+  // ids break ties. mesh.numbers holds a listed vertex' place in the list.
   void list_candidates(std::span<const VertexId> around) {
     mesh_.marks.clear(triangulation_.triangle_slots());
+    mesh_.vertex_marks.clear(triangulation_.vertex_slots());
+    mesh_.numbers.resize(std::max(mesh_.numbers.size(), triangulation_.vertex_slots()));
     for (const TriangleId t : triangulation_.touched()) add_vertices(t);
     for (const VertexId v : around)
       triangulation_.for_each_corner(v, [&](Corner c) { add_vertices(c.triangle); });
@@ -49,8 +50,16 @@ class Coarsening {
     if (!triangle.alive() || triangle.region != Region::domain || !mesh_.marks.visit(t.index)) return;
     const double ratio = squared_ratio(triangle);
     if (ratio > small) return;
-    for (const VertexId v : triangle.vertex)
-      if (triangulation_[v].boundary == no_index) candidates_.emplace_back(ratio, v);
+    for (const VertexId v : triangle.vertex) {
+      if (triangulation_[v].boundary != no_index) continue;
+      std::uint32_t& place = mesh_.numbers[v.index];
+      if (mesh_.vertex_marks.visit(v.index)) {
+        place = static_cast<std::uint32_t>(candidates_.size());
+        candidates_.emplace_back(ratio, v);
+      } else {
+        candidates_[place].first = std::min(candidates_[place].first, ratio);
+      }
+    }
   }
 
   // (r / (H mean LS))^2

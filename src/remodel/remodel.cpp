@@ -60,6 +60,7 @@ class Transaction {
   ~Transaction() {
     if (committed_) return;
     mesh_.triangulation.rollback();
+    mesh_.triangulation.set_step(step_);
     mesh_.boundary.rollback();
     mesh_.loop_heads.swap(backup_.loop_heads);
     mesh_.sides.swap(backup_.sides);
@@ -249,7 +250,8 @@ bool cancelled(StepObserver* observer) {
 }
 
 // Refinement of what was touched. A refinement that needs several times the old mesh is running away.
-// Triangles that still join the same vertices are kept: they need only hold what the mesh promises.
+// Triangles that still join the same vertices, at their old places or others, are kept: they need only hold
+// what the mesh promises.
 Stopped refine_touched(MeshData& mesh, StepObserver* observer) {
   const Triangulation& triangulation = mesh.triangulation;
   Refiner refiner(mesh, observer);
@@ -370,8 +372,8 @@ void require_possible(const Mesh& mesh, const RemodelOptions& options, bool one_
                 "a trial of another design is under way, expected it to be kept or ended");
 }
 
-// The specialised method removes lost vertices before it inserts new ones: a loop that stays has to hold the
-// mesh meanwhile.
+// The specialised method removes stuck vertices before it inserts them anew: a loop that stays has to hold
+// the mesh meanwhile.
 bool keeps_a_loop(const MeshData& mesh, const AdjustCache& cache) {
   std::size_t closed = 0;
   for (const Loop& loop : mesh.domain.loops) closed += loop.open ? 0 : 1;

@@ -325,7 +325,7 @@ TEST(RefusedDesigns, LeaveTheMeshIdentical) {
   Domain bad = catalogue_domain(4, 50);
   std::get<Arc>(bad.loops[1].curves[0].shape).radius = 0.6;
   std::get<Arc>(bad.loops[1].curves[0].shape).centre = {3.0, 0.0};
-  refuse(bad, {}, ErrorCode::geometry);
+  for (const double distance : {0.0, 0.3, 1.0}) refuse(bad, {.distance = distance}, ErrorCode::geometry);
   EXPECT_EQ(step(mesh, catalogue_domain(5, 50)).stopped, Stopped::done);
 }
 
@@ -396,6 +396,52 @@ TEST(RandomWalks, OfManyKindsAreValidAtEveryStep) {
   }
   EXPECT_GT(partial, steps / 5);
   EXPECT_LT(regenerated, steps / 100);
+}
+
+// Few stations, so that refinement splits edges; loops on both sides of a hole, and next to each other
+// outside. Any of them move, little or much.
+TEST(RandomWalks, OfOuterBoundariesAndIslandsAreValidAtEveryStep) {
+  const auto seed = test::seed(5);
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  int partial = 0, regenerated = 0, steps = 0;
+  for (unsigned long long round = 0; round < 120; ++round) {
+    std::mt19937_64 random(seed + round);
+    const auto uniform = [&](double low, double high) {
+      return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+    };
+    std::vector<std::vector<Point>> corners = {{{0, 0}, {10, 0}, {11, 9}, {1, 10}},
+                                               {{3, 3}, {7, 3}, {7, 7}, {3, 7}},
+                                               {{4.3, 4.3}, {5.7, 4.3}, {5, 5.9}},
+                                               {{14, 1}, {19, 4}, {14, 8}}};
+    const std::size_t pieces = 1 + random() % 3;
+    const auto domain = [&] {
+      const LoopRole roles[] = {LoopRole::outer, LoopRole::hole, LoopRole::outer, LoopRole::outer};
+      Domain result;
+      for (std::size_t i = 0; i < corners.size(); ++i)
+        result.loops.push_back(test::polygon(roles[i], "loop" + std::to_string(i), corners[i], pieces));
+      return result;
+    };
+    Mesh mesh = generated(domain(), std::array{1.0, 4.0}[random() % 2]);
+    const RemodelOptions options{.distance = std::array{0.0, 0.3, 1.0}[random() % 3],
+                                 .strategy = random() % 2 == 0 ? Strategy::chain : Strategy::renew};
+    for (int k = 0; k < 12; ++k, ++steps) {
+      const double size = std::array{0.001, 0.05, 0.4}[random() % 3];
+      for (std::vector<Point>& loop : corners)
+        if (random() % 2 == 0)
+          for (Point& p : loop) p = p + Point{uniform(-size, size), uniform(-size, size)};
+      RemodelResult result;
+      try {
+        result = remodel(mesh, domain(), options);
+      } catch (const Error&) {
+        break;  // loops cross or touch by now
+      }
+      ASSERT_EQ(mesh.quick_check(), "") << "round " << round << ", step " << k;
+      regenerated += result.regenerated ? 1 : 0;
+      partial += !result.full_adjustment && result.moved > 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(partial, steps / 3);
+  EXPECT_LT(regenerated, steps / 50);
 }
 
 TEST(AMeshThatWasSaved, GoesOnToTheSameStateAsOneThatNeverLeftMemory) {

@@ -137,8 +137,8 @@ TriangleId start_of(const Triangulation& triangulation, const RemovalRegion& reg
   return ghost.link[infinite_corner(ghost)].triangle();
 }
 
-// An edge on the way into the triangle behind it, its ends as seen from there.
-struct Crossing {
+// An edge on the way into the triangle behind it, and whether its ends, as seen from there, are inside.
+struct Entry {
   Link link;
   bool from_inside, to_inside;
 };
@@ -147,7 +147,7 @@ struct Crossing {
 // ahead.
 class Search {
  public:
-  Search(MeshData& mesh, std::span<const RemovalRegion> regions, List<Crossing>& todo, List<VertexId>& found)
+  Search(MeshData& mesh, std::span<const RemovalRegion> regions, List<Entry>& todo, List<VertexId>& found)
       : mesh_(mesh), triangulation_(mesh.triangulation), discs_(regions), todo_(todo), found_(found) {
     mesh_.marks.clear(triangulation_.triangle_slots());
     mesh_.vertex_marks.clear(triangulation_.vertex_slots());
@@ -156,11 +156,11 @@ class Search {
       if (!mesh_.marks.visit(t.index)) continue;
       bool is_inside[3];
       for (int i = 0; i < 3; ++i) is_inside[i] = inside(triangulation_[t].vertex[i]);
-      for (const int i : {0, 1, 2}) visit(triangulation_[t], i, is_inside[next3(i)], is_inside[previous3(i)]);
+      for (int i = 0; i < 3; ++i) visit(triangulation_[t], i, is_inside[next3(i)], is_inside[previous3(i)]);
     }
     for (std::size_t k = 0; k < todo_.size(); ++k) {
       if (k + look_ahead < todo_.size()) prefetch_behind(todo_[k + look_ahead].link);
-      pass_on(Crossing(todo_[k]));
+      pass_on(Entry(todo_[k]));  // a copy: the list grows
     }
     todo_.clear();
   }
@@ -199,19 +199,19 @@ class Search {
     todo_.push_back({t.link[i], to_inside, from_inside});
   }
 
-  void pass_on(const Crossing& crossing) {
-    const Triangle& t = triangulation_[crossing.link.triangle()];
-    const int i = crossing.link.corner();
+  void pass_on(const Entry& entry) {
+    const Triangle& t = triangulation_[entry.link.triangle()];
+    const int i = entry.link.corner();
     if (t.vertex[i] == infinite_vertex) return;
     const bool apex_inside = inside(t.vertex[i]);
-    visit(t, next3(i), crossing.to_inside, apex_inside);
-    visit(t, previous3(i), apex_inside, crossing.from_inside);
+    visit(t, next3(i), entry.to_inside, apex_inside);
+    visit(t, previous3(i), apex_inside, entry.from_inside);
   }
 
   MeshData& mesh_;
   const Triangulation& triangulation_;
   Discs discs_;
-  List<Crossing>& todo_;  // empty before and after
+  List<Entry>& todo_;  // empty before and after
   List<VertexId>& found_;
 };
 
@@ -231,7 +231,7 @@ std::size_t end_of_group(std::span<const RemovalRegion> regions, std::size_t beg
 
 List<VertexId> vertices_inside(MeshData& mesh, std::span<const RemovalRegion> regions) {
   List<VertexId> found(&mesh.arena);
-  List<Crossing> todo(&mesh.arena);
+  List<Entry> todo(&mesh.arena);
   mesh.numbers.resize(std::max(mesh.triangulation.triangle_slots(), mesh.triangulation.vertex_slots()));
   for (std::size_t begin = 0, end = 0; begin < regions.size(); begin = end) {
     end = end_of_group(regions, begin);

@@ -69,7 +69,6 @@ class Replacement {
   void relocate() {
     for (std::size_t i = 0; i < cache_.non_steiner; ++i) {
       if (!lost(i)) continue;
-      if (!options_.renewing) mesh_.boundary.edit(moving(i).boundary).scale_factor = 1.0;
       const VertexId v = moving(i).vertex;
       if (!may_relocate(v, cache_.new_points[i])) {
         stuck_.push_back(i);
@@ -97,8 +96,9 @@ class Replacement {
   // which the triangles are good only once their neighbours have moved too. In holes every move does, and so
   // does relocation.
   //
-  // A triangle of the domain without a lost vertex is where adjust_all() evaluated it, and good there:
-  // nothing needs to look at it again, and its edges need a look from its lost neighbours only.
+  // A triangle of the domain without a lost vertex is where adjust_all() evaluated it, and good there: its
+  // edges need a look from the other side only, if that is not of this kind too. What removal touched is
+  // looked at as well: it was left as Delaunay as what was around it.
   void restore_delaunay() {
     List<TriangleId> uncertain(&mesh_.arena);
     mesh_.marks.clear(triangulation_.triangle_slots());
@@ -107,31 +107,36 @@ class Replacement {
       uncertain.push_back(t);
       return true;
     };
-    for (std::size_t i = 0; i < cache_.non_steiner; ++i)
-      if (lost(i))
+    for (std::size_t i = 0; i < cache_.moving.size(); ++i)
+      if (lost(i) && triangulation_[moving(i).vertex].alive())
         triangulation_.for_each_corner(moving(i).vertex, [&](Corner c) {
-          if (!triangulation_[c.triangle].ghost() && add(c.triangle)) {
+          if (!triangulation_[c.triangle].ghost() && add(c.triangle))
             triangulation_.refresh_circle(c.triangle);
-            triangulation_.set_birth(c.triangle, mesh_.step + 1);
-          }
         });
     for (const AdjustCache::Affected& a : cache_.affected) {
       const Triangle& t = triangulation_[a.triangle];
-      if (!std::ranges::equal(t.vertex, a.vertex) || mesh_.marks.visited(a.triangle.index)) continue;
+      if (!std::ranges::equal(t.vertex, a.vertex)) continue;
+      if (mesh_.marks.visited(a.triangle.index)) {
+        if (a.moved) triangulation_.set_birth(a.triangle, mesh_.step + 1);
+        continue;
+      }
       if (!a.domain) add(a.triangle);
       if (!a.domain || a.moved)
         triangulation_.set_moved(
             a.triangle, a.domain ? a.circle : triangulation_.circle_of(a.vertex[0], a.vertex[1], a.vertex[2]),
             a.moved ? mesh_.step + 1 : t.birth);
     }
-    for (const TriangleId t : triangulation_.touched())
-      if (triangulation_[t].alive() && !triangulation_[t].ghost()) add(t);
+    for (const TriangleId t : triangulation_.touched()) {
+      if (!triangulation_[t].alive() || triangulation_[t].ghost() || !add(t)) continue;
+      if (triangulation_[t].region != Region::domain) triangulation_.refresh_circle(t);  // of another loop
+    }
     triangulation_.restore_delaunay(uncertain);
   }
 
   // Those that are stuck: what is left of the paper's way. Boundary edges are torn, so regions are found
   // anew.
   void reinsert() {
+    restore_outside(mesh_, cache_.loops);
     triangulation_.set_step(torn);
     release_boundary();
     List<std::uint32_t> loose(&mesh_.arena);
@@ -195,7 +200,7 @@ class Replacement {
   }
 
   // The stuck vertices leave the boundary table. The entries of which boundary edges are missing then are
-  // `loose`, some of them twice; Steiner vertices among them may be stuck too.
+  // `loose`, some of them twice; entries among them may leave later.
   List<VertexId> take_stuck(List<std::uint32_t>& loose) {
     List<VertexId> going(&mesh_.arena);
     for (const std::size_t i : stuck_) {

@@ -14,16 +14,12 @@ namespace {
 
 constexpr double small_gradation = 2.0;
 constexpr int samples_on_the_way = 5;  // for a mesh of unknown history: K within about 2 %
+constexpr std::uint32_t replacements_between_renewals = 14;
 constexpr std::uint32_t full_adjustments_before_refresh = 25;
 constexpr std::uint64_t designs_before_sampling = 1000;  // four times as many with each one
 constexpr double tolerated_excess = 0.02;
 constexpr std::size_t samples_at_refresh = 2;    // at most
 constexpr double weight_of_refresh = 1.0 / 3.0;  // of a refresh's samples in K
-
-// Where the gradation is small, a renewal looks at most of the mesh, whatever has changed: it waits longer.
-std::uint32_t replacements_between_renewals(const MeshData& mesh) {
-  return mesh.options.gradation <= small_gradation ? 14 : 5;
-}
 
 // The vertices of the domain triangles that a step has made, for the next renewal.
 void note_touched(MeshData& mesh) {
@@ -112,7 +108,7 @@ void finish_replacement(MeshData& mesh, const std::optional<RenewedSize>& renewe
   renewal.interior_size = corrected_interior_size(mesh, renewal.interior_size, renewed);
   renewal.full_adjustments = 0;
   if (renewed) {
-    renewal.until_renewal = replacements_between_renewals(mesh);
+    renewal.until_renewal = replacements_between_renewals;
     renewal.pending_vertices.clear();
     renewal.pending_loops.clear();
   } else {

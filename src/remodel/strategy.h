@@ -6,8 +6,9 @@
 //   step:  all vertices moved in place: nothing else; after many such steps in a row K is sampled again, and
 //          a mesh whose triangle count is off is generated afresh, if that brings it nearer to K. Between two
 //          samplings are 1000 designs at least, four times as many with each one
-//          otherwise: replace, every sixth time (fifteenth for G <= 2) renew length scales and coarsen within
-//          what the count allows, refine new triangles to H and the kept ones where they exceed keep H
+//          otherwise: replace, every fifteenth time renew length scales and coarsen within
+//          what the count allows, refine new triangles to H and those of the same vertices where they
+//          exceed keep H
 
 #include <optional>
 #include <span>

@@ -10,7 +10,8 @@
 // Why this is enough. All triangles counter-clockwise, and a simple polygon as their border: then they cover
 // its inside once. They are Delaunay where nothing on the border is constrained, because all of it is in the
 // one Delaunay triangulation then. Behind a constrained edge a vertex may hide from another edge: the search
-// may get stuck, and what it finds is made Delaunay by flips.
+// may get stuck, and what it finds is made Delaunay by flips. Where the triangulation around is not Delaunay,
+// as after moves, what comes is no more Delaunay than that, and left to the caller.
 
 #include <cassert>
 
@@ -244,7 +245,9 @@ bool Triangulation::unsplit(VertexId v) {
   Corner first = star(v);
   while (!link({first.triangle, previous3(first.index)}).constrained()) first = counterclockwise(first);
   Hole &left = hole_, &right = other_hole_;
-  if (collect_side(collect_side(first, left), right).triangle != first.triangle) return false;
+  const Corner second = collect_side(first, left);
+  assert(second.triangle != first.triangle);
+  if (collect_side(second, right).triangle != first.triangle) return false;
   for (Hole* side : {&left, &right})
     if (side->slots.size() < 2 || !cut(*side)) return false;
   const Region regions[] = {triangles_[left.slots[0].index].region, triangles_[right.slots[0].index].region};

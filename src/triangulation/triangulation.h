@@ -9,7 +9,8 @@
 //      sphere.
 //  (3) Every unconstrained edge is locally Delaunay under incircle_sos: the triangulation is the unique
 //      constrained Delaunay triangulation of its vertices and constraints. Callers that move vertices restore
-//      it with restore_delaunay() before they insert or remove.
+//      it with restore_delaunay() before they insert. They may remove and unsplit before: that needs (1), (2)
+//      and (4) only, promises no more, and what it made has to be restored too.
 //  (4) Every vertex's star is a triangle that has it.
 //
 // Changes between begin() and commit() are journalled: rollback() takes them back in time proportional to
@@ -143,9 +144,10 @@ class Triangulation {
   // must lie in one of the two triangles next to it, and not on a vertex: otherwise nothing is changed and
   // there is no result.
   std::optional<VertexId> split(Corner edge, Point p);
-  // The inverse of split(): removes a vertex at which two constrained edges end, a-v and v-b, and no third,
-  // and constrains a-b in their place; the regions stay on their sides. False, and nothing is changed, where
-  // a-b does not cut v's star in two, and at the hull.
+  // The inverse of split(): removes a vertex at which two constrained edges end, a-v and v-b, and constrains
+  // a-b in their place; the regions stay on their sides. False, and nothing is changed, where a-b does not
+  // cut v's star into two polygons, where a third constrained edge ends at v, and at the hull. Precondition:
+  // two end there at least.
   bool unsplit(VertexId v);
   // Inserts p; a vertex that is already at p is returned instead. A constrained edge that p lies on is split.
   struct Inserted {
@@ -389,11 +391,12 @@ class Triangulation {
   std::size_t vertex_slots_before_ = 0, triangle_slots_before_ = 0, live_vertices_before_ = 0;
   std::uint32_t inserted_ = 0, removed_ = 0;
 
-  // Scratch of remove(). The marks of triangles in a hole are in `badness`, which nobody else uses meanwhile.
+  // Scratch of remove() and unsplit(). The marks of triangles in a hole are in `badness`, which nobody else
+  // uses meanwhile.
   static constexpr std::uint8_t in_hole = 255;
   static constexpr std::size_t largest_patch = 64;
   enum class Removal : std::uint8_t { none, waiting, taken };
-  Hole hole_, other_hole_;                // the second: the other side of unsplit()
+  Hole hole_, other_hole_;                // the second: of the other side of a vertex that is unsplit
   std::vector<Removal> removal_;          // of each vertex slot; none between two calls
   std::vector<std::uint32_t> edge_from_;  // border edge that begins at a vertex
   Spokes spokes_;
