@@ -138,7 +138,7 @@ TriangleId start_of(const Triangulation& triangulation, const RemovalRegion& reg
 }
 
 // An edge on the way into the triangle behind it, and whether its ends, as seen from there, are inside.
-struct Entry {
+struct Passage {
   Link link;
   bool from_inside, to_inside;
 };
@@ -147,7 +147,7 @@ struct Entry {
 // ahead.
 class Search {
  public:
-  Search(MeshData& mesh, std::span<const RemovalRegion> regions, List<Entry>& todo, List<VertexId>& found)
+  Search(MeshData& mesh, std::span<const RemovalRegion> regions, List<Passage>& todo, List<VertexId>& found)
       : mesh_(mesh), triangulation_(mesh.triangulation), discs_(regions), todo_(todo), found_(found) {
     mesh_.marks.clear(triangulation_.triangle_slots());
     mesh_.vertex_marks.clear(triangulation_.vertex_slots());
@@ -160,7 +160,7 @@ class Search {
     }
     for (std::size_t k = 0; k < todo_.size(); ++k) {
       if (k + look_ahead < todo_.size()) prefetch_behind(todo_[k + look_ahead].link);
-      pass_on(Entry(todo_[k]));  // a copy: the list grows
+      pass_on(Passage(todo_[k]));  // a copy: the list grows
     }
     todo_.clear();
   }
@@ -199,19 +199,19 @@ class Search {
     todo_.push_back({t.link[i], to_inside, from_inside});
   }
 
-  void pass_on(const Entry& entry) {
-    const Triangle& t = triangulation_[entry.link.triangle()];
-    const int i = entry.link.corner();
+  void pass_on(const Passage& passage) {
+    const Triangle& t = triangulation_[passage.link.triangle()];
+    const int i = passage.link.corner();
     if (t.vertex[i] == infinite_vertex) return;
     const bool apex_inside = inside(t.vertex[i]);
-    visit(t, next3(i), entry.to_inside, apex_inside);
-    visit(t, previous3(i), apex_inside, entry.from_inside);
+    visit(t, next3(i), passage.to_inside, apex_inside);
+    visit(t, previous3(i), apex_inside, passage.from_inside);
   }
 
   MeshData& mesh_;
   const Triangulation& triangulation_;
   Discs discs_;
-  List<Entry>& todo_;  // empty before and after
+  List<Passage>& todo_;  // empty before and after
   List<VertexId>& found_;
 };
 
@@ -231,7 +231,7 @@ std::size_t end_of_group(std::span<const RemovalRegion> regions, std::size_t beg
 
 List<VertexId> vertices_inside(MeshData& mesh, std::span<const RemovalRegion> regions) {
   List<VertexId> found(&mesh.arena);
-  List<Entry> todo(&mesh.arena);
+  List<Passage> todo(&mesh.arena);
   mesh.numbers.resize(std::max(mesh.triangulation.triangle_slots(), mesh.triangulation.vertex_slots()));
   for (std::size_t begin = 0, end = 0; begin < regions.size(); begin = end) {
     end = end_of_group(regions, begin);

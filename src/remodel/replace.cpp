@@ -32,7 +32,7 @@ VertexId insert_boundary_point(Triangulation& triangulation, Point p, TriangleId
 
 void restore_outside(MeshData& mesh, std::span<const std::size_t> but) {
   Triangulation& triangulation = mesh.triangulation;
-  std::vector<TriangleId> outside;
+  List<TriangleId> outside(&mesh.arena);
   mesh.marks.clear(triangulation.triangle_slots());
   for (std::size_t loop = 0; loop < mesh.loop_heads.size(); ++loop) {
     if (std::ranges::binary_search(but, loop)) continue;
