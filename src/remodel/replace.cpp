@@ -30,20 +30,18 @@ VertexId insert_boundary_point(Triangulation& triangulation, Point p, TriangleId
   }
 }
 
-void restore_outside(MeshData& mesh, std::span<const std::size_t> but) {
+void restore_outside(MeshData& mesh) {
   Triangulation& triangulation = mesh.triangulation;
   List<TriangleId> outside(&mesh.arena);
   mesh.marks.clear(triangulation.triangle_slots());
-  for (std::size_t loop = 0; loop < mesh.loop_heads.size(); ++loop) {
-    if (std::ranges::binary_search(but, loop)) continue;
-    mesh.walk(mesh.loop_heads[loop], [&](std::uint32_t k) {
+  for (const std::uint32_t head : mesh.loop_heads)
+    mesh.walk(head, [&](std::uint32_t k) {
       triangulation.for_each_corner(mesh.at(k).vertex, [&](Corner c) {
         const Triangle& t = triangulation[c.triangle];
         if (t.region == Region::outside && !t.ghost() && mesh.marks.visit(c.triangle.index))
           outside.push_back(c.triangle);
       });
     });
-  }
   for (const TriangleId t : outside) triangulation.refresh_circle(t);
   triangulation.restore_delaunay(outside);
 }

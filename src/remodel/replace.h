@@ -3,7 +3,6 @@
 // Removal and replacement: what both methods share once it is known which vertices go and which come. All of
 // it runs under the triangulation's journal.
 
-#include <span>
 #include <vector>
 
 #include "generate/refine.h"
@@ -25,9 +24,9 @@ struct ReplaceOptions {
 double removal_radius(const ReplaceOptions& options, double pair_distance, Point centre, Point before,
                       Point after);
 
-// Makes the triangles outside the domain at the boundary vertices Delaunay again, which full adjustments do
-// not; not those at the given loops, in ascending order.
-void restore_outside(MeshData& mesh, std::span<const std::size_t> but = {});
+// Makes the triangles outside the domain at all boundary vertices Delaunay again, which full adjustments do
+// not.
+void restore_outside(MeshData& mesh);
 
 // Inserts a boundary point; an interior vertex that is there already gives way. Throws RecoveryError where a
 // boundary vertex is there.

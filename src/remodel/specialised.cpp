@@ -136,7 +136,7 @@ class Replacement {
   // Those that are stuck: what is left of the paper's way. Boundary edges are torn, so regions are found
   // anew.
   void reinsert() {
-    restore_outside(mesh_, cache_.loops);
+    restore_holes();
     triangulation_.set_step(torn);
     release_boundary();
     List<std::uint32_t> loose(&mesh_.arena);
@@ -144,7 +144,7 @@ class Replacement {
     insert_new();
     for (const std::size_t loop : cache_.loops) mesh_.orient_loop(loop);
     recover(loose);
-    relabel(mesh_, made_since_torn());
+    relabel(mesh_, uncertain_since_torn(loose));
   }
 
   // One region for each lost pair, about the outermost of the two: the one farther into the domain. Where the
@@ -175,14 +175,37 @@ class Replacement {
     return result;
   }
 
-  // Their birth, which is the step's from now on, has told them apart.
-  List<TriangleId> made_since_torn() {
+  // What insertion may meet in the holes at stuck vertices. Other loops there may have moved in place since.
+  void restore_holes() {
+    List<TriangleId> holes(&mesh_.arena);
+    mesh_.marks.clear(triangulation_.triangle_slots());
+    const auto visit = [&](TriangleId t) {
+      if (triangulation_[t].region == Region::outside && mesh_.marks.visit(t.index)) holes.push_back(t);
+    };
+    for (const std::size_t i : stuck_)
+      triangulation_.for_each_corner(moving(i).vertex, [&](Corner c) { visit(c.triangle); });
+    for (std::size_t k = 0; k < holes.size(); ++k)
+      for (const Link link : triangulation_[TriangleId(holes[k])].link)
+        if (!link.constrained()) visit(link.triangle());
+    std::erase_if(holes, [&](TriangleId t) { return triangulation_[t].ghost(); });
+    for (const TriangleId t : holes) triangulation_.refresh_circle(t);
+    triangulation_.restore_delaunay(holes);
+  }
+
+  // What was made meanwhile, which its birth tells apart, the step's from now on, and what lies beside the
+  // edges that are back.
+  List<TriangleId> uncertain_since_torn(std::span<const std::uint32_t> loose) {
     triangulation_.set_step(mesh_.step + 1);
     List<TriangleId> result(&mesh_.arena);
     for (const TriangleId t : triangulation_.touched()) {
       if (!triangulation_[t].alive() || triangulation_[t].birth != torn) continue;
       triangulation_.set_birth(t, mesh_.step + 1);
       result.push_back(t);
+    }
+    for (const std::uint32_t k : loose) {
+      if (!begins_edge(k)) continue;
+      const Corner c = *triangulation_.find_edge(mesh_.at(k).vertex, mesh_.at(mesh_.at(k).next).vertex);
+      for (const TriangleId t : {c.triangle, triangulation_.link(c).triangle()}) result.push_back(t);
     }
     return result;
   }
@@ -243,8 +266,9 @@ class Replacement {
   void recover(std::span<const std::uint32_t> loose) {
     Refiner refiner(mesh_);
     for (const std::uint32_t k : loose)
-      if (mesh_.at(k).vertex && mesh_.at(k).next != no_index) refiner.recover_edge(k);
+      if (begins_edge(k)) refiner.recover_edge(k);
   }
+  bool begins_edge(std::uint32_t k) const { return mesh_.at(k).vertex && mesh_.at(k).next != no_index; }
 
   void set_length_scale(std::uint32_t k) {
     mesh_.set_boundary_length_scale(k, neighbour_length_scale(mesh_, k));
