@@ -136,7 +136,7 @@ class Replacement {
   // Those that are stuck: what is left of the paper's way. Boundary edges are torn, so regions are found
   // anew.
   void reinsert() {
-    restore_holes();
+    if (holes_are_shared()) restore_holes();
     triangulation_.set_step(torn);
     release_boundary();
     List<std::uint32_t> loose(&mesh_.arena);
@@ -173,6 +173,13 @@ class Replacement {
       }
     }
     return result;
+  }
+
+  // Whether a hole may lie between several loops: outer ones beside each other or within holes, and chains.
+  bool holes_are_shared() const {
+    return std::ranges::count_if(mesh_.domain.loops, [](const Loop& loop) {
+             return loop.role != LoopRole::hole && loop.role != LoopRole::internal;
+           }) > 1;
   }
 
   // What insertion may meet in the holes at stuck vertices. Other loops there may have moved in place since.

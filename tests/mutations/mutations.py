@@ -133,7 +133,7 @@ MUTATIONS = [
     ("circles at relocated vertices kept", R + "specialised.cpp", "            triangulation_.refresh_circle(c.triangle);\n", "            (void)c;\n"),
     ("circles at lost Steiner vertices kept", R + "specialised.cpp", "if (lost(i) && triangulation_[moving(i).vertex].alive())", "if (lost(i) && i < cache_.non_steiner)"),
     ("circles of another loop in a hole kept", R + "specialised.cpp", "if (triangulation_[t].region != Region::domain) triangulation_.refresh_circle(t);", "(void)t;"),
-    ("another loop's hole not restored before insertion", R + "specialised.cpp", "    restore_holes();\n", ""),
+    ("another loop's hole not restored before insertion", R + "specialised.cpp", "    if (holes_are_shared()) restore_holes();\n", ""),
     ("what removal touched not restored", R + "specialised.cpp", "|| triangulation_[t].ghost() || !add(t)) continue;", "|| triangulation_[t].ghost() || mesh_.step < no_index) continue;"),
     ("births of triangles at lost vertices kept", R + "specialised.cpp", "        if (a.moved) triangulation_.set_birth(a.triangle, mesh_.step + 1);\n", ""),
     ("vertices relocated across edges", R + "specialised.cpp", "      if (orient2d(p, triangulation_.point(a), triangulation_.point(b)) <= 0) return false;\n", ""),
