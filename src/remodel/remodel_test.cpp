@@ -228,6 +228,11 @@ TEST(PartialSteps, KeepTheIdsAndPlacesOfWhatSurvives) {
       ASSERT_EQ(after.triangle_births[t], before.triangle_births[t]);
       for (std::size_t k = 3 * t; k < 3 * t + 3; ++k)
         ASSERT_EQ(after.triangle_vertices[k], before.triangle_vertices[k]) << "triangle " << t;
+      for (std::size_t k = 3 * t; k < 3 * t + 3; ++k)  // at its old place
+        for (const std::size_t c : {0, 1}) {
+          const std::size_t coordinate = 2 * std::size_t{before.triangle_vertices[k]} + c;
+          ASSERT_EQ(after.coordinates[coordinate], before.coordinates[coordinate]) << "triangle " << t;
+        }
     }
   }
 }

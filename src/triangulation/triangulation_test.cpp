@@ -535,6 +535,17 @@ TEST(Unsplitting, IsRefusedAtTheHullAndWhereThreeConstrainedEdgesMeet) {
   t.release(m, c);
   EXPECT_FALSE(t.unsplit(m)) << "a-b is there already";
   EXPECT_EQ(t.check(), "");
+
+  Triangulation wheel;
+  wheel.start({0, 0}, {4, 0}, {4, 4});
+  const auto add = [&](double x, double y) { return wheel.insert({x, y}, any_triangle(wheel)).vertex; };
+  const VertexId middle = add(2, 2);
+  for (const auto& [x, y] : {std::pair{0, 0}, {4, 0}, {4, 4}}) wheel.constrain(add(x, y), middle);
+  for (const auto& [x, y] : {std::pair{2.0, -0.5}, {4.5, 2.0}, {2.0, 4.5}, {-0.5, 2.0}, {0.0, 4.0}}) add(x, y);
+  EXPECT_FALSE(wheel.unsplit(middle));
+  wheel.release(middle, add(4, 0));
+  EXPECT_TRUE(wheel.unsplit(middle));
+  EXPECT_EQ(wheel.check(), "");
 }
 
 TEST(Constraints, AreRefusedWhereTheyCrossAnotherOrPassThroughAVertex) {
