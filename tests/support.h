@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <random>
 #include <string>
 
 namespace remodel::test {
@@ -26,6 +27,11 @@ inline std::optional<std::filesystem::path> shared_file(const std::string& name)
 inline unsigned long long seed(unsigned long long fallback) {
   const char* given = std::getenv("REMODEL_TEST_SEED");
   return given != nullptr ? std::strtoull(given, nullptr, 10) : fallback;
+}
+
+// The same number with every standard library, unlike std::uniform_real_distribution.
+inline double uniform(std::mt19937_64& random, double low, double high) {
+  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
 // How much longer than in an ordinary run a random test goes on: REMODEL_TEST_EFFORT, 1 if not set.

@@ -122,9 +122,7 @@ int lifted_truth(const Quad& q) {
 
 constexpr double full_turn = 2 * std::numbers::pi;
 
-double uniform(Random& random, double low, double high) {
-  return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-}
+using test::uniform;
 int integer(Random& random, int low, int high) {
   return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1));
 }

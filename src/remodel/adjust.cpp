@@ -260,7 +260,7 @@ bool evaluate(const MeshData& mesh, AdjustCache& cache) {
 void mark_moved(AdjustCache& cache) {
   for (Affected& a : cache.affected) a.moved = a.movable;
   for (std::size_t i = 0; i < cache.moving.size(); ++i) {
-    if (!(cache.new_points[i] == cache.old_points[i])) continue;
+    if (cache.changes_place(i)) continue;
     const Moving& m = cache.moving[i];
     for (std::size_t s = m.star_begin; s < m.star_end; ++s) --cache.affected[cache.stars[s]].moved;
   }

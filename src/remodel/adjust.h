@@ -59,7 +59,8 @@ struct AdjustCache : MeshCache {
   std::vector<Edge> edges;
   std::vector<Segment> segments;
 
-  bool finite() const;         // all new points of the step are
+  bool finite() const;  // all new points of the step are
+  bool changes_place(std::size_t i) const { return !(new_points[i] == old_points[i]); }  // moving[i]
   void forget_connectivity();  // all lists of triangles; their storage stays
 
   // The curves and places of the loops on the new design; after a full adjustment, on the one before it.

@@ -191,7 +191,7 @@ RemodelResult full_adjustment(MeshData& mesh, AdjustCache& cache) {
   result.full_adjustment = true;
   result.preserved = mesh.domain_triangles - cache.changed;
   for (std::size_t i = 0; i < cache.moving.size(); ++i)
-    if (!(cache.new_points[i] == cache.old_points[i])) ++result.moved;
+    if (cache.changes_place(i)) ++result.moved;
   bool basis_kept = true;
   std::size_t n = 0;
   for (std::size_t i = 0; i < cache.loops.size(); ++i) {

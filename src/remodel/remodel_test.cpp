@@ -374,9 +374,7 @@ TEST(RandomWalks, OfManyKindsAreValidAtEveryStep) {
   int steps = 0, partial = 0, regenerated = 0;
   for (unsigned long long round = 0; round < 300; ++round) {
     std::mt19937_64 random(seed + round);
-    const auto uniform = [&](double low, double high) {
-      return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-    };
+    const auto uniform = [&](double low, double high) { return test::uniform(random, low, high); };
     const int points = std::array{8, 20, 50, 100}[random() % 4];
     const double sigma = std::array{0.02, 0.1, 0.3, 1.0}[random() % 4];
     test::Walk walk(random() % 10, sigma, random);
@@ -411,9 +409,7 @@ TEST(RandomWalks, OfOuterBoundariesAndIslandsAreValidAtEveryStep) {
   int partial = 0, regenerated = 0, steps = 0;
   for (unsigned long long round = 0; round < 120; ++round) {
     std::mt19937_64 random(seed + round);
-    const auto uniform = [&](double low, double high) {
-      return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-    };
+    const auto uniform = [&](double low, double high) { return test::uniform(random, low, high); };
     std::vector<std::vector<Point>> corners = {{{0, 0}, {10, 0}, {11, 9}, {1, 10}},
                                                {{3, 3}, {7, 3}, {7, 7}, {3, 7}},
                                                {{4.3, 4.3}, {5.7, 4.3}, {5, 5.9}},

@@ -49,11 +49,9 @@ class Replacement {
   bool lost(std::size_t i) const { return !cache_.accepted[i]; }
   const AdjustCache::Moving& moving(std::size_t i) const { return cache_.moving[i]; }
 
-  bool changes_place(std::size_t i) const { return !(cache_.new_points[i] == cache_.old_points[i]); }
-
   void list_kept() {
     for (std::size_t i = 0; i < cache_.moving.size(); ++i)
-      if (!lost(i) && changes_place(i)) moved_.push_back(moving(i).vertex);
+      if (!lost(i) && cache_.changes_place(i)) moved_.push_back(moving(i).vertex);
   }
 
   void dissolve_steiner() {
@@ -75,7 +73,7 @@ class Replacement {
         continue;
       }
       triangulation_.move(v, cache_.new_points[i], cache_.new_scales[i]);
-      if (changes_place(i)) moved_.push_back(v);
+      if (cache_.changes_place(i)) moved_.push_back(v);
     }
   }
 
@@ -192,7 +190,7 @@ class Replacement {
     for (const std::size_t i : stuck_)
       triangulation_.for_each_corner(moving(i).vertex, [&](Corner c) { visit(c.triangle); });
     for (std::size_t k = 0; k < holes.size(); ++k)
-      for (const Link link : triangulation_[TriangleId(holes[k])].link)
+      for (const Link link : triangulation_[holes[k]].link)
         if (!link.constrained()) visit(link.triangle());
     std::erase_if(holes, [&](TriangleId t) { return triangulation_[t].ghost(); });
     for (const TriangleId t : holes) triangulation_.refresh_circle(t);

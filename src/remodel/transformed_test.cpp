@@ -55,9 +55,7 @@ class Designs {
 
  private:
   static double place(double x) { return 1.0 + std::ldexp(std::round(std::ldexp(x, 20)), -22); }
-  double uniform(double low, double high) {
-    return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
-  }
+  double uniform(double low, double high) { return test::uniform(random_, low, high); }
   std::mt19937_64 random_;
 };
 

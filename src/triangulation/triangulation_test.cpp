@@ -435,9 +435,7 @@ struct PolygonAmongPoints {
   explicit PolygonAmongPoints(std::mt19937_64& random) {
     triangulation.start({0, 0}, {1, 0}, {1, 1});
     triangulation.insert({0, 1}, any_triangle(triangulation));
-    const auto uniform = [&](double low, double high) {
-      return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-    };
+    const auto uniform = [&](double low, double high) { return test::uniform(random, low, high); };
     const std::size_t corners = 6 + random() % 30;
     for (std::size_t i = 0; i < corners; ++i) {
       const double angle = 6.283 * static_cast<double>(i) / static_cast<double>(corners);
@@ -541,7 +539,8 @@ TEST(Unsplitting, IsRefusedAtTheHullAndWhereThreeConstrainedEdgesMeet) {
   const auto add = [&](double x, double y) { return wheel.insert({x, y}, any_triangle(wheel)).vertex; };
   const VertexId middle = add(2, 2);
   for (const auto& [x, y] : {std::pair{0, 0}, {4, 0}, {4, 4}}) wheel.constrain(add(x, y), middle);
-  for (const auto& [x, y] : {std::pair{2.0, -0.5}, {4.5, 2.0}, {2.0, 4.5}, {-0.5, 2.0}, {0.0, 4.0}}) add(x, y);
+  for (const auto& [x, y] : {std::pair{2.0, -0.5}, {4.5, 2.0}, {2.0, 4.5}, {-0.5, 2.0}, {0.0, 4.0}})
+    add(x, y);
   EXPECT_FALSE(wheel.unsplit(middle));
   wheel.release(middle, add(4, 0));
   EXPECT_TRUE(wheel.unsplit(middle));

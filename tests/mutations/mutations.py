@@ -138,7 +138,7 @@ MUTATIONS = [
     ("births of triangles at lost vertices kept", R + "specialised.cpp", "        if (a.moved) triangulation_.set_birth(a.triangle, mesh_.step + 1);\n", ""),
     ("vertices relocated across edges", R + "specialised.cpp", "      if (orient2d(p, triangulation_.point(a), triangulation_.point(b)) <= 0) return false;\n", ""),
     ("hull vertices relocated", R + "specialised.cpp", "      if (a == infinite_vertex || b == infinite_vertex) return false;\n", ""),
-    ("relocated vertices not counted as moved", R + "specialised.cpp", "      if (changes_place(i)) moved_.push_back(v);\n", ""),
+    ("relocated vertices not counted as moved", R + "specialised.cpp", "      if (cache_.changes_place(i)) moved_.push_back(v);\n", ""),
     ("nothing relabelled after edges were torn", R + "specialised.cpp", "|| triangulation_[t].birth != torn) continue;", "|| triangulation_[t].birth != no_index - 1) continue;"),
     ("contradictions of other triangles overlooked", G + "relabel.cpp", "    for (const TriangleId t : relabelled_) require_agreement(t);\n", ""),
     ("regions of the two sides of an unsplit edge", T + "remove.cpp", "  write_pieces(right, regions[1]);", "  write_pieces(right, regions[0]);"),
