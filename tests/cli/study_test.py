@@ -24,9 +24,9 @@ TIMES = {"seconds", "remodel_ms_mean", "generate_ms_mean", "speedup"}
 SMALL = (
     "--pairs", "50/1,100/2", "--sigmas", "0.05,0.25", "--distances", "1,2", "--evaluations", 60, "--compare-every", 20,
 )  # fmt: skip
-# A core second or two.
+# More than a core second on a fast machine: long enough to be killed in.
 LONGER = (
-    "--pairs", "50/1,100/2", "--sigmas", "0.05,0.25", "--distances", "1", "--evaluations", 400, "--compare-every", 20,
+    "--pairs", "50/1,100/2", "--sigmas", "0.05,0.25", "--distances", "1", "--evaluations", 2500, "--compare-every", 20,
 )  # fmt: skip
 # Hours.
 ENDLESS = ("--pairs", "50/1", "--sigmas", "0.25", "--evaluations", 10000000, "--compare-every", 0)
@@ -260,7 +260,7 @@ class Disks(StudyTest):
     def test_a_disk_that_fills_up(self):
         self.succeed(*self.study("whole", *LONGER))
         self.mount("size=2m")
-        self.fill(left=260_000)
+        self.fill(left=750_000)
         outcome = self.run_program(*self.study("disk/s", *LONGER))
         self.assertEqual(outcome.status, 2, outcome)
         self.assertEqual(len(outcome.stderr.splitlines()), 1, outcome)
