@@ -19,7 +19,7 @@ void add_remodel_options(CLI::App& app, RemodelOptions& options) {
               "auto, specialised (vertices correspond one to one) or general (any loops)"},
              words, [&](std::size_t choice) { options.method = methods[choice]; });
   add_real(app,
-           {"--keep", "FACTOR", "1.1 for G up to 2, otherwise 1.25",
+           {"--keep", "FACTOR", "1.1 for G up to 1, 1.2 up to 2, otherwise 1.25",
             "renew: kept triangles may take this times --max-gradation: 1 to 10"},
            {.low = 1.0, .high = 10.0}, [&](double value) { options.keep = value; });
 }

@@ -32,7 +32,7 @@ struct RemodelOptions {
   Method method = Method::automatic;  // automatic: specialised where the domains correspond one to one
   Strategy strategy = Strategy::chain;
   double keep = 0.0;  // renew: QualityOptions::keep of the mesh is at least this from now on; 1 or more, or
-                      // 0: 1.1 for gradations up to 2, otherwise 1.25
+                      // 0: 1.1 for gradations up to 1, 1.2 up to 2, otherwise 1.25
   // renew: of how many designs, tried on other meshes too, a step of this mesh is one; 1 or more. Its
   // triangle count is looked at so much earlier.
   std::uint32_t designs_a_step = 1;

@@ -12,14 +12,22 @@ namespace remodel {
 
 namespace {
 
-constexpr double small_gradation = 2.0;
 constexpr int samples_on_the_way = 5;  // for a mesh of unknown history: K within about 2 %
 constexpr std::uint32_t replacements_between_renewals = 14;
 constexpr std::uint32_t full_adjustments_before_refresh = 25;
 constexpr std::uint64_t designs_before_sampling = 1000;  // four times as many with each one
 constexpr double tolerated_excess = 0.02;
-constexpr std::size_t samples_at_refresh = 2;    // at most
+constexpr std::uint32_t samples_at_refresh = 2;  // at most
+constexpr double unknown_size = -1.0;
 constexpr double weight_of_refresh = 1.0 / 3.0;  // of a refresh's samples in K
+
+// Whether it is cheaper to follow S from replacement to replacement, if all are like the one that the journal
+// has, than to sum it up anew when the next renewal asks for it.
+bool is_worth_following(const MeshData& mesh) {
+  const Triangulation& triangulation = mesh.triangulation;
+  const std::size_t changed = triangulation.earlier().size() + triangulation.touched().size();
+  return changed * (mesh.renewal.until_renewal + 1) < triangulation.triangle_slots();
+}
 
 // The vertices of the domain triangles that a step has made, for the next renewal.
 void note_touched(MeshData& mesh) {
@@ -46,7 +54,7 @@ bool renews(const MeshData& mesh, const RemodelOptions& options) {
 double resolved_keep(const RemodelOptions& options, const QualityOptions& quality) {
   if (options.strategy == Strategy::chain) return 1.0;
   if (options.keep != 0.0) return options.keep;
-  return quality.gradation <= small_gradation ? 1.1 : 1.25;
+  return quality.gradation <= 1.0 ? 1.1 : quality.gradation <= 2.0 ? 1.2 : 1.25;
 }
 
 void calibrate(MeshData& mesh, int samples, StepObserver* observer) {
@@ -67,7 +75,7 @@ std::size_t prepare_renewal(MeshData& mesh, StepObserver* observer) {
 }
 
 bool renewal_is_due(const MeshData& mesh) {
-  return mesh.renewal.until_renewal == 0 || mesh.renewal.interior_size < 0.0;
+  return mesh.renewal.until_renewal == 0;
 }
 
 void note_moved(MeshData& mesh, std::span<const std::size_t> loops) {
@@ -100,12 +108,11 @@ bool refresh_is_due(const MeshData& mesh, std::uint32_t full_adjustments, std::u
   const std::uint64_t wait =
       std::max<std::uint64_t>(designs / designs_a_step, full_adjustments_before_refresh);
   return full_adjustments >= full_adjustments_before_refresh && renewal.count_factor != 0.0 &&
-         renewal.interior_size >= 0.0 && mesh.step >= renewal.sampled_at + wait;
+         mesh.step >= renewal.sampled_at + wait;
 }
 
 void finish_replacement(MeshData& mesh, const std::optional<RenewedSize>& renewed) {
   RenewalState& renewal = mesh.renewal;
-  renewal.interior_size = corrected_interior_size(mesh, renewal.interior_size, renewed);
   renewal.full_adjustments = 0;
   if (renewed) {
     renewal.until_renewal = replacements_between_renewals;
@@ -115,50 +122,50 @@ void finish_replacement(MeshData& mesh, const std::optional<RenewedSize>& renewe
     --renewal.until_renewal;
     note_touched(mesh);
   }
+  const bool known = renewal.interior_size >= 0.0;
+  renewal.interior_size = known && (renewed || is_worth_following(mesh))
+                              ? corrected_interior_size(mesh, renewal.interior_size, renewed)
+                              : unknown_size;
 }
 
 void forget_size(MeshData& mesh) {
-  mesh.renewal.interior_size = -1.0;
+  mesh.renewal.interior_size = unknown_size;
   mesh.renewal.until_renewal = 0;
 }
 
 // Counts are chaotic: the same design with bounds that differ by a fraction of a percent is another sample.
 // So the mesh is not compared with the samples' counts, but with what K makes of their size. That of the mesh
 // itself, whose length scales differ from a fresh mesh's within the tolerance of renewal, may be 2 % off.
+// The first sample that halves the excess is taken.
 std::optional<GenerateResult> nearer_to_fresh(MeshData& mesh, StepObserver* observer) {
   RenewalState& renewal = mesh.renewal;
+  double factor = renewal.count_factor;
   const auto note_sampling = [&] {
+    renewal.count_factor = factor;
     renewal.sampled_at = mesh.step;
     ++renewal.samplings;
   };
-  std::vector<GenerateResult> samples;
   double per_size = 0.0, size = 0.0;  // sums
-  double factor = 0.0, excess = 0.0;
-  do {
-    const std::size_t n = samples.size();
+  for (std::uint32_t n = 0; n < samples_at_refresh; ++n) {
     const double h_factor = 1.0 - 0.0001 * static_cast<double>((mesh.step + 17 * n) % 51);
-    samples.push_back(fresh_sample(mesh, h_factor, observer));
-    if (samples.back().stopped == Stopped::interrupted) return std::nullopt;  // the next step looks again
-    if (samples.back().stopped != Stopped::done) return note_sampling(), std::nullopt;
-    MeshData& sample = samples.back().mesh.data();
-    const double its_size = total_size(sample);
-    per_size += static_cast<double>(sample.domain_triangles) / its_size * h_factor * h_factor;
+    GenerateResult sample = fresh_sample(mesh, h_factor, observer);
+    if (sample.stopped == Stopped::interrupted) return std::nullopt;  // the next step looks again
+    if (sample.stopped != Stopped::done) break;
+    const double its_size = total_size(sample.mesh.data());
+    per_size += static_cast<double>(sample.mesh.triangle_count()) / its_size * h_factor * h_factor;
     size += its_size;
-    const double made = static_cast<double>(samples.size());
+    const double made = n + 1;
     factor = renewal.count_factor + weight_of_refresh * (per_size / made - renewal.count_factor);
-    excess = static_cast<double>(mesh.domain_triangles) / (factor * size / made) - 1.0;
-  } while (std::abs(excess) > tolerated_excess && samples.size() < samples_at_refresh);
+    const double excess = std::abs(static_cast<double>(mesh.domain_triangles) / (factor * size / made) - 1.0);
+    if (excess <= tolerated_excess) break;
+    const double its_excess = triangles_per_size(sample.mesh.data()) / factor - 1.0;
+    if (std::abs(its_excess) > 0.5 * excess) continue;
+    note_sampling();
+    sample.mesh.data().renewal.take_count_factor(renewal);
+    return sample;
+  }
   note_sampling();
-  renewal.count_factor = factor;
-  if (std::abs(excess) <= tolerated_excess) return std::nullopt;
-  const auto off = [&](GenerateResult& sample) {
-    return std::abs(triangles_per_size(sample.mesh.data()) / renewal.count_factor - 1.0);
-  };
-  GenerateResult& best =
-      *std::min_element(samples.begin(), samples.end(), [&](auto& a, auto& b) { return off(a) < off(b); });
-  if (off(best) > 0.5 * std::abs(excess)) return std::nullopt;
-  best.mesh.data().renewal.take_count_factor(renewal);
-  return std::move(best);
+  return std::nullopt;
 }
 
 }  // namespace remodel
