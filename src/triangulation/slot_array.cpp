@@ -1,7 +1,9 @@
 #include "triangulation/slot_array.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <mutex>
 
 #ifdef __linux__
 #include <sys/mman.h>
@@ -43,9 +45,40 @@ struct Reservation {
   }
 };
 
+// The pages of arrays that are gone, for those to come: two, as many as a mesh has. Where the system is a
+// virtual machine, new pages may cost it twenty times what it takes to fill them. It may take these back
+// whenever it is short of memory.
+class SparePages {
+ public:
+  // The fewest that are enough, or none.
+  SlotMemory take(std::size_t bytes) {
+    const std::scoped_lock lock(mutex_);
+    SlotMemory* fewest = nullptr;
+    for (SlotMemory& kept : kept_)
+      if (kept.bytes >= bytes && (fewest == nullptr || kept.bytes < fewest->bytes)) fewest = &kept;
+    return fewest == nullptr ? SlotMemory{} : std::exchange(*fewest, {});
+  }
+  // What is not kept is unmapped: the least.
+  void put(SlotMemory memory) {
+    if (madvise(memory.data, memory.bytes, MADV_FREE) == 0) {
+      const std::scoped_lock lock(mutex_);
+      for (SlotMemory& kept : kept_)
+        if (kept.bytes < memory.bytes) std::swap(kept, memory);
+    }
+    if (memory.data != nullptr) munmap(memory.data, memory.bytes);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::array<SlotMemory, 2> kept_;
+};
+constinit SparePages spare_pages;
+
 // Pages of the given size that begin with those of `from`, if there are any.
 SlotMemory map(std::size_t bytes, SlotMemory from) {
   bytes = (bytes + huge_page - 1) / huge_page * huge_page;
+  if (from.data == nullptr)
+    if (const SlotMemory spare = spare_pages.take(bytes); spare.data != nullptr) return spare;
   const Reservation place(bytes);
   if (from.data != nullptr &&
       mremap(from.data, from.bytes, bytes, MREMAP_MAYMOVE | MREMAP_FIXED, place.aligned) == MAP_FAILED) {
@@ -58,7 +91,7 @@ SlotMemory map(std::size_t bytes, SlotMemory from) {
 }
 
 void unmap(SlotMemory memory) {
-  munmap(memory.data, memory.bytes);
+  spare_pages.put(memory);
 }
 
 #else
