@@ -65,12 +65,14 @@ struct ImportRecord {
 
 // What Strategy::renew (remodel/remodel.h) remembers of a mesh from step to step.
 struct RenewalState {
+  static constexpr std::uint32_t replacements_between_renewals = 14;
   double count_factor = 0.0;    // K: triangles of a fresh mesh over their size S; 0: not measured yet
   double interior_size = -1.0;  // the part of S in triangles without a boundary vertex; negative: unknown
   std::uint32_t full_adjustments = 0;  // in a row
   std::uint32_t sampled_at = 0;        // the step at which K was last looked after
   std::uint32_t samplings = 0;         // of K: the next one waits the longer
-  std::uint32_t until_renewal = 0;     // replacements before the next one that renews length scales
+  std::uint32_t until_renewal = 0;     // replacements before the next one that renews length scales: at most
+                                       // replacements_between_renewals
   // What that renewal looks at first: slots of the vertices of triangles that replacements by `renew` have
   // made since the last one, some of them more than once; and the loops that moved since, ascending.
   std::vector<std::uint32_t> pending_vertices;

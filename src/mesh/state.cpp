@@ -187,6 +187,11 @@ void require_in_range(const MeshState& state, const std::string& source) {
       !all_below(record.slots, slots) || !all_below(record.triangles, vertices) ||
       !std::is_sorted(record.faces.begin(), record.faces.end()))
     refuse(source, "what it remembers of the imported file does not fit the mesh");
+  const RenewalState& renewal = state.renewal;
+  if (!std::isfinite(renewal.count_factor) || renewal.count_factor < 0.0 ||
+      !std::isfinite(renewal.interior_size) ||
+      renewal.until_renewal > RenewalState::replacements_between_renewals)
+    refuse(source, "what it remembers of its triangle count and of the next renewal is out of range");
   const auto& pending = state.renewal.pending_loops;
   if (!all_below(state.renewal.pending_vertices, vertices) ||
       std::count(state.renewal.pending_vertices.begin(), state.renewal.pending_vertices.end(), 0U) != 0 ||

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "remodel/count_control.h"
+
 namespace remodel {
 
 Hub::Hub(const OptimiseOptions& options, std::size_t population, Mesh mesh)
@@ -32,8 +34,10 @@ RemodelResult HubChain::advance(const Domain& domain) {
     mesh_ = hub_.mesh();
     // Whether the count is worth a look is the hub's affair, not that of every trial; and a replacement that
     // is tried renews, however many the hub has kept.
-    mesh_.data().renewal.full_adjustments = 0;
-    mesh_.data().renewal.until_renewal = 0;
+    RenewalState& renewal = mesh_.data().renewal;
+    renewal.full_adjustments = 0;
+    renewal.until_renewal = 0;
+    if (renewal.interior_size < 0.0) renewal.interior_size = interior_size(mesh_.data());  // for all trials
     version_ = hub_.version();
   }
   trial_.emplace(mesh_, domain, remodel_options());

@@ -9,7 +9,7 @@
 //
 // S comes in two parts. Triangles with a boundary vertex, which every step changes, are summed when needed;
 // they are in proportion to the boundary. The sum over all others is kept from step to step and corrected by
-// what the journal says.
+// what the journal says, while steps are small for the mesh; otherwise it is summed up when needed.
 
 #include <cstddef>
 #include <optional>

@@ -13,7 +13,6 @@ namespace remodel {
 namespace {
 
 constexpr int samples_on_the_way = 5;  // for a mesh of unknown history: K within about 2 %
-constexpr std::uint32_t replacements_between_renewals = 14;
 constexpr std::uint32_t full_adjustments_before_refresh = 25;
 constexpr std::uint64_t designs_before_sampling = 1000;  // four times as many with each one
 constexpr double tolerated_excess = 0.02;
@@ -115,7 +114,7 @@ void finish_replacement(MeshData& mesh, const std::optional<RenewedSize>& renewe
   RenewalState& renewal = mesh.renewal;
   renewal.full_adjustments = 0;
   if (renewed) {
-    renewal.until_renewal = replacements_between_renewals;
+    renewal.until_renewal = RenewalState::replacements_between_renewals;
     renewal.pending_vertices.clear();
     renewal.pending_loops.clear();
   } else {
@@ -131,6 +130,7 @@ void finish_replacement(MeshData& mesh, const std::optional<RenewedSize>& renewe
 void forget_size(MeshData& mesh) {
   mesh.renewal.interior_size = unknown_size;
   mesh.renewal.until_renewal = 0;
+  mesh.renewal.full_adjustments = 0;
 }
 
 // Counts are chaotic: the same design with bounds that differ by a fraction of a percent is another sample.
@@ -152,14 +152,14 @@ std::optional<GenerateResult> nearer_to_fresh(MeshData& mesh, StepObserver* obse
     if (sample.stopped == Stopped::interrupted) return std::nullopt;  // the next step looks again
     if (sample.stopped != Stopped::done) break;
     const double its_size = total_size(sample.mesh.data());
-    per_size += static_cast<double>(sample.mesh.triangle_count()) / its_size * h_factor * h_factor;
+    const double its_factor = static_cast<double>(sample.mesh.triangle_count()) / its_size;
+    per_size += its_factor * h_factor * h_factor;
     size += its_size;
     const double made = n + 1;
     factor = renewal.count_factor + weight_of_refresh * (per_size / made - renewal.count_factor);
     const double excess = std::abs(static_cast<double>(mesh.domain_triangles) / (factor * size / made) - 1.0);
     if (excess <= tolerated_excess) break;
-    const double its_excess = triangles_per_size(sample.mesh.data()) / factor - 1.0;
-    if (std::abs(its_excess) > 0.5 * excess) continue;
+    if (std::abs(its_factor / factor - 1.0) > 0.5 * excess) continue;
     note_sampling();
     sample.mesh.data().renewal.take_count_factor(renewal);
     return sample;

@@ -37,13 +37,14 @@ bool renewal_is_due(const MeshData& mesh);
 void note_moved(MeshData& mesh, std::span<const std::size_t> loops);
 void note_all_moved(MeshData& mesh);
 
-// Under a journal, before a replacement that renews: K and S are known from then on. Without an earlier
-// measurement of K a mesh that was never remodelled is its own; otherwise a few are generated. Returns how
-// many vertices coarsening may remove, two triangles each: half of N - K S.
+// Under a journal, before a replacement that renews: K and S are known then. Without an earlier measurement of
+// K a mesh that was never remodelled is its own; otherwise a few are generated. Returns how many vertices
+// coarsening may remove, two triangles each: half of N - K S.
 std::size_t prepare_renewal(MeshData& mesh, StepObserver* observer);
 // After that replacement, in which these vertices changed their places; before refinement.
 RenewedSize renew_replaced(MeshData& mesh, std::span<const VertexId> moved, std::size_t budget);
-// After refinement, of each replacement.
+// After refinement, of each replacement. S stays known where that is cheaper than to sum it up when the next
+// renewal asks for it.
 void finish_replacement(MeshData& mesh, const std::optional<RenewedSize>& renewed);
 
 // After a replacement by chain: S is not kept up, and the next replacement renews.
@@ -52,9 +53,9 @@ void forget_size(MeshData& mesh);
 // Whether the triangle count is worth a look after so many full adjustments in a row: the samples that this
 // takes cost as much as many steps.
 bool refresh_is_due(const MeshData& mesh, std::uint32_t full_adjustments, std::uint32_t designs_a_step);
-// Generates a mesh of the same domain, and another one if the count seems to be off. They correct K, which
-// differs from design to design; then, if the count of `mesh` is off by more than 2 % from what K makes of
-// their size, the one that is nearest to K is returned, if it is off by less than half as much.
+// Generates a mesh of the same domain. It corrects K, which differs from design to design; then, if the count
+// of `mesh` is off by more than 2 % from what K makes of its size, it is returned, if it is off by at most half
+// as much. If not, the same once more, with both.
 std::optional<GenerateResult> nearer_to_fresh(MeshData& mesh, StepObserver* observer);
 
 }  // namespace remodel

@@ -189,7 +189,7 @@ TEST(Renew, KeepsTheSizeThatItCorrectsStepByStep) {
       int followed = 0, renewals = 0, others = 0;
       const RemodelOptions options{.method = method, .strategy = Strategy::renew};
       walk(mesh, designs, 30, 50, options, [&](const RemodelResult& result) {
-        if (result.full_adjustment) return;
+        if (result.full_adjustment || result.regenerated) return;
         ++(mesh.data().renewal.pending_vertices.empty() ? renewals : others);
         if (mesh.data().renewal.interior_size < 0.0) return;
         ++followed;
@@ -199,7 +199,10 @@ TEST(Renew, KeepsTheSizeThatItCorrectsStepByStep) {
       EXPECT_GE(renewals, 2);
       EXPECT_GT(others, 12);
       EXPECT_GE(followed, renewals);
-      EXPECT_EQ(followed == renewals + others, gradation == 60.0);
+      if (gradation == 60.0)
+        EXPECT_GT(10 * followed, 9 * (renewals + others));
+      else
+        EXPECT_LT(2 * followed, renewals + others);
     }
 }
 
@@ -411,7 +414,9 @@ TEST(Renew, GoesOnFromAFileToTheSameBytes) {
   Walk designs(4, 0.1, random);
   Mesh mesh = generated(designs.domain(50), {.gradation = 1.0});
   Mesh other = mesh;
+  bool waits_without_size = false;
   for (int i = 0; i < 20; ++i) {
+    waits_without_size |= other.data().renewal.interior_size < 0.0 && other.data().renewal.until_renewal > 0;
     write_mesh(other, file);
     other = read_mesh(file);
     designs.next();
@@ -419,6 +424,7 @@ TEST(Renew, GoesOnFromAFileToTheSameBytes) {
     remodel(other, designs.domain(50), renewing);
     ASSERT_TRUE(mesh.state() == other.state()) << "step " << i;
   }
+  EXPECT_TRUE(waits_without_size);
   std::filesystem::remove(file);
 }
 

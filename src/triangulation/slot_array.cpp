@@ -25,37 +25,18 @@ void deallocate(void* data) {
 constexpr std::size_t heap_limit = std::size_t{16} << 20;
 constexpr std::size_t huge_page = std::size_t{2} << 20;
 
-// Address space that begins at a huge page; below and above, less than one huge page is left over.
-struct Reservation {
-  std::byte* whole;
-  std::byte* aligned;
-  std::size_t bytes;
-
-  explicit Reservation(std::size_t size) : bytes(size) {
-    constexpr int flags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE;
-    void* data = mmap(nullptr, bytes + huge_page, PROT_READ | PROT_WRITE, flags, -1, 0);
-    if (data == MAP_FAILED) throw std::bad_alloc();
-    whole = static_cast<std::byte*>(data);
-    aligned = whole + (huge_page - reinterpret_cast<std::uintptr_t>(data) % huge_page) % huge_page;
-  }
-  void trim() const {
-    const auto below = static_cast<std::size_t>(aligned - whole);
-    if (below > 0) munmap(whole, below);
-    if (below < huge_page) munmap(aligned + bytes, huge_page - below);
-  }
-};
-
-// The pages of arrays that are gone, for those to come: two, as many as a mesh has. Where the system is a
-// virtual machine, new pages may cost it twenty times what it takes to fill them. It may take these back
-// whenever it is short of memory.
+// The pages of arrays that are gone, for those to come: the largest two, which of a mesh are its triangles
+// and its vertices. Where the system is a virtual machine, new pages may cost it twenty times what it takes
+// to fill them. It may take these back whenever it is short of memory; of address space they are unmapped.
 class SparePages {
  public:
-  // The fewest that are enough, or none.
+  // The fewest that are enough, at most four times as many, or none.
   SlotMemory take(std::size_t bytes) {
     const std::scoped_lock lock(mutex_);
     SlotMemory* fewest = nullptr;
     for (SlotMemory& kept : kept_)
-      if (kept.bytes >= bytes && (fewest == nullptr || kept.bytes < fewest->bytes)) fewest = &kept;
+      if (kept.bytes >= bytes && kept.bytes / 4 <= bytes && (fewest == nullptr || kept.bytes < fewest->bytes))
+        fewest = &kept;
     return fewest == nullptr ? SlotMemory{} : std::exchange(*fewest, {});
   }
   // What is not kept is unmapped: the least.
@@ -67,12 +48,46 @@ class SparePages {
     }
     if (memory.data != nullptr) munmap(memory.data, memory.bytes);
   }
+  // Whether there were any.
+  bool unmap() {
+    const std::scoped_lock lock(mutex_);
+    bool any = false;
+    for (SlotMemory& kept : kept_) {
+      if (kept.data == nullptr) continue;
+      munmap(kept.data, kept.bytes);
+      kept = {};
+      any = true;
+    }
+    return any;
+  }
 
  private:
   std::mutex mutex_;
   std::array<SlotMemory, 2> kept_;
 };
 constinit SparePages spare_pages;
+
+// Address space that begins at a huge page; below and above, less than one huge page is left over.
+struct Reservation {
+  std::byte* whole;
+  std::byte* aligned;
+  std::size_t bytes;
+
+  explicit Reservation(std::size_t size) : bytes(size) {
+    constexpr int flags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE;
+    void* data = mmap(nullptr, bytes + huge_page, PROT_READ | PROT_WRITE, flags, -1, 0);
+    if (data == MAP_FAILED && spare_pages.unmap())
+      data = mmap(nullptr, bytes + huge_page, PROT_READ | PROT_WRITE, flags, -1, 0);
+    if (data == MAP_FAILED) throw std::bad_alloc();
+    whole = static_cast<std::byte*>(data);
+    aligned = whole + (huge_page - reinterpret_cast<std::uintptr_t>(data) % huge_page) % huge_page;
+  }
+  void trim() const {
+    const auto below = static_cast<std::size_t>(aligned - whole);
+    if (below > 0) munmap(whole, below);
+    if (below < huge_page) munmap(aligned + bytes, huge_page - below);
+  }
+};
 
 // Pages of the given size that begin with those of `from`, if there are any.
 SlotMemory map(std::size_t bytes, SlotMemory from) {

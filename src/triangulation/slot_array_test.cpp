@@ -47,6 +47,9 @@ TEST(SlotArray, UsesThePagesOfThoseThatAreGone) {
     return records;
   };
   constexpr std::size_t count = std::size_t{1} << 20;  // 64 megabytes
+  SlotArray<Record> earlier[2];                        // of other tests
+  earlier[0].reserve(3 * count);
+  earlier[1].reserve(2 * count);
   const Record* place[3];
   {
     const SlotArray<Record> arrays[] = {filled(3 * count, 1), filled(count, 2), filled(2 * count, 3)};
