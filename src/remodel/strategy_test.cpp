@@ -444,8 +444,12 @@ TEST(Renew, GoesOnAfterStepsOfTheOtherStrategy) {
   for (int i = 0; i < 24; ++i) {
     const int holes = (i / 3) % 3;
     designs.next();
-    remodel(mesh, with_holes(holes, 0.2 * (i % 2)),
-            {.strategy = i % 3 == 0 ? Strategy::chain : Strategy::renew});
+    mesh.data().renewal.full_adjustments = 7;
+    const Strategy strategy = i % 3 == 0 ? Strategy::chain : Strategy::renew;
+    const RemodelResult result = remodel(mesh, with_holes(holes, 0.2 * (i % 2)), {.strategy = strategy});
+    if (!result.full_adjustment) {
+      ASSERT_EQ(mesh.data().renewal.full_adjustments, 0U) << "step " << i;
+    }
     ASSERT_EQ(mesh.quick_check(), "") << "step " << i;
     ASSERT_TRUE(Mesh::restore(mesh.state(), "state").state() == mesh.state()) << "step " << i;
     for (const std::uint32_t loop : mesh.data().renewal.pending_loops)
