@@ -192,9 +192,9 @@ void require_in_range(const MeshState& state, const std::string& source) {
       !std::isfinite(renewal.interior_size) ||
       renewal.until_renewal > RenewalState::replacements_between_renewals)
     refuse(source, "what it remembers of its triangle count and of the next renewal is out of range");
-  const auto& pending = state.renewal.pending_loops;
-  if (!all_below(state.renewal.pending_vertices, vertices) ||
-      std::count(state.renewal.pending_vertices.begin(), state.renewal.pending_vertices.end(), 0U) != 0 ||
+  const auto& pending = renewal.pending_loops;
+  if (!all_below(renewal.pending_vertices, vertices) ||
+      std::count(renewal.pending_vertices.begin(), renewal.pending_vertices.end(), 0U) != 0 ||
       !all_below(pending, state.domain.loops.size()) ||
       !std::is_sorted(pending.begin(), pending.end(), std::less_equal<>()))
     refuse(source, "what the renewal of length scales has to look at does not fit the mesh");

@@ -34,10 +34,9 @@ RemodelResult HubChain::advance(const Domain& domain) {
     mesh_ = hub_.mesh();
     // Whether the count is worth a look is the hub's affair, not that of every trial; and a replacement that
     // is tried renews, however many the hub has kept.
-    RenewalState& renewal = mesh_.data().renewal;
-    renewal.full_adjustments = 0;
-    renewal.until_renewal = 0;
-    if (renewal.interior_size < 0.0) renewal.interior_size = interior_size(mesh_.data());  // for all trials
+    mesh_.data().renewal.full_adjustments = 0;
+    mesh_.data().renewal.until_renewal = 0;
+    know_interior_size(mesh_.data());  // once for all trials
     version_ = hub_.version();
   }
   trial_.emplace(mesh_, domain, remodel_options());

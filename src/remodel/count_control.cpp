@@ -89,6 +89,10 @@ double interior_size(const MeshData& mesh) {
   return sum;
 }
 
+void know_interior_size(MeshData& mesh) {
+  if (mesh.renewal.interior_size < 0.0) mesh.renewal.interior_size = interior_size(mesh);
+}
+
 double total_size(MeshData& mesh) {
   return mesh.renewal.interior_size + boundary_size(mesh);
 }

@@ -21,6 +21,8 @@ namespace remodel {
 
 // The part of S in triangles without a boundary vertex, of the whole mesh: O(triangles).
 double interior_size(const MeshData& mesh);
+// Makes it known to the mesh, if it is not.
+void know_interior_size(MeshData& mesh);
 // The part that the triangles at a vertex have because of its own length scale is
 //   free_area / (3 H^2 LS^2),
 // but for those with a boundary vertex and those that the journal has.

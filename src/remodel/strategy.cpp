@@ -63,7 +63,7 @@ void calibrate(MeshData& mesh, int samples, StepObserver* observer) {
 
 std::size_t prepare_renewal(MeshData& mesh, StepObserver* observer) {
   RenewalState& renewal = mesh.renewal;
-  if (renewal.interior_size < 0.0) renewal.interior_size = interior_size(mesh);
+  know_interior_size(mesh);
   if (renewal.count_factor == 0.0)
     renewal.count_factor =
         mesh.step == 0 ? triangles_per_size(mesh) : measured_count_factor(mesh, samples_on_the_way, observer);
