@@ -130,9 +130,8 @@ class LoopReplacement {
       for (std::size_t i = 0; i < model.points.size(); ++i) {
         const double nearest = std::sqrt(other.squared_distance_to(model.points[i]));
         const double pair = std::isfinite(nearest) ? nearest : 0.0;
-        result.push_back({model.points[i],
-                          removal_radius(options_, pair, model.points[i], model.before[i], model.after[i]),
-                          hint});
+        const double least = least_radius(options_, model.points[i], model.before[i], model.after[i]);
+        result.push_back({model.points[i], std::max(options_.distance * pair, least), hint});
         hint = triangulation_.locate(model.points[i], hint).triangle;
       }
     };

@@ -2,16 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "generate/recovery_error.h"
 
 namespace remodel {
 
-double removal_radius(const ReplaceOptions& options, double pair_distance, Point centre, Point before,
-                      Point after) {
+double least_radius(const ReplaceOptions& options, Point centre, Point before, Point after) {
   const auto [nearer, farther] =
       std::minmax({squared_distance(centre, before), squared_distance(centre, after)});
-  return std::max(options.distance * pair_distance, std::sqrt(options.renewing ? nearer : farther));
+  return std::sqrt(options.renewing ? nearer : farther);
+}
+
+double lost_vertex_radius(const ReplaceOptions& options, double pair_distance, Point centre, Point before,
+                          Point after) {
+  constexpr double hardly = 0.3, farther = std::numbers::sqrt2;
+  const double least = least_radius(options, centre, before, after);
+  const bool tight = options.renewing && pair_distance < hardly * least;
+  return std::max(options.distance * pair_distance, tight ? farther * least : least);
 }
 
 VertexId insert_boundary_point(Triangulation& triangulation, Point p, TriangleId hint) {

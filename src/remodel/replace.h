@@ -16,13 +16,19 @@ struct ReplaceOptions {
   double distance = 1.0;  // D
   // False, the paper's: new boundary vertices take length scales from what is around them too, and removal
   // regions reach to the farther boundary neighbour. True: the curves alone decide length scales, all others
-  // are the caller's to renew, and regions reach to the nearer neighbour.
+  // are the caller's to renew, and regions reach to the nearer neighbour, or farther: lost_vertex_radius().
   bool renewing = false;
 };
 
-// The radius of a region: max(D * distance of the pair, distance to a boundary neighbour).
-double removal_radius(const ReplaceOptions& options, double pair_distance, Point centre, Point before,
-                      Point after);
+// What a removal region reaches at least: the distance to a boundary neighbour. The paper's radius is the
+// larger of this and D * distance of the pair.
+double least_radius(const ReplaceOptions& options, Point centre, Point before, Point after);
+// The radius about a vertex that could not be moved in place. If that failed although it hardly moves, by
+// less than 0.3 of the least radius, a triangle there is at a bound already, and would fail in many of the
+// steps to come: when renewing, the region reaches the square root of two times as far as it must, and what
+// is tight is made anew.
+double lost_vertex_radius(const ReplaceOptions& options, double pair_distance, Point centre, Point before,
+                          Point after);
 
 // Makes the triangles outside the domain at all boundary vertices Delaunay again, which full adjustments do
 // not.
