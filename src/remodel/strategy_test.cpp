@@ -179,6 +179,59 @@ void walk(Mesh& mesh, Walk& designs, int points, int steps, const RemodelOptions
 
 // S is followed where replacements are small for the mesh, and otherwise summed up when a renewal asks for
 // it.
+// The least (r / (H mean LS))^2 of a vertex' triangles in the domain; infinity on the boundary and elsewhere.
+std::vector<double> least_ratios(const MeshData& mesh) {
+  const Triangulation& t = mesh.triangulation;
+  std::vector<double> least(t.vertex_slots(), INFINITY);
+  for (std::uint32_t i = 0; i < t.triangle_slots(); ++i) {
+    const Triangle& triangle = t[TriangleId{i}];
+    if (!triangle.alive() || triangle.region != Region::domain) continue;
+    double sum = 0.0;
+    for (const VertexId v : triangle.vertex) sum += t[v].length_scale;
+    const double bound = mesh.options.max_gradation * sum / 3.0;
+    for (const VertexId v : triangle.vertex)
+      if (t[v].boundary == no_index)
+        least[v.index] = std::min(least[v.index], triangle.circle.squared_radius() / (bound * bound));
+  }
+  return least;
+}
+
+bool leaves_refinement_nothing_to_do(Mesh mesh, VertexId without) {
+  MeshData& data = mesh.data();
+  data.triangulation.begin();
+  data.triangulation.remove(without);
+  const std::size_t vertices = data.triangulation.vertex_count();
+  Refiner refiner(data);
+  for (const TriangleId t : data.triangulation.touched()) refiner.consider(t);
+  EXPECT_EQ(refiner.run(), Stopped::done);
+  const bool nothing = data.triangulation.vertex_count() == vertices;
+  data.triangulation.commit();
+  return nothing;
+}
+
+TEST(Coarsening, RemovesTheDensestThatCanGoFirst) {
+  Mesh mesh = generated(test::catalogue_domain(0, 50), {.max_gradation = 0.5, .gradation = 4.0});
+  MeshData& data = mesh.data();
+  data.options.max_gradation = 0.8;
+  for (int i = 0; i < 20; ++i) {
+    const Mesh before = mesh;
+    const std::vector<double> ratios = least_ratios(data);
+    data.triangulation.begin();
+    for (std::uint32_t k = 0; k < data.triangulation.triangle_slots(); ++k)
+      if (data.triangulation[TriangleId{k}].alive()) data.triangulation.touch(TriangleId{k});
+    ASSERT_EQ(coarsen_touched(data, {}, 1), 1U);
+    data.count_domain_triangles();
+    data.triangulation.commit();
+    std::uint32_t gone = 0;
+    for (std::uint32_t v = 1; v < ratios.size(); ++v)
+      if (std::isfinite(ratios[v]) && !data.triangulation[VertexId{v}].alive()) gone = v;
+    for (std::uint32_t v = 1; v < ratios.size(); ++v)
+      if (ratios[v] < ratios[gone] * (1.0 - 1e-12)) {
+        EXPECT_FALSE(leaves_refinement_nothing_to_do(before, VertexId{v})) << v << " before " << gone;
+      }
+  }
+}
+
 TEST(Renew, KeepsTheSizeThatItCorrectsStepByStep) {
   const auto seed = test::seed(2);
   SCOPED_TRACE("seed " + std::to_string(seed));
