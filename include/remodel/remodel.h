@@ -19,10 +19,11 @@ enum class Strategy {
   // The paper's method, to the letter. Length scales inside the mesh are never renewed, and nothing is
   // coarsened: triangles accumulate.
   chain,
-  // At every fifteenth replacement length scales are renewed from the boundary; kept
-  // triangles need only hold keep H, and Steiner vertices are removed while the mesh has more triangles than
-  // a fresh one would; after 25 full adjustments in a row a mesh whose count is off is generated afresh. The
-  // angle bound never relaxes. Imported meshes, whose length scales are measured, are remodelled as by chain.
+  // At every fifteenth replacement length scales are renewed from the boundary; kept triangles need only hold
+  // keep H, and Steiner vertices are removed while the mesh has more triangles than a fresh one would; around
+  // boundary vertices that cannot be moved in place although they hardly move, all that is near is made anew;
+  // after 25 full adjustments in a row a mesh whose count is off is generated afresh. The angle bound never
+  // relaxes. Imported meshes, whose length scales are measured, are remodelled as by chain.
   renew,
 };
 const char* name_of(Strategy strategy);  // "chain", "renew"
