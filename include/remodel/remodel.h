@@ -21,8 +21,8 @@ enum class Strategy {
   chain,
   // At every fifteenth replacement length scales are renewed from the boundary; kept triangles need only hold
   // keep H, and Steiner vertices are removed while the mesh has more triangles than a fresh one would; around
-  // boundary vertices that cannot be moved in place although they hardly move, all that is near is made anew;
-  // after 25 full adjustments in a row a mesh whose count is off is generated afresh. The angle bound never
+  // boundary vertices that cannot be moved in place although they hardly move, more is removed; after 25 full
+  // adjustments in a row a mesh whose count is off is generated afresh. The angle bound never
   // relaxes. Imported meshes, whose length scales are measured, are remodelled as by chain.
   renew,
 };

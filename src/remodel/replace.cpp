@@ -16,10 +16,10 @@ double least_radius(const ReplaceOptions& options, Point centre, Point before, P
 
 double lost_vertex_radius(const ReplaceOptions& options, double pair_distance, Point centre, Point before,
                           Point after) {
-  constexpr double hardly = 0.3, farther = std::numbers::sqrt2;
+  constexpr double hardly = 0.3, more = std::numbers::sqrt2;
   const double least = least_radius(options, centre, before, after);
   const bool tight = options.renewing && pair_distance < hardly * least;
-  return std::max(options.distance * pair_distance, tight ? farther * least : least);
+  return std::max(options.distance * pair_distance, tight ? more * least : least);
 }
 
 VertexId insert_boundary_point(Triangulation& triangulation, Point p, TriangleId hint) {

@@ -23,10 +23,10 @@ struct ReplaceOptions {
 // What a removal region reaches at least: the distance to a boundary neighbour. The paper's radius is the
 // larger of this and D * distance of the pair.
 double least_radius(const ReplaceOptions& options, Point centre, Point before, Point after);
-// The radius about a vertex that could not be moved in place. If that failed although it hardly moves, by
-// less than 0.3 of the least radius, a triangle there is at a bound already, and would fail in many of the
-// steps to come: when renewing, the region reaches the square root of two times as far as it must, and what
-// is tight is made anew.
+// The radius about a non-Steiner vertex that could not be moved in place. If that failed although it hardly
+// moves, by less than 0.3 of the least radius, a triangle there mostly is at a bound already and would fail
+// in many of the steps to come: when renewing, the region reaches at least sqrt(2) times the least radius, so
+// that what is tight is made anew. Measured in docs/performance.md.
 double lost_vertex_radius(const ReplaceOptions& options, double pair_distance, Point centre, Point before,
                           Point after);
 

@@ -6,7 +6,8 @@
 //   step:  all vertices moved in place: nothing else; after many such steps in a row K is sampled again, and
 //          a mesh whose triangle count is off is generated afresh, if that brings it nearer to K. Between two
 //          samplings are 1000 designs at least, four times as many with each one
-//          otherwise: replace, every fifteenth time renew length scales and coarsen within
+//          otherwise: replace, with more removed around vertices that fail although they hardly move
+//          (replace.h), every fifteenth time renew length scales and coarsen within
 //          what the count allows, refine new triangles to H and those of the same vertices where they
 //          exceed keep H
 
@@ -37,8 +38,8 @@ bool renewal_is_due(const MeshData& mesh);
 void note_moved(MeshData& mesh, std::span<const std::size_t> loops);
 void note_all_moved(MeshData& mesh);
 
-// Under a journal, before a replacement that renews: K and S are known then. Without an earlier measurement of
-// K a mesh that was never remodelled is its own; otherwise a few are generated. Returns how many vertices
+// Under a journal, before a replacement that renews: K and S are known then. Without an earlier measurement
+// of K a mesh that was never remodelled is its own; otherwise a few are generated. Returns how many vertices
 // coarsening may remove, two triangles each: half of N - K S.
 std::size_t prepare_renewal(MeshData& mesh, StepObserver* observer);
 // After that replacement, in which these vertices changed their places; before refinement.
@@ -54,8 +55,8 @@ void forget_size(MeshData& mesh);
 // takes cost as much as many steps.
 bool refresh_is_due(const MeshData& mesh, std::uint32_t full_adjustments, std::uint32_t designs_a_step);
 // Generates a mesh of the same domain. It corrects K, which differs from design to design; then, if the count
-// of `mesh` is off by more than 2 % from what K makes of its size, it is returned, if it is off by at most half
-// as much. If not, the same once more, with both.
+// of `mesh` is off by more than 2 % from what K makes of its size, it is returned, if it is off by at most
+// half as much. If not, the same once more, with both.
 std::optional<GenerateResult> nearer_to_fresh(MeshData& mesh, StepObserver* observer);
 
 }  // namespace remodel
