@@ -11,30 +11,21 @@
 #include <random>
 #include <set>
 
-#include "generate/refine.h"
-#include "remodel/adjust.h"
 #include "remodel/check.h"
-#include "remodel/coarsen.h"
 #include "remodel/count_control.h"
 #include "remodel/error.h"
 #include "remodel/io.h"
 #include "remodel/renew.h"
-#include "remodel/replace.h"
 #include "remodel/test_designs.h"
 #include "support.h"
 
 namespace remodel {
 namespace {
 
+using test::generated;
 using test::Walk;
 
 constexpr RemodelOptions renewing{.strategy = Strategy::renew};
-
-Mesh generated(const Domain& domain, const QualityOptions& options) {
-  GenerateResult result = generate(domain, options);
-  EXPECT_EQ(result.stopped, Stopped::done);
-  return std::move(result.mesh);
-}
 
 void set_length_scales(MeshData& mesh, const std::vector<double>& scales) {
   for (std::uint32_t i = 1; i < scales.size(); ++i)
@@ -142,32 +133,6 @@ TEST(Renewal, LooksAtTheVerticesThatItIsGiven) {
 }
 
 // A mesh made to a smaller H has vertices that can go.
-TEST(Coarsening, KeepsItsBudgetAndLeavesRefinementNothingToDo) {
-  Mesh mesh = generated(test::catalogue_domain(0, 100), {.max_gradation = 0.5, .gradation = 4.0});
-  MeshData& data = mesh.data();
-  data.options.max_gradation = 0.8;
-  for (const std::size_t budget : {0U, 1U, 40U, 100000U}) {
-    data.triangulation.begin();
-    for (std::uint32_t i = 0; i < data.triangulation.triangle_slots(); ++i)
-      if (data.triangulation[TriangleId{i}].alive()) data.triangulation.touch(TriangleId{i});
-    const std::size_t vertices = data.triangulation.vertex_count();
-    const std::size_t removed = coarsen_touched(data, {}, budget);
-    EXPECT_LE(removed, budget);
-    EXPECT_GE(removed, std::min<std::size_t>(budget, 40));
-    EXPECT_EQ(data.triangulation.vertex_count(), vertices - removed);
-    {
-      Refiner refiner(data);
-      for (const TriangleId t : data.triangulation.touched()) refiner.consider(t);
-      EXPECT_EQ(refiner.run(), Stopped::done);
-    }
-    EXPECT_EQ(data.triangulation.vertex_count(), vertices - removed);
-    data.count_domain_triangles();
-    data.triangulation.commit();
-    EXPECT_EQ(mesh.quick_check(), "");
-  }
-}
-
-// A walk of designs; visit is called after every step.
 template <class Visit>
 void walk(Mesh& mesh, Walk& designs, int points, int steps, const RemodelOptions& options, Visit visit) {
   for (int i = 0; i < steps; ++i) {
@@ -175,59 +140,6 @@ void walk(Mesh& mesh, Walk& designs, int points, int steps, const RemodelOptions
     const RemodelResult result = remodel(mesh, designs.domain(points), options);
     ASSERT_EQ(mesh.quick_check(), "") << "step " << i;
     visit(result);
-  }
-}
-
-// The least (r / (H mean LS))^2 of a vertex' triangles in the domain; infinity on the boundary and elsewhere.
-std::vector<double> least_ratios(const MeshData& mesh) {
-  const Triangulation& t = mesh.triangulation;
-  std::vector<double> least(t.vertex_slots(), INFINITY);
-  for (std::uint32_t i = 0; i < t.triangle_slots(); ++i) {
-    const Triangle& triangle = t[TriangleId{i}];
-    if (!triangle.alive() || triangle.region != Region::domain) continue;
-    double sum = 0.0;
-    for (const VertexId v : triangle.vertex) sum += t[v].length_scale;
-    const double bound = mesh.options.max_gradation * sum / 3.0;
-    for (const VertexId v : triangle.vertex)
-      if (t[v].boundary == no_index)
-        least[v.index] = std::min(least[v.index], triangle.circle.squared_radius() / (bound * bound));
-  }
-  return least;
-}
-
-bool leaves_refinement_nothing_to_do(Mesh mesh, VertexId without) {
-  MeshData& data = mesh.data();
-  data.triangulation.begin();
-  data.triangulation.remove(without);
-  const std::size_t vertices = data.triangulation.vertex_count();
-  Refiner refiner(data);
-  for (const TriangleId t : data.triangulation.touched()) refiner.consider(t);
-  EXPECT_EQ(refiner.run(), Stopped::done);
-  const bool nothing = data.triangulation.vertex_count() == vertices;
-  data.triangulation.commit();
-  return nothing;
-}
-
-TEST(Coarsening, RemovesTheDensestThatCanGoFirst) {
-  Mesh mesh = generated(test::catalogue_domain(0, 50), {.max_gradation = 0.5, .gradation = 4.0});
-  MeshData& data = mesh.data();
-  data.options.max_gradation = 0.8;
-  for (int i = 0; i < 20; ++i) {
-    const Mesh before = mesh;
-    const std::vector<double> ratios = least_ratios(data);
-    data.triangulation.begin();
-    for (std::uint32_t k = 0; k < data.triangulation.triangle_slots(); ++k)
-      if (data.triangulation[TriangleId{k}].alive()) data.triangulation.touch(TriangleId{k});
-    ASSERT_EQ(coarsen_touched(data, {}, 1), 1U);
-    data.count_domain_triangles();
-    data.triangulation.commit();
-    std::uint32_t gone = 0;
-    for (std::uint32_t v = 1; v < ratios.size(); ++v)
-      if (std::isfinite(ratios[v]) && !data.triangulation[VertexId{v}].alive()) gone = v;
-    for (std::uint32_t v = 1; v < ratios.size(); ++v)
-      if (ratios[v] < ratios[gone] * (1.0 - 1e-12)) {
-        EXPECT_FALSE(leaves_refinement_nothing_to_do(before, VertexId{v})) << v << " before " << gone;
-      }
   }
 }
 
@@ -297,71 +209,6 @@ TEST(Renew, RemembersWhatTheNextRenewalHasToLookAt) {
   });
   EXPECT_GE(renewals, 4);
   EXPECT_GE(others, 4 * renewals);
-}
-
-TEST(LostVertices, HaveThePapersRegionUnlessRenewing) {
-  const Point centre{1.0, 2.0}, at_two{3.0, 2.0}, at_three{1.0, -1.0};
-  const auto radius = [&](bool renews, double distance, double pair) {
-    return lost_vertex_radius({.distance = distance, .renewing = renews}, pair, centre, at_two, at_three);
-  };
-  for (const double pair : {0.0, 0.01, 0.5, 1.0, 2.9}) EXPECT_EQ(radius(false, 1.0, pair), 3.0);
-  for (const double pair : {0.61, 1.0, 1.9}) EXPECT_EQ(radius(true, 1.0, pair), 2.0);
-  for (const bool renews : {false, true}) EXPECT_EQ(radius(renews, 1.0, 4.0), 4.0);
-  // It failed although it hardly moves.
-  for (const double pair : {0.0, 0.01, 0.59}) EXPECT_DOUBLE_EQ(radius(true, 1.0, pair), std::sqrt(8.0));
-  for (const double pair : {0.0, 0.59}) EXPECT_DOUBLE_EQ(radius(true, 0.0, pair), std::sqrt(8.0));
-  EXPECT_EQ(radius(true, 10.0, 0.5), 5.0);
-}
-
-// Of the interior, those within `reach` of the least radius of a vertex that cannot be moved in place
-// although it hardly moves.
-std::size_t interior_near_lost(Mesh mesh, const Domain& domain, double reach) {
-  MeshData& data = mesh.data();
-  const std::size_t airfoil = 0;
-  data.triangulation.begin();
-  AdjustCache& cache = adjust_cache(data, {&airfoil, 1});
-  EXPECT_FALSE(adjust_all(data, cache, domain));
-  adjust_some(data, cache);
-  std::size_t near = 0;
-  for (std::uint32_t v = 1; v < data.triangulation.vertex_slots(); ++v) {
-    const Vertex& vertex = data.triangulation[VertexId{v}];
-    if (!vertex.alive() || vertex.boundary != no_index) continue;
-    bool inside = false;
-    for (std::size_t i = 0; i < cache.non_steiner; ++i) {
-      const AdjustCache::Moving& m = cache.moving[i];
-      const Point p = cache.new_points[i];
-      const double pair = std::sqrt(squared_distance(p, cache.old_points[i]));
-      const double least =
-          least_radius({.renewing = true}, p, cache.new_points[m.before], cache.new_points[m.after]);
-      const double radius = reach * least - pair;  // about the old place too
-      inside |=
-          !cache.accepted[i] && pair < 0.2 * least && squared_distance(p, vertex.point) < radius * radius;
-    }
-    near += inside ? 1 : 0;
-  }
-  data.triangulation.rollback();
-  return near;
-}
-
-TEST(LostVertices, ThatHardlyMoveTakeMoreOfTheInteriorWithThem) {
-  const auto seed = test::seed(5);
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937_64 random(seed);
-  Walk designs(0, 0.003, random);
-  Mesh mesh = generated(designs.domain(100), {.gradation = 2.0});
-  std::size_t within_the_least = 0, within_more = 0, removed = 0;
-  for (int i = 0; i < 4000; ++i) {
-    designs.next();
-    const Domain domain = designs.domain(100);
-    const Mesh before = mesh;
-    const RemodelResult result = remodel(mesh, domain, renewing);
-    if (result.full_adjustment || result.refreshed || renewal_is_due(before.data())) continue;
-    within_the_least += interior_near_lost(before, domain, 1.0);
-    within_more += interior_near_lost(before, domain, 1.4);
-    removed += result.removed;
-  }
-  EXPECT_GT(2 * within_more, 3 * within_the_least);  // some lie between
-  EXPECT_GE(removed, within_more);
 }
 
 // The paper's surplus, and that most of it is gone: random walks, in which no design is like another and all

@@ -2,6 +2,8 @@
 
 // Designs that several tests remodel to.
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -10,11 +12,18 @@
 
 #include "remodel/airfoil.h"
 #include "remodel/domain.h"
+#include "remodel/generate.h"
 
 namespace remodel::test {
 
 inline Domain catalogue_domain(std::size_t airfoil, int points) {
   return airfoil_domain(airfoil_catalogue()[airfoil].airfoil(), {.points = points});
+}
+
+inline Mesh generated(const Domain& domain, const QualityOptions& options) {
+  GenerateResult result = generate(domain, options);
+  EXPECT_EQ(result.stopped, Stopped::done);
+  return std::move(result.mesh);
 }
 
 inline Loop loop(LoopRole role, std::string name, Shape shape, std::size_t stations) {
