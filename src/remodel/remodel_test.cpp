@@ -22,12 +22,9 @@ namespace {
 using test::catalogue_domain;
 
 Mesh generated(const Domain& domain, double gradation = 4.0) {
-  QualityOptions options;
-  options.gradation = gradation;
-  GenerateResult result = generate(domain, options);
-  EXPECT_EQ(result.stopped, Stopped::done);
-  EXPECT_EQ(result.mesh.quick_check(), "");
-  return std::move(result.mesh);
+  Mesh mesh = test::generated(domain, {.gradation = gradation});
+  EXPECT_EQ(mesh.quick_check(), "");
+  return mesh;
 }
 
 // The slow and independent check, with the design.

@@ -158,7 +158,8 @@ class Replacement {
       const double leftwards = cross(along, news[i] - olds[i]);
       const double pair = std::sqrt(squared_distance(olds[i], news[i]));
       const auto add = [&](const std::vector<Point>& points) {
-        const double radius = lost_vertex_radius(options_, pair, points[i], points[m.before], points[m.after]);
+        const double radius =
+            lost_vertex_radius(options_, pair, points[i], points[m.before], points[m.after]);
         result.push_back({points[i], radius, triangulation_.star(m.vertex).triangle});
       };
       const Sides& sides = mesh_.sides[mesh_.loop_of(m.curve)];

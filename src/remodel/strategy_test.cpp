@@ -132,7 +132,7 @@ TEST(Renewal, LooksAtTheVerticesThatItIsGiven) {
   data.triangulation.commit();
 }
 
-// A mesh made to a smaller H has vertices that can go.
+// A walk of designs; visit is called after every step.
 template <class Visit>
 void walk(Mesh& mesh, Walk& designs, int points, int steps, const RemodelOptions& options, Visit visit) {
   for (int i = 0; i < steps; ++i) {

@@ -65,8 +65,8 @@ std::vector<Point> closed(std::vector<Point> points) {
   return points;
 }
 
-// Radii as in the specialised method by chain (src/remodel/replace.cpp): D times the pair's distance, and at least the
-// distance to the farther neighbour on the outline.
+// Radii as in the specialised method by chain (src/remodel/replace.cpp): D times the pair's distance, and at
+// least the distance to the farther neighbour on the outline.
 void draw_regions(Svg& svg, const std::vector<Point>& olds, const std::vector<Point>& news, double distance) {
   const std::size_t n = olds.size();
   for (std::size_t i = 0; i < n; ++i) {
