@@ -1,8 +1,8 @@
 #pragma once
 
-// The command line's parts, so that only arguments.cpp and main.cpp know the parser (CLI11 costs seconds a
-// file to compile). Every refused value is an Error (argument) that names the option, what was found and what
-// was expected.
+// Arguments and options of the command line. Only arguments.cpp, help.cpp and main.cpp include the parser,
+// because CLI11 takes seconds per file to compile. Every refused value is an Error (argument) that names the
+// option, what was found and what was expected.
 
 #include <cstdint>
 #include <functional>
@@ -23,15 +23,16 @@ struct IntegerRange {
   bool even = false;
 };
 
-// Finite numbers only, whatever the bounds.
+// A range of finite numbers.
 struct RealRange {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   bool above_low = false;  // low itself is refused
 };
 
-// What an option is called, what stands for its value in the help, and one sentence with unit and meaning.
-// default_text is shown by --help; the default itself lies where `set` puts a given value.
+// The name of an option, the placeholder of its value in the help, and one sentence with unit and meaning.
+// default_text is shown by --help; the default itself is the initial value of the variable that `set`
+// assigns.
 struct OptionText {
   std::string name;
   std::string value;
@@ -47,7 +48,7 @@ CLI::App& add_subcommand(CLI::App& program, const std::string& name, const std::
 void add_integer(CLI::App& app, const OptionText& text, IntegerRange range,
                  std::function<void(std::int64_t)> set);
 void add_real(CLI::App& app, const OptionText& text, RealRange range, std::function<void(double)> set);
-// One of a few words; set is given its index.
+// One of several words; `set` gets its index.
 void add_choice(CLI::App& app, const OptionText& text, std::vector<std::string> words,
                 std::function<void(std::size_t)> set);
 void add_flag(CLI::App& app, const std::string& name, const std::string& description, bool& target);
@@ -60,14 +61,14 @@ void add_text(CLI::App& app, const OptionText& text, Presence presence, std::str
 // The same, but may be given several times.
 void add_texts(CLI::App& app, const OptionText& text, Presence presence, std::vector<std::string>& target);
 
-// Whether an option was given on the command line.
+// True if the option was given on the command line.
 bool given(const CLI::App& app, const std::string& name);
 
 std::int64_t parse_integer(const std::string& option, std::string_view text, IntegerRange range);
 double parse_real(const std::string& option, std::string_view text, RealRange range);
-// Comma-separated; exactly `count` of them.
+// Splits a comma-separated list of exactly `count` elements.
 std::vector<double> parse_reals(const std::string& option, std::string_view text, std::size_t count);
-// Comma-separated; none of them empty.
+// Splits a comma-separated list whose elements are not empty.
 std::vector<std::string> parse_list(const std::string& option, const std::string& text);
 
 }  // namespace remodel::app

@@ -2,6 +2,7 @@
 
 #include "remodel/batch.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <memory>
@@ -15,11 +16,13 @@
 #include "meshing_options.h"
 #include "new_airfoil.h"
 #include "outputs.h"
+#include "remodel/directory_lock.h"
 #include "remodel/error.h"
 #include "remodel/io.h"
 #include "remodel/remodel.h"
 #include "remodel_options.h"
 #include "report.h"
+#include "shape_input.h"
 #include "start_mesh.h"
 #include "timing.h"
 
@@ -35,8 +38,9 @@ struct BatchCommand {
   std::filesystem::path directory;
   Order order = Order::nearest;
   std::optional<std::string> meshes;  // extension of the files to write
-  int cst_degree = 5;
+  FitOptions fit;
   RemodelOptions remodelling;
+  bool overwrite = false;
   bool json = false;
 };
 
@@ -46,11 +50,11 @@ struct Design {
   Domain domain;
 };
 
-// All of them, each found to be a domain before the first is meshed.
+// Reads all designs and checks that each is a domain before the first is meshed.
 std::vector<Design> read_designs(const BatchCommand& command, const StartMesh& start) {
   std::vector<Design> designs;
   for (const std::string& shape : command.shapes) {
-    const CstAirfoil airfoil = load_airfoil(shape, command.cst_degree);
+    const CstAirfoil airfoil = fit_shape(shape, command.fit).airfoil;
     try {
       Domain domain = with_new_airfoil(start, command.start, airfoil);
       validate(domain);
@@ -71,11 +75,31 @@ std::vector<std::size_t> order_of(const BatchCommand& command, const StartMesh& 
   }
   std::vector<CstAirfoil> airfoils;
   for (const Design& design : designs) airfoils.push_back(design.airfoil);
-  return order_designs(present_airfoil(start, command.start, command.cst_degree), airfoils,
+  return order_designs(present_airfoil(start, command.start, command.fit.degree), airfoils,
                        {.points = discretisation_of(start.mesh.domain()).points});
 }
 
-void require_directory(const std::filesystem::path& directory) {
+constexpr std::array mesh_extensions{"vtkhdf", "su2", "msh", "vtu"};
+
+// Whether a batch writes files of this name: report.json, 001.su2.
+bool is_of_a_batch(const std::filesystem::path& file) {
+  if (file.filename() == "report.json") return true;
+  const std::string stem = file.stem().string();
+  const std::string extension = file.extension().string();
+  return stem.size() >= 3 && stem.find_first_not_of("0123456789") == std::string::npos &&
+         std::any_of(mesh_extensions.begin(), mesh_extensions.end(),
+                     [&](const char* known) { return extension == std::string(".") + known; });
+}
+
+std::vector<std::filesystem::path> files_of_a_batch(const std::filesystem::path& directory) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(directory))
+    if (is_of_a_batch(entry.path())) files.push_back(entry.path());
+  return files;
+}
+
+void require_directory(const BatchCommand& command) {
+  const std::filesystem::path& directory = command.directory;
   std::error_code error;
   if (!std::filesystem::exists(directory, error)) {
     require_writable(directory.has_filename() ? directory : directory.parent_path());
@@ -84,6 +108,9 @@ void require_directory(const std::filesystem::path& directory) {
   if (!std::filesystem::is_directory(directory, error))
     throw Error(ErrorCode::file, directory.string(), "is a file, expected a directory");
   require_writable(directory / "report.json");
+  if (!command.overwrite && !files_of_a_batch(directory).empty())
+    throw Error(ErrorCode::argument, directory.string(),
+                "holds a batch: expected another directory, or --overwrite to replace it");
 }
 
 std::string file_of(std::size_t number, const std::string& extension) {
@@ -92,7 +119,7 @@ std::string file_of(std::size_t number, const std::string& extension) {
   return digits + "." + extension;
 }
 
-// What becomes of one design. Sums are over the designs so far.
+// Remodels the mesh to one design after the other. Sums are over the designs so far.
 class Batch {
  public:
   Batch(const BatchCommand& command, Mesh mesh)
@@ -100,7 +127,7 @@ class Batch {
     for (std::size_t i = 0; i < command.shapes.size(); ++i) designs_.push_back(nullptr);
   }
 
-  // False where a limit kept the mesh from being finished.
+  // Returns false if a limit ended the mesh before it was finished.
   bool evaluate(const Design& design, std::size_t index) {
     const Stopwatch watch;
     const RemodelResult result = remodel(mesh_, design.domain, command_.remodelling);
@@ -165,11 +192,13 @@ class Batch {
 };
 
 Status run(const BatchCommand& command) {
-  require_directory(command.directory);
+  require_directory(command);
   const StartMesh start = read_start_mesh(command.mesh, command.start);
   const std::vector<Design> designs = read_designs(command, start);
   const std::vector<std::size_t> order = order_of(command, start, designs);
-  std::filesystem::create_directories(command.directory);
+  const DirectoryLock lock(command.directory);
+  require_directory(command);  // another batch may have ended there meanwhile
+  for (const std::filesystem::path& file : files_of_a_batch(command.directory)) std::filesystem::remove(file);
 
   const InterruptFlag interrupt;
   Batch batch(command, start.mesh);
@@ -210,13 +239,13 @@ void add_batch_command(CLI::App& program, Action& action) {
        "nearest (always the design that is nearest to the last one) or given (as on the command line)"},
       {"nearest", "given"},
       [command](std::size_t choice) { command->order = choice == 0 ? Order::nearest : Order::given; });
-  static constexpr std::array formats{"vtkhdf", "su2", "msh", "vtu"};
   add_choice(app,
              {"--meshes", "FORMAT", "none",
               "Also write the mesh of each design as DIR/001.FORMAT and so on: vtkhdf, su2, msh or vtu"},
-             {formats.begin(), formats.end()},
-             [command](std::size_t choice) { command->meshes = formats[choice]; });
-  add_cst_degree(app, command->cst_degree);
+             {mesh_extensions.begin(), mesh_extensions.end()},
+             [command](std::size_t choice) { command->meshes = mesh_extensions[choice]; });
+  add_flag(app, "--overwrite", "Replace the batch that the directory holds", command->overwrite);
+  add_fit_options(app, command->fit);
   add_remodel_options(app, command->remodelling);
   add_step_strategy(app, command->remodelling);
   add_json_flag(app, command->json);

@@ -2,6 +2,7 @@
 
 #include "remodel/check.h"
 
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -20,17 +21,18 @@ struct CheckCommand {
   bool json = false;
 };
 
-// A native mesh is held to its own design and options; another one to the rules that every triangulation
-// obeys, and to what the command line asks for.
+// A native mesh is checked against its own design and options; any other mesh against the rules of every
+// triangulation and the options of the command line.
 CheckOptions rules_for(const CheckCommand& command, const MeshInput& input) {
   CheckOptions options;
   if (input.living) {
     options.design = &input.living->domain();
     options.min_angle_deg = input.living->options().min_angle_deg;
-    options.max_gradation = promised_gradation(input.living->options());
+    options.max_gradation = input.living->promised_gradation();
     options.delaunay = !input.living->shows_file_triangles();
   } else {
     options.delaunay = false;
+    options.unused_points = true;
   }
   options.min_angle_deg = command.min_angle.value_or(options.min_angle_deg);
   options.max_gradation = command.max_gradation.value_or(options.max_gradation);
@@ -56,6 +58,17 @@ void add_violations(Report& report, const std::vector<Violation>& violations) {
   }
 }
 
+// None without length scales, which only meshes of ours have.
+void add_gradation(Report& report, const CheckResult& result, const MeshInput& input) {
+  if (std::isnan(result.max_gradation)) return report.data("max_gradation", nullptr);
+  const double keep = input.living ? input.living->keep() : 1.0;
+  report.figure("max_gradation",
+                keep > 1.0     ? "largest r / (keep H mean LS)"
+                : input.living ? "largest r / (H mean LS)"
+                               : "largest r / (H mean LS), H = sqrt(1/2) or as given",
+                result.max_gradation);
+}
+
 Status run(const CheckCommand& command) {
   const MeshInput input = read_any_mesh(command.mesh);
   const CheckOptions options = rules_for(command, input);
@@ -69,11 +82,20 @@ Status run(const CheckCommand& command) {
   add_violations(report, result.violations);
   report.figure("triangles", "triangles", result.triangles);
   report.figure("vertices", "vertices", result.vertices);
+  report.data("unused_points", result.unused_points);
+  if (result.unused_points > 0)
+    report.line("left out", std::to_string(result.unused_points) + " points of no triangle");
   report.figure("min_angle_deg", "smallest angle", result.min_angle_deg, "degrees");
   add_exemption_figures(report, result.exempt_triangles, result.min_held_angle_deg);
-  report.figure("max_gradation", "largest r / (H mean LS)", result.max_gradation);
+  add_gradation(report, result, input);
   report.figure("delaunay", "Delaunay", result.delaunay);
   add_boundary_figures(report, result.boundary);
+  Json regions = Json::object();
+  for (const auto& [name, count] : result.regions) {
+    regions[name] = count;
+    report.line("region " + name, std::to_string(count) + " triangles");
+  }
+  report.data("regions", regions);
   report.figure("area", "area", result.area, "square chords");
   report.print(command.json);
   return result.valid ? Status::done : Status::answer_is_no;

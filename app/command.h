@@ -1,6 +1,6 @@
 #pragma once
 
-// What the subcommands share: how they register themselves and how they end.
+// The registration and the exit statuses of all subcommands.
 
 #include <functional>
 
@@ -19,22 +19,22 @@ enum class Status : int {
   internal_error = 4  // our own bug
 };
 
-// The chosen subcommand's work; set while the command line is parsed, run afterwards.
+// The work of the chosen subcommand: set while the command line is parsed, called afterwards.
 using Action = std::function<Status()>;
 
-// Each registers one subcommand, which sets `action` when it is chosen. One file each: <name>_command.cpp.
+// Each function registers one subcommand, which sets `action` when it is chosen; it is in <name>_command.cpp.
 void add_mesh_command(CLI::App& program, Action& action);
 void add_update_command(CLI::App& program, Action& action);
 void add_batch_command(CLI::App& program, Action& action);
 void add_check_command(CLI::App& program, Action& action);
 void add_fit_command(CLI::App& program, Action& action);
+void add_flow_command(CLI::App& program, Action& action);
 void add_optimise_command(CLI::App& program, Action& action);
 void add_draw_command(CLI::App& program, Action& action);
+void add_film_command(CLI::App& program, Action& action);
 void add_convert_command(CLI::App& program, Action& action);
 void add_shapes_command(CLI::App& program, Action& action);
 void add_soak_command(CLI::App& program, Action& action);
-void add_study_command(CLI::App& program, Action& action);
-// A subcommand of `study`.
-void add_study_report_command(CLI::App& study, Action& action);
+void add_study_command(CLI::App& program, Action& action);  // with REMODEL_STUDY
 
 }  // namespace remodel::app

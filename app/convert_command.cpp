@@ -1,5 +1,6 @@
-// remodel convert MESH -o MESH...: the same mesh in other formats.
+// remodel convert MESH -o MESH...: the same mesh in other formats, with its fields.
 
+#include <algorithm>
 #include <memory>
 
 #include "arguments.h"
@@ -7,6 +8,8 @@
 #include "figures.h"
 #include "mesh_input.h"
 #include "outputs.h"
+#include "remodel/field.h"
+#include "remodel/io.h"
 
 namespace remodel::app {
 namespace {
@@ -17,19 +20,39 @@ struct ConvertCommand {
   bool json = false;
 };
 
+// Nothing where there are none.
+void add_field_names(Report& report, const std::string& key, const std::string& label,
+                     std::span<const Field> fields) {
+  if (fields.empty()) return;
+  Json names = Json::array();
+  std::string text;
+  for (const Field& field : fields) {
+    names.push_back(field.name);
+    text += (text.empty() ? "" : ", ") + field.name;
+  }
+  report.data(key, names);
+  report.line(label, text);
+}
+
 Status run(const ConvertCommand& command) {
   command.outputs.require_possible();
   const MeshInput input = read_any_mesh(command.mesh);
+  std::vector<Field> fields = read_fields(command.mesh);
+  // Those with infinities or NaN are left out: not every format can hold them.
+  const auto left_out = std::stable_partition(fields.begin(), fields.end(), is_finite);
+  const auto kept = std::span(fields.begin(), left_out);
   // A native copy of a native mesh keeps its state.
   if (input.living) {
-    command.outputs.write(*input.living);
+    command.outputs.write(*input.living, kept);
   } else {
-    command.outputs.write(input.frozen);
+    command.outputs.write(input.frozen, kept);
   }
   Report report;
   report.figure("mesh", "mesh", command.mesh);
   report.figure("triangles", "triangles", input.frozen.triangles.size());
   report.figure("vertices", "vertices", input.frozen.points.size());
+  add_field_names(report, "fields", "fields", kept);
+  add_field_names(report, "fields_left_out", "not finite, left out", std::span(left_out, fields.end()));
   add_output_figures(report, command.outputs.files());
   report.print(command.json);
   return Status::done;
@@ -39,7 +62,7 @@ Status run(const ConvertCommand& command) {
 
 void add_convert_command(CLI::App& program, Action& action) {
   auto command = std::make_shared<ConvertCommand>();
-  CLI::App& app = add_subcommand(program, "convert", "Writes a mesh in other formats",
+  CLI::App& app = add_subcommand(program, "convert", "Writes a mesh and its fields in other formats",
                                  [command, &action] { action = [command] { return run(*command); }; });
   add_mesh_argument(app, command->mesh);
   command->outputs.add_options(app, Presence::required);

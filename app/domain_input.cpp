@@ -1,12 +1,14 @@
 #include "domain_input.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "arguments.h"
 #include "figures.h"
 #include "remodel/error.h"
 #include "remodel/io.h"
+#include "remodel/shape_files.h"
 
 namespace remodel::app {
 namespace {
@@ -16,7 +18,8 @@ bool is_graph_file(const std::string& shape) {
 }
 
 bool is_domain_file(const std::string& shape) {
-  return std::filesystem::path(shape).extension() == ".json" && holds_domain(shape);
+  const std::filesystem::path file(shape);
+  return (file.extension() == ".json" || is_pipe(file)) && holds_domain(file);
 }
 
 Placement placement_of(const std::string& text) {
@@ -27,10 +30,12 @@ Placement placement_of(const std::string& text) {
   return {.chord = values[0], .rotation_deg = values[1], .position = {values[2], values[3]}};
 }
 
-// "flap" for some/flap.dat, "2412" for naca:2412; numbered where a name was there before.
+// "flap" for some/flap.dat, "naca2412" for naca:2412 (to solvers a bare number is a tag, not a name); a
+// number is appended to a name that is already taken.
 std::string name_of(const std::string& shape, const std::vector<PlacedAirfoil>& before) {
   std::string name = std::filesystem::path(shape).stem().string();
-  name.erase(0, name.rfind(':') + 1);
+  std::erase(name, ':');
+  if (name.find_first_not_of("0123456789.+-") == std::string::npos) name.insert(0, "airfoil");
   const auto taken = [&](const std::string& candidate) {
     return candidate == "farfield" ||
            std::any_of(before.begin(), before.end(),
@@ -41,7 +46,23 @@ std::string name_of(const std::string& shape, const std::vector<PlacedAirfoil>& 
   return candidate;
 }
 
+std::vector<Curve> outline_of_file(const std::string& shape, OutlineCurve curve, const std::string& name) {
+  if (!is_coordinate_file(shape))
+    throw Error(ErrorCode::argument, "--as-given",
+                "given for '" + shape + "', expected for coordinate files");
+  return outline_of(read_airfoil(shape), curve, name);
+}
+
+CstAirfoil fitted(const std::string& shape, const FitOptions& options, std::vector<ShapeFit>& fits) {
+  const CstFit fit = fit_shape(shape, options);
+  if (is_coordinate_file(shape)) fits.push_back({shape, fit});
+  return fit.airfoil;
+}
+
 void require_alone(const DomainInputOptions& options, const std::string& shape) {
+  if (options.as_given)
+    throw Error(ErrorCode::argument, "--as-given",
+                "given for '" + shape + "', a whole domain, expected for coordinate files");
   if (options.shapes.size() == 1 && options.places.empty()) return;
   throw Error(ErrorCode::argument, shape, "holds a whole domain, expected it alone and without --place");
 }
@@ -60,6 +81,12 @@ void add_domain_input(CLI::App& app, DomainInputOptions& options) {
              "comes to "
              "X,Y; may be repeated, in the order of the airfoils"},
             Presence::optional, options.places);
+  static constexpr std::array outlines{OutlineCurve::spline, OutlineCurve::polyline};
+  add_choice(app,
+             {"--as-given", "CURVE", "",
+              "The outline of a coordinate file as it is, without a fit: a spline or a polyline through its "
+              "points, which are the vertices"},
+             {"spline", "polyline"}, [&](std::size_t choice) { options.as_given = outlines[choice]; });
   add_choice(app,
              {"--crossings", "WHAT", "insert",
               "Segments of a .poly file that cross: insert the crossing, or refuse the file"},
@@ -69,12 +96,12 @@ void add_domain_input(CLI::App& app, DomainInputOptions& options) {
 }
 
 bool is_single_airfoil(const DomainInputOptions& options) {
-  return options.shapes.size() == 1 && options.places.empty() && !is_graph_file(options.shapes[0]) &&
-         !is_domain_file(options.shapes[0]);
+  return options.shapes.size() == 1 && options.places.empty() && !options.as_given &&
+         !is_graph_file(options.shapes[0]) && !is_domain_file(options.shapes[0]);
 }
 
 DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOptions& discretisation,
-                        int cst_degree) {
+                        const FitOptions& fit) {
   DomainInput input;
   for (const std::string& shape : options.shapes) {
     if (is_graph_file(shape)) {
@@ -96,16 +123,23 @@ DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOp
                     " airfoils");
   std::vector<PlacedAirfoil> airfoils;
   for (std::size_t i = 0; i < options.shapes.size(); ++i) {
-    PlacedAirfoil placed{.airfoil = load_airfoil(options.shapes[i], cst_degree)};
-    if (options.shapes.size() > 1) placed.name = name_of(options.shapes[i], airfoils);
+    const std::string& shape = options.shapes[i];
+    PlacedAirfoil placed;
+    if (options.shapes.size() > 1) placed.name = name_of(shape, airfoils);
+    if (options.as_given)
+      placed.outline = outline_of_file(shape, *options.as_given, placed.name);
+    else
+      placed.airfoil = fitted(shape, fit, input.fits);
     if (i < options.places.size()) placed.placement = placement_of(options.places[i]);
     airfoils.push_back(std::move(placed));
   }
   input.domain = airfoils_domain(airfoils, discretisation);
+  input.in_farfield = true;
   return input;
 }
 
 void add_findings(Report& report, const DomainInput& input) {
+  add_fit_figures(report, input.fits);
   if (!input.findings) return;
   const PlanarFindings& found = *input.findings;
   report.data("input", {{"duplicate_points", found.duplicate_points},
@@ -115,16 +149,19 @@ void add_findings(Report& report, const DomainInput& input) {
                         {"empty_segments", found.empty_segments},
                         {"outside_segments", found.outside_segments},
                         {"outside_points", found.outside_points}});
-  const auto line = [&](std::size_t count, const char* what) {
-    if (count > 0) report.line("input", std::to_string(count) + what);
+  const auto line = [&](std::size_t count, const char* one, const char* more) {
+    if (count > 0) report.line("input", std::to_string(count) + (count == 1 ? one : more));
   };
-  line(found.duplicate_points, " points at the place of another");
-  line(found.points_on_segments, " points on segments, which were split");
-  line(found.crossings, " crossings of segments, which were split");
-  line(found.overlaps, " pieces of segments over others");
-  line(found.empty_segments, " segments from a point to itself");
-  line(found.outside_segments, " pieces of segments outside, left out");
-  line(found.outside_points, " points outside, left out");
+  line(found.duplicate_points, " point at the place of another", " points at the places of others");
+  line(found.points_on_segments, " point on a segment, which was split",
+       " points on segments, which were split");
+  line(found.crossings, " crossing of segments, which were split",
+       " crossings of segments, which were split");
+  line(found.overlaps, " piece of a segment over another", " pieces of segments over others");
+  line(found.empty_segments, " segment from a point to itself", " segments from a point to itself");
+  line(found.outside_segments, " piece of a segment outside, left out",
+       " pieces of segments outside, left out");
+  line(found.outside_points, " point outside, left out", " points outside, left out");
 }
 
 }  // namespace remodel::app

@@ -1,7 +1,7 @@
 #pragma once
 
-// What is meshed: an airfoil in its farfield, several airfoils with their places, a domain file, or a planar
-// graph.
+// Reads the input of `mesh` and `update`: an airfoil in its farfield, several airfoils with their places, a
+// domain file or a planar graph.
 
 #include <optional>
 #include <string>
@@ -10,6 +10,7 @@
 #include "remodel/domain.h"
 #include "remodel/planar.h"
 #include "report.h"
+#include "shape_input.h"
 
 namespace CLI {
 class App;
@@ -21,23 +22,27 @@ struct DomainInputOptions {
   std::vector<std::string> shapes;
   std::vector<std::string> places;  // "CHORD,DEGREES,X,Y", in the order of the shapes
   Crossings crossings = Crossings::insert;
+  std::optional<OutlineCurve> as_given;  // no fit: a curve through the points of coordinate files
 };
 
-// SHAPE..., --place, --crossings.
+// SHAPE..., --place, --crossings, --as-given.
 void add_domain_input(CLI::App& app, DomainInputOptions& options);
 
-// Whether this is one airfoil where it lies, as opposed to a domain.
+// True if the input is one airfoil without a place, as opposed to a domain or an outline as given.
 bool is_single_airfoil(const DomainInputOptions& options);
 
 struct DomainInput {
   Domain domain;
-  std::optional<PlanarFindings> findings;  // of a planar graph
+  std::optional<PlanarFindings> findings = std::nullopt;  // of a planar graph
+  std::vector<ShapeFit> fits = {};                        // of coordinate files
+  bool in_farfield = false;                               // airfoils in the farfield of the options
 };
 // Throws Error as the readers do, and for more places than shapes.
 DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOptions& discretisation,
-                        int cst_degree);
+                        const FitOptions& fit);
 
-// input{...}: what was found in a planar graph, and mended.
+// Reports under input{...} the defects of a planar graph that were found and resolved, and under fits[] how
+// well coordinate files were fitted.
 void add_findings(Report& report, const DomainInput& input);
 
 }  // namespace remodel::app

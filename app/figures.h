@@ -1,6 +1,6 @@
 #pragma once
 
-// Figures and options that several subcommands have in common.
+// Figures and options that several subcommands share.
 
 #include <cstddef>
 #include <map>
@@ -29,7 +29,7 @@ void add_mesh_argument(CLI::App& app, std::string& mesh);  // of any format
 // max_gradation.
 void add_mesh_figures(Report& report, const FrozenMesh& mesh, const MeshStatistics& statistics);
 void add_gradation_error(Report& report, const GradationError& error);  // gradation_bias, gradation_deviation
-// exempt_triangles, and where there are some min_held_angle_deg: of all others.
+// exempt_triangles and, if there are any, min_held_angle_deg of all other triangles.
 void add_exemption_figures(Report& report, std::size_t exempt, double min_held_angle_deg);
 void add_boundary_figures(Report& report, const std::map<std::string, std::size_t>& boundary);
 void add_output_figures(Report& report, const std::vector<std::string>& files);

@@ -20,7 +20,7 @@ namespace {
 struct FitCommand {
   std::string shape;
   std::string output;
-  int cst_degree = 5;
+  FitOptions fit;
   bool json = false;
 };
 
@@ -40,7 +40,7 @@ void add_extreme(Report& report, const std::string& key, const Extreme& extreme)
 
 Status run(const FitCommand& command) {
   require_possible(command.output);
-  const CstFit fit = fit_shape(command.shape, command.cst_degree);
+  const CstFit fit = fit_shape(command.shape, command.fit);
   const bool apart = surfaces_apart(fit.airfoil);
   if (!command.output.empty()) {
     write_text_atomically(command.output, airfoil_to_json(fit.airfoil) + "\n");
@@ -50,6 +50,9 @@ Status run(const FitCommand& command) {
   report.figure("degree", "Bernstein degree", fit.airfoil.degree());
   report.figure("upper", "upper coefficients", fit.airfoil.upper);
   report.figure("lower", "lower coefficients", fit.airfoil.lower);
+  report.figure("te_upper", "trailing edge of the upper surface", fit.airfoil.te_upper, "chords");
+  report.figure("te_lower", "trailing edge of the lower surface", fit.airfoil.te_lower, "chords");
+  report.figure("trailing_edge_gap", "gap of the file's trailing edge", fit.gap, "chords");
   report.figure("max_error", "largest fit error", fit.max_error, "chords");
   report.figure("rms_error", "RMS fit error", fit.rms_error, "chords");
   add_extreme(report, "thickness", max_thickness(fit.airfoil));
@@ -70,7 +73,7 @@ void add_fit_command(CLI::App& program, Action& action) {
   add_text(app, {"airfoil", "AIRFOIL", "", shape_help}, Presence::required, command->shape);
   add_text(app, {"-o,--output", "FILE", "", "File to write the coefficients to: .json, a SHAPE itself"},
            Presence::optional, command->output);
-  add_cst_degree(app, command->cst_degree);
+  add_fit_options(app, command->fit);
   add_json_flag(app, command->json);
 }
 

@@ -1,6 +1,11 @@
 #include "interrupt.h"
 
+#include <unistd.h>
+
 #include <csignal>
+#include <string_view>
+
+#include "command.h"
 
 namespace remodel::app {
 namespace {
@@ -12,7 +17,17 @@ void note(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
+void end(int) {
+  constexpr std::string_view message = "remodel: interrupted\n";
+  static_cast<void>(!write(STDERR_FILENO, message.data(), message.size()));
+  _exit(static_cast<int>(Status::limit));
+}
+
 }  // namespace
+
+void end_at_interrupt() {
+  std::signal(SIGINT, end);
+}
 
 InterruptFlag::InterruptFlag() {
   interrupted = 0;
@@ -21,7 +36,7 @@ InterruptFlag::InterruptFlag() {
 }
 
 InterruptFlag::~InterruptFlag() {
-  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGINT, end);
   std::signal(SIGTERM, SIG_DFL);
 }
 

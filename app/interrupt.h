@@ -1,8 +1,15 @@
 #pragma once
 
+#include "remodel/mesh.h"
+
 namespace remodel::app {
 
-// While one lives, the first SIGINT or SIGTERM only sets a flag; a second one ends the process as usual.
+// From now on the first SIGINT ends the process with the exit status of a limit, except during the lifetime of
+// an InterruptFlag.
+void end_at_interrupt();
+
+// During the lifetime of an object the first SIGINT or SIGTERM only sets a flag; a second one ends the
+// process as usual.
 class InterruptFlag {
  public:
   InterruptFlag();
@@ -11,6 +18,15 @@ class InterruptFlag {
   InterruptFlag& operator=(const InterruptFlag&) = delete;
 
   bool raised() const;
+};
+
+// Ends generation and remodelling in order.
+class InterruptObserver : public StepObserver {
+ public:
+  bool cancelled() override { return flag_.raised(); }
+
+ private:
+  InterruptFlag flag_;
 };
 
 }  // namespace remodel::app

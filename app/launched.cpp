@@ -1,6 +1,6 @@
-#include <cstdlib>
+#include "launched.h"
 
-#include "study_ranks.h"
+#include <cstdlib>
 
 namespace remodel::app {
 namespace {

@@ -2,6 +2,7 @@
 // into one Action and every failure into one line and an exit status.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -9,18 +10,27 @@
 #include <filesystem>
 #include <new>
 #include <string>
+#include <string_view>
 #include <thread>
+#include <vector>
 
 #include "command.h"
+#include "help.h"
+#include "interrupt.h"
+#include "launched.h"
 #include "remodel/error.h"
-#include "study_ranks.h"
+#include "remodel/io.h"
+#include "remodel/version.h"
+#ifdef REMODEL_STUDY
+#include "study/app/study_ranks.h"
+#endif
 
 namespace remodel::app {
 namespace {
 
-// All ranks of an MPI program refuse the same input: rank 0 says so. Another that ended before could be the
-// end of rank 0, unheard, so it waits. Where input differs it does from host to host: the first rank of each
-// other host says so then, if the end of rank 0 was not its own.
+// Usually all ranks of an MPI program refuse the same input, and rank 0 alone reports it. The others wait
+// before they exit, because mpirun would kill rank 0 before it has printed. If only a host's files differ,
+// rank 0 goes on and the first rank of that host reports the refusal.
 bool is_heard(Status status) {
   constexpr std::chrono::seconds patience{5};
   if (status != Status::bad_input || launched_rank() == 0) return true;
@@ -40,21 +50,36 @@ int fail(Status status, std::string message) {
   return static_cast<int>(status);
 }
 
-std::string list_of_subcommands(const CLI::App& program) {
-  std::string list;
-  for (const CLI::App* subcommand : program.get_subcommands([](const CLI::App*) { return true; })) {
-    list += (list.empty() ? "" : ", ") + subcommand->get_name();
-  }
-  return list;
+using Words = std::vector<std::string>;
+
+Words subcommands_of(const CLI::App& program) {
+  Words names;
+  for (const CLI::App* subcommand : program.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(subcommand->get_name());
+  return names;
 }
 
-std::string explain(const CLI::ParseError& error, const CLI::App& program, int argc, char** argv) {
+Words options_of(const CLI::App& app) {
+  Words names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+std::string explain_word(const Words& words, const CLI::App& program) {
+  const Words names = subcommands_of(program);
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  std::string problem = "command line: found " + (words.empty() ? "nothing" : "'" + words[0] + "'") +
+                        ", expected one of " + list;
+  const std::string nearest = words.empty() ? "" : nearest_word(words[0], names);
+  return nearest.empty() ? problem : problem + " (did you mean '" + nearest + "'?)";
+}
+
+std::string explain(const CLI::ParseError& error, const CLI::App& program, const Words& words) {
   const auto chosen = program.get_subcommands();
-  if (chosen.empty()) {
-    const std::string found = argc > 1 ? "'" + std::string(argv[1]) + "'" : "nothing";
-    return "command line: found " + found + ", expected one of " + list_of_subcommands(program);
-  }
-  // A subcommand of a subcommand is the one that was asked for.
+  if (chosen.empty()) return explain_word(words, program);
+  // The innermost subcommand is the requested one.
   const CLI::App* asked = chosen.front();
   std::string name = asked->get_name();
   while (!asked->get_subcommands().empty()) {
@@ -64,33 +89,59 @@ std::string explain(const CLI::ParseError& error, const CLI::App& program, int a
   std::string problem = error.what();
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
     problem = "found unexpected";
-    for (const std::string& argument : asked->remaining()) problem += " '" + argument + "'";
+    std::string nearest;
+    for (const std::string& argument : asked->remaining()) {
+      problem += " '" + argument + "'";
+      if (nearest.empty() && argument.starts_with("--"))
+        nearest = nearest_word(argument.substr(0, argument.find('=')), options_of(*asked));
+    }
     problem += ", expected only known options and arguments";
+    if (!nearest.empty()) problem += "; did you mean '" + nearest + "'?";
   }
   return problem + " (see `remodel " + name + " --help`)";
 }
 
-int run(int argc, char** argv) {
+// `help SUBCOMMAND` is `SUBCOMMAND --help`.
+Words words_of(int argc, char** argv) {
+  Words words(argv + 1, argv + argc);
+  if (!words.empty() && words[0] == "help") {
+    words.erase(words.begin());
+    words.push_back("--help");
+  }
+  return words;
+}
+
+int run(const Words& words) {
   CLI::App program{"Remodels quality Delaunay meshes while the airfoil inside changes", "remodel"};
+  program.formatter(help_formatter());
   program.set_version_flag("--version", REMODEL_VERSION);
   program.require_subcommand(1);
-  program.footer(
-      "Exit status: 0 done, 1 done and the answer is no, 2 bad usage or input, 3 stopped at a limit, 4 our "
-      "own "
-      "bug.\nLengths are in chords, angles in degrees; `remodel SUBCOMMAND --help` names units and "
-      "defaults.");
+  const KeptPipes input_is_read_once;
   Action action;
   for (const auto add : {add_mesh_command, add_update_command, add_batch_command, add_check_command,
-                         add_fit_command, add_optimise_command, add_draw_command, add_convert_command,
-                         add_shapes_command, add_soak_command, add_study_command}) {
+                         add_fit_command, add_flow_command, add_optimise_command, add_draw_command, add_film_command,
+                         add_convert_command, add_shapes_command, add_soak_command}) {
     add(program, action);
   }
+#ifdef REMODEL_STUDY
+  add_study_command(program, action);
+#endif
+  // Subcommands inherit what was set before them; this is for the program's own help alone.
+  program.footer(
+      "Exit status: 0 done, 1 done and the answer is no, 2 bad usage or input, 3 stopped at a limit, 4 our "
+      "own bug.\nLengths are in chords, angles in degrees; `remodel help SUBCOMMAND` names units and "
+      "defaults.");
+  if (!words.empty() && !words[0].starts_with('-')) {
+    const Words names = subcommands_of(program);
+    if (std::find(names.begin(), names.end(), words[0]) == names.end())
+      return fail(Status::bad_input, "error: " + explain_word(words, program));
+  }
   try {
-    program.parse(argc, argv);
+    program.parse(Words(words.rbegin(), words.rend()));
     return static_cast<int>(action());
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return program.exit(error);
-    return fail(Status::bad_input, "error: " + explain(error, program, argc, argv));
+    return fail(Status::bad_input, "error: " + explain(error, program, words));
   } catch (const Error& error) {
     return fail(Status::bad_input, std::string("error: ") + error.what());
   } catch (const std::filesystem::filesystem_error& error) {
@@ -108,7 +159,12 @@ int run(int argc, char** argv) {
 }  // namespace remodel::app
 
 int main(int argc, char** argv) {
-  // Beyond a limit on file sizes a write then fails like one to a full disk, instead of ending the process.
+  // A write beyond the limit on file sizes then fails as on a full disk, instead of ending the process.
   std::signal(SIGXFSZ, SIG_IGN);
-  return remodel::app::run(argc, argv);
+#ifdef REMODEL_STUDY
+  if (remodel::app::launched_ranks() > 1 && argc > 1 && std::string_view(argv[1]) == "study")
+    remodel::app::go_on_with_mpi(argv);
+#endif
+  remodel::app::end_at_interrupt();
+  return remodel::app::run(remodel::app::words_of(argc, argv));
 }

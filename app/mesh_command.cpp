@@ -7,6 +7,7 @@
 #include "command.h"
 #include "domain_input.h"
 #include "figures.h"
+#include "interrupt.h"
 #include "meshing_options.h"
 #include "outputs.h"
 #include "remodel/generate.h"
@@ -25,15 +26,15 @@ struct MeshCommand {
 
 Status run(const MeshCommand& command) {
   command.outputs.require_possible();
-  const DomainInput input =
-      read_domain(command.shapes, command.meshing.discretisation, command.meshing.cst_degree);
+  const DomainInput input = read_domain(command.shapes, command.meshing.discretisation, command.meshing.fit);
   const QualityOptions quality = command.meshing.resolved_quality();
 
+  InterruptObserver observer;
   GenerateResult result;
   std::vector<double> seconds;
-  for (int i = 0; i < command.repeat; ++i) {
+  for (int i = 0; i < command.repeat && result.stopped != Stopped::interrupted; ++i) {
     const Stopwatch watch;
-    GenerateResult generated = generate(input.domain, quality);
+    GenerateResult generated = generate(input.domain, quality, &observer);
     seconds.push_back(watch.seconds());
     result = std::move(generated);
   }
@@ -44,7 +45,7 @@ Status run(const MeshCommand& command) {
   report.data("shape", command.shapes.shapes.size() == 1 ? Json(command.shapes.shapes[0])
                                                          : Json(command.shapes.shapes));
   add_findings(report, input);
-  describe(report, command.meshing);
+  describe(report, command.meshing, input.in_farfield);
   add_mesh_figures(report, result.mesh.freeze(), result.mesh.statistics());
   report.figure("small_angles", "input angles below 60 degrees", result.small_angles);
   add_gradation_error(report, result.mesh.gradation_error());

@@ -11,11 +11,19 @@ MeshInput read_any_mesh(const std::filesystem::path& file) {
     input.living = read_mesh(file);
     input.frozen = input.living->freeze();
   } catch (const Error& error) {
-    // Not a native mesh at all, in contrast to one that is damaged.
+    // The file is not a native mesh, as opposed to a damaged one.
     if (error.code() != ErrorCode::argument) throw;
     input.frozen = read_frozen_mesh(file);
   }
   return input;
+}
+
+void write_with_fields(const MeshOutputs& outputs, const MeshInput& input, std::span<const Field> fields) {
+  if (input.living) {
+    outputs.write(*input.living, fields);
+  } else {
+    outputs.write(input.frozen, fields);
+  }
 }
 
 }  // namespace remodel::app

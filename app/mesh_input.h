@@ -1,10 +1,13 @@
 #pragma once
 
-// A mesh file of any format, with its living state where it has one.
+// Reads a mesh file of any format, with its living state if it has one.
 
 #include <filesystem>
 #include <optional>
+#include <span>
 
+#include "outputs.h"
+#include "remodel/field.h"
 #include "remodel/frozen_mesh.h"
 #include "remodel/mesh.h"
 
@@ -18,5 +21,8 @@ struct MeshInput {
 // Throws Error as the readers of io.h do. A native file whose state is damaged is refused, not taken for one
 // without state.
 MeshInput read_any_mesh(const std::filesystem::path& file);
+
+// Writes the living mesh where there is one, so that native outputs keep its state.
+void write_with_fields(const MeshOutputs& outputs, const MeshInput& input, std::span<const Field> fields);
 
 }  // namespace remodel::app

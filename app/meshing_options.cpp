@@ -34,6 +34,12 @@ void add_quality(CLI::App& app, MeshingOptions& options) {
            {"--max-gradation", "H", "0.70710678",
             "Largest circumradius over mean length scale of a triangle: above 0, no unit"},
            {.low = 0.0, .above_low = true}, [&](double value) { quality.max_gradation = value; });
+  add_real(
+      app,
+      {"--min-edge", "LENGTH", "1e-12 of the domain's size or of its largest coordinate",
+       "No boundary edge shorter than this is split, and no triangle of a smaller circumradius: generation "
+       "goes on elsewhere and ends with exit status 3; above 0, in chords"},
+      {.low = 0.0, .above_low = true}, [&](double value) { quality.min_edge = value; });
   add_integer(app,
               {"--max-vertices", "N", "10000000",
                "Vertex budget: generation stops there with exit status 3; 100 to 1000000000"},
@@ -49,11 +55,16 @@ QualityOptions MeshingOptions::resolved_quality() const {
   return resolved;
 }
 
-void add_cst_degree(CLI::App& app, int& degree) {
-  add_integer(app,
-              {"--cst-degree", "N", "5",
-               "Bernstein degree of a fit, 2 to 12; catalogue names and .json files have their own"},
-              {.low = 2, .high = 12}, [&](std::int64_t value) { degree = static_cast<int>(value); });
+void add_fit_options(CLI::App& app, FitOptions& options) {
+  add_integer(
+      app,
+      {"--cst-degree", "N", "5",
+       "Bernstein degree of a fit, 2 to 12, or the next one whose surfaces do not cross; catalogue names "
+       "and .json files have their own"},
+      {.low = 2, .high = 12}, [&](std::int64_t value) { options.degree = static_cast<int>(value); });
+  add_flag(app, "--close-trailing-edge",
+           "Closes the trailing edge of a coordinate file; if not given, an open one is kept as it is",
+           options.close_trailing_edge);
 }
 
 void add_repeat(CLI::App& app, int& repeat) {
@@ -64,7 +75,7 @@ void add_repeat(CLI::App& app, int& repeat) {
 void add_meshing_options(CLI::App& app, MeshingOptions& options) {
   add_discretisation(app, options.discretisation);
   add_quality(app, options);
-  add_cst_degree(app, options.cst_degree);
+  add_fit_options(app, options.fit);
 }
 
 Json to_json(const MeshingOptions& options) {
@@ -76,16 +87,19 @@ Json to_json(const MeshingOptions& options) {
           {"max_gradation", quality.max_gradation},
           {"farfield_radius", options.discretisation.farfield_radius},
           {"farfield_points", options.discretisation.farfield_points},
-          {"cst_degree", options.cst_degree},
+          {"cst_degree", options.fit.degree},
+          {"min_edge", quality.min_edge},
+          {"close_trailing_edge", options.fit.close_trailing_edge},
           {"max_vertices", quality.max_vertices}};
 }
 
-void describe(Report& report, const MeshingOptions& options) {
+void describe(Report& report, const MeshingOptions& options, bool farfield) {
   const QualityOptions quality = options.resolved_quality();
   report.data("options", to_json(options));
-  report.line("discretisation", std::to_string(options.discretisation.points) + " points, farfield of " +
-                                    std::to_string(options.discretisation.farfield_points) + " at " +
-                                    short_text(options.discretisation.farfield_radius) + " chords");
+  if (farfield)
+    report.line("discretisation", std::to_string(options.discretisation.points) + " points, farfield of " +
+                                      std::to_string(options.discretisation.farfield_points) + " at " +
+                                      short_text(options.discretisation.farfield_radius) + " chords");
   report.line("quality asked for", "angle >= " + short_text(quality.min_angle_deg) + " degrees, H " +
                                        short_text(quality.max_gradation) + ", G " +
                                        short_text(quality.gradation) + ", R " +

@@ -1,6 +1,6 @@
 #pragma once
 
-// The options that `mesh` and `optimise` share: how a shape is discretised and what its mesh promises.
+// The options that `mesh` and `optimise` share: the discretisation of a shape and the quality of its mesh.
 
 #include <optional>
 
@@ -14,21 +14,31 @@ class App;
 
 namespace remodel::app {
 
+// --cst-degree, --close-trailing-edge: the fit of a coordinate file.
+struct FitOptions {
+  int degree = 5;
+  bool close_trailing_edge = false;
+  TrailingEdge trailing_edge() const {
+    return close_trailing_edge ? TrailingEdge::closed : TrailingEdge::kept;
+  }
+};
+
 struct MeshingOptions {
   AirfoilDomainOptions discretisation;
   QualityOptions quality;
   std::optional<double> gradation;  // not given: points / 50, the paper's pairing
-  int cst_degree = 5;
+  FitOptions fit;
 
   QualityOptions resolved_quality() const;
 };
 
 void add_meshing_options(CLI::App& app, MeshingOptions& options);
-void add_cst_degree(CLI::App& app, int& degree);
+void add_fit_options(CLI::App& app, FitOptions& options);
 void add_repeat(CLI::App& app, int& repeat);
 
-// The resolved values, as "options" in JSON and as one line a group in text.
-void describe(Report& report, const MeshingOptions& options);
+// Reports the resolved values: as "options" in JSON, as one line per group in text.
+// `farfield`: whether there is one, and airfoils in it; else the discretisation is the domain's own.
+void describe(Report& report, const MeshingOptions& options, bool farfield);
 Json to_json(const MeshingOptions& options);
 
 }  // namespace remodel::app

@@ -19,9 +19,8 @@ CstAirfoil* find_airfoil(Domain& domain) {
   return nullptr;
 }
 
-// The mesh's domain with another airfoil in it, where we made the mesh. Where the trailing edge stays closed,
-// everything else is kept as it is; opening or closing it adds or removes a curve, so the domain is built
-// anew.
+// The domain of a generated mesh with another airfoil. If both trailing edges are closed, all other loops are
+// kept; an open one is a curve of its own, so that the domain is built anew.
 Domain generated_with_airfoil(const Domain& old, const CstAirfoil& airfoil, const std::string& file) {
   Domain domain = old;
   CstAirfoil* place = find_airfoil(domain);

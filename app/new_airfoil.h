@@ -1,6 +1,6 @@
 #pragma once
 
-// Another airfoil in the place of a mesh's own.
+// Replaces the airfoil of a mesh's domain by another one.
 
 #include "remodel/airfoil.h"
 #include "remodel/domain.h"
@@ -11,11 +11,11 @@ namespace remodel::app {
 // The discretisation that airfoil_domain() was given, read back from its result.
 AirfoilDomainOptions discretisation_of(const Domain& domain);
 
-// The mesh's domain with the airfoil in it. Where we made the mesh and no boundary is named, opening or
-// closing its trailing edge builds the domain anew; otherwise all other loops stay as they are.
+// Returns the mesh's domain with the given airfoil. In a generated mesh without a named boundary, opening or
+// closing the trailing edge builds the domain anew; otherwise all other loops are kept.
 Domain with_new_airfoil(const StartMesh& start, const StartMeshOptions& options, const CstAirfoil& airfoil);
 
-// The design that the mesh is around: its own, or fitted to its boundary.
+// The airfoil of the mesh: its own design, or a fit to its boundary.
 CstAirfoil present_airfoil(const StartMesh& start, const StartMeshOptions& options, int degree);
 
 }  // namespace remodel::app

@@ -4,7 +4,7 @@
 
 namespace remodel::app {
 
-// For people: six significant digits, nothing superfluous ("0.05", "25", "1e-12").
+// A number with up to six significant digits, without trailing zeros ("0.05", "25", "1e-12").
 std::string short_text(double number);
 
 }  // namespace remodel::app

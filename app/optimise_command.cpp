@@ -3,10 +3,9 @@
 
 #include "remodel/optimise.h"
 
-#include <array>
 #include <filesystem>
+#include <functional>
 #include <memory>
-#include <optional>
 
 #include "arguments.h"
 #include "command.h"
@@ -18,31 +17,17 @@
 #include "remodel/error.h"
 #include "remodel/io.h"
 #include "remodel_options.h"
+#include "shape_input.h"
 
 namespace remodel::app {
 namespace {
 
-// What --strategy chooses: how a step is made, and which mesh it starts from.
-struct RunStrategy {
-  const char* name;
-  Strategy step;
-  MeshUse use;
-};
-constexpr std::array<RunStrategy, 5> run_strategies{{
-    {"chain", Strategy::chain, MeshUse::chain},
-    {"renew", Strategy::renew, MeshUse::chain},
-    {"hub", Strategy::renew, MeshUse::hub},
-    {"pool", Strategy::renew, MeshUse::chain},
-    {"regenerate", Strategy::chain, MeshUse::regenerate},
-}};
-
 struct OptimiseCommand {
   OptimiseStartOptions start;
-  std::string to;
+  std::string to;         // one of these two
+  std::string evaluator;  // a command
   MeshingOptions meshing;
   OptimiseOptions run;
-  std::string strategy = "renew";
-  std::optional<std::size_t> workers;
   int repeat = 1;
   bool quiet = false;
   bool json = false;
@@ -74,63 +59,27 @@ Json options_json(const OptimiseCommand& command) {
   Json options = meshing_json(command.meshing, command.run);
   options["distance"] = command.run.remodel.distance;
   options["method"] = name_of(command.run.remodel.method);
-  options["strategy"] = command.strategy;
+  options["strategy"] = name_of(command.run.strategy);
   if (command.run.workers != 0) options["workers"] = command.run.workers;
   options["sigma"] = command.run.sigma;
   options["seed"] = command.run.seed;
   options["evaluations"] = command.run.evaluations;
+  if (command.run.tolerance != 0.0) options["tolerance"] = command.run.tolerance;
   options["compare_every"] = command.run.compare_every;
   options["checkpoint_every"] = command.run.checkpoint_every;
   return options;
 }
 
-struct Figure {
-  const char* key;
-  const char* label;
-  const char* unit;
-};
-constexpr std::array<Figure, 27> figures{{
-    {"evaluations", "evaluations", ""},
-    {"infeasible_samples", "infeasible samples, drawn again", ""},
-    {"full_adjustments", "full adjustments", ""},
-    {"objective", "best objective", "square chords"},
-    {"max_error", "largest distance to the target", "chords"},
-    {"preserved_percent", "preserved, mean", "%"},
-    {"lost_mean", "lost, mean", "triangles"},
-    {"triangles_mean", "triangles, mean", ""},
-    {"generated_triangles_mean", "of a fresh mesh, mean", ""},
-    {"surplus_percent", "surplus, mean", "%"},
-    {"gradation_bias", "gradation error, mean bias", ""},
-    {"gradation_deviation", "gradation error, mean deviation", ""},
-    {"generated_gradation_bias", "of a fresh mesh, bias", ""},
-    {"generated_gradation_deviation", "of a fresh mesh, deviation", ""},
-    {"remodel_ms_mean", "remodelling, mean", "ms"},
-    {"generate_ms_mean", "generation, mean", "ms"},
-    {"speedup", "speed-up", "times"},
-    {"min_angle_deg", "smallest angle of all meshes", "degrees"},
-    {"invalid_meshes", "invalid meshes", ""},
-    {"recoveries", "recoveries by generation", ""},
-    {"refreshes", "meshes generated afresh by the strategy", ""},
-    {"seconds", "wall time", "seconds"},
-    {"workers", "workers", ""},
-    {"stopped", "stopped", ""},
-    {"detail", "detail", ""},
-    {"seed", "seed", ""},
-    {"best", "best design", ""},
-}};
-
 void add_result(Report& report, const OptimiseResult& result) {
   const Json object = Json::parse(optimise_result_to_json(result));
-  for (const Figure& figure : figures) {
-    if (!object.contains(figure.key)) continue;
-    const Json& value = object[figure.key];
-    const bool for_people = !value.is_null() && !value.is_object() && value != "";
-    if (for_people) {
-      report.figure(figure.key, figure.label, value, figure.unit);
-    } else {
-      report.data(figure.key, value);
-    }
-  }
+  for_each_figure(optimise_figures, result, [&](const auto& figure, const auto&) {
+    const Json& value = object[figure.name];
+    if (value.is_null() || value == "")
+      report.data(figure.name, value);
+    else
+      report.figure(figure.name, figure.label, value, figure.unit);
+  });
+  report.data("best", object["best"]);
 }
 
 Status status_of(const OptimiseResult& result) {
@@ -140,12 +89,12 @@ Status status_of(const OptimiseResult& result) {
 
 // Runs `repeat` times with the same seed: the same designs and meshes each time, only the times differ, and
 // their medians replace those of the last run.
-OptimiseResult run_repeatedly(const OptimiseCommand& command, const CstAirfoil& from, const CstAirfoil& to,
-                              Progress& progress) {
+OptimiseResult run_repeatedly(OptimiseCommand& command, const std::function<OptimiseResult()>& run_once) {
   std::vector<double> seconds, remodel_ms, generate_ms;
   OptimiseResult result;
   for (int i = 0; i < command.repeat; ++i) {
-    result = optimise(from, to, command.run, &progress);
+    result = run_once();
+    command.run.overwrite = true;  // the repetition before
     seconds.push_back(result.seconds);
     remodel_ms.push_back(result.remodel_ms_mean);
     generate_ms.push_back(result.generate_ms_mean);
@@ -160,38 +109,55 @@ OptimiseResult run_repeatedly(const OptimiseCommand& command, const CstAirfoil& 
   return result;
 }
 
-// What became of the triangles of the mesh that the run started from.
+// Reports how many triangles of the mesh that the run started from are left.
 void add_last_mesh_figures(Report& report, const OptimiseCommand& command) {
   const std::filesystem::path last = command.run.directory / "last.vtkhdf";
   if (command.run.start && std::filesystem::exists(last)) add_part_figures(report, read_mesh(last));
 }
 
-// A pool is a mesh for each sample of a generation, unless it is to have fewer.
-void resolve_workers(OptimiseCommand& command) {
-  command.run.workers = command.workers.value_or(command.strategy == "pool" ? 0 : 1);
+void require_one_evaluator(const OptimiseCommand& command) {
+  if (command.to.empty() && command.evaluator.empty())
+    throw Error(ErrorCode::argument, "--to", "not given, --to SHAPE or --evaluator COMMAND expected");
+  if (!command.to.empty() && !command.evaluator.empty())
+    throw Error(ErrorCode::argument, "--evaluator", "given with --to, one of them expected");
+}
+
+// One run. Command, start and progress must outlive it.
+std::function<OptimiseResult()> once(const OptimiseCommand& command, const OptimiseStart& start,
+                                     Progress& progress) {
+  if (!command.evaluator.empty()) {
+    // The shell finds the words of the command; its own two follow.
+    std::shared_ptr<Evaluator> evaluator =
+        command_evaluator({"/bin/sh", "-c", command.evaluator + " \"$@\"", "sh"});
+    return [&, evaluator] { return optimise(start.from, *evaluator, command.run, &progress); };
+  }
+  CstAirfoil to = fit_shape(command.to, command.meshing.fit).airfoil;
+  // A search of coefficients does not change the trailing edge: the target has the start's.
+  to.te_upper = start.from.te_upper, to.te_lower = start.from.te_lower;
+  return [&, to] { return optimise(start.from, to, command.run, &progress); };
 }
 
 Status run(OptimiseCommand& command) {
-  resolve_workers(command);
+  require_one_evaluator(command);
   require_run_directory(command.run.directory);
   if (command.run.resume && command.repeat > 1) {
     throw Error(ErrorCode::argument, "--repeat",
                 "found " + std::to_string(command.repeat) + " with --resume, expected 1");
   }
+  if (command.run.resume && command.run.overwrite)
+    throw Error(ErrorCode::argument, "--overwrite", "found with --resume, expected one of them");
   const OptimiseStart start = read_start(command.start, command.meshing, command.run);
-  const CstAirfoil& from = start.from;
-  CstAirfoil to = load_airfoil(command.to, command.meshing.cst_degree);
-  // A mesh with a blunt trailing edge keeps it.
-  if (start.file) to.te_upper = from.te_upper, to.te_lower = from.te_lower;
   const Json options = options_json(command);
-
   Progress progress(progress_style(command.quiet), command.run.evaluations, "options: " + options.dump());
-  const OptimiseResult result = run_repeatedly(command, from, to, progress);
+  const OptimiseResult result = run_repeatedly(command, once(command, start, progress));
   progress.finish();
 
   Report report;
   add_start_figures(report, command.start, start);
-  report.figure("to", "to", command.to);
+  if (command.evaluator.empty())
+    report.figure("to", "to", command.to);
+  else
+    report.figure("evaluator", "evaluator", command.evaluator);
   report.data("options", options);
   add_result(report, result);
   add_last_mesh_figures(report, command);
@@ -200,33 +166,26 @@ Status run(OptimiseCommand& command) {
   return status_of(result);
 }
 
-void add_strategy(CLI::App& app, OptimiseCommand& command) {
+void add_strategy(CLI::App& app, OptimiseOptions& run) {
   std::vector<std::string> names;
-  for (const RunStrategy& strategy : run_strategies) names.emplace_back(strategy.name);
-  add_choice(
-      app,
-      {"--strategy", "STRATEGY", "renew",
-       "renew (length scales are renewed, what is too dense is coarsened), chain (the paper's method to "
-       "the letter, and all that imported meshes have), pool (renew, with as many workers as samples a "
-       "generation), hub (renew, all designs from one mesh near their mean) or regenerate (chain, and "
-       "generation where a criterion asks for it)"},
-      names, [&](std::size_t choice) {
-        command.strategy = run_strategies[choice].name;
-        command.run.remodel.strategy = run_strategies[choice].step;
-        command.run.use = run_strategies[choice].use;
-      });
+  std::string help;
+  for (const MeshStrategyInfo& info : mesh_strategies()) {
+    names.emplace_back(info.name);
+    help += (help.empty() ? "" : "; ") + std::string(info.name) + ": " + info.description;
+  }
+  add_choice(app, {"--strategy", "STRATEGY", "renew", help}, names,
+             [&](std::size_t choice) { run.strategy = mesh_strategies()[choice].strategy; });
   add_integer(
       app,
-      {"--workers", "W", "1, pool: as many as samples a generation",
+      {"--workers", "W", "1, pool: as many as samples per generation",
        "Living meshes; a design goes to the worker whose last one is nearest. The result depends on it; "
        "1 to 1000"},
-      {.low = 1, .high = 1000},
-      [&](std::int64_t value) { command.workers = static_cast<std::size_t>(value); });
+      {.low = 1, .high = 1000}, [&](std::int64_t value) { run.workers = static_cast<std::size_t>(value); });
   add_integer(app,
-              {"--threads", "T", "as many as cores, at most one a worker",
+              {"--threads", "T", "as many as cores, at most one per worker",
                "Workers that evaluate at the same time. The result does not depend on it; 1 to 1000"},
               {.low = 1, .high = 1000},
-              [&](std::int64_t value) { command.run.threads = static_cast<std::size_t>(value); });
+              [&](std::int64_t value) { run.threads = static_cast<std::size_t>(value); });
 }
 
 void add_search_options(CLI::App& app, OptimiseOptions& run) {
@@ -240,6 +199,12 @@ void add_search_options(CLI::App& app, OptimiseOptions& run) {
   };
   add_count({"--evaluations", "N", "9000", "Feasible designs, one remodelling each: at least 1"}, 1,
             run.evaluations);
+  add_real(
+      app,
+      {"--tolerance", "T", "0: never",
+       "Ends after the generation in which the objective is at most T, or the search has converged: square "
+       "chords, at least 0"},
+      {.low = 0.0}, [&](double value) { run.tolerance = value; });
   add_count({"--compare-every", "K", "0",
              "Every K-th evaluation also generates a fresh mesh of the design; 0: never"},
             0, run.compare_every);
@@ -256,15 +221,23 @@ void add_optimise_command(CLI::App& program, Action& action) {
                                  "Changes one airfoil into another by CMA-ES, remodelling one living mesh",
                                  [command, &action] { action = [command] { return run(*command); }; });
   add_optimise_start_options(app, command->start);
-  add_text(app, {"--to", "SHAPE", "", "Airfoil whose points the design is to interpolate"},
-           Presence::required, command->to);
-  add_text(app, {"-o,--output", "DIR", "", "Run directory: new, empty or that of a run"}, Presence::required,
-           [command](const std::string& text) { command->run.directory = text; });
+  add_text(app, {"--to", "SHAPE", "", "Airfoil whose points the design is to interpolate; or --evaluator"},
+           Presence::optional, command->to);
+  add_text(app,
+           {"--evaluator", "COMMAND", "",
+            "Program that is run for each design as `COMMAND MESH.su2 DESIGN.json` and prints a JSON object: "
+            "objective, and optionally constraints[] (at most 0) and outputs{}"},
+           Presence::optional, command->evaluator);
+  add_text(
+      app,
+      {"-o,--output", "DIR", "", "Run directory: new or empty; that of a run with --resume or --overwrite"},
+      Presence::required, [command](const std::string& text) { command->run.directory = text; });
   add_meshing_options(app, command->meshing);
   add_remodel_options(app, command->run.remodel);
-  add_strategy(app, *command);
+  add_strategy(app, command->run);
   add_search_options(app, command->run);
-  add_flag(app, "--resume", "Go on from the checkpoint in the run directory", command->run.resume);
+  add_flag(app, "--resume", "Continue from the checkpoint in the run directory", command->run.resume);
+  add_flag(app, "--overwrite", "Replace the run that the run directory holds", command->run.overwrite);
   add_repeat(app, command->repeat);
   add_flag(app, "--quiet", "No progress and no options on standard error", command->quiet);
   add_json_flag(app, command->json);

@@ -4,6 +4,7 @@
 #include "number_text.h"
 #include "remodel/error.h"
 #include "remodel/remodel.h"
+#include "shape_input.h"
 
 namespace remodel::app {
 namespace {
@@ -24,7 +25,7 @@ void require_one_start(const OptimiseStartOptions& options) {
   else
     refuse(options,
            {"--farfield-radius", "--farfield-points", "--resolution", "--min-angle", "--max-gradation",
-            "--max-vertices"},
+            "--min-edge", "--max-vertices"},
            "given with --mesh, expected with --from: a mesh has its own");
 }
 
@@ -36,10 +37,10 @@ OptimiseStart read_mesh_start(const OptimiseStartOptions& options, const Meshing
   StartMesh file = read_start_mesh(options.mesh, wanted);
   MeshStart start{.mesh = file.mesh, .place = place_in(file, wanted)};
   OptimiseStart result;
-  result.fit = fit_airfoil(start.mesh.domain(), start.place, meshing.cst_degree);
+  result.fit = fit_airfoil(start.mesh.domain(), start.place, meshing.fit.degree);
   result.from = result.fit.airfoil;
   result.first =
-      remodel(start.mesh, with_airfoil(start.mesh.domain(), start.place, result.from), run.remodel);
+      remodel(start.mesh, with_airfoil(start.mesh.domain(), start.place, result.from), step_options(run));
   run.start = std::move(start);
   result.file = std::move(file);
   return result;
@@ -66,7 +67,7 @@ OptimiseStart read_start(const OptimiseStartOptions& options, const MeshingOptio
   run.domain = meshing.discretisation;
   run.quality = meshing.resolved_quality();
   OptimiseStart start;
-  start.from = load_airfoil(options.from, meshing.cst_degree);
+  start.from = fit_shape(options.from, meshing.fit).airfoil;
   return start;
 }
 
@@ -79,7 +80,8 @@ Json meshing_json(const MeshingOptions& meshing, const OptimiseOptions& run) {
           {"min_angle_deg", quality.min_angle_deg},
           {"refine_angle_deg", quality.refine_angle_deg},
           {"max_gradation", quality.max_gradation},
-          {"cst_degree", meshing.cst_degree},
+          {"cst_degree", meshing.fit.degree},
+          {"close_trailing_edge", meshing.fit.close_trailing_edge},
           {"max_vertices", quality.max_vertices}};
 }
 

@@ -14,12 +14,7 @@ namespace remodel::app {
 struct OptimiseStartOptions {
   std::string from;  // one of these two
   std::string mesh;
-  // Above 30 degrees refinement spreads: a step keeps the promise, hundreds of steps would wear the mesh out.
-  StartMeshOptions start = [] {
-    StartMeshOptions usual;
-    usual.usual_refine_angle_deg = 30.0;
-    return usual;
-  }();
+  StartMeshOptions start;
   std::function<bool(const std::string&)> given;  // whether an option is on the command line
 };
 
@@ -37,7 +32,7 @@ struct OptimiseStart {
 OptimiseStart read_start(const OptimiseStartOptions& options, const MeshingOptions& meshing,
                          OptimiseOptions& run);
 
-// What is resolved of the meshing options: all of them, or those that a start mesh leaves open.
+// The resolved meshing options: all of them, or those that a start mesh leaves open.
 Json meshing_json(const MeshingOptions& meshing, const OptimiseOptions& run);
 // from, or mesh, boundary, import, fit{} and start{}.
 void add_start_figures(Report& report, const OptimiseStartOptions& options, const OptimiseStart& start);

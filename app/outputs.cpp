@@ -4,14 +4,17 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
+#include <type_traits>
 
 #include "arguments.h"
 #include "remodel/error.h"
 
 namespace remodel::app {
 
-void require_writable(const std::filesystem::path& file) {
+void require_writable(const std::filesystem::path& given) {
+  const std::filesystem::path file = written_place(given);
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) {
     throw Error(ErrorCode::file, file.string(), "is a directory, expected a file to write");
@@ -33,6 +36,9 @@ void MeshOutputs::add_options(CLI::App& app, Presence presence) {
             presence, files_);
   add_choice(app, {"--msh-version", "VERSION", "4.1", "Version of .msh files: 4.1 or 2.2"}, {"4.1", "2.2"},
              [this](std::size_t choice) { options_.msh_version = choice == 0 ? 41 : 22; });
+  add_flag(app, "--inner-markers",
+           "Write curves inside the mesh as markers of .su2 files too, where SU2 takes them for walls",
+           inner_markers_);
 }
 
 void MeshOutputs::require_possible() const {
@@ -46,12 +52,42 @@ void MeshOutputs::require_possible() const {
   }
 }
 
-void MeshOutputs::write(const Mesh& mesh) const {
-  for (const std::string& file : files_) write_mesh(mesh, file, options_);
+// What is missing in a file is said: whoever needs it there asks for it.
+void MeshOutputs::warn_of_inner_curves(const FrozenMesh& mesh, const std::string& file) const {
+  if (inner_markers_) return;
+  for (const std::string& name : inner_curves(mesh))
+    std::fprintf(stderr,
+                 "remodel: %s: inner curve '%s' left out, which SU2 would take for a wall "
+                 "(--inner-markers writes it)\n",
+                 file.c_str(), name.c_str());
 }
 
+template <class AnyMesh>
+void MeshOutputs::write_each(const AnyMesh& mesh, std::span<const Field> fields) const {
+  for (const std::string& file : files_) {
+    WriteOptions options = options_;
+    if (inner_markers_) options.inner = InnerCurves::markers;
+    if (mesh_format(file) != MeshFormat::su2)
+      options.fields = fields;
+    else if constexpr (std::is_same_v<AnyMesh, Mesh>)
+      warn_of_inner_curves(mesh.freeze(), file);
+    else
+      warn_of_inner_curves(mesh, file);
+    write_mesh(mesh, file, options);
+  }
+}
+
+void MeshOutputs::write(const Mesh& mesh) const {
+  write_each(mesh, {});
+}
 void MeshOutputs::write(const FrozenMesh& mesh) const {
-  for (const std::string& file : files_) write_mesh(mesh, file, options_);
+  write_each(mesh, {});
+}
+void MeshOutputs::write(const Mesh& mesh, std::span<const Field> fields) const {
+  write_each(mesh, fields);
+}
+void MeshOutputs::write(const FrozenMesh& mesh, std::span<const Field> fields) const {
+  write_each(mesh, fields);
 }
 
 }  // namespace remodel::app

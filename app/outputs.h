@@ -1,12 +1,14 @@
 #pragma once
 
-// The -o files of a subcommand: refused before the work where that is possible, written after it.
+// The output files (-o) of a subcommand: checked before the work as far as possible, written after it.
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "arguments.h"
+#include "remodel/field.h"
 #include "remodel/frozen_mesh.h"
 #include "remodel/io.h"
 #include "remodel/mesh.h"
@@ -15,20 +17,28 @@ namespace remodel::app {
 
 class MeshOutputs {
  public:
-  // -o (repeatable) and --msh-version.
+  // -o (repeatable), --msh-version and --inner-markers.
   void add_options(CLI::App& app, Presence presence);
   // Throws Error for an unknown extension, a file named twice, and what require_writable() refuses.
   void require_possible() const;
   void write(const Mesh& mesh) const;
   void write(const FrozenMesh& mesh) const;
+  // With fields, of which .su2 files have none.
+  void write(const Mesh& mesh, std::span<const Field> fields) const;
+  void write(const FrozenMesh& mesh, std::span<const Field> fields) const;
   const std::vector<std::string>& files() const { return files_; }
 
  private:
+  template <class AnyMesh>
+  void write_each(const AnyMesh& mesh, std::span<const Field> fields) const;
+  void warn_of_inner_curves(const FrozenMesh& mesh, const std::string& file) const;
+
   std::vector<std::string> files_;
+  bool inner_markers_ = false;
   WriteOptions options_;
 };
 
-// Throws Error (file) where file is a directory, or its directory is missing or not writable.
+// Throws Error (file) if the file is a directory, or its directory is missing or not writable.
 void require_writable(const std::filesystem::path& file);
 
 }  // namespace remodel::app

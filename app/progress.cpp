@@ -6,6 +6,8 @@
 #include <array>
 #include <cstdio>
 
+#include "terminal.h"
+
 namespace remodel::app {
 
 ProgressStyle progress_style(bool quiet) {
@@ -24,7 +26,8 @@ std::string bar_of(double part) {
 void Progress::evaluated(const EvaluationRecord& record) {
   if (style_ == ProgressStyle::none) return;
   if (first_ == 0) {
-    // Not before the first evaluation: until then a refusal may come, which is one line alone.
+    // Nothing is printed before the first evaluation: a refusal may still come, and it has to be the only
+    // line.
     std::fprintf(stderr, "%s\n", heading_.c_str());
     first_ = record.evaluation;
   }
@@ -45,13 +48,12 @@ void Progress::show(const EvaluationRecord& record, double seconds) {
                 static_cast<std::size_t>(record.evaluation), evaluations_, record.best_objective,
                 record.sigma, record.triangles, preserved_sum_ / done, left);
   if (style_ == ProgressStyle::bar) {
-    std::fprintf(stderr, "\r[%s] %s\033[K",
-                 bar_of(static_cast<double>(record.evaluation) / static_cast<double>(evaluations_)).c_str(),
-                 figures.data());
+    const double part = static_cast<double>(record.evaluation) / static_cast<double>(evaluations_);
+    draw_status_line("[" + bar_of(part) + "] " + figures.data());
   } else {
     std::fprintf(stderr, "%s\n", figures.data());
+    std::fflush(stderr);
   }
-  std::fflush(stderr);
 }
 
 void Progress::finish() {

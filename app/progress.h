@@ -1,6 +1,6 @@
 #pragma once
 
-// What a run says while it goes on, on standard error.
+// Reports the progress of a run on standard error.
 
 #include <cstddef>
 #include <string>
@@ -18,20 +18,20 @@ enum class ProgressStyle {
   lines  // one line every few seconds: for a log
 };
 
-// For a file that is no terminal lines, which stay readable in a log.
+// A bar if standard error is a terminal; otherwise lines, which stay readable in a log.
 ProgressStyle progress_style(bool quiet);
-// part of 1 as a bar of 20 characters.
+// A bar of 20 characters; `part` is from 0 to 1.
 std::string bar_of(double part);
 
 class Progress : public OptimiseObserver {
  public:
-  // heading is the first line: what was resolved.
+  // heading: the first line, the resolved options.
   Progress(ProgressStyle style, std::size_t evaluations, std::string heading)
       : style_(style), evaluations_(evaluations), heading_(std::move(heading)) {}
 
   void evaluated(const EvaluationRecord& record) override;
   bool cancelled() override { return interrupt_.raised(); }
-  // Ends the bar's line.
+  // Ends the line of the progress bar.
   void finish();
 
  private:
@@ -43,7 +43,7 @@ class Progress : public OptimiseObserver {
   InterruptFlag interrupt_;
   Stopwatch watch_;
   double shown_at_ = 0.0;  // seconds
-  std::size_t first_ = 0;  // evaluation seen first: not 1 in a resumed run
+  std::size_t first_ = 0;  // the first evaluation of this session: not 1 in a resumed run
   double preserved_sum_ = 0.0;
 };
 

@@ -7,10 +7,10 @@
 namespace remodel::app {
 
 void add_remodel_options(CLI::App& app, RemodelOptions& options) {
-  add_real(
-      app,
-      {"--distance", "D", "1", "Removal radius over the distance of old and new vertex: at least 0, no unit"},
-      {.low = 0.0}, [&](double value) { options.distance = value; });
+  add_real(app,
+           {"--distance", "D", "1",
+            "Ratio of the removal radius to the distance between old and new vertex: at least 0, no unit"},
+           {.low = 0.0}, [&](double value) { options.distance = value; });
   static constexpr std::array methods{Method::automatic, Method::specialised, Method::general};
   std::vector<std::string> words;
   for (const Method method : methods) words.emplace_back(name_of(method));
@@ -20,7 +20,7 @@ void add_remodel_options(CLI::App& app, RemodelOptions& options) {
              words, [&](std::size_t choice) { options.method = methods[choice]; });
   add_real(app,
            {"--keep", "FACTOR", "1.1 for G up to 1, 1.2 up to 2, otherwise 1.25",
-            "renew: kept triangles may take this times --max-gradation: 1 to 10"},
+            "renew: bound of kept triangles as a multiple of --max-gradation: 1 to 10"},
            {.low = 1.0, .high = 10.0}, [&](double value) { options.keep = value; });
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// How a mesh is remodelled: the options that `update`, `batch` and `optimise` share, and those of one step.
+// The options of remodelling that `update`, `batch` and `optimise` share, and those of a single step.
 
 #include "remodel/remodel.h"
 

@@ -43,7 +43,7 @@ void Report::line(const std::string& label, const std::string& text) {
   lines_.push_back({label, text});
 }
 
-// Names in a foreign file may be no UTF-8; a replacement character is better than no figures at all.
+// Names in a foreign file may be invalid UTF-8; a replacement character is better than no figures at all.
 std::string Report::json_text() const {
   return object_.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

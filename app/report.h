@@ -1,6 +1,7 @@
 #pragma once
 
-// What a subcommand found, printed once on standard output: as one JSON object (--json) or as aligned lines.
+// Collects a subcommand's results and prints them once on standard output, as one JSON object (--json) or as
+// aligned lines.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -12,16 +13,16 @@ using Json = nlohmann::ordered_json;
 
 class Report {
  public:
-  // A figure of both forms: `key` in JSON, `label`, value and unit in text.
+  // A figure in both forms: `key` in JSON; `label`, value and unit in text.
   void figure(const std::string& key, const std::string& label, const Json& value,
               const std::string& unit = "");
-  // In one form only.
+  // A figure in one of the forms only.
   void data(const std::string& key, Json value);
   void line(const std::string& label, const std::string& text);
 
-  // The JSON object as text, with a line's end.
+  // The JSON object as text, with a final newline.
   std::string json_text() const;
-  // Throws Error (file) where standard output does not take it.
+  // Throws Error (file) if writing to standard output fails.
   void print_json() const;
   void print_text() const;
   void print(bool json) const { json ? print_json() : print_text(); }

@@ -27,10 +27,12 @@ Status run(const SoakCommand& command) {
   report.figure("invalid_meshes", "invalid meshes", result.invalid_meshes);
   report.figure("recoveries", "recoveries by generation", result.recoveries);
   report.figure("refused", "refused designs", result.refused);
+  report.figure("limited", "steps ended by a limit", result.limited);
   report.figure("full_adjustments", "full adjustments", result.full_adjustments);
   report.figure("full_checks", "full checks", result.full_checks);
   report.figure("min_angle_deg", "smallest angle",
                 result.full_checks > 0 ? Json(result.min_angle_deg) : Json(), "degrees");
+  report.figure("slowest_step_ms", "slowest step", result.slowest_step_ms, "ms");
   report.figure("peak_memory_mib", "peak memory", result.peak_memory_mib, "MiB");
   report.figure("seconds", "wall time", result.seconds, "seconds");
   report.figure("seed", "seed", options.seed);

@@ -11,12 +11,12 @@
 namespace remodel::app {
 namespace {
 
-// The file as a living mesh, if it is one.
+// Reads the file as a living mesh; nothing if it is not a native one.
 std::optional<Mesh> read_native(const std::string& file) {
   try {
     return read_mesh(file);
   } catch (const Error& error) {
-    // Not a native mesh at all, in contrast to one that is damaged.
+    // The file is not a native mesh, as opposed to a damaged one.
     if (error.code() != ErrorCode::argument) throw;
     return std::nullopt;
   }
@@ -37,8 +37,8 @@ std::string names_of(const Domain& domain) {
   return names;
 }
 
-// The boundary that is meant where none is named: a CstAirfoil, or in a mesh that was imported before the
-// only body.
+// The boundary that is changed if none is named: a CstAirfoil, or the only body of a mesh that was imported
+// before.
 std::string boundary_of(const StartMesh& start, const StartMeshOptions& options) {
   if (!options.boundary.empty()) return options.boundary;
   const Domain& domain = start.mesh.domain();
@@ -67,22 +67,19 @@ std::string to_text(const MeshPart& part) {
 }  // namespace
 
 void add_start_mesh_options(CLI::App& app, StartMeshOptions& options) {
-  const bool fixed = options.usual_refine_angle_deg > 0.0;
-  const std::string usual =
-      fixed ? short_text(options.usual_refine_angle_deg) : "30, or the mesh's smallest angle up to 33";
   add_text(app,
            {"--boundary", "NAME", "the airfoil of a native mesh",
             "Marker or physical name of the airfoil in the mesh: the loop that is replaced"},
            Presence::optional, options.boundary);
   add_real(app,
-           {"--refine-angle", "DEGREES", usual,
-            "Smallest angle of new triangles in a mesh of another program's, in degrees: 1 to 33"},
+           {"--refine-angle", "DEGREES", short_text(ImportOptions{}.refine_angle_deg),
+            "Smallest angle of new triangles in an imported mesh, in degrees: 1 to 33"},
            {.low = 1.0, .high = 33.0}, [&](double value) { options.refine_angle_deg = value; });
   static constexpr std::array choices{NonDelaunay::flip, NonDelaunay::keep};
   add_choice(
       app,
       {"--non-delaunay", "WHAT", "flip",
-       "Triangles of another program's that are not Delaunay: flip them, or keep them where untouched"},
+       "Triangles of an imported mesh that are not Delaunay: flip them, or keep them where nothing changes"},
       {"flip", "keep"}, [&](std::size_t choice) { options.non_delaunay = choices[choice]; });
 }
 
@@ -94,7 +91,7 @@ StartMesh read_start_mesh(const std::string& file, const StartMeshOptions& optio
     return {.mesh = std::move(*native), .source = file, .imported = std::nullopt};
   }
   ImportOptions import;
-  import.refine_angle_deg = options.refine_angle_deg.value_or(options.usual_refine_angle_deg);
+  import.refine_angle_deg = options.refine_angle_deg.value_or(import.refine_angle_deg);
   import.gradation = options.gradation.value_or(import.gradation);
   import.non_delaunay = options.non_delaunay.value_or(import.non_delaunay);
   ImportResult imported = import_mesh(read_frozen_mesh(file), file, import);

@@ -1,6 +1,7 @@
 // remodel update MESH SHAPE... [-o MESH]...: the same mesh, remodelled to another shape.
 
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 #include <optional>
 
@@ -8,6 +9,7 @@
 #include "command.h"
 #include "domain_input.h"
 #include "figures.h"
+#include "interrupt.h"
 #include "meshing_options.h"
 #include "new_airfoil.h"
 #include "outputs.h"
@@ -25,18 +27,34 @@ struct UpdateCommand {
   std::string mesh;
   StartMeshOptions start;
   DomainInputOptions shapes;
-  int cst_degree = 5;
+  FitOptions fit;
   RemodelOptions remodelling;
   MeshOutputs outputs;
   int repeat = 1;
+  bool no_regenerate = false;
   bool json = false;
 };
+
+// Triangles that are lost are what a solver pays for: nobody should find out from its run time.
+void warn_of_losses(const UpdateCommand& command, const RemodelResult& result) {
+  const std::string lost = std::to_string(result.triangles_before - result.preserved) + " of " +
+                           std::to_string(result.triangles_before) + " triangles were not preserved";
+  std::string message;
+  if (result.abandoned)
+    message =
+        "cannot be completed without generating the mesh afresh: " + result.reason + "; nothing was written";
+  else if (result.regenerated)
+    message = "generated afresh, " + lost + ": " + result.reason;
+  else if (2 * result.preserved < result.triangles_before)
+    message = lost;
+  if (!message.empty()) std::fprintf(stderr, "remodel: %s: %s\n", command.mesh.c_str(), message.c_str());
+}
 
 void add_figures(Report& report, const RemodelResult& result) {
   report.figure("triangles_before", "triangles before", result.triangles_before);
   report.figure("triangles", "triangles", result.triangles);
   report.figure("preserved", "preserved", result.preserved, "triangles");
-  report.figure("preserved_percent", "preserved", result.preserved_percent(), "%");
+  report.figure("preserved_percent", "preserved, share", result.preserved_percent(), "%");
   report.figure("moved", "moved", result.moved, "boundary vertices");
   report.figure("inserted", "inserted", result.inserted, "vertices");
   report.figure("removed", "removed", result.removed, "vertices");
@@ -44,21 +62,25 @@ void add_figures(Report& report, const RemodelResult& result) {
   report.figure("method", "method", name_of(result.method));
   report.figure("refreshed", "generated afresh by the strategy", result.refreshed);
   report.figure("regenerated", "generated afresh", result.regenerated);
-  if (result.regenerated) report.figure("reason", "because", result.reason);
+  if (result.abandoned) report.figure("abandoned", "given up, the mesh is as it was", result.abandoned);
+  if (!result.reason.empty()) report.figure("reason", "because", result.reason);
 }
 
-// One airfoil takes the place of the mesh's own; several, or a domain, are all that there is afterwards.
+// A single airfoil replaces the mesh's own; several airfoils, or a domain, replace the whole domain.
 DomainInput new_domain(const StartMesh& start, const UpdateCommand& command) {
   if (is_single_airfoil(command.shapes)) {
-    const CstAirfoil airfoil = load_airfoil(command.shapes.shapes[0], command.cst_degree);
-    return {.domain = with_new_airfoil(start, command.start, airfoil), .findings = std::nullopt};
+    const std::string& shape = command.shapes.shapes[0];
+    const CstFit fit = fit_shape(shape, command.fit);
+    DomainInput input{.domain = with_new_airfoil(start, command.start, fit.airfoil)};
+    if (is_coordinate_file(shape)) input.fits.push_back({shape, fit});
+    return input;
   }
   if (!command.start.boundary.empty())
     throw Error(ErrorCode::argument, "--boundary",
                 "given with a whole domain, expected one airfoil to put there");
   AirfoilDomainOptions discretisation = discretisation_of(start.mesh.domain());
   if (command.start.points) discretisation.points = *command.start.points;
-  return read_domain(command.shapes, discretisation, command.cst_degree);
+  return read_domain(command.shapes, discretisation, command.fit);
 }
 
 Status run(const UpdateCommand& command) {
@@ -67,16 +89,22 @@ Status run(const UpdateCommand& command) {
   const Mesh& original = start.mesh;
   const DomainInput input = new_domain(start, command);
 
+  InterruptObserver observer;
+  RemodelOptions remodelling = command.remodelling;
+  remodelling.observer = &observer;
+  remodelling.regenerate = !command.no_regenerate;
   Mesh mesh;
   RemodelResult result;
   std::vector<double> seconds;
-  for (int i = 0; i < command.repeat; ++i) {
+  for (int i = 0; i < command.repeat && result.stopped != Stopped::interrupted; ++i) {
     mesh = original;
     const Stopwatch watch;
-    result = remodel(mesh, input.domain, command.remodelling);
+    result = remodel(mesh, input.domain, remodelling);
     seconds.push_back(watch.seconds());
   }
-  command.outputs.write(mesh);
+  const bool given_up = result.abandoned || result.stopped == Stopped::interrupted;
+  if (!given_up) command.outputs.write(mesh);
+  warn_of_losses(command, result);
 
   Report report;
   report.line("mesh", command.mesh);
@@ -89,14 +117,15 @@ Status run(const UpdateCommand& command) {
   const MeshStatistics statistics = mesh.statistics();
   report.figure("min_angle_deg", "smallest angle", smallest_angle(mesh), "degrees");
   add_exemption_figures(report, statistics.exempt_triangles, statistics.min_held_angle_deg);
-  report.figure("keep", "kept triangles take up to", mesh.options().keep, "H");
+  report.figure("keep", "kept triangles take up to", mesh.keep(), "H");
   report.figure("max_gradation", "largest r / (keep H mean LS)", statistics.max_gradation);
   add_gradation_error(report, mesh.gradation_error());
   report.figure("seconds", command.repeat > 1 ? "remodelling, median" : "remodelling", median(seconds),
                 "seconds");
   report.figure("stopped", "stopped", name_of(result.stopped));
-  add_output_figures(report, command.outputs.files());
+  if (!given_up) add_output_figures(report, command.outputs.files());
   report.print(command.json);
+  if (result.abandoned) return Status::answer_is_no;
   return result.stopped == Stopped::done ? Status::done : Status::limit;
 }
 
@@ -116,9 +145,12 @@ void add_update_command(CLI::App& program, Action& action) {
               {.low = 8, .high = 100000, .even = true},
               [command](std::int64_t value) { command->start.points = static_cast<int>(value); });
   command->outputs.add_options(app, Presence::optional);
-  add_cst_degree(app, command->cst_degree);
+  add_fit_options(app, command->fit);
   add_remodel_options(app, command->remodelling);
   add_step_strategy(app, command->remodelling);
+  add_flag(app, "--no-regenerate",
+           "Where the mesh would have to be generated afresh: exit status 1, and no mesh",
+           command->no_regenerate);
   add_repeat(app, command->repeat);
   add_json_flag(app, command->json);
 }

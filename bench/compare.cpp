@@ -1,5 +1,5 @@
-// bench/compare: how fast we are, as ratios to the yardstick Y measured in the same run. Prints Markdown, or
-// JSON with --json.
+// bench/compare: measures speed as ratios to the yardstick Y of the same run. Prints Markdown, or JSON with
+// --json.
 
 #include <cstdio>
 #include <iostream>

@@ -30,7 +30,7 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-// The length scale of a vertex; 0 until it is known.
+// The length scale of a vertex; 0 if not yet known.
 struct Scale {
   double value = 0.0;
 };
@@ -63,7 +63,7 @@ class Criteria {
     CGAL::Mesh_2::Face_badness operator()(Quality quality) const {
       return quality > 1.0 ? CGAL::Mesh_2::BAD : CGAL::Mesh_2::NOT_BAD;
     }
-    // Worst first in Mesh_2 is the smallest quality first.
+    // Mesh_2 refines the triangle of smallest quality first.
     CGAL::Mesh_2::Face_badness operator()(Face_handle face, Quality& quality) const {
       const double badness = criteria_.badness(face);
       quality = -badness;
@@ -115,7 +115,7 @@ std::vector<std::vector<Point>> station_points(const Domain& domain) {
   return loops;
 }
 
-// Distances to the nearer neighbour along the loop.
+// The distance of each vertex to its nearer neighbour along the loop.
 std::vector<double> spacings(const std::vector<Point>& loop) {
   const std::size_t n = loop.size();
   std::vector<double> result(n);
@@ -181,8 +181,8 @@ Contest cgal_mesh(const Domain& domain, const QualityOptions& options) {
   return result;
 }
 
-// Gmsh extends the sizes of boundary points inwards only by interpolation, so the field is given: the
-// distance to each loop, and the loop's spacing taken as its mean.
+// Gmsh extends the sizes of boundary points inwards by interpolation only, so it gets a size field: the mean
+// spacing of each loop plus a multiple of the distance to it.
 Contest gmsh_mesh(const Domain& domain, const QualityOptions& options) {
   namespace fs = std::filesystem;
   const auto loops = station_points(domain);

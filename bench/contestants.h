@@ -1,6 +1,6 @@
 #pragma once
 
-// Who is compared with us. All times are processor time in seconds.
+// The meshers that Remodel is compared with. All times are processor times in seconds.
 
 #include <cstddef>
 
@@ -10,7 +10,7 @@
 namespace remodel::bench {
 
 // The yardstick Y: CGAL's Delaunay_triangulation_2 (Epick kernel), 27,000 uniform random points inserted as a
-// spatially sorted range; seconds a point.
+// spatially sorted range; seconds per point.
 double yardstick();
 
 struct Contest {
@@ -23,8 +23,9 @@ struct Contest {
 // neighbour along the boundary, and inside the smallest of LS(u) + |uv| / G over the neighbours u.
 Contest cgal_mesh(const Domain& domain, const QualityOptions& options);
 
-// The command gmsh, on the same stations: its size field is the boundary's plus distance / G. Gmsh's own
-// figure of the time to mesh the surface. No triangles where the command is not installed.
+// The command gmsh, on the same stations: its size field is the boundary's spacing plus distance / G. The
+// time is the one that Gmsh reports for the surface mesh. The result has no triangles if the command is not
+// installed.
 Contest gmsh_mesh(const Domain& domain, const QualityOptions& options);
 
 }  // namespace remodel::bench

@@ -14,9 +14,9 @@ namespace remodel::bench {
 
 namespace {
 
-// RAE 2822, or a design so near to it that only the rounding errors differ in kind.
+// RAE 2822, or a design so close to it that only rounding errors differ.
 Domain design(int points, int round) {
-  CstAirfoil airfoil = load_airfoil("rae2822", 5);
+  CstAirfoil airfoil = named_airfoil("rae2822", 5);
   for (double& c : airfoil.upper) c *= 1.0 + 1e-5 * round;
   return airfoil_domain(airfoil, {.points = points});
 }
@@ -29,7 +29,7 @@ struct Pair {
 struct Samples {
   std::vector<double> seconds, ratios;
 
-  // seconds for one triangle and the yardstick measured just before.
+  // Seconds per triangle, and the yardstick measured just before.
   void add(double a_triangle, double y) {
     seconds.push_back(a_triangle);
     ratios.push_back(a_triangle / y);
@@ -68,7 +68,7 @@ std::size_t resident_bytes(const char* field) {
   return 0;
 }
 
-// Peak of the resident memory that a mesh adds, per triangle; in a process of its own.
+// The peak of resident memory that a mesh adds, per triangle, measured in a process of its own.
 double peak_bytes(Pair pair) {
   int channel[2];
   if (pipe(channel) != 0) return 0.0;
@@ -76,7 +76,7 @@ double peak_bytes(Pair pair) {
   if (child == 0) {
     const Domain domain = design(pair.points, 0);
     const std::size_t before = resident_bytes("VmRSS:");
-    std::ofstream("/proc/self/clear_refs") << 5;  // the peak is now
+    std::ofstream("/proc/self/clear_refs") << 5;  // resets the peak
     const GenerateResult result =
         generate(domain, {.gradation = pair.gradation, .max_vertices = 100'000'000});
     const double bytes = static_cast<double>(resident_bytes("VmHWM:") - before) /
@@ -103,7 +103,8 @@ Rows generation(int rounds, bool others) {
       y.add(now, now);
       const Domain domain = design(pairs[i].points, round);
       GenerateResult result;
-      // Small meshes several times: the first one pays for what the yardstick left in the caches.
+      // Small meshes are generated several times, because the first one finds the yardstick's data in the
+      // caches.
       const int repeats = 1 + 2000 / pairs[i].points;
       std::vector<double> seconds;
       for (int k = 0; k < repeats; ++k)
@@ -128,7 +129,7 @@ Rows generation(int rounds, bool others) {
 Rows large_generation(int rounds, bool ten_million) {
   std::vector<Pair> pairs{{3010, 60.2}};
   if (ten_million) pairs.push_back({9160, 183.2});
-  // First of all: the pages of meshes that are gone stay with the process.
+  // This comes first, because the pages of freed meshes stay with the process.
   std::vector<double> peaks;
   for (const Pair pair : pairs) peaks.push_back(peak_bytes(pair));
   Rows rows;

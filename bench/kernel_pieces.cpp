@@ -1,6 +1,6 @@
 // The triangulation: insert, remove, locate, flip, roll back. All on uniform random points of the unit
-// square, in a triangle that is far larger, so that no hull is in the way. What an iteration changes it has
-// taken from a copy or puts back; copies are not timed.
+// square, inside a far larger triangle, so that none is near the hull. An iteration works on a copy or
+// undoes its changes; copying is not timed.
 
 #include <algorithm>
 #include <cmath>
@@ -17,9 +17,9 @@ namespace remodel::bench {
 
 namespace {
 
-constexpr std::size_t standard = 20'000;  // vertices, but for locate
+constexpr std::size_t standard = 20'000;  // number of vertices, except in locate
 
-// In rows of cells, there and back: each point is near the one before.
+// Uniform random points, sorted by rows of cells in alternating direction: each is near the one before.
 std::vector<Point> uniform_points(std::size_t n) {
   Seeded random(2);
   std::vector<Point> points(n);
@@ -44,7 +44,7 @@ void insert_all(Triangulation& triangulation, const std::vector<Point>& points) 
   for (const Point p : points) last = triangulation.insert(p, triangulation.star(last).triangle).vertex;
 }
 
-// Made once a size.
+// Made once per size.
 const Triangulation& uniform_triangulation(std::size_t n) {
   static std::map<std::size_t, Triangulation> made;
   const auto [place, is_new] = made.try_emplace(n);
@@ -59,7 +59,7 @@ TriangleId triangle_at(const Triangulation& triangulation, Point p) {
   return triangulation.locate(p, triangulation.star(VertexId{1}).triangle).triangle;
 }
 
-// One iteration inserts 20,000 points, near one after near one, into an empty triangulation. An item is a
+// One iteration inserts 20,000 points, each near the one before, into an empty triangulation. An item is a
 // vertex.
 void insert(benchmark::State& state) {
   const std::vector<Point> points = uniform_points(standard);
@@ -100,7 +100,7 @@ std::vector<std::vector<VertexId>> patches_of(const Triangulation& triangulation
   return result;
 }
 
-constexpr std::size_t removed = 2048;  // by one iteration, whatever the size of the patches
+constexpr std::size_t removed = 2048;  // per iteration, whatever the size of the patches
 
 template <class Remove>
 void remove_patches(benchmark::State& state, Remove remove) {
@@ -120,7 +120,8 @@ void remove_patches(benchmark::State& state, Remove remove) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(removed));
 }
 
-// One iteration removes 2,048 vertices in patches of so many, by a call for each patch. An item is a vertex.
+// One iteration removes 2,048 vertices in patches of the given size, with one call per patch. An item is a
+// vertex.
 void remove_patch(benchmark::State& state) {
   remove_patches(state, [](Triangulation& triangulation, const std::vector<VertexId>& patch) {
     triangulation.remove(patch);
@@ -128,7 +129,7 @@ void remove_patch(benchmark::State& state) {
 }
 BENCHMARK(remove_patch)->Arg(8)->Arg(32)->Arg(128)->Arg(512)->Unit(benchmark::kMicrosecond);
 
-// The same vertices by a call each. An item is a vertex.
+// The same vertices with one call each. An item is a vertex.
 void remove_one_by_one(benchmark::State& state) {
   remove_patches(state, [](Triangulation& triangulation, const std::vector<VertexId>& patch) {
     for (const VertexId v : patch) triangulation.remove(v);
@@ -136,7 +137,7 @@ void remove_one_by_one(benchmark::State& state) {
 }
 BENCHMARK(remove_one_by_one)->Arg(8)->Arg(32)->Arg(128)->Arg(512)->Unit(benchmark::kMicrosecond);
 
-// One iteration removes every tenth of 20,000 vertices, by a call each. An item is a vertex.
+// One iteration removes every tenth of 20,000 vertices, with one call each. An item is a vertex.
 void remove_apart(benchmark::State& state) {
   const Triangulation& before = uniform_triangulation(standard);
   std::vector<VertexId> gone;
@@ -155,7 +156,7 @@ void remove_apart(benchmark::State& state) {
 }
 BENCHMARK(remove_apart)->Unit(benchmark::kMicrosecond);
 
-// ---- locate. One iteration finds the triangle of one point, and so is an item.
+// ---- locate. One iteration finds the triangle of one point, which is an item.
 
 struct Search {
   Point p;
@@ -181,7 +182,7 @@ void locate(benchmark::State& state, HintOf hint_of) {
   state.SetItemsProcessed(state.iterations());
 }
 
-// The hint is a mean distance between vertices away.
+// The hint is one mean vertex distance away.
 void locate_near(benchmark::State& state) {
   const double spacing = 1.0 / std::sqrt(static_cast<double>(state.range(0)));
   locate(state, [&](Point p, Seeded& random) {
@@ -202,7 +203,7 @@ struct Bar {
   VertexId a, b;
 };
 
-// How many edges cross the open segment. No three of the points are on a line.
+// The number of edges that cross the open segment. No three of the points are collinear.
 std::size_t crossed_edges(const Triangulation& triangulation, Bar bar) {
   const Point a = triangulation.point(bar.a), b = triangulation.point(bar.b);
   std::size_t count = 0;
@@ -219,8 +220,8 @@ std::size_t crossed_edges(const Triangulation& triangulation, Bar bar) {
   return count;
 }
 
-// One iteration flips what crosses 32 segments of some length out of their way and, when their constraints
-// are lifted, back again. An item is an edge that crosses a segment: at least two flips, each with its tests.
+// One iteration constrains 32 segments, which flips the edges that cross them, and releases them, which flips
+// them back. An item is an edge that crosses a segment: at least two flips, each with its tests.
 void flip(benchmark::State& state) {
   constexpr std::size_t bars = 32;
   Triangulation triangulation = uniform_triangulation(standard);
@@ -259,8 +260,8 @@ BENCHMARK(flip_none)->Unit(benchmark::kMillisecond);
 
 // ---- rollback
 
-// One iteration takes back the removal of so many vertices next to each other. An item is a triangle that
-// their removal had touched.
+// One iteration rolls back the removal of the given number of adjacent vertices. An item is a triangle that
+// their removal had changed.
 void rollback(benchmark::State& state) {
   Triangulation triangulation = uniform_triangulation(standard);
   const std::vector<VertexId> gone =

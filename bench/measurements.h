@@ -1,6 +1,6 @@
 #pragma once
 
-// What compare measures of ours. Each is a list of rows: a name and figures, in the order of the columns.
+// The measurements of bench/compare. Each is a list of rows: a name and figures, in the order of the columns.
 
 #include <string>
 #include <vector>
@@ -11,10 +11,10 @@ namespace remodel::bench {
 
 using Rows = std::vector<nlohmann::ordered_json>;
 
-// The paper's six pairs of I and G around RAE 2822, in turn with the yardstick, the design different each
-// time so that no branch predictor learns it. With others: CGAL's Mesh_2 and Gmsh too, once each.
+// The paper's six pairs of I and G around RAE 2822, alternating with the yardstick. The design differs each
+// time, so that no branch predictor learns it. With `others`, CGAL's Mesh_2 and Gmsh once each too.
 Rows generation(int rounds, bool others);
-// The same at larger scale: I and G grow together.
+// The same for larger meshes: I and G grow together.
 Rows large_generation(int rounds, bool ten_million);
 
 // A full adjustment at I = 700, G = 14.

@@ -1,5 +1,5 @@
-// The predicates by the stage that decides. In all of these one iteration is one call, and so is an item. The
-// calls go round 4,096 sets of points, more than a branch predictor learns.
+// The predicates by the stage that decides. One iteration is one call and one item. The calls cycle through
+// 4,096 sets of points, more than a branch predictor learns.
 
 #include <algorithm>
 #include <array>
@@ -49,7 +49,7 @@ Points triangle(Seeded& random) {
 }
 
 // Three points of the diagonal, the last one beside it by one unit in the last place and so far from the
-// others that the filter cannot see it. All differences are exact: their products decide. With a coordinate
+// others that the filter cannot decide. All differences are exact: their products decide. With a coordinate
 // of 2^-40 they are not, and expansions decide.
 Points near_diagonal(Seeded& random, double last_scale) {
   double a = random.number(0.5, 0.5625), b = random.number(0.5625, 0.625);

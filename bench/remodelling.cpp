@@ -11,13 +11,13 @@ namespace {
 
 // RAE 2822 with the upper surface scaled.
 Domain design(const AirfoilDomainOptions& options, double factor) {
-  CstAirfoil airfoil = load_airfoil("rae2822", 5);
+  CstAirfoil airfoil = named_airfoil("rae2822", 5);
   for (double& c : airfoil.upper) c *= factor;
   return airfoil_domain(airfoil, options);
 }
 
-// Median seconds of steps back and forth between designs, the first step left out; `full` counts the full
-// adjustments among them.
+// The median time in seconds of steps back and forth between designs, without the first step; `full` counts
+// the full adjustments among them.
 double step_seconds(Mesh& mesh, const std::vector<Domain>& designs, int rounds, int& full) {
   std::vector<double> seconds;
   for (int round = 0; round <= rounds; ++round)

@@ -12,8 +12,8 @@
 #include "remodel/airfoil.h"
 #include "remodel/generate.h"
 #include "remodel/remodel.h"
-#include "remodel/renew.h"
 #include "seeded.h"
+#include "step/renew.h"
 
 namespace remodel::bench {
 
@@ -36,8 +36,8 @@ const Mesh& fresh_mesh(int points) {
   return place->second;
 }
 
-// Designs with every coefficient of RAE 2822 within `spread` of its own, relatively, and every other one as
-// much thicker as those between are thinner.
+// Designs whose coefficients are within the relative `spread` of those of RAE 2822, alternately thicker and
+// thinner by the same amount.
 std::vector<Domain> designs(int points, double thicker, double spread) {
   Seeded random(5);
   std::vector<Domain> result;
@@ -51,12 +51,12 @@ std::vector<Domain> designs(int points, double thicker, double spread) {
   return result;
 }
 
-// Near enough to adjust everything in place.
+// Designs close enough to adjust everything in place.
 std::vector<Domain> near_designs(int points) {
   return designs(points, 0.0, 1e-6);
 }
 
-// So far from RAE 2822, and further from each other, that something has to be replaced.
+// Designs so far apart that every step has to replace vertices.
 std::vector<Domain> far_designs(int points) {
   return designs(points, 0.07, 0.02);
 }
@@ -86,7 +86,7 @@ std::size_t airfoil_loop(const MeshData& mesh) {
       loops.begin());
 }
 
-// A tenth of the loop's entries have a fifth less length scale.
+// Reduces the length scales of a tenth of the loop's vertices by a fifth.
 void lower_some(MeshData& mesh, std::size_t loop) {
   std::vector<std::uint32_t> entries;
   mesh.walk(mesh.loop_heads[loop], [&](std::uint32_t k) { entries.push_back(k); });
@@ -95,7 +95,7 @@ void lower_some(MeshData& mesh, std::size_t loop) {
 }
 
 // One iteration renews length scales after those of a tenth of the airfoil's vertices have changed. An item
-// is a vertex of the airfoil: around all of them renewal looks for what changed.
+// is a vertex of the airfoil: renewal looks for changes around all of them.
 void renew_local(benchmark::State& state) {
   Mesh mesh = fresh_mesh(static_cast<int>(state.range(0)));
   MeshData& data = mesh.data();
@@ -141,7 +141,7 @@ BENCHMARK(full_adjustment)->Arg(200)->Arg(700)->Unit(benchmark::kMicrosecond);
 
 // One iteration is the same 16 steps from the same fresh mesh, each from design to design, none of them a
 // full adjustment: a mesh that went on would grow with the number of iterations. An item is a step. The
-// counter is the mean of vertices inserted and removed a step.
+// counter is the mean number of vertices inserted and removed per step.
 void partial_steps(benchmark::State& state, Strategy strategy) {
   const int points = static_cast<int>(state.range(0));
   const std::vector<Domain> path = far_designs(points);
@@ -191,7 +191,7 @@ void trial(benchmark::State& state) {
 }
 BENCHMARK(trial)->Arg(200)->Arg(700)->Unit(benchmark::kMicrosecond);
 
-// One iteration is only the return of such a trial. An item is a trial.
+// One iteration is the return from such a trial alone. An item is a trial.
 void trial_return(benchmark::State& state) {
   const int points = static_cast<int>(state.range(0));
   Mesh mesh = fresh_mesh(points);

@@ -1,7 +1,7 @@
 #pragma once
 
-// Processor time and medians. Time on the wall says more about the neighbours of a shared machine than about
-// us; even so only ratios of times that were measured in turn in one run mean anything.
+// Processor times and medians. On a shared machine wall time depends on other users; and even of processor
+// times only ratios of alternating measurements in one run are meaningful.
 
 #include <algorithm>
 #include <ctime>
@@ -22,7 +22,7 @@ class CpuClock {
   double start_ = now();
 };
 
-// Of an empty list 0.
+// The median of an empty list is 0.
 inline double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

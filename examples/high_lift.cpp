@@ -20,6 +20,7 @@
 #include "remodel/generate.h"
 #include "remodel/io.h"
 #include "remodel/remodel.h"
+#include "remodel/shape_files.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
-// All fuzz targets in one program without libFuzzer: a target gets its seeds as they are, and then seeds
-// changed at random. The same arguments give the same inputs.
+// All fuzz targets in one program without libFuzzer: a target gets the seeds themselves and then random
+// mutations of them. The same arguments give the same inputs.
 //   fuzz_driver TARGET SEED_DIRECTORY INPUTS [SEED]
 // Prints how many inputs were refused with an Error. One that crashes or breaks an invariant is written to
 // fuzz-found-TARGET in the working directory.
@@ -50,7 +50,7 @@ const std::map<std::string, Target> targets = {
 #undef X
 };
 
-// What is being tried, for the handlers below.
+// The current target and input, for the signal handlers below.
 std::string name, input;
 
 void keep_input() {

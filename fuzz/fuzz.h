@@ -1,7 +1,7 @@
 #pragma once
 
-// What the fuzz targets share. A target's promise is that no input crashes, hangs or breaks a stated
-// invariant: readers refuse with an Error, and whatever they accept can be used.
+// Shared parts of the fuzz targets. A target asserts that no input crashes, hangs or breaks a stated
+// invariant: readers refuse input with an Error, and whatever they accept can be used.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace remodel::fuzz {
 
-// How often an Error ended an input, or a step of one: for fuzz/driver.cpp to count.
+// The number of inputs, or of steps of one, that ended with an Error; fuzz/driver.cpp prints it.
 inline long refusals = 0;
 
 [[noreturn]] inline void fail(const std::string& broken) {
@@ -34,7 +34,7 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-// Takes values off the input's front; zeros when it is used up.
+// Reads values from the front of the input; zeros at its end.
 class Bytes {
  public:
   Bytes(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
@@ -56,7 +56,7 @@ class Bytes {
   std::size_t size_;
 };
 
-// What every mesh that a reader accepts must bear: the validator, and for small ones each writer in turn.
+// Checks a mesh that a reader has accepted: by the validator and, if it is small, by each writer in turn.
 template <class Write>
 void use(const FrozenMesh& mesh, Write write_and_read) {
   if (mesh.triangles.size() > 64) return;

@@ -1,4 +1,4 @@
-// SU2 meshes made alive, and remodelled where they have an airfoil.
+// SU2 meshes imported as living meshes, and remodelled if they have an airfoil.
 
 #include "remodel/import.h"
 #include "fuzz.h"

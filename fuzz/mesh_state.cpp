@@ -1,10 +1,10 @@
-// States of living meshes with single values changed: Mesh::restore refuses, or gives a mesh that can be
-// used.
+// States of living meshes with single values changed: Mesh::restore() refuses them or makes a usable mesh.
 
 #include <bit>
 
 #include "fuzz.h"
 #include "remodel/generate.h"
+#include "remodel/mesh_state.h"
 #include "remodel/remodel.h"
 
 using namespace remodel;
@@ -20,7 +20,8 @@ Domain design(double factor) {
 const MeshState& original() {
   static const MeshState state = [] {
     Mesh mesh = generate(design(1.0), {.gradation = 1.0}).mesh;
-    remodel::remodel(mesh, design(1.3));  // leaves free slots
+    for (const double factor : {1.3, 1.2})  // leaves free slots, and vertices that wait for a renewal
+      remodel::remodel(mesh, design(factor), {.strategy = Strategy::renew});
     return mesh.state();
   }();
   return state;
@@ -53,7 +54,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   MeshState state = original();
   fuzz::Bytes bytes(data, size);
   for (int edits = 0; edits < 8 && !bytes.empty(); ++edits) {
-    switch (bytes.below(13)) {
+    switch (bytes.below(15)) {
       case 0:
         change(state.coordinates, bytes);
         break;
@@ -93,13 +94,21 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       case 12:
         change(state.free_triangles, bytes);
         break;
+      case 13:
+        change(state.renewal.pending_vertices, bytes);
+        break;
+      case 14:
+        change(state.renewal.pending_loops, bytes);
+        break;
     }
   }
   try {
     Mesh mesh = Mesh::restore(state, "input");
     mesh.freeze();
     mesh.statistics();
-    if (mesh.quick_check().empty()) remodel::remodel(mesh, design(0.9));
+    if (mesh.quick_check().empty())
+      for (const Strategy strategy : {Strategy::renew, Strategy::chain, Strategy::renew})
+        remodel::remodel(mesh, design(strategy == Strategy::chain ? 0.9 : 1.1), {.strategy = strategy});
   } catch (const Error&) {
     ++fuzz::refusals;
   }

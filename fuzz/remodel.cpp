@@ -1,4 +1,4 @@
-// Sequences of designs on a living mesh, with a check after each; refused designs leave it as it was.
+// Sequences of designs on a living mesh, with a check after each; a refused design leaves the mesh unchanged.
 
 #include "remodel/remodel.h"
 #include "fuzz.h"

@@ -1,4 +1,4 @@
-// Writes the inputs that the fuzzers start from: one directory a target below the given one. The second
+// Writes the inputs that the fuzzers start from: one directory per target below the given one. The second
 // argument is the adversarial corpus, whose domains are inputs too.
 
 #include <cstdio>
@@ -34,8 +34,8 @@ Domain square_with_arc() {
            {LoopRole::hole, {{"hole", Arc{{2, 2}, 1, 0, 6.283185307179586}, {0, 0.25, 0.5, 0.75}}}}}};
 }
 
-// Graphs with what a domain may have besides closed loops: cracks, joints, inner loops, single points, small
-// angles, crossings, holes.
+// Graphs with features beyond closed loops: cracks, joints, inner loops, single points, small angles,
+// crossings and holes.
 struct NamedGraph {
   const char* name;
   const char* poly;
@@ -53,10 +53,12 @@ constexpr NamedGraph graphs[] = {
      "10 0\n0 0 1\n1 1 2\n2 2 3\n3 3 0\n4 4 5\n5 6 7\n6 8 9\n7 9 10\n8 10 8\n9 11 10\n0\n"},
     {"inner_loop",
      "10 2 0 0\n0 0 0\n1 4 0\n2 4 4\n3 0 4\n4 1 1\n5 3 1\n6 3 3\n7 1 3\n8 2 2\n9 4 2\n"
-     "11 1\n0 0 1 1\n1 1 9 1\n2 9 2 1\n3 2 3 1\n4 3 0 1\n5 4 5 5\n6 5 6 5\n7 6 7 6\n8 7 4 5\n9 8 6 0\n10 6 9 0\n0\n"},
+     "11 1\n0 0 1 1\n1 1 9 1\n2 9 2 1\n3 2 3 1\n4 3 0 1\n5 4 5 5\n6 5 6 5\n7 6 7 6\n8 7 4 5\n9 8 6 0\n10 6 9 "
+     "0\n0\n"},
     {"nested_holes",
      "12 2 0 0\n0 0 0\n1 8 0\n2 8 8\n3 0 8\n4 2 2\n5 6 2\n6 6 6\n7 2 6\n8 3 3\n9 5 3\n10 5 5\n11 3 5\n"
-     "12 0\n0 0 1\n1 1 2\n2 2 3\n3 3 0\n4 4 5\n5 5 6\n6 6 7\n7 7 4\n8 8 9\n9 9 10\n10 10 11\n11 11 8\n1\n0 2.5 2.5\n"},
+     "12 0\n0 0 1\n1 1 2\n2 2 3\n3 3 0\n4 4 5\n5 5 6\n6 6 7\n7 7 4\n8 8 9\n9 9 10\n10 10 11\n11 11 8\n1\n0 "
+     "2.5 2.5\n"},
 };
 
 void write_corpus_domains(const std::filesystem::path& corpus, const std::filesystem::path& directory) {
@@ -75,8 +77,8 @@ void write_corpus_domains(const std::filesystem::path& corpus, const std::filesy
 int main(int argc, char** argv) {
   if (argc != 3) return 2;
   const std::filesystem::path root = argv[1];
-  for (const char* target : {"airfoil_text", "airfoil_json", "domain_json", "poly", "import", "su2", "msh", "vtu", "vtkhdf",
-                             "vtkhdf_values", "mesh_state", "kernel", "remodel"})
+  for (const char* target : {"airfoil_text", "airfoil_json", "domain_json", "poly", "import", "su2", "msh",
+                             "vtu", "vtkhdf", "vtkhdf_values", "mesh_state", "kernel", "remodel"})
     std::filesystem::create_directories(root / target);
 
   for (const char* digits : {"0012", "4415", "23012"})
@@ -108,6 +110,11 @@ int main(int argc, char** argv) {
   }
   write_mesh(mesh.freeze(), root / "vtkhdf" / "frozen.vtkhdf");
   write_mesh(mesh.freeze(), root / "msh" / "mesh22.msh", {.msh_version = 22});
+  FrozenMesh parts = mesh.freeze();
+  parts.region_names = {"one", "two"};
+  for (std::uint32_t i = 0; i < parts.triangles.size(); ++i) parts.region.push_back(i % 5 % 2);
+  for (const char* extension : {"msh", "vtu", "vtkhdf"})
+    write_mesh(parts, root / extension / (std::string("regions.") + extension));
   for (unsigned i = 0; i < 8; ++i) {
     std::string bytes;
     for (unsigned k = 0; k < 120; ++k) bytes += static_cast<char>((i * 97 + k * k * 31 + k * 7) % 251);

@@ -1,5 +1,5 @@
 // Well-formed HDF5 files that are no mesh: a native file with values, sizes, kinds and names of its datasets
-// and attributes changed through HDF5, as another program could write it. No seal guards it.
+// and attributes changed through HDF5, as another program could write it, without a seal.
 
 #include <hdf5.h>
 #include <unistd.h>
@@ -16,7 +16,7 @@ using namespace remodel;
 
 namespace {
 
-// A directory that lasts as long as the process.
+// A temporary directory that is removed when the process ends.
 class Scratch {
  public:
   Scratch() { std::filesystem::create_directories(path_); }
@@ -129,7 +129,7 @@ class Edits {
     H5Aclose(attribute);
   }
 
-  // One element of another value.
+  // Changes the value of one element.
   void change(std::vector<unsigned char>& values, std::size_t size) {
     const std::size_t first = bytes_.below(static_cast<unsigned>(values.size() / size)) * size;
     switch (bytes_.below(4)) {
@@ -150,7 +150,7 @@ class Edits {
     }
   }
 
-  // A dataset of another kind, rank or size, perhaps without the values that it announces.
+  // Replaces a dataset by one of another type, rank or size, perhaps without values.
   void create(const std::string& name) {
     const hid_t types[] = {H5T_IEEE_F64LE, H5T_IEEE_F32LE, H5T_STD_I64LE,
                            H5T_STD_U32LE,  H5T_STD_U8LE,   H5T_STD_I32BE};

@@ -12,5 +12,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const Error&) {
     ++fuzz::refusals;
   }
+  try {
+    io::parse_vtu_fields(fuzz::text_of(data, size), "input");
+  } catch (const Error&) {
+  }
   return 0;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-// What several tests share.
+// Helpers that several tests share.
 
 #include <cstdio>
 #include <cstdlib>
@@ -34,14 +34,14 @@ inline double uniform(std::mt19937_64& random, double low, double high) {
   return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
-// How much longer than in an ordinary run a random test goes on: REMODEL_TEST_EFFORT, 1 if not set.
+// The factor by which random tests are longer than in an ordinary run: REMODEL_TEST_EFFORT, 1 if not set.
 inline int effort() {
   const char* given = std::getenv("REMODEL_TEST_EFFORT");
   const int value = given != nullptr ? std::atoi(given) : 1;
   return value < 1 ? 1 : value;
 }
 
-// What a test has counted, for scripts/long-tests to add up: "counted 120 faults".
+// Prints a count of a test, such as "counted 120 faults", for scripts/long-tests to add up.
 inline void counted(long long number, const char* what) {
   std::printf("counted %lld %s\n", number, what);
 }

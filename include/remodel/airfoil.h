@@ -3,7 +3,6 @@
 // Airfoils by class-shape transformation (CST). Source: the paper's section 4.1; B. Kulfan, "Universal
 // Parametric Geometry Representation Method", 2008. Lengths are in chords.
 
-#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -73,24 +72,36 @@ struct AirfoilCoordinates {
   std::string name;
   std::vector<Point> upper;
   std::vector<Point> lower;
+  double incline = 0.0;  // what the shear took off: y as the file has it, in its chord, is y + incline * x
 };
 // Reads Selig or Lednicer order, found by content. Accepts CRLF, blank lines, comment lines (#, !, %), tabs
 // and commas, numbers such as -.0228, open and closed trailing edges, leading edges that are not the
-// minimum-x point, either surface first. At most 16 MiB. Throws Error (file, format) naming file and line,
+// minimum-x point, either surface first, and lines of text before and after the coordinates: the first line
+// is the name. At most 16 MiB. Throws Error (file, format) naming file and line,
 // also for fewer than 3 points a surface, repeated points, x out of order, surfaces that cross, ends that do
-// not meet in x.
-AirfoilCoordinates read_airfoil(const std::filesystem::path& file);
+// not meet in x. read_airfoil() of remodel/shape_files.h reads a file.
 AirfoilCoordinates parse_airfoil(std::string_view text, const std::string& source);
 
-// Least squares at the file's points, both surfaces apart, the trailing-edge gap removed linearly in x.
+// What a fit does with a trailing edge that is open: te_upper and te_lower are the file's, or 0. A gap of
+// less than 1e-5 chords, or a crossed one, is the rounding of the file's digits: that is closed in any case.
+enum class TrailingEdge { kept, closed };
+
+// Least squares at the file's points, both surfaces apart; the coefficients are of what the gap, removed
+// linearly in x, leaves.
 struct CstFit {
   CstAirfoil airfoil;
-  double max_error = 0.0;  // largest and root-mean-square distance in y at the points, in chords, after the
-  double rms_error = 0.0;  // gap's removal
+  double max_error = 0.0;  // largest and root-mean-square distance in y at the file's points, in chords
+  double rms_error = 0.0;
+  double gap = 0.0;  // the file's own: of its upper end over its lower one, in chords
 };
 // degree: 2 to 12. Throws Error (argument), also where a surface has fewer points between its edges than
 // coefficients.
-CstFit fit_cst(const AirfoilCoordinates& coordinates, int degree);
+CstFit fit_cst(const AirfoilCoordinates& coordinates, int degree,
+               TrailingEdge trailing_edge = TrailingEdge::kept);
+// The same for the first degree whose surfaces are apart: the given one, those above it, those below it.
+// Where there is none, the fit of the given one, whose surfaces cross.
+CstFit fit_cst_apart(const AirfoilCoordinates& coordinates, int degree,
+                     TrailingEdge trailing_edge = TrailingEdge::kept);
 
 // NACA 4-digit ("2412") and 5-digit ("23012", reflexed "23112" too) sections with the closed trailing edge
 // coefficient (-0.1036), as dense points. Throws Error (argument) for other designations.
@@ -109,10 +120,10 @@ struct CatalogueEntry {
 };
 const std::vector<CatalogueEntry>& airfoil_catalogue();
 
-// SHAPE of the command line: a coordinate file, "naca:2412", a catalogue name, or a .json file of CST
-// coefficients. What exists as a file or contains '/' or '.' is a file. degree is used where a fit is needed.
-// Throws Error.
-CstAirfoil load_airfoil(const std::string& shape, int degree);
+// A section by name: "naca:2412" or a name of the catalogue. degree is used where a fit is needed, so not for
+// the catalogue. Throws Error (argument), which lists the names. load_airfoil() of remodel/shape_files.h
+// takes files too.
+CstAirfoil named_airfoil(const std::string& name, int degree);
 // The .json of `remodel fit`: degree, upper[], lower[], e1, e2, te_upper, te_lower (the last four optional),
 // exact. from_json ignores name, max_error, rms_error, thickness and camber, which `remodel fit` reports
 // beside them, and throws Error (format) naming the key for any other key, kind, size or range. to_json

@@ -6,7 +6,7 @@
 // The rules, in the order in which they are tested. A rule is left out where one that it stands on is broken.
 //   index          indices are in range, triangles have three different points, arrays have their sizes
 //   finite         coordinates, length scales and parameters are numbers
-//   duplicate      no two points coincide
+//   duplicate      no two points coincide (of those that are used, where others may be)
 //   orphan-vertex  every point is in a triangle
 //   angle          no angle below CheckOptions::min_angle_deg
 //   gradation      r <= H times the mean length scale of the three points
@@ -19,6 +19,7 @@
 //   manifold       the triangles of a point form one fan
 //   euler          V - E + F = 2 components - boundary loops
 //   overlap        boundary edges do not cross or touch, and no place is covered twice (exact)
+//   region         in a mesh of a design, named curves lie between two regions
 //   design         the boundary is the design's: see CheckOptions::design
 
 #include <cstdint>
@@ -43,6 +44,8 @@ struct CheckOptions {
                                // radius-edge ratio (rounding of the ratio itself, 1e-15, with a margin)
   double max_gradation = 0.0;  // H; 0: not tested; needs length_scale
   bool delaunay = true;        // false: report in the result only
+  bool unused_points = false;  // true: points of no triangle are counted, not refused: other programs leave
+                               // the centres of circles in their files, say
   // If given, every boundary point must be the design's at its curve and parameter, to the last bit, every
   // station of the design must be there, and boundary edges must join consecutive parameters under the name
   // of their curve, the domain on the side that the loop's role says. Needs FrozenMesh::curve and
@@ -55,16 +58,18 @@ struct CheckResult {
   bool valid = false;
   std::vector<Violation> violations;
   std::size_t triangles = 0;
-  std::size_t vertices = 0;
+  std::size_t vertices = 0;         // points of triangles
+  std::size_t unused_points = 0;    // points of no triangle
   double min_angle_deg = 0.0;       // of all triangles
   double min_held_angle_deg = 0.0;  // of those that are not exempt; NaN if all are
   // Below min_angle_deg, but exempt: the shortest edge joins two boundary points at the same distance from a
   // corner of less than 60 degrees in the domain, on both of its sides (a small input angle).
   std::size_t exempt_triangles = 0;
-  double max_gradation = std::numeric_limits<double>::quiet_NaN();  // r / (H mean LS), H = sqrt(1/2) unless
-                                                                    // given; NaN without length scales
+  // r / (H mean LS), H = sqrt(1/2) unless given, but for exempt triangles; NaN without length scales.
+  double max_gradation = std::numeric_limits<double>::quiet_NaN();
   bool delaunay = false;                        // false too where orientation or adjacency is broken
   std::map<std::string, std::size_t> boundary;  // edges per name
+  std::map<std::string, std::size_t> regions;   // triangles per region; empty where there is but one
   double area = 0.0;                            // square chords
 };
 

@@ -2,7 +2,7 @@
 
 // CMA-ES, ask and tell. Source: N. Hansen, "The CMA Evolution Strategy: A Tutorial", arXiv:1604.00772 (2016),
 // standard parameters (its table 1), positive weights. Deterministic: the generator is part of the state; the
-// same seed gives the same bytes with any compiler and optimisation level (src/optimise/cmaes.cpp says how).
+// same seed gives the same bytes with any compiler and optimisation level (src/design/cmaes.cpp says how).
 
 #include <cstdint>
 #include <memory>
@@ -16,7 +16,7 @@ namespace remodel {
 struct CmaesOptions {
   double sigma = 0.05;              // initial standard deviation of every coordinate; > 0 and finite
   std::uint64_t seed = 1;           // of the generator: every value is allowed
-  int population = 0;               // samples a generation, at least 4; 0: 4 + floor(3 ln n)
+  int population = 0;               // samples per generation, at least 4; 0: 4 + floor(3 ln n)
   double least_deviation = 1e-150;  // the largest standard deviation never falls below; 1e-150 to 1e50
 };
 
@@ -32,6 +32,7 @@ class Cmaes {
   int population() const;
   std::span<const double> mean() const;  // valid until the next tell
   double sigma() const;
+  double largest_deviation() const;  // of any direction: sigma times the longest axis
   std::uint64_t generation() const;  // updates so far
 
   // A sample of the current distribution. Refused samples are simply not told: ask again.

@@ -5,7 +5,7 @@
 // mesh.
 
 #include <cstddef>
-#include <filesystem>
+#include <functional>
 #include <initializer_list>
 #include <memory>
 #include <string>
@@ -44,11 +44,14 @@ struct Spline {
   std::vector<Point> points;
   std::vector<double> knots;  // per point: its t; 0 to 1
   std::vector<Point> second;  // per point: the second derivative by t
+  bool corner = false;        // closed, with a corner where it begins: natural there
   friend bool operator==(const Spline&, const Spline&) = default;
 };
 // Throws Error (argument) for fewer than 2 points (closed: 4, the first one again at the end), points that
-// repeat in a row, and what is not finite. Source: C. de Boor, "A Practical Guide to Splines", 1978, ch. IV.
-Spline spline_through(std::vector<Point> points);
+// repeat in a row, and what is not finite. corner: see Spline; without effect where it is open. Source: C. de
+// Boor, "A Practical Guide to Splines", 1978, ch. IV.
+enum class SplineEnds { smooth, corner };
+Spline spline_through(std::vector<Point> points, SplineEnds ends = SplineEnds::smooth);
 
 using Shape = std::variant<CstAirfoil, Line, Polyline, Arc, Spline>;
 
@@ -95,7 +98,7 @@ struct Curve {
   friend bool operator==(const Curve&, const Curve&) = default;
 };
 
-// Which side of the loop is meshed. For outer loops and holes that does not depend on their orientation.
+// The side of the loop that is meshed. For outer loops and holes that does not depend on their orientation.
 enum class LoopRole {
   outer,     // the inside
   hole,      // the outside
@@ -136,6 +139,10 @@ struct Loop {
   std::vector<Curve> curves;
   bool open = false;
   Placement placement = {};
+  // The name of the region beside it, where a domain has several: of an internal loop or chain on the left of
+  // its direction, of others on the side of the domain; and what an internal one has on its right.
+  std::string region = {};
+  std::string right_region = {};
   friend bool operator==(const Loop&, const Loop&) = default;
 };
 
@@ -198,18 +205,29 @@ struct PlacedAirfoil {
   std::string name = "airfoil";
   CstAirfoil airfoil;
   Placement placement = {};
+  std::vector<Curve> outline = {};  // where there is one, in place of the airfoil: see outline_of()
 };
+// The outline of a coordinate file as it is given, without a fit: a curve through its points, which are its
+// stations, from the upper end of the trailing edge around the leading edge, and a line over an open trailing
+// edge. In its own chord, the leading edge at the origin; neither sheared nor turned.
+enum class OutlineCurve { spline, polyline };
+std::vector<Curve> outline_of(const AirfoilCoordinates& coordinates, OutlineCurve curve,
+                              const std::string& name);
 Domain airfoils_domain(const std::vector<PlacedAirfoil>& airfoils, const AirfoilDomainOptions& options = {});
 
+// Finds the airfoil that a name in a domain's JSON text stands for, fitted with the degree and the trailing
+// edge where it is given by points. A whole loop keeps an open trailing edge, a curve among others is closed.
+// It may throw Error.
+using AirfoilResolver =
+    std::function<CstAirfoil(const std::string& name, int degree, TrailingEdge trailing_edge)>;
 // JSON text of a domain, exact; docs/domains.md describes the layout with an example of each kind. from_json
-// throws Error (format) naming the key; it does not validate(). to_json throws Error (argument) for what is
-// not finite.
+// throws Error (format) naming the key, also for airfoils by name where there is no resolver; it does not
+// validate(). to_json throws Error (argument) for what is not finite.
 std::string domain_to_json(const Domain& domain);
-Domain domain_from_json(std::string_view text, const std::string& source);
-// The same from a file, where airfoils may be named as load_airfoil() takes them; their files are looked for
-// in the file's own directory first. Throws Error.
-Domain load_domain(const std::filesystem::path& file);
-// Whether a JSON file is meant to be a domain, rather than an airfoil: it has the key "loops". Throws Error.
-bool holds_domain(const std::filesystem::path& file);
+Domain domain_from_json(std::string_view text, const std::string& source,
+                        const AirfoilResolver& resolve = nullptr);
+// Whether a JSON text is meant to be a domain, rather than an airfoil: it has the key "loops". Throws Error
+// (format) where it is no JSON.
+bool holds_domain(std::string_view text, const std::string& source);
 
 }  // namespace remodel

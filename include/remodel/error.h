@@ -5,7 +5,7 @@
 
 namespace remodel {
 
-// What kind of bad input an Error reports. Reached limits are part of results, and our own bugs are
+// The kind of bad input that an Error reports. Reached limits are part of results, and our own bugs are
 // assertions: neither is an Error.
 enum class ErrorCode {
   argument,  // an option or parameter is out of its range

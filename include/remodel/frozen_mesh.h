@@ -18,6 +18,13 @@ struct FrozenBoundary {
   std::vector<std::array<std::uint32_t, 2>> edges;
 };
 
+// The fate of a triangle since an earlier state of its mesh.
+enum class Fate : std::uint8_t {
+  kept,   // it was there, and nothing of it has changed since
+  moved,  // the same three vertices were joined, of which boundary vertices have moved along with the design
+  made,   // it is new
+};
+
 struct FrozenMesh {
   std::vector<Point> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;  // of the domain, counter-clockwise, 0-based
@@ -30,8 +37,24 @@ struct FrozenMesh {
   std::vector<std::uint32_t> birth;         // per triangle: the remodelling step that made it, 0 = generation
   std::vector<std::int32_t> curve;          // per point: index of its curve in the design, -1 in the interior
   std::vector<double> parameter;            // per point: t on that curve, 0 in the interior
+  // Per point: 1 on a boundary where refinement put it, 0 if it is the design's (or an imported file's).
+  // Every format keeps it, so that an imported mesh has the design's own points.
+  std::vector<std::uint8_t> steiner{};
+  // Parts of the domain with names of their own (materials, fluids): per triangle an index into region_names.
+  // Empty where there is but one. Edges between two of them that no boundary names are interfaces all the
+  // same.
+  std::vector<std::uint32_t> region{};
+  std::vector<std::string> region_names{};
   // Per triangle: ln(r / (H mean LS*)), only where it was asked for (Mesh::gradation_errors()).
   std::vector<double> gradation_error{};
+  // Per triangle: since an earlier state, only where it was asked for (fates()).
+  std::vector<Fate> fate{};
 };
+
+// The fate of each triangle of `after`, since `before`: two states of one living mesh, in the order of time.
+// Exact between consecutive steps. Over many of them a vertex's id may have been given out again: it counts
+// as the same vertex in the interior if it stands at the same point, on a boundary if it has the same curve
+// and parameter. O(triangles). Throws Error (argument) for a mesh without ids or births.
+std::vector<Fate> fates(const FrozenMesh& before, const FrozenMesh& after);
 
 }  // namespace remodel

@@ -3,9 +3,9 @@
 // The history of an optimisation run: one SQLite file, one row an evaluation. Every figure of a run's result
 // is derived from it.
 //
-// Table run(key, value): "version", "options" (JSON), "seed", "from" and "to" (CST as JSON).
-// Table evaluations: the members of EvaluationRecord under their names; coefficients as a JSON array, upper
-// surface first; NULL for what was not measured.
+// Table run(key, value): "version", "options" (JSON), and of optimise() between two airfoils "seed", "from"
+// and "to" (CST as JSON). Table evaluations: `evaluation_figures`, a column each; lists as JSON arrays,
+// outputs as a JSON object; NULL for what was not measured or is empty.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,51 +13,41 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
+
+#include "remodel/living_mesh.h"
 
 namespace remodel {
 
-// How a remodelled mesh was validated: by the rules of Mesh::quick_check() where the step changed it, which
-// is enough if the mesh before was valid; by quick_check(); by check() of check.h as well.
-enum class Checked { changes, quick, full };
-const char* name_of(Checked checked);
-
-struct EvaluationRecord {
+struct EvaluationRecord : MeshStep {
   std::uint64_t evaluation = 0;          // from 1
-  std::uint64_t generation = 0;          // of the CMA-ES, from 0
-  std::vector<double> coefficients;      // upper surface, then lower
-  double objective = 0.0;                // mean square distance in y, square chords
-  double best_objective = 0.0;           // so far, this evaluation included
-  double sigma = 0.0;                    // of the distribution that it was sampled from
+  std::uint64_t generation = 0;          // of the designer, from 0
+  std::vector<double> coefficients{};    // the design; of an airfoil: upper surface, then lower
+  double objective = 0.0;                // infinite: the evaluation failed, and `detail` says why
+  double best_objective = 0.0;           // so far, this evaluation included, of those within all constraints
+  double sigma = 0.0;                    // Designer::step_size() when it was asked for
   std::uint64_t infeasible_samples = 0;  // refused since the evaluation before
   std::uint64_t worker = 1;              // whose mesh it was, from 1
-
-  std::size_t triangles_before = 0;  // of the mesh that the same worker had for its evaluation before
-  std::size_t triangles = 0;
-  std::size_t preserved = 0;
-  double preserved_percent = 0.0;
-  std::size_t moved = 0;
-  std::size_t inserted = 0;
-  std::size_t removed = 0;
-  bool full_adjustment = false;
-  bool refreshed = false;      // the strategy generated the mesh afresh
-  bool regenerated = false;    // the mesh had to be regenerated: a recovery
-  double min_angle_deg = 0.0;  // of the mesh; where its changes were checked, of these
-  // Making the domain and remodel(), the recovery too if there was one: processor time of the thread.
-  double remodel_seconds = 0.0;
-
-  std::optional<std::size_t>
-      generated_triangles;  // compared evaluations only: a fresh mesh of the same design
-  std::optional<double> gradation_bias, gradation_deviation;  // of the remodelled mesh: GradationError
-  std::optional<double> generated_gradation_bias, generated_gradation_deviation;  // of the fresh one
-  std::optional<double> generate_seconds;  // making the domain and generate(): likewise
-
-  Checked checked = Checked::quick;
-  bool valid = true;   // what the remodelled mesh was before any recovery
-  std::string detail;  // the broken rule, or why the mesh was regenerated; empty (NULL) otherwise
+  std::vector<double> constraints{};     // as evaluated
+  std::map<std::string, double> outputs{};  // likewise
 };
+
+// The columns in their order.
+inline constexpr std::tuple evaluation_figures = std::tuple_cat(
+    std::tuple{Figure{"evaluation", "evaluation", "", &EvaluationRecord::evaluation},
+               Figure{"generation", "generation", "", &EvaluationRecord::generation},
+               Figure{"coefficients", "design", "", &EvaluationRecord::coefficients},
+               Figure{"objective", "objective", "", &EvaluationRecord::objective},
+               Figure{"best_objective", "best objective so far", "", &EvaluationRecord::best_objective},
+               Figure{"sigma", "step size", "", &EvaluationRecord::sigma},
+               Figure{"infeasible_samples", "infeasible samples before it", "",
+                      &EvaluationRecord::infeasible_samples},
+               Figure{"worker", "worker", "", &EvaluationRecord::worker}},
+    mesh_step_figures,
+    std::tuple{Figure{"constraints", "constraints", "", &EvaluationRecord::constraints},
+               Figure{"outputs", "outputs", "", &EvaluationRecord::outputs}});
 
 // One open history file. Every SQLite error is an Error (file). Records are buffered and written in one
 // transaction a batch; what was not committed when the process ends is not in the file.

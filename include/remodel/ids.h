@@ -21,4 +21,13 @@ struct TriangleId {
   explicit operator bool() const { return index != no_index; }
 };
 
+// A vertex by its id and how often the id had been given out when the vertex was made: never given out again.
+struct VertexKey {
+  VertexId id;
+  std::uint32_t generation = 0;
+  friend auto operator<=>(const VertexKey&, const VertexKey&) = default;
+  // Id and generation as one number, as they stand in files.
+  std::uint64_t value() const { return std::uint64_t{generation} << 32 | id.index; }
+};
+
 }  // namespace remodel

@@ -5,38 +5,73 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "remodel/field.h"
 #include "remodel/frozen_mesh.h"
 #include "remodel/mesh.h"
 #include "remodel/planar.h"
 
 namespace remodel {
 
+// The file to read that is standard input.
+inline constexpr std::string_view standard_input = "-";
+
 enum class MeshFormat { vtkhdf, su2, msh, vtu };
 // By extension; throws Error (argument) for another, listing those that are known.
 MeshFormat mesh_format(const std::filesystem::path& file);
 
+// Named edges with triangles on both sides, in .su2 files: SU2 takes every edge of a marker for a boundary,
+// and computes the flow around a wall that is none.
+enum class InnerCurves { left_out, markers };
 struct WriteOptions {
   int msh_version = 41;  // 41: Gmsh 4.1, 22: Gmsh 2.2, both ASCII
+  InnerCurves inner = InnerCurves::left_out;
+  // What is written beside the mesh to .vtkhdf, .vtu and .msh files, as ParaView, meshio and Gmsh read it; a
+  // .su2 file has no place for fields. Gmsh knows no fields of two components: a third, 0, is added. Throws
+  // Error (argument) unless they fit, see require_fit().
+  std::span<const Field> fields = {};
 };
+// The names that have such edges, in the order of the mesh's boundaries.
+std::vector<std::string> inner_curves(const FrozenMesh& mesh);
 
 // Writes the frozen view in any format; vtkhdf written like this holds no state to go on from.
 void write_mesh(const FrozenMesh& mesh, const std::filesystem::path& file, const WriteOptions& options = {});
 // vtkhdf with the full state, otherwise the frozen view.
 void write_mesh(const Mesh& mesh, const std::filesystem::path& file, const WriteOptions& options = {});
 
-// Reads the frozen view of any format (triangles only; boundary by marker or physical name).
+// Reads the frozen view of any format (triangles only; boundary by marker or physical name). What comes
+// through a pipe without an extension is known by how it begins.
 FrozenMesh read_frozen_mesh(const std::filesystem::path& file);
+// The fields of reals in a file, on the vertices and triangles of read_frozen_mesh(): those on vertices
+// first, in alphabetical order, without what belongs to the mesh itself (length_scale, parameter, ...). Left
+// out are fields of more than three components, of integers or text, and in .msh files those that say nothing
+// of some vertex or triangle. A .su2 file has none.
+std::vector<Field> read_fields(const std::filesystem::path& file);
 // Reads a native mesh. A .vtkhdf without state, or another format, is an Error that says what was expected.
 Mesh read_mesh(const std::filesystem::path& file);
 
+// Where writing to `file` puts its bytes: what a symbolic link leads to, so that the link stays.
+std::filesystem::path written_place(const std::filesystem::path& file);
 // Calls write with a temporary path in the same directory, flushes it to disk and renames it to file; removes
 // it if write throws. Error (file) names the file and the system's reason. For every file this project makes.
 void write_atomically(const std::filesystem::path& file,
                       const std::function<void(const std::filesystem::path& temporary)>& write);
 void write_text_atomically(const std::filesystem::path& file, std::string_view text);
+
+// Standard input, a FIFO, or whatever else can be read but once.
+bool is_pipe(const std::filesystem::path& file);
+// While one lives, read_text() keeps what it reads from pipes: who asks again for the same one gets the same.
+class KeptPipes {
+ public:
+  KeptPipes();
+  ~KeptPipes();
+  KeptPipes(const KeptPipes&) = delete;
+  KeptPipes& operator=(const KeptPipes&) = delete;
+};
 
 // The whole file as text; Error (file) if it is missing, a directory, unreadable or larger than limit bytes.
 std::string read_text(const std::filesystem::path& file, std::size_t limit = std::size_t{1} << 32);

@@ -1,20 +1,29 @@
 #pragma once
 
-// Shape interpolation by CMA-ES around one living mesh: the paper's section 5.1. Starting from one airfoil,
-// the shape coefficients of both surfaces are changed until the design interpolates points of the target;
-// every feasible sample is meshed by remodelling the mesh of the sample before. Where there are workers, each
-// has a living mesh of its own.
+// Optimisation around living meshes. A designer proposes designs and learns (remodel/designer.h), a design
+// space says what shapes they are (remodel/design_space.h), living meshes follow them
+// (remodel/living_mesh.h), an evaluator turns each mesh into an objective (remodel/evaluator.h). The loop
+// itself, its run directory, history and checkpoints know none of them.
+//
+// The first of such runs is shape interpolation by CMA-ES, the paper's section 5.1: starting from one
+// airfoil, the shape coefficients of both surfaces are changed until the design interpolates points of the
+// target; every feasible sample is meshed by remodelling the mesh of the sample before.
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "remodel/airfoil.h"
+#include "remodel/design_space.h"
+#include "remodel/designer.h"
 #include "remodel/domain.h"
+#include "remodel/evaluator.h"
 #include "remodel/history.h"
 #include "remodel/import.h"
 #include "remodel/mesh.h"
@@ -30,38 +39,26 @@ struct MeshStart {
   AirfoilPlace place;
 };
 
-// Which mesh a design's is made from.
-enum class MeshUse {
-  // The one that the same worker had for its design before.
-  chain,
-  // The hub: one mesh that is kept near the mean of the optimiser's distribution. Each design is tried on a
-  // copy of it, which then returns to it. Losses are counted against the mesh that the same worker solved on
-  // before: a triangle is preserved where the same three vertices, by id, at the same coordinates, are joined
-  // in both. Meshes, unlike losses, do not depend on the number of workers.
-  hub,
-  // As chain, but for the designs that a criterion chooses the mesh is generated: the paper's section 5,
-  // "Improvements". That is where a vertex of the last design and its place on this one are more than 8 local
-  // length scales apart, and once after ten full adjustments in a row.
-  regenerate,
-};
-const char* name_of(MeshUse use);  // "chain", "hub", "regenerate"
-
 struct OptimiseOptions {
   AirfoilDomainOptions domain{};
   QualityOptions quality{};
-  // Its observer is asked by all threads; designs_a_step is set from what follows.
-  RemodelOptions remodel{.strategy = Strategy::renew};
-  MeshUse use = MeshUse::chain;
+  // Its observer is asked by all threads; strategy and designs_a_step are set from what follows.
+  RemodelOptions remodel{};
+  MeshStrategy strategy = MeshStrategy::renew;
   // Living meshes. The designs of a generation are handed to the workers whose last designs are nearest, and
-  // evaluated at once. Meshes, rows and figures depend on it; designs do not. 0: as many as samples a
-  // generation.
-  std::size_t workers = 1;
+  // evaluated at once. Meshes, rows and figures depend on it; designs do not. 0: the strategy's own number,
+  // which is 1, but for `pool` as many as a generation has designs.
+  std::size_t workers = 0;
   std::size_t threads = 0;  // nothing but times depends on it; 0: as many as cores. At most one a worker
   double sigma = 0.05;      // initial standard deviation of the coefficients; > 0
   std::uint64_t seed = 1;   // of the samples; the designs depend on nothing else of these options but
                             // sigma and, where samples are refused, on domain
   std::size_t evaluations = 9000;  // feasible samples, one remodelling each; at least 1
-  std::size_t compare_every = 0;   // every K-th evaluation also generates a fresh mesh; 0: never
+  // The run is done after the generation in which the best objective is at most this (square chords), or in
+  // which the search has converged; 0: only after all evaluations. Not one of the settings that a resumed run
+  // has to have: the designs until then do not depend on it.
+  double tolerance = 0.0;
+  std::size_t compare_every = 0;  // every K-th evaluation also generates a fresh mesh; 0: never
   // Every K-th mesh goes through check() too; 0: as compare_every. Of the others every 20th is checked as a
   // whole, as is each worker's first, by Mesh::quick_check(), and the rest by its rules where the step
   // changed them. `hub` checks all as a whole.
@@ -70,13 +67,14 @@ struct OptimiseOptions {
       500;                          // evaluations between checkpoints; 0: at the start, the end, an interrupt
   std::size_t max_refused = 10000;  // infeasible samples in a row that end the run; at least 1
   bool resume = false;              // go on from the directory's checkpoint
+  bool overwrite = false;           // replace the run that the directory holds; not with resume
   std::filesystem::path directory{};  // of the run's files; made if missing
   std::optional<MeshStart> start{};   // then domain and quality say nothing: the mesh has its own
 };
 
 // Why a run ended. Whatever it is, what is finished is kept.
 enum class OptimiseStopped {
-  done,         // all evaluations
+  done,         // all evaluations, the tolerance, or Designer::finished()
   interrupted,  // OptimiseObserver::cancelled()
   infeasible,   // max_refused infeasible samples in a row
   mesh_limit,   // a mesh could not be finished within the quality options' budget
@@ -89,9 +87,11 @@ struct OptimiseResult {
 
   std::uint64_t evaluations = 0;
   std::uint64_t infeasible_samples = 0;
+  std::uint64_t failed_evaluations = 0;
   std::uint64_t full_adjustments = 0;
-  double objective = none;  // of the best design: mean square distance in y, square chords
-  double max_error = none;  // of the best design: largest distance in y at the interpolated points, chords
+  double objective = none;  // of the best design; by interpolation: mean square distance in y, square chords
+  // By interpolation, of the best design: largest distance in y at the interpolated points, chords.
+  double max_error = none;
   double preserved_percent = none;         // mean over all evaluations
   double lost_mean = none;                 // triangles not preserved: mean over all evaluations
   double triangles_mean = none;            // over all evaluations
@@ -112,46 +112,94 @@ struct OptimiseResult {
 
   std::uint64_t workers = 0;  // living meshes
   OptimiseStopped stopped = OptimiseStopped::done;
-  std::string detail;  // the first broken rule or reason of a recovery, if any
+  std::string detail;  // the first broken rule, reason of a recovery or of a failed evaluation, if any
   std::uint64_t seed = 0;
-  CstAirfoil best;  // the evaluated design with the smallest objective
+  // The design with the smallest objective among those within all constraints; the start where there is none.
+  std::vector<double> best_design;
+  std::map<std::string, double> outputs;  // Evaluation::outputs of the best design
+  CstAirfoil best;                        // by optimise() from an airfoil: the best design
 };
 
-// One JSON object: the members above under their names, best as in airfoil_to_json.
+inline constexpr std::tuple optimise_figures{
+    Figure{"evaluations", "evaluations", "", &OptimiseResult::evaluations},
+    Figure{"infeasible_samples", "infeasible samples, drawn again", "", &OptimiseResult::infeasible_samples},
+    Figure{"failed_evaluations", "evaluations that failed", "", &OptimiseResult::failed_evaluations},
+    Figure{"full_adjustments", "full adjustments", "", &OptimiseResult::full_adjustments},
+    Figure{"objective", "best objective", "", &OptimiseResult::objective},
+    Figure{"max_error", "largest distance to the target", "chords", &OptimiseResult::max_error},
+    Figure{"preserved_percent", "preserved, mean", "%", &OptimiseResult::preserved_percent},
+    Figure{"lost_mean", "lost, mean", "triangles", &OptimiseResult::lost_mean},
+    Figure{"triangles_mean", "triangles, mean", "", &OptimiseResult::triangles_mean},
+    Figure{"generated_triangles_mean", "of a fresh mesh, mean", "",
+           &OptimiseResult::generated_triangles_mean},
+    Figure{"surplus_percent", "surplus, mean", "%", &OptimiseResult::surplus_percent},
+    Figure{"gradation_bias", "gradation error, mean bias", "", &OptimiseResult::gradation_bias},
+    Figure{"gradation_deviation", "gradation error, mean deviation", "",
+           &OptimiseResult::gradation_deviation},
+    Figure{"generated_gradation_bias", "of a fresh mesh, bias", "",
+           &OptimiseResult::generated_gradation_bias},
+    Figure{"generated_gradation_deviation", "of a fresh mesh, deviation", "",
+           &OptimiseResult::generated_gradation_deviation},
+    Figure{"remodel_ms_mean", "remodelling, mean", "ms", &OptimiseResult::remodel_ms_mean},
+    Figure{"generate_ms_mean", "generation, mean", "ms", &OptimiseResult::generate_ms_mean},
+    Figure{"speedup", "speed-up", "times", &OptimiseResult::speedup},
+    Figure{"min_angle_deg", "smallest angle of all meshes", "degrees", &OptimiseResult::min_angle_deg},
+    Figure{"invalid_meshes", "invalid meshes", "", &OptimiseResult::invalid_meshes},
+    Figure{"recoveries", "recoveries by generation", "", &OptimiseResult::recoveries},
+    Figure{"refreshes", "meshes generated afresh by the strategy", "", &OptimiseResult::refreshes},
+    Figure{"seconds", "wall time", "seconds", &OptimiseResult::seconds},
+    Figure{"workers", "workers", "", &OptimiseResult::workers},
+    Figure{"stopped", "stopped", "", &OptimiseResult::stopped},
+    Figure{"detail", "detail", "", &OptimiseResult::detail},
+    Figure{"seed", "seed", "", &OptimiseResult::seed}};
+
+// One JSON object: the figures, "outputs" where there are any, and "best": of an airfoil as in
+// airfoil_to_json, otherwise the design as an array.
 std::string optimise_result_to_json(const OptimiseResult& result);
 
-// Called from the thread that runs optimise().
 class OptimiseObserver {
  public:
   virtual ~OptimiseObserver() = default;
-  // After each evaluation.
+  // After each evaluation, from the thread that runs optimise().
   virtual void evaluated(const EvaluationRecord& record) { static_cast<void>(record); }
   // Asked before each evaluation, or where there are workers before those that they do at once; true ends the
-  // run in order, with a checkpoint.
+  // run in order, with a checkpoint. Evaluations that take long ask too, from their own threads.
   virtual bool cancelled() { return false; }
 };
 
-// Runs, and leaves in the directory: history.sqlite; best.json (the best design); result.json; first.vtkhdf
-// (the start), middle.vtkhdf (after half of the evaluations) and last.vtkhdf, native meshes; checkpoint.json
-// and the meshes it names. Where there are workers, middle and last are meshes of the worker that evaluated
-// that design.
+// Runs, and leaves in the directory: history.sqlite; best.json (the best design, as the design space writes
+// it); result.json; first.vtkhdf (the start), middle.vtkhdf and last.vtkhdf, native meshes; checkpoint.json
+// and the files it names. The middle is where half of the evaluations are done; of a shape interpolation with
+// a tolerance, where that is sooner, the end of the generation in which the best design is half as far from
+// the target as the start (a quarter of its objective). Where there are workers, middle and last are meshes
+// of the worker that evaluated that design.
 //
-// The search is over the coefficients of both surfaces; class exponents and trailing edges are fixed, and
-// must be the same in both airfoils. Where their degrees differ the lower one is raised, which is exact. The
-// objective is the mean square distance in y at 50 stations of each surface, x = (1 + cos 2 pi t) / 2 with t
-// = i/102. A sample is infeasible, and sampled again, unless its surfaces are apart, its polygon's upper
-// vertices lie above the lower ones, and it stays inside the farfield. With a start mesh, unless its surfaces
-// are apart and the start mesh's domain is valid with it.
+// A sample that the design space finds infeasible is refused, and the designer is asked again.
 //
 // With resume the run goes on to the designs, rows (but for their seconds) and meshes of a run that was not
-// interrupted. All options but evaluations, checkpoint_every, max_refused and threads, and both airfoils,
-// must be those of the checkpoint. Without resume, a directory that holds the checkpoint of an unfinished run
-// is refused, and the files of a finished one are replaced, once the start of the new run is complete on the
-// disk. A checkpoint, its mesh or a history that is damaged is refused before anything is written. One run at
-// a time holds the directory, by flock; a second one is refused.
+// interrupted. All options but evaluations, tolerance, checkpoint_every, max_refused and threads, and the
+// descriptions of space, designer and evaluator must be those of the checkpoint. The designer comes as it was
+// made, and is restored. Without resume, a directory that holds a run is refused; with overwrite its files
+// are replaced, once the start of the new run is complete on the disk. A checkpoint, its mesh or a history
+// that is damaged is refused before anything is written. One run at a time holds the directory, by flock; a
+// second one is refused. Where evaluations are long a checkpoint is written at least about once a minute.
 //
-// Throws Error (argument, file, format, geometry). Both airfoils must have their surfaces apart.
+// The options domain, sigma and seed are not read here, and of a start mesh only the mesh is: the space has
+// the rest. Throws Error (argument, file, format, geometry).
+OptimiseResult optimise(const DesignSpace& space, Designer& designer, Evaluator& evaluator,
+                        const OptimiseOptions& options, OptimiseObserver* observer = nullptr);
+
+// Shape interpolation: an AirfoilSpace around `from`, a CmaesDesigner, and interpolation_evaluator(to). Class
+// exponents and trailing edges are fixed, and must be the same in both airfoils; where their degrees differ
+// the lower one is raised, which is exact. Both airfoils must have their surfaces apart.
 OptimiseResult optimise(const CstAirfoil& from, const CstAirfoil& to, const OptimiseOptions& options,
                         OptimiseObserver* observer = nullptr);
+
+// The same with an evaluator of one's own.
+OptimiseResult optimise(const CstAirfoil& from, Evaluator& evaluator, const OptimiseOptions& options,
+                        OptimiseObserver* observer = nullptr);
+
+// How a run's meshes are stepped: options.remodel with the step of options.strategy.
+RemodelOptions step_options(const OptimiseOptions& options);
 
 }  // namespace remodel

@@ -23,10 +23,10 @@ struct PlanarGraph {
   std::vector<std::size_t> segment_lines;  // of each segment in its file, for messages; may be empty
 };
 
-// What to do where segments cross.
+// The treatment of segments that cross.
 enum class Crossings { insert, refuse };
 
-// What was found in a graph, and mended.
+// The defects of a graph that were found and resolved.
 struct PlanarFindings {
   std::size_t duplicate_points = 0;    // at the place of an earlier one
   std::size_t points_on_segments = 0;  // the segment is split there
@@ -38,12 +38,13 @@ struct PlanarFindings {
 };
 
 // The domain of a graph. What lies on what, and what crosses, is decided exactly. Crossings are rounded, and
-// what is nearer than 1e-11 of the graph's size to a point (crossings and segments, not two points of the
-// graph) is led through it, as no mesh could go between; where that moves a segment over another one, that is
-// a crossing too, and resolved. Boundary curves are named by their markers ("3"), "boundary" for 0; inner
-// ones "internal" for 0. Chains run between the points where more or fewer than two segments end. A point of
-// no segment inside is kept as a vertex. Throws Error (geometry) where the graph encloses nothing,
-// coordinates are out of range, or segments cross and that is refused (naming the two and the place).
+// what is nearer than 1e-11 of the graph's size, or of its largest coordinate, to a point (crossings and
+// segments, not two points of the graph) is led through it, as no mesh could go between; where that moves a
+// segment over another one, that is a crossing too, and resolved. Boundary curves are named by their markers
+// ("3"), "boundary" for 0; inner ones "internal" for 0. Chains run between the points where more or fewer
+// than two segments end. A point of no segment inside is kept as a vertex. Throws Error (geometry) where the
+// graph encloses nothing, coordinates are out of range, or segments cross and that is refused (naming the two
+// and the place).
 Domain planar_domain(const PlanarGraph& graph, const std::string& source,
                      Crossings crossings = Crossings::insert, PlanarFindings* findings = nullptr);
 

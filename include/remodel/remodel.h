@@ -1,7 +1,7 @@
 #pragma once
 
 // Replaces the domain inside a living mesh by another. Source: the paper's sections 3 (general method)
-// and 4.2 (specialised method); where we depart is said at each function of src/remodel.
+// and 4.2 (specialised method); where we depart is said at each function of src/step.
 
 #include <cstddef>
 #include <memory>
@@ -14,7 +14,7 @@ namespace remodel {
 enum class Method { automatic, specialised, general };
 const char* name_of(Method method);  // "auto", "specialised", "general"
 
-// What is done about what a chain of steps leaves behind.
+// The treatment of what a long sequence of steps leaves behind.
 enum class Strategy {
   // The paper's method, to the letter. Length scales inside the mesh are never renewed, and nothing is
   // coarsened: triangles accumulate.
@@ -37,6 +37,9 @@ struct RemodelOptions {
   // renew: of how many designs, tried on other meshes too, a step of this mesh is one; 1 or more. Its
   // triangle count is looked at so much earlier.
   std::uint32_t designs_a_step = 1;
+  // Whether a step that cannot be completed ends with a mesh that is generated afresh. If not, the mesh stays
+  // as it was, and the result is abandoned.
+  bool regenerate = true;
   StepObserver* observer = nullptr;  // if cancelled, the mesh stays as it was and the result says interrupted
 };
 
@@ -51,7 +54,8 @@ struct RemodelResult {
   Method method = Method::specialised;  // the one that ran
   bool refreshed = false;               // the strategy generated the mesh afresh: its triangle count was off
   bool regenerated = false;             // remodelling could not be completed: the mesh was generated afresh
-  std::string reason;                   // why it was regenerated
+  bool abandoned = false;               // the same without RemodelOptions::regenerate: the mesh is as it was
+  std::string reason;                   // why it was regenerated or abandoned
   Stopped stopped = Stopped::done;
   double preserved_percent() const {
     return triangles_before == 0

@@ -23,18 +23,21 @@ struct SoakResult {
   std::size_t invalid_meshes =
       0;                       // that a validation refused, or that changed although the design was refused
   std::size_t recoveries = 0;  // steps that ended in a fresh mesh
-  std::size_t refused = 0;     // designs whose surfaces touch or cross, refused with the mesh untouched
+  std::size_t refused = 0;     // designs that are no domains, as surfaces cross: with the mesh untouched
+  std::size_t limited = 0;     // steps that a limit of the options ended
   std::size_t full_adjustments = 0;
   std::size_t full_checks = 0;
   double min_angle_deg = 90.0;   // smallest of all meshes that went through check()
+  double slowest_step_ms = 0.0;  // wall time
   double peak_memory_mib = 0.0;  // of the process
   double seconds = 0.0;
   std::string first_failure;  // the first broken rule, with what reproduces it
 };
 
-// Episodes of up to 200 steps on one mesh. An episode draws the discretisation (I from 8 to 400, G, D of the
-// paper's four), the method, a step size and an airfoil of the catalogue; its steps are random walks about an
-// airfoil, returns to it, jumps to another one, and designs that cross themselves.
+// Episodes of up to 200 steps on one mesh. An episode draws a kind of domain (an airfoil of the catalogue,
+// slat, main airfoil and flap, a duct, a lake with an island, a wall and lone points, a mesh of another
+// program; some at the coordinates of a map), I from 8 to 400, G, D of the paper's four, method and strategy.
+// Its steps are random walks, jumps to other shapes, and designs that cross themselves.
 SoakResult soak(const SoakOptions& options);
 
 }  // namespace remodel

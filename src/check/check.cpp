@@ -38,8 +38,10 @@ void check_sizes(const FrozenMesh& mesh, Report& report) {
   check_size("vertex_ids", mesh.vertex_ids.size(), points, report);
   check_size("curve", mesh.curve.size(), points, report);
   check_size("parameter", mesh.parameter.size(), points, report);
+  check_size("steiner", mesh.steiner.size(), points, report);
   check_size("triangle_ids", mesh.triangle_ids.size(), triangles, report);
   check_size("birth", mesh.birth.size(), triangles, report);
+  check_size("region", mesh.region.size(), triangles, report);
 }
 
 void check_indices(const FrozenMesh& mesh, Report& report) {
@@ -51,6 +53,12 @@ void check_indices(const FrozenMesh& mesh, Report& report) {
     } else if (a == b || b == c || c == a) {
       report.add("index", {t}, sentence("triangle ", t, " has the same point twice"));
     }
+  }
+  for (std::uint32_t t = 0; t < mesh.region.size(); ++t) {
+    if (mesh.region[t] >= mesh.region_names.size())
+      report.add(
+          "index", {t},
+          sentence("triangle ", t, " is in region ", mesh.region[t], " of ", mesh.region_names.size()));
   }
   for (const FrozenBoundary& boundary : mesh.boundaries) {
     for (const auto& [a, b] : boundary.edges) {
@@ -80,9 +88,22 @@ void check_numbers(const FrozenMesh& mesh, Report& report) {
 
 // ---- Points ----
 
-void check_duplicates(const FrozenMesh& mesh, Report& report) {
-  std::vector<std::uint32_t> order(mesh.points.size());
-  std::iota(order.begin(), order.end(), 0U);
+std::vector<std::uint32_t> triangles_per_point(const FrozenMesh& mesh) {
+  std::vector<std::uint32_t> count(mesh.points.size(), 0);
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t v : triangle) ++count[v];
+  }
+  return count;
+}
+
+void check_points(const FrozenMesh& mesh, bool unused_allowed, CheckResult& result, Report& report) {
+  const std::vector<std::uint32_t> count = triangles_per_point(mesh);
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t v = 0; v < count.size(); ++v) {
+    if (count[v] > 0 || !unused_allowed) order.push_back(v);
+    if (count[v] == 0) ++result.unused_points;
+  }
+  result.vertices -= result.unused_points;
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     const Point p = mesh.points[a], q = mesh.points[b];
     if (p.x != q.x) return p.x < q.x;
@@ -93,20 +114,9 @@ void check_duplicates(const FrozenMesh& mesh, Report& report) {
     if (mesh.points[a] == mesh.points[b])
       report.add("duplicate", {a, b}, sentence("points ", a, " and ", b, " coincide"));
   }
-}
-
-std::vector<std::uint32_t> triangles_per_point(const FrozenMesh& mesh) {
-  std::vector<std::uint32_t> count(mesh.points.size(), 0);
-  for (const auto& triangle : mesh.triangles) {
-    for (const std::uint32_t v : triangle) ++count[v];
-  }
-  return count;
-}
-
-void check_orphans(const FrozenMesh& mesh, Report& report) {
-  const std::vector<std::uint32_t> count = triangles_per_point(mesh);
   for (std::uint32_t v = 0; v < count.size(); ++v) {
-    if (count[v] == 0) report.add("orphan-vertex", {v}, sentence("point ", v, " is in no triangle"));
+    if (count[v] == 0 && !unused_allowed)
+      report.add("orphan-vertex", {v}, sentence("point ", v, " is in no triangle"));
   }
 }
 
@@ -180,7 +190,27 @@ void check_euler(const Subject& subject, std::size_t fans, Report& report) {
                       components, " components - ", loops, " boundary loops"));
 }
 
+// ---- Regions ----
+
+// In a mesh of a design a named curve lies between two regions.
+void check_regions(const Subject& subject, Report& report) {
+  const auto& edges = subject.topology.edges();
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const Edge& edge = edges[e];
+    if (edge.is_boundary() || subject.name_of_edge[e] != none) continue;
+    if (subject.mesh.region[edge.left] == subject.mesh.region[edge.right]) continue;
+    report.add("region", {edge.left, edge.right},
+               sentence("the edge of points ", edge.from, " and ", edge.to,
+                        " lies between two regions, but on no curve of the design"));
+  }
+}
+
 // ---- Delaunay ----
+
+// An edge between two regions is constrained, named or not.
+bool is_interface(const FrozenMesh& mesh, const Edge& edge) {
+  return !mesh.region.empty() && mesh.region[edge.left] != mesh.region[edge.right];
+}
 
 // Every unconstrained inner edge: the point across is not inside the circle. Returns whether all are.
 bool check_delaunay(const Subject& subject, Report& report) {
@@ -188,7 +218,7 @@ bool check_delaunay(const Subject& subject, Report& report) {
   const auto& edges = subject.topology.edges();
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const Edge& edge = edges[e];
-    if (edge.is_boundary() || subject.name_of_edge[e] != none) continue;
+    if (edge.is_boundary() || subject.name_of_edge[e] != none || is_interface(subject.mesh, edge)) continue;
     const std::uint32_t apex = subject.topology.opposite(edge, edge.left);
     const std::uint32_t across = subject.topology.opposite(edge, edge.right);
     if (subject.exact.in_circle(edge.from, edge.to, apex, across) <= 0) continue;
@@ -248,7 +278,7 @@ void check_angles(const FrozenMesh& mesh, const Exemption* exemption, double bou
   result.min_held_angle_deg = std::asin(smallest_held) * degrees;
 }
 
-// Returns the largest r / (H mean LS).
+// Returns the largest r / (H mean LS) but for exempt triangles.
 double check_gradation(const FrozenMesh& mesh, const Exemption* exemption, double bound, Report& report) {
   const double scale = bound > 0.0 ? bound : std::numbers::sqrt2 / 2.0;
   double largest = 0.0;
@@ -256,8 +286,10 @@ double check_gradation(const FrozenMesh& mesh, const Exemption* exemption, doubl
     const auto [a, b, c] = mesh.triangles[t];
     const double mean = (mesh.length_scale[a] + mesh.length_scale[b] + mesh.length_scale[c]) / 3.0;
     const double ratio = mean > 0.0 ? circumscribed(mesh, t).radius / (scale * mean) : std::nan("");
+    const bool above = exceeds(ratio, 1.0);
+    if (above && exemption != nullptr && exemption->exempts(t)) continue;
     if (!(ratio <= largest)) largest = std::isnan(ratio) ? std::numeric_limits<double>::infinity() : ratio;
-    if (bound <= 0.0 || !exceeds(ratio, 1.0) || (exemption != nullptr && exemption->exempts(t))) continue;
+    if (bound <= 0.0 || !above) continue;
     report.add(
         "gradation", {t},
         sentence("triangle ", t, " has r / (H mean LS) = ", ratio, ", its mean length scale is ", mean));
@@ -307,8 +339,7 @@ void check_structure(const Subject& subject, bool oriented, const CheckOptions& 
 
 void check_readable(const FrozenMesh& mesh, const CheckOptions& options, CheckResult& result,
                     Report& report) {
-  check_duplicates(mesh, report);
-  check_orphans(mesh, report);
+  check_points(mesh, options.unused_points, result, report);
 
   const std::unique_ptr<ExactPoints> exact = exact_points(mesh.points);
   result.area = total_area(mesh, *exact);
@@ -326,6 +357,7 @@ void check_readable(const FrozenMesh& mesh, const CheckOptions& options, CheckRe
   check_names_are_complete(subject, report);
   check_area(subject, report);
   check_structure(subject, oriented, options, result, report);
+  if (options.design != nullptr && !mesh.region.empty()) check_regions(subject, report);
   if (options.design != nullptr) check_design(subject, *options.design, report);
 }
 
@@ -338,6 +370,8 @@ CheckResult check(const FrozenMesh& mesh, const CheckOptions& options) {
   result.vertices = mesh.points.size();
   for (const FrozenBoundary& boundary : mesh.boundaries)
     result.boundary[boundary.name] += boundary.edges.size();
+  for (const std::uint32_t region : mesh.region)
+    if (region < mesh.region_names.size()) ++result.regions[mesh.region_names[region]];
 
   checker::Report report(options.max_violations);
   if (checker::is_readable(mesh, report)) checker::check_readable(mesh, options, result, report);

@@ -213,6 +213,17 @@ TEST(Check, NamesAPointWithoutTriangle) {
   EXPECT_EQ(result.violations[0].ids, std::vector<std::uint32_t>{4});
 }
 
+TEST(Check, CountsPointsWithoutTriangleWhereTheyAreAllowed) {
+  FrozenMesh mesh = square();
+  mesh.points.insert(mesh.points.end(), {{0.5, 0.25}, mesh.points[1], {9, 9}});
+  CheckOptions options;
+  options.unused_points = true;
+  const CheckResult result = check(mesh, options);
+  EXPECT_TRUE(result.valid);
+  EXPECT_EQ(result.unused_points, 3U);
+  EXPECT_EQ(result.vertices, 4U);
+}
+
 // Two squares that touch at (1, 1), with a point each.
 TEST(Check, NamesPointsThatCoincide) {
   FrozenMesh mesh = square();

@@ -76,6 +76,16 @@ ColorScale gradation_scale(const FrozenMesh& mesh, const std::vector<std::uint32
   return scale;
 }
 
+ColorScale fate_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& triangles) {
+  if (mesh.fate.empty()) {
+    throw Error(ErrorCode::argument, "color fate", "a mesh without fates found, one with them expected");
+  }
+  ColorScale scale{"Kept, moved, new:", "", "", {}, ColorMap::embers, 3};
+  for (const auto triangle : triangles)
+    scale.positions.push_back(0.5 * static_cast<double>(mesh.fate[triangle]));
+  return scale;
+}
+
 // Linear between samples at equal distances.
 template <std::size_t n>
 Color between(const std::array<std::array<int, 3>, n>& samples, double t) {
@@ -117,10 +127,21 @@ constexpr std::array<std::array<int, 3>, 9> blue_to_red = {{{59, 76, 192},
                                                             {222, 96, 77},
                                                             {180, 4, 38}}};
 
+// What stays is calm, what is new glows.
+constexpr std::array<std::array<int, 3>, 3> embers = {{{236, 240, 244}, {253, 200, 110}, {222, 60, 30}}};
+
 }  // namespace
 
 Color color_at(ColorMap map, double t) {
-  return map == ColorMap::sequential ? between(viridis, t) : between(blue_to_red, t);
+  switch (map) {
+    case ColorMap::sequential:
+      break;
+    case ColorMap::diverging:
+      return between(blue_to_red, t);
+    case ColorMap::embers:
+      return between(embers, t);
+  }
+  return between(viridis, t);
 }
 
 double dark_end(ColorMap map) {
@@ -135,6 +156,8 @@ ColorScale color_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>&
       return length_scale_scale(mesh, triangles);
     case DrawColor::age:
       return age_scale(mesh, triangles);
+    case DrawColor::fate:
+      return fate_scale(mesh, triangles);
     case DrawColor::gradation:
       return gradation_scale(mesh, triangles);
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a triangle's colour says, and the colours themselves.
+// The meaning of a triangle's colour, and the colours themselves.
 
 #include <cstdint>
 #include <string>
@@ -17,6 +17,7 @@ struct Color {
 enum class ColorMap {
   sequential,  // perceptually uniform, from dark blue (0) to bright yellow (1)
   diverging,   // blue (0), grey (0.5), red (1)
+  embers,      // nearly white (0), pale orange (0.5), glowing red (1)
 };
 Color color_at(ColorMap map, double t);
 // Below this position dark lines cannot be seen.
@@ -28,6 +29,7 @@ struct ColorScale {
   std::string low, high;  // labels of its ends
   std::vector<double> positions;
   ColorMap map = ColorMap::sequential;
+  int legend_steps = 128;  // colours that the legend shows
 };
 
 // Throws Error (argument) if the mesh does not carry what the colouring shows.

@@ -150,6 +150,19 @@ TEST(ColorScale, TheNewestTrianglesAreBrightest) {
   EXPECT_EQ(scale.high, "0");
 }
 
+TEST(ColorScale, FatesHaveAColourEach) {
+  FrozenMesh mesh = test::full_square_ring();
+  mesh.fate.assign(mesh.triangles.size(), Fate::kept);
+  mesh.fate[1] = Fate::moved;
+  mesh.fate[2] = Fate::made;
+  const auto scale = draw_detail::color_scale(mesh, {0, 1, 2}, DrawColor::fate);
+  EXPECT_EQ(scale.positions, (std::vector<double>{0.0, 0.5, 1.0}));
+  EXPECT_EQ(scale.legend_steps, 3);
+  mesh.fate.clear();
+  EXPECT_EQ(error_of([&] { draw(mesh, "a.png", {.color = DrawColor::fate}); }),
+            "color fate: a mesh without fates found, one with them expected");
+}
+
 TEST(ColorScale, GradationErrorsRunFromHalfToTwiceAndDivergeAtZero) {
   FrozenMesh mesh = test::full_square_ring();
   mesh.gradation_error.assign(mesh.triangles.size(), 0.0);

@@ -23,39 +23,6 @@ const Color& boundary_color(std::size_t k) {
   return boundary_colors[k % boundary_colors.size()];
 }
 
-void set_color(cairo_t* cairo, const Color& color, double opacity = 1.0) {
-  cairo_set_source_rgba(cairo, color.red, color.green, color.blue, opacity);
-}
-
-Box box_of(const std::vector<Point>& points) {
-  Box box{points.front(), points.front()};
-  for (const Point p : points) {
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
-  }
-  return box;
-}
-
-Box whole_mesh(const FrozenMesh& mesh) {
-  if (mesh.points.empty())
-    throw Error(ErrorCode::argument, "draw", "an empty mesh found, one with points expected");
-  const Box box = box_of(mesh.points);
-  const Point size = box.high - box.low;
-  const double margin = 0.02 * std::max({size.x, size.y, 1e-30});
-  return {box.low - Point{margin, margin}, box.high + Point{margin, margin}};
-}
-
-Box checked_window(const std::array<double, 4>& window) {
-  const auto [x0, y0, x1, y1] = window;
-  const bool finite = std::isfinite(x0) && std::isfinite(y0) && std::isfinite(x1) && std::isfinite(y1);
-  if (!finite || !(x0 < x1) || !(y0 < y1)) {
-    throw Error(ErrorCode::argument, "window",
-                label_of(x0) + "," + label_of(y0) + "," + label_of(x1) + "," + label_of(y1) +
-                    " found, x0,y0,x1,y1 with x0 < x1 and y0 < y1 expected");
-  }
-  return {{x0, y0}, {x1, y1}};
-}
-
 // Edges between large triangles are lines, those between triangles of a few pixels fade away: drawn in full,
 // they would leave nothing of the colours.
 double edge_strength(double side) {
@@ -66,33 +33,7 @@ double edge_strength(double side) {
 
 }  // namespace
 
-Layout layout_for(const FrozenMesh& mesh, const DrawOptions& options) {
-  constexpr int narrowest = 100;
-  constexpr int widest = 8000;
-  if (options.width < narrowest || options.width > widest) {
-    throw Error(ErrorCode::argument, "width",
-                std::to_string(options.width) + " found, 100 to 8000 pixels expected");
-  }
-  Layout layout;
-  layout.width = options.width;
-  layout.window = options.window ? checked_window(*options.window) : whole_mesh(mesh);
-  layout.unit = std::max(0.4, options.width / 1600.0);
-
-  // A window much flatter or taller than a page is seen with what lies above and below, or beside it.
-  constexpr double flattest = 0.1;
-  constexpr double tallest = 2.0;
-  Box& window = layout.window;
-  const Point size = window.high - window.low;
-  const Point centre = 0.5 * (window.low + window.high);
-  const Point half = {0.5 * std::max(size.x, size.y / tallest), 0.5 * std::max(size.y, size.x * flattest)};
-  window = {centre - half, centre + half};
-  layout.scale = layout.width / (2.0 * half.x);
-  layout.plot_height = static_cast<int>(std::lround(2.0 * half.y * layout.scale));
-  layout.height = layout.plot_height + static_cast<int>(std::lround(84.0 * layout.unit));
-  return layout;
-}
-
-Picture::Picture(const FrozenMesh& mesh, const Layout& layout, DrawColor color)
+Picture::Picture(const FrozenMesh& mesh, const Layout& layout, const DrawOptions& options)
     : mesh_(mesh), layout_(layout) {
   const double margin = 8.0 * layout.unit / layout.scale;
   seen_ = {layout.window.low - Point{margin, margin}, layout.window.high + Point{margin, margin}};
@@ -102,19 +43,15 @@ Picture::Picture(const FrozenMesh& mesh, const Layout& layout, DrawColor color)
     if (!box_of(corners).meets(layout.window)) continue;
     if (clip_polygon(corners, layout.window).size() >= 3) triangles_.push_back(i);
   }
-  scale_ = color_scale(mesh, triangles_, color);
-}
-
-void Picture::add_polygon(cairo_t* cairo, const std::vector<Point>& polygon) const {
-  cairo_new_sub_path(cairo);  // otherwise the first line starts where the last polygon did
-  for (const Point p : polygon) {
-    const Point q = layout_.pixel(p);
-    cairo_line_to(cairo, q.x, q.y);
+  if (options.field) {
+    field_.emplace(mesh, layout, seen_, triangles_, *options.field);
+  } else {
+    scale_ = color_scale(mesh, triangles_, options.color);
   }
-  cairo_close_path(cairo);
 }
 
 void Picture::fill_triangles(cairo_t* cairo, Seams seams) const {
+  if (field_) return field_->fill(cairo, triangles_, seams);
   std::array<std::vector<std::uint32_t>, color_levels> levels;
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
     levels[static_cast<std::size_t>(scale_.positions[i] * (color_levels - 1) + 0.5)].push_back(triangles_[i]);
@@ -125,19 +62,14 @@ void Picture::fill_triangles(cairo_t* cairo, Seams seams) const {
     if (levels[level].empty()) continue;
     for (const auto triangle : levels[level]) {
       const auto& [a, b, c] = mesh_.triangles[triangle];
-      add_polygon(cairo, clip_polygon({mesh_.points[a], mesh_.points[b], mesh_.points[c]}, seen_));
+      add_polygon(cairo, layout_, clip_polygon({mesh_.points[a], mesh_.points[b], mesh_.points[c]}, seen_));
     }
     set_color(cairo, color_at(scale_.map, static_cast<double>(level) / (color_levels - 1)));
-    if (seams == Seams::fill) {
-      cairo_fill_preserve(cairo);
-      cairo_stroke(cairo);
-    } else {
-      cairo_fill(cairo);
-    }
+    fill_path(cairo, seams);
   }
 }
 
-// Of the equilateral triangle with the same area.
+// The side of the equilateral triangle with the same area.
 double Picture::side_in_pixels(std::uint32_t triangle) const {
   const auto& [a, b, c] = mesh_.triangles[triangle];
   const double twice = std::abs(cross(mesh_.points[b] - mesh_.points[a], mesh_.points[c] - mesh_.points[a]));
@@ -145,6 +77,7 @@ double Picture::side_in_pixels(std::uint32_t triangle) const {
 }
 
 void Picture::stroke_edges(cairo_t* cairo) const {
+  if (field_) return field_->stroke_iso_lines(cairo, triangles_);
   constexpr std::size_t strengths = 16;  // one path for each, on dark and on bright colours
   const double dark = dark_end(scale_.map);
   std::array<std::array<EdgeList, strengths>, 2> edges;
@@ -172,12 +105,7 @@ void Picture::stroke_edges(cairo_t* cairo) const {
 
 void Picture::add_segments(cairo_t* cairo, const EdgeList& edges) const {
   for (const auto& [a, b] : edges) {
-    const auto part = clip_segment(mesh_.points[a], mesh_.points[b], seen_);
-    if (!part) continue;
-    const Point from = layout_.pixel(part->first);
-    const Point to = layout_.pixel(part->second);
-    cairo_move_to(cairo, from.x, from.y);
-    cairo_line_to(cairo, to.x, to.y);
+    add_segment(cairo, layout_, mesh_.points[a], mesh_.points[b], seen_);
   }
 }
 
@@ -191,17 +119,17 @@ void Picture::stroke_boundaries(cairo_t* cairo) const {
     add_segments(cairo, mesh_.boundaries[k].edges);
     // A small body in a large picture must not drown in its own outline.
     const double extent = layout_.scale * std::max(box.high.x - box.low.x, box.high.y - box.low.y);
-    set_color(cairo, boundary_color(k));
+    set_color(cairo, field_ ? Color{0.1, 0.1, 0.1} : boundary_color(k));
     cairo_set_line_width(cairo, std::clamp(extent / 30.0, 0.8 * layout_.unit, 2.2 * layout_.unit));
     cairo_stroke(cairo);
   }
 }
 
 void Picture::color_bar(cairo_t* cairo, double left, double right, double top, double bottom) const {
-  constexpr int steps = 128;
+  const int steps = scale_.legend_steps;
   for (int i = 0; i < steps; ++i) {
     const double from = left + (right - left) * i / steps;
-    set_color(cairo, color_at(scale_.map, (i + 0.5) / steps));
+    set_color(cairo, color_at(scale_.map, static_cast<double>(i) / (steps - 1)));
     cairo_rectangle(cairo, from, top, right - from, bottom - top);
     cairo_fill(cairo);
   }
@@ -210,21 +138,6 @@ void Picture::color_bar(cairo_t* cairo, double left, double right, double top, d
   cairo_set_line_width(cairo, 0.8 * layout_.unit);
   cairo_stroke(cairo);
 }
-
-namespace {
-
-// Returns where the text ends.
-double put_text(cairo_t* cairo, double x, double baseline, const std::string& text) {
-  cairo_text_extents_t extents;
-  cairo_text_extents(cairo, text.c_str(), &extents);
-  cairo_move_to(cairo, x, baseline);
-  cairo_set_source_rgb(cairo, 0.1, 0.1, 0.1);
-  cairo_show_text(cairo, text.c_str());
-  cairo_new_path(cairo);
-  return x + extents.x_advance;
-}
-
-}  // namespace
 
 void Picture::boundary_names(cairo_t* cairo, double left, double baseline) const {
   const double unit = layout_.unit;
@@ -238,7 +151,15 @@ void Picture::boundary_names(cairo_t* cairo, double left, double baseline) const
   }
 }
 
-void Picture::legend(cairo_t* cairo) const {
+std::string Picture::what_is_seen() const {
+  const Box& window = layout_.window;
+  const std::string lines = field_ ? field_->iso_lines_in_words() : "";
+  return std::to_string(triangles_.size()) + " of " + std::to_string(mesh_.triangles.size()) +
+         " triangles; x from " + label_of(window.low.x) + " to " + label_of(window.high.x) + ", y from " +
+         label_of(window.low.y) + " to " + label_of(window.high.y) + lines;
+}
+
+void Picture::legend(cairo_t* cairo, const std::string& caption) const {
   const double unit = layout_.unit;
   const double margin = 16.0 * unit;
   const double first = layout_.plot_height + 34.0 * unit;
@@ -246,17 +167,18 @@ void Picture::legend(cairo_t* cairo) const {
   cairo_select_font_face(cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(cairo, 17.0 * unit);
 
+  if (field_) {
+    field_->color_bar(cairo, margin, first);
+    put_text(cairo, margin, second + 24.0 * unit, caption.empty() ? what_is_seen() : caption);
+    return;
+  }
   double x = put_text(cairo, margin, first, scale_.title) + 20.0 * unit;
   x = put_text(cairo, x, first, scale_.low) + 8.0 * unit;
   color_bar(cairo, x, x + 320.0 * unit, first - 15.0 * unit, first + 4.0 * unit);
   x = put_text(cairo, x + 328.0 * unit, first, scale_.high) + 48.0 * unit;
   boundary_names(cairo, x, first);
 
-  const Box& window = layout_.window;
-  put_text(cairo, margin, second,
-           std::to_string(triangles_.size()) + " of " + std::to_string(mesh_.triangles.size()) +
-               " triangles; x from " + label_of(window.low.x) + " to " + label_of(window.high.x) +
-               ", y from " + label_of(window.low.y) + " to " + label_of(window.high.y));
+  put_text(cairo, margin, second, caption.empty() ? what_is_seen() : caption);
 }
 
 }  // namespace remodel::draw_detail

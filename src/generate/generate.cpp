@@ -21,7 +21,6 @@ void validate(const QualityOptions& options) {
                  options.refine_angle_deg, "0 to 34 degrees");
   require_option(positive(options.max_gradation), "max_gradation", options.max_gradation,
                  "a positive number");
-  require_option(std::isfinite(options.keep) && options.keep >= 1.0, "keep", options.keep, "1 or more");
   require_option(positive(options.gradation), "gradation", options.gradation, "a positive number");
   require_option(positive(options.resolution), "resolution", options.resolution, "a positive number");
   require_option(std::isfinite(options.min_edge) && options.min_edge >= 0.0, "min_edge", options.min_edge,
@@ -54,11 +53,13 @@ GenerateResult generate(const Domain& domain, const QualityOptions& options, Ste
     Refiner refiner(mesh, observer);
     for (std::uint32_t i = 0; i < mesh.triangulation.triangle_slots(); ++i) refiner.consider(TriangleId{i});
     result.stopped = refiner.run();
+    require_points_in_domain(mesh);  // a split of a curved boundary may have passed one
     result.small_angles = refiner.small_angles();
   } catch (const RecoveryError& error) {
     throw Error(ErrorCode::geometry, "domain", error.what());
   }
-  mesh.count_domain_triangles();
+  mesh.stopped = result.stopped;
+  mesh.domain_triangles = mesh.count_domain_triangles();
   result.exempt_triangles = count_exempt(mesh);
   return result;
 }

@@ -10,7 +10,7 @@
 #include "mesh/small_angles.h"
 #include "remodel/check.h"
 #include "remodel/error.h"
-#include "remodel/test_designs.h"
+#include "step/test_designs.h"
 
 namespace remodel {
 namespace {
@@ -105,6 +105,29 @@ TEST_P(Catalogue, IsMeshedWithinThePromises) {
 INSTANTIATE_TEST_SUITE_P(Paper, Catalogue,
                          testing::Values(Case{50, 1}, Case{100, 2}, Case{200, 4}, Case{50, 0.5}, Case{52, 20},
                                          Case{300, 6}));
+
+// A round hole in a square. Between the hole's polygon and its circle refinement passes a point.
+TEST(Generate, RefusesSinglePointsOutsideTheDomain) {
+  const auto message = [](Point gauge) {
+    const std::vector<Point> square{{-3, -3}, {3, -3}, {3, 3}, {-3, 3}, {-3, -3}};
+    try {
+      generate(
+          {.loops = {{.curves = {{"wall", Polyline{square}, Parameters::uniform(4)}}},
+                     {.role = LoopRole::hole, .curves = {{"hole", Arc{{0, 0}, 1.0}, Parameters::uniform(6)}}},
+                     {.role = LoopRole::internal,
+                      .curves = {{"gauge", Line{gauge, gauge}, Parameters::uniform(1)}},
+                      .open = true}}});
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(message({1.3, 0.2}), "");
+  const double cosine = 0.5 * std::numbers::sqrt3, sine = 0.5;  // in the middle of a side
+  for (const Point outside : {Point{0.3, 0.2}, Point{4.0, 0.2}, Point{0.93 * cosine, 0.93 * sine}})
+    EXPECT_NE(message(outside).find("'gauge' lies outside the domain"), std::string::npos)
+        << message(outside);
+}
 
 TEST(Generate, GivesTheSameBytesEachTime) {
   const Domain domain = test::catalogue_domain(3, 100);

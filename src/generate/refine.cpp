@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "generate/discretise.h"
 #include "generate/recovery_error.h"
 #include "generate/relabel.h"
+#include "remodel/predicates.h"
 
 namespace remodel {
 
@@ -12,8 +14,8 @@ namespace {
 
 constexpr int max_depth = 12;  // of splits that other splits ask for: see split_far()
 
-bool encroaches(Point p, Point a, Point b) {
-  return dot(a - p, b - p) < 0.0;
+bool is_finite(Point p) {
+  return std::isfinite(p.x) && std::isfinite(p.y);
 }
 
 }  // namespace
@@ -31,9 +33,9 @@ Refiner::Refiner(MeshData& mesh, StepObserver* observer)
       refused_segments_(&mesh.arena),
       vertex_limit_(mesh.options.max_vertices),
       observer_(observer) {
-  const double shortest = mesh.options.min_edge > 0.0 ? mesh.options.min_edge : 1e-12 * mesh.extent();
+  const double shortest = mesh.shortest_edge();
   squared_min_edge_ = shortest * shortest;
-  promised_.squared_gradation = QualityBounds(mesh.options).squared_gradation;
+  promised_.squared_gradation = mesh.promised_bounds().squared_gradation;
 }
 
 bool Refiner::too_short(Point a, Point b) const {
@@ -42,7 +44,7 @@ bool Refiner::too_short(Point a, Point b) const {
 
 void Refiner::consider(TriangleId t, const QualityBounds& bounds) {
   const Triangle& triangle = triangulation_[t];
-  if (!triangle.alive() || triangle.region != Region::domain) return;
+  if (!triangle.in_domain()) return;
   for (int i = 0; i < 3; ++i) {
     if (!triangle.link[i].constrained()) continue;
     const VertexId a = triangle.vertex[next3(i)], b = triangle.vertex[previous3(i)];
@@ -52,9 +54,7 @@ void Refiner::consider(TriangleId t, const QualityBounds& bounds) {
   }
   const Vertex &a = triangulation_[triangle.vertex[0]], &b = triangulation_[triangle.vertex[1]],
                &c = triangulation_[triangle.vertex[2]];
-  const double shortest = std::min({squared_distance(a.point, b.point), squared_distance(b.point, c.point),
-                                    squared_distance(c.point, a.point)});
-  mark(t, largest_squared_radius(shortest, a.length_scale + b.length_scale + c.length_scale, bounds));
+  mark(t, largest_squared_radius(a, b, c, bounds));
 }
 
 TriangleId Refiner::next_bad() {
@@ -105,10 +105,8 @@ Stopped Refiner::run() {
   for (;;) {
     if (triangulation_.vertex_count() >= vertex_limit_) return Stopped::vertex_budget;
     if (cancelled()) return Stopped::interrupted;
-    if (!segments_.empty()) {
-      const Segment segment = segments_.front();
-      segments_.pop_front();
-      split(segment, 0);
+    if (segments_wait()) {
+      split(segments_[next_segment_++], 0);
       continue;
     }
     const TriangleId t = next_bad();
@@ -121,17 +119,41 @@ Stopped Refiner::run() {
 // Step 1: the circumcentre's cavity. It need not hold the circumcentre: the bad triangle is always part of
 // it. Step 2: a boundary edge of the cavity that the point encroaches on, or lies beyond, is split instead.
 // Step 3: otherwise the point becomes a vertex.
+//
+// No vertex is nearer to a circumcentre than its radius: that is the length of the shortest new edge, and a
+// limit on it ends the refinement for angles for which edges get ever shorter.
 void Refiner::refine(TriangleId t) {
   const Triangle& triangle = triangulation_[t];
   if (small_angles_.exempt(triangle)) return;
   const Point p = triangle.circle.centre;
-  triangulation_.find_cavity(p, t, cavity_);
+  const bool certain = triangle.circle.certain();
+  if (!is_finite(p) || triangle.circle.squared_radius() < squared_min_edge_ ||
+      !triangulation_.find_cavity(p, t, cavity_)) {
+    refused_ = true;
+    return;
+  }
   if (split_blocking_segments(p)) {
-    if (!segments_.empty()) consider(t);
+    if (segments_wait()) consider(t);
+    return;
+  }
+  if (!certain && !sees_ring(p)) {
+    refused_ = true;
     return;
   }
   const VertexId v = triangulation_.fill_cavity(p, cavity_);
   judge_star(v);
+}
+
+// Whether p sees every edge of the ring from its left. It does where it lies at a circumcentre; of a sliver,
+// the computed centre may be anywhere, on another vertex too.
+bool Refiner::sees_ring(Point p) const {
+  const std::size_t n = cavity_.ring.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const VertexId a = cavity_.ring[k].from, b = cavity_.ring[k + 1 == n ? 0 : k + 1].from;
+    if (a == infinite_vertex || b == infinite_vertex) return false;
+    if (orient2d(triangulation_.point(a), triangulation_.point(b), p) <= 0) return false;
+  }
+  return true;
 }
 
 // The length scale of a new vertex, from its ring, and the badness of the triangles at it.
@@ -162,7 +184,7 @@ bool Refiner::split_blocking_segments(Point p) {
       const VertexId a = cavity_.ring[k].from,
                      b = cavity_.ring[k + 1 == cavity_.ring.size() ? 0 : k + 1].from;
       const Point pa = triangulation_.point(a), pb = triangulation_.point(b);
-      if (!(beyond ? cross(pb - pa, p - pa) <= 0.0 : encroaches(p, pa, pb))) continue;
+      if (!(beyond ? orient2d(pa, pb, p) <= 0 : encroaches(p, pa, pb))) continue;
       blocked = true;
       if (too_short(pa, pb) || is_refused(a, b))
         refused_ = true;
@@ -222,18 +244,18 @@ std::uint32_t Refiner::add_split(Segment segment, VertexId v, double t) {
 }
 
 // By length between the ends a and b of the segment that v splits.
-double Refiner::interpolated_scale(VertexId v, VertexId a, VertexId b) const {
+double Refiner::scale_between(VertexId v, VertexId a, VertexId b) const {
   const Point p = triangulation_.point(v);
   const double to_a = std::sqrt(squared_distance(triangulation_.point(a), p));
   const double to_b = std::sqrt(squared_distance(triangulation_.point(b), p));
-  return (triangulation_[a].length_scale * to_b + triangulation_[b].length_scale * to_a) / (to_a + to_b);
+  return interpolated_scale(triangulation_[a].length_scale, to_a, triangulation_[b].length_scale, to_b);
 }
 
 // The interpolation between the ends a and b, and no more than what propagates from its neighbours.
 void Refiner::set_split_length_scale(std::uint32_t k, VertexId a, VertexId b) {
   const VertexId v = mesh_.at(k).vertex;
   const Point p = triangulation_.point(v);
-  double scale = interpolated_scale(v, a, b);
+  double scale = scale_between(v, a, b);
   triangulation_.for_each_corner(v, [&](Corner c) {
     if (triangulation_[c.triangle].region != Region::domain) return;
     for (const VertexId u : {triangulation_.following(c), triangulation_.preceding(c)})
@@ -274,28 +296,14 @@ std::uint32_t Refiner::split_far(Segment segment, Point p, double t, int depth) 
   if (depth > max_depth) throw RecoveryError("boundary splits ask for each other without end");
   const VertexId a = mesh_.at(segment.from).vertex, b = mesh_.at(segment.to).vertex;
   triangulation_.release(a, b);
-  const VertexId v = insert_free(p, a);
-  triangulation_.set_length_scale(v,
-                                  interpolated_scale(v, a, b));  // splits that recovery asks for look at it
+  const VertexId v = insert_boundary_point(triangulation_, p, a);
+  triangulation_.set_length_scale(v, scale_between(v, a, b));  // splits that recovery asks for look at it
   const std::uint32_t k = add_split(segment, v, t);
   recover(a, v, depth);
   recover(v, b, depth);
   if (labelled_ && depth == 0)
     clear_outside();  // deeper: the edges that asked for this split are not there yet
   return k;
-}
-
-// Inserts p; a free vertex that is there already gives way.
-VertexId Refiner::insert_free(Point p, VertexId near) {
-  for (;;) {
-    const auto inserted = triangulation_.insert(p, triangulation_.star(near).triangle);
-    if (inserted.is_new && triangulation_.at_constraint(inserted.vertex))
-      throw RecoveryError("a curve runs through another boundary edge");
-    if (inserted.is_new) return inserted.vertex;
-    if (triangulation_[inserted.vertex].boundary != no_index)
-      throw RecoveryError("a curve runs through another boundary vertex");
-    triangulation_.remove(inserted.vertex);
-  }
 }
 
 void Refiner::recover_loop(std::uint32_t head) {
@@ -318,11 +326,12 @@ void Refiner::recover(VertexId a, VertexId b, int depth) {
     const ConstrainResult result = triangulation_.constrain(a, b);
     if (result.kind == ConstrainResult::Kind::done) return;
     if (result.kind == ConstrainResult::Kind::vertex) {
-      if (triangulation_[result.first].boundary != no_index)
+      if (result.first == infinite_vertex || triangulation_[result.first].boundary != no_index)
         throw RecoveryError("a boundary edge runs through another boundary vertex");
       triangulation_.remove(result.first);
       continue;
     }
+    if (!result.first) throw RecoveryError("a boundary edge leaves the hull");
     const std::uint32_t k = mesh_.edge_between(result.first, result.second);
     split({k, mesh_.at(k).next}, depth + 1);
   }

@@ -14,7 +14,6 @@
 
 #include <array>
 #include <cstdint>
-#include <deque>
 #include <memory_resource>
 #include <set>
 #include <utility>
@@ -70,21 +69,22 @@ class Refiner {
   // The next triangle to refine, no longer marked; none if none is left.
   TriangleId next_bad();
   TriangleId next_candidate();
+  bool segments_wait() const { return next_segment_ < segments_.size(); }
   void refine(TriangleId t);
   void judge_star(VertexId v);
   bool split_blocking_segments(Point p);
+  bool sees_ring(Point p) const;
   void queue_segment(VertexId a, VertexId b);
   void refuse(Segment segment);
   bool is_refused(VertexId a, VertexId b) const;
   void split(Segment segment, int depth);
   double split_parameter(Segment segment) const;
   std::uint32_t add_split(Segment segment, VertexId v, double t);
-  double interpolated_scale(VertexId v, VertexId a, VertexId b) const;
+  double scale_between(VertexId v, VertexId a, VertexId b) const;
   void set_split_length_scale(std::uint32_t k, VertexId a, VertexId b);
   // These return the new entry of the boundary table.
   std::uint32_t split_far(Segment segment, Point p, double t, int depth);
   std::uint32_t try_split_far(Segment segment, Point p, double t);
-  VertexId insert_free(Point p, VertexId near);
   void recover(VertexId a, VertexId b, int depth);
   void clear_outside();
   void consider_star(VertexId v);
@@ -102,14 +102,15 @@ class Refiner {
   std::array<TriangleId, look_ahead> ahead_;
   std::size_t turn_ = 0;
   Cavity& cavity_;
-  Buffer<double>& scales_;  // of its ring
-  std::pmr::deque<Segment> segments_;
+  Buffer<double>& scales_;        // of its ring
+  List<Segment> segments_;        // first in, first out
+  std::size_t next_segment_ = 0;  // of those, the first that waits
   std::pmr::set<std::pair<VertexId, VertexId>> refused_segments_;
   double squared_min_edge_ = 0.0;
   std::size_t vertex_limit_;
   StepObserver* observer_;
   std::uint32_t polls_ = 0;
-  bool refused_ = false;  // a segment was too short to be split
+  bool refused_ = false;  // a segment or a triangle was too small to be split
   bool labelled_ = true;  // false while boundaries are being recovered: the caller labels afterwards
 };
 

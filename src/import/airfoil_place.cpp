@@ -344,6 +344,7 @@ Domain with_airfoil(const Domain& domain, const AirfoilPlace& wanted, const CstA
     follow_loop(place, points, place.names);
     loop.curves = polylines_of(std::move(points), place.names);
   }
+  loop.region = domain.loops[place.loop].region;
   Domain result = domain;
   result.loops[place.loop] = std::move(loop);
   return result;

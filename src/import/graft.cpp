@@ -7,6 +7,7 @@
 
 #include "generate/discretise.h"
 #include "generate/recovery_error.h"
+#include "remodel/mesh_state.h"
 #include "remodel/predicates.h"
 #include "triangulation/state.h"
 
@@ -44,8 +45,22 @@ bool before(const Side& a, const Side& b) {
   return std::tie(a.from, a.to) < std::tie(b.from, b.to);
 }
 
-// Every side is linked to the same edge in the other direction; it is constrained where the regions differ.
-void link_triangles(std::vector<Triangle>& triangles) {
+using Edges = std::vector<std::pair<VertexId, VertexId>>;
+
+// Inner edges, in both directions, sorted.
+Edges inner_edges(const SoundMesh& mesh) {
+  Edges edges;
+  for (const InnerEdge& edge : mesh.inner) {
+    edges.push_back({vertex_of(edge.from), vertex_of(edge.to)});
+    edges.push_back({vertex_of(edge.to), vertex_of(edge.from)});
+  }
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+// Every side is linked to the same edge in the other direction; it is constrained where the domain ends, and
+// on inner edges.
+void link_triangles(std::vector<Triangle>& triangles, const Edges& inner) {
   std::vector<Side> sides;
   sides.reserve(3 * triangles.size());
   for (std::uint32_t i = 0; i < triangles.size(); ++i)
@@ -56,7 +71,8 @@ void link_triangles(std::vector<Triangle>& triangles) {
     const auto other = std::lower_bound(sides.begin(), sides.end(), Side{side.to, side.from, 0, 0}, before);
     if (other == sides.end() || other->from != side.to || other->to != side.from)
       throw RecoveryError("the boundary does not separate inside and outside");
-    const bool constrained = triangles[side.triangle].region != triangles[other->triangle].region;
+    const bool constrained = triangles[side.triangle].region != triangles[other->triangle].region ||
+                             std::binary_search(inner.begin(), inner.end(), std::pair{side.from, side.to});
     triangles[side.triangle].link[side.corner] =
         Link(TriangleId{other->triangle}, other->corner, constrained);
   }
@@ -85,15 +101,45 @@ void graft(const SoundMesh& mesh, const LoopsOfMesh& loops, MeshData& data) {
     for (int k = 0; k < 3; ++k) t.vertex[k] = vertices[filler.vertex[k].index];
     t.region = Region::outside;
   }
-  link_triangles(state.triangles);
+  link_triangles(state.triangles, inner_edges(mesh));
   for (std::uint32_t i = 0; i < state.triangles.size(); ++i)
     for (int k = 0; k < 3; ++k)
       state.vertices[state.triangles[i].vertex[k].index].star = Link(TriangleId{i}, k);
   if (const std::string broken = state.restore(data.triangulation); !broken.empty())
     throw RecoveryError(broken);
-  for (std::uint32_t k = 0; k < data.boundary.size(); ++k) {
+  // A vertex of several loops names the entry of the first.
+  for (auto k = static_cast<std::uint32_t>(data.boundary.size()); k-- > 0;) {
     data.boundary.edit(k).vertex = vertices[data.boundary[k].vertex.index];
     data.triangulation.set_boundary(data.boundary[k].vertex, k);
+  }
+}
+
+void take_design(DesignOfMesh design, MeshData& data) {
+  data.domain = std::move(design.domain);
+  data.index_curves();
+  std::vector<std::vector<BoundaryVertex>> loops;
+  for (const std::uint32_t head : data.loop_heads) {
+    auto& loop = loops.emplace_back();
+    data.walk(head, [&](std::uint32_t k) { loop.push_back(data.at(k)); });
+  }
+  data.boundary.take_all();
+  data.loop_heads.clear();
+  for (const auto& loop : loops)
+    for (const BoundaryVertex& entry : loop) data.triangulation.set_boundary(entry.vertex, no_index);
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    const bool open = data.domain.loops[i].open;
+    std::uint32_t previous = no_index;
+    for (std::size_t k = 0; k < loops[i].size(); ++k) {
+      const BoundaryVertex& entry = loops[i][k];
+      const double t = design.parameters[i][k];
+      const std::vector<double>& stations = data.curve(entry.curve).parameters;
+      const bool end = open && k + 1 == loops[i].size();
+      const bool steiner = !end && !std::binary_search(stations.begin(), stations.end(), t);
+      previous = data.add_boundary_vertex(
+          {.vertex = entry.vertex, .curve = entry.curve, .t = t, .steiner = steiner}, previous);
+      if (k == 0) data.loop_heads.push_back(previous);
+    }
+    if (!open) data.close_loop(data.loop_heads.back(), previous);
   }
 }
 

@@ -2,6 +2,7 @@
 
 // A sound mesh as the domain's part of a living triangulation.
 
+#include "import/design.h"
 #include "import/loops.h"
 #include "import/sound.h"
 #include "mesh/mesh_data.h"
@@ -12,6 +13,10 @@ namespace remodel {
 // has slot i. What lies outside the domain is the constrained Delaunay triangulation of the boundary. Not
 // Delaunay yet inside. Throws RecoveryError where the boundary is none that can be meshed.
 void graft(const SoundMesh& mesh, const LoopsOfMesh& loops, MeshData& data);
+
+// Gives the mesh another domain of the same curves: boundary vertices that are no stations of it become
+// Steiner vertices. Length scales are to be set afterwards.
+void take_design(DesignOfMesh design, MeshData& data);
 
 // Flips until the mesh is Delaunay, and records the file's triangles for what is to be shown of them.
 struct Flips {

@@ -18,12 +18,11 @@ namespace {
 
 // Beyond this, refinement runs on for ever on some meshes.
 constexpr double largest_refine_angle = 33.0;
-constexpr double usual_angle = 30.0;
 
 void validate(const ImportOptions& options) {
   const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
-  require_option(options.refine_angle_deg >= 0.0 && options.refine_angle_deg <= largest_refine_angle,
-                 "refine_angle_deg", options.refine_angle_deg, "0 to 33 degrees");
+  require_option(options.refine_angle_deg >= 1.0 && options.refine_angle_deg <= largest_refine_angle,
+                 "refine_angle_deg", options.refine_angle_deg, "1 to 33 degrees");
   require_option(positive(options.max_gradation), "max_gradation", options.max_gradation,
                  "a positive number");
   require_option(options.gradation == 0.0 || positive(options.gradation), "gradation", options.gradation,
@@ -60,12 +59,23 @@ void set_promises(const ImportOptions& options, const std::string& source, MeshD
     throw Error(ErrorCode::geometry, source,
                 "a triangle too flat to compute its circle found, angles of at least 1e-5 degrees expected");
   const double own = angle_deg(worst * (1.0 + 4e-9));
-  double refined = options.refine_angle_deg;
-  if (refined == 0.0) refined = std::clamp(own, usual_angle, largest_refine_angle);
-  data.options.min_angle_deg = std::min(own, refined);
-  data.options.refine_angle_deg = refined;
+  data.options.min_angle_deg = std::min(own, options.refine_angle_deg);
+  data.options.refine_angle_deg = options.refine_angle_deg;
   set_length_scales(data);
   data.options.gradation = options.gradation > 0.0 ? options.gradation : measured_gradation(data);
+}
+
+// Without the points that refinement added when the mesh was made its boundary is coarser: where that is none
+// that can be meshed, they all count as the design's.
+void take_design_of(const SoundMesh& sound, const LoopsOfMesh& loops, MeshData& data) {
+  DesignOfMesh design = design_of(sound, loops);
+  if (design.domain == loops.domain) return;
+  try {
+    validate(design.domain);
+  } catch (const Error&) {
+    return;
+  }
+  take_design(std::move(design), data);
 }
 
 void build(const SoundMesh& sound, const ImportOptions& options, const std::string& source,
@@ -80,13 +90,14 @@ void build(const SoundMesh& sound, const ImportOptions& options, const std::stri
   data.options.resolution = options.resolution;
   data.options.max_vertices = options.max_vertices;
   graft(sound, loops, data);
+  take_design_of(sound, loops, data);
   data.imported.markers = sound.markers;
   const Flips flips =
       make_delaunay(sound, options.non_delaunay == NonDelaunay::keep ? Record::all : Record::ties, data);
   result.non_delaunay_edges = flips.non_delaunay;
   result.flipped_edges = flips.flipped;
   set_promises(options, source, data);
-  data.count_domain_triangles();
+  data.domain_triangles = data.count_domain_triangles();
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "import/test_foreign.h"
 #include "remodel/check.h"
 #include "remodel/error.h"
+#include "remodel/mesh_state.h"
 #include "remodel/remodel.h"
 #include "support.h"
 
@@ -254,16 +255,16 @@ TEST(Import, WhatIsNoMeshIsRefusedByName) {
             "file.su2: triangle 2 (points 0, 1, 2) has no area, one with an area expected");
   EXPECT_EQ(with([](FrozenMesh& m) { m.triangles.push_back(m.triangles[3]); }).substr(0, 38),
             "file.su2: triangles 3 and 18 overlap: ");
-  EXPECT_EQ(
-      with([](FrozenMesh& m) {
-        m.boundaries[1].edges.push_back({5, 6});
-      }),
-      "file.su2: marker 'south': the edge of points 5 and 6 has a triangle on both sides, an edge of the "
-      "boundary expected");
+  EXPECT_EQ(with([](FrozenMesh& m) {
+              m.boundaries.push_back({"wake", {{5, 6}}});
+              m.boundaries.push_back({"other", {{6, 5}}});
+            }),
+            "file.su2: marker 'other': the edge of points 6 and 5 is in marker 'wake' too, one name an edge "
+            "expected");
   EXPECT_EQ(with([](FrozenMesh& m) {
               m.boundaries[1].edges.push_back({0, 2});
             }),
-            "file.su2: marker 'south': the edge of points 0 and 2 is no triangle's, an edge of the boundary "
+            "file.su2: marker 'south': the edge of points 0 and 2 is no triangle's, an edge of the mesh "
             "expected");
   EXPECT_EQ(with([](FrozenMesh& m) { m.boundaries[1].edges.push_back(m.boundaries[0].edges[0]); }),
             "file.su2: marker 'south': the edge of points 3 and 7 is in marker 'rest' too, one name an edge "

@@ -14,11 +14,13 @@ struct LoopsOfMesh {
   Domain domain;
   // Of every loop: its points in the order of the domain's stations.
   std::vector<std::vector<std::uint32_t>> points;
+  std::vector<bool> joint;  // per point: whether a chain ends there
 };
 
 // One loop a closed chain of boundary edges, the domain on the left, one polyline a run of edges with the
 // same marker, one station a point. Loops come in the order of their first named edges, and begin with the
-// run that has it; a loop of one name begins with that edge.
+// run that has it; a loop of one name begins with that edge, or the next one before it that begins at a point
+// of the design. Then chains of inner edges, in the order of theirs.
 LoopsOfMesh loops_of(const SoundMesh& mesh);
 
 }  // namespace remodel

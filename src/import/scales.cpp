@@ -8,14 +8,6 @@ namespace remodel {
 
 namespace {
 
-template <class Visit>
-void for_each_domain_triangle(const Triangulation& triangulation, Visit visit) {
-  for (std::uint32_t i = 0; i < triangulation.triangle_slots(); ++i) {
-    const Triangle& t = triangulation[TriangleId{i}];
-    if (t.alive() && t.region == Region::domain) visit(t);
-  }
-}
-
 // How much larger than the triangles' own sizes length scales are. With 1, triangles of the sizes of their
 // neighbours would be at the bound, and what is refined comes out smaller than what it replaces; with 2, new
 // layers of triangles at a wall may be twice as high as the old ones. Measured on four meshes of two
@@ -25,7 +17,7 @@ constexpr double scale_factor = 1.5;
 
 std::vector<double> mean_scales(const Triangulation& triangulation, double inverse_h) {
   std::vector<double> sum(triangulation.vertex_slots(), 0.0), count(triangulation.vertex_slots(), 0.0);
-  for_each_domain_triangle(triangulation, [&](const Triangle& t) {
+  triangulation.for_each_domain_triangle([&](TriangleId, const Triangle& t) {
     const double scale = scale_factor * std::sqrt(t.circle.squared_radius()) * inverse_h;
     for (const VertexId v : t.vertex) sum[v.index] += scale, count[v.index] += 1.0;
   });
@@ -44,7 +36,7 @@ double squared_radius(const Triangulation& triangulation, const Vertices& t) {
 // The triangles of the living mesh, and those of the file that are shown in their place.
 template <class Visit>
 void for_each_triangle_shown(const MeshData& mesh, Visit visit) {
-  for_each_domain_triangle(mesh.triangulation, [&](const Triangle& t) {
+  mesh.triangulation.for_each_domain_triangle([&](TriangleId, const Triangle& t) {
     visit(Vertices{t.vertex[0], t.vertex[1], t.vertex[2]});
   });
   const std::vector<std::uint32_t>& file = mesh.imported.triangles;
@@ -91,7 +83,7 @@ void set_length_scales(MeshData& mesh) {
 double measured_gradation(const MeshData& mesh) {
   const Triangulation& triangulation = mesh.triangulation;
   std::vector<double> slopes;
-  for_each_domain_triangle(triangulation, [&](const Triangle& t) {
+  triangulation.for_each_domain_triangle([&](TriangleId, const Triangle& t) {
     for (int k = 0; k < 3; ++k) {
       const Vertex &a = triangulation[t.vertex[k]], &b = triangulation[t.vertex[next3(k)]];
       slopes.push_back(std::abs(a.length_scale - b.length_scale) /

@@ -6,6 +6,7 @@
 #include "remodel/import.h"
 #include "remodel/io.h"
 #include "remodel/remodel.h"
+#include "remodel/shape_files.h"
 #include "support.h"
 
 namespace remodel {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <sstream>
 #include <tuple>
@@ -30,7 +31,9 @@ class Mender {
     edges_ = directed_edges(sound_.triangles);
     refuse_shared_edges();
     take_boundary();
+    take_regions();
     name_boundary();
+    name_interfaces();
     refuse_touching_boundaries();
     return std::move(sound_);
   }
@@ -65,6 +68,7 @@ class Mender {
                ") found, coordinates that are 0 or of magnitude 1e-60 to 1e60 expected");
       index[v] = static_cast<std::uint32_t>(sound_.points.size());
       sound_.points.push_back(p);
+      if (mesh_.steiner.size() == mesh_.points.size()) sound_.steiner.push_back(mesh_.steiner[v]);
       number_.push_back(v);
     }
     for (const auto& [a, b, c] : mesh_.triangles) sound_.triangles.push_back({index[a], index[b], index[c]});
@@ -120,8 +124,53 @@ class Mender {
     return nullptr;
   }
 
+  void take_regions() {
+    if (mesh_.region.empty()) return;
+    if (mesh_.region.size() != mesh_.triangles.size())
+      refuse(mesh_.region.size(), " regions of triangles found, ", mesh_.triangles.size(), " expected");
+    for (std::size_t i = 0; i < mesh_.region.size(); ++i)
+      if (mesh_.region[i] >= mesh_.region_names.size())
+        refuse("triangle ", i, ": region ", mesh_.region[i], " found, an index below ",
+               mesh_.region_names.size(), " expected");
+    sound_.region = mesh_.region;
+    sound_.region_names = mesh_.region_names;
+  }
+
+  std::uint32_t region_of(const DirectedEdge& edge) const {
+    return sound_.region.empty() ? no_region : sound_.region[edge.triangle];
+  }
+
+  // A name that an edge has twice is one name.
+  void name_inner(const DirectedEdge& edge, const DirectedEdge& other, std::uint32_t number,
+                  std::uint32_t place) {
+    const auto [known, added] =
+        inner_.try_emplace(std::minmax(edge.from, edge.to), static_cast<std::uint32_t>(sound_.inner.size()));
+    if (added) {
+      sound_.inner.push_back({edge.from, edge.to, number, place, region_of(edge), region_of(other)});
+    } else if (sound_.inner[known->second].marker != number) {
+      refuse("marker '", sound_.markers[number], "': the edge of points ", number_[edge.from], " and ",
+             number_[edge.to], " is in marker '", sound_.markers[sound_.inner[known->second].marker],
+             "' too, one name an edge expected");
+    }
+  }
+
+  // Edges between regions that the file does not name.
+  void name_interfaces() {
+    if (sound_.region.empty()) return;
+    const std::string interface = "interface";
+    auto number = static_cast<std::uint32_t>(
+        std::find(sound_.markers.begin(), sound_.markers.end(), interface) - sound_.markers.begin());
+    for (const DirectedEdge& edge : edges_) {
+      if (edge.from > edge.to || inner_.contains({edge.from, edge.to})) continue;
+      const DirectedEdge* other = find_edge(edges_, edge.to, edge.from);
+      if (other == nullptr || region_of(edge) == region_of(*other)) continue;
+      if (number == sound_.markers.size()) sound_.markers.push_back(interface);
+      name_inner(edge, *other, number, place_++);
+    }
+  }
+
   void name_boundary() {
-    std::uint32_t place = 0;
+    std::uint32_t& place = place_;
     for (const FrozenBoundary& marker : mesh_.boundaries) {
       const auto number = static_cast<std::uint32_t>(sound_.markers.size());
       sound_.markers.push_back(marker.name);
@@ -146,10 +195,10 @@ class Mender {
     BoundaryEdge* found = find_boundary(a, b);
     if (found == nullptr) found = find_boundary(b, a);
     if (found == nullptr) {
-      const bool inside = find_edge(edges_, a, b) != nullptr;
+      const DirectedEdge *left = find_edge(edges_, a, b), *right = find_edge(edges_, b, a);
+      if (left != nullptr && right != nullptr) return name_inner(*left, *right, number, place);
       refuse("marker '", name, "': the edge of points ", edge[0], " and ", edge[1],
-             inside ? " has a triangle on both sides" : " is no triangle's",
-             ", an edge of the boundary expected");
+             " is no triangle's, an edge of the mesh expected");
     }
     if (found->marker != no_index && found->marker != number)
       refuse("marker '", name, "': the edge of points ", edge[0], " and ", edge[1], " is in marker '",
@@ -173,6 +222,9 @@ class Mender {
   std::vector<std::uint32_t> number_;  // of each point in the file
   std::vector<std::uint32_t> index_;   // of each of the file's points
   std::vector<DirectedEdge> edges_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>
+      inner_;  // lower point first; index of inner edges
+  std::uint32_t place_ = 0;
 };
 
 }  // namespace

@@ -18,14 +18,29 @@ struct BoundaryEdge {
   std::uint32_t place = 0;  // among all named edges, in the order of the file
 };
 
+inline constexpr std::uint32_t no_region = 0xffffffff;
+
+// An edge of two triangles that has a name, or lies between two regions.
+struct InnerEdge {
+  std::uint32_t from = 0, to = 0;
+  std::uint32_t marker = 0;
+  std::uint32_t place = 0;                            // as of boundary edges
+  std::uint32_t left = no_region, right = no_region;  // regions
+};
+
 // Counter-clockwise triangles, every edge in one of them or, in opposite directions, in two; no two points
 // coincide; at every point of the boundary one boundary edge ends and one begins. Points keep their order.
 struct SoundMesh {
   std::vector<Point> points;
+  std::vector<std::uint8_t> steiner;  // per point; empty: none is
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::string> markers;
   std::vector<BoundaryEdge> boundary;  // in the order of their first points
+  std::vector<InnerEdge> inner;
+  std::vector<std::uint32_t> region;  // per triangle; empty: there is one alone
+  std::vector<std::string> region_names;
   std::size_t turned = 0, unused = 0, unnamed = 0;
+  bool is_steiner(std::uint32_t point) const { return !steiner.empty() && steiner[point] != 0; }
 };
 
 // Throws Error (geometry) as import_mesh() does.

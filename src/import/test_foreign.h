@@ -12,7 +12,7 @@
 #include "remodel/frozen_mesh.h"
 #include "remodel/generate.h"
 #include "remodel/predicates.h"
-#include "remodel/test_designs.h"
+#include "step/test_designs.h"
 
 namespace remodel::test {
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "remodel/error.h"
+#include "remodel/io.h"
 
 namespace remodel::io {
 
@@ -114,6 +115,31 @@ void adopt_conventions(FrozenMesh& mesh, const std::string& file) {
   for (auto& boundary : mesh.boundaries) boundary.edges = ChainWalker(boundary.edges).ordered();
 }
 
+void RegionNames::add(FrozenMesh& mesh, const std::string& name) {
+  const auto [entry, added] =
+      indices_.try_emplace(name, static_cast<std::uint32_t>(mesh.region_names.size()));
+  if (added) mesh.region_names.push_back(name);
+  mesh.region.push_back(entry->second);
+}
+
+void RegionNames::finish(FrozenMesh& mesh) {
+  if (mesh.region_names.size() > 1) return;
+  mesh.region.clear();
+  mesh.region_names.clear();
+}
+
+FrozenMesh without_inner_edges(const FrozenMesh& mesh) {
+  FrozenMesh result = mesh;
+  const auto found = directions_in_triangles(mesh);
+  std::erase_if(result.boundaries, [&](FrozenBoundary& boundary) {
+    const auto inner = [&](const Edge& e) {
+      return found.at(key_of(e[0], e[1])) && found.at(key_of(e[1], e[0]));
+    };
+    return std::erase_if(boundary.edges, inner) > 0 && boundary.edges.empty();
+  });
+  return result;
+}
+
 FrozenBoundary& boundary_named(FrozenMesh& mesh, const std::string& name) {
   const auto found = std::find_if(mesh.boundaries.begin(), mesh.boundaries.end(),
                                   [&](const FrozenBoundary& boundary) { return boundary.name == name; });
@@ -121,4 +147,38 @@ FrozenBoundary& boundary_named(FrozenMesh& mesh, const std::string& name) {
   return mesh.boundaries.emplace_back(FrozenBoundary{name, {}});
 }
 
+std::vector<std::size_t> triangles_at_boundaries(const FrozenMesh& mesh) {
+  const auto key = [](std::uint32_t a, std::uint32_t b) { return std::uint64_t{a} << 32 | b; };
+  std::unordered_map<std::uint64_t, std::size_t> found;
+  for (const auto& boundary : mesh.boundaries)
+    for (const auto& [a, b] : boundary.edges) found[key(a, b)] = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& corners = mesh.triangles[t];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto edge = found.find(key(corners[k], corners[(k + 1) % 3]));
+      if (edge != found.end()) edge->second = t;
+    }
+  }
+  std::vector<std::size_t> result;
+  for (const auto& boundary : mesh.boundaries)
+    for (const auto& [a, b] : boundary.edges) result.push_back(found[key(a, b)]);
+  return result;
+}
+
 }  // namespace remodel::io
+
+namespace remodel {
+
+std::vector<std::string> inner_curves(const FrozenMesh& mesh) {
+  const auto found = io::directions_in_triangles(mesh);
+  std::vector<std::string> names;
+  for (const FrozenBoundary& boundary : mesh.boundaries) {
+    const auto inner = [&](const auto& e) {
+      return found.at(io::key_of(e[0], e[1])) && found.at(io::key_of(e[1], e[0]));
+    };
+    if (std::any_of(boundary.edges.begin(), boundary.edges.end(), inner)) names.push_back(boundary.name);
+  }
+  return names;
+}
+
+}  // namespace remodel

@@ -3,7 +3,9 @@
 // Brings a mesh as another program wrote it into our conventions.
 
 #include <cstdint>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "remodel/frozen_mesh.h"
 
@@ -15,7 +17,26 @@ namespace remodel::io {
 // check(). Indices must be in range. Throws Error (format) if there is no triangle.
 void adopt_conventions(FrozenMesh& mesh, const std::string& file);
 
+// The mesh without named edges that have a triangle on both sides, and without boundaries that have no
+// others.
+FrozenMesh without_inner_edges(const FrozenMesh& mesh);
+
+// Gives triangles their regions by name, as they are read one after the other.
+class RegionNames {
+ public:
+  void add(FrozenMesh& mesh, const std::string& name);  // of the last triangle
+  // One region alone says nothing.
+  static void finish(FrozenMesh& mesh);
+
+ private:
+  std::map<std::string, std::uint32_t> indices_;
+};
+
 // The boundary of that name, made if it is new.
 FrozenBoundary& boundary_named(FrozenMesh& mesh, const std::string& name);
+
+// The triangle at each boundary edge, in the order of the boundaries' edges; the first one where there is
+// none.
+std::vector<std::size_t> triangles_at_boundaries(const FrozenMesh& mesh);
 
 }  // namespace remodel::io

@@ -1,4 +1,5 @@
-// A file appears whole or not at all: it is written beside its target, brought to the disk and renamed.
+// A file appears whole or not at all: it is written beside its target, brought to the disk and renamed. And
+// files are read in one place, pipes among them.
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -7,6 +8,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <map>
+#include <mutex>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -32,6 +35,7 @@ namespace {
 
 class Descriptor {
  public:
+  explicit Descriptor(int value) : value_(value) {}
   Descriptor(const fs::path& file, int flags) : value_(::open(file.c_str(), flags | O_CLOEXEC, 0666)) {}
   ~Descriptor() {
     if (value_ >= 0) ::close(value_);
@@ -55,8 +59,10 @@ class Temporary {
  public:
   explicit Temporary(const fs::path& target) {
     static std::atomic<unsigned> counter = 0;
+    // The file's own name may be as long as the file system allows: of long ones the beginning.
+    constexpr std::size_t longest = 100;
     std::string name = ".";
-    name += target.filename().string();
+    name += target.filename().string().substr(0, longest);
     name += '.' + std::to_string(::getpid()) + '.' + std::to_string(counter++) + ".tmp";
     path_ = directory_of(target) / name;
   }
@@ -88,9 +94,85 @@ void write_bytes(const fs::path& path, const fs::path& target, std::string_view 
   if (!descriptor.close()) fail_writing(target, errno);
 }
 
+void check_size(const fs::path& file, std::size_t size, std::size_t limit) {
+  if (size <= limit) return;
+  throw Error(ErrorCode::format, file.string(),
+              "larger than the " + std::to_string(limit) + " bytes allowed");
+}
+
+// A pipe has no size that could bound what is read.
+constexpr std::size_t largest_piped = std::size_t{1} << 32;
+
+// What was read from pipes while somebody wants it kept.
+struct KeptTexts {
+  std::mutex lock;
+  int users = 0;
+  std::map<fs::path, std::string> texts;
+};
+KeptTexts& kept_texts() {
+  static KeptTexts kept;
+  return kept;
+}
+
+std::string read_once(const fs::path& file, std::size_t limit) {
+  const bool standard = file == standard_input;
+  const Descriptor descriptor = standard ? Descriptor(::dup(STDIN_FILENO)) : Descriptor(file, O_RDONLY);
+  if (!descriptor) fail_reading(file, errno);
+  struct stat status {};
+  if (::fstat(descriptor.get(), &status) != 0) fail_reading(file, errno);
+  if (S_ISDIR(status.st_mode)) fail_reading(file, EISDIR);
+
+  // Read to the end rather than to the size: a pipe has none.
+  constexpr std::size_t piece = std::size_t{1} << 20;
+  std::string text;
+  if (S_ISREG(status.st_mode))
+    text.reserve(std::min(static_cast<std::size_t>(status.st_size), limit) + piece);
+  for (std::size_t used = 0;;) {
+    text.resize(used + piece);
+    const auto got = ::read(descriptor.get(), text.data() + used, piece);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail_reading(file, errno);
+    used += static_cast<std::size_t>(got);
+    text.resize(used);
+    check_size(file, used, limit);
+    if (got == 0) return text;
+  }
+}
+
 }  // namespace
 
-void write_atomically(const fs::path& file, const std::function<void(const fs::path&)>& write) {
+bool is_pipe(const fs::path& file) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(file, ignored);
+  return file == standard_input ||
+         (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status));
+}
+
+KeptPipes::KeptPipes() {
+  const std::lock_guard guard(kept_texts().lock);
+  ++kept_texts().users;
+}
+
+KeptPipes::~KeptPipes() {
+  const std::lock_guard guard(kept_texts().lock);
+  if (--kept_texts().users == 0) kept_texts().texts.clear();
+}
+
+fs::path written_place(const fs::path& file) {
+  constexpr int most_links = 40;  // as the system itself has it
+  fs::path place = file;
+  std::error_code error;
+  for (int links = 0; fs::is_symlink(place, error); ++links) {
+    if (links == most_links) fail_writing(file, ELOOP);
+    const fs::path next = fs::read_symlink(place, error);
+    if (error) fail_writing(file, error.value());
+    place = next.is_absolute() ? next : place.parent_path() / next;
+  }
+  return place;
+}
+
+void write_atomically(const fs::path& given, const std::function<void(const fs::path&)>& write) {
+  const fs::path file = written_place(given);
   check_target(file);
   const Temporary temporary(file);
   write(temporary.path());
@@ -109,30 +191,17 @@ void write_text_atomically(const fs::path& file, std::string_view text) {
 }
 
 std::string read_text(const fs::path& file, std::size_t limit) {
-  const Descriptor descriptor(file, O_RDONLY);
-  if (!descriptor) fail_reading(file, errno);
-  struct stat status {};
-  if (::fstat(descriptor.get(), &status) != 0) fail_reading(file, errno);
-  if (S_ISDIR(status.st_mode)) fail_reading(file, EISDIR);
-
-  // Read to the end rather than to the size: a pipe has none.
-  constexpr std::size_t piece = std::size_t{1} << 20;
-  std::string text;
-  if (S_ISREG(status.st_mode))
-    text.reserve(std::min(static_cast<std::size_t>(status.st_size), limit) + piece);
-  for (std::size_t used = 0;;) {
-    text.resize(used + piece);
-    const auto got = ::read(descriptor.get(), text.data() + used, piece);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) fail_reading(file, errno);
-    used += static_cast<std::size_t>(got);
-    text.resize(used);
-    if (used > limit) {
-      throw Error(ErrorCode::file, file.string(),
-                  "larger than the " + std::to_string(limit) + " bytes allowed");
-    }
-    if (got == 0) return text;
+  if (!is_pipe(file)) return read_once(file, limit);
+  auto& [lock, users, texts] = kept_texts();
+  const std::lock_guard guard(lock);
+  const auto known = texts.find(file);
+  if (known != texts.end()) {
+    check_size(file, known->second.size(), limit);
+    return known->second;
   }
+  std::string text = read_once(file, std::min(limit, largest_piped));
+  if (users > 0) texts.emplace(file, text);
+  return text;
 }
 
 }  // namespace remodel

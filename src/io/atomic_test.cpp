@@ -1,5 +1,7 @@
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <fstream>
@@ -86,6 +88,92 @@ TEST(WriteAtomically, ADiskThatTakesNoMoreLeavesTheOldFileAndSaysWhy) {
   EXPECT_EQ(mesh_error, (scratch / "m.vtkhdf").string() + ": cannot be written: File too large");
   EXPECT_EQ(read_text(scratch / "a.txt"), "old");
   EXPECT_EQ(entries(scratch.path()), 1U);
+}
+
+TEST(WriteAtomically, ReplacesWhatALinkLeadsToAndLeavesTheLink) {
+  const Scratch scratch;
+  fs::create_directories(scratch / "far/away");
+  write_text_atomically(scratch / "far/away/a.txt", "old");
+  fs::create_symlink("far/away/a.txt", scratch / "one");
+  fs::create_symlink(scratch / "one", scratch / "two");
+  fs::create_symlink("far/away/new.txt", scratch / "dangling");
+  write_text_atomically(scratch / "two", "text");
+  write_text_atomically(scratch / "dangling", "new");
+  for (const char* link : {"one", "two", "dangling"}) EXPECT_TRUE(fs::is_symlink(scratch / link)) << link;
+  EXPECT_EQ(read_text(scratch / "far/away/a.txt"), "text");
+  EXPECT_EQ(read_text(scratch / "far/away/new.txt"), "new");
+  EXPECT_EQ(entries(scratch.path()), 4U);
+  EXPECT_EQ(entries(scratch / "far/away"), 2U);
+}
+
+TEST(WriteAtomically, RefusesLinksThatLeadNowhere) {
+  const Scratch scratch;
+  fs::create_symlink("b", scratch / "a");
+  fs::create_symlink("a", scratch / "b");
+  fs::create_symlink("none/c", scratch / "c");
+  EXPECT_EQ(error_of([&] { write_text_atomically(scratch / "a", "text"); }),
+            (scratch / "a").string() + ": cannot be written: Too many levels of symbolic links");
+  EXPECT_NE(error_of([&] { write_text_atomically(scratch / "c", "text"); }), "");
+}
+
+TEST(WriteAtomically, TakesNamesAsLongAsTheFileSystemDoes) {
+  const Scratch scratch;
+  const std::string longest(255, 'x');
+  write_text_atomically(scratch / longest, "text");
+  EXPECT_EQ(read_text(scratch / longest), "text");
+  EXPECT_NE(error_of([&] { write_text_atomically(scratch / (longest + "x"), "text"); }), "");
+  EXPECT_EQ(entries(scratch.path()), 1U);
+}
+
+// A pipe that holds a text, as the shell's <(...) gives it: a name that can be read once.
+class TextPipe {
+ public:
+  explicit TextPipe(std::string_view text) {
+    if (::pipe(ends_) != 0) throw std::runtime_error("no pipe");
+    ::fcntl(ends_[1], F_SETPIPE_SZ, 1 << 20);  // nobody reads while this writes
+    if (::write(ends_[1], text.data(), text.size()) != static_cast<ssize_t>(text.size()))
+      throw std::runtime_error("the pipe takes no more");
+    ::close(ends_[1]);
+  }
+  ~TextPipe() { ::close(ends_[0]); }
+  TextPipe(const TextPipe&) = delete;
+  TextPipe& operator=(const TextPipe&) = delete;
+  std::string name() const { return "/dev/fd/" + std::to_string(ends_[0]); }
+
+ private:
+  int ends_[2];
+};
+
+TEST(ReadText, KeepsWhatCameThroughAPipeWhileSomebodyWantsIt) {
+  const TextPipe pipe("text");
+  EXPECT_TRUE(is_pipe(pipe.name()));
+  {
+    const KeptPipes once;
+    EXPECT_EQ(read_text(pipe.name()), "text");
+    EXPECT_EQ(read_text(pipe.name()), "text");
+    EXPECT_EQ(error_of([&] { read_text(pipe.name(), 3); }),
+              pipe.name() + ": larger than the 3 bytes allowed");
+  }
+  EXPECT_EQ(read_text(pipe.name()), "");
+}
+
+TEST(ReadText, TellsPipesFromFiles) {
+  const Scratch scratch;
+  write_text_atomically(scratch / "a.txt", "text");
+  fs::create_symlink("a.txt", scratch / "link");
+  for (const fs::path& path : {scratch / "a.txt", scratch / "link", scratch.path(), scratch / "none"})
+    EXPECT_FALSE(is_pipe(path)) << path;
+  EXPECT_TRUE(is_pipe(standard_input));
+}
+
+TEST(ReadMesh, KnowsTheFormatOfAPipeByItsContent) {
+  const Scratch scratch;
+  const FrozenMesh mesh = test::square_ring();
+  for (const char* name : {"m.su2", "m.msh", "m.vtu", "m.vtkhdf"}) {
+    write_mesh(mesh, scratch / name);
+    const TextPipe pipe(read_text(scratch / name));
+    EXPECT_EQ(read_frozen_mesh(pipe.name()).triangles, mesh.triangles) << name;
+  }
 }
 
 TEST(ReadText, NamesMissingFilesAndDirectoriesAndTooLargeOnes) {

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int padding = 64;
 constexpr int blank = 65;
-constexpr int other = 66;
+constexpr int no_digit = 66;
 
 int value_of(char c) {
   if (c >= 'A' && c <= 'Z') return c - 'A';
@@ -17,7 +17,7 @@ int value_of(char c) {
   if (c == '+') return 62;
   if (c == '/') return 63;
   if (c == '=') return padding;
-  return c == ' ' || c == '\n' || c == '\r' || c == '\t' ? blank : other;
+  return c == ' ' || c == '\n' || c == '\r' || c == '\t' ? blank : no_digit;
 }
 
 }  // namespace
@@ -31,7 +31,7 @@ std::optional<std::string> decode_base64(std::string_view text, std::size_t most
     if (bytes.size() >= most) break;
     const int value = value_of(c);
     if (value == blank) continue;
-    if (value == other) break;
+    if (value == no_digit) break;
     if (value == padding) ++padded;
     group = group << 6 | static_cast<std::uint32_t>(value & 63);
     if (++characters < 4) continue;

@@ -3,21 +3,33 @@
 // One reader and one writer a text format, from and to memory; files are opened and written in one place.
 // file is for messages.
 
+#include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "remodel/field.h"
 #include "remodel/frozen_mesh.h"
+#include "remodel/io.h"
 
 namespace remodel::io {
 
-std::string su2_text(const FrozenMesh& mesh, const std::string& file);
+// By extension, or what comes through a pipe without one by its content, which is read for that.
+MeshFormat format_to_read(const std::filesystem::path& file);
+
+std::string su2_text(const FrozenMesh& mesh, const std::string& file,
+                     InnerCurves inner = InnerCurves::left_out);
 FrozenMesh parse_su2(std::string_view text, const std::string& file);
 
 // version: 41 or 22.
-std::string msh_text(const FrozenMesh& mesh, int version, const std::string& file);
+std::string msh_text(const FrozenMesh& mesh, int version, const std::string& file,
+                     std::span<const Field> fields = {});
 FrozenMesh parse_msh(std::string_view text, const std::string& file);
+std::vector<Field> parse_msh_fields(std::string_view text, const std::string& file);
 
-std::string vtu_text(const FrozenMesh& mesh);
+std::string vtu_text(const FrozenMesh& mesh, std::span<const Field> fields = {});
 FrozenMesh parse_vtu(std::string_view text, const std::string& file);
+std::vector<Field> parse_vtu_fields(std::string_view text, const std::string& file);
 
 }  // namespace remodel::io

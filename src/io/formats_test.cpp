@@ -189,6 +189,86 @@ TEST(ForeignMeshes, VtuAppendedBase64IsRead) {
   EXPECT_EQ(io::parse_vtu(text, "m.vtu").points, (std::vector<Point>{{0, 0}, {1, 0}, {0, 1}}));
 }
 
+// Readers that are not VTK's know numbers alone.
+TEST(MeshFiles, VtuHasNoArraysOfStringsButReadsThem) {
+  std::string text = io::vtu_text(test::square_ring());
+  EXPECT_EQ(text.find("String"), std::string::npos);
+  EXPECT_EQ(text.find("<Array"), std::string::npos);
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("<DataArray type=\"UInt8\" Name=\"boundary_names\"",
+          "<Array type=\"String\" Name=\"boundary_names\"");
+  replace("</DataArray>", "</Array>");
+  expect_same_view(io::parse_vtu(text, "m.vtu"), test::square_ring());
+}
+
+FrozenMesh ring_of_regions() {
+  FrozenMesh mesh = test::graded_ring(40, 12);
+  mesh.region_names = {"near the wall", "far & away", "rim"};
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
+    mesh.region.push_back(3 * i / static_cast<std::uint32_t>(mesh.triangles.size()));
+  return mesh;
+}
+
+TEST(MeshFiles, EveryFormatButSu2KeepsRegions) {
+  FrozenMesh mesh = ring_of_regions();
+  for (const bool mixed : {false, true}) {
+    for (std::uint32_t i = 0; i < mesh.region.size() && mixed; ++i) mesh.region[i] = i % 7 % 3;
+    for (const auto& target : targets) {
+      SCOPED_TRACE(target.name);
+      const Scratch scratch;
+      write_mesh(mesh, scratch / target.name, target.options);
+      const FrozenMesh back = read_frozen_mesh(scratch / target.name);
+      expect_same_view(back, mesh);
+      const bool su2 = mesh_format(target.name) == MeshFormat::su2;
+      EXPECT_EQ(back.region, su2 ? std::vector<std::uint32_t>{} : mesh.region);
+      EXPECT_EQ(back.region_names, su2 ? std::vector<std::string>{} : mesh.region_names);
+    }
+  }
+}
+
+TEST(MeshFiles, EveryFormatKeepsWhichPointsAreSteinerPoints) {
+  FrozenMesh mesh = test::graded_ring(40, 12);
+  mesh.steiner.assign(mesh.points.size(), 0);
+  for (std::size_t i = 0; i < 40; i += 1 + i % 3) mesh.steiner[i] = 1;
+  for (const auto& target : targets) {
+    SCOPED_TRACE(target.name);
+    const Scratch scratch;
+    write_mesh(mesh, scratch / target.name, target.options);
+    EXPECT_EQ(read_frozen_mesh(scratch / target.name).steiner, mesh.steiner);
+  }
+}
+
+TEST(MeshFiles, NotesOnSteinerPointsOfAnotherMeshArePassedOver) {
+  FrozenMesh mesh = test::square_ring();
+  const std::string text = io::su2_text(mesh, "m.su2");
+  for (const char* note :
+       {"of 9: 1 2", "of 8: 9", "of", "of 8", "of x: 1", "of 99999999999999999999999: 1"}) {
+    const FrozenMesh back = io::parse_su2(text + "% remodel: Steiner points " + note + "\n", "m.su2");
+    EXPECT_EQ(std::count(back.steiner.begin(), back.steiner.end(), 1), 0) << note;
+  }
+  EXPECT_EQ(io::parse_su2(text + "% remodel: Steiner points of 8: 1 7 8 2\n", "m.su2").steiner,
+            (std::vector<std::uint8_t>{0, 1, 0, 0, 0, 0, 0, 1}));
+}
+
+TEST(MeshFiles, Su2HasNoMarkersInsideTheMeshUnlessAskedFor) {
+  FrozenMesh mesh = test::square_ring();
+  mesh.boundaries.push_back({"wake", {{4, 1}, {5, 2}}});
+  mesh.boundaries[0].edges.push_back({2, 6});  // of two kinds under one name
+  EXPECT_EQ(inner_curves(mesh), (std::vector<std::string>{"outer", "wake"}));
+  EXPECT_EQ(inner_curves(test::square_ring()), std::vector<std::string>{});
+  const Scratch scratch;
+  write_mesh(mesh, scratch / "m.su2");
+  expect_same_view(read_frozen_mesh(scratch / "m.su2"), test::square_ring());
+  write_mesh(mesh, scratch / "m.su2", {.inner = InnerCurves::markers});
+  EXPECT_EQ(read_frozen_mesh(scratch / "m.su2").boundaries.size(), 3U);
+  for (const char* name : {"m.msh", "m.vtu", "m.vtkhdf"}) {
+    write_mesh(mesh, scratch / name);
+    EXPECT_EQ(read_frozen_mesh(scratch / name).boundaries.size(), 3U) << name;
+  }
+}
+
 TEST(MeshFiles, BoundaryNamesWithMarkupSurviveVtuAndMsh) {
   FrozenMesh mesh = test::square_ring();
   mesh.boundaries[0].name = "a <b> & 'c' \xc3\xa9";
@@ -199,6 +279,16 @@ TEST(MeshFiles, BoundaryNamesWithMarkupSurviveVtuAndMsh) {
   }
   EXPECT_NE(error_of([&] { write_mesh(mesh, scratch / "m.su2"); }).find("SU2 expects one without blanks"),
             std::string::npos);
+}
+
+TEST(ForeignMeshes, NamesOfBoundariesMayBeAnArrayOfTexts) {
+  std::string text = io::vtu_text(test::square_ring());
+  const std::string codes = "<DataArray type=\"UInt8\" Name=\"boundary_names\" NumberOfTuples=\"11\"";
+  const auto at = text.find(codes);
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, codes.size(), "<Array type=\"String\" Name=\"boundary_names\" NumberOfTuples=\"2\"");
+  text.replace(text.find("</DataArray>", at), 12, "</Array>");
+  expect_same_view(io::parse_vtu(text, "m.vtu"), test::square_ring());
 }
 
 }  // namespace

@@ -47,6 +47,8 @@ class Hdf5Silence {
 // HDF5 ignores what follows its own end of a file. There stands a seal, sixteen bytes: a mark and a checksum
 // over all before it, so that a damaged file of ours is refused before HDF5 follows its broken links.
 std::string sealed(std::string bytes);
+// A file without a seal was made or changed by another program: nothing is said about it.
+bool has_broken_seal(std::string_view bytes);
 
 // Value is double, std::int64_t, std::int32_t, std::uint64_t, std::uint32_t or std::uint8_t throughout.
 
@@ -77,12 +79,21 @@ class Hdf5Writer {
   Hdf5Handle file_;
 };
 
+// Reads a file that nobody vouches for: from memory alone, never another file that it names (links that are
+// not hard, external and virtual datasets are errors), and never more bytes in all than a compressed mesh may
+// become.
 class Hdf5Reader {
  public:
   explicit Hdf5Reader(const std::filesystem::path& file);
+  Hdf5Reader(const Hdf5Reader&) = delete;
+  Hdf5Reader& operator=(const Hdf5Reader&) = delete;
 
   bool exists(const std::string& path) const;
   bool has_attribute(const std::string& group, const std::string& name) const;
+  // The names of the datasets of reals in a group, in alphabetical order; none if there is no such group.
+  std::vector<std::string> real_arrays(const std::string& group) const;
+  // Of a dataset with two dimensions; 1 if it has one, 0 if it has others.
+  std::size_t columns(const std::string& path) const;
   template <class Value>
   std::vector<Value> array(const std::string& path) const;
   std::string text(const std::string& path) const;
@@ -97,11 +108,16 @@ class Hdf5Reader {
  private:
   Hdf5Handle open_dataset(const std::string& path) const;
   Hdf5Handle open_attribute(const std::string& group, const std::string& name) const;
-  std::size_t value_count(const std::string& path, hid_t space, std::size_t value_size) const;
+  // The size of a space, taken off what may still be read.
+  std::size_t claim(const std::string& path, hid_t space, std::size_t value_size) const;
+  void read_values(const std::string& path, hid_t set, hid_t type, void* values,
+                   hid_t transfer = H5P_DEFAULT) const;
+  std::vector<std::string> texts_of_any_length(const std::string& path, hid_t set, std::size_t count) const;
 
   Hdf5Silence silence_;
   std::string name_;
-  std::uint64_t file_size_ = 0;
+  std::string bytes_;                  // HDF5 reads here
+  mutable std::size_t allowance_ = 0;  // of bytes that may still be read
   Hdf5Handle file_;
 };
 

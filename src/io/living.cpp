@@ -1,22 +1,25 @@
 // The living mesh in and out of the native file.
 
+#include "io/formats.h"
 #include "io/vtkhdf.h"
 #include "remodel/error.h"
 #include "remodel/io.h"
+#include "remodel/mesh_state.h"
 
 namespace remodel {
 
 void write_mesh(const Mesh& mesh, const std::filesystem::path& file, const WriteOptions& options) {
   if (mesh_format(file) != MeshFormat::vtkhdf) return write_mesh(mesh.freeze(), file, options);
   const MeshState state = mesh.state();
-  io::write_vtkhdf(file, mesh.freeze(), &state);
+  io::write_vtkhdf(file, mesh.freeze(), &state, options.fields);
 }
 
 Mesh read_mesh(const std::filesystem::path& file) {
-  if (mesh_format(file) != MeshFormat::vtkhdf) {
+  const KeptPipes once;
+  if (io::format_to_read(file) != MeshFormat::vtkhdf) {
     throw Error(ErrorCode::argument, file.string(),
-                "'" + file.extension().string() +
-                    "' found, a native mesh (.vtkhdf) with its state expected, as `remodel mesh` makes it");
+                (is_pipe(file) ? "another mesh" : "'" + file.extension().string() + "'") +
+                    " found, a native mesh (.vtkhdf) with its state expected, as `remodel mesh` makes it");
   }
   return Mesh::restore(io::read_vtkhdf_state(file), file.string());
 }

@@ -5,6 +5,7 @@
 #include "io/test_meshes.h"
 #include "remodel/generate.h"
 #include "remodel/io.h"
+#include "remodel/mesh_state.h"
 
 namespace remodel {
 namespace {

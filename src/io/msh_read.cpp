@@ -1,4 +1,4 @@
-// Gmsh's mesh format, versions 4.1, 2.2 and their likes, ASCII and binary:
+// Gmsh's mesh format, versions 4.1, 4.0, 2.2 and their likes, ASCII and binary:
 // https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format. Sections that say nothing about triangles and
 // boundary edges are skipped.
 
@@ -10,8 +10,10 @@
 #include "io/assemble.h"
 #include "io/formats.h"
 #include "io/msh.h"
+#include "io/msh_fields.h"
 #include "io/msh_numbers.h"
 #include "io/scanner.h"
+#include "io/steiner_note.h"
 #include "remodel/error.h"
 
 namespace remodel::io {
@@ -21,15 +23,22 @@ namespace {
 class MshReader {
  public:
   MshReader(std::string_view text, const std::string& file)
-      : scan_(text, file), numbers_(scan_), file_(file) {}
+      : scan_(text, file), numbers_(scan_), fields_(scan_, numbers_), file_(file) {}
 
   FrozenMesh read() {
     read_format();
     while (!scan_.at_end()) read_section();
     if (!nodes_seen_) scan_.fail_found("", "$Nodes");
     if (!elements_seen_) scan_.fail_found("", "$Elements");
+    RegionNames::finish(mesh_);
     adopt_conventions(mesh_, file_);
     return std::move(mesh_);
+  }
+
+  std::vector<Field> read_fields() {
+    fields_wanted_ = true;
+    read();
+    return fields_.take();
   }
 
  private:
@@ -40,10 +49,11 @@ class MshReader {
   void read_format() {
     expect("$MeshFormat");
     const std::string_view version = scan_.word("a version");
-    if (version == "4.1") {
+    if (version == "4.1" || version == "4" || version == "4.0") {
       version_4_ = true;
+      early_4_ = version != "4.1";
     } else if (version != "2" && version != "2.0" && version != "2.1" && version != "2.2") {
-      scan_.fail("version " + in_quotes(version) + " found, 4.1 or 2.2 expected");
+      scan_.fail("version " + in_quotes(version) + " found, 4.1, 4.0 or 2.2 expected");
     }
     const auto type = scan_.integer("a file type");
     if (type != 0 && type != 1) {
@@ -73,11 +83,16 @@ class MshReader {
       read_entities();
     } else if (name == "$Nodes") {
       if (std::exchange(nodes_seen_, true)) scan_.fail("a second $Nodes found, one expected");
-      version_4_ ? read_nodes_41() : read_nodes_22();
+      version_4_ ? read_nodes_4() : read_nodes_22();
     } else if (name == "$Elements") {
       if (!nodes_seen_) scan_.fail_found(name, "$Nodes first");
       if (std::exchange(elements_seen_, true)) scan_.fail("a second $Elements found, one expected");
-      version_4_ ? read_elements_41() : read_elements_22();
+      version_4_ ? read_elements_4() : read_elements_22();
+    } else if (fields_wanted_ && (name == "$NodeData" || name == "$ElementData")) {
+      if (!elements_seen_) scan_.fail_found(name, "$Elements first");
+      name == "$NodeData"
+          ? fields_.read(FieldPlace::vertices, binary_, node_indices_, mesh_.points.size())
+          : fields_.read(FieldPlace::triangles, binary_, triangle_indices_, mesh_.triangles.size());
     } else if (binary_) {
       return scan_.skip_past(end);
     } else {
@@ -96,8 +111,9 @@ class MshReader {
       if (name.size() < 3 || name.front() != '"' || name.back() != '"') {
         scan_.fail_found(name, "a physical name in quotes");
       }
-      if (dimension != 1) continue;
       const std::string text(name.substr(1, name.size() - 2));
+      if (dimension == 2) surface_names_[tag] = text;
+      if (dimension != 1) continue;
       for (const auto& [other, known] : curve_names_) {
         if (known == text)
           scan_.fail("a second physical curve " + in_quotes(text) + " found, each name once expected");
@@ -106,7 +122,7 @@ class MshReader {
     }
   }
 
-  // Only needed for the physical groups of the curves.
+  // Only needed for the physical groups of curves and surfaces.
   void read_entities() {
     if (binary_) return read_binary_entities();
     const std::size_t points = scan_.count("a number of points");
@@ -115,16 +131,19 @@ class MshReader {
     const std::size_t volumes = scan_.count("a number of volumes");
     scan_.skip_line();
     for (std::size_t i = 0; i < points; ++i) scan_.integer("a point"), scan_.skip_line();
-    for (std::size_t i = 0; i < curves; ++i) {
-      const auto tag = scan_.integer("a curve");
-      for (int k = 0; k < 6; ++k) scan_.real("a bounding box");
-      if (scan_.count("a number of physical tags") > 0) {
-        curve_groups_[tag] = std::abs(scan_.integer("a physical tag"));
-      }
-      scan_.skip_line();
-    }
-    for (std::size_t i = 0; i < surfaces; ++i) scan_.integer("a surface"), scan_.skip_line();
+    for (std::size_t i = 0; i < curves; ++i) read_entity("a curve", curve_groups_);
+    for (std::size_t i = 0; i < surfaces; ++i) read_entity("a surface", surface_groups_);
     for (std::size_t i = 0; i < volumes; ++i) scan_.integer("a volume"), scan_.skip_line();
+  }
+
+  // The first physical group counts.
+  void read_entity(const char* what, std::map<std::int64_t, std::int64_t>& groups) {
+    const auto tag = scan_.integer(what);
+    for (int k = 0; k < 6; ++k) scan_.real("a bounding box");
+    if (scan_.count("a number of physical tags") > 0) {
+      groups[tag] = std::abs(scan_.integer("a physical tag"));
+    }
+    scan_.skip_line();
   }
 
   void read_binary_entities() {
@@ -138,19 +157,25 @@ class MshReader {
   // Tag, place (a point's) or bounding box, physical groups, and the entities that bound it.
   void read_binary_entity(int dimension) {
     const auto tag = numbers_.integer("an entity");
-    for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) numbers_.real("a bounding box");
+    for (int k = 0; k < (dimension == 0 && !early_4_ ? 3 : 6); ++k) numbers_.real("a bounding box");
     const std::size_t groups = numbers_.count("a number of physical tags");
     for (std::size_t k = 0; k < groups; ++k) {
       const auto group = numbers_.integer("a physical tag");
       if (dimension == 1) curve_groups_.try_emplace(tag, std::abs(group));
+      if (dimension == 2) surface_groups_.try_emplace(tag, std::abs(group));
     }
     if (dimension == 0) return;
     for (auto left = numbers_.count("a number of bounding entities"); left > 0; --left)
       numbers_.integer("a bounding entity");
   }
 
+  // Of a node or an element: 64 bits from version 4.1 on.
+  std::int64_t tag_of(const char* what) {
+    return version_4_ && !early_4_ ? numbers_.tag(what) : numbers_.integer(what);
+  }
+
   void add_node_tag() {
-    const auto tag = version_4_ ? numbers_.tag("the tag of a node") : numbers_.integer("the tag of a node");
+    const auto tag = tag_of("the tag of a node");
     const auto index = static_cast<std::uint32_t>(node_indices_.size());
     if (!node_indices_.emplace(tag, index).second) {
       scan_.fail("node " + std::to_string(tag) + " found a second time, each tag once expected");
@@ -171,19 +196,30 @@ class MshReader {
     mesh_.points.push_back({x, y});
   }
 
-  void read_nodes_41() {
+  // A block's entity: version 4.0 has its tag first.
+  struct Entity {
+    std::int64_t dimension, tag;
+  };
+  Entity read_block_entity() {
+    const auto first = numbers_.integer("the entity of a block");
+    const auto second = numbers_.integer("the entity of a block");
+    return early_4_ ? Entity{second, first} : Entity{first, second};
+  }
+
+  // A node's tag and its place: side by side in version 4.0, all tags of a block first in 4.1.
+  void read_nodes_4() {
     if (binary_) numbers_.begin_binary();
     const std::size_t blocks = numbers_.count("a number of blocks");
     const std::size_t count = numbers_.count("a number of nodes");
     skip_tag_range();
     reserve_nodes(count);
     for (std::size_t block = 0; block < blocks; ++block) {
-      const auto dimension = numbers_.integer("the dimension of an entity");
-      numbers_.integer("the tag of an entity");
+      const auto dimension = read_block_entity().dimension;
       const bool parametric = numbers_.integer("0 or 1 for parametric") != 0;
       const std::size_t nodes = numbers_.count("a number of nodes in the block");
-      for (std::size_t i = 0; i < nodes; ++i) add_node_tag();
+      for (std::size_t i = 0; i < nodes && !early_4_; ++i) add_node_tag();
       for (std::size_t i = 0; i < nodes; ++i) {
+        if (early_4_) add_node_tag();
         add_point();
         for (auto k = parametric ? dimension : 0; k > 0; --k) numbers_.real("a parameter");
       }
@@ -191,8 +227,9 @@ class MshReader {
     expect_total(mesh_.points.size(), count, "nodes");
   }
 
-  // The smallest and the largest tag.
+  // The smallest and the largest tag, from version 4.1 on.
   void skip_tag_range() {
+    if (early_4_) return;
     if (!binary_) return scan_.skip_line();
     numbers_.tag("the smallest tag");
     numbers_.tag("the largest tag");
@@ -220,7 +257,7 @@ class MshReader {
   }
 
   std::uint32_t read_node() {
-    const auto tag = version_4_ ? numbers_.tag("the tag of a node") : numbers_.integer("the tag of a node");
+    const auto tag = tag_of("the tag of a node");
     const auto found = node_indices_.find(tag);
     if (found == node_indices_.end()) {
       scan_.fail("node " + std::to_string(tag) + " found, the tag of one of the " +
@@ -229,15 +266,19 @@ class MshReader {
     return found->second;
   }
 
-  // The nodes of an element. A line belongs to its physical group or, without one, to its curve.
-  void add_element(std::int64_t type, std::int64_t group, std::int64_t curve) {
+  // The nodes of an element, after its tag. A line belongs to its physical group or, without one, to its
+  // curve.
+  void add_element(std::int64_t type, std::int64_t group, std::int64_t entity) {
     if (type == msh_triangle) {
+      if (fields_wanted_)
+        triangle_indices_[element_tag_] = static_cast<std::uint32_t>(mesh_.triangles.size());
+      add_region(group);
       auto& [a, b, c] = mesh_.triangles.emplace_back();
       a = read_node();
       b = read_node();
       c = read_node();
     } else if (type == msh_line) {
-      auto& [a, b] = boundary_of(group, curve).edges.emplace_back();
+      auto& [a, b] = boundary_of(group, entity).edges.emplace_back();
       a = read_node();
       b = read_node();
     } else if (type == msh_point) {
@@ -248,33 +289,43 @@ class MshReader {
     }
   }
 
+  static std::string name_in(const std::map<std::int64_t, std::string>& names, std::int64_t group,
+                             const char* kind, std::int64_t entity) {
+    if (const auto known = names.find(group); known != names.end()) return known->second;
+    return group != 0 ? "physical_" + std::to_string(group) : kind + std::to_string(entity);
+  }
+
+  // Of the triangle that begins, by its physical group: surfaces alone are pieces of a drawing.
+  void add_region(std::int64_t group) {
+    auto& name = region_of_[group];
+    if (name.empty()) name = group == 0 ? domain_name : name_in(surface_names_, group, "", 0);
+    regions_.add(mesh_, name);
+  }
+
   FrozenBoundary& boundary_of(std::int64_t group, std::int64_t curve) {
     const auto [entry, added] = boundaries_.try_emplace({group, curve}, 0);
     if (added) {
-      const auto known = curve_names_.find(group);
-      const std::string name = known != curve_names_.end() ? known->second
-                               : group != 0                ? "physical_" + std::to_string(group)
-                                                           : "curve_" + std::to_string(curve);
+      const std::string name = name_in(curve_names_, group, "curve_", curve);
       entry->second = static_cast<std::size_t>(&boundary_named(mesh_, name) - mesh_.boundaries.data());
     }
     return mesh_.boundaries[entry->second];
   }
 
-  void read_elements_41() {
+  void read_elements_4() {
     if (binary_) numbers_.begin_binary();
     const std::size_t blocks = numbers_.count("a number of blocks");
     const std::size_t count = numbers_.count("a number of elements");
     skip_tag_range();
     std::size_t total = 0;
     for (std::size_t block = 0; block < blocks; ++block) {
-      numbers_.integer("the dimension of an entity");
-      const auto entity = numbers_.integer("the tag of an entity");
+      const auto entity = read_block_entity().tag;
       const auto type = numbers_.integer("the type of an element");
       const std::size_t elements = numbers_.count("a number of elements in the block");
-      const auto found = curve_groups_.find(entity);
-      const std::int64_t group = found != curve_groups_.end() ? found->second : 0;
+      const auto& groups = type == msh_triangle ? surface_groups_ : curve_groups_;
+      const auto found = groups.find(entity);
+      const std::int64_t group = found != groups.end() ? found->second : 0;
       for (std::size_t i = 0; i < elements; ++i) {
-        numbers_.tag("the tag of an element");
+        element_tag_ = tag_of("the tag of an element");
         add_element(type, group, entity);
       }
       total += elements;
@@ -286,7 +337,7 @@ class MshReader {
     const std::size_t count = scan_.count("a number of elements");
     if (binary_) return read_binary_elements_22(count);
     for (std::size_t i = 0; i < count; ++i) {
-      scan_.integer("the number of an element");
+      element_tag_ = scan_.integer("the number of an element");
       const auto type = scan_.integer("the type of an element");
       add_element_22(type, scan_.count("a number of tags"));
     }
@@ -303,7 +354,7 @@ class MshReader {
         scan_.fail("a block of " + std::to_string(elements) + " elements with " + std::to_string(tags) +
                    " tags found, 1 to " + std::to_string(count - i) + " elements expected");
       for (auto left = elements; left > 0; --left, ++i) {
-        numbers_.integer("the number of an element");
+        element_tag_ = numbers_.integer("the number of an element");
         add_element_22(type, static_cast<std::size_t>(tags));
       }
     }
@@ -321,23 +372,38 @@ class MshReader {
 
   Scanner scan_;
   MshNumbers numbers_;
+  MshFields fields_;
   std::string file_;
   FrozenMesh mesh_;
   bool version_4_ = false;
+  bool early_4_ = false;  // 4.0
   bool binary_ = false;
   bool nodes_seen_ = false;
   bool elements_seen_ = false;
   double plane_z_ = 0.0;
+  bool fields_wanted_ = false;
+  std::int64_t element_tag_ = 0;  // of the element that is being read
   std::unordered_map<std::int64_t, std::uint32_t> node_indices_;
-  std::map<std::int64_t, std::string> curve_names_;    // by physical tag
+  std::unordered_map<std::int64_t, std::uint32_t> triangle_indices_;  // where fields are wanted
+  std::map<std::int64_t, std::string> curve_names_;                   // by physical tag
+  std::map<std::int64_t, std::string> surface_names_;
   std::map<std::int64_t, std::int64_t> curve_groups_;  // physical tag by curve
+  std::map<std::int64_t, std::int64_t> surface_groups_;
+  std::map<std::int64_t, std::string> region_of_;  // by physical tag
+  RegionNames regions_;
   std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> boundaries_;
 };
 
 }  // namespace
 
 FrozenMesh parse_msh(std::string_view text, const std::string& file) {
-  return MshReader(text, file).read();
+  FrozenMesh mesh = MshReader(text, file).read();
+  take_steiner_notes(text, mesh);
+  return mesh;
+}
+
+std::vector<Field> parse_msh_fields(std::string_view text, const std::string& file) {
+  return MshReader(text, file).read_fields();
 }
 
 }  // namespace remodel::io

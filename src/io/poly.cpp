@@ -1,5 +1,6 @@
 // Triangle's .poly and .node files: https://www.cs.cmu.edu/~quake/triangle.poly.html
 
+#include <algorithm>
 #include <optional>
 
 #include "io/scanner.h"
@@ -30,7 +31,7 @@ class Lines {
   io::Scanner require(const char* expected) {
     std::optional<io::Scanner> line = next();
     if (!line)
-      throw Error(ErrorCode::format, file_ + ":" + std::to_string(number_),
+      throw Error(ErrorCode::format, file_ + ":" + std::to_string(std::max<std::size_t>(number_, 1)),
                   std::string("the end of the file found, ") + expected + " expected");
     return *line;
   }

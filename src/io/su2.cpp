@@ -6,6 +6,7 @@
 #include "io/assemble.h"
 #include "io/formats.h"
 #include "io/scanner.h"
+#include "io/steiner_note.h"
 #include "io/text_writer.h"
 #include "remodel/error.h"
 
@@ -170,7 +171,8 @@ class Su2Reader {
 
 }  // namespace
 
-std::string su2_text(const FrozenMesh& mesh, const std::string& file) {
+std::string su2_text(const FrozenMesh& whole, const std::string& file, InnerCurves inner) {
+  const FrozenMesh mesh = inner == InnerCurves::left_out ? without_inner_edges(whole) : whole;
   TextWriter out;
   out << "NDIME= 2\nNELEM= " << mesh.triangles.size() << '\n';
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -187,11 +189,14 @@ std::string su2_text(const FrozenMesh& mesh, const std::string& file) {
     out << "MARKER_TAG= " << boundary.name << "\nMARKER_ELEMS= " << boundary.edges.size() << '\n';
     for (const auto& [from, to] : boundary.edges) out << su2_line << ' ' << from << ' ' << to << '\n';
   }
+  out << steiner_note(mesh, "% ");
   return out.take();
 }
 
 FrozenMesh parse_su2(std::string_view text, const std::string& file) {
-  return Su2Reader(text, file).read();
+  FrozenMesh mesh = Su2Reader(text, file).read();
+  take_steiner_notes(text, mesh);
+  return mesh;
 }
 
 }  // namespace remodel::io

@@ -1,5 +1,6 @@
 #include "io/vtk_grid.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "io/assemble.h"
@@ -42,6 +43,8 @@ class GridReader {
     mesh_.vertex_ids = grid_.vertex_id;
     mesh_.curve = grid_.curve;
     mesh_.parameter = grid_.parameter;
+    mesh_.steiner = grid_.steiner;
+    RegionNames::finish(mesh_);
     adopt_conventions(mesh_, file_);
     return std::move(mesh_);
   }
@@ -112,6 +115,7 @@ class GridReader {
       mesh_.triangles.push_back({vertex(cell, 0), vertex(cell, 1), vertex(cell, 2)});
       if (!grid_.triangle_id.empty()) mesh_.triangle_ids.push_back(grid_.triangle_id[cell]);
       if (!grid_.birth.empty()) mesh_.birth.push_back(grid_.birth[cell]);
+      if (!grid_.region.empty()) regions_.add(mesh_, region_name(cell));
     } else if (type == vtk_line) {
       check_extent(cell, 2);
       boundary_of(cell).edges.push_back({vertex(cell, 0), vertex(cell, 1)});
@@ -119,6 +123,16 @@ class GridReader {
       fail("Types", "cell " + std::to_string(cell) + " of type " + std::to_string(type) +
                         " found, only triangles (type 5) and lines (type 3) expected");
     }
+  }
+
+  std::string region_name(std::size_t cell) const {
+    const std::int32_t index = grid_.region[cell];
+    if (grid_.region_names.empty()) return "region_" + std::to_string(index);
+    if (index < 0 || static_cast<std::size_t>(index) >= grid_.region_names.size()) {
+      fail("region", std::to_string(index) + " found for cell " + std::to_string(cell) + ", an index below " +
+                         std::to_string(grid_.region_names.size()) + " expected");
+    }
+    return grid_.region_names[static_cast<std::size_t>(index)];
   }
 
   FrozenBoundary& boundary_of(std::size_t cell) {
@@ -136,11 +150,43 @@ class GridReader {
   const std::string& file_;
   const ArrayPlace& place_;
   FrozenMesh mesh_;
+  RegionNames regions_;
 };
+
+bool is_of_the_mesh(const std::string& name, FieldPlace place) {
+  const VtkGrid none;
+  bool found = false;
+  const auto compare = [&](const char* other, const auto&) { found = found || name == other; };
+  place == FieldPlace::vertices ? for_each_point_array(none, compare) : for_each_cell_array(none, compare);
+  return found;
+}
+
+void add_fields(VtkGrid& grid, const FrozenMesh& mesh, std::span<const Field> fields) {
+  require_fit(fields, mesh);
+  std::vector<std::size_t> at_boundaries;
+  for (const Field& field : fields) {
+    if (is_of_the_mesh(field.name, field.place)) {
+      throw Error(ErrorCode::argument, "field " + in_quotes(field.name),
+                  "the name of an array that belongs to the mesh found, another expected");
+    }
+    const auto components = static_cast<std::size_t>(field.components);
+    if (field.place == FieldPlace::vertices) {
+      grid.point_fields.push_back({field.name, components, field.values});
+      continue;
+    }
+    if (at_boundaries.empty()) at_boundaries = triangles_at_boundaries(mesh);
+    grid.cell_fields.push_back({field.name, components, field.values});
+    auto& values = grid.cell_fields.back().values;
+    for (const std::size_t triangle : at_boundaries) {
+      for (std::size_t k = 0; k < components; ++k)
+        values.push_back(mesh.triangles.empty() ? 0.0 : field.values[components * triangle + k]);
+    }
+  }
+}
 
 }  // namespace
 
-VtkGrid to_vtk_grid(const FrozenMesh& mesh) {
+VtkGrid to_vtk_grid(const FrozenMesh& mesh, std::span<const Field> fields) {
   VtkGrid grid;
   for (const Point p : mesh.points) grid.points.insert(grid.points.end(), {p.x, p.y, 0.0});
   grid.offsets.push_back(0);
@@ -155,11 +201,34 @@ VtkGrid to_vtk_grid(const FrozenMesh& mesh) {
   if (!mesh.triangle_ids.empty()) grid.triangle_id.resize(grid.types.size());
   grid.birth = mesh.birth;
   if (!mesh.birth.empty()) grid.birth.resize(grid.types.size());
+  if (!mesh.region.empty()) {
+    grid.region.assign(mesh.region.begin(), mesh.region.end());
+    grid.region.resize(grid.types.size(), -1);
+    grid.region_names = mesh.region_names;
+  }
   grid.length_scale = mesh.length_scale;
   grid.parameter = mesh.parameter;
   grid.vertex_id = mesh.vertex_ids;
   grid.curve = mesh.curve;
+  add_fields(grid, mesh, fields);
+  grid.steiner = mesh.steiner;
   return grid;
+}
+
+std::optional<Field> to_field(VtkArray array, FieldPlace place, std::span<const std::uint8_t> types) {
+  const std::size_t components = array.components;
+  if (components < 1 || components > 3 || is_of_the_mesh(array.name, place)) return std::nullopt;
+  Field field{array.name, place, static_cast<int>(components), {}};
+  if (place == FieldPlace::vertices) {
+    field.values = std::move(array.values);
+    return field;
+  }
+  for (std::size_t cell = 0; cell < types.size(); ++cell) {
+    if (types[cell] != vtk_triangle) continue;
+    const auto first = array.values.begin() + static_cast<std::ptrdiff_t>(components * cell);
+    field.values.insert(field.values.end(), first, first + static_cast<std::ptrdiff_t>(components));
+  }
+  return field;
 }
 
 FrozenMesh from_vtk_grid(const VtkGrid& grid, const std::string& file, const ArrayPlace& place) {

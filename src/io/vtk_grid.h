@@ -5,32 +5,49 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "remodel/field.h"
 #include "remodel/frozen_mesh.h"
 
 namespace remodel::io {
+
+// An array that is no part of a mesh: a field's.
+struct VtkArray {
+  std::string name;
+  std::size_t components;
+  std::vector<double> values;
+};
 
 struct VtkGrid {
   std::vector<double> points;  // 3 a point
   std::vector<std::int64_t> connectivity;
   std::vector<std::int64_t> offsets;  // one more than cells, from 0
   std::vector<std::uint8_t> types;
-  std::vector<std::string> boundary_names;
+  std::vector<std::string> boundary_names, region_names;
 
   // Per cell. boundary: index into boundary_names, -1 for triangles. The others are empty or hold 0 for
   // edges.
   std::vector<std::int32_t> boundary;
   std::vector<std::uint32_t> triangle_id, birth;
+  std::vector<std::int32_t> region;  // index into region_names; -1 for edges
   // Per point, each may be empty.
   std::vector<double> length_scale, parameter;
   std::vector<std::uint32_t> vertex_id;
   std::vector<std::int32_t> curve;
+  std::vector<std::uint8_t> steiner;
+  // Of fields, for writing.
+  std::vector<VtkArray> point_fields, cell_fields;
 };
 
 inline constexpr std::string_view boundary_names_array = "boundary_names";
+inline constexpr std::string_view region_names_array = "region_names";
+// What other programs call the array that says which part of the domain a cell is in.
+inline constexpr const char* foreign_region_arrays[] = {"gmsh:physical", "CellEntityIds", "MaterialIds"};
 
 // visit(name, vector) for each array, in the order in which it is written.
 template <class Grid, class Visitor>
@@ -39,15 +56,23 @@ void for_each_point_array(Grid& grid, Visitor&& visit) {
   visit("vertex_id", grid.vertex_id);
   visit("curve", grid.curve);
   visit("parameter", grid.parameter);
+  visit("steiner", grid.steiner);
 }
 template <class Grid, class Visitor>
 void for_each_cell_array(Grid& grid, Visitor&& visit) {
   visit("boundary", grid.boundary);
   visit("triangle_id", grid.triangle_id);
   visit("birth", grid.birth);
+  visit("region", grid.region);
 }
 
-VtkGrid to_vtk_grid(const FrozenMesh& mesh);
+// A boundary edge's cell has the value of its triangle. Throws Error (argument) for fields that do not fit
+// the mesh or have the name of one of its own arrays.
+VtkGrid to_vtk_grid(const FrozenMesh& mesh, std::span<const Field> fields = {});
+
+// The field of an array in a file, on the vertices or triangles of the frozen mesh that from_vtk_grid()
+// makes. Nothing if it is an array of the mesh itself or has more than three components.
+std::optional<Field> to_field(VtkArray array, FieldPlace place, std::span<const std::uint8_t> types);
 
 // place names an array of the file for messages ("FILE:LINE", "FILE:/VTKHDF/Types").
 using ArrayPlace = std::function<std::string(std::string_view array)>;

@@ -1,18 +1,18 @@
 #include "io/vtkhdf.h"
 
-#include <bit>
-
+#include "base/checksum.h"
 #include "io/hdf5_file.h"
 #include "io/scanner.h"
 #include "io/vtk_grid.h"
 #include "remodel/error.h"
 #include "remodel/io.h"
+#include "remodel/mesh_state.h"
 
 namespace remodel::io {
 
 namespace {
 
-constexpr std::int64_t state_version = 5;
+constexpr std::int64_t state_version = 6;
 const std::string grid_group = "/VTKHDF/";
 const std::string state_group = "/remodel";
 const std::string markers_path = state_group + "/imported_markers";
@@ -51,37 +51,27 @@ void for_each_state_number(State& state, Visitor&& visit) {
   visit("max_vertices", state.options.max_vertices);
   visit("min_edge", state.options.min_edge);
   visit("refine_angle_deg", state.options.refine_angle_deg);
-  visit("keep", state.options.keep);
+  visit("keep", state.keep);
+  visit("stopped", state.stopped);
   visit("count_factor", state.renewal.count_factor);
-  visit("interior_size", state.renewal.interior_size);
   visit("full_adjustments", state.renewal.full_adjustments);
   visit("sampled_at", state.renewal.sampled_at);
   visit("samplings", state.renewal.samplings);
   visit("until_renewal", state.renewal.until_renewal);
+  visit("until_shed", state.renewal.until_shed);
 }
 
-// FNV-1a on 64-bit words, with a shift that carries the high bits down. Each step is a bijection of the hash
-// for a given word, and different words give different results: a single changed value cannot go unseen.
-class Checksum {
- public:
-  void add(std::uint64_t word) {
-    hash_ = (hash_ ^ word) * 0x100000001b3U;
-    hash_ ^= hash_ >> 32;
-  }
-  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
-  void add(std::uint32_t value) { add(std::uint64_t{value}); }
-  void add(std::int32_t value) { add(static_cast<std::uint64_t>(value)); }
-  void add(const std::string& text) {
-    add(std::uint64_t{text.size()});
-    for (const char c : text) add(std::uint64_t{static_cast<unsigned char>(c)});
-  }
-  std::uint64_t value() const { return hash_; }
-
- private:
-  std::uint64_t hash_ = 0xcbf29ce484222325U;
-};
-
 // ------------------------------------------------------------------------------------------------ writing
+
+void write_fields(Hdf5Writer& out, const std::string& group, const std::vector<VtkArray>& arrays) {
+  for (const auto& [name, components, values] : arrays) {
+    if (name == "." || name.find('/') != std::string::npos) {
+      throw Error(ErrorCode::argument, "field " + in_quotes(name),
+                  "a name with '/' or the name '.' found, VTKHDF expects another");
+    }
+    out.array(group + name, values, components);
+  }
+}
 
 // https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format/vtkhdf_specifications.html, one
 // partition
@@ -103,13 +93,18 @@ void write_grid(Hdf5Writer& out, const VtkGrid& grid) {
   for_each_point_array(grid, [&](const std::string& name, const auto& values) {
     if (!values.empty()) out.array("/VTKHDF/PointData/" + name, values);
   });
+  write_fields(out, "/VTKHDF/PointData/", grid.point_fields);
   out.group("/VTKHDF/CellData");
   for_each_cell_array(grid, [&](const std::string& name, const auto& values) {
     if (!values.empty()) out.array("/VTKHDF/CellData/" + name, values);
   });
+  write_fields(out, "/VTKHDF/CellData/", grid.cell_fields);
   out.group("/VTKHDF/FieldData");
   if (!grid.boundary_names.empty()) {
     out.texts("/VTKHDF/FieldData/" + std::string(boundary_names_array), grid.boundary_names);
+  }
+  if (!grid.region_names.empty()) {
+    out.texts("/VTKHDF/FieldData/" + std::string(region_names_array), grid.region_names);
   }
 }
 
@@ -173,9 +168,29 @@ VtkGrid read_grid(const Hdf5Reader& in) {
   for_each_cell_array(grid, [&](const std::string& name, auto& values) {
     read_optional(in, "/VTKHDF/CellData/" + name, values);
   });
+  for (const char* name : foreign_region_arrays)
+    if (grid.region.empty()) read_optional(in, std::string("/VTKHDF/CellData/") + name, grid.region);
   const std::string names = "/VTKHDF/FieldData/" + std::string(boundary_names_array);
   if (in.exists(names)) grid.boundary_names = in.texts(names);
+  const std::string regions = "/VTKHDF/FieldData/" + std::string(region_names_array);
+  if (in.exists(regions)) grid.region_names = in.texts(regions);
   return grid;
+}
+
+void add_fields(std::vector<Field>& fields, const Hdf5Reader& in, FieldPlace place, std::size_t places,
+                std::span<const std::uint8_t> types) {
+  const std::string group = place == FieldPlace::vertices ? "/VTKHDF/PointData" : "/VTKHDF/CellData";
+  for (const std::string& name : in.real_arrays(group)) {
+    const std::string path = group + "/" + name;
+    const std::size_t components = in.columns(path);
+    if (components < 1 || components > 3) continue;
+    VtkArray array{name, components, in.array<double>(path)};
+    if (array.values.size() != components * places) {
+      in.fail(path, std::to_string(array.values.size()) + " values found, " +
+                        std::to_string(components * places) + " expected");
+    }
+    if (auto field = to_field(std::move(array), place, types)) fields.push_back(std::move(*field));
+  }
 }
 
 std::string place_of(const Hdf5Reader& in, std::string_view array) {
@@ -188,7 +203,7 @@ std::string place_of(const Hdf5Reader& in, std::string_view array) {
 }  // namespace
 
 std::uint64_t checksum_of(const MeshState& state, const std::string& domain_text) {
-  Checksum sum;
+  WordChecksum sum;
   for_each_state_number(state, [&](const char*, auto value) { sum.add(value); });
   for_each_state_array(state, [&](const char*, const auto& values, std::size_t) {
     sum.add(std::uint64_t{values.size()});
@@ -199,9 +214,10 @@ std::uint64_t checksum_of(const MeshState& state, const std::string& domain_text
   return sum.value();
 }
 
-void write_vtkhdf(const std::filesystem::path& file, const FrozenMesh& mesh, const MeshState* state) {
+void write_vtkhdf(const std::filesystem::path& file, const FrozenMesh& mesh, const MeshState* state,
+                  std::span<const Field> fields) {
   Hdf5Writer out(file.string());
-  write_grid(out, to_vtk_grid(mesh));
+  write_grid(out, to_vtk_grid(mesh, fields));
   if (state != nullptr) write_state(out, *state);
   write_text_atomically(file, sealed(out.bytes()));
 }
@@ -211,6 +227,18 @@ FrozenMesh read_vtkhdf_frozen(const std::filesystem::path& file) {
   check_header(in);
   return from_vtk_grid(read_grid(in), file.string(),
                        [&](std::string_view array) { return place_of(in, array); });
+}
+
+std::vector<Field> read_vtkhdf_fields(const std::filesystem::path& file) {
+  const Hdf5Reader in(file);
+  check_header(in);
+  const auto types = in.array<std::uint8_t>(grid_group + "Types");
+  const auto points = in.array<std::int64_t>(grid_group + "NumberOfPoints");
+  if (points.size() != 1 || points.front() < 0) in.fail(grid_group + "NumberOfPoints", "one number expected");
+  std::vector<Field> fields;
+  add_fields(fields, in, FieldPlace::vertices, static_cast<std::size_t>(points.front()), types);
+  add_fields(fields, in, FieldPlace::triangles, types.size(), types);
+  return fields;
 }
 
 MeshState read_vtkhdf_state(const std::filesystem::path& file) {

@@ -7,16 +7,22 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
+#include <vector>
 
+#include "remodel/field.h"
 #include "remodel/frozen_mesh.h"
 #include "remodel/mesh.h"
+#include "remodel/mesh_state.h"
 
 namespace remodel::io {
 
 // state may be null. Written atomically.
-void write_vtkhdf(const std::filesystem::path& file, const FrozenMesh& mesh, const MeshState* state);
+void write_vtkhdf(const std::filesystem::path& file, const FrozenMesh& mesh, const MeshState* state,
+                  std::span<const Field> fields = {});
 
 FrozenMesh read_vtkhdf_frozen(const std::filesystem::path& file);
+std::vector<Field> read_vtkhdf_fields(const std::filesystem::path& file);
 // Throws Error (format) where the file has no state, or one that its checksum does not confirm.
 MeshState read_vtkhdf_state(const std::filesystem::path& file);
 

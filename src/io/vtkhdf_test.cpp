@@ -8,6 +8,7 @@
 #include "io/hdf5_file.h"
 #include "io/test_meshes.h"
 #include "remodel/io.h"
+#include "remodel/mesh_state.h"
 
 namespace remodel {
 namespace {
@@ -124,7 +125,7 @@ TEST(NativeFile, AnotherStateVersionIsNamed) {
   out.attribute("/remodel", "format_version", std::vector<std::int64_t>{9});
   write_text_atomically(file, out.bytes());
   EXPECT_EQ(error_of([&] { io::read_vtkhdf_state(file); }),
-            file.string() + ":/remodel@format_version: 9 found, 5 expected");
+            file.string() + ":/remodel@format_version: 9 found, 6 expected");
 }
 
 // ------------------------------------------------------------------------------------- the VTKHDF layout

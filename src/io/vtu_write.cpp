@@ -1,7 +1,9 @@
 // VTK's XML format for unstructured grids, as ASCII: every XML reader can have the numbers, exactly.
 // https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html
 
+#include <algorithm>
 #include <cstdint>
+#include <utility>
 
 #include "io/formats.h"
 #include "io/text_writer.h"
@@ -34,6 +36,18 @@ constexpr const char* vtk_type_name<std::uint8_t>() {
   return "UInt8";
 }
 
+std::string xml_escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    constexpr std::pair<char, const char*> entities[] = {
+        {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&apos;"}};
+    const auto entity = std::find_if(std::begin(entities), std::end(entities),
+                                     [&](const auto& other) { return other.first == c; });
+    entity != std::end(entities) ? result += entity->second : result += c;
+  }
+  return result;
+}
+
 class VtuWriter {
  public:
   explicit VtuWriter(const VtkGrid& grid) : grid_(grid) {}
@@ -47,9 +61,11 @@ class VtuWriter {
          << grid_.types.size() << "\">\n<PointData>\n";
     for_each_point_array(grid_,
                          [this](const char* name, const auto& values) { optional_array(name, values); });
+    fields(grid_.point_fields);
     out_ << "</PointData>\n<CellData>\n";
     for_each_cell_array(grid_,
                         [this](const char* name, const auto& values) { optional_array(name, values); });
+    fields(grid_.cell_fields);
     out_ << "</CellData>\n<Points>\n";
     array("Points", grid_.points, 0, 3);
     out_ << "</Points>\n<Cells>\n";
@@ -61,16 +77,37 @@ class VtuWriter {
   }
 
  private:
-  // A string array in ASCII is a list of character codes, each string with its 0.
-  void field_data() {
-    if (grid_.boundary_names.empty()) return;
-    out_ << "<FieldData>\n<Array type=\"String\" Name=\"" << boundary_names_array << "\" NumberOfTuples=\""
-         << grid_.boundary_names.size() << "\" format=\"ascii\">\n";
-    for (const auto& name : grid_.boundary_names) {
+  // Names as character codes, each name with its 0: as VTK itself writes an array of strings, but declared as
+  // numbers. Readers that are not VTK's know no strings and refuse the file.
+  void names(std::string_view array, const std::vector<std::string>& values) {
+    if (values.empty()) return;
+    std::size_t codes = 0;
+    for (const auto& name : values) codes += name.size() + 1;
+    out_ << "<DataArray type=\"UInt8\" Name=\"" << array << "\" NumberOfTuples=\"" << codes
+         << "\" format=\"ascii\">\n";
+    for (const auto& name : values) {
       for (const char c : name) out_ << static_cast<int>(static_cast<unsigned char>(c)) << ' ';
       out_ << "0\n";
     }
-    out_ << "</Array>\n</FieldData>\n";
+    out_ << "</DataArray>\n";
+  }
+
+  void field_data() {
+    if (grid_.boundary_names.empty() && grid_.region_names.empty()) return;
+    out_ << "<FieldData>\n";
+    names(boundary_names_array, grid_.boundary_names);
+    names(region_names_array, grid_.region_names);
+    out_ << "</FieldData>\n";
+  }
+
+  void fields(const std::vector<VtkArray>& arrays) {
+    for (const auto& [name, components, values] : arrays) {
+      out_ << "<DataArray type=\"Float64\" Name=\"" << xml_escaped(name) << "\" NumberOfComponents=\""
+           << components << "\" format=\"ascii\">\n";
+      for (std::size_t i = 0; i < values.size(); ++i)
+        out_ << values[i] << ((i + 1) % components == 0 ? '\n' : ' ');
+      out_ << "</DataArray>\n";
+    }
   }
 
   template <class Value>
@@ -100,8 +137,8 @@ class VtuWriter {
 
 }  // namespace
 
-std::string vtu_text(const FrozenMesh& mesh) {
-  return VtuWriter(to_vtk_grid(mesh)).write();
+std::string vtu_text(const FrozenMesh& mesh, std::span<const Field> fields) {
+  return VtuWriter(to_vtk_grid(mesh, fields)).write();
 }
 
 }  // namespace remodel::io

@@ -68,7 +68,7 @@ class BadTriangles {
     levels_[level].resize(blocks * block);
   }
 
-  // Of a block. A loop that is vectorised, unlike std::max_element().
+  // The largest value of a block. The loop is vectorised, unlike std::max_element().
   static std::uint8_t largest(const std::uint8_t* values) {
     std::uint8_t result = 0;
     for (std::size_t i = 0; i < block; ++i) result = std::max(result, values[i]);

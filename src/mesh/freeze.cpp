@@ -41,6 +41,7 @@ void freeze_boundary(const MeshData& mesh, const std::vector<std::uint32_t>& poi
       const std::uint32_t p = point_of[mesh.at(k).vertex.index];
       frozen.curve[p] = static_cast<std::int32_t>(mesh.at(k).curve);
       frozen.parameter[p] = mesh.at(k).t;
+      frozen.steiner[p] = mesh.at(k).steiner ? 1 : 0;
     });
     if (mesh.sides[loop].left != Region::domain) {
       std::reverse(edges.begin(), edges.end());
@@ -115,6 +116,77 @@ class LoopOrder {
   std::vector<std::pair<std::size_t, std::array<std::uint32_t, 2>>> inner_;
 };
 
+// The part of the domain that each triangle of the view lies in. Constrained edges separate parts; what lies
+// beside the loops of the design says their names, internal ones first: an outer loop may pass several.
+// Regions are numbered in the order of triangles.
+class Regions {
+ public:
+  Regions(const MeshData& mesh, FrozenMesh& frozen)
+      : mesh_(mesh), frozen_(frozen), region_(mesh.triangulation.triangle_slots(), no_index) {}
+
+  void run() {
+    for (std::size_t loop = 0; loop < mesh_.loop_heads.size(); ++loop)
+      if (mesh_.domain.loops[loop].role == LoopRole::internal) seed(loop);
+    spread();
+    for (std::size_t loop = 0; loop < mesh_.loop_heads.size(); ++loop)
+      if (mesh_.domain.loops[loop].role != LoopRole::internal) seed(loop);
+    spread();
+    for (const std::uint32_t id : frozen_.triangle_ids) {
+      const std::string& name = region_[id] == no_index ? unnamed_ : names_[region_[id]];
+      frozen_.region.push_back(index_in(frozen_.region_names, name));
+    }
+  }
+
+ private:
+  static std::uint32_t index_in(std::vector<std::string>& names, const std::string& name) {
+    const auto known = std::find(names.begin(), names.end(), name);
+    const auto index = static_cast<std::uint32_t>(known - names.begin());
+    if (known == names.end()) names.push_back(name);
+    return index;
+  }
+
+  void seed(VertexId from, VertexId to, const std::string& name) {
+    const TriangleId t = mesh_.triangulation.find_edge(from, to)->triangle;
+    if (name.empty() || mesh_.triangulation[t].region != Region::domain || region_[t.index] != no_index)
+      return;
+    region_[t.index] = index_in(names_, name);
+    todo_.push_back(t);
+  }
+
+  void seed(std::size_t loop) {
+    const Loop& named = mesh_.domain.loops[loop];
+    const std::string& right = named.role == LoopRole::internal ? named.right_region : named.region;
+    mesh_.walk_edges(mesh_.loop_heads[loop], [&](std::uint32_t k, std::uint32_t next) {
+      seed(mesh_.at(k).vertex, mesh_.at(next).vertex, named.region);
+      seed(mesh_.at(next).vertex, mesh_.at(k).vertex, right);
+    });
+  }
+
+  void spread() {
+    while (!todo_.empty()) {
+      const TriangleId t = todo_.back();
+      todo_.pop_back();
+      for (const Link link : mesh_.triangulation[t].link) {
+        if (link.constrained() || region_[link.triangle().index] != no_index) continue;
+        region_[link.triangle().index] = region_[t.index];
+        todo_.push_back(link.triangle());
+      }
+    }
+  }
+
+  const MeshData& mesh_;
+  FrozenMesh& frozen_;
+  std::vector<std::string> names_;
+  const std::string unnamed_ = "domain";
+  std::vector<std::uint32_t> region_;  // per triangle slot, index of a name
+  std::vector<TriangleId> todo_;
+};
+
+bool has_regions(const Domain& domain) {
+  return std::any_of(domain.loops.begin(), domain.loops.end(),
+                     [](const Loop& loop) { return !loop.region.empty() || !loop.right_region.empty(); });
+}
+
 bool made_of_chains(const Domain& domain) {
   return std::any_of(domain.loops.begin(), domain.loops.end(),
                      [](const Loop& loop) { return loop.open && loop.role != LoopRole::internal; });
@@ -124,21 +196,19 @@ bool made_of_chains(const Domain& domain) {
 
 // Points in the order of vertex ids, triangles in the order of triangle ids.
 FrozenMesh Mesh::freeze() const {
-  const Triangulation& triangulation = data_->triangulation;
+  const Triangulation& triangulation = data().triangulation;
   FrozenMesh frozen;
   std::vector<std::uint32_t> point_of(triangulation.vertex_slots(), no_index);
-  const auto as_imported = triangles_as_imported(*data_);
-  for (std::uint32_t i = 0; i < triangulation.triangle_slots(); ++i) {
-    const Triangle& t = triangulation[TriangleId{i}];
-    if (!t.alive() || t.region != Region::domain) continue;
-    frozen.triangle_ids.push_back(i);
+  const auto as_imported = triangles_as_imported(data());
+  triangulation.for_each_domain_triangle([&](TriangleId id, const Triangle& t) {
+    frozen.triangle_ids.push_back(id.index);
     frozen.birth.push_back(t.birth);
-    const auto kept = as_imported.find(i);
+    const auto kept = as_imported.find(id.index);
     frozen.triangles.push_back(kept != as_imported.end()
                                    ? kept->second
                                    : std::array{t.vertex[0].index, t.vertex[1].index, t.vertex[2].index});
     for (const VertexId v : t.vertex) point_of[v.index] = 0;
-  }
+  });
   for (std::uint32_t i = 0; i < triangulation.vertex_slots(); ++i) {
     if (point_of[i] == no_index) continue;
     point_of[i] = static_cast<std::uint32_t>(frozen.points.size());
@@ -150,8 +220,10 @@ FrozenMesh Mesh::freeze() const {
     for (std::uint32_t& v : triangle) v = point_of[v];
   frozen.curve.assign(frozen.points.size(), -1);
   frozen.parameter.assign(frozen.points.size(), 0.0);
-  freeze_boundary(*data_, point_of, frozen);
-  if (made_of_chains(data_->domain)) LoopOrder(*data_, point_of, frozen).run();
+  frozen.steiner.assign(frozen.points.size(), 0);
+  freeze_boundary(data(), point_of, frozen);
+  if (made_of_chains(data().domain)) LoopOrder(data(), point_of, frozen).run();
+  if (has_regions(data().domain)) Regions(data(), frozen).run();
   return frozen;
 }
 

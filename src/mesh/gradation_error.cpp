@@ -70,31 +70,29 @@ class DesignScales {
 }  // namespace
 
 GradationError Mesh::gradation_error() const {
-  const Triangulation& triangulation = data_->triangulation;
-  const DesignScales design(*data_);
+  const Triangulation& triangulation = data().triangulation;
+  const DesignScales design(data());
   std::vector<double> scales(triangulation.vertex_slots(), 0.0);  // 0: not yet asked for
   double sum = 0.0, squares = 0.0, count = 0.0;
-  for (std::uint32_t i = 0; i < triangulation.triangle_slots(); ++i) {
-    const Triangle& t = triangulation[TriangleId{i}];
-    if (!t.alive() || t.region != Region::domain) continue;
+  triangulation.for_each_domain_triangle([&](TriangleId, const Triangle& t) {
     double mean = 0.0;
     for (const VertexId v : t.vertex) {
       if (scales[v.index] == 0.0) scales[v.index] = design.at(triangulation.point(v));
       mean += scales[v.index] / 3.0;
     }
     const double e =
-        0.5 * std::log(t.circle.squared_radius()) - std::log(data_->options.max_gradation * mean);
+        0.5 * std::log(t.circle.squared_radius()) - std::log(data().options.max_gradation * mean);
     sum += e;
     squares += e * e;
     count += 1.0;
-  }
+  });
   if (count == 0.0) return {};
   const double bias = sum / count;
   return {.bias = bias, .deviation = std::sqrt(std::max(0.0, squares / count - bias * bias))};
 }
 
 std::vector<double> Mesh::gradation_errors(const FrozenMesh& frozen) const {
-  const DesignScales design(*data_);
+  const DesignScales design(data());
   std::vector<double> scales, errors;
   scales.reserve(frozen.points.size());
   for (const Point p : frozen.points) scales.push_back(design.at(p));
@@ -104,7 +102,7 @@ std::vector<double> Mesh::gradation_errors(const FrozenMesh& frozen) const {
     const double sides = squared_distance(p, q) * squared_distance(q, s) * squared_distance(s, p);
     const double radius = std::sqrt(sides) / (2.0 * cross(q - p, s - p));
     const double mean = (scales[a] + scales[b] + scales[c]) / 3.0;
-    errors.push_back(std::log(radius / (data_->options.max_gradation * mean)));
+    errors.push_back(std::log(radius / (data().options.max_gradation * mean)));
   }
   return errors;
 }

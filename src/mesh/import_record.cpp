@@ -18,7 +18,7 @@ bool untouched(const MeshData& mesh, std::size_t begin, std::size_t end) {
   };
   for (std::size_t i = begin; i < end; ++i) {
     const Triangle& t = triangulation[TriangleId{mesh.imported.slots[i]}];
-    if (!t.alive() || t.birth != 0 || t.region != Region::domain) return false;
+    if (!t.in_domain() || t.birth != 0) return false;
     for (const Link link : t.link)
       if (link.constrained() && in_face(link.triangle())) return false;
   }

@@ -7,25 +7,24 @@
 
 namespace remodel {
 
-QualityBounds::QualityBounds(const QualityOptions& options) {
+QualityBounds::QualityBounds(const QualityOptions& options, double keep) {
   constexpr double margin = 1.0 - 2e-9;  // on squares
   const double sine = std::sin(options.min_angle_deg * std::numbers::pi / 180.0);
   const double infinity = std::numeric_limits<double>::infinity();
   squared_radius_edge = sine > 0.0 ? margin * 0.25 / (sine * sine) : infinity;
-  squared_gradation = margin * promised_gradation(options) * promised_gradation(options);
+  const double gradation = keep * options.max_gradation;
+  squared_gradation = margin * gradation * gradation;
 }
 
 QualityBounds QualityBounds::of_refinement(const QualityOptions& options) {
   QualityOptions stricter = options;
   stricter.min_angle_deg = std::max(options.min_angle_deg, options.refine_angle_deg);
-  stricter.keep = 1.0;
-  return QualityBounds(stricter);
+  return {stricter, 1.0};
 }
 
 double badness(const Vertex& a, const Vertex& b, const Vertex& c, double squared_radius,
                const QualityBounds& bounds) {
-  const double shortest = std::min({squared_distance(a.point, b.point), squared_distance(b.point, c.point),
-                                    squared_distance(c.point, a.point)});
+  const double shortest = squared_shortest_edge(a.point, b.point, c.point);
   const double mean = (a.length_scale + b.length_scale + c.length_scale) * (1.0 / 3.0);
   return std::max(squared_radius / (bounds.squared_radius_edge * shortest),
                   squared_radius / (bounds.squared_gradation * (mean * mean)));
@@ -62,6 +61,8 @@ MeshData::MeshData(const MeshData& other)
       sides(other.sides),
       domain_triangles(other.domain_triangles),
       step(other.step),
+      keep(other.keep),
+      stopped(other.stopped),
       renewal(other.renewal),
       imported(other.imported),
       curve_places_(other.curve_places_) {
@@ -150,8 +151,7 @@ Sides sides_of(LoopRole role, bool counterclockwise) {
 
 }  // namespace
 
-double MeshData::extent() const {
-  if (extent_ >= 0.0) return extent_;
+void MeshData::measure_extent() const {
   Point low = point(loop_heads.front()), high = low;
   for (const std::uint32_t head : loop_heads)
     walk(head, [&](std::uint32_t k) {
@@ -159,7 +159,21 @@ double MeshData::extent() const {
       low = {std::min(low.x, p.x), std::min(low.y, p.y)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y)};
     });
-  return extent_ = std::sqrt(squared_distance(low, high));
+  extent_ = std::sqrt(squared_distance(low, high));
+  largest_coordinate_ = std::max({std::abs(low.x), std::abs(low.y), std::abs(high.x), std::abs(high.y)});
+}
+
+double MeshData::extent() const {
+  if (extent_ < 0.0) measure_extent();
+  return extent_;
+}
+
+double MeshData::shortest_edge() const {
+  constexpr double usual = 1e-12, spacings = 0x1p-46;
+  const double size = extent();
+  const double wanted =
+      options.min_edge > 0.0 ? options.min_edge : usual * std::max(size, largest_coordinate_);
+  return std::max(wanted, spacings * largest_coordinate_);
 }
 
 void MeshData::orient_loops() {
@@ -208,12 +222,10 @@ bool MeshData::label_regions() {
   return agreement;
 }
 
-void MeshData::count_domain_triangles() {
-  domain_triangles = 0;
-  for (std::uint32_t i = 0; i < triangulation.triangle_slots(); ++i) {
-    const Triangle& t = triangulation[TriangleId{i}];
-    if (t.alive() && t.region == Region::domain) ++domain_triangles;
-  }
+std::size_t MeshData::count_domain_triangles() const {
+  std::size_t count = 0;
+  triangulation.for_each_domain_triangle([&](TriangleId, const Triangle&) { ++count; });
+  return count;
 }
 
 double MeshData::base_length_scale(std::uint32_t k) const {
@@ -222,8 +234,8 @@ double MeshData::base_length_scale(std::uint32_t k) const {
   };
   if (boundary[k].steiner) {
     const std::uint32_t before = non_steiner_before(k), after = non_steiner_after(k);
-    const double to_before = distance(before, k), to_after = distance(k, after);
-    return (length_scale(before) * to_after + length_scale(after) * to_before) / (to_before + to_after);
+    return interpolated_scale(length_scale(before), distance(before, k), length_scale(after),
+                              distance(k, after));
   }
   double nearest = std::numeric_limits<double>::infinity();
   at_vertex(k, [&](std::uint32_t e) {
@@ -231,6 +243,14 @@ double MeshData::base_length_scale(std::uint32_t k) const {
       if (n != no_index) nearest = std::min(nearest, distance(e, n));
   });
   return std::isfinite(nearest) ? nearest / options.resolution : 1.0;
+}
+
+bool MeshData::is_single_point(std::uint32_t k) const {
+  bool single = true;
+  at_vertex(k, [&](std::uint32_t e) {
+    single &= boundary[e].next == no_index && boundary[e].previous == no_index;
+  });
+  return single;
 }
 
 void MeshData::set_boundary_length_scale(std::uint32_t k, double value) {

@@ -8,11 +8,14 @@
 #include <memory>
 #include <vector>
 
+#include "base/slot_map.h"
 #include "mesh/arena.h"
 #include "mesh/bad_triangles.h"
 #include "mesh/boundary_table.h"
+#include "mesh/change_record.h"
 #include "remodel/domain.h"
 #include "remodel/mesh.h"
+#include "remodel/mesh_state.h"
 #include "triangulation/triangulation.h"
 
 namespace remodel {
@@ -28,40 +31,20 @@ struct MeshCache {
   bool stale = false;  // connectivity has changed since it was made
 };
 
-// Which slots a search has visited. Forgetting costs nothing, so a small search in a large mesh stays small.
-class Marks {
- public:
-  void clear(std::size_t slots) {
-    if (stamps_.size() < slots) stamps_.resize(slots, 0);
-    if (++now_ == 0) std::fill(stamps_.begin(), stamps_.end(), 0), now_ = 1;
-  }
-  // True the first time since clear().
-  bool visit(std::uint32_t slot) {
-    if (stamps_[slot] == now_) return false;
-    stamps_[slot] = now_;
-    return true;
-  }
-  void prefetch(std::uint32_t slot) const { __builtin_prefetch(&stamps_[slot]); }
-  bool visited(std::uint32_t slot) const { return stamps_[slot] == now_; }
-
- private:
-  std::vector<std::uint32_t> stamps_;
-  std::uint32_t now_ = 0;
-};
-
 // The bounds of QualityOptions in the form that tests use. They are stricter by one part in 10^9 than what is
 // promised, so that whoever measures a mesh with rounding of his own finds the promise kept.
 struct QualityBounds {
-  explicit QualityBounds(const QualityOptions& options);
-  // What refinement makes: at least as strict.
+  // What a mesh promises whose kept triangles may take `keep` times H.
+  QualityBounds(const QualityOptions& options, double keep);
+  // What refinement makes: at least as strict as any promise.
   static QualityBounds of_refinement(const QualityOptions& options);
   double squared_radius_edge;  // B^2
   double squared_gradation;    // (keep H)^2; H^2 of refinement
 };
 
-// What a step changes besides the triangulation and the boundary table, as it was before: see Transaction in
-// remodel/. Kept with the mesh for its storage.
-struct Backup {
+// Storage of what a step may have to give back: step/step_journal.h. It lies with the mesh so that steps need
+// nothing of the heap.
+struct StepBackup {
   std::vector<std::uint32_t> loop_heads;
   std::vector<Sides> sides;
   std::vector<std::size_t> changing;  // the loops that the step may change, if not all in any way
@@ -79,24 +62,33 @@ class MeshData {
   std::vector<Sides> sides;               // of each loop
   std::size_t domain_triangles = 0;
   std::uint32_t step = 0;
+  // Kept triangles are promised r / mean LS <= keep H, new ones H: 1, until a step of Strategy::renew raises
+  // it.
+  double keep = 1.0;
+  // Why refinement of the whole mesh ended. Where a limit did it, bad triangles may be anywhere.
+  Stopped stopped = Stopped::done;
   RenewalState renewal;
   ImportRecord imported;
   std::unique_ptr<MeshCache> cache;
+  ChangeRecords marked;  // of this mesh alone: copies begin without
 
-  // Scratch of searches: visited triangles and vertices, and a number for each triangle.
-  Marks marks;
-  Marks vertex_marks;
-  std::vector<std::uint32_t> numbers;
-  BadTriangles bad_triangles;  // none when no refinement is under way
-  Cavity cavity;               // of refinement, and the length scales of its ring
+  // Scratch: storage that is kept, so that steps need nothing of the heap.
+  SlotSet<TriangleId> seen_triangles;  // by the search under way
+  SlotSet<VertexId> seen_vertices;
+  SlotSet<VertexId> inside_regions;                     // of removal
+  SlotMap<TriangleId, std::uint32_t> affected_indices;  // in the list of an adjustment
+  SlotMap<VertexId, std::uint32_t> candidate_indices;   // in the list of coarsening
+  BadTriangles bad_triangles;                           // none when no refinement is under way
+  Cavity cavity;                                        // of refinement, and the length scales of its ring
   Buffer<double> ring_scales;
-  Arena arena;    // for lists of the step under way
-  Backup backup;  // of the step under way
+  Arena arena;        // for lists of the step under way
+  StepBackup backup;  // of the step under way
 
   MeshData() = default;
   MeshData(const MeshData& other);  // under a journal: a copy as if it were committed
   MeshData& operator=(const MeshData&) = delete;
 
+  QualityBounds promised_bounds() const { return {options, keep}; }
   Point point(std::uint32_t k) const { return triangulation.point(boundary[k].vertex); }
   double length_scale(std::uint32_t k) const { return triangulation[boundary[k].vertex].length_scale; }
   const BoundaryVertex& at(std::uint32_t k) const { return boundary[k]; }
@@ -155,10 +147,14 @@ class MeshData {
   void remove_boundary_vertex(std::uint32_t k);
   // The diagonal of the box of all boundary vertices; kept until a loop moves that may be the outermost.
   double extent() const;
+  // No edge is made on purpose that is shorter than this: QualityOptions::min_edge, or where that is 0 a
+  // small part of the domain's size or of its largest coordinate. Never less than 64 times the spacing of
+  // doubles at that coordinate, below which points of a mesh cannot be told apart.
+  double shortest_edge() const;
   void loop_moved(std::size_t loop) {
     if (domain.loops[loop].role != LoopRole::hole) forget_extent();
   }
-  void forget_extent() { extent_ = -1.0; }
+  void forget_extent() { extent_ = largest_coordinate_ = -1.0; }
 
   // Sets the sides from the roles and the vertices of the loops: of all, or of one.
   void orient_loops();
@@ -166,13 +162,16 @@ class MeshData {
   // Labels all triangles from the constrained edges of all loops: O(triangles). False where loops contradict
   // each other.
   bool label_regions();
-  void count_domain_triangles();
+  std::size_t count_domain_triangles() const;  // O(triangles), as domain_triangles has it
 
   // What the curves alone say of the length scale at k: for a non-Steiner vertex the distance to the nearest
   // non-Steiner neighbour over R (equation LS_b; on all of its loops), for a Steiner vertex the interpolation
   // by length between its two non-Steiner neighbours (equation LS_bs; chords for arcs, between whose length
-  // ratios the difference is of second order). 1 for a single point, which has none.
+  // ratios the difference is of second order). 1 for a single point, which has none: its factor is its length
+  // scale.
   double base_length_scale(std::uint32_t k) const;
+  // Whether no boundary edge ends at the vertex of k.
+  bool is_single_point(std::uint32_t k) const;
   std::uint32_t non_steiner_before(std::uint32_t k) const {  // no_index at the end of a chain
     return boundary[k].steiner ? boundary[k].station : boundary[k].previous_station;
   }
@@ -187,7 +186,9 @@ class MeshData {
     std::uint32_t loop, position;
   };
   std::vector<CurvePlace> curve_places_;
-  mutable double extent_ = -1.0;  // negative: unknown
+  void measure_extent() const;
+  mutable double extent_ = -1.0;              // negative: unknown
+  mutable double largest_coordinate_ = -1.0;  // of the corners of that box; known with it
 };
 
 // Empty, or what is wrong with the boundary: vertices on the design's curves, edges there and constrained,
@@ -201,13 +202,31 @@ inline double largest_squared_radius(double shortest, double scales, const Quali
   return std::min(bounds.squared_radius_edge * shortest, bounds.squared_gradation * (mean * mean));
 }
 
+// A length scale between two others, by the lengths to them.
+inline double interpolated_scale(double scale_before, double to_before, double scale_after, double to_after) {
+  return (scale_before * to_after + scale_after * to_before) / (to_before + to_after);
+}
+
+inline double squared_shortest_edge(Point a, Point b, Point c) {
+  return std::min({squared_distance(a, b), squared_distance(b, c), squared_distance(c, a)});
+}
+
+// The same of a triangle's corners.
+inline double largest_squared_radius(const Vertex& a, const Vertex& b, const Vertex& c,
+                                     const QualityBounds& bounds) {
+  return largest_squared_radius(squared_shortest_edge(a.point, b.point, c.point),
+                                a.length_scale + b.length_scale + c.length_scale, bounds);
+}
+
 // Whether a triangle keeps both bounds; the same as badness <= 1 up to the last rounding, without a division.
 inline bool is_good(const Vertex& a, const Vertex& b, const Vertex& c, double squared_radius,
                     const QualityBounds& bounds) {
-  const double shortest = std::min({squared_distance(a.point, b.point), squared_distance(b.point, c.point),
-                                    squared_distance(c.point, a.point)});
-  return squared_radius <=
-         largest_squared_radius(shortest, a.length_scale + b.length_scale + c.length_scale, bounds);
+  return squared_radius <= largest_squared_radius(a, b, c, bounds);
+}
+
+// Whether p lies strictly inside the diametral circle of the segment a-b.
+inline bool encroaches(Point p, Point a, Point b) {
+  return dot(a - p, b - p) < 0.0;
 }
 
 // The largest of the two squared ratios over their squared bounds: above 1 the triangle is bad.
@@ -215,7 +234,7 @@ double badness(const Vertex& a, const Vertex& b, const Vertex& c, double squared
                const QualityBounds& bounds);
 double badness(const Triangulation& triangulation, const Triangle& triangle, const QualityBounds& bounds);
 
-// Of a finite triangle, from its corners.
+// The measures of a finite triangle, from its corners.
 struct TriangleMeasures {
   double squared_radius, squared_shortest;  // of the circumcircle; edge
 };

@@ -11,7 +11,7 @@
 #include "remodel/error.h"
 #include "remodel/generate.h"
 #include "remodel/remodel.h"
-#include "remodel/test_designs.h"
+#include "step/test_designs.h"
 
 namespace remodel {
 namespace {
@@ -117,7 +117,9 @@ TEST(MeshState, ThatIsDamagedIsRefused) {
        [&](MeshState& s) { s.free_triangles.push_back(static_cast<std::uint32_t>(triangle)); }},
       {"a count factor that is no number", [&](MeshState& s) { s.renewal.count_factor = std::nan(""); }},
       {"a negative count factor", [&](MeshState& s) { s.renewal.count_factor = -1.0; }},
-      {"an infinite size", [&](MeshState& s) { s.renewal.interior_size = HUGE_VAL; }},
+      {"an unknown end of refinement", [&](MeshState& s) { s.stopped = 3; }},
+      {"a keep below 1", [&](MeshState& s) { s.keep = 0.5; }},
+      {"a keep that is no number", [&](MeshState& s) { s.keep = std::nan(""); }},
       {"a renewal too far away", [&](MeshState& s) { s.renewal.until_renewal = 15; }},
       {"a pending vertex out of range", [&](MeshState& s) { s.renewal.pending_vertices = {1000000}; }},
       {"the infinite vertex pending", [&](MeshState& s) { s.renewal.pending_vertices = {0}; }},

@@ -96,7 +96,8 @@ std::string check_boundary_edge(const MeshData& mesh, const Sides& sides, std::u
 
 }  // namespace
 
-QuickCheck::QuickCheck(const MeshData& mesh) : mesh_(mesh), promised_(mesh.options), small_angles_(mesh) {
+QuickCheck::QuickCheck(const MeshData& mesh)
+    : mesh_(mesh), promised_(mesh.promised_bounds()), small_angles_(mesh) {
   promised_.squared_radius_edge *= 1.0 + 2e-9;
   promised_.squared_gradation *= 1.0 + 2e-9;
 }
@@ -151,9 +152,9 @@ std::string check_boundary(const MeshData& mesh) {
 }
 
 std::string Mesh::quick_check() const {
-  const Triangulation& triangulation = data_->triangulation;
-  if (std::string broken = check_boundary_links(*data_); !broken.empty()) return broken;
-  const QuickCheck check(*data_);
+  const Triangulation& triangulation = data().triangulation;
+  if (std::string broken = check_boundary_links(data()); !broken.empty()) return broken;
+  const QuickCheck check(data());
   std::size_t count = 0;
   constexpr std::uint32_t ahead = 16;
   const auto slots = static_cast<std::uint32_t>(triangulation.triangle_slots());
@@ -164,10 +165,10 @@ std::string Mesh::quick_check() const {
     if (triangulation[TriangleId{i}].region == Region::domain) ++count;
     if (std::string broken = check.triangle(TriangleId{i}); !broken.empty()) return broken;
   }
-  if (count != data_->domain_triangles)
-    return "triangle count: " + std::to_string(count) + " found, " + std::to_string(data_->domain_triangles) +
+  if (count != data().domain_triangles)
+    return "triangle count: " + std::to_string(count) + " found, " + std::to_string(data().domain_triangles) +
            " recorded";
-  return check_loops(*data_, check);
+  return check_loops(data(), check);
 }
 
 }  // namespace remodel

@@ -22,7 +22,7 @@ struct Leg {
   bool domain_on_left;
 };
 
-using Legs = std::pmr::vector<Leg>;
+using Legs = List<Leg>;
 
 void add_legs(const MeshData& mesh, std::uint32_t k, Legs& legs) {
   mesh.at_vertex(k, [&](std::uint32_t e) {
@@ -148,13 +148,11 @@ double SmallAngles::shell_fraction(double length) {
 std::size_t count_exempt(const MeshData& mesh) {
   const SmallAngles small_angles(mesh);
   if (small_angles.count() == 0) return 0;
-  const QualityBounds bounds(mesh.options);
+  const QualityBounds bounds = mesh.promised_bounds();
   std::size_t count = 0;
-  for (std::uint32_t i = 0; i < mesh.triangulation.triangle_slots(); ++i) {
-    const Triangle& t = mesh.triangulation[TriangleId{i}];
-    if (!t.alive() || t.region != Region::domain) continue;
+  mesh.triangulation.for_each_domain_triangle([&](TriangleId, const Triangle& t) {
     if (badness(mesh.triangulation, t, bounds) > 1.0 && small_angles.exempt(t)) ++count;
-  }
+  });
   return count;
 }
 

@@ -7,19 +7,20 @@
 #include <utility>
 
 #include "mesh/mesh_data.h"
+#include "mesh/renew_policy.h"
 #include "remodel/error.h"
 #include "triangulation/state.h"
 
 namespace remodel {
 
 MeshState Mesh::state() const {
-  const TriangulationState from = TriangulationState::of(data_->triangulation);
+  const TriangulationState from = TriangulationState::of(data().triangulation);
   MeshState to;
   for (const Vertex& v : from.vertices) {
     to.coordinates.insert(to.coordinates.end(), {v.point.x, v.point.y});
     to.length_scales.push_back(v.length_scale);
     to.vertex_stars.push_back(v.star.bits);
-    const BoundaryVertex* boundary = v.alive() && v.boundary != no_index ? &data_->at(v.boundary) : nullptr;
+    const BoundaryVertex* boundary = v.alive() && v.boundary != no_index ? &data().at(v.boundary) : nullptr;
     to.vertex_curves.push_back(boundary != nullptr ? static_cast<std::int32_t>(boundary->curve) : -1);
     to.vertex_parameters.push_back(boundary != nullptr ? boundary->t : 0.0);
     to.vertex_scale_factors.push_back(boundary != nullptr ? boundary->scale_factor : 0.0);
@@ -35,11 +36,13 @@ MeshState Mesh::state() const {
   }
   to.free_vertices = from.free_vertices;
   to.free_triangles = from.free_triangles;
-  to.step = data_->step;
-  to.domain = data_->domain;
-  to.options = data_->options;
-  to.renewal = data_->renewal;
-  to.imported = data_->imported;
+  to.step = data().step;
+  to.domain = data().domain;
+  to.options = data().options;
+  to.keep = data().keep;
+  to.stopped = static_cast<std::uint32_t>(data().stopped);
+  to.renewal = data().renewal;
+  to.imported = data().imported;
   return to;
 }
 
@@ -187,10 +190,13 @@ void require_in_range(const MeshState& state, const std::string& source) {
       !all_below(record.slots, slots) || !all_below(record.triangles, vertices) ||
       !std::is_sorted(record.faces.begin(), record.faces.end()))
     refuse(source, "what it remembers of the imported file does not fit the mesh");
+  if (!(std::isfinite(state.keep) && state.keep >= 1.0))
+    refuse(source, "keep is " + std::to_string(state.keep) + ", expected 1 or more");
+  if (state.stopped > static_cast<std::uint32_t>(Stopped::minimum_edge))
+    refuse(source, "refinement ended for reason " + std::to_string(state.stopped) + ", expected 0 to 2");
   const RenewalState& renewal = state.renewal;
   if (!std::isfinite(renewal.count_factor) || renewal.count_factor < 0.0 ||
-      !std::isfinite(renewal.interior_size) ||
-      renewal.until_renewal > RenewalState::replacements_between_renewals)
+      renewal.until_renewal > RenewPolicy::replacements_between_renewals)
     refuse(source, "what it remembers of its triangle count and of the next renewal is out of range");
   const auto& pending = renewal.pending_loops;
   if (!all_below(renewal.pending_vertices, vertices) ||
@@ -208,6 +214,8 @@ Mesh Mesh::restore(const MeshState& state, const std::string& source) {
   data.domain = state.domain;
   data.options = state.options;
   data.step = state.step;
+  data.keep = state.keep;
+  data.stopped = static_cast<Stopped>(state.stopped);
   data.renewal = state.renewal;
   require_in_range(state, source);
   data.imported = state.imported;
@@ -215,7 +223,7 @@ Mesh Mesh::restore(const MeshState& state, const std::string& source) {
     refuse(source, broken);
   data.index_curves();
   BoundaryRestorer(data, state, source).run();
-  data.count_domain_triangles();
+  data.domain_triangles = data.count_domain_triangles();
   if (std::string broken = check_boundary(data); !broken.empty()) refuse(source, broken);
   return mesh;
 }

@@ -16,8 +16,8 @@ using Rational = boost::multiprecision::cpp_rational;
 
 // A crossing takes its place in memory: what crosses everywhere is refused in order.
 constexpr std::size_t most_vertices = 10'000'000;
-// Of the graph's size: crossings that are nearer than this to another point are that point. The shortest edge
-// that refinement splits is 1e-12 of the size.
+// Of the graph's size or its largest coordinate: crossings that are nearer than this to another point are
+// that point. The shortest edge that refinement splits is a tenth of it.
 constexpr double snapping = 1e-11;
 
 [[noreturn]] void refuse(const std::string& source, const std::string& problem) {
@@ -75,7 +75,8 @@ void Arrangement::insert_points() {
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
-  snap_ = snapping * std::sqrt(squared_distance(low, high));
+  const double largest = std::max({std::abs(low.x), std::abs(low.y), std::abs(high.x), std::abs(high.y)});
+  snap_ = snapping * std::max(std::sqrt(squared_distance(low, high)), largest);
 }
 
 void Arrangement::insert_segment(Piece segment) {
@@ -137,7 +138,7 @@ VertexId Arrangement::vertex_near(const Piece& piece) const {
     for (const VertexId v : {triangulation_.following(c), triangulation_.preceding(c)})
       if (is_near(v, piece.from, piece.to)) return v;
     const Link link = triangulation_.link(c);
-    const VertexId apex = triangulation_.vertex({link.triangle(), link.corner()});
+    const VertexId apex = triangulation_.apex(link);
     const int s = side(apex);
     if (link.constrained() || apex == piece.to || s == 0) return {};
     c = {link.triangle(), s > 0 ? next3(link.corner()) : previous3(link.corner())};
@@ -187,8 +188,7 @@ VertexId Arrangement::vertex_at(Point p, VertexId near) {
       distance = squared_distance(point(v), p), best = v;
   };
   for (const VertexId v : triangulation_[location.triangle].vertex) consider(v);
-  for (const Link link : triangulation_[location.triangle].link)
-    consider(triangulation_.vertex({link.triangle(), link.corner()}));
+  for (const Link link : triangulation_[location.triangle].link) consider(triangulation_.apex(link));
   if (best) return best;
   const auto [v, is_new] = triangulation_.insert(p, location.triangle);
   if (!is_new) return v;

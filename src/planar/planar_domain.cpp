@@ -83,7 +83,8 @@ Domain planar_domain(const PlanarGraph& graph, const std::string& source, Crossi
   }
   if (!encloses)
     throw Error(ErrorCode::geometry, source,
-                "the segments enclose nothing but holes, expected a closed outline around the area to mesh");
+                std::string("the segments enclose nothing") + (graph.holes.empty() ? "" : " but holes") +
+                    ", expected a closed outline around the area to mesh");
   add_single_points(graph, arrangement, domain);
   if (findings != nullptr) *findings = arrangement.findings;
   return domain;

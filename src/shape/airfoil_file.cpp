@@ -10,7 +10,6 @@
 
 #include "airfoil_rows.h"
 #include "remodel/error.h"
-#include "text_file.h"
 
 namespace remodel {
 namespace {
@@ -128,8 +127,8 @@ void check_order(const Rows& surface, const std::string& source) {
 
 // Chord 1, leading edge at the origin, trailing edge at (1, 0): no rotation, which would break the premise
 // that opposite vertices share x, but a shear, linear in x, which for a leading edge a little off is the
-// same.
-void normalise(Rows& upper, Rows& lower, const std::string& source) {
+// same. Returns the shear.
+double normalise(Rows& upper, Rows& lower, const std::string& source) {
   const Point nose = upper.front().point;
   const Point tail = 0.5 * (upper.back().point + lower.back().point);
   const double chord = tail.x - nose.x;
@@ -144,6 +143,7 @@ void normalise(Rows& upper, Rows& lower, const std::string& source) {
       row.point = {x, (row.point.y - nose.y) / chord - x * ((tail.y - nose.y) / chord)};
     }
   }
+  return (tail.y - nose.y) / chord;
 }
 
 double interpolated(const Rows& surface, double x) {
@@ -185,10 +185,10 @@ AirfoilCoordinates surfaces_of_outline(std::string name, const Rows& outline, co
     drop_trailing_edge_base(*surface);
     check_order(*surface, source);
   }
-  normalise(upper, lower, source);
+  const double incline = normalise(upper, lower, source);
   check_above(upper, lower, 1.0, source);
   check_above(lower, upper, -1.0, source);
-  return {.name = std::move(name), .upper = points_of(upper), .lower = points_of(lower)};
+  return {.name = std::move(name), .upper = points_of(upper), .lower = points_of(lower), .incline = incline};
 }
 
 AirfoilCoordinates parse_airfoil(std::string_view text, const std::string& source) {
@@ -196,10 +196,6 @@ AirfoilCoordinates parse_airfoil(std::string_view text, const std::string& sourc
   if (file.rows.empty()) refuse_file(source, "found no coordinates, expected lines of two numbers, x and y");
   const Rows outline = begins_with_counts(file.rows) ? outline_of_lednicer(file.rows, source) : file.rows;
   return surfaces_of_outline(std::move(file.name), outline, source);
-}
-
-AirfoilCoordinates read_airfoil(const std::filesystem::path& file) {
-  return parse_airfoil(read_text_file(file), file.string());
 }
 
 }  // namespace remodel

@@ -8,6 +8,7 @@
 
 #include "remodel/airfoil.h"
 #include "remodel/error.h"
+#include "remodel/shape_files.h"
 #include "support.h"
 
 namespace remodel {
@@ -182,6 +183,43 @@ TEST(AirfoilFile, ReadsATrailingEdgeThatIsCutAtAnAngle) {
   const AirfoilCoordinates airfoil = parse_airfoil(with_line(0, "1.004 0.01"), "wing.dat");
   EXPECT_GT(airfoil.upper.back().x, 1.0);
   EXPECT_LT(fit_cst(airfoil, 2).max_error, 0.02);
+}
+
+TEST(AirfoilFile, AcceptsTextBeforeAndAfterTheCoordinates) {
+  const std::string rows = joined(selig_lines);
+  for (const std::string header : {"made by hand\n", "61 points\n", "x y\n", "0.12 thick, 3 % camber\n",
+                                   "-----\n\n", "Mach 0.6\nRe 3e6 at 2 degrees\n", "\"quoted\"\n"}) {
+    const AirfoilCoordinates airfoil = parse_airfoil("wedge\n" + header + rows, "wing.dat");
+    EXPECT_EQ(airfoil.name, "wedge");
+    expect_wedge(airfoil);
+  }
+  for (const std::string footer :
+       {"\x1a", "\nfrom the archive, 1987\n", "end\n", "2 digits are lost here\n\nJ. Doe\n",
+        "***\n# a remark\n", "x/c and y/c\r\n\x1a\x1a"})
+    expect_wedge(parse_airfoil("wedge\n" + rows + footer, "wing.dat"));
+}
+
+// What may be a coordinate that was damaged is no text, and text between coordinates is not passed over.
+TEST(AirfoilFile, TakesNoDamagedCoordinateForText) {
+  for (const std::string wrong : {"1.0", "1.0 -0.0l", "1.0 -", "0x1 0", "1.0 0.0 0.0", "nan 0", "1;0"}) {
+    EXPECT_TRUE(says(refusal("wedge\n" + joined(selig_lines) + wrong + "\n"), "wing.dat:11")) << wrong;
+    EXPECT_TRUE(says(refusal("wedge\n" + wrong + "\n" + joined(selig_lines)), "wing.dat:2")) << wrong;
+  }
+  EXPECT_TRUE(says(refusal(with_line(4, "lower surface follows")), "wing.dat:6"));
+}
+
+TEST(AirfoilFile, SaysWhatItSheared) {
+  std::string inclined;
+  for (const std::string& line : selig_lines) {
+    std::istringstream numbers(line);
+    double x = 0.0, y = 0.0;
+    numbers >> x >> y;
+    inclined += std::to_string(x) + " " + std::to_string(y + 0.05 * x) + "\n";
+  }
+  EXPECT_EQ(parse_airfoil(joined(selig_lines), "wing.dat").incline, 0.0);
+  const AirfoilCoordinates airfoil = parse_airfoil(inclined, "wing.dat");
+  expect_wedge(airfoil);
+  EXPECT_NEAR(airfoil.incline, 0.05, 1e-12);
 }
 
 TEST(AirfoilFile, NamesLineAndFindingOfWhatIsNoCoordinate) {

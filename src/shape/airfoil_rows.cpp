@@ -1,11 +1,11 @@
 #include "airfoil_rows.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
 
 #include "remodel/error.h"
-#include "text_file.h"
 
 namespace remodel {
 namespace {
@@ -111,11 +111,43 @@ bool is_two_numbers(std::string_view line) {
   return tokens.size() == 2 && number_of(tokens[0]) && number_of(tokens[1]);
 }
 
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+bool begins_with_letter(std::string_view word) {
+  return (word[0] >= 'a' && word[0] <= 'z') || (word[0] >= 'A' && word[0] <= 'Z');
+}
+
+// Text is what cannot be a damaged coordinate: more than two words that are not all numbers, a count and a
+// word
+// ("61 points"), or a first word that begins with a letter or has no digit, and is no name of a number (nan).
+bool is_remark(std::string_view line) {
+  const std::vector<std::string_view> tokens = tokens_of(without_comment(line));
+  const auto is_word = [](std::string_view token) { return !number_of(token); };
+  if (tokens.size() > 2) return std::any_of(tokens.begin(), tokens.end(), is_word);
+  const std::string_view first = tokens.front();
+  if (is_word(first)) return begins_with_letter(first) || std::none_of(first.begin(), first.end(), is_digit);
+  const bool count = first.size() > 1 && std::all_of(first.begin(), first.end(), is_digit);
+  return count && tokens.size() == 2 && is_word(tokens[1]) && begins_with_letter(tokens[1]);
+}
+
+// DOS ends a text with this byte.
+std::string_view without_end_of_file(std::string_view text) {
+  while (!text.empty() && text.back() == '\x1a') text.remove_suffix(1);
+  return text;
+}
+
 }  // namespace
 
+// Lines of text stand before the first row, after the last one, and nowhere else.
 AirfoilRows read_airfoil_rows(std::string_view text, const std::string& source) {
-  check_text_size(text, source);
+  if (text.size() > airfoil_text_limit)
+    throw Error(ErrorCode::format, source, "more than 16 MiB, expected a small text file");
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // UTF-8 byte order mark
+  text = without_end_of_file(text);
+  std::string remark;  // the first one behind a row
+  int remark_line = 0;
   AirfoilRows result;
   bool first = true;
   for (int number = 1; !text.empty(); ++number) {
@@ -126,7 +158,10 @@ AirfoilRows read_airfoil_rows(std::string_view text, const std::string& source) 
     // Only the first line that says anything may be a name: "2412" or "63-206 modified" as well.
     if (first && !is_two_numbers(content)) {
       result.name = content;
+    } else if (is_remark(content)) {
+      if (remark.empty() && !result.rows.empty()) remark = content, remark_line = number;
     } else {
+      if (!remark.empty()) point_of(remark, source, remark_line);  // says what it is
       result.rows.push_back({point_of(content, source, number), number});
     }
     first = false;

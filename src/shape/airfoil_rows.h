@@ -2,6 +2,7 @@
 
 // A coordinate file as lines of two numbers, and what became of them: the steps between text and surfaces.
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,9 @@ struct AirfoilRows {
   std::string name;  // empty where the file has no name line
   std::vector<AirfoilRow> rows;
 };
+
+// Longer texts are no airfoils.
+inline constexpr std::size_t airfoil_text_limit = std::size_t{16} << 20;
 
 // The lines. Throws Error (format) for the first line that is not what a coordinate file may hold.
 AirfoilRows read_airfoil_rows(std::string_view text, const std::string& source);

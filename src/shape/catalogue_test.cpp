@@ -9,6 +9,7 @@
 
 #include "remodel/airfoil.h"
 #include "remodel/error.h"
+#include "remodel/shape_files.h"
 #include "support.h"
 
 namespace remodel {

@@ -1,7 +1,6 @@
 #include "remodel/domain.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -63,16 +62,6 @@ std::vector<double> mirrored_fractions(int n) {
   return fractions;
 }
 
-// The same, shared: the designs of a run have one airfoil's and one farfield's stations over and over, so the
-// last two lists are kept.
-Parameters shared_fractions(int n) {
-  thread_local std::array<Parameters, 2> last;
-  for (const Parameters& parameters : last)
-    if (parameters.size() == static_cast<std::size_t>(n)) return parameters;
-  std::swap(last[0], last[1]);
-  return last[0] = mirrored_fractions(n);
-}
-
 void expect(bool fulfilled, const char* option, double found, const char* expected) {
   if (fulfilled) return;
   std::ostringstream problem;
@@ -91,9 +80,10 @@ void check_options(const AirfoilDomainOptions& options) {
 }
 
 // No point of the airfoil is farther from (0.5, 0): x / chord is in [0, 1], and where the exponents are not
-// negative, neither the class function nor a Bernstein polynomial exceeds one. NaN if a coefficient is.
+// negative, neither the class function nor a Bernstein polynomial exceeds one.
 double reach_bound(const PlacedAirfoil& placed) {
   const CstAirfoil& airfoil = placed.airfoil;
+  if (!placed.outline.empty()) return std::numeric_limits<double>::infinity();
   if (!(airfoil.e1 >= 0.0 && airfoil.e2 >= 0.0)) return std::numeric_limits<double>::infinity();
   double height = std::abs(airfoil.te_upper) + std::abs(airfoil.te_lower);
   for (const auto* surface : {&airfoil.upper, &airfoil.lower})
@@ -118,14 +108,26 @@ void check_farfield_contains(const Domain& domain, std::size_t loop, const Place
   }
 }
 
+bool all_finite(const CstAirfoil& airfoil) {
+  const auto finite = [](double value) { return std::isfinite(value); };
+  return std::all_of(airfoil.upper.begin(), airfoil.upper.end(), finite) &&
+         std::all_of(airfoil.lower.begin(), airfoil.lower.end(), finite) && finite(airfoil.te_upper) &&
+         finite(airfoil.te_lower);
+}
+
 Loop airfoil_loop(const PlacedAirfoil& placed, int points) {
   const CstAirfoil& airfoil = placed.airfoil;
+  if (!placed.outline.empty())
+    return {.role = LoopRole::hole, .curves = placed.outline, .placement = placed.placement};
   expect(airfoil.upper.size() >= 2 && airfoil.upper.size() == airfoil.lower.size(), "airfoil coefficients",
          static_cast<double>(airfoil.lower.size()), "as many lower as upper ones, at least 2");
+  if (!all_finite(airfoil))
+    throw Error(ErrorCode::argument, "airfoil coefficients",
+                "found one that is not finite, expected numbers");
   expect(placed.placement.chord > 0.0 && std::isfinite(placed.placement.chord), "chord",
          placed.placement.chord, "more than 0");
   Loop body{.role = LoopRole::hole,
-            .curves = {{.name = placed.name, .shape = airfoil, .parameters = shared_fractions(points)}},
+            .curves = {{.name = placed.name, .shape = airfoil, .parameters = mirrored_fractions(points)}},
             .placement = placed.placement};
   if (airfoil.te_upper != airfoil.te_lower) {
     const Line trailing_edge{.from = airfoil.at(1.0), .to = airfoil.at(0.0)};
@@ -250,15 +252,38 @@ Frame::Frame(const Placement& placement)
       origin_(placement.position),
       identity_(placement == Placement{}) {}
 
+std::vector<Curve> outline_of(const AirfoilCoordinates& coordinates, OutlineCurve curve,
+                              const std::string& name) {
+  const auto in_file = [&](Point p) { return Point{p.x, p.y + coordinates.incline * p.x}; };
+  std::vector<Point> points;
+  for (auto p = coordinates.upper.rbegin(); p != coordinates.upper.rend(); ++p) points.push_back(in_file(*p));
+  for (auto p = coordinates.lower.begin(); p != coordinates.lower.end(); ++p)
+    if (points.empty() || !(in_file(*p) == points.back())) points.push_back(in_file(*p));
+  const Point upper_end = points.front(), lower_end = points.back();
+  Curve around{.name = name, .shape = Line{}, .parameters = {}};
+  if (curve == OutlineCurve::spline) {
+    const Spline spline = spline_through(std::move(points), SplineEnds::corner);
+    around.parameters = std::vector<double>(spline.knots.begin(), spline.knots.end() - 1);
+    around.shape = spline;
+  } else {
+    around.parameters = Parameters::uniform(points.size() - 1);
+    around.shape = Polyline{std::move(points)};
+  }
+  std::vector<Curve> curves{std::move(around)};
+  if (!(upper_end == lower_end))
+    curves.push_back({.name = name, .shape = Line{lower_end, upper_end}, .parameters = {0.0}});
+  return curves;
+}
+
 Domain airfoils_domain(const std::vector<PlacedAirfoil>& airfoils, const AirfoilDomainOptions& options) {
   check_options(options);
   Domain domain;
   for (const PlacedAirfoil& airfoil : airfoils) domain.loops.push_back(airfoil_loop(airfoil, options.points));
   const Arc circle{.centre = {0.5, 0.0}, .radius = options.farfield_radius};
-  domain.loops.push_back(
-      {.role = LoopRole::outer,
-       .curves = {
-           {.name = "farfield", .shape = circle, .parameters = shared_fractions(options.farfield_points)}}});
+  domain.loops.push_back({.role = LoopRole::outer,
+                          .curves = {{.name = "farfield",
+                                      .shape = circle,
+                                      .parameters = mirrored_fractions(options.farfield_points)}}});
   for (std::size_t loop = 0; loop < airfoils.size(); ++loop)
     check_farfield_contains(domain, loop, airfoils[loop], options);
   return domain;

@@ -7,7 +7,6 @@
 #include "json_reader.h"
 #include "remodel/domain.h"
 #include "remodel/error.h"
-#include "text_file.h"
 
 namespace remodel {
 namespace {
@@ -47,7 +46,9 @@ ordered_json json_of_shape(const Arc& arc) {
 ordered_json json_of_shape(const Spline& spline) {
   ordered_json points = ordered_json::array();
   for (const Point p : spline.points) points.push_back(json_of(p));
-  return {{"kind", "spline"}, {"points", std::move(points)}};
+  ordered_json result{{"kind", "spline"}, {"points", std::move(points)}};
+  if (spline.corner) result["corner"] = true;
+  return result;
 }
 
 ordered_json json_of(const Curve& curve) {
@@ -61,6 +62,8 @@ ordered_json json_of(const Loop& loop) {
   for (const Curve& curve : loop.curves) curves.push_back(json_of(curve));
   ordered_json result{{"role", name_of(loop.role)}, {"curves", std::move(curves)}};
   if (loop.open) result["open"] = true;
+  if (!loop.region.empty()) result["region"] = loop.region;
+  if (!loop.right_region.empty()) result["right_region"] = loop.right_region;
   if (!(loop.placement == Placement{})) {
     result["placement"] = {{"chord", finite(loop.placement.chord)},
                            {"rotation_deg", finite(loop.placement.rotation_deg)},
@@ -84,7 +87,8 @@ std::vector<Point> points_of(const JsonReader& reader) {
 
 Spline spline_of(const JsonReader& reader) {
   try {
-    return spline_through(points_of(reader));
+    const bool corner = reader.has("corner") && reader["corner"].truth();
+    return spline_through(points_of(reader), corner ? SplineEnds::corner : SplineEnds::smooth);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::argument) throw;
     reader["points"].refuse(error.what());
@@ -98,11 +102,10 @@ int whole_number(const JsonReader& reader, const char* key, int low, int high) {
   return static_cast<int>(value);
 }
 
-// Reads a domain. `directory` is where the names of airfoil files begin; without one, airfoils by name or
-// file are refused.
+// Reads a domain. Without a resolver airfoils by name are refused.
 class DomainReader {
  public:
-  explicit DomainReader(const std::filesystem::path* directory) : directory_(directory) {}
+  explicit DomainReader(const AirfoilResolver& resolve) : resolve_(resolve) {}
 
   Loop loop_of(const JsonReader& reader) const {
     if (!reader.is_object()) reader.refuse("expected an object");
@@ -117,7 +120,8 @@ class DomainReader {
     reader.expect_keys({"airfoil", "stations"}, {"name", "cst_degree", "placement"});
     const int stations = whole_number(reader, "stations", 8, 100000);
     if (stations % 2 != 0) reader["stations"].refuse("expected an even number");
-    Domain domain = airfoil_domain(named_airfoil(reader, "airfoil"), {.points = stations});
+    Domain domain =
+        airfoil_domain(named_airfoil(reader, "airfoil", TrailingEdge::kept), {.points = stations});
     Loop loop = std::move(domain.loops.front());
     if (reader.has("name"))
       for (Curve& curve : loop.curves) curve.name = reader["name"].text();
@@ -133,10 +137,12 @@ class DomainReader {
   }
 
   Loop loop_of_curves(const JsonReader& reader) const {
-    reader.expect_keys({"role", "curves"}, {"open", "placement"});
+    reader.expect_keys({"role", "curves"}, {"open", "placement", "region", "right_region"});
     Loop loop = with_role(reader);
     for (const JsonReader& element : reader["curves"].elements()) loop.curves.push_back(curve_of(element));
     if (reader.has("open")) loop.open = reader["open"].truth();
+    if (reader.has("region")) loop.region = reader["region"].text();
+    if (reader.has("right_region")) loop.right_region = reader["right_region"].text();
     return loop;
   }
 
@@ -170,7 +176,7 @@ class DomainReader {
     if (kind == "airfoil") {
       if (reader.has("shape")) {
         reader.expect_keys({"kind", "shape"}, {"cst_degree"});
-        return named_airfoil(reader, "shape");
+        return named_airfoil(reader, "shape", TrailingEdge::closed);
       }
       reader.expect_keys({"kind", "degree", "upper", "lower"}, {"e1", "e2", "te_upper", "te_lower"});
       return airfoil_of(reader);
@@ -184,7 +190,7 @@ class DomainReader {
       return Polyline{points_of(reader)};
     }
     if (kind == "spline") {
-      reader.expect_keys({"kind", "points"});
+      reader.expect_keys({"kind", "points"}, {"corner"});
       return spline_of(reader);
     }
     if (kind == "arc") {
@@ -197,29 +203,14 @@ class DomainReader {
     reader["kind"].refuse("found \"" + kind + "\", expected airfoil, line, polyline, spline or arc");
   }
 
-  // SHAPE of the command line; files relative to the domain's own.
-  CstAirfoil named_airfoil(const JsonReader& reader, const char* key) const {
-    if (directory_ == nullptr) reader[key].refuse("airfoils by name or file belong into a domain file");
+  CstAirfoil named_airfoil(const JsonReader& reader, const char* key, TrailingEdge trailing_edge) const {
+    if (!resolve_) reader[key].refuse("airfoils by name or file belong into a domain file");
     const int degree = reader.has("cst_degree") ? whole_number(reader, "cst_degree", 2, 12) : 5;
-    const std::string shape = reader[key].text();
-    const std::filesystem::path file = *directory_ / shape;
-    std::error_code ignored;
-    return load_airfoil(std::filesystem::is_regular_file(file, ignored) ? file.string() : shape, degree);
+    return resolve_(reader[key].text(), degree, trailing_edge);
   }
 
-  const std::filesystem::path* directory_;
+  const AirfoilResolver& resolve_;
 };
-
-Domain domain_of(std::string_view text, const std::string& source, const std::filesystem::path* directory) {
-  const nlohmann::json parsed = parse_json(text, source);
-  const JsonReader reader(parsed, source);
-  reader.expect_keys({"loops"});
-  const DomainReader domain_reader(directory);
-  Domain domain;
-  for (const JsonReader& element : reader["loops"].elements())
-    domain.loops.push_back(domain_reader.loop_of(element));
-  return domain;
-}
 
 }  // namespace
 
@@ -229,18 +220,20 @@ std::string domain_to_json(const Domain& domain) {
   return ordered_json{{"loops", std::move(loops)}}.dump();
 }
 
-Domain domain_from_json(std::string_view text, const std::string& source) {
-  return domain_of(text, source, nullptr);
+Domain domain_from_json(std::string_view text, const std::string& source, const AirfoilResolver& resolve) {
+  const nlohmann::json parsed = parse_json(text, source);
+  const JsonReader reader(parsed, source);
+  reader.expect_keys({"loops"});
+  const DomainReader domain_reader(resolve);
+  Domain domain;
+  for (const JsonReader& element : reader["loops"].elements())
+    domain.loops.push_back(domain_reader.loop_of(element));
+  return domain;
 }
 
-bool holds_domain(const std::filesystem::path& file) {
-  const nlohmann::json parsed = parse_json(read_text_file(file), file.string());
+bool holds_domain(std::string_view text, const std::string& source) {
+  const nlohmann::json parsed = parse_json(text, source);
   return parsed.is_object() && parsed.contains("loops");
-}
-
-Domain load_domain(const std::filesystem::path& file) {
-  const std::filesystem::path directory = file.parent_path();
-  return domain_of(read_text_file(file), file.string(), &directory);
 }
 
 }  // namespace remodel

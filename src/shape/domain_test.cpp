@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -128,6 +129,54 @@ TEST(AirfoilDomain, RefusesOptionsOutOfRange) {
   }
   EXPECT_EQ(code_of({.upper = {0.1}, .lower = {0.1}}, {}), ErrorCode::argument);
   EXPECT_EQ(code_of({.upper = {0.1, 0.1}, .lower = {0.1, 0.1, 0.1}}, {}), ErrorCode::argument);
+}
+
+TEST(AirfoilDomain, NamesACoefficientThatIsNoNumber) {
+  try {
+    airfoil_domain({.upper = {0.1, std::numeric_limits<double>::quiet_NaN()}, .lower = {-0.1, -0.1}});
+    ADD_FAILURE() << "no Error";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ErrorCode::argument);
+    EXPECT_NE(std::string(e.what()).find("coefficients"), std::string::npos) << e.what();
+  }
+}
+
+AirfoilCoordinates wedge(double gap) {
+  return {.name = "wedge",
+          .upper = {{0.0, 0.0}, {0.1, 0.05}, {0.3, 0.09}, {0.7, 0.06}, {1.0, 0.5 * gap}},
+          .lower = {{0.0, 0.0}, {0.1, -0.02}, {0.3, -0.03}, {0.7, -0.01}, {1.0, -0.5 * gap}},
+          .incline = 0.25};
+}
+
+// Every point of the file is a station, at its place in the file; the trailing edge is as open as there.
+TEST(OutlineAsGiven, GoesThroughThePointsOfTheFile) {
+  for (const double gap : {0.0, 0.02})
+    for (const OutlineCurve curve : {OutlineCurve::spline, OutlineCurve::polyline}) {
+      const AirfoilCoordinates file = wedge(gap);
+      const Domain domain =
+          airfoils_domain({{.name = "wedge", .airfoil = {}, .outline = outline_of(file, curve, "wedge")}},
+                          {.farfield_radius = 5});
+      EXPECT_NO_THROW(validate(domain));
+      EXPECT_EQ(domain.loops[0].curves.size(), gap > 0.0 ? 2u : 1u);
+      EXPECT_GT(signed_area(domain, 0), 0.0);
+      const std::vector<Point> points = domain.points(0);
+      ASSERT_EQ(points.size(), gap > 0.0 ? 9u : 8u);
+      for (const std::vector<Point>* surface : {&file.upper, &file.lower})
+        for (const Point p : *surface)
+          EXPECT_NE(std::find(points.begin(), points.end(), Point{p.x, p.y + 0.25 * p.x}), points.end())
+              << p.x << " " << p.y;
+      EXPECT_EQ(domain_from_json(domain_to_json(domain), "memory"), domain);
+    }
+}
+
+// Natural at a sharp trailing edge: a smooth one would turn the spline round there.
+TEST(OutlineAsGiven, HasACornerAtASharpTrailingEdge) {
+  const std::vector<Curve> curves = outline_of(wedge(0.0), OutlineCurve::spline, "wedge");
+  const auto& spline = std::get<Spline>(curves.front().shape);
+  EXPECT_TRUE(spline.corner);
+  EXPECT_EQ(spline.second.front(), (Point{}));
+  EXPECT_EQ(spline.second.back(), (Point{}));
+  EXPECT_NE(spline, spline_through(spline.points));
 }
 
 TEST(AirfoilDomain, RefusesAFarfieldThatDoesNotContainTheAirfoil) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <vector>
 
 #include "cst_row.h"
 #include "remodel/airfoil.h"
@@ -12,19 +13,26 @@
 namespace remodel {
 namespace {
 
+constexpr int lowest_degree = 2, highest_degree = 12;
+// Files have five or six digits.
+constexpr double least_gap = 1e-5;
+
 // One surface's points as equations: row i of basis times the coefficients is height i.
 struct Equations {
   Eigen::MatrixXd basis;
   Eigen::VectorXd heights;
+  Eigen::VectorXd removed;       // of each height, of a gap that stays closed
   Eigen::Index informative = 0;  // equations that are not 0 = 0: points strictly between the edges
 };
 
 // y over x is only defined on the chord: points a little outside count at its ends.
-Equations equations_of(const std::vector<Point>& surface, int degree) {
+Equations equations_of(const std::vector<Point>& surface, int degree, double trailing_edge) {
   const CstAirfoil paper_class;
   const Eigen::Index columns = degree + 1;
   const Eigen::Index count = static_cast<Eigen::Index>(surface.size());
-  Equations result{.basis = Eigen::MatrixXd(count, columns), .heights = Eigen::VectorXd(count)};
+  Equations result{.basis = Eigen::MatrixXd(count, columns),
+                   .heights = Eigen::VectorXd(count),
+                   .removed = Eigen::VectorXd(count)};
   std::vector<double> row(static_cast<std::size_t>(columns));
   for (Eigen::Index i = 0; i < count; ++i) {
     const Point p = surface[static_cast<std::size_t>(i)];
@@ -32,6 +40,7 @@ Equations equations_of(const std::vector<Point>& surface, int degree) {
     cst_row(x, 1.0 - x, paper_class.e1, paper_class.e2, row);
     for (Eigen::Index j = 0; j < columns; ++j) result.basis(i, j) = row[static_cast<std::size_t>(j)];
     result.heights(i) = p.y - x * surface.back().y;  // the trailing-edge gap, removed linearly
+    result.removed(i) = x * (surface.back().y - trailing_edge);
     if (x > 0.0 && x < 1.0) ++result.informative;
   }
   return result;
@@ -53,7 +62,7 @@ std::vector<double> solve(const Equations& equations, const std::string& where, 
     throw Error(ErrorCode::argument, where, problem.str());
   }
   const Eigen::VectorXd coefficients = qr.solve(equations.heights);
-  const Eigen::VectorXd errors = equations.basis * coefficients - equations.heights;
+  const Eigen::VectorXd errors = equations.basis * coefficients - equations.heights - equations.removed;
   residuals.largest = std::max(residuals.largest, errors.cwiseAbs().maxCoeff());
   residuals.sum_of_squares += errors.squaredNorm();
   return {coefficients.begin(), coefficients.end()};
@@ -69,21 +78,44 @@ void check_points(const std::vector<Point>& surface, const std::string& where) {
 
 }  // namespace
 
-CstFit fit_cst(const AirfoilCoordinates& coordinates, int degree) {
-  if (degree < 2 || degree > 12) {
+CstFit fit_cst(const AirfoilCoordinates& coordinates, int degree, TrailingEdge trailing_edge) {
+  if (degree < lowest_degree || degree > highest_degree) {
     throw Error(ErrorCode::argument, "CST degree", "found " + std::to_string(degree) + ", expected 2 to 12");
   }
   const std::string where = coordinates.name.empty() ? "airfoil" : coordinates.name;
   check_points(coordinates.upper, where);
   check_points(coordinates.lower, where);
-  Residuals residuals;
+  const double upper_end = coordinates.upper.back().y, lower_end = coordinates.lower.back().y;
   CstFit fit;
-  fit.airfoil.upper = solve(equations_of(coordinates.upper, degree), where, residuals);
-  fit.airfoil.lower = solve(equations_of(coordinates.lower, degree), where, residuals);
+  fit.gap = upper_end - lower_end;
+  if (trailing_edge == TrailingEdge::kept && fit.gap >= least_gap) {
+    fit.airfoil.te_upper = upper_end;
+    fit.airfoil.te_lower = lower_end;
+  }
+  Residuals residuals;
+  fit.airfoil.upper = solve(equations_of(coordinates.upper, degree, fit.airfoil.te_upper), where, residuals);
+  fit.airfoil.lower = solve(equations_of(coordinates.lower, degree, fit.airfoil.te_lower), where, residuals);
   const std::size_t points = coordinates.upper.size() + coordinates.lower.size();
   fit.max_error = residuals.largest;
   fit.rms_error = std::sqrt(residuals.sum_of_squares / static_cast<double>(points));
   return fit;
+}
+
+CstFit fit_cst_apart(const AirfoilCoordinates& coordinates, int degree, TrailingEdge trailing_edge) {
+  CstFit wanted = fit_cst(coordinates, degree, trailing_edge);
+  if (surfaces_apart(wanted.airfoil)) return wanted;
+  std::vector<int> others;
+  for (int other = degree + 1; other <= highest_degree; ++other) others.push_back(other);
+  for (int other = degree - 1; other >= lowest_degree; --other) others.push_back(other);
+  for (const int other : others) {
+    try {
+      CstFit fit = fit_cst(coordinates, other, trailing_edge);
+      if (surfaces_apart(fit.airfoil)) return fit;
+    } catch (const Error&) {
+      continue;  // too few points for so many coefficients
+    }
+  }
+  return wanted;
 }
 
 }  // namespace remodel

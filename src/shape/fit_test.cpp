@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "remodel/airfoil.h"
 #include "remodel/error.h"
@@ -38,15 +39,63 @@ TEST(Fit, RecoversTheCoefficientsOfACstAirfoil) {
   EXPECT_LT(fit.max_error, 1e-14);
 }
 
-TEST(Fit, RemovesAnOpenTrailingEdgeLinearly) {
-  const CstAirfoil closed{.upper = {0.2, 0.1, 0.3}, .lower = {-0.1, 0.05, -0.04}};
-  CstAirfoil open = closed;
-  open.te_upper = 0.004;
-  open.te_lower = -0.003;
+CstAirfoil open_section(double te_upper, double te_lower) {
+  return {.upper = {0.2, 0.1, 0.3}, .lower = {-0.1, 0.05, -0.04}, .te_upper = te_upper, .te_lower = te_lower};
+}
+
+TEST(Fit, KeepsAnOpenTrailingEdge) {
+  const CstAirfoil open = open_section(0.004, -0.003);
   const CstFit fit = fit_cst(sampled(open, 30), 2);
-  EXPECT_EQ(fit.airfoil.te_upper, 0.0);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(fit.airfoil.upper[i], closed.upper[i], 1e-12);
+  EXPECT_EQ(fit.airfoil.te_upper, 0.004);
+  EXPECT_EQ(fit.airfoil.te_lower, -0.003);
+  EXPECT_EQ(fit.gap, 0.007);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(fit.airfoil.upper[i], open.upper[i], 1e-12);
   EXPECT_LT(fit.max_error, 1e-14);
+}
+
+// The same coefficients; what was closed is an error of the fit.
+TEST(Fit, ClosesATrailingEdgeLinearlyWhereAskedTo) {
+  const CstAirfoil open = open_section(0.004, -0.003);
+  const CstFit fit = fit_cst(sampled(open, 30), 2, TrailingEdge::closed);
+  EXPECT_EQ(fit.airfoil.te_upper, 0.0);
+  EXPECT_EQ(fit.airfoil.te_lower, 0.0);
+  EXPECT_EQ(fit.gap, 0.007);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(fit.airfoil.upper[i], open.upper[i], 1e-12);
+  EXPECT_NEAR(fit.max_error, 0.004, 1e-14);
+}
+
+TEST(Fit, ClosesWhatIsRoundingOrCrossed) {
+  for (const auto& [upper, lower] : {std::pair{4e-6, -4e-6}, {-0.002, 0.002}}) {
+    const CstFit fit = fit_cst(sampled(open_section(upper, lower), 30), 2);
+    EXPECT_EQ(fit.airfoil.te_upper, 0.0);
+    EXPECT_EQ(fit.airfoil.te_lower, 0.0);
+    EXPECT_NEAR(fit.max_error, std::abs(upper), 1e-12);
+  }
+}
+
+// A section that is almost closed twice over its chord: its shape function is a polynomial of degree 8.
+AirfoilCoordinates pinched_section() {
+  AirfoilCoordinates section{.name = "pinched", .upper = {}, .lower = {}};
+  for (int i = 0; i <= 60; ++i) {
+    const double x = 0.5 * (1.0 - std::cos(3.14159265358979 * i / 60.0));
+    const double pinch = (x - 0.3) * (x - 0.8);
+    const double height = std::sqrt(x) * (1.0 - x) * (40.0 * pinch * pinch * pinch * pinch + 2e-4);
+    section.upper.push_back({x, i == 60 ? 0.0 : height});
+    section.lower.push_back({x, i == 60 ? 0.0 : -height});
+  }
+  return section;
+}
+
+TEST(Fit, TakesTheNextDegreeWhoseSurfacesAreApart) {
+  const AirfoilCoordinates section = pinched_section();
+  ASSERT_FALSE(surfaces_apart(fit_cst(section, 5).airfoil));
+  const CstFit fit = fit_cst_apart(section, 5);
+  EXPECT_TRUE(surfaces_apart(fit.airfoil));
+  EXPECT_GT(fit.airfoil.degree(), 5);
+  for (int degree = 6; degree < fit.airfoil.degree(); ++degree)
+    EXPECT_FALSE(surfaces_apart(fit_cst(section, degree).airfoil)) << degree;
+  const AirfoilCoordinates plain = naca_airfoil("2412");
+  EXPECT_EQ(fit_cst_apart(plain, 5).airfoil, fit_cst(plain, 5).airfoil);
 }
 
 TEST(Fit, GetsNoWorseWithTheDegreeAndNoBetterThanItsOwnErrors) {

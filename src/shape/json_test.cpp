@@ -8,6 +8,7 @@
 
 #include "remodel/domain.h"
 #include "remodel/error.h"
+#include "remodel/shape_files.h"
 #include "support.h"
 
 namespace remodel {
@@ -32,7 +33,9 @@ std::string airfoil_refusal(const std::string& text) {
   return refusal(airfoil_from_json, text);
 }
 std::string domain_refusal(const std::string& text) {
-  return refusal(domain_from_json, text);
+  return refusal(
+      [](const std::string& json, const std::string& source) { return domain_from_json(json, source); },
+      text);
 }
 
 bool says(const std::string& message, const std::string& part) {

@@ -68,9 +68,11 @@ std::vector<double> chord_knots(const std::vector<Point>& points) {
 
 // The second derivatives M satisfy, with h the knot distances and s the slopes of the polygon's sides,
 // h[i-1] M[i-1] + 2 (h[i-1] + h[i]) M[i] + h[i] M[i+1] = 6 (s[i] - s[i-1]).
-Spline spline_through(std::vector<Point> points) {
+Spline spline_through(std::vector<Point> points, SplineEnds ends) {
   require_points(points);
   Spline spline{.points = std::move(points), .knots = {}, .second = {}};
+  const bool meets = spline.points.front() == spline.points.back();
+  spline.corner = meets && ends == SplineEnds::corner;
   spline.knots = chord_knots(spline.points);
   const std::size_t n = spline.points.size();
   std::vector<double> h;
@@ -80,7 +82,7 @@ Spline spline_through(std::vector<Point> points) {
     slope.push_back((1.0 / h[i]) * (spline.points[i + 1] - spline.points[i]));
   }
   spline.second.assign(n, {});
-  const bool closed = spline.points.front() == spline.points.back();
+  const bool closed = meets && !spline.corner;
   const std::size_t first = closed ? 0 : 1;  // rows first ... n - 2
   if (n - 1 <= first) return spline;
   std::vector<double> diagonal, sub;

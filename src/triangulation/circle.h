@@ -18,6 +18,7 @@ struct Circle {
   // Infinite where nothing is certain: slivers, ghosts.
   double squared_radius() const { return 0.5 * (inside + outside); }
   bool certain() const { return inside > 0.0; }  // then its triangle is certainly counter-clockwise too
+  friend bool operator==(const Circle&, const Circle&) = default;
 };
 
 // The circle of a, b, c from a, the edges e1 = b - a and e2 = c - a as rounded, and their squared lengths.

@@ -19,6 +19,7 @@ ConstrainResult Triangulation::find_crossings(VertexId a, VertexId b) {
     if (x != infinite_vertex && side(x) == 0 && dot(point(x) - pa, pb - pa) > 0.0)
       return {Kind::vertex, x, {}};
     if (x != infinite_vertex && y != infinite_vertex && side(x) < 0 && side(y) > 0) break;
+    if (counterclockwise(c).triangle == first.triangle) return {Kind::blocked, {}, {}};  // a dent of the hull
   }
   Corner edge = c;  // crossed: the edge opposite this corner
   for (;;) {
@@ -26,7 +27,7 @@ ConstrainResult Triangulation::find_crossings(VertexId a, VertexId b) {
     const Link link = this->link(edge);
     if (link.constrained()) return {Kind::blocked, right, left};
     crossings_.push_back({right, left});
-    const VertexId apex = vertex({link.triangle(), link.corner()});
+    const VertexId apex = this->apex(link);
     if (apex == b) return {};
     const int s = side(apex);
     if (s == 0) return {Kind::vertex, apex, {}};
@@ -48,8 +49,7 @@ void Triangulation::flip_crossings(VertexId a, VertexId b) {
         waiting_.push_back(crossing);
         continue;
       }
-      const Link across = link(c);
-      const VertexId p = vertex(c), q = vertex({across.triangle(), across.corner()});
+      const VertexId p = vertex(c), q = apex(link(c));
       flip(c);
       const auto side = [&](VertexId v) {
         return v == a || v == b ? 0 : orient2d(point(a), point(b), point(v));
@@ -66,7 +66,7 @@ void Triangulation::flip_crossings(VertexId a, VertexId b) {
   stack_.clear();
   for (const auto& [p, q] : made_)
     if (const auto c = find_edge(p, q)) stack_.push_back(*c);
-  legalise(stack_);
+  legalise();
 }
 
 ConstrainResult Triangulation::constrain(VertexId a, VertexId b) {
@@ -84,7 +84,7 @@ void Triangulation::release(VertexId a, VertexId b) {
   set_constraint(c, false);
   stack_.clear();
   stack_.push_back(c);
-  legalise(stack_);
+  legalise();
 }
 
 }  // namespace remodel

@@ -7,7 +7,7 @@
 // normal at w; so would w - p: a contradiction. (Ties count as the symbolic perturbation says and are
 // excluded in the same way.) So the cavity has no inner vertex, and triangles reached through unconstrained
 // edges form a tree. The argument does not ask that p lies in the cavity: a search for a point behind a
-// constraint ends too.
+// constraint ends too, unless the point lies on a vertex there: then the search counts its triangles.
 
 #include <cassert>
 
@@ -19,7 +19,7 @@ namespace remodel {
 // Depth first, the edges of each triangle in counter-clockwise order: the ring comes out in order. An edge is
 // kept as its link and the vertex where it begins, both as seen from the inside. Behind it lie, in order, the
 // neighbour's edge that begins at the same vertex and the one that begins at the neighbour's apex.
-void Triangulation::find_cavity(Point p, TriangleId start, Cavity& cavity) const {
+bool Triangulation::find_cavity(Point p, TriangleId start, Cavity& cavity) const {
   Buffer<TriangleId>::Writer triangles(cavity.triangles);
   Buffer<RingEdge>::Writer ring(cavity.ring), todo(cavity.todo);
   bool constrained = false;
@@ -32,6 +32,7 @@ void Triangulation::find_cavity(Point p, TriangleId start, Cavity& cavity) const
       const Triangle& triangle = triangles_[link.triangle().index];
       const int apex = link.corner();
       const Link later = triangle.link[previous3(apex)];
+      if (triangles.size() == triangles_.size()) return false;
       triangles.push_back(link.triangle());
       todo.push_back({triangle.vertex[apex], later});
       prefetch(later.triangle());
@@ -42,6 +43,7 @@ void Triangulation::find_cavity(Point p, TriangleId start, Cavity& cavity) const
     prefetch(from);
   }
   cavity.constrained = constrained;
+  return true;
 }
 
 // New triangle k is (p, from_k, from_k+1); the cavity's own slots are used first, then two more.
@@ -121,11 +123,11 @@ std::optional<VertexId> Triangulation::split(Corner edge, Point p) {
   const Region far_region = triangles_[other.triangle.index].region;
   cavity_.triangles.clear();
   cavity_.ring.clear();
-  find_cavity(p, edge.triangle, near_);
+  if (!find_cavity(p, edge.triangle, near_)) return std::nullopt;
   append_side(near_, link(edge), cavity_);
   const std::size_t near_edges = cavity_.ring.size();
   if (in_conflict(other.triangle, p)) {
-    find_cavity(p, other.triangle, far_);
+    if (!find_cavity(p, other.triangle, far_)) return std::nullopt;
     append_side(far_, link(other), cavity_);
   } else {
     cavity_.ring.push_back({a, Link(other.triangle, other.index, false)});
@@ -143,7 +145,8 @@ Triangulation::Inserted Triangulation::insert(Point p, TriangleId hint) {
   const Corner corner{where.triangle, where.corner};
   if (where.kind == Location::Kind::on_vertex) return {vertex(corner), false};
   if (where.kind == Location::Kind::on_edge && link(corner).constrained()) return {*split(corner, p), true};
-  find_cavity(p, where.triangle, cavity_);
+  [[maybe_unused]] const bool found = find_cavity(p, where.triangle, cavity_);
+  assert(found);
   return {fill_cavity(p, cavity_), true};
 }
 

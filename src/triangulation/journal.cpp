@@ -20,19 +20,11 @@ void Triangulation::remember(TriangleId t) {
   triangles_[t.index].journal = journal_;
 }
 
-// Its first change in a part of the list. Precondition: journalling.
+// The first change of a vertex since begin().
 void Triangulation::remember(VertexId v) {
+  if (!journalling_) return;
   if (v.index < vertex_slots_before_) earlier_vertices_.push_back({v, vertices_[v.index]});
-  listed_in_part_[v.index] = part_;
-}
-
-std::size_t Triangulation::begin_part_of_earlier_vertices() {
-  assert(journalling_);
-  if (++part_ == 0) {  // marks of as many parts ago would be mistaken for new ones
-    std::fill(listed_in_part_.begin(), listed_in_part_.end(), 0);
-    part_ = 1;
-  }
-  return earlier_vertices_.size();
+  vertex_journals_[v.index] = journal_;
 }
 
 bool Triangulation::same_edges(const Triangle& a, const Triangle& b) {
@@ -42,9 +34,21 @@ bool Triangulation::same_edges(const Triangle& a, const Triangle& b) {
   return true;
 }
 
+void Triangulation::FreeList::commit() {
+  slots.resize(count);
+  slots.insert(slots.end(), pending.begin(), pending.end());
+  count = slots.size();
+  pending.clear();
+}
+
+void Triangulation::FreeList::rollback() {
+  count = slots.size();
+  pending.clear();
+}
+
 void Triangulation::begin() {
   assert(!journalling_);
-  for (FreeList* list : {&free_vertices_, &free_triangles_}) list->slots.resize(list->count);
+  for (FreeList* list : {&free_vertices_, &free_triangles_}) list->begin();
   vertex_slots_before_ = vertices_.size();
   triangle_slots_before_ = triangles_.size();
   live_vertices_before_ = live_vertices_;
@@ -56,24 +60,18 @@ void Triangulation::begin() {
   inserted_ = removed_ = 0;
   if (++journals_ == 0) {  // marks of 65535 journals ago would be mistaken for new ones
     for (Triangle& t : triangles_) t.journal = 0;
+    std::fill(vertex_journals_.begin(), vertex_journals_.end(), 0);
     journals_ = 1;
   }
   journal_ = journals_;
   journalling_ = true;
-  begin_part_of_earlier_vertices();
 }
 
 void Triangulation::commit() {
   assert(journalling_);
   // All that may throw comes first: until then rollback() is still possible.
-  for (FreeList* list : {&free_vertices_, &free_triangles_})
-    list->slots.reserve(list->count + list->pending.size());
-  for (FreeList* list : {&free_vertices_, &free_triangles_}) {
-    list->slots.resize(list->count);
-    list->slots.insert(list->slots.end(), list->pending.begin(), list->pending.end());
-    list->count = list->slots.size();
-    list->pending.clear();
-  }
+  for (FreeList* list : {&free_vertices_, &free_triangles_}) list->reserve();
+  for (FreeList* list : {&free_vertices_, &free_triangles_}) list->commit();
   journalling_ = false;
   journal_ = 0;
 }
@@ -93,12 +91,9 @@ void Triangulation::rollback() {
   for (const std::uint32_t index : generation_journal_) --generations_[index];
   vertices_.truncate(vertex_slots_before_);
   generations_.truncate(vertex_slots_before_);
-  listed_in_part_.truncate(vertex_slots_before_);
+  vertex_journals_.truncate(vertex_slots_before_);
   triangles_.truncate(triangle_slots_before_);
-  for (FreeList* list : {&free_vertices_, &free_triangles_}) {
-    list->count = list->slots.size();
-    list->pending.clear();
-  }
+  for (FreeList* list : {&free_vertices_, &free_triangles_}) list->rollback();
   live_vertices_ = live_vertices_before_;
   touched_.clear();
   triangle_journal_.clear();
@@ -145,7 +140,7 @@ std::string Triangulation::check() const {
     const Triangle& t = triangles_[index];
     if (!t.alive() || t.ghost()) continue;
     for (int i = 0; i < 3; ++i) {
-      const VertexId apex = vertex({t.link[i].triangle(), t.link[i].corner()});
+      const VertexId apex = this->apex(t.link[i]);
       if (!t.link[i].constrained() && in_conflict(t.vertex[0], t.vertex[1], t.vertex[2], apex))
         return "triangle " + std::to_string(index) + ": edge opposite corner " + std::to_string(i) +
                " is not locally Delaunay";

@@ -175,9 +175,6 @@ bool Triangulation::is_ear(const std::vector<StarEdge>& polygon, std::size_t i) 
 // cut() gets stuck.
 void Triangulation::write_ears(const Hole& hole, Region region) {
   std::vector<StarEdge> polygon(hole.polygon.begin(), hole.polygon.end());
-  const auto attach = [this](Corner inner, Link outer) {
-    connect(inner, {outer.triangle(), outer.corner()}, outer.constrained());
-  };
   for (std::size_t used = 0; polygon.size() >= 3; ++used) {
     const std::size_t n = polygon.size();
     std::size_t ear = n == 3 ? 1 : 0;
@@ -264,32 +261,30 @@ bool Triangulation::unsplit(VertexId v) {
 }
 
 // The triangles at the vertices of a patch, which grows from `seed` by neighbours that wait to be removed.
-// They are marked.
 void Triangulation::grow_patch(VertexId seed, std::size_t size, Hole& hole) {
   hole.clear();
   hole.patch.clear();
+  in_hole_.clear(triangles_.size());
   const auto take = [&](VertexId v) {
-    if (hole.patch.size() == size || removal_[v.index] != Removal::waiting) return;
-    removal_[v.index] = Removal::taken;
+    if (hole.patch.size() == size || !to_remove_.contains(v)) return;
+    to_remove_.erase(v);
     hole.patch.push_back(v);
   };
   take(seed);
   for (std::size_t i = 0; i < hole.patch.size(); ++i)
     for_each_corner(hole.patch[i], [&](Corner c) {
       take(following(c));
-      if (triangles_[c.triangle.index].badness == in_hole) return;
-      hole.slots.push_back(c.triangle);
-      triangles_[c.triangle.index].badness = in_hole;
+      if (in_hole_.insert(c.triangle)) hole.slots.push_back(c.triangle);
     });
 }
 
-// The border of the marked triangles as one polygon. False if it is not a simple one, if other vertices than
+// The border of the hole's triangles as one polygon. False if it is not a simple one, if other vertices than
 // the patch are inside, or constrained edges.
 bool Triangulation::collect_border(Hole& hole) {
   for (const TriangleId slot : hole.slots) {
     const Triangle& t = triangles_[slot.index];
     for (int i = 0; i < 3; ++i) {
-      const bool inner = triangles_[t.link[i].triangle().index].badness == in_hole;
+      const bool inner = in_hole_.contains(t.link[i].triangle());
       if (inner && t.link[i].constrained()) return false;
       if (inner) continue;
       const VertexId from = t.vertex[next3(i)];
@@ -312,37 +307,25 @@ bool Triangulation::collect_border(Hole& hole) {
 }
 
 void Triangulation::remove(std::span<const VertexId> vertices) {
-  removal_.resize(vertices_.size(), Removal::none);
+  to_remove_.clear(vertices_.size());
+  for (const VertexId v : vertices) to_remove_.insert(v);
   edge_from_.resize(vertices_.size());
-  hole_.clear();
-  struct Unmark {  // also when an allocation fails
-    Triangulation& triangulation;
-    std::span<const VertexId> vertices;
-    ~Unmark() {
-      for (const TriangleId slot : triangulation.hole_.slots)
-        triangulation.triangles_[slot.index].badness = 0;
-      for (const VertexId v : vertices) triangulation.removal_[v.index] = Removal::none;
-    }
-  } unmark{*this, vertices};
-  for (const VertexId v : vertices) removal_[v.index] = Removal::waiting;
   for (const VertexId v : vertices)
-    for (std::size_t size = largest_patch; removal_[v.index] == Removal::waiting; size /= 8)
-      remove_patch(v, size);
+    for (std::size_t size = largest_patch; to_remove_.contains(v); size /= 8) remove_patch(v, size);
 }
 
 // Removes the seed and up to `size` - 1 of the waiting vertices about it; nothing if they leave a hole that
 // cannot be cut, which one vertex always can.
 void Triangulation::remove_patch(VertexId seed, std::size_t size) {
   if (size <= 1) {
-    removal_[seed.index] = Removal::none;
-    hole_.clear();
+    to_remove_.erase(seed);
     return remove(seed);
   }
   grow_patch(seed, size, hole_);
-  const bool is_cut = collect_border(hole_) && cut(hole_);
-  for (const TriangleId slot : hole_.slots) triangles_[slot.index].badness = 0;
-  for (const VertexId v : hole_.patch) removal_[v.index] = is_cut ? Removal::none : Removal::waiting;
-  if (is_cut) fill(hole_, {hole_.patch.begin(), hole_.patch.size()}, true);
+  if (collect_border(hole_) && cut(hole_))
+    fill(hole_, {hole_.patch.begin(), hole_.patch.size()}, true);
+  else
+    for (const VertexId v : hole_.patch) to_remove_.insert(v);
 }
 
 }  // namespace remodel

@@ -1,9 +1,6 @@
 #include "triangulation/slot_array.h"
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
-#include <mutex>
 
 #ifdef __linux__
 #include <sys/mman.h>
@@ -25,48 +22,6 @@ void deallocate(void* data) {
 constexpr std::size_t heap_limit = std::size_t{16} << 20;
 constexpr std::size_t huge_page = std::size_t{2} << 20;
 
-// The pages of arrays that are gone, for those to come: the largest two, which of a mesh are its triangles
-// and its vertices. Where the system is a virtual machine, new pages may cost it twenty times what it takes
-// to fill them. It may take these back whenever it is short of memory; of address space they are unmapped.
-class SparePages {
- public:
-  // The fewest that are enough, at most four times as many, or none.
-  SlotMemory take(std::size_t bytes) {
-    const std::scoped_lock lock(mutex_);
-    SlotMemory* fewest = nullptr;
-    for (SlotMemory& kept : kept_)
-      if (kept.bytes >= bytes && kept.bytes / 4 <= bytes && (fewest == nullptr || kept.bytes < fewest->bytes))
-        fewest = &kept;
-    return fewest == nullptr ? SlotMemory{} : std::exchange(*fewest, {});
-  }
-  // What is not kept is unmapped: the least.
-  void put(SlotMemory memory) {
-    if (madvise(memory.data, memory.bytes, MADV_FREE) == 0) {
-      const std::scoped_lock lock(mutex_);
-      for (SlotMemory& kept : kept_)
-        if (kept.bytes < memory.bytes) std::swap(kept, memory);
-    }
-    if (memory.data != nullptr) munmap(memory.data, memory.bytes);
-  }
-  // Whether there were any.
-  bool unmap() {
-    const std::scoped_lock lock(mutex_);
-    bool any = false;
-    for (SlotMemory& kept : kept_) {
-      if (kept.data == nullptr) continue;
-      munmap(kept.data, kept.bytes);
-      kept = {};
-      any = true;
-    }
-    return any;
-  }
-
- private:
-  std::mutex mutex_;
-  std::array<SlotMemory, 2> kept_;
-};
-constinit SparePages spare_pages;
-
 // Address space that begins at a huge page; below and above, less than one huge page is left over.
 struct Reservation {
   std::byte* whole;
@@ -75,9 +30,7 @@ struct Reservation {
 
   explicit Reservation(std::size_t size) : bytes(size) {
     constexpr int flags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE;
-    void* data = mmap(nullptr, bytes + huge_page, PROT_READ | PROT_WRITE, flags, -1, 0);
-    if (data == MAP_FAILED && spare_pages.unmap())
-      data = mmap(nullptr, bytes + huge_page, PROT_READ | PROT_WRITE, flags, -1, 0);
+    void* const data = mmap(nullptr, bytes + huge_page, PROT_READ | PROT_WRITE, flags, -1, 0);
     if (data == MAP_FAILED) throw std::bad_alloc();
     whole = static_cast<std::byte*>(data);
     aligned = whole + (huge_page - reinterpret_cast<std::uintptr_t>(data) % huge_page) % huge_page;
@@ -92,8 +45,6 @@ struct Reservation {
 // Pages of the given size that begin with those of `from`, if there are any.
 SlotMemory map(std::size_t bytes, SlotMemory from) {
   bytes = (bytes + huge_page - 1) / huge_page * huge_page;
-  if (from.data == nullptr)
-    if (const SlotMemory spare = spare_pages.take(bytes); spare.data != nullptr) return spare;
   const Reservation place(bytes);
   if (from.data != nullptr &&
       mremap(from.data, from.bytes, bytes, MREMAP_MAYMOVE | MREMAP_FIXED, place.aligned) == MAP_FAILED) {
@@ -106,7 +57,7 @@ SlotMemory map(std::size_t bytes, SlotMemory from) {
 }
 
 void unmap(SlotMemory memory) {
-  spare_pages.put(memory);
+  munmap(memory.data, memory.bytes);
 }
 
 #else

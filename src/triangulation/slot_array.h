@@ -4,8 +4,7 @@
 // as bytes, which never holds two copies of a large array. Up to 16 megabytes it lives on the heap and is
 // copied when it grows. Beyond, it has pages of its own, which the system moves without copying them; unused
 // capacity is address space only. These pages ask to be huge ones: a mesh is visited all over, and much of
-// the time of a large one would go into address translation. Those of the largest two arrays that are gone
-// stay with the process for the next ones, until the system is short of memory.
+// the time of a large one would go into address translation.
 
 #include <algorithm>
 #include <cstddef>

@@ -35,38 +35,6 @@ TEST(SlotArray, TakesARecordOfItsOwn) {
   for (const Record& record : records) EXPECT_EQ(record.value, 1U);
 }
 
-// Arrays of their own pages, and of the pages of others that are gone: of the largest two, and each once.
-TEST(SlotArray, UsesThePagesOfThoseThatAreGone) {
-#ifndef __linux__
-  GTEST_SKIP() << "arrays of any size are on the heap";
-#endif
-  const auto filled = [](std::size_t count, std::uint64_t value) {
-    SlotArray<Record> records;
-    records.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) records.push_back({value + i});
-    return records;
-  };
-  constexpr std::size_t count = std::size_t{1} << 20;  // 64 megabytes
-  SlotArray<Record> earlier[2];                        // of other tests
-  earlier[0].reserve(3 * count);
-  earlier[1].reserve(2 * count);
-  const Record* place[3];
-  {
-    const SlotArray<Record> arrays[] = {filled(3 * count, 1), filled(count, 2), filled(2 * count, 3)};
-    for (int i = 0; i < 3; ++i) place[i] = arrays[i].begin();
-  }
-  const SlotArray<Record> least = filled(count, 10), next = filled(count, 20), last = filled(count, 30);
-  EXPECT_EQ(least.begin(), place[2]);
-  EXPECT_EQ(next.begin(), place[0]);
-  EXPECT_NE(last.begin(), place[0]);
-  EXPECT_NE(last.begin(), place[2]);
-  for (std::size_t i = 0; i < count; ++i) {
-    ASSERT_EQ(least[i].value, 10 + i);
-    ASSERT_EQ(next[i].value, 20 + i);
-    ASSERT_EQ(last[i].value, 30 + i);
-  }
-}
-
 TEST(SlotArray, IsMovedAndCopied) {
   SlotArray<std::uint32_t> a;
   a.push_back(1);

@@ -13,7 +13,7 @@ namespace remodel {
 // the next vertex; a copy is to be begun anew.
 class Spokes {
  public:
-  // Of a vertex at p with n neighbours: set() each, then compute().
+  // Begins with a vertex at p of n neighbours: set() each, then compute().
   void begin(Point p, std::size_t n) {
     const std::size_t stride = whole_vectors(n) * vector_lanes;
     edges_.resize(stride + 1);
@@ -27,7 +27,7 @@ class Spokes {
 
   std::size_t size() const { return size_; }
   double length(std::size_t k) const { return row(length_row)[k]; }
-  // Of the triangle between edges k and k + 1.
+  // The circle of the triangle between edges k and k + 1.
   Circle circle(std::size_t k) const {
     return {{row(x_row)[k], row(y_row)[k]}, row(inside_row)[k], row(outside_row)[k]};
   }

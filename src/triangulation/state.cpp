@@ -5,18 +5,15 @@
 namespace remodel {
 
 TriangulationState TriangulationState::of(const Triangulation& t) {
-  TriangulationState state{{t.vertices_.begin(), t.vertices_.end()},
-                           {t.generations_.begin(), t.generations_.end()},
-                           {t.triangles_.begin(), t.triangles_.end()},
-                           t.free_vertices_.slots,
-                           t.free_triangles_.slots};
-  const auto as_committed = [](const Triangulation::FreeList& list, std::vector<std::uint32_t>& slots) {
-    slots.resize(list.count);
-    slots.insert(slots.end(), list.pending.begin(), list.pending.end());
+  const auto as_committed = [](Triangulation::FreeList list) {
+    list.commit();
+    return list.slots;
   };
-  as_committed(t.free_vertices_, state.free_vertices);
-  as_committed(t.free_triangles_, state.free_triangles);
-  return state;
+  return {{t.vertices_.begin(), t.vertices_.end()},
+          {t.generations_.begin(), t.generations_.end()},
+          {t.triangles_.begin(), t.triangles_.end()},
+          as_committed(t.free_vertices_),
+          as_committed(t.free_triangles_)};
 }
 
 // What must hold before anything may follow a link or an id.
@@ -62,7 +59,7 @@ std::string TriangulationState::restore(Triangulation& result) const {
   Triangulation t;
   t.vertices_ = SlotArray<Vertex>(vertices);
   t.generations_ = SlotArray<std::uint32_t>(generations);
-  t.listed_in_part_ = SlotArray<std::uint32_t>(std::vector<std::uint32_t>(vertices.size(), 0));
+  t.vertex_journals_ = SlotArray<std::uint16_t>(std::vector<std::uint16_t>(vertices.size(), 0));
   t.triangles_ = SlotArray<Triangle>(triangles);
   t.free_vertices_ = {free_vertices, free_vertices.size(), {}};
   t.free_triangles_ = {free_triangles, free_triangles.size(), {}};

@@ -45,11 +45,6 @@ struct Link {
   TriangleId triangle() const { return TriangleId{bits >> 3}; }
   int corner() const { return static_cast<int>(bits & 3U); }
   bool constrained() const { return (bits & 4U) != 0; }
-  Link with_constraint(bool constrained) const {
-    Link result;
-    result.bits = (bits & ~4U) | (constrained ? 4U : 0U);
-    return result;
-  }
   friend bool operator==(Link, Link) = default;
 };
 
@@ -68,6 +63,7 @@ struct alignas(64) Triangle {
   std::uint16_t journal = 0;  // the journal that holds this triangle's earlier state
 
   bool alive() const { return static_cast<bool>(vertex[0]); }
+  bool in_domain() const { return alive() && region == Region::domain; }
   bool ghost() const {
     return vertex[0] == infinite_vertex || vertex[1] == infinite_vertex || vertex[2] == infinite_vertex;
   }

@@ -13,16 +13,20 @@ namespace remodel {
 
 // ---- slots
 
+void Triangulation::FreeList::put(std::uint32_t slot, bool journalling) {
+  if (journalling) return pending.push_back(slot);
+  slots.resize(count);
+  slots.push_back(slot);
+  ++count;
+}
+
 TriangleId Triangulation::new_triangle() {
   if (std::vector<std::uint32_t>& freed = free_triangles_.pending; !freed.empty()) {
     const TriangleId t{freed.back()};
     freed.pop_back();
     return t;
   }
-  if (free_triangles_.count > 0) {
-    if (const std::uint32_t* later = free_triangles_.ahead()) __builtin_prefetch(&triangles_[*later], 1);
-    return TriangleId{free_triangles_.slots[--free_triangles_.count]};
-  }
+  if (free_triangles_.count > 0) return TriangleId{free_triangles_.slots[--free_triangles_.count]};
   triangles_.push_back({});
   return TriangleId{static_cast<std::uint32_t>(triangles_.size() - 1)};
 }
@@ -32,29 +36,18 @@ void Triangulation::free_triangle(TriangleId t) {
   const std::uint16_t journal = triangle.journal;
   triangle = Triangle{};
   triangle.journal = journal;
-  if (journalling_) {
-    free_triangles_.pending.push_back(t.index);
-    return;
-  }
-  free_triangles_.slots.resize(free_triangles_.count);
-  free_triangles_.slots.push_back(t.index);
-  ++free_triangles_.count;
+  free_triangles_.put(t.index, journalling_);
 }
 
 VertexId Triangulation::new_vertex(Point p) {
   VertexId v;
   if (free_vertices_.count > 0) {
-    if (const std::uint32_t* later = free_vertices_.ahead()) {
-      __builtin_prefetch(&vertices_[*later], 1);
-      __builtin_prefetch(&generations_[*later], 1);
-      __builtin_prefetch(&listed_in_part_[*later], 1);
-    }
     v = VertexId{free_vertices_.slots[--free_vertices_.count]};
   } else {
     v = VertexId{static_cast<std::uint32_t>(vertices_.size())};
     vertices_.push_back({});
-    generations_.push_back(0);
-    listed_in_part_.push_back(0);
+    generations_.push_back(generations_[infinite_vertex.index]);
+    vertex_journals_.push_back(0);
   }
   Vertex& vertex = edit(v);
   vertex = Vertex{};
@@ -70,27 +63,27 @@ void Triangulation::free_vertex(VertexId v) {
   edit(v) = Vertex{};
   --live_vertices_;
   ++removed_;
-  if (journalling_) {
-    free_vertices_.pending.push_back(v.index);
-    return;
-  }
-  free_vertices_.slots.resize(free_vertices_.count);
-  free_vertices_.slots.push_back(v.index);
-  ++free_vertices_.count;
+  free_vertices_.put(v.index, journalling_);
+}
+
+// The infinite vertex has no generation of its own: its entry is where new slots begin.
+void Triangulation::begin_generations_after(const Triangulation& other) {
+  const std::uint32_t base = 1 + *std::max_element(other.generations_.begin(), other.generations_.end());
+  for (std::uint32_t& generation : generations_) generation += base;
 }
 
 void Triangulation::reserve(std::size_t triangles) {
   triangles_.reserve(triangles);
   vertices_.reserve(triangles / 2);
   generations_.reserve(triangles / 2);
-  listed_in_part_.reserve(triangles / 2);
+  vertex_journals_.reserve(triangles / 2);
 }
 
 void Triangulation::start(Point a, Point b, Point c) {
   assert(vertices_.empty());
   vertices_.push_back({});  // the infinite vertex
   generations_.push_back(0);
-  listed_in_part_.push_back(0);
+  vertex_journals_.push_back(0);
   if (orient2d(a, b, c) < 0) std::swap(b, c);
   const VertexId va = new_vertex(a), vb = new_vertex(b), vc = new_vertex(c);
   const TriangleId inner = new_triangle();
@@ -106,24 +99,23 @@ void Triangulation::start(Point a, Point b, Point c) {
 
 // ---- corners and links
 
+VertexId Triangulation::first_vertex() const {
+  std::uint32_t i = 1;
+  while (!vertices_[i].alive()) ++i;
+  return VertexId{i};
+}
+
 bool Triangulation::at_constraint(VertexId v) const {
-  const Corner first = star(v);
-  Corner c = first;
-  do {
-    if (link({c.triangle, next3(c.index)}).constrained()) return true;
-    c = counterclockwise(c);
-  } while (c.triangle != first.triangle);
-  return false;
+  return any_corner(v, [&](Corner c) { return link({c.triangle, next3(c.index)}).constrained(); });
 }
 
 std::optional<Corner> Triangulation::find_edge(VertexId a, VertexId b) const {
-  const Corner first = star(a);
-  Corner c = first;
-  do {
-    if (following(c) == b) return Corner{c.triangle, previous3(c.index)};
-    c = counterclockwise(c);
-  } while (c.triangle != first.triangle);
-  return std::nullopt;
+  std::optional<Corner> edge;
+  any_corner(a, [&](Corner c) {
+    if (following(c) == b) edge = {c.triangle, previous3(c.index)};
+    return edge.has_value();
+  });
+  return edge;
 }
 
 void Triangulation::connect(Corner a, Corner b, bool constrained) {
@@ -132,8 +124,7 @@ void Triangulation::connect(Corner a, Corner b, bool constrained) {
 }
 
 void Triangulation::set_constraint(Corner c, bool constrained) {
-  const Link link = triangles_[c.triangle.index].link[c.index];
-  connect(c, {link.triangle(), link.corner()}, constrained);
+  connect(c, corner(link(c)), constrained);
 }
 
 void Triangulation::write(TriangleId t, VertexId a, VertexId b, VertexId c, Region region,
@@ -198,9 +189,6 @@ void Triangulation::flip(Corner corner) {
   const VertexId a = t.vertex[i], b = t.vertex[next3(i)], c = t.vertex[previous3(i)], d = u.vertex[j];
   write(first, a, b, d, t.region);
   write(second, a, d, c, t.region);
-  const auto attach = [this](Corner inner, Link outer) {
-    connect(inner, {outer.triangle(), outer.corner()}, outer.constrained());
-  };
   attach({first, 0}, u.link[next3(j)]);
   attach({first, 2}, t.link[previous3(i)]);
   attach({second, 0}, u.link[previous3(j)]);
@@ -210,9 +198,8 @@ void Triangulation::flip(Corner corner) {
 
 bool Triangulation::flippable(Corner corner) const {
   const Triangle& t = triangles_[corner.triangle.index];
-  const Link link = t.link[corner.index];
   const VertexId a = t.vertex[corner.index], b = t.vertex[next3(corner.index)],
-                 c = t.vertex[previous3(corner.index)], d = vertex({link.triangle(), link.corner()});
+                 c = t.vertex[previous3(corner.index)], d = apex(t.link[corner.index]);
   return orient2d(point(a), point(b), point(d)) > 0 && orient2d(point(a), point(d), point(c)) > 0;
 }
 
@@ -226,15 +213,15 @@ bool Triangulation::illegal(Corner c) const {
 }
 
 // Lawson's algorithm. Ends because each flip lowers the (symbolically perturbed) lifted surface.
-void Triangulation::legalise(std::vector<Corner>& stack) {
-  while (!stack.empty()) {
-    const Corner c = stack.back();
-    stack.pop_back();
+void Triangulation::legalise() {
+  while (!stack_.empty()) {
+    const Corner c = stack_.back();
+    stack_.pop_back();
     if (!illegal(c)) continue;
     const TriangleId first = c.triangle, second = link(c).triangle();
     flip(c);
     for (const Corner next : {Corner{first, 0}, Corner{first, 2}, Corner{second, 0}, Corner{second, 1}})
-      stack.push_back(next);
+      stack_.push_back(next);
   }
 }
 
@@ -243,10 +230,30 @@ void Triangulation::restore_delaunay(std::span<const TriangleId> triangles) {
   for (const TriangleId t : triangles)
     for (int i = 0; i < 3; ++i)
       if (illegal({t, i})) stack_.push_back({t, i});
-  legalise(stack_);
+  legalise();
 }
 
 // ---- location
+
+inline Triangulation::Sight Triangulation::look(const Triangle& triangle, Point p, int without) const {
+  Sight sight;
+  for (int i = 0; i < 3; ++i) {
+    if (i == without) continue;
+    const int side = orient2d(point(triangle.vertex[next3(i)]), point(triangle.vertex[previous3(i)]), p);
+    if (side < 0) {
+      sight.beyond = i;
+      break;
+    }
+    if (side == 0) sight.on[sight.zeros++] = i;
+  }
+  return sight;
+}
+
+Location Triangulation::Sight::in(TriangleId t) const {
+  if (zeros == 0) return {Location::Kind::inside, t, 0};
+  if (zeros == 1) return {Location::Kind::on_edge, t, on[0]};
+  return {Location::Kind::on_vertex, t, 3 - on[0] - on[1]};
+}
 
 // The visibility walk: cross any edge that has p strictly on its far side. It cannot cycle in a Delaunay
 // triangulation; around constraints it could, so its steps are counted.
@@ -259,20 +266,11 @@ Location Triangulation::locate(Point p, TriangleId hint) const {
   for (std::size_t budget = 4 * triangles_.size(); budget > 0; --budget) {
     const Triangle& triangle = triangles_[t.index];
     if (triangle.ghost()) return {Location::Kind::outside, t, 0};
-    int exit = -1, on[3], zeros = 0;
-    for (int i = 0; i < 3 && exit < 0; ++i) {
-      if (i == from) continue;
-      const int side = orient2d(point(triangle.vertex[next3(i)]), point(triangle.vertex[previous3(i)]), p);
-      if (side < 0) exit = i;
-      if (side == 0) on[zeros++] = i;
-    }
-    if (exit < 0) {
-      if (zeros == 0) return {Location::Kind::inside, t, 0};
-      if (zeros == 1) return {Location::Kind::on_edge, t, on[0]};
-      return {Location::Kind::on_vertex, t, 3 - on[0] - on[1]};
-    }
-    from = triangle.link[exit].corner();
-    t = triangle.link[exit].triangle();
+    const Sight sight = look(triangle, p, from);
+    if (sight.beyond < 0) return sight.in(t);
+    const Link exit = triangle.link[sight.beyond];
+    from = exit.corner();
+    t = exit.triangle();
   }
   return search_all(p);
 }
@@ -286,17 +284,7 @@ Location Triangulation::search_all(Point p) const {
       if (in_conflict_exact(t, p)) outside.triangle = TriangleId{index};
       continue;
     }
-    int on[3], zeros = 0;
-    bool in = true;
-    for (int i = 0; i < 3 && in; ++i) {
-      const int side = orient2d(point(t.vertex[next3(i)]), point(t.vertex[previous3(i)]), p);
-      if (side < 0) in = false;
-      if (side == 0) on[zeros++] = i;
-    }
-    if (!in) continue;
-    if (zeros == 0) return {Location::Kind::inside, TriangleId{index}, 0};
-    if (zeros == 1) return {Location::Kind::on_edge, TriangleId{index}, on[0]};
-    return {Location::Kind::on_vertex, TriangleId{index}, 3 - on[0] - on[1]};
+    if (const Sight sight = look(t, p); sight.beyond < 0) return sight.in(TriangleId{index});
   }
   return outside;
 }

@@ -23,6 +23,7 @@
 #include <string>
 #include <vector>
 
+#include "base/slot_map.h"
 #include "triangulation/cavity.h"
 #include "triangulation/slot_array.h"
 #include "triangulation/spokes.h"
@@ -40,7 +41,8 @@ struct ConstrainResult {
   enum class Kind {
     done,     // the edge is there and constrained
     vertex,   // the open segment passes exactly through `first`: nothing was changed
-    blocked,  // the segment crosses the constrained edge first-second: nothing was changed
+    blocked,  // the segment crosses the constrained edge first-second: nothing was changed. Where the hull is
+              // dented it may leave it: then there is no such edge, or the vertex is the infinite one
   } kind = Kind::done;
   VertexId first, second;
 };
@@ -54,9 +56,8 @@ class Triangulation {
   const Vertex& operator[](VertexId v) const { return vertices_[v.index]; }
   const Triangle& operator[](TriangleId t) const { return triangles_[t.index]; }
   Point point(VertexId v) const { return vertices_[v.index].point; }
-  std::uint32_t generation(VertexId v) const {
-    return generations_[v.index];
-  }  // how often the id was given out
+  // How often the id was given out, counted on from the generation at which new slots begin.
+  std::uint32_t generation(VertexId v) const { return generations_[v.index]; }
 
   // Starts to load what a search from a triangle will need: the triangle itself, or its neighbours and
   // vertices.
@@ -90,19 +91,35 @@ class Triangulation {
     return {link.triangle(), previous3(link.corner())};
   }
   VertexId vertex(Corner c) const { return triangles_[c.triangle.index].vertex[c.index]; }
+  // The vertex opposite an edge, in the triangle behind it.
+  VertexId apex(Link edge) const { return triangles_[edge.triangle().index].vertex[edge.corner()]; }
   VertexId following(Corner c) const { return triangles_[c.triangle.index].vertex[next3(c.index)]; }
   VertexId preceding(Corner c) const { return triangles_[c.triangle.index].vertex[previous3(c.index)]; }
   Link link(Corner c) const { return triangles_[c.triangle.index].link[c.index]; }
+  // Visits the triangles of the domain in the order of their slots: visit(id, triangle).
+  template <class Visit>
+  void for_each_domain_triangle(Visit visit) const {
+    for (std::uint32_t i = 0; i < triangles_.size(); ++i)
+      if (triangles_[i].in_domain()) visit(TriangleId{i}, triangles_[i]);
+  }
+  // The finite vertex of the lowest id. Precondition: there is one.
+  VertexId first_vertex() const;
   // Visits the corners at a vertex counter-clockwise, those of ghosts too: visit(corner). The visit must not
   // change the star.
   template <class Visit>
   void for_each_corner(VertexId v, Visit visit) const {
+    any_corner(v, [&](Corner c) { return visit(c), false; });
+  }
+  // Whether one of them, as for_each_corner() visits them, is such: is_such(corner).
+  template <class Predicate>
+  bool any_corner(VertexId v, Predicate is_such) const {
     const Corner first = star(v);
     Corner c = first;
     do {
-      visit(c);
+      if (is_such(c)) return true;
       c = counterclockwise(c);
     } while (c.triangle != first.triangle);
+    return false;
   }
   // The corner opposite the directed edge a -> b, in the triangle on its left; none if there is no such edge.
   std::optional<Corner> find_edge(VertexId a, VertexId b) const;
@@ -112,7 +129,7 @@ class Triangulation {
 
   // The triangle that holds p. Walks from hint; a walk that takes too long ends in a search of all triangles.
   Location locate(Point p, TriangleId hint) const;
-  // The circle of three vertices; one that is sure of nothing, if the infinite one is among them.
+  // The circle of three vertices: uncertified (`inside` < 0) if the infinite one is among them.
   Circle circle_of(VertexId a, VertexId b, VertexId c) const;
   // Whether p lies inside t's circumcircle (for a ghost: beyond its hull edge). Exact.
   bool in_conflict(TriangleId t, Point p) const {
@@ -131,8 +148,9 @@ class Triangulation {
   // The first triangle. Precondition: no vertices yet, a, b, c not collinear.
   void start(Point a, Point b, Point c);
 
-  // Collects the cavity of p from a triangle in conflict with it. Read only.
-  void find_cavity(Point p, TriangleId start, Cavity& cavity) const;
+  // Collects the cavity of p from a triangle in conflict with it. Read only. False, and the cavity is of no
+  // use, where it has no end, as that of a point at a vertex may.
+  [[nodiscard]] bool find_cavity(Point p, TriangleId start, Cavity& cavity) const;
   // Replaces the cavity by the star of a new vertex at p. Precondition: every ring edge is seen from p,
   // strictly from its left. Invalidates the cavity's triangles; cavity.triangles lists the new ones instead,
   // in the order of the ring, and spokes() what was computed of them.
@@ -190,6 +208,9 @@ class Triangulation {
   }
   // Lawson flips from the edges opposite all corners of the given triangles.
   void restore_delaunay(std::span<const TriangleId> triangles);
+  // Fills dents of the hull with triangles, Delaunay among what is around them, as long as its edges do not
+  // cross. False where a dent is left.
+  bool restore_hull();
 
   // Attributes kept for the layers above.
   void set_length_scale(VertexId v, double value) { edit(v).length_scale = value; }
@@ -201,6 +222,9 @@ class Triangulation {
   }                                                    // not journalled
   void touch(TriangleId t) { edit(t); }                // counts as changed: see touched()
   void set_step(std::uint32_t step) { step_ = step; }  // the birth of triangles made from now on
+
+  // Raises all generations, those of slots to come too, so that no key of a vertex is one of the other's.
+  void begin_generations_after(const Triangulation& other);
 
   // ---- journal. An exception out of any function of this class leaves the journal able to roll back;
   // begin() and rollback() throw nothing.
@@ -250,17 +274,15 @@ class Triangulation {
                    same_edges(*earlier, now));
     }
   }
-  // The states of vertices before their first change since begin(), and again before their first change since
-  // each new part of this list: of several of one vertex the first is that at begin(). Vertices in slots made
-  // since then are not in it.
+  // The states at begin() of the vertices that have changed since, each once. Vertices in slots made since
+  // then are not in it.
   struct VertexBefore {
     VertexId id;
     Vertex vertex;
   };
   std::span<const VertexBefore> earlier_vertices() const { return earlier_vertices_; }
-  // Begins a new part; returns where. Precondition: journalling.
-  std::size_t begin_part_of_earlier_vertices();
-  std::uint32_t vertices_inserted() const { return inserted_; }  // since begin()
+  std::size_t vertex_slots_before() const { return vertex_slots_before_; }  // at begin()
+  std::uint32_t vertices_inserted() const { return inserted_; }             // since begin()
   std::uint32_t vertices_removed() const { return removed_; }
 
   // Empty, or the broken invariant with the ids concerned: all of them, or (1), (2) and (4) only.
@@ -278,7 +300,7 @@ class Triangulation {
     return triangle;
   }
   Vertex& edit(VertexId v) {
-    if (journalling_ && listed_in_part_[v.index] != part_) remember(v);
+    if (vertex_journals_[v.index] != journal_) remember(v);
     return vertices_[v.index];
   }
   void remember(TriangleId t);
@@ -290,6 +312,7 @@ class Triangulation {
     if (vertices_[v.index].star != star) edit(v).star = star;
   }
   void connect(Corner a, Corner b, bool constrained);
+  void attach(Corner inner, Link outer) { connect(inner, corner(outer), outer.constrained()); }
   TriangleId new_triangle();
   void free_triangle(TriangleId t);
   VertexId new_vertex(Point p);
@@ -307,8 +330,16 @@ class Triangulation {
   void flip(Corner c);
   bool illegal(Corner c) const;
   bool flippable(Corner c) const;
+  // Where p lies, seen from a finite triangle: beyond an edge, or on so many edges.
+  struct Sight {
+    int beyond = -1;  // the first edge, by its opposite corner, that has p strictly on its far side; -1: none
+    int zeros = 0;
+    int on[3] = {};
+    Location in(TriangleId t) const;  // where it is beyond none
+  };
+  Sight look(const Triangle& triangle, Point p, int without = -1) const;
   bool holds(TriangleId t, Point p) const;
-  void legalise(std::vector<Corner>& stack);
+  void legalise();
   void set_constraint(Corner c, bool constrained);
   Location search_all(Point p) const;
 
@@ -363,7 +394,7 @@ class Triangulation {
 
   SlotArray<Vertex> vertices_;
   SlotArray<std::uint32_t> generations_;
-  SlotArray<std::uint32_t> listed_in_part_;  // the last part of earlier_vertices_ that a vertex is in
+  SlotArray<std::uint16_t> vertex_journals_;  // the journal that holds a vertex's earlier state
   SlotArray<Triangle> triangles_;
   // Free slots; those before the count are there to be given out (last first). A triangle's slot that is
   // freed under a journal is given out again at once, while it lies in the caches; a vertex's only after
@@ -372,8 +403,12 @@ class Triangulation {
     std::vector<std::uint32_t> slots;
     std::size_t count = 0;
     std::vector<std::uint32_t> pending;
-    // The slot to be given out a few turns later, which nobody has used since the last step; if there is one.
-    const std::uint32_t* ahead() const { return count > 8 ? &slots[count - 9] : nullptr; }
+
+    void put(std::uint32_t slot, bool journalling);
+    void begin() { slots.resize(count); }
+    void reserve() { slots.reserve(count + pending.size()); }  // for commit(), which throws nothing then
+    void commit();
+    void rollback();
   };
   FreeList free_vertices_, free_triangles_;
   std::size_t live_vertices_ = 0;
@@ -386,22 +421,19 @@ class Triangulation {
   std::vector<MovedInPlace> moved_journal_;
   std::vector<TriangleId> touched_;
   std::vector<VertexBefore> earlier_vertices_;
-  std::uint32_t part_ = 0;  // the number of the last part of a list of earlier vertices
   std::vector<std::uint32_t> generation_journal_;
   std::size_t vertex_slots_before_ = 0, triangle_slots_before_ = 0, live_vertices_before_ = 0;
   std::uint32_t inserted_ = 0, removed_ = 0;
 
-  // Scratch of remove() and unsplit(). The marks of triangles in a hole are in `badness`, which nobody else
-  // uses meanwhile.
-  static constexpr std::uint8_t in_hole = 255;
+  // Scratch of remove() and unsplit().
   static constexpr std::size_t largest_patch = 64;
-  enum class Removal : std::uint8_t { none, waiting, taken };
-  Hole hole_, other_hole_;                // the second: of the other side of a vertex that is unsplit
-  std::vector<Removal> removal_;          // of each vertex slot; none between two calls
+  Hole hole_, other_hole_;  // the second: of the other side of a vertex that is unsplit
+  SlotSet<TriangleId> in_hole_;
+  SlotSet<VertexId> to_remove_;           // to be removed, in no patch yet
   std::vector<std::uint32_t> edge_from_;  // border edge that begins at a vertex
   Spokes spokes_;
   Cavity cavity_, near_, far_;  // the last two: of the sides of an edge that is split
-  std::vector<Corner> stack_;
+  Buffer<Corner> stack_;
   Buffer<Crossing> crossings_, waiting_, made_;  // of constrain(): to be flipped, in the next round, flipped
 };
 

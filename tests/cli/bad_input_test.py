@@ -197,7 +197,7 @@ class Options(ProgramTest):
         self.refuse("--distances", -1, "nan", "1;2", command=study)
         self.refuse("--pairs", "6", "many", "50/1,50", command=study)
         self.refuse("--strategy", "hope", "chain,chain", command=study)
-        # Of these the line names the part that is refused.
+        # The message names the refused part.
         for option, value, part in (
             ("--sigmas", "0.1,-1", "'-1'"),
             ("--pairs", "51/1", "'51'"),
@@ -256,7 +256,7 @@ class Options(ProgramTest):
         self.refused("batch", "a.vtkhdf", "rae2822", "no.dat", "-o", "out", names="no.dat")
         self.refused("batch", "a.vtkhdf", "rae2822", "-o", "a.vtkhdf", names="a.vtkhdf")
         self.refused("batch", "a.vtkhdf", "rae2822", "-o", "no/out", names="no")
-        # A design that is no domain, after one that is: nothing is meshed.
+        # The second design is no domain: nothing is meshed, although the first one is.
         crossing = {"degree": 3, "upper": [0.17, -0.9, 0.14, 0.14], "lower": [-0.17, -0.16, -0.14, -0.14]}
         self.write("crossing.json", json.dumps(crossing))
         self.refused("batch", "a.vtkhdf", "rae2822", "crossing.json", "-o", "out", names="crossing.json")
@@ -270,10 +270,36 @@ class Options(ProgramTest):
         self.refused("draw", "a.vtkhdf", "-o", "a.pdf", names="a.pdf")
         self.succeed("convert", "a.vtkhdf", "-o", "a.su2")
         self.refused("draw", "a.su2", "-o", "a.png", "--color", "gradation", names="a.su2")
+        self.refused(*draw, "--color", "fate", names="--since")
+        self.refused(*draw, "--since", "a.vtkhdf", names="--since")
+        self.refused(*draw, "--color", "fate", "--since", "a.su2", names="fate")
+        self.refused(*draw, "--color", "fate", "--since", "missing.vtkhdf", names="missing.vtkhdf")
+
+    def test_film(self):
+        self.succeed("optimise", "--from", "naca:0012", "--to", "rae2822", "--points", 50, "--evaluations", 5, "-o", "run")
+        film = ("film", "run", "-o", "a.webp")
+        self.refuse("--frames", 0, 1, 10001, "x", command=film)
+        self.refuse("--frame-ms", 0, 9, 60001, "x", command=film)
+        self.refuse("--worker", 0, "x", command=film)
+        self.refused(*film, "--worker", 2, names="worker")
+        self.refuse("--window", "1,2,3", "1,0,0,1", command=film)
+        self.refuse("--width", 0, 99, 8001, command=film)
+        self.refused("film", "run", "-o", "a.gif", names="a.gif")
+        self.refused("film", "missing", "-o", "a.webp", names="missing")
+        self.refused("film", "run", "-o", "missing/a.webp", names="missing")
+        self.refused("film", "run", names="-o")
+        self.path("run/first.vtkhdf").unlink()
+        self.refused(*film, names="first.vtkhdf")
+        options = "--points", 50, "--evaluations", 22, "-o", "hub", "--strategy", "hub"
+        self.succeed("optimise", "--from", "naca:0012", "--to", "rae2822", *options)
+        self.refused("film", "hub", "-o", "a.webp", names="hub")
 
     def test_unknown_arguments(self):
         self.refused(names="command line")
-        self.refused("frobnicate", names="frobnicate")
+        self.assertNotIn("did you mean", self.refused("frobnicate", names="frobnicate"))
+        self.refused("help", "frobnicate", names="frobnicate")
+        self.refused("optimize", names="did you mean 'optimise'?")
+        self.refused("mesh", "naca:0012", "--point", 100, names="did you mean '--points'?")
         self.refused("mesh", names="shape")
         self.refused("mesh", "naca:0012", "--frobnicate", names="--frobnicate")
         self.refused("mesh", "naca:0012", "surplus", names="surplus")
@@ -443,7 +469,7 @@ class Outputs(ProgramTest):
         )
 
     def test_file_size_limit(self):
-        """A write beyond RLIMIT_FSIZE fails with EFBIG: what a full disk looks like without one."""
+        """A write beyond RLIMIT_FSIZE fails with EFBIG, which stands for a full disk here."""
         for name in self.MESHES:
             with self.subTest(name):
                 self.refused(

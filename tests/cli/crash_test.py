@@ -1,4 +1,4 @@
-"""What a run and the other commands leave when they are killed, run out of disk, or find their files damaged."""
+"""Commands that are killed, run out of disk space or find damaged files: nothing half written is left."""
 
 import json
 import os
@@ -120,7 +120,7 @@ class Damage(CrashTest):
         self.mesh = "run/" + json.loads(self.path("run/checkpoint.json").read_text())["meshes"][0]["file"]
 
     def refused_or_the_same(self, name, damaged, whole):
-        """True if the damage was refused; otherwise it was in bytes that mean nothing."""
+        """True if the damage was refused; otherwise it is in unused bytes."""
         good = self.path(name).read_bytes()
         self.write(name, bytes(damaged))
         before = self.files()
@@ -256,7 +256,7 @@ class FullDisk(DiskTest):
                 self.assertIn("disk/run", outcome.stderr)
                 self.assertEqual([p for p in self.path("disk/run").iterdir() if p.name.startswith(".")], [])
                 self.assertEqual(self.path("disk/run/last.vtkhdf").read_bytes(), kept)
-                # On a disk with room.
+                # Resuming on a disk with free space works.
                 shutil.rmtree(self.path("moved"), ignore_errors=True)
                 shutil.copytree(self.path("disk/run"), self.path("moved"))
                 self.succeed(*self.run_arguments(600, "moved", "--resume"))

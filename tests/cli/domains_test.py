@@ -186,6 +186,35 @@ class Graphs(ProgramTest):
             sizes.add(self.mesh("# the points are in graph.node\n0 2 0 0\n4 1\n" + rest)["triangles"])
         self.assertEqual(len(sizes), 1)
 
+    def test_map_coordinates_end_at_every_angle(self):
+        points = [(403218.728, 5492388.775), (403318.142, 5492388.150), (403318.758, 5492488.033),
+                  (403218.678, 5492488.062), (403245.139, 5492433.236), (403254.548, 5492434.749),
+                  (403254.458, 5492446.538), (403296.422, 5492427.209)]
+        ends = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 4), (7, 4), (7, 5)]
+        self.write("map.poly", poly(points, [(a, b, 1) for a, b in ends], base=0))
+        for angle in (20, 30, 33, 34):
+            with self.subTest(angle):
+                outcome = self.run_program("mesh", "map.poly", "--min-angle", angle, "--max-vertices", 30000,
+                                           "-o", "x.vtkhdf", "--json")
+                self.assertIn(outcome.status, (0,) if angle <= 30 else (0, 3), outcome)
+                self.assertTrue(self.figures("check", "x.vtkhdf", "--min-angle", 0, "--max-gradation", 1e9)["valid"])
+
+    def test_a_point_has_its_length_scale_from_its_surroundings(self):
+        counts = set()
+        for size in (0.1, 1.0, 1e7):
+            square = [(0.0, 0.0), (size, 0.0), (size, size), (0.0, size), (0.5 * size, 0.5 * size)]
+            counts.add(self.mesh(poly(square, ring(square[:4])))["triangles"])
+        self.assertLess(max(counts) - min(counts), 0.1 * min(counts))
+
+    def test_the_report_is_of_what_there_is(self):
+        square = self.write("square.poly", poly(BOX, ring(BOX)))
+        self.assertNotIn("farfield", self.succeed("mesh", square, "-o", "x.vtkhdf").stdout)
+        self.assertIn("farfield", self.succeed("mesh", "naca:0012", "--points", 20, "-o", "x.vtkhdf").stdout)
+        open_square = self.write("open.poly", poly(BOX, ring(BOX)[:3]))
+        self.assertNotIn("holes", self.refused("mesh", open_square, "-o", "x.vtkhdf", names="nothing"))
+        crossed = self.write("crossed.poly", outlines(BOX, extra=[[(2, 2), (8, 8)], [(2, 8), (8, 2)]]))
+        self.assertIn(" 1 crossing of ", self.succeed("mesh", crossed, "-o", "x.vtkhdf").stdout)
+
     def test_refusals(self):
         crossing = self.write("crossing.poly", KINDS["crossing_outlines"])
         self.refused("mesh", crossing, "--crossings", "refuse", "-o", "x.vtkhdf", names="cross at (")
@@ -235,7 +264,7 @@ class Domains(ProgramTest):
         def arguments(places):
             return airfoils + [word for place in places for word in ("--place", place)]
         figures = self.figures("mesh", *arguments(places), "--points", 60, "-o", "x.vtkhdf")
-        self.assertEqual(set(figures["boundary"]), {"2408", "4412", "2408_2", "farfield"})
+        self.assertEqual(set(figures["boundary"]), {"naca2408", "naca4412", "naca2408_2", "farfield"})
         self.assertTrue(self.figures("check", "x.vtkhdf")["valid"])
         places[2] = "0.3,-30.001,1.0,-0.03"
         figures = self.figures("update", "x.vtkhdf", *arguments(places), "-o", "y.vtkhdf")

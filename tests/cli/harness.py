@@ -1,4 +1,4 @@
-"""Runs the program in a directory of its own and says what it left there. Standard library only.
+"""Runs the program in a temporary directory and reports its results and files. Standard library only.
 
     harness.py PROGRAM MODULE.Class.method     one test; exit status 77 if it was skipped
     harness.py --list MODULE...                the names of all tests, one a line
@@ -78,8 +78,8 @@ class ProgramTest(unittest.TestCase):
         }
 
     def refused(self, *arguments, names, **options):
-        """Asserts what every refusal has in common: exit status 2, one line that names the place, no output, and
-        a directory as it was: nothing written, nothing partial, nothing temporary."""
+        """Asserts the properties of every refusal: exit status 2, one line that names the place, no output, and an
+        unchanged directory without partial or temporary files."""
         before = self.files()
         outcome = self.run_program(*arguments, **options)
         shown = f"remodel {' '.join(map(str, arguments))}: {outcome}"
@@ -115,7 +115,7 @@ def names_of(suite):
 def main(arguments):
     global PROGRAM
     sys.path.insert(0, str(Path(__file__).resolve().parent))
-    # Tests import this file as a module: it must be this very one, with PROGRAM set.
+    # Tests import this file as a module, which must be this instance with PROGRAM set.
     sys.modules["harness"] = sys.modules["__main__"]
     loader = unittest.TestLoader()
     if arguments[0] == "--list":

@@ -1,5 +1,5 @@
-"""Meshes of other programs: `update --boundary` and `optimise --mesh`. The fixtures are the program's own meshes, as
-files that say nothing of where they come from."""
+"""Meshes of other programs: `update --boundary` and `optimise --mesh`. The fixtures are the program's own meshes, in
+formats that do not record their origin."""
 
 import sqlite3
 
@@ -40,11 +40,11 @@ class Imports(ProgramTest):
         return self.path(name)
 
     def check_update(self, before, figures, after):
-        """What holds of every update of a foreign mesh that is written as .su2."""
+        """Checks the properties of every update of a foreign mesh that is written as .su2."""
         self.assertKeys(figures["import"], IMPORT_KEYS)
         self.assertEqual(figures["stopped"], "done")
         self.assertFalse(figures["regenerated"])
-        # A triangle may be made again as it was.
+        # A removed triangle may be created again identically.
         self.assertGreaterEqual(len(corners(before) & corners(after)), figures["preserved"])
         self.assertEqual(figures["kept"]["triangles"] + figures["changed"]["triangles"], figures["triangles"])
         checked = self.figures("check", after)

@@ -1,12 +1,15 @@
 """Runs of `remodel optimise` in small: results, the history, interrupts and resuming."""
 
+import fcntl
 import json
 import os
 import pty
 import shutil
 import signal
 import sqlite3
+import struct
 import subprocess
+import termios
 import time
 
 import harness
@@ -54,6 +57,24 @@ class Runs(ProgramTest):
         design = json.loads(self.path("run/best.json").read_text())
         self.assertEqual(self.figures("fit", "run/best.json")["upper"], design["upper"])
 
+    def test_tolerance_ends_the_run(self):
+        figures = self.figures(*self.arguments(9000, "run", "--tolerance", 1e-6))
+        self.assertEqual(figures["stopped"], "done")
+        self.assertLessEqual(figures["objective"], 1e-6)
+        self.assertLess(figures["evaluations"], 9000)
+        self.assertNotEqual(self.path("run/middle.vtkhdf").read_bytes(), self.path("run/last.vtkhdf").read_bytes())
+
+    def test_film_of_a_run(self):
+        self.succeed(*self.arguments(60))
+        for name in ("a.webp", "b.webp"):
+            figures = self.figures("film", "run", "-o", name, "--frames", 10, "--width", 300)
+            self.assertEqual(figures["frames"], 10)
+        film = self.path("a.webp").read_bytes()
+        self.assertEqual((film[:4], film[8:12]), (b"RIFF", b"WEBP"))
+        self.assertEqual(film.count(b"ANMF"), 10)
+        self.assertEqual(film, self.path("b.webp").read_bytes())
+        self.assertEqual(self.figures("film", "run", "-o", "c.webp", "--frames", 100, "--width", 100)["frames"], 61)
+
     def test_without_comparisons_the_figures_are_null(self):
         figures = self.figures(*self.arguments(20))
         for key in ("generated_triangles_mean", "surplus_percent", "generate_ms_mean", "speedup"):
@@ -77,6 +98,42 @@ class Runs(ProgramTest):
             self.assertEqual([worker for worker, in used], list(range(1, workers + 1)))
             designs = self.rows(directory, "select coefficients from evaluations")
             self.assertEqual(designs, self.rows("chain-1", "select coefficients from evaluations"))
+
+    def test_evaluator_of_ones_own(self):
+        self.write("thin.py", """
+import json, sys
+design = json.load(open(sys.argv[2]))
+edges = next(line for line in open(sys.argv[1]) if line.startswith("NELEM="))
+if design[0] > 0.2: sys.exit("too blunt")
+print(json.dumps({"objective": sum(a * a for a in design), "constraints": [0.1 - design[0]],
+                  "outputs": {"triangles": int(edges[6:])}}))
+""")
+        figures = self.figures(
+            "optimise", "--from", "naca:0012", "--evaluator", "python3 thin.py", "--points", 50, "--evaluations", 40,
+            "--quiet", "-o", "run",
+        )
+        rows = self.rows("run", "select objective, constraints, outputs, triangles, coefficients, detail from evaluations")
+        self.assertEqual(len(rows), 40)
+        best = float("inf")
+        for objective, constraints, outputs, triangles, coefficients, detail in rows:
+            design = json.loads(coefficients)
+            if design[0] > 0.2:
+                self.assertEqual((objective, constraints, outputs), (float("inf"), None, None))
+                self.assertIn("too blunt", detail)
+                continue
+            self.assertEqual(objective, sum(a * a for a in design))
+            self.assertEqual(json.loads(outputs), {"triangles": triangles})
+            if json.loads(constraints)[0] <= 0:
+                best = min(best, objective)
+        self.assertEqual(figures["objective"], best)
+        self.assertEqual(figures["failed_evaluations"], sum(row[0] == float("inf") for row in rows))
+        self.assertGreater(figures["failed_evaluations"], 0)
+        self.assertIsNone(figures["max_error"])
+        self.assertEqual(figures["best"]["upper"] + figures["best"]["lower"], min(
+            (json.loads(row[4]) for row in rows if row[0] == best)))
+        self.refused(
+            "optimise", "--from", "naca:0012", "--to", "rae2822", "--evaluator", "true", "-o", "x", names="--evaluator"
+        )
 
     def test_threads_change_nothing(self):
         for threads in (1, 2, 4):
@@ -153,7 +210,8 @@ class Runs(ProgramTest):
         self.assertEqual(len(self.designs("run")), done)
         self.assertTrue(self.figures("check", "run/last.vtkhdf")["valid"])
 
-        # Not started over by mistake, and resumed to what a run without an interrupt would have been.
+        # A second start without --resume or --overwrite is refused; the resumed run equals one without an
+        # interrupt.
         self.refused(*self.arguments(done + 50), names="run")
         resumed = self.figures(*self.arguments(done + 50, "run", "--resume"))
         self.assertEqual(resumed["evaluations"], done + 50)
@@ -161,11 +219,45 @@ class Runs(ProgramTest):
         self.assertEqual(self.designs("run"), self.designs("whole"))
         self.assertEqual(self.path("run/last.vtkhdf").read_bytes(), self.path("whole/last.vtkhdf").read_bytes())
 
+    def test_progress_stays_in_its_line_of_a_narrow_terminal(self):
+        ours, terminal = pty.openpty()
+        fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 50, 0, 0))
+        with subprocess.Popen(
+            [harness.PROGRAM, *map(str, self.arguments(5000, "run"))], cwd=self.directory, stderr=terminal,
+            stdout=subprocess.DEVNULL,
+        ) as process:
+            os.close(terminal)
+            shown = b""
+            while True:
+                try:
+                    part = os.read(ours, 4096)
+                except OSError:  # the other end is closed
+                    break
+                shown += part
+        os.close(ours)
+        self.assertEqual(process.returncode, 0, shown)
+        heading, *lines = shown.decode().removesuffix("\r\n").split("\r\n")
+        self.assertTrue(heading.startswith("options: "), heading)
+        self.assertEqual(len(lines), 1, shown)
+        states = [state.removesuffix("\x1b[K") for state in lines[0].split("\r") if state]
+        self.assertGreater(len(states), 1)
+        self.assertLess(max(map(len, states)), 50)
+        self.assertTrue(all(state.startswith("[") for state in states), states)
+
     def test_finished_run_can_be_extended(self):
         self.succeed(*self.arguments(60))
         self.succeed(*self.arguments(100, "run", "--resume"))
         self.succeed(*self.arguments(100, "whole"))
         self.assertEqual(self.designs("run"), self.designs("whole"))
+
+    def test_a_finished_run_is_replaced_only_where_asked_for(self):
+        self.succeed(*self.arguments(60))
+        before = self.path("run", "history.sqlite").read_bytes()
+        self.assertIn("--overwrite", self.refused(*self.arguments(10), names="60 evaluations"))
+        self.refused(*self.arguments(10, "run", "--overwrite", "--resume"), names="--overwrite")
+        self.assertEqual(self.path("run", "history.sqlite").read_bytes(), before)
+        self.succeed(*self.arguments(10, "run", "--overwrite"))
+        self.assertEqual(len(self.designs("run")), 10)
 
     def test_resume_with_other_options_is_refused(self):
         self.succeed(*self.arguments(20))

@@ -1,4 +1,4 @@
-"""`remodel study` by MPI ranks on three hosts, and what is left when one of them is lost. The hosts are network
+"""`remodel study` by MPI ranks on three hosts, also when one of them is lost. The hosts are network
 namespaces of this machine, joined by a bridge in a fourth: each has its own address and name, and mpirun starts its
 daemons on them through an agent that takes the place of ssh. Nothing outside these namespaces is touched."""
 
@@ -14,7 +14,7 @@ import harness
 from study_test import RankTest
 
 HOSTS = 3
-# Five core seconds on a fast machine: what is lost has to be lost while all are at work.
+# Five core seconds on a fast machine, so that the loss happens while all ranks are working.
 STUDY = (
     "--pairs", "50/1,100/2", "--sigmas", "0.05,0.25", "--distances", "1", "--evaluations", 8000, "--scenarios", 2,
     "--compare-every", 20,
@@ -92,7 +92,7 @@ class Hosts(RankTest):
         return process
 
     def end(self, process):
-        """The output of an mpirun, which is killed if it still runs. What it left on the hosts has its pipes open."""
+        """Kills all processes of the hosts, which keep the pipes of mpirun open, and returns its output."""
         for k in range(HOSTS):
             self.kill_all(k)
         return None if process.stdout.closed else process.communicate(timeout=60)
@@ -119,7 +119,7 @@ class Hosts(RankTest):
         for pid in self.pids(k):
             try:
                 process = Path(f"/proc/{pid}")
-                if os.readlink(process / "exe") != os.path.realpath(harness.PROGRAM):
+                if Path(os.readlink(process / "exe")) != Path(harness.PROGRAM).resolve().with_name("remodel-mpi"):
                     continue
                 variables = dict(text.partition("=")[::2] for text in (process / "environ").read_text().split("\0"))
                 found[int(variables["OMPI_COMM_WORLD_RANK"])] = process
@@ -134,7 +134,7 @@ class Hosts(RankTest):
             time.sleep(0.02)
 
     def wait_for_work(self, process):
-        """Until all ranks have computed for a while: one that waits sleeps."""
+        """Waits until all ranks have used processor time, which a waiting rank does not."""
 
         def at_work():
             self.assertIsNone(process.poll(), "the study ended before all ranks were at work")

@@ -1,4 +1,4 @@
-"""The report of a study: what it writes of a store, what it refuses, and the page in a real browser."""
+"""The report of a study: its outputs, the stores that it refuses, and the page in a real browser."""
 
 import csv
 import io
@@ -110,7 +110,7 @@ class Tables(StoreTest):
         self.assertEqual((before["replays"], during["replays"]), (47, 46))
 
     def test_real_study(self):
-        """The engine's own store, and that the one that tests make up has its tables and columns."""
+        """The store of a real study, which has the same tables and columns as the generated one."""
         self.succeed("study", "-o", "real", "--pairs", "50/1", "--sigmas", "0.05", "--distances", "1", "--evaluations", 40,
                      "--compare-every", 10, "--threads", 1, "--quiet")
         figures = self.figures("study", "report", "real", "-o", "report.md", "--csv", "tables", "--svg", "figures")
@@ -220,7 +220,7 @@ class Refusals(StoreTest):
 
 
 class Document(HTMLParser):
-    """Elements of a page: those inside of each, and the text of its tables."""
+    """Counts the elements inside each element of a page and collects the text of its tables."""
 
     VOID = {"meta", "link", "input", "br", "img", "hr", "base", "source"}
 
@@ -340,7 +340,7 @@ class Page(StoreTest):
             self.assertNotIn("src", attributes, tag)
             if tag in ("link", "a") and "href" in attributes:
                 self.assertTrue(attributes["href"].startswith("#"), attributes)
-        # The policy does what this relies on: a request shows on the console.
+        # The content policy reports every request on the console, which the test above relies on.
         self.write("fetching.html", text.replace("<main>", "<main><img src='http://127.0.0.1:9/picture.png'>", 1))
         _, console = self.open("fetching.html")
         self.assertTrue(any("127.0.0.1" in line for line in console), console)

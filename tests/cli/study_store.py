@@ -41,12 +41,12 @@ REPLAY_COLUMNS = (
     "invalid_meshes recoveries refreshes gradation_bias gradation_deviation generated_gradation_bias "
     "generated_gradation_deviation seconds stopped"
 ).split()
-# A NACA 4-digit section of some thickness, as CST coefficients.
+# Returns a NACA 4-digit section of the given thickness as CST coefficients.
 DESIGN = {"degree": 3, "upper": [0.17, 0.15, 0.15, 0.14], "lower": [-0.17, -0.15, -0.15, -0.14]}
 
 
 def paper_tables():
-    lines = [line for line in (SOURCE / "data" / "paper_tables.csv").read_text().splitlines() if not line.startswith("#")]
+    lines = [line for line in (SOURCE / "study" / "data" / "paper_tables.csv").read_text().splitlines() if not line.startswith("#")]
     return {
         (row["airfoil"], float(row["sigma"]), int(row["I"]), float(row["G"]), float(row["D"])): row
         for row in csv.DictReader(lines)
@@ -54,7 +54,7 @@ def paper_tables():
 
 
 class Store:
-    """Everything of a study, or all but the last `missing` replays."""
+    """Writes a complete study, or one without its last `missing` replays."""
 
     def __init__(self, directory, airfoils=("rae2822",), sigmas=(0.05, 0.25), pairs=PAIRS[:3], distances=(1, 2),
                  scenarios=2, strategies=("chain", "renew"), evaluations=2000, missing=0, seed=1, designs=None):

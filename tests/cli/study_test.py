@@ -20,15 +20,15 @@ KEYS = (
 )
 TABLES = ("airfoils", "scenarios", "fresh", "replays", "blocks", "comparisons")
 TIMES = {"seconds", "remodel_ms_mean", "generate_ms_mean", "speedup"}
-# Two kinds of everything, in about a second.
+# A study with two values of each list, in about a second.
 SMALL = (
     "--pairs", "50/1,100/2", "--sigmas", "0.05,0.25", "--distances", "1,2", "--evaluations", 60, "--compare-every", 20,
 )  # fmt: skip
-# More than a core second on a fast machine: long enough to be killed in.
+# A study of more than a core second on a fast machine, long enough to be killed in.
 LONGER = (
     "--pairs", "50/1,100/2", "--sigmas", "0.05,0.25", "--distances", "1", "--evaluations", 2500, "--compare-every", 20,
 )  # fmt: skip
-# Hours.
+# A study that would take hours.
 ENDLESS = ("--pairs", "50/1", "--sigmas", "0.25", "--evaluations", 10000000, "--compare-every", 0)
 
 
@@ -110,7 +110,7 @@ class Studies(StudyTest):
 
     def test_study_grows(self):
         self.succeed(*self.study("s", *SMALL, "--strategy", "chain"))
-        # Not started over by mistake.
+        # A second start without --resume is refused.
         self.refused(*self.study("s", *SMALL), names="s: holds a study")
         figures = self.figures(*self.study("s", "--resume", "--strategy", "renew", "--scenarios", 2))
         self.assertEqual(figures["before"], 2 + 4 + 8)
@@ -180,7 +180,7 @@ class RankTest(StudyTest):
             self.skipTest("the program was built without MPI")
 
     def start_ranks(self, ranks, options, *arguments):
-        # Without these two mpirun refuses to be root, as in containers.
+        # Without these two variables mpirun refuses to run as root.
         root = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
         return subprocess.Popen(
             [*self.launcher, "mpirun", *self.mpirun_options, *options, "-n", str(ranks), harness.PROGRAM,
@@ -196,7 +196,7 @@ class RankTest(StudyTest):
 
 class Ranks(RankTest):
     def kill_rank(self, process, rank):
-        """SIGKILL to the rank of this mpirun: by its number, as a user would have it from `ps`."""
+        """Sends SIGKILL to the given rank of this mpirun, which its environment identifies."""
         for entry in Path("/proc").iterdir():
             try:
                 if not entry.name.isdigit() or f"PPid:\t{process.pid}\n" not in (entry / "status").read_text():
@@ -265,7 +265,7 @@ class Disks(StudyTest):
         self.assertEqual(outcome.status, 2, outcome)
         self.assertEqual(len(outcome.stderr.splitlines()), 1, outcome)
         self.assertIn("disk/s/study.sqlite", outcome.stderr)
-        # On a disk with room.
+        # Resuming on a disk with free space works.
         shutil.copytree(self.path("disk/s"), self.path("moved"))
         self.assertGreater(self.figures(*self.study("moved", "--resume"))["before"], 0)
         self.assertEqual(self.tables("moved"), self.tables("whole"))

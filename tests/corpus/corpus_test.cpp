@@ -3,7 +3,7 @@
 //   {"about": "what is hard here",
 //    "options": {"gradation": 4, "min_angle_deg": 30, "max_vertices": 100000},      all optional
 //    "distance": 1, "method": "auto",                                               of remodelling, optional
-//    "designs": [DESIGN, ...], "expected": [OUTCOME, ...],   one outcome a design, or a single one for all
+//    "designs": [DESIGN, ...], "expected": [OUTCOME, ...],   one outcome per design, or one for all
 //    "repeat": 1,                                             passes over the designs, in the same mesh
 //    "max_triangles": 100000}                                 of each mesh
 //
@@ -61,7 +61,7 @@ Domain design_of(const json& design) {
   }
   CstAirfoil airfoil;
   if (design.contains("catalogue")) {
-    airfoil = load_airfoil(design["catalogue"], 5);
+    airfoil = named_airfoil(design["catalogue"], 5);
   } else {
     airfoil.upper = design["upper"].get<std::vector<double>>();
     airfoil.lower = design["lower"].get<std::vector<double>>();
@@ -86,7 +86,7 @@ class Case {
     if (text.value("method", "auto") == "general") remodelling_.method = Method::general;
   }
 
-  // The outcome of one design, in the words of the corpus.
+  // Returns the outcome of one design, as the corpus writes it.
   std::string run(const json& design) {
     const std::optional<MeshState> before = mesh_ ? std::optional(mesh_->state()) : std::nullopt;
     try {
@@ -111,7 +111,7 @@ class Case {
   std::size_t triangles() const { return mesh_ ? mesh_->triangle_count() : 0; }
 
  private:
-  // What is wrong with the mesh, as a continuation of an outcome; empty if nothing is.
+  // Describes the defects of the mesh, to be appended to an outcome; empty if there are none.
   std::string broken(bool quality) const {
     if (quality) {
       const std::string problem = mesh_->quick_check();

@@ -1,8 +1,7 @@
-// What must be the same bytes with every compiler, every optimisation level and any number of threads: a
-// generated mesh, and chains of remodellings by both methods. Needs no more of the library than the layers up
-// to remodel.
+// Prints data that must be the same bytes with every compiler, at every optimisation level and on any number
+// of threads: a generated mesh, and sequences of remodellings by both methods.
 //
-//   trace          prints the states: one hash a step, the first and the last mesh in full
+//   trace          prints the states: one hash per step, the first and the last mesh in full
 //   trace threads  runs chains on several threads at once and one after the other: exit status 1 if they
 //   differ
 
@@ -21,6 +20,7 @@
 #include "remodel/domain.h"
 #include "remodel/error.h"
 #include "remodel/generate.h"
+#include "remodel/mesh_state.h"
 #include "remodel/planar.h"
 #include "remodel/remodel.h"
 
@@ -91,6 +91,7 @@ struct Chain {
   int points;
   int steps;
   Method method;
+  Strategy strategy = Strategy::chain;
 };
 
 CstAirfoil design_about(const CstAirfoil& centre, Chance& chance, double size) {
@@ -113,14 +114,17 @@ Mesh run(const Chain& chain, const std::function<void(const Mesh&)>& each) {
     if (i % 40 == 0) centre = airfoils[(chain.seed + static_cast<unsigned>(i)) % airfoils.size()].airfoil();
     const CstAirfoil design = design_about(centre, chance, i % 3 == 0 ? 0.05 : 0.005);
     if (surfaces_apart(design))
-      remodel::remodel(mesh, airfoil_domain(design, options), {.method = chain.method});
+      remodel::remodel(mesh, airfoil_domain(design, options),
+                       {.method = chain.method, .strategy = chain.strategy});
     each(mesh);
   }
   return mesh;
 }
 
 int print_chains() {
-  for (const Chain& chain : {Chain{1, 100, 200, Method::automatic}, Chain{5, 60, 60, Method::general}}) {
+  for (const Chain& chain : {Chain{1, 100, 200, Method::automatic}, Chain{5, 60, 60, Method::general},
+                             Chain{3, 80, 120, Method::automatic, Strategy::renew},
+                             Chain{4, 50, 60, Method::general, Strategy::renew}}) {
     bool first = true;
     const Mesh last = run(chain, [&](const Mesh& mesh) {
       const MeshState state = mesh.state();
@@ -169,7 +173,7 @@ int compare_threads() {
   const std::vector<Chain> chains = {{1, 60, 60, Method::automatic},
                                      {2, 60, 60, Method::general},
                                      {1, 60, 60, Method::automatic},
-                                     {7, 100, 40, Method::automatic}};
+                                     {7, 100, 40, Method::automatic, Strategy::renew}};
   const auto hashes_of = [](const Chain& chain) {
     std::vector<std::uint64_t> hashes;
     run(chain, [&](const Mesh& mesh) { hashes.push_back(hash_of(mesh.state())); });

@@ -1,5 +1,6 @@
-// The kernel against CGAL's constrained Delaunay triangulation. Where four points lie on one circle and
-// nothing else, CGAL is free to choose: then the edges that every such triangulation has are compared.
+// Compares the kernel with CGAL's constrained Delaunay triangulation. Where four points are cocircular CGAL
+// may break the tie differently; then only the edges that every constrained Delaunay triangulation has are
+// compared.
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -38,7 +39,7 @@ std::set<reference::Edge> constraints_of(const Cdt& cdt, const Index& index) {
   return result;
 }
 
-// The same commands to both.
+// Applies the same commands to both triangulations.
 class Pair : public test::KernelWalk {
  public:
   Pair(std::mt19937_64& random, test::Family family) : KernelWalk(random, family) {
@@ -46,8 +47,8 @@ class Pair : public test::KernelWalk {
   }
 
   struct Comparison {
-    bool same_edges = false;      // all that no tie-break decides, the constraints among them
-    bool same_triangles = false;  // all
+    bool same_edges = false;      // of all edges that no tie-break decides, constraints included
+    bool same_triangles = false;  // of all triangles
     std::size_t triangles = 0;
     std::size_t ties = 0;  // edges that a tie-break decided
   };
@@ -64,7 +65,8 @@ class Pair : public test::KernelWalk {
                         certain == reference::certain_edges(points, theirs, fixed);
     result.same_triangles = ours == theirs;
     result.triangles = ours.size();
-    result.ties = points.size() + ours.size() - 1 - certain.size();  // Euler: edges less the certain ones
+    result.ties =
+        points.size() + ours.size() - 1 - certain.size();  // Euler: all edges minus the certain ones
     return result;
   }
 
@@ -105,7 +107,7 @@ TEST_P(AgainstCgal, RandomCommandsGiveTheSameTriangles) {
       if (step % 8 != 7) continue;
       const Pair::Comparison found = pair.compare();
       ASSERT_TRUE(found.same_edges) << "round " << round << " step " << step;
-      // CGAL breaks ties by the perturbation that incircle_sos is made after.
+      // CGAL breaks ties by the same symbolic perturbation as incircle_sos.
       ASSERT_TRUE(found.same_triangles) << "round " << round << " step " << step;
       ++compared;
       triangles += found.triangles;

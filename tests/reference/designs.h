@@ -10,7 +10,7 @@
 
 namespace remodel::test {
 
-// About normal: the sum of twelve uniform values. The same on every machine.
+// Approximately normal: the sum of twelve uniform values, the same on every machine.
 inline double noise(std::mt19937_64& random) {
   double sum = -6.0;
   for (int i = 0; i < 12; ++i) sum += static_cast<double>(random() >> 11) * 0x1p-53;

@@ -1,6 +1,7 @@
 #pragma once
 
-// A triangulation under random commands, beside plain lists of what should be in it. For tests that compare.
+// Applies random commands to a triangulation and keeps plain lists of its expected content, for comparing
+// tests.
 
 #include <array>
 #include <cmath>
@@ -58,7 +59,7 @@ inline Point random_point(std::mt19937_64& random, Family family) {
   return {};
 }
 
-// Commands: insert, remove, constrain, release. `on_*` tell a second implementation what was done.
+// Commands: insert, remove, constrain, release. The `on_*` callbacks repeat them on a second implementation.
 class KernelWalk {
  public:
   KernelWalk(std::mt19937_64& random, Family family) : random_(random), family_(family) {
@@ -153,7 +154,7 @@ class KernelWalk {
     return false;
   }
 
-  // A triangulation needs three vertices that are not in line.
+  // A triangulation needs three vertices that are not collinear.
   bool needed(VertexId v) const {
     std::vector<Point> rest;
     for (const VertexId u : vertices)

@@ -12,7 +12,7 @@ namespace {
 
 using Integer = boost::multiprecision::cpp_int;
 
-// Points as whole multiples of one power of two.
+// Scales points to integer multiples of one power of two.
 template <std::size_t n>
 std::array<std::array<Integer, 2>, n> whole(const std::array<Point, n>& points) {
   int smallest = 0;
@@ -64,7 +64,7 @@ int incircle(Point a, Point b, Point c, Point d) {
 
 int incircle_lifted(Point a, Point b, Point c, Point d) {
   if (const int s = incircle(a, b, c, d); s != 0) return s;
-  // What the determinant gains for each unit by which a point is lifted.
+  // The derivative of the determinant by the lift of each point.
   struct Lift {
     Point point;
     int gain;

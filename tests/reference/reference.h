@@ -1,7 +1,7 @@
 #pragma once
 
-// Slow and obvious versions of the hard steps, to compare the library with. They share no code with it but
-// the point type: signs come from whole numbers of any size, searches look at everything.
+// Slow and obvious reference versions of the hard steps. They share no code with the library but the point
+// type: signs are computed in integers of arbitrary size, and searches are exhaustive.
 
 #include <array>
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace remodel::reference {
 
-// The signs of predicates.h, from the determinants as they stand in every textbook.
+// The signs of predicates.h, from the textbook determinants.
 int orient(Point a, Point b, Point c);
 int incircle(Point a, Point b, Point c, Point d);
 // Ties broken by lifting: of the four points, in descending lexicographic order, the first whose lift changes

@@ -1,0 +1,36 @@
+#pragma once
+
+// The compressible flow of `remodel flow`, and rows of designs on one living mesh.
+
+#include <string>
+
+#include "command.h"
+#include "mesh_input.h"
+#include "outputs.h"
+#include "remodel/flow.h"
+#include "start_mesh.h"
+
+namespace remodel::app {
+
+enum class Compare { none, cold, rival };
+
+struct EulerRun {
+  FlowConditions conditions;
+  bool mach_given = false;
+  FlowOptions options;
+  std::string series;   // a file; none if it is empty
+  std::string cp_plot;  // likewise
+  Compare compare = Compare::none;
+  bool json = false;
+};
+
+// --mach, --tolerance, --max-steps, --memory, --limiter, --reference, --reference-length, --series, --compare.
+void add_euler_options(CLI::App& app, EulerRun& run);
+
+// Solves, writes and reports; nothing is written where no flow is found.
+Status run_euler(const EulerRun& run, const MeshInput& input, const std::string& source,
+                 const MeshOutputs& outputs);
+// Remodels the mesh to each airfoil of the series and reports the flow around each.
+Status run_series(const EulerRun& run, StartMesh start);
+
+}  // namespace remodel::app

@@ -1,0 +1,127 @@
+// remodel film RUN -o FILE.webp: a moving picture of the mesh that lived through an optimisation.
+
+#include "remodel/film.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "arguments.h"
+#include "command.h"
+#include "figures.h"
+#include "picture_options.h"
+#include "remodel/error.h"
+#include "remodel/history.h"
+#include "remodel/io.h"
+#include "remodel/replay.h"
+
+namespace remodel::app {
+namespace {
+
+struct FilmCommand {
+  std::filesystem::path run;
+  std::string output;
+  std::size_t frames = 80;
+  std::uint64_t worker = 1;
+  FilmOptions film = [] {
+    FilmOptions usual;
+    usual.picture.window = {{-0.1, -0.25, 1.1, 0.25}};
+    return usual;
+  }();
+  bool json = false;
+};
+
+// The designs of a run are samples around a mean that moves: a film of every n-th of them only shakes. So the
+// run is cut into equal parts, one a frame, and each shows its best design.
+std::vector<std::uint64_t> best_of_parts(const FilmCommand& command, std::size_t parts) {
+  struct Row {
+    std::uint64_t evaluation;
+    double objective;
+  };
+  std::vector<Row> rows;
+  History::open(command.run / "history.sqlite").each([&](const EvaluationRecord& record) {
+    if (record.worker == command.worker) rows.push_back({record.evaluation, record.objective});
+  });
+  parts = std::min(parts, rows.size());
+  const auto begin_of = [&](std::size_t part) {
+    return rows.begin() + static_cast<std::ptrdiff_t>(part * rows.size() / parts);
+  };
+  std::vector<std::uint64_t> chosen;
+  for (std::size_t part = 0; part < parts; ++part) {
+    const auto best = std::min_element(begin_of(part), begin_of(part + 1),
+                                       [](const Row& a, const Row& b) { return a.objective < b.objective; });
+    chosen.push_back(best->evaluation);
+  }
+  return chosen;
+}
+
+std::string caption(const EvaluationRecord& record, const FrozenMesh& mesh) {
+  const auto kept = std::count(mesh.fate.begin(), mesh.fate.end(), Fate::kept);
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "design %llu: RMS distance %.1e chords; %zu triangles, %.1f %% kept since the last frame",
+                static_cast<unsigned long long>(record.evaluation), std::sqrt(record.objective),
+                mesh.triangles.size(),
+                100.0 * static_cast<double>(kept) / static_cast<double>(mesh.triangles.size()));
+  return text;
+}
+
+Status run(const FilmCommand& command) {
+  require_picture(command.output, {".webp"});
+  const std::vector<std::uint64_t> chosen = best_of_parts(command, command.frames - 1);
+  Film film(command.film);
+  FrozenMesh last = read_frozen_mesh(command.run / "first.vtkhdf");
+  last.fate.assign(last.triangles.size(), Fate::kept);
+  film.add(last, "the start: " + std::to_string(last.triangles.size()) + " triangles");
+  auto next = chosen.begin();
+  replay(command.run, command.worker, [&](const EvaluationRecord& record, const Mesh& mesh) {
+    if (next == chosen.end() || record.evaluation != *next) return;
+    ++next;
+    FrozenMesh frame = mesh.freeze();
+    frame.fate = fates(last, frame);
+    film.add(frame, caption(record, frame));
+    last = std::move(frame);
+  });
+  film.write(command.output);
+
+  Report report;
+  report.figure("run", "run", command.run.string());
+  report.figure("frames", "frames", film.frames());
+  report.figure("bytes", "size", std::filesystem::file_size(command.output), "bytes");
+  add_output_figures(report, {command.output});
+  report.print(command.json);
+  return Status::done;
+}
+
+}  // namespace
+
+void add_film_command(CLI::App& program, Action& action) {
+  auto command = std::make_shared<FilmCommand>();
+  CLI::App& app = add_subcommand(program, "film", "Films the mesh of a run of `optimise`, as animated WebP",
+                                 [command, &action] { action = [command] { return run(*command); }; });
+  add_text(app, {"RUN", "", "", "Run directory of `remodel optimise`"}, Presence::required,
+           [command](const std::string& text) { command->run = text; });
+  add_text(app, {"-o,--output", "FILE", "", "Film to write: .webp"}, Presence::required, command->output);
+  add_integer(
+      app,
+      {"--frames", "N", "80",
+       "Pictures: the start, then the best design of each of N - 1 equal parts of the run; 2 to 10000"},
+      {.low = 2, .high = 10000},
+      [command](std::int64_t value) { command->frames = static_cast<std::size_t>(value); });
+  add_integer(app, {"--frame-ms", "T", "100", "Duration of each picture in milliseconds: 10 to 60000"},
+              {.low = 10, .high = 60000},
+              [command](std::int64_t value) { command->film.frame_ms = static_cast<int>(value); });
+  add_integer(app, {"--worker", "W", "1", "Worker whose mesh is shown, in a run with --workers: from 1"},
+              {.low = 1},
+              [command](std::int64_t value) { command->worker = static_cast<std::uint64_t>(value); });
+  add_window(app, "-0.1,-0.25,1.1,0.25", command->film.picture);
+  add_integer(app, {"--width", "PIXELS", "960", "Width in pixels, 100 to 8000; the height follows"},
+              {.low = 100, .high = 8000},
+              [command](std::int64_t value) { command->film.picture.width = static_cast<int>(value); });
+  add_json_flag(app, command->json);
+}
+
+}  // namespace remodel::app

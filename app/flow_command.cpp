@@ -1,0 +1,137 @@
+// remodel flow MESH|SHAPE...: the flow around bodies, its coefficients, fields and plots.
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "arguments.h"
+#include "command.h"
+#include "domain_input.h"
+#include "euler_run.h"
+#include "figures.h"
+#include "interrupt.h"
+#include "mesh_input.h"
+#include "meshing_options.h"
+#include "outputs.h"
+#include "picture_options.h"
+#include "potential_run.h"
+#include "remodel/error.h"
+#include "remodel/generate.h"
+
+namespace remodel::app {
+namespace {
+
+struct FlowCommand {
+  DomainInputOptions input;
+  MeshingOptions meshing;
+  bool is_potential = false;
+  double alpha_deg = 0.0;
+  std::optional<double> lift;
+  std::string farfield = "farfield";
+  std::string cp_plot;
+  bool json = false;
+  EulerRun euler;
+  MeshOutputs outputs;
+};
+
+bool is_mesh_file(const std::string& name) {
+  const std::string extension = std::filesystem::path(name).extension().string();
+  return extension == ".vtkhdf" || extension == ".su2" || extension == ".msh" || extension == ".vtu";
+}
+
+// The mesh file among the shapes, if there is one: it has to be alone.
+std::optional<std::string> mesh_file(const FlowCommand& command) {
+  const std::vector<std::string>& names = command.input.shapes;
+  const auto file = std::find_if(names.begin(), names.end(), is_mesh_file);
+  if (file == names.end()) return std::nullopt;
+  if (names.size() > 1 || !command.input.places.empty())
+    throw Error(ErrorCode::argument, *file, "holds a mesh, expected it alone and without --place");
+  return *file;
+}
+
+// A mesh file as it is, or a fresh mesh of a domain.
+MeshInput read_input(const FlowCommand& command) {
+  if (const auto file = mesh_file(command)) return read_any_mesh(*file);
+  const DomainInput domain = read_domain(command.input, command.meshing.discretisation, command.meshing.fit);
+  InterruptObserver observer;
+  GenerateResult result = generate(domain.domain, command.meshing.resolved_quality(), &observer);
+  if (result.stopped != Stopped::done)
+    throw Error(
+        ErrorCode::argument, command.input.shapes.front(),
+        std::string("the mesh is unfinished (") + name_of(result.stopped) + "), expected a whole one");
+  MeshInput input;
+  input.frozen = result.mesh.freeze();
+  input.living = std::move(result.mesh);
+  return input;
+}
+
+Status run_potential_flow(const FlowCommand& command, const MeshInput& input) {
+  PotentialRun run;
+  run.alpha_deg = command.alpha_deg;
+  run.lift = command.lift;
+  run.cp_plot = command.cp_plot;
+  run.json = command.json;
+  run.options.farfield = command.farfield;
+  run.options.reference = command.euler.conditions.reference;
+  run.options.reference_length = command.euler.conditions.reference_length;
+  run_potential(run, input, command.input.shapes.front(), command.outputs);
+  return Status::done;
+}
+
+StartMesh start_mesh(const FlowCommand& command) {
+  if (const auto file = mesh_file(command)) return read_start_mesh(*file, {});
+  return {.mesh = std::move(*read_input(command).living),
+          .source = command.input.shapes.front(),
+          .imported = std::nullopt};
+}
+
+Status run(const FlowCommand& command) {
+  command.outputs.require_possible();
+  if (!command.cp_plot.empty()) require_picture(command.cp_plot, {".svg", ".png"});
+  if (command.is_potential) {
+    if (!command.euler.series.empty())
+      throw Error(ErrorCode::argument, "--series", "given with --model potential, expected --model euler");
+    return run_potential_flow(command, read_input(command));
+  }
+  EulerRun euler = command.euler;
+  euler.conditions.alpha_deg = command.alpha_deg;
+  euler.conditions.cl = command.lift;
+  euler.options.farfield = command.farfield;
+  euler.cp_plot = command.cp_plot;
+  euler.json = command.json;
+  if (euler.series.empty())
+    return run_euler(euler, read_input(command), command.input.shapes.front(), command.outputs);
+  if (!command.outputs.files().empty() || !command.cp_plot.empty())
+    throw Error(ErrorCode::argument, "--series",
+                "given with a file to write, expected no file: there are many flows");
+  return run_series(euler, start_mesh(command));
+}
+
+}  // namespace
+
+void add_flow_command(CLI::App& program, Action& action) {
+  auto command = std::make_shared<FlowCommand>();
+  CLI::App& app = add_subcommand(program, "flow", "The flow around airfoils, or through a mesh of any format",
+                                 [command, &action] { action = [command] { return run(*command); }; });
+  add_domain_input(app, command->input);
+  add_choice(app,
+             {"--model", "MODEL", "euler",
+              "euler: of a compressible gas without friction; potential: of an incompressible one"},
+             {"euler", "potential"}, [command](std::size_t choice) { command->is_potential = choice == 1; });
+  add_real(app, {"--alpha", "DEG", "0", "Angle of attack in degrees, -90 to 90"}, {.low = -90, .high = 90},
+           [command](double value) { command->alpha_deg = value; });
+  add_real(app, {"--cl", "CL", "", "Lift coefficient that the angle of attack is found for: -10 to 10"},
+           {.low = -10, .high = 10}, [command](double value) { command->lift = value; });
+  add_text(app,
+           {"--farfield", "NAME", "farfield", "Boundary that is open to the stream; all others are walls"},
+           Presence::optional, command->farfield);
+  add_text(app, {"--cp-plot", "FILE", "", "Plot of the pressure coefficient along every body: .svg or .png"},
+           Presence::optional, command->cp_plot);
+  add_euler_options(app, command->euler);
+  command->outputs.add_options(app, Presence::optional);
+  add_meshing_options(app, command->meshing);
+  add_json_flag(app, command->json);
+}
+
+}  // namespace remodel::app

@@ -1,0 +1,21 @@
+#pragma once
+
+// Flows as plots.
+
+#include <span>
+#include <string>
+
+#include "remodel/frozen_mesh.h"
+#include "remodel/plot.h"
+
+namespace remodel::app {
+
+// "M 0.8, α = 1.25°, CL = 0.3543"
+std::string flow_caption(double mach, double alpha_deg, double cl);
+
+// The pressure coefficients of vertices along every boundary but the far field, smaller ones above, over x.
+// Throws Error (argument) naming `option` where there is no other boundary.
+Plot cp_plot(const FrozenMesh& mesh, const std::string& farfield, std::span<const double> cp,
+             const std::string& caption, const std::string& option);
+
+}  // namespace remodel::app

@@ -1,0 +1,10 @@
+// The program remodel-mpi has no `flow`: the sequential MUMPS brings a stand-in for MPI that must not meet
+// the real one.
+
+#include "command.h"
+
+namespace remodel::app {
+
+void add_flow_command(CLI::App&, Action&) {}
+
+}  // namespace remodel::app

@@ -1,0 +1,105 @@
+#include "help.h"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <numeric>
+#include <sstream>
+
+#include "terminal.h"
+
+namespace remodel::app {
+namespace {
+
+// Breaks the text at spaces; the first line is as long as the others.
+std::vector<std::string> lines_of(const std::string& text, std::size_t width) {
+  std::vector<std::string> lines;
+  std::istringstream paragraphs(text);
+  for (std::string paragraph; std::getline(paragraphs, paragraph);) {
+    std::istringstream words(paragraph);
+    std::string line;
+    for (std::string word; words >> word;) {
+      if (!line.empty() && line.size() + 1 + word.size() > width) lines.push_back(std::exchange(line, ""));
+      line += (line.empty() ? "" : " ") + word;
+    }
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_option(const CLI::Option* option, bool positional) const override {
+    return entry(make_option_name(option, positional) + make_option_opts(option), make_option_desc(option));
+  }
+  std::string make_subcommand(const CLI::App* subcommand) const override {
+    return entry(subcommand->get_display_name(true), subcommand->get_description());
+  }
+  std::string make_description(const CLI::App* app) const override {
+    return paragraph(CLI::Formatter::make_description(app));
+  }
+  std::string make_footer(const CLI::App* app) const override { return paragraph(app->get_footer()); }
+
+ private:
+  std::string paragraph(const std::string& text) const {
+    std::string lines;
+    for (const std::string& line : lines_of(text, width_)) lines += line + "\n";
+    return lines;
+  }
+
+  // The name, and beside it or, where it is long, below it what it does.
+  std::string entry(const std::string& name, const std::string& text) const {
+    const std::size_t column = std::min(get_column_width(), width_ / 3);
+    std::string lines = "  " + name;
+    if (lines.size() + 2 > column)
+      lines += "\n" + std::string(column, ' ');
+    else
+      lines.resize(column, ' ');
+    const std::string indent(column, ' ');
+    bool first = true;
+    for (const std::string& line : lines_of(text, width_ - column)) {
+      lines += (first ? "" : indent) + line + "\n";
+      first = false;
+    }
+    return first ? lines + "\n" : lines;
+  }
+
+  std::size_t width_ = std::clamp<std::size_t>(terminal_columns(STDOUT_FILENO, 100), 50, 100);
+};
+
+// Levenshtein's distance.
+std::size_t distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::shared_ptr<CLI::FormatterBase> help_formatter() {
+  return std::make_shared<HelpFormatter>();
+}
+
+std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates) {
+  std::string nearest;
+  std::size_t least = std::min<std::size_t>(3, word.size());
+  for (const std::string& candidate : candidates) {
+    const std::size_t far = distance(word, candidate);
+    if (far < least) {
+      least = far;
+      nearest = candidate;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace remodel::app

@@ -1,0 +1,67 @@
+#include "potential_run.h"
+
+#include <optional>
+
+#include "figures.h"
+#include "flow_plots.h"
+#include "remodel/plot.h"
+#include "report.h"
+#include "timing.h"
+
+namespace remodel::app {
+namespace {
+
+void add_flow_figures(Report& report, const PotentialFlow& flow) {
+  report.figure("cl", "CL", flow.lift);
+  report.figure("cd", "CD by pressure, an error", flow.drag_by_pressure);
+  report.figure("cm", "CM", flow.moment);
+  report.figure("cl_by_pressure", "CL by pressure", flow.lift_by_pressure);
+  report.figure("alpha_deg", "angle of attack", flow.alpha_deg, "degrees");
+  report.data("mach", 0);
+  report.data("converged", true);
+  Json bodies = Json::array();
+  for (const BodyFlow& body : flow.bodies) {
+    bodies.push_back({{"name", body.name},
+                      {"trailing_edge", body.trailing_edge},
+                      {"circulation", body.circulation},
+                      {"cl", body.lift},
+                      {"cd", body.drag},
+                      {"cm", body.moment}});
+    const char* const edge = body.trailing_edge ? "" : "; no trailing edge, so no circulation";
+    report.line("body " + body.name, "CL " + Json(body.lift).dump() + " by pressure" + edge);
+  }
+  report.data("bodies", bodies);
+}
+
+}  // namespace
+
+void run_potential(const PotentialRun& run, const MeshInput& input, const std::string& source,
+                   const MeshOutputs& outputs) {
+  const Stopwatch watch;
+  const PotentialSolver solver(input.frozen, run.options, source);
+  const PotentialFlow flow = solver.at(run.lift ? solver.alpha_deg_for(*run.lift) : run.alpha_deg);
+  const double seconds = watch.seconds();
+  const std::vector<Field> fields = flow.fields();
+  std::optional<Plot> plot;
+  if (!run.cp_plot.empty()) {
+    plot = cp_plot(input.frozen, run.options.farfield, find_field(fields, "cp")->values,
+                   flow_caption(0.0, flow.alpha_deg, flow.lift), "--cp-plot");
+  }
+  write_with_fields(outputs, input, fields);
+  std::vector<std::string> files = outputs.files();
+  if (plot) {
+    draw_plot(*plot, run.cp_plot);
+    files.push_back(run.cp_plot);
+  }
+  Report report;
+  report.figure("input", "input", source);
+  report.data("model", "potential");
+  report.figure("triangles", "triangles", input.frozen.triangles.size());
+  report.figure("vertices", "vertices", input.frozen.points.size());
+  add_flow_figures(report, flow);
+  report.figure("seconds", "flow", seconds, "seconds");
+  add_output_figures(report, files);
+  report.print(run.json);
+}
+
+}  // namespace remodel::app

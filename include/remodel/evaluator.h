@@ -1,0 +1,83 @@
+#pragma once
+
+// The evaluator of a run: it turns a design's mesh, with the record of what changed on the way to it, and
+// what it kept from the design before into an objective, constraints and, if it can, gradients. It knows
+// nothing of how designs are found. Where there are several workers, evaluate() is called from several
+// threads at once, each with the state of its own living mesh.
+//
+// examples/own_evaluator.cpp is one in thirty lines.
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "remodel/airfoil.h"
+#include "remodel/evaluation.h"
+#include "remodel/living_mesh.h"
+#include "remodel/mesh.h"
+
+namespace remodel {
+
+// The data that an evaluator keeps from design to design of one living mesh: a flow field, the factors of a
+// matrix. Vertices that a step kept have kept their ids.
+class EvaluatorState {
+ public:
+  virtual ~EvaluatorState() = default;
+  // For a checkpoint: Evaluator::restore() makes the state of it. Empty: a resumed run begins without a
+  // state.
+  virtual std::string bytes() const { return {}; }
+};
+
+// One design to be evaluated.
+struct EvaluationTask {
+  std::span<const double> design;
+  const Mesh& mesh;      // of the design, valid
+  const MeshStep& step;  // from the worker's design before to this one
+  // mesh.changes_since(*before): what has changed since the worker's design before. Null where this mesh was
+  // not made from that one's: it was generated instead, or is the hub's (MeshStrategy::hub).
+  const Mark* before;
+  bool gradient;  // whether the designer asks for gradients
+  // To be asked now and then by evaluations that take long; an evaluation that throws after it has been told
+  // that the run is cancelled did not fail. The run ends, to be resumed from its last checkpoint.
+  StepObserver& observer;
+};
+
+class Evaluator {
+ public:
+  virtual ~Evaluator() = default;
+
+  // `state`: what this living mesh's last evaluation left there; null at the first one, and after one that
+  // failed. An evaluation fails where evaluate() throws or returns an objective that is not finite or
+  // gradients of another size: the design counts as infeasible (objective infinite), the history has the
+  // message, the run goes on.
+  virtual Evaluation evaluate(const EvaluationTask& task, std::unique_ptr<EvaluatorState>& state) = 0;
+
+  // From what EvaluatorState::bytes() gave; the mesh as it was then. Throws Error (format) naming `source`
+  // where the bytes are damaged.
+  virtual std::unique_ptr<EvaluatorState> restore(const std::string& bytes, const Mesh& mesh,
+                                                  const std::string& source) {
+    static_cast<void>(bytes), static_cast<void>(mesh), static_cast<void>(source);
+    return nullptr;
+  }
+  // What evaluations depend on, as a JSON object: a run can be resumed with the same alone.
+  virtual std::string description() const = 0;
+};
+
+// The paper's: the mean square distance in y, in square chords, to the target at 50 stations of each surface,
+// x = (1 + cos 2 pi t) / 2 with t = i / 102. Designs are the coefficients of an AirfoilSpace of the target's
+// degree, class exponents and trailing edge (remodel/design_space.h). With gradient; without constraints. It
+// does not look at the mesh.
+std::unique_ptr<Evaluator> interpolation_evaluator(const CstAirfoil& target);
+
+// A program of the user's, run once for each design as `command... MESH DESIGN`: two files in a temporary
+// directory of its own, the mesh in SU2 format and the design, its parameters as a JSON array. The program
+// prints one JSON object: "objective", a number, and optionally "constraints", an array of numbers,
+// "gradient", an array, "constraint_gradients", an array of arrays, and "outputs", an object of numbers. The
+// evaluation fails where the program cannot be started, ends with another status than 0, or prints something
+// else; the message has the end of what it wrote to standard error. A run that is cancelled terminates the
+// program with all processes of its group. Throws Error (argument) for an empty command.
+std::unique_ptr<Evaluator> command_evaluator(std::vector<std::string> command);
+
+}  // namespace remodel

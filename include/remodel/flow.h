@@ -1,0 +1,152 @@
+#pragma once
+
+// Steady two-dimensional flow of a perfect gas without friction (the compressible Euler equations, gamma
+// = 1.4) around the walls of a mesh, at its vertices, of second order.
+//
+//   Mesh mesh = generate(airfoil_domain(named_airfoil("naca:0012", 5))).mesh;
+//   LivingFlow flow;
+//   FlowResult first = flow.solve(mesh, {.mach = 0.5, .alpha_deg = 1.25});     // cold
+//   remodel(mesh, design);
+//   FlowResult second = flow.solve(mesh, {.mach = 0.5, .alpha_deg = 1.25});    // from what the first one
+//   left if (second.converged()) use(second.cl, second.cd);
+//
+// Units: density and speed of sound of the undisturbed stream are 1, so that its speed is the Mach number and
+// its pressure 1 / gamma; lengths are the mesh's. Coefficients are forces over half the stream's density
+// times speed squared times the reference length. Lift is perpendicular to the stream, positive to its left
+// (upwards for a stream to the right); drag is along the stream; the moment is about the reference point,
+// positive nose up.
+//
+// Boundaries: the one called `farfield` is open to the stream, all others are walls that the flow slips
+// along. The stream far away has a vortex of the sum of all walls' lift, at the reference point (J. L. Thomas
+// and M. D. Salas, AIAA J. 24, 1986), so that 25 chords are far enough.
+//
+// Method: Roe's flux on the median dual, reconstruction along edges of third order on even spacing, van
+// Albada's limiter, weak boundary conditions; the exact Jacobian; Newton's method by pseudo-transient
+// continuation with a line search; sparse LU. docs/flow.md has equations, sources and verification.
+//
+// Errors: Error (argument) for conditions and options out of range, and for a mesh without a far field,
+// without a wall or with unnamed boundary edges. A flow that is not found is no error: FlowResult::status and
+// reason say so, and no coefficient of it should be used.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "remodel/field.h"
+#include "remodel/frozen_mesh.h"
+#include "remodel/mesh.h"
+
+namespace remodel {
+
+struct FlowConditions {
+  double mach = 0.5;       // of the stream: 0.01 to 3
+  double alpha_deg = 0.0;  // its angle to the x axis, -90 to 90; where cl is given, where the search begins
+  std::optional<double> cl = {};  // the lift coefficient that the angle is to be found for; not above Mach 1
+  Point reference = {0.25, 0.0};
+  double reference_length = 1.0;  // more than 0
+};
+
+struct FlowOptions {
+  std::string farfield = "farfield";
+  // Converged: the root of the sum of squares of all residuals is at most this part of what it is for
+  // undisturbed flow through the same mesh, and lift and angle fit as well. 1e-13 to 1e-2.
+  double tolerance = 1e-10;
+  int max_steps = 200;  // Newton steps of one flow, 1 or more
+  bool vortex = true;   // in the far field
+  double limiter =
+      30.0;  // K: differences along an edge of length h below (K h / length)^(3/2) are not limited; > 0
+  double memory_mb = 4096;           // what factors may take
+  StepObserver* observer = nullptr;  // asked at every step
+};
+
+enum class FlowStatus {
+  converged,
+  step_limit,  // max_steps
+  stalled,  // no step of any length leads on: a flow that has no steady state, or that this method does not
+            // find
+  memory,   // the factors need more than memory_mb
+  interrupted,  // by the observer
+};
+const char* name_of(FlowStatus status);  // "converged", "step-limit", "stalled", "memory", "interrupted"
+
+// What a flow was found from.
+enum class FlowStart {
+  cold,        // undisturbed flow
+  carried,     // the last flow, with the factors of an earlier one
+  refactored,  // the last flow, with factors of its own
+};
+const char* name_of(FlowStart start);  // "cold", "carried", "refactored"
+
+struct FlowBody {
+  std::string name;  // of the boundary
+  double cl = 0.0, cd = 0.0, cm = 0.0;
+};
+
+struct FlowResult {
+  FlowStatus status = FlowStatus::stalled;
+  std::string reason;  // why it did not converge, one sentence; empty if it did
+  bool converged() const { return status == FlowStatus::converged; }
+
+  double mach = 0.0, alpha_deg = 0.0;
+  double cl = 0.0, cd = 0.0, cm = 0.0;
+  std::vector<FlowBody> bodies;  // the parts of each wall, which the sums are of
+
+  FlowStart start = FlowStart::cold;
+  double residual = 0.0;               // as FlowOptions::tolerance counts it
+  std::vector<double> history;         // residuals, from the first state on
+  int newton_steps = 0;                // steps with a Jacobian of their own
+  int factorisations = 0;              // of the whole matrix
+  int krylov_iterations = 0;           // steps with older factors
+  std::size_t corrected_vertices = 0;  // where older factors were corrected because the mesh has changed
+  double memory_mb = 0.0;              // of the factors, the most
+  double seconds = 0.0;
+
+  // Per point of the frozen mesh.
+  std::vector<double> density, velocity_x, velocity_y, pressure;
+};
+
+// Per point: local Mach number; pressure coefficient; p / rho^gamma over the stream's, minus 1, which is 0
+// where nothing is lost.
+std::vector<double> mach_numbers(const FlowResult& flow);
+std::vector<double> pressure_coefficients(const FlowResult& flow);
+std::vector<double> entropy_errors(const FlowResult& flow);
+// density, velocity, pressure, mach, cp and entropy, for files and pictures.
+std::vector<Field> fields_of(const FlowResult& flow);
+
+// The flow through a mesh, from undisturbed flow. `source` names the mesh in messages.
+FlowResult solve_flow(const FrozenMesh& mesh, const FlowConditions& conditions,
+                      const FlowOptions& options = {}, const std::string& source = "mesh");
+
+// The same, but beginning with the flow through another mesh, interpolated, one factorisation and its use
+// until the flow is found: the best that can be done where meshes are generated afresh.
+FlowResult solve_flow_from(const FrozenMesh& before, const FlowResult& flow, const FrozenMesh& mesh,
+                           const FlowConditions& conditions, const FlowOptions& options = {},
+                           const std::string& source = "mesh");
+
+// A solver that outlives its mesh. It keeps the last flow and the factors of a matrix, by the keys of
+// vertices, and uses both for the next flow, whatever was done to the mesh in between: older factors go on
+// serving while most of the mesh is what it was, corrected by an exact solve where it is not. It factors
+// again when that is cheaper (counted in operations, not in time), and begins cold when nothing else works;
+// FlowResult::start says which it was. What it kept decides how long a flow takes and nothing else: the
+// residual is of the mesh and conditions given.
+//
+// The meshes should be one living mesh, its copies, and trials on it; with any other mesh the result is the
+// same, but later. The same row of calls gives the same bits.
+class LivingFlow {
+ public:
+  explicit LivingFlow(const FlowOptions& options = {});
+  ~LivingFlow();
+  LivingFlow(LivingFlow&&) noexcept;
+  LivingFlow& operator=(LivingFlow&&) noexcept;
+
+  FlowResult solve(const Mesh& mesh, const FlowConditions& conditions);
+  // The next flow is found cold.
+  void forget();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace remodel

@@ -1,0 +1,30 @@
+#pragma once
+
+// Files of shapes: airfoil coordinates, CST coefficients, domains. What their texts mean is in airfoil.h and
+// domain.h; these functions open files. All throw Error (file) where a file cannot be read or is larger than
+// 16 MiB, and whatever the text's own reader throws, with the file's name.
+
+#include <filesystem>
+#include <string>
+
+#include "remodel/airfoil.h"
+#include "remodel/domain.h"
+
+namespace remodel {
+
+// parse_airfoil() of a file.
+AirfoilCoordinates read_airfoil(const std::filesystem::path& file);
+
+// SHAPE of the command line: a coordinate file, a .json file of CST coefficients, or what named_airfoil()
+// takes. What exists as a file, contains '/' or '.', or is '-' (standard input) is a file. degree and
+// trailing_edge are used for coordinate files, as fit_cst_apart() takes them; degree for named sections too.
+CstAirfoil load_airfoil(const std::string& shape, int degree,
+                        TrailingEdge trailing_edge = TrailingEdge::kept);
+
+// domain_from_json() of a file, where airfoils may be named as load_airfoil() takes them; their files are
+// looked for in the file's own directory first.
+Domain load_domain(const std::filesystem::path& file);
+// holds_domain() of the text of a JSON file: one called .json, or a pipe whose text begins with '{'.
+bool holds_domain(const std::filesystem::path& file);
+
+}  // namespace remodel

@@ -1,0 +1,397 @@
+#include "design/design_loop.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "base/checksum.h"
+#include "base/stopwatch.h"
+#include "design/checkpoint.h"
+#include "design/comparison.h"
+#include "design/design_search.h"
+#include "design/living_mesh.h"
+#include "design/record_checksum.h"
+#include "design/run_directory.h"
+#include "design/settings.h"
+#include "design/summary.h"
+#include "design/workers.h"
+#include "remodel/error.h"
+#include "remodel/io.h"
+#include "remodel/version.h"
+
+namespace remodel {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Whether something that is due every k evaluations, 0 for never, is due.
+bool every(std::size_t k, std::uint64_t evaluation) {
+  return k != 0 && evaluation % k == 0;
+}
+
+// Who waits for an evaluation asks the run's observer.
+class CancelQuestion final : public StepObserver {
+ public:
+  explicit CancelQuestion(OptimiseObserver& observer) : observer_(observer) {}
+  bool cancelled() override { return observer_.cancelled(); }
+
+ private:
+  OptimiseObserver& observer_;
+};
+
+Feasible feasible_in(const DesignSpace& space) {
+  return [&space, dimension = space.start().size()](std::span<const double> design) {
+    if (design.size() != dimension)
+      throw Error(ErrorCode::argument, "designer",
+                  "found a design of " + std::to_string(design.size()) + " parameters, expected " +
+                      std::to_string(dimension));
+    return space.feasible(design);
+  };
+}
+
+// All that changes as a run goes on, but for the designer.
+struct Progress {
+  RunDirectory directory;
+  Workers workers;
+  History history;
+  Summary summary{};
+  Checksum written{};         // of the history
+  std::uint64_t refused = 0;  // infeasible samples since the last evaluation
+  double earlier_seconds = 0.0;
+};
+
+class Run {
+ public:
+  Run(Progress progress, const DesignProblem& problem, const OptimiseOptions& options)
+      : progress_(std::move(progress)),
+        problem_(problem),
+        options_(options),
+        population_(problem.designer.population()),
+        feasible_(feasible_in(problem.space)),
+        settings_(settings_of(problem.space, problem.designer, problem.evaluator, options)) {}
+
+  OptimiseStopped evaluate_all(OptimiseObserver& observer);
+  OptimiseResult finish(OptimiseStopped stopped);
+
+ private:
+  OptimiseStopped evaluate_some(OptimiseObserver& observer);
+  void begin_generation();
+  std::size_t at_once() const;
+  Job job_of(const Sample& sample, std::uint64_t evaluation) const;
+  void complete(const Sample& sample, Job& job);
+  StepTasks tasks(const Proposal& proposal, std::uint64_t evaluation) const;
+  bool checkpoint_due() const;
+  void checkpoint();
+  std::uint64_t evaluations() const { return progress_.summary.evaluations(); }
+  std::uint64_t middle() const { return (options_.evaluations + 1) / 2; }
+  bool generation_ends() const { return evaluations() != 0 && evaluations() % population_ == 0; }
+  bool finished() const;
+  bool is_middle() const;
+  double seconds() const { return progress_.earlier_seconds + watch_.seconds(); }
+
+  Stopwatch watch_;
+  Stopwatch since_checkpoint_;
+  Progress progress_;
+  const DesignProblem& problem_;
+  const OptimiseOptions& options_;
+  std::size_t population_;
+  Feasible feasible_;
+  std::string settings_;
+  bool mesh_is_of_last_row_ = true;
+};
+
+OptimiseStopped Run::evaluate_all(OptimiseObserver& observer) {
+  while (!finished()) {
+    if (observer.cancelled()) return OptimiseStopped::interrupted;
+    if (const OptimiseStopped stopped = evaluate_some(observer); stopped != OptimiseStopped::done)
+      return stopped;
+  }
+  return OptimiseStopped::done;
+}
+
+// The tolerance ends a run at a generation's end alone: how many designs are evaluated at once then changes
+// nothing.
+bool Run::finished() const {
+  if (evaluations() >= options_.evaluations || problem_.designer.finished()) return true;
+  return options_.tolerance != 0.0 && generation_ends() &&
+         progress_.summary.best_objective() <= options_.tolerance;
+}
+
+bool Run::is_middle() const {
+  const Summary& summary = progress_.summary;
+  if (options_.tolerance == 0.0 || !problem_.half_way) return evaluations() == middle();
+  if (evaluations() > middle() || summary.best_before_generation() <= *problem_.half_way) return false;
+  return evaluations() == middle() || (generation_ends() && summary.best_objective() <= *problem_.half_way);
+}
+
+// The number of designs that are evaluated at once: all of one generation, up to the next mesh or checkpoint
+// that is written. A single worker takes one at a time.
+std::size_t Run::at_once() const {
+  if (progress_.workers.count() == 1) return 1;
+  const std::uint64_t done = evaluations();
+  std::uint64_t number = std::min(population_ - done % population_, options_.evaluations - done);
+  if (options_.checkpoint_every != 0)
+    number = std::min(number, options_.checkpoint_every - done % options_.checkpoint_every);
+  if (done < middle()) number = std::min(number, middle() - done);
+  return number;
+}
+
+OptimiseStopped Run::evaluate_some(OptimiseObserver& observer) {
+  if (evaluations() % population_ == 0) begin_generation();
+  std::vector<Sample> samples;
+  std::vector<Job> jobs;
+  const std::size_t wanted = at_once();
+  while (jobs.size() < wanted) {
+    std::optional<Sample> sample = next_sample(problem_.designer, feasible_, options_.max_refused);
+    if (!sample) break;
+    jobs.push_back(job_of(*sample, evaluations() + jobs.size() + 1));
+    samples.push_back(std::move(*sample));
+  }
+  progress_.workers.evaluate(jobs);
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    mesh_is_of_last_row_ = jobs[i].stopped == Stopped::done;
+    if (jobs[i].stopped == Stopped::interrupted) return OptimiseStopped::interrupted;
+    if (jobs[i].stopped != Stopped::done) return OptimiseStopped::mesh_limit;
+    complete(samples[i], jobs[i]);
+    observer.evaluated(jobs[i].record);
+  }
+  if (jobs.size() < wanted) {
+    progress_.refused += options_.max_refused;
+    return OptimiseStopped::infeasible;
+  }
+  if (is_middle()) write_mesh(progress_.workers.last_mesh(), options_.directory / "middle.vtkhdf");
+  if (checkpoint_due()) checkpoint();
+  return OptimiseStopped::done;
+}
+
+void Run::begin_generation() {
+  const bool hub = options_.strategy == MeshStrategy::hub;
+  progress_.workers.begin_generation(hub ? feasible_centre(problem_.designer, feasible_) : std::nullopt);
+}
+
+Job Run::job_of(const Sample& sample, std::uint64_t evaluation) const {
+  Job job{.proposal = sample.proposal, .tasks = tasks(sample.proposal, evaluation)};
+  job.record.evaluation = evaluation;
+  job.record.generation = problem_.designer.generation();
+  job.record.coefficients = sample.proposal.design;
+  job.record.sigma = problem_.designer.step_size();
+  return job;
+}
+
+// Completes the row of an evaluation and tells everybody.
+void Run::complete(const Sample& sample, Job& job) {
+  EvaluationRecord& record = job.record;
+  record.best_objective =
+      progress_.summary.is_better(record) ? record.objective : progress_.summary.best_objective();
+  record.infeasible_samples = progress_.refused + sample.refused;
+  progress_.refused = 0;
+  problem_.designer.tell(job.proposal, job.evaluation);
+  progress_.history.append(record);
+  progress_.summary.add(record);
+  add(progress_.written, record);
+}
+
+// The changes of a step are always checked, the whole mesh now and then and at each worker's first step. So
+// every triangle that ever was is checked once, and the smallest of all angles is known.
+StepTasks Run::tasks(const Proposal& proposal, std::uint64_t evaluation) const {
+  constexpr std::size_t quick_check_every = 20;
+  const std::size_t full_check_every =
+      options_.full_check_every != 0 ? options_.full_check_every : options_.compare_every;
+  StepTasks tasks{.check = every(full_check_every, evaluation)    ? Checked::full
+                           : every(quick_check_every, evaluation) ? Checked::quick
+                                                                  : Checked::changes};
+  if (every(options_.compare_every, evaluation))
+    tasks.compare =
+        compared_design(problem_.space, proposal.design, evaluation, problem_.designer.step_size());
+  return tasks;
+}
+
+// Where evaluations are long, hundreds of them are too much to lose.
+bool Run::checkpoint_due() const {
+  constexpr double seconds_between = 60.0;
+  return every(options_.checkpoint_every, evaluations()) ||
+         (options_.checkpoint_every != 0 && since_checkpoint_.seconds() >= seconds_between);
+}
+
+// The history first: a checkpoint never stands for rows that are not on disk.
+void Run::checkpoint() {
+  progress_.history.commit();
+  write_checkpoint(options_.directory,
+                   {.settings = settings_,
+                    .evaluation = evaluations(),
+                    .refused = progress_.refused,
+                    .finished = finished(),
+                    .seconds = seconds(),
+                    .designer = problem_.designer.state(),
+                    .workers = progress_.workers.state(),
+                    .history_checksum = progress_.written.text()},
+                   progress_.workers.meshes());
+  since_checkpoint_ = Stopwatch();
+}
+
+// Where the mesh is not that of the last row, the checkpoint before is what can be gone on from.
+OptimiseResult Run::finish(OptimiseStopped stopped) {
+  progress_.history.commit();
+  if (mesh_is_of_last_row_) {
+    write_mesh(progress_.workers.last_mesh(), options_.directory / "last.vtkhdf");
+    checkpoint();
+  }
+  OptimiseResult result = progress_.summary.result();
+  result.infeasible_samples += progress_.refused;
+  result.stopped = stopped;
+  result.workers = progress_.workers.count();
+  if (result.best_design.empty()) result.best_design = problem_.space.start();
+  if (problem_.complete) problem_.complete(result);
+  result.seconds = seconds();
+  write_text_atomically(options_.directory / "best.json", problem_.space.text(result.best_design));
+  write_text_atomically(options_.directory / "result.json", optimise_result_to_json(result) + "\n");
+  return result;
+}
+
+void refuse_other_run(const OptimiseOptions& options) {
+  if (options.overwrite || !has_checkpoint(options.directory)) return;
+  const Checkpoint other = read_checkpoint(options.directory);
+  throw Error(ErrorCode::argument, options.directory.string(),
+              "holds " + std::string(other.finished ? "a finished run" : "an unfinished run") + " of " +
+                  std::to_string(other.evaluation) +
+                  " evaluations: expected another directory, --resume to go on with it, or --overwrite to "
+                  "replace it");
+}
+
+// The start of a run, complete on the disk before it replaces what the directory holds.
+Progress begin(const DesignProblem& problem, const Evaluating& evaluating, RunDirectory directory,
+               const Mesh& mesh) {
+  const OptimiseOptions& options = evaluating.options;
+  Workers workers(evaluating, mesh);
+  std::map<std::string, std::string> run = problem.facts;
+  run["version"] = REMODEL_VERSION;
+  run["options"] = settings_of(problem.space, problem.designer, problem.evaluator, options);
+  Checksum written;
+  add(written, run);
+  try {
+    const fs::path start = directory.make_start();
+    write_mesh(mesh, start / "first.vtkhdf");
+    History::create(start / "history.sqlite", run);
+    const std::vector<const Mesh*> everywhere(mesh_count(options, evaluating.population), &mesh);
+    write_checkpoint(start,
+                     {.settings = run.at("options"),
+                      .designer = problem.designer.state(),
+                      .workers = workers.state(),
+                      .history_checksum = written.text()},
+                     everywhere);
+    directory.publish_start();
+  } catch (...) {
+    directory.drop_start();
+    throw;
+  }
+  History history = History::resume(options.directory / "history.sqlite", 0);
+  return {.directory = std::move(directory),
+          .workers = std::move(workers),
+          .history = std::move(history),
+          .written = written};
+}
+
+// The first rows of the history as the checkpoint knows them. Whatever a damaged file may hold, it is refused
+// before it is written to.
+Summary replay(const fs::path& file, const Checkpoint& checkpoint, std::size_t dimension, Checksum& written) {
+  const History history = History::open(file);
+  const std::map<std::string, std::string> run = history.run();
+  const auto stored = run.find("options");
+  require_settings(stored == run.end() ? "" : stored->second, checkpoint.settings, file.parent_path());
+  add(written, run);
+  Summary summary;
+  history.each([&](const EvaluationRecord& record) {
+    if (record.evaluation > checkpoint.evaluation) return;
+    if (record.coefficients.size() != dimension)
+      throw Error(ErrorCode::format, file.string(),
+                  "expected " + std::to_string(dimension) + " coefficients, found " +
+                      std::to_string(record.coefficients.size()));
+    add(written, record);
+    summary.add(record);
+  });
+  if (summary.evaluations() != checkpoint.evaluation || written.text() != checkpoint.history_checksum)
+    throw Error(ErrorCode::format, file.string(),
+                "expected the history of checkpoint.json: its checksum is another");
+  return summary;
+}
+
+Workers restored_workers(const Evaluating& evaluating, const Checkpoint& checkpoint, std::size_t dimension) {
+  const OptimiseOptions& options = evaluating.options;
+  const std::string source = (options.directory / "checkpoint.json").string();
+  std::vector<Mesh> meshes = read_checkpoint_meshes(options.directory);
+  const std::size_t workers = worker_count(options, evaluating.population);
+  const auto fits = [&](const WorkerState& worker) { return worker.design.size() == dimension; };
+  const std::vector<WorkerState>& states = checkpoint.workers.workers;
+  if (states.size() != workers || meshes.size() != mesh_count(options, evaluating.population) ||
+      !std::all_of(states.begin(), states.end(), fits))
+    throw Error(ErrorCode::format, source,
+                "expected " + std::to_string(workers) + " workers with a mesh and " +
+                    std::to_string(dimension) + " coefficients each");
+  return Workers(evaluating, checkpoint.workers, std::move(meshes), source);
+}
+
+Progress go_on(const DesignProblem& problem, const Evaluating& evaluating) {
+  const OptimiseOptions& options = evaluating.options;
+  if (!has_checkpoint(options.directory)) read_checkpoint(options.directory);  // says that it is missing
+  RunDirectory directory(options.directory);
+  const fs::path history_file = options.directory / "history.sqlite";
+  const Checkpoint checkpoint = read_checkpoint(options.directory);
+  require_settings(checkpoint.settings,
+                   settings_of(problem.space, problem.designer, problem.evaluator, options),
+                   options.directory);
+  problem.designer.restore(checkpoint.designer, (options.directory / "checkpoint.json").string());
+  const std::size_t dimension = problem.space.start().size();
+  Workers workers = restored_workers(evaluating, checkpoint, dimension);
+  Checksum written;
+  Summary summary = replay(history_file, checkpoint, dimension, written);
+  return {.directory = std::move(directory),
+          .workers = std::move(workers),
+          .history = History::resume(history_file, checkpoint.evaluation),
+          .summary = std::move(summary),
+          .written = written,
+          .refused = checkpoint.refused,
+          .earlier_seconds = checkpoint.seconds};
+}
+
+OptimiseResult unmeshable_start(const DesignProblem& problem, const OptimiseOptions& options) {
+  OptimiseResult result;
+  result.stopped = OptimiseStopped::mesh_limit;
+  result.workers = worker_count(options, problem.designer.population());
+  result.best_design = problem.space.start();
+  if (problem.complete) problem.complete(result);
+  return result;
+}
+
+}  // namespace
+
+OptimiseResult run_design_loop(const DesignProblem& problem, const OptimiseOptions& options,
+                               OptimiseObserver* observer) {
+  require_good(options);
+  OptimiseObserver silent;
+  OptimiseObserver& listener = observer ? *observer : silent;
+  CancelQuestion question(listener);
+  const Evaluating evaluating{.space = problem.space,
+                              .evaluator = problem.evaluator,
+                              .options = options,
+                              .population = problem.designer.population(),
+                              .observer = question};
+  if (options.resume) {
+    Run run(go_on(problem, evaluating), problem, options);
+    return run.finish(run.evaluate_all(listener));
+  }
+  // A directory that exists is locked before it is looked at; a new one is made only for a run that can
+  // start.
+  std::optional<RunDirectory> directory;
+  if (fs::exists(options.directory)) {
+    directory.emplace(options.directory);
+    refuse_other_run(options);
+  }
+  std::optional<Mesh> first = first_mesh(problem.space, options);
+  if (!first) return unmeshable_start(problem, options);
+  if (!directory) directory.emplace(options.directory);
+  refuse_other_run(options);
+  Run run(begin(problem, evaluating, std::move(*directory), *first), problem, options);
+  return run.finish(run.evaluate_all(listener));
+}
+
+}  // namespace remodel

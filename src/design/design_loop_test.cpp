@@ -1,0 +1,290 @@
+// Runs of designers and evaluators that are not the paper's.
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <set>
+#include <stdexcept>
+
+#include "design/test_runs.h"
+#include "remodel/error.h"
+
+namespace remodel {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Ellipses in a box: two half axes.
+class Ellipses : public DesignSpace {
+ public:
+  std::vector<double> start() const override { return {0.3, 0.3}; }
+  Domain domain(std::span<const double> design) const override {
+    constexpr int points = 40;
+    Polyline ellipse;
+    for (int i = 0; i <= points; ++i) {
+      const double angle = 2.0 * std::acos(-1.0) * (i % points) / points;
+      ellipse.points.push_back({design[0] * std::cos(angle), design[1] * std::sin(angle)});
+    }
+    Polyline box{{{-2, -2}, {2, -2}, {2, 2}, {-2, 2}, {-2, -2}}};
+    return {{{LoopRole::outer, {{"box", box, Parameters::uniform(32)}}},
+             {LoopRole::hole, {{"body", ellipse, Parameters::uniform(points)}}}}};
+  }
+  bool feasible(std::span<const double> design) const override {
+    return design[0] > 0.05 && design[1] > 0.05 && DesignSpace::feasible(design);
+  }
+  std::string description() const override { return R"({"space": "ellipses"})"; }
+};
+
+// The area of the body is to be 1 and, as a constraint, the body at least twice as long as it is high.
+Evaluation area_of(const EvaluationTask& task) {
+  const double area = std::acos(-1.0) * task.design[0] * task.design[1];
+  return {.objective = (area - 1.0) * (area - 1.0),
+          .constraints = {2.0 * task.design[1] - task.design[0]},
+          .outputs = {{"area", area}}};
+}
+
+// Keeps the number of designs that its mesh has had.
+struct Counting : Evaluator {
+  struct State : EvaluatorState {
+    std::string bytes() const override { return std::string("\0count", 6) + std::to_string(count); }
+    int count = 0;
+  };
+  Evaluation evaluate(const EvaluationTask& task, std::unique_ptr<EvaluatorState>& state) override {
+    if (!state) state = std::make_unique<State>();
+    Evaluation evaluation = area_of(task);
+    evaluation.outputs["count"] = ++dynamic_cast<State&>(*state).count;
+    evaluation.outputs["same"] =
+        task.before != nullptr && task.mesh.changes_since(*task.before).same_connectivity();
+    return evaluation;
+  }
+  std::unique_ptr<EvaluatorState> restore(const std::string& bytes, const Mesh&,
+                                          const std::string&) override {
+    auto state = std::make_unique<State>();
+    state->count = std::stoi(bytes.substr(6));
+    return state;
+  }
+  std::string description() const override { return R"({"evaluator": "counting"})"; }
+};
+
+// Throws at every third design.
+struct Moody : Evaluator {
+  Evaluation evaluate(const EvaluationTask& task, std::unique_ptr<EvaluatorState>&) override {
+    if (std::fmod(std::abs(task.design[0]) * 1e6, 3.0) < 1.0) throw std::runtime_error("no solution");
+    return area_of(task);
+  }
+  std::string description() const override { return R"({"evaluator": "moody"})"; }
+};
+
+// Steepest descent with steps that are halved until they pay.
+class Descent : public Designer {
+ public:
+  explicit Descent(std::vector<double> start) : at_(std::move(start)) {}
+  std::size_t population() const override { return 1; }
+  Proposal ask() override { return {.design = trial(), .gradient = true}; }
+  void refuse(const Proposal&) override { step_ /= 2.0; }
+  void tell(const Proposal& proposal, const Evaluation& evaluation) override {
+    ++told_;
+    if (!gradient_.empty() && evaluation.objective >= value_) return void(step_ /= 2.0);
+    at_ = proposal.design;
+    value_ = evaluation.objective;
+    gradient_ = evaluation.gradient;
+    step_ *= 1.5;
+  }
+  bool finished() const override { return value_ < 1e-12; }
+  std::uint64_t generation() const override { return told_; }
+  std::string state() const override { return std::to_string(told_); }
+  void restore(const std::string&, const std::string& source) override {
+    throw Error(ErrorCode::format, source, "cannot be restored");
+  }
+  std::string description() const override { return R"({"designer": "descent"})"; }
+
+ private:
+  std::vector<double> trial() const {
+    std::vector<double> design = at_;
+    for (std::size_t i = 0; i < gradient_.size(); ++i) design[i] -= step_ * gradient_[i];
+    return design;
+  }
+  std::vector<double> at_, gradient_;
+  double value_ = Evaluation::failed, step_ = 1.0;
+  std::uint64_t told_ = 0;
+};
+
+class DesignLoop : public OptimiseRun {
+ protected:
+  OptimiseOptions small(const std::string& name, std::size_t evaluations = 60) const {
+    OptimiseOptions result = options(name, evaluations);
+    result.compare_every = 0;
+    return result;
+  }
+  OptimiseResult run(Evaluator& evaluator, const OptimiseOptions& options,
+                     OptimiseObserver* observer = nullptr) {
+    CmaesDesigner designer(space_.start(), {.sigma = 0.1, .seed = 7});
+    return optimise(space_, designer, evaluator, options, observer);
+  }
+  std::vector<EvaluationRecord> rows(const OptimiseOptions& options) const {
+    return History::open(options.directory / "history.sqlite").records();
+  }
+  Ellipses space_;
+};
+
+TEST_F(DesignLoop, FindsTheBestDesignWithinTheConstraints) {
+  Counting evaluator;
+  const OptimiseResult result = run(evaluator, small("run", 400));
+  EXPECT_EQ(result.stopped, OptimiseStopped::done);
+  EXPECT_EQ(result.invalid_meshes, 0U) << result.detail;
+  EXPECT_LT(result.objective, 1e-4);
+  EXPECT_NEAR(result.outputs.at("area"), 1.0, 0.01);
+  EXPECT_LE(2.0 * result.best_design[1], result.best_design[0]);
+  EXPECT_EQ(read_text(root_ / "run" / "best.json"), space_.text(result.best_design));
+  bool violated = false, replaced = false;
+  double best = Evaluation::failed;
+  for (const EvaluationRecord& row : rows(small("run"))) {
+    violated |= violation_of(row.constraints) > 0.0;
+    if (violation_of(row.constraints) == 0.0) best = std::min(best, row.objective);
+    EXPECT_EQ(row.best_objective, best);
+    EXPECT_EQ(row.outputs.at("count"), static_cast<double>(row.evaluation));  // one mesh, one state
+    EXPECT_GE(row.outputs.at("same"), row.full_adjustment ? 1.0 : 0.0);
+    replaced |= row.outputs.at("same") == 0.0;
+  }
+  EXPECT_TRUE(violated);
+  EXPECT_TRUE(replaced);
+  EXPECT_EQ(result.objective, best);
+}
+
+TEST_F(DesignLoop, KeepsEvaluatorStatesInItsCheckpoints) {
+  for (const std::size_t workers : {1, 3}) {
+    const std::string name = std::to_string(workers);
+    OptimiseOptions whole = small(name + "-whole"), parts = small(name + "-parts");
+    whole.workers = parts.workers = workers;
+    Counting evaluator;
+    run(evaluator, whole);
+    for (const std::uint64_t stop : {7, 26, 40}) {
+      StopAfter observer(stop, stop == 26 ? StopAfter::How::kill : StopAfter::How::cancel);
+      if (stop == 26)
+        EXPECT_THROW(run(evaluator, parts, &observer), std::runtime_error);
+      else
+        run(evaluator, parts, &observer);
+      parts.resume = true;
+    }
+    EXPECT_EQ(run(evaluator, parts).stopped, OptimiseStopped::done);
+    expect_same_runs(whole.directory, parts.directory);
+    const auto a = rows(whole), b = rows(parts);
+    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i].outputs, b[i].outputs) << "row " << i;
+  }
+  for (const char set : {'a', 'b'})
+    fs::resize_file(root_ / "3-parts" / (std::string("checkpoint-") + set + "-2.state"), 3);
+  OptimiseOptions damaged = small("3-parts");
+  damaged.workers = 3;
+  damaged.resume = true;
+  Counting evaluator;
+  EXPECT_THROW(run(evaluator, damaged), Error);
+}
+
+TEST_F(DesignLoop, GoesOnWhereEvaluationsFail) {
+  for (const std::size_t workers : {1, 3}) {
+    OptimiseOptions given = small("run" + std::to_string(workers), 300);
+    given.workers = workers;
+    Moody evaluator;
+    const OptimiseResult result = run(evaluator, given);
+    EXPECT_EQ(result.stopped, OptimiseStopped::done);
+    EXPECT_LT(result.objective, 1e-3);
+    std::size_t failed = 0;
+    for (const EvaluationRecord& row : rows(given)) {
+      EXPECT_EQ(std::isinf(row.objective), row.detail == "evaluation failed: no solution") << row.detail;
+      failed += std::isinf(row.objective);
+    }
+    EXPECT_EQ(result.failed_evaluations, failed);
+    EXPECT_GT(failed, 30U);
+    EXPECT_LT(failed, 200U);
+  }
+}
+
+// Waits for the run to be cancelled at one of its designs.
+struct Waiting : Evaluator {
+  Evaluation evaluate(const EvaluationTask& task, std::unique_ptr<EvaluatorState>&) override {
+    if (++designs == wait_at) {
+      cancel = true;
+      while (!task.observer.cancelled()) continue;
+      throw std::runtime_error("cancelled");
+    }
+    return area_of(task);
+  }
+  std::string description() const override { return R"({"evaluator": "waiting"})"; }
+  std::atomic<int> designs = 0;
+  int wait_at = 0;
+  std::atomic<bool> cancel = false;
+};
+
+TEST_F(DesignLoop, IsInterruptedInTheMiddleOfAnEvaluationAndGoesOnFromTheCheckpointBefore) {
+  Waiting whole;
+  run(whole, small("whole"));
+  struct Cancel : OptimiseObserver {
+    explicit Cancel(Waiting& e) : evaluator(e) {}
+    bool cancelled() override { return evaluator.cancel; }
+    Waiting& evaluator;
+  };
+  OptimiseOptions parts = small("parts");
+  Waiting waiting;
+  waiting.wait_at = 37;
+  Cancel observer(waiting);
+  const OptimiseResult result = run(waiting, parts, &observer);
+  EXPECT_EQ(result.stopped, OptimiseStopped::interrupted);
+  EXPECT_EQ(result.evaluations, 36U);
+  parts.resume = true;
+  EXPECT_EQ(run(whole, parts).stopped, OptimiseStopped::done);
+  expect_same_runs(root_ / "whole", parts.directory);
+}
+
+TEST_F(DesignLoop, ServesADesignerThatFollowsGradientsAndEndsByItself) {
+  const AirfoilSpace space(load_airfoil("naca:0012", 3), {.points = 50});
+  CstAirfoil target = load_airfoil("naca:0012", 3);
+  for (double& coefficient : target.upper) coefficient *= 1.2;
+  Descent designer(space.start());
+  const auto evaluator = interpolation_evaluator(target);
+  const OptimiseResult result = optimise(space, designer, *evaluator, small("run", 5000));
+  EXPECT_EQ(result.stopped, OptimiseStopped::done);
+  EXPECT_LT(result.evaluations, 5000U);
+  EXPECT_LT(result.objective, 1e-12);
+  EXPECT_GT(result.preserved_percent, 50.0);
+  OptimiseOptions in_its_place = small("run", 5000);
+  in_its_place.overwrite = true;
+  Descent again(space.start());
+  EXPECT_EQ(optimise(space, again, *evaluator, in_its_place).evaluations, result.evaluations);
+}
+
+TEST_F(DesignLoop, NamesThePartThatAResumedRunHasOtherwise) {
+  Counting counting;
+  Moody moody;
+  OptimiseOptions given = small("run", 10);
+  run(counting, given);
+  given.resume = true;
+  try {
+    run(moody, given);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("evaluator"), std::string::npos) << error.what();
+  }
+}
+
+TEST(CmaesDesigner, RanksViolationsBehindAllThatViolateNothingAndFailuresLast) {
+  const auto mean_after = [](const std::vector<Evaluation>& evaluations) {
+    CmaesDesigner designer({0.0, 0.0}, {.sigma = 1.0, .seed = 1, .population = 4});
+    std::vector<Proposal> asked;
+    for (int i = 0; i < 4; ++i) asked.push_back(designer.ask());
+    for (std::size_t i = 0; i < 4; ++i) designer.tell(asked[i], evaluations[i]);
+    return designer.centre();
+  };
+  const auto of_ranks =
+      mean_after({{.objective = 1.0}, {.objective = 2.0}, {.objective = 3.0}, {.objective = 4.0}});
+  EXPECT_EQ(mean_after({{.objective = 1e9},
+                        {.objective = -5.0, .constraints = {1e-9}},
+                        {.objective = -9.0, .constraints = {-1.0, 3.0}},
+                        {}}),
+            of_ranks);
+  EXPECT_NE(mean_after({{}, {.objective = 2.0}, {.objective = 3.0}, {.objective = 4.0}}), of_ranks);
+}
+
+}  // namespace
+}  // namespace remodel

@@ -1,0 +1,185 @@
+#include "design/living_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <stdexcept>
+#include <utility>
+
+#include "base/stopwatch.h"
+#include "design/comparison.h"
+#include "mesh/mesh_data.h"
+#include "mesh/renew_policy.h"
+#include "remodel/check.h"
+#include "remodel/error.h"
+#include "remodel/generate.h"
+#include "step/strategy.h"
+
+namespace remodel {
+namespace {
+
+constexpr std::array<MeshStrategyInfo, 5> strategies{{
+    {MeshStrategy::chain, "chain", "the paper's method to the letter, and all that imported meshes have",
+     Strategy::chain},
+    {MeshStrategy::renew, "renew", "length scales are renewed, what is too dense is coarsened",
+     Strategy::renew},
+    {MeshStrategy::pool, "pool", "renew, with as many workers as samples per generation", Strategy::renew},
+    {MeshStrategy::hub, "hub", "renew, all designs from one mesh near their mean", Strategy::renew},
+    {MeshStrategy::regenerate, "regenerate", "chain, and generation where a criterion asks for it",
+     Strategy::chain},
+}};
+
+constexpr const char* checked_names[] = {"changes", "quick", "full"};
+
+void copy_figures(const RemodelResult& result, MeshStep& record) {
+  record.triangles_before = result.triangles_before;
+  record.triangles = result.triangles;
+  record.preserved = result.preserved;
+  record.preserved_percent = result.preserved_percent();
+  record.moved = result.moved;
+  record.inserted = result.inserted;
+  record.removed = result.removed;
+  record.full_adjustment = result.full_adjustment;
+  record.refreshed = result.refreshed;
+  record.regenerated = result.regenerated;
+  record.detail = result.reason;
+}
+
+}  // namespace
+
+const char* name_of(Checked checked) {
+  return checked_names[static_cast<std::size_t>(checked)];
+}
+
+Checked checked_named(const std::string& name) {
+  const auto* found = std::find(std::begin(checked_names), std::end(checked_names), name);
+  if (found == std::end(checked_names))
+    throw std::invalid_argument("expected changes, quick or full under `checked`");
+  return static_cast<Checked>(found - std::begin(checked_names));
+}
+
+std::span<const MeshStrategyInfo> mesh_strategies() {
+  return strategies;
+}
+
+const MeshStrategyInfo& info_of(MeshStrategy strategy) {
+  return strategies[static_cast<std::size_t>(strategy)];
+}
+
+MeshStrategy mesh_strategy(const std::string& name) {
+  std::string expected;
+  for (const MeshStrategyInfo& info : strategies) {
+    if (info.name == name) return info.strategy;
+    expected += (expected.empty() ? "" : ", ") + std::string(info.name);
+  }
+  throw Error(ErrorCode::argument, "strategy", "found '" + name + "', expected one of " + expected);
+}
+
+RemodelOptions step_options(const OptimiseOptions& options) {
+  RemodelOptions step = options.remodel;
+  step.strategy = info_of(options.strategy).step;
+  return step;
+}
+
+const QualityOptions& quality_of(const OptimiseOptions& options) {
+  return options.start ? options.start->mesh.options() : options.quality;
+}
+
+std::optional<Mesh> first_mesh(const DesignSpace& space, const OptimiseOptions& options) {
+  const Domain domain = space.domain(space.start());
+  const RemodelOptions step = step_options(options);
+  if (options.start) {
+    Mesh mesh = options.start->mesh;
+    if (remodel(mesh, domain, step).stopped != Stopped::done) return std::nullopt;
+    return mesh;
+  }
+  GenerateResult generated = generate(domain, options.quality);
+  if (generated.stopped != Stopped::done) return std::nullopt;
+  if (step.strategy == Strategy::renew) calibrate(generated.mesh.data(), RenewPolicy::samples_before_a_run);
+  return std::move(generated.mesh);
+}
+
+LivingMesh::LivingMesh(const OptimiseOptions& options, const DesignSpace& space, Mesh mesh,
+                       std::size_t meshes)
+    : mesh_(std::move(mesh)), space_(&space), quality_(quality_of(options)), remodel_(step_options(options)) {
+  remodel_.designs_a_step = static_cast<std::uint32_t>(meshes);
+}
+
+RemodelResult LivingMesh::advance(const Domain& domain) {
+  before_ = mesh_.mark();
+  return remodel(mesh_, domain, remodel_);
+}
+
+RemodelResult LivingMesh::generate_instead(const Domain& domain) {
+  GenerateResult fresh = generate(domain, quality_);
+  RemodelResult result;
+  result.stopped = fresh.stopped;
+  result.regenerated = fresh.stopped != Stopped::done;  // nothing is left to be tried
+  result.refreshed = !result.regenerated;
+  result.triangles_before = mesh().triangle_count();
+  result.removed = mesh().data().triangulation.vertex_count();
+  result.inserted = fresh.mesh.data().triangulation.vertex_count();
+  result.triangles = fresh.mesh.triangle_count();
+  if (result.refreshed) put(std::move(fresh.mesh));
+  return result;
+}
+
+Stopped LivingMesh::step(std::span<const double> design, const StepTasks& tasks, MeshStep& record) {
+  const ThreadStopwatch watch;
+  const Domain domain = space_->domain(design);
+  RemodelResult result = tasks.generate ? generate_instead(domain) : advance(domain);
+  record.remodel_seconds = watch.seconds();
+  count_losses(result);
+  copy_figures(result, record);
+
+  const StepCheck check = checked(domain, tasks.check);
+  record.checked = tasks.check == Checked::changes && check.whole ? Checked::quick : tasks.check;
+  record.valid = check.broken.empty();
+  record.min_angle_deg = check.min_angle_deg;
+  if (!record.valid) record.detail = check.broken;
+  if (result.regenerated && result.stopped != Stopped::done) return result.stopped;
+  if (result.stopped != Stopped::done) record.detail = name_of(result.stopped);
+  if (!record.valid || result.stopped != Stopped::done) {
+    if (const Stopped stopped = regenerate(domain, record); stopped != Stopped::done) return stopped;
+    const StepCheck fresh = check_whole(mesh());
+    if (!fresh.broken.empty()) throw std::logic_error("a fresh mesh is not valid: " + fresh.broken);
+    record.min_angle_deg = fresh.min_angle_deg;
+  }
+  if (!tasks.compare) return Stopped::done;
+  const FreshMesh fresh = fresh_mesh(*space_, quality_, *tasks.compare);
+  add_comparison(fresh, mesh().gradation_error(), record);
+  return fresh.stopped;
+}
+
+StepCheck LivingMesh::checked(const Domain& domain, Checked how) const {
+  if (how == Checked::changes) return check_last();
+  StepCheck check = check_whole(mesh());
+  if (!check.broken.empty() || how != Checked::full) return check;
+  const CheckResult full = remodel::check(mesh().freeze(), {.min_angle_deg = quality_.min_angle_deg,
+                                                            .max_gradation = mesh().promised_gradation(),
+                                                            .delaunay = !mesh().shows_file_triangles(),
+                                                            .design = &domain,
+                                                            .max_violations = 1});
+  if (full.valid) return check;
+  check.broken = full.violations.empty()
+                     ? "check: not valid"
+                     : full.violations.front().rule + ": " + full.violations.front().detail;
+  return check;
+}
+
+// The time counts as remodelling: a method that has to be helped out is not faster for it.
+Stopped LivingMesh::regenerate(const Domain& domain, MeshStep& record) {
+  const ThreadStopwatch watch;
+  GenerateResult fresh = generate(domain, quality_);
+  record.remodel_seconds += watch.seconds();
+  if (fresh.stopped != Stopped::done) return fresh.stopped;
+  put(std::move(fresh.mesh));
+  record.triangles = mesh().triangle_count();
+  record.preserved = record.moved = record.inserted = record.removed = 0;
+  record.preserved_percent = 0.0;
+  record.full_adjustment = record.refreshed = false;
+  record.regenerated = true;
+  return Stopped::done;
+}
+
+}  // namespace remodel

@@ -1,0 +1,74 @@
+#include "remodel/replay.h"
+
+#include <gtest/gtest.h>
+
+#include "design/test_runs.h"
+#include "remodel/error.h"
+
+namespace remodel {
+namespace {
+
+using Replay = OptimiseRun;
+
+// The last mesh that a worker has, and how many were shown.
+std::pair<MeshState, std::uint64_t> last_of(const std::filesystem::path& run, std::uint64_t worker) {
+  MeshState last;
+  std::uint64_t shown = 0;
+  replay(run, worker, [&](const EvaluationRecord& record, const Mesh& mesh) {
+    EXPECT_EQ(record.worker, worker);
+    last = mesh.state();
+    ++shown;
+  });
+  return {last, shown};
+}
+
+TEST_F(Replay, EndsWithTheRunsLastMeshToTheLastBit) {
+  for (const MeshStrategy strategy : {MeshStrategy::chain, MeshStrategy::renew}) {
+    OptimiseOptions given = options(name_of(strategy));
+    given.strategy = strategy;
+    optimise(from_, to_, given);
+    const auto [last, shown] = last_of(given.directory, 1);
+    EXPECT_EQ(shown, 60u);
+    EXPECT_TRUE(last == read_mesh(given.directory / "last.vtkhdf").state());
+  }
+}
+
+TEST_F(Replay, HasEachWorkersMeshes) {
+  OptimiseOptions given = options("run", 44);
+  given.workers = 3;
+  optimise(from_, to_, given);
+  std::uint64_t shown = 0;
+  bool found = false;
+  const MeshState last = read_mesh(given.directory / "last.vtkhdf").state();
+  for (const std::uint64_t worker : {1, 2, 3}) {
+    const auto [state, count] = last_of(given.directory, worker);
+    shown += count;
+    found |= state == last;
+  }
+  EXPECT_EQ(shown, 44u);
+  EXPECT_TRUE(found);
+}
+
+TEST_F(Replay, RefusesWhatItCannotRepeat) {
+  const auto refused = [](const std::filesystem::path& run, std::uint64_t worker) {
+    EXPECT_THROW(replay(run, worker, [](const auto&, const auto&) { FAIL() << "a mesh is shown"; }), Error);
+  };
+  refused(root_ / "nothing", 1);
+  OptimiseOptions given = options("run", 5);
+  optimise(from_, to_, given);
+  refused(given.directory, 0);
+  refused(given.directory, 2);
+  std::filesystem::copy_file(given.directory / "last.vtkhdf", given.directory / "first.vtkhdf",
+                             std::filesystem::copy_options::overwrite_existing);
+  refused(given.directory, 1);
+  std::filesystem::remove(given.directory / "first.vtkhdf");
+  refused(given.directory, 1);
+
+  OptimiseOptions hub = options("hub", 22);
+  hub.strategy = MeshStrategy::hub;
+  optimise(from_, to_, hub);
+  refused(hub.directory, 1);
+}
+
+}  // namespace
+}  // namespace remodel

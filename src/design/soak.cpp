@@ -1,0 +1,115 @@
+#include "remodel/soak.h"
+#include "remodel/mesh_state.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "base/stopwatch.h"
+#include "design/soak_cases.h"
+#include "remodel/check.h"
+#include "remodel/error.h"
+#include "remodel/remodel.h"
+
+namespace remodel {
+
+namespace {
+
+double peak_memory_mib() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+class Soak {
+ public:
+  explicit Soak(const SoakOptions& options) : options_(options), random_(options.seed) {}
+
+  SoakResult run() {
+    const Stopwatch watch;
+    while (going()) episode();
+    result_.peak_memory_mib = peak_memory_mib();
+    result_.seconds = watch.seconds();
+    return result_;
+  }
+
+ private:
+  bool going() {
+    if (result_.steps >= options_.steps) return false;
+    stopped_ = stopped_ || (options_.keep_going && !options_.keep_going(result_.steps));
+    return !stopped_;
+  }
+
+  void episode() {
+    SoakCase drawn = draw_case(random_);
+    for (int i = 0; i < 200 && going(); ++i) step(drawn);
+  }
+
+  void step(SoakCase& drawn) {
+    ++result_.steps;
+    Mesh& mesh = drawn.mesh;
+    std::optional<MeshState> before;  // to compare with, now and then
+    if (result_.steps % 50 == 0) before = mesh.state();
+    const std::uint32_t step_before = mesh.step();
+    const Stopwatch watch;
+    bool finished = true;
+    try {
+      const RemodelResult outcome = remodel(mesh, drawn.walk->next(), drawn.remodel);
+      finished = outcome.stopped == Stopped::done;
+      result_.recoveries += outcome.regenerated ? 1 : 0;
+      result_.full_adjustments += outcome.full_adjustment ? 1 : 0;
+      result_.limited += finished ? 0 : 1;
+      result_.slowest_step_ms = std::max(result_.slowest_step_ms, 1e3 * watch.seconds());
+    } catch (const Error& error) {
+      ++result_.refused;
+      if (mesh.step() != step_before || (before && !(mesh.state() == *before)))
+        fail("a refused design changed the mesh");
+      return;
+    }
+    validate(mesh, finished);
+  }
+
+  // A mesh that a limit left unfinished has the quality that it has, and is valid in all else.
+  void validate(const Mesh& mesh, bool finished) {
+    if (const std::string broken = finished ? mesh.quick_check() : ""; !broken.empty()) fail(broken);
+    const bool chosen = options_.full_check_every != 0 && result_.steps % options_.full_check_every == 0;
+    if (finished && !chosen) return;
+    ++result_.full_checks;
+    const CheckResult checked =
+        check(mesh.freeze(), finished ? promises(mesh) : CheckOptions{.design = &mesh.domain()});
+    if (finished) result_.min_angle_deg = std::min(result_.min_angle_deg, checked.min_angle_deg);
+    if (!checked.valid) fail(checked.violations.front().rule + ": " + checked.violations.front().detail);
+    try {  // reading back looks at what lies outside the domain too
+      Mesh::restore(mesh.state(), "mesh");
+    } catch (const Error& error) {
+      fail(std::string("cannot be restored: ") + error.what());
+    }
+  }
+
+  static CheckOptions promises(const Mesh& mesh) {
+    return {.min_angle_deg = mesh.options().min_angle_deg,
+            .max_gradation = mesh.promised_gradation(),
+            .design = &mesh.domain()};
+  }
+
+  void fail(const std::string& rule) {
+    ++result_.invalid_meshes;
+    if (result_.first_failure.empty())
+      result_.first_failure =
+          "step " + std::to_string(result_.steps) + " of seed " + std::to_string(options_.seed) + ": " + rule;
+  }
+
+  const SoakOptions& options_;
+  portable::Generator random_;
+  SoakResult result_;
+  bool stopped_ = false;
+};
+
+}  // namespace
+
+SoakResult soak(const SoakOptions& options) {
+  return Soak(options).run();
+}
+
+}  // namespace remodel

@@ -1,0 +1,79 @@
+#include "flow/border.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace remodel::flow {
+
+namespace {
+
+double sum_of_squares(const Vector& v) {
+  double sum = 0.0;
+  for (const auto& block : v)
+    for (const double x : block) sum += x * x;
+  return sum;
+}
+
+double lift_of(const Euler::BorderRows& rows, const Vector& x) {
+  double sum = 0.0;
+  for (const auto& entry : rows.lift) sum += entry.value * x[entry.vertex][3];
+  return sum;
+}
+
+}  // namespace
+
+Increment close_border(Vector x, const std::array<Vector, 2>& y, const Euler::BorderRows& rows,
+                       const Border& right) {
+  // The Schur complement E - D y, where D's second row is empty.
+  const double s00 = rows.corner[0][0] - lift_of(rows, y[0]), s01 = rows.corner[0][1] - lift_of(rows, y[1]);
+  const double s10 = rows.corner[1][0], s11 = rows.corner[1][1];
+  const double r0 = right[0] - lift_of(rows, x), r1 = right[1];
+  const double determinant = s00 * s11 - s01 * s10;
+  Increment result;
+  result.border = {(r0 * s11 - s01 * r1) / determinant, (s00 * r1 - s10 * r0) / determinant};
+  for (std::size_t v = 0; v < x.size(); ++v)
+    for (std::size_t k = 0; k < 4; ++k)
+      x[v][k] -= y[0][v][k] * result.border[0] + y[1][v][k] * result.border[1];
+  result.q = std::move(x);
+  return result;
+}
+
+State moved(const State& state, const Increment& increment, double length) {
+  State result = state;
+  for (std::size_t v = 0; v < result.q.size(); ++v)
+    for (std::size_t k = 0; k < 4; ++k) result.q[v][k] += length * increment.q[v][k];
+  for (std::size_t z = 0; z < 2; ++z) result.border[z] += length * increment.border[z];
+  return result;
+}
+
+double largest_change(const State& state, const Increment& increment) {
+  double largest = 0.0;
+  for (std::size_t v = 0; v < state.q.size(); ++v)
+    for (const std::size_t k : {std::size_t{0}, std::size_t{3}}) {
+      const double part = std::fabs(increment.q[v][k]) / state.q[v][k];
+      if (!(part <= largest)) largest = part;  // NaN stays
+    }
+  return largest;
+}
+
+// Where undisturbed flow has next to no residual (a thin plate along the stream), a thousandth of the
+// pressure on the reference length takes its place.
+Measure::Measure(const Euler& euler) : euler_(euler) {
+  Vector residual;
+  euler.residual(euler.uniform(), residual);
+  scale_ = std::max(std::sqrt(sum_of_squares(residual)), 1e-3 * euler.stream().length / gas_gamma);
+}
+
+double Measure::operator()(const State& state, Vector& residual, Border& border) const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const Primitive<double>& q : state.q)
+    if (!(q[0] > 0.0) || !(q[3] > 0.0)) return infinity;
+  euler_.residual(state, residual);
+  border = euler_.border_residual(state);
+  const double size =
+      std::sqrt(sum_of_squares(residual) / (scale_ * scale_) + border[0] * border[0] + border[1] * border[1]);
+  return std::isfinite(size) ? size : infinity;
+}
+
+}  // namespace remodel::flow

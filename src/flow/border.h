@@ -1,0 +1,46 @@
+#pragma once
+
+// Solves the bordered linear system [A B; D E] [x; z] = [r; g] with something that solves for A alone: z has
+// two unknowns (State::border), B is dense and D sparse.
+
+#include <array>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "flow/euler.h"
+
+namespace remodel::flow {
+
+using Vector = std::vector<std::array<double, 4>>;  // one block a vertex
+using Border = std::array<double, 2>;
+
+struct Increment {
+  Vector q;
+  Border border = {0, 0};
+};
+
+// x and the solutions y of A y = B for both columns. Not finite where the small system is singular.
+Increment close_border(Vector x, const std::array<Vector, 2>& y, const Euler::BorderRows& rows,
+                       const Border& right);
+
+// state + length * increment.
+State moved(const State& state, const Increment& increment, double length);
+
+// The largest part of density or pressure that an increment changes anywhere.
+double largest_change(const State& state, const Increment& increment);
+
+// The size of residuals: of the flow's relative to undisturbed flow through the same mesh, and of the
+// border's.
+class Measure {
+ public:
+  explicit Measure(const Euler& euler);
+  // The residuals of a state; infinite where it is no state of a gas.
+  double operator()(const State& state, Vector& residual, Border& border) const;
+
+ private:
+  const Euler& euler_;
+  double scale_;
+};
+
+}  // namespace remodel::flow

@@ -1,0 +1,160 @@
+#include "flow/direct_solver.h"
+
+#include <dmumps_c.h>
+
+#include <algorithm>
+#include <limits>
+#include <mutex>
+
+// OpenBLAS's threads spin on small fronts, which costs more than they bring. Absent where BLAS is another
+// one.
+extern "C" void openblas_set_num_threads(int) __attribute__((weak));
+
+namespace remodel::flow {
+
+namespace {
+
+std::mutex& turn() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+// MUMPS counts from 1, as its manual does.
+int& control(DMUMPS_STRUC_C& id, int number) {
+  return id.icntl[number - 1];
+}
+
+constexpr int initialise = -1, finish = -2, analyse = 1, factorise = 2, solve_factored = 3;
+constexpr int use_comm_world = -987654;
+
+}  // namespace
+
+struct DirectSolver::Impl {
+  DMUMPS_STRUC_C id = {};
+  std::vector<std::uint32_t> start, column;  // of the pattern that was analysed
+  std::vector<int> row_number, column_number;
+  std::vector<double> values;
+  bool factored = false;
+
+  Impl() {
+    const std::scoped_lock lock(turn());
+    if (openblas_set_num_threads != nullptr) openblas_set_num_threads(1);
+    id.par = 1;
+    id.sym = 0;
+    id.comm_fortran = use_comm_world;
+    id.job = initialise;
+    dmumps_c(&id);
+    for (int stream = 1; stream <= 4; ++stream) control(id, stream) = stream == 4 ? 0 : -1;  // prints nothing
+    control(id, 6) = 0;    // no permutation to a heavy diagonal: it is heavy
+    control(id, 7) = 7;    // ordering: chosen by MUMPS
+    control(id, 10) = 0;   // no iterative refinement
+    control(id, 14) = 30;  // percent of memory above the estimate
+    control(id, 15) = -4;  // the graph is of blocks of four
+    control(id, 16) = 1;   // threads
+  }
+  ~Impl() {
+    const std::scoped_lock lock(turn());
+    id.job = finish;
+    dmumps_c(&id);
+  }
+  int run(int job) {
+    id.job = job;
+    dmumps_c(&id);
+    return id.infog[0];
+  }
+  void fill(const BlockRows& matrix, bool pattern);
+};
+
+void DirectSolver::Impl::fill(const BlockRows& matrix, bool pattern) {
+  std::uint32_t highest = 0;
+  for (const std::uint32_t row : matrix.rows) highest = std::max(highest, row);
+  std::vector<int> position(highest + 1, -1);
+  for (std::size_t r = 0; r < matrix.rows.size(); ++r) position[matrix.rows[r]] = static_cast<int>(r);
+  values.clear();
+  if (pattern) row_number.clear(), column_number.clear();
+  for (std::size_t r = 0; r < matrix.rows.size(); ++r)
+    for (std::uint32_t i = matrix.start[r]; i < matrix.start[r + 1]; ++i) {
+      const std::uint32_t c = matrix.column[i];
+      if (c > highest || position[c] < 0) continue;
+      values.insert(values.end(), matrix.block[i].begin(), matrix.block[i].end());
+      if (!pattern) continue;
+      for (int j = 0; j < 16; ++j) {
+        row_number.push_back(4 * static_cast<int>(r) + j / 4 + 1);
+        column_number.push_back(4 * position[c] + j % 4 + 1);
+      }
+    }
+}
+
+DirectSolver::DirectSolver() = default;
+DirectSolver::~DirectSolver() = default;
+DirectSolver::DirectSolver(DirectSolver&&) noexcept = default;
+DirectSolver& DirectSolver::operator=(DirectSolver&&) noexcept = default;
+
+bool DirectSolver::ready() const {
+  return impl_ && impl_->factored;
+}
+
+void DirectSolver::forget() {
+  impl_.reset();
+}
+
+Factored DirectSolver::factor(const BlockRows& matrix, double memory_mb) {
+  if (!impl_) impl_ = std::make_unique<Impl>();
+  const bool same = impl_->start == matrix.start && impl_->column == matrix.column;
+  if (!same && !impl_->start.empty()) impl_ = std::make_unique<Impl>();
+  impl_->factored = false;
+  impl_->fill(matrix, !same);
+  const std::scoped_lock lock(turn());
+  DMUMPS_STRUC_C& id = impl_->id;
+  id.n = 4 * static_cast<int>(matrix.rows.size());
+  id.nnz = static_cast<MUMPS_INT8>(impl_->values.size());
+  id.irn = impl_->row_number.data();
+  id.jcn = impl_->column_number.data();
+  id.a = impl_->values.data();
+  control(id, 23) = static_cast<int>(std::min(memory_mb, double{std::numeric_limits<int>::max()}));
+  if (!same) {
+    impl_->start.clear();
+    if (impl_->run(analyse) < 0) return Factored::singular;
+    impl_->start = matrix.start, impl_->column = matrix.column;
+  }
+  // Pivots that were put off take more memory than was estimated.
+  constexpr int attempts = 4;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    const int outcome = impl_->run(factorise);
+    if (outcome >= 0) {
+      impl_->factored = true;
+      return Factored::done;
+    }
+    const bool more = outcome == -8 || outcome == -9 || outcome == -11 || outcome == -12;
+    if (outcome == -10 || outcome == -6) return Factored::singular;
+    if (!more) return Factored::out_of_memory;
+    control(id, 14) *= 2;
+  }
+  return Factored::out_of_memory;
+}
+
+void DirectSolver::solve(std::span<std::array<double, 4>> right, std::size_t count) {
+  const std::scoped_lock lock(turn());
+  DMUMPS_STRUC_C& id = impl_->id;
+  id.nrhs = static_cast<int>(count);
+  id.lrhs = id.n;
+  id.rhs = right.data()->data();
+  impl_->run(solve_factored);
+}
+
+double DirectSolver::memory_mb() const {
+  return impl_ ? impl_->id.infog[21] : 0.0;  // INFOG(22): megabytes used
+}
+
+double DirectSolver::solve_work() const {
+  if (!impl_) return 0.0;
+  const int entries = impl_->id.infog[28];  // INFOG(29): entries in the factors, negative: millions
+  return entries >= 0 ? entries : -1e6 * entries;
+}
+
+// A dense operation takes about a sixth of one that waits for memory; assembly and Jacobian come on top.
+double DirectSolver::factor_work() const {
+  return impl_ ? impl_->id.rinfog[2] / 6.0 + 12.0 * static_cast<double>(impl_->values.size()) : 0.0;
+}
+
+}  // namespace remodel::flow

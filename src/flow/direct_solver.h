@@ -1,0 +1,45 @@
+#pragma once
+
+// Sparse LU of a block matrix by MUMPS, sequential. Source: P. R. Amestoy, I. S. Duff, J.-Y. L'Excellent and
+// J. Koster, "A fully asynchronous multifrontal solver using distributed dynamic scheduling", SIAM J. Matrix
+// Anal. Appl. 23 (2001). Calls from several threads take turns: MUMPS keeps state of its own.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "flow/euler.h"
+
+namespace remodel::flow {
+
+enum class Factored { done, out_of_memory, singular };
+
+class DirectSolver {
+ public:
+  DirectSolver();
+  ~DirectSolver();
+  DirectSolver(DirectSolver&&) noexcept;
+  DirectSolver& operator=(DirectSolver&&) noexcept;
+
+  // A square matrix: columns outside its rows are left out. The ordering is kept from the last call where the
+  // pattern is the same. memory_mb: what the factorisation may take.
+  Factored factor(const BlockRows& matrix, double memory_mb);
+  bool ready() const;
+  void forget();
+
+  // In place, `count` right-hand sides after each other, in the order of the matrix's rows.
+  void solve(std::span<std::array<double, 4>> right, std::size_t count);
+
+  double memory_mb() const;  // of the last factorisation
+  // Counted work, in units of one multiplication that waits for memory: the same for the same matrix.
+  double factor_work() const;
+  double solve_work() const;  // of one right-hand side
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace remodel::flow

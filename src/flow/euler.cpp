@@ -1,0 +1,374 @@
+#include "flow/euler.h"
+
+#include <algorithm>
+
+namespace remodel::flow {
+
+namespace {
+
+// Weights of a boundary edge's ends in the state of the half that belongs to the first.
+constexpr double near_weight = 5.0 / 6.0, far_weight = 1.0 / 6.0;
+// A reconstructed density or pressure below this part of the vertex's is not used: the vertex's is.
+constexpr double least_part = 0.1;
+
+Primitive<double> weighted(const Primitive<double>& here, const Primitive<double>& there) {
+  Primitive<double> mean;
+  for (std::size_t k = 0; k < 4; ++k) mean[k] = near_weight * here[k] + far_weight * there[k];
+  return mean;
+}
+
+bool usable(const Primitive<double>& reconstructed, const Primitive<double>& vertex) {
+  return reconstructed[0] > least_part * vertex[0] && reconstructed[3] > least_part * vertex[3];
+}
+
+}  // namespace
+
+// What both ends of an edge see of the face between them.
+struct Euler::Face {
+  Primitive<double> left, right;
+  // Derivatives of the reconstructed values by both differences, left then right: the upwind one, the central
+  // one.
+  std::array<double, 4> by_upwind[2] = {{}, {}}, by_central[2] = {{}, {}};
+};
+
+State Euler::uniform() const {
+  State state;
+  state.border = {0.0, stream_.alpha};
+  state.q.assign(mesh_.size(), stream_at<double>({0, 0}, stream_.mach, stream_.alpha, 0.0));
+  return state;
+}
+
+double Euler::epsilon(Point d) const {
+  const double h = stream_.limiter * std::sqrt(dot(d, d)) / stream_.length;
+  return h * h * h;
+}
+
+// The gradient at a vertex times d.
+std::array<double, 4> Euler::difference(const State& state, std::size_t vertex, Point d) const {
+  std::array<double, 4> sum = {};
+  const Primitive<double>& here = state.q[vertex];
+  for (const RingEntry& entry : mesh_.ring(vertex)) {
+    const double w = dot(entry.weight, d);
+    const Primitive<double>& there = state.q[entry.vertex];
+    for (std::size_t k = 0; k < 4; ++k) sum[k] += w * (there[k] - here[k]);
+  }
+  return sum;
+}
+
+Euler::Face Euler::face(const State& state, const DualEdge& edge) const {
+  using Two = Dual<2>;
+  Face face;
+  const Point d = mesh_.points()[edge.b] - mesh_.points()[edge.a];
+  const double eps = epsilon(d);
+  const Primitive<double>&qa = state.q[edge.a], &qb = state.q[edge.b];
+  const std::array<double, 4> da = difference(state, edge.a, d), db = difference(state, edge.b, d);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double central = qb[k] - qa[k];
+    const Two from_a =
+        limited_half_step(Two::variable(2.0 * da[k] - central, 0), Two::variable(central, 1), eps);
+    const Two from_b =
+        limited_half_step(Two::variable(2.0 * db[k] - central, 0), Two::variable(central, 1), eps);
+    face.left[k] = qa[k] + from_a.value;
+    face.right[k] = qb[k] - from_b.value;
+    face.by_upwind[0][k] = from_a.slope[0], face.by_central[0][k] = from_a.slope[1];
+    face.by_upwind[1][k] = from_b.slope[0], face.by_central[1][k] = from_b.slope[1];
+  }
+  if (!usable(face.left, qa)) face.left = qa, face.by_upwind[0] = face.by_central[0] = {};
+  if (!usable(face.right, qb)) face.right = qb, face.by_upwind[1] = face.by_central[1] = {};
+  return face;
+}
+
+Primitive<double> Euler::far_state(const State& state, Point p) const {
+  if (stream_.prescribed) return stream_.prescribed(p);
+  return stream_at<double>(p - stream_.reference, stream_.mach, state.border[1],
+                           stream_.vortex ? state.border[0] * stream_.length : 0.0);
+}
+
+void Euler::residual(const State& state, std::vector<std::array<double, 4>>& out) const {
+  const std::size_t n = mesh_.size();
+  out.assign(n, {});
+  // Gradients once a vertex, not twice an edge as face() has them.
+  std::vector<std::array<Point, 4>> gradient(n);
+  for (std::size_t v = 0; v < n; ++v) {
+    std::array<Point, 4> sum = {};
+    for (const RingEntry& entry : mesh_.ring(v))
+      for (std::size_t k = 0; k < 4; ++k) {
+        const double step = state.q[entry.vertex][k] - state.q[v][k];
+        sum[k].x += entry.weight.x * step;
+        sum[k].y += entry.weight.y * step;
+      }
+    gradient[v] = sum;
+  }
+  for (const DualEdge& edge : mesh_.edges()) {
+    const Point d = mesh_.points()[edge.b] - mesh_.points()[edge.a];
+    const double eps = epsilon(d);
+    const Primitive<double>&qa = state.q[edge.a], &qb = state.q[edge.b];
+    Primitive<double> left, right;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double central = qb[k] - qa[k];
+      left[k] = qa[k] + limited_half_step<double>(2.0 * dot(gradient[edge.a][k], d) - central, central, eps);
+      right[k] = qb[k] - limited_half_step<double>(2.0 * dot(gradient[edge.b][k], d) - central, central, eps);
+    }
+    if (!usable(left, qa)) left = qa;
+    if (!usable(right, qb)) right = qb;
+    const std::array<double, 4> flux = roe_flux<double>(left, right, edge.normal);
+    for (std::size_t k = 0; k < 4; ++k) out[edge.a][k] += flux[k], out[edge.b][k] -= flux[k];
+  }
+  add_boundary(state, out);
+}
+
+void Euler::add_boundary(const State& state, std::vector<std::array<double, 4>>& out) const {
+  for (const BoundaryEdge& edge : mesh_.boundary()) {
+    const std::uint32_t end[2] = {edge.a, edge.b};
+    const Point half = 0.5 * edge.normal;
+    for (int i = 0; i < 2; ++i) {
+      const std::uint32_t here = end[i], there = end[1 - i];
+      const Primitive<double> q = weighted(state.q[here], state.q[there]);
+      if (edge.body >= 0) {
+        out[here][1] += q[3] * half.x, out[here][2] += q[3] * half.y;
+        continue;
+      }
+      const Point p = near_weight * mesh_.points()[here] + far_weight * mesh_.points()[there];
+      const std::array<double, 4> flux = roe_flux<double>(q, far_state(state, p), half);
+      for (std::size_t k = 0; k < 4; ++k) out[here][k] += flux[k];
+    }
+  }
+}
+
+BlockRows Euler::pattern() const {
+  std::vector<std::uint32_t> all(mesh_.size());
+  for (std::uint32_t v = 0; v < all.size(); ++v) all[v] = v;
+  return pattern(std::move(all));
+}
+
+BlockRows Euler::pattern(std::vector<std::uint32_t> rows) const {
+  BlockRows matrix;
+  matrix.rows = std::move(rows);
+  matrix.start.assign(1, 0);
+  std::vector<std::uint32_t> seen(mesh_.size(), 0), columns;
+  for (std::uint32_t r = 0; r < matrix.rows.size(); ++r) {
+    columns.clear();
+    const auto note = [&](std::uint32_t v) {
+      if (seen[v] == r + 1) return;
+      seen[v] = r + 1;
+      columns.push_back(v);
+    };
+    note(matrix.rows[r]);
+    for (const RingEntry& first : mesh_.ring(matrix.rows[r])) {
+      note(first.vertex);
+      for (const RingEntry& second : mesh_.ring(first.vertex)) note(second.vertex);
+    }
+    std::sort(columns.begin(), columns.end());
+    matrix.column.insert(matrix.column.end(), columns.begin(), columns.end());
+    matrix.start.push_back(static_cast<std::uint32_t>(matrix.column.size()));
+  }
+  matrix.block.resize(matrix.column.size());
+  return matrix;
+}
+
+// A row's flux depends, by the chain rule, on what is reconstructed at both ends of each of its edges, and
+// this on the rings of both ends.
+void Euler::jacobian(const State& state, BlockRows& matrix) const {
+  using Eight = Dual<8>;
+  std::fill(matrix.block.begin(), matrix.block.end(), Block{});
+  struct Linear {
+    Face face;
+    Block by[2];  // of the flux from a to b, by the states on its left and right
+  };
+  std::vector<Linear> fluxes;
+  std::vector<std::uint32_t> flux_of(mesh_.edges().size(), no_index);
+  const auto linear = [&](std::uint32_t e) -> const Linear& {
+    if (flux_of[e] != no_index) return fluxes[flux_of[e]];
+    flux_of[e] = static_cast<std::uint32_t>(fluxes.size());
+    Linear& made = fluxes.emplace_back();
+    const DualEdge& edge = mesh_.edges()[e];
+    made.face = face(state, edge);
+    Primitive<Eight> l, r;
+    for (std::size_t k = 0; k < 4; ++k)
+      l[k] = Eight::variable(made.face.left[k], k), r[k] = Eight::variable(made.face.right[k], k + 4);
+    const std::array<Eight, 4> flux = roe_flux<Eight>(l, r, edge.normal);
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t k = 0; k < 4; ++k)
+        made.by[0][4 * i + k] = flux[i].slope[k], made.by[1][4 * i + k] = flux[i].slope[k + 4];
+    return made;
+  };
+
+  std::vector<std::uint32_t> place(mesh_.size()), row_of(mesh_.size(), no_index);
+  for (std::uint32_t r = 0; r < matrix.rows.size(); ++r) {
+    const std::uint32_t here = matrix.rows[r];
+    row_of[here] = r;
+    for (std::uint32_t i = matrix.start[r]; i < matrix.start[r + 1]; ++i) place[matrix.column[i]] = i;
+    for (const RingEntry& entry : mesh_.ring(here)) {
+      const Linear& flux = linear(entry.edge);
+      const DualEdge& edge = mesh_.edges()[entry.edge];
+      const double sign = here == edge.a ? 1.0 : -1.0;
+      const Point d = mesh_.points()[edge.b] - mesh_.points()[edge.a];
+      const std::uint32_t end[2] = {edge.a, edge.b};
+      for (std::size_t side = 0; side < 2; ++side) {
+        const Block& by = flux.by[side];
+        // value = q(end) +- step(2 g d - (qb - qa), qb - qa)
+        const double direction = side == 0 ? 1.0 : -1.0;
+        std::array<double, 4> up = flux.face.by_upwind[side], across = {};
+        for (std::size_t k = 0; k < 4; ++k) {
+          across[k] = direction * (flux.face.by_central[side][k] - up[k]);
+          up[k] *= 2.0 * direction;
+        }
+        Block& at_own = matrix.block[place[end[side]]];
+        Block& at_a = matrix.block[place[edge.a]];
+        Block& at_b = matrix.block[place[edge.b]];
+        for (std::size_t i = 0; i < 4; ++i)
+          for (std::size_t k = 0; k < 4; ++k) {
+            const double f = sign * by[4 * i + k];
+            at_own[4 * i + k] += f;
+            at_b[4 * i + k] += f * across[k];
+            at_a[4 * i + k] -= f * across[k];
+          }
+        Block scaled;
+        for (std::size_t i = 0; i < 4; ++i)
+          for (std::size_t k = 0; k < 4; ++k) scaled[4 * i + k] = sign * by[4 * i + k] * up[k];
+        double total = 0.0;
+        for (const RingEntry& around : mesh_.ring(end[side])) {
+          const double w = dot(around.weight, d);
+          total += w;
+          Block& at = matrix.block[place[around.vertex]];
+          for (std::size_t i = 0; i < 16; ++i) at[i] += w * scaled[i];
+        }
+        for (std::size_t i = 0; i < 16; ++i) at_own[i] -= total * scaled[i];
+      }
+    }
+  }
+  add_boundary_blocks(state, matrix, row_of);
+}
+
+void Euler::add_boundary_blocks(const State& state, BlockRows& matrix,
+                                std::span<const std::uint32_t> row_of) const {
+  using Four = Dual<4>;
+  const auto at = [&](std::uint32_t row, std::uint32_t column) -> Block& {
+    const auto first = matrix.column.begin() + matrix.start[row],
+               last = matrix.column.begin() + matrix.start[row + 1];
+    return matrix
+        .block[static_cast<std::size_t>(std::lower_bound(first, last, column) - matrix.column.begin())];
+  };
+  for (const BoundaryEdge& edge : mesh_.boundary()) {
+    const std::uint32_t end[2] = {edge.a, edge.b};
+    const Point half = 0.5 * edge.normal;
+    for (int i = 0; i < 2; ++i) {
+      const std::uint32_t here = end[i], there = end[1 - i];
+      if (row_of[here] == no_index) continue;
+      Block &own = at(row_of[here], here), &other = at(row_of[here], there);
+      if (edge.body >= 0) {
+        own[7] += near_weight * half.x, own[11] += near_weight * half.y;
+        other[7] += far_weight * half.x, other[11] += far_weight * half.y;
+        continue;
+      }
+      const Primitive<double> q = weighted(state.q[here], state.q[there]);
+      const Point p = near_weight * mesh_.points()[here] + far_weight * mesh_.points()[there];
+      const Primitive<double> outside = far_state(state, p);
+      Primitive<Four> l, r;
+      for (std::size_t k = 0; k < 4; ++k) l[k] = Four::variable(q[k], k), r[k] = outside[k];
+      const std::array<Four, 4> flux = roe_flux<Four>(l, r, half);
+      for (std::size_t j = 0; j < 4; ++j)
+        for (std::size_t k = 0; k < 4; ++k) {
+          own[4 * j + k] += near_weight * flux[j].slope[k];
+          other[4 * j + k] += far_weight * flux[j].slope[k];
+        }
+    }
+  }
+}
+
+std::array<std::vector<std::array<double, 4>>, 2> Euler::border_columns(const State& state) const {
+  using Two = Dual<2>;
+  std::array<std::vector<std::array<double, 4>>, 2> columns;
+  for (auto& column : columns) column.assign(mesh_.size(), {});
+  if (stream_.prescribed) return columns;
+  const Two lift = stream_.vortex ? Two::variable(state.border[0], 0) * stream_.length : Two(0.0);
+  const Two alpha = Two::variable(state.border[1], 1);
+  for (const BoundaryEdge& edge : mesh_.boundary()) {
+    if (edge.body >= 0) continue;
+    const std::uint32_t end[2] = {edge.a, edge.b};
+    for (int i = 0; i < 2; ++i) {
+      const std::uint32_t here = end[i], there = end[1 - i];
+      const Primitive<double> q = weighted(state.q[here], state.q[there]);
+      const Point p = near_weight * mesh_.points()[here] + far_weight * mesh_.points()[there];
+      const Primitive<Two> inside = {Two(q[0]), Two(q[1]), Two(q[2]), Two(q[3])};
+      const std::array<Two, 4> flux = roe_flux<Two>(
+          inside, stream_at<Two>(p - stream_.reference, stream_.mach, alpha, lift), 0.5 * edge.normal);
+      for (std::size_t k = 0; k < 4; ++k)
+        for (std::size_t z = 0; z < 2; ++z) columns[z][here][k] += flux[k].slope[z];
+    }
+  }
+  return columns;
+}
+
+// visit(edge, vertex, weight): pressure at the vertex acts on half of the edge by this weight.
+template <class Visit>
+void Euler::for_each_wall_half(Visit visit) const {
+  for (const BoundaryEdge& edge : mesh_.boundary()) {
+    if (edge.body < 0) continue;
+    visit(edge, edge.a, edge.b);
+    visit(edge, edge.b, edge.a);
+  }
+}
+
+Coefficients Euler::coefficients(const State& state) const {
+  return coefficients(state, -1);
+}
+
+Coefficients Euler::coefficients(const State& state, std::int32_t body) const {
+  Point force = {};
+  double turning = 0.0;  // counter-clockwise
+  const double outside = 1.0 / gas_gamma;
+  for_each_wall_half([&](const BoundaryEdge& edge, std::uint32_t here, std::uint32_t there) {
+    if (body >= 0 && edge.body != body) return;
+    const double p = near_weight * state.q[here][3] + far_weight * state.q[there][3] - outside;
+    const Point f = (0.5 * p) * edge.normal;
+    const Point at = 0.75 * mesh_.points()[here] + 0.25 * mesh_.points()[there];
+    force = force + f;
+    turning += cross(at - stream_.reference, f);
+  });
+  const double scale = 1.0 / (0.5 * stream_.mach * stream_.mach * stream_.length);
+  const double ca = std::cos(state.border[1]), sa = std::sin(state.border[1]);
+  return {.lift = scale * (force.y * ca - force.x * sa),
+          .drag = scale * (force.x * ca + force.y * sa),
+          .moment = -scale * turning / stream_.length};
+}
+
+std::array<double, 2> Euler::border_residual(const State& state) const {
+  const Coefficients sum = coefficients(state);
+  return {sum.lift - state.border[0],
+          stream_.lift ? state.border[0] - *stream_.lift : state.border[1] - stream_.alpha};
+}
+
+Euler::BorderRows Euler::border_rows(const State& state) const {
+  BorderRows rows;
+  const double scale = 1.0 / (0.5 * stream_.mach * stream_.mach * stream_.length);
+  const double ca = std::cos(state.border[1]), sa = std::sin(state.border[1]);
+  for_each_wall_half([&](const BoundaryEdge& edge, std::uint32_t here, std::uint32_t there) {
+    const double value = 0.5 * scale * (edge.normal.y * ca - edge.normal.x * sa);
+    rows.lift.push_back({here, near_weight * value});
+    rows.lift.push_back({there, far_weight * value});
+  });
+  rows.corner[0] = {-1.0, -coefficients(state).drag};
+  rows.corner[1] = stream_.lift ? std::array{1.0, 0.0} : std::array{0.0, 1.0};
+  return rows;
+}
+
+std::vector<double> Euler::wave_speeds(const State& state) const {
+  std::vector<double> sum(mesh_.size(), 0.0);
+  const auto speed = [&](std::uint32_t v, Point normal) {
+    const Primitive<double>& q = state.q[v];
+    return std::fabs(q[1] * normal.x + q[2] * normal.y) +
+           std::sqrt(gas_gamma * q[3] / q[0] * dot(normal, normal));
+  };
+  for (const DualEdge& edge : mesh_.edges()) {
+    sum[edge.a] += 0.5 * speed(edge.a, edge.normal);
+    sum[edge.b] += 0.5 * speed(edge.b, edge.normal);
+  }
+  for (const BoundaryEdge& edge : mesh_.boundary()) {
+    sum[edge.a] += 0.25 * speed(edge.a, edge.normal);
+    sum[edge.b] += 0.25 * speed(edge.b, edge.normal);
+  }
+  return sum;
+}
+
+}  // namespace remodel::flow

@@ -1,0 +1,109 @@
+#pragma once
+
+// The steady Euler equations on a median dual: residual, exact Jacobian, forces. Unknowns are density,
+// velocity and pressure at each vertex, and two numbers more, which border the system: the lift coefficient
+// that the vortex in the far field belongs to, and the angle of attack.
+//
+// The scheme: Roe's flux between dual cells, of values reconstructed along each edge (gas.h:
+// limited_half_step) from gradients that are the area-weighted means of those of the triangles around a
+// vertex. Weak boundary conditions, with weights 5/6 and 1/6 of an edge's ends: the pressure's flux at walls
+// (H. Nishikawa, J. Comput. Phys. 281 (2015), section 3), Roe's flux against the stream far away.
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "flow/flow_mesh.h"
+#include "flow/gas.h"
+
+namespace remodel::flow {
+
+struct State {
+  std::vector<Primitive<double>> q;       // per vertex
+  std::array<double, 2> border = {0, 0};  // lift coefficient of the vortex; angle of attack, radians
+};
+
+struct Stream {
+  double mach = 0.0;
+  double alpha = 0.0;               // radians; the first guess where lift is given
+  std::optional<double> lift = {};  // the lift coefficient that alpha is to be found for
+  Point reference = {0.25, 0.0};    // the vortex, and the point that moments are about
+  double length = 1.0;              // reference length
+  bool vortex = true;
+  double limiter = 30.0;  // K: slopes of less than (K h / length)^(3/2) are not limited
+  // Instead of the stream: the state at points of the far field, for flows with known solutions.
+  std::function<Primitive<double>(Point)> prescribed = nullptr;
+};
+
+struct Coefficients {
+  double lift = 0.0, drag = 0.0, moment = 0.0;
+};
+
+using Block = std::array<double, 16>;  // row-major; rows are equations, columns unknowns
+
+// Rows of a block matrix: the vertices in `rows`, each with the vertices of its two rings and itself.
+struct BlockRows {
+  std::vector<std::uint32_t> rows;
+  std::vector<std::uint32_t> start;   // rows.size() + 1
+  std::vector<std::uint32_t> column;  // ascending in each row
+  std::vector<Block> block;
+};
+
+class Euler {
+ public:
+  Euler(const FlowMesh& mesh, const Stream& stream) : mesh_(mesh), stream_(stream) {}
+
+  const FlowMesh& mesh() const { return mesh_; }
+  const Stream& stream() const { return stream_; }
+  State uniform() const;
+
+  // The flux out of each dual cell. It is not finite where a state is none.
+  void residual(const State& state, std::vector<std::array<double, 4>>& out) const;
+  // The equations of the border: lift of the state minus that of the vortex; alpha, or lift, minus the given
+  // one.
+  std::array<double, 2> border_residual(const State& state) const;
+
+  // All vertices, or some, ascending.
+  BlockRows pattern() const;
+  BlockRows pattern(std::vector<std::uint32_t> rows) const;
+  // Derivatives of the residuals of these rows by the unknowns of vertices.
+  void jacobian(const State& state, BlockRows& matrix) const;
+  // Derivatives of all residuals by the two unknowns of the border.
+  std::array<std::vector<std::array<double, 4>>, 2> border_columns(const State& state) const;
+  // Derivatives of the border's equations by the unknowns of vertices (by pressures on walls, that is) and by
+  // its own.
+  struct BorderRows {
+    struct Entry {
+      std::uint32_t vertex;
+      double value;  // of the first equation, by the vertex's pressure
+    };
+    std::vector<Entry> lift;
+    std::array<std::array<double, 2>, 2> corner;
+  };
+  BorderRows border_rows(const State& state) const;
+
+  // Sum over dual faces of |speed| + sound, times length: what a time step is bounded by.
+  std::vector<double> wave_speeds(const State& state) const;
+
+  Coefficients coefficients(const State& state) const;
+  Coefficients coefficients(const State& state, std::int32_t body) const;  // the part of one wall
+
+ private:
+  struct Face;
+  std::array<double, 4> difference(const State& state, std::size_t vertex, Point d) const;
+  Face face(const State& state, const DualEdge& edge) const;
+  double epsilon(Point d) const;
+  Primitive<double> far_state(const State& state, Point p) const;
+  void add_boundary(const State& state, std::vector<std::array<double, 4>>& out) const;
+  void add_boundary_blocks(const State& state, BlockRows& matrix,
+                           std::span<const std::uint32_t> row_of) const;
+  template <class Visit>
+  void for_each_wall_half(Visit visit) const;
+
+  const FlowMesh& mesh_;
+  Stream stream_;
+};
+
+}  // namespace remodel::flow

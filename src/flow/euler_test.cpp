@@ -1,0 +1,208 @@
+#include <complex>
+
+namespace remodel::flow {
+// Branches are decided by the real part.
+inline double value_of(const std::complex<double>& x) {
+  return x.real();
+}
+}  // namespace remodel::flow
+
+#include "flow/euler.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "flow/newton.h"
+#include "flow/test_flows.h"
+#include "remodel/error.h"
+#include "support.h"
+
+namespace remodel::flow {
+namespace {
+
+using test::uniform;
+
+// The stream with every value at random, a few percent.
+State disturbed(const Euler& euler, std::mt19937_64& random) {
+  State state = euler.uniform();
+  for (auto& q : state.q)
+    for (double& value : q) value += uniform(random, -0.05, 0.05);
+  state.border[0] = 0.4;
+  return state;
+}
+
+double distance(const Vector& a, const Vector& b) {
+  double sum = 0.0;
+  for (std::size_t v = 0; v < a.size(); ++v)
+    for (std::size_t k = 0; k < 4; ++k) sum += (a[v][k] - b[v][k]) * (a[v][k] - b[v][k]);
+  return std::sqrt(sum);
+}
+
+TEST(Euler, UniformFlowHasNoResidualOnAnyMesh) {
+  std::vector<FrozenMesh> meshes;
+  for (const char* name : {"naca:0012", "naca:4412", "rae2822"})
+    meshes.push_back(test::airfoil_mesh(name, 60).freeze());
+  meshes.push_back(
+      generate(
+          airfoils_domain({{.name = "main", .airfoil = named_airfoil("naca:2412", 5)},
+                           {.name = "flap",
+                            .airfoil = named_airfoil("naca:0012", 5),
+                            .placement = {.chord = 0.3, .rotation_deg = -25.0, .position = {1.05, -0.05}}}},
+                          {.points = 60}))
+          .mesh.freeze());
+  meshes.push_back(test::ring_mesh(6));
+  for (FrozenMesh& mesh : meshes) {
+    for (FrozenBoundary& boundary : mesh.boundaries) boundary.name = "farfield";
+    const FlowMesh dual(mesh, "farfield", "mesh");
+    const Euler euler(dual, {.mach = 0.7, .alpha = 0.3, .vortex = false});
+    Vector residual;
+    euler.residual(euler.uniform(), residual);
+    for (const auto& block : residual)
+      for (const double value : block) EXPECT_LT(std::fabs(value), 2e-13);
+  }
+}
+
+TEST(Euler, DerivativesOfTheFluxAreThoseOfAComplexStep) {
+  const unsigned long long seed = test::seed(5);
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  constexpr double step = 1e-30;
+  for (int i = 0; i < 200; ++i) {
+    double value[8];
+    for (std::size_t k = 0; k < 8; ++k)
+      value[k] = k % 4 == 1 || k % 4 == 2 ? uniform(random, -1.5, 1.5) : uniform(random, 0.3, 2.0);
+    const Point normal = {uniform(random, -1, 1), uniform(random, -1, 1)};
+    Primitive<Dual<8>> l, r;
+    for (std::size_t k = 0; k < 4; ++k)
+      l[k] = Dual<8>::variable(value[k], k), r[k] = Dual<8>::variable(value[k + 4], k + 4);
+    const auto flux = roe_flux<Dual<8>>(l, r, normal);
+    for (std::size_t by = 0; by < 8; ++by) {
+      using Complex = std::complex<double>;
+      Primitive<Complex> cl, cr;
+      for (std::size_t k = 0; k < 4; ++k) cl[k] = value[k], cr[k] = value[k + 4];
+      (by < 4 ? cl[by] : cr[by - 4]) += Complex(0.0, step);
+      const auto complex = roe_flux<Complex>(cl, cr, normal);
+      for (std::size_t k = 0; k < 4; ++k)
+        EXPECT_NEAR(flux[k].slope[by], complex[k].imag() / step,
+                    1e-12 * (1.0 + std::fabs(flux[k].slope[by])));
+    }
+  }
+}
+
+TEST(Euler, TheJacobianTimesAStepIsTheDifferenceOfResiduals) {
+  const unsigned long long seed = test::seed(6);
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  const FrozenMesh mesh = test::airfoil_mesh("naca:2412", 40).freeze();
+  const FlowMesh dual(mesh, "farfield", "mesh");
+  const Euler euler(dual, {.mach = 0.6, .alpha = 0.02});
+  const State state = disturbed(euler, random);
+  BlockRows matrix = euler.pattern();
+  euler.jacobian(state, matrix);
+  const auto columns = euler.border_columns(state);
+
+  Increment step;
+  step.q.resize(dual.size());
+  for (auto& block : step.q)
+    for (double& value : block) value = uniform(random, -1, 1);
+  step.border = {0.7, 0.3};
+  Vector product(dual.size(), {0, 0, 0, 0});
+  for (std::size_t r = 0; r < matrix.rows.size(); ++r) {
+    for (std::uint32_t i = matrix.start[r]; i < matrix.start[r + 1]; ++i)
+      for (std::size_t j = 0; j < 4; ++j)
+        for (std::size_t k = 0; k < 4; ++k)
+          product[r][j] += matrix.block[i][4 * j + k] * step.q[matrix.column[i]][k];
+    for (std::size_t j = 0; j < 4; ++j)
+      for (std::size_t z = 0; z < 2; ++z) product[r][j] += columns[z][r][j] * step.border[z];
+  }
+  // Central differences; their error falls with the square of the length until rounding sets in.
+  double least = 1e9;
+  for (const double length : {1e-4, 1e-5, 1e-6}) {
+    Vector plus, less, difference(dual.size());
+    euler.residual(moved(state, step, length), plus);
+    euler.residual(moved(state, step, -length), less);
+    for (std::size_t v = 0; v < dual.size(); ++v)
+      for (std::size_t k = 0; k < 4; ++k) difference[v][k] = (plus[v][k] - less[v][k]) / (2.0 * length);
+    least =
+        std::min(least, distance(difference, product) / distance(product, Vector(dual.size(), {0, 0, 0, 0})));
+  }
+  EXPECT_LT(least, 1e-7);
+}
+
+TEST(Euler, TheBordersRowsAreTheDerivativesOfItsEquations) {
+  std::mt19937_64 random(7);
+  const FrozenMesh mesh = test::airfoil_mesh("naca:2412", 40).freeze();
+  const FlowMesh dual(mesh, "farfield", "mesh");
+  for (const std::optional<double> lift : {std::optional<double>(), std::optional<double>(0.5)}) {
+    const Euler euler(dual, {.mach = 0.6, .alpha = 0.02, .lift = lift});
+    const State state = disturbed(euler, random);
+    Increment step;
+    step.q.resize(dual.size());
+    for (auto& block : step.q)
+      for (double& value : block) value = uniform(random, -1, 1);
+    step.border = {0.7, 0.3};
+    const Euler::BorderRows rows = euler.border_rows(state);
+    Border product = {};
+    for (const auto& entry : rows.lift) product[0] += entry.value * step.q[entry.vertex][3];
+    for (std::size_t i = 0; i < 2; ++i)
+      for (std::size_t z = 0; z < 2; ++z) product[i] += rows.corner[i][z] * step.border[z];
+    const Border plus = euler.border_residual(moved(state, step, 1e-5));
+    const Border less = euler.border_residual(moved(state, step, -1e-5));
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(product[i], (plus[i] - less[i]) / 2e-5, 1e-7);
+  }
+}
+
+TEST(Euler, SomeRowsOfTheJacobianAreThoseOfAll) {
+  std::mt19937_64 random(8);
+  const FrozenMesh mesh = test::airfoil_mesh("naca:0012", 40).freeze();
+  const FlowMesh dual(mesh, "farfield", "mesh");
+  const Euler euler(dual, {.mach = 0.6, .alpha = 0.02});
+  const State state = disturbed(euler, random);
+  BlockRows all = euler.pattern(), some = euler.pattern({0, 3, 17, 40, 90});
+  euler.jacobian(state, all);
+  euler.jacobian(state, some);
+  for (std::size_t r = 0; r < some.rows.size(); ++r) {
+    const std::uint32_t first = all.start[some.rows[r]];
+    ASSERT_EQ(some.start[r + 1] - some.start[r], all.start[some.rows[r] + 1] - first);
+    for (std::uint32_t i = some.start[r]; i < some.start[r + 1]; ++i) {
+      EXPECT_EQ(some.column[i], all.column[first + i - some.start[r]]);
+      EXPECT_EQ(some.block[i], all.block[first + i - some.start[r]]);
+    }
+  }
+}
+
+// The error of density and of p / rho^gamma in the mean square over the area.
+std::array<double, 2> errors_of_vortex(std::uint32_t cells) {
+  const FrozenMesh mesh = test::ring_mesh(cells);
+  const FlowMesh dual(mesh, "farfield", "ring");
+  const Euler euler(dual, {.mach = test::inner_mach, .vortex = false, .prescribed = test::supersonic_vortex});
+  State state = euler.uniform();
+  for (std::size_t v = 0; v < dual.size(); ++v) state.q[v] = test::supersonic_vortex(dual.points()[v]);
+  BlockRows matrix = euler.pattern();
+  Factors factors;
+  Search search;
+  find_flow(euler, Measure(euler), 1e3, {.tolerance = 1e-11}, matrix, factors, state, search);
+  EXPECT_EQ(search.status, FlowStatus::converged) << search.reason;
+  double density = 0.0, entropy = 0.0, area = 0.0;
+  for (std::size_t v = 0; v < dual.size(); ++v) {
+    const Primitive<double> exact = test::supersonic_vortex(dual.points()[v]);
+    const double e = state.q[v][0] - exact[0];
+    const double s = gas_gamma * state.q[v][3] / std::pow(state.q[v][0], gas_gamma) - 1.0;
+    density += dual.areas()[v] * e * e, entropy += dual.areas()[v] * s * s, area += dual.areas()[v];
+  }
+  return {std::sqrt(density / area), std::sqrt(entropy / area)};
+}
+
+TEST(Euler, TheErrorOfTheSupersonicVortexFallsAlmostWithTheSquare) {
+  const std::array<double, 2> coarse = errors_of_vortex(8), fine = errors_of_vortex(16),
+                              finest = errors_of_vortex(32);
+  for (std::size_t i = 0; i < 2; ++i) {
+    RecordProperty(i == 0 ? "density" : "entropy", std::to_string(finest[i]));
+    EXPECT_GT(std::log2(coarse[i] / fine[i]), 1.7) << coarse[i] << " " << fine[i];
+    EXPECT_GT(std::log2(fine[i] / finest[i]), 1.65) << fine[i] << " " << finest[i];
+  }
+}
+
+}  // namespace
+}  // namespace remodel::flow

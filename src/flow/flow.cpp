@@ -1,0 +1,244 @@
+#include "remodel/flow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nanoflann.hpp>
+
+#include "base/stopwatch.h"
+#include "flow/solution.h"
+#include "remodel/error.h"
+
+namespace remodel {
+
+const char* name_of(FlowStatus status) {
+  switch (status) {
+    case FlowStatus::converged:
+      return "converged";
+    case FlowStatus::step_limit:
+      return "step-limit";
+    case FlowStatus::stalled:
+      return "stalled";
+    case FlowStatus::memory:
+      return "memory";
+    case FlowStatus::interrupted:
+      return "interrupted";
+  }
+  return "unknown";
+}
+
+const char* name_of(FlowStart start) {
+  switch (start) {
+    case FlowStart::cold:
+      return "cold";
+    case FlowStart::carried:
+      return "carried";
+    case FlowStart::refactored:
+      return "refactored";
+  }
+  return "unknown";
+}
+
+namespace flow {
+
+namespace {
+
+void require(bool holds, const char* what, double found, const char* expected) {
+  if (holds) return;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", found);
+  throw Error(ErrorCode::argument, what, std::string("found ") + text + ", expected " + expected);
+}
+
+constexpr double degree = M_PI / 180.0;
+
+class Points {
+ public:
+  explicit Points(const std::vector<Point>& points) : points_(points), tree_(2, *this) {}
+  std::size_t kdtree_get_point_count() const { return points_.size(); }
+  double kdtree_get_pt(std::size_t i, std::size_t axis) const {
+    return axis == 0 ? points_[i].x : points_[i].y;
+  }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+  std::size_t nearest(Point p) const {
+    const double query[2] = {p.x, p.y};
+    std::size_t index = 0;
+    double distance = 0.0;
+    tree_.knnSearch(query, 1, &index, &distance);
+    return index;
+  }
+
+ private:
+  const std::vector<Point>& points_;
+  nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points>, Points, 2, std::size_t>
+      tree_;
+};
+
+// The weights of a triangle's corners at a point.
+std::array<double, 3> weights_at(const FlowMesh& mesh, const std::array<std::uint32_t, 3>& corners, Point p) {
+  const Point a = mesh.points()[corners[0]], b = mesh.points()[corners[1]], c = mesh.points()[corners[2]];
+  const double area = cross(b - a, c - a);
+  const double second = cross(p - a, c - a) / area, third = cross(b - a, p - a) / area;
+  return {1.0 - second - third, second, third};
+}
+
+}  // namespace
+
+void require_possible(const FlowConditions& conditions, const FlowOptions& options) {
+  require(conditions.mach >= 0.01 && conditions.mach <= 3.0, "mach", conditions.mach, "0.01 to 3");
+  require(std::fabs(conditions.alpha_deg) <= 90.0, "alpha", conditions.alpha_deg, "-90 to 90 degrees");
+  require(conditions.reference_length > 0.0 && std::isfinite(conditions.reference_length), "reference length",
+          conditions.reference_length, "more than 0");
+  require(std::isfinite(conditions.reference.x) && std::isfinite(conditions.reference.y), "reference point",
+          conditions.reference.x, "finite coordinates");
+  if (conditions.cl) {
+    require(std::fabs(*conditions.cl) <= 10.0, "cl", *conditions.cl, "-10 to 10");
+    require(conditions.mach < 1.0, "mach", conditions.mach, "less than 1 where a lift coefficient is given");
+  }
+  require(options.tolerance >= 1e-13 && options.tolerance <= 1e-2, "tolerance", options.tolerance,
+          "1e-13 to 1e-2");
+  require(options.max_steps >= 1, "max steps", options.max_steps, "1 or more");
+  require(options.limiter > 0.0 && std::isfinite(options.limiter), "limiter", options.limiter, "more than 0");
+  require(options.memory_mb >= 1.0, "memory", options.memory_mb, "1 MB or more");
+}
+
+Stream stream_of(const FlowConditions& conditions, const FlowOptions& options) {
+  return {.mach = conditions.mach,
+          .alpha = conditions.alpha_deg * degree,
+          .lift = conditions.cl,
+          .reference = conditions.reference,
+          .length = conditions.reference_length,
+          .vortex = options.vortex,
+          .limiter = options.limiter};
+}
+
+FlowResult result_of(const Euler& euler, const State& state, const Search& search, FlowStart start) {
+  FlowResult result;
+  result.status = search.status;
+  result.reason = search.reason;
+  result.mach = euler.stream().mach;
+  result.alpha_deg = state.border[1] / degree;
+  const Coefficients sum = euler.coefficients(state);
+  result.cl = sum.lift, result.cd = sum.drag, result.cm = sum.moment;
+  for (std::size_t i = 0; i < euler.mesh().bodies().size(); ++i) {
+    const Coefficients part = euler.coefficients(state, static_cast<std::int32_t>(i));
+    result.bodies.push_back({euler.mesh().bodies()[i], part.lift, part.drag, part.moment});
+  }
+  result.start = start;
+  result.residual = search.residual;
+  result.history = search.history;
+  result.newton_steps = search.newton_steps;
+  result.factorisations = search.factorisations;
+  result.krylov_iterations = search.iterations;
+  result.memory_mb = search.memory_mb;
+  for (const Primitive<double>& q : state.q) {
+    result.density.push_back(q[0]);
+    result.velocity_x.push_back(q[1]);
+    result.velocity_y.push_back(q[2]);
+    result.pressure.push_back(q[3]);
+  }
+  return result;
+}
+
+std::vector<Primitive<double>> interpolated(const FlowMesh& mesh, const std::vector<Primitive<double>>& state,
+                                            std::span<const Point> at) {
+  std::vector<std::uint32_t> start(mesh.size() + 1, 0);
+  for (const auto& corners : mesh.triangles())
+    for (const std::uint32_t v : corners) ++start[v + 1];
+  for (std::size_t v = 0; v < mesh.size(); ++v) start[v + 1] += start[v];
+  std::vector<std::uint32_t> around(start.back()), fill(start.begin(), start.end() - 1);
+  for (std::uint32_t t = 0; t < mesh.triangles().size(); ++t)
+    for (const std::uint32_t v : mesh.triangles()[t]) around[fill[v]++] = t;
+
+  const Points points(mesh.points());
+  std::vector<Primitive<double>> result;
+  for (const Point p : at) {
+    const std::size_t near = points.nearest(p);
+    // The triangle that p lies in is mostly one around the nearest vertex, or next to one of these.
+    double best = -std::numeric_limits<double>::infinity();
+    std::array<double, 3> weights = {1.0, 0.0, 0.0};
+    std::uint32_t best_triangle = around[start[near]];
+    for (std::uint32_t i = start[near]; i < start[near + 1]; ++i) {
+      const std::array<double, 3> w = weights_at(mesh, mesh.triangles()[around[i]], p);
+      const double least = std::min({w[0], w[1], w[2]});
+      if (least > best) best = least, weights = w, best_triangle = around[i];
+    }
+    double total = 0.0;
+    for (double& w : weights) w = std::clamp(w, 0.0, 1.0), total += w;
+    Primitive<double> value = {};
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 4; ++k)
+        value[k] += weights[i] / total * state[mesh.triangles()[best_triangle][i]][k];
+    result.push_back(value);
+  }
+  return result;
+}
+
+}  // namespace flow
+
+FlowResult solve_flow(const FrozenMesh& mesh, const FlowConditions& conditions, const FlowOptions& options,
+                      const std::string& source) {
+  const Stopwatch watch;
+  flow::require_possible(conditions, options);
+  const flow::FlowMesh dual(mesh, options.farfield, source);
+  dual.require_walls(source);
+  const flow::Euler euler(dual, flow::stream_of(conditions, options));
+  const flow::Measure measure(euler);
+  flow::State state;
+  flow::BlockRows matrix = euler.pattern();
+  flow::Factors factors;
+  flow::Search search;
+  flow::find_flow_cold(euler, measure, options, matrix, factors, state, search);
+  FlowResult result = flow::result_of(euler, state, search, FlowStart::cold);
+  result.seconds = watch.seconds();
+  return result;
+}
+
+namespace {
+
+template <class Value>
+std::vector<double> at_each_point(const FlowResult& flow, Value value) {
+  std::vector<double> values(flow.density.size());
+  for (std::size_t v = 0; v < values.size(); ++v) values[v] = value(v);
+  return values;
+}
+
+}  // namespace
+
+std::vector<double> mach_numbers(const FlowResult& flow) {
+  return at_each_point(flow, [&](std::size_t v) {
+    return std::sqrt((flow.velocity_x[v] * flow.velocity_x[v] + flow.velocity_y[v] * flow.velocity_y[v]) *
+                     flow.density[v] / (flow::gas_gamma * flow.pressure[v]));
+  });
+}
+
+std::vector<double> pressure_coefficients(const FlowResult& flow) {
+  return at_each_point(flow, [&](std::size_t v) {
+    return (flow.pressure[v] - 1.0 / flow::gas_gamma) / (0.5 * flow.mach * flow.mach);
+  });
+}
+
+std::vector<double> entropy_errors(const FlowResult& flow) {
+  return at_each_point(flow, [&](std::size_t v) {
+    return flow::gas_gamma * flow.pressure[v] / std::pow(flow.density[v], flow::gas_gamma) - 1.0;
+  });
+}
+
+std::vector<Field> fields_of(const FlowResult& flow) {
+  std::vector<double> velocity;
+  for (std::size_t v = 0; v < flow.density.size(); ++v) {
+    velocity.push_back(flow.velocity_x[v]);
+    velocity.push_back(flow.velocity_y[v]);
+  }
+  return {{.name = "density", .values = flow.density},
+          {.name = "velocity", .components = 2, .values = std::move(velocity)},
+          {.name = "pressure", .values = flow.pressure},
+          {.name = "mach", .values = mach_numbers(flow)},
+          {.name = "cp", .values = pressure_coefficients(flow)},
+          {.name = "entropy", .values = entropy_errors(flow)}};
+}
+
+}  // namespace remodel

@@ -1,0 +1,306 @@
+// The solver that outlives its mesh.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/stopwatch.h"
+#include "flow/chord.h"
+#include "flow/solution.h"
+#include "mesh/mesh_data.h"
+#include "remodel/error.h"
+#include "remodel/flow.h"
+
+namespace remodel {
+
+namespace flow {
+
+namespace {
+
+// Vertices found by their keys.
+class KeyTable {
+ public:
+  KeyTable() = default;
+  explicit KeyTable(const std::vector<VertexKey>& keys) {
+    for (std::uint32_t i = 0; i < keys.size(); ++i) {
+      const std::uint32_t id = keys[i].id.index;
+      if (id >= at_.size()) at_.resize(id + 1, {no_index, 0});
+      at_[id] = {i, keys[i].generation};
+    }
+  }
+  std::uint32_t find(VertexKey key) const {
+    if (key.id.index >= at_.size() || at_[key.id.index].generation != key.generation) return no_index;
+    return at_[key.id.index].position;
+  }
+
+ private:
+  struct Place {
+    std::uint32_t position, generation;
+  };
+  std::vector<Place> at_;
+};
+
+std::vector<VertexKey> keys_of(const Mesh& mesh, const FrozenMesh& frozen) {
+  std::vector<VertexKey> keys;
+  keys.reserve(frozen.vertex_ids.size());
+  for (const std::uint32_t id : frozen.vertex_ids)
+    keys.push_back({{id}, mesh.data().triangulation.generation(VertexId{id})});
+  return keys;
+}
+
+// Vertices that a step changed beyond this part of the mesh are not worth a correction.
+constexpr double largest_zone = 0.2;
+// The first pseudo-time step from a flow that was carried.
+constexpr double carried_cfl = 50.0;
+
+}  // namespace
+
+}  // namespace flow
+
+struct LivingFlow::Impl {
+  using Keys = std::vector<VertexKey>;
+
+  explicit Impl(const FlowOptions& given) : options(given) {}
+
+  FlowOptions options;
+  // The last flow: by position, and whose positions these are.
+  std::unique_ptr<flow::FlowMesh> mesh;
+  Keys keys;
+  flow::State state;
+  bool solved = false;
+  // The factors, and what they belong to: rows by key, with the keys of each row's neighbours.
+  flow::Factors factors;
+  bool factored = false;
+  Keys factored_keys;
+  std::vector<std::vector<VertexKey>> factored_rings;
+  double rent = 0.0;  // what older factors have cost beyond new ones
+  // The pattern of the whole matrix, for the triangles it was made of.
+  flow::BlockRows matrix;
+  std::vector<std::array<std::uint32_t, 3>> matrix_triangles;
+
+  FlowResult solve(const Mesh& living, const FlowConditions& conditions);
+
+ private:
+  struct Task;
+  flow::State carry(const flow::FlowMesh& now, const Keys& now_keys, const flow::Stream& stream) const;
+  flow::BlockRows& whole_matrix(const flow::Euler& euler);
+  void belong(const flow::FlowMesh& dual, const Keys& now);
+  bool try_older_factors(Task& task);
+  bool try_own_factors(Task& task);
+  void search(Task& task);
+};
+
+// One flow that is looked for.
+struct LivingFlow::Impl::Task {
+  const flow::Euler& euler;
+  const flow::Measure& measure;
+  const Keys& keys;
+  flow::State state;
+  flow::Search search = {};
+  FlowStart start = FlowStart::cold;
+  std::size_t corrected = 0;
+};
+
+LivingFlow::LivingFlow(const FlowOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+LivingFlow::~LivingFlow() = default;
+LivingFlow::LivingFlow(LivingFlow&&) noexcept = default;
+LivingFlow& LivingFlow::operator=(LivingFlow&&) noexcept = default;
+
+FlowResult LivingFlow::solve(const Mesh& mesh, const FlowConditions& conditions) {
+  return impl_->solve(mesh, conditions);
+}
+
+void LivingFlow::forget() {
+  impl_ = std::make_unique<Impl>(impl_->options);
+}
+
+flow::BlockRows& LivingFlow::Impl::whole_matrix(const flow::Euler& euler) {
+  if (matrix_triangles != euler.mesh().triangles()) {
+    matrix = euler.pattern();
+    matrix_triangles = euler.mesh().triangles();
+  }
+  return matrix;
+}
+
+// Values at vertices that are there still are kept, those at new ones interpolated.
+flow::State LivingFlow::Impl::carry(const flow::FlowMesh& now, const Keys& now_keys,
+                                    const flow::Stream& stream) const {
+  flow::State carried;
+  carried.border = state.border;
+  if (!stream.lift) carried.border[1] = stream.alpha;
+  const flow::KeyTable table(keys);
+  std::vector<std::uint32_t> fresh;
+  std::vector<Point> places;
+  carried.q.resize(now.size());
+  for (std::uint32_t v = 0; v < now.size(); ++v) {
+    const std::uint32_t old = table.find(now_keys[v]);
+    if (old != no_index) {
+      carried.q[v] = state.q[old];
+    } else {
+      fresh.push_back(v);
+      places.push_back(now.points()[v]);
+    }
+  }
+  if (fresh.empty()) return carried;
+  const auto values = flow::interpolated(*mesh, state.q, places);
+  for (std::size_t i = 0; i < fresh.size(); ++i) carried.q[fresh[i]] = values[i];
+  return carried;
+}
+
+// The factors that find_flow() or factor_at() left belong to this mesh.
+void LivingFlow::Impl::belong(const flow::FlowMesh& dual, const Keys& now) {
+  factored = factors.lu.ready();
+  rent = 0.0;
+  factored_keys = now;
+  factored_rings.resize(now.size());
+  for (std::size_t v = 0; v < now.size(); ++v) {
+    factored_rings[v].clear();
+    for (const flow::RingEntry& entry : dual.ring(v)) factored_rings[v].push_back(now[entry.vertex]);
+    std::sort(factored_rings[v].begin(), factored_rings[v].end());
+  }
+}
+
+// The chord method with the factors that there are. False where they are of no use (any more).
+bool LivingFlow::Impl::try_older_factors(Task& task) {
+  if (!factored || rent > factors.lu.factor_work()) return false;
+  const flow::FlowMesh& dual = task.euler.mesh();
+  const flow::KeyTable table(factored_keys);
+  std::vector<std::uint32_t> row_of(dual.size());
+  std::vector<bool> in_zone(dual.size(), false);
+  std::vector<std::uint32_t> zone;
+  std::vector<VertexKey> ring;
+  const auto note = [&](std::uint32_t v) {
+    if (in_zone[v]) return;
+    in_zone[v] = true;
+    zone.push_back(v);
+  };
+  for (std::uint32_t v = 0; v < dual.size(); ++v) {
+    row_of[v] = table.find(task.keys[v]);
+    ring.clear();
+    for (const flow::RingEntry& entry : dual.ring(v)) ring.push_back(task.keys[entry.vertex]);
+    std::sort(ring.begin(), ring.end());
+    if (row_of[v] == no_index || ring != factored_rings[row_of[v]]) note(v);
+  }
+  for (int rings = 0; rings < 2; ++rings)
+    for (std::size_t i = 0, n = zone.size(); i < n; ++i)
+      for (const flow::RingEntry& entry : dual.ring(zone[i])) note(entry.vertex);
+  std::sort(zone.begin(), zone.end());
+  task.corrected = zone.size();
+  if (static_cast<double>(zone.size()) > flow::largest_zone * static_cast<double>(dual.size())) return false;
+
+  flow::Preconditioner inverse(task.euler, task.state, factors, std::move(row_of), factored_keys.size(), zone,
+                               options);
+  if (!inverse.ready()) return false;
+  const int before = task.search.iterations;
+  const flow::ChordEnd end =
+      flow::chord_steps(task.measure, inverse, factors, options, task.state, task.search);
+  // Factors of its own would have taken about this many steps.
+  constexpr int own_steps = 4;
+  rent += std::max(0, task.search.iterations - before - own_steps) * factors.lu.solve_work() +
+          inverse.zone_work();
+  if (end == flow::ChordEnd::interrupted) {
+    task.search.status = FlowStatus::interrupted, task.search.reason = "interrupted";
+    return true;
+  }
+  task.start = FlowStart::carried;
+  if (end == flow::ChordEnd::converged) task.search.status = FlowStatus::converged;
+  return end == flow::ChordEnd::converged;
+}
+
+bool LivingFlow::Impl::try_own_factors(Task& task) {
+  task.start = FlowStart::refactored;
+  const int before = task.search.factorisations;
+  const flow::ChordEnd end = flow::steps_with_own_factors(
+      task.euler, task.measure, options, whole_matrix(task.euler), factors, task.state, task.search);
+  if (task.search.factorisations > before) belong(task.euler.mesh(), task.keys);
+  return end != flow::ChordEnd::slow;
+}
+
+// Cheapest first: older factors, new ones, pseudo-time from the last flow, undisturbed flow.
+void LivingFlow::Impl::search(Task& task) {
+  if (solved && (try_older_factors(task) || try_own_factors(task))) return;
+  if (solved) {
+    task.start = FlowStart::refactored;
+    flow::find_flow(task.euler, task.measure, flow::carried_cfl, options, whole_matrix(task.euler), factors,
+                    task.state, task.search);
+    belong(task.euler.mesh(), task.keys);
+    const FlowStatus status = task.search.status;
+    if (status == FlowStatus::converged || status == FlowStatus::interrupted || status == FlowStatus::memory)
+      return;
+  }
+  task.start = FlowStart::cold;
+  flow::find_flow_cold(task.euler, task.measure, options, whole_matrix(task.euler), factors, task.state,
+                       task.search);
+  belong(task.euler.mesh(), task.keys);
+}
+
+FlowResult LivingFlow::Impl::solve(const Mesh& living, const FlowConditions& conditions) {
+  const Stopwatch watch;
+  flow::require_possible(conditions, options);
+  const FrozenMesh frozen = living.freeze();
+  const flow::Stream stream = flow::stream_of(conditions, options);
+  std::unique_ptr<flow::FlowMesh> dual;
+  const Keys now = flow::keys_of(living, frozen);
+  if (mesh && mesh->triangles() == frozen.triangles && now == keys) {
+    dual = std::make_unique<flow::FlowMesh>(*mesh);
+    dual->move(frozen.points);
+  } else {
+    dual = std::make_unique<flow::FlowMesh>(frozen, options.farfield, "mesh");
+    dual->require_walls("mesh");
+  }
+  const flow::Euler euler(*dual, stream);
+  const flow::Measure measure(euler);
+  Task task{.euler = euler, .measure = measure, .keys = now, .state = {}};
+  if (solved) task.state = carry(*dual, now, stream);
+  search(task);
+  FlowResult result = flow::result_of(euler, task.state, task.search, task.start);
+  result.corrected_vertices = task.corrected;
+  // A flow that was not found is not carried on: the last one that was found is.
+  if (result.converged()) {
+    state = std::move(task.state);
+    keys = now;
+    mesh = std::move(dual);
+    solved = true;
+  }
+  result.seconds = watch.seconds();
+  return result;
+}
+
+FlowResult solve_flow_from(const FrozenMesh& before, const FlowResult& known, const FrozenMesh& mesh,
+                           const FlowConditions& conditions, const FlowOptions& options,
+                           const std::string& source) {
+  const Stopwatch watch;
+  flow::require_possible(conditions, options);
+  const flow::FlowMesh old(before, options.farfield, source);
+  const flow::FlowMesh dual(mesh, options.farfield, source);
+  dual.require_walls(source);
+  if (known.density.size() != old.size())
+    throw Error(ErrorCode::argument, source,
+                "found a flow at " + std::to_string(known.density.size()) + " points, expected one at the " +
+                    std::to_string(old.size()) + " of its mesh");
+  const flow::Euler euler(dual, flow::stream_of(conditions, options));
+  const flow::Measure measure(euler);
+  std::vector<flow::Primitive<double>> q(old.size());
+  for (std::size_t v = 0; v < q.size(); ++v)
+    q[v] = {known.density[v], known.velocity_x[v], known.velocity_y[v], known.pressure[v]};
+  flow::State state;
+  state.q = flow::interpolated(old, q, dual.points());
+  state.border = {known.cl, conditions.cl ? known.alpha_deg * M_PI / 180.0 : euler.stream().alpha};
+
+  flow::BlockRows matrix = euler.pattern();
+  flow::Factors factors;
+  flow::Search search;
+  FlowStart start = FlowStart::refactored;
+  if (flow::steps_with_own_factors(euler, measure, options, matrix, factors, state, search) ==
+      flow::ChordEnd::slow)
+    flow::find_flow(euler, measure, flow::carried_cfl, options, matrix, factors, state, search);
+  if (search.status == FlowStatus::stalled || search.status == FlowStatus::step_limit) {
+    start = FlowStart::cold;
+    flow::find_flow_cold(euler, measure, options, matrix, factors, state, search);
+  }
+  FlowResult result = flow::result_of(euler, state, search, start);
+  result.seconds = watch.seconds();
+  return result;
+}
+
+}  // namespace remodel

@@ -1,0 +1,150 @@
+#include "flow/newton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace remodel::flow {
+
+namespace {
+
+constexpr double full_cfl = 1e12;  // more is no pseudo-time at all
+
+void add_pseudo_time(const Euler& euler, const State& state, double cfl, BlockRows& matrix) {
+  const std::vector<double> speeds = euler.wave_speeds(state);
+  for (std::size_t r = 0; r < matrix.rows.size(); ++r) {
+    const std::uint32_t v = matrix.rows[r];
+    const auto first = matrix.column.begin() + matrix.start[r],
+               last = matrix.column.begin() + matrix.start[r + 1];
+    Block& at =
+        matrix.block[static_cast<std::size_t>(std::lower_bound(first, last, v) - matrix.column.begin())];
+    const double s = speeds[v] / cfl;
+    const auto [rho, u, w, p] = state.q[v];
+    // Derivatives of density, momentum and energy by the unknowns.
+    at[0] += s;
+    at[4] += s * u, at[5] += s * rho;
+    at[8] += s * w, at[10] += s * rho;
+    at[12] += 0.5 * s * (u * u + w * w), at[13] += s * rho * u, at[14] += s * rho * w;
+    at[15] += s / (gas_gamma - 1.0);
+  }
+}
+
+std::string text_of(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g", value);
+  return text;
+}
+
+// How far a step may go: the residual may rise 2.5 times a step, and to 6 times the least there was.
+struct LineSearch {
+  static constexpr double step_rise = 2.5, whole_rise = 6.0, largest_part = 0.4;
+  static constexpr int halvings = 4;
+};
+
+}  // namespace
+
+Factored factor_at(const Euler& euler, const State& state, double cfl, const FlowOptions& options,
+                   BlockRows& matrix, Factors& factors, Search& search) {
+  euler.jacobian(state, matrix);
+  if (cfl < full_cfl) add_pseudo_time(euler, state, cfl, matrix);
+  const Factored outcome = factors.lu.factor(matrix, options.memory_mb);
+  ++search.factorisations;
+  search.memory_mb = std::max(search.memory_mb, factors.lu.memory_mb());
+  if (outcome != Factored::done) return outcome;
+  factors.columns = euler.border_columns(state);
+  for (Vector& column : factors.columns) factors.lu.solve(column, 1);
+  return outcome;
+}
+
+void end_without_factors(Factored outcome, const FlowOptions& options, Search& search) {
+  if (outcome == Factored::out_of_memory) {
+    search.status = FlowStatus::memory;
+    search.reason = "the factors need more than the " + text_of(options.memory_mb) + " MB that they may take";
+  } else {
+    search.status = FlowStatus::stalled;
+    search.reason = "the Jacobian is singular at a residual of " + text_of(search.residual);
+  }
+}
+
+void find_flow(const Euler& euler, const Measure& measure, double cfl, const FlowOptions& options,
+               BlockRows& matrix, Factors& factors, State& state, Search& search) {
+  Vector residual;
+  Border border;
+  search.residual = measure(state, residual, border);
+  search.history.push_back(search.residual);
+  double least = search.residual;
+  constexpr double smallest_cfl = 1e-2;
+  while (search.residual > options.tolerance) {
+    if (options.observer != nullptr && options.observer->cancelled()) {
+      search.status = FlowStatus::interrupted, search.reason = "interrupted";
+      return;
+    }
+    if (search.newton_steps >= options.max_steps) {
+      search.status = FlowStatus::step_limit;
+      search.reason = "residual " + text_of(search.residual) + " after " +
+                      std::to_string(search.newton_steps) + " Newton steps, expected " +
+                      text_of(options.tolerance);
+      return;
+    }
+    const Factored outcome = factor_at(euler, state, cfl, options, matrix, factors, search);
+    if (outcome != Factored::done) return end_without_factors(outcome, options, search);
+    ++search.newton_steps;
+    for (auto& block : residual)
+      for (double& x : block) x = -x;
+    factors.lu.solve(residual, 1);
+    const Increment step = close_border(std::move(residual), factors.columns, euler.border_rows(state),
+                                        {-border[0], -border[1]});
+    double length = std::min(1.0, LineSearch::largest_part / largest_change(state, step));
+    bool taken = false;
+    for (int i = 0; i <= LineSearch::halvings && !taken; ++i) {
+      if (i > 0) length *= 0.5;
+      State next = moved(state, step, length);
+      Vector next_residual;
+      Border next_border;
+      const double size = measure(next, next_residual, next_border);
+      if (!(size <= LineSearch::step_rise * search.residual && size <= LineSearch::whole_rise * least))
+        continue;
+      if (length == 1.0) cfl = std::min(full_cfl, cfl * 2.0 * std::max(1.0, search.residual / size));
+      if (length < 0.25) cfl *= 0.5;
+      state = std::move(next), residual = std::move(next_residual), border = next_border;
+      search.residual = size;
+      search.history.push_back(size);
+      least = std::min(least, size);
+      taken = true;
+    }
+    if (taken) continue;
+    cfl = std::min(cfl, 1e4) * 0.1;
+    if (!(cfl >= smallest_cfl)) {
+      search.status = FlowStatus::stalled;
+      search.reason = "no step leads on from a residual of " + text_of(search.residual) + ", expected " +
+                      text_of(options.tolerance) + ": there may be no steady flow";
+      return;
+    }
+    search.residual = measure(state, residual, border);
+  }
+  search.status = FlowStatus::converged;
+  search.reason.clear();
+}
+
+// A lift that is asked for is looked for from the flow at the first guess of the angle: undisturbed flow is
+// too far from it for the angle to follow.
+void find_flow_cold(const Euler& euler, const Measure& measure, const FlowOptions& options, BlockRows& matrix,
+                    Factors& factors, State& state, Search& search) {
+  constexpr double rough_tolerance = 1e-4, late_cfl = 1e6;
+  state = euler.uniform();
+  search.newton_steps = 0;
+  double cfl = cold_cfl;
+  if (euler.stream().lift) {
+    Stream at_angle = euler.stream();
+    at_angle.lift.reset();
+    const Euler first(euler.mesh(), at_angle);
+    FlowOptions rough = options;
+    rough.tolerance = std::max(options.tolerance, rough_tolerance);
+    find_flow(first, Measure(first), cfl, rough, matrix, factors, state, search);
+    if (search.status != FlowStatus::converged) return;
+    cfl = late_cfl;
+  }
+  find_flow(euler, measure, cfl, options, matrix, factors, state, search);
+}
+
+}  // namespace remodel::flow

@@ -1,0 +1,53 @@
+#pragma once
+
+// Newton's method for the bordered Euler equations, globalised by pseudo-transient continuation. Source: C.
+// T. Kelley and D. E. Keyes, "Convergence analysis of pseudo-transient continuation", SIAM J. Numer. Anal. 35
+// (1998); the line search lets the residual rise for a while, as it must while a shock moves (L. Grippo, F.
+// Lampariello and S. Lucidi, SIAM J. Numer. Anal. 23 (1986)).
+
+#include <string>
+#include <vector>
+
+#include "flow/border.h"
+#include "flow/direct_solver.h"
+#include "remodel/flow.h"
+
+namespace remodel::flow {
+
+// The first pseudo-time step from undisturbed flow.
+inline constexpr double cold_cfl = 5.0;
+
+// What a search for a flow has done so far.
+struct Search {
+  FlowStatus status = FlowStatus::stalled;
+  std::string reason;
+  double residual = 0.0;
+  std::vector<double> history;
+  int newton_steps = 0, factorisations = 0, iterations = 0;
+  double memory_mb = 0.0;
+};
+
+// Factors of a Jacobian, closed by the border.
+struct Factors {
+  DirectSolver lu;
+  std::array<Vector, 2> columns;  // A^-1 B
+};
+
+// Jacobian and factors at a state; cfl: infinite, or the diagonal has that pseudo-time step. Counts in
+// `search`.
+Factored factor_at(const Euler& euler, const State& state, double cfl, const FlowOptions& options,
+                   BlockRows& matrix, Factors& factors, Search& search);
+
+// Goes on from `state` to the flow, or to where it ends; search.status and reason say which. Leaves the
+// factors of its last step.
+void find_flow(const Euler& euler, const Measure& measure, double cfl, const FlowOptions& options,
+               BlockRows& matrix, Factors& factors, State& state, Search& search);
+
+// The same from undisturbed flow.
+void find_flow_cold(const Euler& euler, const Measure& measure, const FlowOptions& options, BlockRows& matrix,
+                    Factors& factors, State& state, Search& search);
+
+// Counts a factorisation that failed as the end of the search.
+void end_without_factors(Factored outcome, const FlowOptions& options, Search& search);
+
+}  // namespace remodel::flow

@@ -1,0 +1,62 @@
+#pragma once
+
+// Meshes and flows that several tests share.
+
+#include <cmath>
+
+#include "flow/euler.h"
+#include "remodel/generate.h"
+
+namespace remodel::test {
+
+inline Mesh airfoil_mesh(const std::string& name, int points) {
+  return generate(airfoil_domain(named_airfoil(name, 5), {.points = points}), {.gradation = points / 50.0})
+      .mesh;
+}
+
+// The supersonic vortex: flow in circles between the radii 1 and 1.384, Mach 2.25 at the inner one. Source:
+// M. Aftosmis, D. Gaitonde and T. S. Tavares, AIAA J. 33 (1995).
+inline constexpr double inner_radius = 1.0, outer_radius = 1.384, inner_mach = 2.25;
+inline flow::Primitive<double> supersonic_vortex(Point p) {
+  const double r = std::sqrt(dot(p, p));
+  const double ratio = inner_radius / r;
+  const double c2 = 1.0 + 0.2 * inner_mach * inner_mach * (1.0 - ratio * ratio);
+  const double rho = std::pow(c2, 2.5), speed = inner_mach * ratio;
+  return {rho, speed * p.y / r, -speed * p.x / r, rho * c2 / flow::gas_gamma};
+}
+
+// A quarter of the ring, n cells across and 4 n along, cut in triangles that alternate: walls "inner" and
+// "outer".
+inline FrozenMesh ring_mesh(std::uint32_t n) {
+  FrozenMesh mesh;
+  const std::uint32_t m = 4 * n;
+  for (std::uint32_t j = 0; j <= m; ++j)
+    for (std::uint32_t i = 0; i <= n; ++i) {
+      const double r = inner_radius + (outer_radius - inner_radius) * i / n, angle = 0.5 * M_PI * j / m;
+      mesh.points.push_back({r * std::cos(angle), r * std::sin(angle)});
+    }
+  const auto at = [&](std::uint32_t i, std::uint32_t j) { return j * (n + 1) + i; };
+  for (std::uint32_t j = 0; j < m; ++j)
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const std::uint32_t a = at(i, j), b = at(i + 1, j), c = at(i + 1, j + 1), d = at(i, j + 1);
+      if ((i + j) % 2 == 0) {
+        mesh.triangles.push_back({a, b, c});
+        mesh.triangles.push_back({a, c, d});
+      } else {
+        mesh.triangles.push_back({a, b, d});
+        mesh.triangles.push_back({b, c, d});
+      }
+    }
+  mesh.boundaries = {{"inner", {}}, {"outer", {}}, {"farfield", {}}};
+  for (std::uint32_t j = 0; j < m; ++j) {
+    mesh.boundaries[0].edges.push_back({at(0, j + 1), at(0, j)});
+    mesh.boundaries[1].edges.push_back({at(n, j), at(n, j + 1)});
+  }
+  for (std::uint32_t i = 0; i < n; ++i) {
+    mesh.boundaries[2].edges.push_back({at(i, 0), at(i + 1, 0)});
+    mesh.boundaries[2].edges.push_back({at(i + 1, m), at(i, m)});
+  }
+  return mesh;
+}
+
+}  // namespace remodel::test

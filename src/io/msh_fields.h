@@ -1,0 +1,38 @@
+#pragma once
+
+// The sections $NodeData and $ElementData of .msh files:
+// https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format
+
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "io/msh_numbers.h"
+#include "io/scanner.h"
+#include "remodel/field.h"
+
+namespace remodel::io {
+
+class MshFields {
+ public:
+  MshFields(Scanner& scan, MshNumbers& numbers) : scan_(scan), numbers_(numbers) {}
+
+  // Reads what stands between the section's name and its end. indices: by the tags of nodes or triangles,
+  // count of them in all; other elements' values are passed over. A field that does not say something of all
+  // of them is left out, and of several time steps the first one is taken.
+  void read(FieldPlace place, bool binary, const std::unordered_map<std::int64_t, std::uint32_t>& indices,
+            std::size_t count);
+
+  // Those on vertices first, in alphabetical order.
+  std::vector<Field> take();
+
+ private:
+  std::string read_name();
+
+  Scanner& scan_;
+  MshNumbers& numbers_;
+  std::vector<Field> fields_;
+};
+
+}  // namespace remodel::io

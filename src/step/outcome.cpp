@@ -1,0 +1,90 @@
+#include "step/outcome.h"
+
+#include <utility>
+#include <variant>
+
+namespace remodel {
+
+RemodelResult unchanged(const MeshData& mesh) {
+  RemodelResult result;
+  result.triangles_before = result.triangles = result.preserved = mesh.domain_triangles;
+  result.stopped = mesh.stopped;
+  return result;
+}
+
+RemodelResult interrupted(const MeshData& mesh) {
+  RemodelResult result = unchanged(mesh);
+  result.stopped = Stopped::interrupted;
+  return result;
+}
+
+RemodelResult finish_adjustment(MeshData& mesh, AdjustCache& cache) {
+  RemodelResult result;
+  result.triangles_before = result.triangles = mesh.domain_triangles;
+  result.full_adjustment = true;
+  result.preserved = mesh.domain_triangles - cache.changed;
+  for (std::size_t i = 0; i < cache.moving.size(); ++i)
+    if (cache.changes_place(i)) ++result.moved;
+  bool basis_kept = true;
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < cache.loops.size(); ++i) {
+    Loop& loop = mesh.domain.loops[cache.loops[i]];
+    std::swap(loop.placement, cache.placements[i]);
+    mesh.loop_moved(cache.loops[i]);
+    for (Curve& curve : loop.curves) {
+      curve.shape.swap(cache.shapes[n]);
+      if (const auto* airfoil = std::get_if<CstAirfoil>(&curve.shape))
+        basis_kept &= same_basis(std::get<CstAirfoil>(cache.shapes[n]), *airfoil);
+      ++n;
+    }
+  }
+  ++mesh.step;
+  if (!basis_kept) mesh.cache.reset();
+  return result;
+}
+
+RemodelResult count_replacement(MeshData& mesh, std::span<const VertexId> moved) {
+  const Triangulation& triangulation = mesh.triangulation;
+  mesh.seen_vertices.clear(triangulation.vertex_slots());
+  for (const VertexId v : moved) mesh.seen_vertices.insert(v);
+  const auto survives = [&](TriangleId id, const Triangle& t) {
+    for (const VertexId v : t.vertex)
+      if (!triangulation[v].alive() || mesh.seen_vertices.contains(v)) return false;
+    if (const Triangle& now = triangulation[id]; now.in_domain() && Triangulation::same_edges(t, now))
+      return true;
+    const auto corner = triangulation.find_edge(t.vertex[0], t.vertex[1]);
+    return corner && triangulation.vertex(*corner) == t.vertex[2] &&
+           triangulation[corner->triangle].region == Region::domain;
+  };
+  std::size_t before = 0, lost = 0, after = 0;
+  for (const Triangulation::Earlier& earlier : triangulation.earlier()) {
+    if (!earlier.triangle.in_domain()) continue;
+    ++before;
+    if (!survives(earlier.id, earlier.triangle)) ++lost;
+  }
+  triangulation.for_each_moved_only([&](TriangleId t) {  // a vertex of it moved
+    if (triangulation[t].region == Region::domain) ++lost;
+  });
+  for (const TriangleId t : triangulation.touched())
+    if (triangulation[t].in_domain()) ++after;
+  RemodelResult result;
+  result.triangles_before = mesh.domain_triangles;
+  result.preserved = mesh.domain_triangles - lost;
+  mesh.domain_triangles = mesh.domain_triangles - before + after;
+  result.triangles = mesh.domain_triangles;
+  result.moved = moved.size();
+  result.inserted = triangulation.vertices_inserted();
+  result.removed = triangulation.vertices_removed();
+  return result;
+}
+
+RemodelResult count_exchange(const Mesh& before, const Mesh& fresh) {
+  RemodelResult result;
+  result.removed = before.data().triangulation.vertex_count();
+  result.inserted = fresh.data().triangulation.vertex_count();
+  result.triangles_before = before.triangle_count();
+  result.triangles = fresh.triangle_count();
+  return result;
+}
+
+}  // namespace remodel

@@ -1,0 +1,175 @@
+// What lies outside the domain, in holes and between the outermost boundary and the hull, is as Delaunay as
+// the domain after every step that replaces anything: refinement and insertion go through it.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh_data.h"
+#include "remodel/error.h"
+#include "remodel/generate.h"
+#include "remodel/remodel.h"
+#include "step/test_designs.h"
+#include "support.h"
+
+namespace remodel {
+namespace {
+
+// Three stars in a polygon; each of them may be deformed by itself.
+class Designs {
+ public:
+  explicit Designs(std::mt19937_64& random) : random_(random) {
+    for (int i = 0; i < 12; ++i) outer_.push_back(along_square(i));
+    for (const Point centre : {Point{0.25, 0.3}, Point{0.7, 0.35}, Point{0.45, 0.75}})
+      stars_.push_back(star(centre));
+  }
+
+  Domain domain() const {
+    Domain result{{test::polygon(LoopRole::outer, "outer", outer_)}};
+    for (const auto& corners : stars_) result.loops.push_back(test::polygon(LoopRole::hole, "star", corners));
+    return result;
+  }
+
+  // Moves the corners of some of the four by a little, so that most steps are full adjustments, or by more.
+  void next() {
+    const double most = random_() % 4 == 0 ? 0.02 : 0.002;
+    if (random_() % 3 == 0) jiggle(outer_, most);
+    for (auto& corners : stars_)
+      if (random_() % 2 == 0) jiggle(corners, most);
+  }
+
+ private:
+  // Four points a side of the unit square: the sides are nearly straight.
+  static Point along_square(int i) {
+    const double s = (i % 3) / 3.0;
+    return i < 3 ? Point{s, 0} : i < 6 ? Point{1, s} : i < 9 ? Point{1 - s, 1} : Point{0, 1 - s};
+  }
+  static std::vector<Point> star(Point centre) {
+    std::vector<Point> corners;
+    for (int i = 0; i < 10; ++i) {
+      const double r = i % 2 == 0 ? 0.12 : 0.06, angle = 0.628318 * i;
+      corners.push_back(centre + Point{r * std::cos(angle), r * std::sin(angle)});
+    }
+    return corners;
+  }
+  void jiggle(std::vector<Point>& corners, double most) {
+    for (Point& p : corners)
+      p = p + Point{test::uniform(random_, -most, most), test::uniform(random_, -most, most)};
+  }
+
+  std::mt19937_64& random_;
+  std::vector<Point> outer_;
+  std::vector<std::vector<Point>> stars_;
+};
+
+TEST(Outside, IsDelaunayAfterEveryReplacement) {
+  const auto seed = test::seed(611);
+  SCOPED_TRACE("REMODEL_TEST_SEED=" + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  int adjusted = 0, replaced = 0;
+  for (int chain = 0; chain < 6 * test::effort(); ++chain) {
+    Designs designs(random);
+    Mesh mesh = test::generated(designs.domain(), {.gradation = 2.0});
+    for (int step = 0; step < 40; ++step) {
+      SCOPED_TRACE("chain " + std::to_string(chain) + ", step " + std::to_string(step));
+      designs.next();
+      const Method method = random() % 8 == 0 ? Method::general : Method::automatic;
+      RemodelResult result;
+      try {
+        result = remodel(mesh, designs.domain(), {.method = method});
+      } catch (const Error&) {
+        break;  // corners were moved across each other
+      }
+      ASSERT_EQ(mesh.quick_check(), "");
+      ASSERT_EQ(mesh.data().triangulation.check_topology(), "");
+      EXPECT_FALSE(result.regenerated) << result.reason;
+      result.full_adjustment ? ++adjusted : ++replaced;
+      if (!result.full_adjustment) {
+        ASSERT_EQ(mesh.data().triangulation.check(), "");
+      }
+    }
+  }
+  EXPECT_GT(adjusted, 20);
+  EXPECT_GT(replaced, 20);
+}
+
+// Four points; the lowest is moved up until the hull is dented below it.
+TEST(Hull, IsConvexAgainAndRecoveryEndsWhereItIsNot) {
+  Triangulation t;
+  t.start({0, 0}, {4, 0}, {2, 1});
+  const VertexId low = t.insert({2, -0.5}, TriangleId{0}).vertex;
+  t.move(low, {2, 0.5}, 1.0);
+  t.for_each_corner(low, [&](Corner c) {
+    if (!t[c.triangle].ghost()) t.refresh_circle(c.triangle);
+  });
+  ASSERT_EQ(t.check_topology(), "");
+  const VertexId left{1}, right{2};
+  EXPECT_NE(t.constrain(left, right).kind, ConstrainResult::Kind::done);
+  EXPECT_TRUE(t.restore_hull());
+  EXPECT_EQ(t.check(), "");
+  EXPECT_EQ(t.constrain(left, right).kind, ConstrainResult::Kind::done);
+  EXPECT_TRUE(t.restore_hull());
+  EXPECT_EQ(t.check(), "");
+}
+
+// Thousands of points on a circle, then moved by a little: dents everywhere, in one pass.
+TEST(Hull, OfManyPointsIsConvexAgain) {
+  const auto seed = test::seed(641);
+  SCOPED_TRACE("REMODEL_TEST_SEED=" + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  constexpr int n = 3999;
+  const auto on_circle = [](int i, double radius) {
+    const double angle = 2.0 * std::numbers::pi * i / n;
+    return Point{radius * std::cos(angle), radius * std::sin(angle)};
+  };
+  Triangulation t;
+  t.start(on_circle(0, 1.0), on_circle(n / 3, 1.0), on_circle(2 * n / 3, 1.0));
+  t.insert({0, 0}, TriangleId{0});
+  VertexId last{1};
+  for (int i = 0; i < n; ++i) last = t.insert(on_circle(i, 1.0), t.star(last).triangle).vertex;
+  EXPECT_TRUE(t.restore_hull());
+  ASSERT_EQ(t.check(), "");
+  // Farther than a chord of two sides lies inside the circle.
+  for (std::uint32_t v = 1; v < t.vertex_slots(); ++v)
+    t.move(VertexId{v}, (1.0 + 1e-5 * test::uniform(random, -1.0, 1.0)) * t.point(VertexId{v}), 1.0);
+  std::vector<TriangleId> all;
+  for (std::uint32_t i = 0; i < t.triangle_slots(); ++i) {
+    if (!t[TriangleId{i}].alive() || t[TriangleId{i}].ghost()) continue;
+    t.refresh_circle(TriangleId{i});
+    all.push_back(TriangleId{i});
+  }
+  ASSERT_EQ(t.check_topology(), "");
+  EXPECT_TRUE(t.restore_hull());
+  t.restore_delaunay(all);
+  EXPECT_EQ(t.check(), "");
+}
+
+// A corner of the outline moves in place far enough to dent the hull; what comes next lies beyond the dent.
+TEST(Outside, HasAConvexHullWhereACornerMovedIn) {
+  const auto outline = [](double y) {
+    return Domain{
+        {test::polygon(LoopRole::outer, "outer",
+                       {{0, 0}, {0.5, y}, {1, 0}, {1.05, 0.5}, {1, 1}, {0.5, 1.05}, {0, 1}, {-0.05, 0.5}})}};
+  };
+  Mesh mesh = test::generated(outline(-0.01), {.min_angle_deg = 20.0, .max_gradation = 2.0});
+  bool dented = false;
+  for (double y = -0.01; y < 0.02; y += 0.002) {
+    const RemodelResult result = remodel(mesh, outline(y));
+    dented |= result.full_adjustment && y > 0.0;
+    ASSERT_EQ(mesh.quick_check(), "");
+  }
+  EXPECT_TRUE(dented);
+  Domain larger{{test::rectangle(LoopRole::outer, "outer", {-0.2, -0.2}, {1.2, 1.2}, 3)}};
+  larger.loops.push_back(test::square_hole(0.5, -0.1, 0.02, 1));
+  const RemodelResult result = remodel(mesh, larger);
+  EXPECT_FALSE(result.regenerated) << result.reason;
+  EXPECT_EQ(mesh.quick_check(), "");
+  EXPECT_EQ(mesh.data().triangulation.check(), "");
+}
+
+}  // namespace
+}  // namespace remodel

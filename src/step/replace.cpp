@@ -1,0 +1,48 @@
+#include "step/replace.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "generate/recovery_error.h"
+#include "mesh/renew_policy.h"
+
+namespace remodel {
+
+double least_radius(const ReplaceOptions& options, Point centre, Point before, Point after) {
+  const auto [nearer, farther] =
+      std::minmax({squared_distance(centre, before), squared_distance(centre, after)});
+  return std::sqrt(options.renewing ? nearer : farther);
+}
+
+double lost_vertex_radius(const ReplaceOptions& options, double pair_distance, Point centre, Point before,
+                          Point after) {
+  const double least = least_radius(options, centre, before, after);
+  const bool tight = options.renewing && pair_distance < RenewPolicy::tight_motion * least;
+  return std::max(options.distance * pair_distance, tight ? RenewPolicy::tight_removal * least : least);
+}
+
+// Circles that are as they should be are not touched: most of them.
+void restore_outside(MeshData& mesh) {
+  Triangulation& triangulation = mesh.triangulation;
+  if (!triangulation.restore_hull()) throw RecoveryError("the outermost boundary crosses itself");
+  const auto marked = [&](VertexId v) { return mesh.seen_vertices.contains(v); };
+  List<TriangleId> outside(&mesh.arena);
+  mesh.seen_triangles.clear(triangulation.triangle_slots());
+  for (const std::uint32_t head : mesh.loop_heads)
+    mesh.walk(head, [&](std::uint32_t k) {
+      if (marked(mesh.at(k).vertex)) return;
+      triangulation.for_each_corner(mesh.at(k).vertex, [&](Corner c) {
+        const Triangle& t = triangulation[c.triangle];
+        if (t.region != Region::outside || t.ghost() || !mesh.seen_triangles.insert(c.triangle)) return;
+        if (std::none_of(t.vertex, t.vertex + 3, marked)) outside.push_back(c.triangle);
+      });
+    });
+  for (const TriangleId t : outside) {
+    const Triangle& triangle = triangulation[t];
+    const Circle circle = triangulation.circle_of(triangle.vertex[0], triangle.vertex[1], triangle.vertex[2]);
+    if (!(circle == triangle.circle)) triangulation.refresh_circle(t);
+  }
+  triangulation.restore_delaunay(outside);
+}
+
+}  // namespace remodel

@@ -1,0 +1,342 @@
+#include "step/step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include "generate/discretise.h"
+#include "generate/recovery_error.h"
+#include "generate/refine.h"
+#include "generate/require_option.h"
+#include "mesh/renew_policy.h"
+#include "remodel/error.h"
+#include "step/methods.h"
+#include "step/outcome.h"
+#include "step/strategy.h"
+
+namespace remodel {
+
+namespace {
+
+// The loops that are not the same in the mesh's own domain and in another one; none where the boundary
+// vertices of the two do not correspond one to one.
+std::optional<LoopIndices> moving_loops(MeshData& mesh, const Domain& domain) {
+  const std::vector<Loop>&from = mesh.domain.loops, &to = domain.loops;
+  if (from.size() != to.size()) return std::nullopt;
+  LoopIndices moving(&mesh.arena);
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    if (from[i] == to[i]) continue;
+    if (!one_to_one(from[i], to[i])) return std::nullopt;
+    moving.push_back(i);
+  }
+  return moving;
+}
+
+// Whether another chain is joined to one of the loops.
+bool joined(const MeshData& mesh, const LoopIndices& loops) {
+  if (std::ranges::none_of(mesh.domain.loops, &Loop::open)) return false;
+  bool found = false;
+  for (const std::size_t loop : loops)
+    mesh.walk(mesh.loop_heads[loop], [&](std::uint32_t k) { found |= mesh.at(k).twin != k; });
+  return found;
+}
+
+// Airfoils whose surfaces cross are refused here, before anything is touched: this is cheap enough for every
+// step. That no other curves cross follows for a full adjustment from its triangles, otherwise from
+// validate().
+void require_surfaces_apart(const Domain& domain) {
+  for (std::size_t i = 0; i < domain.curve_count(); ++i)
+    if (const auto* airfoil = std::get_if<CstAirfoil>(&domain.curve(i).shape))
+      if (!surfaces_apart(*airfoil))
+        throw Error(ErrorCode::geometry, domain.curve(i).name,
+                    "the airfoil's surfaces touch or cross; expected upper above lower");
+}
+
+// Refinement of what the step touched. One that needs several times the old mesh is running away. Triangles
+// that still join the same vertices, at their old places or others, are kept: they need only hold what the
+// mesh promises.
+Stopped refine_touched(MeshData& mesh, StepObserver* observer) {
+  const Triangulation& triangulation = mesh.triangulation;
+  Refiner refiner(mesh, observer);
+  const std::size_t runaway = 4 * triangulation.vertex_count() + 10000;
+  refiner.limit_vertices(std::min<std::size_t>(mesh.options.max_vertices, runaway));
+  triangulation.for_each_touched(
+      [&](TriangleId t, bool same) { same ? refiner.consider_kept(t) : refiner.consider(t); });
+  // Adjusted triangles are as good as the mesh promises, which may be less than what refinement makes.
+  if (QualityBounds::of_refinement(mesh.options).squared_radius_edge <
+      mesh.promised_bounds().squared_radius_edge)
+    triangulation.for_each_moved_only([&](TriangleId t) { refiner.consider_kept(t); });
+  return refiner.run();
+}
+
+void note_adjustment(const MeshData& mesh, const AdjustCache& cache, ChangeRecord& record) {
+  const bool first = record.vertices().empty();
+  for (std::size_t i = 0; i < cache.moving.size(); ++i) {
+    if (!cache.changes_place(i)) continue;
+    const VertexId v = cache.moving[i].vertex;
+    const std::uint32_t generation = mesh.triangulation.generation(v);
+    if (first)
+      record.note_first(v, generation, cache.old_points[i]);
+    else
+      record.note({v, true, generation, cache.old_points[i]});
+  }
+  record.note_loops(cache.loops);
+}
+
+// Before anything asks it for more.
+const Mesh& require_mesh(const Mesh& mesh) {
+  if (mesh.empty())
+    throw Error(ErrorCode::argument, "mesh",
+                "found an empty one, expected one that was generated, imported or read");
+  return mesh;
+}
+
+}  // namespace
+
+Step::Step(Mesh& mesh, const Domain& domain, const RemodelOptions& options, Journal journal)
+    : mesh_(mesh),
+      domain_(domain),
+      options_(options),
+      journalling_(journal),
+      keep_before_(require_mesh(mesh).keep()),
+      marked_before_(mesh.data().marked.now()) {}
+
+Step::~Step() {
+  if (kept_) return;
+  journal_.reset();
+  if (before_) {
+    before_->data().marked = std::move(data().marked);
+    mesh_ = std::move(*before_);
+  }
+  take_back();
+}
+
+void Step::take_back() {
+  journal_.reset();
+  data().keep = keep_before_;
+  data().marked.return_to(marked_before_);
+}
+
+void Step::keep() {
+  if (journal_) journal_->commit();
+  kept_ = true;
+  journal_.reset();
+  before_.reset();
+}
+
+void Step::require_possible() const {
+  require_option(std::isfinite(options_.distance) && options_.distance >= 0.0, "distance", options_.distance,
+                 "0 or more");
+  require_option(options_.keep == 0.0 || (std::isfinite(options_.keep) && options_.keep >= 1.0), "keep",
+                 options_.keep, "1 or more, or 0 for the usual");
+  if (options_.designs_a_step == 0)
+    throw Error(ErrorCode::argument, "designs_a_step", "found 0, expected 1 or more");
+  if (options_.method == Method::specialised && !moving_)
+    throw Error(
+        ErrorCode::argument, "method",
+        "specialised needs two domains that correspond one to one, and no chain that joins what moves");
+  if (mesh_.data().triangulation.journalling())
+    throw Error(ErrorCode::argument, "mesh",
+                "a trial of another design is under way, expected it to be kept or ended");
+}
+
+RemodelResult Step::run() {
+  const Arena::Scope scope(data().arena);
+  moving_ = moving_loops(data(), domain_);
+  other_discretisation_ = !moving_;
+  if (moving_ && joined(data(), *moving_)) moving_.reset();
+  require_possible();
+  RemodelResult result;
+  if (moving_ && moving_->empty()) {
+    result = unchanged(data());
+    result.full_adjustment = true;
+    result.method = Method::specialised;
+  } else {
+    require_surfaces_apart(domain_);
+    if (options_.method == Method::general) moving_.reset();
+    method_ = moving_ ? Method::specialised : Method::general;
+    if (journalling_ == Journal::always) begin_journal();
+    renewing_ = renews(data(), options_);
+    if (renewing_) data().keep = std::max(data().keep, resolved_keep(options_, data().options));
+    result = adjust_or_replace();
+    result.method = method_;
+  }
+  moving_.reset();
+  return result;
+}
+
+RemodelResult Step::adjust_or_replace() {
+  if (adjust_in_place()) return finish_adjustment();
+  // A design that corresponds to the present one and cannot be meshed is found out by the replacement itself,
+  // exactly: its loops cannot be recovered or do not nest. Then generation says where.
+  if (cache_ == nullptr || !cache_->finite()) validate(domain_);
+  if (cancelled()) return take_back(), interrupted(data());
+  if (replace()) return std::move(result_);
+  take_back();
+  if (result_.stopped == Stopped::interrupted) return interrupted(data());
+  return options_.regenerate ? regenerate() : abandon();
+}
+
+bool Step::adjust_in_place() {
+  if (method_ != Method::specialised) return false;
+  MeshData& mesh = data();
+  cache_ = &adjust_cache(mesh, *moving_);
+  refresh_is_due_ = renewing_ && refresh_is_due(mesh, options_.designs_a_step);
+  // Once vertices move nothing may throw, unless there is a journal: room is made before.
+  mesh.renewal.pending_loops.reserve(mesh.domain.loops.size());
+  mesh.marked.for_each([&](ChangeRecord& record) {
+    record.reserve(cache_->moving.size(), mesh.triangulation.vertex_slots(), mesh.domain.loops.size());
+  });
+  if (refresh_is_due_ && !journal_) begin_journal();
+  return adjust_all(mesh, *cache_, domain_);
+}
+
+RemodelResult Step::finish_adjustment() {
+  MeshData& mesh = data();
+  note_moved(mesh, cache_->loops);
+  mesh.marked.for_each([&](ChangeRecord& record) { note_adjustment(mesh, *cache_, record); });
+  RemodelResult result = remodel::finish_adjustment(mesh, *cache_);
+  result.stopped = what_still_stops();
+  if (renewing_) ++mesh.renewal.full_adjustments;
+  if (!refresh_is_due_) return result;
+  std::optional<GenerateResult> fresh = nearer_to_fresh(mesh, options_.observer);
+  if (!fresh) return result;
+  result = exchange(std::move(*fresh));
+  result.refreshed = true;
+  return result;
+}
+
+// After a full adjustment was not possible or does not apply: the paper's two methods, the specialised one
+// first, if it applies. False, with the reason in failure_, if neither can be completed.
+bool Step::replace() {
+  if (replace_by(method_)) return true;
+  const bool other_left = method_ == Method::specialised && options_.method == Method::automatic &&
+                          result_.stopped == Stopped::done;
+  if (!other_left) return false;
+  journal_.reset();
+  moving_.reset();
+  cache_ = nullptr;
+  return replace_by(Method::general);
+}
+
+bool Step::replace_by(Method method) {
+  method_ = method;
+  if (!journal_) begin_journal();
+  try {
+    if (!replace_under_journal()) return false;
+  } catch (const RecoveryError& error) {
+    failure_ = error.what();
+    return false;
+  }
+  note_replacement();
+  journal_->replaced();
+  return true;
+}
+
+bool Step::replace_under_journal() {
+  MeshData& mesh = data();
+  const bool renewal = renewing_ && renewal_is_due(mesh);
+  const std::size_t budget = renewal ? prepare_renewal(mesh, options_.observer) : 0;
+  const List<VertexId> moved = replace_boundary();
+  if (renewal) renew_replaced(mesh, moved, budget);
+  result_.stopped = cancelled() ? Stopped::interrupted : refine_touched(mesh, options_.observer);
+  if (renewing_ && other_discretisation_) discretisation_changed(mesh, options_.observer);
+  if (renewing_ && mesh.renewal.until_shed > 0) shed_and_refine();
+  if (result_.stopped != Stopped::done) {
+    failure_ = std::string("refinement stopped: ") + name_of(result_.stopped);
+    return false;
+  }
+  require_points_in_domain(mesh);
+  result_ = count_replacement(mesh, moved);
+  result_.stopped = what_still_stops();
+  if (renewing_)
+    finish_replacement(mesh, renewal);
+  else
+    replaced_by_chain(mesh);
+  return true;
+}
+
+// A boundary of fewer points than before leaves a mesh that is far too dense.
+void Step::shed_and_refine() {
+  for (int pass = 0; pass < RenewPolicy::shedding_passes; ++pass) {
+    if (result_.stopped != Stopped::done || !shed_surplus(data())) break;
+    result_.stopped = refine_touched(data(), options_.observer);
+  }
+  --data().renewal.until_shed;
+}
+
+// Where a limit ended an earlier refinement, the triangles that it left bad stay until a step happens to
+// replace them all.
+Stopped Step::what_still_stops() {
+  Stopped& stopped = data().stopped;
+  if (stopped != Stopped::done && mesh_.quick_check().empty()) stopped = Stopped::done;
+  return stopped;
+}
+
+// Returns the vertices that are at other places, but are the same.
+List<VertexId> Step::replace_boundary() {
+  MeshData& mesh = data();
+  const ReplaceOptions options{.distance = options_.distance, .renewing = renewing_};
+  if (cache_ != nullptr) {
+    note_moved(mesh, cache_->loops);
+    return replace_where_needed(mesh, *cache_, domain_, options);
+  }
+  replace_loops(mesh, domain_, options);
+  note_all_moved(mesh);
+  return List<VertexId>(&mesh.arena);
+}
+
+void Step::note_replacement() {
+  MeshData& mesh = data();
+  mesh.marked.for_each([&](ChangeRecord& record) {
+    note_journal(mesh.triangulation, record);
+    if (cache_ != nullptr)
+      record.note_loops(cache_->loops);
+    else
+      record.note_all_loops();
+  });
+}
+
+RemodelResult Step::abandon() {
+  RemodelResult result = unchanged(data());
+  result.abandoned = true;
+  result.reason = std::move(failure_);
+  return result;
+}
+
+// After a step that failed and was taken back.
+RemodelResult Step::regenerate() {
+  GenerateResult fresh = generate(domain_, mesh_.options(), options_.observer);
+  if (fresh.stopped == Stopped::interrupted) return interrupted(data());
+  fresh.mesh.data().keep = mesh_.keep();
+  fresh.mesh.data().renewal.take_count_factor(data().renewal);
+  RemodelResult result = exchange(std::move(fresh));
+  result.regenerated = true;
+  result.reason = std::move(failure_);
+  return result;
+}
+
+// A fresh mesh takes the place of the one from before the step, and goes on with its steps, its marks, and
+// keys of vertices that it never gave out.
+RemodelResult Step::exchange(GenerateResult&& fresh) {
+  take_back();
+  MeshData &old = data(), &made = fresh.mesh.data();
+  made.step = old.step + 1;
+  made.imported.markers = old.imported.markers;
+  for (std::uint32_t i = 0; i < made.triangulation.triangle_slots(); ++i)
+    made.triangulation.set_birth(TriangleId{i}, made.step);
+  made.triangulation.begin_generations_after(old.triangulation);
+  RemodelResult result = count_exchange(mesh_, fresh.mesh);
+  result.stopped = fresh.stopped;
+  old.marked.for_each([&](ChangeRecord& record) {
+    note_all(old.triangulation, made.triangulation, record);
+    record.note_exchange();
+  });
+  made.marked = std::move(old.marked);
+  before_ = std::move(mesh_);
+  mesh_ = std::move(fresh.mesh);
+  return result;
+}
+
+}  // namespace remodel

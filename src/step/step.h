@@ -1,0 +1,80 @@
+#pragma once
+
+// One remodelling step, and the only owner of what it takes to undo it: journal, backup, and the mesh from
+// before where a fresh one takes its place.
+//
+//   nothing moves           nothing is done
+//   adjust_in_place()       all boundary vertices moved to the new design, connectivity unchanged
+//   replace()               what cannot move is relocated or replaced, what was touched is refined
+//   regenerate()            the mesh is taken back and one of the new design generated
+
+#include <optional>
+#include <string>
+
+#include "remodel/generate.h"
+#include "remodel/remodel.h"
+#include "step/adjust.h"
+#include "step/step_journal.h"
+
+namespace remodel {
+
+class Step {
+ public:
+  // Whether a full adjustment is journalled too: only then can it be taken back.
+  enum class Journal { when_needed, always };
+
+  // The domain and the options have to live as long as run() does.
+  Step(Mesh& mesh, const Domain& domain, const RemodelOptions& options, Journal journal);
+  Step(const Step&) = delete;
+  Step& operator=(const Step&) = delete;
+  // Takes the step back, to the last bit, unless it is kept. A full adjustment without a journal stays.
+  ~Step();
+
+  // Once. Throws Error, as remodel() does, where the step is impossible; what it throws leaves the mesh to
+  // the destructor.
+  RemodelResult run();
+  void keep();
+
+ private:
+  MeshData& data() { return mesh_.data(); }
+  bool cancelled() const { return options_.observer != nullptr && options_.observer->cancelled(); }
+  void require_possible() const;
+  void begin_journal() { journal_.emplace(data(), moving_); }
+  void take_back();
+
+  RemodelResult adjust_or_replace();
+  bool adjust_in_place();
+  RemodelResult finish_adjustment();
+  bool replace();
+  bool replace_by(Method method);
+  bool replace_under_journal();
+  List<VertexId> replace_boundary();
+  void note_replacement();
+  void shed_and_refine();
+  Stopped what_still_stops();
+  RemodelResult abandon();
+  RemodelResult regenerate();
+  RemodelResult exchange(GenerateResult&& fresh);
+
+  Mesh& mesh_;
+  const Domain& domain_;
+  const RemodelOptions& options_;
+  const Journal journalling_;
+  const double keep_before_;  // the mesh's own
+  const ChangeRecords::Moment marked_before_;
+  bool kept_ = false;
+  std::optional<StepJournal> journal_;
+  std::optional<Mesh> before_;  // where a fresh mesh has taken its place
+
+  // While it runs.
+  std::optional<LoopIndices> moving_;  // the loops that differ, where their vertices correspond one to one
+  Method method_ = Method::general;
+  bool renewing_ = false;
+  bool other_discretisation_ = false;  // boundary vertices do not correspond
+  bool refresh_is_due_ = false;
+  AdjustCache* cache_ = nullptr;  // of the specialised method
+  RemodelResult result_;
+  std::string failure_;  // why a replacement could not be completed
+};
+
+}  // namespace remodel

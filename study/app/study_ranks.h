@@ -1,0 +1,33 @@
+#pragma once
+
+// Distributes a study's jobs over the ranks of an MPI program. Rank 0 owns the study and hands out jobs; the
+// other ranks ask for jobs and send rows back. A rank that is silent for too long counts as lost and its job
+// is given to another. Should it answer after all, rows that are already stored are not replaced.
+
+#include <memory>
+
+#include "study/study.h"
+
+namespace remodel::app {
+
+struct RanksOptions {
+  double timeout = 60.0;  // seconds of silence
+};
+
+class StudyRanks {
+ public:
+  virtual ~StudyRanks() = default;  // on rank 0 it ends the others
+  // For rank 0: a crew of all ranks, in which rank 0 works too, on the given number of threads.
+  virtual std::unique_ptr<StudyCrew> crew(std::size_t threads) = 0;
+  // For all other ranks: does jobs until rank 0 has no more. Returns false if rank 0 was lost.
+  virtual bool serve() = 0;
+};
+
+// Replaces the process by remodel-mpi, the same program built with MPI, which is installed beside remodel.
+// Returns if there is no such program. In remodel-mpi itself it does nothing.
+void go_on_with_mpi(char** argv);
+
+// Initialises MPI. Throws Error (argument) in the program without MPI.
+std::unique_ptr<StudyRanks> begin_ranks(const RanksOptions& options);
+
+}  // namespace remodel::app

@@ -1,0 +1,173 @@
+"""Files as the shell gives them: pipes, standard input, links, long names; and what other programs put into meshes."""
+
+import json
+import os
+import subprocess
+import threading
+
+import harness
+import shapes
+from harness import Outcome, ProgramTest
+
+FORMATS = ("vtkhdf", "su2", "msh", "vtu")
+
+
+class Pipes(ProgramTest):
+    def piped(self, content, *arguments):
+        """A command whose standard input is a pipe with that content."""
+        process = subprocess.run(
+            [harness.PROGRAM, *map(str, arguments)], cwd=self.directory, input=content, capture_output=True, timeout=300
+        )
+        outcome = Outcome(process)
+        self.assertEqual(outcome.status, 0, outcome)
+        return outcome
+
+    def test_meshes_of_every_format_from_standard_input(self):
+        outputs = [word for end in FORMATS for word in ("-o", f"m.{end}")]
+        self.succeed("mesh", "naca:0012", "--points", 20, *outputs)
+        for end in FORMATS:
+            with self.subTest(end):
+                mesh = self.path(f"m.{end}").read_bytes()
+                self.assertTrue(self.piped(mesh, "check", "-", "--json").json()["valid"])
+                self.piped(mesh, "convert", "-", "-o", "again.su2")
+                self.assertEqual(self.path("again.su2").read_bytes(), self.path("m.su2").read_bytes())
+                options = [] if end == "vtkhdf" else ["--boundary", "airfoil"]
+                self.piped(mesh, "update", "-", "naca:0013", *options, "-o", "piped.su2")
+                self.succeed("update", f"m.{end}", "naca:0013", *options, "-o", "named.su2")
+                self.assertEqual(self.path("piped.su2").read_bytes(), self.path("named.su2").read_bytes())
+
+    def test_airfoils_and_domains_from_standard_input(self):
+        self.write("a.dat", shapes.selig())
+        self.succeed("fit", "a.dat", "-o", "a.json")
+        domain = (harness.SOURCE / "examples/domains/duct.json").read_bytes()
+        self.write("d.json", domain)
+        for name in ("a.dat", "a.json", "d.json"):
+            with self.subTest(name):
+                self.piped(self.path(name).read_bytes(), "mesh", "-", "-o", "piped.su2")
+                self.succeed("mesh", name, "-o", "named.su2")
+                self.assertEqual(self.path("piped.su2").read_bytes(), self.path("named.su2").read_bytes())
+        self.piped(self.path("a.dat").read_bytes(), "fit", "-")
+
+    def test_a_fifo_is_read_once(self):
+        self.succeed("mesh", "naca:0012", "--points", 20, "-o", "m.vtkhdf", "-o", "m.su2")
+        for name, end in (("fifo.su2", "su2"), ("fifo", "su2"), ("fifo.vtkhdf", "vtkhdf")):
+            with self.subTest(name):
+                os.mkfifo(self.path(name))
+                mesh = self.path(f"m.{end}").read_bytes()
+                writer = threading.Thread(target=self.path(name).write_bytes, args=[mesh])
+                writer.start()
+                self.assertTrue(self.figures("check", name)["valid"])
+                writer.join()
+
+
+class Names(ProgramTest):
+    def test_output_through_a_link(self):
+        self.path("there").mkdir()
+        for name in ("m.su2", "m.vtkhdf", "m.msh", "m.vtu"):
+            self.path(name).symlink_to(f"there/{name}")
+            self.succeed("mesh", "naca:0012", "--points", 20, "-o", name)
+            self.assertTrue(self.path(name).is_symlink())
+            self.assertTrue(self.figures("check", f"there/{name}")["valid"])
+        self.path("lost.su2").symlink_to("none/m.su2")
+        self.refused("mesh", "naca:0012", "-o", "lost.su2", names="none")
+
+    def test_names_as_long_as_the_file_system_takes(self):
+        for end in FORMATS:
+            name = "x" * (254 - len(end)) + "." + end
+            self.succeed("mesh", "naca:0012", "--points", 20, "-o", name)
+            self.assertTrue(self.figures("check", name)["valid"])
+        self.refused("mesh", "naca:0012", "--points", 20, "-o", "x" * 252 + ".su2", names="too long")
+
+    def test_no_marker_is_a_bare_number(self):
+        self.write("4412.dat", shapes.selig())
+        arguments = ("naca:0012", "4412.dat", "--place", "1,0,0,0", "--place", "1,0,0,2")
+        self.assertEqual(set(self.figures("mesh", *arguments)["boundary"]), {"naca0012", "airfoil4412", "farfield"})
+
+
+class Reports(ProgramTest):
+    def test_a_mesh_without_length_scales_has_no_gradation(self):
+        self.succeed("mesh", "naca:0012", "--points", 20, "-o", "m.su2")
+        self.assertNotIn("nan", self.succeed("check", "m.su2").stdout)
+        self.assertIsNone(self.figures("check", "m.su2")["max_gradation"])
+
+    def test_points_of_no_triangle_are_counted(self):
+        self.succeed("mesh", "naca:0012", "--points", 20, "-o", "m.su2")
+        text = self.path("m.su2").read_text()
+        before = self.figures("check", "m.su2")
+        count = before["vertices"]
+        head, tail = text.split("NMARK")
+        self.write("more.su2", head.replace(f"NPOIN= {count}", f"NPOIN= {count + 2}") + f"0 0 {count}\n7 7\nNMARK" + tail)
+        figures = self.figures("check", "more.su2")
+        self.assertTrue(figures["valid"])
+        self.assertEqual(figures["unused_points"], 2)
+        self.assertEqual(figures["vertices"], count)
+
+    def test_empty_files_are_refused_at_line_one(self):
+        for name in ("m.su2", "m.msh", "m.vtu", "g.poly", "a.json"):
+            self.write(name, "")
+            command = "mesh" if name[0] in "ga" else "check"
+            self.assertNotIn(":0:", self.refused(command, name, names=name))
+
+
+class InnerCurves(ProgramTest):
+    def wake(self):
+        """A square with a curve inside, which has another region on either side."""
+        square = [[0, 0], [2, 0], [2, 2], [0, 2], [0, 0]]
+        self.write("d.json", json.dumps({"loops": [
+            {"role": "outer", "region": "air", "curves": [
+                {"name": "box", "shape": {"kind": "polyline", "points": square}, "stations": 16}]},
+            {"role": "internal", "region": "inside", "right_region": "air", "curves": [
+                {"name": "ring", "shape": {"kind": "arc", "centre": [1, 1], "radius": 0.5, "start": 0,
+                 "sweep": 6.283185307179586}, "stations": 24}]}]}))
+        return "d.json"
+
+    def test_they_are_no_markers_of_su2_unless_asked_for(self):
+        outcome = self.succeed("mesh", self.wake(), "-o", "m.su2", "-o", "m.msh")
+        self.assertEqual(len(outcome.stderr.splitlines()), 1, outcome)
+        self.assertIn("'ring' left out", outcome.stderr)
+        self.assertEqual(set(self.figures("check", "m.su2")["boundary"]), {"box"})
+        self.assertEqual(set(self.figures("check", "m.msh")["boundary"]), {"box", "ring"})
+        outcome = self.succeed("convert", "m.msh", "-o", "again.su2")
+        self.assertIn("'ring' left out", outcome.stderr)
+        outcome = self.succeed("convert", "m.msh", "--inner-markers", "-o", "again.su2")
+        self.assertEqual(outcome.stderr, "")
+        self.assertEqual(set(self.figures("check", "again.su2")["boundary"]), {"box", "ring"})
+
+    def test_regions_go_through_every_format_that_has_them(self):
+        self.succeed("mesh", self.wake(), "-o", "m.vtkhdf")
+        regions = self.figures("check", "m.vtkhdf")["regions"]
+        self.assertEqual(set(regions), {"air", "inside"})
+        name = "m.vtkhdf"
+        for target in ("m.msh", "m.vtu", "frozen.vtkhdf"):
+            self.succeed("convert", name, "-o", target)
+            self.assertEqual(self.figures("check", target)["regions"], regions)
+            name = target
+        self.succeed("convert", "m.msh", "--msh-version", "2.2", "-o", "old.msh")
+        self.assertEqual(self.figures("check", "old.msh")["regions"], regions)
+
+
+class Chains(ProgramTest):
+    """Updates of another program's mesh, each of which begins with the file that the one before it wrote."""
+
+    STEPS = 24
+    SHAPES = ("naca:0013", "naca:2412", "rae2822", "naca:4412", "naca:0012")
+
+    def chain(self, end):
+        self.succeed("mesh", "naca:0012", "--points", 100, "-o", "m.msh")
+        self.write("bare.msh", "$MeshFormat" + self.path("m.msh").read_text().split("$MeshFormat")[1].split("$Comments")[0])
+        name = f"x.{end}"
+        edges, triangles = [], []
+        for step in range(self.STEPS):
+            mesh = "bare.msh" if step == 0 else name
+            options = ["--boundary", "airfoil"] if step == 0 or end != "vtkhdf" else []
+            figures = self.figures("update", mesh, self.SHAPES[step % len(self.SHAPES)], *options, "-o", name)
+            triangles.append(figures["triangles"])
+            edges.append(self.figures("check", name)["boundary"]["airfoil"])
+        return edges, triangles
+
+    def test_they_do_not_ratchet_in_any_format(self):
+        for end in FORMATS:
+            with self.subTest(end):
+                edges, triangles = self.chain(end)
+                self.assertLess(max(edges[12:]), 1.35 * edges[0], edges)
+                self.assertLess(max(triangles[12:]), 1.35 * triangles[0], triangles)

@@ -1,0 +1,52 @@
+# Builds and runs a consumer of remodel::core where HDF5, SQLite, cairo, MUMPS, the libraries of tests, MPI, threads and
+# pkg-config cannot be found: from Remodel's sources, and from an installation of core alone, where not even the
+# header-only libraries are left that core is built with.
+#   cmake -DSOURCE=... -DSCRATCH=... -P core_consumer_test.cmake
+include(${SOURCE}/tests/run.cmake)
+
+file(REMOVE_RECURSE ${SCRATCH})
+file(MAKE_DIRECTORY ${SCRATCH})
+set(consumer ${SOURCE}/tests/consumer/core)
+set(bare -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON -DCMAKE_TOOLCHAIN_FILE=${consumer}/bare.cmake
+         -DBARE_SCRATCH=${SCRATCH}/bare)
+find_program(CCACHE ccache)
+if(CCACHE)
+  list(APPEND bare -DCMAKE_CXX_COMPILER_LAUNCHER=${CCACHE})
+endif()
+
+# The toolchain hides what it says: the whole project cannot be configured with it.
+execute_process(COMMAND ${CMAKE_COMMAND} -S ${SOURCE} -B ${SCRATCH}/whole ${bare} RESULT_VARIABLE status OUTPUT_QUIET
+                ERROR_VARIABLE errors)
+if(status EQUAL 0 OR NOT errors MATCHES "MUMPS")
+  message(FATAL_ERROR "the whole project was configured, expected that MUMPS is not found: ${errors}")
+endif()
+
+# run_consumer(BUILD): builds and runs the consumer that was configured there, and looks at what it is linked with.
+function(run_consumer build)
+  run(${CMAKE_COMMAND} --build ${build} --target consumer)
+  run(${build}/consumer)
+  file(GET_RUNTIME_DEPENDENCIES EXECUTABLES ${build}/consumer RESOLVED_DEPENDENCIES_VAR libraries)
+  list(TRANSFORM libraries REPLACE ".*/" "")
+  list(FILTER libraries EXCLUDE REGEX "^(libc|libm|libgcc_s|libstdc\\+\\+|ld-linux.*)\\.so")
+  if(libraries)
+    message(FATAL_ERROR "${build}/consumer is linked with ${libraries}, expected the C++ library alone")
+  endif()
+endfunction()
+
+run(${CMAKE_COMMAND} -S ${consumer} -B ${SCRATCH}/sources ${bare} -DREMODEL_SOURCE=${SOURCE})
+run_consumer(${SCRATCH}/sources)
+file(GLOB_RECURSE others ${SCRATCH}/sources/remodel/*.a)
+list(FILTER others EXCLUDE REGEX "libremodel_core\\.a$")
+if(others)
+  message(FATAL_ERROR "a consumer of core built ${others} too")
+endif()
+
+set(parts FLOW IO DRAW DESIGN APP STUDY TESTS)
+list(TRANSFORM parts REPLACE "(.+)" "-DREMODEL_\\1=OFF")
+run(${CMAKE_COMMAND} -S ${SOURCE} -B ${SCRATCH}/core ${bare} ${parts})
+run(${CMAKE_COMMAND} --build ${SCRATCH}/core)
+run(${CMAKE_COMMAND} --install ${SCRATCH}/core --prefix ${SCRATCH}/prefix)
+run(${CMAKE_COMMAND} -S ${consumer} -B ${SCRATCH}/installed ${bare} -DBARE_NOTHING=ON
+    -DCMAKE_PREFIX_PATH=${SCRATCH}/prefix)
+run_consumer(${SCRATCH}/installed)
+file(REMOVE_RECURSE ${SCRATCH})
