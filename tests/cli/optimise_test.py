@@ -223,7 +223,7 @@ print(json.dumps({"objective": sum(a * a for a in design), "constraints": [0.1 -
         ours, terminal = pty.openpty()
         fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 50, 0, 0))
         with subprocess.Popen(
-            [harness.PROGRAM, *map(str, self.arguments(5000, "run"))], cwd=self.directory, stderr=terminal,
+            [harness.PROGRAM, *map(str, self.arguments(20000, "run"))], cwd=self.directory, stderr=terminal,
             stdout=subprocess.DEVNULL,
         ) as process:
             os.close(terminal)
