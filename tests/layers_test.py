@@ -19,6 +19,7 @@ LAYERS = [
     {"name": "generate", "headers": ["generate.h"]},
     {"name": "import", "headers": ["import.h"]},
     {"name": "step", "headers": ["remodel.h"]},
+    {"name": "transfer", "headers": ["transfer.h"]},
     {"name": "check", "headers": ["check.h"]},
     {"name": "flow", "headers": ["flow.h", "potential_flow.h"]},
     {"name": "io", "headers": ["io.h", "shape_files.h"]},

@@ -37,6 +37,9 @@ struct FrozenMesh {
   std::vector<std::uint32_t> birth;         // per triangle: the remodelling step that made it, 0 = generation
   std::vector<std::int32_t> curve;          // per point: index of its curve in the design, -1 in the interior
   std::vector<double> parameter;            // per point: t on that curve, 0 in the interior
+  // Per point: VertexKey::value(), which is never given out again in the life of a mesh, over regenerations
+  // and files too. Points ascend by vertex id.
+  std::vector<std::uint64_t> vertex_keys{};
   // Per point: 1 on a boundary where refinement put it, 0 if it is the design's (or an imported file's).
   // Every format keeps it, so that an imported mesh has the design's own points.
   std::vector<std::uint8_t> steiner{};

@@ -84,9 +84,9 @@ void ChangeRecord::truncate(const Extent& extent) noexcept {
   exchanged_ = extent.exchanged;
 }
 
-Mark ChangeRecords::mark() {
+Mark ChangeRecords::mark(const Triangulation& triangulation) {
   std::erase_if(records_, [](const auto& weak) { return weak.expired(); });
-  auto record = std::make_shared<ChangeRecord>();
+  auto record = std::make_shared<ChangeRecord>(triangulation.vertex_slots(), triangulation.triangle_slots());
   records_.push_back(record);
   return Mark(std::move(record));
 }

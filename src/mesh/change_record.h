@@ -28,6 +28,10 @@ class ChangeRecord {
     VertexId vertex[3];
   };
 
+  // Of a mesh with so many slots.
+  ChangeRecord(std::size_t vertex_slots, std::size_t triangle_slots)
+      : vertex_slots_(vertex_slots), triangle_slots_(triangle_slots) {}
+
   // What a vertex or triangle was before the change under way. Only the first note of each counts.
   void note(const VertexThen& vertex);
   // The same of a live vertex, cheaper. Precondition: no vertex is noted but by this function, and this one
@@ -48,6 +52,8 @@ class ChangeRecord {
   // Room for so many more vertices, of so many slots, and for so many loops: noting them throws nothing then.
   void reserve(std::size_t vertices, std::size_t slots, std::size_t loops);
 
+  std::size_t vertex_slots() const { return vertex_slots_; }  // at the mark
+  std::size_t triangle_slots() const { return triangle_slots_; }
   std::span<const VertexThen> vertices() const { return vertices_; }
   std::span<const TriangleThen> triangles() const { return triangles_; }
   bool loop_changed(std::size_t loop) const;
@@ -62,6 +68,7 @@ class ChangeRecord {
   void truncate(const Extent& extent) noexcept;
 
  private:
+  std::size_t vertex_slots_, triangle_slots_;
   std::vector<VertexThen> vertices_;
   std::vector<TriangleThen> triangles_;
   std::vector<std::size_t> loops_;
@@ -73,7 +80,7 @@ class ChangeRecord {
 // The records of the marks of a mesh that still live.
 class ChangeRecords {
  public:
-  Mark mark();
+  Mark mark(const Triangulation& triangulation);
   // The record of a mark. Throws Error (argument) where the mark is not among these.
   const ChangeRecord& of(const Mark& mark) const;
   // visit(record): of each live mark.

@@ -215,6 +215,7 @@ FrozenMesh Mesh::freeze() const {
     frozen.points.push_back(triangulation.point(VertexId{i}));
     frozen.length_scale.push_back(triangulation[VertexId{i}].length_scale);
     frozen.vertex_ids.push_back(i);
+    frozen.vertex_keys.push_back(VertexKey{{i}, triangulation.generation(VertexId{i})}.value());
   }
   for (auto& triangle : frozen.triangles)
     for (std::uint32_t& v : triangle) v = point_of[v];

@@ -60,7 +60,7 @@ bool Mesh::shows_file_triangles() const {
 }
 
 Mark Mesh::mark() {
-  return data().marked.mark();
+  return data().marked.mark(data().triangulation);
 }
 
 Changes Mesh::changes_since(const Mark& mark) const {
