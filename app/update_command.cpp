@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "arguments.h"
+#include "carry.h"
 #include "command.h"
 #include "domain_input.h"
 #include "figures.h"
@@ -30,6 +31,7 @@ struct UpdateCommand {
   FitOptions fit;
   RemodelOptions remodelling;
   MeshOutputs outputs;
+  CarryOptions carry;
   int repeat = 1;
   bool no_regenerate = false;
   bool json = false;
@@ -83,10 +85,24 @@ DomainInput new_domain(const StartMesh& start, const UpdateCommand& command) {
   return read_domain(command.shapes, discretisation, command.fit);
 }
 
+// On the mesh that the step starts from, whose points an import may have renumbered.
+Cargo cargo_of(const UpdateCommand& command, const StartMesh& start, const FrozenMesh& before) {
+  const FrozenMesh file = start.imported ? read_frozen_mesh(command.mesh) : before;
+  Cargo cargo(command.mesh, file, command.carry);
+  if (start.imported && !cargo.empty()) {
+    FrozenMesh by_places = before;
+    by_places.vertex_keys.clear();
+    cargo.renumber(file, by_places);
+  }
+  return cargo;
+}
+
 Status run(const UpdateCommand& command) {
   command.outputs.require_possible();
   const StartMesh start = read_start_mesh(command.mesh, command.start);
   const Mesh& original = start.mesh;
+  const FrozenMesh before = original.freeze();
+  Cargo cargo = cargo_of(command, start, before);
   const DomainInput input = new_domain(start, command);
 
   InterruptObserver observer;
@@ -103,7 +119,12 @@ Status run(const UpdateCommand& command) {
     seconds.push_back(watch.seconds());
   }
   const bool given_up = result.abandoned || result.stopped == Stopped::interrupted;
-  if (!given_up) command.outputs.write(mesh);
+  if (!given_up) {
+    const FrozenMesh after = mesh.freeze();
+    cargo.carry(before, after);
+    command.outputs.write(mesh, cargo.fields());
+    cargo.write_state(after);
+  }
   warn_of_losses(command, result);
 
   Report report;
@@ -123,6 +144,7 @@ Status run(const UpdateCommand& command) {
   report.figure("seconds", command.repeat > 1 ? "remodelling, median" : "remodelling", median(seconds),
                 "seconds");
   report.figure("stopped", "stopped", name_of(result.stopped));
+  cargo.add_figures(report);
   if (!given_up) add_output_figures(report, command.outputs.files());
   report.print(command.json);
   if (result.abandoned) return Status::answer_is_no;
@@ -145,6 +167,7 @@ void add_update_command(CLI::App& program, Action& action) {
               {.low = 8, .high = 100000, .even = true},
               [command](std::int64_t value) { command->start.points = static_cast<int>(value); });
   command->outputs.add_options(app, Presence::optional);
+  add_carry_options(app, command->carry);
   add_fit_options(app, command->fit);
   add_remodel_options(app, command->remodelling);
   add_step_strategy(app, command->remodelling);

@@ -399,11 +399,21 @@ class MshReader {
 FrozenMesh parse_msh(std::string_view text, const std::string& file) {
   FrozenMesh mesh = MshReader(text, file).read();
   take_steiner_notes(text, mesh);
+  if (text.find(vertex_keys_name) == std::string_view::npos) return mesh;
+  const std::vector<Field> fields = MshReader(text, file).read_fields();
+  const Field* keys = find_field(fields, std::string(vertex_keys_name));
+  if (keys == nullptr || keys->values.size() != mesh.points.size()) return mesh;
+  for (const double key : keys->values)
+    mesh.vertex_keys.push_back(key >= 0.0 && key < 0x1p53 ? static_cast<std::uint64_t>(key) : 0);
   return mesh;
 }
 
 std::vector<Field> parse_msh_fields(std::string_view text, const std::string& file) {
-  return MshReader(text, file).read_fields();
+  std::vector<Field> fields = MshReader(text, file).read_fields();
+  std::erase_if(fields, [](const Field& field) {
+    return field.name == vertex_keys_name && field.place == FieldPlace::vertices;
+  });
+  return fields;
 }
 
 }  // namespace remodel::io

@@ -31,6 +31,7 @@ class MshWriter {
     entities();
     nodes_41();
     elements_41();
+    keys();
     for (const Field& field : fields_) data(field);
     comments();
     return out_.take();
@@ -41,12 +42,24 @@ class MshWriter {
     physical_names();
     nodes_22();
     elements_22();
+    keys();
     for (const Field& field : fields_) data(field);
     comments();
     return out_.take();
   }
 
  private:
+  // As doubles: exact up to two million regenerations.
+  void keys() {
+    if (mesh_.vertex_keys.empty()) return;
+    Field field{std::string(vertex_keys_name), FieldPlace::vertices, 1, {}};
+    for (const std::uint64_t key : mesh_.vertex_keys) {
+      if (key >= std::uint64_t{1} << 53) return;
+      field.values.push_back(static_cast<double>(key));
+    }
+    data(field);
+  }
+
   void comments() {
     const std::string note = steiner_note(mesh_, "");
     if (!note.empty()) out_ << "$Comments\n" << note << "$EndComments\n";

@@ -41,6 +41,7 @@ class GridReader {
     for (std::size_t cell = 0; cell < grid_.types.size(); ++cell) read_cell(cell);
     mesh_.length_scale = grid_.length_scale;
     mesh_.vertex_ids = grid_.vertex_id;
+    mesh_.vertex_keys = grid_.vertex_key;
     mesh_.curve = grid_.curve;
     mesh_.parameter = grid_.parameter;
     mesh_.steiner = grid_.steiner;
@@ -209,6 +210,7 @@ VtkGrid to_vtk_grid(const FrozenMesh& mesh, std::span<const Field> fields) {
   grid.length_scale = mesh.length_scale;
   grid.parameter = mesh.parameter;
   grid.vertex_id = mesh.vertex_ids;
+  grid.vertex_key = mesh.vertex_keys;
   grid.curve = mesh.curve;
   add_fields(grid, mesh, fields);
   grid.steiner = mesh.steiner;

@@ -38,6 +38,7 @@ struct VtkGrid {
   // Per point, each may be empty.
   std::vector<double> length_scale, parameter;
   std::vector<std::uint32_t> vertex_id;
+  std::vector<std::uint64_t> vertex_key;
   std::vector<std::int32_t> curve;
   std::vector<std::uint8_t> steiner;
   // Of fields, for writing.
@@ -54,6 +55,7 @@ template <class Grid, class Visitor>
 void for_each_point_array(Grid& grid, Visitor&& visit) {
   visit("length_scale", grid.length_scale);
   visit("vertex_id", grid.vertex_id);
+  visit("vertex_key", grid.vertex_key);
   visit("curve", grid.curve);
   visit("parameter", grid.parameter);
   visit("steiner", grid.steiner);

@@ -28,6 +28,10 @@ constexpr const char* vtk_type_name<std::int32_t>() {
   return "Int32";
 }
 template <>
+constexpr const char* vtk_type_name<std::uint64_t>() {
+  return "UInt64";
+}
+template <>
 constexpr const char* vtk_type_name<std::uint32_t>() {
   return "UInt32";
 }
