@@ -178,6 +178,19 @@ class Imports(ProgramTest):
         self.write("twice.su2", "\n".join(lines) + "\n")
         self.refused("update", "twice.su2", "rae2822", "--boundary", "airfoil", "-o", "b.su2", names="twice.su2: triangles 2 and 3 overlap")
 
+    # Refinement works to 30 degrees there too: to the mesh's own angle it would spread through all of it.
+    def test_a_mesh_of_larger_angles_is_not_worn_out(self):
+        self.succeed("mesh", "naca:0012", "--points", 100, "--min-angle", 32.5, "-o", "good.su2")
+        for shape in ("naca:0013", "rae2822"):
+            outcome = self.run_program("update", "good.su2", shape, "--boundary", "airfoil", "-o", "b.su2", "--json")
+            self.assertEqual((outcome.status, outcome.stderr), (0, ""))
+            figures = outcome.json()
+            self.assertGreater(figures["import"]["min_angle_deg"], 32.4)
+            self.assertEqual(figures["import"]["refine_angle_deg"], 30)
+            self.assertFalse(figures["regenerated"])
+            self.assertGreater(figures["preserved_percent"], 60)
+            self.assertGreaterEqual(figures["min_angle_deg"], 30 * (1 - TINY))
+
     def test_the_shared_mesh(self):
         mesh, shape = shared_file(self, "meshes/mesh_NACA0012_inv.su2"), shared_file(self, "airfoils/rae2822.dat")
         figures = self.figures("update", mesh, shape, "--boundary", "airfoil", "-o", "new.su2", "-o", "new.vtkhdf")

@@ -253,7 +253,9 @@ print(json.dumps({"objective": sum(a * a for a in design), "constraints": [0.1 -
     def test_a_finished_run_is_replaced_only_where_asked_for(self):
         self.succeed(*self.arguments(60))
         before = self.path("run", "history.sqlite").read_bytes()
-        self.assertIn("--overwrite", self.refused(*self.arguments(10), names="60 evaluations"))
+        refusal = self.refused(*self.arguments(10), names="60 evaluations")
+        for option in ("--overwrite", "--resume"):
+            self.assertIn(option, refusal)
         self.refused(*self.arguments(10, "run", "--overwrite", "--resume"), names="--overwrite")
         self.assertEqual(self.path("run", "history.sqlite").read_bytes(), before)
         self.succeed(*self.arguments(10, "run", "--overwrite"))

@@ -4,6 +4,7 @@ import fcntl
 import json
 import math
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -392,6 +393,35 @@ class Updates(ProgramTest):
         self.assertIn("triangles were not preserved", outcome.stderr)
         outcome = self.succeed("update", "b.vtkhdf", "naca:0012", "-o", "c.vtkhdf")
         self.assertEqual(outcome.stderr, "")
+
+    def test_the_specialised_method_is_never_replaced_by_another(self):
+        self.mesh(points=50)
+        update = ("update", "a.vtkhdf", "rae2822", "--points", 60, "-o", "b.vtkhdf")
+        self.refused(*update, "--method", "specialised", names="specialised needs two domains that correspond one to one")
+        self.assertEqual(self.figures(*update)["method"], "general")
+
+    # `renew` keeps triangles up to `keep` times H: what `check` measures and tests is what the mesh promises.
+    def test_check_measures_what_the_mesh_promises(self):
+        self.succeed("mesh", "naca:0012", "--points", 100, "--gradation", 1, "-o", "a.vtkhdf")
+        largest = 0.0
+        for shape in ("rae2822", "naca:2412", "naca:4412", "rae2822", "naca:0012"):
+            updated = self.figures("update", "a.vtkhdf", shape, "-o", "a.vtkhdf")
+            self.assertGreater(updated["keep"], 1)
+            checked = self.figures("check", "a.vtkhdf")
+            self.assertTrue(checked["valid"])
+            self.assertAlmostEqual(checked["max_gradation"], updated["max_gradation"], delta=TINY)
+            self.assertLessEqual(checked["max_gradation"], 1 + TINY)
+            largest = max(largest, checked["max_gradation"])
+        self.assertGreater(largest * updated["keep"], 1)  # some triangle is beyond H alone
+        self.assertIn("keep H", self.succeed("check", "a.vtkhdf").stdout)
+
+    def test_no_line_of_the_report_is_there_twice(self):
+        self.mesh(points=50)
+        self.succeed("convert", "a.vtkhdf", "-o", "a.su2")
+        for arguments in (("a.vtkhdf", "rae2822"), ("a.su2", "rae2822", "--boundary", "airfoil")):
+            lines = self.succeed("update", *arguments, "-o", "b.vtkhdf").stdout.splitlines()
+            labels = [re.split("  +", line)[0] for line in lines]
+            self.assertEqual(sorted(set(labels)), sorted(labels))
 
     def test_open_trailing_edge(self):
         self.mesh(points=100)
