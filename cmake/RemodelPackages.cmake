@@ -1,5 +1,5 @@
 # Debian packages, by `cpack -G DEB` in the build directory: remodel has the program, remodel-mpi what `remodel study`
-# becomes under mpirun, and libremodel-dev the static libraries with their headers.
+# becomes under mpirun, python3-remodel the Python package, and libremodel-dev the static libraries with their headers.
 set(CPACK_PACKAGE_NAME remodel)
 set(CPACK_PACKAGE_VENDOR "The Remodel authors")
 set(CPACK_PACKAGE_CONTACT "The Remodel authors <remodel@localhost>")
@@ -33,6 +33,14 @@ if(TARGET remodel_mpi)
   debian_package(ranks remodel-mpi science
                  "The program remodel with MPI: remodel study becomes it under mpirun, so that ranks share the work.")
   set(CPACK_DEBIAN_RANKS_PACKAGE_DEPENDS "remodel (= ${PROJECT_VERSION}), openmpi-bin")
+endif()
+if(TARGET remodel_python)
+  debian_package(python python3-remodel python
+                 "The library as a Python package: meshes as numpy arrays, in memory, from design to design.")
+  math(EXPR next "${Python_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+      "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, python3-scipy")
 endif()
 debian_package(development libremodel-dev libdevel
                "Static libraries, headers and the CMake package remodel with its components core, flow, io, draw and design.")

@@ -56,6 +56,14 @@ def use_program(program, scratch):
     print(f"remodel {version} runs out of its package")
 
 
+def use_module(root, scratch):
+    """The Python package, by Debian's own Python."""
+    packages = next(root.glob("usr/lib/python3/dist-packages"))
+    script = "import remodel; mesh = remodel.generate('naca:0012', points=50); print(mesh.update('naca:2412'), mesh.check().valid)"
+    shown = run("/usr/bin/python3", "-B", "-c", script, cwd=scratch, env={"PYTHONPATH": str(packages), "PATH": "/usr/bin:/bin"})
+    expect(shown.strip().endswith("True"), f"the module printed '{shown}', expected True")
+
+
 def use_libraries(root, scratch):
     """The README's example and a consumer of core alone, with what lies in the package."""
     consumers = SOURCE / "tests/consumer"
@@ -81,6 +89,8 @@ def main(build, scratch):
     for file in packages.values():
         run("dpkg-deb", "-x", file, root)
     use_program(root / "usr/bin/remodel", scratch)
+    if "python3-remodel" in packages:
+        use_module(root, scratch)
     use_libraries(root, scratch)
     shutil.rmtree(scratch)
     return 0

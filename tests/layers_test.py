@@ -31,6 +31,7 @@ LAYERS = [
             "replay.h", "batch.h", "directory_lock.h", "cmaes.h", "history.h", "soak.h",
         ],
     },
+    {"name": "python", "headers": []},
     {"name": "study", "headers": []},
     {"name": "app", "headers": []},
 ]
@@ -42,6 +43,8 @@ ONLY = {
     "check": {"check", "point.h", "error.h", "airfoil.h", "domain.h", "frozen_mesh.h"},
     # Pictures are of the frozen view.
     "draw": {"draw", "base", "geometry", "io", "point.h", "error.h", "frozen_mesh.h", "field.h", "io.h"},
+    # The Python package uses public headers, like every other user.
+    "python": {"python"} | {header for layer in LAYERS for header in layer["headers"]},
     # The program uses the library's public headers, like every other user, and the study's.
     "app": {"app", "base", "study"} | {header for layer in LAYERS for header in layer["headers"]},
 }
@@ -71,8 +74,8 @@ def layer_of_file(path, source):
     parts = path.relative_to(source).parts
     if parts[0] == "app" or parts[:2] == ("study", "app"):
         return "app"
-    if parts[0] == "study":
-        return "study"
+    if parts[0] in ("python", "study"):
+        return parts[0]
     if parts[0] == "include":
         return layer_of_header(parts[-1])
     return parts[1]
@@ -93,7 +96,7 @@ def is_test(file):
 
 def main(source):
     source = source.resolve()
-    files = [f for d in ("include", "src", "study", "app") for f in (source / d).rglob("*") if f.suffix in (".h", ".cpp")]
+    files = [f for d in ("include", "src", "python", "study", "app") for f in (source / d).rglob("*") if f.suffix in (".h", ".cpp")]
     broken = []
     for file in sorted(files):
         if is_test(file):

@@ -1,0 +1,54 @@
+"""Meshes that live while an optimiser changes the shape inside them.
+
+    import remodel
+
+    airfoil = remodel.Airfoil("rae2822")
+    mesh = remodel.generate(airfoil, points=200)
+    step = mesh.update(airfoil.with_design(airfoil.design * 1.01))
+    print(step.preserved_percent, mesh.points.shape, mesh.check().valid)
+
+Shapes: Airfoil, Domain, catalogue(). Meshes: generate(), import_mesh(), Mesh, FrozenMesh, check(). Steps:
+Mesh.update() returns a Step, Mesh.trial() tries a design. Values carried from mesh to mesh: Transfer.
+
+Lengths are in chords and angles in degrees. Every mesh is constrained Delaunay; a step keeps what it can. Bad
+input raises an Error: ArgumentError, FileError, FormatError or GeometryError, with the place and what was
+expected; a limit that was reached is in the result. Ctrl-C ends long calls and leaves meshes valid. The method
+is that of the paper "Two-Dimensional Quality-Mesh Remodelling for Engineering Design Optimisation".
+"""
+
+from . import _core
+from ._bridges import from_meshio
+from ._core import (
+    Airfoil,
+    Changes,
+    CheckResult,
+    Domain,
+    FrozenMesh,
+    Mesh,
+    Step,
+    Transfer,
+    Trial,
+    Violation,
+    __version__,
+    catalogue,
+    check,
+    generate,
+    import_mesh,
+    read_fields,
+    read_frozen,
+)
+from ._errors import ArgumentError, Error, EvaluationFailed, FileError, FormatError, GeometryError, TopologyChanged
+from ._mesh import extend as _extend
+
+_extend()
+
+__all__ = [
+    "Airfoil", "ArgumentError", "Changes", "CheckResult", "Domain", "Error", "EvaluationFailed", "FileError",
+    "FormatError", "FrozenMesh", "GeometryError", "Mesh", "Step", "TopologyChanged", "Transfer", "Trial", "Violation",
+    "__version__", "catalogue", "check", "from_meshio", "generate", "import_mesh", "read_fields", "read_frozen",
+]  # fmt: skip
+
+for _name in __all__:
+    if getattr(_core, _name, None) is globals()[_name] and not _name.startswith("__"):
+        globals()[_name].__module__ = "remodel"
+del _name

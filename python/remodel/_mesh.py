@@ -1,0 +1,75 @@
+"""What the classes of the compiled part get in Python: arrays of the present mesh, pictures, bridges."""
+
+import os
+import tempfile
+
+from . import _bridges, _plot
+from ._core import FrozenMesh, Mesh, Step, Transfer, check
+from ._errors import ArgumentError
+
+_ARRAYS = {
+    "points": "Coordinates of shape (n, 2), in chords: a read-only view.",
+    "triangles": "Point indices of shape (m, 3), counter-clockwise: a read-only view.",
+    "boundaries": "By name: pairs of point indices of shape (k, 2), the domain on their left.",
+    "vertex_ids": "Per point: the vertex's id, stable while it lives.",
+    "vertex_keys": "Per point: a number that is never given to another vertex of this mesh.",
+    "triangle_ids": "Per triangle: its id.",
+    "birth": "Per triangle: the step that made it; 0 is generation.",
+    "length_scale": "Per point: the length scale, in chords.",
+    "curve": "Per point: the index of its curve, -1 in the interior.",
+    "parameter": "Per point: t on that curve.",
+    "region": "Per triangle: an index into region_names; empty where there is one region.",
+    "region_names": "The names of regions.",
+}
+
+
+def _array(name):
+    return property(lambda mesh: getattr(mesh.freeze(), name), doc=_ARRAYS[name])
+
+
+def _draw(mesh, file, *, window=None, width=1600):
+    """Writes a picture, .svg or .png. window: x0, y0, x1, y1 in chords."""
+    mesh.freeze().draw(file, window=window, width=width)
+
+
+def _svg(mesh):
+    """What notebooks show: the mesh around its bodies."""
+    frozen = mesh.freeze() if isinstance(mesh, Mesh) else mesh
+    if len(frozen.triangles) == 0:
+        return None
+    with tempfile.TemporaryDirectory() as directory:
+        file = os.path.join(directory, "mesh.svg")
+        frozen.draw(file, window=_plot.close_window(frozen), width=720)
+        with open(file, encoding="utf-8") as text:
+            return text.read()
+
+
+def _matrix(transfer, place="vertices"):
+    """ride() as a sparse matrix of shape (after, before): scipy.sparse.csr_array, whose transpose is for adjoints."""
+    from scipy.sparse import csr_array
+
+    rows, columns, weights, after, before = transfer._entries(place)
+    return csr_array((weights, (rows, columns)), shape=(after, before))
+
+
+def _step_transfer(step):
+    """Carries values from the mesh before the step to the mesh after it. Needs update(..., record=True)."""
+    if step.before is None:
+        raise ArgumentError("step: its arrays were not kept, expected update(..., record=True)")
+    return Transfer(step.before, step.after)
+
+
+def extend():
+    for name in _ARRAYS:
+        setattr(Mesh, name, _array(name))
+    Mesh.draw = _draw
+    FrozenMesh.check = lambda mesh, **bounds: check(mesh, **bounds)
+    FrozenMesh.check.__doc__ = check.__doc__
+    for kind in (Mesh, FrozenMesh):
+        kind.plot = _plot.plot_mesh
+        kind.to_meshio = _bridges.to_meshio
+        kind.to_pyvista = _bridges.to_pyvista
+        kind._repr_svg_ = _svg
+    Transfer.matrix = _matrix
+    Step.transfer = property(_step_transfer, doc=_step_transfer.__doc__)
+    Step.plot = _plot.plot_step

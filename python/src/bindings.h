@@ -1,0 +1,66 @@
+#pragma once
+
+// What the binding files share. Each adds the classes of one idea to the module.
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "remodel/airfoil.h"
+#include "remodel/domain.h"
+#include "remodel/error.h"
+#include "remodel/frozen_mesh.h"
+
+namespace remodel::python {
+
+namespace py = pybind11;
+using namespace pybind11::literals;
+
+using Snapshot = std::shared_ptr<const FrozenMesh>;
+using Reals = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+void add_errors(py::module_& module);
+void add_shapes(py::module_& module);
+void add_snapshots(py::module_& module);
+void add_meshes(py::module_& module);
+void add_steps(py::module_& module);
+void add_transfers(py::module_& module);
+
+// Throws Error (argument) unless the array has one dimension.
+std::vector<double> reals(const Reals& values, const char* name);
+// Rows of x and y. Throws Error (argument) for another shape.
+std::vector<Point> points(const Reals& values, const std::string& name);
+Domain domain_of(const py::object& shape, const AirfoilDomainOptions& options);
+
+// A frozen mesh as it is now: of a FrozenMesh itself, or of a Mesh.
+Snapshot snapshot_of(const py::object& mesh);
+
+// An array that owns a copy.
+template <class T>
+py::array_t<T> copied(const std::vector<T>& values) {
+  return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+// A read-only array over memory that `owner` keeps alive: no copy is made, and a view outlives whatever its
+// mesh does next.
+template <class T, class Owner>
+py::array view(const std::shared_ptr<Owner>& owner, const T* data, std::vector<py::ssize_t> shape) {
+  if (data == nullptr) return py::array(py::dtype::of<T>(), std::move(shape));
+  auto* held = new std::shared_ptr<Owner>(owner);
+  py::capsule base(held, [](void* pointer) { delete static_cast<std::shared_ptr<Owner>*>(pointer); });
+  py::array result(py::dtype::of<T>(), std::move(shape), data, base);
+  py::detail::array_proxy(result.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return result;
+}
+
+template <class T, class Owner>
+py::array view(const std::shared_ptr<Owner>& owner, const std::vector<T>& values) {
+  return view(owner, values.data(), {static_cast<py::ssize_t>(values.size())});
+}
+
+}  // namespace remodel::python

@@ -1,0 +1,55 @@
+#pragma once
+
+// The objects behind Mesh, Step and Trial of the module.
+
+#include <memory>
+#include <optional>
+
+#include "bindings.h"
+#include "interrupts.h"
+#include "remodel/changes.h"
+#include "remodel/mesh.h"
+#include "remodel/remodel.h"
+
+namespace remodel::python {
+
+struct LivingMesh {
+  Mesh mesh;
+  Stopped stopped = Stopped::done;
+  ThreadLock lock;
+  // Of the mesh as it is now; made when it is first asked for. Views of it keep it alive.
+  Snapshot frozen;
+  // How often the mesh has been changed here: a step's own mesh is there as long as this is its number.
+  std::uint64_t version = 0;
+
+  // Needs the lock.
+  Snapshot freeze() {
+    if (!frozen) frozen = std::make_shared<const FrozenMesh>(mesh.freeze());
+    return frozen;
+  }
+  void changed() {
+    frozen.reset();
+    ++version;
+  }
+};
+using LivingMeshPointer = std::shared_ptr<LivingMesh>;
+
+struct StepRecord {
+  RemodelResult result;
+  Changes changes;
+  std::weak_ptr<LivingMesh> mesh;
+  std::uint64_t version = 0;  // of the mesh after the step
+  Snapshot before, after;     // where they were asked for
+};
+
+// The mesh after the step. Throws Error (argument) where it is gone and was not recorded.
+Snapshot after_step(const StepRecord& step);
+
+// The domain that an update to a shape leads to: a Domain itself, or the mesh's own domain with an airfoil in
+// the place of the one called `boundary`.
+Domain next_domain(const LivingMesh& mesh, const py::object& shape, const std::string& boundary);
+
+RemodelOptions remodel_options(double distance, const std::string& method, const std::string& strategy,
+                               bool regenerate);
+
+}  // namespace remodel::python

@@ -1,0 +1,36 @@
+// The extension module remodel._core. What users see is the package around it, python/remodel.
+
+#include "bindings.h"
+#include "remodel/version.h"
+
+namespace remodel::python {
+
+std::vector<double> reals(const Reals& values, const char* name) {
+  if (values.ndim() != 1)
+    throw Error(ErrorCode::argument, name,
+                "found an array of " + std::to_string(values.ndim()) + " dimensions, expected one dimension");
+  return {values.data(), values.data() + values.size()};
+}
+
+std::vector<Point> points(const Reals& values, const std::string& name) {
+  if (values.ndim() != 2 || values.shape(1) != 2)
+    throw Error(ErrorCode::argument, name, "expected an array of shape (n, 2)");
+  std::vector<Point> result;
+  for (py::ssize_t i = 0; i < values.shape(0); ++i)
+    result.push_back({*values.data(i, 0), *values.data(i, 1)});
+  return result;
+}
+
+}  // namespace remodel::python
+
+PYBIND11_MODULE(_core, module) {
+  using namespace remodel::python;
+  module.doc() = "The compiled part of remodel. Import remodel instead.";
+  module.attr("__version__") = REMODEL_VERSION;
+  add_errors(module);
+  add_shapes(module);
+  add_snapshots(module);
+  add_meshes(module);
+  add_steps(module);
+  add_transfers(module);
+}

@@ -1,0 +1,253 @@
+// Airfoil and Domain.
+
+#include <cmath>
+
+#include <pybind11/operators.h>
+#include "bindings.h"
+#include "remodel/io.h"
+#include "remodel/shape_files.h"
+
+namespace remodel::python {
+namespace {
+
+CstAirfoil cst_airfoil(const Reals& upper, const Reals& lower, double e1, double e2, double te_upper,
+                       double te_lower) {
+  CstAirfoil airfoil{.upper = reals(upper, "upper"),
+                     .lower = reals(lower, "lower"),
+                     .e1 = e1,
+                     .e2 = e2,
+                     .te_upper = te_upper,
+                     .te_lower = te_lower};
+  if (airfoil.upper.size() != airfoil.lower.size() || airfoil.upper.size() < 2 || airfoil.upper.size() > 51)
+    throw Error(ErrorCode::argument, "upper, lower",
+                "found " + std::to_string(airfoil.upper.size()) + " and " +
+                    std::to_string(airfoil.lower.size()) +
+                    " coefficients, expected as many of both, 2 to 51");
+  airfoil_to_json(airfoil);  // refuses what is not finite
+  if (!(e1 > 0.0 && e2 > 0.0))
+    throw Error(ErrorCode::argument, "e1, e2", "expected positive class exponents");
+  return airfoil;
+}
+
+CstAirfoil new_airfoil(const std::optional<std::filesystem::path>& shape, int degree,
+                       const std::optional<Reals>& upper, const std::optional<Reals>& lower, double e1,
+                       double e2, double te_upper, double te_lower) {
+  if (shape.has_value() == upper.has_value() || upper.has_value() != lower.has_value())
+    throw Error(ErrorCode::argument, "Airfoil",
+                "expected a name or a file, or else the coefficients upper and lower");
+  if (shape && *shape == standard_input)
+    throw Error(ErrorCode::argument, "Airfoil", "found '-', expected a name or a file");
+  return shape ? load_airfoil(shape->string(), degree)
+               : cst_airfoil(*upper, *lower, e1, e2, te_upper, te_lower);
+}
+
+py::array_t<double> coordinates(const CstAirfoil& airfoil, int count) {
+  if (count < 3 || count > 1'000'000)
+    throw Error(ErrorCode::argument, "n",
+                "found " + std::to_string(count) + ", expected 3 to 1000000 points");
+  py::array_t<double> result({py::ssize_t{count}, py::ssize_t{2}});
+  auto rows = result.mutable_unchecked<2>();
+  for (int i = 0; i < count; ++i) {
+    const Point p = airfoil.at(static_cast<double>(i) / (count - 1));
+    rows(i, 0) = p.x, rows(i, 1) = p.y;
+  }
+  return result;
+}
+
+std::string airfoil_text(const CstAirfoil& airfoil) {
+  return "Airfoil(degree=" + std::to_string(airfoil.degree()) +
+         ", thickness=" + std::to_string(max_thickness(airfoil).value) + ")";
+}
+
+void add_airfoil(py::module_& module) {
+  py::class_<CstAirfoil> airfoil(
+      module, "Airfoil",
+      R"(An airfoil by class-shape transformation (CST; B. Kulfan, 2008), in chords. Values do not change.
+
+Airfoil("naca:2412"), Airfoil("rae2822"), Airfoil("section.dat", degree=6), Airfoil("design.json") or
+Airfoil(upper=[...], lower=[...]): y(x) = x**e1 * (1 - x)**e2 * sum(c[i] * Bernstein[i](x)) + x * te.
+Coordinate files and NACA sections are fitted with `degree`, 2 to 12. Raises FileError, FormatError,
+ArgumentError.)");
+  airfoil.def(py::init(&new_airfoil), "shape"_a = py::none(), "degree"_a = 5, py::kw_only(),
+              "upper"_a = py::none(), "lower"_a = py::none(), "e1"_a = 0.5, "e2"_a = 1.0, "te_upper"_a = 0.0,
+              "te_lower"_a = 0.0);
+  airfoil.def_property_readonly(
+      "upper", [](const CstAirfoil& a) { return copied(a.upper); },
+      "Coefficients of the upper surface, a copy of shape (degree + 1,).");
+  airfoil.def_property_readonly(
+      "lower", [](const CstAirfoil& a) { return copied(a.lower); },
+      "Coefficients of the lower surface, a copy of shape (degree + 1,).");
+  airfoil.def_property_readonly(
+      "design",
+      [](const CstAirfoil& a) {
+        std::vector<double> all = a.upper;
+        all.insert(all.end(), a.lower.begin(), a.lower.end());
+        return copied(all);
+      },
+      "Upper, then lower coefficients in one array: what optimisers change.");
+  airfoil.def(
+      "with_design",
+      [](const CstAirfoil& a, const Reals& design) {
+        const std::vector<double> all = reals(design, "design");
+        if (all.size() != a.upper.size() + a.lower.size())
+          throw Error(ErrorCode::argument, "design",
+                      "found " + std::to_string(all.size()) + " numbers, expected " +
+                          std::to_string(a.upper.size() + a.lower.size()));
+        CstAirfoil result = a;
+        const auto middle = all.begin() + static_cast<std::ptrdiff_t>(a.upper.size());
+        result.upper.assign(all.begin(), middle);
+        result.lower.assign(middle, all.end());
+        airfoil_to_json(result);
+        return result;
+      },
+      "design"_a, "The same airfoil with other coefficients, in the order of `design`.");
+  airfoil.def_readonly("e1", &CstAirfoil::e1);
+  airfoil.def_readonly("e2", &CstAirfoil::e2);
+  airfoil.def_readonly("te_upper", &CstAirfoil::te_upper, "y of the upper surface's trailing edge.");
+  airfoil.def_readonly("te_lower", &CstAirfoil::te_lower, "y of the lower surface's trailing edge.");
+  airfoil.def_property_readonly("degree", &CstAirfoil::degree);
+  airfoil.def_property_readonly(
+      "thickness", [](const CstAirfoil& a) { return max_thickness(a).value; },
+      "The largest thickness, in chords.");
+  airfoil.def_property_readonly("thickness_at", [](const CstAirfoil& a) { return max_thickness(a).at; });
+  airfoil.def_property_readonly(
+      "camber", [](const CstAirfoil& a) { return max_camber(a).value; }, "The largest camber, in chords.");
+  airfoil.def_property_readonly(
+      "feasible", &surfaces_apart,
+      "Whether the upper surface lies above the lower one everywhere, by the coefficients.");
+  airfoil.def("coordinates", &coordinates, "n"_a = 201,
+              "Points of shape (n, 2), counter-clockwise from the trailing edge over the upper surface; "
+              "cosine spacing.");
+  airfoil.def(
+      "save",
+      [](const CstAirfoil& a, const std::filesystem::path& file) {
+        write_text_atomically(file, airfoil_to_json(a));
+      },
+      "file"_a, "Writes the coefficients as .json, exactly.");
+  airfoil.def(py::self == py::self);
+  airfoil.def("__repr__", &airfoil_text);
+  airfoil.def(py::pickle(
+      [](const CstAirfoil& a) { return py::make_tuple(airfoil_to_json(a)); },
+      [](const py::tuple& state) { return airfoil_from_json(state[0].cast<std::string>(), "pickle"); }));
+  module.def(
+      "catalogue",
+      [] {
+        py::dict result;
+        for (const CatalogueEntry& entry : airfoil_catalogue())
+          result[py::str(std::string(entry.name))] = py::str(std::string(entry.description));
+        return result;
+      },
+      "The names of the built-in airfoils, with what they are.");
+}
+
+Loop polygon(const std::string& name, const Reals& values, LoopRole role) {
+  std::vector<Point> corners = points(values, name);
+  if (corners.size() < 3) throw Error(ErrorCode::argument, name, "expected at least 3 points");
+  const std::size_t pieces = corners.size();
+  corners.push_back(corners.front());
+  return {
+      .role = role,
+      .curves = {
+          {.name = name, .shape = Polyline{std::move(corners)}, .parameters = Parameters::uniform(pieces)}}};
+}
+
+Domain polygons(const py::dict& outer, const py::dict& holes) {
+  Domain domain;
+  for (const auto& [name, values] : outer)
+    domain.loops.push_back(polygon(name.cast<std::string>(), values.cast<Reals>(), LoopRole::outer));
+  for (const auto& [name, values] : holes)
+    domain.loops.push_back(polygon(name.cast<std::string>(), values.cast<Reals>(), LoopRole::hole));
+  validate(domain);
+  return domain;
+}
+
+Domain placed(const py::iterable& list, int points, double radius, int farfield_points) {
+  std::vector<PlacedAirfoil> airfoils;
+  for (const py::handle& item : list) {
+    const auto element = item.cast<py::dict>();
+    PlacedAirfoil placed{.name = element["name"].cast<std::string>(),
+                         .airfoil = element["airfoil"].cast<CstAirfoil>()};
+    for (const auto& [key, value] : element) {
+      const auto word = key.cast<std::string>();
+      if (word == "chord")
+        placed.placement.chord = value.cast<double>();
+      else if (word == "rotation")
+        placed.placement.rotation_deg = value.cast<double>();
+      else if (word == "position") {
+        const auto [x, y] = value.cast<std::pair<double, double>>();
+        placed.placement.position = {x, y};
+      } else if (word != "name" && word != "airfoil")
+        throw Error(ErrorCode::argument, word, "expected one of name, airfoil, chord, rotation, position");
+    }
+    airfoils.push_back(std::move(placed));
+  }
+  Domain domain = airfoils_domain(
+      airfoils, {.points = points, .farfield_radius = radius, .farfield_points = farfield_points});
+  validate(domain);
+  return domain;
+}
+
+py::dict loop_points(const Domain& domain) {
+  py::dict result;
+  for (std::size_t i = 0; i < domain.loops.size(); ++i) {
+    const auto held = std::make_shared<const std::vector<Point>>(domain.points(i));
+    std::string name = domain.loops[i].curves.empty() ? "" : domain.loops[i].curves.front().name;
+    if (result.contains(name.c_str())) name += " " + std::to_string(i);
+    result[py::str(name)] = view(held, reinterpret_cast<const double*>(held->data()),
+                                 {static_cast<py::ssize_t>(held->size()), 2});
+  }
+  return result;
+}
+
+void add_domain(py::module_& module) {
+  py::class_<Domain> domain(module, "Domain",
+                            R"(The part of the plane to be meshed: closed loops of named curves.
+
+Domain(airfoil, points=200, farfield_radius=25, farfield_points=50), Domain("file.json") (docs/domains.md
+has the layout), Domain.polygons(...) or Domain.airfoils(...). Raises GeometryError for curves that cross or
+touch, with the loop and the place.)");
+  domain.def(py::init([](const py::object& shape, int points, double radius, int farfield_points) {
+               if (!py::isinstance<CstAirfoil>(shape))
+                 return load_domain(shape.cast<std::filesystem::path>());
+               return airfoil_domain(
+                   shape.cast<CstAirfoil>(),
+                   {.points = points, .farfield_radius = radius, .farfield_points = farfield_points});
+             }),
+             "shape"_a, py::kw_only(), "points"_a = 200, "farfield_radius"_a = 25.0,
+             "farfield_points"_a = 50);
+  domain.def_static("polygons", &polygons, "outer"_a, "holes"_a = py::dict(),
+                    "Closed polygons by name, arrays of shape (n, 2): outer boundaries and holes.");
+  domain.def_static("airfoils", &placed, "elements"_a, py::kw_only(), "points"_a = 200,
+                    "farfield_radius"_a = 25.0, "farfield_points"_a = 50,
+                    "Several airfoils in one far field. Each element is a dict: name, airfoil, and where it "
+                    "lies: chord, rotation (degrees, counter-clockwise), position (of its leading edge).");
+  domain.def_static(
+      "from_json", [](const std::string& text) { return domain_from_json(text, "text"); }, "text"_a);
+  domain.def("to_json", &domain_to_json, "The domain as JSON text, exact.");
+  domain.def("validate", &validate, "Raises GeometryError unless the domain can be meshed.");
+  domain.def_property_readonly("loops", &loop_points,
+                               "The stations of each loop, of shape (n, 2), by the name of its first curve.");
+  domain.def(py::self == py::self);
+  domain.def("__repr__",
+             [](const Domain& d) { return "Domain(" + std::to_string(d.loops.size()) + " loops)"; });
+  domain.def(py::pickle(
+      [](const Domain& d) { return py::make_tuple(domain_to_json(d)); },
+      [](const py::tuple& state) { return domain_from_json(state[0].cast<std::string>(), "pickle"); }));
+}
+
+}  // namespace
+
+Domain domain_of(const py::object& shape, const AirfoilDomainOptions& options) {
+  if (py::isinstance<Domain>(shape)) return shape.cast<Domain>();
+  if (py::isinstance<CstAirfoil>(shape)) return airfoil_domain(shape.cast<const CstAirfoil&>(), options);
+  if (py::isinstance<py::str>(shape))
+    return airfoil_domain(load_airfoil(shape.cast<std::string>(), 5), options);
+  throw py::type_error("expected an Airfoil, a Domain or the name of an airfoil");
+}
+
+void add_shapes(py::module_& module) {
+  add_airfoil(module);
+  add_domain(module);
+}
+
+}  // namespace remodel::python

@@ -1,0 +1,304 @@
+// Mesh.update(), Step and Trial.
+
+#include <algorithm>
+
+#include "living.h"
+#include "remodel/import.h"
+
+namespace remodel::python {
+namespace {
+
+bool closed(const CstAirfoil& airfoil) {
+  return airfoil.te_upper == airfoil.te_lower;
+}
+
+// The loops of a domain that are an airfoil by its coefficients, of that name if there is one.
+std::vector<std::size_t> airfoil_loops(const Domain& domain, const std::string& name) {
+  std::vector<std::size_t> loops;
+  for (std::size_t i = 0; i < domain.loops.size(); ++i) {
+    const std::vector<Curve>& curves = domain.loops[i].curves;
+    if (!curves.empty() && std::holds_alternative<CstAirfoil>(curves.front().shape) &&
+        (name.empty() || curves.front().name == name))
+      loops.push_back(i);
+  }
+  return loops;
+}
+
+Loop with_curve(Loop loop, const CstAirfoil& airfoil) {
+  Curve curve = loop.curves.front();
+  curve.shape = airfoil;
+  Curve base{.name = curve.name, .shape = Line{airfoil.at(1.0), airfoil.at(0.0)}, .parameters = {0.0}};
+  if (loop.curves.size() > 1) base.parameters = loop.curves[1].parameters;
+  loop.curves = {std::move(curve)};
+  if (!closed(airfoil)) loop.curves.push_back(std::move(base));
+  return loop;
+}
+
+std::shared_ptr<StepRecord> updated(const LivingMeshPointer& mesh, const py::object& shape,
+                                    const std::string& boundary, double distance, const std::string& method,
+                                    const std::string& strategy, bool regenerate, bool record) {
+  auto step = std::make_shared<StepRecord>();
+  RemodelOptions options = remodel_options(distance, method, strategy, regenerate);
+  const ThreadLock::Held held(mesh->lock);
+  const Domain domain = next_domain(*mesh, shape, boundary);
+  if (record) step->before = mesh->freeze();
+  step->result = interruptible([&](StepObserver& observer) {
+    options.observer = &observer;
+    const Mark mark = mesh->mesh.mark();
+    RemodelResult result = remodel(mesh->mesh, domain, options);
+    step->changes = mesh->mesh.changes_since(mark);
+    mesh->changed();
+    return result;
+  });
+  if (!step->result.abandoned) mesh->stopped = step->result.stopped;
+  step->mesh = mesh;
+  step->version = mesh->version;
+  if (record) step->after = mesh->freeze();
+  return step;
+}
+
+std::vector<std::uint64_t> values(const std::vector<VertexKey>& keys) {
+  std::vector<std::uint64_t> result;
+  for (const VertexKey key : keys) result.push_back(key.value());
+  return result;
+}
+
+std::vector<std::uint32_t> values(const std::vector<TriangleId>& ids) {
+  std::vector<std::uint32_t> result;
+  for (const TriangleId id : ids) result.push_back(id.index);
+  return result;
+}
+
+double connectivity_percent(const StepRecord& step) {
+  const auto before = static_cast<double>(step.result.triangles_before);
+  return before == 0.0 ? 100.0 : 100.0 * (before - static_cast<double>(step.changes.gone.size())) / before;
+}
+
+// Of each triangle after the step: 0 kept, 1 moved, 2 new.
+py::array_t<std::uint8_t> fates_of(const StepRecord& step) {
+  const Snapshot mesh = after_step(step);
+  const std::vector<std::uint64_t> moved = values(step.changes.moved);
+  const std::vector<std::uint32_t> born = values(step.changes.born);
+  py::array_t<std::uint8_t> result(static_cast<py::ssize_t>(mesh->triangles.size()));
+  std::uint8_t* fate = result.mutable_data();
+  for (std::size_t i = 0; i < mesh->triangles.size(); ++i) {
+    bool touched = false;
+    for (const std::uint32_t v : mesh->triangles[i])
+      touched = touched || std::binary_search(moved.begin(), moved.end(), mesh->vertex_keys[v]);
+    fate[i] = std::binary_search(born.begin(), born.end(), mesh->triangle_ids[i]) ? 2 : touched ? 1 : 0;
+  }
+  return result;
+}
+
+void add_changes(py::module_& module) {
+  py::class_<Changes, std::shared_ptr<Changes>>(
+      module, "Changes",
+      "The changes of one step: vertices by key (Mesh.vertex_keys), triangles by id (Mesh.triangle_ids); all "
+      "ascend.")
+      .def_property_readonly("moved", [](const Changes& c) { return copied(values(c.moved)); })
+      .def_property_readonly("inserted", [](const Changes& c) { return copied(values(c.inserted)); })
+      .def_property_readonly("removed", [](const Changes& c) { return copied(values(c.removed)); })
+      .def_property_readonly("born", [](const Changes& c) { return copied(values(c.born)); })
+      .def_property_readonly("gone", [](const Changes& c) { return copied(values(c.gone)); })
+      .def_property_readonly("same_connectivity", &Changes::same_connectivity,
+                             "Whether the same triangles join the same vertices.");
+}
+
+void add_step(py::module_& module) {
+  py::class_<StepRecord, std::shared_ptr<StepRecord>> type(module, "Step", "The record of one update.");
+  const auto figure = [&](const char* name, auto member, const char* doc) {
+    type.def_property_readonly(
+        name, [member](const StepRecord& s) { return s.result.*member; }, doc);
+  };
+  figure("triangles_before", &RemodelResult::triangles_before, "Triangles before the step.");
+  figure("triangles", &RemodelResult::triangles, "Triangles after it.");
+  figure("preserved", &RemodelResult::preserved,
+         "Old triangles that are still there, with unmoved vertices.");
+  figure("moved", &RemodelResult::moved, "Boundary vertices at another place.");
+  figure("inserted", &RemodelResult::inserted, "New vertices.");
+  figure("removed", &RemodelResult::removed, "Removed vertices.");
+  figure("full_adjustment", &RemodelResult::full_adjustment,
+         "Whether all boundary vertices moved in place: the connectivity is the same.");
+  figure("refreshed", &RemodelResult::refreshed, "Whether the strategy generated the mesh afresh.");
+  figure("regenerated", &RemodelResult::regenerated,
+         "Whether the step could not be completed, and the mesh was generated afresh.");
+  figure("abandoned", &RemodelResult::abandoned, "The same with regenerate=False: the mesh is as it was.");
+  figure("reason", &RemodelResult::reason, "Why it was regenerated or abandoned.");
+  type.def_property_readonly(
+      "preserved_percent", [](const StepRecord& s) { return s.result.preserved_percent(); },
+      "preserved over triangles_before.");
+  type.def_property_readonly("connectivity_percent", &connectivity_percent,
+                             "The share of old triangles whose vertices are still joined, in the same slot.");
+  type.def_property_readonly("method", [](const StepRecord& s) { return name_of(s.result.method); });
+  type.def_property_readonly(
+      "stopped", [](const StepRecord& s) { return name_of(s.result.stopped); },
+      "'done', or the limit that was reached.");
+  type.def_property_readonly("changes", [](const std::shared_ptr<StepRecord>& s) {
+    return std::shared_ptr<Changes>(s, &s->changes);
+  });
+  type.def_property_readonly(
+      "before", [](const StepRecord& s) { return std::const_pointer_cast<FrozenMesh>(s.before); },
+      "The mesh before the step, with record=True; otherwise None.");
+  type.def_property_readonly(
+      "after", [](const StepRecord& s) { return std::const_pointer_cast<FrozenMesh>(after_step(s)); },
+      "The mesh after the step, as long as there was no other one, or with record=True.");
+  type.def_property_readonly("fates", &fates_of,
+                             "Per triangle of `after`: 0 kept, 1 moved with a boundary vertex, 2 new.");
+  type.def("__repr__", [](const StepRecord& s) {
+    return "Step(" + std::to_string(s.result.triangles) + " triangles, " +
+           std::to_string(s.result.preserved_percent()) + " % preserved)";
+  });
+}
+
+// A design that is tried. It ends when the block is left, or when it is collected.
+class Attempt {
+ public:
+  Attempt(LivingMeshPointer mesh, py::object shape, std::string boundary, const RemodelOptions& options)
+      : mesh_(std::move(mesh)), shape_(std::move(shape)), boundary_(std::move(boundary)), options_(options) {}
+  ~Attempt() {
+    try {
+      end();
+    } catch (const std::exception&) {  // the lock is not to be had: the trial ends without it
+    }
+  }
+  Attempt(const Attempt&) = delete;
+  Attempt& operator=(const Attempt&) = delete;
+
+  void begin() {
+    if (step_)
+      throw Error(ErrorCode::argument, "trial", "was entered before, expected a new one for each block");
+    auto step = std::make_shared<StepRecord>();
+    const ThreadLock::Held held(mesh_->lock);
+    const Domain domain = next_domain(*mesh_, shape_, boundary_);
+    stopped_ = mesh_->stopped;
+    trial_ = interruptible([&](StepObserver& observer) {
+      options_.observer = &observer;
+      const Mark mark = mesh_->mesh.mark();
+      auto trial = std::make_unique<Trial>(mesh_->mesh, domain, options_);
+      step->changes = mesh_->mesh.changes_since(mark);
+      step->result = trial->result();
+      mesh_->changed();
+      return trial;
+    });
+    if (!step->result.abandoned) mesh_->stopped = step->result.stopped;
+    step->mesh = mesh_;
+    step->version = mesh_->version;
+    step_ = std::move(step);
+  }
+  void keep() {
+    if (!trial_)
+      throw Error(ErrorCode::argument, "trial",
+                  "is over or has not begun, expected to be kept inside its block");
+    const ThreadLock::Held held(mesh_->lock);
+    trial_->keep();
+    trial_.reset();
+  }
+  void end() {
+    if (!trial_) return;
+    const ThreadLock::Held held(mesh_->lock);
+    trial_.reset();
+    mesh_->stopped = stopped_;
+    mesh_->changed();
+  }
+  const std::shared_ptr<StepRecord>& step() const {
+    if (!step_)
+      throw Error(ErrorCode::argument, "trial", "has not begun, expected `with mesh.trial(...) as trial`");
+    return step_;
+  }
+
+ private:
+  LivingMeshPointer mesh_;
+  py::object shape_;
+  std::string boundary_;
+  RemodelOptions options_;
+  Stopped stopped_ = Stopped::done;
+  std::unique_ptr<Trial> trial_;
+  std::shared_ptr<StepRecord> step_;
+};
+
+void add_trial(py::module_& module) {
+  py::class_<Attempt>(module, "Trial",
+                      "A design that is tried inside a `with` block: the mesh returns to what it was, to the "
+                      "last bit, unless keep() is called.")
+      .def("__enter__",
+           [](const py::object& self) {
+             self.cast<Attempt&>().begin();
+             return self;
+           })
+      .def("__exit__", [](Attempt& self, const py::args&) { self.end(); })
+      .def_property_readonly("step", &Attempt::step, "The Step to the design that is tried.")
+      .def("keep", &Attempt::keep, "The mesh stays as it is now.");
+}
+
+}  // namespace
+
+Snapshot after_step(const StepRecord& step) {
+  if (step.after) return step.after;
+  if (const LivingMeshPointer mesh = step.mesh.lock()) {
+    const ThreadLock::Held held(mesh->lock);
+    if (mesh->version == step.version) return mesh->freeze();
+  }
+  throw Error(ErrorCode::argument, "step", "its mesh has changed since, expected update(..., record=True)");
+}
+
+Domain next_domain(const LivingMesh& mesh, const py::object& shape, const std::string& boundary) {
+  if (py::isinstance<Domain>(shape)) return shape.cast<Domain>();
+  const CstAirfoil airfoil =
+      py::isinstance<py::str>(shape) ? named_airfoil(shape.cast<std::string>(), 5) : shape.cast<CstAirfoil>();
+  Domain domain = mesh.mesh.domain();
+  const std::vector<std::size_t> loops = airfoil_loops(domain, boundary);
+  if (loops.size() > 1)
+    throw Error(ErrorCode::argument, "boundary",
+                "not given, expected the name of one of " + std::to_string(loops.size()) + " airfoils");
+  if (loops.size() == 1) {
+    domain.loops[loops[0]] = with_curve(domain.loops[loops[0]], airfoil);
+    return domain;
+  }
+  return with_airfoil(domain, find_airfoil(domain, boundary.empty() ? "airfoil" : boundary, "mesh"), airfoil);
+}
+
+RemodelOptions remodel_options(double distance, const std::string& method, const std::string& strategy,
+                               bool regenerate) {
+  RemodelOptions options{.distance = distance, .regenerate = regenerate};
+  bool known = false;
+  for (const Method candidate : {Method::automatic, Method::specialised, Method::general})
+    if (method == name_of(candidate)) options.method = candidate, known = true;
+  if (!known)
+    throw Error(ErrorCode::argument, "method",
+                "found '" + method + "', expected auto, specialised or general");
+  known = false;
+  for (const Strategy candidate : {Strategy::chain, Strategy::renew})
+    if (strategy == name_of(candidate)) options.strategy = candidate, known = true;
+  if (!known)
+    throw Error(ErrorCode::argument, "strategy", "found '" + strategy + "', expected chain or renew");
+  return options;
+}
+
+void add_steps(py::module_& module) {
+  add_changes(module);
+  add_step(module);
+  add_trial(module);
+  auto type = py::reinterpret_borrow<py::class_<LivingMesh, LivingMeshPointer>>(module.attr("Mesh"));
+  type.def(
+      "update", &updated, "shape"_a, py::kw_only(), "boundary"_a = "", "distance"_a = 1.0,
+      "method"_a = "auto", "strategy"_a = "renew", "regenerate"_a = true, "record"_a = false,
+      R"(Remodels the mesh, in place, to an Airfoil in the place of its own, or to another Domain; returns a Step.
+
+boundary: the airfoil's name, where there are several. distance: D, the removal radius over the distance of old and
+new vertices. strategy: 'renew' keeps long runs in order, 'chain' is the paper's method to the letter.
+regenerate=False: a step that cannot be completed leaves the mesh as it was (Step.abandoned). record=True keeps
+the arrays before and after in the Step. The mesh is valid before and after: what raises (GeometryError,
+ArgumentError, KeyboardInterrupt) leaves it as it was, to the last bit.)");
+  type.def(
+      "trial",
+      [](const LivingMeshPointer& mesh, const py::object& shape, const std::string& boundary, double distance,
+         const std::string& method, const std::string& strategy, bool regenerate) {
+        return std::make_unique<Attempt>(mesh, shape, boundary,
+                                         remodel_options(distance, method, strategy, regenerate));
+      },
+      "shape"_a, py::kw_only(), "boundary"_a = "", "distance"_a = 1.0, "method"_a = "auto",
+      "strategy"_a = "renew", "regenerate"_a = true,
+      "Tries a design: `with mesh.trial(airfoil) as trial: ...; trial.keep()`. Options as in update().");
+}
+
+}  // namespace remodel::python
