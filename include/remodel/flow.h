@@ -124,6 +124,35 @@ FlowResult solve_flow_from(const FrozenMesh& before, const FlowResult& flow, con
                            const FlowConditions& conditions, const FlowOptions& options = {},
                            const std::string& source = "mesh");
 
+// Derivatives of a function of the flow, where the flow follows: exact ones of the discrete equations, found
+// by their adjoint.
+struct FlowGradient {
+  // By the coordinates of each point of the frozen mesh, at fixed connectivity; MeshDerivative::vjp()
+  // (remodel/mesh_derivative.h) makes derivatives by the design of them.
+  std::vector<Point> points;
+  double mach = 0.0;
+  double alpha_deg = 0.0;  // a degree; 0 where lift is given
+  double cl = 0.0;         // by the lift that is given; 0 where the angle is
+};
+
+// A function of the flow, by its derivatives at fixed flow: of walls' pressures, points and the Mach number.
+struct FlowFunctional {
+  std::vector<double> pressure;  // per point of the frozen mesh, in the units of FlowResult::pressure
+  std::vector<Point> points;     // likewise
+  double mach = 0.0;
+};
+
+// Of the last flow that was found. Where lift is given the angle of attack follows too: cl has no derivative
+// but that by itself, and alpha_deg says how the angle follows.
+struct FlowGradients {
+  FlowGradient cl, cd, cm;
+  FlowGradient alpha_deg;               // of the angle, in degrees: 0 but by itself where it is given
+  std::vector<FlowGradient> functions;  // that were asked for
+  int factorisations = 0;               // 1 where the factors that there were did not serve
+  int krylov_iterations = 0;
+  double seconds = 0.0;
+};
+
 // A solver that outlives its mesh. It keeps the last flow and the factors of a matrix, by the keys of
 // vertices, and uses both for the next flow, whatever was done to the mesh in between: older factors go on
 // serving while most of the mesh is what it was, corrected by an exact solve where it is not. It factors
@@ -141,6 +170,10 @@ class LivingFlow {
   LivingFlow& operator=(LivingFlow&&) noexcept;
 
   FlowResult solve(const Mesh& mesh, const FlowConditions& conditions);
+  // Gradients of the last flow that was found. They take the factors that there are, transposed, where these
+  // serve; otherwise new ones, which the next flows have too. Throws Error (argument) before the first flow,
+  // and where functionals are of another size.
+  FlowGradients gradients(const std::vector<FlowFunctional>& functions = {});
   // The next flow is found cold.
   void forget();
 

@@ -142,6 +142,12 @@ void DirectSolver::solve(std::span<std::array<double, 4>> right, std::size_t cou
   impl_->run(solve_factored);
 }
 
+void DirectSolver::solve_transposed(std::span<std::array<double, 4>> right, std::size_t count) {
+  control(impl_->id, 9) = 0;
+  solve(right, count);
+  control(impl_->id, 9) = 1;
+}
+
 double DirectSolver::memory_mb() const {
   return impl_ ? impl_->id.infog[21] : 0.0;  // INFOG(22): megabytes used
 }

@@ -32,6 +32,9 @@ class DirectSolver {
   // In place, `count` right-hand sides after each other, in the order of the matrix's rows.
   void solve(std::span<std::array<double, 4>> right, std::size_t count);
 
+  // The same with the transposed matrix.
+  void solve_transposed(std::span<std::array<double, 4>> right, std::size_t count);
+
   double memory_mb() const;  // of the last factorisation
   // Counted work, in units of one multiplication that waits for memory: the same for the same matrix.
   double factor_work() const;

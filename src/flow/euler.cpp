@@ -4,25 +4,6 @@
 
 namespace remodel::flow {
 
-namespace {
-
-// Weights of a boundary edge's ends in the state of the half that belongs to the first.
-constexpr double near_weight = 5.0 / 6.0, far_weight = 1.0 / 6.0;
-// A reconstructed density or pressure below this part of the vertex's is not used: the vertex's is.
-constexpr double least_part = 0.1;
-
-Primitive<double> weighted(const Primitive<double>& here, const Primitive<double>& there) {
-  Primitive<double> mean;
-  for (std::size_t k = 0; k < 4; ++k) mean[k] = near_weight * here[k] + far_weight * there[k];
-  return mean;
-}
-
-bool usable(const Primitive<double>& reconstructed, const Primitive<double>& vertex) {
-  return reconstructed[0] > least_part * vertex[0] && reconstructed[3] > least_part * vertex[3];
-}
-
-}  // namespace
-
 // What both ends of an edge see of the face between them.
 struct Euler::Face {
   Primitive<double> left, right;
@@ -322,7 +303,7 @@ Coefficients Euler::coefficients(const State& state, std::int32_t body) const {
     if (body >= 0 && edge.body != body) return;
     const double p = near_weight * state.q[here][3] + far_weight * state.q[there][3] - outside;
     const Point f = (0.5 * p) * edge.normal;
-    const Point at = 0.75 * mesh_.points()[here] + 0.25 * mesh_.points()[there];
+    const Point at = near_place * mesh_.points()[here] + far_place * mesh_.points()[there];
     force = force + f;
     turning += cross(at - stream_.reference, f);
   });

@@ -20,6 +20,23 @@
 
 namespace remodel::flow {
 
+// Weights of a boundary edge's ends in the state of the half that belongs to the first, and in the middle of
+// that half.
+inline constexpr double near_weight = 5.0 / 6.0, far_weight = 1.0 / 6.0;
+inline constexpr double near_place = 0.75, far_place = 0.25;
+// A reconstructed density or pressure below this part of the vertex's is not used: the vertex's is.
+inline constexpr double least_part = 0.1;
+
+inline Primitive<double> weighted(const Primitive<double>& here, const Primitive<double>& there) {
+  Primitive<double> mean;
+  for (std::size_t k = 0; k < 4; ++k) mean[k] = near_weight * here[k] + far_weight * there[k];
+  return mean;
+}
+
+inline bool usable(const Primitive<double>& reconstructed, const Primitive<double>& vertex) {
+  return reconstructed[0] > least_part * vertex[0] && reconstructed[3] > least_part * vertex[3];
+}
+
 struct State {
   std::vector<Primitive<double>> q;       // per vertex
   std::array<double, 2> border = {0, 0};  // lift coefficient of the vortex; angle of attack, radians
@@ -39,6 +56,18 @@ struct Stream {
 
 struct Coefficients {
   double lift = 0.0, drag = 0.0, moment = 0.0;
+};
+
+// Derivatives by the vertices' coordinates and by the Mach number of the stream.
+struct ShapeSlope {
+  std::vector<Point> points;
+  double mach = 0.0;
+};
+// The same, with those by the vertices' pressures and by the angle of attack.
+struct ForceSlope {
+  ShapeSlope shape;
+  std::vector<double> pressure;
+  double alpha = 0.0;  // a radian
 };
 
 using Block = std::array<double, 16>;  // row-major; rows are equations, columns unknowns
@@ -89,6 +118,12 @@ class Euler {
 
   Coefficients coefficients(const State& state) const;
   Coefficients coefficients(const State& state, std::int32_t body) const;  // the part of one wall
+
+  // What follows is in euler_adjoint.cpp.
+  // The derivative, at this state, of the sum over vertices of weight times residual.
+  ShapeSlope residual_slope(const State& state, const std::vector<std::array<double, 4>>& weight) const;
+  // The derivative of the sum of coefficients, each times its weight.
+  ForceSlope force_slope(const State& state, const Coefficients& weight) const;
 
  private:
   struct Face;

@@ -48,6 +48,12 @@ class FlowMesh {
   const std::vector<Point>& points() const { return points_; }
   const std::vector<double>& areas() const { return areas_; }  // of dual cells
   const std::vector<DualEdge>& edges() const { return edges_; }
+  // Adds to `points` the derivatives by the coordinates of a function whose derivatives by the normals of
+  // dual faces (edges()) and by gradient weights (ring(), one vertex after the other) are these.
+  void add_slopes(std::span<const Point> by_normal, std::span<const Point> by_weight,
+                  std::vector<Point>& points) const;
+  // Where a vertex's neighbours begin in by_weight.
+  std::size_t ring_begin(std::size_t v) const { return ring_start_[v]; }
   // Neighbours of a vertex, ascending.
   std::span<const RingEntry> ring(std::size_t v) const {
     return {ring_.data() + ring_start_[v], ring_start_[v + 1] - ring_start_[v]};

@@ -33,12 +33,13 @@ T rounded_abs(const T& x, const T& width) {
 
 // Roe's flux through a face of this normal (whose length is the face's), from left to right. Entropy fix: 0.1
 // c for the acoustic waves, 0.02 c for the linear ones.
-template <class T>
-std::array<T, 4> roe_flux(const Primitive<T>& l, const Primitive<T>& r, Point normal) {
+template <class T, class N>
+std::array<T, 4> roe_flux_through(const Primitive<T>& l, const Primitive<T>& r, const N& normal_x,
+                                  const N& normal_y) {
   using std::sqrt;
-  const double area = std::sqrt(dot(normal, normal));
-  if (area == 0.0) return {};
-  const double nx = normal.x / area, ny = normal.y / area;
+  const N area = sqrt(normal_x * normal_x + normal_y * normal_y);
+  if (value_of(area) == 0.0) return {};
+  const N nx = normal_x / area, ny = normal_y / area;
   constexpr double g = gas_gamma / (gas_gamma - 1.0);
   const T hl = g * l[3] / l[0] + 0.5 * (l[1] * l[1] + l[2] * l[2]);
   const T hr = g * r[3] / r[0] + 0.5 * (r[1] * r[1] + r[2] * r[2]);
@@ -64,7 +65,7 @@ std::array<T, 4> roe_flux(const Primitive<T>& l, const Primitive<T>& r, Point no
 
   const T ml = l[0] * vl, mr = r[0] * vr;
   const T pressure = l[3] + r[3];
-  const double half = 0.5 * area;
+  const N half = 0.5 * area;
   return {half * (ml + mr - (a1 + a2 + a3)),
           half * (ml * l[1] + mr * r[1] + pressure * nx -
                   (a1 * (u - nx * c) + a2 * u + a3 * (u + nx * c) + shear * du)),
@@ -74,13 +75,18 @@ std::array<T, 4> roe_flux(const Primitive<T>& l, const Primitive<T>& r, Point no
                   (a1 * (h - vn * c) + a2 * square + a3 * (h + vn * c) + shear * (u * du + v * dv)))};
 }
 
+template <class T>
+std::array<T, 4> roe_flux(const Primitive<T>& l, const Primitive<T>& r, Point normal) {
+  return roe_flux_through<T, double>(l, r, normal.x, normal.y);
+}
+
 // What is added to the value at an edge's one end to have it at the edge's middle: third order on even
 // spacing (kappa = 1/3), limited by van Albada's function of the two slopes. `upwind` and `central` are
 // differences over the edge's length. The function has no minimum over neighbours and is continuously
 // differentiable, so that Newton's method converges quadratically; it is cut off at zero by a parabola of
 // this half-width.
-template <class T>
-T limited_half_step(const T& upwind, const T& central, double epsilon) {
+template <class T, class E>
+T limited_half_step(const T& upwind, const T& central, const E& epsilon) {
   constexpr double kappa = 1.0 / 3.0, blend = 0.1;
   T s = (2.0 * upwind * central + epsilon) / (upwind * upwind + central * central + epsilon);
   if (value_of(s) <= -blend) return T(0.0);
@@ -91,24 +97,28 @@ T limited_half_step(const T& upwind, const T& central, double epsilon) {
 // The stream far away at `from` the vortex: uniform flow of this Mach number and angle (radians), and a point
 // vortex of the circulation that belongs to lift coefficient times reference length; total enthalpy and
 // entropy are the stream's. The density and the speed of sound of the undisturbed stream are 1.
-template <class T>
-Primitive<T> stream_at(Point from, double mach, const T& alpha, const T& lift) {
-  using std::cos, std::pow, std::sin;
+template <class T, class M, class P>
+Primitive<T> stream_around(const P& from_x, const P& from_y, const M& mach, const T& alpha, const T& lift) {
+  using std::cos, std::pow, std::sin, std::sqrt;
   const T ca = cos(alpha), sa = sin(alpha);
   T u = mach * ca, v = mach * sa;
-  const double r2 = dot(from, from);
-  if (mach < 1.0 && r2 > 0.0) {
-    const double r = std::sqrt(r2);
-    const double st = from.y / r, ct = from.x / r;
+  const P r2 = from_x * from_x + from_y * from_y;
+  if (value_of(mach) < 1.0 && value_of(r2) > 0.0) {
+    const P r = sqrt(r2);
+    const P st = from_y / r, ct = from_x / r;
     const T across = st * ca - ct * sa;  // the sine of the angle to the stream
-    const T speed = (mach * std::sqrt(1.0 - mach * mach) / (4.0 * M_PI * r)) * lift /
-                    (1.0 - mach * mach * across * across);
+    const T speed =
+        (mach * sqrt(1.0 - mach * mach) / (4.0 * M_PI * r)) * lift / (1.0 - mach * mach * across * across);
     u = u + speed * st;
     v = v - speed * ct;
   }
   const T c2 = 1.0 + 0.5 * (gas_gamma - 1.0) * (mach * mach - u * u - v * v);
   const T rho = pow(c2, 1.0 / (gas_gamma - 1.0));
   return {rho, u, v, rho * c2 / gas_gamma};
+}
+template <class T>
+Primitive<T> stream_at(Point from, double mach, const T& alpha, const T& lift) {
+  return stream_around<T, double, double>(from.x, from.y, mach, alpha, lift);
 }
 
 }  // namespace remodel::flow

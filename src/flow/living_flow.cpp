@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/stopwatch.h"
+#include "flow/adjoint.h"
 #include "flow/chord.h"
 #include "flow/solution.h"
 #include "mesh/mesh_data.h"
@@ -68,6 +69,7 @@ struct LivingFlow::Impl {
   Keys keys;
   flow::State state;
   bool solved = false;
+  flow::Stream last_stream;  // of the last flow
   // The factors, and what they belong to: rows by key, with the keys of each row's neighbours.
   flow::Factors factors;
   bool factored = false;
@@ -79,6 +81,7 @@ struct LivingFlow::Impl {
   std::vector<std::array<std::uint32_t, 3>> matrix_triangles;
 
   FlowResult solve(const Mesh& living, const FlowConditions& conditions);
+  FlowGradients gradients(const std::vector<FlowFunctional>& functions);
 
  private:
   struct Task;
@@ -88,6 +91,8 @@ struct LivingFlow::Impl {
   bool try_older_factors(Task& task);
   bool try_own_factors(Task& task);
   void search(Task& task);
+  bool try_gradients(const flow::Euler& euler, const std::vector<FlowFunctional>& functions,
+                     FlowGradients& result);
 };
 
 // One flow that is looked for.
@@ -260,7 +265,87 @@ FlowResult LivingFlow::Impl::solve(const Mesh& living, const FlowConditions& con
     state = std::move(task.state);
     keys = now;
     mesh = std::move(dual);
+    last_stream = stream;
     solved = true;
+  }
+  result.seconds = watch.seconds();
+  return result;
+}
+
+namespace flow {
+
+namespace {
+
+FlowGradient gradient_of(Total total, bool lift_given) {
+  return {.points = std::move(total.shape.points),
+          .mach = total.shape.mach,
+          .alpha_deg = lift_given ? 0.0 : total.condition * M_PI / 180.0,
+          .cl = lift_given ? total.condition : 0.0};
+}
+
+ForceSlope slope_of(const FlowFunctional& function) {
+  return {.shape = {.points = function.points, .mach = function.mach}, .pressure = function.pressure};
+}
+
+// The angle of attack itself, in degrees.
+ForceSlope angle(std::size_t size) {
+  return {.shape = {.points = std::vector<Point>(size)},
+          .pressure = std::vector<double>(size, 0.0),
+          .alpha = 180.0 / M_PI};
+}
+
+}  // namespace
+
+}  // namespace flow
+
+FlowGradients LivingFlow::gradients(const std::vector<FlowFunctional>& functions) {
+  return impl_->gradients(functions);
+}
+
+// False where the factors do not serve.
+bool LivingFlow::Impl::try_gradients(const flow::Euler& euler, const std::vector<FlowFunctional>& functions,
+                                     FlowGradients& result) {
+  int& iterations = result.krylov_iterations;
+  auto adjoint = flow::Adjoint::make(euler, state, matrix, factors.lu, iterations);
+  if (!adjoint) return false;
+  const auto find = [&](const flow::ForceSlope& function, FlowGradient& gradient) {
+    std::optional<flow::Total> total = adjoint->total(function, iterations);
+    if (!total) return false;
+    gradient = flow::gradient_of(std::move(*total), last_stream.lift.has_value());
+    return true;
+  };
+  result.functions.assign(functions.size(), {});
+  bool found = find(euler.force_slope(state, {.lift = 1.0}), result.cl) &&
+               find(euler.force_slope(state, {.drag = 1.0}), result.cd) &&
+               find(euler.force_slope(state, {.moment = 1.0}), result.cm) &&
+               find(flow::angle(euler.mesh().size()), result.alpha_deg);
+  for (std::size_t i = 0; i < functions.size() && found; ++i)
+    found = find(flow::slope_of(functions[i]), result.functions[i]);
+  return found;
+}
+
+FlowGradients LivingFlow::Impl::gradients(const std::vector<FlowFunctional>& functions) {
+  const Stopwatch watch;
+  if (!solved) throw Error(ErrorCode::argument, "gradients", "no flow was found yet, expected one");
+  for (const FlowFunctional& function : functions)
+    if (function.pressure.size() != mesh->size() || function.points.size() != mesh->size())
+      throw Error(ErrorCode::argument, "functional",
+                  "found derivatives by " + std::to_string(function.pressure.size()) +
+                      " pressures, expected the mesh's " + std::to_string(mesh->size()) + " points");
+  const flow::Euler euler(*mesh, last_stream);
+  FlowGradients result;
+  euler.jacobian(state, whole_matrix(euler));
+  if (!factored || factored_keys != keys || !try_gradients(euler, functions, result)) {
+    flow::Search made;
+    if (flow::factor_at(euler, state, std::numeric_limits<double>::infinity(), options, matrix, factors,
+                        made) == flow::Factored::done) {
+      belong(*mesh, keys);
+      result.factorisations = 1;
+    }
+    if (result.factorisations == 0 || !try_gradients(euler, functions, result))
+      throw Error(ErrorCode::argument, "gradients",
+                  "the adjoint was not found: the Jacobian is singular, or the factors need more than the "
+                  "memory that they may take");
   }
   result.seconds = watch.seconds();
   return result;

@@ -3,6 +3,7 @@
 
 #include "remodel/domain.h"
 #include "remodel/error.h"
+#include "shape/shape_derivative.h"
 
 namespace remodel {
 namespace {
@@ -37,6 +38,28 @@ void solve_cyclic(const std::vector<double>& sub, std::vector<double> diagonal, 
   const double scale = 1.0 / (1.0 + update.front().x + last_over * update.back().x);
   const Point along = scale * (right.front() + last_over * right.back());
   for (std::size_t i = 0; i < n; ++i) right[i] = right[i] - update[i].x * along;
+}
+
+// The piece before point i of n; of a closed spline the last before the first.
+std::size_t row_before(std::size_t i, std::size_t n) {
+  return i == 0 ? n - 2 : i - 1;
+}
+
+// Second derivatives for the right-hand sides of rows 0 (closed) or 1 (natural ends) to n - 2.
+void solve_second(const std::vector<double>& h, bool closed, std::vector<Point> right,
+                  std::vector<Point>& second) {
+  const std::size_t n = h.size() + 1, first = closed ? 0 : 1;
+  std::vector<double> diagonal, sub;
+  for (std::size_t i = first; i + 1 < n; ++i) {
+    diagonal.push_back(2.0 * (h[row_before(i, n)] + h[i]));
+    sub.push_back(h[i]);
+  }
+  if (closed)
+    solve_cyclic(sub, diagonal, h[n - 2], right);
+  else
+    solve_tridiagonal(sub, diagonal, right);
+  std::copy(right.begin(), right.end(), second.begin() + static_cast<std::ptrdiff_t>(first));
+  if (closed) second.back() = second.front();
 }
 
 void require_points(const std::vector<Point>& points) {
@@ -85,21 +108,49 @@ Spline spline_through(std::vector<Point> points, SplineEnds ends) {
   const bool closed = meets && !spline.corner;
   const std::size_t first = closed ? 0 : 1;  // rows first ... n - 2
   if (n - 1 <= first) return spline;
-  std::vector<double> diagonal, sub;
+  std::vector<Point> right;
+  for (std::size_t i = first; i + 1 < n; ++i) right.push_back(6.0 * (slope[i] - slope[row_before(i, n)]));
+  solve_second(h, closed, std::move(right), spline.second);
+  return spline;
+}
+
+// The system of spline_through(), differentiated: A dM = dr - dA M.
+SplineTangent spline_tangent(const Spline& spline, std::span<const Point> direction) {
+  const std::vector<Point>& points = spline.points;
+  const std::vector<Point>& m = spline.second;
+  const std::size_t n = points.size();
+  SplineTangent tangent{.knots = std::vector<double>(n, 0.0), .second = std::vector<Point>(n)};
+  double whole = 0.0;
+  for (std::size_t i = 1; i < n; ++i) {
+    const Point side = points[i] - points[i - 1];
+    const double length = std::sqrt(dot(side, side));
+    whole += length;
+    tangent.knots[i] = tangent.knots[i - 1] + dot(side, direction[i] - direction[i - 1]) / length;
+  }
+  const double longer = tangent.knots.back();
+  for (std::size_t i = 0; i < n; ++i)
+    tangent.knots[i] = (tangent.knots[i] - spline.knots[i] * longer) / whole;
+  tangent.knots.back() = 0.0;
+
+  std::vector<double> h, dh;
+  std::vector<Point> dslope;
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    h.push_back(spline.knots[i + 1] - spline.knots[i]);
+    dh.push_back(tangent.knots[i + 1] - tangent.knots[i]);
+    const Point slope = (1.0 / h[i]) * (points[i + 1] - points[i]);
+    dslope.push_back((1.0 / h[i]) * (direction[i + 1] - direction[i] - dh[i] * slope));
+  }
+  const bool closed = points.front() == points.back() && !spline.corner;
+  const std::size_t first = closed ? 0 : 1;
+  if (n - 1 <= first) return tangent;
   std::vector<Point> right;
   for (std::size_t i = first; i + 1 < n; ++i) {
-    const std::size_t before = i == 0 ? n - 2 : i - 1;
-    diagonal.push_back(2.0 * (h[before] + h[i]));
-    sub.push_back(h[i]);
-    right.push_back(6.0 * (slope[i] - slope[before]));
+    const std::size_t before = row_before(i, n);
+    right.push_back(6.0 * (dslope[i] - dslope[before]) - dh[before] * m[before] -
+                    2.0 * (dh[before] + dh[i]) * m[i] - dh[i] * m[i + 1]);
   }
-  if (closed)
-    solve_cyclic(sub, diagonal, h[n - 2], right);
-  else
-    solve_tridiagonal(sub, diagonal, right);
-  std::copy(right.begin(), right.end(), spline.second.begin() + static_cast<std::ptrdiff_t>(first));
-  if (closed) spline.second.back() = spline.second.front();
-  return spline;
+  solve_second(h, closed, std::move(right), tangent.second);
+  return tangent;
 }
 
 }  // namespace remodel

@@ -1,0 +1,65 @@
+#pragma once
+
+// The derivative of a mesh by its design, at fixed connectivity, with the interior still: what a full
+// adjustment does, as remodel() does it wherever it can. Boundary vertices keep their curve and parameter t.
+//
+//   MeshDerivative derivative(mesh);
+//   std::vector<double> gradient = derivative.vjp(flow.gradients().cd.points);   // by coefficients_of()
+
+#include <span>
+#include <vector>
+
+#include "remodel/domain.h"
+#include "remodel/error.h"
+#include "remodel/mesh.h"
+
+namespace remodel {
+
+// The numbers that the points of a domain depend on at fixed parameters, loop by loop: of each of its curves,
+// then of its placement (chord, rotation_deg, position.x, position.y). Of an airfoil: upper, lower, te_upper,
+// te_lower. Of a line: from.x, from.y, to.x, to.y. Of a polyline or spline: x and y of each point, of a
+// closed one without the last, which is the first. Of an arc: centre.x, centre.y, radius, start, sweep.
+std::vector<double> coefficients_of(const Domain& domain);
+// The same domain with other numbers. A closed spline's knots follow. Throws Error (argument) for another
+// count than that of coefficients_of(), and as spline_through() does.
+Domain with_coefficients(const Domain& domain, std::span<const double> coefficients);
+
+class MeshDerivative {
+ public:
+  // At the design that the mesh has.
+  explicit MeshDerivative(const Mesh& mesh);
+  // The same of a mesh's frozen view and its domain.
+  MeshDerivative(const FrozenMesh& frozen, const Domain& domain);
+
+  std::size_t coefficients() const { return count_; }  // of coefficients_of()
+  std::size_t points() const { return points_; }       // of the frozen mesh
+  // How the points of the frozen mesh move with the coefficients in this direction. Throws Error (argument)
+  // for another size, as vjp() does.
+  std::vector<Point> jvp(std::span<const double> direction) const;
+  // Transposed: derivatives by points to derivatives by coefficients.
+  std::vector<double> vjp(std::span<const Point> by_points) const;
+
+ private:
+  struct Piece {  // the vertices on one curve
+    std::size_t loop = 0;
+    std::size_t first = 0;      // of the curve's coefficients
+    std::size_t placement = 0;  // first of the loop's placement
+    std::vector<double> t;
+    std::vector<std::uint32_t> point;
+  };
+  Domain domain_;
+  std::vector<Piece> pieces_;
+  std::size_t count_ = 0, points_ = 0;
+};
+
+// The mesh cannot follow to another design with the connectivity that it has.
+class TopologyChanged : public Error {
+ public:
+  using Error::Error;
+};
+// A copy of the mesh at another design, its connectivity, ids and parameters the same: valid, Delaunay, of
+// the quality promised. Throws TopologyChanged where there is no such mesh, and Error (geometry) as remodel()
+// does.
+Mesh mesh_at(const Mesh& mesh, const Domain& design);
+
+}  // namespace remodel

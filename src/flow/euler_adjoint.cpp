@@ -1,0 +1,227 @@
+// The transposed derivatives of the discretisation by the places of vertices: of metric terms, residuals and
+// forces. Reverse by hand across sums, forward dual numbers within one flux.
+
+#include <cmath>
+
+#include "flow/euler.h"
+
+namespace remodel::flow {
+
+namespace {
+
+// An edge vector turned to its outer normal, {d.y, -d.x}, transposed.
+Point turned_back(Point by_normal) {
+  return {-by_normal.y, by_normal.x};
+}
+
+struct Slopes {
+  std::vector<Point> normal, weight;               // of dual faces and gradient weights
+  std::vector<std::array<Point, 4>> gradient;      // of each vertex's
+  std::vector<std::array<Point, 4>> at_gradients;  // the gradients themselves
+};
+
+std::vector<std::array<Point, 4>> gradients_of(const FlowMesh& mesh, const State& state) {
+  std::vector<std::array<Point, 4>> gradient(mesh.size(), std::array<Point, 4>{});
+  for (std::size_t v = 0; v < mesh.size(); ++v)
+    for (const RingEntry& entry : mesh.ring(v))
+      for (std::size_t k = 0; k < 4; ++k)
+        gradient[v][k] = gradient[v][k] + (state.q[entry.vertex][k] - state.q[v][k]) * entry.weight;
+  return gradient;
+}
+
+// One side of a face: value = q + direction * step(2 g d - central, central, epsilon).
+struct FaceSide {
+  Primitive<double> value;
+  std::array<double, 4> by_upwind = {}, by_epsilon = {};
+};
+
+FaceSide reconstruct(const Primitive<double>& here, const std::array<Point, 4>& gradient, Point d,
+                     const std::array<double, 4>& central, double epsilon, double direction) {
+  using Two = Dual<2>;
+  FaceSide side;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Two step = limited_half_step<Two>(Two::variable(2.0 * dot(gradient[k], d) - central[k], 0),
+                                            Two(central[k]), Two::variable(epsilon, 1));
+    side.value[k] = here[k] + direction * step.value;
+    side.by_upwind[k] = direction * step.slope[0];
+    side.by_epsilon[k] = direction * step.slope[1];
+  }
+  if (!usable(side.value, here)) side = {here};
+  return side;
+}
+
+// Adds one inner face's part; returns the derivative by the edge's vector.
+Point add_face(const State& state, const DualEdge& edge, std::size_t index, Point d, double limiter,
+               const std::array<double, 4>& weight, Slopes& slopes) {
+  using Ten = Dual<10>;
+  const double length = std::sqrt(dot(d, d));
+  const double epsilon = limiter * limiter * limiter * length * length * length;
+  const Primitive<double>&qa = state.q[edge.a], &qb = state.q[edge.b];
+  std::array<double, 4> central;
+  for (std::size_t k = 0; k < 4; ++k) central[k] = qb[k] - qa[k];
+  const FaceSide side[2] = {reconstruct(qa, slopes.at_gradients[edge.a], d, central, epsilon, 1.0),
+                            reconstruct(qb, slopes.at_gradients[edge.b], d, central, epsilon, -1.0)};
+  Primitive<Ten> l, r;
+  for (std::size_t k = 0; k < 4; ++k)
+    l[k] = Ten::variable(side[0].value[k], k), r[k] = Ten::variable(side[1].value[k], k + 4);
+  const std::array<Ten, 4> flux =
+      roe_flux_through<Ten, Ten>(l, r, Ten::variable(edge.normal.x, 8), Ten::variable(edge.normal.y, 9));
+  std::array<double, 10> by = {};
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t k = 0; k < 10; ++k) by[k] += weight[i] * flux[i].slope[k];
+  slopes.normal[index] = slopes.normal[index] + Point{by[8], by[9]};
+  Point by_d = {};
+  for (std::size_t s = 0; s < 2; ++s) {
+    const std::uint32_t v = s == 0 ? edge.a : edge.b;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double by_product = 2.0 * by[4 * s + k] * side[s].by_upwind[k];
+      slopes.gradient[v][k] = slopes.gradient[v][k] + by_product * d;
+      by_d = by_d + by_product * slopes.at_gradients[v][k];
+      by_d = by_d + (by[4 * s + k] * side[s].by_epsilon[k] * 3.0 * limiter * limiter * limiter * length) * d;
+    }
+  }
+  return by_d;
+}
+
+}  // namespace
+
+void FlowMesh::add_slopes(std::span<const Point> by_normal, std::span<const Point> by_weight,
+                          std::vector<Point>& points) const {
+  std::vector<double> by_around(size(), 0.0);
+  std::vector<Point> by_sum(by_weight.begin(), by_weight.end());  // by the sum before it is divided
+  for (std::size_t v = 0; v < size(); ++v) {
+    const double around = 3.0 * areas_[v];
+    for (std::uint32_t i = ring_start_[v]; i < ring_start_[v + 1]; ++i) {
+      by_around[v] -= dot(by_weight[i], ring_[i].weight) / around;
+      by_sum[i] = (1.0 / around) * by_weight[i];
+    }
+  }
+  const auto entry_of = [&](std::uint32_t v, std::uint32_t edge) {
+    std::uint32_t i = ring_start_[v];
+    while (ring_[i].edge != edge) ++i;
+    return i;
+  };
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const auto& corners = triangles_[t];
+    const Point p[3] = {points_[corners[0]], points_[corners[1]], points_[corners[2]]};
+    const double by_area = by_around[corners[0]] + by_around[corners[1]] + by_around[corners[2]];
+    Point by[3] = {};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      by[i] = by[i] + (0.5 * by_area) * Point{p[j].y - p[k].y, p[k].x - p[j].x};
+      const std::uint32_t e = triangle_edges_[t][i];
+      const double sign = corners[i] == edges_[e].a ? 1.0 : -1.0;
+      const Point by_d = sign * turned_back(by_normal[e]);
+      for (Point& corner : by) corner = corner + (1.0 / 3.0) * by_d;
+      by[i] = by[i] - 0.5 * by_d, by[j] = by[j] - 0.5 * by_d;
+      // weights are half of {-side.y, side.x}
+      const Point at_i = by_sum[entry_of(corners[i], e)], at_j = by_sum[entry_of(corners[j], e)];
+      const Point by_side_j = {0.5 * at_i.y, -0.5 * at_i.x}, by_side_i = {0.5 * at_j.y, -0.5 * at_j.x};
+      by[i] = by[i] + by_side_j, by[k] = by[k] - by_side_j;
+      by[k] = by[k] + by_side_i, by[j] = by[j] - by_side_i;
+    }
+    for (std::size_t i = 0; i < 3; ++i) points[corners[i]] = points[corners[i]] + by[i];
+  }
+}
+
+ShapeSlope Euler::residual_slope(const State& state, const std::vector<std::array<double, 4>>& weight) const {
+  const std::size_t n = mesh_.size();
+  ShapeSlope result{.points = std::vector<Point>(n)};
+  Slopes slopes{.normal = std::vector<Point>(mesh_.edges().size()),
+                .weight = std::vector<Point>(2 * mesh_.edges().size()),
+                .gradient = std::vector<std::array<Point, 4>>(n, std::array<Point, 4>{}),
+                .at_gradients = gradients_of(mesh_, state)};
+  const auto add_vector = [&](std::uint32_t a, std::uint32_t b, Point by_d) {
+    result.points[a] = result.points[a] - by_d;
+    result.points[b] = result.points[b] + by_d;
+  };
+  for (std::size_t e = 0; e < mesh_.edges().size(); ++e) {
+    const DualEdge& edge = mesh_.edges()[e];
+    std::array<double, 4> w;
+    for (std::size_t k = 0; k < 4; ++k) w[k] = weight[edge.a][k] - weight[edge.b][k];
+    const Point d = mesh_.points()[edge.b] - mesh_.points()[edge.a];
+    add_vector(edge.a, edge.b, add_face(state, edge, e, d, stream_.limiter / stream_.length, w, slopes));
+  }
+  for (std::size_t v = 0; v < n; ++v) {
+    std::size_t i = mesh_.ring_begin(v);
+    for (const RingEntry& entry : mesh_.ring(v)) {
+      for (std::size_t k = 0; k < 4; ++k)
+        slopes.weight[i] =
+            slopes.weight[i] + (state.q[entry.vertex][k] - state.q[v][k]) * slopes.gradient[v][k];
+      ++i;
+    }
+  }
+  mesh_.add_slopes(slopes.normal, slopes.weight, result.points);
+
+  using Five = Dual<5>;
+  const double strength = stream_.vortex ? state.border[0] * stream_.length : 0.0;
+  for (const BoundaryEdge& edge : mesh_.boundary()) {
+    const std::uint32_t end[2] = {edge.a, edge.b};
+    const Point half = 0.5 * edge.normal;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::uint32_t here = end[i], there = end[1 - i];
+      const Primitive<double> q = weighted(state.q[here], state.q[there]);
+      const std::array<double, 4>& w = weight[here];
+      if (edge.body >= 0) {
+        add_vector(edge.a, edge.b, turned_back(0.5 * q[3] * Point{w[1], w[2]}));
+        continue;
+      }
+      if (stream_.prescribed) continue;
+      const Point p =
+          near_weight * mesh_.points()[here] + far_weight * mesh_.points()[there] - stream_.reference;
+      const Primitive<Five> outside = stream_around<Five, Five, Five>(
+          Five::variable(p.x, 2), Five::variable(p.y, 3), Five::variable(stream_.mach, 4),
+          Five(state.border[1]), Five(strength));
+      const Primitive<Five> inside = {Five(q[0]), Five(q[1]), Five(q[2]), Five(q[3])};
+      const std::array<Five, 4> flux =
+          roe_flux_through<Five, Five>(inside, outside, Five::variable(half.x, 0), Five::variable(half.y, 1));
+      std::array<double, 5> by = {};
+      for (std::size_t j = 0; j < 4; ++j)
+        for (std::size_t k = 0; k < 5; ++k) by[k] += w[j] * flux[j].slope[k];
+      add_vector(edge.a, edge.b, turned_back({0.5 * by[0], 0.5 * by[1]}));
+      result.points[here] = result.points[here] + near_weight * Point{by[2], by[3]};
+      result.points[there] = result.points[there] + far_weight * Point{by[2], by[3]};
+      result.mach += by[4];
+    }
+  }
+  return result;
+}
+
+ForceSlope Euler::force_slope(const State& state, const Coefficients& weight) const {
+  ForceSlope result;
+  result.shape.points.assign(mesh_.size(), {});
+  result.pressure.assign(mesh_.size(), 0.0);
+  const Coefficients sum = coefficients(state);
+  result.alpha = weight.drag * sum.lift - weight.lift * sum.drag;
+  result.shape.mach =
+      -2.0 / stream_.mach * (weight.lift * sum.lift + weight.drag * sum.drag + weight.moment * sum.moment);
+  const double scale = 1.0 / (0.5 * stream_.mach * stream_.mach * stream_.length);
+  const double ca = std::cos(state.border[1]), sa = std::sin(state.border[1]);
+  const Point by_force =
+      scale * Point{weight.drag * ca - weight.lift * sa, weight.drag * sa + weight.lift * ca};
+  const double by_turning = -scale * weight.moment / stream_.length;
+  for (const BoundaryEdge& edge : mesh_.boundary()) {
+    if (edge.body < 0) continue;
+    const std::uint32_t end[2] = {edge.a, edge.b};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::uint32_t here = end[i], there = end[1 - i];
+      const double p = near_weight * state.q[here][3] + far_weight * state.q[there][3] - 1.0 / gas_gamma;
+      const Point f = (0.5 * p) * edge.normal;
+      const Point arm =
+          near_place * mesh_.points()[here] + far_place * mesh_.points()[there] - stream_.reference;
+      const Point by_f = by_force + by_turning * Point{-arm.y, arm.x};
+      const Point by_arm = by_turning * Point{f.y, -f.x};
+      const double by_p = 0.5 * dot(by_f, edge.normal);
+      result.pressure[here] += near_weight * by_p;
+      result.pressure[there] += far_weight * by_p;
+      std::vector<Point>& points = result.shape.points;
+      const Point by_vector = turned_back((0.5 * p) * by_f);
+      points[edge.a] = points[edge.a] - by_vector, points[edge.b] = points[edge.b] + by_vector;
+      points[here] = points[here] + near_place * by_arm;
+      points[there] = points[there] + far_place * by_arm;
+    }
+  }
+  return result;
+}
+
+}  // namespace remodel::flow
