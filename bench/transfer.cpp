@@ -45,7 +45,7 @@ void measure(Mesh& mesh, const std::vector<Domain>& designs, Costs& costs) {
     // The vectors grow at their end, which an owner of values does once: not a cost of the transfer.
     ridden.reserve(2 * ridden.size()), remapped.reserve(2 * remapped.size());
     const CpuClock ride;
-    Transfer(mesh, mark).ride(FieldPlace::vertices, variables, ridden);
+    vertex_provenance(mesh, mark).apply(ridden, variables);
     const double ride_seconds = ride.seconds();
     const CpuClock remap;
     Transfer(mesh, mark).remap(FieldPlace::vertices, variables, remapped);

@@ -47,7 +47,13 @@ struct ValueMap {
   std::vector<std::uint32_t> starts;  // row i has parts starts[i] to starts[i + 1]; one more than rows
   std::vector<Part> parts;            // the weights of a row add up to 1
   std::vector<std::uint32_t> gone;    // ids alone: those of before that name nothing now, ascending
+  // How many rows are of new vertices beyond the old domain, and how far beyond, at most.
+  std::size_t outside = 0;
+  double farthest_outside = 0.0;
 
+  // Adds a row of a vertex: its number is above those of the rows before.
+  void add_row(std::uint32_t to, const std::array<std::uint32_t, 3>& from,
+               const std::array<double, 3>& weights, double distance);
   // Values before become values after, `components` of each number one after the other. With ids in time
   // proportional to the rows. Throws Error (argument) for another number of values.
   void apply(std::vector<double>& values, int components) const;
@@ -86,6 +92,10 @@ struct Balance {
   std::vector<double> gained, lost;  // of the values there
   std::size_t limited = 0;           // triangles where bounds or positivity took effect
 };
+
+// The same as Transfer(mesh, mark).vertices(), alone and much sooner: all that a ride of values at vertices
+// needs.
+ValueMap vertex_provenance(const Mesh& mesh, const Mark& mark, const TransferOptions& options = {});
 
 class Transfer {
  public:

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <span>
 #include <vector>
 
@@ -43,9 +42,13 @@ inline Box box_of(Point a, Point b, Point c) {
 class BoxTree {
  public:
   BoxTree() = default;
-  explicit BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
-    std::iota(order_.begin(), order_.end(), 0U);
-    if (!boxes_.empty()) build(0, 0, order_.size());
+  explicit BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)) {
+    std::vector<Item> items;
+    items.reserve(boxes_.size());
+    for (std::uint32_t i = 0; i < boxes_.size(); ++i) items.push_back({boxes_[i].low + boxes_[i].high, i});
+    if (!boxes_.empty()) build(0, items);
+    order_.reserve(items.size());
+    for (const Item& item : items) order_.push_back(item.box);
   }
 
   // The boxes that overlap, ascending.
@@ -65,33 +68,40 @@ class BoxTree {
   }
 
  private:
-  static constexpr std::size_t leaf = 4;
+  static constexpr std::size_t leaf = 6;
   struct Nearest {
     std::uint32_t box = no_index;
     double distance = std::numeric_limits<double>::infinity();
   };
 
-  void build(std::size_t node, std::size_t begin, std::size_t end) {
-    if (node >= nodes_.size()) nodes_.resize(node + 1);
+  struct Item {
+    Point centre;  // twice
+    std::uint32_t box;
+  };
+
+  void build(std::size_t node, std::span<Item> items) {
+    if (node >= nodes_.size()) nodes_.resize(2 * node + 1);
     Box box, centres;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Box& b = boxes_[order_[i]];
-      box.add(b.low), box.add(b.high);
-      centres.add(b.low + b.high);
+    for (const Item& item : items) {
+      box.add(boxes_[item.box].low), box.add(boxes_[item.box].high);
+      centres.add(item.centre);
     }
     nodes_[node] = box;
-    if (end - begin <= leaf) return;
-    const bool wide = centres.high.x - centres.low.x >= centres.high.y - centres.low.y;
-    const auto centre = [&](std::uint32_t i) {
-      const Point sum = boxes_[i].low + boxes_[i].high;
-      return std::pair(wide ? sum.x : sum.y, i);
+    if (items.size() <= leaf) return;
+    const std::size_t middle = items.size() / 2;
+    const auto split = [&](auto coordinate) {
+      std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(middle), items.end(),
+                       [&](const Item& a, const Item& b) {
+                         const double x = coordinate(a.centre), y = coordinate(b.centre);
+                         return x < y || (x == y && a.box < b.box);
+                       });
     };
-    const std::size_t middle = begin + (end - begin) / 2;
-    const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(begin), at(middle), at(end),
-                     [&](std::uint32_t a, std::uint32_t b) { return centre(a) < centre(b); });
-    build(2 * node + 1, begin, middle);
-    build(2 * node + 2, middle, end);
+    if (centres.high.x - centres.low.x >= centres.high.y - centres.low.y)
+      split([](Point p) { return p.x; });
+    else
+      split([](Point p) { return p.y; });
+    build(2 * node + 1, items.first(middle));
+    build(2 * node + 2, items.subspan(middle));
   }
 
   void find(std::size_t node, std::size_t begin, std::size_t end, const Box& box,

@@ -21,55 +21,56 @@ BoxTree tree_of(const PatchSide& side, std::size_t count) {
   return BoxTree(std::move(boxes));
 }
 
+}  // namespace
+
 bool holds(const Corners& t, Point p) {
   return orient2d(t[0], t[1], p) >= 0 && orient2d(t[1], t[2], p) >= 0 && orient2d(t[2], t[0], p) >= 0;
 }
 
-// Rounding may leave the corners of a triangle that holds p a little below 0.
-std::array<double, 3> within_bounds(std::array<double, 3> weights) {
+std::array<double, 3> clamped_weights_at(const Corners& t, Point p) {
+  std::array<double, 3> weights = weights_at(t, p);
   double sum = 0.0;
   for (double& w : weights) w = std::max(w, 0.0), sum += w;
   for (double& w : weights) w /= sum;
   return weights;
 }
 
-}  // namespace
+Locator::Locator(const PatchSide& side, std::size_t count) : side_(side), tree_(tree_of(side, count)) {}
 
-Locator::Locator(const Patches& patches)
-    : patches_(patches),
-      changed_(tree_of(patches.before, patches.changed)),
-      all_(tree_of(patches.before, patches.before.triangles.size())) {}
-
-Place Locator::locate(Point p, Outside outside) const {
+std::optional<Place> Locator::within(Point p) const {
   Box box;
   box.add(p);
-  all_.find(box, found_);
-  for (const std::uint32_t t : found_) {
-    const Corners corners = patches_.before.corners(t);
-    if (holds(corners, p)) return {t, within_bounds(weights_at(corners, p)), 0.0};
+  std::vector<std::uint32_t> found;
+  tree_.find(box, found);
+  for (const std::uint32_t t : found) {
+    const Corners corners = side_.corners(t);
+    if (holds(corners, p)) return Place{t, clamped_weights_at(corners, p), 0.0};
   }
-  return beyond(p, outside);
+  return std::nullopt;
 }
 
 Place Locator::beyond(Point p, Outside outside) const {
-  const auto on_edges = [&](std::uint32_t t) { return nearest_on_edges(patches_.before.corners(t), p); };
-  const std::uint32_t t = all_.nearest(p, [&](std::uint32_t i) { return squared_distance(p, on_edges(i)); });
+  const auto on_edges = [&](std::uint32_t t) { return nearest_on_edges(side_.corners(t), p); };
+  const std::uint32_t t = tree_.nearest(p, [&](std::uint32_t i) { return squared_distance(p, on_edges(i)); });
   const std::string place = "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
   if (t == no_index)
     throw Error(ErrorCode::argument, "transfer", "found " + place + " far from all old triangles");
-  const Point q = on_edges(t);
   if (outside == Outside::refuse)
     throw Error(ErrorCode::argument, "transfer",
                 "found " + place + " beyond the old domain, expected a place within");
-  const Corners corners = patches_.before.corners(t);
-  const double distance = std::sqrt(squared_distance(p, q));
-  if (outside == Outside::extrapolate) return {t, weights_at(corners, p), distance};
-  return {t, within_bounds(weights_at(corners, q)), distance};
+  const Point q = on_edges(t);
+  const Corners corners = side_.corners(t);
+  return {t, outside == Outside::extrapolate ? weights_at(corners, p) : clamped_weights_at(corners, q),
+          std::sqrt(squared_distance(p, q))};
 }
 
-const std::vector<std::uint32_t>& Locator::candidates(const Corners& corners) const {
-  changed_.find(box_of(corners[0], corners[1], corners[2]), found_);
-  return found_;
+Place Locator::locate(Point p, Outside outside) const {
+  const std::optional<Place> found = within(p);
+  return found ? *found : beyond(p, outside);
+}
+
+void Locator::find(const Corners& corners, std::vector<std::uint32_t>& found) const {
+  tree_.find(box_of(corners[0], corners[1], corners[2]), found);
 }
 
 }  // namespace remodel

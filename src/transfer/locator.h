@@ -2,6 +2,7 @@
 
 // Places in the triangulation before.
 
+#include <optional>
 #include <vector>
 
 #include "remodel/transfer.h"
@@ -16,23 +17,29 @@ struct Place {
   double distance = 0.0;              // to the old domain: 0 within
 };
 
+bool holds(const Corners& t, Point p);
+// weights_at() of a point within: rounding leaves none below 0.
+std::array<double, 3> clamped_weights_at(const Corners& t, Point p);
+
 class Locator {
  public:
-  explicit Locator(const Patches& patches);
+  // Of the first triangles of a side, which stay where they are in it.
+  Locator(const PatchSide& side, std::size_t count);
 
-  // Where p lies, the first triangle of several; beyond the domain, by the nearest one. Throws Error
-  // (argument) where that is refused, or there is no triangle.
-  Place locate(Point p, Outside outside) const;
-  // The changed triangles whose boxes overlap a triangle's.
-  const std::vector<std::uint32_t>& candidates(const Corners& corners) const;
+  // Where p lies, in the first triangle of several.
+  std::optional<Place> within(Point p) const;
+  // By the nearest triangle. Throws Error (argument) where that is refused, or there is no triangle.
+  Place beyond(Point p, Outside outside) const;
+  Place locate(Point p, Outside outside) const;  // one of the two
+  // The triangles whose boxes overlap a triangle's, ascending.
+  void find(const Corners& corners, std::vector<std::uint32_t>& found) const;
 
  private:
-  Place beyond(Point p, Outside outside) const;
-
-  const Patches& patches_;
-  BoxTree changed_;  // the changed triangles
-  BoxTree all_;
-  mutable std::vector<std::uint32_t> found_;
+  const PatchSide& side_;
+  BoxTree tree_;
 };
+
+// Of vertices, since a moment.
+ValueMap vertex_map_since(const Moment& moment, Outside outside);
 
 }  // namespace remodel

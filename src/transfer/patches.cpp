@@ -1,6 +1,7 @@
 #include "transfer/patches.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace remodel {
 
@@ -22,10 +23,12 @@ void PatchBuilder::match_triangles() {
     patches_.at_rest.push_back(old != no_index && before.points[old] == after.points[v]);
   }
   patches_.area_at_rest.assign(after.points.size(), 0.0);
-  std::vector<std::pair<Triple, std::uint32_t>> known;
-  for (std::uint32_t t = 0; t < before.triangles.size(); ++t)
-    known.emplace_back(turned(before.triangles[t].corners), t);
-  std::sort(known.begin(), known.end());
+  // Of each vertex the last triangle whose least corner it is, and of each triangle the one before.
+  std::vector<std::uint32_t> last(before.points.size(), no_index), previous;
+  for (std::uint32_t t = 0; t < before.triangles.size(); ++t) {
+    before.triangles[t].corners = turned(before.triangles[t].corners);
+    previous.push_back(std::exchange(last[before.triangles[t].corners[0]], t));
+  }
 
   std::vector<bool> rests(before.triangles.size(), false);
   std::vector<PatchSide::Triangle> changed;
@@ -40,9 +43,9 @@ void PatchBuilder::match_triangles() {
       at_rest = at_rest && patches_.at_rest[triangle.corners[k]];
     }
     if (there) {
-      const Triple wanted = turned(corners);
-      const auto at = std::lower_bound(known.begin(), known.end(), std::pair(wanted, 0U));
-      if (at != known.end() && at->first == wanted) found = at->second;
+      corners = turned(corners);
+      found = last[corners[0]];
+      while (found != no_index && before.triangles[found].corners != corners) found = previous[found];
     }
     if (found != no_index && at_rest) {
       rests[found] = true;

@@ -5,13 +5,13 @@
 
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "remodel/changes.h"
 #include "remodel/frozen_mesh.h"
 #include "remodel/mesh.h"
 #include "transfer/intersection.h"
+#include "transfer/number_map.h"
 
 namespace remodel {
 
@@ -53,7 +53,8 @@ struct Patches {
   std::vector<std::uint32_t> gone_vertices, gone_triangles;
 };
 
-Patches patches_since(const Mesh& mesh, const Mark& mark);
+class Moment;  // moment.h
+Patches patches_since(const Moment& moment);
 Patches patches_between(const FrozenMesh& before, const FrozenMesh& after);
 
 // Gathers the triangles of a patch, whose vertices are named by what values are numbered by.
@@ -61,7 +62,9 @@ class PatchBuilder {
  public:
   using Triple = std::array<std::uint32_t, 3>;
 
-  explicit PatchBuilder(Patches& patches) : patches_(patches) {}
+  // Room for so many vertices.
+  PatchBuilder(Patches& patches, std::size_t expected)
+      : patches_(patches), before_(expected), after_(expected) {}
 
   // point(number), for the vertices that are seen for the first time.
   template <class PointOf>
@@ -72,39 +75,33 @@ class PatchBuilder {
   PatchSide::Triangle after(const Triple& vertices, std::uint32_t number, PointOf point) {
     return {local(vertices, patches_.after, after_, point), number};
   }
-  std::uint32_t find_before(std::uint32_t number) const {
-    const auto found = before_.find(number);
-    return found == before_.end() ? no_index : found->second;
-  }
   // Finds what is the same and takes triangles that are wholly so out of the patch. `old_of_new(number)`: the
   // number before of a vertex that was there, or no_index.
   template <class OldOfNew>
   void match(OldOfNew old_of_new) {
     for (const std::uint32_t number : patches_.after.numbers) {
       const std::uint32_t old = old_of_new(number);
-      patches_.same_vertex.push_back(old == no_index ? no_index : find_before(old));
+      patches_.same_vertex.push_back(old == no_index ? no_index : before_.find(old));
     }
     match_triangles();
   }
 
  private:
-  using Numbers = std::unordered_map<std::uint32_t, std::uint32_t>;
-
   template <class PointOf>
-  static Triple local(const Triple& vertices, PatchSide& side, Numbers& numbers, PointOf point) {
+  static Triple local(const Triple& vertices, PatchSide& side, NumberMap& numbers, PointOf point) {
     Triple result;
     for (std::size_t k = 0; k < 3; ++k) {
       const auto size = static_cast<std::uint32_t>(side.points.size());
       const auto [at, is_new] = numbers.emplace(vertices[k], size);
       if (is_new) side.points.push_back(point(vertices[k])), side.numbers.push_back(vertices[k]);
-      result[k] = at->second;
+      result[k] = at;
     }
     return result;
   }
   void match_triangles();
 
   Patches& patches_;
-  Numbers before_, after_;
+  NumberMap before_, after_;  // vertices of each side by number
 };
 
 }  // namespace remodel

@@ -59,7 +59,7 @@ void require_sound(const FrozenMesh& mesh, const char* which) {
 class BetweenMeshes {
  public:
   BetweenMeshes(const FrozenMesh& before, const FrozenMesh& after)
-      : before_(before), after_(after), builder_(patches_) {
+      : before_(before), after_(after), builder_(patches_, 16) {
     require_sound(before, "mesh before");
     require_sound(after, "mesh after");
   }

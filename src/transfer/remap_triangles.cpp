@@ -113,7 +113,8 @@ class TriangleRemap {
     double covered = 0.0;
     double* made = &made_[t * width_];
     std::fill_n(made, width_, 0.0);
-    for (const std::uint32_t other : input_.locator.candidates(here)) {
+    input_.locator.find(here, candidates_);
+    for (const std::uint32_t other : candidates_) {
       const Intersection piece = intersect(here, before_.corners(other));
       if (piece.area == 0.0) continue;
       covered += piece.area;
@@ -142,6 +143,7 @@ class TriangleRemap {
   std::vector<double> old_;    // by old triangle of the patch
   std::vector<Point> slopes_;  // of those that have changed
   std::vector<double> made_;   // by new triangle
+  std::vector<std::uint32_t> candidates_;
   Balance balance_;
 };
 

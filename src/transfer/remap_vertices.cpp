@@ -96,7 +96,8 @@ class VertexRemap {
     const double area = area_of(here);
     double covered = 0.0;
     std::vector<double> of_new(width_, 0.0);  // integrals of w where the old domain is
-    for (const std::uint32_t other : input_.locator.candidates(here)) {
+    input_.locator.find(here, candidates_);
+    for (const std::uint32_t other : candidates_) {
       const Corners there = before_.corners(other);
       const Intersection piece = intersect(here, there);
       if (piece.area == 0.0) continue;
@@ -219,6 +220,7 @@ class VertexRemap {
   std::vector<double> low_, high_;                 // bounds of each
   std::vector<double> cell_;                       // C_v
   std::vector<double> defects_, means_, factors_;  // by new triangle
+  std::vector<std::uint32_t> candidates_;
   Balance balance_;
 };
 

@@ -4,14 +4,20 @@
 #include <string>
 
 #include "remodel/error.h"
+#include "transfer/moment.h"
 #include "transfer/remap.h"
 #include "transfer/slopes.h"
 
 namespace remodel {
 
 struct Transfer::Impl {
+  Impl(const Moment& moment, const TransferOptions& given)
+      : patches(patches_since(moment)),
+        options(given),
+        locator(patches.before, patches.changed),
+        vertices(vertex_map_since(moment, given.outside)) {}
   Impl(Patches&& found, const TransferOptions& given)
-      : patches(std::move(found)), options(given), locator(patches) {
+      : patches(std::move(found)), options(given), locator(patches.before, patches.changed) {
     make_vertex_map();
   }
 
@@ -22,8 +28,6 @@ struct Transfer::Impl {
   TransferOptions options;
   Locator locator;
   ValueMap vertices;
-  std::size_t outside = 0;
-  double farthest = 0.0;
 };
 
 namespace {
@@ -69,19 +73,18 @@ Point point_of(const Patches& patches, const Place& place) {
 void Transfer::Impl::make_vertex_map() {
   vertices.size_before = patches.vertices_before, vertices.size_after = patches.vertices_after;
   vertices.same = patches.same_vertices, vertices.gone = patches.gone_vertices;
-  std::vector<MapRow> rows;
-  for (std::uint32_t v = 0; v < patches.after.points.size(); ++v) {
-    if (patches.same_vertex[v] != no_index) continue;
+  vertices.starts.push_back(0);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> made;  // by number
+  for (std::uint32_t v = 0; v < patches.after.points.size(); ++v)
+    if (patches.same_vertex[v] == no_index) made.emplace_back(patches.after.numbers[v], v);
+  std::sort(made.begin(), made.end());
+  for (const auto& [number, v] : made) {
     const Place place = locator.locate(patches.after.points[v], options.outside);
-    if (place.distance > 0.0) ++outside, farthest = std::max(farthest, place.distance);
-    MapRow row{patches.after.numbers[v], {}};
+    std::array<std::uint32_t, 3> from;
     for (std::size_t k = 0; k < 3; ++k)
-      if (place.weights[k] != 0.0)
-        row.parts.push_back(
-            {patches.before.numbers[patches.before.triangles[place.triangle].corners[k]], place.weights[k]});
-    rows.push_back(std::move(row));
+      from[k] = patches.before.numbers[patches.before.triangles[place.triangle].corners[k]];
+    vertices.add_row(number, from, place.weights, place.distance);
   }
-  close_rows(rows, vertices);
 }
 
 ValueMap Transfer::Impl::triangle_map() const {
@@ -106,7 +109,7 @@ ValueMap Transfer::Impl::triangle_map() const {
 }
 
 Transfer::Transfer(const Mesh& mesh, const Mark& mark, const TransferOptions& options)
-    : impl_(std::make_unique<Impl>(patches_since(mesh, mark), options)) {}
+    : impl_(std::make_unique<Impl>(Moment(mesh, mark), options)) {}
 Transfer::Transfer(const FrozenMesh& before, const FrozenMesh& after, const TransferOptions& options)
     : impl_(std::make_unique<Impl>(patches_between(before, after), options)) {}
 Transfer::~Transfer() = default;
@@ -120,10 +123,10 @@ ValueMap Transfer::triangles() const {
   return impl_->triangle_map();
 }
 std::size_t Transfer::outside() const {
-  return impl_->outside;
+  return impl_->vertices.outside;
 }
 double Transfer::farthest_outside() const {
-  return impl_->farthest;
+  return impl_->vertices.farthest_outside;
 }
 
 void Transfer::ride(FieldPlace place, int components, std::vector<double>& values) const {

@@ -22,6 +22,15 @@ std::size_t require_values(const std::vector<double>& values, std::size_t number
 
 }  // namespace
 
+void ValueMap::add_row(std::uint32_t to, const std::array<std::uint32_t, 3>& from,
+                       const std::array<double, 3>& weights, double distance) {
+  rows.push_back(to);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (weights[k] != 0.0) parts.push_back({from[k], weights[k]});
+  starts.push_back(static_cast<std::uint32_t>(parts.size()));
+  if (distance > 0.0) ++outside, farthest_outside = std::max(farthest_outside, distance);
+}
+
 void ValueMap::apply(std::vector<double>& values, int components) const {
   const std::size_t width = require_values(values, size_before, components);
   std::vector<double> made(rows.size() * width, 0.0);
