@@ -1,4 +1,4 @@
-// The program remodel-mpi has no `flow`: the sequential MUMPS brings a stand-in for MPI that must not meet
+// The program remodel-mpi has no `flow` and no `noise`: the sequential MUMPS brings a stand-in for MPI that must not meet
 // the real one.
 
 #include "command.h"
@@ -6,5 +6,6 @@
 namespace remodel::app {
 
 void add_flow_command(CLI::App&, Action&) {}
+void add_noise_command(CLI::App&, Action&) {}
 
 }  // namespace remodel::app

@@ -152,14 +152,12 @@ class TriangleRemap {
 Balance remap_triangles(const RemapInput& input, const ValueMap& map, int components,
                         std::vector<double>& values) {
   const auto width = static_cast<std::size_t>(components);
-  std::vector<double> after = values;
-  map.apply(after, components);
   TriangleRemap remap(input, width, values);
   Balance balance = remap.run();
+  map.apply(values, components);
   remap.for_each_value([&](std::uint32_t number, const double* made) {
-    std::copy_n(made, width, after.begin() + static_cast<std::ptrdiff_t>(number * width));
+    std::copy_n(made, width, values.begin() + static_cast<std::ptrdiff_t>(number * width));
   });
-  values = std::move(after);
   return balance;
 }
 

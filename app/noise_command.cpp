@@ -1,0 +1,330 @@
+// remodel noise SHAPE --spacing S --count N: an objective along a line of designs, on fresh meshes, on one
+// living mesh and on copies of a hub. It answers whether finite differences can be used, and with which step.
+
+#include "remodel/noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "arguments.h"
+#include "command.h"
+#include "figures.h"
+#include "interrupt.h"
+#include "meshing_options.h"
+#include "outputs.h"
+#include "picture_options.h"
+#include "remodel/airfoil.h"
+#include "remodel/design_space.h"
+#include "remodel/error.h"
+#include "remodel/evaluator.h"
+#include "remodel/flow.h"
+#include "remodel/generate.h"
+#include "remodel/plot.h"
+#include "remodel/remodel.h"
+#include "shape_input.h"
+
+namespace remodel::app {
+namespace {
+
+struct NoiseCommand {
+  std::string shape, direction, evaluator, picture;
+  MeshingOptions meshing;
+  double spacing = 1e-3;
+  int count = 21, degree = 3;
+  std::optional<double> mach;
+  FlowConditions conditions;
+  FlowOptions flow{.tolerance = 1e-12};
+  bool json = false;
+};
+
+// The values of one design, in the order of Objective::names; nothing where there are none.
+using Values = std::optional<std::vector<double>>;
+
+// How a mesh and its design become values.
+struct Objective {
+  std::vector<std::string> names;
+  std::function<Values(const Mesh&, std::span<const double> design)> values;
+};
+
+// A new solver for each way of making meshes. With fresh meshes nothing of the last flow is of use.
+Objective flow_objective(const NoiseCommand& command, StepObserver& observer, bool carry) {
+  FlowOptions options = command.flow;
+  options.observer = &observer;
+  auto solver = std::make_shared<LivingFlow>(options);
+  return {{"cl", "cd"},
+          [=, conditions = command.conditions](const Mesh& mesh, std::span<const double>) -> Values {
+            if (!carry) solver->forget();
+            const FlowResult flow = solver->solve(mesh, conditions);
+            if (!flow.converged()) return std::nullopt;
+            return std::vector{flow.cl, flow.cd};
+          }};
+}
+
+Objective command_objective(const NoiseCommand& command, StepObserver& observer) {
+  std::shared_ptr<Evaluator> evaluator =
+      command_evaluator({"/bin/sh", "-c", command.evaluator + " \"$@\"", "sh"});
+  return {{"objective"}, [evaluator, &observer](const Mesh& mesh, std::span<const double> design) -> Values {
+            std::unique_ptr<EvaluatorState> state;
+            const MeshStep step;
+            const EvaluationTask task{.design = design,
+                                      .mesh = mesh,
+                                      .step = step,
+                                      .before = nullptr,
+                                      .gradient = false,
+                                      .observer = observer};
+            const Evaluation evaluation = evaluator->evaluate(task, state);
+            if (!std::isfinite(evaluation.objective)) return std::nullopt;
+            return std::vector{evaluation.objective};
+          }};
+}
+
+// The places of designs on the line, around 0, and the designs.
+struct DesignLine {
+  std::vector<double> places;
+  std::vector<std::vector<double>> designs;
+};
+
+DesignLine line_of(const NoiseCommand& command, const AirfoilSpace& space) {
+  const std::vector<double> start = space.start();
+  std::vector<double> direction(start.size(), 0.0);
+  if (command.direction.empty())
+    std::fill_n(direction.begin(), direction.size() / 2, 1.0);
+  else
+    direction = parse_reals("--direction", command.direction, start.size());
+  double length = 0.0;
+  for (const double d : direction) length += d * d;
+  if (!(length > 0.0))
+    throw Error(ErrorCode::argument, "--direction", "found zeros alone, expected a direction");
+  DesignLine line;
+  for (int i = 0; i < command.count; ++i) {
+    const double place = (i - 0.5 * (command.count - 1)) * command.spacing;
+    std::vector<double> design = start;
+    for (std::size_t k = 0; k < design.size(); ++k) design[k] += place / std::sqrt(length) * direction[k];
+    if (!space.feasible(design))
+      throw Error(ErrorCode::argument, "--spacing",
+                  "design " + std::to_string(i + 1) +
+                      " of the line is no airfoil that can be meshed, expected "
+                      "designs nearer to one another");
+    line.places.push_back(place);
+    line.designs.push_back(std::move(design));
+  }
+  return line;
+}
+
+Mesh finished_mesh(const Domain& domain, const QualityOptions& quality, StepObserver& observer) {
+  GenerateResult result = generate(domain, quality, &observer);
+  if (result.stopped != Stopped::done)
+    throw Error(ErrorCode::argument, "noise",
+                std::string("a mesh is unfinished (") + name_of(result.stopped) + "), expected whole ones");
+  return std::move(result.mesh);
+}
+
+// One way of making the meshes of the line.
+enum class Way { fresh, living, hub };
+constexpr const char* way_names[] = {"fresh", "living", "hub"};
+
+class LineMeshes {
+ public:
+  LineMeshes(Way way, const AirfoilSpace& space, const DesignLine& line, const QualityOptions& quality,
+             StepObserver& observer)
+      : way_(way), space_(space), quality_(quality), observer_(observer) {
+    const std::size_t first = way == Way::hub ? line.designs.size() / 2 : 0;
+    if (way != Way::fresh) mesh_ = finished_mesh(space.domain(line.designs[first]), quality, observer);
+  }
+
+  Mesh next(std::span<const double> design) {
+    const Domain domain = space_.domain(design);
+    if (way_ == Way::fresh) return finished_mesh(domain, quality_, observer_);
+    const RemodelOptions options{.strategy = Strategy::renew, .observer = &observer_};
+    if (way_ == Way::living) {
+      remodel(mesh_, domain, options);
+      return mesh_;
+    }
+    Mesh copy = mesh_;
+    remodel(copy, domain, options);
+    return copy;
+  }
+
+ private:
+  Way way_;
+  const AirfoilSpace& space_;
+  QualityOptions quality_;
+  StepObserver& observer_;
+  Mesh mesh_;
+};
+
+struct Series {
+  std::vector<std::vector<double>> values;  // per design, as Objective::names; empty where there are none
+  std::vector<LineFit> fits;                // as Objective::names; none where too few are left
+};
+
+LineFit fit_of(const DesignLine& line, const Series& series, std::size_t k, int degree) {
+  std::vector<double> places, values;
+  for (std::size_t i = 0; i < line.places.size(); ++i) {
+    if (series.values[i].empty()) continue;
+    places.push_back(line.places[i]), values.push_back(series.values[i][k]);
+  }
+  return fit_line(places, values, degree);
+}
+
+Series evaluate(Way way, const Objective& objective, const DesignLine& line, const AirfoilSpace& space,
+                const NoiseCommand& command, StepObserver& observer) {
+  LineMeshes meshes(way, space, line, command.meshing.resolved_quality(), observer);
+  Series series;
+  for (const std::vector<double>& design : line.designs) {
+    if (observer.cancelled()) break;
+    series.values.push_back(objective.values(meshes.next(design), design).value_or(std::vector<double>{}));
+  }
+  series.values.resize(line.designs.size());
+  const auto found = static_cast<std::size_t>(
+      std::count_if(series.values.begin(), series.values.end(), [](const auto& v) { return !v.empty(); }));
+  if (found < static_cast<std::size_t>(command.degree) + 2) return series;
+  for (std::size_t k = 0; k < objective.names.size(); ++k)
+    series.fits.push_back(fit_of(line, series, k, command.degree));
+  return series;
+}
+
+Json to_json(const Objective& objective, const Series& series) {
+  Json json = Json::object();
+  Json slope = Json::array(), error = Json::array(), step = Json::array(), step_error = Json::array();
+  for (std::size_t k = 0; k < objective.names.size(); ++k) {
+    const std::string rms = objective.names[k] + "_rms";
+    Json values = Json::array();
+    for (const std::vector<double>& design : series.values)
+      values.push_back(design.empty() ? Json(nullptr) : Json(design[k]));
+    json[rms] = series.fits.empty() ? Json(nullptr) : Json(series.fits[k].rms);
+    json[objective.names[k]] = values;
+    if (series.fits.empty()) continue;
+    slope.push_back(series.fits[k].slope), error.push_back(series.fits[k].slope_error);
+    step.push_back(series.fits[k].step), step_error.push_back(series.fits[k].step_error);
+  }
+  json["slope"] = slope, json["slope_error"] = error, json["step"] = step, json["step_error"] = step_error;
+  json["not_found"] =
+      std::count_if(series.values.begin(), series.values.end(), [](const auto& v) { return v.empty(); });
+  return json;
+}
+
+std::string table_row(const LineFit& fit) {
+  char text[160];
+  std::snprintf(text, sizeof text, "residual %.2e, slope %.8g +- %.1e", fit.rms, fit.slope, fit.slope_error);
+  std::string row = text;
+  if (fit.step > 0.0) {
+    std::snprintf(text, sizeof text, ", best central differences: step %.1e, error %.1e", fit.step,
+                  fit.step_error);
+    row += text;
+  }
+  return row;
+}
+
+// Residuals of the first value, by size: they lie orders of magnitude apart.
+void draw(const NoiseCommand& command, const DesignLine& line, const Objective& objective,
+          const std::vector<Series>& all) {
+  constexpr double least = 1e-17;
+  Plot plot{.x = {.label = "distance along the line"},
+            .y = {.label = "residual of " + objective.names[0] + ", absolute", .logarithmic = true}};
+  for (std::size_t w = 0; w < all.size(); ++w) {
+    if (all[w].fits.empty()) continue;
+    PlotCurve curve{way_names[w], {}};
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < line.places.size(); ++i)
+      if (!all[w].values[i].empty())
+        curve.points.push_back(
+            {line.places[i], std::max(least, std::abs(all[w].fits[0].residuals[found++]))});
+    plot.curves.push_back(std::move(curve));
+  }
+  if (!plot.curves.empty()) draw_plot(plot, command.picture);
+}
+
+Status run(const NoiseCommand& command) {
+  if (!command.picture.empty()) require_picture(command.picture, {".svg", ".png"});
+  if (command.mach.has_value() == !command.evaluator.empty())
+    throw Error(ErrorCode::argument, "--mach",
+                command.mach ? "given with --evaluator, expected one of them"
+                             : "not given, expected --mach or --evaluator");
+  if (command.count < command.degree + 2)
+    throw Error(ErrorCode::argument, "--count",
+                "found " + std::to_string(command.count) + ", expected at least two more than --degree, " +
+                    std::to_string(command.degree + 2));
+  const CstFit fit = fit_shape(command.shape, command.meshing.fit);
+  const AirfoilSpace space(fit.airfoil, command.meshing.discretisation);
+  const DesignLine line = line_of(command, space);
+  InterruptObserver observer;
+  std::vector<Series> all;
+  Objective objective;
+  for (const Way way : {Way::fresh, Way::living, Way::hub}) {
+    objective = command.mach ? flow_objective(command, observer, way != Way::fresh)
+                             : command_objective(command, observer);
+    all.push_back(evaluate(way, objective, line, space, command, observer));
+  }
+  const bool whole =
+      std::none_of(all.begin(), all.end(), [](const Series& series) { return series.fits.empty(); });
+  if (!command.picture.empty()) draw(command, line, objective, all);
+
+  Report report;
+  report.figure("shape", "shape", command.shape);
+  report.figure("spacing", "spacing", command.spacing);
+  report.figure("count", "designs", command.count);
+  report.figure("degree", "degree of the polynomial", command.degree);
+  report.data("places", line.places);
+  for (std::size_t w = 0; w < all.size(); ++w) {
+    report.data(way_names[w], to_json(objective, all[w]));
+    for (std::size_t k = 0; k < objective.names.size(); ++k)
+      report.line(std::string(way_names[w]) + ", " + objective.names[k],
+                  all[w].fits.empty() ? "too few values were found" : table_row(all[w].fits[k]));
+  }
+  if (!command.picture.empty() && whole) add_output_figures(report, {command.picture});
+  report.print(command.json);
+  return observer.cancelled() ? Status::limit : whole ? Status::done : Status::answer_is_no;
+}
+
+void add_flow_options(CLI::App& app, NoiseCommand& command) {
+  add_real(app, {"--mach", "M", "", "Mach number: the values are CL and CD of compressible flow; 0.01 to 3"},
+           {.low = 0.01, .high = 3.0},
+           [&](double value) { command.mach = value, command.conditions.mach = value; });
+  add_real(app, {"--alpha", "DEG", "0", "Angle of attack in degrees, -90 to 90"}, {.low = -90, .high = 90},
+           [&](double value) { command.conditions.alpha_deg = value; });
+  add_real(
+      app,
+      {"--tolerance", "PART", "1e-12", "Residual of a flow, as a part of undisturbed flow's: 1e-13 to 1e-2"},
+      {.low = 1e-13, .high = 1e-2}, [&](double value) { command.flow.tolerance = value; });
+  add_text(app,
+           {"--evaluator", "COMMAND", "",
+            "In place of a flow: a shell command that is run as COMMAND MESH DESIGN and prints a JSON object "
+            "with an "
+            "objective"},
+           Presence::optional, command.evaluator);
+}
+
+}  // namespace
+
+void add_noise_command(CLI::App& program, Action& action) {
+  auto command = std::make_shared<NoiseCommand>();
+  CLI::App& app = add_subcommand(
+      program, "noise", "How smooth an objective is along a line of designs, by the way of making meshes",
+      [command, &action] { action = [command] { return run(*command); }; });
+  add_shape_argument(app, command->shape);
+  add_text(app,
+           {"--direction", "D1,D2,...", "all of the upper surface",
+            "Direction in the space of shape coefficients, upper surface first: of any length but 0"},
+           Presence::optional, command->direction);
+  add_real(app, {"--spacing", "S", "0.001", "Distance between designs, in shape coefficients: above 0"},
+           {.low = 0.0, .above_low = true}, [command](double value) { command->spacing = value; });
+  add_integer(app, {"--count", "N", "21", "Designs on the line, the shape in their middle: 4 to 10000"},
+              {.low = 4, .high = 10000},
+              [command](std::int64_t value) { command->count = static_cast<int>(value); });
+  add_integer(app, {"--degree", "N", "3", "Degree of the polynomial that is smooth enough: 1 to 20"},
+              {.low = 1, .high = 20},
+              [command](std::int64_t value) { command->degree = static_cast<int>(value); });
+  add_flow_options(app, *command);
+  add_text(app, {"-o,--output", "FILE", "", "Picture of the residuals: .svg or .png"}, Presence::optional,
+           command->picture);
+  add_meshing_options(app, command->meshing);
+  add_json_flag(app, command->json);
+}
+
+}  // namespace remodel::app

@@ -1,0 +1,62 @@
+"""`remodel noise`: an objective along a line of designs, by three ways of making their meshes."""
+
+from harness import ProgramTest
+
+# The length of the mesh's edges and the design's own numbers, each an objective.
+EDGES = """import json, math, sys
+lines = iter(open(sys.argv[1]).read().splitlines())
+cells = [next(lines).split() for line in lines if line.startswith("NELEM=") for _ in range(int(line.split("=")[1]))]
+lines = iter(open(sys.argv[1]).read().splitlines())
+points = [next(lines).split() for line in lines if line.startswith("NPOIN=") for _ in range(int(line.split("=")[1]))]
+point = [tuple(map(float, words[:2])) for words in points]
+total = sum(math.dist(point[int(c[i])], point[int(c[i % 3 + 1])]) for c in cells for i in (1, 2, 3))
+print(json.dumps({"objective": total}))
+"""
+DESIGN = """import json, sys
+design = json.load(open(sys.argv[2]))
+print(json.dumps({"objective": (1 + sum(design)) ** 3}))
+"""
+
+
+class Noise(ProgramTest):
+    def noise(self, *arguments):
+        figures = self.figures("noise", "naca:0012", "--points", 20, "--farfield-points", 12, *arguments)
+        self.assertKeys(figures, "spacing count degree places fresh living hub")
+        return figures
+
+    def test_living_meshes_are_smoother_than_fresh_ones(self):
+        self.write("edges.py", EDGES)
+        figures = self.noise("--count", 6, "--spacing", 1e-3, "--evaluator", "python3 edges.py", "-o", "noise.svg")
+        for way in ("fresh", "living", "hub"):
+            self.assertEqual(len(figures[way]["objective"]), 6)
+            self.assertEqual(figures[way]["not_found"], 0)
+        self.assertLess(figures["hub"]["objective_rms"], 1e-2 * figures["fresh"]["objective_rms"])
+        self.assertIn(b"<svg", self.path("noise.svg").read_bytes())
+
+    def test_slopes_are_those_of_the_function(self):
+        self.write("design.py", DESIGN)
+        direction = ",".join(["1"] + ["0"] * 11)
+        options = ["--count", 5, "--evaluator", "python3 design.py", "--direction", direction]
+        figures = self.noise(*options)
+        middle = figures["hub"]["objective"][2]
+        slope = 3 * middle ** (2 / 3)
+        for way in ("fresh", "living", "hub"):
+            self.assertAlmostEqual(figures[way]["slope"][0], slope, delta=1e-8 * abs(slope) + 1e-10)
+            self.assertLess(figures[way]["objective_rms"], 1e-15 + 1e-12 * abs(middle))
+
+    def test_of_a_flow(self):
+        figures = self.noise("--count", 5, "--spacing", 1e-4, "--degree", 2, "--mach", 0.4, "--alpha", 1)
+        for way in ("fresh", "living", "hub"):
+            self.assertKeys(figures[way], "cl_rms cd_rms slope slope_error cl cd")
+            self.assertEqual(figures[way]["not_found"], 0)
+        self.assertLess(figures["hub"]["cl_rms"], 1e-6)
+
+    def test_what_is_no_line_is_refused(self):
+        line = ["noise", "naca:0012", "--mach", 0.4]
+        self.refused("noise", "naca:0012", names="--mach")
+        self.refused(*line, "--evaluator", "true", names="--mach")
+        self.refused(*line, "--count", 4, names="--count")
+        self.refused(*line, "--direction", "1,0", names="--direction")
+        self.refused(*line, "--direction", ",".join(["0"] * 12), names="--direction")
+        self.refused(*line, "--spacing", 1, names="--spacing")
+        self.refused(*line, "-o", "noise.txt", names="noise.txt")
