@@ -19,7 +19,7 @@ LAYERS = [
     {"name": "generate", "headers": ["generate.h"]},
     {"name": "import", "headers": ["import.h"]},
     {"name": "step", "headers": ["remodel.h", "mesh_derivative.h"]},
-    {"name": "transfer", "headers": ["transfer.h"]},
+    {"name": "transfer", "headers": ["transfer.h", "snapshots.h"]},
     {"name": "check", "headers": ["check.h"]},
     {"name": "flow", "headers": ["flow.h", "potential_flow.h"]},
     {"name": "io", "headers": ["io.h", "shape_files.h", "su2_restart.h"]},
