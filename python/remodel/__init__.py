@@ -8,7 +8,8 @@
     print(step.preserved_percent, mesh.points.shape, mesh.check().valid)
 
 Shapes: Airfoil, Domain, catalogue(). Meshes: generate(), import_mesh(), Mesh, FrozenMesh, check(). Steps:
-Mesh.update() returns a Step, Mesh.trial() tries a design. Values carried from mesh to mesh: Transfer.
+Mesh.update() returns a Step, Mesh.trial() tries a design. Values carried from mesh to mesh: Transfer. Flow:
+solve_flow(), LivingFlow, PotentialSolver. Optimisers: optimise(), CMAES.
 
 Lengths are in chords and angles in degrees. Every mesh is constrained Delaunay; a step keeps what it can. Bad
 input raises an Error: ArgumentError, FileError, FormatError or GeometryError, with the place and what was
@@ -23,8 +24,12 @@ from ._core import (
     Changes,
     CheckResult,
     Domain,
+    FlowResult,
     FrozenMesh,
+    LivingFlow,
     Mesh,
+    PotentialFlow,
+    PotentialSolver,
     Step,
     Transfer,
     Trial,
@@ -36,16 +41,21 @@ from ._core import (
     import_mesh,
     read_fields,
     read_frozen,
+    solve_flow,
 )
+from ._designers import CMAES
 from ._errors import ArgumentError, Error, EvaluationFailed, FileError, FormatError, GeometryError, TopologyChanged
 from ._mesh import extend as _extend
+from ._optimise import OptimiseResult, optimise
 
 _extend()
 
 __all__ = [
-    "Airfoil", "ArgumentError", "Changes", "CheckResult", "Domain", "Error", "EvaluationFailed", "FileError",
-    "FormatError", "FrozenMesh", "GeometryError", "Mesh", "Step", "TopologyChanged", "Transfer", "Trial", "Violation",
-    "__version__", "catalogue", "check", "from_meshio", "generate", "import_mesh", "read_fields", "read_frozen",
+    "Airfoil", "ArgumentError", "CMAES", "Changes", "CheckResult", "Domain", "Error", "EvaluationFailed", "FileError",
+    "FlowResult", "FormatError", "FrozenMesh", "GeometryError", "LivingFlow", "Mesh", "OptimiseResult",
+    "PotentialFlow", "PotentialSolver", "Step", "TopologyChanged", "Transfer", "Trial", "Violation", "__version__",
+    "catalogue", "check", "from_meshio", "generate", "import_mesh", "optimise", "read_fields", "read_frozen",
+    "solve_flow",
 ]  # fmt: skip
 
 for _name in __all__:

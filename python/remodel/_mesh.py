@@ -4,7 +4,7 @@ import os
 import tempfile
 
 from . import _bridges, _plot
-from ._core import FrozenMesh, Mesh, Step, Transfer, check
+from ._core import FlowResult, FrozenMesh, Mesh, PotentialFlow, Step, Transfer, check
 from ._errors import ArgumentError
 
 _ARRAYS = {
@@ -72,4 +72,5 @@ def extend():
         kind._repr_svg_ = _svg
     Transfer.matrix = _matrix
     Step.transfer = property(_step_transfer, doc=_step_transfer.__doc__)
+    FlowResult.plot_cp = PotentialFlow.plot_cp = _plot.plot_cp
     Step.plot = _plot.plot_step

@@ -110,3 +110,41 @@ def plot_step(step, ax=None, *, window=None):
     names = [f"{name}: {count}" for name, count in zip(("kept", "moved", "new"), counts)]
     ax.legend(handles=[Patch(facecolor=color, edgecolor="#8d99a6", label=name) for color, name in zip(FATES, names)], loc="upper right")
     return ax
+
+
+def _new_axes(ax):
+    if ax is None:
+        import matplotlib.pyplot as plt
+
+        _, ax = plt.subplots(figsize=(8, 4.5))
+    return ax
+
+
+def plot_history(result, ax=None):
+    ax = _new_axes(ax)
+    evaluation, objective = result.column("evaluation"), result.column("objective")
+    ax.plot(evaluation, np.where(np.isfinite(objective), objective, np.nan), ".", color="#8d99a6", markersize=3, label="objective")
+    ax.plot(evaluation, result.column("best_objective"), color="#d1495b", label="best so far")
+    if np.nanmin(objective) > 0:
+        ax.set_yscale("log")
+    ax.set(xlabel="evaluation", ylabel="objective")
+    ax.legend()
+    return ax
+
+
+def plot_cp(flow, ax=None):
+    """Draws the pressure coefficients along the walls over x, negative ones upwards, with matplotlib."""
+    ax = _new_axes(ax)
+    if hasattr(flow, "mesh"):
+        cp = flow.cp
+        walls = {name: np.unique(edges) for name, edges in flow.mesh.boundaries.items() if name in flow.bodies}
+        lines = {name: (flow.mesh.points[wall, 0], cp[wall]) for name, wall in walls.items()}
+    else:
+        lines = {name: (body["points"][:, 0], body["cp"]) for name, body in flow.bodies.items()}
+    for name, (x, cp) in lines.items():
+        ax.plot(x, cp, ".", markersize=4, label=name)
+    if not ax.yaxis_inverted():
+        ax.invert_yaxis()
+    ax.set(xlabel="x", ylabel="pressure coefficient")
+    ax.legend()
+    return ax

@@ -30,6 +30,11 @@ void add_snapshots(py::module_& module);
 void add_meshes(py::module_& module);
 void add_steps(py::module_& module);
 void add_transfers(py::module_& module);
+void add_derivatives(py::module_& module);
+void add_flows(py::module_& module);
+void add_potential_flows(py::module_& module);
+void add_designers(py::module_& module);
+void add_optimise(py::module_& module);
 
 // Throws Error (argument) unless the array has one dimension.
 std::vector<double> reals(const Reals& values, const char* name);

@@ -2,6 +2,7 @@
 
 #include "bindings.h"
 #include "interrupts.h"
+#include "remodel/mesh_derivative.h"
 
 namespace remodel::python {
 namespace {
@@ -20,9 +21,9 @@ const char* exception_of(ErrorCode code) {
   return "Error";
 }
 
-void raise(const Error& error) {
+void raise(const Error& error, const char* name) {
   try {
-    const py::object type = py::module_::import("remodel._errors").attr(exception_of(error.code()));
+    const py::object type = py::module_::import("remodel._errors").attr(name);
     PyErr_SetObject(type.ptr(),
                     type(py::str(PyUnicode_DecodeUTF8(
                              error.what(), static_cast<py::ssize_t>(std::strlen(error.what())), "replace")))
@@ -60,8 +61,12 @@ void add_errors(py::module_&) {
   py::register_exception_translator([](std::exception_ptr pointer) {
     try {
       if (pointer) std::rethrow_exception(pointer);
+    } catch (const TopologyChanged& error) {
+      raise(error, "TopologyChanged");
     } catch (const Error& error) {
-      raise(error);
+      raise(error, exception_of(error.code()));
+    } catch (const py::cast_error&) {
+      PyErr_SetString(PyExc_TypeError, "found an object of another type, expected one that help() names");
     }
   });
 }

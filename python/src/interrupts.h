@@ -37,7 +37,11 @@ class Interrupts final : public StepObserver {
   }
   // Throws what was kept, if anything. Needs the GIL.
   void rethrow() {
-    if (error_) throw *std::exchange(error_, std::nullopt);
+    raised_ = false;
+    if (!error_) return;
+    py::error_already_set error = std::move(*error_);
+    error_.reset();
+    throw error;
   }
 
  private:

@@ -33,4 +33,9 @@ PYBIND11_MODULE(_core, module) {
   add_meshes(module);
   add_steps(module);
   add_transfers(module);
+  add_derivatives(module);
+  add_flows(module);
+  add_potential_flows(module);
+  add_designers(module);
+  add_optimise(module);
 }

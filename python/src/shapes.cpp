@@ -181,6 +181,8 @@ Domain placed(const py::iterable& list, int points, double radius, int farfield_
     }
     airfoils.push_back(std::move(placed));
   }
+  if (airfoils.empty())
+    throw Error(ErrorCode::argument, "elements", "found none, expected at least one airfoil");
   Domain domain = airfoils_domain(
       airfoils, {.points = points, .farfield_radius = radius, .farfield_points = farfield_points});
   validate(domain);

@@ -1,0 +1,85 @@
+"""CMA-ES in the words of pycma."""
+
+from collections import namedtuple
+
+import numpy as np
+
+from ._core import _Cmaes
+from ._errors import ArgumentError
+
+Result = namedtuple("Result", "xbest fbest evaluations iterations xfavorite sigma")
+
+
+class CMAES:
+    """CMA-ES, asked and told (N. Hansen, arXiv:1604.00772). The same seed gives the same samples everywhere.
+
+        es = remodel.CMAES(x0, 0.05, seed=1)
+        while not es.stop():
+            X = es.ask()
+            es.tell(X, [f(x) for x in X])
+        es.result.xbest
+
+    x0: 1 to 1000 numbers. sigma0: the initial standard deviation of every coordinate. popsize: samples per
+    generation, at least 4; 0 is 4 + floor(3 ln n). maxfevals, tolx: see stop(). Raises ArgumentError. Pickles go on
+    to the same samples.
+    """
+
+    def __init__(self, x0, sigma0, *, seed=1, popsize=0, maxfevals=None, tolx=1e-11):
+        self._state = _Cmaes(np.asarray(x0, dtype=float), sigma0, seed, popsize)
+        self.maxfevals, self.tolx = maxfevals, tolx
+        self.countevals = 0
+        self._best = None, np.inf
+
+    @property
+    def mean(self):
+        """The centre of the distribution."""
+        return self._state.mean
+
+    @property
+    def sigma(self):
+        """The step size."""
+        return self._state.sigma
+
+    @property
+    def popsize(self):
+        """Samples per generation."""
+        return self._state.population
+
+    @property
+    def countiter(self):
+        """Generations so far."""
+        return self._state.generation
+
+    def ask(self, number=None):
+        """A list of samples, popsize of them unless told otherwise. Infeasible ones may be replaced by ask(1)."""
+        count = self.popsize if number is None else number
+        if not isinstance(count, (int, np.integer)) or count < 1:
+            raise ArgumentError(f"number: found {count!r}, expected 1 or more")
+        return [self._state.ask() for _ in range(count)]
+
+    def tell(self, solutions, function_values):
+        """The values of samples, the smaller the better; NaN and infinity rank last. popsize of them make a
+        generation."""
+        solutions, values = list(solutions), [float(value) for value in function_values]
+        if len(solutions) != len(values):
+            raise ArgumentError(f"tell: found {len(solutions)} solutions and {len(values)} values, expected as many of both")
+        for solution, value in zip(solutions, values):
+            solution = np.array(solution, dtype=float)
+            self._state.tell(solution, value)
+            self.countevals += 1
+            if value < self._best[1]:
+                self._best = solution, value
+
+    def stop(self):
+        """Why the search should end: an empty dict as long as it should not."""
+        reasons = {}
+        if self.maxfevals is not None and self.countevals >= self.maxfevals:
+            reasons["maxfevals"] = self.maxfevals
+        if self._state.largest_deviation < self.tolx:
+            reasons["tolx"] = self.tolx
+        return reasons
+
+    @property
+    def result(self):
+        """xbest, fbest, evaluations, iterations, xfavorite (the mean) and sigma."""
+        return Result(*self._best, self.countevals, self.countiter, self.mean, self.sigma)

@@ -1,0 +1,190 @@
+// Compressible flow: solve_flow, LivingFlow and FlowResult.
+
+#include "remodel/flow.h"
+
+#include "bindings.h"
+#include "interrupts.h"
+#include "living.h"
+
+namespace remodel::python {
+namespace {
+
+using FlowPointer = std::shared_ptr<FlowResult>;
+
+FlowConditions conditions_of(double mach, double alpha, const std::optional<double>& cl,
+                             const std::array<double, 2>& reference, double reference_length) {
+  return {.mach = mach,
+          .alpha_deg = alpha,
+          .cl = cl,
+          .reference = {reference[0], reference[1]},
+          .reference_length = reference_length};
+}
+
+FlowOptions options_of(const std::string& farfield, double tolerance, int max_steps, double memory_mb) {
+  return {.farfield = farfield, .tolerance = tolerance, .max_steps = max_steps, .memory_mb = memory_mb};
+}
+
+// A flow knows the mesh that its values are on.
+py::object with_mesh(const FlowPointer& flow, const Snapshot& mesh) {
+  py::object result = py::cast(flow);
+  result.attr("mesh") = std::const_pointer_cast<FrozenMesh>(mesh);
+  return result;
+}
+
+py::object solved(const py::object& mesh, double mach, double alpha, const std::optional<double>& cl,
+                  const std::array<double, 2>& reference, double reference_length,
+                  const std::string& farfield, double tolerance, int max_steps, double memory_mb) {
+  const Snapshot frozen = snapshot_of(mesh);
+  const FlowConditions conditions = conditions_of(mach, alpha, cl, reference, reference_length);
+  FlowOptions options = options_of(farfield, tolerance, max_steps, memory_mb);
+  const FlowPointer flow = interruptible([&](StepObserver& observer) {
+    options.observer = &observer;
+    return std::make_shared<FlowResult>(solve_flow(*frozen, conditions, options));
+  });
+  return with_mesh(flow, frozen);
+}
+
+py::dict dict_of(FlowGradient gradient) {
+  const auto held = std::make_shared<const std::vector<Point>>(std::move(gradient.points));
+  const double* data = held->empty() ? nullptr : &held->front().x;
+  return py::dict("points"_a = view(held, data, {static_cast<py::ssize_t>(held->size()), 2}),
+                  "mach"_a = gradient.mach, "alpha"_a = gradient.alpha_deg, "cl"_a = gradient.cl);
+}
+
+// A LivingFlow that threads may share, with the observer that it keeps for its whole life.
+class Flows {
+ public:
+  explicit Flows(FlowOptions options) : flow_(observed(std::move(options))) {}
+
+  py::object solve(LivingMesh& mesh, double mach, double alpha, const std::optional<double>& cl,
+                   const std::array<double, 2>& reference, double reference_length) {
+    const FlowConditions conditions = conditions_of(mach, alpha, cl, reference, reference_length);
+    const ThreadLock::Held flow_held(lock_);
+    const ThreadLock::Held mesh_held(mesh.lock);
+    FlowPointer result;
+    {
+      py::gil_scoped_release released;
+      result = std::make_shared<FlowResult>(flow_.solve(mesh.mesh, conditions));
+    }
+    interrupts_.rethrow();
+    return with_mesh(result, mesh.freeze());
+  }
+  // Of the last flow: by points of its mesh, and by Mach number and angle.
+  py::dict gradients() {
+    const ThreadLock::Held held(lock_);
+    FlowGradients found;
+    {
+      py::gil_scoped_release released;
+      found = flow_.gradients();
+    }
+    interrupts_.rethrow();
+    return py::dict("cl"_a = dict_of(std::move(found.cl)), "cd"_a = dict_of(std::move(found.cd)),
+                    "cm"_a = dict_of(std::move(found.cm)), "alpha"_a = dict_of(std::move(found.alpha_deg)));
+  }
+  void forget() {
+    const ThreadLock::Held held(lock_);
+    flow_.forget();
+  }
+
+ private:
+  FlowOptions observed(FlowOptions options) {
+    options.observer = &interrupts_;
+    return options;
+  }
+
+  Interrupts interrupts_;
+  ThreadLock lock_;
+  LivingFlow flow_;
+};
+
+py::dict bodies_of(const FlowResult& flow) {
+  py::dict result;
+  for (const FlowBody& body : flow.bodies)
+    result[py::str(body.name)] = py::dict("cl"_a = body.cl, "cd"_a = body.cd, "cm"_a = body.cm);
+  return result;
+}
+
+void add_figures(py::class_<FlowResult, FlowPointer>& type) {
+  type.def_property_readonly("converged", &FlowResult::converged,
+                             "Whether the flow was found; otherwise no coefficient should be used.");
+  type.def_property_readonly("status", [](const FlowResult& f) { return name_of(f.status); });
+  type.def_readonly("reason", &FlowResult::reason, "Why it did not converge; empty if it did.");
+  type.def_property_readonly(
+      "start", [](const FlowResult& f) { return name_of(f.start); },
+      "'cold', 'carried' or 'refactored': what the flow was found from.");
+  type.def_readonly("mach", &FlowResult::mach);
+  type.def_readonly("alpha", &FlowResult::alpha_deg, "The angle of attack, in degrees.");
+  type.def_readonly("cl", &FlowResult::cl, "The lift coefficient of all bodies.");
+  type.def_readonly("cd", &FlowResult::cd, "The drag coefficient of all bodies.");
+  type.def_readonly("cm", &FlowResult::cm, "The moment coefficient, positive nose up.");
+  type.def_property_readonly("bodies", &bodies_of, "The parts of each wall, by name: cl, cd, cm.");
+  type.def_readonly("residual", &FlowResult::residual);
+  type.def_readonly("newton_steps", &FlowResult::newton_steps);
+  type.def_readonly("factorisations", &FlowResult::factorisations);
+  type.def_readonly("krylov_iterations", &FlowResult::krylov_iterations);
+  type.def_readonly("seconds", &FlowResult::seconds);
+  type.def_property_readonly(
+      "history", [](const FlowPointer& f) { return view(f, f->history); },
+      "The residuals, from the first state on.");
+}
+
+void add_result(py::module_& module) {
+  py::class_<FlowResult, FlowPointer> type(
+      module, "FlowResult", py::dynamic_attr(),
+      "A flow: coefficients, and values per point of `mesh` as read-only arrays of shape (n,).");
+  add_figures(type);
+  type.def_property_readonly("density", [](const FlowPointer& f) { return view(f, f->density); });
+  type.def_property_readonly("velocity_x", [](const FlowPointer& f) { return view(f, f->velocity_x); });
+  type.def_property_readonly("velocity_y", [](const FlowPointer& f) { return view(f, f->velocity_y); });
+  type.def_property_readonly("pressure", [](const FlowPointer& f) { return view(f, f->pressure); });
+  type.def_property_readonly("local_mach", [](const FlowResult& f) { return copied(mach_numbers(f)); });
+  type.def_property_readonly(
+      "cp", [](const FlowResult& f) { return copied(pressure_coefficients(f)); }, "Pressure coefficients.");
+  type.def_property_readonly(
+      "entropy", [](const FlowResult& f) { return copied(entropy_errors(f)); },
+      "p / rho**gamma over the stream's, minus 1.");
+  type.def("__repr__", [](const FlowResult& f) {
+    return std::string("FlowResult(") + name_of(f.status) + ", cl=" + std::to_string(f.cl) +
+           ", cd=" + std::to_string(f.cd) + ")";
+  });
+}
+
+constexpr const char* solver_text =
+    R"(Steady compressible flow without friction (Euler, gamma = 1.4) around the walls of a mesh.
+
+mach: 0.01 to 3; alpha: degrees, or where cl is given the angle that the search for this lift begins with;
+reference: the moment's point. tolerance: residual over that of undisturbed flow, 1e-13 to 1e-2. Raises
+ArgumentError; a flow that is not found is a result: FlowResult.converged, .reason. Ctrl-C ends it.
+docs/flow.md has method and sources.)";
+
+}  // namespace
+
+void add_flows(py::module_& module) {
+  add_result(module);
+  const FlowOptions defaults;
+  const std::array<double, 2> quarter = {0.25, 0.0};
+  module.def("solve_flow", &solved, "mesh"_a, py::kw_only(), "mach"_a = 0.5, "alpha"_a = 0.0,
+             "cl"_a = py::none(), "reference"_a = quarter, "reference_length"_a = 1.0,
+             "farfield"_a = "farfield", "tolerance"_a = defaults.tolerance,
+             "max_steps"_a = defaults.max_steps, "memory_mb"_a = defaults.memory_mb, solver_text);
+  py::class_<Flows>(
+      module, "LivingFlow",
+      R"(A flow solver that outlives its mesh: each flow is found from the one before and the factors that are
+still good, whatever update() did to the mesh in between. The result depends on mesh and conditions alone, to
+the tolerance.)")
+      .def(py::init([](const std::string& farfield, double tolerance, int max_steps, double memory_mb) {
+             return std::make_unique<Flows>(options_of(farfield, tolerance, max_steps, memory_mb));
+           }),
+           py::kw_only(), "farfield"_a = "farfield", "tolerance"_a = defaults.tolerance,
+           "max_steps"_a = defaults.max_steps, "memory_mb"_a = defaults.memory_mb)
+      .def("solve", &Flows::solve, "mesh"_a, py::kw_only(), "mach"_a = 0.5, "alpha"_a = 0.0,
+           "cl"_a = py::none(), "reference"_a = quarter, "reference_length"_a = 1.0, solver_text)
+      .def(
+          "gradients", &Flows::gradients,
+          R"(Derivatives of the last flow's cl, cd, cm and alpha, by their adjoint: for each a dict of points, of
+shape (n, 2) (Mesh.vjp() makes derivatives by the airfoil of them), mach, alpha (a degree) and cl (by the lift that
+was given). Raises ArgumentError before the first flow.)")
+      .def("forget", &Flows::forget, "The next flow is found cold.");
+}
+
+}  // namespace remodel::python

@@ -1,0 +1,72 @@
+// Plane potential flow: PotentialSolver and PotentialFlow.
+
+#include "bindings.h"
+#include "remodel/potential_flow.h"
+
+namespace remodel::python {
+namespace {
+
+using PotentialPointer = std::shared_ptr<PotentialFlow>;
+
+// Each body's wall: points of shape (k, 2), vertices and pressure coefficients, and its forces.
+py::dict bodies_of(const PotentialFlow& flow) {
+  py::dict result;
+  for (const BodyFlow& body : flow.bodies) {
+    const auto count = static_cast<py::ssize_t>(body.wall.size());
+    py::array_t<double> points({count, py::ssize_t{2}}), cp(count), speed(count);
+    py::array_t<std::uint32_t> vertices(count);
+    for (py::ssize_t i = 0; i < count; ++i) {
+      const WallValue& value = body.wall[static_cast<std::size_t>(i)];
+      points.mutable_at(i, 0) = value.point.x, points.mutable_at(i, 1) = value.point.y;
+      cp.mutable_at(i) = value.cp, speed.mutable_at(i) = value.speed, vertices.mutable_at(i) = value.vertex;
+    }
+    result[py::str(body.name)] = py::dict("points"_a = points, "vertices"_a = vertices, "cp"_a = cp,
+                                          "speed"_a = speed, "lift"_a = body.lift, "drag"_a = body.drag,
+                                          "moment"_a = body.moment, "circulation"_a = body.circulation);
+  }
+  return result;
+}
+
+}  // namespace
+
+void add_potential_flows(py::module_& module) {
+  py::class_<PotentialFlow, PotentialPointer>(
+      module, "PotentialFlow",
+      "A potential flow; the free stream has speed 1, coefficients are per half chord.")
+      .def_readonly("alpha", &PotentialFlow::alpha_deg, "The angle of attack, in degrees.")
+      .def_readonly("lift", &PotentialFlow::lift, "The lift coefficient of all bodies, by circulation.")
+      .def_readonly("lift_by_pressure", &PotentialFlow::lift_by_pressure)
+      .def_readonly("drag_by_pressure", &PotentialFlow::drag_by_pressure, "An error of the mesh.")
+      .def_readonly("moment", &PotentialFlow::moment)
+      .def_property_readonly("bodies", &bodies_of,
+                             "By name: points, vertices, cp and speed along the wall; lift, drag, moment.")
+      .def_property_readonly("stream_function",
+                             [](const PotentialPointer& f) { return view(f, f->stream_function); })
+      .def_property_readonly("velocity",
+                             [](const PotentialPointer& f) {
+                               return view(f, f->velocity.empty() ? nullptr : &f->velocity.front().x,
+                                           {static_cast<py::ssize_t>(f->velocity.size()), 2});
+                             })
+      .def_property_readonly("cp", [](const PotentialFlow& f) {
+        std::vector<double> cp;
+        for (const Point v : f.velocity) cp.push_back(1.0 - dot(v, v));
+        return copied(cp);
+      });
+  py::class_<PotentialSolver>(
+      module, "PotentialSolver",
+      R"(Plane potential flow around the bodies of a mesh, by one factorisation: lift and pressures in
+milliseconds, without drag. Raises ArgumentError. docs/potential_flow.md has method and figures.)")
+      .def(py::init([](const py::object& mesh, const std::string& farfield) {
+             const Snapshot frozen = snapshot_of(mesh);
+             py::gil_scoped_release released;
+             return std::make_unique<PotentialSolver>(*frozen, PotentialOptions{.farfield = farfield});
+           }),
+           "mesh"_a, py::kw_only(), "farfield"_a = "farfield")
+      .def(
+          "at",
+          [](const PotentialSolver& s, double alpha) { return std::make_shared<PotentialFlow>(s.at(alpha)); },
+          "alpha"_a, "The flow at an angle, -90 to 90 degrees.")
+      .def("alpha_for", &PotentialSolver::alpha_deg_for, "lift"_a, "The angle with that lift, in degrees.");
+}
+
+}  // namespace remodel::python

@@ -1,0 +1,78 @@
+import os
+import signal
+import threading
+
+import numpy as np
+import pytest
+import remodel
+
+
+@pytest.fixture(scope="module")
+def flowing():
+    airfoil = remodel.Airfoil("naca:0012")
+    return airfoil, remodel.generate(airfoil, points=60)
+
+
+def test_a_flow_has_coefficients_and_fields(flowing):
+    _, mesh = flowing
+    flow = remodel.solve_flow(mesh, mach=0.5, alpha=1.25)
+    assert flow.converged and flow.status == "converged" and flow.reason == ""
+    assert 0.1 < flow.cl < 0.25 and abs(flow.cd) < 0.01
+    assert abs(flow.bodies["airfoil"]["cl"] - flow.cl) < 1e-14
+    for values in (flow.density, flow.pressure, flow.velocity_x, flow.cp, flow.local_mach, flow.entropy):
+        assert values.shape == (len(mesh.points),) and np.all(np.isfinite(values))
+    assert not flow.density.flags.writeable and flow.history[-1] <= 1e-10
+    assert np.array_equal(flow.mesh.points, mesh.points)
+
+
+def test_a_living_flow_goes_on_over_steps(flowing):
+    airfoil, mesh = flowing
+    mesh, solver = mesh.copy(), remodel.LivingFlow()
+    for scale in (1.0, 1.01, 1.02):
+        mesh.update(airfoil.with_design(airfoil.design * scale))
+        flow = solver.solve(mesh, mach=0.5, alpha=1.25)
+        cold = remodel.solve_flow(mesh, mach=0.5, alpha=1.25)
+        assert flow.converged and abs(flow.cl - cold.cl) < 1e-7
+    assert flow.start != "cold"
+    solver.forget()
+    assert solver.solve(mesh, mach=0.5, alpha=1.25).start == "cold"
+
+
+def test_the_angle_of_a_lift_is_found(flowing):
+    flow = remodel.solve_flow(flowing[1], mach=0.5, cl=0.3)
+    assert abs(flow.cl - 0.3) < 1e-8 and flow.alpha > 1
+
+
+def test_potential_flow(flowing):
+    _, mesh = flowing
+    solver = remodel.PotentialSolver(mesh)
+    flow = solver.at(2.0)
+    assert abs(flow.lift - 2 * np.pi * np.radians(2.0)) < 0.04
+    assert abs(solver.alpha_for(flow.lift) - 2.0) < 1e-9
+    wall = flow.bodies["airfoil"]
+    assert np.allclose(mesh.points[wall["vertices"]], wall["points"])
+    assert flow.velocity.shape == (len(mesh.points), 2) and flow.cp.max() < 1.1
+
+
+def test_conditions_out_of_range_are_errors(flowing):
+    _, mesh = flowing
+    for wrong in (dict(mach=-1), dict(mach=np.nan), dict(alpha=1e9), dict(farfield="nobody"), dict(tolerance=1.0), dict(reference_length=0.0)):
+        with pytest.raises(remodel.ArgumentError):
+            remodel.solve_flow(mesh, **wrong)
+    with pytest.raises(remodel.ArgumentError):
+        remodel.PotentialSolver(mesh).at(1000.0)
+
+
+def test_a_limit_is_in_the_result(flowing):
+    flow = remodel.solve_flow(flowing[1], mach=0.5, max_steps=1)
+    assert not flow.converged and flow.status == "step-limit" and flow.reason
+
+
+def test_ctrl_c_ends_a_flow():
+    mesh = remodel.generate("naca:0012", points=100, gradation=3)
+    timer = threading.Timer(0.05, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        for _ in range(100):
+            remodel.solve_flow(mesh, mach=0.5, alpha=1.25)
+    timer.join()
