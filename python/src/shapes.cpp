@@ -1,5 +1,6 @@
 // Airfoil and Domain.
 
+#include <algorithm>
 #include <cmath>
 
 #include <pybind11/operators.h>
@@ -9,6 +10,15 @@
 
 namespace remodel::python {
 namespace {
+
+void require_finite(const CstAirfoil& airfoil) {
+  const auto finite = [](const std::vector<double>& values) {
+    return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  };
+  if (!finite(airfoil.upper) || !finite(airfoil.lower) || !std::isfinite(airfoil.te_upper) ||
+      !std::isfinite(airfoil.te_lower) || !std::isfinite(airfoil.e1) || !std::isfinite(airfoil.e2))
+    throw Error(ErrorCode::argument, "Airfoil", "found what is not finite, expected numbers");
+}
 
 CstAirfoil cst_airfoil(const Reals& upper, const Reals& lower, double e1, double e2, double te_upper,
                        double te_lower) {
@@ -23,7 +33,7 @@ CstAirfoil cst_airfoil(const Reals& upper, const Reals& lower, double e1, double
                 "found " + std::to_string(airfoil.upper.size()) + " and " +
                     std::to_string(airfoil.lower.size()) +
                     " coefficients, expected as many of both, 2 to 51");
-  airfoil_to_json(airfoil);  // refuses what is not finite
+  require_finite(airfoil);
   if (!(e1 > 0.0 && e2 > 0.0))
     throw Error(ErrorCode::argument, "e1, e2", "expected positive class exponents");
   return airfoil;
@@ -97,7 +107,7 @@ ArgumentError.)");
         const auto middle = all.begin() + static_cast<std::ptrdiff_t>(a.upper.size());
         result.upper.assign(all.begin(), middle);
         result.lower.assign(middle, all.end());
-        airfoil_to_json(result);
+        require_finite(result);
         return result;
       },
       "design"_a, "The same airfoil with other coefficients, in the order of `design`.");
