@@ -30,6 +30,7 @@ void add_check_command(CLI::App& program, Action& action);
 void add_fit_command(CLI::App& program, Action& action);
 void add_flow_command(CLI::App& program, Action& action);
 void add_optimise_command(CLI::App& program, Action& action);
+void add_design_command(CLI::App& program, Action& action);
 void add_draw_command(CLI::App& program, Action& action);
 void add_film_command(CLI::App& program, Action& action);
 void add_noise_command(CLI::App& program, Action& action);

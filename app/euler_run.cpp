@@ -10,6 +10,7 @@
 #include "remodel/error.h"
 #include "remodel/generate.h"
 #include "remodel/io.h"
+#include "remodel/mesh_derivative.h"
 #include "remodel/remodel.h"
 #include "report.h"
 
@@ -163,12 +164,38 @@ void add_euler_options(CLI::App& app, EulerRun& run) {
             "JSON array of airfoils: the mesh is remodelled to one after the other, each flow found from the "
             "last"},
            Presence::optional, run.series);
+  add_flag(
+      app, "--gradient",
+      "Also derivatives of the coefficients by the shape's numbers, the Mach number and the angle (or lift)",
+      run.gradient);
   add_choice(app,
              {"--compare", "WITH", "nothing",
               "With --series: also solve each design on a fresh mesh, cold or (rival) from the flow before"},
              {"cold", "rival"},
              [&](std::size_t choice) { run.compare = choice == 0 ? Compare::cold : Compare::rival; });
 }
+
+namespace {
+
+// Derivatives by coefficients_of() the mesh's domain, the Mach number and what is given of angle and lift.
+Json gradients_json(LivingFlow& living, const Mesh& mesh, const FlowConditions& conditions) {
+  const FlowGradients gradients = living.gradients();
+  const MeshDerivative derivative(mesh);
+  Json json = Json::object();
+  const auto note = [&](const char* name, const FlowGradient& gradient) {
+    json[name] = {{"coefficients", derivative.vjp(gradient.points)}, {"mach", gradient.mach}};
+    if (conditions.cl)
+      json[name]["cl"] = gradient.cl;
+    else
+      json[name]["alpha_deg"] = gradient.alpha_deg;
+  };
+  note("cl", gradients.cl), note("cd", gradients.cd), note("cm", gradients.cm);
+  if (conditions.cl) note("alpha_deg", gradients.alpha_deg);
+  json["seconds"] = gradients.seconds;
+  return json;
+}
+
+}  // namespace
 
 Status run_euler(const EulerRun& run, const MeshInput& input, const std::string& source,
                  const MeshOutputs& outputs) {
@@ -178,7 +205,13 @@ Status run_euler(const EulerRun& run, const MeshInput& input, const std::string&
   InterruptObserver observer;
   FlowOptions options = run.options;
   options.observer = &observer;
-  const FlowResult flow = solve_flow(input.frozen, run.conditions, options, source);
+  if (run.gradient && !input.living)
+    throw Error(ErrorCode::argument, "--gradient",
+                "given with the mesh of another program, expected a shape or a native mesh, whose curves are "
+                "known");
+  LivingFlow living(options);
+  const FlowResult flow = run.gradient ? living.solve(*input.living, run.conditions)
+                                       : solve_flow(input.frozen, run.conditions, options, source);
   std::vector<std::string> files;
   if (!flow.converged()) {
     warn(source, flow);
@@ -199,6 +232,12 @@ Status run_euler(const EulerRun& run, const MeshInput& input, const std::string&
   report.figure("triangles", "triangles", input.frozen.triangles.size());
   report.figure("vertices", "vertices", input.frozen.points.size());
   add_flow_figures(report, flow);
+  if (run.gradient && flow.converged()) {
+    const Json gradients = gradients_json(living, *input.living, run.conditions);
+    report.data("gradient", gradients);
+    report.line("gradient of CD", gradients["cd"].dump());
+    report.line("gradient of CL", gradients["cl"].dump());
+  }
   if (flow.converged()) add_output_figures(report, files);
   report.print(run.json);
   return status_of(flow);
@@ -206,6 +245,8 @@ Status run_euler(const EulerRun& run, const MeshInput& input, const std::string&
 
 Status run_series(const EulerRun& run, StartMesh start) {
   require_mach(run);
+  if (run.gradient)
+    throw Error(ErrorCode::argument, "--gradient", "given with --series, expected a single flow");
   const std::vector<CstAirfoil> airfoils = read_series(run.series);
   std::vector<Domain> domains;
   for (std::size_t i = 0; i < airfoils.size(); ++i) {

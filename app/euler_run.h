@@ -21,10 +21,13 @@ struct EulerRun {
   std::string series;   // a file; none if it is empty
   std::string cp_plot;  // likewise
   Compare compare = Compare::none;
+  bool gradient = false;  // of the coefficients, by the numbers of the mesh's domain
   bool json = false;
 };
 
-// --mach, --tolerance, --max-steps, --memory, --limiter, --reference, --reference-length, --series, --compare.
+// --mach, --tolerance, --max-steps, --memory, --limiter, --reference, --reference-length, --series,
+// --compare,
+// --gradient.
 void add_euler_options(CLI::App& app, EulerRun& run);
 
 // Solves, writes and reports; nothing is written where no flow is found.

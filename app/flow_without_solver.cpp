@@ -1,5 +1,5 @@
-// The program remodel-mpi has no `flow` and no `noise`: the sequential MUMPS brings a stand-in for MPI that must not meet
-// the real one.
+// The program remodel-mpi has no `flow`, `design` and `noise`: the sequential MUMPS brings a stand-in for MPI
+// that must not meet the real one.
 
 #include "command.h"
 
@@ -7,5 +7,6 @@ namespace remodel::app {
 
 void add_flow_command(CLI::App&, Action&) {}
 void add_noise_command(CLI::App&, Action&) {}
+void add_design_command(CLI::App&, Action&) {}
 
 }  // namespace remodel::app

@@ -1,0 +1,253 @@
+#include "design_problem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include "gradient_designer.h"
+#include "remodel/error.h"
+#include "remodel/io.h"
+#include "remodel/shape_files.h"
+
+namespace remodel::app {
+
+namespace {
+
+// A JSON object of which every key has to be known.
+class Keys {
+ public:
+  Keys(const Json& object, std::string where, std::initializer_list<const char*> known)
+      : object_(object), where_(std::move(where)) {
+    if (!object.is_object()) fail("found " + std::string(object.type_name()) + ", expected an object");
+    for (const auto& [key, value] : object.items())
+      if (std::find(known.begin(), known.end(), key) == known.end()) {
+        std::string names;
+        for (const char* name : known) names += (names.empty() ? "" : ", ") + std::string(name);
+        fail("found the key '" + key + "', expected " + names);
+      }
+  }
+  bool has(const char* key) const { return object_.contains(key); }
+  template <class T>
+  T get(const char* key, std::optional<T> fallback = {}) const {
+    if (!has(key) && fallback) return *fallback;
+    if (!has(key)) fail("the key '" + std::string(key) + "' is missing");
+    try {
+      return object_.at(key).get<T>();
+    } catch (const Json::exception&) {
+      fail("found " + object_.at(key).dump() + " as '" + key + "', expected another kind of value");
+    }
+  }
+  double number(const char* key, std::optional<double> fallback, double low, double high) const {
+    const double value = get<double>(key, fallback);
+    if (!(value >= low && value <= high))
+      fail("found " + Json(value).dump() + " as '" + key + "', expected " + Json(low).dump() + " to " +
+           Json(high).dump());
+    return value;
+  }
+  std::string word(const char* key, std::optional<std::string> fallback,
+                   std::initializer_list<const char*> words) const {
+    const std::string value = get<std::string>(key, fallback);
+    if (std::find(words.begin(), words.end(), value) == words.end()) {
+      std::string names;
+      for (const char* name : words) names += (names.empty() ? "" : ", ") + std::string(name);
+      fail("found '" + value + "' as '" + key + "', expected " + names);
+    }
+    return value;
+  }
+  Json list(const char* key) const {
+    if (!has(key)) return Json::array();
+    if (!object_.at(key).is_array()) fail("expected an array as '" + std::string(key) + "'");
+    return object_.at(key);
+  }
+  [[noreturn]] void fail(const std::string& problem) const {
+    throw Error(ErrorCode::format, where_, problem);
+  }
+
+ private:
+  const Json& object_;
+  std::string where_;
+};
+
+// t of the upper surface at this x; the lower one has it at 1 - t.
+double parameter_at(double x) {
+  return std::acos(2.0 * x - 1.0) / (2.0 * M_PI);
+}
+
+// Adds factor times the height of a surface at x to a row.
+void add_height(const CstAirfoil& like, double x, bool upper, double factor, SectionConstraint& constraint) {
+  const std::size_t n = like.upper.size();
+  std::vector<double> row(n);
+  const double t = parameter_at(x);
+  const CstStation at = cst_basis(upper ? t : 1.0 - t, like.degree(), like.e1, like.e2, row);
+  constraint.row.resize(2 * n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) constraint.row[(upper ? 0 : n) + i] += factor * row[i];
+  constraint.bound -= factor * at.x * (upper ? like.te_upper : like.te_lower);
+}
+
+double height(const CstAirfoil& airfoil, double x, bool upper) {
+  const double t = parameter_at(x);
+  return airfoil.at(upper ? t : 1.0 - t).y;
+}
+
+// The area between both surfaces by the trapezoidal rule in t, which is exact to rounding for these sections.
+SectionConstraint area(const CstAirfoil& like) {
+  constexpr int pieces = 400;
+  SectionConstraint sum;
+  for (int i = 1; i < pieces; ++i) {
+    const double angle = M_PI * i / pieces, x = 0.5 * (1.0 + std::cos(angle));
+    const double width = 0.5 * std::sin(angle) * M_PI / pieces;
+    add_height(like, x, true, width, sum), add_height(like, x, false, -width, sum);
+  }
+  return sum;
+}
+
+double value_of(const SectionConstraint& function, const CstAirfoil& airfoil) {
+  double sum = 0.0;
+  const std::size_t n = airfoil.upper.size();
+  for (std::size_t i = 0; i < n; ++i)
+    sum += function.row[i] * airfoil.upper[i] + function.row[n + i] * airfoil.lower[i];
+  return sum - function.bound;
+}
+
+void add_constraint(const Json& entry, const std::string& where, DesignProblemFile& problem) {
+  const Keys keys(entry, where, {"kind", "point", "at_least", "at_most", "of_start", "x", "airfoil"});
+  const std::string kind = keys.word("kind", {}, {"lift", "moment", "drag", "area", "thickness", "contains"});
+  if (kind == "contains") {
+    const CstAirfoil inner = raise_degree(
+        load_airfoil(keys.get<std::string>("airfoil"), problem.start.degree()), problem.start.degree());
+    constexpr int stations = 40;
+    for (int i = 1; i < stations; ++i)
+      for (const bool upper : {true, false}) {
+        if (problem.symmetric && !upper) continue;
+        const double x = 0.5 * (1.0 + std::cos(M_PI * i / stations)), sign = upper ? 1.0 : -1.0;
+        SectionConstraint constraint{.row = {}, .bound = sign * height(inner, x, upper)};
+        add_height(problem.start, x, upper, sign, constraint);
+        problem.section.push_back(std::move(constraint));
+      }
+    return;
+  }
+  if (kind == "area" || kind == "thickness") {
+    std::vector<SectionConstraint> functions;
+    if (kind == "area") functions.push_back(area(problem.start));
+    for (const double x : kind == "thickness" ? keys.get<std::vector<double>>("x") : std::vector<double>()) {
+      if (!(x > 0.0 && x < 1.0)) keys.fail("found " + Json(x).dump() + " in 'x', expected 0 to 1");
+      functions.emplace_back();
+      add_height(problem.start, x, true, 1.0, functions.back());
+      add_height(problem.start, x, false, -1.0, functions.back());
+    }
+    for (SectionConstraint& function : functions) {
+      const double least = keys.has("of_start")
+                               ? keys.number("of_start", {}, 0.0, 10.0) * value_of(function, problem.start)
+                               : keys.number("at_least", {}, 0.0, 10.0);
+      function.bound += least;
+      problem.section.push_back(std::move(function));
+    }
+    return;
+  }
+  FlowConstraint constraint{.of = kind == "lift"   ? "cl"
+                                  : kind == "drag" ? "cd"
+                                                   : "cm",
+                            .point = keys.get<std::size_t>("point", std::size_t{0})};
+  if (constraint.point >= problem.points.size()) keys.fail("found a 'point' that there is not");
+  if (keys.has("at_least") == keys.has("at_most")) keys.fail("expected one of at_least and at_most");
+  constraint.sign = keys.has("at_most") ? 1.0 : -1.0;
+  constraint.value = keys.number(keys.has("at_most") ? "at_most" : "at_least", {}, -100.0, 100.0);
+  problem.flow.push_back(constraint);
+}
+
+DesignPoint point_of(const Json& entry, const std::string& where) {
+  const Keys keys(entry, where, {"mach", "alpha_deg", "cl", "weight"});
+  DesignPoint point;
+  point.conditions.mach = keys.number("mach", {}, 0.01, 3.0);
+  point.conditions.alpha_deg = keys.number("alpha_deg", 0.0, -90.0, 90.0);
+  if (keys.has("cl")) point.conditions.cl = keys.number("cl", {}, -10.0, 10.0);
+  point.weight = keys.number("weight", 1.0, 0.0, 1e6);
+  return point;
+}
+
+}  // namespace
+
+DesignProblemFile read_design_problem(const std::string& file) {
+  DesignProblemFile problem;
+  Json json;
+  try {
+    json = Json::parse(read_text(file));
+  } catch (const Json::exception&) {
+    throw Error(ErrorCode::format, file, "found no JSON, expected a design problem");
+  }
+  const Keys keys(json, file,
+                  {"airfoil", "degree", "symmetric", "mesh", "flow", "objective", "target", "constraints",
+                   "designer", "verify"});
+  problem.text = json.dump();
+  const int degree = static_cast<int>(keys.number("degree", 5, 1, 30));
+  problem.start = raise_degree(load_airfoil(keys.get<std::string>("airfoil"), std::min(degree, 8)), degree);
+  problem.symmetric = keys.get<bool>("symmetric", false);
+  if (problem.symmetric)
+    for (std::size_t i = 0; i < problem.start.upper.size(); ++i)
+      problem.start.lower[i] = -problem.start.upper[i];
+  const Json empty = Json::object();
+  const Json mesh_json = keys.has("mesh") ? json.at("mesh") : empty;
+  const Keys mesh(mesh_json, file + ", mesh", {"points", "gradation", "farfield_radius"});
+  problem.domain.points = static_cast<int>(mesh.number("points", 100, 8, 100000));
+  problem.domain.farfield_radius = mesh.number("farfield_radius", 25, 2, 1e6);
+  problem.gradation = mesh.number("gradation", problem.domain.points / 50.0, 0.1, 1000);
+  for (const Json& entry : keys.list("flow"))
+    problem.points.push_back(point_of(entry, file + ", flow " + std::to_string(problem.points.size() + 1)));
+  if (problem.points.empty()) keys.fail("expected at least one point of 'flow'");
+  problem.objective = keys.word("objective", {}, {"drag", "lift_over_drag", "moment", "inverse"});
+  if (problem.objective == "inverse")
+    problem.target = raise_degree(load_airfoil(keys.get<std::string>("target"), std::min(degree, 8)), degree);
+  std::size_t number = 0;
+  for (const Json& entry : keys.list("constraints"))
+    add_constraint(entry, file + ", constraint " + std::to_string(++number), problem);
+  const Json designer_json = keys.has("designer") ? json.at("designer") : empty;
+  const Keys designer(designer_json, file + ", designer",
+                      {"name", "evaluations", "bounds", "trust", "sigma", "seed"});
+  problem.designer = designer.word("name", "slsqp", {"slsqp", "mma", "cmaes"});
+  problem.evaluations = static_cast<std::size_t>(designer.number("evaluations", 100, 1, 1e6));
+  problem.bounds = designer.number("bounds", 0.1, 1e-9, 10);
+  problem.trust = designer.number("trust", 0.02, 1e-6, 10);
+  problem.sigma = designer.number("sigma", 0.01, 1e-9, 10);
+  problem.seed = designer.get<std::uint64_t>("seed", std::uint64_t{1});
+  problem.verify = keys.get<std::vector<int>>("verify", std::vector<int>{});
+  return problem;
+}
+
+std::vector<double> SectionSpace::coefficients(std::span<const double> design) const {
+  std::vector<double> both(design.begin(), design.end());
+  if (problem_.symmetric)
+    for (const double x : design) both.push_back(-x);
+  return both;
+}
+
+std::vector<double> SectionSpace::gradient(std::span<const double> by_coefficients) const {
+  const std::size_t n = problem_.start.upper.size();
+  std::vector<double> result(by_coefficients.begin(),
+                             by_coefficients.begin() + static_cast<std::ptrdiff_t>(2 * n));
+  if (!problem_.symmetric) return result;
+  for (std::size_t i = 0; i < n; ++i) result[i] -= result[n + i];
+  result.resize(n);
+  return result;
+}
+
+std::vector<double> SectionSpace::start() const {
+  std::vector<double> both = space_.start();
+  if (problem_.symmetric) both.resize(problem_.start.upper.size());
+  return both;
+}
+
+std::string SectionSpace::description() const {
+  return Json{{"problem", Json::parse(problem_.text)}, {"space", Json::parse(space_.description())}}.dump();
+}
+
+std::unique_ptr<Designer> make_designer(const DesignProblemFile& problem, const DesignSpace& space) {
+  const std::vector<double> start = space.start();
+  if (problem.designer == "cmaes")
+    return std::make_unique<CmaesDesigner>(start, CmaesOptions{.sigma = problem.sigma, .seed = problem.seed});
+  GradientOptions options{.method = problem.designer, .trust = problem.trust, .low = start, .high = start};
+  for (double& x : options.low) x -= problem.bounds;
+  for (double& x : options.high) x += problem.bounds;
+  return std::make_unique<GradientDesigner>(start, options);
+}
+
+}  // namespace remodel::app
