@@ -37,9 +37,10 @@ endif()
 if(TARGET remodel_python)
   debian_package(python python3-remodel python
                  "The library as a Python package: meshes as numpy arrays, in memory, from design to design.")
-  math(EXPR next "${Python_VERSION_MINOR} + 1")
+  get_property(minor GLOBAL PROPERTY REMODEL_PYTHON_MINOR)
+  math(EXPR next "${minor} + 1")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-      "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next}), python3-numpy")
+      "python3 (>= 3.${minor}), python3 (<< 3.${next}), python3-numpy")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, python3-scipy")
 endif()
 debian_package(development libremodel-dev libdevel

@@ -43,6 +43,9 @@ def check_fields(packages):
     expect("openmpi" not in depends["remodel"], f"remodel depends on '{depends['remodel']}', expected no MPI")
     for library in ("libhdf5-dev", "libsqlite3-dev", "libcairo2-dev"):
         expect(library in depends["libremodel-dev"], f"libremodel-dev does not depend on {library}")
+    if "python3-remodel" in packages:
+        wanted = r"python3 \(>= 3\.\d+\), python3 \(<< 3\.\d+\), python3-numpy"
+        expect(re.search(wanted, depends["python3-remodel"]), f"python3-remodel depends on '{depends['python3-remodel']}'")
     if "remodel-mpi" in packages:
         expect("openmpi" in depends["remodel-mpi"], f"remodel-mpi depends on '{depends['remodel-mpi']}', expected MPI")
 
