@@ -40,6 +40,7 @@ struct BatchCommand {
   std::optional<std::string> meshes;  // extension of the files to write
   FitOptions fit;
   RemodelOptions remodelling;
+  bool inner_markers = false;
   bool overwrite = false;
   bool json = false;
 };
@@ -155,7 +156,8 @@ class Batch {
     if (!broken.empty()) entry["detail"] = broken;
     if (command_.meshes) {
       const std::string file = file_of(index + 1, *command_.meshes);
-      write_mesh(mesh_, command_.directory / file);
+      write_mesh(mesh_, command_.directory / file,
+                 {.inner = command_.inner_markers ? InnerCurves::markers : InnerCurves::left_out});
       entry["mesh"] = file;
     }
     designs_[index] = std::move(entry);
@@ -200,6 +202,9 @@ Status run(const BatchCommand& command) {
   require_directory(command);  // another batch may have ended there meanwhile
   for (const std::filesystem::path& file : files_of_a_batch(command.directory)) std::filesystem::remove(file);
 
+  if (command.meshes == "su2" && !command.inner_markers)
+    warn_of_inner_curves(start.mesh.freeze(), (command.directory / "*.su2").string(),
+                         "--inner-markers writes it");
   const InterruptFlag interrupt;
   Batch batch(command, start.mesh);
   bool finished = true;
@@ -244,6 +249,9 @@ void add_batch_command(CLI::App& program, Action& action) {
               "Also write the mesh of each design as DIR/001.FORMAT and so on: vtkhdf, su2, msh or vtu"},
              {mesh_extensions.begin(), mesh_extensions.end()},
              [command](std::size_t choice) { command->meshes = mesh_extensions[choice]; });
+  add_flag(app, "--inner-markers",
+           "Write curves inside the mesh as markers of .su2 files too, where SU2 takes them for walls",
+           command->inner_markers);
   add_flag(app, "--overwrite", "Replace the batch that the directory holds", command->overwrite);
   add_fit_options(app, command->fit);
   add_remodel_options(app, command->remodelling);

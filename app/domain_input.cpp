@@ -13,10 +13,6 @@
 namespace remodel::app {
 namespace {
 
-bool is_graph_file(const std::string& shape) {
-  return std::filesystem::path(shape).extension() == ".poly";
-}
-
 bool is_domain_file(const std::string& shape) {
   const std::filesystem::path file(shape);
   return (file.extension() == ".json" || is_pipe(file)) && holds_domain(file);
@@ -97,14 +93,14 @@ void add_domain_input(CLI::App& app, DomainInputOptions& options) {
 
 bool is_single_airfoil(const DomainInputOptions& options) {
   return options.shapes.size() == 1 && options.places.empty() && !options.as_given &&
-         !is_graph_file(options.shapes[0]) && !is_domain_file(options.shapes[0]);
+         !holds_graph(options.shapes[0]) && !is_domain_file(options.shapes[0]);
 }
 
 DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOptions& discretisation,
                         const FitOptions& fit) {
   DomainInput input;
   for (const std::string& shape : options.shapes) {
-    if (is_graph_file(shape)) {
+    if (holds_graph(shape)) {
       require_alone(options, shape);
       input.findings.emplace();
       input.domain = planar_domain(read_poly(shape), shape, options.crossings, &*input.findings);

@@ -227,10 +227,7 @@ Status run_euler(const EulerRun& run, const MeshInput& input, const std::string&
   }
 
   Report report;
-  report.figure("mesh", "mesh", source);
-  report.data("model", "euler");
-  report.figure("triangles", "triangles", input.frozen.triangles.size());
-  report.figure("vertices", "vertices", input.frozen.points.size());
+  add_flow_mesh(report, source, "euler", input.frozen);
   add_flow_figures(report, flow);
   if (run.gradient && flow.converged()) {
     const Json gradients = gradients_json(living, *input.living, run.conditions);
@@ -287,7 +284,7 @@ Status run_series(const EulerRun& run, StartMesh start) {
     if (!flow.converged() && worst == Status::done) worst = status_of(flow);
   }
   Report report;
-  report.line("input", start.source);
+  report.figure("mesh", "mesh", start.source);
   report.data("model", "euler");
   report.figure("flows", "flows", designs.size());
   report.figure("not_converged", "flows that were not found", not_found);

@@ -57,4 +57,11 @@ void add_output_figures(Report& report, const std::vector<std::string>& files) {
   for (const std::string& file : files) report.line("written", file);
 }
 
+void add_flow_mesh(Report& report, const std::string& source, const char* model, const FrozenMesh& mesh) {
+  report.figure("mesh", "mesh", source);
+  report.data("model", model);
+  report.figure("triangles", "triangles", mesh.triangles.size());
+  report.figure("vertices", "vertices", mesh.points.size());
+}
+
 }  // namespace remodel::app

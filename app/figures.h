@@ -34,4 +34,7 @@ void add_exemption_figures(Report& report, std::size_t exempt, double min_held_a
 void add_boundary_figures(Report& report, const std::map<std::string, std::size_t>& boundary);
 void add_output_figures(Report& report, const std::vector<std::string>& files);
 
+// What a flow was solved on: the mesh's source and size, and the model.
+void add_flow_mesh(Report& report, const std::string& source, const char* model, const FrozenMesh& mesh);
+
 }  // namespace remodel::app

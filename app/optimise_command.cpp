@@ -149,6 +149,11 @@ Status run(OptimiseCommand& command) {
   const OptimiseStart start = read_start(command.start, command.meshing, command.run);
   const Json options = options_json(command);
   Progress progress(progress_style(command.quiet), command.run.evaluations, "options: " + options.dump());
+  if (!command.evaluator.empty() && command.run.start)
+    progress.say_at_first([&] {
+      warn_of_inner_curves(command.run.start->mesh.freeze(), "mesh.su2 of the evaluator",
+                           "no marker of its is a curve inside the mesh");
+    });
   const OptimiseResult result = run_repeatedly(command, once(command, start, progress));
   progress.finish();
 

@@ -29,6 +29,13 @@ void require_writable(const std::filesystem::path& given) {
   }
 }
 
+// What is missing in a file is said: whoever needs it there asks for it.
+void warn_of_inner_curves(const FrozenMesh& mesh, const std::string& file, const std::string& remedy) {
+  for (const std::string& name : inner_curves(mesh))
+    std::fprintf(stderr, "remodel: %s: inner curve '%s' left out, which SU2 would take for a wall (%s)\n",
+                 file.c_str(), name.c_str(), remedy.c_str());
+}
+
 void MeshOutputs::add_options(CLI::App& app, Presence presence) {
   add_texts(app,
             {"-o,--output", "MESH", "",
@@ -52,27 +59,20 @@ void MeshOutputs::require_possible() const {
   }
 }
 
-// What is missing in a file is said: whoever needs it there asks for it.
-void MeshOutputs::warn_of_inner_curves(const FrozenMesh& mesh, const std::string& file) const {
-  if (inner_markers_) return;
-  for (const std::string& name : inner_curves(mesh))
-    std::fprintf(stderr,
-                 "remodel: %s: inner curve '%s' left out, which SU2 would take for a wall "
-                 "(--inner-markers writes it)\n",
-                 file.c_str(), name.c_str());
-}
-
 template <class AnyMesh>
 void MeshOutputs::write_each(const AnyMesh& mesh, std::span<const Field> fields) const {
+  const auto warn = [&](const FrozenMesh& frozen, const std::string& file) {
+    if (!inner_markers_) warn_of_inner_curves(frozen, file, "--inner-markers writes it");
+  };
   for (const std::string& file : files_) {
     WriteOptions options = options_;
     if (inner_markers_) options.inner = InnerCurves::markers;
     if (mesh_format(file) != MeshFormat::su2)
       options.fields = fields;
     else if constexpr (std::is_same_v<AnyMesh, Mesh>)
-      warn_of_inner_curves(mesh.freeze(), file);
+      warn(mesh.freeze(), file);
     else
-      warn_of_inner_curves(mesh, file);
+      warn(mesh, file);
     write_mesh(mesh, file, options);
   }
 }

@@ -31,13 +31,14 @@ class MeshOutputs {
  private:
   template <class AnyMesh>
   void write_each(const AnyMesh& mesh, std::span<const Field> fields) const;
-  void warn_of_inner_curves(const FrozenMesh& mesh, const std::string& file) const;
 
   std::vector<std::string> files_;
   bool inner_markers_ = false;
   WriteOptions options_;
 };
 
+// Says on standard error which curves inside the mesh a .su2 file leaves out, and how to have them there.
+void warn_of_inner_curves(const FrozenMesh& mesh, const std::string& file, const std::string& remedy);
 // Throws Error (file) if the file is a directory, or its directory is missing or not writable.
 void require_writable(const std::filesystem::path& file);
 

@@ -54,10 +54,7 @@ void run_potential(const PotentialRun& run, const MeshInput& input, const std::s
     files.push_back(run.cp_plot);
   }
   Report report;
-  report.figure("input", "input", source);
-  report.data("model", "potential");
-  report.figure("triangles", "triangles", input.frozen.triangles.size());
-  report.figure("vertices", "vertices", input.frozen.points.size());
+  add_flow_mesh(report, source, "potential", input.frozen);
   add_flow_figures(report, flow);
   report.figure("seconds", "flow", seconds, "seconds");
   add_output_figures(report, files);

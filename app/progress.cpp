@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <utility>
 
 #include "terminal.h"
 
@@ -24,6 +25,7 @@ std::string bar_of(double part) {
 }
 
 void Progress::evaluated(const EvaluationRecord& record) {
+  if (at_first_) std::exchange(at_first_, nullptr)();
   if (style_ == ProgressStyle::none) return;
   if (first_ == 0) {
     // Nothing is printed before the first evaluation: a refusal may still come, and it has to be the only

@@ -3,6 +3,7 @@
 // Reports the progress of a run on standard error.
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -29,6 +30,8 @@ class Progress : public OptimiseObserver {
   Progress(ProgressStyle style, std::size_t evaluations, std::string heading)
       : style_(style), evaluations_(evaluations), heading_(std::move(heading)) {}
 
+  // What is to be said when the first evaluation shows that the run was not refused.
+  void say_at_first(std::function<void()> say) { at_first_ = std::move(say); }
   void evaluated(const EvaluationRecord& record) override;
   bool cancelled() override { return interrupt_.raised(); }
   // Ends the line of the progress bar.
@@ -40,6 +43,7 @@ class Progress : public OptimiseObserver {
   ProgressStyle style_;
   std::size_t evaluations_;
   std::string heading_;
+  std::function<void()> at_first_;
   InterruptFlag interrupt_;
   Stopwatch watch_;
   double shown_at_ = 0.0;  // seconds

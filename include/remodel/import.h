@@ -5,8 +5,8 @@
 //
 // The promises of an imported mesh differ from place to place:
 //  - Its *kept* triangles are the file's (birth 0): not better than the file made them. No triangle of the
-//    mesh ever gets worse than the worst of them was in the file, or than 33 degrees where that is more: that
-//    angle is the mesh's min_angle_deg.
+//    mesh ever gets worse than the worst of them was in the file, or than refine_angle_deg where that is less:
+//    that angle is the mesh's min_angle_deg.
 //  - Its *changed* triangles are the others (birth above 0). What refinement made of them keeps
 //    refine_angle_deg, but for small input angles; where boundary vertices were moved in place and nothing
 //    had to be refined, the mesh's min_angle_deg.

@@ -81,6 +81,9 @@ std::string read_text(const std::filesystem::path& file, std::size_t limit = std
 // or 1, comments begin with #. A file without vertices has them in the .node file of the same name. At most
 // 256 MiB. Throws Error (file, format) naming file and line.
 PlanarGraph read_poly(const std::filesystem::path& file);
+// Whether the file is one: it is called .poly, or is a pipe without an extension that begins with the first
+// line of one, three or four whole numbers of which the second, the dimension, is 2.
+bool holds_graph(const std::filesystem::path& file);
 PlanarGraph parse_poly(std::string_view poly, const std::string& source, std::string_view node = {},
                        const std::string& node_source = {});
 

@@ -1,7 +1,9 @@
 // Triangle's .poly and .node files: https://www.cs.cmu.edu/~quake/triangle.poly.html
 
 #include <algorithm>
+#include <array>
 #include <optional>
+#include <sstream>
 
 #include "io/scanner.h"
 #include "remodel/error.h"
@@ -144,6 +146,18 @@ class PolyReader {
 PlanarGraph parse_poly(std::string_view poly, const std::string& source, std::string_view node,
                        const std::string& node_source) {
   return PolyReader(poly, source, node, node_source).read();
+}
+
+bool holds_graph(const std::filesystem::path& file) {
+  if (file.has_extension() || !is_pipe(file)) return file.extension() == ".poly";
+  const std::string text = read_text(file, largest_file);
+  std::optional<io::Scanner> line = Lines(text, file.string()).next();
+  if (!line) return false;
+  std::array<std::int64_t, 4> numbers{};
+  std::size_t count = 0;
+  for (std::istringstream words{std::string(line->rest_of_line())}; !words.eof(); ++count)
+    if (count == numbers.size() || !(words >> numbers[count])) return false;
+  return count >= 3 && numbers[1] == 2;
 }
 
 PlanarGraph read_poly(const std::filesystem::path& file) {

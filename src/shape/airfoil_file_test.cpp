@@ -199,6 +199,21 @@ TEST(AirfoilFile, AcceptsTextBeforeAndAfterTheCoordinates) {
     expect_wedge(parse_airfoil("wedge\n" + rows + footer, "wing.dat"));
 }
 
+// A name and the grid's box; 999 999 between elements, of which one is read.
+TEST(AirfoilFile, AcceptsFilesOfMses) {
+  const std::string rows = joined(selig_lines), box = " -2.00  3.00  -2.50  3.50\n";
+  const AirfoilCoordinates airfoil = parse_airfoil("wedge\n" + box + rows, "wing.dat");
+  EXPECT_EQ(airfoil.name, "wedge");
+  expect_wedge(airfoil);
+  expect_wedge(parse_airfoil(box + rows, "wing.dat"));
+  expect_wedge(parse_airfoil("wedge\n" + box + rows + "999. 999.\n", "wing.dat"));
+  const std::string two = refusal("wedge\n" + box + rows + "999.0 999.0\n" + rows);
+  EXPECT_TRUE(says(two, "wing.dat:13") && says(two, "another element")) << two;
+  for (const std::string wrong : {"3 -2 -2.5 3.5\n", "-2 3 3.5 -2.5\n", "-2 3 -2.5\n", "-2 nan -2.5 3.5\n"})
+    EXPECT_TRUE(says(refusal("wedge\n" + wrong + rows), "wing.dat:2")) << wrong;
+  EXPECT_TRUE(says(refusal("wedge\n" + rows + box), "wing.dat:11"));
+}
+
 // What may be a coordinate that was damaged is no text, and text between coordinates is not passed over.
 TEST(AirfoilFile, TakesNoDamagedCoordinateForText) {
   for (const std::string wrong : {"1.0", "1.0 -0.0l", "1.0 -", "0x1 0", "1.0 0.0 0.0", "nan 0", "1;0"}) {

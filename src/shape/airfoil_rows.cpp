@@ -132,6 +132,24 @@ bool is_remark(std::string_view line) {
   return count && tokens.size() == 2 && is_word(tokens[1]) && begins_with_letter(tokens[1]);
 }
 
+// MSES' second line, the grid's box: left, right, lower, upper.
+bool is_box_of_mses(std::string_view line) {
+  const std::vector<std::string_view> tokens = tokens_of(without_comment(line));
+  if (tokens.size() != 4) return false;
+  double values[4];
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::optional<double> value = number_of(tokens[i]);
+    if (!value || !std::isfinite(*value)) return false;
+    values[i] = *value;
+  }
+  return values[0] < values[1] && values[2] < values[3];
+}
+
+// The row that MSES has between two elements.
+bool is_end_of_element(Point p) {
+  return p == Point{999.0, 999.0};
+}
+
 // DOS ends a text with this byte.
 std::string_view without_end_of_file(std::string_view text) {
   while (!text.empty() && text.back() == '\x1a') text.remove_suffix(1);
@@ -149,20 +167,27 @@ AirfoilRows read_airfoil_rows(std::string_view text, const std::string& source) 
   std::string remark;  // the first one behind a row
   int remark_line = 0;
   AirfoilRows result;
-  bool first = true;
+  bool first = true, ended = false;  // a first line that says something; the end of an element of MSES
   for (int number = 1; !text.empty(); ++number) {
     const std::string_view line = next_line(text);
     check_printable(line, source, number);
     const std::string_view content = trimmed(line);
     if (content.empty() || trimmed(without_comment(content)).empty()) continue;
     // Only the first line that says anything may be a name: "2412" or "63-206 modified" as well.
-    if (first && !is_two_numbers(content)) {
+    const bool box = result.rows.empty() && is_box_of_mses(content);
+    if (first && !box && !is_two_numbers(content)) {
       result.name = content;
+    } else if (box) {
+      // It says nothing of the airfoil.
     } else if (is_remark(content)) {
       if (remark.empty() && !result.rows.empty()) remark = content, remark_line = number;
     } else {
       if (!remark.empty()) point_of(remark, source, remark_line);  // says what it is
-      result.rows.push_back({point_of(content, source, number), number});
+      const Point point = point_of(content, source, number);
+      if (ended)
+        refuse(source, number, "found another element of a file of MSES, expected one airfoil in a file");
+      ended = is_end_of_element(point);
+      if (!ended) result.rows.push_back({point, number});
     }
     first = false;
   }

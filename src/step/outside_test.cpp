@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mesh/mesh_data.h"
@@ -19,60 +21,119 @@
 namespace remodel {
 namespace {
 
-// Three stars in a polygon; each of them may be deformed by itself.
+// Polygons whose corners move, each by itself.
 class Designs {
  public:
-  explicit Designs(std::mt19937_64& random) : random_(random) {
-    for (int i = 0; i < 12; ++i) outer_.push_back(along_square(i));
-    for (const Point centre : {Point{0.25, 0.3}, Point{0.7, 0.35}, Point{0.45, 0.75}})
-      stars_.push_back(star(centre));
+  Designs(std::mt19937_64& random, Point origin) : random_(random), origin_(origin) {}
+
+  void add(LoopRole role, std::vector<Point> corners) {
+    for (Point& p : corners) p = p + origin_;
+    parts_.push_back({role, std::move(corners)});
   }
 
   Domain domain() const {
-    Domain result{{test::polygon(LoopRole::outer, "outer", outer_)}};
-    for (const auto& corners : stars_) result.loops.push_back(test::polygon(LoopRole::hole, "star", corners));
+    Domain result;
+    for (const auto& [role, corners] : parts_)
+      result.loops.push_back(test::polygon(role, "part " + std::to_string(result.loops.size()), corners));
     return result;
   }
 
-  // Moves the corners of some of the four by a little, so that most steps are full adjustments, or by more.
+  // Moves the corners of some by a little, so that most steps are full adjustments, or by more.
   void next() {
     const double most = random_() % 4 == 0 ? 0.02 : 0.002;
-    if (random_() % 3 == 0) jiggle(outer_, most);
-    for (auto& corners : stars_)
-      if (random_() % 2 == 0) jiggle(corners, most);
+    for (auto& [role, corners] : parts_)
+      if (random_() % 5 < 2) jiggle(corners, most);
   }
 
  private:
-  // Four points a side of the unit square: the sides are nearly straight.
-  static Point along_square(int i) {
-    const double s = (i % 3) / 3.0;
-    return i < 3 ? Point{s, 0} : i < 6 ? Point{1, s} : i < 9 ? Point{1 - s, 1} : Point{0, 1 - s};
-  }
-  static std::vector<Point> star(Point centre) {
-    std::vector<Point> corners;
-    for (int i = 0; i < 10; ++i) {
-      const double r = i % 2 == 0 ? 0.12 : 0.06, angle = 0.628318 * i;
-      corners.push_back(centre + Point{r * std::cos(angle), r * std::sin(angle)});
-    }
-    return corners;
-  }
   void jiggle(std::vector<Point>& corners, double most) {
     for (Point& p : corners)
       p = p + Point{test::uniform(random_, -most, most), test::uniform(random_, -most, most)};
   }
 
   std::mt19937_64& random_;
-  std::vector<Point> outer_;
-  std::vector<std::vector<Point>> stars_;
+  Point origin_;
+  std::vector<std::pair<LoopRole, std::vector<Point>>> parts_;
 };
 
-TEST(Outside, IsDelaunayAfterEveryReplacement) {
+// Four points a side: the sides are nearly straight.
+std::vector<Point> square(Point low, double size) {
+  std::vector<Point> corners;
+  for (int i = 0; i < 12; ++i) {
+    const double s = (i % 3) / 3.0;
+    const Point p = i < 3 ? Point{s, 0} : i < 6 ? Point{1, s} : i < 9 ? Point{1 - s, 1} : Point{0, 1 - s};
+    corners.push_back(low + size * p);
+  }
+  return corners;
+}
+
+std::vector<Point> star(Point centre, double radius) {
+  std::vector<Point> corners;
+  for (int i = 0; i < 10; ++i) {
+    const double r = i % 2 == 0 ? radius : 0.5 * radius, angle = 0.628318 * i;
+    corners.push_back(centre + Point{r * std::cos(angle), r * std::sin(angle)});
+  }
+  return corners;
+}
+
+void three_stars(Designs& designs) {
+  designs.add(LoopRole::outer, square({0, 0}, 1.0));
+  for (const Point centre : {Point{0.25, 0.3}, Point{0.7, 0.35}, Point{0.45, 0.75}})
+    designs.add(LoopRole::hole, star(centre, 0.12));
+}
+
+// Between them lies what is outside of both, as it is outside of all.
+void two_islands(Designs& designs) {
+  designs.add(LoopRole::outer, square({0, 0}, 1.0));
+  designs.add(LoopRole::outer, star({1.4, 0.5}, 0.3));
+  designs.add(LoopRole::outer, square({1.15, 0.9}, 0.4));
+}
+
+// Between a hole's edge and the islands in it.
+void islands_in_a_hole(Designs& designs) {
+  designs.add(LoopRole::outer, square({0, 0}, 1.0));
+  designs.add(LoopRole::hole, square({0.1, 0.1}, 0.8));
+  designs.add(LoopRole::outer, star({0.35, 0.4}, 0.15));
+  designs.add(LoopRole::outer, star({0.65, 0.65}, 0.15));
+}
+
+// Stars so near to the sides that these are split: Steiner vertices on the hull.
+void stars_at_the_rim(Designs& designs) {
+  designs.add(LoopRole::outer, {{0, 0}, {0.5, -0.02}, {1, 0}, {1, 1}, {0, 1}});
+  for (const Point centre : {Point{0.3, 0.13}, Point{0.86, 0.45}, Point{0.45, 0.86}, Point{0.12, 0.6}})
+    designs.add(LoopRole::hole, star(centre, 0.1));
+}
+
+std::size_t stale_circles(const Triangulation& triangulation) {
+  std::size_t stale = 0;
+  for (std::uint32_t i = 0; i < triangulation.triangle_slots(); ++i) {
+    const Triangle& t = triangulation[TriangleId{i}];
+    if (!t.alive() || t.ghost()) continue;
+    stale += !(triangulation.circle_of(t.vertex[0], t.vertex[1], t.vertex[2]) == t.circle);
+  }
+  return stale;
+}
+
+struct OutsideCase {
+  const char* name;
+  void (*parts)(Designs&);
+};
+constexpr std::array<OutsideCase, 4> outside_cases{{{"ThreeStars", three_stars},
+                                                    {"TwoIslands", two_islands},
+                                                    {"IslandsInAHole", islands_in_a_hole},
+                                                    {"StarsAtTheRim", stars_at_the_rim}}};
+class Outside : public testing::TestWithParam<std::size_t> {};
+
+// With the origin in a corner, and far to every side.
+TEST_P(Outside, IsDelaunayAfterEveryReplacement) {
   const auto seed = test::seed(611);
   SCOPED_TRACE("REMODEL_TEST_SEED=" + std::to_string(seed));
   std::mt19937_64 random(seed);
   int adjusted = 0, replaced = 0;
   for (int chain = 0; chain < 6 * test::effort(); ++chain) {
-    Designs designs(random);
+    constexpr std::array<Point, 3> places{{{0, 0}, {3, 2}, {-2, -4}}};
+    Designs designs(random, places[static_cast<std::size_t>(chain) % places.size()]);
+    outside_cases[GetParam()].parts(designs);
     Mesh mesh = test::generated(designs.domain(), {.gradation = 2.0});
     for (int step = 0; step < 40; ++step) {
       SCOPED_TRACE("chain " + std::to_string(chain) + ", step " + std::to_string(step));
@@ -90,12 +151,16 @@ TEST(Outside, IsDelaunayAfterEveryReplacement) {
       result.full_adjustment ? ++adjusted : ++replaced;
       if (!result.full_adjustment) {
         ASSERT_EQ(mesh.data().triangulation.check(), "");
+        ASSERT_EQ(stale_circles(mesh.data().triangulation), 0U);
       }
     }
   }
   EXPECT_GT(adjusted, 20);
   EXPECT_GT(replaced, 20);
 }
+
+INSTANTIATE_TEST_SUITE_P(Of, Outside, testing::Range(std::size_t{0}, outside_cases.size()),
+                         [](const auto& tested) { return outside_cases[tested.param].name; });
 
 // Four points; the lowest is moved up until the hull is dented below it.
 TEST(Hull, IsConvexAgainAndRecoveryEndsWhereItIsNot) {
@@ -149,7 +214,7 @@ TEST(Hull, OfManyPointsIsConvexAgain) {
 }
 
 // A corner of the outline moves in place far enough to dent the hull; what comes next lies beyond the dent.
-TEST(Outside, HasAConvexHullWhereACornerMovedIn) {
+TEST(Hull, IsConvexAgainWhereACornerMovedIn) {
   const auto outline = [](double y) {
     return Domain{
         {test::polygon(LoopRole::outer, "outer",

@@ -131,18 +131,15 @@ class Replacement {
             a.triangle, a.domain ? a.circle : triangulation_.circle_of(a.vertex[0], a.vertex[1], a.vertex[2]),
             a.moved ? mesh_.step + 1 : t.birth);
     }
-    for (const TriangleId t : triangulation_.touched()) {
-      if (!triangulation_[t].alive() || triangulation_[t].ghost() || !add(t)) continue;
-      if (triangulation_[t].region != Region::domain) triangulation_.refresh_circle(t);  // of another loop
-    }
+    for (const TriangleId t : triangulation_.touched())
+      if (triangulation_[t].alive() && !triangulation_[t].ghost()) add(t);
     triangulation_.restore_delaunay(uncertain);
   }
 
   // Those that are stuck: what is left of the paper's way. Boundary edges are torn, so regions are found
-  // anew.
+  // anew. What insertion meets in holes, of other loops too, is Delaunay: all that lies outside was restored.
   void reinsert() {
     require_something_to_stand_on();
-    if (holes_are_shared()) restore_holes();
     triangulation_.set_step(torn);
     release_boundary();
     List<std::uint32_t> loose(&mesh_.arena);
@@ -193,30 +190,6 @@ class Replacement {
       }
     }
     return result;
-  }
-
-  // Whether a hole may lie between several loops: outer ones beside each other or within holes, and chains.
-  bool holes_are_shared() const {
-    return std::ranges::count_if(mesh_.domain.loops, [](const Loop& loop) {
-             return loop.role != LoopRole::hole && loop.role != LoopRole::internal;
-           }) > 1;
-  }
-
-  // What insertion may meet in the holes at stuck vertices. Other loops there may have moved in place since.
-  void restore_holes() {
-    List<TriangleId> holes(&mesh_.arena);
-    mesh_.seen_triangles.clear(triangulation_.triangle_slots());
-    const auto visit = [&](TriangleId t) {
-      if (triangulation_[t].region == Region::outside && mesh_.seen_triangles.insert(t)) holes.push_back(t);
-    };
-    for (const std::size_t i : stuck_)
-      triangulation_.for_each_corner(moving(i).vertex, [&](Corner c) { visit(c.triangle); });
-    for (std::size_t k = 0; k < holes.size(); ++k)
-      for (const Link link : triangulation_[holes[k]].link)
-        if (!link.constrained()) visit(link.triangle());
-    std::erase_if(holes, [&](TriangleId t) { return triangulation_[t].ghost(); });
-    for (const TriangleId t : holes) triangulation_.refresh_circle(t);
-    triangulation_.restore_delaunay(holes);
   }
 
   // What was made meanwhile, which its birth tells apart, the step's from now on, and what lies beside the

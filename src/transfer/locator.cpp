@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "geometry/in_triangle.h"
 #include "remodel/error.h"
 #include "remodel/predicates.h"
 
@@ -24,7 +25,7 @@ BoxTree tree_of(const PatchSide& side, std::size_t count) {
 }  // namespace
 
 bool holds(const Corners& t, Point p) {
-  return orient2d(t[0], t[1], p) >= 0 && orient2d(t[1], t[2], p) >= 0 && orient2d(t[2], t[0], p) >= 0;
+  return in_triangle(t[0], t[1], t[2], p);
 }
 
 std::array<double, 3> clamped_weights_at(const Corners& t, Point p) {

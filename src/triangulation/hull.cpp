@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/in_triangle.h"
 #include "remodel/predicates.h"
 #include "triangulation/triangulation.h"
 
@@ -54,10 +55,6 @@ class HullVertices {
 
   Entries by_x_, by_y_;
 };
-
-bool in_triangle(Point a, Point b, Point c, Point p) {
-  return orient2d(a, b, p) >= 0 && orient2d(b, c, p) >= 0 && orient2d(c, a, p) >= 0;
-}
 
 }  // namespace
 

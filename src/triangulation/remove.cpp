@@ -15,6 +15,7 @@
 
 #include <cassert>
 
+#include "geometry/in_triangle.h"
 #include "remodel/predicates.h"
 #include "triangulation/triangulation.h"
 
@@ -163,8 +164,7 @@ bool Triangulation::is_ear(const std::vector<StarEdge>& polygon, std::size_t i) 
     if (q == a || q == b || q == c || q == infinite_vertex) continue;
     if (ghost) {
       if (in_conflict(a, b, c, q)) return false;
-    } else if (orient2d(point(a), point(b), point(q)) >= 0 && orient2d(point(b), point(c), point(q)) >= 0 &&
-               orient2d(point(c), point(a), point(q)) >= 0) {
+    } else if (in_triangle(point(a), point(b), point(c), point(q))) {
       return false;
     }
   }

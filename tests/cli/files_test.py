@@ -48,6 +48,21 @@ class Pipes(ProgramTest):
                 self.assertEqual(self.path("piped.su2").read_bytes(), self.path("named.su2").read_bytes())
         self.piped(self.path("a.dat").read_bytes(), "fit", "-")
 
+    def test_planar_graphs_from_standard_input(self):
+        graph = (harness.SOURCE / "examples/domains/lake.poly").read_bytes()
+        self.write("lake.poly", graph)
+        self.succeed("mesh", "lake.poly", "-o", "named.su2")
+        self.piped(graph, "mesh", "-", "-o", "piped.su2")
+        self.assertEqual(self.path("piped.su2").read_bytes(), self.path("named.su2").read_bytes())
+        self.succeed("mesh", "lake.poly", "-o", "lake.vtkhdf")
+        self.piped(graph, "update", "lake.vtkhdf", "-", "-o", "same.vtkhdf")
+        os.mkfifo(self.path("graph"))
+        writer = threading.Thread(target=self.path("graph").write_bytes, args=[graph])
+        writer.start()
+        self.succeed("mesh", "graph", "-o", "fifo.su2")
+        writer.join()
+        self.assertEqual(self.path("fifo.su2").read_bytes(), self.path("named.su2").read_bytes())
+
     def test_a_fifo_is_read_once(self):
         self.succeed("mesh", "naca:0012", "--points", 20, "-o", "m.vtkhdf", "-o", "m.su2")
         for name, end in (("fifo.su2", "su2"), ("fifo", "su2"), ("fifo.vtkhdf", "vtkhdf")):
@@ -132,6 +147,37 @@ class InnerCurves(ProgramTest):
         outcome = self.succeed("convert", "m.msh", "--inner-markers", "-o", "again.su2")
         self.assertEqual(outcome.stderr, "")
         self.assertEqual(set(self.figures("check", "again.su2")["boundary"]), {"box", "ring"})
+
+    def airfoil_with_a_ring(self):
+        """A mesh without a design, of an airfoil and a curve around it inside the mesh."""
+        self.write("ring.json", json.dumps({"loops": [
+            {"airfoil": "naca:0012", "name": "airfoil", "stations": 40},
+            {"role": "internal", "curves": [{"name": "ring", "shape": {
+                "kind": "arc", "centre": [0.5, 0], "radius": 2, "start": 0, "sweep": 6.283185307179586},
+                "stations": 24}]},
+            {"role": "outer", "curves": [{"name": "farfield", "shape": {
+                "kind": "arc", "centre": [0.5, 0], "radius": 8, "start": 0, "sweep": 6.283185307179586},
+                "stations": 24}]}]}))
+        self.succeed("mesh", "ring.json", "-o", "ring.msh")
+        return "ring.msh"
+
+    def test_a_batch_and_an_evaluator_say_so_too(self):
+        mesh = self.airfoil_with_a_ring()
+        batch = ("batch", mesh, "naca:0013", "naca:0014", "--boundary", "airfoil", "-o", "out", "--meshes", "su2")
+        outcome = self.succeed(*batch)
+        self.assertEqual(len(outcome.stderr.splitlines()), 1, outcome)
+        self.assertIn("'ring' left out", outcome.stderr)
+        self.assertEqual(set(self.figures("check", "out/002.su2")["boundary"]), {"airfoil", "farfield"})
+        outcome = self.succeed(*batch, "--overwrite", "--inner-markers")
+        self.assertEqual(outcome.stderr, "")
+        self.assertEqual(set(self.figures("check", "out/002.su2")["boundary"]), {"airfoil", "ring", "farfield"})
+        self.assertEqual(self.succeed(*batch[:-1], "msh", "--overwrite").stderr, "")
+
+        run = ("optimise", "--mesh", mesh, "--boundary", "airfoil", "--evaluations", 3, "--quiet", "-o", "run")
+        outcome = self.succeed(*run, "--evaluator", "echo '{\"objective\": 1}' #")
+        self.assertEqual(len(outcome.stderr.splitlines()), 1, outcome)
+        self.assertIn("'ring' left out", outcome.stderr)
+        self.assertEqual(self.succeed(*run, "--to", "naca:0013", "--overwrite").stderr, "")
 
     def test_regions_go_through_every_format_that_has_them(self):
         self.succeed("mesh", self.wake(), "-o", "m.vtkhdf")
