@@ -1,5 +1,6 @@
 // remodel design PROBLEM.json -o DIR: a section designed by flows on one living mesh.
 
+#include <cmath>
 #include <memory>
 
 #include "arguments.h"
@@ -7,6 +8,7 @@
 #include "design_problem.h"
 #include "figures.h"
 #include "interrupt.h"
+#include "optimise_start.h"
 #include "progress.h"
 #include "remodel/error.h"
 #include "remodel/generate.h"
@@ -46,6 +48,9 @@ Json verified(const DesignProblemFile& problem, const CstAirfoil& airfoil) {
 }
 
 Status run(DesignCommand& command) {
+  require_run_directory(command.run.directory);
+  if (command.run.resume && command.run.overwrite)
+    throw Error(ErrorCode::argument, "--overwrite", "found with --resume, expected one of them");
   const DesignProblemFile problem = read_design_problem(command.problem);
   const SectionSpace space(problem);
   const std::unique_ptr<Evaluator> evaluator = make_flow_evaluator(problem, space);
@@ -71,7 +76,7 @@ Status run(DesignCommand& command) {
   report.figure("stopped", "stopped", name_of(result.stopped));
   if (!result.detail.empty()) report.figure("detail", "detail", result.detail);
   const bool done = result.stopped == OptimiseStopped::done;
-  const Json fresh = done ? verified(problem, best) : Json::array();
+  const Json fresh = done && std::isfinite(result.objective) ? verified(problem, best) : Json::array();
   for (const Json& entry : fresh)
     report.line("fresh mesh, I = " + entry["points"].dump(),
                 "CL " + entry["cl"].dump() + ", CD " + entry["cd"].dump() +
@@ -80,7 +85,8 @@ Status run(DesignCommand& command) {
   report.data("best", Json::parse(airfoil_to_json(best)));
   report.figure("directory", "run directory", command.run.directory.string());
   report.print(command.json);
-  return done ? Status::done : Status::limit;
+  if (!done) return Status::limit;
+  return std::isfinite(result.objective) ? Status::done : Status::answer_is_no;
 }
 
 }  // namespace

@@ -182,7 +182,8 @@ void GradientDesigner::search(Oracle& oracle) {
 }
 
 Proposal GradientDesigner::ask() {
-  return {.design = *pending_, .gradient = true};
+  // Refused at its start, the search has nothing to ask for: the start again, which ends the run.
+  return {.design = pending_ ? *pending_ : centre_, .gradient = true};
 }
 
 void GradientDesigner::refuse(const Proposal& proposal) {

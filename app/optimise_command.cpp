@@ -33,28 +33,6 @@ struct OptimiseCommand {
   bool json = false;
 };
 
-// Nothing that is not a run's own may be mixed with its files or replaced by them.
-void require_run_directory(const std::filesystem::path& directory) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  if (!fs::exists(directory, error)) {
-    require_writable(directory.has_filename() ? directory : directory.parent_path());
-    return;
-  }
-  if (!fs::is_directory(directory, error)) {
-    throw Error(ErrorCode::file, directory.string(), "is a file, expected a directory");
-  }
-  require_writable(directory / "history.sqlite");
-  bool of_a_run = false;
-  for (const char* name : {"history.sqlite", "checkpoint.json", "first.vtkhdf", ".remodel-start"}) {
-    of_a_run = of_a_run || fs::exists(directory / name);
-  }
-  if (!of_a_run && !fs::is_empty(directory)) {
-    throw Error(ErrorCode::file, directory.string(),
-                "is a directory with other files, expected a new, an empty or a run directory");
-  }
-}
-
 Json options_json(const OptimiseCommand& command) {
   Json options = meshing_json(command.meshing, command.run);
   options["distance"] = command.run.remodel.distance;
@@ -219,6 +197,27 @@ void add_search_options(CLI::App& app, OptimiseOptions& run) {
 }
 
 }  // namespace
+
+void require_run_directory(const std::filesystem::path& directory) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (!fs::exists(directory, error)) {
+    require_writable(directory.has_filename() ? directory : directory.parent_path());
+    return;
+  }
+  if (!fs::is_directory(directory, error)) {
+    throw Error(ErrorCode::file, directory.string(), "is a file, expected a directory");
+  }
+  require_writable(directory / "history.sqlite");
+  bool of_a_run = false;
+  for (const char* name : {"history.sqlite", "checkpoint.json", "first.vtkhdf", ".remodel-start"}) {
+    of_a_run = of_a_run || fs::exists(directory / name);
+  }
+  if (!of_a_run && !fs::is_empty(directory)) {
+    throw Error(ErrorCode::file, directory.string(),
+                "is a directory with other files, expected a new, an empty or a run directory");
+  }
+}
 
 void add_optimise_command(CLI::App& program, Action& action) {
   auto command = std::make_shared<OptimiseCommand>();

@@ -2,6 +2,7 @@
 
 // Where `optimise` starts: an airfoil, around which a mesh is generated, or a mesh, whose airfoil is found.
 
+#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -17,6 +18,9 @@ struct OptimiseStartOptions {
   StartMeshOptions start;
   std::function<bool(const std::string&)> given;  // whether an option is on the command line
 };
+
+// Nothing that is not a run's own may be mixed with its files or replaced by them: throws Error (file).
+void require_run_directory(const std::filesystem::path& directory);
 
 void add_optimise_start_options(CLI::App& app, OptimiseStartOptions& options);
 

@@ -44,6 +44,9 @@ class Designs(ProgramTest):
         ):
             self.refused("design", self.problem(**changes), "-o", "run", names=name)
         self.refused("design", self.write("a.json", "{"), "-o", "run", names="a.json")
+        self.path("thesis").mkdir()
+        self.path("thesis/chapter").write_text("1")
+        self.refused("design", self.problem(), "-o", "thesis", names="thesis")
 
 
 class Gradients(ProgramTest):
