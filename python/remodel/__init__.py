@@ -14,7 +14,9 @@ solve_flow(), LivingFlow, PotentialSolver. Optimisers: optimise(), CMAES.
 Lengths are in chords and angles in degrees. Every mesh is constrained Delaunay; a step keeps what it can. Bad
 input raises an Error: ArgumentError, FileError, FormatError or GeometryError, with the place and what was
 expected; a limit that was reached is in the result. Ctrl-C ends long calls and leaves meshes valid: generation,
-steps and runs at once, a flow after the Newton step under way; check() and files end first. The method is that of the paper "Two-Dimensional Quality-Mesh Remodelling for Engineering Design Optimisation".
+steps and runs at once, a flow after the Newton step under way; check() and files end first.
+
+The method is that of the paper "Two-Dimensional Quality-Mesh Remodelling for Engineering Design Optimisation".
 """
 
 from . import _core
