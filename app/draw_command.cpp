@@ -21,7 +21,7 @@ namespace remodel::app {
 namespace {
 
 constexpr std::array mesh_colors{DrawColor::quality, DrawColor::length_scale, DrawColor::age, DrawColor::fate,
-                                 DrawColor::gradation};
+                                 DrawColor::region, DrawColor::gradation};
 // Colours that are the field of that name.
 constexpr std::array field_colors{"mach", "cp", "pressure", "entropy"};
 
@@ -132,10 +132,10 @@ void add_draw_command(CLI::App& program, Action& action) {
       app,
       {"--color", "COLOR", "quality",
        "quality (smallest angle), length-scale (its logarithm), age (remodelling steps), fate (kept, "
-       "moved or new since the mesh of --since), gradation (size "
+       "moved or new since the mesh of --since), region, gradation (size "
        "against what the design alone asks for; native meshes), or mach, cp, pressure or entropy: the field "
        "of that name"},
-      {"quality", "length-scale", "age", "fate", "gradation", "mach", "cp", "pressure", "entropy"},
+      {"quality", "length-scale", "age", "fate", "region", "gradation", "mach", "cp", "pressure", "entropy"},
       [command](std::size_t choice) {
         command->color_given = true;
         if (choice < mesh_colors.size()) {

@@ -17,6 +17,7 @@ enum class DrawColor {
   length_scale,  // logarithm of the mean length scale of the triangle
   age,           // how many remodelling steps ago the triangle was made
   fate,          // kept, moved or new since an earlier state of the mesh; see fates()
+  region,     // the part of the domain that the triangle belongs to, where there are several
   gradation,  // ln(r / (H mean LS*)): 0 where a triangle is as large as the design allows; see GradationError
 };
 

@@ -67,16 +67,30 @@ class AirfoilWalk {
   CstAirfoil centre_;
 };
 
+// One time in four a circle that stays divides the domain into two regions, near and far.
 class OneAirfoil : public SoakWalk {
  public:
-  OneAirfoil(Generator& random, const AirfoilDomainOptions& options) : walk_(random), options_(options) {}
+  OneAirfoil(Generator& random, const AirfoilDomainOptions& options)
+      : walk_(random), options_(options), two_regions_(random.uniform() < 0.25) {}
+
   Domain next() override {
-    return airfoil_domain(std::exchange(first_, false) ? walk_.centre() : walk_.next(), options_);
+    Domain domain = airfoil_domain(std::exchange(first_, false) ? walk_.centre() : walk_.next(), options_);
+    if (two_regions_) divide(domain);
+    return domain;
   }
 
  private:
+  static void divide(Domain& domain) {
+    for (Loop& loop : domain.loops) loop.region = loop.role == LoopRole::outer ? "far" : "near";
+    domain.loops.push_back({.role = LoopRole::internal,
+                            .curves = {{"interface", Arc{{0.5, 0.0}, 2.0}, Parameters::uniform(60)}},
+                            .region = "near",
+                            .right_region = "far"});
+  }
+
   AirfoilWalk walk_;
   AirfoilDomainOptions options_;
+  bool two_regions_;
   bool first_ = true;
 };
 
@@ -234,6 +248,8 @@ Mesh without_design(const Mesh& mesh) {
   file.points = all.points;
   file.triangles = all.triangles;
   file.boundaries = all.boundaries;
+  file.region = all.region;
+  file.region_names = all.region_names;
   return import_mesh(file, "soak").mesh;
 }
 

@@ -24,10 +24,10 @@ struct SoakCase {
   std::unique_ptr<SoakWalk> walk;
 };
 
-// Half of the cases are an airfoil in its farfield; the others are sets of slat, main airfoil and flap,
-// ducts, lakes with islands, cracks and lone points, and airfoil meshes without a design, as from a file of
-// another program. One in five lies at coordinates as of a map, kilometres from the origin. `random` must
-// outlive the walk.
+// Half of the cases are an airfoil in its farfield, some of them in two regions; the others are sets of slat,
+// main airfoil and flap, ducts, lakes with islands, cracks and lone points, and airfoil meshes without a
+// design, as from a file of another program. One in five lies at coordinates as of a map, kilometres from the
+// origin. `random` must outlive the walk.
 SoakCase draw_case(portable::Generator& random);
 
 }  // namespace remodel

@@ -86,6 +86,18 @@ ColorScale fate_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& 
   return scale;
 }
 
+ColorScale region_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& triangles) {
+  if (mesh.region.empty())
+    throw Error(ErrorCode::argument, "color region", "a mesh of one region found, one with several expected");
+  const auto last = static_cast<double>(std::max<std::size_t>(mesh.region_names.size(), 2) - 1);
+  ColorScale scale{"Regions", "", "", {}, ColorMap::tints, static_cast<int>(last) + 1};
+  for (std::size_t i = 0; i < mesh.region_names.size(); ++i)
+    scale.title += (i == 0 ? " " : ", ") + mesh.region_names[i];
+  scale.title += ":";
+  for (const auto triangle : triangles) scale.positions.push_back(mesh.region[triangle] / last);
+  return scale;
+}
+
 // Linear between samples at equal distances.
 template <std::size_t n>
 Color between(const std::array<std::array<int, 3>, n>& samples, double t) {
@@ -130,6 +142,10 @@ constexpr std::array<std::array<int, 3>, 9> blue_to_red = {{{59, 76, 192},
 // What stays is calm, what is new glows.
 constexpr std::array<std::array<int, 3>, 3> embers = {{{236, 240, 244}, {253, 200, 110}, {222, 60, 30}}};
 
+// As light as each other, so that the edges are seen on all of them.
+constexpr std::array<std::array<int, 3>, 5> tints = {
+    {{158, 202, 240}, {252, 194, 120}, {160, 216, 160}, {240, 170, 190}, {205, 205, 205}}};
+
 }  // namespace
 
 Color color_at(ColorMap map, double t) {
@@ -140,6 +156,8 @@ Color color_at(ColorMap map, double t) {
       return between(blue_to_red, t);
     case ColorMap::embers:
       return between(embers, t);
+    case ColorMap::tints:
+      return between(tints, t);
   }
   return between(viridis, t);
 }
@@ -158,6 +176,8 @@ ColorScale color_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>&
       return age_scale(mesh, triangles);
     case DrawColor::fate:
       return fate_scale(mesh, triangles);
+    case DrawColor::region:
+      return region_scale(mesh, triangles);
     case DrawColor::gradation:
       return gradation_scale(mesh, triangles);
   }

@@ -18,6 +18,7 @@ enum class ColorMap {
   sequential,  // perceptually uniform, from dark blue (0) to bright yellow (1)
   diverging,   // blue (0), grey (0.5), red (1)
   embers,      // nearly white (0), pale orange (0.5), glowing red (1)
+  tints,       // light colours that have no order: blue, orange, green, rose, grey
 };
 Color color_at(ColorMap map, double t);
 // Below this position dark lines cannot be seen.

@@ -163,6 +163,19 @@ TEST(ColorScale, FatesHaveAColourEach) {
             "color fate: a mesh without fates found, one with them expected");
 }
 
+TEST(ColorScale, RegionsHaveAColourEach) {
+  FrozenMesh mesh = test::full_square_ring();
+  EXPECT_EQ(error_of([&] { draw(mesh, "a.png", {.color = DrawColor::region}); }),
+            "color region: a mesh of one region found, one with several expected");
+  mesh.region_names = {"water", "oil", "sand"};
+  mesh.region.assign(mesh.triangles.size(), 0);
+  mesh.region[1] = 2;
+  const auto scale = draw_detail::color_scale(mesh, {0, 1}, DrawColor::region);
+  EXPECT_EQ(scale.positions, (std::vector<double>{0.0, 1.0}));
+  EXPECT_EQ(scale.legend_steps, 3);
+  EXPECT_EQ(scale.title, "Regions water, oil, sand:");
+}
+
 TEST(ColorScale, GradationErrorsRunFromHalfToTwiceAndDivergeAtZero) {
   FrozenMesh mesh = test::full_square_ring();
   mesh.gradation_error.assign(mesh.triangles.size(), 0.0);
