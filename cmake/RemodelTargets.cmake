@@ -82,6 +82,7 @@ function(remodel_test name)
   target_compile_definitions(${name} PRIVATE REMODEL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name} PRIVATE remodel remodel_flags Eigen3::Eigen Boost::headers
                                         nlohmann_json::nlohmann_json GTest::gtest_main)
+  target_compile_options(${name} PRIVATE ${REMODEL_TEST_FLAGS})
   # Tests have unnamed namespaces of the same content, which one translation unit would not bear.
   set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 900)

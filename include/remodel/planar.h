@@ -19,8 +19,8 @@ struct PlanarGraph {
   };
   std::vector<Point> points;
   std::vector<Segment> segments;
-  std::vector<Point> holes;                // a point in each
-  std::vector<std::size_t> segment_lines;  // of each segment in its file, for messages; may be empty
+  std::vector<Point> holes{};                // a point in each
+  std::vector<std::size_t> segment_lines{};  // of each segment in its file, for messages; may be empty
 };
 
 // The treatment of segments that cross.

@@ -160,7 +160,7 @@ class Duct : public SoakWalk {
 class Lake : public SoakWalk {
  public:
   explicit Lake(Generator& random) : random_(random), step_(0.1 * portable::exp(-5.0 * random.uniform())) {
-    for (Point& point : points_) point = {between(random, -0.6, 0.6), between(random, -0.8, -0.3)};
+    for (Point& point : points_) point = {between(random, -0.5, 0.5), between(random, -0.8, -0.3)};
   }
 
   Domain next() override {

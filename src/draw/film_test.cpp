@@ -52,7 +52,7 @@ std::vector<Frame> frames_of(const std::string& bytes, int& width) {
   return frames;
 }
 
-constexpr FilmOptions small{
+const FilmOptions small{
     .picture = {.color = DrawColor::fate, .width = 200}, .frame_ms = 40, .last_frame_ms = 500};
 
 TEST(Film, HasItsFramesForAsLongAsTheyAreToBeSeen) {

@@ -14,9 +14,9 @@ import harness
 from study_test import RankTest
 
 HOSTS = 3
-# Five core seconds on a fast machine, so that the loss happens while all ranks are working.
+# Three core seconds on a fast machine, so that the loss happens while all ranks are working.
 STUDY = (
-    "--pairs", "50/1,100/2", "--sigmas", "0.05,0.25", "--distances", "1", "--evaluations", 8000, "--scenarios", 2,
+    "--pairs", "50/1,100/2", "--sigmas", "0.05,0.25", "--distances", "1", "--evaluations", 5000, "--scenarios", 2,
     "--compare-every", 20,
 )  # fmt: skip
 # Starts mpirun's daemon on the host with the address, as `ssh address command` would.
