@@ -35,6 +35,7 @@ void add_draw_command(CLI::App& program, Action& action);
 void add_film_command(CLI::App& program, Action& action);
 void add_noise_command(CLI::App& program, Action& action);
 void add_transfer_command(CLI::App& program, Action& action);
+void add_live_command(CLI::App& program, Action& action);
 void add_convert_command(CLI::App& program, Action& action);
 void add_shapes_command(CLI::App& program, Action& action);
 void add_soak_command(CLI::App& program, Action& action);

@@ -164,9 +164,11 @@ class Lake : public SoakWalk {
   }
 
   Domain next() override {
-    drift(island_);
-    drift(wall_);
-    for (Point& point : points_) drift(point);
+    if (!std::exchange(first_, false)) {
+      drift(island_);
+      drift(wall_);
+      for (Point& point : points_) drift(point);
+    }
     Domain lake;
     const auto add = [&](LoopRole role, bool open, const char* name, Shape shape, std::size_t pieces) {
       lake.loops.push_back(
@@ -190,6 +192,7 @@ class Lake : public SoakWalk {
   double step_;
   Point island_{0.0, 0.3}, wall_{-0.7, 0.0};
   std::array<Point, 3> points_{};
+  bool first_ = true;
 };
 
 // Designs in the place of the airfoil of a mesh that knows none.

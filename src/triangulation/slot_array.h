@@ -35,7 +35,7 @@ class SlotArray {
  public:
   SlotArray() = default;
   explicit SlotArray(std::span<const T> from) { append(from); }
-  SlotArray(const SlotArray& other) : SlotArray(std::span<const T>(other)) {}
+  SlotArray(const SlotArray& other) : SlotArray(std::span<const T>(other.data(), other.size())) {}
   SlotArray(SlotArray&& other) noexcept { swap(other); }
   SlotArray& operator=(SlotArray other) noexcept {
     swap(other);

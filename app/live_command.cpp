@@ -1,0 +1,58 @@
+// remodel live -o FILE: a page in which an airfoil is dragged and its mesh follows.
+
+#include <unistd.h>
+
+#include <memory>
+#include <string>
+
+#include "arguments.h"
+#include "command.h"
+#include "figures.h"
+#include "live_page.h"
+#include "outputs.h"
+#include "remodel/error.h"
+#include "remodel/io.h"
+
+namespace remodel::app {
+namespace {
+
+struct LiveCommand {
+  std::string output;
+  bool open = false;
+  bool json = false;
+};
+
+Status run(const LiveCommand& command) {
+  if (live_page().empty())
+    throw Error(ErrorCode::argument, "live",
+                "found a program that was built without its page, expected one built where emscripten was "
+                "(Debian: emscripten)");
+  if (!command.output.ends_with(".html"))
+    throw Error(ErrorCode::argument, command.output, "unknown extension, expected .html");
+  require_writable(command.output);
+  write_text_atomically(command.output, live_page());
+  Report report;
+  add_output_figures(report, {command.output});
+  report.print(command.json);
+  if (command.open) {
+    // Takes the place of this program, which is done.
+    execlp("xdg-open", "xdg-open", command.output.c_str(), nullptr);
+    throw Error(ErrorCode::argument, "--open", "no xdg-open found, expected it to open " + command.output);
+  }
+  return Status::done;
+}
+
+}  // namespace
+
+void add_live_command(CLI::App& program, Action& action) {
+  auto command = std::make_shared<LiveCommand>();
+  CLI::App& app =
+      add_subcommand(program, "live", "Writes a page in which one drags an airfoil and its mesh follows",
+                     [command, &action] { action = [command] { return run(*command); }; });
+  add_text(app, {"-o,--output", "FILE", "", "Page to write: .html; it needs no other file and no network"},
+           Presence::required, command->output);
+  add_flag(app, "--open", "Open the page in the browser", command->open);
+  add_json_flag(app, command->json);
+}
+
+}  // namespace remodel::app

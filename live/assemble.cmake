@@ -1,0 +1,18 @@
+# Puts the parts of the page together: page.html with its style, scripts and the core. One file, which asks for no other.
+#   cmake -DPARTS=... -DCORE=... -DPAGE=... -P assemble.cmake
+file(READ ${PARTS}/page.html page)
+file(READ ${PARTS}/page.css style)
+file(READ ${PARTS}/page.js script)
+file(READ ${PARTS}/worker.js worker)
+file(READ ${CORE}/live.js glue)
+file(READ ${CORE}/live.wasm.txt wasm)
+foreach(part style script worker glue)
+  if("${${part}}" MATCHES "</script")
+    message(FATAL_ERROR "the page's ${part} contains '</script', which ends the script")
+  endif()
+endforeach()
+string(REPLACE "/*STYLE*/" "${style}" page "${page}")
+string(REPLACE "/*SCRIPT*/" "${script}" page "${page}")
+string(REPLACE "/*WORKER*/" "${glue}\n${worker}" page "${page}")
+string(REPLACE "/*WASM*/" "${wasm}" page "${page}")
+file(WRITE ${PAGE} "${page}")

@@ -1,0 +1,79 @@
+#pragma once
+
+// The calls of the page of `remodel live`: one living mesh around one airfoil, as flat arrays.
+//
+// A design is its coefficients: upper, lower, te_upper, te_lower; 2 (degree + 1) + 2 numbers. Pointers are
+// good until the next call. Functions that can fail return 0 then (or null), and live_error() says why; the
+// mesh is as it was. Lengths are in chords, angles in degrees.
+
+#include <cstdint>
+
+// Of live_figures().
+enum LiveFigure : std::uint32_t {
+  live_triangle_count,
+  live_vertex_count,
+  live_kept,   // triangles that nothing has happened to in the last step
+  live_moved,  // that join the same vertices, of which some have moved
+  live_made,
+  live_smallest_angle,
+  live_fresh_triangles,  // of a mesh generated afresh; 0 until live_fresh()
+  live_full_adjustment,  // 1 where the step has moved boundary vertices in place and changed nothing else
+  live_regenerated,
+  live_step,
+  live_vertices_moved,
+  live_vertices_inserted,
+  live_vertices_removed,
+  live_largest_gradation,  // r / (H mean LS)
+  live_figure_count
+};
+
+extern "C" {
+
+// Room for what is passed in; good until the next such call.
+double* live_scratch(std::uint32_t bytes);
+const char* live_error();
+
+const char* live_catalogue();  // JSON: [{"name", "description"}, ...]
+// These leave a design in live_design() and return its length. degree is that of a fit.
+std::uint32_t live_named(const char* name, std::uint32_t degree);  // "naca:2412", or a name of the catalogue
+std::uint32_t live_read(const char* text, const char* file,
+                        std::uint32_t degree);  // coordinates, or .json of a fit
+double* live_design();
+// x, y of points with t = i / (samples - 1): from the trailing edge over the upper side and back.
+double* live_outline(const double* design, std::uint32_t count, std::uint32_t samples);
+
+// 1, or 0 and the mesh is as it was.
+std::uint32_t live_generate(const double* design, std::uint32_t count, std::uint32_t points,
+                            double gradation);
+std::uint32_t live_update(const double* design, std::uint32_t count);  // one step, by `renew`
+std::uint32_t live_regenerate();                                       // the present design, afresh
+std::uint32_t live_fresh();  // counts the triangles of a fresh mesh of the present design
+
+double* live_figures();
+const double* live_points();            // x, y of each vertex
+const std::uint32_t* live_triangles();  // three vertices each
+const std::uint8_t* live_fates();       // per triangle, in the last step: 0 kept, 1 moved, 2 made
+const std::uint32_t* live_births();     // per triangle: the step that made it, 0 for generation
+double* live_angles();                  // per triangle: the smallest
+double* live_sizes();                   // per triangle: mean length scale of its vertices
+std::uint32_t* live_wall();             // the airfoil's vertices in order
+std::uint32_t live_wall_count();
+const char*
+live_check();  // the independent check: empty if the mesh is valid, otherwise the first broken rule
+const char* live_hash();  // of points and triangles, 16 hexadecimal digits
+
+// Potential flow around the present mesh.
+std::uint32_t live_flow(double alpha_deg);
+double* live_cp();       // per vertex
+double* live_speed();    // per vertex
+double* live_wall_cp();  // x, cp of wall vertices, in order
+std::uint32_t live_wall_cp_count();
+double live_lift();
+
+// A search by CMA-ES for the target, from another design of the same degree.
+std::uint32_t live_search_start(const double* from, std::uint32_t count, const double* target,
+                                std::uint32_t target_count, double sigma, std::uint32_t seed);
+std::uint32_t live_search_next();  // leaves a design in live_design(); 0 where the search has converged
+double live_search_objective();    // the distance of live_design() to the target, root mean square over x
+void live_search_tell(double objective);
+}

@@ -1,0 +1,420 @@
+"""The page of `remodel live` in a real browser: a mesh that is dragged by pointer, keys and scripts."""
+
+import json
+import time
+
+from browser import BROWSER, Browser, colours
+from harness import ProgramTest
+
+STATUS = "document.getElementById('status').textContent"
+NOISE = "GL Driver Message"  # of the software that draws where there is no graphics card
+
+
+class PageTest(ProgramTest):
+    WIDTH, HEIGHT = 1000, 700
+
+    def setUp(self):
+        super().setUp()
+        if BROWSER is None:
+            self.skipTest("needs chromium, which is not installed")
+        outcome = self.run_program("live", "-o", "live.html")
+        if outcome.status == 2 and "without its page" in outcome.stderr:
+            self.skipTest("the program was built without the page: emscripten is not installed")
+        self.assertEqual(outcome.status, 0, str(outcome))
+        self.browser = Browser(self.path("browser"), self.WIDTH, self.HEIGHT)
+        self.addCleanup(self.browser.close)
+        self.open()
+
+    def open(self, link=""):
+        self.browser.open("about:blank")
+        self.browser.requests.clear()
+        self.browser.open(self.path("live.html").as_uri() + link)
+        self.browser.wait_for("document.documentElement?.dataset.ready === 'true'")
+
+    def value(self, expression):
+        return self.browser.evaluate(expression)
+
+    def settled(self):
+        self.value("live.settled()")
+
+    def status(self):
+        return self.value(STATUS)
+
+    def design(self):
+        return self.value("[...live.shown.design]")
+
+    def change(self, **changes):
+        self.value(f"live.change({json.dumps(changes)}); live.settled()")
+
+    def set(self, element, value):
+        """As if a person had chosen the value."""
+        kind = "checked" if isinstance(value, bool) else "value"
+        self.value(f"""(() => {{
+            const element = document.getElementById({json.dumps(element)});
+            element.{kind} = {json.dumps(value)};
+            for (const name of ["input", "change"]) element.dispatchEvent(new Event(name));
+        }})()""")
+        self.settled()
+
+    def click(self, element):
+        self.value(f"document.getElementById({json.dumps(element)}).click()")
+
+    def middle(self, selector, index=0):
+        return self.value(f"""(() => {{
+            const box = document.querySelectorAll({json.dumps(selector)})[{index}].getBoundingClientRect();
+            return [box.x + box.width / 2, box.y + box.height / 2];
+        }})()""")
+
+    def drag_handle(self, index, by):
+        x, y = self.middle(".handle", index)
+        self.browser.drag((x, y), (x, y + by))
+        self.settled()
+
+    def picture(self):
+        """The colours of the stage."""
+        width, height = self.value("[live.stage.width, live.stage.height]")
+        clip = {"x": 0, "y": 0, "width": width, "height": height, "scale": 0.25}
+        return colours(self.browser.picture(clip=clip))
+
+    def assertSound(self):
+        """The mesh is valid, the console is empty and nothing was fetched."""
+        self.settled()
+        self.assertEqual(self.value("live.call('check')"), "")
+        self.assertEqual([line for line in self.browser.errors if NOISE not in line], [])
+        page = self.path("live.html").as_uri()
+        foreign = [r for r in self.browser.requests if not r.startswith((page, "blob:null/", "data:"))]
+        self.assertEqual(foreign, [])
+
+
+class Dragging(PageTest):
+    def test_a_dragged_handle_takes_the_mesh_along(self):
+        before, design = self.picture(), self.design()
+        self.assertGreater(len(before), 20)
+        self.assertLess(max(before.values()), 0.9 * sum(before.values()))
+        self.drag_handle(2, -40)
+        after = self.design()
+        self.assertTrue(all(a > b for a, b in zip(after[1:5], design[1:5])), (design, after))
+        self.assertEqual(after[6:], design[6:])  # the lower side
+        self.assertNotEqual(self.picture(), before)
+        triangles, _, kept, moved, made = self.value("[...live.shown.figures].slice(0, 5)")
+        self.assertEqual(kept + moved + made, triangles)
+        self.assertGreater(kept, 0.5 * triangles)
+        self.assertGreater(moved + made, 0)
+        self.assertSound()
+
+    def test_the_surface_goes_where_the_pointer_is_and_back(self):
+        designs = [self.design()]
+        for index in (1, 4, 8):
+            x, y = self.middle(".handle", index)
+            self.browser.drag((x, y), (x + 7, y + 9))
+            self.settled()
+            now = self.middle(".handle", index)
+            self.assertAlmostEqual(now[0], x, delta=0.2)  # a handle goes up and down
+            self.assertAlmostEqual(now[1], y + 9, delta=0.2)
+            designs.append(self.design())
+        for design in designs[-2::-1]:
+            self.click("undo")
+            self.settled()
+            self.assertEqual(self.design(), design)
+        self.assertTrue(self.value("document.getElementById('undo').disabled"))
+        for design in designs[1:]:
+            self.click("redo")
+            self.settled()
+            self.assertEqual(self.design(), design)
+        self.assertSound()
+
+    def test_regenerating_makes_every_triangle_new(self):
+        self.set("regenerate", True)
+        self.drag_handle(2, -10)
+        triangles, _, kept, moved, made = self.value("[...live.shown.figures].slice(0, 5)")
+        self.assertEqual((kept, moved, made), (0, 0, triangles))
+        self.set("regenerate", False)
+        self.set("fresh", True)
+        self.drag_handle(2, 10)
+        self.assertGreater(self.value("live.shown.figures[2]"), 0.5 * triangles)
+        self.assertLess(abs(self.value("live.medians().surplus")), 0.3)
+        self.assertSound()
+
+    def test_every_colouring_draws_another_picture(self):
+        self.drag_handle(2, -20)
+        pictures = []
+        for colour in ("fate", "quality", "size", "age", "pressure"):
+            self.set("colour", colour)
+            pictures.append(self.picture())
+            self.assertGreater(len(pictures[-1]), 20, colour)
+        for i, picture in enumerate(pictures):
+            self.assertNotIn(picture, pictures[:i])
+        self.assertSound()
+
+
+class RandomDrags(PageTest):
+    WIDTH, HEIGHT = 700, 500  # there is less to draw
+
+    # The page's own events of pointers, one after the other as fast as the mesh follows.
+    DRAGS = """(async (count, seed) => {
+        const random = () => (seed = (seed * 48271) % 2147483647) / 2147483647;
+        let refused = 0;
+        for (let i = 0; i < count; ++i) {
+            const handles = document.querySelectorAll(".handle");
+            const handle = handles[Math.floor(random() * handles.length)];
+            const box = handle.getBoundingClientRect();
+            const [clientX, clientY] = [box.x + box.width / 2, box.y + box.height / 2];
+            const send = (kind, y) => handle.dispatchEvent(
+                new PointerEvent(kind, { pointerId: 1, button: 0, clientX, clientY: y, bubbles: true, cancelable: true }));
+            send("pointerdown", clientY);
+            send("pointermove", clientY + 60 * (random() - 0.5));
+            send("pointerup", clientY);
+            await live.settled();
+            refused += document.getElementById("status").classList.contains("trouble");
+            if (i % 25 === 24) await live.call("named", { name: "naca:2412", degree: 5 }).then((design) => live.change({ design }));
+        }
+        return refused;
+    })"""
+
+    def drags(self, count, seed):
+        done, refused = 0, 0
+        while done < count:
+            part = min(50, count - done)
+            refused += self.value(f"{self.DRAGS}({part}, {seed + done})")
+            done += part
+        return refused
+
+    def memory(self):
+        """Bytes: of the page's objects, once what is unused is gone, and of the core."""
+        self.browser.call("HeapProfiler.collectGarbage")
+        return self.browser.call("Runtime.getHeapUsage")["usedSize"], self.value("live.call('memory')")
+
+    def test_a_thousand_drags_leave_memory_flat(self):
+        seed = int(time.time())
+        print(f"seed {seed}")
+        self.change(flow=False)
+        refused = self.drags(200, seed)
+        page, core = self.memory()
+        refused += self.drags(800, seed + 1000)
+        later_page, later_core = self.memory()
+        print(f"page {page} to {later_page} bytes, core {core} to {later_core} bytes, {refused} drags refused")
+        self.assertLess(refused, 900)
+        self.assertLess(later_page, page + 1_000_000)
+        self.assertLessEqual(later_core, 1.25 * core)
+        self.assertSound()
+
+
+class Input(PageTest):
+    def give(self, name):
+        """Gives a file to the page as its dialogue does; the sentence that it answers with."""
+        self.value("document.getElementById('status').textContent = ''")
+        root = self.browser.call("DOM.getDocument")["root"]["nodeId"]
+        node = self.browser.call("DOM.querySelector", nodeId=root, selector="#file")["nodeId"]
+        self.browser.call("DOM.setFileInputFiles", files=[str(self.path(name))], nodeId=node)
+        self.browser.wait_for(STATUS)
+        self.settled()
+        return self.status()
+
+    def test_what_cannot_be_meshed_gives_a_sentence(self):
+        design = self.design()
+        bad = {
+            "empty.dat": b"", "text.dat": b"this is no airfoil\n", "bytes.dat": bytes(range(256)),
+            "short.dat": b"short\n1 0\n0 0\n1 0\n", "bad.json": b"{\"upper\": [1, 2", "keys.json": b"{\"size\": 3}",
+            "none.su2": b"NDIME= 2\n", "loop.su2": b"NDIME= 2\nNPOIN= 3\n0 0\n1 0\n0 1\nNMARK= 1\nMARKER_TAG= airfoil\n"
+                                                   b"MARKER_ELEMS= 2\n3 0 1\n3 1 2\n",
+        }  # fmt: skip
+        for name, content in bad.items():
+            self.write(name, content)
+            sentence = self.give(name)
+            self.assertIn(name, sentence)
+            self.assertRegex(sentence, r"^[A-Z\w].*\.$")
+            self.assertEqual(self.design(), design)
+        self.set("naca", "12x")
+        self.value("document.getElementById('naca-form').requestSubmit()")
+        self.browser.wait_for(f"{STATUS}.includes('12x')")
+        self.assertEqual(self.design(), design)
+        self.a_design_that_crosses_itself_is_refused()
+        self.assertSound()
+
+    def a_design_that_crosses_itself_is_refused(self):
+        x, y = self.middle(".handle", 2)
+        self.browser.drag((x, y), (x, y + 200))
+        self.settled()
+        self.assertIn("cross", self.status())
+        lower = self.middle(".handle", 8)
+        self.assertLess(self.middle(".handle", 2)[1], lower[1])
+
+    def test_files_of_airfoils_are_taken(self):
+        self.succeed("fit", "naca:4415", "-o", "shape.json")
+        self.succeed("mesh", "naca:4415", "--points", 80, "-o", "mesh.su2")
+        shape = json.loads(self.path("shape.json").read_text())
+        expected = [*shape["upper"], *shape["lower"], shape.get("te_upper", 0), shape.get("te_lower", 0)]
+        self.give("shape.json")
+        self.assertEqual(self.design(), expected)
+        self.change(design=self.value("live.call('named', { name: 'naca:0012', degree: 5 }).then((d) => [...d])"))
+        self.give("mesh.su2")
+        for ours, theirs in zip(self.design(), expected):
+            self.assertAlmostEqual(ours, theirs, delta=0.01)
+        points = self.path("mesh.su2").read_text()
+        self.write("outline.dat", self.outline(points))
+        self.give("outline.dat")
+        for ours, theirs in zip(self.design(), expected):
+            self.assertAlmostEqual(ours, theirs, delta=0.01)
+        self.assertSound()
+
+    @staticmethod
+    def outline(su2):
+        """Selig's order of the points of an airfoil's marker as `remodel mesh` writes it."""
+        lines = su2.splitlines()
+        start = next(i for i, line in enumerate(lines) if line.startswith("NPOIN"))
+        first = lines.index("MARKER_TAG= airfoil") + 2
+        loop = [int(line.split()[1]) for line in lines[first:first + int(lines[first - 1].split()[1])]]
+        points = [tuple(map(float, lines[start + 1 + i].split()[:2])) for i in loop]
+        area = sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(points, points[1:] + points[:1]))
+        if area < 0:
+            points.reverse()
+        edge = points.index(max(points))
+        points = points[edge:] + points[:edge + 1]
+        return "outline\n" + "".join(f"{x} {y}\n" for x, y in points)
+
+    def test_keys_and_a_screen_reader_are_enough(self):
+        design = self.design()
+        focus = "document.activeElement.getAttribute('aria-label') ?? document.activeElement.id"
+        for _ in range(5):
+            self.browser.key("Tab", code="Tab", windowsVirtualKeyCode=9)
+            if "Upper side" in self.value(focus):
+                break
+        self.assertIn("Upper side at", self.value(focus))
+        self.browser.key("ArrowUp")
+        self.settled()
+        changed = self.design()
+        self.assertGreater(changed[0], design[0])
+        self.browser.key("z", modifiers=2)
+        self.settled()
+        self.assertEqual(self.design(), design)
+        scale = self.value("document.getElementById('mesh').focus(), live.view.scale")
+        self.browser.key("+")
+        self.browser.key("ArrowRight")
+        self.assertGreater(self.value("live.view.scale"), scale)
+        self.assertGreater(self.value("live.view.x"), 0.5)
+        self.browser.key("0")
+        self.assertEqual(self.value("live.view.scale"), scale)
+        self.assertSound()
+        self.every_control_has_a_name()
+
+    def every_control_has_a_name(self):
+        self.value("document.getElementById('coefficients-part').open = true")
+        nodes = self.browser.call("Accessibility.getFullAXTree")["nodes"]
+        roles = {"button", "slider", "checkbox", "combobox", "textbox", "image", "application", "group", "status"}
+        found = [(n["role"]["value"], n.get("name", {}).get("value", "")) for n in nodes
+                 if not n["ignored"] and n["role"]["value"] in roles]
+        self.assertGreaterEqual(sum(role == "slider" for role, _ in found), 12 + 12 + 3)
+        self.assertEqual([role for role, name in found if not name and role not in ("status", "group")], [])
+
+
+class Keeping(PageTest):
+    def test_the_link_holds_the_state(self):
+        self.set("points", 120)
+        self.set("colour", "age")
+        self.set("alpha", 4)
+        self.drag_handle(2, -15)
+        design = self.design()
+        link = self.browser.wait_for("location.hash.includes('colour=age') && location.hash.includes("
+                                     "'design=' + live.shown.design.join(',')) && location.hash")
+        self.open(link)
+        self.assertEqual(self.design(), design)
+        self.assertEqual(self.value("[live.shown.points, live.shown.gradation, live.shown.colour, live.wish.alpha]"),
+                         [120, 2.4, "age", 4])
+        self.assertSound()
+        self.open("#design=1,2,x&points=-4&colour=none")
+        self.assertEqual(self.value("[live.shown.points, live.shown.colour]"), [200, "fate"])
+        self.assertIn("link", self.status())
+        self.assertSound()
+
+    def test_the_mesh_is_kept_as_a_file(self):
+        self.drag_handle(3, -15)
+        self.browser.call("Page.setDownloadBehavior", behavior="allow", downloadPath=str(self.directory))
+        for button, name in (("save-mesh", "remodel.su2"), ("save-picture", "remodel.png"), ("save-design", "remodel.json")):
+            self.click(button)
+            deadline = time.monotonic() + 30
+            while not self.path(name).exists() and time.monotonic() < deadline:
+                time.sleep(0.05)
+            self.assertTrue(self.path(name).exists(), name)
+        figures = self.figures("check", "remodel.su2")
+        self.assertTrue(figures["valid"])
+        self.assertEqual(figures["triangles"], self.value("live.shown.figures[0]"))
+        self.assertEqual(figures["boundary"]["airfoil"], self.value("live.shown.pressure.wall.length / 2"))
+        self.assertGreater(figures["boundary"]["farfield"], 20)
+        self.assertGreater(len(colours(self.path("remodel.png").read_bytes())), 20)
+        self.succeed("mesh", "remodel.json", "-o", "again.su2")
+        self.assertSound()
+
+
+class Watching(PageTest):
+    def test_the_search_comes_nearer(self):
+        self.change(flow=False)
+        self.value("document.getElementById('goal').value = 'rae2822'")
+        self.click("search")
+        start = float(self.browser.wait_for("/distance ([0-9.e+-]+)/.exec(document.getElementById('search-state').textContent)?.[1]"))
+        self.browser.wait_for(f"Number(/distance ([0-9.e+-]+)/.exec(document.getElementById('search-state').textContent)[1]) < {start / 2}")
+        self.assertTrue(self.value("document.getElementById('target').getAttribute('points').length > 100"))
+        self.click("search")
+        self.browser.wait_for("document.getElementById('search').textContent === 'Optimise'")
+        self.settled()
+        self.assertEqual(self.value("document.getElementById('target').getAttribute('points')"), "")
+        self.assertSound()
+
+    def test_zoom_by_wheel_and_pinch(self):
+        x, y = self.middle("#mesh")
+        before, scale = self.picture(), self.value("live.view.scale")
+        self.browser.call("Input.dispatchMouseEvent", type="mouseWheel", x=x, y=y, deltaX=0, deltaY=-400)
+        self.browser.wait_for(f"live.view.scale > {1.5 * scale}")
+        self.assertNotEqual(self.picture(), before)
+        scale = self.value("live.view.scale")
+        touch = lambda kind, gap: self.browser.call(  # noqa: E731
+            "Input.dispatchTouchEvent", type=kind,
+            touchPoints=[{"x": x - gap, "y": y + 120, "id": 0}, {"x": x + gap, "y": y + 120, "id": 1}] if gap else [])
+        touch("touchStart", 40)
+        for gap in (50, 60, 70, 80):
+            touch("touchMove", gap)
+        touch("touchEnd", 0)
+        self.assertAlmostEqual(self.value("live.view.scale") / scale, 2, delta=0.2)
+        self.assertSound()
+
+    def test_phone_and_dark(self):
+        light = self.picture()
+        self.browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark"}])
+        self.value("new Promise(requestAnimationFrame)")
+        dark = self.picture()
+        brightness = lambda count: sum(sum(c) * n for c, n in count.items()) / sum(count.values())  # noqa: E731
+        self.assertLess(brightness(dark), 0.6 * brightness(light))
+        for width, height in ((390, 844), (844, 390), (1024, 768)):
+            self.browser.resize(width, height, 2, width < 900)
+            self.value("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+            self.assertLessEqual(self.value("document.documentElement.scrollWidth"), width)
+            outside = self.value("[...document.querySelectorAll('.handle')].filter((h) => { const b = h.getBoundingClientRect();"
+                                 f" return b.left < 0 || b.right > {width} || b.top < 0 || b.bottom > {height}; }}).length")
+            self.assertEqual(outside, 0, (width, height))
+            self.assertGreater(len(self.picture()), 20)
+        self.assertSound()
+
+    def test_the_policy_reports_what_is_fetched(self):
+        """The other tests rely on it."""
+        text = self.path("live.html").read_text()
+        self.write("live.html", text.replace("<main>", "<main><img src='http://127.0.0.1:9/picture.png'>", 1))
+        self.open()
+        self.assertTrue(any("127.0.0.1" in line for line in self.browser.errors), self.browser.errors)
+
+    def test_medians_of_the_strip_chart(self):
+        """Prints them: nothing is asked of a machine's speed."""
+        for points, colour, flow in ((200, "pressure", True), (200, "fate", False), (700, "fate", False), (700, "pressure", True)):
+            for exact in (False, True):
+                self.change(points=points, gradation=points / 50, colour=colour, flow=flow)
+                self.value(f"live.measure({json.dumps(exact)})")
+                x, y = self.middle(".handle", 2)
+                self.browser.drag((x, y), (x, y - 12), 12)
+                self.browser.drag((x, y - 12), (x, y), 12)
+                self.settled()
+                medians = self.value("live.medians()")
+                self.assertGreater(medians["latency"], 0)
+                self.assertEqual(medians["flow"] is not None, flow)
+                print(f"I = {points}: step {medians['step']:.1f} ms"
+                      + (f", flow {medians['flow']:.1f} ms" if flow else "")
+                      + f", pointer to picture {medians['latency']:.1f} ms"
+                      + (", its pixels included" if exact else "") + f", {100 * medians['kept']:.1f} % kept")
+        self.assertSound()
