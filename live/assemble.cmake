@@ -2,7 +2,11 @@
 #   cmake -DPARTS=... -DCORE=... -DPAGE=... -P assemble.cmake
 file(READ ${PARTS}/page.html page)
 file(READ ${PARTS}/page.css style)
-file(READ ${PARTS}/page.js script)
+set(script "")
+foreach(name picture charts files page)
+  file(READ ${PARTS}/${name}.js part)
+  string(APPEND script "${part}")
+endforeach()
 file(READ ${PARTS}/worker.js worker)
 file(READ ${CORE}/live.js glue)
 file(READ ${CORE}/live.wasm.txt wasm)

@@ -166,7 +166,7 @@ class RandomDrags(PageTest):
             send("pointerup", clientY);
             await live.settled();
             refused += document.getElementById("status").classList.contains("trouble");
-            if (i % 25 === 24) await live.call("named", { name: "naca:2412", degree: 5 }).then((design) => live.change({ design }));
+            if (i % 25 === 24) live.change({ design: await live.call("named", { name: "naca:2412", degree: 5 }) });
         }
         return refused;
     })"""
@@ -350,8 +350,9 @@ class Watching(PageTest):
         self.change(flow=False)
         self.value("document.getElementById('goal').value = 'rae2822'")
         self.click("search")
-        start = float(self.browser.wait_for("/distance ([0-9.e+-]+)/.exec(document.getElementById('search-state').textContent)?.[1]"))
-        self.browser.wait_for(f"Number(/distance ([0-9.e+-]+)/.exec(document.getElementById('search-state').textContent)[1]) < {start / 2}")
+        distance = "Number(/distance ([0-9.e+-]+)/.exec(document.getElementById('search-state').textContent)?.[1] ?? NaN)"
+        start = self.browser.wait_for(distance)
+        self.browser.wait_for(f"{distance} < {start / 2}")
         self.assertTrue(self.value("document.getElementById('target').getAttribute('points').length > 100"))
         self.click("search")
         self.browser.wait_for("document.getElementById('search').textContent === 'Optimise'")
@@ -402,7 +403,8 @@ class Watching(PageTest):
 
     def test_medians_of_the_strip_chart(self):
         """Prints them: nothing is asked of a machine's speed."""
-        for points, colour, flow in ((200, "pressure", True), (200, "fate", False), (700, "fate", False), (700, "pressure", True)):
+        for points, flow in ((200, True), (200, False), (700, False), (700, True)):
+            colour = "pressure" if flow else "fate"  # the picture of the pressure waits for the flow
             for exact in (False, True):
                 self.change(points=points, gradation=points / 50, colour=colour, flow=flow)
                 self.value(f"live.measure({json.dumps(exact)})")
