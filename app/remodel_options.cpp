@@ -26,14 +26,15 @@ void add_remodel_options(CLI::App& app, RemodelOptions& options) {
 
 void add_step_strategy(CLI::App& app, RemodelOptions& options) {
   options.strategy = Strategy::renew;
-  static constexpr std::array strategies{Strategy::chain, Strategy::renew};
+  static constexpr std::array strategies{Strategy::chain, Strategy::renew, Strategy::morph};
   std::vector<std::string> names;
   for (const Strategy strategy : strategies) names.emplace_back(name_of(strategy));
   add_choice(
       app,
       {"--strategy", "STRATEGY", "renew",
-       "renew (length scales are renewed, what is too dense is coarsened) or chain (the paper's method to "
-       "the letter, and all that imported meshes have)"},
+       "renew (length scales are renewed, what is too dense is coarsened), morph (renew, but the interior "
+       "moves along with the boundary where it can) or chain (the paper's method to the letter, and all that "
+       "imported meshes have)"},
       names, [&](std::size_t choice) { options.strategy = strategies[choice]; });
 }
 

@@ -47,7 +47,7 @@ void warn_of_losses(const UpdateCommand& command, const RemodelResult& result) {
         "cannot be completed without generating the mesh afresh: " + result.reason + "; nothing was written";
   else if (result.regenerated)
     message = "generated afresh, " + lost + ": " + result.reason;
-  else if (2 * result.preserved < result.triangles_before)
+  else if (2 * (result.morphed ? result.connected : result.preserved) < result.triangles_before)
     message = lost;
   if (!message.empty()) std::fprintf(stderr, "remodel: %s: %s\n", command.mesh.c_str(), message.c_str());
 }
@@ -57,10 +57,16 @@ void add_figures(Report& report, const RemodelResult& result) {
   report.figure("triangles", "triangles", result.triangles);
   report.figure("preserved", "preserved", result.preserved, "triangles");
   report.figure("preserved_percent", "preserved, share", result.preserved_percent(), "%");
-  report.figure("moved", "moved", result.moved, "boundary vertices");
+  report.figure("connected", "joined as before", result.connected, "triangles");
+  report.figure("connectivity_percent", "joined as before, share", result.connectivity_percent(), "%");
+  report.figure("born", "born", result.born(), "triangles");
+  report.figure("gone", "gone", result.gone(), "triangles");
+  report.figure("flipped", "flipped", result.flipped, "edges");
+  report.figure("moved", "moved", result.moved, result.morphed ? "vertices" : "boundary vertices");
   report.figure("inserted", "inserted", result.inserted, "vertices");
   report.figure("removed", "removed", result.removed, "vertices");
   report.figure("full_adjustment", "full adjustment", result.full_adjustment);
+  report.figure("morphed", "morphed", result.morphed);
   report.figure("method", "method", name_of(result.method));
   report.figure("refreshed", "generated afresh by the strategy", result.refreshed);
   report.figure("regenerated", "generated afresh", result.regenerated);

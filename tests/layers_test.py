@@ -18,7 +18,7 @@ LAYERS = [
     {"name": "mesh", "headers": ["mesh.h", "mesh_state.h", "changes.h", "frozen_mesh.h", "field.h"]},
     {"name": "generate", "headers": ["generate.h"]},
     {"name": "import", "headers": ["import.h"]},
-    {"name": "step", "headers": ["remodel.h", "mesh_derivative.h"]},
+    {"name": "step", "headers": ["remodel.h", "mesh_derivative.h", "displacement.h"]},
     {"name": "transfer", "headers": ["transfer.h", "snapshots.h"]},
     {"name": "check", "headers": ["check.h"]},
     {"name": "flow", "headers": ["flow.h", "potential_flow.h"]},

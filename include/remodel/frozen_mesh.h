@@ -21,7 +21,7 @@ struct FrozenBoundary {
 // The fate of a triangle since an earlier state of its mesh.
 enum class Fate : std::uint8_t {
   kept,   // it was there, and nothing of it has changed since
-  moved,  // the same three vertices were joined, of which boundary vertices have moved along with the design
+  moved,  // the same three vertices were joined, of which some have moved along with the design
   made,   // it is new
 };
 
@@ -56,8 +56,9 @@ struct FrozenMesh {
 
 // The fate of each triangle of `after`, since `before`: two states of one living mesh, in the order of time.
 // Exact between consecutive steps. Over many of them a vertex's id may have been given out again: it counts
-// as the same vertex in the interior if it stands at the same point, on a boundary if it has the same curve
-// and parameter. O(triangles). Throws Error (argument) for a mesh without ids or births.
+// as the same vertex in the interior if it has the same key (without keys, if it stands at the same point),
+// on a boundary if it has the same curve and parameter. O(triangles). Throws Error (argument) for a mesh
+// without ids or births.
 std::vector<Fate> fates(const FrozenMesh& before, const FrozenMesh& after);
 
 }  // namespace remodel

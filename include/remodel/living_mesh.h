@@ -29,6 +29,7 @@ enum class MeshStrategy {
   // "Improvements". It chooses those where a vertex of the last design and its place on this one are more
   // than 8 local length scales apart, and once after ten full adjustments in a row.
   regenerate,
+  morph,  // Strategy::morph, as renew
 };
 
 struct MeshStrategyInfo {
@@ -57,10 +58,14 @@ struct MeshStep {
   std::size_t triangles = 0;
   std::size_t preserved = 0;
   double preserved_percent = 0.0;
+  std::size_t connected = 0;  // triangles of before whose three vertices are joined still, moved or not
+  double connectivity_percent = 0.0;
   std::size_t moved = 0;
   std::size_t inserted = 0;
   std::size_t removed = 0;
+  std::size_t flipped = 0;  // flips of edges
   bool full_adjustment = false;
+  bool morphed = false;        // the interior moved along with the boundary
   bool refreshed = false;      // the strategy generated the mesh afresh
   bool regenerated = false;    // the mesh had to be regenerated: a recovery
   double min_angle_deg = 0.0;  // of the mesh; where its changes were checked, of these
@@ -84,9 +89,13 @@ inline constexpr std::tuple mesh_step_figures{
     Figure{"triangles", "triangles", "", &MeshStep::triangles},
     Figure{"preserved", "preserved", "triangles", &MeshStep::preserved},
     Figure{"preserved_percent", "preserved", "%", &MeshStep::preserved_percent},
+    Figure{"connected", "joined as before", "triangles", &MeshStep::connected},
+    Figure{"connectivity_percent", "joined as before", "%", &MeshStep::connectivity_percent},
     Figure{"moved", "moved", "vertices", &MeshStep::moved},
     Figure{"inserted", "inserted", "vertices", &MeshStep::inserted},
     Figure{"removed", "removed", "vertices", &MeshStep::removed},
+    Figure{"flipped", "flipped", "edges", &MeshStep::flipped},
+    Figure{"morphed", "morphed", "", &MeshStep::morphed},
     Figure{"full_adjustment", "full adjustment", "", &MeshStep::full_adjustment},
     Figure{"refreshed", "generated afresh by the strategy", "", &MeshStep::refreshed},
     Figure{"regenerated", "regenerated", "", &MeshStep::regenerated},

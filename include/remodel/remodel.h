@@ -25,8 +25,14 @@ enum class Strategy {
   // adjustments in a row a mesh whose count is off is generated afresh. The angle bound never
   // relaxes. Imported meshes, whose length scales are measured, are remodelled as by chain.
   renew,
+  // As renew, but where not all boundary vertices can be moved in place with the interior still, the interior
+  // moves along with them (remodel/displacement.h): almost all triangles go on joining the same vertices.
+  // Edges that are no longer Delaunay are flipped, and triangles that miss a bound are refined. A large change
+  // is made in several parts. Where triangles turn over all the same, the step is that of renew. Vertices of
+  // imported meshes move too; their length scales are not renewed.
+  morph,
 };
-const char* name_of(Strategy strategy);  // "chain", "renew"
+const char* name_of(Strategy strategy);  // "chain", "renew", "morph"
 
 struct RemodelOptions {
   double distance = 1.0;  // D: removal radius over the distance of a pair of old and new vertices; >= 0
@@ -47,20 +53,29 @@ struct RemodelResult {
   std::size_t triangles_before = 0;
   std::size_t triangles = 0;
   std::size_t preserved = 0;  // old domain triangles still there with all three vertices unmoved
-  std::size_t moved = 0;      // boundary vertices at another place than before, but the same
+  std::size_t connected = 0;  // old domain triangles whose vertices a triangle still joins, moved or not
+  std::size_t moved = 0;      // vertices at another place than before, but the same: boundary vertices, unless
+                              // the step morphed the mesh
   std::size_t inserted = 0;   // vertices
   std::size_t removed = 0;
+  std::size_t flipped = 0;              // flips of edges
   bool full_adjustment = false;         // every boundary vertex moved in place, connectivity unchanged
+  bool morphed = false;                 // Strategy::morph: the interior moved along with the boundary
   Method method = Method::specialised;  // the one that ran
   bool refreshed = false;               // the strategy generated the mesh afresh: its triangle count was off
   bool regenerated = false;             // remodelling could not be completed: the mesh was generated afresh
   bool abandoned = false;               // the same without RemodelOptions::regenerate: the mesh is as it was
   std::string reason;                   // why it was regenerated or abandoned
   Stopped stopped = Stopped::done;
-  double preserved_percent() const {
-    return triangles_before == 0
-               ? 100.0
-               : 100.0 * static_cast<double>(preserved) / static_cast<double>(triangles_before);
+  double preserved_percent() const { return percent(preserved); }
+  double connectivity_percent() const { return percent(connected); }
+  std::size_t born() const { return triangles - connected; }         // triangles that joined nothing before
+  std::size_t gone() const { return triangles_before - connected; }  // and those that join nothing now
+
+ private:
+  double percent(std::size_t count) const {
+    return triangles_before == 0 ? 100.0
+                                 : 100.0 * static_cast<double>(count) / static_cast<double>(triangles_before);
   }
 };
 

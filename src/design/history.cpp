@@ -12,7 +12,7 @@
 namespace remodel {
 namespace {
 
-constexpr std::uint64_t table_version = 4;
+constexpr std::uint64_t table_version = 5;
 constexpr std::size_t batch = 250;  // records a transaction
 
 std::string schema() {

@@ -45,7 +45,9 @@ RemodelResult TrialMesh::advance(const Domain& domain) {
 
 void TrialMesh::count_losses(RemodelResult& result) {
   result.triangles_before = solved_on_.size();
-  result.preserved = solved_on_.common_with(mesh().data());
+  const TriangleSnapshot::Common common = solved_on_.common_with(mesh().data());
+  result.preserved = common.same;
+  result.connected = common.joined;
   solved_on_ = TriangleSnapshot(mesh().data());
 }
 

@@ -18,7 +18,7 @@
 namespace remodel {
 namespace {
 
-constexpr std::array<MeshStrategyInfo, 5> strategies{{
+constexpr std::array<MeshStrategyInfo, 6> strategies{{
     {MeshStrategy::chain, "chain", "the paper's method to the letter, and all that imported meshes have",
      Strategy::chain},
     {MeshStrategy::renew, "renew", "length scales are renewed, what is too dense is coarsened",
@@ -27,6 +27,8 @@ constexpr std::array<MeshStrategyInfo, 5> strategies{{
     {MeshStrategy::hub, "hub", "renew, all designs from one mesh near their mean", Strategy::renew},
     {MeshStrategy::regenerate, "regenerate", "chain, and generation where a criterion asks for it",
      Strategy::chain},
+    {MeshStrategy::morph, "morph", "renew, but the interior moves along with the boundary where it can",
+     Strategy::morph},
 }};
 
 constexpr const char* checked_names[] = {"changes", "quick", "full"};
@@ -36,10 +38,14 @@ void copy_figures(const RemodelResult& result, MeshStep& record) {
   record.triangles = result.triangles;
   record.preserved = result.preserved;
   record.preserved_percent = result.preserved_percent();
+  record.connected = result.connected;
+  record.connectivity_percent = result.connectivity_percent();
   record.moved = result.moved;
   record.inserted = result.inserted;
   record.removed = result.removed;
+  record.flipped = result.flipped;
   record.full_adjustment = result.full_adjustment;
+  record.morphed = result.morphed;
   record.refreshed = result.refreshed;
   record.regenerated = result.regenerated;
   record.detail = result.reason;
@@ -95,7 +101,7 @@ std::optional<Mesh> first_mesh(const DesignSpace& space, const OptimiseOptions& 
   }
   GenerateResult generated = generate(domain, options.quality);
   if (generated.stopped != Stopped::done) return std::nullopt;
-  if (step.strategy == Strategy::renew) calibrate(generated.mesh.data(), RenewPolicy::samples_before_a_run);
+  if (step.strategy != Strategy::chain) calibrate(generated.mesh.data(), RenewPolicy::samples_before_a_run);
   return std::move(generated.mesh);
 }
 
@@ -175,9 +181,9 @@ Stopped LivingMesh::regenerate(const Domain& domain, MeshStep& record) {
   if (fresh.stopped != Stopped::done) return fresh.stopped;
   put(std::move(fresh.mesh));
   record.triangles = mesh().triangle_count();
-  record.preserved = record.moved = record.inserted = record.removed = 0;
-  record.preserved_percent = 0.0;
-  record.full_adjustment = record.refreshed = false;
+  record.preserved = record.connected = record.moved = record.inserted = record.removed = record.flipped = 0;
+  record.preserved_percent = record.connectivity_percent = 0.0;
+  record.full_adjustment = record.morphed = record.refreshed = false;
   record.regenerated = true;
   return Stopped::done;
 }

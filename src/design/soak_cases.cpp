@@ -241,7 +241,7 @@ RemodelOptions draw_remodel(Generator& random) {
   RemodelOptions options;
   options.distance = pick(random, std::array{0.5, 1.0, 2.0, 4.0});
   options.method = pick(random, std::array{Method::automatic, Method::automatic, Method::general});
-  options.strategy = pick(random, std::array{Strategy::renew, Strategy::chain});
+  options.strategy = pick(random, std::array{Strategy::renew, Strategy::chain, Strategy::morph});
   return options;
 }
 

@@ -31,17 +31,21 @@ TriangleSnapshot::TriangleSnapshot(const MeshData& mesh) {
                       [&](std::uint32_t least, const auto& others) { others_[next[least]++] = others; });
 }
 
-std::size_t TriangleSnapshot::common_with(const MeshData& mesh) const {
+TriangleSnapshot::Common TriangleSnapshot::common_with(const MeshData& mesh) const {
   const Triangulation& triangulation = mesh.triangulation;
-  std::vector<bool> same(std::max(vertices_.size(), triangulation.vertex_slots()), false);
-  for (std::uint32_t i = 0; i < std::min(vertices_.size(), triangulation.vertex_slots()); ++i)
-    same[i] = vertices_[i].point == triangulation.point(VertexId{i}) &&
-              vertices_[i].generation == triangulation.generation(VertexId{i});
-  std::size_t common = 0;
+  const std::size_t slots = std::max(vertices_.size(), triangulation.vertex_slots());
+  std::vector<bool> there(slots, false), still(slots, false);
+  for (std::uint32_t i = 0; i < std::min(vertices_.size(), triangulation.vertex_slots()); ++i) {
+    there[i] = vertices_[i].generation == triangulation.generation(VertexId{i});
+    still[i] = there[i] && vertices_[i].point == triangulation.point(VertexId{i});
+  }
+  Common common;
   for_each_from_least(triangulation, [&](std::uint32_t least, const auto& others) {
-    if (!same[least] || !same[others[0]] || !same[others[1]]) return;
+    if (!there[least] || !there[others[0]] || !there[others[1]]) return;
     const auto begin = others_.begin() + first_[least], end = others_.begin() + first_[least + 1];
-    common += std::find(begin, end, others) != end;
+    if (std::find(begin, end, others) == end) return;
+    ++common.joined;
+    common.same += still[least] && still[others[0]] && still[others[1]];
   });
   return common;
 }

@@ -21,8 +21,12 @@ class TriangleSnapshot {
   explicit TriangleSnapshot(const MeshData& mesh);
 
   std::size_t size() const { return others_.size(); }
-  // How many of its triangles the mesh, as it is now, has too.
-  std::size_t common_with(const MeshData& mesh) const;
+  // How many of its triangles the mesh, as it is now, has too; and how many it has of which vertices may have
+  // moved.
+  struct Common {
+    std::size_t same = 0, joined = 0;
+  };
+  Common common_with(const MeshData& mesh) const;
 
  private:
   struct Place {

@@ -299,12 +299,12 @@ TEST(TriangleSnapshot, CountsWhatASearchAndAStepCount) {
     const Mesh before = mesh;
     const TriangleSnapshot snapshot(mesh.data());
     EXPECT_EQ(snapshot.size(), mesh.triangle_count());
-    EXPECT_EQ(snapshot.common_with(mesh.data()), mesh.triangle_count());
+    EXPECT_EQ(snapshot.common_with(mesh.data()).same, mesh.triangle_count());
     const RemodelResult result = remodel(mesh, walk.domain(60));
-    EXPECT_EQ(snapshot.common_with(mesh.data()), result.preserved);
-    EXPECT_EQ(snapshot.common_with(mesh.data()), common_by_search(before, mesh));
+    EXPECT_EQ(snapshot.common_with(mesh.data()).same, result.preserved);
+    EXPECT_EQ(snapshot.common_with(mesh.data()).same, common_by_search(before, mesh));
     // Two states that no step connects.
-    EXPECT_EQ(TriangleSnapshot(hub.data()).common_with(mesh.data()), common_by_search(hub, mesh));
+    EXPECT_EQ(TriangleSnapshot(hub.data()).common_with(mesh.data()).same, common_by_search(hub, mesh));
     replaced |= !result.full_adjustment;
   }
   EXPECT_TRUE(replaced);

@@ -40,6 +40,9 @@ class Refiner {
   void consider(TriangleId t) { consider(t, bounds_); }
   // The same for a triangle that need only keep what the mesh promises.
   void consider_kept(TriangleId t) { consider(t, promised_); }
+  // The same for one that was made or moved by a morph: it may use the slack between the promised angle and
+  // the one that refinement works to.
+  void consider_morphed(TriangleId t) { consider(t, mesh_.promised_bounds()); }
   // Refines until nothing queued is left or a limit is reached.
   Stopped run();
 

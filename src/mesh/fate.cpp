@@ -53,11 +53,16 @@ class Earlier {
   }
 
  private:
-  // Vertices of the interior never move: what has another place is another vertex with the same id.
+  // By keys, which are never given out again. Without them what has another place in the interior counts as
+  // another vertex with the same id.
   bool same_vertex(std::uint32_t p, const FrozenMesh& after, std::uint32_t q) const {
     if (mesh_.vertex_ids[p] != after.vertex_ids[q] || mesh_.curve[p] != after.curve[q]) return false;
+    if (mesh_.curve[p] < 0 && has_keys(mesh_) && has_keys(after))
+      return mesh_.vertex_keys[p] == after.vertex_keys[q];
     return mesh_.curve[p] < 0 ? mesh_.points[p] == after.points[q] : mesh_.parameter[p] == after.parameter[q];
   }
+
+  static bool has_keys(const FrozenMesh& mesh) { return mesh.vertex_keys.size() == mesh.points.size(); }
 
   const FrozenMesh& mesh_;
   std::unordered_map<std::uint32_t, std::uint32_t> births_;          // by triangle id

@@ -45,6 +45,9 @@ struct RenewPolicy {
   static constexpr double large_surplus = 0.08;
   static constexpr double dense_below = 0.4;
   static constexpr int shedding_passes = 4;  // at most
+  // A morph of a mesh whose surplus is larger sheds it: what a large change stretches and the next one squeezes
+  // is refined but not coarsened between renewals, so that walks of large steps may run away.
+  static constexpr double morph_surplus = 0.2;
   // Samples of K where the discretisation has changed: it depends on that.
   static constexpr int samples_of_another_discretisation = 2;
 

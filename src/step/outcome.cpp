@@ -1,5 +1,6 @@
 #include "step/outcome.h"
 
+#include <algorithm>
 #include <utility>
 #include <variant>
 
@@ -7,7 +8,7 @@ namespace remodel {
 
 RemodelResult unchanged(const MeshData& mesh) {
   RemodelResult result;
-  result.triangles_before = result.triangles = result.preserved = mesh.domain_triangles;
+  result.triangles_before = result.triangles = result.preserved = result.connected = mesh.domain_triangles;
   result.stopped = mesh.stopped;
   return result;
 }
@@ -20,7 +21,7 @@ RemodelResult interrupted(const MeshData& mesh) {
 
 RemodelResult finish_adjustment(MeshData& mesh, AdjustCache& cache) {
   RemodelResult result;
-  result.triangles_before = result.triangles = mesh.domain_triangles;
+  result.triangles_before = result.triangles = result.connected = mesh.domain_triangles;
   result.full_adjustment = true;
   result.preserved = mesh.domain_triangles - cache.changed;
   for (std::size_t i = 0; i < cache.moving.size(); ++i)
@@ -47,34 +48,40 @@ RemodelResult count_replacement(MeshData& mesh, std::span<const VertexId> moved)
   const Triangulation& triangulation = mesh.triangulation;
   mesh.seen_vertices.clear(triangulation.vertex_slots());
   for (const VertexId v : moved) mesh.seen_vertices.insert(v);
-  const auto survives = [&](TriangleId id, const Triangle& t) {
+  const auto is_joined = [&](TriangleId id, const Triangle& t) {
     for (const VertexId v : t.vertex)
-      if (!triangulation[v].alive() || mesh.seen_vertices.contains(v)) return false;
+      if (!triangulation[v].alive()) return false;
     if (const Triangle& now = triangulation[id]; now.in_domain() && Triangulation::same_edges(t, now))
       return true;
     const auto corner = triangulation.find_edge(t.vertex[0], t.vertex[1]);
     return corner && triangulation.vertex(*corner) == t.vertex[2] &&
            triangulation[corner->triangle].region == Region::domain;
   };
-  std::size_t before = 0, lost = 0, after = 0;
+  const auto has_moved = [&](VertexId v) { return mesh.seen_vertices.contains(v); };
+  std::size_t before = 0, lost = 0, taken_apart = 0, after = 0;
   for (const Triangulation::Earlier& earlier : triangulation.earlier()) {
     if (!earlier.triangle.in_domain()) continue;
     ++before;
-    if (!survives(earlier.id, earlier.triangle)) ++lost;
+    const bool joined = is_joined(earlier.id, earlier.triangle);
+    if (!joined) ++taken_apart;
+    if (!joined || std::any_of(earlier.triangle.vertex, earlier.triangle.vertex + 3, has_moved)) ++lost;
   }
+  mesh.seen_triangles.clear(triangulation.triangle_slots());
   triangulation.for_each_moved_only([&](TriangleId t) {  // a vertex of it moved
-    if (triangulation[t].region == Region::domain) ++lost;
+    if (triangulation[t].region == Region::domain && mesh.seen_triangles.insert(t)) ++lost;
   });
   for (const TriangleId t : triangulation.touched())
     if (triangulation[t].in_domain()) ++after;
   RemodelResult result;
   result.triangles_before = mesh.domain_triangles;
   result.preserved = mesh.domain_triangles - lost;
+  result.connected = mesh.domain_triangles - taken_apart;
   mesh.domain_triangles = mesh.domain_triangles - before + after;
   result.triangles = mesh.domain_triangles;
   result.moved = moved.size();
   result.inserted = triangulation.vertices_inserted();
   result.removed = triangulation.vertices_removed();
+  result.flipped = triangulation.edges_flipped();
   return result;
 }
 

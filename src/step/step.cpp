@@ -12,6 +12,7 @@
 #include "mesh/renew_policy.h"
 #include "remodel/error.h"
 #include "step/methods.h"
+#include "step/morph.h"
 #include "step/outcome.h"
 #include "step/strategy.h"
 
@@ -56,11 +57,20 @@ void require_surfaces_apart(const Domain& domain) {
 // Refinement of what the step touched. One that needs several times the old mesh is running away. Triangles
 // that still join the same vertices, at their old places or others, are kept: they need only hold what the
 // mesh promises.
-Stopped refine_touched(MeshData& mesh, StepObserver* observer) {
+Stopped refine_touched(MeshData& mesh, bool morphed, StepObserver* observer) {
   const Triangulation& triangulation = mesh.triangulation;
   Refiner refiner(mesh, observer);
-  const std::size_t runaway = 4 * triangulation.vertex_count() + 10000;
+  const std::size_t count = triangulation.vertex_count();
+  const std::size_t runaway = morphed ? count + count / 2 + 1000 : 4 * count + 10000;
   refiner.limit_vertices(std::min<std::size_t>(mesh.options.max_vertices, runaway));
+  if (morphed) {
+    triangulation.for_each_touched([&](TriangleId t, bool) { refiner.consider_morphed(t); });
+    mesh.seen_triangles.clear(triangulation.triangle_slots());
+    triangulation.for_each_moved_only([&](TriangleId t) {
+      if (mesh.seen_triangles.insert(t)) refiner.consider_morphed(t);  // once: it may have moved in parts
+    });
+    return refiner.run();
+  }
   triangulation.for_each_touched(
       [&](TriangleId t, bool same) { same ? refiner.consider_kept(t) : refiner.consider(t); });
   // Adjusted triangles are as good as the mesh promises, which may be less than what refinement makes.
@@ -172,7 +182,7 @@ RemodelResult Step::adjust_or_replace() {
   // exactly: its loops cannot be recovered or do not nest. Then generation says where.
   if (cache_ == nullptr || !cache_->finite()) validate(domain_);
   if (cancelled()) return take_back(), interrupted(data());
-  if (replace()) return std::move(result_);
+  if (morph() || replace()) return std::move(result_);
   take_back();
   if (result_.stopped == Stopped::interrupted) return interrupted(data());
   return options_.regenerate ? regenerate() : abandon();
@@ -207,6 +217,20 @@ RemodelResult Step::finish_adjustment() {
   return result;
 }
 
+// After a full adjustment was not possible, as Strategy::morph has it. False, with the mesh as it was, where
+// triangles turn over, or what misses a bound cannot be refined: then vertices are replaced.
+bool Step::morph() {
+  if (options_.strategy != Strategy::morph || cache_ == nullptr || !cache_->finite()) return false;
+  morphing_ = true;
+  const bool done = attempt();
+  morphing_ = false;
+  if (!done) {
+    journal_.reset();
+    result_ = {};
+  }
+  return done;
+}
+
 // After a full adjustment was not possible or does not apply: the paper's two methods, the specialised one
 // first, if it applies. False, with the reason in failure_, if neither can be completed.
 bool Step::replace() {
@@ -222,9 +246,13 @@ bool Step::replace() {
 
 bool Step::replace_by(Method method) {
   method_ = method;
+  return attempt();
+}
+
+bool Step::attempt() {
   if (!journal_) begin_journal();
   try {
-    if (!replace_under_journal()) return false;
+    if (!change_under_journal()) return false;
   } catch (const RecoveryError& error) {
     failure_ = error.what();
     return false;
@@ -234,21 +262,24 @@ bool Step::replace_by(Method method) {
   return true;
 }
 
-bool Step::replace_under_journal() {
+bool Step::change_under_journal() {
   MeshData& mesh = data();
   const bool renewal = renewing_ && renewal_is_due(mesh);
   const std::size_t budget = renewal ? prepare_renewal(mesh, options_.observer) : 0;
-  const List<VertexId> moved = replace_boundary();
-  if (renewal) renew_replaced(mesh, moved, budget);
-  result_.stopped = cancelled() ? Stopped::interrupted : refine_touched(mesh, options_.observer);
+  const bool surplus = renewing_ && morphing_ && has_surplus(mesh, RenewPolicy::morph_surplus);
+  const std::optional<List<VertexId>> moved = change_boundary();
+  if (!moved) return false;
+  if (renewal) renew_replaced(mesh, *moved, budget);
+  result_.stopped = cancelled() ? Stopped::interrupted : refine_touched(mesh, morphing_, options_.observer);
   if (renewing_ && other_discretisation_) discretisation_changed(mesh, options_.observer);
-  if (renewing_ && mesh.renewal.until_shed > 0) shed_and_refine();
+  if (surplus || (renewing_ && mesh.renewal.until_shed > 0)) shed_and_refine();
   if (result_.stopped != Stopped::done) {
     failure_ = std::string("refinement stopped: ") + name_of(result_.stopped);
     return false;
   }
   require_points_in_domain(mesh);
-  result_ = count_replacement(mesh, moved);
+  result_ = count_replacement(mesh, *moved);
+  result_.morphed = morphing_;
   result_.stopped = what_still_stops();
   if (renewing_)
     finish_replacement(mesh, renewal);
@@ -257,13 +288,13 @@ bool Step::replace_under_journal() {
   return true;
 }
 
-// A boundary of fewer points than before leaves a mesh that is far too dense.
+// A boundary of fewer points than before leaves a mesh that is far too dense, and so may a row of large morphs.
 void Step::shed_and_refine() {
   for (int pass = 0; pass < RenewPolicy::shedding_passes; ++pass) {
     if (result_.stopped != Stopped::done || !shed_surplus(data())) break;
-    result_.stopped = refine_touched(data(), options_.observer);
+    result_.stopped = refine_touched(data(), morphing_, options_.observer);
   }
-  --data().renewal.until_shed;
+  if (data().renewal.until_shed > 0) --data().renewal.until_shed;
 }
 
 // Where a limit ended an earlier refinement, the triangles that it left bad stay until a step happens to
@@ -274,9 +305,13 @@ Stopped Step::what_still_stops() {
   return stopped;
 }
 
-// Returns the vertices that are at other places, but are the same.
-List<VertexId> Step::replace_boundary() {
+// Returns the vertices that are at other places, but are the same; nothing where a morph turns triangles over.
+std::optional<List<VertexId>> Step::change_boundary() {
   MeshData& mesh = data();
+  if (morphing_) {
+    note_moved(mesh, cache_->loops);
+    return morph_mesh(mesh, *cache_, domain_);
+  }
   const ReplaceOptions options{.distance = options_.distance, .renewing = renewing_};
   if (cache_ != nullptr) {
     note_moved(mesh, cache_->loops);

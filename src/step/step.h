@@ -5,6 +5,7 @@
 //
 //   nothing moves           nothing is done
 //   adjust_in_place()       all boundary vertices moved to the new design, connectivity unchanged
+//   morph()                 Strategy::morph: the interior moves along, what misses a bound is flipped or refined
 //   replace()               what cannot move is relocated or replaced, what was touched is refined
 //   regenerate()            the mesh is taken back and one of the new design generated
 
@@ -45,10 +46,12 @@ class Step {
   RemodelResult adjust_or_replace();
   bool adjust_in_place();
   RemodelResult finish_adjustment();
+  bool morph();
   bool replace();
   bool replace_by(Method method);
-  bool replace_under_journal();
-  List<VertexId> replace_boundary();
+  bool attempt();
+  bool change_under_journal();
+  std::optional<List<VertexId>> change_boundary();
   void note_replacement();
   void shed_and_refine();
   Stopped what_still_stops();
@@ -70,6 +73,7 @@ class Step {
   std::optional<LoopIndices> moving_;  // the loops that differ, where their vertices correspond one to one
   Method method_ = Method::general;
   bool renewing_ = false;
+  bool morphing_ = false;              // the attempt under way moves the interior too
   bool other_discretisation_ = false;  // boundary vertices do not correspond
   bool refresh_is_due_ = false;
   AdjustCache* cache_ = nullptr;  // of the specialised method

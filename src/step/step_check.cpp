@@ -25,6 +25,13 @@ class ChangesCheck {
     const auto [squared_radius, shortest] = measure(mesh_.triangulation, mesh_.triangulation[t]);
     worst_ = std::max(worst_, squared_radius / shortest);
   }
+  // The triangles at a vertex that was there already and has moved.
+  void moved(const ChangeRecord::VertexThen& then) {
+    if (!then.alive || then.id.index >= mesh_.triangulation.vertex_slots()) return;
+    const Vertex& now = mesh_.triangulation[then.id];
+    if (!now.alive() || now.point == then.point) return;
+    mesh_.triangulation.for_each_corner(then.id, [&](Corner c) { triangle(c.triangle); });
+  }
   // The loop, and the triangles at it: their length scales are others.
   void loop(std::size_t loop) {
     if (broken_.empty()) broken_ = check_.loop(loop);
@@ -63,6 +70,7 @@ StepCheck check_changes(const Mesh& mesh, const Mark& since) {
   if (record.exchanged() || nothing_noted(record)) return check_whole(mesh);
   ChangesCheck check(data);
   for (const ChangeRecord::TriangleThen& then : record.triangles()) check.triangle(then.id);
+  for (const ChangeRecord::VertexThen& then : record.vertices()) check.moved(then);
   for (std::size_t loop = 0; loop < data.loop_heads.size(); ++loop)
     if (record.loop_changed(loop)) check.loop(loop);
   return std::move(check).result();

@@ -28,11 +28,19 @@ void note_touched(MeshData& mesh) {
 }  // namespace
 
 const char* name_of(Strategy strategy) {
-  return strategy == Strategy::chain ? "chain" : "renew";
+  switch (strategy) {
+    case Strategy::chain:
+      return "chain";
+    case Strategy::renew:
+      return "renew";
+    case Strategy::morph:
+      return "morph";
+  }
+  return "unknown";
 }
 
 bool renews(const MeshData& mesh, const RemodelOptions& options) {
-  return options.strategy == Strategy::renew && mesh.imported.empty();
+  return options.strategy != Strategy::chain && mesh.imported.empty();
 }
 
 double resolved_keep(const RemodelOptions& options, const QualityOptions& quality) {
@@ -96,10 +104,14 @@ void discretisation_changed(MeshData& mesh, StepObserver* observer) {
   mesh.renewal.until_shed = RenewPolicy::replacements_that_shed;
 }
 
-bool shed_surplus(MeshData& mesh) {
+bool has_surplus(const MeshData& mesh, double tolerated) {
   const double factor = mesh.renewal.count_factor;
-  const double most = (1.0 + RenewPolicy::large_surplus) * factor * size_of(mesh);
-  if (factor == 0.0 || static_cast<double>(mesh.count_domain_triangles()) <= most) return false;
+  const double most = (1.0 + tolerated) * factor * size_of(mesh);
+  return factor != 0.0 && static_cast<double>(mesh.count_domain_triangles()) > most;
+}
+
+bool shed_surplus(MeshData& mesh) {
+  if (!has_surplus(mesh, RenewPolicy::large_surplus)) return false;
   remove_dense(mesh, RenewPolicy::dense_below);
   return true;
 }

@@ -58,6 +58,7 @@ void Triangulation::begin() {
   earlier_vertices_.clear();
   generation_journal_.clear();
   inserted_ = removed_ = 0;
+  flipped_ = 0;
   if (++journals_ == 0) {  // marks of 65535 journals ago would be mistaken for new ones
     for (Triangle& t : triangles_) t.journal = 0;
     std::fill(vertex_journals_.begin(), vertex_journals_.end(), 0);

@@ -194,6 +194,7 @@ void Triangulation::flip(Corner corner) {
   attach({second, 0}, u.link[previous3(j)]);
   attach({second, 1}, t.link[next3(i)]);
   connect({first, 1}, {second, 2}, false);
+  ++flipped_;
 }
 
 bool Triangulation::flippable(Corner corner) const {

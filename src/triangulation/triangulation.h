@@ -284,6 +284,7 @@ class Triangulation {
   std::size_t vertex_slots_before() const { return vertex_slots_before_; }  // at begin()
   std::uint32_t vertices_inserted() const { return inserted_; }             // since begin()
   std::uint32_t vertices_removed() const { return removed_; }
+  std::size_t edges_flipped() const { return flipped_; }
 
   // Empty, or the broken invariant with the ids concerned: all of them, or (1), (2) and (4) only.
   std::string check() const;
@@ -424,6 +425,7 @@ class Triangulation {
   std::vector<std::uint32_t> generation_journal_;
   std::size_t vertex_slots_before_ = 0, triangle_slots_before_ = 0, live_vertices_before_ = 0;
   std::uint32_t inserted_ = 0, removed_ = 0;
+  std::size_t flipped_ = 0;  // since begin()
 
   // Scratch of remove() and unsplit().
   static constexpr std::size_t largest_patch = 64;

@@ -1,0 +1,167 @@
+#include "step/morph.h"
+
+#include <algorithm>
+
+#include "remodel/predicates.h"
+#include "step/replace.h"
+#include "step/wall_field.h"
+
+namespace remodel {
+
+namespace {
+
+class Morph {
+ public:
+  Morph(MeshData& mesh, const AdjustCache& cache)
+      : mesh_(mesh),
+        triangulation_(mesh.triangulation),
+        cache_(cache),
+        moves_(&mesh.arena),
+        triangles_(&mesh.arena),
+        at_start_(&mesh.arena) {}
+
+  // Halves the part that is tried wherever triangles turn over, and goes on with parts of that size.
+  bool run() {
+    note_start();
+    restore_all_outside();
+    int done = 0;
+    for (int part = parts; part > 0;) {
+      part = std::min(part, parts - done);
+      if (part == 0) break;
+      if (advance(done + part))
+        done += part;
+      else
+        part /= 2;
+    }
+    if (done < parts) return false;
+    restore_all_outside();
+    return true;
+  }
+
+  List<VertexId> moved() const {
+    List<VertexId> result(&mesh_.arena);
+    for (const auto& [vertex, point] : at_start_)
+      if (!(triangulation_.point(vertex) == point)) result.push_back(vertex);
+    return result;
+  }
+
+ private:
+  static constexpr int parts = 64;  // of the way; one is the smallest step
+  struct Place {
+    VertexId vertex;
+    Point point;
+  };
+  struct Move {
+    VertexId vertex;
+    Point from, to;
+  };
+
+  bool interior(VertexId v) const {
+    const Vertex& vertex = triangulation_[v];
+    return vertex.alive() && vertex.boundary == no_index && v != infinite_vertex;
+  }
+
+  void note_start() {
+    for (std::size_t i = 0; i < cache_.moving.size(); ++i)
+      at_start_.push_back({cache_.moving[i].vertex, cache_.old_points[i]});
+    for (std::uint32_t i = 0; i < triangulation_.vertex_slots(); ++i)
+      if (const VertexId v{i}; interior(v)) at_start_.push_back({v, triangulation_.point(v)});
+  }
+
+  // Steps that moved vertices in place have left triangles outside the domain that are not Delaunay.
+  void restore_all_outside() {
+    mesh_.seen_vertices.clear(triangulation_.vertex_slots());
+    restore_outside(mesh_);
+  }
+
+  Point wall_place(std::size_t i, int done) const {
+    if (done == parts) return cache_.new_points[i];
+    const double share = static_cast<double>(done) / parts;
+    return cache_.old_points[i] + share * (cache_.new_points[i] - cache_.old_points[i]);
+  }
+
+  // Brings the walls to this part of the way. False, and nothing has changed, where triangles turn over.
+  bool advance(int done) {
+    list_moves(done);
+    for (const Move& move : moves_) place(move.vertex, move.to);
+    list_triangles();
+    if (std::ranges::any_of(triangles_, [&](TriangleId t) { return turned_over(t); })) {
+      for (const Move& move : moves_) place(move.vertex, move.from);
+      return false;
+    }
+    for (const TriangleId t : triangles_) {
+      const Triangle& triangle = triangulation_[t];
+      triangulation_.set_moved(
+          t, triangulation_.circle_of(triangle.vertex[0], triangle.vertex[1], triangle.vertex[2]),
+          mesh_.step + 1);
+    }
+    triangulation_.restore_delaunay(triangles_);
+    for (std::size_t i = 0; i < cache_.moving.size(); ++i)
+      triangulation_.set_length_scale(cache_.moving[i].vertex, cache_.new_scales[i]);
+    return true;
+  }
+
+  void place(VertexId v, Point p) { triangulation_.move(v, p, triangulation_[v].length_scale); }
+
+  void list_moves(int done) {
+    moves_.clear();
+    mesh_.seen_vertices.clear(triangulation_.vertex_slots());
+    const auto add = [&](VertexId v, Point from, Point to) {
+      if (!(from == to) && mesh_.seen_vertices.insert(v)) moves_.push_back({v, from, to});
+    };
+    for (std::size_t i = 0; i < cache_.moving.size(); ++i) {
+      const VertexId v = cache_.moving[i].vertex;
+      add(v, triangulation_.point(v), wall_place(i, done));
+    }
+    WallField field(mesh_, cache_.loops);
+    mesh_.candidate_indices.clear(triangulation_.vertex_slots());
+    for (std::uint32_t i = 0; i < moves_.size(); ++i) mesh_.candidate_indices.insert(moves_[i].vertex, i);
+    field.displace([&](VertexId v) {
+      const std::uint32_t i = mesh_.candidate_indices.value_or(v, no_index);
+      return i == no_index ? Point{} : moves_[i].to - moves_[i].from;
+    });
+    for (std::size_t i = cache_.moving.size(); i < at_start_.size(); ++i) {
+      const VertexId v = at_start_[i].vertex;
+      const Point p = triangulation_.point(v);
+      add(v, p, p + field.at(p));
+    }
+  }
+
+  // Those with a vertex that moves.
+  void list_triangles() {
+    triangles_.clear();
+    const auto moves = [&](VertexId v) { return mesh_.seen_vertices.contains(v); };
+    for (std::uint32_t i = 0; i < triangulation_.triangle_slots(); ++i) {
+      const Triangle& t = triangulation_[TriangleId{i}];
+      if (t.alive() && !t.ghost() && std::any_of(t.vertex, t.vertex + 3, moves))
+        triangles_.push_back(TriangleId{i});
+    }
+  }
+
+  bool turned_over(TriangleId t) const {
+    const Triangle& triangle = triangulation_[t];
+    return orient2d(triangulation_.point(triangle.vertex[0]), triangulation_.point(triangle.vertex[1]),
+                    triangulation_.point(triangle.vertex[2])) <= 0;
+  }
+
+  MeshData& mesh_;
+  Triangulation& triangulation_;
+  const AdjustCache& cache_;
+  List<Move> moves_;
+  List<TriangleId> triangles_;
+  List<Place> at_start_;  // of the moving loops' vertices, in the cache's order, and then of the interior
+};
+
+}  // namespace
+
+std::optional<List<VertexId>> morph_mesh(MeshData& mesh, AdjustCache& cache, const Domain& domain) {
+  Morph morph(mesh, cache);
+  if (!morph.run()) return std::nullopt;
+  for (const std::size_t loop : cache.loops) {
+    mesh.domain.loops[loop] = domain.loops[loop];
+    mesh.loop_moved(loop);
+  }
+  return morph.moved();
+}
+
+}  // namespace remodel
