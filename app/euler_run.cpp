@@ -1,5 +1,6 @@
 #include "euler_run.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "arguments.h"
@@ -7,6 +8,7 @@
 #include "flow_plots.h"
 #include "interrupt.h"
 #include "new_airfoil.h"
+#include "picture_options.h"
 #include "remodel/error.h"
 #include "remodel/generate.h"
 #include "remodel/io.h"
@@ -83,7 +85,22 @@ void add_flow_figures(Report& report, const FlowResult& flow) {
       report.line("body " + body.name, "CL " + Json(body.cl).dump() + ", CD " + Json(body.cd).dump());
   }
   report.data("bodies", bodies);
+  Json openings = Json::array();
+  for (const FlowOpening& opening : flow.openings) {
+    openings.push_back({{"name", opening.name}, {"mass_flow", opening.mass_flow}});
+    report.line("boundary " + opening.name, "mass flow " + Json(opening.mass_flow).dump());
+  }
+  if (!openings.empty()) report.data("openings", openings);
   report.data("history", flow.history);
+}
+
+FrozenMesh without_openings(FrozenMesh mesh, const FlowOptions& options) {
+  std::erase_if(mesh.boundaries, [&](const FrozenBoundary& boundary) {
+    const auto is_named = [&](const auto& opening) { return opening.name == boundary.name; };
+    return std::any_of(options.inlets.begin(), options.inlets.end(), is_named) ||
+           std::any_of(options.outlets.begin(), options.outlets.end(), is_named);
+  });
+  return mesh;
 }
 
 // A JSON array of airfoils, each as `remodel fit` writes it.
@@ -202,8 +219,9 @@ Status run_euler(const EulerRun& run, const MeshInput& input, const std::string&
   require_mach(run);
   if (run.compare != Compare::none)
     throw Error(ErrorCode::argument, "--compare", "given without --series, expected a series to compare");
+  if (!run.history.empty()) require_picture(run.history, {".csv", ".svg", ".png"});
   InterruptObserver observer;
-  FlowOptions options = run.options;
+  FlowOptions options = options_of(run);
   options.observer = &observer;
   if (run.gradient && !input.living)
     throw Error(ErrorCode::argument, "--gradient",
@@ -213,17 +231,22 @@ Status run_euler(const EulerRun& run, const MeshInput& input, const std::string&
   const FlowResult flow = run.gradient ? living.solve(*input.living, run.conditions)
                                        : solve_flow(input.frozen, run.conditions, options, source);
   std::vector<std::string> files;
+  const std::string caption = flow_caption(flow.mach, flow.alpha_deg, flow.cl);
   if (!flow.converged()) {
     warn(source, flow);
   } else {
     write_with_fields(outputs, input, fields_of(flow));
     files = outputs.files();
     if (!run.cp_plot.empty()) {
-      const std::string caption = flow_caption(flow.mach, flow.alpha_deg, flow.cl);
-      draw_plot(cp_plot(input.frozen, options.farfield, pressure_coefficients(flow), caption, "--cp-plot"),
+      draw_plot(cp_plot(without_openings(input.frozen, options), options.farfield, pressure_coefficients(flow), caption, "--cp-plot"),
                 run.cp_plot);
       files.push_back(run.cp_plot);
     }
+  }
+
+  if (!run.history.empty()) {
+    write_residuals(flow.history, flow.converged() ? caption : "not converged", run.history);
+    if (flow.converged()) files.push_back(run.history);
   }
 
   Report report;
@@ -255,7 +278,7 @@ Status run_series(const EulerRun& run, StartMesh start) {
     }
   }
   InterruptObserver observer;
-  FlowOptions options = run.options;
+  FlowOptions options = options_of(run);
   options.observer = &observer;
   LivingFlow living(options);
   Comparison comparison(run.compare, start.mesh.options(), run.conditions, options);

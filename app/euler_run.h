@@ -20,6 +20,10 @@ struct EulerRun {
   FlowOptions options;
   std::string series;   // a file; none if it is empty
   std::string cp_plot;  // likewise
+  std::string history;  // likewise
+  std::vector<std::string> inlets, outlets;
+  FlowInlet inlet;    // what is given at all inlets
+  FlowOutlet outlet;  // likewise
   Compare compare = Compare::none;
   bool gradient = false;  // of the coefficients, by the numbers of the mesh's domain
   bool json = false;
@@ -29,6 +33,12 @@ struct EulerRun {
 // --compare,
 // --gradient.
 void add_euler_options(CLI::App& app, EulerRun& run);
+
+// --inlet, --total-pressure, --total-temperature, --outlet, --pressure, --history.
+void add_duct_options(CLI::App& app, EulerRun& run);
+// The solver's options with the inlets and outlets of the command line. Throws Error (argument) for pressures
+// that no inlet or outlet has.
+FlowOptions options_of(const EulerRun& run);
 
 // Solves, writes and reports; nothing is written where no flow is found.
 Status run_euler(const EulerRun& run, const MeshInput& input, const std::string& source,

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "arguments.h"
 #include "command.h"
@@ -90,8 +91,12 @@ Status run(const FlowCommand& command) {
   command.outputs.require_possible();
   if (!command.cp_plot.empty()) require_picture(command.cp_plot, {".svg", ".png"});
   if (command.is_potential) {
-    if (!command.euler.series.empty())
-      throw Error(ErrorCode::argument, "--series", "given with --model potential, expected --model euler");
+    for (const auto& [option, is_given] : {std::pair{"--series", !command.euler.series.empty()},
+                                           std::pair{"--inlet", !command.euler.inlets.empty()},
+                                           std::pair{"--outlet", !command.euler.outlets.empty()},
+                                           std::pair{"--history", !command.euler.history.empty()}})
+      if (is_given)
+        throw Error(ErrorCode::argument, option, "given with --model potential, expected --model euler");
     return run_potential_flow(command, read_input(command));
   }
   EulerRun euler = command.euler;
@@ -102,7 +107,7 @@ Status run(const FlowCommand& command) {
   euler.json = command.json;
   if (euler.series.empty())
     return run_euler(euler, read_input(command), command.input.shapes.front(), command.outputs);
-  if (!command.outputs.files().empty() || !command.cp_plot.empty())
+  if (!command.outputs.files().empty() || !command.cp_plot.empty() || !command.euler.history.empty())
     throw Error(ErrorCode::argument, "--series",
                 "given with a file to write, expected no file: there are many flows");
   return run_series(euler, start_mesh(command));
@@ -129,6 +134,7 @@ void add_flow_command(CLI::App& program, Action& action) {
   add_text(app, {"--cp-plot", "FILE", "", "Plot of the pressure coefficient along every body: .svg or .png"},
            Presence::optional, command->cp_plot);
   add_euler_options(app, command->euler);
+  add_duct_options(app, command->euler);
   command->outputs.add_options(app, Presence::optional);
   add_meshing_options(app, command->meshing);
   add_json_flag(app, command->json);

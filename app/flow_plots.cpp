@@ -1,8 +1,11 @@
 #include "flow_plots.h"
 
+#include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 #include "remodel/error.h"
+#include "remodel/io.h"
 
 namespace remodel::app {
 
@@ -29,6 +32,24 @@ Plot cp_plot(const FrozenMesh& mesh, const std::string& farfield, std::span<cons
   }
   if (plot.curves.empty()) throw Error(ErrorCode::argument, option, "found no body, expected one");
   return plot;
+}
+
+void write_residuals(std::span<const double> residuals, const std::string& caption, const std::string& file) {
+  if (std::filesystem::path(file).extension() == ".csv") {
+    std::string table = "step,residual\n";
+    for (std::size_t i = 0; i < residuals.size(); ++i) {
+      char line[64];
+      std::snprintf(line, sizeof line, "%zu,%.17g\n", i, residuals[i]);
+      table += line;
+    }
+    write_text_atomically(file, table);
+    return;
+  }
+  Plot plot{.x = {"step"}, .y = {.label = "residual", .logarithmic = true}, .caption = caption};
+  plot.curves.push_back({});
+  for (std::size_t i = 0; i < residuals.size(); ++i)
+    plot.curves.back().points.push_back({static_cast<double>(i), std::fmax(residuals[i], 1e-16)});
+  draw_plot(plot, file);
 }
 
 }  // namespace remodel::app

@@ -18,4 +18,7 @@ std::string flow_caption(double mach, double alpha_deg, double cl);
 Plot cp_plot(const FrozenMesh& mesh, const std::string& farfield, std::span<const double> cp,
              const std::string& caption, const std::string& option);
 
+// Residuals over steps: a table (.csv) or a plot (.svg, .png), by the file's extension.
+void write_residuals(std::span<const double> residuals, const std::string& caption, const std::string& file);
+
 }  // namespace remodel::app

@@ -16,16 +16,17 @@
 // (upwards for a stream to the right); drag is along the stream; the moment is about the reference point,
 // positive nose up.
 //
-// Boundaries: the one called `farfield` is open to the stream, all others are walls that the flow slips
-// along. The stream far away has a vortex of the sum of all walls' lift, at the reference point (J. L. Thomas
+// Boundaries: the one called `farfield` is open to the stream, those named as inlets and outlets are open too
+// (FlowOptions), all others are walls that the flow slips along. Ducts need no far field: the stream is then
+// what pressures and temperatures are measured in, and where the search for the flow begins. The stream far away has a vortex of the sum of all walls' lift, at the reference point (J. L. Thomas
 // and M. D. Salas, AIAA J. 24, 1986), so that 25 chords are far enough.
 //
 // Method: Roe's flux on the median dual, reconstruction along edges of third order on even spacing, van
 // Albada's limiter, weak boundary conditions; the exact Jacobian; Newton's method by pseudo-transient
 // continuation with a line search; sparse LU. docs/flow.md has equations, sources and verification.
 //
-// Errors: Error (argument) for conditions and options out of range, and for a mesh without a far field,
-// without a wall or with unnamed boundary edges. A flow that is not found is no error: FlowResult::status and
+// Errors: Error (argument) for conditions and options out of range, and for a mesh without a far field or
+// another way in and out, without a wall or with unnamed boundary edges. A flow that is not found is no error: FlowResult::status and
 // reason say so, and no coefficient of it should be used.
 
 #include <memory>
@@ -47,6 +48,21 @@ struct FlowConditions {
   double reference_length = 1.0;  // more than 0
 };
 
+// A boundary through which gas enters at a right angle, with a given total pressure and total temperature:
+// parts of the stream's, which are p (1 + 0.2 M^2)^3.5 and T (1 + 0.2 M^2). Below Mach 1 only.
+struct FlowInlet {
+  std::string name;
+  double total_pressure = 1.0;     // more than 0
+  double total_temperature = 1.0;  // likewise
+};
+
+// A boundary through which gas leaves against a given pressure, a part of the stream's. Where it leaves faster
+// than sound the pressure has no effect.
+struct FlowOutlet {
+  std::string name;
+  double pressure = 1.0;  // more than 0
+};
+
 struct FlowOptions {
   std::string farfield = "farfield";
   // Converged: the root of the sum of squares of all residuals is at most this part of what it is for
@@ -58,6 +74,8 @@ struct FlowOptions {
       30.0;  // K: differences along an edge of length h below (K h / length)^(3/2) are not limited; > 0
   double memory_mb = 4096;           // what factors may take
   StepObserver* observer = nullptr;  // asked at every step
+  std::vector<FlowInlet> inlets = {};    // without a far field: at least one of each
+  std::vector<FlowOutlet> outlets = {};  // their names are not `farfield`, and not one twice
 };
 
 enum class FlowStatus {
@@ -83,6 +101,13 @@ struct FlowBody {
   double cl = 0.0, cd = 0.0, cm = 0.0;
 };
 
+// What enters through an inlet or outlet, in density times speed of sound of the stream times length (of the
+// mesh): negative where gas leaves.
+struct FlowOpening {
+  std::string name;
+  double mass_flow = 0.0;
+};
+
 struct FlowResult {
   FlowStatus status = FlowStatus::stalled;
   std::string reason;  // why it did not converge, one sentence; empty if it did
@@ -91,6 +116,8 @@ struct FlowResult {
   double mach = 0.0, alpha_deg = 0.0;
   double cl = 0.0, cd = 0.0, cm = 0.0;
   std::vector<FlowBody> bodies;  // the parts of each wall, which the sums are of
+
+  std::vector<FlowOpening> openings;  // inlets, then outlets
 
   FlowStart start = FlowStart::cold;
   double residual = 0.0;               // as FlowOptions::tolerance counts it
@@ -172,7 +199,7 @@ class LivingFlow {
   FlowResult solve(const Mesh& mesh, const FlowConditions& conditions);
   // Gradients of the last flow that was found. They take the factors that there are, transposed, where these
   // serve; otherwise new ones, which the next flows have too. Throws Error (argument) before the first flow,
-  // and where functionals are of another size.
+  // where functionals are of another size, and where there are inlets or outlets.
   FlowGradients gradients(const std::vector<FlowFunctional>& functions = {});
   // The next flow is found cold.
   void forget();

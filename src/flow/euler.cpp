@@ -65,6 +65,34 @@ Primitive<double> Euler::far_state(const State& state, Point p) const {
                            stream_.vortex ? state.border[0] * stream_.length : 0.0);
 }
 
+template <class T>
+std::array<T, 4> Euler::open_flux(const BoundaryEdge& edge, const Primitive<T>& inside, const State& state,
+                                  Point p) const {
+  const Point half = 0.5 * edge.normal;
+  if (edge.body == -1) {
+    const Primitive<double> far = far_state(state, p);
+    return roe_flux<T>(inside, {T(far[0]), T(far[1]), T(far[2]), T(far[3])}, half);
+  }
+  const Opening& opening = stream_.openings[static_cast<std::size_t>(-2 - edge.body)];
+  const Primitive<T> at =
+      opening.is_inlet ? inlet_state(inside, half, opening.total_pressure, opening.total_sound_square)
+                       : outlet_state(inside, half, opening.pressure);
+  return roe_flux<T>(at, at, half);  // of one state: its own flux
+}
+
+std::vector<double> Euler::mass_flows(const State& state) const {
+  std::vector<double> flows(stream_.openings.size(), 0.0);
+  for (const BoundaryEdge& edge : mesh_.boundary()) {
+    if (edge.body >= -1) continue;
+    const std::uint32_t end[2] = {edge.a, edge.b};
+    for (int i = 0; i < 2; ++i) {
+      const Primitive<double> q = weighted(state.q[end[i]], state.q[end[1 - i]]);
+      flows[static_cast<std::size_t>(-2 - edge.body)] -= open_flux<double>(edge, q, state, {})[0];
+    }
+  }
+  return flows;
+}
+
 void Euler::residual(const State& state, std::vector<std::array<double, 4>>& out) const {
   const std::size_t n = mesh_.size();
   out.assign(n, {});
@@ -110,7 +138,7 @@ void Euler::add_boundary(const State& state, std::vector<std::array<double, 4>>&
         continue;
       }
       const Point p = near_weight * mesh_.points()[here] + far_weight * mesh_.points()[there];
-      const std::array<double, 4> flux = roe_flux<double>(q, far_state(state, p), half);
+      const std::array<double, 4> flux = open_flux<double>(edge, q, state, p);
       for (std::size_t k = 0; k < 4; ++k) out[here][k] += flux[k];
     }
   }
@@ -244,10 +272,9 @@ void Euler::add_boundary_blocks(const State& state, BlockRows& matrix,
       }
       const Primitive<double> q = weighted(state.q[here], state.q[there]);
       const Point p = near_weight * mesh_.points()[here] + far_weight * mesh_.points()[there];
-      const Primitive<double> outside = far_state(state, p);
-      Primitive<Four> l, r;
-      for (std::size_t k = 0; k < 4; ++k) l[k] = Four::variable(q[k], k), r[k] = outside[k];
-      const std::array<Four, 4> flux = roe_flux<Four>(l, r, half);
+      Primitive<Four> l;
+      for (std::size_t k = 0; k < 4; ++k) l[k] = Four::variable(q[k], k);
+      const std::array<Four, 4> flux = open_flux<Four>(edge, l, state, p);
       for (std::size_t j = 0; j < 4; ++j)
         for (std::size_t k = 0; k < 4; ++k) {
           own[4 * j + k] += near_weight * flux[j].slope[k];
@@ -265,7 +292,7 @@ std::array<std::vector<std::array<double, 4>>, 2> Euler::border_columns(const St
   const Two lift = stream_.vortex ? Two::variable(state.border[0], 0) * stream_.length : Two(0.0);
   const Two alpha = Two::variable(state.border[1], 1);
   for (const BoundaryEdge& edge : mesh_.boundary()) {
-    if (edge.body >= 0) continue;
+    if (edge.body != -1) continue;
     const std::uint32_t end[2] = {edge.a, edge.b};
     for (int i = 0; i < 2; ++i) {
       const std::uint32_t here = end[i], there = end[1 - i];

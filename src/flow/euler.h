@@ -42,6 +42,14 @@ struct State {
   std::array<double, 2> border = {0, 0};  // lift coefficient of the vortex; angle of attack, radians
 };
 
+// An inlet, or an outlet: what is given at it, in the solver's units.
+struct Opening {
+  std::string name;
+  bool is_inlet = true;
+  double total_pressure = 0.0, total_sound_square = 0.0;  // of an inlet
+  double pressure = 0.0;                                  // of an outlet
+};
+
 struct Stream {
   double mach = 0.0;
   double alpha = 0.0;               // radians; the first guess where lift is given
@@ -50,6 +58,7 @@ struct Stream {
   double length = 1.0;              // reference length
   bool vortex = true;
   double limiter = 30.0;  // K: slopes of less than (K h / length)^(3/2) are not limited
+  std::vector<Opening> openings = {};  // in the order of the mesh's
   // Instead of the stream: the state at points of the far field, for flows with known solutions.
   std::function<Primitive<double>(Point)> prescribed = nullptr;
 };
@@ -119,6 +128,8 @@ class Euler {
   Coefficients coefficients(const State& state) const;
   Coefficients coefficients(const State& state, std::int32_t body) const;  // the part of one wall
 
+  std::vector<double> mass_flows(const State& state) const;  // into the domain, through each opening
+
   // What follows is in euler_adjoint.cpp.
   // The derivative, at this state, of the sum over vertices of weight times residual.
   ShapeSlope residual_slope(const State& state, const std::vector<std::array<double, 4>>& weight) const;
@@ -131,6 +142,10 @@ class Euler {
   Face face(const State& state, const DualEdge& edge) const;
   double epsilon(Point d) const;
   Primitive<double> far_state(const State& state, Point p) const;
+  // Out of the domain through `half` of an edge that is no wall, `inside` being the state at it.
+  template <class T>
+  std::array<T, 4> open_flux(const BoundaryEdge& edge, const Primitive<T>& inside, const State& state,
+                             Point p) const;
   void add_boundary(const State& state, std::vector<std::array<double, 4>>& out) const;
   void add_boundary_blocks(const State& state, BlockRows& matrix,
                            std::span<const std::uint32_t> row_of) const;

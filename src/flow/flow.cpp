@@ -52,6 +52,13 @@ void require(bool holds, const char* what, double found, const char* expected) {
 
 constexpr double degree = M_PI / 180.0;
 
+std::vector<std::string> names_of_openings(const FlowOptions& options) {
+  std::vector<std::string> names;
+  for (const FlowInlet& inlet : options.inlets) names.push_back(inlet.name);
+  for (const FlowOutlet& outlet : options.outlets) names.push_back(outlet.name);
+  return names;
+}
+
 class Points {
  public:
   explicit Points(const std::vector<Point>& points) : points_(points), tree_(2, *this) {}
@@ -85,6 +92,26 @@ std::array<double, 3> weights_at(const FlowMesh& mesh, const std::array<std::uin
   return {1.0 - second - third, second, third};
 }
 
+void require_openings(const FlowConditions& conditions, const FlowOptions& options) {
+  std::vector<std::string> names = names_of_openings(options);
+  names.push_back(options.farfield);
+  std::sort(names.begin(), names.end());
+  const auto twice = std::adjacent_find(names.begin(), names.end());
+  if (twice != names.end())
+    throw Error(ErrorCode::argument, "boundary '" + *twice + "'",
+                "named twice, expected it to be far field, inlet or outlet");
+  for (const FlowInlet& inlet : options.inlets) {
+    require(inlet.total_pressure > 0.0 && std::isfinite(inlet.total_pressure), "total pressure",
+            inlet.total_pressure, "more than 0");
+    require(inlet.total_temperature > 0.0 && std::isfinite(inlet.total_temperature), "total temperature",
+            inlet.total_temperature, "more than 0");
+    require(conditions.mach < 1.0, "mach", conditions.mach, "less than 1 where there is an inlet");
+  }
+  for (const FlowOutlet& outlet : options.outlets)
+    require(outlet.pressure > 0.0 && std::isfinite(outlet.pressure), "pressure", outlet.pressure,
+            "more than 0");
+}
+
 }  // namespace
 
 void require_possible(const FlowConditions& conditions, const FlowOptions& options) {
@@ -103,16 +130,47 @@ void require_possible(const FlowConditions& conditions, const FlowOptions& optio
   require(options.max_steps >= 1, "max steps", options.max_steps, "1 or more");
   require(options.limiter > 0.0 && std::isfinite(options.limiter), "limiter", options.limiter, "more than 0");
   require(options.memory_mb >= 1.0, "memory", options.memory_mb, "1 MB or more");
+  require_openings(conditions, options);
+}
+
+FlowMesh dual_of(const FrozenMesh& mesh, const FlowConditions& conditions, const FlowOptions& options,
+                 const std::string& source) {
+  FlowMesh dual(mesh, options.farfield, source, names_of_openings(options));
+  dual.require_walls(source);
+  require_ways(dual, conditions, options, source);
+  return dual;
+}
+
+void require_ways(const FlowMesh& dual, const FlowConditions& conditions, const FlowOptions& options,
+                  const std::string& source) {
+  if (dual.has_farfield()) return;
+  if (options.inlets.empty() || options.outlets.empty())
+    throw Error(ErrorCode::argument, source,
+                std::string("found no far field and no ") + (options.inlets.empty() ? "inlet" : "outlet") +
+                    ", expected one for the gas to " + (options.inlets.empty() ? "enter" : "leave") + " by");
+  if (conditions.cl)
+    throw Error(ErrorCode::argument, "cl", "given for a mesh without a far field, expected an angle of attack");
 }
 
 Stream stream_of(const FlowConditions& conditions, const FlowOptions& options) {
+  const double factor = 1.0 + 0.5 * (gas_gamma - 1.0) * conditions.mach * conditions.mach;
+  const double total_pressure = std::pow(factor, gas_gamma / (gas_gamma - 1.0)) / gas_gamma;
+  std::vector<Opening> openings;
+  for (const FlowInlet& inlet : options.inlets)
+    openings.push_back({.name = inlet.name,
+                        .is_inlet = true,
+                        .total_pressure = inlet.total_pressure * total_pressure,
+                        .total_sound_square = inlet.total_temperature * factor});
+  for (const FlowOutlet& outlet : options.outlets)
+    openings.push_back({.name = outlet.name, .is_inlet = false, .pressure = outlet.pressure / gas_gamma});
   return {.mach = conditions.mach,
           .alpha = conditions.alpha_deg * degree,
           .lift = conditions.cl,
           .reference = conditions.reference,
           .length = conditions.reference_length,
           .vortex = options.vortex,
-          .limiter = options.limiter};
+          .limiter = options.limiter,
+          .openings = std::move(openings)};
 }
 
 FlowResult result_of(const Euler& euler, const State& state, const Search& search, FlowStart start) {
@@ -127,6 +185,9 @@ FlowResult result_of(const Euler& euler, const State& state, const Search& searc
     const Coefficients part = euler.coefficients(state, static_cast<std::int32_t>(i));
     result.bodies.push_back({euler.mesh().bodies()[i], part.lift, part.drag, part.moment});
   }
+  const std::vector<double> mass_flows = euler.mass_flows(state);
+  for (std::size_t i = 0; i < mass_flows.size(); ++i)
+    result.openings.push_back({euler.stream().openings[i].name, mass_flows[i]});
   result.start = start;
   result.residual = search.residual;
   result.history = search.history;
@@ -183,8 +244,7 @@ FlowResult solve_flow(const FrozenMesh& mesh, const FlowConditions& conditions, 
                       const std::string& source) {
   const Stopwatch watch;
   flow::require_possible(conditions, options);
-  const flow::FlowMesh dual(mesh, options.farfield, source);
-  dual.require_walls(source);
+  const flow::FlowMesh dual = flow::dual_of(mesh, conditions, options, source);
   const flow::Euler euler(dual, flow::stream_of(conditions, options));
   const flow::Measure measure(euler);
   flow::State state;

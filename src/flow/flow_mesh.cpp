@@ -1,6 +1,7 @@
 #include "flow/flow_mesh.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "remodel/error.h"
 
@@ -37,14 +38,15 @@ std::string list_of_names(const FrozenMesh& mesh) {
 
 }  // namespace
 
-FlowMesh::FlowMesh(const FrozenMesh& mesh, const std::string& farfield, const std::string& source)
+FlowMesh::FlowMesh(const FrozenMesh& mesh, const std::string& farfield, const std::string& source,
+                   std::span<const std::string> openings)
     : points_(mesh.points), triangles_(mesh.triangles) {
   make_edges();
   for (std::size_t v = 0; v < size(); ++v)
     if (ring(v).empty())
       throw Error(ErrorCode::argument, source,
                   "point " + std::to_string(v) + " is of no triangle, expected every point to be of one");
-  make_boundary(mesh, farfield, source);
+  make_boundary(mesh, farfield, source, openings);
   measure();
 }
 
@@ -88,13 +90,25 @@ void FlowMesh::make_edges() {
   for (std::uint32_t e = 0; e < edges_.size(); ++e) ring_[fill[edges_[e].a]++] = {edges_[e].b, e, {}};
 }
 
-void FlowMesh::make_boundary(const FrozenMesh& mesh, const std::string& farfield, const std::string& source) {
+void FlowMesh::make_boundary(const FrozenMesh& mesh, const std::string& farfield, const std::string& source,
+                             std::span<const std::string> openings) {
   const std::vector<NamedEdge> named = named_edges(mesh);
   std::vector<std::uint32_t> uses(edges_.size(), 0);
   for (const auto& of : triangle_edges_)
     for (const std::uint32_t e : of) ++uses[e];
-  std::vector<std::int32_t> body_of(mesh.boundaries.size(), -1);
-  bool far = false;
+  constexpr std::int32_t unseen = std::numeric_limits<std::int32_t>::min();
+  std::vector<std::int32_t> body_of(mesh.boundaries.size(), unseen);
+  std::vector<bool> found_opening(openings.size(), false);
+  const auto body_of_name = [&](const std::string& name) -> std::int32_t {
+    if (name == farfield) return -1;
+    for (std::size_t i = 0; i < openings.size(); ++i)
+      if (name == openings[i]) {
+        found_opening[i] = true;
+        return -2 - static_cast<std::int32_t>(i);
+      }
+    bodies_.push_back(name);
+    return static_cast<std::int32_t>(bodies_.size()) - 1;
+  };
   for (std::size_t t = 0; t < triangles_.size(); ++t)
     for (std::uint32_t i = 0; i < 3; ++i) {
       if (uses[triangle_edges_[t][i]] != 1) continue;
@@ -104,18 +118,17 @@ void FlowMesh::make_boundary(const FrozenMesh& mesh, const std::string& farfield
         throw Error(ErrorCode::argument, source,
                     "the edge from point " + std::to_string(a) + " to " + std::to_string(b) +
                         " bounds the domain and has no name, expected a named boundary");
-      std::int32_t body = -1;
-      if (mesh.boundaries[found->boundary].name != farfield) {
-        if (body_of[found->boundary] < 0) {
-          body_of[found->boundary] = static_cast<std::int32_t>(bodies_.size());
-          bodies_.push_back(mesh.boundaries[found->boundary].name);
-        }
-        body = body_of[found->boundary];
-      }
-      far = far || body < 0;
+      std::int32_t& body = body_of[found->boundary];
+      if (body == unseen) body = body_of_name(mesh.boundaries[found->boundary].name);
+      has_farfield_ = has_farfield_ || body == -1;
       boundary_.push_back({a, b, {}, body});
     }
-  if (!far)
+  for (std::size_t i = 0; i < openings.size(); ++i)
+    if (!found_opening[i])
+      throw Error(ErrorCode::argument, source,
+                  "found boundaries " + list_of_names(mesh) + ", expected an inlet or outlet of the name '" +
+                      openings[i] + "'");
+  if (!has_farfield_ && openings.empty())
     throw Error(
         ErrorCode::argument, source,
         "found boundaries " + list_of_names(mesh) + ", expected a far field of the name '" + farfield + "'");

@@ -30,20 +30,22 @@ struct RingEntry {
 struct BoundaryEdge {
   std::uint32_t a, b;  // the domain on the left
   Point normal;        // outwards; its length is the edge's
-  std::int32_t body;   // index of the wall it belongs to, -1: far field
+  std::int32_t body;   // index of the wall it belongs to, -1: far field, -2 - i: opening i
 };
 
 class FlowMesh {
  public:
   // Every boundary edge of the mesh belongs to a named boundary; the one called `farfield` is the far field,
-  // all others are walls. Edges with the domain on both sides are no boundary. Throws Error (argument) naming
-  // `source` where there is no far field, an edge without a name, or a point of no triangle.
-  FlowMesh(const FrozenMesh& mesh, const std::string& farfield, const std::string& source);
+  // those called like one of `openings` are inlets or outlets, all others are walls. Edges with the domain on both sides are no boundary. Throws Error (argument) naming
+  // `source` where there is no far field (and no opening), no boundary of an opening's name, an edge without a name, or a point of no triangle.
+  FlowMesh(const FrozenMesh& mesh, const std::string& farfield, const std::string& source,
+           std::span<const std::string> openings = {});
   // Throws Error (argument) where the far field is the only boundary.
   void require_walls(const std::string& source) const;
   // The same triangles with vertices elsewhere.
   void move(std::span<const Point> points);
 
+  bool has_farfield() const { return has_farfield_; }
   std::size_t size() const { return points_.size(); }
   const std::vector<Point>& points() const { return points_; }
   const std::vector<double>& areas() const { return areas_; }  // of dual cells
@@ -64,7 +66,8 @@ class FlowMesh {
 
  private:
   void make_edges();
-  void make_boundary(const FrozenMesh& mesh, const std::string& farfield, const std::string& source);
+  void make_boundary(const FrozenMesh& mesh, const std::string& farfield, const std::string& source,
+                     std::span<const std::string> openings);
   void measure();
 
   std::vector<Point> points_;
@@ -76,6 +79,7 @@ class FlowMesh {
   std::vector<double> areas_;
   std::vector<BoundaryEdge> boundary_;
   std::vector<std::string> bodies_;
+  bool has_farfield_ = false;
 };
 
 }  // namespace remodel::flow

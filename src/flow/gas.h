@@ -121,4 +121,46 @@ Primitive<T> stream_at(Point from, double mach, const T& alpha, const T& lift) {
   return stream_around<T, double, double>(from.x, from.y, mach, alpha, lift);
 }
 
+// The state at an inlet: gas of this total pressure and this square of the total speed of sound enters along
+// the normal (outwards, of any length), and the wave that leaves the domain is the inner state's. Source for
+// both ends: J.-R. Carlson, "Inflow/outflow boundary conditions with application to FUN3D", NASA TM-2011-217181.
+template <class T>
+Primitive<T> inlet_state(const Primitive<T>& inside, Point normal, double total_pressure,
+                         double total_sound_square) {
+  using std::pow, std::sqrt;
+  constexpr double g = gas_gamma - 1.0, a = 1.0 + 2.0 / g;
+  const double length = std::sqrt(dot(normal, normal));
+  const double nx = normal.x / length, ny = normal.y / length;
+  const T wave = inside[1] * nx + inside[2] * ny + (2.0 / g) * sqrt(gas_gamma * inside[3] / inside[0]);
+  // c^2 + g/2 v^2 = total_sound_square where -v + 2 c / g = wave.
+  T root = a * total_sound_square - 0.5 * g * (wave * wave);
+  if (!(value_of(root) > 0.0)) root = T(1e-12 * total_sound_square);
+  const T c = (wave + sqrt(root)) / a;
+  const T speed = (2.0 / g) * c - wave;
+  const T pressure = total_pressure * pow(c * c / total_sound_square, gas_gamma / g);
+  return {gas_gamma * pressure / (c * c), -nx * speed, -ny * speed, pressure};
+}
+
+// The state at an outlet of this pressure: entropy, the speed along the boundary and the wave that leaves are
+// the inner state's. Gas that leaves faster than sound is the inner state; a pressure that would make gas do
+// so at the outlet itself counts as the one at the speed of sound.
+template <class T>
+Primitive<T> outlet_state(const Primitive<T>& inside, Point normal, double pressure) {
+  using std::pow, std::sqrt;
+  constexpr double g = gas_gamma - 1.0;
+  const double length = std::sqrt(dot(normal, normal));
+  const double nx = normal.x / length, ny = normal.y / length;
+  const T c = sqrt(gas_gamma * inside[3] / inside[0]), speed = inside[1] * nx + inside[2] * ny;
+  if (value_of(speed) >= value_of(c)) return inside;
+  const T sonic_c = (g * speed + 2.0 * c) / (g + 2.0);
+  T p = T(pressure);
+  if (value_of(sonic_c) > 0.0) {
+    const T sonic = inside[3] * pow(sonic_c / c, 2.0 * gas_gamma / g);
+    if (value_of(sonic) > pressure) p = sonic;
+  }
+  const T density = inside[0] * pow(p / inside[3], 1.0 / gas_gamma);
+  const T gain = (2.0 / g) * (c - sqrt(gas_gamma * p / density));
+  return {density, inside[1] + nx * gain, inside[2] + ny * gain, p};
+}
+
 }  // namespace remodel::flow

@@ -249,9 +249,9 @@ FlowResult LivingFlow::Impl::solve(const Mesh& living, const FlowConditions& con
   if (mesh && mesh->triangles() == frozen.triangles && now == keys) {
     dual = std::make_unique<flow::FlowMesh>(*mesh);
     dual->move(frozen.points);
+    flow::require_ways(*dual, conditions, options, "mesh");
   } else {
-    dual = std::make_unique<flow::FlowMesh>(frozen, options.farfield, "mesh");
-    dual->require_walls("mesh");
+    dual = std::make_unique<flow::FlowMesh>(flow::dual_of(frozen, conditions, options, "mesh"));
   }
   const flow::Euler euler(*dual, stream);
   const flow::Measure measure(euler);
@@ -327,6 +327,8 @@ bool LivingFlow::Impl::try_gradients(const flow::Euler& euler, const std::vector
 FlowGradients LivingFlow::Impl::gradients(const std::vector<FlowFunctional>& functions) {
   const Stopwatch watch;
   if (!solved) throw Error(ErrorCode::argument, "gradients", "no flow was found yet, expected one");
+  if (!options.inlets.empty() || !options.outlets.empty())
+    throw Error(ErrorCode::argument, "gradients", "found inlets or outlets, expected a far field alone");
   for (const FlowFunctional& function : functions)
     if (function.pressure.size() != mesh->size() || function.points.size() != mesh->size())
       throw Error(ErrorCode::argument, "functional",
@@ -356,9 +358,8 @@ FlowResult solve_flow_from(const FrozenMesh& before, const FlowResult& known, co
                            const std::string& source) {
   const Stopwatch watch;
   flow::require_possible(conditions, options);
-  const flow::FlowMesh old(before, options.farfield, source);
-  const flow::FlowMesh dual(mesh, options.farfield, source);
-  dual.require_walls(source);
+  const flow::FlowMesh old = flow::dual_of(before, conditions, options, source);
+  const flow::FlowMesh dual = flow::dual_of(mesh, conditions, options, source);
   if (known.density.size() != old.size())
     throw Error(ErrorCode::argument, source,
                 "found a flow at " + std::to_string(known.density.size()) + " points, expected one at the " +

@@ -9,6 +9,13 @@ namespace remodel::flow {
 
 // Throws Error (argument) for what is out of range.
 void require_possible(const FlowConditions& conditions, const FlowOptions& options);
+// The mesh as the solver sees it, with far field, inlets and outlets as the options name them. Throws Error
+// (argument), naming `source`, where it has no wall, or nothing that gas enters or leaves by.
+FlowMesh dual_of(const FrozenMesh& mesh, const FlowConditions& conditions, const FlowOptions& options,
+                 const std::string& source);
+// Without a far field there have to be an inlet and an outlet, and no lift can be asked for.
+void require_ways(const FlowMesh& dual, const FlowConditions& conditions, const FlowOptions& options,
+                  const std::string& source);
 Stream stream_of(const FlowConditions& conditions, const FlowOptions& options);
 FlowResult result_of(const Euler& euler, const State& state, const Search& search, FlowStart start);
 

@@ -50,6 +50,60 @@ class Flows(ProgramTest):
         self.assertEqual(self.files(), {})
 
 
+class Ducts(ProgramTest):
+    # A duct four long and one high, in squares of two triangles.
+    def duct(self):
+        along, across = 16, 4
+        at = lambda i, j: i * (across + 1) + j
+        points = [(4.0 * i / along, j / across) for i in range(along + 1) for j in range(across + 1)]
+        triangles, sides = [], {"floor": [], "roof": [], "in": [], "out": []}
+        for i in range(along):
+            sides["floor"].append((at(i, 0), at(i + 1, 0)))
+            sides["roof"].append((at(i + 1, across), at(i, across)))
+            for j in range(across):
+                triangles += [(at(i, j), at(i + 1, j), at(i + 1, j + 1)), (at(i, j), at(i + 1, j + 1), at(i, j + 1))]
+        for j in range(across):
+            sides["in"].append((at(0, j + 1), at(0, j)))
+            sides["out"].append((at(along, j), at(along, j + 1)))
+        text = f"NDIME= 2\nNELEM= {len(triangles)}\n"
+        text += "".join(f"5 {a} {b} {c} {k}\n" for k, (a, b, c) in enumerate(triangles))
+        text += f"NPOIN= {len(points)}\n" + "".join(f"{x} {y} {k}\n" for k, (x, y) in enumerate(points))
+        text += f"NMARK= {len(sides)}\n"
+        for name, edges in sides.items():
+            text += f"MARKER_TAG= {name}\nMARKER_ELEMS= {len(edges)}\n" + "".join(f"3 {a} {b}\n" for a, b in edges)
+        return self.write("duct.su2", text)
+
+    def test_gas_flows_from_inlet_to_outlet(self):
+        flow = self.figures("flow", self.duct(), "--mach", 0.3, "--inlet", "in", "--outlet", "out")
+        self.assertTrue(flow["converged"])
+        self.assertEqual([opening["name"] for opening in flow["openings"]], ["in", "out"])
+        self.assertAlmostEqual(flow["openings"][0]["mass_flow"], 0.3, delta=1e-8)
+        self.assertAlmostEqual(flow["openings"][1]["mass_flow"], -0.3, delta=1e-8)
+        self.assertEqual(sorted(body["name"] for body in flow["bodies"]), ["floor", "roof"])
+
+    def test_the_history_is_a_table_or_a_plot(self):
+        duct = self.duct()
+        flow = self.figures("flow", duct, "--mach", 0.3, "--inlet", "in", "--outlet", "out", "--total-pressure", 1.02,
+                            "--history", "history.csv")
+        rows = self.path("history.csv").read_text().splitlines()
+        self.assertEqual(rows[0], "step,residual")
+        self.assertEqual([float(row.split(",")[1]) for row in rows[1:]], flow["history"])
+        self.succeed("flow", duct, "--mach", 0.3, "--inlet", "in", "--outlet", "out", "--history", "history.svg")
+        self.assertIn("<svg", self.path("history.svg").read_text())
+
+    def test_refusals(self):
+        duct = self.duct()
+        self.refused("flow", duct, "--mach", 0.3, names="duct.su2")
+        self.refused("flow", duct, "--mach", 0.3, "--inlet", "in", names="duct.su2")
+        self.refused("flow", duct, "--mach", 0.3, "--inlet", "in", "--outlet", "exit", names="duct.su2")
+        self.refused("flow", duct, "--mach", 0.3, "--inlet", "in", "--outlet", "in", names="in")
+        self.refused("flow", duct, "--mach", 0.3, "--total-pressure", 2, names="--total-pressure")
+        self.refused("flow", duct, "--mach", 0.3, "--pressure", 2, names="--pressure")
+        self.refused("flow", duct, "--model", "potential", "--inlet", "in", names="--inlet")
+        self.refused("flow", duct, "--mach", 0.3, "--inlet", "in", "--outlet", "out", "--history", "h.txt",
+                     names="h.txt")
+
+
 class Series(ProgramTest):
     def designs(self):
         designs = []

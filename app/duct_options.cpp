@@ -1,0 +1,50 @@
+// Inlets, outlets and the residual's history: options of `remodel flow`.
+
+#include "arguments.h"
+#include "euler_run.h"
+#include "remodel/error.h"
+
+namespace remodel::app {
+
+void add_duct_options(CLI::App& app, EulerRun& run) {
+  add_texts(app, {"--inlet", "NAME", "", "Boundary that gas enters by; may be given several times"},
+            Presence::optional, run.inlets);
+  add_real(app,
+           {"--total-pressure", "PART", "1",
+            "Total pressure at inlets, as a part of the stream's of that Mach number: above 0"},
+           {.low = 0.0, .above_low = true}, [&](double value) { run.inlet.total_pressure = value; });
+  add_real(app,
+           {"--total-temperature", "PART", "1",
+            "Total temperature at inlets, as a part of the stream's: above 0"},
+           {.low = 0.0, .above_low = true}, [&](double value) { run.inlet.total_temperature = value; });
+  add_texts(app, {"--outlet", "NAME", "", "Boundary that gas leaves by; may be given several times"},
+            Presence::optional, run.outlets);
+  add_real(app, {"--pressure", "PART", "1", "Pressure at outlets, as a part of the stream's: above 0"},
+           {.low = 0.0, .above_low = true}, [&](double value) { run.outlet.pressure = value; });
+  add_text(app,
+           {"--history", "FILE", "",
+            "Residual at each step, also of a flow that is not found: .csv, .svg or .png"},
+           Presence::optional, run.history);
+}
+
+FlowOptions options_of(const EulerRun& run) {
+  if (run.inlets.empty() && (run.inlet.total_pressure != 1.0 || run.inlet.total_temperature != 1.0))
+    throw Error(ErrorCode::argument,
+                run.inlet.total_pressure != 1.0 ? "--total-pressure" : "--total-temperature",
+                "given without --inlet, expected the name of a boundary");
+  if (run.outlets.empty() && run.outlet.pressure != 1.0)
+    throw Error(ErrorCode::argument, "--pressure",
+                "given without --outlet, expected the name of a boundary");
+  FlowOptions options = run.options;
+  for (const std::string& name : run.inlets) {
+    options.inlets.push_back(run.inlet);
+    options.inlets.back().name = name;
+  }
+  for (const std::string& name : run.outlets) {
+    options.outlets.push_back(run.outlet);
+    options.outlets.back().name = name;
+  }
+  return options;
+}
+
+}  // namespace remodel::app
