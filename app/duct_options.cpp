@@ -13,10 +13,10 @@ void add_duct_options(CLI::App& app, EulerRun& run) {
            {"--total-pressure", "PART", "1",
             "Total pressure at inlets, as a part of the stream's of that Mach number: above 0"},
            {.low = 0.0, .above_low = true}, [&](double value) { run.inlet.total_pressure = value; });
-  add_real(app,
-           {"--total-temperature", "PART", "1",
-            "Total temperature at inlets, as a part of the stream's: above 0"},
-           {.low = 0.0, .above_low = true}, [&](double value) { run.inlet.total_temperature = value; });
+  add_real(
+      app,
+      {"--total-temperature", "PART", "1", "Total temperature at inlets, as a part of the stream's: above 0"},
+      {.low = 0.0, .above_low = true}, [&](double value) { run.inlet.total_temperature = value; });
   add_texts(app, {"--outlet", "NAME", "", "Boundary that gas leaves by; may be given several times"},
             Presence::optional, run.outlets);
   add_real(app, {"--pressure", "PART", "1", "Pressure at outlets, as a part of the stream's: above 0"},
@@ -33,8 +33,7 @@ FlowOptions options_of(const EulerRun& run) {
                 run.inlet.total_pressure != 1.0 ? "--total-pressure" : "--total-temperature",
                 "given without --inlet, expected the name of a boundary");
   if (run.outlets.empty() && run.outlet.pressure != 1.0)
-    throw Error(ErrorCode::argument, "--pressure",
-                "given without --outlet, expected the name of a boundary");
+    throw Error(ErrorCode::argument, "--pressure", "given without --outlet, expected the name of a boundary");
   FlowOptions options = run.options;
   for (const std::string& name : run.inlets) {
     options.inlets.push_back(run.inlet);

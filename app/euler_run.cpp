@@ -238,7 +238,8 @@ Status run_euler(const EulerRun& run, const MeshInput& input, const std::string&
     write_with_fields(outputs, input, fields_of(flow));
     files = outputs.files();
     if (!run.cp_plot.empty()) {
-      draw_plot(cp_plot(without_openings(input.frozen, options), options.farfield, pressure_coefficients(flow), caption, "--cp-plot"),
+      draw_plot(cp_plot(without_openings(input.frozen, options), options.farfield,
+                        pressure_coefficients(flow), caption, "--cp-plot"),
                 run.cp_plot);
       files.push_back(run.cp_plot);
     }

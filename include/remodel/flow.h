@@ -18,16 +18,17 @@
 //
 // Boundaries: the one called `farfield` is open to the stream, those named as inlets and outlets are open too
 // (FlowOptions), all others are walls that the flow slips along. Ducts need no far field: the stream is then
-// what pressures and temperatures are measured in, and where the search for the flow begins. The stream far away has a vortex of the sum of all walls' lift, at the reference point (J. L. Thomas
-// and M. D. Salas, AIAA J. 24, 1986), so that 25 chords are far enough.
+// what pressures and temperatures are measured in, and where the search for the flow begins. The stream far
+// away has a vortex of the sum of all walls' lift, at the reference point (J. L. Thomas and M. D. Salas, AIAA
+// J. 24, 1986), so that 25 chords are far enough.
 //
 // Method: Roe's flux on the median dual, reconstruction along edges of third order on even spacing, van
 // Albada's limiter, weak boundary conditions; the exact Jacobian; Newton's method by pseudo-transient
 // continuation with a line search; sparse LU. docs/flow.md has equations, sources and verification.
 //
 // Errors: Error (argument) for conditions and options out of range, and for a mesh without a far field or
-// another way in and out, without a wall or with unnamed boundary edges. A flow that is not found is no error: FlowResult::status and
-// reason say so, and no coefficient of it should be used.
+// another way in and out, without a wall or with unnamed boundary edges. A flow that is not found is no
+// error: FlowResult::status and reason say so, and no coefficient of it should be used.
 
 #include <memory>
 #include <optional>
@@ -56,8 +57,8 @@ struct FlowInlet {
   double total_temperature = 1.0;  // likewise
 };
 
-// A boundary through which gas leaves against a given pressure, a part of the stream's. Where it leaves faster
-// than sound the pressure has no effect.
+// A boundary through which gas leaves against a given pressure, a part of the stream's. Where it leaves
+// faster than sound the pressure has no effect.
 struct FlowOutlet {
   std::string name;
   double pressure = 1.0;  // more than 0
@@ -72,8 +73,8 @@ struct FlowOptions {
   bool vortex = true;   // in the far field
   double limiter =
       30.0;  // K: differences along an edge of length h below (K h / length)^(3/2) are not limited; > 0
-  double memory_mb = 4096;           // what factors may take
-  StepObserver* observer = nullptr;  // asked at every step
+  double memory_mb = 4096;               // what factors may take
+  StepObserver* observer = nullptr;      // asked at every step
   std::vector<FlowInlet> inlets = {};    // without a far field: at least one of each
   std::vector<FlowOutlet> outlets = {};  // their names are not `farfield`, and not one twice
 };

@@ -11,7 +11,7 @@ _Shape = Union[str, Airfoil, Domain]
 _AnyMesh = Union[Mesh, FrozenMesh]
 _Window = Optional[Sequence[float]]
 _Place = Literal["vertices", "triangles"]
-_Strategy = Literal["renew", "chain"]
+_Strategy = Literal["renew", "chain", "morph"]
 _Method = Literal["auto", "specialised", "general"]
 
 __version__: str
@@ -221,7 +221,13 @@ class Step:
     @property
     def preserved(self) -> int: ...
     @property
+    def connected(self) -> int: ...
+    @property
     def moved(self) -> int: ...
+    @property
+    def flipped(self) -> int: ...
+    @property
+    def morphed(self) -> bool: ...
     @property
     def inserted(self) -> int: ...
     @property

@@ -69,11 +69,6 @@ std::vector<std::uint32_t> values(const std::vector<TriangleId>& ids) {
   return result;
 }
 
-double connectivity_percent(const StepRecord& step) {
-  const auto before = static_cast<double>(step.result.triangles_before);
-  return before == 0.0 ? 100.0 : 100.0 * (before - static_cast<double>(step.changes.gone.size())) / before;
-}
-
 // Of each triangle after the step: 0 kept, 1 moved, 2 new.
 py::array_t<std::uint8_t> fates_of(const StepRecord& step) {
   const Snapshot mesh = after_step(step);
@@ -114,11 +109,15 @@ void add_step(py::module_& module) {
   figure("triangles", &RemodelResult::triangles, "Triangles after it.");
   figure("preserved", &RemodelResult::preserved,
          "Old triangles that are still there, with unmoved vertices.");
-  figure("moved", &RemodelResult::moved, "Boundary vertices at another place.");
+  figure("connected", &RemodelResult::connected,
+         "Old triangles whose three vertices are still joined, moved or not.");
+  figure("moved", &RemodelResult::moved, "Vertices at another place: of the boundary, unless morphed.");
   figure("inserted", &RemodelResult::inserted, "New vertices.");
   figure("removed", &RemodelResult::removed, "Removed vertices.");
   figure("full_adjustment", &RemodelResult::full_adjustment,
          "Whether all boundary vertices moved in place: the connectivity is the same.");
+  figure("flipped", &RemodelResult::flipped, "Edges flipped.");
+  figure("morphed", &RemodelResult::morphed, "Whether the interior moved along with the boundary.");
   figure("refreshed", &RemodelResult::refreshed, "Whether the strategy generated the mesh afresh.");
   figure("regenerated", &RemodelResult::regenerated,
          "Whether the step could not be completed, and the mesh was generated afresh.");
@@ -127,8 +126,9 @@ void add_step(py::module_& module) {
   type.def_property_readonly(
       "preserved_percent", [](const StepRecord& s) { return s.result.preserved_percent(); },
       "preserved over triangles_before.");
-  type.def_property_readonly("connectivity_percent", &connectivity_percent,
-                             "The share of old triangles whose vertices are still joined, in the same slot.");
+  type.def_property_readonly(
+      "connectivity_percent", [](const StepRecord& s) { return s.result.connectivity_percent(); },
+      "connected over triangles_before.");
   type.def_property_readonly("method", [](const StepRecord& s) { return name_of(s.result.method); });
   type.def_property_readonly(
       "stopped", [](const StepRecord& s) { return name_of(s.result.stopped); },
@@ -267,10 +267,10 @@ RemodelOptions remodel_options(double distance, const std::string& method, const
     throw Error(ErrorCode::argument, "method",
                 "found '" + method + "', expected auto, specialised or general");
   known = false;
-  for (const Strategy candidate : {Strategy::chain, Strategy::renew})
+  for (const Strategy candidate : {Strategy::chain, Strategy::renew, Strategy::morph})
     if (strategy == name_of(candidate)) options.strategy = candidate, known = true;
   if (!known)
-    throw Error(ErrorCode::argument, "strategy", "found '" + strategy + "', expected chain or renew");
+    throw Error(ErrorCode::argument, "strategy", "found '" + strategy + "', expected chain, renew or morph");
   return options;
 }
 
@@ -285,7 +285,8 @@ void add_steps(py::module_& module) {
       R"(Remodels the mesh, in place, to an Airfoil in the place of its own, or to another Domain; returns a Step.
 
 boundary: the airfoil's name, where there are several. distance: D, the removal radius over the distance of old and
-new vertices. strategy: 'renew' keeps long runs in order, 'chain' is the paper's method to the letter.
+new vertices. strategy: 'renew' keeps long runs in order, 'chain' is the paper's method to the
+letter, 'morph' moves the interior first, so that more triangles stay joined.
 regenerate=False: a step that cannot be completed leaves the mesh as it was (Step.abandoned). record=True keeps
 the arrays before and after in the Step. The mesh is valid before and after: what raises (GeometryError,
 ArgumentError, KeyboardInterrupt) leaves it as it was, to the last bit.)");

@@ -99,8 +99,8 @@ TEST(Duct, SubsonicFlowThroughANozzleIsThatOfOneDimension) {
     const FrozenMesh mesh = duct_mesh(n, 4 * n, 4.0, nozzle_height);
     const FlowResult flow = solve_flow(mesh, {.mach = exit_mach}, through(1.0, 1.0));
     ASSERT_TRUE(flow.converged()) << flow.reason;
-    // In the throat the Mach number is larger at the walls and smaller in the middle; its mean over the height
-    // is that of one dimension but for the square of the walls' slope.
+    // In the throat the Mach number is larger at the walls and smaller in the middle; its mean over the
+    // height is that of one dimension but for the square of the walls' slope.
     const std::vector<double> mach = mach_numbers(flow);
     double mean = 0.0;
     for (std::uint32_t i = 0; i <= n; ++i)
@@ -126,7 +126,8 @@ TEST(Duct, AChokedNozzleLeavesFasterThanSoundWhateverThePressureOutside) {
   ASSERT_TRUE(flow.converged()) << flow.reason;
   const std::vector<double> mach = mach_numbers(flow);
   double mean = 0.0;
-  for (std::uint32_t i = 0; i <= n; ++i) mean += mach[5 * n * (n + 1) + i] * (i == 0 || i == n ? 0.5 : 1.0) / n;
+  for (std::uint32_t i = 0; i <= n; ++i)
+    mean += mach[5 * n * (n + 1) + i] * (i == 0 || i == n ? 0.5 : 1.0) / n;
   EXPECT_NEAR(mean, exit_mach, 0.03);
   EXPECT_NEAR(flow.openings[0].mass_flow, inlet_mach, 0.01 * inlet_mach);
   const FlowResult other = solve_flow(mesh, {.mach = inlet_mach}, through(1.0, 0.3));
@@ -170,12 +171,14 @@ TEST(Duct, TheJacobianOfInletsAndOutletsIsExact) {
 
 TEST(Duct, WrongNamesAndPressuresAreOneSentence) {
   const FrozenMesh mesh = duct_mesh(4, 8, 2.0, [](double) { return 1.0; });
-  EXPECT_EQ(message_of(mesh, {.mach = 0.3}, {}),
-            "duct: found boundaries 'lower', 'upper', 'in', 'out', expected a far field of the name 'farfield'");
+  EXPECT_EQ(
+      message_of(mesh, {.mach = 0.3}, {}),
+      "duct: found boundaries 'lower', 'upper', 'in', 'out', expected a far field of the name 'farfield'");
   FlowOptions options = through(1.0, 1.0);
   options.outlets[0].name = "exit";
-  EXPECT_EQ(message_of(mesh, {.mach = 0.3}, options),
-            "duct: found boundaries 'lower', 'upper', 'in', 'out', expected an inlet or outlet of the name 'exit'");
+  EXPECT_EQ(
+      message_of(mesh, {.mach = 0.3}, options),
+      "duct: found boundaries 'lower', 'upper', 'in', 'out', expected an inlet or outlet of the name 'exit'");
   options.outlets.clear();
   EXPECT_EQ(message_of(mesh, {.mach = 0.3}, options),
             "duct: found no far field and no outlet, expected one for the gas to leave by");

@@ -74,9 +74,9 @@ std::array<T, 4> Euler::open_flux(const BoundaryEdge& edge, const Primitive<T>& 
     return roe_flux<T>(inside, {T(far[0]), T(far[1]), T(far[2]), T(far[3])}, half);
   }
   const Opening& opening = stream_.openings[static_cast<std::size_t>(-2 - edge.body)];
-  const Primitive<T> at =
-      opening.is_inlet ? inlet_state(inside, half, opening.total_pressure, opening.total_sound_square)
-                       : outlet_state(inside, half, opening.pressure);
+  const Primitive<T> at = opening.is_inlet
+                              ? inlet_state(inside, half, opening.total_pressure, opening.total_sound_square)
+                              : outlet_state(inside, half, opening.pressure);
   return roe_flux<T>(at, at, half);  // of one state: its own flux
 }
 

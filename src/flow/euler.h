@@ -57,7 +57,7 @@ struct Stream {
   Point reference = {0.25, 0.0};    // the vortex, and the point that moments are about
   double length = 1.0;              // reference length
   bool vortex = true;
-  double limiter = 30.0;  // K: slopes of less than (K h / length)^(3/2) are not limited
+  double limiter = 30.0;               // K: slopes of less than (K h / length)^(3/2) are not limited
   std::vector<Opening> openings = {};  // in the order of the mesh's
   // Instead of the stream: the state at points of the far field, for flows with known solutions.
   std::function<Primitive<double>(Point)> prescribed = nullptr;

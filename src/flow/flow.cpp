@@ -149,7 +149,8 @@ void require_ways(const FlowMesh& dual, const FlowConditions& conditions, const 
                 std::string("found no far field and no ") + (options.inlets.empty() ? "inlet" : "outlet") +
                     ", expected one for the gas to " + (options.inlets.empty() ? "enter" : "leave") + " by");
   if (conditions.cl)
-    throw Error(ErrorCode::argument, "cl", "given for a mesh without a far field, expected an angle of attack");
+    throw Error(ErrorCode::argument, "cl",
+                "given for a mesh without a far field, expected an angle of attack");
 }
 
 Stream stream_of(const FlowConditions& conditions, const FlowOptions& options) {

@@ -36,8 +36,9 @@ struct BoundaryEdge {
 class FlowMesh {
  public:
   // Every boundary edge of the mesh belongs to a named boundary; the one called `farfield` is the far field,
-  // those called like one of `openings` are inlets or outlets, all others are walls. Edges with the domain on both sides are no boundary. Throws Error (argument) naming
-  // `source` where there is no far field (and no opening), no boundary of an opening's name, an edge without a name, or a point of no triangle.
+  // those called like one of `openings` are inlets or outlets, all others are walls. Edges with the domain on
+  // both sides are no boundary. Throws Error (argument) naming `source` where there is no far field (and no
+  // opening), no boundary of an opening's name, an edge without a name, or a point of no triangle.
   FlowMesh(const FrozenMesh& mesh, const std::string& farfield, const std::string& source,
            std::span<const std::string> openings = {});
   // Throws Error (argument) where the far field is the only boundary.

@@ -123,7 +123,8 @@ Primitive<T> stream_at(Point from, double mach, const T& alpha, const T& lift) {
 
 // The state at an inlet: gas of this total pressure and this square of the total speed of sound enters along
 // the normal (outwards, of any length), and the wave that leaves the domain is the inner state's. Source for
-// both ends: J.-R. Carlson, "Inflow/outflow boundary conditions with application to FUN3D", NASA TM-2011-217181.
+// both ends: J.-R. Carlson, "Inflow/outflow boundary conditions with application to FUN3D", NASA
+// TM-2011-217181.
 template <class T>
 Primitive<T> inlet_state(const Primitive<T>& inside, Point normal, double total_pressure,
                          double total_sound_square) {
