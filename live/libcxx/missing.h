@@ -54,6 +54,14 @@ template <class Range, class Predicate>
 constexpr bool none_of(const Range& range, Predicate predicate) {
   return ranges::count_if(range, predicate) == 0;
 }
+template <class Range, class Predicate>
+constexpr bool any_of(const Range& range, Predicate predicate) {
+  return ranges::count_if(range, predicate) != 0;
+}
+template <class Range, class T>
+constexpr bool binary_search(const Range& range, const T& value) {
+  return std::binary_search(std::begin(range), std::end(range), value);
+}
 
 }  // namespace ranges
 }  // namespace std
