@@ -42,7 +42,7 @@ if(others)
   message(FATAL_ERROR "a consumer of core built ${others} too")
 endif()
 
-set(parts FLOW IO DRAW DESIGN APP STUDY TESTS)
+set(parts FLOW IO DRAW DESIGN APP STUDY PYTHON TESTS)
 list(TRANSFORM parts REPLACE "(.+)" "-DREMODEL_\\1=OFF")
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${SCRATCH}/core ${bare} ${parts})
 run(${CMAKE_COMMAND} --build ${SCRATCH}/core)

@@ -50,8 +50,17 @@ TEST(Fates, OfAnUnchangedMeshAreAllKeptAndOfAnotherMeshAllMade) {
   FrozenMesh other = mesh;
   for (std::uint32_t& birth : other.birth) birth = 7;
   EXPECT_EQ(count(fates(mesh, other), Fate::moved), mesh.triangles.size());
+  // Vertices of the interior are known by their keys, wherever they have moved; without keys by their places.
+  FrozenMesh morphed = other;
+  for (std::size_t i = 0; i < morphed.points.size(); ++i)
+    if (morphed.curve[i] < 0) morphed.points[i].x += 1e-9;
+  EXPECT_EQ(count(fates(mesh, morphed), Fate::moved), mesh.triangles.size());
+  for (std::uint64_t& key : other.vertex_keys) key += std::uint64_t{1} << 32;
+  for (double& parameter : other.parameter) parameter += 1e-9;
+  EXPECT_EQ(count(fates(mesh, other), Fate::made), mesh.triangles.size());
   for (std::size_t i = 0; i < other.points.size(); ++i)
-    other.curve[i] < 0 ? other.points[i].x += 1e-9 : other.parameter[i] += 1e-9;
+    if (other.curve[i] < 0) other.points[i].x += 1e-9;
+  other.vertex_keys.clear();
   EXPECT_EQ(count(fates(mesh, other), Fate::made), mesh.triangles.size());
 }
 
