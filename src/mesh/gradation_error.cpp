@@ -1,9 +1,10 @@
-// The gradation error, from the definition: a search over all boundary vertices for every vertex, but for
-// runs of them that are too far away.
+// The gradation error, from the definition: for every vertex the least over all boundary vertices, which a
+// tree of boxes finds.
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "mesh/mesh_data.h"
 
@@ -20,16 +21,12 @@ class DesignScales {
       mesh.walk(head, [&](std::uint32_t k) {
         if (!mesh.at(k).steiner) add({mesh.point(k), mesh.base_length_scale(k) * mesh.at(k).scale_factor});
       });
+    while (levels_.back().size() > 1) levels_.push_back(joined_in_pairs(levels_.back()));
   }
 
   double at(Point p) const {
     double least = infinity;
-    for (const Run& run : runs_) {
-      if (run.least + std::sqrt(run.squared_distance_to(p)) * inverse_gradation_ >= least) continue;
-      for (std::size_t i = run.begin; i < run.end; ++i)
-        least = std::min(least, sources_[i].scale +
-                                    std::sqrt(squared_distance(sources_[i].point, p)) * inverse_gradation_);
-    }
+    if (!sources_.empty()) search(levels_.size() - 1, 0, p, least);
     return least;
   }
 
@@ -51,11 +48,49 @@ class DesignScales {
   };
   static constexpr std::size_t run_length = 16;
 
+  static std::vector<Run> joined_in_pairs(const std::vector<Run>& runs) {
+    std::vector<Run> pairs;
+    for (std::size_t i = 0; i < runs.size(); i += 2) {
+      Run pair = runs[i];
+      if (i + 1 < runs.size()) {
+        const Run& second = runs[i + 1];
+        pair.end = second.end;
+        pair.least = std::min(pair.least, second.least);
+        pair.low = {std::min(pair.low.x, second.low.x), std::min(pair.low.y, second.low.y)};
+        pair.high = {std::max(pair.high.x, second.high.x), std::max(pair.high.y, second.high.y)};
+      }
+      pairs.push_back(pair);
+    }
+    return pairs;
+  }
+
+  // No source of the run gives less.
+  double bound(const Run& run, Point p) const {
+    return run.least + std::sqrt(run.squared_distance_to(p)) * inverse_gradation_;
+  }
+
+  void search(std::size_t level, std::size_t index, Point p, double& least) const {
+    const Run& run = levels_[level][index];
+    if (bound(run, p) >= least) return;
+    if (level == 0) {
+      for (std::size_t i = run.begin; i < run.end; ++i)
+        least = std::min(least, sources_[i].scale +
+                                    std::sqrt(squared_distance(sources_[i].point, p)) * inverse_gradation_);
+      return;
+    }
+    const std::vector<Run>& below = levels_[level - 1];
+    std::size_t first = 2 * index, second = first + 1;
+    if (second == below.size()) return search(level - 1, first, p, least);
+    if (bound(below[second], p) < bound(below[first], p)) std::swap(first, second);
+    search(level - 1, first, p, least);
+    search(level - 1, second, p, least);
+  }
+
   void add(Source source) {
-    if (sources_.size() % run_length == 0)
-      runs_.push_back({.begin = sources_.size(), .end = sources_.size()});
+    std::vector<Run>& runs = levels_.front();
+    if (sources_.size() % run_length == 0) runs.push_back({.begin = sources_.size(), .end = sources_.size()});
     sources_.push_back(source);
-    Run& run = runs_.back();
+    Run& run = runs.back();
     ++run.end;
     run.least = std::min(run.least, source.scale);
     run.low = {std::min(run.low.x, source.point.x), std::min(run.low.y, source.point.y)};
@@ -64,7 +99,7 @@ class DesignScales {
 
   double inverse_gradation_;
   std::vector<Source> sources_;
-  std::vector<Run> runs_;
+  std::vector<std::vector<Run>> levels_{1};  // runs of neighbours; pairs of these; and so on up to one
 };
 
 }  // namespace
