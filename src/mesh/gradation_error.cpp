@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "geometry/box.h"
 #include "mesh/mesh_data.h"
 
 namespace remodel {
@@ -39,12 +40,7 @@ class DesignScales {
   struct Run {
     std::size_t begin, end;
     double least = infinity;
-    Point low{infinity, infinity}, high{-infinity, -infinity};
-    double squared_distance_to(Point p) const {
-      const double dx = std::max({low.x - p.x, 0.0, p.x - high.x}),
-                   dy = std::max({low.y - p.y, 0.0, p.y - high.y});
-      return dx * dx + dy * dy;
-    }
+    Box box{};
   };
   static constexpr std::size_t run_length = 16;
 
@@ -56,8 +52,7 @@ class DesignScales {
         const Run& second = runs[i + 1];
         pair.end = second.end;
         pair.least = std::min(pair.least, second.least);
-        pair.low = {std::min(pair.low.x, second.low.x), std::min(pair.low.y, second.low.y)};
-        pair.high = {std::max(pair.high.x, second.high.x), std::max(pair.high.y, second.high.y)};
+        pair.box.add(second.box);
       }
       pairs.push_back(pair);
     }
@@ -66,7 +61,7 @@ class DesignScales {
 
   // No source of the run gives less.
   double bound(const Run& run, Point p) const {
-    return run.least + std::sqrt(run.squared_distance_to(p)) * inverse_gradation_;
+    return run.least + std::sqrt(run.box.squared_distance(p)) * inverse_gradation_;
   }
 
   void search(std::size_t level, std::size_t index, Point p, double& least) const {
@@ -93,8 +88,7 @@ class DesignScales {
     Run& run = runs.back();
     ++run.end;
     run.least = std::min(run.least, source.scale);
-    run.low = {std::min(run.low.x, source.point.x), std::min(run.low.y, source.point.y)};
-    run.high = {std::max(run.high.x, source.point.x), std::max(run.high.y, source.point.y)};
+    run.box.add(source.point);
   }
 
   double inverse_gradation_;

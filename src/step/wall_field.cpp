@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace remodel {
@@ -26,26 +25,21 @@ Point quotient(Point a, Point b) {
 }  // namespace
 
 WallField::WallField(const MeshData& mesh, std::span<const std::size_t> moving) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  low_ = {infinity, infinity}, high_ = {-infinity, -infinity};
   double extent = 0.0, length = 0.0;  // squared; of all moving edges
   for (std::size_t loop = 0; loop < mesh.loop_heads.size(); ++loop) {
     const bool moves = std::ranges::binary_search(moving, loop);
     const std::size_t first = edges_.size();
     add_loop(mesh, loop, moves);
     if (!moves) continue;
-    Point low{infinity, infinity}, high{-infinity, -infinity};
+    Box box;
     for (std::size_t i = first; i < edges_.size(); ++i) {
-      for (const Point p : {edges_[i].from, edges_[i].to}) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-      }
+      box.add(edges_[i].from), box.add(edges_[i].to);
       length += edges_[i].length;
     }
-    low_ = {std::min(low_.x, low.x), std::min(low_.y, low.y)};
-    high_ = {std::max(high_.x, high.x), std::max(high_.y, high.y)};
+    box_.add(box);
     // A single point has its length scale for an extent; no edge is longer than its loop's.
-    extent = std::max({extent, squared_distance(low, high), edges_[first].length * edges_[first].length});
+    extent =
+        std::max({extent, squared_distance(box.low, box.high), edges_[first].length * edges_[first].length});
   }
   affine_.resize(nodes_.size());
   of_edges_.resize(edges_.size());
@@ -126,9 +120,7 @@ double WallField::squared_distance_to(const Edge& edge, Point x) {
 }
 
 bool WallField::beyond_reach(Point x) const {
-  const double dx = std::max({low_.x - x.x, 0.0, x.x - high_.x});
-  const double dy = std::max({low_.y - x.y, 0.0, x.y - high_.y});
-  return dx * dx + dy * dy > squared_reach_;
+  return box_.squared_distance(x) > squared_reach_;
 }
 
 template <class Visit>

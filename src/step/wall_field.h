@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/box.h"
 #include "mesh/mesh_data.h"
 
 namespace remodel {
@@ -84,8 +85,8 @@ class WallField {
   std::vector<Node> nodes_;
   std::vector<Affine> affine_;  // of nodes; derivatives by them while they are pulled
   std::vector<Affine> of_edges_;
-  double least_ = 0.0;    // the sum of weights of moving walls at d = R
-  Point low_{}, high_{};  // the box about the moving walls
+  double least_ = 0.0;  // the sum of weights of moving walls at d = R
+  Box box_;             // about the moving walls
   double squared_reach_ = 0.0;
 };
 

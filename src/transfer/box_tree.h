@@ -8,28 +8,11 @@
 #include <span>
 #include <vector>
 
+#include "geometry/box.h"
 #include "remodel/ids.h"
 #include "remodel/point.h"
 
 namespace remodel {
-
-struct Box {
-  Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  Point high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-
-  void add(Point p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  bool overlaps(const Box& other) const {
-    return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y && other.low.y <= high.y;
-  }
-  double squared_distance(Point p) const {
-    const double x = std::max({low.x - p.x, 0.0, p.x - high.x}),
-                 y = std::max({low.y - p.y, 0.0, p.y - high.y});
-    return x * x + y * y;
-  }
-};
 
 inline Box box_of(Point a, Point b, Point c) {
   Box box;
@@ -83,7 +66,7 @@ class BoxTree {
     if (node >= nodes_.size()) nodes_.resize(2 * node + 1);
     Box box, centres;
     for (const Item& item : items) {
-      box.add(boxes_[item.box].low), box.add(boxes_[item.box].high);
+      box.add(boxes_[item.box]);
       centres.add(item.centre);
     }
     nodes_[node] = box;

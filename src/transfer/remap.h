@@ -2,6 +2,9 @@
 
 // Conservative transfer: docs/transfer.md.
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "remodel/transfer.h"
@@ -16,6 +19,18 @@ struct RemapInput {
   Outside outside;
   const RemapOptions& options;
 };
+
+// Runs a remap and puts what it has made into the values, after the map of what has not changed.
+template <class Remap>
+Balance remap_by(Remap&& remap, const ValueMap& map, int components, std::vector<double>& values) {
+  Balance balance = remap.run();
+  map.apply(values, components);
+  remap.for_each_value([&](std::uint32_t number, const double* made) {
+    const auto width = static_cast<std::size_t>(components);
+    std::copy_n(made, width, values.begin() + static_cast<std::ptrdiff_t>(number * width));
+  });
+  return balance;
+}
 
 // `map`: that of the ride, for what has not changed.
 Balance remap_vertices(const RemapInput& input, const ValueMap& map, int components,

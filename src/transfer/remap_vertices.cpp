@@ -228,14 +228,7 @@ class VertexRemap {
 
 Balance remap_vertices(const RemapInput& input, const ValueMap& map, int components,
                        std::vector<double>& values) {
-  const auto width = static_cast<std::size_t>(components);
-  VertexRemap remap(input, width, values);
-  Balance balance = remap.run();
-  map.apply(values, components);
-  remap.for_each_value([&](std::uint32_t number, const double* made) {
-    std::copy_n(made, width, values.begin() + static_cast<std::ptrdiff_t>(number * width));
-  });
-  return balance;
+  return remap_by(VertexRemap(input, static_cast<std::size_t>(components), values), map, components, values);
 }
 
 }  // namespace remodel
