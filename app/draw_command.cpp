@@ -11,6 +11,7 @@
 #include "arguments.h"
 #include "command.h"
 #include "figures.h"
+#include "outputs.h"
 #include "picture_options.h"
 #include "remodel/error.h"
 #include "remodel/field.h"
@@ -104,7 +105,7 @@ DrawField read_field(const DrawCommand& command, const std::string& name) {
 Status run(const DrawCommand& command) {
   require_together(command);
   const std::string field = field_asked_for(command);
-  require_picture(command.output, {".svg", ".png"});
+  require_writable_as(command.output, {".svg", ".png"});
   const FrozenMesh mesh = read(command);
   DrawOptions options = command.options;
   if (!field.empty()) options.field = read_field(command, field);

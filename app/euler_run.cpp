@@ -8,7 +8,7 @@
 #include "flow_plots.h"
 #include "interrupt.h"
 #include "new_airfoil.h"
-#include "picture_options.h"
+#include "outputs.h"
 #include "remodel/error.h"
 #include "remodel/generate.h"
 #include "remodel/io.h"
@@ -219,7 +219,7 @@ Status run_euler(const EulerRun& run, const MeshInput& input, const std::string&
   require_mach(run);
   if (run.compare != Compare::none)
     throw Error(ErrorCode::argument, "--compare", "given without --series, expected a series to compare");
-  if (!run.history.empty()) require_picture(run.history, {".csv", ".svg", ".png"});
+  if (!run.history.empty()) require_writable_as(run.history, {".csv", ".svg", ".png"});
   InterruptObserver observer;
   FlowOptions options = options_of(run);
   options.observer = &observer;

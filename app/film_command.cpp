@@ -12,6 +12,7 @@
 #include "arguments.h"
 #include "command.h"
 #include "figures.h"
+#include "outputs.h"
 #include "picture_options.h"
 #include "remodel/error.h"
 #include "remodel/history.h"
@@ -70,7 +71,7 @@ std::string caption(const EvaluationRecord& record, const FrozenMesh& mesh) {
 }
 
 Status run(const FilmCommand& command) {
-  require_picture(command.output, {".webp"});
+  require_writable_as(command.output, {".webp"});
   const std::vector<std::uint64_t> chosen = best_of_parts(command, command.frames - 1);
   Film film(command.film);
   FrozenMesh last = read_frozen_mesh(command.run / "first.vtkhdf");

@@ -25,12 +25,7 @@ struct FitCommand {
 };
 
 void require_possible(const std::string& output) {
-  if (output.empty()) return;
-  const std::string extension = std::filesystem::path(output).extension().string();
-  if (extension != ".json") {
-    throw Error(ErrorCode::argument, output, "found extension '" + extension + "', expected .json");
-  }
-  require_writable(output);
+  if (!output.empty()) require_writable_as(output, {".json"});
 }
 
 void add_extreme(Report& report, const std::string& key, const Extreme& extreme) {

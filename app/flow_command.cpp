@@ -15,7 +15,6 @@
 #include "mesh_input.h"
 #include "meshing_options.h"
 #include "outputs.h"
-#include "picture_options.h"
 #include "potential_run.h"
 #include "remodel/error.h"
 #include "remodel/generate.h"
@@ -89,7 +88,7 @@ StartMesh start_mesh(const FlowCommand& command) {
 
 Status run(const FlowCommand& command) {
   command.outputs.require_possible();
-  if (!command.cp_plot.empty()) require_picture(command.cp_plot, {".svg", ".png"});
+  if (!command.cp_plot.empty()) require_writable_as(command.cp_plot, {".svg", ".png"});
   if (command.is_potential) {
     for (const auto& [option, is_given] : {std::pair{"--series", !command.euler.series.empty()},
                                            std::pair{"--inlet", !command.euler.inlets.empty()},

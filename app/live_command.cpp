@@ -27,9 +27,7 @@ Status run(const LiveCommand& command) {
     throw Error(ErrorCode::argument, "live",
                 "found a program that was built without its page, expected one built where emscripten was "
                 "(Debian: emscripten)");
-  if (!command.output.ends_with(".html"))
-    throw Error(ErrorCode::argument, command.output, "unknown extension, expected .html");
-  require_writable(command.output);
+  require_writable_as(command.output, {".html"});
   write_text_atomically(command.output, live_page());
   Report report;
   add_output_figures(report, {command.output});

@@ -17,7 +17,6 @@
 #include "interrupt.h"
 #include "meshing_options.h"
 #include "outputs.h"
-#include "picture_options.h"
 #include "remodel/airfoil.h"
 #include "remodel/design_space.h"
 #include "remodel/error.h"
@@ -241,7 +240,7 @@ void draw(const NoiseCommand& command, const DesignLine& line, const Objective& 
 }
 
 Status run(const NoiseCommand& command) {
-  if (!command.picture.empty()) require_picture(command.picture, {".svg", ".png"});
+  if (!command.picture.empty()) require_writable_as(command.picture, {".svg", ".png"});
   if (command.mach.has_value() == !command.evaluator.empty())
     throw Error(ErrorCode::argument, "--mach",
                 command.mach ? "given with --evaluator, expected one of them"

@@ -29,6 +29,16 @@ void require_writable(const std::filesystem::path& given) {
   }
 }
 
+void require_writable_as(const std::string& file, std::initializer_list<const char*> extensions) {
+  const std::string extension = std::filesystem::path(file).extension().string();
+  if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
+    std::string expected;
+    for (const char* one : extensions) expected += (expected.empty() ? "" : " or ") + std::string(one);
+    throw Error(ErrorCode::argument, file, "found extension '" + extension + "', expected " + expected);
+  }
+  require_writable(file);
+}
+
 // What is missing in a file is said: whoever needs it there asks for it.
 void warn_of_inner_curves(const FrozenMesh& mesh, const std::string& file, const std::string& remedy) {
   for (const std::string& name : inner_curves(mesh))

@@ -3,6 +3,7 @@
 // The output files (-o) of a subcommand: checked before the work as far as possible, written after it.
 
 #include <filesystem>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <vector>
@@ -41,5 +42,7 @@ class MeshOutputs {
 void warn_of_inner_curves(const FrozenMesh& mesh, const std::string& file, const std::string& remedy);
 // Throws Error (file) if the file is a directory, or its directory is missing or not writable.
 void require_writable(const std::filesystem::path& file);
+// The same, and throws Error (argument) if the file has none of the extensions (".png").
+void require_writable_as(const std::string& file, std::initializer_list<const char*> extensions);
 
 }  // namespace remodel::app

@@ -1,10 +1,6 @@
 #include "picture_options.h"
 
-#include <algorithm>
-#include <filesystem>
-
 #include "arguments.h"
-#include "outputs.h"
 #include "remodel/error.h"
 
 namespace remodel::app {
@@ -19,16 +15,6 @@ void add_window(CLI::App& app, const std::string& default_text, DrawOptions& opt
              }
              options.window = {{corners[0], corners[1], corners[2], corners[3]}};
            });
-}
-
-void require_picture(const std::string& file, std::initializer_list<const char*> extensions) {
-  const std::string extension = std::filesystem::path(file).extension().string();
-  if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
-    std::string expected;
-    for (const char* one : extensions) expected += (expected.empty() ? "" : " or ") + std::string(one);
-    throw Error(ErrorCode::argument, file, "found extension '" + extension + "', expected " + expected);
-  }
-  require_writable(file);
 }
 
 }  // namespace remodel::app

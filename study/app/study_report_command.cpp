@@ -42,11 +42,7 @@ void require_outputs(const StudyReportCommand& command) {
   if (command.outputs.empty() && command.verdict.empty() && command.csv.empty() && command.svg.empty())
     throw Error(ErrorCode::argument, "study report",
                 "found no output, expected -o FILE, --verdict FILE, --csv DIR or --svg DIR");
-  for (const std::string& file : command.outputs) {
-    if (const std::string extension = extension_of(file); extension != ".html" && extension != ".md")
-      throw Error(ErrorCode::argument, file, "found extension '" + extension + "', expected .html or .md");
-    require_writable(file);
-  }
+  for (const std::string& file : command.outputs) require_writable_as(file, {".html", ".md"});
   if (!command.verdict.empty()) require_writable(command.verdict);
   for (const std::string& directory : {command.csv, command.svg})
     if (!directory.empty() && !std::filesystem::is_directory(directory)) require_missing(directory);
