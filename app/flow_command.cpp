@@ -70,6 +70,7 @@ Status run_potential_flow(const FlowCommand& command, const MeshInput& input) {
   PotentialRun run;
   run.alpha_deg = command.alpha_deg;
   run.lift = command.lift;
+  if (command.euler.mach_given) run.mach = command.euler.conditions.mach;
   run.cp_plot = command.cp_plot;
   run.json = command.json;
   run.options.farfield = command.farfield;
@@ -121,7 +122,9 @@ void add_flow_command(CLI::App& program, Action& action) {
   add_domain_input(app, command->input);
   add_choice(app,
              {"--model", "MODEL", "euler",
-              "euler: of a compressible gas without friction; potential: of an incompressible one"},
+              "euler: of a compressible gas without friction; potential: of an incompressible one, with "
+              "pressures by "
+              "Karman and Tsien's rule where --mach is given"},
              {"euler", "potential"}, [command](std::size_t choice) { command->is_potential = choice == 1; });
   add_real(app, {"--alpha", "DEG", "0", "Angle of attack in degrees, -90 to 90"}, {.low = -90, .high = 90},
            [command](double value) { command->alpha_deg = value; });

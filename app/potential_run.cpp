@@ -17,7 +17,11 @@ void add_flow_figures(Report& report, const PotentialFlow& flow) {
   report.figure("cm", "CM", flow.moment);
   report.figure("cl_by_pressure", "CL by pressure", flow.lift_by_pressure);
   report.figure("alpha_deg", "angle of attack", flow.alpha_deg, "degrees");
-  report.data("mach", 0);
+  report.figure("mach", "Mach number", flow.mach);
+  report.data("supersonic", flow.supersonic);
+  if (flow.supersonic)
+    report.line("pressures",
+                "some are below that of sonic speed, where the rule of Karman and Tsien does not hold");
   report.data("converged", true);
   Json bodies = Json::array();
   for (const BodyFlow& body : flow.bodies) {
@@ -39,13 +43,14 @@ void run_potential(const PotentialRun& run, const MeshInput& input, const std::s
                    const MeshOutputs& outputs) {
   const Stopwatch watch;
   const PotentialSolver solver(input.frozen, run.options, source);
-  const PotentialFlow flow = solver.at(run.lift ? solver.alpha_deg_for(*run.lift) : run.alpha_deg);
+  const PotentialFlow flow =
+      solver.at(run.lift ? solver.alpha_deg_for(*run.lift, run.mach) : run.alpha_deg, run.mach);
   const double seconds = watch.seconds();
   const std::vector<Field> fields = flow.fields();
   std::optional<Plot> plot;
   if (!run.cp_plot.empty()) {
     plot = cp_plot(input.frozen, run.options.farfield, find_field(fields, "cp")->values,
-                   flow_caption(0.0, flow.alpha_deg, flow.lift), "--cp-plot");
+                   flow_caption(flow.mach, flow.alpha_deg, flow.lift), "--cp-plot");
   }
   write_with_fields(outputs, input, fields);
   std::vector<std::string> files = outputs.files();

@@ -13,6 +13,7 @@ namespace remodel::app {
 
 struct PotentialRun {
   double alpha_deg = 0.0;
+  double mach = 0.0;           // for the pressures
   std::optional<double> lift;  // that the angle is found for
   PotentialOptions options;
   std::string cp_plot;  // a file; none if it is empty

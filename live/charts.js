@@ -89,6 +89,7 @@ function drawCp(context, width, height) {
   const at = (x, cp) => [box.x + x * box.width, box.y + ((cp - low) / (1 - low)) * box.height];
   drawFrame(context, box, [`cp ${signed(low, 0 + (low % 1 !== 0))}`, "1"]);
   drawChordAxis(context, box, at);
+  if (pressure.sonic > low) drawSonicLine(context, at, pressure.sonic);
   context.strokeStyle = shown.pressure ? theme.step : theme.flow; // pale where it is of an earlier design
   context.lineWidth = 1.6;
   context.beginPath();
@@ -110,6 +111,19 @@ function drawChordAxis(context, box, at) {
   context.fillText("0", box.x - 5, at(0, 0)[1]);
 }
 
+// Above this line the flow is faster than sound.
+function drawSonicLine(context, at, cp) {
+  context.setLineDash([4, 3]);
+  context.beginPath();
+  context.moveTo(...at(0, cp));
+  context.lineTo(...at(1, cp));
+  context.stroke();
+  context.setLineDash([]);
+  context.textAlign = "right";
+  context.textBaseline = "bottom";
+  context.fillText("sonic", at(1, cp)[0] - 3, at(1, cp)[1] - 1);
+}
+
 function drawNote(context, width, height, text) {
   context.fillStyle = theme.quiet;
   context.textAlign = "center";
@@ -124,6 +138,12 @@ function drawCharts() {
   setTimeout(() => { textsWaiting = false; showTexts(); }, 200);
 }
 
+function sentenceOfLift() {
+  const isSupersonic = pressure.wall.some((value, i) => i % 2 && value < pressure.sonic);
+  const lift = `lift coefficient ${signed(pressure.lift, 3)}`;
+  return isSupersonic ? `${lift}; faster than sound somewhere, where this model does not hold` : lift;
+}
+
 const milliseconds = (value) => (Number.isFinite(value) ? `${value.toFixed(1)} ms` : "–");
 
 function showTexts() {
@@ -133,7 +153,7 @@ function showTexts() {
   $("median-latency").textContent = milliseconds(latency);
   $("median-kept").textContent = strip.length ? percent(kept) : "–";
   $("median-surplus").textContent = Number.isFinite(surplus) ? percent(surplus) : "not counted";
-  $("lift").textContent = pressure ? `lift coefficient ${signed(pressure.lift, 3)}` : "";
+  $("lift").textContent = pressure ? sentenceOfLift() : "";
   showFigures(shown);
 }
 

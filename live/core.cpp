@@ -344,17 +344,17 @@ LIVE const char* live_hash() {
 
 // ---- The flow ----
 
-LIVE std::uint32_t live_flow(double alpha_deg) {
+LIVE std::uint32_t live_flow(double alpha_deg, double mach) {
   return attempt([&] {
     if (!session.solver) session.solver.emplace(session.frozen);
-    session.flow = session.solver->at(alpha_deg);
+    session.flow = session.solver->at(alpha_deg, mach);
     session.cp.clear();
     session.speed.clear();
     session.wall_cp.clear();
     for (const Point& velocity : session.flow.velocity) {
       const double squared = dot(velocity, velocity);
       session.speed.push_back(std::sqrt(squared));
-      session.cp.push_back(1.0 - squared);
+      session.cp.push_back(compressible_cp(1.0 - squared, mach));
     }
     for (const BodyFlow& body : session.flow.bodies) {
       for (const WallValue& value : body.wall) {
@@ -378,7 +378,10 @@ LIVE std::uint32_t live_wall_cp_count() {
   return static_cast<std::uint32_t>(session.wall_cp.size() / 2);
 }
 LIVE double live_lift() {
-  return session.flow.lift;
+  return session.flow.lift_by_pressure;
+}
+LIVE double live_sonic_cp() {
+  return sonic_cp(session.flow.mach);
 }
 
 // ---- The search: CMA-ES from one design to another of the same degree ----

@@ -62,13 +62,14 @@ const char*
 live_check();  // the independent check: empty if the mesh is valid, otherwise the first broken rule
 const char* live_hash();  // of points and triangles, 16 hexadecimal digits
 
-// Potential flow around the present mesh.
-std::uint32_t live_flow(double alpha_deg);
+// Potential flow around the present mesh, with pressures by Karman and Tsien's rule.
+std::uint32_t live_flow(double alpha_deg, double mach);
 double* live_cp();       // per vertex
 double* live_speed();    // per vertex
 double* live_wall_cp();  // x, cp of wall vertices, in order
 std::uint32_t live_wall_cp_count();
-double live_lift();
+double live_lift();             // by pressure
+double live_sonic_cp();         // of that Mach number; minus infinity at 0
 
 // A search by CMA-ES for the target, from another design of the same degree.
 std::uint32_t live_search_start(const double* from, std::uint32_t count, const double* target,

@@ -157,7 +157,7 @@ async function checkMesh() {
 
 // ---------------------------------------------------------------------------------------------- the link
 
-const LINK_NUMBERS = { points: [20, 1000], gradation: [1, 20], alpha: [-10, 15] };
+const LINK_NUMBERS = { points: [20, 1000], gradation: [1, 20], alpha: [-10, 15], mach: [0, 0.8] };
 const LINK_SWITCHES = ["flow", "regenerate", "fresh"];
 let linkTimer = 0;
 

@@ -14,7 +14,7 @@ const LONGEST_HISTORY = 500; // designs that can be undone
 const COLOURS = ["fate", "quality", "size", "age", "pressure"];
 
 const FIRST = {
-  design: null, points: 200, gradation: 4, alpha: 2, colour: "fate", flow: true, regenerate: false, fresh: false,
+  design: null, points: 200, gradation: 4, alpha: 2, mach: 0, colour: "fate", flow: true, regenerate: false, fresh: false,
 };
 
 const wish = { ...FIRST };
@@ -182,7 +182,7 @@ function showFrame(frame, { points, gradation, since = 0 }) {
   if (exact) gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits for the picture
   const latency = since ? performance.now() - since : NaN;
   if (frame.pressure || !wish.flow) pressure = frame.pressure;
-  if (frame.flow) flowTime = frame.flow;
+  if (frame.flow && !frame.isFirst) flowTime = frame.flow; // the first one waits for the code to be compiled
   if (frame.stepped && !frame.isFirst) addToStrip(frame, latency);
   else if (frame.flow && strip.length && !strip.at(-1).flow) strip.at(-1).flow = frame.flow;
   showSliders();
@@ -196,8 +196,8 @@ let exact = false; // whether measurements include the time until the picture is
 function sentenceOfStep({ figures, isFirst }) {
   if (isFirst) return "The mesh is there: drag a handle, or move one with the arrow keys.";
   if (figures[8]) return "Every triangle is new: this mesh was generated.";
-  const changed = `${figures[10]} vertices moved, ${figures[11]} inserted, ${figures[12]} removed`;
-  return `One step: ${changed}${figures[7] ? "; the far field was adjusted too" : ""}.`;
+  if (figures[7]) return `One full adjustment: ${figures[10]} vertices moved, and every triangle joins those that it joined.`;
+  return `One step: ${figures[10]} vertices moved, ${figures[11]} inserted, ${figures[12]} removed.`;
 }
 
 // ---------------------------------------------------------------------------------------------- undo
@@ -305,7 +305,12 @@ function placeTarget() {
 
 // The program's default, within the slider's range.
 const usualGradation = (points) => Math.min(20, Math.max(1, points / 50));
-const RANGES = { points: String, gradation: (value) => value.toFixed(1), alpha: (value) => `${signed(value, 1)}°` };
+const RANGES = {
+  points: String,
+  gradation: (value) => value.toFixed(1),
+  alpha: (value) => `${signed(value, 1)}°`,
+  mach: (value) => value.toFixed(2),
+};
 
 function showControls() {
   for (const [name, text] of Object.entries(RANGES)) {
@@ -319,7 +324,7 @@ function showControls() {
 function listenToControls() {
   for (const name of Object.keys(RANGES)) {
     $(name).addEventListener("input", () => {
-      if (name !== "alpha") stopSearch();
+      if (name === "points" || name === "gradation") stopSearch();
       const value = $(name).valueAsNumber;
       change({ [name]: value, ...(name === "points" ? { gradation: usualGradation(value) } : {}) });
       showControls();
@@ -410,6 +415,7 @@ globalThis.live = {
   wish, stage, call, change, settled, medians, meshText,
   get shown() { return shown; },
   get view() { return view; },
+  get busy() { return busy; },
   measure(isExact) {
     exact = isExact;
     strip = [];

@@ -136,9 +136,10 @@ function picture(colour) {
   return { vertices, range, figures: values };
 }
 
-function flow(alpha) {
-  expectDone(core._live_flow(alpha));
+function flow({ alpha, mach }) {
+  expectDone(core._live_flow(alpha, mach));
   return {
+    sonic: core._live_sonic_cp(),
     wall: doubles(core._live_wall_cp(), 2 * core._live_wall_cp_count()),
     lift: core._live_lift(),
   };
@@ -150,7 +151,7 @@ function frame(wish, stepped, stepMilliseconds) {
   let colour = wish.colour;
   if (wish.flow || colour === "pressure") {
     try {
-      result.flow = timed(() => { result.pressure = flow(wish.alpha); });
+      result.flow = timed(() => { result.pressure = flow(wish); });
     } catch (error) {
       result.notice = error.message;
       if (colour === "pressure") colour = "fate";
@@ -211,7 +212,7 @@ const METHODS = {
   searchNext({ wish, budget }) {
     const start = performance.now();
     const before = search.evaluations;
-  isFirst = false;
+    isFirst = false;
     let running = true;
     do running = evaluate(wish);
     while (running && performance.now() - start < budget);

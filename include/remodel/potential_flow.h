@@ -1,7 +1,8 @@
 #pragma once
 
-// Plane potential flow of an incompressible fluid around bodies on a mesh: lift and pressures in
-// milliseconds, without drag, and a first guess for more.
+// Plane potential flow around bodies on a mesh: lift and pressures in milliseconds, without drag, and a first
+// guess for more. The fluid is incompressible; what a subsonic Mach number does to pressures and forces
+// follows by rule.
 //
 // Units: the free stream has speed 1 and density 1, lengths are those of the mesh (chords). The free stream
 // comes from the left and rises with the angle of attack. cp = 1 - speed^2. Coefficients are forces over half
@@ -13,6 +14,11 @@
 // which the flow leaves it smoothly (Kutta); others have none. Circulations and speeds on walls come from
 // consistent fluxes. P. M. Gresho and R. L. Sani, "Incompressible Flow and the Finite Element Method", 1998,
 // sec. 3.13 (fluxes).
+//
+// With a Mach number, pressures are those of the incompressible flow by the rule of T. von Karman and H.-S.
+// Tsien (J. Aeronaut. Sci. 6, 1939, p. 399), forces by pressure their sums, and the lift by circulation
+// follows Glauert's rule (Proc. R. Soc. A 118, 1928, p. 113). Both hold while the flow is subsonic
+// everywhere: see supersonic.
 
 #include <cstdint>
 #include <memory>
@@ -33,7 +39,7 @@ struct PotentialOptions {
 struct WallValue {
   std::uint32_t vertex;
   Point point;
-  double speed;  // along the wall, in the direction of the wall's vertices
+  double speed;  // along the wall, in the direction of the wall's vertices; of the incompressible flow
   double cp;
 };
 
@@ -50,15 +56,23 @@ struct BodyFlow {
   double lift = 0.0, drag = 0.0, moment = 0.0;  // by pressure; the drag is an error of the mesh
 };
 
+// The pressure coefficient of a gas (ratio of specific heats 1.4) where that of an incompressible fluid is
+// `cp`, by the rule of von Karman and Tsien; not below that of a vacuum. mach is at least 0 and less than 1.
+double compressible_cp(double cp, double mach);
+// The pressure coefficient where the gas is as fast as sound; minus infinity at rest.
+double sonic_cp(double mach);
+
 struct PotentialFlow {
   double alpha_deg = 0.0;
-  double lift = 0.0;  // by circulation, of all bodies
+  double mach = 0.0;
+  bool supersonic = false;  // on a wall, by its pressure: the rules do not hold for such a flow
+  double lift = 0.0;        // by circulation, of all bodies
   double lift_by_pressure = 0.0, drag_by_pressure = 0.0, moment = 0.0;
   std::vector<BodyFlow> bodies;
   std::vector<double> stream_function;  // per vertex
   std::vector<Point> velocity;          // per vertex
 
-  // cp, speed, stream_function and velocity, for files and pictures.
+  // cp, and of the incompressible flow speed, stream_function and velocity, for files and pictures.
   std::vector<Field> fields() const;
 };
 
@@ -78,11 +92,11 @@ class PotentialSolver {
   // (argument) for another number of points and inverted triangles; nothing has changed then.
   void move(const std::vector<Point>& points);
 
-  // Throws Error (argument) unless |alpha| is at most 90 degrees.
-  PotentialFlow at(double alpha_deg) const;
+  // Throws Error (argument) unless |alpha| is at most 90 degrees, and mach at least 0 and less than 1.
+  PotentialFlow at(double alpha_deg, double mach = 0.0) const;
   // The angle nearest to zero with that lift by circulation. Throws Error (argument) if none up to 90 degrees
   // has it.
-  double alpha_deg_for(double lift) const;
+  double alpha_deg_for(double lift, double mach = 0.0) const;
 
  private:
   struct Solution;

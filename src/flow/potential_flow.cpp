@@ -356,6 +356,14 @@ void PotentialSolver::move(const std::vector<Point>& points) {
 
 namespace {
 
+constexpr double gamma = 1.4;  // ratio of specific heats
+
+void require_subsonic(double mach) {
+  if (!(mach >= 0.0 && mach < 1.0))
+    throw Error(ErrorCode::argument, "mach",
+                std::to_string(mach) + " found, at least 0 and less than 1 expected of potential flow");
+}
+
 double lift_of(const Flow& flow, double reference_length) {
   double sum = 0.0;
   for (const double circulation : flow.circulation) sum += circulation;
@@ -382,8 +390,13 @@ std::vector<Point> mean_velocities(const FrozenMesh& mesh, const std::vector<dou
   return sums;
 }
 
+double cp_of_speed(double speed, double mach) {
+  return compressible_cp(1.0 - speed * speed, mach);
+}
+
 // Forces by pressure, of speeds that are linear on each edge.
-void add_forces(BodyFlow& body, std::size_t base, double alpha, const PotentialOptions& options) {
+void add_forces(BodyFlow& body, std::size_t base, double alpha, double mach,
+                const PotentialOptions& options) {
   const std::size_t n = body.wall.size();
   Point force{};
   double moment = 0.0;
@@ -392,7 +405,8 @@ void add_forces(BodyFlow& body, std::size_t base, double alpha, const PotentialO
     // The trailing edge has one speed: the flow comes towards it on both sides.
     const double from = i + 1 == base ? -a.speed : a.speed;
     const double to = b.speed;
-    const double cp = 1.0 - (from * from + from * to + to * to) / 3.0;
+    const double cp =
+        (cp_of_speed(from, mach) + 4.0 * cp_of_speed(0.5 * (from + to), mach) + cp_of_speed(to, mach)) / 6.0;
     const Point d = b.point - a.point;
     const Point part = cp * Point{d.y, -d.x};
     const Point arm = 0.5 * (a.point + b.point) - options.reference;
@@ -407,17 +421,35 @@ void add_forces(BodyFlow& body, std::size_t base, double alpha, const PotentialO
 
 }  // namespace
 
-PotentialFlow PotentialSolver::at(double alpha_deg) const {
+double compressible_cp(double cp, double mach) {
+  if (mach == 0.0) return cp;
+  const double beta = std::sqrt(1.0 - mach * mach);
+  const double vacuum = -2.0 / (gamma * mach * mach);
+  const double denominator = beta + mach * mach / (1.0 + beta) * 0.5 * cp;
+  return denominator > 0.0 ? std::max(cp / denominator, vacuum) : vacuum;
+}
+
+double sonic_cp(double mach) {
+  const double square = mach * mach;
+  const double pressure =
+      std::pow((2.0 + (gamma - 1.0) * square) / (gamma + 1.0), gamma / (gamma - 1.0));  // over the stream's
+  return 2.0 / (gamma * square) * (pressure - 1.0);
+}
+
+PotentialFlow PotentialSolver::at(double alpha_deg, double mach) const {
   if (!(std::abs(alpha_deg) <= 90.0))
     throw Error(ErrorCode::argument, "alpha",
                 std::to_string(alpha_deg) + " found, -90 to 90 degrees expected");
+  require_subsonic(mach);
   const Solution& s = *solution_;
   const double alpha = alpha_deg * std::numbers::pi / 180.0;
   const double a = std::cos(alpha), b = std::sin(alpha);
   PotentialFlow result;
   result.alpha_deg = alpha_deg;
-  result.lift =
-      a * lift_of(s.flow[0], s.options.reference_length) + b * lift_of(s.flow[1], s.options.reference_length);
+  result.mach = mach;
+  result.lift = (a * lift_of(s.flow[0], s.options.reference_length) +
+                 b * lift_of(s.flow[1], s.options.reference_length)) /
+                std::sqrt(1.0 - mach * mach);
   combine(result.stream_function, a, s.flow[0].stream_function, b, s.flow[1].stream_function);
   result.velocity = mean_velocities(s.mesh, s.areas, result.stream_function);
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {
@@ -437,13 +469,15 @@ PotentialFlow PotentialSolver::at(double alpha_deg) const {
       const std::uint32_t v = body.vertices[i];
       const Point along =
           s.mesh.points[body.vertices[(i + 1) % n]] - s.mesh.points[body.vertices[(i + n - 1) % n]];
-      part.wall.push_back({v, s.mesh.points[v], speeds[i], 1.0 - speeds[i] * speeds[i]});
+      const double cp = cp_of_speed(speeds[i], mach);
+      part.wall.push_back({v, s.mesh.points[v], speeds[i], cp});
+      result.supersonic |= cp < sonic_cp(mach);
       if (i >= body.base) result.velocity[v] = (speeds[i] / std::hypot(along.x, along.y)) * along;
     }
     for (std::size_t i = 0; i < body.base; ++i)
       result.velocity[body.vertices[i]] =
           0.5 * (result.velocity[body.vertices[body.base]] + result.velocity[body.vertices[n - 1]]);
-    add_forces(part, body.base, alpha, s.options);
+    add_forces(part, body.base, alpha, mach, s.options);
     result.lift_by_pressure += part.lift;
     result.drag_by_pressure += part.drag;
     result.moment += part.moment;
@@ -451,9 +485,11 @@ PotentialFlow PotentialSolver::at(double alpha_deg) const {
   return result;
 }
 
-double PotentialSolver::alpha_deg_for(double lift) const {
-  const double at_0 = lift_of(solution_->flow[0], solution_->options.reference_length);
-  const double at_90 = lift_of(solution_->flow[1], solution_->options.reference_length);
+double PotentialSolver::alpha_deg_for(double lift, double mach) const {
+  require_subsonic(mach);
+  const double scale = 1.0 / std::sqrt(1.0 - mach * mach);
+  const double at_0 = scale * lift_of(solution_->flow[0], solution_->options.reference_length);
+  const double at_90 = scale * lift_of(solution_->flow[1], solution_->options.reference_length);
   const double most = std::hypot(at_0, at_90);
   // lift = most * sin(alpha - alpha without lift)
   if (!(std::abs(lift) <= most) || most == 0.0) {
@@ -470,7 +506,7 @@ std::vector<Field> PotentialFlow::fields() const {
   Field velocities{"velocity", FieldPlace::vertices, 2, {}};
   for (const Point v : velocity) {
     const double square = dot(v, v);
-    cp.values.push_back(1.0 - square);
+    cp.values.push_back(compressible_cp(1.0 - square, mach));
     speed.values.push_back(std::sqrt(square));
     velocities.values.insert(velocities.values.end(), {v.x, v.y});
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "flow/test_sections.h"
@@ -282,6 +283,39 @@ TEST(TrailingEdge, WeightsSeeTheFlowAroundItAlone) {
       EXPECT_NEAR(sum, 0.0, 1e-12);
     }
   }
+}
+
+TEST(CompressiblePressure, IsGlauertsForSmallDisturbancesAndNeverBelowAVacuum) {
+  for (const double mach : {0.1, 0.3, 0.6, 0.9}) {
+    const double beta = std::sqrt(1.0 - mach * mach), vacuum = -2.0 / (1.4 * mach * mach);
+    EXPECT_NEAR(compressible_cp(1e-6, mach) / 1e-6, 1.0 / beta, 1e-5 / beta);
+    double last = compressible_cp(1.0, mach);
+    for (double cp = 0.9; cp > -20.0; cp -= 0.1) {
+      const double now = compressible_cp(cp, mach);
+      EXPECT_TRUE(now < last || now == vacuum) << mach << ' ' << cp;
+      EXPECT_GE(now, vacuum);
+      last = now;
+    }
+  }
+  EXPECT_EQ(compressible_cp(-1.7, 0.0), -1.7);
+}
+
+// Isentropic flow from M 0.5 and 0.8 to sonic speed.
+TEST(CompressiblePressure, KnowsWhereSonicSpeedIsReached) {
+  EXPECT_NEAR(sonic_cp(0.5), -2.1334, 1e-4);
+  EXPECT_NEAR(sonic_cp(0.8), -0.4346, 1e-4);
+  EXPECT_EQ(sonic_cp(0.0), -std::numeric_limits<double>::infinity());
+  const PotentialSolver solver(mesh_around({naca("naca:0012", 200)}, 4.0));
+  EXPECT_FALSE(solver.at(0.0, 0.70).supersonic);
+  EXPECT_TRUE(solver.at(0.0, 0.77).supersonic);
+}
+
+TEST(PotentialFlow, HasTheLiftOfACompressibleGas) {
+  const PotentialSolver solver(mesh_around({naca("naca:0012", 200)}, 4.0));
+  const PotentialFlow flow = solver.at(1.25, 0.5);
+  EXPECT_NEAR(flow.lift_by_pressure, 0.1803, 0.02 * 0.1803);  // of Euler's equations: docs/flow.md
+  EXPECT_NEAR(solver.at(solver.alpha_deg_for(0.3, 0.5), 0.5).lift, 0.3, 1e-12);
+  for (const double mach : {-0.1, 1.0, std::nan("")}) EXPECT_THROW(solver.at(0.0, mach), Error);
 }
 
 }  // namespace

@@ -17,6 +17,13 @@ class Flows(ProgramTest):
         self.assertAlmostEqual(figures["cl"], 0.18, delta=0.03)
         self.assertEqual(len(figures["bodies"]), 1)
 
+    def test_potential_flow_knows_the_mach_number(self):
+        shape = ("flow", "naca:0012", "--points", 60, "--alpha", 1.25)
+        slow, fast, faster = (self.figures(*shape, "--model", "potential", "--mach", mach) for mach in (0.01, 0.5, 0.8))
+        self.assertAlmostEqual(fast["cl_by_pressure"], 0.1803, delta=0.006)  # of Euler's equations
+        self.assertAlmostEqual(fast["cl"] / slow["cl"], (1 - 0.5**2) ** -0.5, delta=1e-3)
+        self.assertEqual([f["supersonic"] for f in (slow, fast, faster)], [False, False, True])
+
     def test_a_mesh_file_has_the_flow_of_its_shape(self):
         self.succeed("mesh", "naca:2412", "--points", 40, "-o", "mesh.vtkhdf", "-o", "mesh.su2")
         shape = self.figures("flow", "naca:2412", "--points", 40, "--mach", 0.4)

@@ -1,6 +1,7 @@
 """The page of `remodel live` in a real browser: a mesh that is dragged by pointer, keys and scripts."""
 
 import json
+import os
 import time
 
 from browser import BROWSER, Browser, colours
@@ -184,16 +185,17 @@ class RandomDrags(PageTest):
         self.browser.call("HeapProfiler.collectGarbage")
         return self.browser.call("Runtime.getHeapUsage")["usedSize"], self.value("live.call('memory')")
 
-    def test_a_thousand_drags_leave_memory_flat(self):
-        seed = int(time.time())
-        print(f"seed {seed}")
+    def test_drags_leave_memory_flat(self):
+        """A thousand, or as many as the environment asks for."""
+        seed, count = int(time.time()), int(os.environ.get("REMODEL_DRAGS", "1000"))
+        print(f"seed {seed}, {count} drags")
         self.change(flow=False)
         refused = self.drags(200, seed)
         page, core = self.memory()
-        refused += self.drags(800, seed + 1000)
+        refused += self.drags(count - 200, seed + 1000)
         later_page, later_core = self.memory()
         print(f"page {page} to {later_page} bytes, core {core} to {later_core} bytes, {refused} drags refused")
-        self.assertLess(refused, 900)
+        self.assertLess(refused, 0.9 * count)
         self.assertLess(later_page, page + 1_000_000)
         self.assertLessEqual(later_core, 1.25 * core)
         self.assertSound()
@@ -238,6 +240,19 @@ class Input(PageTest):
         self.assertIn("cross", self.status())
         lower = self.middle(".handle", 8)
         self.assertLess(self.middle(".handle", 2)[1], lower[1])
+
+    def test_a_mach_number_changes_the_pressure_and_its_limit_is_told(self):
+        lowest = "Math.min(...live.shown.pressure.wall.filter((_, i) => i % 2))"
+        self.set("mach", 0.0)
+        at_rest, lift = self.value(lowest), self.value("live.shown.pressure.lift")
+        self.set("mach", 0.5)
+        self.assertLess(self.value(lowest), at_rest)
+        self.assertGreater(self.value("live.shown.pressure.lift"), 1.1 * lift)
+        text = "live.settled().then(() => document.getElementById('lift').textContent)"
+        self.browser.wait_for(f"{text}.then((t) => !t.includes('faster than sound'))")
+        self.set("mach", 0.8)
+        self.browser.wait_for(f"{text}.then((t) => t.includes('faster than sound'))")
+        self.assertSound()
 
     def test_files_of_airfoils_are_taken(self):
         self.succeed("fit", "naca:4415", "-o", "shape.json")

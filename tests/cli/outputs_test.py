@@ -189,6 +189,7 @@ class Flows(ProgramTest):
             (["a.su2", "naca:0012", "--model", "potential"], "a.su2: holds a mesh, expected it alone"),
             (["a.su2", "--model", "potential", "--alpha", "91"], "--alpha"),
             (["a.su2", "--model", "potential", "--cl", "9"], "lift: 9.000000 found"),
+            (["a.su2", "--model", "potential", "--mach", "1.2"], "mach: 1.200000 found"),
             (["a.su2", "--model", "potential", "--cp-plot", "cp.pdf"], "cp.pdf: found extension '.pdf'"),
         ):
             with self.subTest(arguments):
