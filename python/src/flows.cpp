@@ -20,8 +20,18 @@ FlowConditions conditions_of(double mach, double alpha, const std::optional<doub
           .reference_length = reference_length};
 }
 
-FlowOptions options_of(const std::string& farfield, double tolerance, int max_steps, double memory_mb) {
-  return {.farfield = farfield, .tolerance = tolerance, .max_steps = max_steps, .memory_mb = memory_mb};
+using Inlets = std::map<std::string, std::array<double, 2>>;  // total pressure and total temperature
+using Outlets = std::map<std::string, double>;                // pressure
+
+FlowOptions options_of(const std::string& farfield, double tolerance, int max_steps, double memory_mb,
+                       const Inlets& inlets, const Outlets& outlets) {
+  FlowOptions options{
+      .farfield = farfield, .tolerance = tolerance, .max_steps = max_steps, .memory_mb = memory_mb};
+  for (const auto& [name, total] : inlets)
+    options.inlets.push_back({.name = name, .total_pressure = total[0], .total_temperature = total[1]});
+  for (const auto& [name, pressure] : outlets)
+    options.outlets.push_back({.name = name, .pressure = pressure});
+  return options;
 }
 
 // A flow knows the mesh that its values are on.
@@ -33,10 +43,11 @@ py::object with_mesh(const FlowPointer& flow, const Snapshot& mesh) {
 
 py::object solved(const py::object& mesh, double mach, double alpha, const std::optional<double>& cl,
                   const std::array<double, 2>& reference, double reference_length,
-                  const std::string& farfield, double tolerance, int max_steps, double memory_mb) {
+                  const std::string& farfield, double tolerance, int max_steps, double memory_mb,
+                  const Inlets& inlets, const Outlets& outlets) {
   const Snapshot frozen = snapshot_of(mesh);
   const FlowConditions conditions = conditions_of(mach, alpha, cl, reference, reference_length);
-  FlowOptions options = options_of(farfield, tolerance, max_steps, memory_mb);
+  FlowOptions options = options_of(farfield, tolerance, max_steps, memory_mb, inlets, outlets);
   const FlowPointer flow = interruptible([&](StepObserver& observer) {
     options.observer = &observer;
     return std::make_shared<FlowResult>(solve_flow(*frozen, conditions, options));
@@ -104,6 +115,12 @@ py::dict bodies_of(const FlowResult& flow) {
   return result;
 }
 
+py::dict openings_of(const FlowResult& flow) {
+  py::dict result;
+  for (const FlowOpening& opening : flow.openings) result[py::str(opening.name)] = opening.mass_flow;
+  return result;
+}
+
 void add_figures(py::class_<FlowResult, FlowPointer>& type) {
   type.def_property_readonly("converged", &FlowResult::converged,
                              "Whether the flow was found; otherwise no coefficient should be used.");
@@ -118,6 +135,9 @@ void add_figures(py::class_<FlowResult, FlowPointer>& type) {
   type.def_readonly("cd", &FlowResult::cd, "The drag coefficient of all bodies.");
   type.def_readonly("cm", &FlowResult::cm, "The moment coefficient, positive nose up.");
   type.def_property_readonly("bodies", &bodies_of, "The parts of each wall, by name: cl, cd, cm.");
+  type.def_property_readonly("openings", &openings_of,
+                             "What enters through each inlet and outlet, by name: density times speed of "
+                             "sound of the stream times length.");
   type.def_readonly("residual", &FlowResult::residual);
   type.def_readonly("newton_steps", &FlowResult::newton_steps);
   type.def_readonly("factorisations", &FlowResult::factorisations);
@@ -153,7 +173,8 @@ constexpr const char* solver_text =
     R"(Steady compressible flow without friction (Euler, gamma = 1.4) around the walls of a mesh.
 
 mach: 0.01 to 3; alpha: degrees, or where cl is given the angle that the search for this lift begins with;
-reference: the moment's point. tolerance: residual over that of undisturbed flow, 1e-13 to 1e-2. Raises
+reference: the moment's point. inlets: total pressure and total temperature of each by name, outlets: the pressure
+of each, all as parts of the stream's; below Mach 1. tolerance: residual over that of undisturbed flow, 1e-13 to 1e-2. Raises
 ArgumentError; a flow that is not found is a result: FlowResult.converged, .reason. Ctrl-C ends it.
 docs/flow.md has method and sources.)";
 
@@ -166,17 +187,21 @@ void add_flows(py::module_& module) {
   module.def("solve_flow", &solved, "mesh"_a, py::kw_only(), "mach"_a = 0.5, "alpha"_a = 0.0,
              "cl"_a = py::none(), "reference"_a = quarter, "reference_length"_a = 1.0,
              "farfield"_a = "farfield", "tolerance"_a = defaults.tolerance,
-             "max_steps"_a = defaults.max_steps, "memory_mb"_a = defaults.memory_mb, solver_text);
+             "max_steps"_a = defaults.max_steps, "memory_mb"_a = defaults.memory_mb, "inlets"_a = Inlets(),
+             "outlets"_a = Outlets(), solver_text);
   py::class_<Flows>(
       module, "LivingFlow",
       R"(A flow solver that outlives its mesh: each flow is found from the one before and the factors that are
 still good, whatever update() did to the mesh in between. The result depends on mesh and conditions alone, to
 the tolerance.)")
-      .def(py::init([](const std::string& farfield, double tolerance, int max_steps, double memory_mb) {
-             return std::make_unique<Flows>(options_of(farfield, tolerance, max_steps, memory_mb));
+      .def(py::init([](const std::string& farfield, double tolerance, int max_steps, double memory_mb,
+                       const Inlets& inlets, const Outlets& outlets) {
+             return std::make_unique<Flows>(
+                 options_of(farfield, tolerance, max_steps, memory_mb, inlets, outlets));
            }),
            py::kw_only(), "farfield"_a = "farfield", "tolerance"_a = defaults.tolerance,
-           "max_steps"_a = defaults.max_steps, "memory_mb"_a = defaults.memory_mb)
+           "max_steps"_a = defaults.max_steps, "memory_mb"_a = defaults.memory_mb, "inlets"_a = Inlets(),
+           "outlets"_a = Outlets())
       .def("solve", &Flows::solve, "mesh"_a, py::kw_only(), "mach"_a = 0.5, "alpha"_a = 0.0,
            "cl"_a = py::none(), "reference"_a = quarter, "reference_length"_a = 1.0, solver_text)
       .def(

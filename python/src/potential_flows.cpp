@@ -34,6 +34,10 @@ void add_potential_flows(py::module_& module) {
       module, "PotentialFlow",
       "A potential flow; the free stream has speed 1, coefficients are per half chord.")
       .def_readonly("alpha", &PotentialFlow::alpha_deg, "The angle of attack, in degrees.")
+      .def_readonly("mach", &PotentialFlow::mach)
+      .def_readonly(
+          "supersonic", &PotentialFlow::supersonic,
+          "Whether some pressure is below that of sonic speed, where the rule for mach does not hold.")
       .def_readonly("lift", &PotentialFlow::lift, "The lift coefficient of all bodies, by circulation.")
       .def_readonly("lift_by_pressure", &PotentialFlow::lift_by_pressure)
       .def_readonly("drag_by_pressure", &PotentialFlow::drag_by_pressure, "An error of the mesh.")
@@ -49,7 +53,7 @@ void add_potential_flows(py::module_& module) {
                              })
       .def_property_readonly("cp", [](const PotentialFlow& f) {
         std::vector<double> cp;
-        for (const Point v : f.velocity) cp.push_back(1.0 - dot(v, v));
+        for (const Point v : f.velocity) cp.push_back(compressible_cp(1.0 - dot(v, v), f.mach));
         return copied(cp);
       });
   py::class_<PotentialSolver>(
@@ -64,9 +68,14 @@ milliseconds, without drag. Raises ArgumentError. docs/potential_flow.md has met
            "mesh"_a, py::kw_only(), "farfield"_a = "farfield")
       .def(
           "at",
-          [](const PotentialSolver& s, double alpha) { return std::make_shared<PotentialFlow>(s.at(alpha)); },
-          "alpha"_a, "The flow at an angle, -90 to 90 degrees.")
-      .def("alpha_for", &PotentialSolver::alpha_deg_for, "lift"_a, "The angle with that lift, in degrees.");
+          [](const PotentialSolver& s, double alpha, double mach) {
+            return std::make_shared<PotentialFlow>(s.at(alpha, mach));
+          },
+          "alpha"_a, py::kw_only(), "mach"_a = 0.0,
+          R"(The flow at an angle, -90 to 90 degrees. mach, less than 1: pressures by the rule of von Karman and
+Tsien, lift by circulation by Glauert's.)")
+      .def("alpha_for", &PotentialSolver::alpha_deg_for, "lift"_a, py::kw_only(), "mach"_a = 0.0,
+           "The angle with that lift by circulation, in degrees.");
 }
 
 }  // namespace remodel::python

@@ -1,3 +1,4 @@
+import json
 import os
 import signal
 import threading
@@ -52,6 +53,27 @@ def test_potential_flow(flowing):
     wall = flow.bodies["airfoil"]
     assert np.allclose(mesh.points[wall["vertices"]], wall["points"])
     assert flow.velocity.shape == (len(mesh.points), 2) and flow.cp.max() < 1.1
+
+
+def test_potential_flow_knows_the_mach_number(flowing):
+    solver = remodel.PotentialSolver(flowing[1])
+    slow, fast = solver.at(2.0), solver.at(2.0, mach=0.5)
+    assert abs(fast.lift / slow.lift - (1 - 0.5**2) ** -0.5) < 1e-12
+    assert fast.cp.min() < slow.cp.min() and not fast.supersonic and solver.at(2.0, mach=0.8).supersonic
+    assert abs(solver.alpha_for(fast.lift, mach=0.5) - 2.0) < 1e-9
+
+
+def test_a_duct_takes_in_what_it_lets_out():
+    line = lambda name, a, b, n: {"name": name, "shape": {"kind": "line", "from": a, "to": b}, "stations": n}
+    a, b, c, d = [0, 0], [4, 0], [4, 1], [0, 1]
+    sides = [line("in", d, a, 4), line("floor", a, b, 16), line("out", b, c, 4), line("roof", c, d, 16)]
+    duct = remodel.Domain.from_json(json.dumps({"loops": [{"role": "outer", "curves": sides}]}))
+    mesh = remodel.generate(duct)
+    openings = dict(inlets={"in": (1.0, 1.0)}, outlets={"out": 1.0})
+    for flow in (remodel.solve_flow(mesh, mach=0.3, **openings), remodel.LivingFlow(**openings).solve(mesh, mach=0.3)):
+        assert flow.converged and abs(flow.openings["in"] - 0.3) < 1e-7 and abs(flow.openings["out"] + 0.3) < 1e-7
+    with pytest.raises(remodel.ArgumentError, match="total pressure"):
+        remodel.solve_flow(mesh, mach=0.3, inlets={"in": (-1.0, 1.0)}, outlets={"out": 1.0})
 
 
 def test_conditions_out_of_range_are_errors(flowing):
