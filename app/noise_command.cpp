@@ -13,6 +13,7 @@
 
 #include "arguments.h"
 #include "command.h"
+#include "evaluate_options.h"
 #include "figures.h"
 #include "interrupt.h"
 #include "meshing_options.h"
@@ -31,7 +32,8 @@ namespace remodel::app {
 namespace {
 
 struct NoiseCommand {
-  std::string shape, direction, evaluator, picture;
+  std::string shape, direction, picture;
+  EvaluateOptions evaluate;
   MeshingOptions meshing;
   double spacing = 1e-3;
   int count = 21, degree = 3;
@@ -64,11 +66,12 @@ Objective flow_objective(const NoiseCommand& command, StepObserver& observer, bo
           }};
 }
 
-Objective command_objective(const NoiseCommand& command, StepObserver& observer) {
-  std::shared_ptr<Evaluator> evaluator =
-      command_evaluator({"/bin/sh", "-c", command.evaluator + " \"$@\"", "sh"});
-  return {{"objective"}, [evaluator, &observer](const Mesh& mesh, std::span<const double> design) -> Values {
-            std::unique_ptr<EvaluatorState> state;
+// The same: a state that the command left is carried on where meshes are not fresh.
+Objective command_objective(const NoiseCommand& command, StepObserver& observer, bool carry) {
+  std::shared_ptr<Evaluator> evaluator = shell_evaluator(command.evaluate);
+  auto state = std::make_shared<std::unique_ptr<EvaluatorState>>();
+  return {{"objective"}, [=, &observer](const Mesh& mesh, std::span<const double> design) -> Values {
+            if (!carry) state->reset();
             const MeshStep step;
             const EvaluationTask task{.design = design,
                                       .mesh = mesh,
@@ -76,7 +79,7 @@ Objective command_objective(const NoiseCommand& command, StepObserver& observer)
                                       .before = nullptr,
                                       .gradient = false,
                                       .observer = observer};
-            const Evaluation evaluation = evaluator->evaluate(task, state);
+            const Evaluation evaluation = evaluator->evaluate(task, *state);
             if (!std::isfinite(evaluation.objective)) return std::nullopt;
             return std::vector{evaluation.objective};
           }};
@@ -241,10 +244,10 @@ void draw(const NoiseCommand& command, const DesignLine& line, const Objective& 
 
 Status run(const NoiseCommand& command) {
   if (!command.picture.empty()) require_writable_as(command.picture, {".svg", ".png"});
-  if (command.mach.has_value() == !command.evaluator.empty())
+  if (command.mach.has_value() == !command.evaluate.command.empty())
     throw Error(ErrorCode::argument, "--mach",
-                command.mach ? "given with --evaluator, expected one of them"
-                             : "not given, expected --mach or --evaluator");
+                command.mach ? "given with --evaluate, expected one of them"
+                             : "not given, expected --mach or --evaluate");
   if (command.count < command.degree + 2)
     throw Error(ErrorCode::argument, "--count",
                 "found " + std::to_string(command.count) + ", expected at least two more than --degree, " +
@@ -257,7 +260,7 @@ Status run(const NoiseCommand& command) {
   Objective objective;
   for (const Way way : {Way::fresh, Way::living, Way::hub}) {
     objective = command.mach ? flow_objective(command, observer, way != Way::fresh)
-                             : command_objective(command, observer);
+                             : command_objective(command, observer, way != Way::fresh);
     all.push_back(evaluate(way, objective, line, space, command, observer));
   }
   const bool whole =
@@ -291,12 +294,11 @@ void add_flow_options(CLI::App& app, NoiseCommand& command) {
       app,
       {"--tolerance", "PART", "1e-12", "Residual of a flow, as a part of undisturbed flow's: 1e-13 to 1e-2"},
       {.low = 1e-13, .high = 1e-2}, [&](double value) { command.flow.tolerance = value; });
-  add_text(app,
-           {"--evaluator", "COMMAND", "",
-            "In place of a flow: a shell command that is run as COMMAND MESH DESIGN and prints a JSON object "
-            "with an "
-            "objective"},
-           Presence::optional, command.evaluator);
+  add_evaluate_option(
+      app,
+      "In place of a flow: a shell command for each design, as for `remodel optimise`, whose result is a "
+      "JSON object with an objective",
+      command.evaluate);
 }
 
 }  // namespace

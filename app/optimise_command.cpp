@@ -9,6 +9,7 @@
 
 #include "arguments.h"
 #include "command.h"
+#include "evaluate_options.h"
 #include "figures.h"
 #include "meshing_options.h"
 #include "optimise_start.h"
@@ -24,8 +25,8 @@ namespace {
 
 struct OptimiseCommand {
   OptimiseStartOptions start;
-  std::string to;         // one of these two
-  std::string evaluator;  // a command
+  std::string to;  // one of these two
+  EvaluateOptions evaluate;
   MeshingOptions meshing;
   OptimiseOptions run;
   int repeat = 1;
@@ -94,19 +95,19 @@ void add_last_mesh_figures(Report& report, const OptimiseCommand& command) {
 }
 
 void require_one_evaluator(const OptimiseCommand& command) {
-  if (command.to.empty() && command.evaluator.empty())
-    throw Error(ErrorCode::argument, "--to", "not given, --to SHAPE or --evaluator COMMAND expected");
-  if (!command.to.empty() && !command.evaluator.empty())
-    throw Error(ErrorCode::argument, "--evaluator", "given with --to, one of them expected");
+  if (command.to.empty() && command.evaluate.command.empty())
+    throw Error(ErrorCode::argument, "--to", "not given, --to SHAPE or --evaluate COMMAND expected");
+  if (!command.to.empty() && !command.evaluate.command.empty())
+    throw Error(ErrorCode::argument, "--evaluate", "given with --to, one of them expected");
 }
 
 // One run. Command, start and progress must outlive it.
 std::function<OptimiseResult()> once(const OptimiseCommand& command, const OptimiseStart& start,
                                      Progress& progress) {
-  if (!command.evaluator.empty()) {
-    // The shell finds the words of the command; its own two follow.
-    std::shared_ptr<Evaluator> evaluator =
-        command_evaluator({"/bin/sh", "-c", command.evaluator + " \"$@\"", "sh"});
+  if (!command.evaluate.command.empty()) {
+    EvaluateOptions options = command.evaluate;
+    options.run.directory = command.run.directory / "evaluations";
+    std::shared_ptr<Evaluator> evaluator = shell_evaluator(options);
     return [&, evaluator] { return optimise(start.from, *evaluator, command.run, &progress); };
   }
   CstAirfoil to = fit_shape(command.to, command.meshing.fit).airfoil;
@@ -127,7 +128,7 @@ Status run(OptimiseCommand& command) {
   const OptimiseStart start = read_start(command.start, command.meshing, command.run);
   const Json options = options_json(command);
   Progress progress(progress_style(command.quiet), command.run.evaluations, "options: " + options.dump());
-  if (!command.evaluator.empty() && command.run.start)
+  if (!command.evaluate.command.empty() && command.run.start)
     progress.say_at_first([&] {
       warn_of_inner_curves(command.run.start->mesh.freeze(), "mesh.su2 of the evaluator",
                            "no marker of its is a curve inside the mesh");
@@ -137,10 +138,10 @@ Status run(OptimiseCommand& command) {
 
   Report report;
   add_start_figures(report, command.start, start);
-  if (command.evaluator.empty())
+  if (command.evaluate.command.empty())
     report.figure("to", "to", command.to);
   else
-    report.figure("evaluator", "evaluator", command.evaluator);
+    report.figure("evaluator", "evaluator", command.evaluate.command);
   report.data("options", options);
   add_result(report, result);
   add_last_mesh_figures(report, command);
@@ -225,13 +226,16 @@ void add_optimise_command(CLI::App& program, Action& action) {
                                  "Changes one airfoil into another by CMA-ES, remodelling one living mesh",
                                  [command, &action] { action = [command] { return run(*command); }; });
   add_optimise_start_options(app, command->start);
-  add_text(app, {"--to", "SHAPE", "", "Airfoil whose points the design is to interpolate; or --evaluator"},
+  add_text(app, {"--to", "SHAPE", "", "Airfoil whose points the design is to interpolate; or --evaluate"},
            Presence::optional, command->to);
-  add_text(app,
-           {"--evaluator", "COMMAND", "",
-            "Program that is run for each design as `COMMAND MESH.su2 DESIGN.json` and prints a JSON object: "
-            "objective, and optionally constraints[] (at most 0) and outputs{}"},
-           Presence::optional, command->evaluator);
+  add_evaluate_option(
+      app,
+      "Shell command that is run for each design: {mesh}, {design}, {state}, {result} and {directory} in it "
+      "are files of its own, the state what it left of the design before, carried over to the new mesh "
+      "(docs/solvers.md); without any of them it is run as `COMMAND MESH.su2 DESIGN.json`. Its result is a "
+      "JSON object: objective, and optionally constraints[] (at most 0), gradient[] and outputs{}",
+      command->evaluate);
+  add_evaluation_options(app, command->evaluate);
   add_text(
       app,
       {"-o,--output", "DIR", "", "Run directory: new or empty; that of a run with --resume or --overwrite"},

@@ -7,10 +7,12 @@
 //
 // examples/own_evaluator.cpp is one in thirty lines.
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "remodel/airfoil.h"
@@ -42,6 +44,7 @@ struct EvaluationTask {
   // To be asked now and then by evaluations that take long; an evaluation that throws after it has been told
   // that the run is cancelled did not fail. The run ends, to be resumed from its last checkpoint.
   StepObserver& observer;
+  std::uint64_t evaluation = 0;  // its number in the run, from 1
 };
 
 class Evaluator {
@@ -71,13 +74,41 @@ class Evaluator {
 // does not look at the mesh.
 std::unique_ptr<Evaluator> interpolation_evaluator(const CstAirfoil& target);
 
-// A program of the user's, run once for each design as `command... MESH DESIGN`: two files in a temporary
-// directory of its own, the mesh in SU2 format and the design, its parameters as a JSON array. The program
-// prints one JSON object: "objective", a number, and optionally "constraints", an array of numbers,
-// "gradient", an array, "constraint_gradients", an array of arrays, and "outputs", an object of numbers. The
-// evaluation fails where the program cannot be started, ends with another status than 0, or prints something
-// else; the message has the end of what it wrote to standard error. A run that is cancelled terminates the
-// program with all processes of its group. Throws Error (argument) for an empty command.
-std::unique_ptr<Evaluator> command_evaluator(std::vector<std::string> command);
+// Which directories of evaluations are left.
+enum class KeepEvaluations { none, failed, all };
+
+struct CommandOptions {
+  double time_limit = 0.0;  // seconds of wall time for one evaluation, after which it fails; 0: none
+  // Each evaluation has a directory of its own in it, made if missing: EvaluationTask::evaluation in six
+  // digits. Empty: a temporary one each, which is never kept.
+  std::filesystem::path directory{};
+  KeepEvaluations keep = KeepEvaluations::failed;
+};
+
+// A program of the user's, run once for each design. In the words of the command
+//   {mesh}       is the mesh, mesh.su2; {mesh.vtkhdf}, {mesh.msh}, {mesh.vtu}: in these formats
+//   {design}     design.json, the design's parameters as an array
+//   {state}      state.csv, SU2's restart file in ASCII, rows in the order of the mesh's points (also
+//                {state.dat}, binary). It is there when this living mesh has been evaluated before and the
+//                program left one: that one, carried over to the points of this mesh (Transfer::ride). What
+//                the program leaves there is carried to the next design.
+//   {result}     result.json, which the program is to write; otherwise it prints the result
+//   {directory}  the directory of this evaluation, in which all of these are, with absolute paths
+// A command without any of them is given {mesh} and {design} as its last two words. The program runs in the
+// directory of this one. The result is one JSON object: "objective", a number, and optionally "constraints",
+// an array of numbers, "gradient", an array, "constraint_gradients", an array of arrays, and "outputs", an
+// object of numbers. The evaluation fails where the program cannot be started, ends with another status than
+// 0 or is too slow, or where the result or state that it leaves cannot be read; the message has the end of
+// what it wrote to standard error, which stays in the file `errors` where the directory is kept. Time limits
+// and cancelled runs end the program with all processes of its group; the next design of that mesh begins
+// without a state. Throws Error (argument) for an empty command and for formats that are not known.
+std::unique_ptr<Evaluator> command_evaluator(std::vector<std::string> command, CommandOptions options = {});
+
+// Where a text names one of these files.
+struct CommandPlace {
+  std::size_t at, size;
+  std::string file;  // in the directory of an evaluation; empty: that directory
+};
+std::vector<CommandPlace> command_places(std::string_view text);
 
 }  // namespace remodel

@@ -1,27 +1,26 @@
-// An evaluator that is a program of the user's: one process a design.
+// An evaluator that is a program of the user's: one process a design, in a directory of its own.
 
-#include <fcntl.h>
-#include <signal.h>
-#include <spawn.h>
 #include <stdlib.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cerrno>
+#include <array>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
 #include <utility>
 
 #include "base/stopwatch.h"
+#include "design/child_process.h"
 #include "remodel/error.h"
 #include "remodel/evaluator.h"
 #include "remodel/io.h"
-
-extern char** environ;
+#include "remodel/su2_restart.h"
+#include "remodel/transfer.h"
 
 namespace remodel {
 namespace {
@@ -29,80 +28,48 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-// Goes with all that is in it.
-class TemporaryDirectory {
+fs::path temporary_directory() {
+  std::string name = (fs::temp_directory_path() / "remodel-evaluation-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr)
+    throw Error(ErrorCode::file, name, std::string("cannot make the directory: ") + std::strerror(errno));
+  return name;
+}
+
+// An empty one, in the place of what a run that was killed may have left there.
+fs::path numbered_directory(const fs::path& parent, std::uint64_t number) {
+  const std::string digits = std::to_string(number);
+  const fs::path path =
+      fs::absolute(parent) / (std::string(6 - std::min<std::size_t>(6, digits.size()), '0') + digits);
+  std::error_code problem;
+  fs::remove_all(path, problem);
+  if (!problem) fs::create_directories(path, problem);
+  if (problem) throw Error(ErrorCode::file, path.string(), "cannot make the directory: " + problem.message());
+  return path;
+}
+
+// The directory of one evaluation, which goes with all that is in it unless it is to be kept.
+class EvaluationDirectory {
  public:
-  TemporaryDirectory() {
-    std::string name = (fs::temp_directory_path() / "remodel-evaluation-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr)
-      throw Error(ErrorCode::file, name, std::string("cannot make the directory: ") + std::strerror(errno));
-    path_ = name;
-  }
-  ~TemporaryDirectory() {
+  EvaluationDirectory(const CommandOptions& options, std::uint64_t number)
+      : path_(options.directory.empty() ? temporary_directory()
+                                        : numbered_directory(options.directory, number)),
+        keep_(!options.directory.empty() && options.keep != KeepEvaluations::none),
+        keep_good_(options.keep == KeepEvaluations::all) {}
+  ~EvaluationDirectory() {
+    if (keep_ && (keep_good_ || !good_)) return;
     std::error_code ignored;
     fs::remove_all(path_, ignored);
+    fs::remove(path_.parent_path(), ignored);  // where this was the last one
   }
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-  fs::path operator/(const char* name) const { return path_ / name; }
+  EvaluationDirectory(const EvaluationDirectory&) = delete;
+  EvaluationDirectory& operator=(const EvaluationDirectory&) = delete;
+  const fs::path& path() const { return path_; }
+  void succeeded() { good_ = true; }
+  void forget() { keep_ = false; }
 
  private:
   fs::path path_;
-};
-
-void require_started(int problem, const std::string& program) {
-  if (problem != 0) throw std::runtime_error(program + ": cannot be started: " + std::strerror(problem));
-}
-
-// A child in a process group of its own, which does not outlive this object.
-class Child {
- public:
-  Child(std::vector<std::string> command, const fs::path& output, const fs::path& errors) {
-    posix_spawn_file_actions_t files;
-    posix_spawnattr_t attributes;
-    posix_spawn_file_actions_init(&files);
-    posix_spawnattr_init(&attributes);
-    constexpr int writing = O_WRONLY | O_CREAT | O_TRUNC;
-    posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&files, 1, output.c_str(), writing, 0600);
-    posix_spawn_file_actions_addopen(&files, 2, errors.c_str(), writing, 0600);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-    std::vector<char*> arguments;
-    for (std::string& word : command) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    const int problem = posix_spawnp(&id_, arguments[0], &files, &attributes, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&files);
-    posix_spawnattr_destroy(&attributes);
-    require_started(problem, command.front());
-  }
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
-  ~Child() {
-    if (ended_) return;
-    constexpr double patience = 2.0;  // seconds
-    kill(-id_, SIGTERM);
-    for (const Stopwatch watch; !ended() && watch.seconds() < patience;)
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    kill(-id_, SIGKILL);
-    if (!ended_) waitpid(id_, &status_, 0);
-  }
-
-  bool ended() {
-    const pid_t waited = ended_ ? 0 : waitpid(id_, &status_, WNOHANG);
-    ended_ = ended_ || waited == id_ || (waited < 0 && errno != EINTR);
-    return ended_;
-  }
-  // The way in which a child ended; empty where its status is 0.
-  std::string failure() const {
-    if (WIFSIGNALED(status_)) return "ended by signal " + std::to_string(WTERMSIG(status_));
-    const int status = WEXITSTATUS(status_);
-    return status == 0 ? "" : "ended with status " + std::to_string(status);
-  }
-
- private:
-  pid_t id_ = 0;
-  int status_ = 0;
-  bool ended_ = false;
+  bool keep_, keep_good_, good_ = false;
 };
 
 // The end of what a program said, on one line.
@@ -130,49 +97,174 @@ Evaluation evaluation_from(const std::string& text) {
   return evaluation;
 }
 
+// What a solver left of a design: its values at the points of that design's mesh.
+struct SolverState final : EvaluatorState {
+  FrozenMesh mesh;
+  Su2Restart restart;
+
+  std::string bytes() const override { return su2_restart_bytes(restart); }
+  Su2Restart on(const FrozenMesh& now) const {
+    Su2Restart result = restart;
+    Transfer(mesh, now).ride(FieldPlace::vertices, static_cast<int>(restart.names.size()), result.values);
+    set_coordinates(result, now, "state");
+    return result;
+  }
+};
+
+// The files that the words of a command name.
+struct CommandFiles {
+  std::set<std::string> names;
+  std::string state;    // empty: none
+  bool result = false;  // a file; otherwise standard output
+};
+
+CommandFiles files_of(const std::vector<std::string>& words) {
+  CommandFiles files;
+  for (const std::string& word : words)
+    for (const CommandPlace& place : command_places(word)) {
+      if (place.file.starts_with("mesh.")) mesh_format(place.file);  // refuses others
+      if (place.file.starts_with("state.") && !files.state.empty() && files.state != place.file)
+        throw Error(ErrorCode::argument, word,
+                    "found two files of the state, expected {state} or {state.dat}");
+      if (place.file.starts_with("state.")) files.state = place.file;
+      files.result = files.result || place.file == "result.json";
+      files.names.insert(place.file);
+    }
+  return files;
+}
+
+std::vector<std::string> with_files(std::vector<std::string> words, const fs::path& directory) {
+  for (std::string& word : words) {
+    const std::vector<CommandPlace> places = command_places(word);
+    for (auto place = places.rbegin(); place != places.rend(); ++place)
+      word.replace(place->at, place->size,
+                   (place->file.empty() ? directory : directory / place->file).string());
+  }
+  return words;
+}
+
 class CommandEvaluator final : public Evaluator {
  public:
-  explicit CommandEvaluator(std::vector<std::string> command) : command_(std::move(command)) {}
+  CommandEvaluator(std::vector<std::string> command, CommandOptions options)
+      : command_(std::move(command)), words_(command_), options_(std::move(options)) {
+    if (std::all_of(words_.begin(), words_.end(),
+                    [](const std::string& word) { return command_places(word).empty(); }))
+      words_.insert(words_.end(), {"{mesh}", "{design}"});
+    files_ = files_of(words_);
+  }
 
-  Evaluation evaluate(const EvaluationTask& task, std::unique_ptr<EvaluatorState>&) override {
-    const TemporaryDirectory directory;
-    const fs::path mesh = directory / "mesh.su2", design = directory / "design.json";
-    write_mesh(task.mesh, mesh);
-    write_text_atomically(design, Json(std::vector<double>(task.design.begin(), task.design.end())).dump());
-    std::vector<std::string> command = command_;
-    command.insert(command.end(), {mesh.string(), design.string()});
-    const fs::path output = directory / "output", errors = directory / "errors";
-    run(std::move(command), output, errors, task.observer);
+  Evaluation evaluate(const EvaluationTask& task, std::unique_ptr<EvaluatorState>& state) override {
+    EvaluationDirectory directory(options_, task.evaluation);
     try {
-      return evaluation_from(read_text(output));
-    } catch (const Json::exception& problem) {
-      throw std::runtime_error(command_.front() +
-                               ": expected one JSON object with an objective: " + problem.what());
+      const Evaluation evaluation = evaluate_in(directory.path(), task, state);
+      if (std::isfinite(evaluation.objective)) directory.succeeded();
+      return evaluation;
+    } catch (...) {
+      if (task.observer.cancelled()) directory.forget();
+      throw;
     }
+  }
+
+  std::unique_ptr<EvaluatorState> restore(const std::string& bytes, const Mesh& mesh,
+                                          const std::string& source) override {
+    auto state = std::make_unique<SolverState>();
+    state->mesh = mesh.freeze();
+    state->restart = parse_su2_restart(bytes, source);
+    set_coordinates(state->restart, state->mesh, source);
+    return state;
   }
   std::string description() const override { return Json{{"command", command_}}.dump(); }
 
  private:
-  void run(std::vector<std::string> command, const fs::path& output, const fs::path& errors,
-           StepObserver& observer) const {
-    Child child(std::move(command), output, errors);
-    for (auto pause = std::chrono::milliseconds(1); !child.ended();) {
-      if (observer.cancelled()) throw std::runtime_error(command_.front() + ": cancelled");
-      std::this_thread::sleep_for(pause);
-      pause = std::min(2 * pause, std::chrono::milliseconds(50));
-    }
-    if (const std::string failure = child.failure(); !failure.empty())
-      throw std::runtime_error(command_.front() + ": " + failure + ": " + end_of(errors));
-  }
+  Evaluation evaluate_in(const fs::path& directory, const EvaluationTask& task,
+                         std::unique_ptr<EvaluatorState>& state) const;
+  void run(const fs::path& directory, const fs::path& output, StepObserver& observer) const;
+  std::unique_ptr<EvaluatorState> state_left(const fs::path& file, FrozenMesh mesh) const;
+  const std::string& name() const { return command_.front(); }
 
   std::vector<std::string> command_;
+  std::vector<std::string> words_;  // with the files that a command without any is given
+  CommandOptions options_;
+  CommandFiles files_;
 };
+
+Evaluation CommandEvaluator::evaluate_in(const fs::path& directory, const EvaluationTask& task,
+                                         std::unique_ptr<EvaluatorState>& state) const {
+  for (const std::string& file : files_.names) {
+    if (file.starts_with("mesh.")) write_mesh(task.mesh, directory / file);
+    if (file == "design.json")
+      write_text_atomically(directory / file,
+                            Json(std::vector<double>(task.design.begin(), task.design.end())).dump());
+  }
+  FrozenMesh mesh;
+  if (!files_.state.empty()) {
+    mesh = task.mesh.freeze();
+    if (const auto* before = dynamic_cast<const SolverState*>(state.get()))
+      write_su2_restart(before->on(mesh), directory / files_.state);
+  }
+  const fs::path output = directory / "output";
+  run(directory, output, task.observer);
+  Evaluation evaluation;
+  try {
+    evaluation = evaluation_from(read_text(files_.result ? directory / "result.json" : output));
+  } catch (const Json::exception& problem) {
+    throw std::runtime_error(name() + ": expected one JSON object with an objective: " + problem.what());
+  }
+  if (!files_.state.empty()) state = state_left(directory / files_.state, std::move(mesh));
+  return evaluation;
+}
+
+void CommandEvaluator::run(const fs::path& directory, const fs::path& output, StepObserver& observer) const {
+  const fs::path errors = directory / "errors";
+  ChildProcess child(with_files(words_, directory), output, errors);
+  const Stopwatch watch;
+  for (auto pause = std::chrono::milliseconds(1); !child.ended();) {
+    if (observer.cancelled()) throw std::runtime_error(name() + ": cancelled");
+    if (options_.time_limit > 0.0 && watch.seconds() > options_.time_limit)
+      throw std::runtime_error(name() + ": ended after its time limit of " +
+                               Json(options_.time_limit).dump() + " seconds");
+    std::this_thread::sleep_for(pause);
+    pause = std::min(2 * pause, std::chrono::milliseconds(50));
+  }
+  if (const std::string failure = child.failure(); !failure.empty())
+    throw std::runtime_error(name() + ": " + failure + ": " + end_of(errors));
+}
+
+std::unique_ptr<EvaluatorState> CommandEvaluator::state_left(const fs::path& file, FrozenMesh mesh) const {
+  if (!fs::exists(file)) return nullptr;
+  auto state = std::make_unique<SolverState>();
+  state->restart = read_su2_restart(file);
+  set_coordinates(state->restart, mesh, file.string());
+  state->mesh = std::move(mesh);
+  return state;
+}
 
 }  // namespace
 
-std::unique_ptr<Evaluator> command_evaluator(std::vector<std::string> command) {
+std::vector<CommandPlace> command_places(std::string_view text) {
+  static constexpr std::array<std::array<std::string_view, 2>, 5> names{{{"{mesh}", "mesh.su2"},
+                                                                         {"{design}", "design.json"},
+                                                                         {"{state}", "state.csv"},
+                                                                         {"{result}", "result.json"},
+                                                                         {"{directory}", ""}}};
+  std::vector<CommandPlace> places;
+  for (std::size_t at = text.find('{'); at != std::string_view::npos; at = text.find('{', at + 1)) {
+    const std::size_t end = text.find('}', at);
+    if (end == std::string_view::npos) break;
+    const std::string_view name = text.substr(at, end + 1 - at), inner = name.substr(1, name.size() - 2);
+    const auto plain = [](char c) { return c == '.' || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); };
+    for (const auto& [known, file] : names)
+      if (name == known) places.push_back({at, name.size(), std::string(file)});
+    if (std::all_of(inner.begin(), inner.end(), plain) &&
+        (inner.starts_with("mesh.") || inner == "state.csv" || inner == "state.dat"))
+      places.push_back({at, name.size(), std::string(inner)});
+  }
+  return places;
+}
+
+std::unique_ptr<Evaluator> command_evaluator(std::vector<std::string> command, CommandOptions options) {
   if (command.empty()) throw Error(ErrorCode::argument, "command", "found no word, expected a program");
-  return std::make_unique<CommandEvaluator>(std::move(command));
+  return std::make_unique<CommandEvaluator>(std::move(command), std::move(options));
 }
 
 }  // namespace remodel

@@ -57,8 +57,10 @@ Stopped judge(const Evaluating& evaluating, const LivingMesh& living, std::uniqu
   const Proposal& proposal = job.proposal;
   std::string problem;
   try {
-    job.evaluation = evaluating.evaluator.evaluate(
-        {proposal.design, living.mesh(), job.record, living.before(), proposal.gradient, observer}, state);
+    job.evaluation =
+        evaluating.evaluator.evaluate({proposal.design, living.mesh(), job.record, living.before(),
+                                       proposal.gradient, observer, job.record.evaluation},
+                                      state);
     require_good(job.evaluation, proposal.design.size());
     record(job.evaluation, job.record);
     return Stopped::done;

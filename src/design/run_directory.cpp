@@ -17,6 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* start_name = ".remodel-start";
+constexpr const char* evaluations_name = "evaluations";  // that a command leaves
 // Everything that a run leaves, in the order in which it is removed; then the files of checkpoints.
 constexpr std::array<std::string_view, 8> run_files = {
     "checkpoint.json", "result.json",  "best.json",      "middle.vtkhdf",
@@ -81,6 +82,8 @@ void RunDirectory::publish_start() const {
     fs::remove(directory_ / name, problem);
     require(problem, name);
   }
+  fs::remove_all(directory_ / evaluations_name, problem);
+  require(problem, evaluations_name);
   for (const fs::path& file : files_with(directory_, is_checkpoint_file)) {
     fs::remove(file, problem);
     require(problem, file.filename().string());

@@ -156,18 +156,6 @@ std::string ascii_of(const Su2Restart& restart) {
   return text;
 }
 
-std::string binary_of(const Su2Restart& restart) {
-  const std::array<std::int32_t, 5> header{su2_magic, static_cast<std::int32_t>(restart.names.size()),
-                                           static_cast<std::int32_t>(restart.points()), 0, 0};
-  std::string bytes(reinterpret_cast<const char*>(header.data()), sizeof header);
-  for (std::string name : restart.names) {
-    name.resize(su2_name_size, '\0');
-    bytes += name;
-  }
-  bytes.append(reinterpret_cast<const char*>(restart.values.data()), restart.values.size() * sizeof(double));
-  return bytes;
-}
-
 void require_names(const Su2Restart& restart, const std::string& file) {
   for (const std::string& name : restart.names) {
     const auto bad = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '"' || c == ','; };
@@ -187,11 +175,26 @@ std::size_t Su2Restart::column(const std::string& name) const {
   return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-Su2Restart read_su2_restart(const std::filesystem::path& file) {
-  const std::string bytes = read_text(file);
+Su2Restart parse_su2_restart(std::string_view bytes, const std::string& source) {
   std::int32_t first = 0;
   if (bytes.size() >= 5 * sizeof first) std::memcpy(&first, bytes.data(), sizeof first);
-  return first == su2_magic ? parse_binary(bytes, file.string()) : parse_ascii(bytes, file.string());
+  return first == su2_magic ? parse_binary(bytes, source) : parse_ascii(bytes, source);
+}
+
+Su2Restart read_su2_restart(const std::filesystem::path& file) {
+  return parse_su2_restart(read_text(file), file.string());
+}
+
+std::string su2_restart_bytes(const Su2Restart& restart) {
+  const std::array<std::int32_t, 5> header{su2_magic, static_cast<std::int32_t>(restart.names.size()),
+                                           static_cast<std::int32_t>(restart.points()), 0, 0};
+  std::string bytes(reinterpret_cast<const char*>(header.data()), sizeof header);
+  for (std::string name : restart.names) {
+    name.resize(su2_name_size, '\0');
+    bytes += name;
+  }
+  bytes.append(reinterpret_cast<const char*>(restart.values.data()), restart.values.size() * sizeof(double));
+  return bytes;
 }
 
 void write_su2_restart(const Su2Restart& restart, const std::filesystem::path& file) {
@@ -200,7 +203,7 @@ void write_su2_restart(const Su2Restart& restart, const std::filesystem::path& f
     throw Error(ErrorCode::argument, name,
                 "found extension " + in_quotes(extension) + ", expected .csv (ASCII) or .dat (binary)");
   require_names(restart, name);
-  write_text_atomically(file, extension == ".csv" ? ascii_of(restart) : binary_of(restart));
+  write_text_atomically(file, extension == ".csv" ? ascii_of(restart) : su2_restart_bytes(restart));
 }
 
 void set_coordinates(Su2Restart& restart, const FrozenMesh& mesh, const std::string& source) {

@@ -132,7 +132,7 @@ print(json.dumps({"objective": sum(a * a for a in design), "constraints": [0.1 -
         self.assertEqual(figures["best"]["upper"] + figures["best"]["lower"], min(
             (json.loads(row[4]) for row in rows if row[0] == best)))
         self.refused(
-            "optimise", "--from", "naca:0012", "--to", "rae2822", "--evaluator", "true", "-o", "x", names="--evaluator"
+            "optimise", "--from", "naca:0012", "--to", "rae2822", "--evaluate", "true", "-o", "x", names="--evaluate"
         )
 
     def test_threads_change_nothing(self):

@@ -31,7 +31,7 @@ class Documents(ProgramTest):
         self.run_all("docs/guide.md")
 
     def test_links_lead_somewhere(self):
-        for document in ("README.md", "docs/guide.md", "docs/running_a_study.md"):
+        for document in ("README.md", "docs/guide.md", "docs/solvers.md", "docs/running_a_study.md"):
             folder = (SOURCE / document).parent
             for target in re.findall(r"\]\((?!http)([^)#]+)", (SOURCE / document).read_text()):
                 self.assertTrue((folder / target).exists(), f"{document}: {target}")

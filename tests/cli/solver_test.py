@@ -1,0 +1,171 @@
+"""Someone else's solver in the loop: `remodel optimise --evaluate`, and the example of SU2 with a stand-in for SU2_CFD
+that reads its configuration, mesh and restart files by SU2's documented rules."""
+
+import json
+import os
+import shutil
+import sqlite3
+import stat
+
+from harness import SOURCE, ProgramTest
+
+# Leaves x, y and a linear function as the state, and says what it found there.
+RIDER = """import json, os, sys
+mesh, design, state, result = sys.argv[1:5]
+lines = iter(open(mesh).read().splitlines())
+points = next([tuple(map(float, next(lines).split()[:2])) for _ in range(int(line.split("=")[1]))]
+              for line in lines if line.startswith("NPOIN="))
+linear = lambda p: 1 + 2 * p[0] - 3 * p[1]
+outputs = {"warm": int(os.path.exists(state)), "points": len(points)}
+if outputs["warm"]:
+    rows = [list(map(float, line.split(","))) for line in open(state).read().splitlines()[1:]]
+    assert [(int(row[0]), row[1], row[2]) for row in rows] == [(i, *p) for i, p in enumerate(points)]
+    off = sorted(abs(row[3] - linear(p)) for row, p in zip(rows, points))
+    outputs.update(median=off[len(off) // 2], largest=off[-1])
+    assert all(row[4] == 7 for row in rows)
+open(state, "w").write('"PointID","x","y","Linear","Seven"\\n' + "".join(
+    f"{i}, {x!r}, {y!r}, {linear((x, y))!r}, 7\\n" for i, (x, y) in enumerate(points)))
+json.dump({"objective": sum(a * a for a in json.load(open(design))), "outputs": outputs}, open(result, "w"))
+"""
+
+SU2 = """#!/usr/bin/env python3
+# A stand-in for SU2_CFD: relaxes a made-up flow at the mesh's points until its residual is small.
+import math, os, re, sys
+config = dict(re.findall(r"^\\s*(\\w+)\\s*=\\s*(.*?)\\s*$", open(sys.argv[1]).read(), re.M))
+lines = iter(open(config["MESH_FILENAME"]).read().splitlines())
+assert next(lines).split("=")[0].strip() == "NDIME"
+points, markers = [], {}
+for line in lines:
+    key, _, value = line.partition("=")
+    if key == "NPOIN":
+        points = [tuple(map(float, next(lines).split()[:2])) for _ in range(int(value))]
+    elif key == "MARKER_TAG":
+        count = int(next(lines).split("=")[1])
+        markers[value.strip()] = [tuple(map(int, next(lines).split()[1:3])) for _ in range(count)]
+wall = markers[config["MARKER_EULER"].strip("() ")]
+assert markers[config["MARKER_FAR"].strip("() ")]
+names = ["x", "y", "Density", "Momentum_x", "Momentum_y", "Energy"]
+flow = lambda x, y: (1 + 0.1 * math.tanh(x), 0.5, 0.1 * math.tanh(y), 2 + 0.2 * math.tanh(x * y))
+state = [[1.0, 0.5, 0.0, 2.0] for _ in points]
+if config["RESTART_SOL"] == "YES":
+    rows = open(config["SOLUTION_FILENAME"] + ".csv").read().splitlines()
+    assert [name.strip('"') for name in rows[0].split(",")] == ["PointID", *names]
+    state = [[float(v) for v in row.split(",")][3:] for row in rows[1:]]
+    assert len(state) == len(points) and all(row[0] > 0 for row in state)
+area = 0.5 * abs(sum(points[a][0] * points[b][1] - points[a][1] * points[b][0] for a, b in wall))
+with open(config["CONV_FILENAME"] + ".csv", "w") as history:
+    history.write('"Inner_Iter",    "rms[Rho]"   ,       "CD"       ,       "CL"       \\n')
+    for iteration in range(int(config["ITER"])):
+        target = [flow(*p) for p in points]
+        residual = math.log10(max(abs(t[0] - s[0]) for t, s in zip(target, state)) + 1e-16)
+        history.write(f"{iteration}, {residual}, {area * area}, {config['TARGET_CL']}\\n")
+        if residual < float(config["CONV_RESIDUAL_MINVAL"]): break
+        state = [[s + 0.5 * (t - s) for s, t in zip(a, b)] for a, b in zip(state, target)]
+with open(config["RESTART_FILENAME"] + ".csv", "w") as restart:
+    restart.write(",".join(f'"{name}"' for name in ["PointID", *names]) + "\\n")
+    for i, (p, s) in enumerate(zip(points, state)):
+        restart.write(", ".join([str(i), *(f"{v:.15e}" for v in (*p, *s))]) + "\\n")
+"""
+
+
+class Loop(ProgramTest):
+    def optimise(self, directory, command, *options, evaluations=20, status=0):
+        return self.figures(
+            "optimise", "--from", "naca:0012", "--evaluate", command, "--points", 40, "--sigma", 0.005,
+            "--evaluations", evaluations, "--quiet", "-o", directory, *options, status=status)
+
+    def rows(self, directory, query):
+        with sqlite3.connect(self.path(directory) / "history.sqlite") as history:
+            return history.execute(query).fetchall()
+
+    def outputs(self, directory):
+        return [json.loads(text) for text, in self.rows(directory, "select outputs from evaluations")]
+
+
+class SolverInTheLoop(Loop):
+    def test_states_ride_to_the_mesh_of_the_next_design(self):
+        self.write("rider.py", RIDER)
+        command = "python3 rider.py '{mesh}' {design} \"{state}\" {result}"
+        figures = self.optimise("a run", command)
+        self.assertEqual(figures["failed_evaluations"], 0, figures["detail"])
+        outputs = self.outputs("a run")
+        self.assertEqual([row["warm"] for row in outputs], [0] + [1] * 19)
+        for row in outputs[1:]:
+            self.assertLess(row["median"], 1e-13)  # what has not moved, and what is new, is exact
+            self.assertLess(row["largest"], 0.2)  # what moved along has kept its value
+        self.assertFalse((self.path("a run") / "evaluations").exists())
+
+    def test_binary_states_and_other_meshes(self):
+        self.write("binary.py", """import json, struct, sys
+mesh, native, state, result = sys.argv[1:5]
+assert open(native, "rb").read(4) == b"\\x89HDF"
+points = next(int(line.split("=")[1]) for line in open(mesh) if line.startswith("NPOIN="))
+try: found = struct.unpack_from("<5i", open(state, "rb").read())
+except FileNotFoundError: found = None
+assert found in (None, (535532, 1, points, 0, 0))
+open(state, "wb").write(struct.pack("<5i", 535532, 1, points, 0, 0) + b"Density".ljust(33, b"\\0") + struct.pack(f"<{points}d", *[1.0] * points))
+json.dump({"objective": 1, "outputs": {"warm": int(found is not None)}}, open(result, "w"))
+""")
+        self.optimise("run", "python3 binary.py {mesh} {mesh.vtkhdf} {state.dat} {result}", "--workers", 2, evaluations=10)
+        self.assertEqual(sum(row["warm"] for row in self.outputs("run")), 8)  # but each worker's first
+
+    def test_resumed_runs_have_the_states_they_stopped_with(self):
+        self.write("rider.py", RIDER)
+        command = "python3 rider.py {mesh} {design} {state} {result}"
+        self.optimise("whole", command)
+        self.optimise("parts", command, evaluations=7)
+        self.optimise("parts", command, "--resume", evaluations=20)
+        query = "select coefficients, objective, outputs from evaluations"
+        self.assertEqual(self.rows("whole", query), self.rows("parts", query))
+
+    def test_failures_are_infeasible_designs_and_leave_their_directory(self):
+        self.write("fails.sh", """case "$3" in */000002/*) sleep 60 & wait;; */000004/*) echo no licence >&2; exit 3;;
+*/000006/*) echo 'nothing of the kind' > "$2";; esac
+echo '{"objective": 1}' > "$3"
+""")
+        figures = self.optimise("run", "sh fails.sh {mesh} {state} {result}", "--time-limit", 0.5, evaluations=8)
+        self.assertEqual(figures["failed_evaluations"], 3)
+        self.assertEqual(
+            sorted(path.name for path in (self.path("run") / "evaluations").iterdir()), ["000002", "000004", "000006"])
+        self.assertIn("no licence", (self.path("run") / "evaluations/000004/errors").read_text())
+        details = [detail for detail, in self.rows("run", "select detail from evaluations order by evaluation")]
+        self.assertIn("time limit of 0.5 seconds", details[1])
+        self.assertIn("ended with status 3: no licence", details[3])
+        self.assertIn("state.csv", details[5])
+        self.optimise("run", "echo '{\"objective\": 1}'; true {directory}", "--overwrite", "--keep-evaluations", "all",
+                      evaluations=3)
+        self.assertEqual(len(list((self.path("run") / "evaluations").iterdir())), 3)
+
+    def test_files_that_no_format_has_are_refused(self):
+        run = ["optimise", "--from", "naca:0012", "--points", 40, "-o", "run", "--evaluate"]
+        self.refused(*run, "true {mesh.xyz}", names=".xyz")
+        self.refused(*run, "true {state} {state.dat}", names="state")
+
+
+class Su2(Loop):
+    def copy_example(self):
+        shutil.copytree(SOURCE / "examples/su2", self.directory, dirs_exist_ok=True)
+
+    def test_the_example_starts_from_the_design_before(self):
+        self.copy_example()
+        self.write("SU2_CFD", SU2)
+        self.path("SU2_CFD").chmod(stat.S_IRWXU)
+        before = os.environ["PATH"]
+        os.environ["PATH"] = f"{self.directory}{os.pathsep}{before}"
+        self.addCleanup(os.environ.__setitem__, "PATH", before)
+        figures = self.optimise("run", "./solve.py drag.cfg {mesh} {state} {result}", "--time-limit", 60, evaluations=10)
+        self.assertEqual(figures["failed_evaluations"], 0, figures["detail"])
+        outputs = self.outputs("run")
+        for row in outputs:
+            self.assertAlmostEqual(row["cd"], row["area"] ** 2, delta=1e-12)
+            self.assertEqual(row["cl"], 0.5)
+        self.assertEqual([row["warm"] for row in outputs], [0] + [1] * 9)
+        self.assertLess(max(row["iterations"] for row in outputs[1:]), outputs[0]["iterations"])
+
+    def test_the_example_with_su2_itself(self):
+        if shutil.which("SU2_CFD") is None:
+            self.skipTest("SU2_CFD is not in the PATH")
+        self.copy_example()
+        figures = self.optimise("run", "./solve.py drag.cfg {mesh} {state} {result}", "--time-limit", 250, evaluations=2)
+        self.assertEqual(figures["failed_evaluations"], 0, figures["detail"])
+        self.assertEqual([row["warm"] for row in self.outputs("run")], [0, 1])
