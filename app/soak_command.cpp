@@ -32,7 +32,8 @@ Status run(const SoakCommand& command) {
   report.figure("full_checks", "full checks", result.full_checks);
   report.figure("min_angle_deg", "smallest angle",
                 result.full_checks > 0 ? Json(result.min_angle_deg) : Json(), "degrees");
-  report.figure("slowest_step_ms", "slowest step", result.slowest_step_ms, "ms");
+  report.figure("slowest_step_ms", "slowest step, processor time", result.slowest_step_ms, "ms");
+  report.figure("slowest_step", "its number", result.slowest_step);
   report.figure("peak_memory_mib", "peak memory", result.peak_memory_mib, "MiB");
   report.figure("seconds", "wall time", result.seconds, "seconds");
   report.figure("seed", "seed", options.seed);

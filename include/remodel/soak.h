@@ -28,7 +28,8 @@ struct SoakResult {
   std::size_t full_adjustments = 0;
   std::size_t full_checks = 0;
   double min_angle_deg = 90.0;   // smallest of all meshes that went through check()
-  double slowest_step_ms = 0.0;  // wall time
+  double slowest_step_ms = 0.0;  // processor time
+  std::size_t slowest_step = 0;  // its number, from 1
   double peak_memory_mib = 0.0;  // of the process
   double seconds = 0.0;
   std::string first_failure;  // the first broken rule, with what reproduces it

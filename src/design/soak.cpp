@@ -52,7 +52,7 @@ class Soak {
     std::optional<MeshState> before;  // to compare with, now and then
     if (result_.steps % 50 == 0) before = mesh.state();
     const std::uint32_t step_before = mesh.step();
-    const Stopwatch watch;
+    const ThreadStopwatch watch;
     bool finished = true;
     try {
       const RemodelResult outcome = remodel(mesh, drawn.walk->next(), drawn.remodel);
@@ -60,7 +60,7 @@ class Soak {
       result_.recoveries += outcome.regenerated ? 1 : 0;
       result_.full_adjustments += outcome.full_adjustment ? 1 : 0;
       result_.limited += finished ? 0 : 1;
-      result_.slowest_step_ms = std::max(result_.slowest_step_ms, 1e3 * watch.seconds());
+      note_time(1e3 * watch.seconds());
     } catch (const Error& error) {
       ++result_.refused;
       if (mesh.step() != step_before || (before && !(mesh.state() == *before)))
@@ -68,6 +68,12 @@ class Soak {
       return;
     }
     validate(mesh, finished);
+  }
+
+  void note_time(double milliseconds) {
+    if (milliseconds <= result_.slowest_step_ms) return;
+    result_.slowest_step_ms = milliseconds;
+    result_.slowest_step = result_.steps;
   }
 
   // A mesh that a limit left unfinished has the quality that it has, and is valid in all else.
