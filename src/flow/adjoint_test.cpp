@@ -156,7 +156,7 @@ TEST(Adjoint, PlacementsOfSeveralElements) {
   for (std::size_t i = placement; i < placement + 4; ++i) {
     std::vector<double> direction(derivative.coefficients(), 0.0);
     direction[i] = 1.0;
-    const Coefficients3 d = task.along(direction, i == placement + 1 ? 1e-3 : 1e-5);  // degrees: chords
+    const Coefficients3 d = task.along(direction, i == placement + 1 ? 3e-4 : 3e-6);  // degrees: chords
     EXPECT_NEAR(cl[i], d.cl, 1e-6 * std::fabs(d.cl)) << i;
     EXPECT_NEAR(cd[i], d.cd, 1e-6 * std::fabs(d.cd)) << i;
   }

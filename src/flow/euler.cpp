@@ -10,6 +10,7 @@ struct Euler::Face {
   // Derivatives of the reconstructed values by both differences, left then right: the upwind one, the central
   // one.
   std::array<double, 4> by_upwind[2] = {{}, {}}, by_central[2] = {{}, {}};
+  std::uint32_t source[2];  // whose gradient the upwind difference is of
 };
 
 State Euler::uniform() const {
@@ -42,13 +43,18 @@ Euler::Face Euler::face(const State& state, const DualEdge& edge) const {
   const Point d = mesh_.points()[edge.b] - mesh_.points()[edge.a];
   const double eps = epsilon(d);
   const Primitive<double>&qa = state.q[edge.a], &qb = state.q[edge.b];
-  const std::array<double, 4> da = difference(state, edge.a, d), db = difference(state, edge.b, d);
+  const EdgeEnd end[2] = {end_of(mesh_, edge.a, edge.b), end_of(mesh_, edge.b, edge.a)};
+  face.source[0] = gradient_source(end[0], edge.a, edge.b);
+  face.source[1] = gradient_source(end[1], edge.b, edge.a);
+  const std::array<double, 4> da = difference(state, face.source[0], d);
+  const std::array<double, 4> db =
+      face.source[0] == face.source[1] ? da : difference(state, face.source[1], d);
   for (std::size_t k = 0; k < 4; ++k) {
     const double central = qb[k] - qa[k];
     const Two from_a =
-        limited_half_step(Two::variable(2.0 * da[k] - central, 0), Two::variable(central, 1), eps);
+        reconstruction_step(end[0], Two::variable(2.0 * da[k] - central, 0), Two::variable(central, 1), eps);
     const Two from_b =
-        limited_half_step(Two::variable(2.0 * db[k] - central, 0), Two::variable(central, 1), eps);
+        reconstruction_step(end[1], Two::variable(2.0 * db[k] - central, 0), Two::variable(central, 1), eps);
     face.left[k] = qa[k] + from_a.value;
     face.right[k] = qb[k] - from_b.value;
     face.by_upwind[0][k] = from_a.slope[0], face.by_central[0][k] = from_a.slope[1];
@@ -68,7 +74,7 @@ Primitive<double> Euler::far_state(const State& state, Point p) const {
 template <class T>
 std::array<T, 4> Euler::open_flux(const BoundaryEdge& edge, const Primitive<T>& inside, const State& state,
                                   Point p) const {
-  const Point half = 0.5 * edge.normal;
+  const Point half = edge.half[0];  // both are the same where there is no wall
   if (edge.body == -1) {
     const Primitive<double> far = far_state(state, p);
     return roe_flux<T>(inside, {T(far[0]), T(far[1]), T(far[2]), T(far[3])}, half);
@@ -112,11 +118,16 @@ void Euler::residual(const State& state, std::vector<std::array<double, 4>>& out
     const Point d = mesh_.points()[edge.b] - mesh_.points()[edge.a];
     const double eps = epsilon(d);
     const Primitive<double>&qa = state.q[edge.a], &qb = state.q[edge.b];
+    const EdgeEnd end_a = end_of(mesh_, edge.a, edge.b), end_b = end_of(mesh_, edge.b, edge.a);
+    const auto& gradient_a = gradient[gradient_source(end_a, edge.a, edge.b)];
+    const auto& gradient_b = gradient[gradient_source(end_b, edge.b, edge.a)];
     Primitive<double> left, right;
     for (std::size_t k = 0; k < 4; ++k) {
       const double central = qb[k] - qa[k];
-      left[k] = qa[k] + limited_half_step<double>(2.0 * dot(gradient[edge.a][k], d) - central, central, eps);
-      right[k] = qb[k] - limited_half_step<double>(2.0 * dot(gradient[edge.b][k], d) - central, central, eps);
+      left[k] =
+          qa[k] + reconstruction_step<double>(end_a, 2.0 * dot(gradient_a[k], d) - central, central, eps);
+      right[k] =
+          qb[k] - reconstruction_step<double>(end_b, 2.0 * dot(gradient_b[k], d) - central, central, eps);
     }
     if (!usable(left, qa)) left = qa;
     if (!usable(right, qb)) right = qb;
@@ -129,11 +140,11 @@ void Euler::residual(const State& state, std::vector<std::array<double, 4>>& out
 void Euler::add_boundary(const State& state, std::vector<std::array<double, 4>>& out) const {
   for (const BoundaryEdge& edge : mesh_.boundary()) {
     const std::uint32_t end[2] = {edge.a, edge.b};
-    const Point half = 0.5 * edge.normal;
     for (int i = 0; i < 2; ++i) {
       const std::uint32_t here = end[i], there = end[1 - i];
       const Primitive<double> q = weighted(state.q[here], state.q[there]);
       if (edge.body >= 0) {
+        const Point half = edge.half[i];
         out[here][1] += q[3] * half.x, out[here][2] += q[3] * half.y;
         continue;
       }
@@ -222,7 +233,9 @@ void Euler::jacobian(const State& state, BlockRows& matrix) const {
           across[k] = direction * (flux.face.by_central[side][k] - up[k]);
           up[k] *= 2.0 * direction;
         }
+        const std::uint32_t source = flux.face.source[side];
         Block& at_own = matrix.block[place[end[side]]];
+        Block& at_source = matrix.block[place[source]];
         Block& at_a = matrix.block[place[edge.a]];
         Block& at_b = matrix.block[place[edge.b]];
         for (std::size_t i = 0; i < 4; ++i)
@@ -236,13 +249,13 @@ void Euler::jacobian(const State& state, BlockRows& matrix) const {
         for (std::size_t i = 0; i < 4; ++i)
           for (std::size_t k = 0; k < 4; ++k) scaled[4 * i + k] = sign * by[4 * i + k] * up[k];
         double total = 0.0;
-        for (const RingEntry& around : mesh_.ring(end[side])) {
+        for (const RingEntry& around : mesh_.ring(source)) {
           const double w = dot(around.weight, d);
           total += w;
           Block& at = matrix.block[place[around.vertex]];
           for (std::size_t i = 0; i < 16; ++i) at[i] += w * scaled[i];
         }
-        for (std::size_t i = 0; i < 16; ++i) at_own[i] -= total * scaled[i];
+        for (std::size_t i = 0; i < 16; ++i) at_source[i] -= total * scaled[i];
       }
     }
   }
@@ -260,12 +273,12 @@ void Euler::add_boundary_blocks(const State& state, BlockRows& matrix,
   };
   for (const BoundaryEdge& edge : mesh_.boundary()) {
     const std::uint32_t end[2] = {edge.a, edge.b};
-    const Point half = 0.5 * edge.normal;
     for (int i = 0; i < 2; ++i) {
       const std::uint32_t here = end[i], there = end[1 - i];
       if (row_of[here] == no_index) continue;
       Block &own = at(row_of[here], here), &other = at(row_of[here], there);
       if (edge.body >= 0) {
+        const Point half = edge.half[i];
         own[7] += near_weight * half.x, own[11] += near_weight * half.y;
         other[7] += far_weight * half.x, other[11] += far_weight * half.y;
         continue;
@@ -308,13 +321,13 @@ std::array<std::vector<std::array<double, 4>>, 2> Euler::border_columns(const St
   return columns;
 }
 
-// visit(edge, vertex, weight): pressure at the vertex acts on half of the edge by this weight.
+// visit(edge, half, here, there): the half of the edge at `here`.
 template <class Visit>
 void Euler::for_each_wall_half(Visit visit) const {
   for (const BoundaryEdge& edge : mesh_.boundary()) {
     if (edge.body < 0) continue;
-    visit(edge, edge.a, edge.b);
-    visit(edge, edge.b, edge.a);
+    visit(edge, edge.half[0], edge.a, edge.b);
+    visit(edge, edge.half[1], edge.b, edge.a);
   }
 }
 
@@ -326,10 +339,10 @@ Coefficients Euler::coefficients(const State& state, std::int32_t body) const {
   Point force = {};
   double turning = 0.0;  // counter-clockwise
   const double outside = 1.0 / gas_gamma;
-  for_each_wall_half([&](const BoundaryEdge& edge, std::uint32_t here, std::uint32_t there) {
+  for_each_wall_half([&](const BoundaryEdge& edge, Point half, std::uint32_t here, std::uint32_t there) {
     if (body >= 0 && edge.body != body) return;
     const double p = near_weight * state.q[here][3] + far_weight * state.q[there][3] - outside;
-    const Point f = (0.5 * p) * edge.normal;
+    const Point f = p * half;
     const Point at = near_place * mesh_.points()[here] + far_place * mesh_.points()[there];
     force = force + f;
     turning += cross(at - stream_.reference, f);
@@ -351,8 +364,8 @@ Euler::BorderRows Euler::border_rows(const State& state) const {
   BorderRows rows;
   const double scale = 1.0 / (0.5 * stream_.mach * stream_.mach * stream_.length);
   const double ca = std::cos(state.border[1]), sa = std::sin(state.border[1]);
-  for_each_wall_half([&](const BoundaryEdge& edge, std::uint32_t here, std::uint32_t there) {
-    const double value = 0.5 * scale * (edge.normal.y * ca - edge.normal.x * sa);
+  for_each_wall_half([&](const BoundaryEdge&, Point half, std::uint32_t here, std::uint32_t there) {
+    const double value = scale * (half.y * ca - half.x * sa);
     rows.lift.push_back({here, near_weight * value});
     rows.lift.push_back({there, far_weight * value});
   });

@@ -33,6 +33,27 @@ inline Primitive<double> weighted(const Primitive<double>& here, const Primitive
   return mean;
 }
 
+// The ends of an edge as reconstruction sees them: inner, or one on a wall and one beside it. The gradient at
+// a wall is one-sided, off by one order, and the entropy that it makes stays on the wall. Between a wall and
+// the inside the upwind difference at the wall is therefore extrapolated, 2 * central - the one at the other
+// end, so that both ends' values meet. Such edges cross the flow and are not limited: limited there, lift
+// loses more by the clipped suction peak than it gains.
+enum class EdgeEnd { inner, wall, beside_wall };
+inline EdgeEnd end_of(const FlowMesh& mesh, std::uint32_t here, std::uint32_t there) {
+  if (mesh.on_wall(here) == mesh.on_wall(there)) return EdgeEnd::inner;
+  return mesh.on_wall(here) ? EdgeEnd::wall : EdgeEnd::beside_wall;
+}
+// Whose gradient the upwind difference is of.
+inline std::uint32_t gradient_source(EdgeEnd end, std::uint32_t here, std::uint32_t there) {
+  return end == EdgeEnd::wall ? there : here;
+}
+// From the value at the end to that at the middle.
+template <class T, class E>
+T reconstruction_step(EdgeEnd end, const T& upwind, const T& central, const E& epsilon) {
+  if (end == EdgeEnd::inner) return limited_half_step<T, E>(upwind, central, epsilon);
+  return half_step<T>(T(1.0), end == EdgeEnd::wall ? 2.0 * central - upwind : upwind, central);
+}
+
 inline bool usable(const Primitive<double>& reconstructed, const Primitive<double>& vertex) {
   return reconstructed[0] > least_part * vertex[0] && reconstructed[3] > least_part * vertex[3];
 }

@@ -35,13 +35,13 @@ struct FaceSide {
   std::array<double, 4> by_upwind = {}, by_epsilon = {};
 };
 
-FaceSide reconstruct(const Primitive<double>& here, const std::array<Point, 4>& gradient, Point d,
-                     const std::array<double, 4>& central, double epsilon, double direction) {
+FaceSide reconstruct(const Primitive<double>& here, const std::array<Point, 4>& gradient, EdgeEnd end,
+                     Point d, const std::array<double, 4>& central, double epsilon, double direction) {
   using Two = Dual<2>;
   FaceSide side;
   for (std::size_t k = 0; k < 4; ++k) {
-    const Two step = limited_half_step<Two>(Two::variable(2.0 * dot(gradient[k], d) - central[k], 0),
-                                            Two(central[k]), Two::variable(epsilon, 1));
+    const Two step = reconstruction_step<Two>(end, Two::variable(2.0 * dot(gradient[k], d) - central[k], 0),
+                                              Two(central[k]), Two::variable(epsilon, 1));
     side.value[k] = here[k] + direction * step.value;
     side.by_upwind[k] = direction * step.slope[0];
     side.by_epsilon[k] = direction * step.slope[1];
@@ -51,16 +51,20 @@ FaceSide reconstruct(const Primitive<double>& here, const std::array<Point, 4>& 
 }
 
 // Adds one inner face's part; returns the derivative by the edge's vector.
-Point add_face(const State& state, const DualEdge& edge, std::size_t index, Point d, double limiter,
-               const std::array<double, 4>& weight, Slopes& slopes) {
+Point add_face(const FlowMesh& mesh, const State& state, const DualEdge& edge, std::size_t index, Point d,
+               double limiter, const std::array<double, 4>& weight, Slopes& slopes) {
   using Ten = Dual<10>;
   const double length = std::sqrt(dot(d, d));
   const double epsilon = limiter * limiter * limiter * length * length * length;
   const Primitive<double>&qa = state.q[edge.a], &qb = state.q[edge.b];
   std::array<double, 4> central;
   for (std::size_t k = 0; k < 4; ++k) central[k] = qb[k] - qa[k];
-  const FaceSide side[2] = {reconstruct(qa, slopes.at_gradients[edge.a], d, central, epsilon, 1.0),
-                            reconstruct(qb, slopes.at_gradients[edge.b], d, central, epsilon, -1.0)};
+  const EdgeEnd end[2] = {end_of(mesh, edge.a, edge.b), end_of(mesh, edge.b, edge.a)};
+  const std::uint32_t source[2] = {gradient_source(end[0], edge.a, edge.b),
+                                   gradient_source(end[1], edge.b, edge.a)};
+  const FaceSide side[2] = {
+      reconstruct(qa, slopes.at_gradients[source[0]], end[0], d, central, epsilon, 1.0),
+      reconstruct(qb, slopes.at_gradients[source[1]], end[1], d, central, epsilon, -1.0)};
   Primitive<Ten> l, r;
   for (std::size_t k = 0; k < 4; ++k)
     l[k] = Ten::variable(side[0].value[k], k), r[k] = Ten::variable(side[1].value[k], k + 4);
@@ -72,7 +76,7 @@ Point add_face(const State& state, const DualEdge& edge, std::size_t index, Poin
   slopes.normal[index] = slopes.normal[index] + Point{by[8], by[9]};
   Point by_d = {};
   for (std::size_t s = 0; s < 2; ++s) {
-    const std::uint32_t v = s == 0 ? edge.a : edge.b;
+    const std::uint32_t v = source[s];
     for (std::size_t k = 0; k < 4; ++k) {
       const double by_product = 2.0 * by[4 * s + k] * side[s].by_upwind[k];
       slopes.gradient[v][k] = slopes.gradient[v][k] + by_product * d;
@@ -85,8 +89,34 @@ Point add_face(const State& state, const DualEdge& edge, std::size_t index, Poin
 
 }  // namespace
 
+void FlowMesh::add_half_slopes(std::span<const Point> by_normal, std::span<const Point> by_half,
+                               std::vector<Point>& points) const {
+  using Eight = Dual<8>;
+  for (std::size_t i = 0; i < boundary_.size(); ++i) {
+    const BoundaryEdge& edge = boundary_[i];
+    Point by_d = turned_back(0.5 * (by_half[2 * i] + by_half[2 * i + 1]));
+    if (edge.body >= 0) {
+      Point by_turn = by_half[2 * i + 1] - by_half[2 * i];
+      if (!by_normal.empty()) {
+        const double sign = edge.a == edges_[links_[i].edge].a ? 1.0 : -1.0;
+        by_turn = by_turn + sign * by_normal[links_[i].edge];
+      }
+      const Eight turn = bulge<Eight>(i);
+      const double by_bulge = dot(by_turn, points_[edge.b] - points_[edge.a]);
+      const std::uint32_t corners[4] = {links_[i].before, edge.a, edge.b, links_[i].after};
+      for (std::size_t k = 0; k < 4; ++k)
+        if (corners[k] != no_index)
+          points[corners[k]] =
+              points[corners[k]] + by_bulge * Point{turn.slope[2 * k], turn.slope[2 * k + 1]};
+      by_d = by_d + turn.value * by_turn;
+    }
+    points[edge.a] = points[edge.a] - by_d, points[edge.b] = points[edge.b] + by_d;
+  }
+}
+
 void FlowMesh::add_slopes(std::span<const Point> by_normal, std::span<const Point> by_weight,
-                          std::vector<Point>& points) const {
+                          std::span<const Point> by_half, std::vector<Point>& points) const {
+  add_half_slopes(by_normal, by_half, points);
   std::vector<double> by_around(size(), 0.0);
   std::vector<Point> by_sum(by_weight.begin(), by_weight.end());  // by the sum before it is divided
   for (std::size_t v = 0; v < size(); ++v) {
@@ -140,7 +170,8 @@ ShapeSlope Euler::residual_slope(const State& state, const std::vector<std::arra
     std::array<double, 4> w;
     for (std::size_t k = 0; k < 4; ++k) w[k] = weight[edge.a][k] - weight[edge.b][k];
     const Point d = mesh_.points()[edge.b] - mesh_.points()[edge.a];
-    add_vector(edge.a, edge.b, add_face(state, edge, e, d, stream_.limiter / stream_.length, w, slopes));
+    add_vector(edge.a, edge.b,
+               add_face(mesh_, state, edge, e, d, stream_.limiter / stream_.length, w, slopes));
   }
   for (std::size_t v = 0; v < n; ++v) {
     std::size_t i = mesh_.ring_begin(v);
@@ -151,19 +182,19 @@ ShapeSlope Euler::residual_slope(const State& state, const std::vector<std::arra
       ++i;
     }
   }
-  mesh_.add_slopes(slopes.normal, slopes.weight, result.points);
-
   using Five = Dual<5>;
   const double strength = stream_.vortex ? state.border[0] * stream_.length : 0.0;
-  for (const BoundaryEdge& edge : mesh_.boundary()) {
+  std::vector<Point> by_half(2 * mesh_.boundary().size());
+  for (std::size_t e = 0; e < mesh_.boundary().size(); ++e) {
+    const BoundaryEdge& edge = mesh_.boundary()[e];
     const std::uint32_t end[2] = {edge.a, edge.b};
-    const Point half = 0.5 * edge.normal;
     for (std::size_t i = 0; i < 2; ++i) {
+      const Point half = edge.half[i];
       const std::uint32_t here = end[i], there = end[1 - i];
       const Primitive<double> q = weighted(state.q[here], state.q[there]);
       const std::array<double, 4>& w = weight[here];
       if (edge.body >= 0) {
-        add_vector(edge.a, edge.b, turned_back(0.5 * q[3] * Point{w[1], w[2]}));
+        by_half[2 * e + i] = q[3] * Point{w[1], w[2]};
         continue;
       }
       if (stream_.prescribed) continue;
@@ -178,12 +209,13 @@ ShapeSlope Euler::residual_slope(const State& state, const std::vector<std::arra
       std::array<double, 5> by = {};
       for (std::size_t j = 0; j < 4; ++j)
         for (std::size_t k = 0; k < 5; ++k) by[k] += w[j] * flux[j].slope[k];
-      add_vector(edge.a, edge.b, turned_back({0.5 * by[0], 0.5 * by[1]}));
+      by_half[2 * e + i] = {by[0], by[1]};
       result.points[here] = result.points[here] + near_weight * Point{by[2], by[3]};
       result.points[there] = result.points[there] + far_weight * Point{by[2], by[3]};
       result.mach += by[4];
     }
   }
+  mesh_.add_slopes(slopes.normal, slopes.weight, by_half, result.points);
   return result;
 }
 
@@ -200,27 +232,29 @@ ForceSlope Euler::force_slope(const State& state, const Coefficients& weight) co
   const Point by_force =
       scale * Point{weight.drag * ca - weight.lift * sa, weight.drag * sa + weight.lift * ca};
   const double by_turning = -scale * weight.moment / stream_.length;
-  for (const BoundaryEdge& edge : mesh_.boundary()) {
+  std::vector<Point> by_half(2 * mesh_.boundary().size());
+  for (std::size_t e = 0; e < mesh_.boundary().size(); ++e) {
+    const BoundaryEdge& edge = mesh_.boundary()[e];
     if (edge.body < 0) continue;
     const std::uint32_t end[2] = {edge.a, edge.b};
     for (std::size_t i = 0; i < 2; ++i) {
       const std::uint32_t here = end[i], there = end[1 - i];
       const double p = near_weight * state.q[here][3] + far_weight * state.q[there][3] - 1.0 / gas_gamma;
-      const Point f = (0.5 * p) * edge.normal;
+      const Point f = p * edge.half[i];
       const Point arm =
           near_place * mesh_.points()[here] + far_place * mesh_.points()[there] - stream_.reference;
       const Point by_f = by_force + by_turning * Point{-arm.y, arm.x};
       const Point by_arm = by_turning * Point{f.y, -f.x};
-      const double by_p = 0.5 * dot(by_f, edge.normal);
+      const double by_p = dot(by_f, edge.half[i]);
       result.pressure[here] += near_weight * by_p;
       result.pressure[there] += far_weight * by_p;
       std::vector<Point>& points = result.shape.points;
-      const Point by_vector = turned_back((0.5 * p) * by_f);
-      points[edge.a] = points[edge.a] - by_vector, points[edge.b] = points[edge.b] + by_vector;
+      by_half[2 * e + i] = p * by_f;
       points[here] = points[here] + near_place * by_arm;
       points[there] = points[there] + far_place * by_arm;
     }
   }
+  mesh_.add_half_slopes({}, by_half, result.shape.points);
   return result;
 }
 

@@ -47,6 +47,7 @@ FlowMesh::FlowMesh(const FrozenMesh& mesh, const std::string& farfield, const st
       throw Error(ErrorCode::argument, source,
                   "point " + std::to_string(v) + " is of no triangle, expected every point to be of one");
   make_boundary(mesh, farfield, source, openings);
+  link_walls();
   measure();
 }
 
@@ -139,6 +140,45 @@ void FlowMesh::require_walls(const std::string& source) const {
     throw Error(ErrorCode::argument, source, "found no boundary but the far field, expected a wall");
 }
 
+void FlowMesh::link_walls() {
+  on_wall_.assign(size(), false);
+  links_.assign(boundary_.size(), {});
+  // The wall's vertex before and after each; none where walls touch.
+  std::vector<std::uint32_t> before(size(), no_index), after(size(), no_index);
+  std::vector<bool> touching(size(), false);
+  for (const BoundaryEdge& edge : boundary_) {
+    if (edge.body < 0) continue;
+    on_wall_[edge.a] = on_wall_[edge.b] = true;
+    if (after[edge.a] != no_index) touching[edge.a] = true;
+    if (before[edge.b] != no_index) touching[edge.b] = true;
+    after[edge.a] = edge.b, before[edge.b] = edge.a;
+  }
+  for (std::size_t i = 0; i < boundary_.size(); ++i) {
+    const BoundaryEdge& edge = boundary_[i];
+    if (edge.body < 0) continue;
+    WallLink& link = links_[i];
+    if (!touching[edge.a]) link.before = before[edge.a];
+    if (!touching[edge.b]) link.after = after[edge.b];
+    for (const RingEntry& entry : ring(edge.a))
+      if (entry.vertex == edge.b) link.edge = entry.edge;
+  }
+}
+
+// Halves of boundary edges; where they meet beside the edge the dual face follows.
+void FlowMesh::bend_walls() {
+  for (std::size_t i = 0; i < boundary_.size(); ++i) {
+    BoundaryEdge& edge = boundary_[i];
+    const Point d = points_[edge.b] - points_[edge.a];
+    edge.normal = {d.y, -d.x};
+    edge.half[0] = edge.half[1] = 0.5 * edge.normal;
+    if (edge.body < 0) continue;
+    const Point turn = bulge<double>(i) * d;
+    edge.half[0] = edge.half[0] - turn, edge.half[1] = edge.half[1] + turn;
+    DualEdge& dual = edges_[links_[i].edge];
+    dual.normal = edge.a == dual.a ? dual.normal + turn : dual.normal - turn;
+  }
+}
+
 void FlowMesh::measure() {
   std::vector<double> around(size(), 0.0);  // areas of the triangles around each vertex
   for (DualEdge& edge : edges_) edge.normal = {};
@@ -175,10 +215,7 @@ void FlowMesh::measure() {
     for (std::uint32_t i = ring_start_[v]; i < ring_start_[v + 1]; ++i)
       ring_[i].weight = (1.0 / around[v]) * ring_[i].weight;
   }
-  for (BoundaryEdge& edge : boundary_) {
-    const Point d = points_[edge.b] - points_[edge.a];
-    edge.normal = {d.y, -d.x};
-  }
+  bend_walls();
 }
 
 }  // namespace remodel::flow

@@ -80,18 +80,27 @@ std::array<T, 4> roe_flux(const Primitive<T>& l, const Primitive<T>& r, Point no
   return roe_flux_through<T, double>(l, r, normal.x, normal.y);
 }
 
+// Van Albada's function of two slopes, both as differences over an edge's length: 1 where they are equal. It
+// has no minimum over neighbours and is continuously differentiable, so that Newton's method converges
+// quadratically; it is cut off at zero by a parabola of this half-width.
+template <class T, class E>
+T slope_limiter(const T& upwind, const T& central, const E& epsilon) {
+  constexpr double blend = 0.1;
+  const T s = (2.0 * upwind * central + epsilon) / (upwind * upwind + central * central + epsilon);
+  if (value_of(s) <= -blend) return T(0.0);
+  if (value_of(s) < blend) return (s + blend) * (s + blend) * (0.25 / blend);
+  return s;
+}
 // What is added to the value at an edge's one end to have it at the edge's middle: third order on even
-// spacing (kappa = 1/3), limited by van Albada's function of the two slopes. `upwind` and `central` are
-// differences over the edge's length. The function has no minimum over neighbours and is continuously
-// differentiable, so that Newton's method converges quadratically; it is cut off at zero by a parabola of
-// this half-width.
+// spacing (kappa = 1/3) where nothing limits it (s = 1).
+template <class T>
+T half_step(const T& s, const T& upwind, const T& central) {
+  constexpr double kappa = 1.0 / 3.0;
+  return 0.25 * s * ((1.0 - kappa * s) * upwind + (1.0 + kappa * s) * central);
+}
 template <class T, class E>
 T limited_half_step(const T& upwind, const T& central, const E& epsilon) {
-  constexpr double kappa = 1.0 / 3.0, blend = 0.1;
-  T s = (2.0 * upwind * central + epsilon) / (upwind * upwind + central * central + epsilon);
-  if (value_of(s) <= -blend) return T(0.0);
-  if (value_of(s) < blend) s = (s + blend) * (s + blend) * (0.25 / blend);
-  return 0.25 * s * ((1.0 - kappa * s) * upwind + (1.0 + kappa * s) * central);
+  return half_step<T>(slope_limiter<T, E>(upwind, central, epsilon), upwind, central);
 }
 
 // The stream far away at `from` the vortex: uniform flow of this Mach number and angle (radians), and a point
