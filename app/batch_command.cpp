@@ -37,7 +37,7 @@ struct BatchCommand {
   std::vector<std::string> shapes;
   std::filesystem::path directory;
   Order order = Order::nearest;
-  std::optional<std::string> meshes;  // extension of the files to write
+  std::vector<std::string> meshes;  // extensions of the files to write
   FitOptions fit;
   RemodelOptions remodelling;
   bool inner_markers = false;
@@ -81,6 +81,18 @@ std::vector<std::size_t> order_of(const BatchCommand& command, const StartMesh& 
 }
 
 constexpr std::array mesh_extensions{"vtkhdf", "su2", "msh", "vtu"};
+
+std::vector<std::string> formats_of(const std::string& option, const std::string& text) {
+  std::vector<std::string> formats = parse_list(option, text);
+  for (std::size_t i = 0; i < formats.size(); ++i) {
+    const auto end = formats.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::count(mesh_extensions.begin(), mesh_extensions.end(), formats[i]) == 0 ||
+        std::find(formats.begin(), end, formats[i]) != end)
+      throw Error(ErrorCode::argument, option,
+                  "found '" + text + "', expected each at most once of vtkhdf, su2, msh and vtu");
+  }
+  return formats;
+}
 
 // Whether a batch writes files of this name: report.json, 001.su2.
 bool is_of_a_batch(const std::filesystem::path& file) {
@@ -160,11 +172,12 @@ class Batch {
                   {"seconds", seconds},
                   {"stopped", name_of(result.stopped)}};
     if (!broken.empty()) entry["detail"] = broken;
-    if (command_.meshes) {
-      const std::string file = file_of(index + 1, *command_.meshes);
+    for (const std::string& extension : command_.meshes) {
+      const std::string file = file_of(index + 1, extension);
       write_mesh(mesh_, command_.directory / file,
                  {.inner = command_.inner_markers ? InnerCurves::markers : InnerCurves::left_out});
-      entry["mesh"] = file;
+      if (!entry.contains("mesh")) entry["mesh"] = file;
+      entry["meshes"].push_back(file);
     }
     designs_[index] = std::move(entry);
     lost_ += static_cast<double>(lost);
@@ -208,7 +221,7 @@ Status run(const BatchCommand& command) {
   require_directory(command);  // another batch may have ended there meanwhile
   for (const std::filesystem::path& file : files_of_a_batch(command.directory)) std::filesystem::remove(file);
 
-  if (command.meshes == "su2" && !command.inner_markers)
+  if (std::count(command.meshes.begin(), command.meshes.end(), "su2") != 0 && !command.inner_markers)
     warn_of_inner_curves(start.mesh.freeze(), (command.directory / "*.su2").string(),
                          "--inner-markers writes it");
   const InterruptFlag interrupt;
@@ -250,11 +263,12 @@ void add_batch_command(CLI::App& program, Action& action) {
        "nearest (always the design that is nearest to the last one) or given (as on the command line)"},
       {"nearest", "given"},
       [command](std::size_t choice) { command->order = choice == 0 ? Order::nearest : Order::given; });
-  add_choice(app,
-             {"--meshes", "FORMAT", "none",
-              "Also write the mesh of each design as DIR/001.FORMAT and so on: vtkhdf, su2, msh or vtu"},
-             {mesh_extensions.begin(), mesh_extensions.end()},
-             [command](std::size_t choice) { command->meshes = mesh_extensions[choice]; });
+  add_text(app,
+           {"--meshes", "FORMATS", "none",
+            "Also write the mesh of each design as DIR/001.FORMAT and so on: one or several of vtkhdf, su2, "
+            "msh and vtu, between commas"},
+           Presence::optional,
+           [command](const std::string& text) { command->meshes = formats_of("--meshes", text); });
   add_flag(app, "--inner-markers",
            "Write curves inside the mesh as markers of .su2 files too, where SU2 takes them for walls",
            command->inner_markers);

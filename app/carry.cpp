@@ -54,12 +54,13 @@ std::optional<std::array<int, 4>> conserved_columns(const std::vector<std::strin
 void add_carry_options(CLI::App& app, CarryOptions& options) {
   add_text(app,
            {"--state", "FILE", "",
-            "SU2 restart file of the old mesh, ASCII or binary: rows in the order of its points"},
+            "SU2 restart file of the old mesh, ASCII or binary: rows in the order of its points; or a time "
+            "directory of OpenFOAM, in ASCII"},
            Presence::optional, options.state);
-  add_text(
-      app,
-      {"--state-out", "FILE", "", "Restart file to write for the new mesh: .csv (ASCII) or .dat (binary)"},
-      Presence::optional, options.state_out);
+  add_text(app,
+           {"--state-out", "FILE", "",
+            "Restart file to write for the new mesh: .csv (ASCII) or .dat (binary); or a time directory"},
+           Presence::optional, options.state_out);
   add_flag(app, "--conservative",
            "Carry values over with their integrals, within bounds; otherwise vertices keep their values, "
            "and new ones are interpolated",
@@ -76,14 +77,19 @@ Cargo::Cargo(const std::string& file, const FrozenMesh& mesh, const CarryOptions
   if (options.state.empty() != options.state_out.empty())
     throw Error(ErrorCode::argument, options.state.empty() ? "--state-out" : "--state",
                 "found alone, expected --state and --state-out together");
-  if (!options.state_out.empty()) require_writable(options.state_out);
+  const bool is_time = !options.state.empty() && std::filesystem::is_directory(options.state);
+  if (!options.state_out.empty() && !is_time) require_writable(options.state_out);
   for (Field& field : read_fields(file)) {
     if (is_finite(field))
       fields_.push_back(std::move(field));
     else
       left_out_.push_back(field.name);
   }
-  if (options.state.empty()) return;
+  if (is_time) {
+    time_ = read_foam_time(options.state, mesh);
+    left_out_.insert(left_out_.end(), time_->left_out.begin(), time_->left_out.end());
+  }
+  if (options.state.empty() || is_time) return;
   state_ = read_su2_restart(options.state);
   set_coordinates(*state_, mesh, options.state);
 }
@@ -146,10 +152,22 @@ void Cargo::move(const Transfer& transfer, FieldPlace place, bool conservative) 
   if (with_state) state_->values = table.give(first_of_state, state_->names.size());
 }
 
+void Cargo::move_time(const Transfer& transfer, const FrozenMesh& before, const FrozenMesh& after,
+                      bool conservative) {
+  if (!time_) return;
+  carry_foam_time(*time_, before, after, [&](int components, std::vector<double>& values) {
+    if (conservative)
+      transfer.remap(FieldPlace::triangles, components, values);
+    else
+      transfer.ride(FieldPlace::triangles, components, values);
+  });
+}
+
 void Cargo::renumber(const FrozenMesh& before, const FrozenMesh& after) {
   if (empty()) return;
   const Transfer transfer(before, after, {.outside = options_.outside});
   for (const FieldPlace place : {FieldPlace::vertices, FieldPlace::triangles}) move(transfer, place, false);
+  move_time(transfer, before, after, false);
 }
 
 void Cargo::carry(const FrozenMesh& before, const FrozenMesh& after) {
@@ -164,11 +182,13 @@ void Cargo::carry(const FrozenMesh& before, const FrozenMesh& after) {
   note_integrals(before, figures_["integral_before"]);
   for (const FieldPlace place : {FieldPlace::vertices, FieldPlace::triangles})
     move(transfer, place, options_.conservative);
+  move_time(transfer, before, after, options_.conservative);
   if (state_) set_coordinates(*state_, after, options_.state_out);
   note_integrals(after, figures_["integral_after"]);
 }
 
 void Cargo::write_state(const FrozenMesh& mesh) const {
+  if (time_) write_foam_time(*time_, options_.state_out);
   if (!state_) return;
   Su2Restart restart = *state_;
   set_coordinates(restart, mesh, options_.state_out);
@@ -190,10 +210,16 @@ void Cargo::add_figures(Report& report) const {
     names.push_back(field.name);
     text += (text.empty() ? "" : ", ") + field.name;
   }
+  if (time_)
+    for (const FoamField& field : time_->fields) {
+      names.push_back(field.name);
+      text += (text.empty() ? "" : ", ") + field.name;
+    }
   report.data("fields", names);
   report.line("fields", text);
-  if (!left_out_.empty()) report.figure("fields_left_out", "not finite, left out", Json(left_out_));
-  if (state_) report.figure("state", "state", options_.state_out);
+  if (!left_out_.empty())
+    report.figure("fields_left_out", "not finite or on faces, left out", Json(left_out_));
+  if (state_ || time_) report.figure("state", "state", options_.state_out);
 }
 
 }  // namespace remodel::app

@@ -9,6 +9,7 @@
 
 #include "arguments.h"
 #include "remodel/field.h"
+#include "remodel/foam.h"
 #include "remodel/frozen_mesh.h"
 #include "remodel/su2_restart.h"
 #include "remodel/transfer.h"
@@ -17,7 +18,7 @@
 namespace remodel::app {
 
 struct CarryOptions {
-  std::string state, state_out;  // SU2's restart files; empty: none
+  std::string state, state_out;  // SU2's restart files or OpenFOAM's time directories; empty: none
   bool conservative = false;
   Outside outside = Outside::nearest;
 };
@@ -31,7 +32,7 @@ class Cargo {
   // The file's fields, but for those with values that are not finite, and the state. Throws Error as the
   // readers do, and where the state is not of this mesh or one of the two options misses.
   Cargo(const std::string& file, const FrozenMesh& mesh, const CarryOptions& options);
-  bool empty() const { return fields_.empty() && !state_; }
+  bool empty() const { return fields_.empty() && !state_ && !time_; }
 
   // From the mesh that it is on to another one. The same file as another mesh with the same points in another
   // order: `renumber`, which is no step and leaves no figures.
@@ -46,6 +47,8 @@ class Cargo {
  private:
   struct Table;
   void move(const Transfer& transfer, FieldPlace place, bool conservative);
+  void move_time(const Transfer& transfer, const FrozenMesh& before, const FrozenMesh& after,
+                 bool conservative);
   void note_integrals(const FrozenMesh& mesh, Json& integrals) const;
   void note_balance(const Table& table, const Balance& balance);
   std::vector<Field> with_state() const;
@@ -54,6 +57,7 @@ class Cargo {
   std::vector<Field> fields_;
   std::vector<std::string> left_out_;
   std::optional<Su2Restart> state_;
+  std::optional<FoamTime> time_;
   Json figures_ = Json::object();
 };
 

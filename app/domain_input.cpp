@@ -26,20 +26,40 @@ Placement placement_of(const std::string& text) {
   return {.chord = values[0], .rotation_deg = values[1], .position = {values[2], values[3]}};
 }
 
+using Airfoils = std::vector<PlacedAirfoil>;
+
+bool is_taken(const std::string& name, const Airfoils& before) {
+  return name == "farfield" || std::any_of(before.begin(), before.end(), [&](const PlacedAirfoil& airfoil) {
+           return airfoil.name == name;
+         });
+}
+
 // "flap" for some/flap.dat, "naca2412" for naca:2412 (to solvers a bare number is a tag, not a name); a
 // number is appended to a name that is already taken.
-std::string name_of(const std::string& shape, const std::vector<PlacedAirfoil>& before) {
+std::string name_of(const std::string& shape, const Airfoils& before) {
   std::string name = std::filesystem::path(shape).stem().string();
   std::erase(name, ':');
   if (name.find_first_not_of("0123456789.+-") == std::string::npos) name.insert(0, "airfoil");
-  const auto taken = [&](const std::string& candidate) {
-    return candidate == "farfield" ||
-           std::any_of(before.begin(), before.end(),
-                       [&](const PlacedAirfoil& airfoil) { return airfoil.name == candidate; });
-  };
   std::string candidate = name;
-  for (int i = 2; taken(candidate); ++i) candidate = name + "_" + std::to_string(i);
+  for (int i = 2; is_taken(candidate, before); ++i) candidate = name + "_" + std::to_string(i);
   return candidate;
+}
+
+// The user's own name, or one by its file.
+std::string name_of(const DomainInputOptions& options, std::size_t i, const Airfoils& before) {
+  if (i >= options.names.size()) return name_of(options.shapes[i], before);
+  const std::string& name = options.names[i];
+  if (name.empty() || is_taken(name, before))
+    throw Error(ErrorCode::argument, "--name",
+                "found '" + name + "', expected a name of its own for each airfoil, and not 'farfield'");
+  return name;
+}
+
+void require_at_most_one_each(const char* option, std::size_t found, std::size_t airfoils) {
+  if (found > airfoils)
+    throw Error(ErrorCode::argument, option,
+                "found " + std::to_string(found) + ", expected at most one for each of " +
+                    std::to_string(airfoils) + " airfoils");
 }
 
 std::vector<Curve> outline_of_file(const std::string& shape, OutlineCurve curve, const std::string& name) {
@@ -59,8 +79,9 @@ void require_alone(const DomainInputOptions& options, const std::string& shape) 
   if (options.as_given)
     throw Error(ErrorCode::argument, "--as-given",
                 "given for '" + shape + "', a whole domain, expected for coordinate files");
-  if (options.shapes.size() == 1 && options.places.empty()) return;
-  throw Error(ErrorCode::argument, shape, "holds a whole domain, expected it alone and without --place");
+  if (options.shapes.size() == 1 && options.places.empty() && options.names.empty()) return;
+  throw Error(ErrorCode::argument, shape,
+              "holds a whole domain, expected it alone and without --place and --name");
 }
 
 }  // namespace
@@ -77,6 +98,10 @@ void add_domain_input(CLI::App& app, DomainInputOptions& options) {
              "comes to "
              "X,Y; may be repeated, in the order of the airfoils"},
             Presence::optional, options.places);
+  add_texts(app,
+            {"--name", "NAME", "airfoil; of several by their files",
+             "Marker of an airfoil in mesh files; may be repeated, in the order of the airfoils"},
+            Presence::optional, options.names);
   static constexpr std::array outlines{OutlineCurve::spline, OutlineCurve::polyline};
   add_choice(app,
              {"--as-given", "CURVE", "",
@@ -92,7 +117,7 @@ void add_domain_input(CLI::App& app, DomainInputOptions& options) {
 }
 
 bool is_single_airfoil(const DomainInputOptions& options) {
-  return options.shapes.size() == 1 && options.places.empty() && !options.as_given &&
+  return options.shapes.size() == 1 && options.places.empty() && options.names.empty() && !options.as_given &&
          !holds_graph(options.shapes[0]) && !is_domain_file(options.shapes[0]);
 }
 
@@ -112,16 +137,13 @@ DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOp
       return input;
     }
   }
-  if (options.places.size() > options.shapes.size())
-    throw Error(ErrorCode::argument, "--place",
-                "found " + std::to_string(options.places.size()) +
-                    " places, expected at most one for each of " + std::to_string(options.shapes.size()) +
-                    " airfoils");
-  std::vector<PlacedAirfoil> airfoils;
+  require_at_most_one_each("--place", options.places.size(), options.shapes.size());
+  require_at_most_one_each("--name", options.names.size(), options.shapes.size());
+  Airfoils airfoils;
   for (std::size_t i = 0; i < options.shapes.size(); ++i) {
     const std::string& shape = options.shapes[i];
     PlacedAirfoil placed;
-    if (options.shapes.size() > 1) placed.name = name_of(shape, airfoils);
+    if (options.shapes.size() > 1 || !options.names.empty()) placed.name = name_of(options, i, airfoils);
     if (options.as_given)
       placed.outline = outline_of_file(shape, *options.as_given, placed.name);
     else

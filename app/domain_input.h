@@ -21,14 +21,15 @@ namespace remodel::app {
 struct DomainInputOptions {
   std::vector<std::string> shapes;
   std::vector<std::string> places;  // "CHORD,DEGREES,X,Y", in the order of the shapes
+  std::vector<std::string> names;   // of the airfoils' markers, likewise
   Crossings crossings = Crossings::insert;
   std::optional<OutlineCurve> as_given;  // no fit: a curve through the points of coordinate files
 };
 
-// SHAPE..., --place, --crossings, --as-given.
+// SHAPE..., --place, --name, --crossings, --as-given.
 void add_domain_input(CLI::App& app, DomainInputOptions& options);
 
-// True if the input is one airfoil without a place, as opposed to a domain or an outline as given.
+// True if the input is one airfoil without a place and a name, as opposed to a domain or an outline as given.
 bool is_single_airfoil(const DomainInputOptions& options);
 
 struct DomainInput {
@@ -37,7 +38,7 @@ struct DomainInput {
   std::vector<ShapeFit> fits = {};                        // of coordinate files
   bool in_farfield = false;                               // airfoils in the farfield of the options
 };
-// Throws Error as the readers do, and for more places than shapes.
+// Throws Error as the readers do, and for more places or names than shapes.
 DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOptions& discretisation,
                         const FitOptions& fit);
 

@@ -49,7 +49,8 @@ void warn_of_inner_curves(const FrozenMesh& mesh, const std::string& file, const
 void MeshOutputs::add_options(CLI::App& app, Presence presence) {
   add_texts(app,
             {"-o,--output", "MESH", "",
-             "Mesh file to write, format by extension: .vtkhdf (native), .su2, .msh, .vtu; may be repeated"},
+             "Mesh file to write, format by extension: .vtkhdf (native), .su2, .msh, .vtu, .foam (OpenFOAM: "
+             "the mesh of the case whose directory it lies in); may be repeated"},
             presence, files_);
   add_choice(app, {"--msh-version", "VERSION", "4.1", "Version of .msh files: 4.1 or 2.2"}, {"4.1", "2.2"},
              [this](std::size_t choice) { options_.msh_version = choice == 0 ? 41 : 22; });
@@ -77,7 +78,8 @@ void MeshOutputs::write_each(const AnyMesh& mesh, std::span<const Field> fields)
   for (const std::string& file : files_) {
     WriteOptions options = options_;
     if (inner_markers_) options.inner = InnerCurves::markers;
-    if (mesh_format(file) != MeshFormat::su2)
+    const MeshFormat format = mesh_format(file);
+    if (format != MeshFormat::su2 && format != MeshFormat::foam)
       options.fields = fields;
     else if constexpr (std::is_same_v<AnyMesh, Mesh>)
       warn(mesh.freeze(), file);

@@ -92,6 +92,9 @@ struct CommandOptions {
 //                {state.dat}, binary). It is there when this living mesh has been evaluated before and the
 //                program left one: that one, carried over to the points of this mesh (Transfer::ride). What
 //                the program leaves there is carried to the next design.
+//   {case}       a case of OpenFOAM (remodel/foam.h): its mesh and, when this living mesh has been evaluated
+//                before, the fields of the latest time directory above 0 that the program left there,
+//                carried over within their bounds, as those of time 0
 //   {result}     result.json, which the program is to write; otherwise it prints the result
 //   {directory}  the directory of this evaluation, in which all of these are, with absolute paths
 // A command without any of them is given {mesh} and {design} as its last two words. The program runs in the

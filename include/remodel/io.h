@@ -20,7 +20,8 @@ namespace remodel {
 // The file to read that is standard input.
 inline constexpr std::string_view standard_input = "-";
 
-enum class MeshFormat { vtkhdf, su2, msh, vtu };
+// foam: an OpenFOAM case, by an empty file in its directory (remodel/foam.h); written alone, never read.
+enum class MeshFormat { vtkhdf, su2, msh, vtu, foam };
 // By extension; throws Error (argument) for another, listing those that are known.
 MeshFormat mesh_format(const std::filesystem::path& file);
 

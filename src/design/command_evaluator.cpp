@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <system_error>
@@ -18,6 +19,7 @@
 #include "design/child_process.h"
 #include "remodel/error.h"
 #include "remodel/evaluator.h"
+#include "remodel/foam.h"
 #include "remodel/io.h"
 #include "remodel/su2_restart.h"
 #include "remodel/transfer.h"
@@ -97,17 +99,63 @@ Evaluation evaluation_from(const std::string& text) {
   return evaluation;
 }
 
-// What a solver left of a design: its values at the points of that design's mesh.
+// What a solver left of a design: its values on that design's mesh.
 struct SolverState final : EvaluatorState {
   FrozenMesh mesh;
-  Su2Restart restart;
+  std::optional<Su2Restart> restart;
+  std::optional<FoamTime> time;
 
-  std::string bytes() const override { return su2_restart_bytes(restart); }
-  Su2Restart on(const FrozenMesh& now) const {
-    Su2Restart result = restart;
-    Transfer(mesh, now).ride(FieldPlace::vertices, static_cast<int>(restart.names.size()), result.values);
-    set_coordinates(result, now, "state");
-    return result;
+  std::string bytes() const override {
+    const auto binary = [](const std::string& text) {
+      return Json::binary(std::vector<std::uint8_t>(text.begin(), text.end()));
+    };
+    Json content = Json::object();
+    if (restart) content["restart"] = binary(su2_restart_bytes(*restart));
+    if (time)
+      for (const FoamField& field : time->fields) content["time"][field.name] = binary(foam_text(field));
+    const std::vector<std::uint8_t> bytes = Json::to_cbor(content);
+    return {bytes.begin(), bytes.end()};
+  }
+  static std::unique_ptr<SolverState> from(const std::string& bytes, FrozenMesh mesh,
+                                           const std::string& source) {
+    auto state = std::make_unique<SolverState>();
+    const auto text = [](const Json& json) {
+      const auto& binary = json.get_binary();
+      return std::string(binary.begin(), binary.end());
+    };
+    try {
+      const Json content = Json::from_cbor(bytes);
+      if (content.contains("restart"))
+        state->restart = parse_su2_restart(text(content.at("restart")), source);
+      if (content.contains("time")) state->time.emplace();
+      if (state->time)
+        for (const auto& [name, field] : content.at("time").items())
+          state->time->fields.push_back(parse_foam_field(name, text(field), source, mesh));
+    } catch (const Json::exception& problem) {
+      throw Error(ErrorCode::format, source,
+                  std::string("expected the state of a solver: ") + problem.what());
+    }
+    if (state->restart) set_coordinates(*state->restart, mesh, source);
+    state->mesh = std::move(mesh);
+    return state;
+  }
+
+  // Writes what there is of it, carried over to another mesh.
+  void write(const FrozenMesh& now, const fs::path& directory, const std::string& file) const {
+    const Transfer transfer(mesh, now);
+    if (restart && !file.empty()) {
+      Su2Restart on = *restart;
+      transfer.ride(FieldPlace::vertices, static_cast<int>(on.names.size()), on.values);
+      set_coordinates(on, now, file);
+      write_su2_restart(on, directory / file);
+    }
+    if (!time) return;
+    // Within the bounds of old values: weights of a ride on triangles may be negative.
+    FoamTime on = *time;
+    carry_foam_time(on, mesh, now, [&](int components, std::vector<double>& values) {
+      transfer.remap(FieldPlace::triangles, components, values);
+    });
+    write_foam_time(on, directory / "case" / "0");
   }
 };
 
@@ -116,6 +164,9 @@ struct CommandFiles {
   std::set<std::string> names;
   std::string state;    // empty: none
   bool result = false;  // a file; otherwise standard output
+  bool has_case = false;
+
+  bool carry() const { return has_case || !state.empty(); }
 };
 
 CommandFiles files_of(const std::vector<std::string>& words) {
@@ -127,6 +178,7 @@ CommandFiles files_of(const std::vector<std::string>& words) {
         throw Error(ErrorCode::argument, word,
                     "found two files of the state, expected {state} or {state.dat}");
       if (place.file.starts_with("state.")) files.state = place.file;
+      files.has_case = files.has_case || place.file == "case";
       files.result = files.result || place.file == "result.json";
       files.names.insert(place.file);
     }
@@ -167,11 +219,7 @@ class CommandEvaluator final : public Evaluator {
 
   std::unique_ptr<EvaluatorState> restore(const std::string& bytes, const Mesh& mesh,
                                           const std::string& source) override {
-    auto state = std::make_unique<SolverState>();
-    state->mesh = mesh.freeze();
-    state->restart = parse_su2_restart(bytes, source);
-    set_coordinates(state->restart, state->mesh, source);
-    return state;
+    return SolverState::from(bytes, mesh.freeze(), source);
   }
   std::string description() const override { return Json{{"command", command_}}.dump(); }
 
@@ -179,7 +227,7 @@ class CommandEvaluator final : public Evaluator {
   Evaluation evaluate_in(const fs::path& directory, const EvaluationTask& task,
                          std::unique_ptr<EvaluatorState>& state) const;
   void run(const fs::path& directory, const fs::path& output, StepObserver& observer) const;
-  std::unique_ptr<EvaluatorState> state_left(const fs::path& file, FrozenMesh mesh) const;
+  std::unique_ptr<EvaluatorState> state_left(const fs::path& directory, FrozenMesh mesh) const;
   const std::string& name() const { return command_.front(); }
 
   std::vector<std::string> command_;
@@ -192,15 +240,19 @@ Evaluation CommandEvaluator::evaluate_in(const fs::path& directory, const Evalua
                                          std::unique_ptr<EvaluatorState>& state) const {
   for (const std::string& file : files_.names) {
     if (file.starts_with("mesh.")) write_mesh(task.mesh, directory / file);
+    if (file == "case") {
+      fs::create_directory(directory / file);
+      write_mesh(task.mesh, directory / file / "case.foam");
+    }
     if (file == "design.json")
       write_text_atomically(directory / file,
                             Json(std::vector<double>(task.design.begin(), task.design.end())).dump());
   }
   FrozenMesh mesh;
-  if (!files_.state.empty()) {
+  if (files_.carry()) {
     mesh = task.mesh.freeze();
     if (const auto* before = dynamic_cast<const SolverState*>(state.get()))
-      write_su2_restart(before->on(mesh), directory / files_.state);
+      before->write(mesh, directory, files_.state);
   }
   const fs::path output = directory / "output";
   run(directory, output, task.observer);
@@ -210,7 +262,7 @@ Evaluation CommandEvaluator::evaluate_in(const fs::path& directory, const Evalua
   } catch (const Json::exception& problem) {
     throw std::runtime_error(name() + ": expected one JSON object with an objective: " + problem.what());
   }
-  if (!files_.state.empty()) state = state_left(directory / files_.state, std::move(mesh));
+  if (files_.carry()) state = state_left(directory, std::move(mesh));
   return evaluation;
 }
 
@@ -230,11 +282,18 @@ void CommandEvaluator::run(const fs::path& directory, const fs::path& output, St
     throw std::runtime_error(name() + ": " + failure + ": " + end_of(errors));
 }
 
-std::unique_ptr<EvaluatorState> CommandEvaluator::state_left(const fs::path& file, FrozenMesh mesh) const {
-  if (!fs::exists(file)) return nullptr;
+std::unique_ptr<EvaluatorState> CommandEvaluator::state_left(const fs::path& directory,
+                                                             FrozenMesh mesh) const {
   auto state = std::make_unique<SolverState>();
-  state->restart = read_su2_restart(file);
-  set_coordinates(state->restart, mesh, file.string());
+  const fs::path file = directory / files_.state;
+  if (!files_.state.empty() && fs::exists(file)) {
+    state->restart = read_su2_restart(file);
+    set_coordinates(*state->restart, mesh, file.string());
+  }
+  if (files_.has_case)
+    if (const fs::path latest = latest_foam_time(directory / "case"); !latest.empty())
+      state->time = read_foam_time(latest, mesh);
+  if (!state->restart && !state->time) return nullptr;
   state->mesh = std::move(mesh);
   return state;
 }
@@ -242,10 +301,11 @@ std::unique_ptr<EvaluatorState> CommandEvaluator::state_left(const fs::path& fil
 }  // namespace
 
 std::vector<CommandPlace> command_places(std::string_view text) {
-  static constexpr std::array<std::array<std::string_view, 2>, 5> names{{{"{mesh}", "mesh.su2"},
+  static constexpr std::array<std::array<std::string_view, 2>, 6> names{{{"{mesh}", "mesh.su2"},
                                                                          {"{design}", "design.json"},
                                                                          {"{state}", "state.csv"},
                                                                          {"{result}", "result.json"},
+                                                                         {"{case}", "case"},
                                                                          {"{directory}", ""}}};
   std::vector<CommandPlace> places;
   for (std::size_t at = text.find('{'); at != std::string_view::npos; at = text.find('{', at + 1)) {

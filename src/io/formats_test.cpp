@@ -74,9 +74,9 @@ TEST(MeshFiles, TheSameMeshGivesTheSameBytes) {
 
 TEST(MeshFiles, AnUnknownExtensionListsTheKnownOnes) {
   EXPECT_EQ(error_of([] { mesh_format("a.stl"); }),
-            "a.stl: extension '.stl' found, .vtkhdf, .su2, .msh or .vtu expected");
+            "a.stl: extension '.stl' found, .vtkhdf, .su2, .msh, .vtu or .foam expected");
   EXPECT_EQ(error_of([] { mesh_format("mesh"); }),
-            "mesh: no extension found, .vtkhdf, .su2, .msh or .vtu expected");
+            "mesh: no extension found, .vtkhdf, .su2, .msh, .vtu or .foam expected");
 }
 
 TEST(MeshFiles, ALargeMeshKeepsItsTriangles) {

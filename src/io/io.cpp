@@ -8,6 +8,7 @@
 #include "io/formats.h"
 #include "io/vtkhdf.h"
 #include "remodel/error.h"
+#include "remodel/foam.h"
 
 namespace remodel {
 
@@ -19,6 +20,7 @@ std::optional<MeshFormat> known_format(const std::filesystem::path& file) {
   if (extension == ".su2") return MeshFormat::su2;
   if (extension == ".msh") return MeshFormat::msh;
   if (extension == ".vtu") return MeshFormat::vtu;
+  if (extension == ".foam") return MeshFormat::foam;
   return std::nullopt;
 }
 
@@ -31,10 +33,22 @@ MeshFormat format_of_content(std::string_view text) {
   return MeshFormat::su2;
 }
 
+void refuse_fields(const WriteOptions& options, const std::string& name, const std::string& extension) {
+  if (!options.fields.empty())
+    throw Error(
+        ErrorCode::argument, name,
+        "fields found, a .vtkhdf, .vtu or .msh file expected: " + extension + " has no place for them");
+}
+
 }  // namespace
 
 MeshFormat io::format_to_read(const std::filesystem::path& file) {
-  if (const auto known = known_format(file)) return *known;
+  if (const auto known = known_format(file)) {
+    if (*known == MeshFormat::foam)
+      throw Error(ErrorCode::argument, file.string(),
+                  "an OpenFOAM case found, which is written alone; .vtkhdf, .su2, .msh or .vtu expected");
+    return *known;
+  }
   return is_pipe(file) ? format_of_content(read_text(file)) : mesh_format(file);
 }
 
@@ -43,7 +57,7 @@ MeshFormat mesh_format(const std::filesystem::path& file) {
   const std::string extension = file.extension().string();
   throw Error(ErrorCode::argument, file.string(),
               (extension.empty() ? "no extension" : "extension '" + extension + "'") +
-                  " found, .vtkhdf, .su2, .msh or .vtu expected");
+                  " found, .vtkhdf, .su2, .msh, .vtu or .foam expected");
 }
 
 void write_mesh(const FrozenMesh& mesh, const std::filesystem::path& file, const WriteOptions& options) {
@@ -52,15 +66,15 @@ void write_mesh(const FrozenMesh& mesh, const std::filesystem::path& file, const
     case MeshFormat::vtkhdf:
       return io::write_vtkhdf(file, mesh, nullptr, options.fields);
     case MeshFormat::su2:
-      if (!options.fields.empty()) {
-        throw Error(ErrorCode::argument, name,
-                    "fields found, a .vtkhdf, .vtu or .msh file expected: .su2 has no place for them");
-      }
+      refuse_fields(options, name, ".su2");
       return write_text_atomically(file, io::su2_text(mesh, name, options.inner));
     case MeshFormat::msh:
       return write_text_atomically(file, io::msh_text(mesh, options.msh_version, name, options.fields));
     case MeshFormat::vtu:
       return write_text_atomically(file, io::vtu_text(mesh, options.fields));
+    case MeshFormat::foam:
+      refuse_fields(options, name, ".foam");
+      return write_foam_mesh(mesh, file);
   }
 }
 
@@ -69,6 +83,7 @@ FrozenMesh read_frozen_mesh(const std::filesystem::path& file) {
   const KeptPipes once;
   switch (io::format_to_read(file)) {
     case MeshFormat::vtkhdf:
+    case MeshFormat::foam:
       break;
     case MeshFormat::su2:
       return io::parse_su2(read_text(file), name);
@@ -85,6 +100,7 @@ std::vector<Field> read_fields(const std::filesystem::path& file) {
   const KeptPipes once;
   switch (io::format_to_read(file)) {
     case MeshFormat::vtkhdf:
+    case MeshFormat::foam:
       break;
     case MeshFormat::su2:
       return {};

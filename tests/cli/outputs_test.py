@@ -244,6 +244,21 @@ class Help(ProgramTest):
         self.assertRegex(self.succeed("--version").stdout, r"^\d+\.\d+\.\d+\n$")
 
 
+class Names(ProgramTest):
+    def test_airfoils_have_the_markers_they_are_given(self):
+        pair = ("mesh", "naca:0012", "naca:2412", "--place", "1,0,0,0", "--place", "0.5,-10,1.2,-0.1", "--points", 60)
+        self.succeed(*pair, "--name", "wing", "--name", "flap", "-o", "two.su2")
+        self.assertEqual(set(self.figures("check", "two.su2")["boundary"]), {"wing", "flap", "farfield"})
+        self.succeed(*pair, "--name", "wing", "-o", "two.su2")
+        self.assertEqual(set(self.figures("check", "two.su2")["boundary"]), {"wing", "naca2412", "farfield"})
+        self.succeed("mesh", "naca:0012", "--points", 60, "--name", "blade", "-o", "one.vtkhdf")
+        self.assertEqual(set(self.figures("check", "one.vtkhdf")["boundary"]), {"blade", "farfield"})
+        self.succeed("update", "one.vtkhdf", "naca:0013", "-o", "one.su2")
+        self.assertEqual(set(self.figures("check", "one.su2")["boundary"]), {"blade", "farfield"})
+        for names in (("wing", "wing"), ("farfield",), ("a", "b", "c")):
+            self.refused(*pair, "-o", "x.su2", *(word for name in names for word in ("--name", name)), names="--name")
+
+
 class Batches(ProgramTest):
     SHAPES = ("rae2822", "naca:0014", "naca:2412", "naca:0013", "naca:0012", "naca:4412")
 
@@ -285,6 +300,15 @@ class Batches(ProgramTest):
         self.succeed(*again, "--overwrite")
         self.assertEqual(sorted(path.name for path in self.path("out").iterdir()),
                          ["001.vtkhdf", "002.vtkhdf", "notes.txt", "report.json"])
+
+    def test_meshes_in_several_formats(self):
+        figures = self.figures("batch", "a.vtkhdf", *self.SHAPES[:2], "-o", "out", "--meshes", "su2,vtkhdf")
+        self.assertEqual([design["meshes"] for design in figures["designs"]],
+                         [["001.su2", "001.vtkhdf"], ["002.su2", "002.vtkhdf"]])
+        for design in figures["designs"]:
+            for mesh in design["meshes"]:
+                self.assertEqual(self.figures("check", f"out/{mesh}")["triangles"], design["triangles"])
+        self.refused("batch", "a.vtkhdf", "rae2822", "-o", "new", "--meshes", "su2,stl", names="--meshes")
 
     def test_a_directory_that_another_process_writes_to(self):
         self.path("out").mkdir()

@@ -6,7 +6,10 @@ import os
 import shutil
 import sqlite3
 import stat
+import subprocess
+import sys
 
+import harness
 from harness import SOURCE, ProgramTest
 
 # Leaves x, y and a linear function as the state, and says what it found there.
@@ -58,7 +61,7 @@ with open(config["CONV_FILENAME"] + ".csv", "w") as history:
     for iteration in range(int(config["ITER"])):
         target = [flow(*p) for p in points]
         residual = math.log10(max(abs(t[0] - s[0]) for t, s in zip(target, state)) + 1e-16)
-        history.write(f"{iteration}, {residual}, {area * area}, {config['TARGET_CL']}\\n")
+        history.write(f"{iteration}, {residual}, {area * area}, {config.get('TARGET_CL', 0.5)}\\n")
         if residual < float(config["CONV_RESIDUAL_MINVAL"]): break
         state = [[s + 0.5 * (t - s) for s, t in zip(a, b)] for a, b in zip(state, target)]
 with open(config["RESTART_FILENAME"] + ".csv", "w") as restart:
@@ -161,6 +164,20 @@ class Su2(Loop):
             self.assertEqual(row["cl"], 0.5)
         self.assertEqual([row["warm"] for row in outputs], [0] + [1] * 9)
         self.assertLess(max(row["iterations"] for row in outputs[1:]), outputs[0]["iterations"])
+
+    def test_the_table_of_iterations(self):
+        self.write("SU2_CFD", SU2)
+        self.path("SU2_CFD").chmod(stat.S_IRWXU)
+        table = [sys.executable, SOURCE / "scripts/su2-table", "--program", harness.PROGRAM, "--points", "40", "--designs", "3",
+                 "--cases", "0.5:1e-3"]
+        done = subprocess.run([*table, "--su2", self.path("SU2_CFD")], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        cold, fresh, living = (int(cell.split("(")[0]) for cell in done.stdout.splitlines()[-1].split("|")[3:6])
+        self.assertLess(living, fresh)
+        self.assertLess(fresh, cold)
+        skipped = subprocess.run([*table, "--su2", "no-such-program"], capture_output=True, text=True)
+        self.assertEqual((skipped.returncode, skipped.stdout), (77, ""))
+        self.assertIn("skipped: no-such-program is not found", skipped.stderr)
 
     def test_the_example_with_su2_itself(self):
         if shutil.which("SU2_CFD") is None:

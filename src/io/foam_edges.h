@@ -1,0 +1,43 @@
+#pragma once
+
+// The edges of a mesh that become faces of patches.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "remodel/frozen_mesh.h"
+
+namespace remodel::io {
+
+// An edge of a triangle; the triangle is on its left.
+struct FoamEdge {
+  std::uint32_t a, b;
+  std::uint32_t triangle;
+
+  std::array<std::uint32_t, 2> ends() const { return {std::min(a, b), std::max(a, b)}; }
+};
+
+struct FoamPatch {
+  std::string name;
+  std::vector<FoamEdge> edges;  // in the order of the boundary
+};
+
+// All edges of all triangles, the two of one edge side by side.
+inline std::vector<FoamEdge> edges_of_triangles(const FrozenMesh& mesh) {
+  std::vector<FoamEdge> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      edges.push_back({mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3], t});
+  std::stable_sort(edges.begin(), edges.end(),
+                   [](const FoamEdge& a, const FoamEdge& b) { return a.ends() < b.ends(); });
+  return edges;
+}
+
+// Boundaries with triangles on one side, by name; what no boundary names has the name "unnamed".
+std::vector<FoamPatch> foam_patches(const FrozenMesh& mesh, const std::vector<FoamEdge>& edges);
+
+}  // namespace remodel::io

@@ -1,0 +1,180 @@
+"""OpenFOAM: the mesh of a case by the rules of its user guide, time directories carried along, and where OpenFOAM is
+installed its own programs on both."""
+
+import json
+import math
+import os
+import re
+import shutil
+import sqlite3
+import subprocess
+
+from harness import SOURCE, ProgramTest
+
+HEADER = "FoamFile\n{{\n version 2.0;\n format {};\n class {};\n object {};\n}}\n"
+
+
+def entries(text):
+    """The rows of a file's only list."""
+    count, rows = re.search(r"^(\d+)\n\(\n(.*)^\)", text, re.M | re.S).groups()
+    rows = rows.splitlines()
+    assert len(rows) == int(count)
+    return rows
+
+
+def numbers(row):
+    return [float(word) for word in re.sub(r"[^(]*\(|\)", "", row).split()]
+
+
+class FoamMesh:
+    def __init__(self, case):
+        read = lambda name: (case / "constant/polyMesh" / name).read_text()
+        self.points = [numbers(row) for row in entries(read("points"))]
+        self.faces = [list(map(int, numbers(row))) for row in entries(read("faces"))]
+        self.owner = list(map(int, entries(read("owner"))))
+        self.neighbour = list(map(int, entries(read("neighbour"))))
+        self.patches = {
+            name: (kind, int(count), int(start)) for name, kind, count, start in re.findall(
+                r"(\w+)\s*{\s*type\s+(\w+);\s*nFaces\s+(\d+);\s*startFace\s+(\d+);", read("boundary"))}
+        self.cells = max(self.owner) + 1
+
+    def area_vector(self, face):
+        corners = [self.points[i] for i in self.faces[face]]
+        total = [0.0, 0.0, 0.0]
+        for a, b in zip(corners, corners[1:] + corners[:1]):
+            for k in range(3):
+                total[k] += 0.5 * (a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3])
+        return total
+
+    def centres(self):
+        """Of cells, by the triangles at z = 0."""
+        _, count, start = self.patches["front"]
+        return [[sum(self.points[i][k] for i in self.faces[f]) / 3 for k in (0, 1)] for f in range(start, start + count)]
+
+
+def field(name, cells, values, airfoil):
+    """A scalar field, linear in cells; the airfoil's value is one a face."""
+    listed = lambda numbers: f"nonuniform List<scalar> {len(numbers)} ({' '.join(map(repr, numbers))})"
+    return HEADER.format("ascii", "volScalarField", name) + f"""dimensions [0 0 0 1 0 0 0];
+internalField {listed(values)};
+boundaryField {{ airfoil {{ type calculated; value {listed(airfoil)}; }}
+  farfield {{ type fixedValue; value uniform 293; }} /* nonuniform }} */ "front|back" {{ type empty; }} }}
+"""
+
+
+class Files(ProgramTest):
+    def mesh(self, points=60):
+        self.succeed("mesh", "naca:0012", "--points", points, "-o", "old.vtkhdf")
+        self.path("case").mkdir()
+        self.succeed("convert", "old.vtkhdf", "-o", "case/case.foam")
+        return FoamMesh(self.path("case"))
+
+    def test_the_mesh_keeps_openfoams_rules(self):
+        mesh = self.mesh()
+        checked = self.figures("check", "old.vtkhdf")
+        self.assertEqual(mesh.cells, checked["triangles"])
+        self.assertEqual(len(mesh.points), 2 * checked["vertices"])
+        inner = len(mesh.neighbour)
+        order = list(zip(mesh.owner, mesh.neighbour))
+        self.assertEqual(order, sorted(set(order)))  # upper triangular
+        self.assertTrue(all(a < b for a, b in order))
+        self.assertEqual({name: kind for name, (kind, _, _) in mesh.patches.items()},
+                         {"airfoil": "wall", "farfield": "patch", "front": "empty", "back": "empty"})
+        at = inner
+        for name, (_, count, start) in mesh.patches.items():
+            self.assertEqual(start, at)
+            at += count
+            if name in checked["boundary"]:
+                self.assertEqual(count, checked["boundary"][name])
+        self.assertEqual(at, len(mesh.faces))
+        # Each cell is closed, of area vectors out of it, and lies on the inner side of each of its faces.
+        sums = [[0.0] * 3 for _ in range(mesh.cells)]
+        volume = [0.0] * mesh.cells
+        for f in range(len(mesh.faces)):
+            vector = mesh.area_vector(f)
+            corner = mesh.points[mesh.faces[f][0]]
+            sides = [(mesh.owner[f], 1)] + ([(mesh.neighbour[f], -1)] if f < inner else [])
+            for cell, sign in sides:
+                for k in range(3):
+                    sums[cell][k] += sign * vector[k]
+                    volume[cell] += sign * vector[k] * corner[k] / 3
+        self.assertLess(max(abs(x) for row in sums for x in row), 1e-9)
+        self.assertGreater(min(volume), 0)
+        self.assertAlmostEqual(sum(volume), checked["area"], delta=1e-6)
+
+    def test_a_time_directory_rides_along(self):
+        linear = lambda p: 300 + 0.1 * p[0] - 0.2 * p[1]
+        mesh = self.mesh()
+        _, faces, _ = mesh.patches["airfoil"]
+        self.path("case/200").mkdir()
+        self.write("case/200/T", field("T", mesh.cells, [linear(c) for c in mesh.centres()], [291.5] * faces))
+        self.write("case/200/phi", HEADER.format("ascii", "surfaceScalarField", "phi"))
+        self.path("new").mkdir()
+        figures = self.figures("update", "old.vtkhdf", "naca:0013", "-o", "new/case.foam", "--state", "case/200",
+                               "--state-out", "new/0")
+        self.assertEqual((figures["fields"], figures["fields_left_out"]), (["T"], ["phi"]))
+        after = FoamMesh(self.path("new"))
+        text = self.path("new/0/T").read_text()
+        cells, airfoil = re.findall(r"List<scalar>\s+\d+\s+\((.*?)\)", text, re.S)
+        values = list(map(float, cells.split()))
+        self.assertEqual(len(values), after.cells)
+        off = sorted(abs(v - linear(c)) for v, c in zip(values, after.centres()))
+        self.assertLess(off[len(off) // 2], 1e-10)
+        self.assertLess(off[-1], 0.05)
+        self.assertEqual(list(map(float, airfoil.split())), [291.5] * after.patches["airfoil"][1])
+        self.assertIn("/* nonuniform } */", text)
+
+    def test_what_is_no_time_directory_is_refused(self):
+        mesh = self.mesh()
+        self.path("200").mkdir()
+        update = ("update", "old.vtkhdf", "naca:0013", "--state", "200", "--state-out", "0")
+        self.refused(*update, names="200")
+        good = field("T", mesh.cells, [1.0] * mesh.cells, [1.0] * mesh.patches["airfoil"][1])
+        for found, wrong in ((f"{mesh.cells} values", "nonuniform List<scalar> 2 (1 1)"),
+                             ("a finite number", "nonuniform List<scalar> 1 (nan)"),
+                             ("'list'", "nonuniform list")):
+            self.write("200/T", re.sub(r"nonuniform List<scalar> \d+ \([^)]*\)", wrong, good, count=1))
+            self.refused(*update, names="200/T")
+        self.write("200/T", good.replace("ascii", "binary"))
+        self.refused(*update, names="binary")
+        self.refused("draw", "case/case.foam", "-o", "x.png", names="case.foam")
+
+
+class OpenFoam(ProgramTest):
+    """Minutes with OpenFOAM's own programs, of Debian's package `openfoam`."""
+
+    def setUp(self):
+        super().setUp()
+        if shutil.which("rhoSimpleFoam") is None:
+            self.skipTest("OpenFOAM is not installed: no rhoSimpleFoam in the PATH")
+        shutil.copytree(SOURCE / "examples/openfoam", self.directory, dirs_exist_ok=True)
+
+    def foam(self, program, case, *arguments):
+        environment = {"WM_PROJECT_DIR": "/usr/share/openfoam", **os.environ}
+        done = subprocess.run([program, "-case", case, *arguments], cwd=self.directory, env=environment,
+                              capture_output=True, text=True, timeout=250)
+        self.assertEqual(done.returncode, 0, done.stdout[-2000:] + done.stderr[-2000:])
+        return done.stdout
+
+    def test_openfoam_finds_nothing_wrong(self):
+        self.path("case").mkdir()
+        self.succeed("mesh", "naca:0012", "--points", 60, "-o", "case/case.foam")
+        for name in ("system", "constant"):
+            shutil.copytree(self.path(name), self.path("case") / name, dirs_exist_ok=True)
+        shutil.copytree(self.path("start"), self.path("case/0"))
+        said = self.foam("checkMesh", "case", "-allTopology")
+        self.assertIn("Mesh OK.", said)
+        self.assertIn("Mesh has 2 geometric (non-empty/wedge) directions (1 1 0)", said)
+        self.foam("potentialFoam", "case")
+
+    def test_the_example_starts_from_the_design_before(self):
+        figures = self.figures(
+            "optimise", "--from", "naca:0012", "--evaluate", "./solve.py {case} {result}", "--points", 60, "--sigma",
+            0.001, "--evaluations", 3, "--quiet", "-o", "run", "--time-limit", 250)
+        self.assertEqual(figures["failed_evaluations"], 0, figures["detail"])
+        with sqlite3.connect(self.path("run/history.sqlite")) as history:
+            outputs = [json.loads(text) for text, in history.execute("select outputs from evaluations")]
+        self.assertEqual([row["warm"] for row in outputs], [0, 1, 1])
+        for row in outputs[1:]:
+            self.assertLess(row["iterations"], outputs[0]["iterations"])
+            self.assertTrue(math.isclose(row["cl"], outputs[0]["cl"], rel_tol=0.1))
