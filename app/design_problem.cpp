@@ -8,6 +8,7 @@
 #include "remodel/error.h"
 #include "remodel/io.h"
 #include "remodel/shape_files.h"
+#include "sqp_designer.h"
 
 namespace remodel::app {
 
@@ -101,6 +102,25 @@ SectionConstraint area(const CstAirfoil& like) {
   return sum;
 }
 
+// The difference of both surfaces' slopes at the trailing edge, of what points behind it: there (e2 = 1) a
+// surface falls by its last coefficient.
+SectionConstraint trailing_edge_slopes(const CstAirfoil& like) {
+  const std::size_t n = like.upper.size();
+  SectionConstraint difference{.row = std::vector<double>(2 * n, 0.0),
+                               .bound = like.te_upper - like.te_lower};
+  difference.row[n - 1] = 1.0, difference.row[2 * n - 1] = -1.0;
+  return difference;
+}
+
+// The root of twice a surface's radius of curvature at the leading edge (e1 = 1/2): its first coefficient.
+// Source: B. Kulfan, "Universal Parametric Geometry Representation Method", 2008.
+SectionConstraint leading_edge_root(const CstAirfoil& like, bool upper) {
+  const std::size_t n = like.upper.size();
+  SectionConstraint root{.row = std::vector<double>(2 * n, 0.0), .bound = 0.0};
+  root.row[upper ? 0 : n] = upper ? 1.0 : -1.0;
+  return root;
+}
+
 double value_of(const SectionConstraint& function, const CstAirfoil& airfoil) {
   double sum = 0.0;
   const std::size_t n = airfoil.upper.size();
@@ -109,12 +129,44 @@ double value_of(const SectionConstraint& function, const CstAirfoil& airfoil) {
   return sum - function.bound;
 }
 
+// Fits are of degree 8 at most; what is beyond is raised, exactly.
+CstAirfoil section_named(const std::string& name, int degree) {
+  return raise_degree(load_airfoil(name, std::min(degree, 8)), degree);
+}
+
+// Angles and radii as linear constraints of what they follow from.
+void add_edge_constraints(const Keys& keys, bool is_angle, DesignProblemFile& problem) {
+  const CstAirfoil& start = problem.start;
+  if (start.e1 != 0.5 || start.e2 != 1.0) keys.fail("found an airfoil of another class than round and sharp");
+  std::vector<SectionConstraint> functions;
+  if (is_angle)
+    functions = {trailing_edge_slopes(start)};
+  else
+    functions = {leading_edge_root(start, true), leading_edge_root(start, false)};
+  for (SectionConstraint& function : functions) {
+    double least = 0.0;
+    if (keys.has("of_start")) {
+      const double part = keys.number("of_start", {}, 0.0, 10.0);
+      const double of_start = value_of(function, start);
+      least = is_angle ? 2.0 * std::tan(part * std::atan(0.5 * of_start)) : std::sqrt(part) * of_start;
+    } else {
+      const double value = keys.number("at_least", {}, 0.0, is_angle ? 90.0 : 1.0);
+      least = is_angle ? 2.0 * std::tan(value * M_PI / 360.0) : std::sqrt(2.0 * value);
+    }
+    function.bound += least;
+    problem.section.push_back(std::move(function));
+  }
+}
+
 void add_constraint(const Json& entry, const std::string& where, DesignProblemFile& problem) {
   const Keys keys(entry, where, {"kind", "point", "at_least", "at_most", "of_start", "x", "airfoil"});
-  const std::string kind = keys.word("kind", {}, {"lift", "moment", "drag", "area", "thickness", "contains"});
+  const std::string kind = keys.word("kind", {},
+                                     {"lift", "moment", "drag", "area", "thickness", "contains",
+                                      "trailing_edge_angle", "leading_edge_radius"});
+  if (kind == "trailing_edge_angle" || kind == "leading_edge_radius")
+    return add_edge_constraints(keys, kind == "trailing_edge_angle", problem);
   if (kind == "contains") {
-    const CstAirfoil inner = raise_degree(
-        load_airfoil(keys.get<std::string>("airfoil"), problem.start.degree()), problem.start.degree());
+    const CstAirfoil inner = section_named(keys.get<std::string>("airfoil"), problem.start.degree());
     constexpr int stations = 40;
     for (int i = 1; i < stations; ++i)
       for (const bool upper : {true, false}) {
@@ -180,8 +232,9 @@ DesignProblemFile read_design_problem(const std::string& file) {
                    "designer", "verify"});
   problem.text = json.dump();
   const int degree = static_cast<int>(keys.number("degree", 5, 1, 30));
-  problem.start = raise_degree(load_airfoil(keys.get<std::string>("airfoil"), std::min(degree, 8)), degree);
+  problem.start = section_named(keys.get<std::string>("airfoil"), degree);
   problem.symmetric = keys.get<bool>("symmetric", false);
+  if (problem.symmetric) problem.start.te_lower = -problem.start.te_upper;
   if (problem.symmetric)
     for (std::size_t i = 0; i < problem.start.upper.size(); ++i)
       problem.start.lower[i] = -problem.start.upper[i];
@@ -195,15 +248,14 @@ DesignProblemFile read_design_problem(const std::string& file) {
     problem.points.push_back(point_of(entry, file + ", flow " + std::to_string(problem.points.size() + 1)));
   if (problem.points.empty()) keys.fail("expected at least one point of 'flow'");
   problem.objective = keys.word("objective", {}, {"drag", "lift_over_drag", "moment", "inverse"});
-  if (problem.objective == "inverse")
-    problem.target = raise_degree(load_airfoil(keys.get<std::string>("target"), std::min(degree, 8)), degree);
+  if (problem.objective == "inverse") problem.target = section_named(keys.get<std::string>("target"), degree);
   std::size_t number = 0;
   for (const Json& entry : keys.list("constraints"))
     add_constraint(entry, file + ", constraint " + std::to_string(++number), problem);
   const Json designer_json = keys.has("designer") ? json.at("designer") : empty;
   const Keys designer(designer_json, file + ", designer",
                       {"name", "evaluations", "bounds", "trust", "sigma", "seed"});
-  problem.designer = designer.word("name", "slsqp", {"slsqp", "mma", "cmaes"});
+  problem.designer = designer.word("name", "sqp", {"sqp", "slsqp", "mma", "cmaes"});
   problem.evaluations = static_cast<std::size_t>(designer.number("evaluations", 100, 1, 1e6));
   problem.bounds = designer.number("bounds", 0.1, 1e-9, 10);
   problem.trust = designer.number("trust", 0.02, 1e-6, 10);
@@ -213,31 +265,14 @@ DesignProblemFile read_design_problem(const std::string& file) {
   return problem;
 }
 
-std::vector<double> SectionSpace::coefficients(std::span<const double> design) const {
-  std::vector<double> both(design.begin(), design.end());
-  if (problem_.symmetric)
-    for (const double x : design) both.push_back(-x);
-  return both;
-}
-
-std::vector<double> SectionSpace::gradient(std::span<const double> by_coefficients) const {
-  const std::size_t n = problem_.start.upper.size();
-  std::vector<double> result(by_coefficients.begin(),
-                             by_coefficients.begin() + static_cast<std::ptrdiff_t>(2 * n));
-  if (!problem_.symmetric) return result;
-  for (std::size_t i = 0; i < n; ++i) result[i] -= result[n + i];
-  result.resize(n);
-  return result;
-}
-
-std::vector<double> SectionSpace::start() const {
-  std::vector<double> both = space_.start();
-  if (problem_.symmetric) both.resize(problem_.start.upper.size());
-  return both;
-}
-
-std::string SectionSpace::description() const {
-  return Json{{"problem", Json::parse(problem_.text)}, {"space", Json::parse(space_.description())}}.dump();
+bool DesignProblemFile::is_half() const {
+  const auto along_axis = [](const DesignPoint& point) {
+    return point.conditions.alpha_deg == 0.0 && !point.conditions.cl;
+  };
+  const auto of_drag = [](const FlowConstraint& constraint) { return constraint.of == "cd"; };
+  return symmetric && (objective == "drag" || objective == "inverse") && start.te_upper == 0.0 &&
+         std::all_of(points.begin(), points.end(), along_axis) &&
+         std::all_of(flow.begin(), flow.end(), of_drag);
 }
 
 std::unique_ptr<Designer> make_designer(const DesignProblemFile& problem, const DesignSpace& space) {
@@ -247,6 +282,7 @@ std::unique_ptr<Designer> make_designer(const DesignProblemFile& problem, const 
   GradientOptions options{.method = problem.designer, .trust = problem.trust, .low = start, .high = start};
   for (double& x : options.low) x -= problem.bounds;
   for (double& x : options.high) x += problem.bounds;
+  if (problem.designer == "sqp") return std::make_unique<SqpDesigner>(start, options);
   return std::make_unique<GradientDesigner>(start, options);
 }
 

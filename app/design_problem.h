@@ -12,6 +12,7 @@
 #include "remodel/evaluator.h"
 #include "remodel/flow.h"
 #include "report.h"
+#include "section_space.h"
 
 namespace remodel::app {
 
@@ -45,40 +46,25 @@ struct DesignProblemFile {
   std::optional<CstAirfoil> target;  // of inverse design
   std::vector<SectionConstraint> section;
   std::vector<FlowConstraint> flow;
-  std::string designer = "slsqp";
+  std::string designer = "sqp";
   double bounds = 0.1, trust = 0.02, sigma = 0.01;
   std::uint64_t seed = 1;
   std::size_t evaluations = 100;
   std::vector<int> verify;  // numbers of points of fresh meshes for the last design
+
+  // Whether all flows are their own mirror images, so that half of each says all: a symmetric section closed
+  // behind, along the x axis, and no word of lift or moment.
+  bool is_half() const;
+  SectionSpace space() const {
+    return {start, {.symmetric = symmetric, .half = is_half(), .domain = domain}};
+  }
 };
 
 // Throws Error (format) naming the file and the key.
 DesignProblemFile read_design_problem(const std::string& file);
 
-// Designs are the coefficients of both surfaces, or of the upper one where the section is symmetric.
-class SectionSpace final : public DesignSpace {
- public:
-  explicit SectionSpace(const DesignProblemFile& problem)
-      : problem_(problem), space_(problem.start, problem.domain) {}
-  std::vector<double> coefficients(std::span<const double> design) const;  // of both surfaces
-  CstAirfoil airfoil(std::span<const double> design) const { return space_.airfoil(coefficients(design)); }
-  // Derivatives by the coefficients of both surfaces to those by the design.
-  std::vector<double> gradient(std::span<const double> by_coefficients) const;
-
-  std::vector<double> start() const override;
-  Domain domain(std::span<const double> design) const override { return space_.domain(coefficients(design)); }
-  bool feasible(std::span<const double> design) const override {
-    return space_.feasible(coefficients(design));
-  }
-  std::string text(std::span<const double> design) const override {
-    return space_.text(coefficients(design));
-  }
-  std::string description() const override;
-
- private:
-  const DesignProblemFile& problem_;
-  AirfoilSpace space_;
-};
+// Coefficients of the whole of a flow of which half was found.
+FlowResult whole(FlowResult half);
 
 std::unique_ptr<Designer> make_designer(const DesignProblemFile& problem, const DesignSpace& space);
 // The problem and space must outlive it.

@@ -7,10 +7,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "arguments.h"
 #include "command.h"
+#include "design_run.h"
 #include "figures.h"
 #include "outputs.h"
 #include "picture_options.h"
@@ -59,12 +61,21 @@ std::vector<std::uint64_t> best_of_parts(const FilmCommand& command, std::size_t
   return chosen;
 }
 
-std::string caption(const EvaluationRecord& record, const FrozenMesh& mesh) {
+// What the objective is: of a run of `remodel design` itself, otherwise the square of a distance.
+std::string objective_text(const EvaluationRecord& record, bool is_design) {
+  char text[64];
+  if (is_design)
+    std::snprintf(text, sizeof text, "objective %.5f", record.objective);
+  else
+    std::snprintf(text, sizeof text, "RMS distance %.1e chords", std::sqrt(record.objective));
+  return text;
+}
+
+std::string caption(const EvaluationRecord& record, const FrozenMesh& mesh, bool is_design) {
   const auto kept = std::count(mesh.fate.begin(), mesh.fate.end(), Fate::kept);
   char text[160];
-  std::snprintf(text, sizeof text,
-                "design %llu: RMS distance %.1e chords; %zu triangles, %.1f %% kept since the last frame",
-                static_cast<unsigned long long>(record.evaluation), std::sqrt(record.objective),
+  std::snprintf(text, sizeof text, "design %llu: %s; %zu triangles, %.1f %% kept since the last frame",
+                static_cast<unsigned long long>(record.evaluation), objective_text(record, is_design).c_str(),
                 mesh.triangles.size(),
                 100.0 * static_cast<double>(kept) / static_cast<double>(mesh.triangles.size()));
   return text;
@@ -73,19 +84,30 @@ std::string caption(const EvaluationRecord& record, const FrozenMesh& mesh) {
 Status run(const FilmCommand& command) {
   require_writable_as(command.output, {".webp"});
   const std::vector<std::uint64_t> chosen = best_of_parts(command, command.frames - 1);
+  std::optional<DesignRun> design;
+  if (holds_design_run(command.run)) design = read_design_run(command.run);
+  const auto shown = [&](const FrozenMesh& mesh) {
+    return design && design->space.half ? mirrored(mesh) : mesh;
+  };
   Film film(command.film);
   FrozenMesh last = read_frozen_mesh(command.run / "first.vtkhdf");
   last.fate.assign(last.triangles.size(), Fate::kept);
-  film.add(last, "the start: " + std::to_string(last.triangles.size()) + " triangles");
+  const FrozenMesh first = shown(last);
+  film.add(first, "the start: " + std::to_string(first.triangles.size()) + " triangles");
   auto next = chosen.begin();
-  replay(command.run, command.worker, [&](const EvaluationRecord& record, const Mesh& mesh) {
+  const auto visit = [&](const EvaluationRecord& record, const Mesh& mesh) {
     if (next == chosen.end() || record.evaluation != *next) return;
     ++next;
     FrozenMesh frame = mesh.freeze();
     frame.fate = fates(last, frame);
-    film.add(frame, caption(record, frame));
+    const FrozenMesh whole = shown(frame);
+    film.add(whole, caption(record, whole, design.has_value()));
     last = std::move(frame);
-  });
+  };
+  if (design)
+    replay(command.run, design->section_space(), command.worker, visit);
+  else
+    replay(command.run, command.worker, visit);
   film.write(command.output);
 
   Report report;
@@ -101,11 +123,14 @@ Status run(const FilmCommand& command) {
 
 void add_film_command(CLI::App& program, Action& action) {
   auto command = std::make_shared<FilmCommand>();
-  CLI::App& app = add_subcommand(program, "film", "Films the mesh of a run of `optimise`, as animated WebP",
-                                 [command, &action] { action = [command] { return run(*command); }; });
+  CLI::App& app =
+      add_subcommand(program, "film", "Films the mesh of a run of `optimise` or `design`, as animated WebP",
+                     [command, &action] { action = [command] { return run(*command); }; });
   add_text(
       app,
-      {"RUN", "", "", "Run directory of `remodel optimise --from`, of any strategy but hub and regenerate"},
+      {"RUN", "", "",
+       "Run directory of `remodel optimise --from`, of any strategy but hub and regenerate, or of `remodel "
+       "design`"},
       Presence::required, [command](const std::string& text) { command->run = text; });
   add_text(app, {"-o,--output", "FILE", "", "Film to write: .webp"}, Presence::required, command->output);
   add_integer(

@@ -16,11 +16,6 @@ using DesignJson = nlohmann::ordered_json;
 constexpr double constraint_tolerance = 1e-7;
 constexpr int most_rounds = 100, most_a_round = 40;
 
-double connectivity_of(const Evaluation& evaluation) {
-  const auto found = evaluation.outputs.find("connectivity");
-  return found == evaluation.outputs.end() ? 0.0 : found->second;
-}
-
 // One number that orders designs: the objective, over that of the start, and what constraints are violated
 // by.
 double merit_of(const Evaluation& evaluation, double scale) {
@@ -30,6 +25,42 @@ double merit_of(const Evaluation& evaluation, double scale) {
 }
 
 }  // namespace
+
+double connectivity_of(const Evaluation& evaluation) {
+  const auto found = evaluation.outputs.find("connectivity");
+  return found == evaluation.outputs.end() ? 0.0 : found->second;
+}
+
+std::string json_of(const KnownDesign& known) {
+  const Evaluation& e = known.evaluation;
+  return DesignJson{{"design", known.design},
+                    {"objective", std::isfinite(e.objective) ? DesignJson(e.objective) : DesignJson()},
+                    {"constraints", e.constraints},
+                    {"gradient", e.gradient},
+                    {"constraint_gradients", e.constraint_gradients},
+                    {"connectivity", connectivity_of(e)}}
+      .dump();
+}
+
+KnownDesign known_design(const std::string& text) {
+  const DesignJson json = DesignJson::parse(text);
+  KnownDesign one{.design = json.at("design").get<std::vector<double>>(), .evaluation = {}};
+  if (!json.at("objective").is_null()) one.evaluation.objective = json.at("objective").get<double>();
+  json.at("constraints").get_to(one.evaluation.constraints);
+  json.at("gradient").get_to(one.evaluation.gradient);
+  json.at("constraint_gradients").get_to(one.evaluation.constraint_gradients);
+  one.evaluation.outputs["connectivity"] = json.at("connectivity").get<double>();
+  return one;
+}
+
+std::string description_of(const std::string& method, const GradientOptions& options) {
+  return DesignJson{{"designer", method},
+                    {"trust", options.trust},
+                    {"least_trust", options.least_trust},
+                    {"low", options.low},
+                    {"high", options.high}}
+      .dump();
+}
 
 // Answers from what is known, in order, and stops the search where it ends.
 class GradientDesigner::Oracle {
@@ -197,15 +228,7 @@ void GradientDesigner::tell(const Proposal& proposal, const Evaluation& evaluati
 
 std::string GradientDesigner::state() const {
   DesignJson list = DesignJson::array();
-  for (const Known& known : known_) {
-    const Evaluation& e = known.evaluation;
-    list.push_back({{"design", known.design},
-                    {"objective", std::isfinite(e.objective) ? DesignJson(e.objective) : DesignJson()},
-                    {"constraints", e.constraints},
-                    {"gradient", e.gradient},
-                    {"constraint_gradients", e.constraint_gradients},
-                    {"connectivity", connectivity_of(e)}});
-  }
+  for (const Known& known : known_) list.push_back(DesignJson::parse(json_of(known)));
   return list.dump();
 }
 
@@ -213,15 +236,9 @@ void GradientDesigner::restore(const std::string& state, const std::string& sour
   try {
     std::vector<Known> known;
     for (const DesignJson& entry : DesignJson::parse(state)) {
-      Known one{.design = entry.at("design").get<std::vector<double>>(), .evaluation = {}};
-      if (one.design.size() != start_.size())
+      known.push_back(known_design(entry.dump()));
+      if (known.back().design.size() != start_.size())
         throw Error(ErrorCode::format, source, "found another number of variables");
-      if (!entry.at("objective").is_null()) one.evaluation.objective = entry.at("objective").get<double>();
-      entry.at("constraints").get_to(one.evaluation.constraints);
-      entry.at("gradient").get_to(one.evaluation.gradient);
-      entry.at("constraint_gradients").get_to(one.evaluation.constraint_gradients);
-      one.evaluation.outputs["connectivity"] = entry.at("connectivity").get<double>();
-      known.push_back(std::move(one));
     }
     known_ = std::move(known);
   } catch (const DesignJson::exception&) {
@@ -231,12 +248,7 @@ void GradientDesigner::restore(const std::string& state, const std::string& sour
 }
 
 std::string GradientDesigner::description() const {
-  return DesignJson{{"designer", options_.method},
-                    {"trust", options_.trust},
-                    {"least_trust", options_.least_trust},
-                    {"low", options_.low},
-                    {"high", options_.high}}
-      .dump();
+  return description_of(options_.method, options_);
 }
 
 }  // namespace remodel::app

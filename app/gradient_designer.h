@@ -16,9 +16,20 @@ namespace remodel::app {
 struct GradientOptions {
   std::string method = "slsqp";   // or "mma"
   double trust = 0.02;            // first half-width of the trust box
-  double least_trust = 1e-4;      // the search ends below
+  double least_trust = 1e-5;      // the search ends below
   std::vector<double> low, high;  // bounds of the design
 };
+
+// What designers that follow gradients keep of a design.
+struct KnownDesign {
+  std::vector<double> design;
+  Evaluation evaluation;
+};
+// The output "connectivity": how often the mesh's connectivity had changed; 0 where there is none.
+double connectivity_of(const Evaluation& evaluation);
+std::string json_of(const KnownDesign& known);      // without other outputs
+KnownDesign known_design(const std::string& text);  // throws nlohmann's exceptions
+std::string description_of(const std::string& method, const GradientOptions& options);
 
 // The search is a program that asks for evaluations one after the other. NLopt calls functions rather than
 // being asked, so the program is run again from its beginning for each new design, over the evaluations that
@@ -45,10 +56,7 @@ class GradientDesigner final : public Designer {
   std::string description() const override;
 
  private:
-  struct Known {
-    std::vector<double> design;
-    Evaluation evaluation;
-  };
+  using Known = KnownDesign;
   class Oracle;
   void advance();
   void search(Oracle& oracle);

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "remodel/design_space.h"
 #include "remodel/history.h"
 #include "remodel/mesh.h"
 
@@ -21,6 +22,9 @@ namespace remodel {
 // for runs whose meshes depend on more than one worker's designs (MeshStrategy::hub,
 // MeshStrategy::regenerate) or on a mesh that is not in the directory (OptimiseOptions::start).
 void replay(const std::filesystem::path& directory, std::uint64_t worker,
+            const std::function<void(const EvaluationRecord& record, const Mesh& mesh)>& visit);
+// The same of a run in any design space, which has to be the run's.
+void replay(const std::filesystem::path& directory, const DesignSpace& space, std::uint64_t worker,
             const std::function<void(const EvaluationRecord& record, const Mesh& mesh)>& visit);
 
 }  // namespace remodel

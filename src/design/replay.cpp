@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "design/airfoil_space.h"
 #include "design/design_search.h"
+#include "remodel/design_space.h"
 #include "remodel/domain.h"
 #include "remodel/error.h"
 #include "remodel/generate.h"
@@ -22,7 +22,6 @@ using Json = nlohmann::json;
 
 // What a mesh depends on beside the designs.
 struct RunSettings {
-  AirfoilDomainOptions domain;
   RemodelOptions remodel;
   std::uint64_t workers = 1;
 };
@@ -49,10 +48,7 @@ void require_replayable(const Json& json, const fs::path& directory) {
 
 RunSettings settings_of(const Json& json) {
   const std::uint64_t workers = json.at("workers");
-  return {.domain = {.points = json.at("points"),
-                     .farfield_radius = json.at("farfield_radius"),
-                     .farfield_points = json.at("farfield_points")},
-          .remodel = {.distance = json.at("distance"),
+  return {.remodel = {.distance = json.at("distance"),
                       .method =
                           named(json.at("method"), {Method::automatic, Method::specialised, Method::general}),
                       .strategy = info_of(mesh_strategy(json.at("strategy"))).step,
@@ -81,37 +77,54 @@ void require_worker(std::uint64_t worker, std::uint64_t workers) {
               "found " + std::to_string(worker) + ", expected 1 to " + std::to_string(workers));
 }
 
-}  // namespace
-
-void replay(const fs::path& directory, std::uint64_t worker,
-            const std::function<void(const EvaluationRecord&, const Mesh&)>& visit) {
-  const fs::path file = directory / "history.sqlite";
-  const History history = History::open(file);
-  RunSettings settings;
-  CstAirfoil from;
+// The run's options, read by `read`.
+template <class Read>
+auto read_options(const fs::path& file, const History& history, Read read) {
   try {
     const auto run = history.run();
-    const Json json = Json::parse(run.at("options"));
-    require_replayable(json, directory);
-    settings = settings_of(json);
-    from = airfoil_from_json(run.at("from"), file.string());
+    return read(run, Json::parse(run.at("options")));
   } catch (const Error&) {
     throw;
   } catch (const std::exception& problem) {
     throw Error(ErrorCode::format, file.string(),
                 std::string("expected the options of a run: ") + problem.what());
   }
+}
+
+}  // namespace
+
+void replay(const fs::path& directory, std::uint64_t worker,
+            const std::function<void(const EvaluationRecord&, const Mesh&)>& visit) {
+  const fs::path file = directory / "history.sqlite";
+  const AirfoilSpace space = read_options(file, History::open(file), [&](const auto& run, const Json& json) {
+    require_replayable(json, directory);
+    const AirfoilDomainOptions domain = {.points = json.at("points"),
+                                         .farfield_radius = json.at("farfield_radius"),
+                                         .farfield_points = json.at("farfield_points")};
+    return AirfoilSpace(airfoil_from_json(run.at("from"), file.string()), domain);
+  });
+  replay(directory, space, worker, visit);
+}
+
+void replay(const fs::path& directory, const DesignSpace& space, std::uint64_t worker,
+            const std::function<void(const EvaluationRecord&, const Mesh&)>& visit) {
+  const fs::path file = directory / "history.sqlite";
+  const History history = History::open(file);
+  RunSettings settings = read_options(file, history, [&](const auto&, const Json& json) {
+    require_replayable(json, directory);
+    return settings_of(json);
+  });
   require_worker(worker, settings.workers);
-  const std::size_t population = interpolation_designer(coefficients_of(from), 1.0, 1).population();
+  const std::vector<double> start = space.start();
+  const std::size_t population = interpolation_designer(start, 1.0, 1).population();
   settings.remodel.designs_a_step = static_cast<std::uint32_t>(std::min(settings.workers, population));
 
   Mesh mesh = read_mesh(directory / "first.vtkhdf");
   history.each([&](const EvaluationRecord& record) {
     if (record.worker != worker) return;
-    if (record.coefficients.size() != coefficients_of(from).size())
+    if (record.coefficients.size() != start.size())
       throw Error(ErrorCode::format, file.string(), "expected the coefficients of the start's degree");
-    const CstAirfoil design = with_coefficients(from, record.coefficients);
-    advance(mesh, airfoil_domain(design, settings.domain), settings.remodel, record.regenerated);
+    advance(mesh, space.domain(record.coefficients), settings.remodel, record.regenerated);
     require_same_mesh(record, mesh, file);
     visit(record, mesh);
   });

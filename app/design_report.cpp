@@ -1,0 +1,318 @@
+#include "design_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <memory>
+
+#include "base64_text.h"
+#include "design_problem.h"
+#include "design_run.h"
+#include "flow_plots.h"
+#include "remodel/draw.h"
+#include "remodel/error.h"
+#include "remodel/io.h"
+#include "remodel/plot.h"
+#include "remodel/remodel.h"
+
+namespace remodel::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string number(double value, const char* format = "%.4g") {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) result += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
+  return result;
+}
+
+// A directory that is gone with everything in it when this is.
+class Scratch {
+ public:
+  Scratch() {
+    std::string name = (fs::temp_directory_path() / "remodel-report-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr)
+      throw Error(ErrorCode::file, name, "cannot make a temporary directory");
+    path_ = name;
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  ~Scratch() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  // What `write` makes of a file of this extension, as the source of an image.
+  std::string picture(const char* extension, const std::function<void(const fs::path&)>& write) const {
+    const fs::path file = path_ / (std::string("picture") + extension);
+    write(file);
+    const std::string kind = extension == std::string(".svg") ? "svg+xml" : "png";
+    return "<img alt=\"\" src=\"data:image/" + kind + ";base64," + base64_text(read_text(file)) + "\">\n";
+  }
+
+ private:
+  fs::path path_;
+};
+
+// One section: its mesh and the flows around it, whole.
+struct Shown {
+  std::string name;
+  CstAirfoil airfoil;
+  FrozenMesh mesh;
+  std::vector<FlowResult> flows;
+  std::vector<std::vector<double>> mach, cp;
+};
+
+Shown shown(const std::string& name, const CstAirfoil& airfoil, const Mesh& mesh, const DesignRun& run) {
+  const FrozenMesh frozen = mesh.freeze();
+  Shown result{name, airfoil, run.space.half ? mirrored(frozen) : frozen, {}, {}, {}};
+  for (const FlowConditions& conditions : run.conditions) {
+    FlowResult flow = solve_flow(frozen, conditions);
+    result.mach.push_back(mach_numbers(flow)), result.cp.push_back(pressure_coefficients(flow));
+    if (run.space.half) {
+      flow = whole(std::move(flow));
+      result.mach.back() = mirrored(frozen, result.mach.back());
+      result.cp.back() = mirrored(frozen, result.cp.back());
+    }
+    result.flows.push_back(std::move(flow));
+  }
+  return result;
+}
+
+// Both outlines, thickness drawn as large as the chord's scale.
+std::string outlines(const Shown& first, const Shown& last) {
+  std::string svg =
+      "<svg class=\"outlines\" viewBox=\"-20 -210 1040 420\" role=\"img\" aria-label=\"first and best "
+      "section\">";
+  const auto add = [&](const CstAirfoil& airfoil, const char* kind) {
+    svg += std::string("<polygon class=\"") + kind + "\" points=\"";
+    constexpr int pieces = 400;
+    for (int i = 0; i < pieces; ++i) {
+      const Point p = airfoil.at(static_cast<double>(i) / pieces);
+      svg += number(1000.0 * p.x, "%.2f") + "," + number(-1000.0 * p.y, "%.2f") + " ";
+    }
+    svg += "\"/>";
+  };
+  add(first.airfoil, "first"), add(last.airfoil, "last");
+  return svg + "</svg>\n";
+}
+
+std::string pressures(const Scratch& scratch, const Shown& first, const Shown& last, std::size_t point) {
+  Plot plot;
+  for (const Shown* of : {&first, &last}) {
+    const FlowResult& flow = of->flows[point];
+    Plot one = cp_plot(of->mesh, "farfield", of->cp[point], flow_caption(flow.mach, flow.alpha_deg, flow.cl),
+                       "report");
+    // One curve a section: its boundary may be several rows of edges.
+    for (std::size_t i = 0; i < one.curves.size(); ++i) one.curves[i].name = i == 0 ? of->name : "";
+    if (plot.curves.empty()) plot.x = one.x, plot.y = one.y, plot.caption = one.caption;
+    PlotCurve curve = one.curves.front();
+    for (std::size_t i = 1; i < one.curves.size(); ++i)
+      curve.points.insert(curve.points.end(), one.curves[i].points.begin(), one.curves[i].points.end());
+    plot.curves.push_back(std::move(curve));
+  }
+  return scratch.picture(".svg", [&](const fs::path& file) { draw_plot(plot, file); });
+}
+
+// Mach numbers of one point around a section, in colours of one range.
+std::string mach_field(const Scratch& scratch, const Shown& of, std::size_t point, double most) {
+  const FlowResult& flow = of.flows[point];
+  DrawOptions options{.window = std::array{-0.35, -0.55, 1.35, 0.65}, .width = 1000, .line = 1.8};
+  options.field = DrawField{.field = {.name = "mach", .values = of.mach[point]},
+                            .label = "Mach",
+                            .range = std::array{0.0, most},
+                            .iso_lines = 24};
+  options.caption = of.name + ": " + flow_caption(flow.mach, flow.alpha_deg, flow.cl) + ", " +
+                    number(1e4 * flow.cd, "%.1f") + " counts of drag";
+  return scratch.picture(".png", [&](const fs::path& file) { draw(of.mesh, file, options); });
+}
+
+std::string convergence(const Scratch& scratch, const DesignRun& run) {
+  PlotCurve each{"each design", {}}, best{"best so far", {}};
+  bool positive = true;
+  for (const EvaluationRecord& row : run.rows) {
+    const double at = static_cast<double>(row.evaluation);
+    if (std::isfinite(row.objective)) each.points.push_back({at, row.objective});
+    if (std::isfinite(row.best_objective)) best.points.push_back({at, row.best_objective});
+    positive = positive && row.objective > 0.0 && (row.best_objective > 0.0);
+  }
+  if (each.points.empty()) return "<p>No design had a flow.</p>\n";
+  Plot plot{.x = {"design"}, .y = {.label = "objective", .logarithmic = positive}};
+  plot.curves.push_back(std::move(each));
+  if (!best.points.empty()) plot.curves.push_back(std::move(best));
+  return scratch.picture(".svg", [&](const fs::path& file) { draw_plot(plot, file); });
+}
+
+// What the run cost, and what a cold solve of every flow would have.
+Json cost(const DesignRun& run, const Shown& first, const Shown& last) {
+  std::size_t full = 0;
+  double preserved = 0.0, shift = 0.0;
+  for (std::size_t i = 0; i < run.rows.size(); ++i) {
+    const EvaluationRecord& row = run.rows[i];
+    full += row.full_adjustment ? 1 : 0;
+    preserved += row.preserved_percent / static_cast<double>(run.rows.size());
+    // The same design on two connectivities.
+    for (std::size_t j = 0; j < i; ++j)
+      if (run.rows[j].coefficients == row.coefficients && std::isfinite(row.objective) &&
+          std::isfinite(run.rows[j].objective))
+        shift = std::max(shift, std::fabs(row.objective - run.rows[j].objective));
+  }
+  double cold = 0.0;
+  for (const Shown* of : {&first, &last})
+    for (const FlowResult& flow : of->flows) cold += 0.5 * flow.seconds;
+  const double flow_seconds = run.sum("flow_seconds"), gradient_seconds = run.sum("gradient_seconds");
+  const double designs = static_cast<double>(run.rows.size());
+  return {{"designs", run.rows.size()},
+          {"flows", run.rows.size() * run.conditions.size()},
+          {"full_adjustments", full},
+          {"preserved_percent", preserved},
+          {"factorisations", run.sum("factorisations")},
+          {"flow_seconds", flow_seconds},
+          {"gradient_seconds", gradient_seconds},
+          {"cold_seconds_a_design", cold},
+          {"cold_seconds", cold * designs},
+          {"cold_equivalents", (flow_seconds + gradient_seconds) / cold},
+          {"largest_shift", shift},
+          {"start_objective", run.rows.front().objective},
+          {"objective", run.rows[run.best].objective}};
+}
+
+std::string row(const std::string& name, const std::string& value) {
+  return "<tr><th>" + name + "</th><td>" + value + "</td></tr>\n";
+}
+
+std::string cost_table(const Json& cost) {
+  const auto at = [&](const char* key, const char* format = "%.4g") {
+    return number(cost.at(key).get<double>(), format);
+  };
+  return "<table>\n" + row("designs, each with its gradients", at("designs", "%.0f")) +
+         row("flows", at("flows", "%.0f")) +
+         row("meshes moved in place, connectivity as it was", at("full_adjustments", "%.0f")) +
+         row("triangles kept from design to design, mean", at("preserved_percent", "%.1f") + " %") +
+         row("factorisations", at("factorisations", "%.0f")) +
+         row("flows, seconds", at("flow_seconds", "%.1f")) +
+         row("gradients, seconds", at("gradient_seconds", "%.1f")) +
+         row("one design's flows found cold, seconds (mean of the first and the best)",
+             at("cold_seconds_a_design", "%.2f")) +
+         row("all flows found cold would have taken, seconds", at("cold_seconds", "%.0f")) +
+         row("the whole search, in cold solves of a design", at("cold_equivalents", "%.1f")) +
+         row("largest shift of the objective by a change of connectivity, same design",
+             at("largest_shift", "%.2g")) +
+         "</table>\n";
+}
+
+std::string points_table(const Shown& first, const Shown& last) {
+  std::string table =
+      "<table>\n<tr><th></th><th>Mach</th><th>α</th><th>CL</th><th>CD, counts</th><th>CM</th></tr>\n";
+  for (std::size_t i = 0; i < first.flows.size(); ++i)
+    for (const Shown* of : {&first, &last}) {
+      const FlowResult& flow = of->flows[i];
+      table += "<tr><th>" + of->name + "</th>";
+      for (const std::string& cell :
+           {number(flow.mach), number(flow.alpha_deg, "%.3f") + "°", number(flow.cl, "%.4f"),
+            number(1e4 * flow.cd, "%.2f"), number(flow.cm, "%.4f")})
+        table += "<td>" + cell + "</td>";
+      table += flow.converged() ? "</tr>\n" : "<td>no flow was found</td></tr>\n";
+    }
+  return table + "</table>\n";
+}
+
+// The best design on fresh meshes, as the command left it.
+std::string fresh_table(const fs::path& directory) {
+  if (!fs::exists(directory / "fresh.json")) return {};
+  std::string table =
+      "<h2>On fresh meshes</h2>\n<p>The best section on meshes that the search has not seen, flows found "
+      "cold.</p>\n<table>\n<tr><th>points</th><th>vertices</th><th>Mach</th><th>CL</th><th>CD, counts</th>"
+      "<th>seconds</th></tr>\n";
+  for (const Json& entry : Json::parse(read_text(directory / "fresh.json"))) {
+    table += "<tr>";
+    for (const std::string& cell :
+         {entry.at("points").dump(), entry.at("vertices").dump(), number(entry.at("mach")),
+          number(entry.at("cl"), "%.4f"),
+          entry.at("converged") == true ? number(1e4 * entry.at("cd").get<double>(), "%.2f")
+                                        : std::string("no flow was found"),
+          number(entry.at("seconds"), "%.1f")})
+      table += "<td>" + cell + "</td>";
+    table += "</tr>\n";
+  }
+  return table + "</table>\n";
+}
+
+constexpr const char* style =
+    ":root{color-scheme:light}body{margin:0 auto;max-width:1100px;padding:20px;font:15px/1.5 "
+    "system-ui,'DejaVu "
+    "Sans',sans-serif;color:#1d2329;background:#fcfcfa}h1{font-size:26px}h2{font-size:19px;margin-top:36px;"
+    "border-top:1px solid #d9dcdf;padding-top:12px}table{border-collapse:collapse;font-variant-numeric:"
+    "tabular-nums}th,td{padding:3px 10px;border-bottom:1px solid #d9dcdf;text-align:right}th{text-align:left;"
+    "font-weight:500;color:#4b545c}img{max-width:100%;display:block;margin:10px 0}.pair{display:grid;"
+    "grid-template-columns:1fr 1fr;gap:10px}.outlines{width:100%}.outlines polygon{fill:none;stroke-width:3}"
+    ".first{stroke:#1f5aa6;color:#1f5aa6}.last{stroke:#cc4026;color:#cc4026}.note{color:#667079}"
+    "pre{overflow-x:auto;background:#f0f1f0;padding:10px;font-size:12px}@media(max-width:700px){.pair{"
+    "grid-template-columns:1fr}}";
+
+std::string page_of(const fs::path& directory, const DesignRun& run, const Shown& first, const Shown& last,
+                    const Json& cost) {
+  const Scratch scratch;
+  std::string page =
+      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "content=\"width=device-width\"><title>Remodel: a design</title><style>" +
+      std::string(style) + "</style></head><body>\n<h1>A section designed on one mesh</h1>\n";
+  page += "<p>Objective (" + escaped(run.options["problem"]["objective"].get<std::string>()) + "): from " +
+          number(cost["start_objective"].get<double>(), "%.6g") + " to <b>" +
+          number(cost["objective"].get<double>(), "%.6g") + "</b>; " + std::to_string(run.rows.size()) +
+          " designs on a mesh of " + std::to_string(first.mesh.triangles.size()) + " triangles" +
+          (run.space.half ? ", computed in the upper half and mirrored" : "") + ".</p>\n";
+  page += "<h2>Section</h2>\n<p><span class=\"first\">first</span>, <span class=\"last\">best</span></p>\n" +
+          outlines(first, last) + points_table(first, last) +
+          "<p class=\"note\">The run's own mesh; CD in counts (10⁻⁴).</p>\n";
+  page += fresh_table(directory);
+  page += "<h2>Pressure</h2>\n";
+  for (std::size_t i = 0; i < run.conditions.size(); ++i) page += pressures(scratch, first, last, i);
+  page += "<h2>Mach number</h2>\n";
+  for (std::size_t i = 0; i < run.conditions.size(); ++i) {
+    const double most = std::max(*std::max_element(first.mach[i].begin(), first.mach[i].end()),
+                                 *std::max_element(last.mach[i].begin(), last.mach[i].end()));
+    page += "<div class=\"pair\">" + mach_field(scratch, first, i, most) +
+            mach_field(scratch, last, i, most) + "</div>\n";
+  }
+  page += "<h2>Convergence</h2>\n" + convergence(scratch, run);
+  page +=
+      "<h2>What it cost</h2>\n" + cost_table(cost) +
+      "<p class=\"note\">Seconds are wall time on the machine of the run; cold solves were timed when this "
+      "page was made.</p>\n";
+  page += "<h2>Mesh</h2>\n";
+  for (const Shown* of : {&first, &last})
+    page += scratch.picture(".svg", [&](const fs::path& file) {
+      draw(of->mesh, file,
+           {.window = std::array{-0.15, -0.25, 1.15, 0.25},
+            .width = 1000,
+            .caption = of->name + ": " + std::to_string(of->mesh.triangles.size()) + " triangles"});
+    });
+  return page + "<h2>Problem</h2>\n<pre>" + escaped(run.options["problem"].dump(1)) +
+         "</pre>\n</body></html>\n";
+}
+
+}  // namespace
+
+Json write_design_report(const fs::path& directory, const fs::path& page) {
+  const DesignRun run = read_design_run(directory);
+  const SectionSpace space = run.section_space();
+  const CstAirfoil best = space.airfoil(run.rows[run.best].coefficients);
+  Mesh mesh = read_mesh(directory / "first.vtkhdf");
+  const Shown first = shown("first", run.start, mesh, run);
+  mesh = read_mesh(directory / "last.vtkhdf");
+  remodel(mesh, space.domain_of(best, run.space.domain.points));
+  const Shown last = shown("best", best, mesh, run);
+  const Json figures = cost(run, first, last);
+  write_text_atomically(page, page_of(directory, run, first, last, figures));
+  return figures;
+}
+
+}  // namespace remodel::app

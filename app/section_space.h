@@ -1,0 +1,60 @@
+#pragma once
+
+// What the numbers of a section's design mean: coefficients of both surfaces, or of the upper one alone where
+// the section is symmetric.
+//
+// Flow along the x axis around a symmetric section is its own mirror image. Then the domain is the half above
+// the axis: upper surface, half of the far field, and the axis before and behind the section, a boundary
+// called "symmetry" that the flow slips along. The mesh of the whole, mirrored, is symmetric to the last bit
+// and Delaunay (no circle over an edge of the axis holds a point), the flow has no lift, and costs half as
+// much.
+
+#include "remodel/design_space.h"
+#include "remodel/frozen_mesh.h"
+
+namespace remodel::app {
+
+struct SectionSpaceOptions {
+  bool symmetric = false;  // the lower surface is the upper one's mirror image
+  bool half = false;       // symmetric, closed behind: the domain is the upper half
+  AirfoilDomainOptions domain = {};
+};
+
+class SectionSpace final : public DesignSpace {
+ public:
+  SectionSpace(const CstAirfoil& start, const SectionSpaceOptions& options);
+
+  bool half() const { return options_.half; }
+  std::vector<double> coefficients(std::span<const double> design) const;  // of both surfaces
+  CstAirfoil airfoil(std::span<const double> design) const { return space_.airfoil(coefficients(design)); }
+  // Derivatives by the design of a function of the section: of those by the coefficients of both surfaces.
+  std::vector<double> gradient(std::span<const double> by_coefficients) const;
+  // The same of those by the numbers of the domain (coefficients_of(Domain)).
+  std::vector<double> gradient_of_domain(std::span<const double> by_numbers) const;
+  // The same domain with this number of points on the section.
+  Domain domain_of(const CstAirfoil& airfoil, int points) const;
+
+  std::vector<double> start() const override;
+  Domain domain(std::span<const double> design) const override {
+    return domain_of(airfoil(design), options_.domain.points);
+  }
+  bool feasible(std::span<const double> design) const override {
+    return space_.feasible(coefficients(design));
+  }
+  std::string text(std::span<const double> design) const override {
+    return space_.text(coefficients(design));
+  }
+  std::string description() const override;
+
+ private:
+  CstAirfoil like_;
+  SectionSpaceOptions options_;
+  AirfoilSpace space_;
+  std::vector<std::vector<double>> rows_;  // half: of each point of the polyline, y by the coefficients
+};
+
+// A mesh above the x axis with its mirror image; values at its points likewise, `sign` times as much below.
+FrozenMesh mirrored(const FrozenMesh& half);
+std::vector<double> mirrored(const FrozenMesh& half, const std::vector<double>& values, double sign = 1.0);
+
+}  // namespace remodel::app

@@ -1,0 +1,280 @@
+#include "sqp_designer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <nlopt.hpp>
+#include <numeric>
+
+#include "remodel/error.h"
+
+namespace remodel::app {
+
+namespace {
+
+using DesignJson = nlohmann::ordered_json;
+
+constexpr double penalty = 100.0;       // of the worst violation, beside the objective over its first value
+constexpr double first_shift = 0.02;    // of the objective's first value: before any was seen
+constexpr double least_promise = 1e-6;  // likewise: a model that promises less is at its end
+
+// Constraints are kept by this much more than they ask for, so that rounding does not violate them.
+constexpr double margin = 1e-9;
+
+double dot(const double* a, const std::vector<double>& b) {
+  return std::inner_product(b.begin(), b.end(), a, 0.0);
+}
+
+// The worst of the constraints, linear ones, after a step; 0 where all hold.
+double worst_after(const Evaluation& at, const std::vector<double>& step) {
+  double worst = 0.0;
+  for (std::size_t i = 0; i < at.constraints.size(); ++i)
+    worst = std::max(worst, at.constraints[i] + margin + dot(step.data(), at.constraint_gradients[i]));
+  return worst;
+}
+
+// The quadratic problem with one variable more, by which all constraints may be violated.
+struct Quadratic {
+  const Evaluation& at;
+  const std::vector<double>& curvature;
+  double scale;
+
+  double value(const std::vector<double>& x, std::vector<double>& gradient) const {
+    const std::size_t n = x.size() - 1;
+    double sum = penalty * x[n];
+    if (!gradient.empty()) gradient[n] = penalty;
+    for (std::size_t i = 0; i < n; ++i) {
+      double bend = 0.0;
+      for (std::size_t j = 0; j < n; ++j) bend += curvature[i * n + j] * x[j];
+      sum += x[i] * (at.gradient[i] / scale + 0.5 * bend);
+      if (!gradient.empty()) gradient[i] = at.gradient[i] / scale + bend;
+    }
+    return sum;
+  }
+  void constraints(double* values, unsigned dimension, const double* x, double* gradient) const {
+    const std::size_t n = dimension - 1;
+    for (std::size_t i = 0; i < at.constraints.size(); ++i) {
+      values[i] = at.constraints[i] + margin + dot(x, at.constraint_gradients[i]) - x[n];
+      if (gradient == nullptr) continue;
+      std::copy(at.constraint_gradients[i].begin(), at.constraint_gradients[i].end(),
+                gradient + i * dimension);
+      gradient[i * dimension + n] = -1.0;
+    }
+  }
+};
+
+double quadratic_value(const std::vector<double>& x, std::vector<double>& gradient, void* data) {
+  return static_cast<const Quadratic*>(data)->value(x, gradient);
+}
+
+void quadratic_constraints(unsigned, double* values, unsigned dimension, const double* x, double* gradient,
+                           void* data) {
+  static_cast<const Quadratic*>(data)->constraints(values, dimension, x, gradient);
+}
+
+// The step in the box that makes the model small.
+std::vector<double> small_step(Quadratic quadratic, const std::vector<double>& low,
+                               const std::vector<double>& high) {
+  const std::size_t n = low.size();
+  nlopt::opt search(nlopt::LD_SLSQP, static_cast<unsigned>(n + 1));
+  std::vector<double> from = low, to = high;
+  from.push_back(0.0), to.push_back(1e3);
+  search.set_lower_bounds(from), search.set_upper_bounds(to);
+  search.set_min_objective(quadratic_value, &quadratic);
+  const std::size_t m = quadratic.at.constraints.size();
+  constexpr double tolerance = 1e-10;
+  if (m != 0)
+    search.add_inequality_mconstraint(quadratic_constraints, &quadratic, std::vector<double>(m, tolerance));
+  search.set_ftol_rel(1e-12);
+  search.set_xtol_abs(1e-9);
+  search.set_maxeval(500);
+  std::vector<double> x(n + 1, 0.0);
+  x[n] = worst_after(quadratic.at, std::vector<double>(n, 0.0));
+  double value = 0.0;
+  try {
+    search.optimize(x, value);
+  } catch (const std::runtime_error&) {
+    // Rounding ended it: x is the best it found.
+  }
+  x.pop_back();
+  for (std::size_t i = 0; i < n; ++i) x[i] = std::clamp(std::isfinite(x[i]) ? x[i] : 0.0, low[i], high[i]);
+  return x;
+}
+
+}  // namespace
+
+SqpDesigner::SqpDesigner(std::vector<double> start, GradientOptions options)
+    : options_(std::move(options)), pending_(std::move(start)), trust_(options_.trust), shift_(first_shift) {
+  if (options_.low.size() != pending_.size() || options_.high.size() != pending_.size())
+    throw Error(ErrorCode::argument, "designer", "expected bounds for each variable");
+  best_.design = pending_;
+}
+
+double SqpDesigner::merit(const Evaluation& evaluation) const {
+  return evaluation.objective / scale_ + penalty * violation_of(evaluation.constraints);
+}
+
+double SqpDesigner::model(const std::vector<double>& step) const {
+  std::vector<double> x = step, none;
+  x.push_back(worst_after(best_.evaluation, step));
+  const double before = penalty * violation_of(best_.evaluation.constraints);
+  return Quadratic{best_.evaluation, curvature_, scale_}.value(x, none) - before;
+}
+
+void SqpDesigner::propose() {
+  const std::size_t n = best_.design.size();
+  std::vector<double> low(n), high(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    low[i] = std::min(0.0, std::max(options_.low[i] - best_.design[i], -trust_));
+    high[i] = std::max(0.0, std::min(options_.high[i] - best_.design[i], trust_));
+  }
+  const std::vector<double> step = small_step({best_.evaluation, curvature_, scale_}, low, high);
+  promised_ = -model(step);
+  finished_ = trust_ < options_.least_trust || !(promised_ > least_promise);
+  pending_ = best_.design;
+  for (std::size_t i = 0; i < n; ++i) pending_[i] += step[i];
+}
+
+// Damped, so that the model's second derivatives stay positive. The first step says how large they are.
+void SqpDesigner::learn(const KnownDesign& trial) {
+  const std::size_t n = best_.design.size();
+  std::vector<double> s(n), y(n), bend(n, 0.0);
+  double ss = 0.0, sy = 0.0, sbs = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    s[i] = trial.design[i] - best_.design[i];
+    y[i] = (trial.evaluation.gradient[i] - best_.evaluation.gradient[i]) / scale_;
+    ss += s[i] * s[i], sy += s[i] * y[i];
+  }
+  if (ss == 0.0) return;
+  if (!learnt_ && sy > 0.0)
+    for (std::size_t i = 0; i < n; ++i) curvature_[i * n + i] = sy / ss;
+  learnt_ = learnt_ || sy > 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) bend[i] += curvature_[i * n + j] * s[j];
+    sbs += s[i] * bend[i];
+  }
+  constexpr double damping = 0.2;
+  const double part = sy >= damping * sbs ? 1.0 : (1.0 - damping) * sbs / (sbs - sy);
+  for (std::size_t i = 0; i < n; ++i) y[i] = part * y[i] + (1.0 - part) * bend[i];
+  sy = part * sy + (1.0 - part) * sbs;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) curvature_[i * n + j] += y[i] * y[j] / sy - bend[i] * bend[j] / sbs;
+}
+
+// Whether the trial is on the best design's connectivity, or better by more than connectivities differ.
+bool SqpDesigner::comparable(const KnownDesign& trial) const {
+  return connectivity_of(trial.evaluation) == connectivity_of(best_.evaluation) ||
+         merit(best_.evaluation) - merit(trial.evaluation) > shift_;
+}
+
+// Takes the trial or leaves it, and says where to look next.
+void SqpDesigner::judge(const KnownDesign& trial, bool failed) {
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < best_.design.size(); ++i)
+    farthest = std::max(farthest, std::fabs(trial.design[i] - best_.design[i]));
+  const double gain = failed ? 0.0 : merit(best_.evaluation) - merit(trial.evaluation);
+  constexpr double poor = 0.25, good = 0.6;
+  if (failed || gain < poor * promised_)
+    trust_ = (gain > 0.0 ? 0.7 : 0.4) * farthest;
+  else if (gain > good * promised_ && farthest > 0.99 * trust_)
+    trust_ *= 2.0;
+  // Over a change of connectivity small steps say nothing about second derivatives.
+  if (gain > 0.0 || (!failed && connectivity_of(trial.evaluation) == connectivity_of(best_.evaluation)))
+    learn(trial);
+  if (gain > 0.0) best_ = trial;
+  ++steps_;
+  propose();
+  constexpr double worth = 1e-3;
+  if (!finished_ || !(begun_at_ - merit(best_.evaluation) > worth)) return;
+  // What was gathered may have come to say that nothing leads on: once more without it.
+  trust_ = options_.trust;
+  begin_model();
+}
+
+// Second derivatives of which nothing is known: such that the first step goes about as far as the box.
+void SqpDesigner::begin_model() {
+  const std::size_t n = best_.design.size();
+  begun_at_ = merit(best_.evaluation);
+  learnt_ = false;
+  double steepest = 1e-12;
+  for (const double slope : best_.evaluation.gradient)
+    steepest = std::max(steepest, std::fabs(slope) / scale_);
+  double farthest = 0.0;
+  for (double bend = steepest / trust_; farthest < 0.5 * trust_ && bend > 1e-6 * steepest; bend *= 0.1) {
+    curvature_.assign(n * n, 0.0);
+    for (std::size_t i = 0; i < n; ++i) curvature_[i * n + i] = bend;
+    propose();
+    for (std::size_t i = 0; i < n; ++i)
+      farthest = std::max(farthest, std::fabs(pending_[i] - best_.design[i]));
+  }
+}
+
+void SqpDesigner::refuse(const Proposal& proposal) {
+  tell(proposal, {});
+}
+
+void SqpDesigner::tell(const Proposal& proposal, const Evaluation& evaluation) {
+  const std::size_t n = proposal.design.size();
+  const bool failed = !std::isfinite(evaluation.objective) || evaluation.gradient.size() != n;
+  const KnownDesign known{proposal.design, evaluation};
+  if (!started_) {
+    started_ = true;
+    finished_ = failed;  // the start failed: there is nothing to go on from
+    if (failed) return;
+    best_ = known;
+    scale_ = std::max(std::fabs(evaluation.objective), 1e-12);
+    return begin_model();
+  }
+  if (waiting_) {
+    const KnownDesign trial = *waiting_;
+    waiting_.reset();
+    constexpr double forgetting = 0.5;
+    if (!failed) {
+      shift_ = std::max(forgetting * shift_, 2.0 * std::fabs(merit(evaluation) - merit(best_.evaluation)));
+      best_ = known;
+    }
+    return judge(trial, failed || !comparable(trial));
+  }
+  if (!failed && !comparable(known)) {
+    waiting_ = known;
+    pending_ = best_.design;
+    return;
+  }
+  judge(known, failed);
+}
+
+std::string SqpDesigner::state() const {
+  DesignJson json = {
+      {"pending", pending_}, {"curvature", curvature_}, {"learnt", learnt_},
+      {"scale", scale_},     {"trust", trust_},         {"promised", promised_},
+      {"shift", shift_},     {"begun_at", begun_at_},   {"steps", steps_},
+      {"started", started_}, {"finished", finished_},   {"best", DesignJson::parse(json_of(best_))},
+      {"waiting", nullptr}};
+  if (waiting_) json["waiting"] = DesignJson::parse(json_of(*waiting_));
+  return json.dump();
+}
+
+void SqpDesigner::restore(const std::string& state, const std::string& source) {
+  try {
+    const DesignJson json = DesignJson::parse(state);
+    if (json.at("pending").size() != pending_.size())
+      throw Error(ErrorCode::format, source, "found another number of variables");
+    json.at("pending").get_to(pending_), json.at("curvature").get_to(curvature_);
+    json.at("learnt").get_to(learnt_), json.at("scale").get_to(scale_), json.at("trust").get_to(trust_);
+    json.at("promised").get_to(promised_), json.at("shift").get_to(shift_),
+        json.at("begun_at").get_to(begun_at_);
+    json.at("steps").get_to(steps_), json.at("started").get_to(started_);
+    json.at("finished").get_to(finished_);
+    best_ = known_design(json.at("best").dump());
+    waiting_.reset();
+    if (!json.at("waiting").is_null()) waiting_ = known_design(json.at("waiting").dump());
+  } catch (const DesignJson::exception&) {
+    throw Error(ErrorCode::format, source, "found no state of a search by gradients");
+  }
+}
+
+std::string SqpDesigner::description() const {
+  return description_of("sqp", options_);
+}
+
+}  // namespace remodel::app

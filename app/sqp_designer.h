@@ -1,0 +1,60 @@
+#pragma once
+
+// Sequential quadratic programming in a trust box, as a designer that is asked and told: one evaluation with
+// gradients a step. Source: J. Nocedal and S. J. Wright, "Numerical Optimization", 2nd ed. (2006), sections
+// 18.5 (elastic constraints in a box) and 18.3 (procedure 18.2, damped BFGS).
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gradient_designer.h"
+
+namespace remodel::app {
+
+// Each step makes a model of the objective small, a quadratic one whose second derivatives are gathered from
+// the gradients of all steps, within a box around the best design and under the constraints, linear ones. The
+// step is taken if the objective becomes smaller, and the box follows how well the model said so.
+//
+// A change of the mesh's connectivity (output "connectivity") shifts the objective. A design on another
+// connectivity than the best one's is taken where it is better by more than twice the shifts seen lately;
+// otherwise the best design is evaluated again on the present mesh, which says what the shift is, and both
+// are compared once more.
+class SqpDesigner final : public Designer {
+ public:
+  SqpDesigner(std::vector<double> start, GradientOptions options);
+
+  std::size_t population() const override { return 1; }
+  Proposal ask() override { return {.design = pending_, .gradient = true}; }
+  void refuse(const Proposal& proposal) override;
+  void tell(const Proposal& proposal, const Evaluation& evaluation) override;
+  bool finished() const override { return finished_; }
+  std::uint64_t generation() const override { return steps_; }
+  double step_size() const override { return trust_; }
+  std::vector<double> centre() const override { return best_.design; }
+  std::string state() const override;
+  void restore(const std::string& state, const std::string& source) override;
+  std::string description() const override;
+
+ private:
+  double merit(const Evaluation& evaluation) const;
+  double model(const std::vector<double>& step) const;  // less what it is without a step
+  bool comparable(const KnownDesign& trial) const;
+  void propose();
+  void begin_model();
+  void judge(const KnownDesign& trial, bool failed);
+  void learn(const KnownDesign& trial);
+
+  GradientOptions options_;
+  std::vector<double> pending_;
+  KnownDesign best_;
+  std::optional<KnownDesign> waiting_;  // for the best design's evaluation on the present mesh
+  std::vector<double> curvature_;       // symmetric, row by row
+  bool learnt_ = false;                 // from a step
+  double scale_ = 1.0, trust_ = 0.0, promised_ = 0.0, shift_ = 0.0;
+  double begun_at_ = 0.0;  // merit where the model began
+  std::uint64_t steps_ = 0;
+  bool started_ = false, finished_ = false;
+};
+
+}  // namespace remodel::app
