@@ -70,6 +70,9 @@ class MeshData {
   RenewalState renewal;
   ImportRecord imported;
   std::unique_ptr<MeshCache> cache;
+  // Whether all triangles outside the domain are known to be Delaunay, and the hull convex. Full adjustments
+  // leave them as they are, so that steps that replace vertices restore them first. Copies do not know.
+  bool outside_restored = false;
   ChangeRecords marked;  // of this mesh alone: copies begin without
 
   // Scratch: storage that is kept, so that steps need nothing of the heap.

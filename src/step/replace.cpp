@@ -25,6 +25,7 @@ double lost_vertex_radius(const ReplaceOptions& options, double pair_distance, P
 void restore_outside(MeshData& mesh) {
   Triangulation& triangulation = mesh.triangulation;
   if (!triangulation.restore_hull()) throw RecoveryError("the outermost boundary crosses itself");
+  if (mesh.outside_restored) return;
   const auto marked = [&](VertexId v) { return mesh.seen_vertices.contains(v); };
   List<TriangleId> outside(&mesh.arena);
   mesh.seen_triangles.clear(triangulation.triangle_slots());

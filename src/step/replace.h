@@ -29,8 +29,8 @@ double lost_vertex_radius(const ReplaceOptions& options, double pair_distance, P
                           Point after);
 
 // Makes the hull convex, and the triangles outside the domain Delaunay, which full adjustments do not: those
-// at all boundary vertices but the ones that are marked in mesh.seen_vertices, or that join one. Throws
-// RecoveryError where the hull crosses itself.
+// at all boundary vertices but the ones that are marked in mesh.seen_vertices, or that join one. Nothing is
+// left to do where mesh.outside_restored says so. Throws RecoveryError where the hull crosses itself.
 void restore_outside(MeshData& mesh);
 
 }  // namespace remodel

@@ -110,6 +110,7 @@ Step::Step(Mesh& mesh, const Domain& domain, const RemodelOptions& options, Jour
       options_(options),
       journalling_(journal),
       keep_before_(require_mesh(mesh).keep()),
+      outside_before_(mesh.data().outside_restored),
       marked_before_(mesh.data().marked.now()) {}
 
 Step::~Step() {
@@ -125,6 +126,7 @@ Step::~Step() {
 void Step::take_back() {
   journal_.reset();
   data().keep = keep_before_;
+  data().outside_restored = outside_before_;
   data().marked.return_to(marked_before_);
 }
 
@@ -206,6 +208,7 @@ RemodelResult Step::finish_adjustment() {
   MeshData& mesh = data();
   note_moved(mesh, cache_->loops);
   mesh.marked.for_each([&](ChangeRecord& record) { note_adjustment(mesh, *cache_, record); });
+  mesh.outside_restored = false;
   RemodelResult result = remodel::finish_adjustment(mesh, *cache_);
   result.stopped = what_still_stops();
   if (renewing_) ++mesh.renewal.full_adjustments;
@@ -258,8 +261,16 @@ bool Step::attempt() {
     return false;
   }
   note_replacement();
+  data().outside_restored = leaves_outside_restored();
   journal_->replaced();
   return true;
+}
+
+// The specialised method ends with all of it Delaunay; the hull is as it was where the outermost loop rests.
+bool Step::leaves_outside_restored() const {
+  if (cache_ == nullptr || morphing_) return false;
+  return std::ranges::none_of(cache_->loops,
+                              [&](std::size_t loop) { return domain_.loops[loop].role == LoopRole::outer; });
 }
 
 bool Step::change_under_journal() {
@@ -288,7 +299,8 @@ bool Step::change_under_journal() {
   return true;
 }
 
-// A boundary of fewer points than before leaves a mesh that is far too dense, and so may a row of large morphs.
+// A boundary of fewer points than before leaves a mesh that is far too dense, and so may a row of large
+// morphs.
 void Step::shed_and_refine() {
   for (int pass = 0; pass < RenewPolicy::shedding_passes; ++pass) {
     if (result_.stopped != Stopped::done || !shed_surplus(data())) break;
@@ -305,7 +317,8 @@ Stopped Step::what_still_stops() {
   return stopped;
 }
 
-// Returns the vertices that are at other places, but are the same; nothing where a morph turns triangles over.
+// Returns the vertices that are at other places, but are the same; nothing where a morph turns triangles
+// over.
 std::optional<List<VertexId>> Step::change_boundary() {
   MeshData& mesh = data();
   if (morphing_) {

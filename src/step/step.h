@@ -5,8 +5,8 @@
 //
 //   nothing moves           nothing is done
 //   adjust_in_place()       all boundary vertices moved to the new design, connectivity unchanged
-//   morph()                 Strategy::morph: the interior moves along, what misses a bound is flipped or refined
-//   replace()               what cannot move is relocated or replaced, what was touched is refined
+//   morph()                 Strategy::morph: the interior moves along, what misses a bound is flipped or
+//   refined replace()               what cannot move is relocated or replaced, what was touched is refined
 //   regenerate()            the mesh is taken back and one of the new design generated
 
 #include <optional>
@@ -50,6 +50,7 @@ class Step {
   bool replace();
   bool replace_by(Method method);
   bool attempt();
+  bool leaves_outside_restored() const;
   bool change_under_journal();
   std::optional<List<VertexId>> change_boundary();
   void note_replacement();
@@ -63,7 +64,8 @@ class Step {
   const Domain& domain_;
   const RemodelOptions& options_;
   const Journal journalling_;
-  const double keep_before_;  // the mesh's own
+  const double keep_before_;   // the mesh's own
+  const bool outside_before_;  // likewise
   const ChangeRecords::Moment marked_before_;
   bool kept_ = false;
   std::optional<StepJournal> journal_;
