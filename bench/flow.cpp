@@ -1,7 +1,12 @@
 // Cost of a flow per design on a row of designs: cold on fresh meshes, from the interpolated flow before with
 // one factorisation on fresh meshes ("rival"), and by the solver that outlives its mesh ("living").
 //
-//     flow [I MACH SIGMA DESIGNS]...
+//     flow [morph] [I MACH SIGMA DESIGNS]...
+//     flow row [DESIGNS]
+//
+// `morph` remodels by Strategy::morph instead of renew. `row` is one row of 1,000 designs at I = 200, Mach
+// 0.5, SIGMA falling from 1e-2 to 1e-4 as an optimiser's does, by the living solver alone; it ends with
+// status 1 where a flow was not found.
 //
 // Designs are a random walk from NACA 0012 at 1.25 degrees, SIGMA the standard deviation of each step in all
 // coefficients. Flows to a residual of 1e-8; processor time, that of meshing left out. Full adjustments and
@@ -13,6 +18,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "remodel/flow.h"
@@ -67,7 +73,43 @@ double normal(std::mt19937_64& random) {
   return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * M_PI * v);
 }
 
-void run(const Case& task) {
+CstAirfoil walk(CstAirfoil airfoil, double sigma, std::mt19937_64& random) {
+  for (;;) {
+    CstAirfoil next = airfoil;
+    for (auto* surface : {&next.upper, &next.lower})
+      for (double& coefficient : *surface) coefficient += sigma * normal(random);
+    if (surfaces_apart(next)) return next;
+  }
+}
+
+// Designs around NACA 0012, as an optimiser's generations shrink: a walk would leave what airfoils are.
+bool run_row(int designs) {
+  std::mt19937_64 random(1);
+  const CstAirfoil centre = named_airfoil("naca:0012", 5);
+  CstAirfoil airfoil = centre;
+  const auto domain = [&] { return airfoil_domain(airfoil, {.points = 200}); };
+  const FlowConditions conditions = {.mach = 0.5, .alpha_deg = 1.25};
+  Mesh mesh = generate(domain(), {.gradation = 4.0}).mesh;
+  LivingFlow living({.tolerance = 1e-8});
+  living.solve(mesh, conditions);
+  Cost cost;
+  int starts[3] = {0, 0, 0};
+  for (int i = 0; i < designs; ++i) {
+    airfoil = walk(centre, 1e-2 * std::pow(1e-2, static_cast<double>(i) / designs), random);
+    const bool partial = !remodel::remodel(mesh, domain(), {.strategy = Strategy::renew}).full_adjustment;
+    const FlowResult flow = timed(cost, partial, [&] { return living.solve(mesh, conditions); });
+    ++starts[static_cast<int>(flow.start)];
+    if (!flow.converged()) std::printf("design %d: %s\n", i, flow.reason.c_str());
+  }
+  std::printf(
+      "%d designs, %d by full adjustments: %.1f s of flows (%.0f ms a full adjustment, %.0f ms else), %d "
+      "factorisations; %d carried, %d refactored, %d cold; %d not found\n",
+      designs, cost.flows[0], cost.seconds[0] + cost.seconds[1], cost.mean(0), cost.mean(1),
+      cost.factorisations, starts[1], starts[2], starts[0], cost.failed);
+  return cost.failed == 0;
+}
+
+void run(const Case& task, Strategy strategy) {
   std::mt19937_64 random(1);
   CstAirfoil airfoil = named_airfoil("naca:0012", 5);
   const QualityOptions quality = {.gradation = task.points / 50.0};
@@ -81,9 +123,8 @@ void run(const Case& task) {
   Cost cold, rival, warm;
   double largest_difference = 0.0;
   for (int i = 0; i < task.designs; ++i) {
-    for (auto* surface : {&airfoil.upper, &airfoil.lower})
-      for (double& coefficient : *surface) coefficient += task.sigma * normal(random);
-    const bool partial = !remodel::remodel(mesh, domain(), {.strategy = Strategy::renew}).full_adjustment;
+    airfoil = walk(airfoil, task.sigma, random);
+    const bool partial = !remodel::remodel(mesh, domain(), {.strategy = strategy}).full_adjustment;
     const FlowResult of_living = timed(warm, partial, [&] { return living.solve(mesh, conditions); });
     const FrozenMesh fresh = generate(domain(), quality).mesh.freeze();
     const FlowResult of_cold = timed(cold, partial, [&] { return solve_flow(fresh, conditions, options); });
@@ -106,8 +147,11 @@ void run(const Case& task) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const std::string first = argc > 1 ? argv[1] : "";
+  if (first == "row") return run_row(argc > 2 ? std::atoi(argv[2]) : 1000) ? 0 : 1;
+  const int offset = first == "morph" ? 2 : 1;
   std::vector<Case> cases;
-  for (int i = 1; i + 3 < argc; i += 4)
+  for (int i = offset; i + 3 < argc; i += 4)
     cases.push_back(
         {std::atoi(argv[i]), std::atof(argv[i + 1]), std::atof(argv[i + 2]), std::atoi(argv[i + 3])});
   if (cases.empty())
@@ -118,5 +162,5 @@ int main(int argc, char** argv) {
       "cold | over "
       "rival | carried | factorisations | steps per design | not found "
       "|\n|---|---|---|---|---|---|---|---|---|---|");
-  for (const Case& task : cases) run(task);
+  for (const Case& task : cases) run(task, offset == 2 ? Strategy::morph : Strategy::renew);
 }

@@ -172,26 +172,12 @@ TEST(Euler, SomeRowsOfTheJacobianAreThoseOfAll) {
   }
 }
 
-// The error of density and of p / rho^gamma in the mean square over the area.
 std::array<double, 2> errors_of_vortex(std::uint32_t cells) {
   const FrozenMesh mesh = test::ring_mesh(cells);
   const FlowMesh dual(mesh, "farfield", "ring");
-  const Euler euler(dual, {.mach = test::inner_mach, .vortex = false, .prescribed = test::supersonic_vortex});
-  State state = euler.uniform();
-  for (std::size_t v = 0; v < dual.size(); ++v) state.q[v] = test::supersonic_vortex(dual.points()[v]);
-  BlockRows matrix = euler.pattern();
-  Factors factors;
-  Search search;
-  find_flow(euler, Measure(euler), 1e3, {.tolerance = 1e-11}, matrix, factors, state, search);
-  EXPECT_EQ(search.status, FlowStatus::converged) << search.reason;
-  double density = 0.0, entropy = 0.0, area = 0.0;
-  for (std::size_t v = 0; v < dual.size(); ++v) {
-    const Primitive<double> exact = test::supersonic_vortex(dual.points()[v]);
-    const double e = state.q[v][0] - exact[0];
-    const double s = gas_gamma * state.q[v][3] / std::pow(state.q[v][0], gas_gamma) - 1.0;
-    density += dual.areas()[v] * e * e, entropy += dual.areas()[v] * s * s, area += dual.areas()[v];
-  }
-  return {std::sqrt(density / area), std::sqrt(entropy / area)};
+  return test::errors_of(
+      Euler(dual, {.mach = test::inner_mach, .vortex = false, .prescribed = test::supersonic_vortex}),
+      test::supersonic_vortex);
 }
 
 TEST(Euler, TheErrorOfTheSupersonicVortexFallsWithTheSquare) {

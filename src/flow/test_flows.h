@@ -2,9 +2,13 @@
 
 // Meshes and flows that several tests share.
 
+#include <gtest/gtest.h>
+
 #include <cmath>
+#include <functional>
 
 #include "flow/euler.h"
+#include "flow/newton.h"
 #include "remodel/generate.h"
 
 namespace remodel::test {
@@ -57,6 +61,27 @@ inline FrozenMesh ring_mesh(std::uint32_t n) {
     mesh.boundaries[2].edges.push_back({at(i + 1, m), at(i, m)});
   }
   return mesh;
+}
+
+// The errors of density and of p / rho^gamma in the mean square over the area, of the flow found from the
+// exact one.
+inline std::array<double, 2> errors_of(const flow::Euler& euler,
+                                       const std::function<flow::Primitive<double>(Point)>& exact_at) {
+  const flow::FlowMesh& dual = euler.mesh();
+  flow::State state = euler.uniform();
+  for (std::size_t v = 0; v < dual.size(); ++v) state.q[v] = exact_at(dual.points()[v]);
+  flow::BlockRows matrix = euler.pattern();
+  flow::Factors factors;
+  flow::Search search;
+  flow::find_flow(euler, flow::Measure(euler), 1e3, {.tolerance = 1e-11}, matrix, factors, state, search);
+  EXPECT_EQ(search.status, FlowStatus::converged) << search.reason;
+  double density = 0.0, entropy = 0.0, area = 0.0;
+  for (std::size_t v = 0; v < dual.size(); ++v) {
+    const double e = state.q[v][0] - exact_at(dual.points()[v])[0];
+    const double s = flow::gas_gamma * state.q[v][3] / std::pow(state.q[v][0], flow::gas_gamma) - 1.0;
+    density += dual.areas()[v] * e * e, entropy += dual.areas()[v] * s * s, area += dual.areas()[v];
+  }
+  return {std::sqrt(density / area), std::sqrt(entropy / area)};
 }
 
 }  // namespace remodel::test
