@@ -18,6 +18,7 @@ struct CheckCommand {
   std::string mesh;
   std::optional<double> min_angle;
   std::optional<double> max_gradation;
+  std::optional<double> delaunay_slack;
   bool json = false;
 };
 
@@ -30,10 +31,12 @@ CheckOptions rules_for(const CheckCommand& command, const MeshInput& input) {
     options.min_angle_deg = input.living->options().min_angle_deg;
     options.max_gradation = input.living->promised_gradation();
     options.delaunay = !input.living->shows_file_triangles();
+    options.delaunay_slack_deg = input.living->delaunay_slack_deg();
   } else {
     options.delaunay = false;
     options.unused_points = true;
   }
+  options.delaunay_slack_deg = command.delaunay_slack.value_or(options.delaunay_slack_deg);
   options.min_angle_deg = command.min_angle.value_or(options.min_angle_deg);
   options.max_gradation = command.max_gradation.value_or(options.max_gradation);
   return options;
@@ -117,6 +120,10 @@ void add_check_command(CLI::App& program, Action& action) {
            {"--max-gradation", "H", "the mesh's own, or not tested",
             "Largest circumradius over mean length scale, for meshes with length scales: above 0, no unit"},
            {.low = 0.0, .above_low = true}, [command](double value) { command->max_gradation = value; });
+  add_real(app,
+           {"--delaunay-slack", "DEGREES", "the mesh's own, or 0",
+            "How far beyond 180 degrees the angles opposite an inner edge may sum up: 0 to 60"},
+           {.low = 0.0, .high = 60.0}, [command](double value) { command->delaunay_slack = value; });
   add_json_flag(app, command->json);
 }
 

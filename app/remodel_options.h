@@ -11,7 +11,7 @@ class App;
 namespace remodel::app {
 
 void add_remodel_options(CLI::App& app, RemodelOptions& options);
-// --strategy of a single step: chain, renew or morph.
+// --strategy of a single step: chain, renew, morph or reference.
 void add_step_strategy(CLI::App& app, RemodelOptions& options);
 
 }  // namespace remodel::app

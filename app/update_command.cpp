@@ -67,6 +67,7 @@ void add_figures(Report& report, const RemodelResult& result) {
   report.figure("removed", "removed", result.removed, "vertices");
   report.figure("full_adjustment", "full adjustment", result.full_adjustment);
   report.figure("morphed", "morphed", result.morphed);
+  report.figure("held", "a morph of its reference", result.held);
   report.figure("method", "method", name_of(result.method));
   report.figure("refreshed", "generated afresh by the strategy", result.refreshed);
   report.figure("regenerated", "generated afresh", result.regenerated);

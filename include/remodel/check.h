@@ -15,7 +15,9 @@
 //   boundary       exactly the edges with one triangle are named (inner edges may be: constraints), once, the
 //                  domain on their left, and under each name in the order of their loop, either way
 //   area           the triangles' areas sum up to that of the named polygons (exact)
-//   delaunay       no inner edge without a name has the point across inside the triangle's circle (exact)
+//   delaunay       no inner edge without a name has the point across inside the triangle's circle (exact), or
+//                  the angles opposite to it sum up to at most 180 degrees and
+//                  CheckOptions::delaunay_slack_deg
 //   manifold       the triangles of a point form one fan
 //   euler          V - E + F = 2 components - boundary loops
 //   overlap        boundary edges do not cross or touch, and no place is covered twice (exact)
@@ -44,6 +46,8 @@ struct CheckOptions {
                                // radius-edge ratio (rounding of the ratio itself, 1e-15, with a margin)
   double max_gradation = 0.0;  // H; 0: not tested; needs length_scale
   bool delaunay = true;        // false: report in the result only
+  double delaunay_slack_deg =
+      0.0;                     // Mesh::delaunay_slack_deg(); 0 to 60. CheckResult::delaunay knows of none
   bool unused_points = false;  // true: points of no triangle are counted, not refused: other programs leave
                                // the centres of circles in their files, say
   // If given, every boundary point must be the design's at its curve and parameter, to the last bit, every

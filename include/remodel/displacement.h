@@ -14,11 +14,10 @@
 //
 // over all boundary edges e with midpoint m_e, length L_e and distance |x - e|; u_e is the midpoint's
 // displacement, a_e the difference of the ends' displacements over their difference: where a wall turns or is
-// scaled, what lies at it turns and is scaled likewise, so that angles stay. Departures from the paper: a_e is
-// not reduced to a rotation, which keeps the field linear; edges far away are taken together, in a binary tree
-// over each loop.
-// The factor f = max(0, 1 - (d / R)^3)^2, with pi / (2 d^3) the sum of w_e over the walls that move, is zero
-// beyond about R from them. Walls that stay are edges with u = a = 0.
+// scaled, what lies at it turns and is scaled likewise, so that angles stay. Departures from the paper: a_e
+// is not reduced to a rotation, which keeps the field linear; edges far away are taken together, in a binary
+// tree over each loop. The factor f = max(0, 1 - (d / R)^3)^2, with pi / (2 d^3) the sum of w_e over the
+// walls that move, is zero beyond about R from them. Walls that stay are edges with u = a = 0.
 
 #include <cstddef>
 #include <memory>
@@ -32,8 +31,10 @@ namespace remodel {
 
 class InteriorDisplacement {
  public:
-  // At the places that the mesh has now; it need not live on. `moving`: the loops of its domain that move, by
-  // index. Throws Error (argument) for an index that there is not.
+  // At the places that the mesh has now, or if it is held at those of its reference, by which steps of
+  // Strategy::reference move it: then jvp() of what MeshDerivative::jvp() says of the walls is the derivative
+  // of the whole mesh, and MeshDerivative::vjp() of vjp() its transpose. The mesh need not live on. `moving`:
+  // the loops of its domain that move, by index. Throws Error (argument) for an index that there is not.
   InteriorDisplacement(const Mesh& mesh, std::span<const std::size_t> moving);
   ~InteriorDisplacement();
   InteriorDisplacement(InteriorDisplacement&&) noexcept;

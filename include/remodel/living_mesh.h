@@ -30,6 +30,9 @@ enum class MeshStrategy {
   // than 8 local length scales apart, and once after ten full adjustments in a row.
   regenerate,
   morph,  // Strategy::morph, as renew
+  // Strategy::reference, as renew: each worker has a reference of its own. Meshes that are generated have
+  // angle_with_slack(), so that it is held longer.
+  reference,
 };
 
 struct MeshStrategyInfo {

@@ -72,6 +72,12 @@ struct MeshState {
   std::uint32_t stopped = 0;  // a Stopped: why refinement of the whole mesh ended
   RenewalState renewal;
   ImportRecord imported;
+  // Of a mesh that is held (Strategy::reference): its reference's, slot by slot. Empty, and not in the file,
+  // for all others.
+  std::vector<double> reference_coordinates{};    // 2 per vertex slot
+  std::vector<double> reference_length_scales{};  // 1 per vertex slot
+  Domain reference_domain{};
+  double delaunay_slack_deg = 0.0;
 
   friend bool operator==(const MeshState&, const MeshState&) = default;
 };

@@ -11,6 +11,10 @@
 
 namespace remodel {
 
+// QualityOptions::refine_angle_deg of meshes that Strategy::reference is to hold: as given, but at least two
+// degrees more than the angle that they promise.
+double angle_with_slack(const QualityOptions& quality);
+
 enum class Method { automatic, specialised, general };
 const char* name_of(Method method);  // "auto", "specialised", "general"
 
@@ -27,12 +31,25 @@ enum class Strategy {
   renew,
   // As renew, but where not all boundary vertices can be moved in place with the interior still, the interior
   // moves along with them (remodel/displacement.h): almost all triangles go on joining the same vertices.
-  // Edges that are no longer Delaunay are flipped, and triangles that miss a bound are refined. A large change
+  // Edges that are no longer Delaunay are flipped, and triangles that miss a bound are refined. A large
+  // change
   // is made in several parts. Where triangles turn over all the same, the step is that of renew. Vertices of
   // imported meshes move too; their length scales are not renewed.
   morph,
+  // The mesh of a design is the morph of one reference mesh, whatever designs came in between: the same
+  // design
+  // has the same mesh, to the last bit, and what is computed on meshes is a smooth function of designs. The
+  // first reference is the mesh itself. All vertices move by the field of remodel/displacement.h, at the
+  // reference's places; connectivity is held as long as no triangle turns over or misses its angle or the
+  // kept
+  // gradation bound, although edges are no longer Delaunay: the angles opposite to them sum up to at most 180
+  // degrees and RemodelOptions::delaunay_slack_deg. Where that is not possible the reference is morphed to
+  // the
+  // design, and the mesh is the new reference. Meshes with slack in their angles are held longer
+  // (QualityOptions::refine_angle_deg).
+  reference,
 };
-const char* name_of(Strategy strategy);  // "chain", "renew", "morph"
+const char* name_of(Strategy strategy);  // "chain", "renew", "morph", "reference"
 
 struct RemodelOptions {
   double distance = 1.0;  // D: removal radius over the distance of a pair of old and new vertices; >= 0
@@ -43,6 +60,8 @@ struct RemodelOptions {
   // renew: of how many designs, tried on other meshes too, a step of this mesh is one; 1 or more. Its
   // triangle count is looked at so much earlier.
   std::uint32_t designs_a_step = 1;
+  // reference: how far beyond 180 degrees the angles opposite an inner edge may sum up; 0 to 60.
+  double delaunay_slack_deg = 20.0;
   // Whether a step that cannot be completed ends with a mesh that is generated afresh. If not, the mesh stays
   // as it was, and the result is abandoned.
   bool regenerate = true;
@@ -54,13 +73,14 @@ struct RemodelResult {
   std::size_t triangles = 0;
   std::size_t preserved = 0;  // old domain triangles still there with all three vertices unmoved
   std::size_t connected = 0;  // old domain triangles whose vertices a triangle still joins, moved or not
-  std::size_t moved = 0;      // vertices at another place than before, but the same: boundary vertices, unless
-                              // the step morphed the mesh
-  std::size_t inserted = 0;   // vertices
+  std::size_t moved = 0;     // vertices at another place than before, but the same: boundary vertices, unless
+                             // the step morphed the mesh
+  std::size_t inserted = 0;  // vertices
   std::size_t removed = 0;
-  std::size_t flipped = 0;              // flips of edges
-  bool full_adjustment = false;         // every boundary vertex moved in place, connectivity unchanged
-  bool morphed = false;                 // Strategy::morph: the interior moved along with the boundary
+  std::size_t flipped = 0;       // flips of edges
+  bool full_adjustment = false;  // every vertex that moved did so in place, connectivity unchanged
+  bool morphed = false;          // Strategy::morph: the interior moved along with the boundary
+  bool held = false;             // Strategy::reference: a morph of the reference; if not, it is a new one
   Method method = Method::specialised;  // the one that ran
   bool refreshed = false;               // the strategy generated the mesh afresh: its triangle count was off
   bool regenerated = false;             // remodelling could not be completed: the mesh was generated afresh

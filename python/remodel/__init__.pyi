@@ -11,7 +11,7 @@ _Shape = Union[str, Airfoil, Domain]
 _AnyMesh = Union[Mesh, FrozenMesh]
 _Window = Optional[Sequence[float]]
 _Place = Literal["vertices", "triangles"]
-_Strategy = Literal["renew", "chain", "morph"]
+_Strategy = Literal["renew", "chain", "morph", "reference"]
 _Method = Literal["auto", "specialised", "general"]
 
 __version__: str

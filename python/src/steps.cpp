@@ -267,10 +267,11 @@ RemodelOptions remodel_options(double distance, const std::string& method, const
     throw Error(ErrorCode::argument, "method",
                 "found '" + method + "', expected auto, specialised or general");
   known = false;
-  for (const Strategy candidate : {Strategy::chain, Strategy::renew, Strategy::morph})
+  for (const Strategy candidate : {Strategy::chain, Strategy::renew, Strategy::morph, Strategy::reference})
     if (strategy == name_of(candidate)) options.strategy = candidate, known = true;
   if (!known)
-    throw Error(ErrorCode::argument, "strategy", "found '" + strategy + "', expected chain, renew or morph");
+    throw Error(ErrorCode::argument, "strategy",
+                "found '" + strategy + "', expected chain, renew, morph or reference");
   return options;
 }
 
@@ -286,7 +287,8 @@ void add_steps(py::module_& module) {
 
 boundary: the airfoil's name, where there are several. distance: D, the removal radius over the distance of old and
 new vertices. strategy: 'renew' keeps long runs in order, 'chain' is the paper's method to the
-letter, 'morph' moves the interior first, so that more triangles stay joined.
+letter, 'morph' moves the interior first, so that more triangles stay joined. 'reference' makes each design's mesh
+the morph of one reference mesh, whatever designs came in between, as long as connectivity can be held.
 regenerate=False: a step that cannot be completed leaves the mesh as it was (Step.abandoned). record=True keeps
 the arrays before and after in the Step. The mesh is valid before and after: what raises (GeometryError,
 ArgumentError, KeyboardInterrupt) leaves it as it was, to the last bit.)");

@@ -212,9 +212,26 @@ bool is_interface(const FrozenMesh& mesh, const Edge& edge) {
   return !mesh.region.empty() && mesh.region[edge.left] != mesh.region[edge.right];
 }
 
-// Every unconstrained inner edge: the point across is not inside the circle. Returns whether all are.
-bool check_delaunay(const Subject& subject, Report& report) {
-  const std::size_t before = report.found();
+// Whether the angles opposite an edge of two counter-clockwise triangles sum up to at most 180 degrees and
+// the slack. Each is the argument of a complex number (scalar product, area), their sum that of the product.
+bool within_slack(const ExactPoints& exact, const Edge& edge, std::uint32_t apex, std::uint32_t across,
+                  double slack_deg) {
+  using Integer = ExactPoints::Integer;
+  const Integer dot_1 = exact.dot(apex, edge.from, edge.to),
+                area_1 = exact.twice_area(apex, edge.from, edge.to);
+  const Integer dot_2 = exact.dot(across, edge.to, edge.from),
+                area_2 = exact.twice_area(across, edge.to, edge.from);
+  const Integer x = dot_1 * dot_2 - area_1 * area_2, y = dot_1 * area_2 + area_1 * dot_2;
+  constexpr int bits = 53;  // of the tangent
+  const Integer tangent =
+      static_cast<std::int64_t>(std::ldexp(std::tan(slack_deg * std::numbers::pi / 180.0), bits));
+  return y >= 0 || (x < 0 && (-y << bits) <= -x * tangent);
+}
+
+// Every unconstrained inner edge: the point across is not inside the circle, or the slack allows it. Returns
+// whether none is.
+bool check_delaunay(const Subject& subject, double slack_deg, Report& report) {
+  bool all = true;
   const auto& edges = subject.topology.edges();
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const Edge& edge = edges[e];
@@ -222,10 +239,12 @@ bool check_delaunay(const Subject& subject, Report& report) {
     const std::uint32_t apex = subject.topology.opposite(edge, edge.left);
     const std::uint32_t across = subject.topology.opposite(edge, edge.right);
     if (subject.exact.in_circle(edge.from, edge.to, apex, across) <= 0) continue;
+    all = false;
+    if (slack_deg > 0.0 && within_slack(subject.exact, edge, apex, across, slack_deg)) continue;
     report.add("delaunay", {edge.left, edge.right},
                sentence("the edge of points ", edge.from, " and ", edge.to, " is not locally Delaunay"));
   }
-  return report.found() == before;
+  return all;
 }
 
 // ---- Quality ----
@@ -327,7 +346,8 @@ void check_structure(const Subject& subject, bool oriented, const CheckOptions& 
                      Report& report) {
   if (oriented) {
     Report unwanted(0);
-    result.delaunay = check_delaunay(subject, options.delaunay ? report : unwanted);
+    result.delaunay =
+        check_delaunay(subject, options.delaunay_slack_deg, options.delaunay ? report : unwanted);
   }
   const std::size_t before_fans = report.found();
   const std::size_t fans = check_fans(subject, report);

@@ -69,6 +69,11 @@ class ScaledPoints : public ExactPoints {
     return Integer(area_of(a, b, c));
   }
 
+  Integer dot(std::uint32_t a, std::uint32_t b, std::uint32_t c) const override {
+    const Vector u = difference(b, a), v = difference(c, a);
+    return Integer(Number(u.x * v.x + u.y * v.y));
+  }
+
   int orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const override {
     return area_of(a, b, c).sign();
   }

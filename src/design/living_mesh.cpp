@@ -18,7 +18,7 @@
 namespace remodel {
 namespace {
 
-constexpr std::array<MeshStrategyInfo, 6> strategies{{
+constexpr std::array<MeshStrategyInfo, 7> strategies{{
     {MeshStrategy::chain, "chain", "the paper's method to the letter, and all that imported meshes have",
      Strategy::chain},
     {MeshStrategy::renew, "renew", "length scales are renewed, what is too dense is coarsened",
@@ -29,6 +29,8 @@ constexpr std::array<MeshStrategyInfo, 6> strategies{{
      Strategy::chain},
     {MeshStrategy::morph, "morph", "renew, but the interior moves along with the boundary where it can",
      Strategy::morph},
+    {MeshStrategy::reference, "reference", "every design's mesh is the morph of one reference mesh",
+     Strategy::reference},
 }};
 
 constexpr const char* checked_names[] = {"changes", "quick", "full"};
@@ -87,8 +89,11 @@ RemodelOptions step_options(const OptimiseOptions& options) {
   return step;
 }
 
-const QualityOptions& quality_of(const OptimiseOptions& options) {
-  return options.start ? options.start->mesh.options() : options.quality;
+QualityOptions quality_of(const OptimiseOptions& options) {
+  if (options.start) return options.start->mesh.options();
+  QualityOptions quality = options.quality;
+  if (options.strategy == MeshStrategy::reference) quality.refine_angle_deg = angle_with_slack(quality);
+  return quality;
 }
 
 std::optional<Mesh> first_mesh(const DesignSpace& space, const OptimiseOptions& options) {
@@ -99,7 +104,7 @@ std::optional<Mesh> first_mesh(const DesignSpace& space, const OptimiseOptions& 
     if (remodel(mesh, domain, step).stopped != Stopped::done) return std::nullopt;
     return mesh;
   }
-  GenerateResult generated = generate(domain, options.quality);
+  GenerateResult generated = generate(domain, quality_of(options));
   if (generated.stopped != Stopped::done) return std::nullopt;
   if (step.strategy != Strategy::chain) calibrate(generated.mesh.data(), RenewPolicy::samples_before_a_run);
   return std::move(generated.mesh);
@@ -164,6 +169,7 @@ StepCheck LivingMesh::checked(const Domain& domain, Checked how) const {
   const CheckResult full = remodel::check(mesh().freeze(), {.min_angle_deg = quality_.min_angle_deg,
                                                             .max_gradation = mesh().promised_gradation(),
                                                             .delaunay = !mesh().shows_file_triangles(),
+                                                            .delaunay_slack_deg = mesh().delaunay_slack_deg(),
                                                             .design = &domain,
                                                             .max_violations = 1});
   if (full.valid) return check;

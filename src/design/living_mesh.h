@@ -24,7 +24,7 @@ struct StepTasks {
 };
 
 // The quality that a run's meshes promise.
-const QualityOptions& quality_of(const OptimiseOptions& options);
+QualityOptions quality_of(const OptimiseOptions& options);
 
 // The mesh of the space's start, as a run begins with it. None where a limit keeps it from being finished.
 std::optional<Mesh> first_mesh(const DesignSpace& space, const OptimiseOptions& options);

@@ -64,7 +64,7 @@ void require_good(const OptimiseOptions& options) {
 
 std::string settings_of(const DesignSpace& space, const Designer& designer, const Evaluator& evaluator,
                         const OptimiseOptions& options) {
-  const QualityOptions& quality = quality_of(options);
+  const QualityOptions quality = quality_of(options);
   const RemodelOptions step = step_options(options);
   using OrderedJson = nlohmann::ordered_json;
   OrderedJson json = {{"version", REMODEL_VERSION}};

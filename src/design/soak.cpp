@@ -96,6 +96,7 @@ class Soak {
   static CheckOptions promises(const Mesh& mesh) {
     return {.min_angle_deg = mesh.options().min_angle_deg,
             .max_gradation = mesh.promised_gradation(),
+            .delaunay_slack_deg = mesh.delaunay_slack_deg(),
             .design = &mesh.domain()};
   }
 

@@ -241,7 +241,8 @@ RemodelOptions draw_remodel(Generator& random) {
   RemodelOptions options;
   options.distance = pick(random, std::array{0.5, 1.0, 2.0, 4.0});
   options.method = pick(random, std::array{Method::automatic, Method::automatic, Method::general});
-  options.strategy = pick(random, std::array{Strategy::renew, Strategy::chain, Strategy::morph});
+  options.strategy =
+      pick(random, std::array{Strategy::renew, Strategy::chain, Strategy::morph, Strategy::reference});
   return options;
 }
 
@@ -276,7 +277,9 @@ SoakCase draw_case(Generator& random) {
 
   SoakCase drawn;
   drawn.remodel = draw_remodel(random);
-  drawn.mesh = generate(walk->next(), draw_quality(random, points)).mesh;
+  QualityOptions quality = draw_quality(random, points);
+  if (drawn.remodel.strategy == Strategy::reference) quality.refine_angle_deg = angle_with_slack(quality);
+  drawn.mesh = generate(walk->next(), quality).mesh;
   if (foreign) {
     drawn.mesh = without_design(drawn.mesh);
     walk = std::make_unique<ForeignMesh>(random, drawn.mesh.domain());

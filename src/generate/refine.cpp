@@ -25,6 +25,7 @@ Refiner::Refiner(MeshData& mesh, StepObserver* observer)
       triangulation_(mesh.triangulation),
       bounds_(QualityBounds::of_refinement(mesh.options)),
       promised_(bounds_),
+      slack_(mesh.promised_bounds()),
       inverse_gradation_(1.0 / mesh.options.gradation),
       small_angles_(mesh),
       cavity_(mesh.cavity),

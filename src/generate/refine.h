@@ -42,7 +42,7 @@ class Refiner {
   void consider_kept(TriangleId t) { consider(t, promised_); }
   // The same for one that was made or moved by a morph: it may use the slack between the promised angle and
   // the one that refinement works to.
-  void consider_morphed(TriangleId t) { consider(t, mesh_.promised_bounds()); }
+  void consider_morphed(TriangleId t) { consider(t, slack_); }
   // Refines until nothing queued is left or a limit is reached.
   Stopped run();
 
@@ -96,7 +96,7 @@ class Refiner {
 
   MeshData& mesh_;
   Triangulation& triangulation_;
-  QualityBounds bounds_, promised_;  // of new triangles; of all
+  QualityBounds bounds_, promised_, slack_;  // of new triangles; of kept ones; of morphed ones
   double inverse_gradation_;
   SmallAngles small_angles_;
   // Candidates on their way from memory: a pass jumps about in a large mesh, so what it will need is fetched

@@ -61,6 +61,14 @@ void for_each_state_number(State& state, Visitor&& visit) {
   visit("until_shed", state.renewal.until_shed);
 }
 
+// Of a held mesh alone, in a group of their own.
+template <class State, class Visitor>
+void for_each_reference_array(State& state, Visitor&& visit) {
+  visit("coordinates", state.reference_coordinates, 2);
+  visit("length_scales", state.reference_length_scales, 1);
+}
+const std::string reference_group = state_group + "/reference";
+
 // ------------------------------------------------------------------------------------------------ writing
 
 void write_fields(Hdf5Writer& out, const std::string& group, const std::vector<VtkArray>& arrays) {
@@ -108,6 +116,19 @@ void write_grid(Hdf5Writer& out, const VtkGrid& grid) {
   }
 }
 
+bool has_reference(const MeshState& state) {
+  return !state.reference_coordinates.empty();
+}
+
+void write_reference(Hdf5Writer& out, const MeshState& state) {
+  out.group(reference_group);
+  out.attribute(reference_group, "delaunay_slack_deg", std::vector{state.delaunay_slack_deg});
+  for_each_reference_array(state, [&](const std::string& name, const auto& values, std::size_t columns) {
+    out.array(reference_group + "/" + name, values, columns);
+  });
+  out.text(reference_group + "/domain", domain_to_json(state.reference_domain));
+}
+
 void write_state(Hdf5Writer& out, const MeshState& state) {
   const std::string domain = domain_to_json(state.domain);
   out.group(state_group);
@@ -121,6 +142,7 @@ void write_state(Hdf5Writer& out, const MeshState& state) {
   });
   if (!state.imported.markers.empty()) out.texts(markers_path, state.imported.markers);
   out.text(state_group + "/domain", domain);
+  if (has_reference(state)) write_reference(out, state);
 }
 
 // ------------------------------------------------------------------------------------------------ reading
@@ -211,6 +233,13 @@ std::uint64_t checksum_of(const MeshState& state, const std::string& domain_text
   });
   for (const std::string& marker : state.imported.markers) sum.add(marker);
   sum.add(domain_text);
+  if (has_reference(state)) {
+    sum.add(state.delaunay_slack_deg);
+    for_each_reference_array(state, [&](const char*, const auto& values, std::size_t) {
+      for (const auto value : values) sum.add(value);
+    });
+    sum.add(domain_to_json(state.reference_domain));
+  }
   return sum.value();
 }
 
@@ -261,6 +290,14 @@ MeshState read_vtkhdf_state(const std::filesystem::path& file) {
     values =
         in.array<typename std::remove_reference_t<decltype(values)>::value_type>(state_group + "/" + name);
   });
+  if (in.exists(reference_group)) {
+    state.delaunay_slack_deg = in.attribute<double>(reference_group, "delaunay_slack_deg").front();
+    for_each_reference_array(state, [&](const std::string& name, auto& values, std::size_t) {
+      values = in.array<double>(reference_group + "/" + name);
+    });
+    const std::string path = reference_group + "/domain";
+    state.reference_domain = domain_from_json(in.text(path), in.place(path));
+  }
   if (in.exists(markers_path)) state.imported.markers = in.texts(markers_path);
   const std::string domain = in.text(state_group + "/domain");
   if (in.attribute<std::uint64_t>(state_group, "checksum").front() != checksum_of(state, domain)) {

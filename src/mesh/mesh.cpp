@@ -47,6 +47,12 @@ std::size_t Mesh::triangle_count() const {
 double Mesh::keep() const {
   return data().keep;
 }
+bool Mesh::held() const {
+  return data().reference != nullptr;
+}
+double Mesh::delaunay_slack_deg() const {
+  return held() ? data().delaunay_slack_deg : 0.0;
+}
 double Mesh::promised_gradation() const {
   return data().keep * data().options.max_gradation;
 }

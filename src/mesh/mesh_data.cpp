@@ -65,6 +65,8 @@ MeshData::MeshData(const MeshData& other)
       stopped(other.stopped),
       renewal(other.renewal),
       imported(other.imported),
+      reference(other.reference),
+      delaunay_slack_deg(other.delaunay_slack_deg),
       curve_places_(other.curve_places_) {
   if (!triangulation.journalling()) return;
   triangulation.commit();

@@ -52,6 +52,14 @@ struct StepBackup {
   RenewalState renewal;
 };
 
+// What the mesh of a design is the morph of (Strategy::reference): where the vertices were, slot by slot,
+// when the mesh was Delaunay, with the connectivity that it has.
+struct MeshReference {
+  std::vector<Point> points;
+  std::vector<double> length_scales;
+  Domain domain;
+};
+
 class MeshData {
  public:
   Triangulation triangulation;
@@ -69,9 +77,14 @@ class MeshData {
   Stopped stopped = Stopped::done;
   RenewalState renewal;
   ImportRecord imported;
+  // Where there is one, opposite angles may sum up to 180 degrees and this slack.
+  std::shared_ptr<const MeshReference> reference;
+  double delaunay_slack_deg = 0.0;
   std::unique_ptr<MeshCache> cache;
+  std::unique_ptr<MeshCache> follow_cache;  // of Strategy::reference
   // Whether all triangles outside the domain are known to be Delaunay, and the hull convex. Full adjustments
-  // leave them as they are, so that steps that replace vertices restore them first. Copies do not know.
+  // and held meshes leave them as they are, so that steps that replace vertices restore them first. Copies do
+  // not know.
   bool outside_restored = false;
   ChangeRecords marked;  // of this mesh alone: copies begin without
 

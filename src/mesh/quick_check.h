@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "geometry/opposite_angles.h"
 #include "mesh/mesh_data.h"
 #include "mesh/small_angles.h"
 
@@ -27,6 +28,7 @@ class QuickCheck {
   const MeshData& mesh_;
   QualityBounds promised_;
   SmallAngles small_angles_;
+  OppositeAngles opposite_;
 };
 
 }  // namespace remodel

@@ -43,6 +43,13 @@ MeshState Mesh::state() const {
   to.stopped = static_cast<std::uint32_t>(data().stopped);
   to.renewal = data().renewal;
   to.imported = data().imported;
+  if (const auto& reference = data().reference) {
+    for (const Point p : reference->points)
+      to.reference_coordinates.insert(to.reference_coordinates.end(), {p.x, p.y});
+    to.reference_length_scales = reference->length_scales;
+    to.reference_domain = reference->domain;
+    to.delaunay_slack_deg = data().delaunay_slack_deg;
+  }
   return to;
 }
 
@@ -206,9 +213,58 @@ void require_in_range(const MeshState& state, const std::string& source) {
     refuse(source, "what the renewal of length scales has to look at does not fit the mesh");
 }
 
+void require_reference_in_range(const MeshState& state, const std::string& source) {
+  if (state.reference_coordinates.size() != state.coordinates.size() ||
+      state.reference_length_scales.size() != state.length_scales.size())
+    refuse(source, "its reference's vertices and its own differ in number");
+  if (!(state.delaunay_slack_deg >= 0.0 && state.delaunay_slack_deg <= 60.0))
+    refuse(source, "the slack of its opposite angles is " + std::to_string(state.delaunay_slack_deg) +
+                       " degrees, expected 0 to 60");
+  const std::vector<Loop>&loops = state.domain.loops, &reference = state.reference_domain.loops;
+  bool same = loops.size() == reference.size();
+  for (std::size_t i = 0; same && i < loops.size(); ++i) same = one_to_one(reference[i], loops[i]);
+  if (!same) refuse(source, "its reference is of another domain");
+}
+
+// The mesh is its reference: puts its vertices to their places on the design.
+void put_held(MeshData& mesh, const MeshState& state, const std::string& source) {
+  auto reference = std::make_shared<MeshReference>();
+  for (std::uint32_t i = 0; i < mesh.triangulation.vertex_slots(); ++i) {
+    const Vertex& vertex = mesh.triangulation[VertexId{i}];
+    reference->points.push_back(vertex.point);
+    reference->length_scales.push_back(vertex.length_scale);
+  }
+  reference->domain = std::exchange(mesh.domain, state.domain);
+  mesh.reference = std::move(reference);
+  mesh.delaunay_slack_deg = state.delaunay_slack_deg;
+  mesh.forget_extent();
+  Triangulation& triangulation = mesh.triangulation;
+  for (std::uint32_t i = 1; i < triangulation.vertex_slots(); ++i) {
+    const Point p{state.coordinates[2 * i], state.coordinates[2 * i + 1]};
+    if (!triangulation[VertexId{i}].alive()) continue;
+    if (!std::isfinite(p.x) || !std::isfinite(p.y)) refuse(source, "a coordinate is not finite");
+    triangulation.move(VertexId{i}, p, state.length_scales[i]);
+  }
+  for (std::uint32_t i = 0; i < triangulation.triangle_slots(); ++i) {
+    const Triangle& t = triangulation[TriangleId{i}];
+    if (t.alive() && !t.ghost()) triangulation.refresh_circle(TriangleId{i});
+  }
+}
+
 }  // namespace
 
 Mesh Mesh::restore(const MeshState& state, const std::string& source) {
+  if (!state.reference_coordinates.empty()) {
+    require_reference_in_range(state, source);
+    MeshState reference = state;
+    reference.coordinates = std::exchange(reference.reference_coordinates, {});
+    reference.length_scales = state.reference_length_scales;
+    reference.domain = state.reference_domain;
+    Mesh mesh = restore(reference, source);
+    put_held(mesh.data(), state, source);
+    if (std::string broken = check_boundary(mesh.data()); !broken.empty()) refuse(source, broken);
+    return mesh;
+  }
   Mesh mesh;
   MeshData& data = *mesh.data_;
   data.domain = state.domain;

@@ -295,10 +295,14 @@ AdjustCache& adjust_cache(MeshData& mesh, std::span<const std::size_t> moving_lo
   return *present;
 }
 
-bool adjust_all(MeshData& mesh, AdjustCache& cache, const Domain& domain) {
+void place_moving(const MeshData& mesh, AdjustCache& cache, const Domain& domain) {
   copy_shapes(cache, domain);
   place(mesh, cache, domain);
   scale(mesh, cache);
+}
+
+bool adjust_all(MeshData& mesh, AdjustCache& cache, const Domain& domain) {
+  place_moving(mesh, cache, domain);
   write(mesh, cache, cache.new_points, cache.new_scales);
   if (!evaluate(mesh, cache)) {
     write(mesh, cache, cache.old_points, cache.old_scales);

@@ -83,6 +83,9 @@ bool same_basis(const CstAirfoil& a, const CstAirfoil& b);
 // to date.
 AdjustCache& adjust_cache(MeshData& mesh, std::span<const std::size_t> moving_loops);
 
+// Sets the places and length scales that all moving vertices have on `domain`, and the old ones.
+void place_moving(const MeshData& mesh, AdjustCache& cache, const Domain& domain);
+
 // Evaluates all moving vertices at their places on `domain` at once. If every affected triangle is good
 // there, moves them and returns true: a full adjustment, connectivity unchanged. Otherwise the mesh is
 // unchanged, and the cache says which triangles are not good. Needs no journal: outside of one nothing throws

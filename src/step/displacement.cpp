@@ -17,8 +17,12 @@ struct InteriorDisplacement::Impl {
   std::vector<Vertex> vertices;            // as the frozen mesh has them: ascending
   std::vector<std::uint32_t> positions{};  // in that list, by slot
 
-  Impl(const MeshData& mesh, std::span<const std::size_t> moving) : field(mesh, moving) {
+  Impl(const MeshData& mesh, std::span<const std::size_t> moving)
+      : field(mesh, moving, mesh.reference ? std::span(mesh.reference->points) : std::span<const Point>()) {
     const Triangulation& triangulation = mesh.triangulation;
+    const auto place = [&](std::uint32_t slot) {
+      return mesh.reference ? mesh.reference->points[slot] : triangulation.point(VertexId{slot});
+    };
     std::vector<bool> used(triangulation.vertex_slots(), false);
     triangulation.for_each_domain_triangle([&](TriangleId, const Triangle& t) {
       for (const VertexId v : t.vertex) used[v.index] = true;
@@ -28,7 +32,7 @@ struct InteriorDisplacement::Impl {
       if (!used[i]) continue;
       positions[i] = static_cast<std::uint32_t>(vertices.size());
       const auto& vertex = triangulation[VertexId{i}];
-      vertices.push_back({VertexId{i}, vertex.point, vertex.boundary != no_index});
+      vertices.push_back({VertexId{i}, place(i), vertex.boundary != no_index});
     }
   }
 

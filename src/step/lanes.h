@@ -16,7 +16,8 @@ class Lanes {
     double centre_x[count], centre_y[count], inside[count], outside[count], spare[count];
   };
 
-  void load(std::size_t lane, const Vertex& a, const Vertex& b, const Vertex& c) {
+  template <class Place>  // with a point and a length scale, as a Vertex has
+  void load(std::size_t lane, const Place& a, const Place& b, const Place& c) {
     rows_.ax[lane] = a.point.x, rows_.ay[lane] = a.point.y;
     rows_.bx[lane] = b.point.x, rows_.by[lane] = b.point.y;
     rows_.cx[lane] = c.point.x, rows_.cy[lane] = c.point.y;

@@ -18,6 +18,7 @@ class Morph {
         cache_(cache),
         moves_(&mesh.arena),
         triangles_(&mesh.arena),
+        displacements_(&mesh.arena),
         at_start_(&mesh.arena) {}
 
   // Halves the part that is tried wherever triangles turn over, and goes on with parts of that size.
@@ -28,7 +29,8 @@ class Morph {
     for (int part = parts; part > 0;) {
       part = std::min(part, parts - done);
       if (part == 0) break;
-      if (advance(done + part))
+      if (displaced_for_ != done) displace(done);
+      if (advance(done, part))
         done += part;
       else
         part /= 2;
@@ -80,9 +82,10 @@ class Morph {
     return cache_.old_points[i] + share * (cache_.new_points[i] - cache_.old_points[i]);
   }
 
-  // Brings the walls to this part of the way. False, and nothing has changed, where triangles turn over.
-  bool advance(int done) {
-    list_moves(done);
+  // Brings the walls from one part of the way to another. False, and nothing has changed, where triangles
+  // turn over.
+  bool advance(int done, int part) {
+    list_moves(done, part);
     for (const Move& move : moves_) place(move.vertex, move.to);
     list_triangles();
     if (std::ranges::any_of(triangles_, [&](TriangleId t) { return turned_over(t); })) {
@@ -103,27 +106,38 @@ class Morph {
 
   void place(VertexId v, Point p) { triangulation_.move(v, p, triangulation_[v].length_scale); }
 
-  void list_moves(int done) {
+  // How the interior moves along with all that is left of the way: a part of it takes a part of that.
+  void displace(int done) {
+    WallField field(mesh_, cache_.loops);
+    const std::size_t walls = cache_.moving.size();
+    mesh_.candidate_indices.clear(triangulation_.vertex_slots());
+    for (std::uint32_t i = 0; i < walls; ++i) mesh_.candidate_indices.insert(cache_.moving[i].vertex, i);
+    field.displace([&](VertexId v) {
+      const std::uint32_t i = mesh_.candidate_indices.value_or(v, no_index);
+      return i == no_index ? Point{} : cache_.new_points[i] - triangulation_.point(v);
+    });
+    displacements_.resize(at_start_.size() - walls);
+    for (std::size_t i = walls; i < at_start_.size(); ++i)
+      displacements_[i - walls] = field.at(triangulation_.point(at_start_[i].vertex));
+    displaced_for_ = done;
+  }
+
+  void list_moves(int done, int part) {
     moves_.clear();
     mesh_.seen_vertices.clear(triangulation_.vertex_slots());
     const auto add = [&](VertexId v, Point from, Point to) {
       if (!(from == to) && mesh_.seen_vertices.insert(v)) moves_.push_back({v, from, to});
     };
-    for (std::size_t i = 0; i < cache_.moving.size(); ++i) {
+    const std::size_t walls = cache_.moving.size();
+    for (std::size_t i = 0; i < walls; ++i) {
       const VertexId v = cache_.moving[i].vertex;
-      add(v, triangulation_.point(v), wall_place(i, done));
+      add(v, triangulation_.point(v), wall_place(i, done + part));
     }
-    WallField field(mesh_, cache_.loops);
-    mesh_.candidate_indices.clear(triangulation_.vertex_slots());
-    for (std::uint32_t i = 0; i < moves_.size(); ++i) mesh_.candidate_indices.insert(moves_[i].vertex, i);
-    field.displace([&](VertexId v) {
-      const std::uint32_t i = mesh_.candidate_indices.value_or(v, no_index);
-      return i == no_index ? Point{} : moves_[i].to - moves_[i].from;
-    });
-    for (std::size_t i = cache_.moving.size(); i < at_start_.size(); ++i) {
+    const double share = static_cast<double>(part) / (parts - done);
+    for (std::size_t i = walls; i < at_start_.size(); ++i) {
       const VertexId v = at_start_[i].vertex;
       const Point p = triangulation_.point(v);
-      add(v, p, p + field.at(p));
+      add(v, p, p + share * displacements_[i - walls]);
     }
   }
 
@@ -149,6 +163,8 @@ class Morph {
   const AdjustCache& cache_;
   List<Move> moves_;
   List<TriangleId> triangles_;
+  List<Point> displacements_;  // of the interior, in the order of at_start_
+  int displaced_for_ = -1;     // the part of the way at which they were computed
   List<Place> at_start_;  // of the moving loops' vertices, in the cache's order, and then of the interior
 };
 

@@ -1,8 +1,15 @@
 #include "remodel/remodel.h"
 
+#include <algorithm>
+
 #include "step/step.h"
 
 namespace remodel {
+
+double angle_with_slack(const QualityOptions& quality) {
+  constexpr double slack = 2.0, largest = 34.0;
+  return std::max(quality.refine_angle_deg, std::min(quality.min_angle_deg + slack, largest));
+}
 
 const char* name_of(Method method) {
   switch (method) {

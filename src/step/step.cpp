@@ -11,6 +11,7 @@
 #include "generate/require_option.h"
 #include "mesh/renew_policy.h"
 #include "remodel/error.h"
+#include "step/follow.h"
 #include "step/methods.h"
 #include "step/morph.h"
 #include "step/outcome.h"
@@ -20,12 +21,12 @@ namespace remodel {
 
 namespace {
 
-// The loops that are not the same in the mesh's own domain and in another one; none where the boundary
+// The loops that are not the same in two domains, a mesh's own and another one; none where the boundary
 // vertices of the two do not correspond one to one.
-std::optional<LoopIndices> moving_loops(MeshData& mesh, const Domain& domain) {
-  const std::vector<Loop>&from = mesh.domain.loops, &to = domain.loops;
+std::optional<LoopIndices> moving_loops(Arena& arena, const Domain& its_own, const Domain& domain) {
+  const std::vector<Loop>&from = its_own.loops, &to = domain.loops;
   if (from.size() != to.size()) return std::nullopt;
-  LoopIndices moving(&mesh.arena);
+  LoopIndices moving(&arena);
   for (std::size_t i = 0; i < from.size(); ++i) {
     if (from[i] == to[i]) continue;
     if (!one_to_one(from[i], to[i])) return std::nullopt;
@@ -57,17 +58,21 @@ void require_surfaces_apart(const Domain& domain) {
 // Refinement of what the step touched. One that needs several times the old mesh is running away. Triangles
 // that still join the same vertices, at their old places or others, are kept: they need only hold what the
 // mesh promises.
-Stopped refine_touched(MeshData& mesh, bool morphed, StepObserver* observer) {
+Stopped refine_touched(MeshData& mesh, Step::Made made, StepObserver* observer) {
+  const bool morphed = made != Step::Made::replaced;
   const Triangulation& triangulation = mesh.triangulation;
   Refiner refiner(mesh, observer);
   const std::size_t count = triangulation.vertex_count();
   const std::size_t runaway = morphed ? count + count / 2 + 1000 : 4 * count + 10000;
   refiner.limit_vertices(std::min<std::size_t>(mesh.options.max_vertices, runaway));
   if (morphed) {
-    triangulation.for_each_touched([&](TriangleId t, bool) { refiner.consider_morphed(t); });
+    const auto consider = [&](TriangleId t) {
+      made == Step::Made::reference ? refiner.consider_kept(t) : refiner.consider_morphed(t);
+    };
+    triangulation.for_each_touched([&](TriangleId t, bool) { consider(t); });
     mesh.seen_triangles.clear(triangulation.triangle_slots());
     triangulation.for_each_moved_only([&](TriangleId t) {
-      if (mesh.seen_triangles.insert(t)) refiner.consider_morphed(t);  // once: it may have moved in parts
+      if (mesh.seen_triangles.insert(t)) consider(t);  // once: it may have moved in parts
     });
     return refiner.run();
   }
@@ -140,6 +145,8 @@ void Step::keep() {
 void Step::require_possible() const {
   require_option(std::isfinite(options_.distance) && options_.distance >= 0.0, "distance", options_.distance,
                  "0 or more");
+  require_option(options_.delaunay_slack_deg >= 0.0 && options_.delaunay_slack_deg <= 60.0,
+                 "delaunay_slack_deg", options_.delaunay_slack_deg, "0 to 60");
   require_option(options_.keep == 0.0 || (std::isfinite(options_.keep) && options_.keep >= 1.0), "keep",
                  options_.keep, "1 or more, or 0 for the usual");
   if (options_.designs_a_step == 0)
@@ -155,31 +162,103 @@ void Step::require_possible() const {
 
 RemodelResult Step::run() {
   const Arena::Scope scope(data().arena);
-  moving_ = moving_loops(data(), domain_);
-  other_discretisation_ = !moving_;
-  if (moving_ && joined(data(), *moving_)) moving_.reset();
+  find_moving_loops(data().domain);
   require_possible();
   RemodelResult result;
   if (moving_ && moving_->empty()) {
     result = unchanged(data());
     result.full_adjustment = true;
+    result.held = options_.strategy == Strategy::reference;
     result.method = Method::specialised;
   } else {
     require_surfaces_apart(domain_);
-    if (options_.method == Method::general) moving_.reset();
-    method_ = moving_ ? Method::specialised : Method::general;
+    choose_method();
     if (journalling_ == Journal::always) begin_journal();
     renewing_ = renews(data(), options_);
     if (renewing_) data().keep = std::max(data().keep, resolved_keep(options_, data().options));
-    result = adjust_or_replace();
+    std::optional<RemodelResult> followed = follow();
+    result = followed ? *std::move(followed) : adjust_or_replace();
     result.method = method_;
   }
   moving_.reset();
+  places_before_.reset();
+  return result;
+}
+
+void Step::find_moving_loops(const Domain& from) {
+  moving_ = moving_loops(data().arena, from, domain_);
+  other_discretisation_ = !moving_;
+  if (moving_ && joined(data(), *moving_)) moving_.reset();
+}
+
+void Step::choose_method() {
+  if (options_.method == Method::general) moving_.reset();
+  method_ = moving_ ? Method::specialised : Method::general;
+}
+
+void Step::begin_journal() {
+  // From a reference other loops than those of the step may change too.
+  journal_.emplace(data(), data().reference ? std::nullopt : moving_);
+  if (leaving_reference_ && data().reference) return_to_reference(data());
+}
+
+// As Strategy::reference has it. Nothing where the design's mesh is no morph of the reference: then the step
+// starts from that.
+std::optional<RemodelResult> Step::follow() {
+  MeshData& mesh = data();
+  if (mesh.reference) {
+    find_moving_loops(mesh.reference->domain);
+    choose_method();
+  }
+  if (options_.strategy == Strategy::reference && moving_) {
+    RemodelResult result = follow_reference(mesh, domain_, *moving_, options_.delaunay_slack_deg);
+    if (result.held) {
+      result.stopped = what_still_stops();
+      return result;
+    }
+  }
+  if (mesh.reference) leave_reference();
+  return std::nullopt;
+}
+
+void Step::leave_reference() {
+  const Triangulation& triangulation = data().triangulation;
+  places_before_.emplace(&data().arena);
+  for (std::uint32_t i = 0; i < triangulation.vertex_slots(); ++i)
+    places_before_->push_back(triangulation.point(VertexId{i}));
+  leaving_reference_ = true;
+  if (journal_)
+    return_to_reference(data());
+  else
+    begin_journal();
+}
+
+// Where the step left a reference: the vertices that are the same at another place than before the step.
+List<VertexId> Step::moved_since_before() const {
+  const Triangulation& triangulation = mesh_.data().triangulation;
+  List<VertexId> moved(&mesh_.data().arena);
+  for (std::uint32_t i = 1; i < places_before_->size(); ++i)
+    if (const VertexId v{i}; triangulation[v].alive() && !(triangulation.point(v) == (*places_before_)[i]))
+      moved.push_back(v);
+  return moved;
+}
+
+// The reference's own vertices were at their places, or could be moved there with its interior still.
+RemodelResult Step::finish_return() {
+  MeshData& mesh = data();
+  for (const std::size_t loop : *moving_) {
+    mesh.domain.loops[loop] = domain_.loops[loop];
+    mesh.loop_moved(loop);
+  }
+  RemodelResult result = count_replacement(mesh, moved_since_before());
+  result.full_adjustment = true;
+  note_replacement();
+  journal_->replaced();
   return result;
 }
 
 RemodelResult Step::adjust_or_replace() {
-  if (adjust_in_place()) return finish_adjustment();
+  if (adjust_in_place()) return leaving_reference_ ? finish_return() : finish_adjustment();
   // A design that corresponds to the present one and cannot be meshed is found out by the replacement itself,
   // exactly: its loops cannot be recovered or do not nest. Then generation says where.
   if (cache_ == nullptr || !cache_->finite()) validate(domain_);
@@ -193,8 +272,9 @@ RemodelResult Step::adjust_or_replace() {
 bool Step::adjust_in_place() {
   if (method_ != Method::specialised) return false;
   MeshData& mesh = data();
+  if (moving_->empty()) return true;  // the design is the reference's
   cache_ = &adjust_cache(mesh, *moving_);
-  refresh_is_due_ = renewing_ && refresh_is_due(mesh, options_.designs_a_step);
+  refresh_is_due_ = renewing_ && !leaving_reference_ && refresh_is_due(mesh, options_.designs_a_step);
   // Once vertices move nothing may throw, unless there is a journal: room is made before.
   mesh.renewal.pending_loops.reserve(mesh.domain.loops.size());
   mesh.marked.for_each([&](ChangeRecord& record) {
@@ -223,7 +303,7 @@ RemodelResult Step::finish_adjustment() {
 // After a full adjustment was not possible, as Strategy::morph has it. False, with the mesh as it was, where
 // triangles turn over, or what misses a bound cannot be refined: then vertices are replaced.
 bool Step::morph() {
-  if (options_.strategy != Strategy::morph || cache_ == nullptr || !cache_->finite()) return false;
+  if (!morphs() || cache_ == nullptr || !cache_->finite()) return false;
   morphing_ = true;
   const bool done = attempt();
   morphing_ = false;
@@ -281,7 +361,7 @@ bool Step::change_under_journal() {
   const std::optional<List<VertexId>> moved = change_boundary();
   if (!moved) return false;
   if (renewal) renew_replaced(mesh, *moved, budget);
-  result_.stopped = cancelled() ? Stopped::interrupted : refine_touched(mesh, morphing_, options_.observer);
+  result_.stopped = cancelled() ? Stopped::interrupted : refine_touched(mesh, made(), options_.observer);
   if (renewing_ && other_discretisation_) discretisation_changed(mesh, options_.observer);
   if (surplus || (renewing_ && mesh.renewal.until_shed > 0)) shed_and_refine();
   if (result_.stopped != Stopped::done) {
@@ -289,7 +369,7 @@ bool Step::change_under_journal() {
     return false;
   }
   require_points_in_domain(mesh);
-  result_ = count_replacement(mesh, *moved);
+  result_ = count_replacement(mesh, places_before_ ? moved_since_before() : *moved);
   result_.morphed = morphing_;
   result_.stopped = what_still_stops();
   if (renewing_)
@@ -304,7 +384,7 @@ bool Step::change_under_journal() {
 void Step::shed_and_refine() {
   for (int pass = 0; pass < RenewPolicy::shedding_passes; ++pass) {
     if (result_.stopped != Stopped::done || !shed_surplus(data())) break;
-    result_.stopped = refine_touched(data(), morphing_, options_.observer);
+    result_.stopped = refine_touched(data(), made(), options_.observer);
   }
   if (data().renewal.until_shed > 0) --data().renewal.until_shed;
 }

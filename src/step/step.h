@@ -4,6 +4,7 @@
 // before where a fresh one takes its place.
 //
 //   nothing moves           nothing is done
+//   follow()                Strategy::reference: all vertices go where the mesh's reference takes them
 //   adjust_in_place()       all boundary vertices moved to the new design, connectivity unchanged
 //   morph()                 Strategy::morph: the interior moves along, what misses a bound is flipped or
 //   refined replace()               what cannot move is relocated or replaced, what was touched is refined
@@ -23,6 +24,8 @@ class Step {
  public:
   // Whether a full adjustment is journalled too: only then can it be taken back.
   enum class Journal { when_needed, always };
+  // How the triangles came to be that refinement looks at.
+  enum class Made { replaced, morphed, reference };
 
   // The domain and the options have to live as long as run() does.
   Step(Mesh& mesh, const Domain& domain, const RemodelOptions& options, Journal journal);
@@ -40,9 +43,18 @@ class Step {
   MeshData& data() { return mesh_.data(); }
   bool cancelled() const { return options_.observer != nullptr && options_.observer->cancelled(); }
   void require_possible() const;
-  void begin_journal() { journal_.emplace(data(), moving_); }
+  void begin_journal();
   void take_back();
 
+  bool morphs() const {
+    return options_.strategy == Strategy::morph || options_.strategy == Strategy::reference;
+  }
+  void find_moving_loops(const Domain& from);
+  void choose_method();
+  std::optional<RemodelResult> follow();
+  void leave_reference();
+  List<VertexId> moved_since_before() const;
+  RemodelResult finish_return();
   RemodelResult adjust_or_replace();
   bool adjust_in_place();
   RemodelResult finish_adjustment();
@@ -53,6 +65,11 @@ class Step {
   bool leaves_outside_restored() const;
   bool change_under_journal();
   std::optional<List<VertexId>> change_boundary();
+  Made made() const {
+    return !morphing_                                 ? Made::replaced
+           : options_.strategy == Strategy::reference ? Made::reference
+                                                      : Made::morphed;
+  }
   void note_replacement();
   void shed_and_refine();
   Stopped what_still_stops();
@@ -78,7 +95,9 @@ class Step {
   bool morphing_ = false;              // the attempt under way moves the interior too
   bool other_discretisation_ = false;  // boundary vertices do not correspond
   bool refresh_is_due_ = false;
-  AdjustCache* cache_ = nullptr;  // of the specialised method
+  AdjustCache* cache_ = nullptr;              // of the specialised method
+  bool leaving_reference_ = false;            // every journal begins with the return to the reference
+  std::optional<List<Point>> places_before_;  // by slot, where the step left a reference
   RemodelResult result_;
   std::string failure_;  // why a replacement could not be completed
 };

@@ -12,7 +12,9 @@ StepJournal::StepJournal(MeshData& mesh, const std::optional<LoopIndices>& loops
       structure_stays_(loops.has_value()),
       domain_triangles_(mesh.domain_triangles),
       step_(mesh.step),
-      stopped_(mesh.stopped) {
+      stopped_(mesh.stopped),
+      reference_(mesh.reference),
+      delaunay_slack_deg_(mesh.delaunay_slack_deg) {
   backup_.renewal = mesh.renewal;
   backup_.loop_heads = mesh.loop_heads;
   backup_.sides = mesh.sides;
@@ -45,6 +47,8 @@ StepJournal::~StepJournal() {
   mesh_.domain_triangles = domain_triangles_;
   mesh_.step = step_;
   mesh_.stopped = stopped_;
+  mesh_.reference = std::move(reference_);
+  mesh_.delaunay_slack_deg = delaunay_slack_deg_;
   std::swap(mesh_.renewal, backup_.renewal);
   if (mesh_.cache && replaced_) mesh_.cache->stale = stale_;
 }
@@ -52,6 +56,7 @@ StepJournal::~StepJournal() {
 void StepJournal::replaced() {
   ++mesh_.step;
   replaced_ = true;
+  mesh_.follow_cache.reset();
   if (!mesh_.cache) return;
   if (!same_rows())
     mesh_.cache.reset();

@@ -35,6 +35,8 @@ class StepJournal {
   std::size_t domain_triangles_;
   std::uint32_t step_;
   Stopped stopped_;
+  std::shared_ptr<const MeshReference> reference_;
+  double delaunay_slack_deg_;
   bool replaced_ = false, stale_ = false;  // stale_: of the cache, before replaced()
   bool committed_ = false;
 };

@@ -35,6 +35,8 @@ const char* name_of(Strategy strategy) {
       return "renew";
     case Strategy::morph:
       return "morph";
+    case Strategy::reference:
+      return "reference";
   }
   return "unknown";
 }

@@ -24,12 +24,16 @@ Point quotient(Point a, Point b) {
 
 }  // namespace
 
-WallField::WallField(const MeshData& mesh, std::span<const std::size_t> moving) {
+WallField::WallField(const MeshData& mesh, std::span<const std::size_t> moving,
+                     std::span<const Point> points) {
+  const auto at = [&](std::uint32_t k) {
+    return points.empty() ? mesh.point(k) : points[mesh.at(k).vertex.index];
+  };
   double extent = 0.0, length = 0.0;  // squared; of all moving edges
   for (std::size_t loop = 0; loop < mesh.loop_heads.size(); ++loop) {
     const bool moves = std::ranges::binary_search(moving, loop);
     const std::size_t first = edges_.size();
-    add_loop(mesh, loop, moves);
+    add_loop(mesh, loop, moves, at);
     if (!moves) continue;
     Box box;
     for (std::size_t i = first; i < edges_.size(); ++i) {
@@ -49,16 +53,17 @@ WallField::WallField(const MeshData& mesh, std::span<const std::size_t> moving) 
   squared_reach_ = std::sqrt(length / least_);
 }
 
-void WallField::add_loop(const MeshData& mesh, std::size_t loop, bool moving) {
+template <class At>
+void WallField::add_loop(const MeshData& mesh, std::size_t loop, bool moving, At at) {
   const auto first = static_cast<std::uint32_t>(edges_.size());
   const std::uint32_t head = mesh.loop_heads[loop];
   mesh.walk_edges(head, [&](std::uint32_t k, std::uint32_t next) {
-    const Point from = mesh.point(k), to = mesh.point(next);
+    const Point from = at(k), to = at(next);
     edges_.push_back(
         {mesh.at(k).vertex, mesh.at(next).vertex, from, to, std::sqrt(squared_distance(from, to)), moving});
   });
   if (edges_.size() == first) {
-    const Point p = mesh.point(head);
+    const Point p = at(head);
     edges_.push_back({mesh.at(head).vertex, mesh.at(head).vertex, p, p, mesh.length_scale(head), moving});
   }
   add_nodes(first, static_cast<std::uint32_t>(edges_.size()));
@@ -158,6 +163,23 @@ Point WallField::at(Point x) const {
     sum.slope = sum.slope + weight * affine_[n].slope;
   });
   return factor == 0.0 ? Point{} : factor * (sum.constant + product(sum.slope, x));
+}
+
+void WallField::look(Point x, std::vector<Sight>& sights) const {
+  if (beyond_reach(x)) return;
+  const std::size_t first = sights.size();
+  const double factor = see(x, [&](std::uint32_t n, double weight) { sights.push_back({n, weight}); });
+  if (factor == 0.0) sights.resize(first);
+  for (std::size_t i = first; i < sights.size(); ++i) sights[i].weight *= factor;
+}
+
+Point WallField::at(Point x, std::span<const Sight> sights) const {
+  Affine sum;
+  for (const Sight& sight : sights) {
+    sum.constant = sum.constant + sight.weight * affine_[sight.node].constant;
+    sum.slope = sum.slope + sight.weight * affine_[sight.node].slope;
+  }
+  return sum.constant + product(sum.slope, x);
 }
 
 void WallField::pull(Point x, Point by_displacement) {

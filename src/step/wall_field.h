@@ -23,8 +23,9 @@ class WallField {
   static constexpr double radius = 0.5;
   static constexpr double opening = 0.35;
 
-  // At the places that the vertices have now. `moving` ascends.
-  WallField(const MeshData& mesh, std::span<const std::size_t> moving);
+  // At these places of the vertices, by slot; where none are given, at those that they have now. `moving`
+  // ascends.
+  WallField(const MeshData& mesh, std::span<const std::size_t> moving, std::span<const Point> points = {});
 
   // Sets the displacements of the walls' vertices: of(vertex).
   template <class Of>
@@ -35,6 +36,13 @@ class WallField {
   }
   // The displacement at x. Exactly zero beyond reach of the walls that move.
   Point at(Point x) const;
+  // The same in two parts: what x sees does not depend on displacements. Appends it; nothing beyond reach.
+  struct Sight {
+    std::uint32_t node;
+    double weight;
+  };
+  void look(Point x, std::vector<Sight>& sights) const;
+  Point at(Point x, std::span<const Sight> sights) const;
   // The transpose: adds the derivative by the displacement at x to those by edges; at last, scatters these to
   // the ends of the edges: add(vertex, derivative).
   void pull(Point x, Point by_displacement);
@@ -69,7 +77,8 @@ class WallField {
     bool moving = false;
   };
 
-  void add_loop(const MeshData& mesh, std::size_t loop, bool moving);
+  template <class At>
+  void add_loop(const MeshData& mesh, std::size_t loop, bool moving, At at);
   void add_nodes(std::uint32_t first, std::uint32_t last);
   void set(std::size_t edge, Point a, Point b);
   void gather();

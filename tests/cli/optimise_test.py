@@ -87,7 +87,7 @@ class Runs(ProgramTest):
         self.assertEqual(self.path("a/last.vtkhdf").read_bytes(), self.path("b/last.vtkhdf").read_bytes())
 
     def test_strategies_and_workers(self):
-        for strategy, workers in (("chain", 1), ("renew", 1), ("morph", 1), ("hub", 1), ("pool", 11), ("regenerate", 1), ("hub", 3)):
+        for strategy, workers in (("chain", 1), ("renew", 1), ("morph", 1), ("reference", 1), ("hub", 1), ("pool", 11), ("regenerate", 1), ("hub", 3)):
             given = () if workers in (1, 11) else ("--workers", workers)
             directory = f"{strategy}-{workers}"
             figures = self.figures(*self.arguments(44, directory, "--strategy", strategy, *given, "--compare-every", 11))
