@@ -124,11 +124,10 @@ std::string pressures(const Scratch& scratch, const Shown& first, const Shown& l
 // Mach numbers of one point around a section, in colours of one range.
 std::string mach_field(const Scratch& scratch, const Shown& of, std::size_t point, double most) {
   const FlowResult& flow = of.flows[point];
+  DrawField field{.field = {.name = "mach", .values = of.mach[point]}, .label = "Mach", .iso_lines = 24};
+  field.range = {0.0, most};
   DrawOptions options{.window = std::array{-0.35, -0.55, 1.35, 0.65}, .width = 1000, .line = 1.8};
-  options.field = DrawField{.field = {.name = "mach", .values = of.mach[point]},
-                            .label = "Mach",
-                            .range = std::array{0.0, most},
-                            .iso_lines = 24};
+  options.field = std::move(field);
   options.caption = of.name + ": " + flow_caption(flow.mach, flow.alpha_deg, flow.cl) + ", " +
                     number(1e4 * flow.cd, "%.1f") + " counts of drag";
   return scratch.picture(".png", [&](const fs::path& file) { draw(of.mesh, file, options); });

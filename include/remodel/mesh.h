@@ -118,9 +118,9 @@ class Mesh {
   Changes changes_since(const Mark& mark) const;
 
   // The quick validation, O(triangles): links return, triangles counter-clockwise, constrained edges on the
-  // design's boundary, locally Delaunay (but for delaunay_slack_deg()), angle and gradation within the
-  // options. Empty if valid, otherwise
-  // the first broken rule with the ids concerned. (check() of check.h is the independent, slow one.)
+  // design's boundary, locally Delaunay (but for delaunay_slack_deg()), angle and gradation within the options.
+  // Empty if valid, otherwise the first broken rule with the ids concerned. (check() of check.h is the
+  // independent, slow one.)
   std::string quick_check() const;
 
   MeshData& data();
