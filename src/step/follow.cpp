@@ -238,7 +238,7 @@ class Follow {
   }
 
   bool edges_are_good() const {
-    return std::ranges::all_of(cache_.edges, [&](const FollowCache::Edge& edge) {
+    return std::all_of(cache_.edges.begin(), cache_.edges.end(), [&](const FollowCache::Edge& edge) {
       const Point a = at(edge.a).point, b = at(edge.b).point, apex = at(edge.apex).point;
       if (edge.across == infinite_vertex) return opposite_.within(apex, a, b);
       const Point across = at(edge.across).point;
