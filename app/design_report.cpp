@@ -124,8 +124,12 @@ std::string pressures(const Scratch& scratch, const Shown& first, const Shown& l
 // Mach numbers of one point around a section, in colours of one range.
 std::string mach_field(const Scratch& scratch, const Shown& of, std::size_t point, double most) {
   const FlowResult& flow = of.flows[point];
-  DrawField field{.field = {.name = "mach", .values = of.mach[point]}, .label = "Mach", .iso_lines = 24};
+  DrawField field;
+  field.field.name = "mach";
+  field.field.values = of.mach[point];
+  field.label = "Mach";
   field.range = {0.0, most};
+  field.iso_lines = 24;
   DrawOptions options{.window = std::array{-0.35, -0.55, 1.35, 0.65}, .width = 1000, .line = 1.8};
   options.field = std::move(field);
   options.caption = of.name + ": " + flow_caption(flow.mach, flow.alpha_deg, flow.cl) + ", " +
