@@ -196,7 +196,7 @@ let exact = false; // whether measurements include the time until the picture is
 function sentenceOfStep({ figures, isFirst }) {
   if (isFirst) return "The mesh is there: drag a handle, or move one with the arrow keys.";
   if (figures[8]) return "Every triangle is new: this mesh was generated.";
-  if (figures[7]) return `One full adjustment: ${figures[10]} vertices moved, and every triangle joins those that it joined.`;
+  if (figures[7]) return `A full adjustment: ${figures[10]} vertices moved, and nothing else changed.`;
   return `One step: ${figures[10]} vertices moved, ${figures[11]} inserted, ${figures[12]} removed.`;
 }
 

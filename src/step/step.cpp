@@ -198,7 +198,8 @@ void Step::choose_method() {
 
 void Step::begin_journal() {
   // From a reference other loops than those of the step may change too.
-  journal_.emplace(data(), data().reference ? std::nullopt : moving_);
+  const std::optional<LoopIndices> any;
+  journal_.emplace(data(), data().reference ? any : moving_);
   if (leaving_reference_ && data().reference) return_to_reference(data());
 }
 
@@ -369,7 +370,7 @@ bool Step::change_under_journal() {
     return false;
   }
   require_points_in_domain(mesh);
-  result_ = count_replacement(mesh, places_before_ ? moved_since_before() : *moved);
+  result_ = places_before_ ? count_replacement(mesh, moved_since_before()) : count_replacement(mesh, *moved);
   result_.morphed = morphing_;
   result_.stopped = what_still_stops();
   if (renewing_)
@@ -379,8 +380,7 @@ bool Step::change_under_journal() {
   return true;
 }
 
-// A boundary of fewer points than before leaves a mesh that is far too dense, and so may a row of large
-// morphs.
+// A boundary of fewer points than before leaves a mesh that is far too dense, and so may a row of large morphs.
 void Step::shed_and_refine() {
   for (int pass = 0; pass < RenewPolicy::shedding_passes; ++pass) {
     if (result_.stopped != Stopped::done || !shed_surplus(data())) break;

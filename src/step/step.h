@@ -6,8 +6,8 @@
 //   nothing moves           nothing is done
 //   follow()                Strategy::reference: all vertices go where the mesh's reference takes them
 //   adjust_in_place()       all boundary vertices moved to the new design, connectivity unchanged
-//   morph()                 Strategy::morph: the interior moves along, what misses a bound is flipped or
-//   refined replace()               what cannot move is relocated or replaced, what was touched is refined
+//   morph()                 Strategy::morph: the interior moves along, what misses a bound is mended
+//   replace()               what cannot move is relocated or replaced, what was touched is refined
 //   regenerate()            the mesh is taken back and one of the new design generated
 
 #include <optional>
