@@ -11,10 +11,10 @@ foreach(name IN LISTS names)
   install(EXPORT remodel_${name} NAMESPACE remodel:: DESTINATION ${REMODEL_PACKAGE_DIR} COMPONENT development)
 endforeach()
 install(DIRECTORY include/remodel DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
-configure_package_config_file(cmake/remodelConfig.cmake.in ${CMAKE_BINARY_DIR}/remodelConfig.cmake
+configure_package_config_file(cmake/remodelConfig.cmake.in ${PROJECT_BINARY_DIR}/remodelConfig.cmake
                               INSTALL_DESTINATION ${REMODEL_PACKAGE_DIR})
-write_basic_package_version_file(${CMAKE_BINARY_DIR}/remodelConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${CMAKE_BINARY_DIR}/remodelConfig.cmake ${CMAKE_BINARY_DIR}/remodelConfigVersion.cmake
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/remodelConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/remodelConfig.cmake ${PROJECT_BINARY_DIR}/remodelConfigVersion.cmake
         DESTINATION ${REMODEL_PACKAGE_DIR} COMPONENT development)
 
 if(TARGET remodel_program)

@@ -1,5 +1,5 @@
 # Builds and runs a consumer of remodel::core where HDF5, SQLite, cairo, MUMPS, the libraries of tests, MPI, threads and
-# pkg-config cannot be found: from Remodel's sources, and from an installation of core alone, where not even the
+# pkg-config cannot be found: from Remodel's sources, and from what that installs, core alone, where not even the
 # header-only libraries are left that core is built with.
 #   cmake -DSOURCE=... -DSCRATCH=... -P core_consumer_test.cmake
 include(${SOURCE}/tests/run.cmake)
@@ -7,7 +7,7 @@ include(${SOURCE}/tests/run.cmake)
 file(REMOVE_RECURSE ${SCRATCH})
 file(MAKE_DIRECTORY ${SCRATCH})
 set(consumer ${SOURCE}/tests/consumer/core)
-# Not optimised: core is built twice here, for its own sake.
+# Not optimised: core is built for its own sake.
 set(bare -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_UNITY_BUILD=ON -DCMAKE_TOOLCHAIN_FILE=${consumer}/bare.cmake
          -DBARE_SCRATCH=${SCRATCH}/bare)
 find_program(CCACHE ccache)
@@ -34,7 +34,7 @@ function(run_consumer build)
   endif()
 endfunction()
 
-run(${CMAKE_COMMAND} -S ${consumer} -B ${SCRATCH}/sources ${bare} -DREMODEL_SOURCE=${SOURCE})
+run(${CMAKE_COMMAND} -S ${consumer} -B ${SCRATCH}/sources ${bare} -DREMODEL_SOURCE=${SOURCE} -DREMODEL_INSTALL=ON)
 run_consumer(${SCRATCH}/sources)
 file(GLOB_RECURSE others ${SCRATCH}/sources/remodel/*.a)
 list(FILTER others EXCLUDE REGEX "libremodel_core\\.a$")
@@ -42,11 +42,7 @@ if(others)
   message(FATAL_ERROR "a consumer of core built ${others} too")
 endif()
 
-set(parts FLOW IO DRAW DESIGN APP STUDY PYTHON TESTS)
-list(TRANSFORM parts REPLACE "(.+)" "-DREMODEL_\\1=OFF")
-run(${CMAKE_COMMAND} -S ${SOURCE} -B ${SCRATCH}/core ${bare} ${parts})
-run(${CMAKE_COMMAND} --build ${SCRATCH}/core)
-run(${CMAKE_COMMAND} --install ${SCRATCH}/core --prefix ${SCRATCH}/prefix)
+run(${CMAKE_COMMAND} --install ${SCRATCH}/sources --prefix ${SCRATCH}/prefix)
 run(${CMAKE_COMMAND} -S ${consumer} -B ${SCRATCH}/installed ${bare} -DBARE_NOTHING=ON
     -DCMAKE_PREFIX_PATH=${SCRATCH}/prefix)
 run_consumer(${SCRATCH}/installed)

@@ -380,7 +380,7 @@ bool Step::change_under_journal() {
   return true;
 }
 
-// A boundary of fewer points than before leaves a mesh that is far too dense, and so may a row of large morphs.
+// A boundary of fewer points than before leaves a mesh that is far too dense, and so may a row of morphs.
 void Step::shed_and_refine() {
   for (int pass = 0; pass < RenewPolicy::shedding_passes; ++pass) {
     if (result_.stopped != Stopped::done || !shed_surplus(data())) break;
