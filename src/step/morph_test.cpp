@@ -9,6 +9,7 @@
 #include "remodel/check.h"
 #include "remodel/displacement.h"
 #include "remodel/error.h"
+#include "remodel/import.h"
 #include "remodel/remodel.h"
 #include "step/test_designs.h"
 
@@ -140,6 +141,26 @@ TEST(Morph, BodiesThatMoveApartAndTogetherStayApart) {
 }
 
 // ---- the displacement
+
+// Nothing renews their length scales: what one morph adds where it stretches, the next does not leave behind.
+TEST(Morph, ImportedMeshesDoNotGrow) {
+  const FrozenMesh all = generated(catalogue_domain(0, 100), {.gradation = 2.0}).freeze();
+  FrozenMesh file;
+  file.points = all.points, file.triangles = all.triangles, file.boundaries = all.boundaries;
+  const Mesh start = import_mesh(file, "file").mesh;
+  const AirfoilPlace place = find_airfoil(start.domain(), "airfoil", "file");
+  for (const Strategy strategy : {Strategy::morph, Strategy::reference}) {
+    Mesh mesh = start;
+    std::size_t most = 0;
+    for (std::size_t step = 1; step <= 60; ++step) {
+      const CstAirfoil next = airfoil_catalogue()[step % airfoil_catalogue().size()].airfoil();
+      remodel(mesh, with_airfoil(start.domain(), place, next), {.strategy = strategy});
+      ASSERT_EQ(mesh.quick_check(), "");
+      most = std::max(most, mesh.triangle_count());
+    }
+    EXPECT_LT(most, 2 * start.triangle_count()) << name_of(strategy);
+  }
+}
 
 class Displacement : public testing::Test {
  protected:

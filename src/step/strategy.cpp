@@ -106,6 +106,10 @@ void discretisation_changed(MeshData& mesh, StepObserver* observer) {
   mesh.renewal.until_shed = RenewPolicy::replacements_that_shed;
 }
 
+void count_imported(MeshData& mesh) {
+  if (mesh.renewal.count_factor == 0.0) mesh.renewal.count_factor = triangles_per_size(mesh);
+}
+
 bool has_surplus(const MeshData& mesh, double tolerated) {
   const double factor = mesh.renewal.count_factor;
   const double most = (1.0 + tolerated) * factor * size_of(mesh);

@@ -45,6 +45,8 @@ void renew_replaced(MeshData& mesh, std::span<const VertexId> moved, std::size_t
 // After a replacement that changed the discretisation: measures K, which depends on it, and lets this and the
 // next replacements shed what the mesh has too much.
 void discretisation_changed(MeshData& mesh, StepObserver* observer);
+// Imported meshes are not renewed. K of one that is morphed is what it has before the first time.
+void count_imported(MeshData& mesh);
 // Whether the mesh has more triangles than a fresh one by more than this share; false while K is not known.
 bool has_surplus(const MeshData& mesh, double tolerated);
 // Where the surplus is large, removes what is dense anywhere. True if refinement has to fill in.
