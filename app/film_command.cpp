@@ -126,12 +126,8 @@ void add_film_command(CLI::App& program, Action& action) {
   CLI::App& app =
       add_subcommand(program, "film", "Films the mesh of a run of `optimise` or `design`, as animated WebP",
                      [command, &action] { action = [command] { return run(*command); }; });
-  add_text(
-      app,
-      {"RUN", "", "",
-       "Run directory of `remodel optimise --from`, of any strategy but hub and regenerate, or of `remodel "
-       "design`"},
-      Presence::required, [command](const std::string& text) { command->run = text; });
+  add_text(app, {"RUN", "", "", "Run directory of `remodel optimise` or of `remodel design`"},
+           Presence::required, [command](const std::string& text) { command->run = text; });
   add_text(app, {"-o,--output", "FILE", "", "Film to write: .webp"}, Presence::required, command->output);
   add_integer(
       app,

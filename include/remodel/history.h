@@ -3,8 +3,8 @@
 // The history of an optimisation run: one SQLite file, one row an evaluation. Every figure of a run's result
 // is derived from it.
 //
-// Table run(key, value): "version", "options" (JSON), and of optimise() between two airfoils "seed", "from"
-// and "to" (CST as JSON). Table evaluations: `evaluation_figures`, a column each; lists as JSON arrays,
+// Table run(key, value): "version", "options" (JSON), of optimise() from an airfoil "seed" and "from" (CST as
+// JSON), between two of them "to", and with a start mesh "place" (the airfoil's, as JSON). Table evaluations: `evaluation_figures`, a column each; lists as JSON arrays,
 // outputs as a JSON object; NULL for what was not measured or is empty.
 
 #include <cstddef>

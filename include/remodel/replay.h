@@ -13,18 +13,20 @@
 
 namespace remodel {
 
+// Sees each mesh with its row of the history.
+using ReplayVisit = std::function<void(const EvaluationRecord& record, const Mesh& mesh)>;
+
 // Remodels the directory's first.vtkhdf to each design that the worker evaluated, in order, as optimise()
-// did, and shows every mesh with its row; the row's own figures are not looked at, but for a check that the
-// mesh has as many triangles as it had. A run that is still going on is replayed as far as its history is.
+// did, and shows every mesh with its row; of the row's own figures only those are looked at that say where a
+// mesh was generated and how many triangles it had. A run that is still going on is replayed as far as its
+// history is.
 //
 // Throws Error (file, format) for a directory that holds no run, and where history and mesh do not belong
-// together, as after a run by another version. Error (argument) for a worker that the run does not have, and
-// for runs whose meshes depend on more than one worker's designs (MeshStrategy::hub,
-// MeshStrategy::regenerate) or on a mesh that is not in the directory (OptimiseOptions::start).
-void replay(const std::filesystem::path& directory, std::uint64_t worker,
-            const std::function<void(const EvaluationRecord& record, const Mesh& mesh)>& visit);
-// The same of a run in any design space, which has to be the run's.
+// together. Error (argument) for a run by another version and for a worker that the run does not have.
+void replay(const std::filesystem::path& directory, std::uint64_t worker, const ReplayVisit& visit);
+// The same of a run in any design space, which has to be the run's. Its strategy cannot be MeshStrategy::hub,
+// whose mesh follows the designer as well: Error (argument).
 void replay(const std::filesystem::path& directory, const DesignSpace& space, std::uint64_t worker,
-            const std::function<void(const EvaluationRecord& record, const Mesh& mesh)>& visit);
+            const ReplayVisit& visit);
 
 }  // namespace remodel

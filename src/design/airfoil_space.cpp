@@ -60,6 +60,31 @@ CstAirfoil with_coefficients(const CstAirfoil& like, std::span<const double> coe
   return result;
 }
 
+std::string place_to_json(const AirfoilPlace& place) {
+  return nlohmann::ordered_json{{"loop", place.loop},
+                                {"leading", {place.leading.x, place.leading.y}},
+                                {"trailing", {place.trailing.x, place.trailing.y}},
+                                {"parameters", place.parameters},
+                                {"base", place.base},
+                                {"names", place.names},
+                                {"first", place.first},
+                                {"backwards", place.backwards}}
+      .dump();
+}
+
+AirfoilPlace place_from_json(const std::string& text) {
+  const auto json = nlohmann::json::parse(text);
+  const auto point = [&](const char* key) { return Point{json.at(key).at(0), json.at(key).at(1)}; };
+  return {.loop = json.at("loop"),
+          .leading = point("leading"),
+          .trailing = point("trailing"),
+          .parameters = json.at("parameters").get<std::vector<double>>(),
+          .base = json.at("base").get<std::vector<double>>(),
+          .names = json.at("names").get<std::vector<std::string>>(),
+          .first = json.at("first"),
+          .backwards = json.at("backwards")};
+}
+
 CachedStation::CachedStation(double t, const CstAirfoil& like) : row_(like.upper.size()) {
   station_ = cst_basis(t, like.degree(), like.e1, like.e2, row_);
 }

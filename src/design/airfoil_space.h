@@ -4,11 +4,13 @@
 // that a run's designs cannot depend on one.
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "remodel/airfoil.h"
 #include "remodel/design_space.h"
 #include "remodel/domain.h"
+#include "remodel/import.h"
 
 namespace remodel {
 
@@ -19,6 +21,10 @@ void require_same_family(const CstAirfoil& from, const CstAirfoil& to);
 // Coefficients of both surfaces in one vector, upper first, and back.
 std::vector<double> coefficients_of(const CstAirfoil& airfoil);
 CstAirfoil with_coefficients(const CstAirfoil& like, std::span<const double> coefficients);
+
+// An airfoil's place in another mesh, for a run's history. from_json throws nlohmann's exceptions.
+std::string place_to_json(const AirfoilPlace& place);
+AirfoilPlace place_from_json(const std::string& text);
 
 // A station with its row of cst_basis, kept for thousands of designs of one degree.
 class CachedStation {

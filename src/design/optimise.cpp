@@ -33,6 +33,7 @@ OptimiseResult optimise_airfoil(const CstAirfoil& from, const CstAirfoil* target
   std::optional<InterpolationObjective> distance;
   DesignProblem problem{.space = space, .designer = designer, .evaluator = evaluator};
   problem.facts = {{"seed", std::to_string(options.seed)}, {"from", airfoil_to_json(from)}};
+  if (options.start) problem.facts["place"] = place_to_json(options.start->place);
   if (target) {
     distance.emplace(*target);
     problem.facts["to"] = airfoil_to_json(*target);

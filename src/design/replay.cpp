@@ -1,17 +1,19 @@
 #include "remodel/replay.h"
 
 #include <algorithm>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
+#include "design/airfoil_space.h"
 #include "design/design_search.h"
-#include "remodel/design_space.h"
+#include "design/hub.h"
+#include "design/living_mesh.h"
 #include "remodel/domain.h"
 #include "remodel/error.h"
-#include "remodel/generate.h"
 #include "remodel/io.h"
 #include "remodel/optimise.h"
-#include "remodel/remodel.h"
 #include "remodel/version.h"
 
 namespace remodel {
@@ -20,12 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-// What a mesh depends on beside the designs.
-struct RunSettings {
-  RemodelOptions remodel;
-  std::uint64_t workers = 1;
-};
-
 template <typename Enum>
 Enum named(const Json& name, std::initializer_list<Enum> all) {
   for (const Enum value : all)
@@ -33,27 +29,24 @@ Enum named(const Json& name, std::initializer_list<Enum> all) {
   throw Error(ErrorCode::format, "options", "found " + name.dump() + ", expected another name");
 }
 
-void require_replayable(const Json& json, const fs::path& directory) {
-  const auto refuse = [&](const std::string& found, const std::string& expected) {
-    throw Error(ErrorCode::argument, directory.string(), "found " + found + ", expected " + expected);
-  };
+void require_this_version(const Json& json, const fs::path& directory) {
   const std::string version = json.at("version");
   if (version != REMODEL_VERSION)
-    refuse("a run of version " + version, std::string("one of version ") + REMODEL_VERSION);
-  if (json.contains("start_mesh")) refuse("a run that began with a mesh", "one that began with an airfoil");
-  const std::string strategy = json.at("strategy");
-  for (const MeshStrategy no_chain : {MeshStrategy::hub, MeshStrategy::regenerate})
-    if (strategy == name_of(no_chain)) refuse("a run by " + strategy, "one by renew, chain or pool");
+    throw Error(
+        ErrorCode::argument, directory.string(),
+        "found a run of version " + version + ", expected one of version " + std::string(REMODEL_VERSION));
 }
 
-RunSettings settings_of(const Json& json) {
-  const std::uint64_t workers = json.at("workers");
-  return {.remodel = {.distance = json.at("distance"),
-                      .method =
-                          named(json.at("method"), {Method::automatic, Method::specialised, Method::general}),
-                      .strategy = info_of(mesh_strategy(json.at("strategy"))).step,
-                      .keep = json.at("keep")},
-          .workers = workers};
+// What a run's meshes depend on beside the designs and the first of them.
+OptimiseOptions options_of(const Json& json) {
+  OptimiseOptions options;
+  options.remodel = {
+      .distance = json.at("distance"),
+      .method = named(json.at("method"), {Method::automatic, Method::specialised, Method::general}),
+      .keep = json.at("keep")};
+  options.strategy = mesh_strategy(json.at("strategy"));
+  options.workers = json.at("workers");
+  return options;
 }
 
 void require_same_mesh(const EvaluationRecord& record, const Mesh& mesh, const fs::path& history) {
@@ -62,13 +55,6 @@ void require_same_mesh(const EvaluationRecord& record, const Mesh& mesh, const f
               "evaluation " + std::to_string(record.evaluation) + ": found " +
                   std::to_string(record.triangles) + " triangles, expected " +
                   std::to_string(mesh.triangle_count()) + " after the designs before it");
-}
-
-// Where the run had to help itself by generation, so does the replay.
-void advance(Mesh& mesh, const Domain& domain, const RemodelOptions& options, bool regenerated) {
-  const QualityOptions quality = mesh.options();
-  const RemodelResult result = remodel(mesh, domain, options);
-  if (regenerated && !result.regenerated) mesh = generate(domain, quality).mesh;
 }
 
 void require_worker(std::uint64_t worker, std::uint64_t workers) {
@@ -91,43 +77,124 @@ auto read_options(const fs::path& file, const History& history, Read read) {
   }
 }
 
+// The hub of a run follows the mean of its designer's distribution: the designer is asked once more, and told
+// what the history says.
+class FollowedHub {
+ public:
+  FollowedHub(const OptimiseOptions& options, const DesignSpace& space, CmaesDesigner designer,
+              const Mesh& mesh)
+      : space_(space), designer_(std::move(designer)), hub_(options, space, designer_.population(), mesh) {}
+
+  FollowedHub(const FollowedHub&) = delete;
+  FollowedHub& operator=(const FollowedHub&) = delete;
+
+  const Hub& hub() const { return hub_; }
+
+  // Before the row's design is tried.
+  void follow(const EvaluationRecord& record) {
+    if ((record.evaluation - 1) % designer_.population() != 0) return;
+    if (const auto mean = feasible_centre(designer_, feasible_)) hub_.follow(*mean, generation_);
+    generation_ = {};
+  }
+
+  // After it; `history` is named where the designer proposes another design.
+  void tell(const EvaluationRecord& record, const fs::path& history) {
+    const auto sample = next_sample(designer_, feasible_, OptimiseOptions{}.max_refused);
+    if (!sample || sample->proposal.design != record.coefficients)
+      throw Error(ErrorCode::format, history.string(),
+                  "evaluation " + std::to_string(record.evaluation) +
+                      ": expected the design that the run's seed leads to, found another");
+    designer_.tell(sample->proposal, {.objective = record.objective, .constraints = record.constraints});
+    ++generation_.evaluated;
+    generation_.full_adjustments += record.full_adjustment ? 1 : 0;
+  }
+
+ private:
+  const DesignSpace& space_;
+  Feasible feasible_ = [this](std::span<const double> design) { return space_.feasible(design); };
+  CmaesDesigner designer_;
+  Hub hub_;
+  Hub::Generation generation_;
+};
+
+// designer: of a run by CMA-ES, without which a hub cannot be followed.
+void replay_run(const fs::path& directory, const DesignSpace& space, std::optional<CmaesDesigner> designer,
+                std::uint64_t worker, const ReplayVisit& visit) {
+  const fs::path file = directory / "history.sqlite";
+  const History history = History::open(file);
+  OptimiseOptions options = read_options(file, history, [&](const auto&, const Json& json) {
+    require_this_version(json, directory);
+    return options_of(json);
+  });
+  require_worker(worker, options.workers);
+  const bool by_hub = options.strategy == MeshStrategy::hub;
+  if (by_hub && !designer)
+    throw Error(ErrorCode::argument, directory.string(),
+                "found a run by hub in a design space of its own, expected one of airfoils");
+  const std::vector<double> start = space.start();
+  const std::size_t population =
+      designer ? designer->population() : interpolation_designer(start, 1.0, 1).population();
+
+  Mesh first = read_mesh(directory / "first.vtkhdf");
+  options.quality = first.options();
+  std::unique_ptr<FollowedHub> followed;
+  std::unique_ptr<LivingMesh> living;
+  if (by_hub) {
+    followed = std::make_unique<FollowedHub>(options, space, std::move(*designer), first);
+    living = std::make_unique<TrialMesh>(options, space, followed->hub(), std::move(first));
+  } else {
+    living = std::make_unique<LivingMesh>(options, space, std::move(first),
+                                          std::min<std::size_t>(options.workers, population));
+  }
+  history.each([&](const EvaluationRecord& record) {
+    if (record.coefficients.size() != start.size())
+      throw Error(ErrorCode::format, file.string(), "expected the coefficients of the start's degree");
+    if (followed) followed->follow(record);
+    if (record.worker == worker) {
+      MeshStep step;
+      // What the criterion of `regenerate` chose lies in the history.
+      const bool generate = options.strategy == MeshStrategy::regenerate && record.refreshed;
+      living->step(record.coefficients, {.generate = generate}, step);
+      require_same_mesh(record, living->mesh(), file);
+      visit(record, living->mesh());
+    }
+    if (followed) followed->tell(record, file);
+  });
+}
+
+// The space of a run of optimise() between airfoils.
+std::unique_ptr<AirfoilSpace> airfoil_space(const std::map<std::string, std::string>& run,
+                                            const Json& options, const fs::path& directory) {
+  const CstAirfoil from = airfoil_from_json(run.at("from"), (directory / "history.sqlite").string());
+  if (options.contains("start_mesh"))
+    return std::make_unique<AirfoilSpace>(from, read_mesh(directory / "first.vtkhdf").domain(),
+                                          place_from_json(run.at("place")));
+  return std::make_unique<AirfoilSpace>(
+      from, AirfoilDomainOptions{.points = options.at("points"),
+                                 .farfield_radius = options.at("farfield_radius"),
+                                 .farfield_points = options.at("farfield_points")});
+}
+
 }  // namespace
 
-void replay(const fs::path& directory, std::uint64_t worker,
-            const std::function<void(const EvaluationRecord&, const Mesh&)>& visit) {
+void replay(const fs::path& directory, std::uint64_t worker, const ReplayVisit& visit) {
   const fs::path file = directory / "history.sqlite";
-  const AirfoilSpace space = read_options(file, History::open(file), [&](const auto& run, const Json& json) {
-    require_replayable(json, directory);
-    const AirfoilDomainOptions domain = {.points = json.at("points"),
-                                         .farfield_radius = json.at("farfield_radius"),
-                                         .farfield_points = json.at("farfield_points")};
-    return AirfoilSpace(airfoil_from_json(run.at("from"), file.string()), domain);
+  struct Searched {
+    std::unique_ptr<AirfoilSpace> space;
+    double sigma;
+    std::uint64_t seed;
+  };
+  const Searched run = read_options(file, History::open(file), [&](const auto& facts, const Json& json) {
+    require_this_version(json, directory);
+    return Searched{airfoil_space(facts, json, directory), json.at("sigma"), json.at("seed")};
   });
-  replay(directory, space, worker, visit);
+  replay_run(directory, *run.space, interpolation_designer(run.space->start(), run.sigma, run.seed), worker,
+             visit);
 }
 
 void replay(const fs::path& directory, const DesignSpace& space, std::uint64_t worker,
-            const std::function<void(const EvaluationRecord&, const Mesh&)>& visit) {
-  const fs::path file = directory / "history.sqlite";
-  const History history = History::open(file);
-  RunSettings settings = read_options(file, history, [&](const auto&, const Json& json) {
-    require_replayable(json, directory);
-    return settings_of(json);
-  });
-  require_worker(worker, settings.workers);
-  const std::vector<double> start = space.start();
-  const std::size_t population = interpolation_designer(start, 1.0, 1).population();
-  settings.remodel.designs_a_step = static_cast<std::uint32_t>(std::min(settings.workers, population));
-
-  Mesh mesh = read_mesh(directory / "first.vtkhdf");
-  history.each([&](const EvaluationRecord& record) {
-    if (record.worker != worker) return;
-    if (record.coefficients.size() != start.size())
-      throw Error(ErrorCode::format, file.string(), "expected the coefficients of the start's degree");
-    advance(mesh, space.domain(record.coefficients), settings.remodel, record.regenerated);
-    require_same_mesh(record, mesh, file);
-    visit(record, mesh);
-  });
+            const ReplayVisit& visit) {
+  replay_run(directory, space, std::nullopt, worker, visit);
 }
 
 }  // namespace remodel

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "design/test_runs.h"
+#include "remodel/design_space.h"
 #include "remodel/error.h"
+#include "remodel/generate.h"
 
 namespace remodel {
 namespace {
@@ -23,9 +27,11 @@ std::pair<MeshState, std::uint64_t> last_of(const std::filesystem::path& run, st
 }
 
 TEST_F(Replay, EndsWithTheRunsLastMeshToTheLastBit) {
-  for (const MeshStrategy strategy : {MeshStrategy::chain, MeshStrategy::renew}) {
-    OptimiseOptions given = options(name_of(strategy));
-    given.strategy = strategy;
+  for (const MeshStrategyInfo& info : mesh_strategies()) {
+    if (info.strategy == MeshStrategy::pool) continue;  // of several workers
+    SCOPED_TRACE(info.name);
+    OptimiseOptions given = options(info.name);
+    given.strategy = info.strategy;
     optimise(from_, to_, given);
     const auto [last, shown] = last_of(given.directory, 1);
     EXPECT_EQ(shown, 60u);
@@ -49,6 +55,34 @@ TEST_F(Replay, HasEachWorkersMeshes) {
   EXPECT_TRUE(found);
 }
 
+TEST_F(Replay, OfARunFromAMesh) {
+  const Domain domain = airfoil_domain(from_, {.points = 50});
+  const Mesh generated = generate(domain, {.gradation = 1.0}).mesh;
+  OptimiseOptions given = options("run");
+  given.start = {.mesh = generated, .place = find_airfoil(domain, "airfoil", "test")};
+  optimise(from_, to_, given);
+  const auto [last, shown] = last_of(given.directory, 1);
+  EXPECT_EQ(shown, 60u);
+  EXPECT_TRUE(last == read_mesh(given.directory / "last.vtkhdf").state());
+}
+
+TEST_F(Replay, OfAHubHasTheSameMeshesForAnyNumberOfWorkers) {
+  OptimiseOptions alone = options("alone", 44), several = options("several", 44);
+  alone.strategy = several.strategy = MeshStrategy::hub;
+  several.workers = 3;
+  optimise(from_, to_, alone);
+  optimise(from_, to_, several);
+  std::map<std::uint64_t, MeshState> meshes;
+  replay(alone.directory, 1, [&](const EvaluationRecord& record, const Mesh& mesh) {
+    meshes.emplace(record.evaluation, mesh.state());
+  });
+  ASSERT_EQ(meshes.size(), 44u);
+  for (const std::uint64_t worker : {1, 2, 3})
+    replay(several.directory, worker, [&](const EvaluationRecord& record, const Mesh& mesh) {
+      EXPECT_TRUE(mesh.state() == meshes.at(record.evaluation)) << "evaluation " << record.evaluation;
+    });
+}
+
 TEST_F(Replay, RefusesWhatItCannotRepeat) {
   const auto refused = [](const std::filesystem::path& run, std::uint64_t worker) {
     EXPECT_THROW(replay(run, worker, [](const auto&, const auto&) { FAIL() << "a mesh is shown"; }), Error);
@@ -64,10 +98,13 @@ TEST_F(Replay, RefusesWhatItCannotRepeat) {
   std::filesystem::remove(given.directory / "first.vtkhdf");
   refused(given.directory, 1);
 
+  // A hub follows its designer, which a design space alone does not tell.
   OptimiseOptions hub = options("hub", 22);
   hub.strategy = MeshStrategy::hub;
   optimise(from_, to_, hub);
-  refused(hub.directory, 1);
+  const AirfoilSpace space(from_, hub.domain);
+  EXPECT_THROW(replay(hub.directory, space, 1, [](const auto&, const auto&) { FAIL() << "a mesh is shown"; }),
+               Error);
 }
 
 }  // namespace

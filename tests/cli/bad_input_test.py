@@ -290,9 +290,6 @@ class Options(ProgramTest):
         self.refused("film", "run", names="-o")
         self.path("run/first.vtkhdf").unlink()
         self.refused(*film, names="first.vtkhdf")
-        options = "--points", 50, "--evaluations", 22, "-o", "hub", "--strategy", "hub"
-        self.succeed("optimise", "--from", "naca:0012", "--to", "rae2822", *options)
-        self.refused("film", "hub", "-o", "a.webp", names="hub")
 
     def test_unknown_arguments(self):
         self.refused(names="command line")

@@ -75,6 +75,13 @@ class Runs(ProgramTest):
         self.assertEqual(film, self.path("b.webp").read_bytes())
         self.assertEqual(self.figures("film", "run", "-o", "c.webp", "--frames", 100, "--width", 100)["frames"], 61)
 
+    def test_film_of_an_imported_mesh_and_of_a_hub(self):
+        self.succeed("mesh", "naca:0012", "--points", 50, "-o", "start.su2")
+        self.succeed("optimise", "--mesh", "start.su2", "--boundary", "airfoil", "--to", "rae2822", "--evaluations", 30, "-o", "imported")
+        self.succeed(*self.arguments(30, "hub", "--strategy", "hub"))
+        for run in ("imported", "hub"):
+            self.assertEqual(self.figures("film", run, "-o", f"{run}.webp", "--frames", 5, "--width", 200)["frames"], 5)
+
     def test_without_comparisons_the_figures_are_null(self):
         figures = self.figures(*self.arguments(20))
         for key in ("generated_triangles_mean", "surplus_percent", "generate_ms_mean", "speedup"):
