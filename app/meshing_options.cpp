@@ -80,17 +80,19 @@ void add_meshing_options(CLI::App& app, MeshingOptions& options) {
 
 Json to_json(const MeshingOptions& options) {
   const QualityOptions quality = options.resolved_quality();
-  return {{"points", options.discretisation.points},
-          {"gradation", quality.gradation},
-          {"resolution", quality.resolution},
-          {"min_angle_deg", quality.min_angle_deg},
-          {"max_gradation", quality.max_gradation},
-          {"farfield_radius", options.discretisation.farfield_radius},
-          {"farfield_points", options.discretisation.farfield_points},
-          {"cst_degree", options.fit.degree},
-          {"min_edge", quality.min_edge},
-          {"close_trailing_edge", options.fit.close_trailing_edge},
-          {"max_vertices", quality.max_vertices}};
+  Json json{{"points", options.discretisation.points},
+            {"gradation", quality.gradation},
+            {"resolution", quality.resolution},
+            {"min_angle_deg", quality.min_angle_deg},
+            {"max_gradation", quality.max_gradation},
+            {"farfield_radius", options.discretisation.farfield_radius},
+            {"farfield_points", options.discretisation.farfield_points},
+            {"cst_degree", options.fit.degree},
+            {"min_edge", quality.min_edge},
+            {"close_trailing_edge", options.fit.close_trailing_edge},
+            {"max_vertices", quality.max_vertices}};
+  if (quality.refine_angle_deg > quality.min_angle_deg) json["refine_angle_deg"] = quality.refine_angle_deg;
+  return json;
 }
 
 void describe(Report& report, const MeshingOptions& options, bool farfield) {
@@ -100,8 +102,10 @@ void describe(Report& report, const MeshingOptions& options, bool farfield) {
     report.line("discretisation", std::to_string(options.discretisation.points) + " points, farfield of " +
                                       std::to_string(options.discretisation.farfield_points) + " at " +
                                       short_text(options.discretisation.farfield_radius) + " chords");
-  report.line("quality asked for", "angle >= " + short_text(quality.min_angle_deg) + " degrees, H " +
-                                       short_text(quality.max_gradation) + ", G " +
+  const bool slack = quality.refine_angle_deg > quality.min_angle_deg;
+  const std::string refined = slack ? " (refined to " + short_text(quality.refine_angle_deg) + ")" : "";
+  report.line("quality asked for", "angle >= " + short_text(quality.min_angle_deg) + " degrees" + refined +
+                                       ", H " + short_text(quality.max_gradation) + ", G " +
                                        short_text(quality.gradation) + ", R " +
                                        short_text(quality.resolution) + ", at most " +
                                        std::to_string(quality.max_vertices) + " vertices");

@@ -75,6 +75,15 @@ class Runs(ProgramTest):
         self.assertEqual(film, self.path("b.webp").read_bytes())
         self.assertEqual(self.figures("film", "run", "-o", "c.webp", "--frames", 100, "--width", 100)["frames"], 61)
 
+    def test_a_mesh_with_slack_in_its_angles_holds_its_connectivity(self):
+        held = {}
+        for angle in (30, 32):
+            self.succeed("mesh", "naca:0012", "--refine-angle", angle, "-o", "reference.vtkhdf")
+            figures = self.figures("update", "reference.vtkhdf", "naca:0013", "--strategy", "reference", "-o", "new.vtkhdf")
+            self.assertTrue(self.figures("check", "new.vtkhdf")["valid"])
+            held[angle] = figures["held"], figures["connectivity_percent"] == 100.0
+        self.assertEqual(held, {30: (False, False), 32: (True, True)})
+
     def test_film_of_an_imported_mesh_and_of_a_hub(self):
         self.succeed("mesh", "naca:0012", "--points", 50, "-o", "start.su2")
         self.succeed("optimise", "--mesh", "start.su2", "--boundary", "airfoil", "--to", "rae2822", "--evaluations", 30, "-o", "imported")

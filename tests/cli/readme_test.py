@@ -1,4 +1,4 @@
-"""What the README and docs/guide.md show works."""
+"""What the README and the documents show works."""
 
 import re
 import shlex
@@ -30,8 +30,11 @@ class Documents(ProgramTest):
     def test_every_command_of_the_guide(self):
         self.run_all("docs/guide.md")
 
+    def test_every_command_of_the_page_on_morphs(self):
+        self.run_all("docs/morph.md")
+
     def test_links_lead_somewhere(self):
-        for document in ("README.md", "docs/guide.md", "docs/solvers.md", "docs/running_a_study.md"):
+        for document in ("README.md", "docs/guide.md", "docs/solvers.md", "docs/running_a_study.md", "docs/morph.md"):
             folder = (SOURCE / document).parent
             for target in re.findall(r"\]\((?!http)([^)#]+)", (SOURCE / document).read_text()):
                 self.assertTrue((folder / target).exists(), f"{document}: {target}")
