@@ -1,5 +1,5 @@
 // remodel noise SHAPE --spacing S --count N: an objective along a line of designs, on fresh meshes, on one
-// living mesh and on copies of a hub. It answers whether finite differences can be used, and with which step.
+// living mesh, on copies of a hub and on morphs of one reference. It answers whether finite differences can be used, and with which step.
 
 #include "remodel/noise.h"
 
@@ -126,23 +126,25 @@ Mesh finished_mesh(const Domain& domain, const QualityOptions& quality, StepObse
   return std::move(result.mesh);
 }
 
-// One way of making the meshes of the line.
-enum class Way { fresh, living, hub };
-constexpr const char* way_names[] = {"fresh", "living", "hub"};
+// One way of making the meshes of the line. Hub and reference are meshes of the design in the middle.
+enum class Way { fresh, living, hub, reference };
+constexpr const char* way_names[] = {"fresh", "living", "hub", "reference"};
 
 class LineMeshes {
  public:
   LineMeshes(Way way, const AirfoilSpace& space, const DesignLine& line, const QualityOptions& quality,
              StepObserver& observer)
       : way_(way), space_(space), quality_(quality), observer_(observer) {
-    const std::size_t first = way == Way::hub ? line.designs.size() / 2 : 0;
-    if (way != Way::fresh) mesh_ = finished_mesh(space.domain(line.designs[first]), quality, observer);
+    const std::size_t first = way == Way::living ? 0 : line.designs.size() / 2;
+    if (way == Way::reference) quality_.refine_angle_deg = angle_with_slack(quality);
+    if (way != Way::fresh) mesh_ = finished_mesh(space.domain(line.designs[first]), quality_, observer);
   }
 
   Mesh next(std::span<const double> design) {
     const Domain domain = space_.domain(design);
     if (way_ == Way::fresh) return finished_mesh(domain, quality_, observer_);
-    const RemodelOptions options{.strategy = Strategy::renew, .observer = &observer_};
+    const RemodelOptions options{.strategy = way_ == Way::reference ? Strategy::reference : Strategy::renew,
+                                 .observer = &observer_};
     if (way_ == Way::living) {
       remodel(mesh_, domain, options);
       return mesh_;
@@ -258,7 +260,7 @@ Status run(const NoiseCommand& command) {
   InterruptObserver observer;
   std::vector<Series> all;
   Objective objective;
-  for (const Way way : {Way::fresh, Way::living, Way::hub}) {
+  for (const Way way : {Way::fresh, Way::living, Way::hub, Way::reference}) {
     objective = command.mach ? flow_objective(command, observer, way != Way::fresh)
                              : command_objective(command, observer, way != Way::fresh);
     all.push_back(evaluate(way, objective, line, space, command, observer));

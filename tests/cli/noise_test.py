@@ -1,4 +1,4 @@
-"""`remodel noise`: an objective along a line of designs, by three ways of making their meshes."""
+"""`remodel noise`: an objective along a line of designs, by four ways of making their meshes."""
 
 from harness import ProgramTest
 
@@ -16,21 +16,23 @@ DESIGN = """import json, sys
 design = json.load(open(sys.argv[2]))
 print(json.dumps({"objective": (1 + sum(design)) ** 3}))
 """
+WAYS = ("fresh", "living", "hub", "reference")
 
 
 class Noise(ProgramTest):
     def noise(self, *arguments):
         figures = self.figures("noise", "naca:0012", "--points", 20, "--farfield-points", 12, *arguments)
-        self.assertKeys(figures, "spacing count degree places fresh living hub")
+        self.assertKeys(figures, "spacing count degree places fresh living hub reference")
         return figures
 
     def test_living_meshes_are_smoother_than_fresh_ones(self):
         self.write("edges.py", EDGES)
         figures = self.noise("--count", 6, "--spacing", 1e-3, "--evaluator", "python3 edges.py", "-o", "noise.svg")
-        for way in ("fresh", "living", "hub"):
+        for way in WAYS:
             self.assertEqual(len(figures[way]["objective"]), 6)
             self.assertEqual(figures[way]["not_found"], 0)
-        self.assertLess(figures["hub"]["objective_rms"], 1e-2 * figures["fresh"]["objective_rms"])
+        for way in ("hub", "reference"):
+            self.assertLess(figures[way]["objective_rms"], 1e-2 * figures["fresh"]["objective_rms"])
         self.assertIn(b"<svg", self.path("noise.svg").read_bytes())
 
     def test_slopes_are_those_of_the_function(self):
@@ -40,16 +42,17 @@ class Noise(ProgramTest):
         figures = self.noise(*options)
         middle = figures["hub"]["objective"][2]
         slope = 3 * middle ** (2 / 3)
-        for way in ("fresh", "living", "hub"):
+        for way in WAYS:
             self.assertAlmostEqual(figures[way]["slope"][0], slope, delta=1e-8 * abs(slope) + 1e-10)
             self.assertLess(figures[way]["objective_rms"], 1e-15 + 1e-12 * abs(middle))
 
     def test_of_a_flow(self):
         figures = self.noise("--count", 5, "--spacing", 1e-4, "--degree", 2, "--mach", 0.4, "--alpha", 1)
-        for way in ("fresh", "living", "hub"):
+        for way in WAYS:
             self.assertKeys(figures[way], "cl_rms cd_rms slope slope_error cl cd")
             self.assertEqual(figures[way]["not_found"], 0)
         self.assertLess(figures["hub"]["cl_rms"], 1e-6)
+        self.assertLess(figures["reference"]["cl_rms"], 1e-6)
 
     def test_what_is_no_line_is_refused(self):
         line = ["noise", "naca:0012", "--mach", 0.4]
