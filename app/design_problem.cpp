@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <initializer_list>
+#include <set>
 
 #include "gradient_designer.h"
 #include "remodel/error.h"
@@ -28,10 +30,13 @@ class Keys {
       }
   }
   bool has(const char* key) const { return object_.contains(key); }
+  void require(const char* key) const {
+    if (!has(key)) fail("the key '" + std::string(key) + "' is missing");
+  }
   template <class T>
   T get(const char* key, std::optional<T> fallback = {}) const {
     if (!has(key) && fallback) return *fallback;
-    if (!has(key)) fail("the key '" + std::string(key) + "' is missing");
+    require(key);
     try {
       return object_.at(key).get<T>();
     } catch (const Json::exception&) {
@@ -44,6 +49,21 @@ class Keys {
       fail("found " + Json(value).dump() + " as '" + key + "', expected " + Json(low).dump() + " to " +
            Json(high).dump());
     return value;
+  }
+  // A whole number, 0 or more.
+  template <class T>
+  T whole(const char* key, std::optional<T> fallback, T low, T high) const {
+    if (!has(key) && fallback) return *fallback;
+    require(key);
+    return whole_number<T>(object_.at(key), key, low, high);
+  }
+  template <class T>
+  T whole_number(const Json& value, const char* key, T low, T high) const {
+    if (!value.is_number_unsigned() || value.get<std::uint64_t>() < static_cast<std::uint64_t>(low) ||
+        value.get<std::uint64_t>() > static_cast<std::uint64_t>(high))
+      fail("found " + value.dump() + " as '" + key + "', expected a whole number from " +
+           std::to_string(low) + " to " + std::to_string(high));
+    return value.get<T>();
   }
   std::string word(const char* key, std::optional<std::string> fallback,
                    std::initializer_list<const char*> words) const {
@@ -129,26 +149,61 @@ double value_of(const SectionConstraint& function, const CstAirfoil& airfoil) {
   return sum - function.bound;
 }
 
-// Fits are of degree 8 at most; what is beyond is raised, exactly.
-CstAirfoil section_named(const std::string& name, int degree) {
-  return raise_degree(load_airfoil(name, std::min(degree, 8)), degree);
+// The section that a key names. Fits are of degree 8 at most; what is beyond is raised, exactly.
+CstAirfoil section_named(const Keys& keys, const char* key, int degree) {
+  const std::string name = keys.get<std::string>(key);
+  try {
+    return raise_degree(load_airfoil(name, std::min(degree, 8)), degree);
+  } catch (const Error& error) {
+    keys.fail("as '" + std::string(key) + "', " + error.what());
+  }
+}
+
+// Throws where the lower surface is not the upper one's mirror image, but for the rounding of coordinates.
+void require_symmetric(const Keys& keys, const CstAirfoil& airfoil) {
+  constexpr double rounding = 1e-4;  // of files with four decimals, in chords
+  constexpr int stations = 40;
+  double worst = std::fabs(airfoil.te_upper + airfoil.te_lower);
+  for (int i = 1; i < stations; ++i) {
+    const double t = 0.5 * i / stations;
+    worst = std::max(worst, std::fabs(airfoil.at(t).y + airfoil.at(1.0 - t).y));
+  }
+  if (worst > rounding)
+    keys.fail("found an airfoil as 'airfoil' whose surfaces differ by " + Json(worst).dump() +
+              " chords, expected a symmetric one for 'symmetric'");
+}
+
+// "at_least" or "of_start", one of them.
+bool is_of_start(const Keys& keys) {
+  if (keys.has("at_least") == keys.has("of_start")) keys.fail("expected one of at_least and of_start");
+  return keys.has("of_start");
 }
 
 // Angles and radii as linear constraints of what they follow from.
 void add_edge_constraints(const Keys& keys, bool is_angle, DesignProblemFile& problem) {
   const CstAirfoil& start = problem.start;
-  if (start.e1 != 0.5 || start.e2 != 1.0) keys.fail("found an airfoil of another class than round and sharp");
+  if (start.e1 != 0.5 || start.e2 != 1.0)
+    keys.fail("found an airfoil of another class, expected one that is round in front and sharp behind");
   std::vector<SectionConstraint> functions;
-  if (is_angle)
+  if (is_angle) {
     functions = {trailing_edge_slopes(start)};
-  else
-    functions = {leading_edge_root(start, true), leading_edge_root(start, false)};
+  } else {
+    functions = {leading_edge_root(start, true)};
+    if (!problem.symmetric) functions.push_back(leading_edge_root(start, false));
+  }
   for (SectionConstraint& function : functions) {
     double least = 0.0;
-    if (keys.has("of_start")) {
+    if (is_of_start(keys)) {
       const double part = keys.number("of_start", {}, 0.0, 10.0);
       const double of_start = value_of(function, start);
-      least = is_angle ? 2.0 * std::tan(part * std::atan(0.5 * of_start)) : std::sqrt(part) * of_start;
+      if (!(of_start > 0.0))
+        keys.fail("found 'of_start' of " + std::string(is_angle ? "an angle" : "a radius") +
+                  " that the start has not, expected at_least");
+      const double half = part * std::atan(0.5 * of_start);
+      if (is_angle && half > 0.25 * M_PI)
+        keys.fail("found an 'of_start' that is " + Json(half * 360.0 / M_PI).dump() +
+                  " degrees, expected 90 at most");
+      least = is_angle ? 2.0 * std::tan(half) : std::sqrt(part) * of_start;
     } else {
       const double value = keys.number("at_least", {}, 0.0, is_angle ? 90.0 : 1.0);
       least = is_angle ? 2.0 * std::tan(value * M_PI / 360.0) : std::sqrt(2.0 * value);
@@ -158,15 +213,30 @@ void add_edge_constraints(const Keys& keys, bool is_angle, DesignProblemFile& pr
   }
 }
 
+// Throws for keys that a constraint of this kind has no use for.
+void require_keys_of(const Keys& keys, const std::string& kind) {
+  const bool is_flow = kind == "lift" || kind == "moment" || kind == "drag";
+  const auto refuse = [&](std::initializer_list<const char*> useless) {
+    for (const char* key : useless)
+      if (keys.has(key)) keys.fail("found the key '" + std::string(key) + "', which '" + kind + "' has not");
+  };
+  if (kind != "thickness") refuse({"x"});
+  if (kind != "contains") refuse({"airfoil"});
+  if (!is_flow) refuse({"point", "at_most"});
+  if (is_flow || kind == "contains") refuse({"of_start"});
+  if (kind == "contains") refuse({"at_least"});
+}
+
 void add_constraint(const Json& entry, const std::string& where, DesignProblemFile& problem) {
   const Keys keys(entry, where, {"kind", "point", "at_least", "at_most", "of_start", "x", "airfoil"});
   const std::string kind = keys.word("kind", {},
                                      {"lift", "moment", "drag", "area", "thickness", "contains",
                                       "trailing_edge_angle", "leading_edge_radius"});
+  require_keys_of(keys, kind);
   if (kind == "trailing_edge_angle" || kind == "leading_edge_radius")
     return add_edge_constraints(keys, kind == "trailing_edge_angle", problem);
   if (kind == "contains") {
-    const CstAirfoil inner = section_named(keys.get<std::string>("airfoil"), problem.start.degree());
+    const CstAirfoil inner = section_named(keys, "airfoil", problem.start.degree());
     constexpr int stations = 40;
     for (int i = 1; i < stations; ++i)
       for (const bool upper : {true, false}) {
@@ -180,15 +250,19 @@ void add_constraint(const Json& entry, const std::string& where, DesignProblemFi
   }
   if (kind == "area" || kind == "thickness") {
     std::vector<SectionConstraint> functions;
-    if (kind == "area") functions.push_back(area(problem.start));
-    for (const double x : kind == "thickness" ? keys.get<std::vector<double>>("x") : std::vector<double>()) {
+    std::vector<double> stations;
+    if (kind == "area")
+      functions.push_back(area(problem.start));
+    else if ((stations = keys.get<std::vector<double>>("x")).empty())
+      keys.fail("found no number in 'x', expected at least one");
+    for (const double x : stations) {
       if (!(x > 0.0 && x < 1.0)) keys.fail("found " + Json(x).dump() + " in 'x', expected 0 to 1");
       functions.emplace_back();
       add_height(problem.start, x, true, 1.0, functions.back());
       add_height(problem.start, x, false, -1.0, functions.back());
     }
     for (SectionConstraint& function : functions) {
-      const double least = keys.has("of_start")
+      const double least = is_of_start(keys)
                                ? keys.number("of_start", {}, 0.0, 10.0) * value_of(function, problem.start)
                                : keys.number("at_least", {}, 0.0, 10.0);
       function.bound += least;
@@ -199,8 +273,7 @@ void add_constraint(const Json& entry, const std::string& where, DesignProblemFi
   FlowConstraint constraint{.of = kind == "lift"   ? "cl"
                                   : kind == "drag" ? "cd"
                                                    : "cm",
-                            .point = keys.get<std::size_t>("point", std::size_t{0})};
-  if (constraint.point >= problem.points.size()) keys.fail("found a 'point' that there is not");
+                            .point = keys.whole<std::size_t>("point", 0, 0, problem.points.size() - 1)};
   if (keys.has("at_least") == keys.has("at_most")) keys.fail("expected one of at_least and at_most");
   constraint.sign = keys.has("at_most") ? 1.0 : -1.0;
   constraint.value = keys.number(keys.has("at_most") ? "at_most" : "at_least", {}, -100.0, 100.0);
@@ -212,7 +285,12 @@ DesignPoint point_of(const Json& entry, const std::string& where) {
   DesignPoint point;
   point.conditions.mach = keys.number("mach", {}, 0.01, 3.0);
   point.conditions.alpha_deg = keys.number("alpha_deg", 0.0, -90.0, 90.0);
-  if (keys.has("cl")) point.conditions.cl = keys.number("cl", {}, -10.0, 10.0);
+  if (keys.has("cl")) {
+    point.conditions.cl = keys.number("cl", {}, -10.0, 10.0);
+    if (point.conditions.mach > 1.0)
+      keys.fail(
+          "found 'cl' with a 'mach' above 1, expected 'alpha_deg': lift is given below the speed of sound");
+  }
   point.weight = keys.number("weight", 1.0, 0.0, 1e6);
   return point;
 }
@@ -222,8 +300,17 @@ DesignPoint point_of(const Json& entry, const std::string& where) {
 DesignProblemFile read_design_problem(const std::string& file) {
   DesignProblemFile problem;
   Json json;
+  std::vector<std::set<std::string>> open;  // the keys of objects that are not read to their ends
+  const auto watch = [&](int depth, Json::parse_event_t event, const Json& parsed) {
+    if (depth > 64) throw Error(ErrorCode::format, file, "found more than 64 brackets inside each other");
+    if (event == Json::parse_event_t::object_start) open.emplace_back();
+    if (event == Json::parse_event_t::object_end) open.pop_back();
+    if (event == Json::parse_event_t::key && !open.back().insert(parsed.get<std::string>()).second)
+      throw Error(ErrorCode::format, file, "found the key " + parsed.dump() + " twice in one object");
+    return true;
+  };
   try {
-    json = Json::parse(read_text(file));
+    json = Json::parse(read_text(file), watch);
   } catch (const Json::exception&) {
     throw Error(ErrorCode::format, file, "found no JSON, expected a design problem");
   }
@@ -231,9 +318,10 @@ DesignProblemFile read_design_problem(const std::string& file) {
                   {"airfoil", "degree", "symmetric", "mesh", "flow", "objective", "target", "constraints",
                    "designer", "verify"});
   problem.text = json.dump();
-  const int degree = static_cast<int>(keys.number("degree", 5, 1, 30));
-  problem.start = section_named(keys.get<std::string>("airfoil"), degree);
+  const int degree = keys.whole<int>("degree", 5, 1, 30);
+  problem.start = section_named(keys, "airfoil", degree);
   problem.symmetric = keys.get<bool>("symmetric", false);
+  if (problem.symmetric) require_symmetric(keys, problem.start);
   if (problem.symmetric) problem.start.te_lower = -problem.start.te_upper;
   if (problem.symmetric)
     for (std::size_t i = 0; i < problem.start.upper.size(); ++i)
@@ -241,14 +329,18 @@ DesignProblemFile read_design_problem(const std::string& file) {
   const Json empty = Json::object();
   const Json mesh_json = keys.has("mesh") ? json.at("mesh") : empty;
   const Keys mesh(mesh_json, file + ", mesh", {"points", "gradation", "farfield_radius"});
-  problem.domain.points = static_cast<int>(mesh.number("points", 100, 8, 100000));
+  problem.domain.points = mesh.whole<int>("points", 100, 8, 100000);
+  if (problem.domain.points % 2 != 0)
+    mesh.fail("found " + std::to_string(problem.domain.points) + " as 'points', expected an even number");
   problem.domain.farfield_radius = mesh.number("farfield_radius", 25, 2, 1e6);
   problem.gradation = mesh.number("gradation", problem.domain.points / 50.0, 0.1, 1000);
   for (const Json& entry : keys.list("flow"))
     problem.points.push_back(point_of(entry, file + ", flow " + std::to_string(problem.points.size() + 1)));
   if (problem.points.empty()) keys.fail("expected at least one point of 'flow'");
   problem.objective = keys.word("objective", {}, {"drag", "lift_over_drag", "moment", "inverse"});
-  if (problem.objective == "inverse") problem.target = section_named(keys.get<std::string>("target"), degree);
+  if (problem.objective == "inverse") problem.target = section_named(keys, "target", degree);
+  if (!problem.target && keys.has("target"))
+    keys.fail("found 'target' with the objective '" + problem.objective + "', expected 'inverse'");
   std::size_t number = 0;
   for (const Json& entry : keys.list("constraints"))
     add_constraint(entry, file + ", constraint " + std::to_string(++number), problem);
@@ -256,12 +348,15 @@ DesignProblemFile read_design_problem(const std::string& file) {
   const Keys designer(designer_json, file + ", designer",
                       {"name", "evaluations", "bounds", "trust", "sigma", "seed"});
   problem.designer = designer.word("name", "sqp", {"sqp", "slsqp", "mma", "cmaes"});
-  problem.evaluations = static_cast<std::size_t>(designer.number("evaluations", 100, 1, 1e6));
+  problem.evaluations = designer.whole<std::size_t>("evaluations", 100, 1, 1000000);
   problem.bounds = designer.number("bounds", 0.1, 1e-9, 10);
   problem.trust = designer.number("trust", 0.02, 1e-6, 10);
   problem.sigma = designer.number("sigma", 0.01, 1e-9, 10);
-  problem.seed = designer.get<std::uint64_t>("seed", std::uint64_t{1});
-  problem.verify = keys.get<std::vector<int>>("verify", std::vector<int>{});
+  problem.seed = designer.whole<std::uint64_t>("seed", 1, 0, UINT64_MAX);
+  for (const Json& entry : keys.list("verify")) {
+    problem.verify.push_back(keys.whole_number<int>(entry, "verify", 8, 100000));
+    if (entry.get<int>() % 2 != 0) keys.fail("found " + entry.dump() + " in 'verify', expected even numbers");
+  }
   return problem;
 }
 

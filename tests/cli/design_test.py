@@ -1,6 +1,7 @@
 """`remodel design`: a design falls in drag and keeps its constraints, on fresh meshes too; refusals. `flow --gradient`."""
 
 import json
+import math
 
 from harness import SOURCE, ProgramTest
 
@@ -60,18 +61,73 @@ class Designs(ProgramTest):
 
     def test_refusals(self):
         for changes, name in (
-            ({"speed": 1}, "speed"),
+            ({"speed": 1}, "problem.json: found the key 'speed', expected airfoil"),
             ({"objective": "beauty"}, "beauty"),
             ({"flow": []}, "flow"),
             ({"flow": [{"mach": 0}]}, "mach"),
             ({"constraints": [{"kind": "lift", "point": 1, "at_least": 0}]}, "point"),
-            ({"airfoil": "naca:xyz"}, "xyz"),
+            ({"airfoil": "naca:xyz"}, "problem.json: as 'airfoil', "),
+            ({"flow": [{"mach": 1.2, "cl": 0.3}]}, "problem.json, flow 1: found 'cl' with a 'mach' above 1"),
+            ({"mesh": {"points": 41}}, "problem.json, mesh: found 41 as 'points', expected an even number"),
+            ({"degree": 4.7}, "problem.json: found 4.7 as 'degree', expected a whole number from 1 to 30"),
+            ({"designer": {"evaluations": 2.5}}, "problem.json, designer: found 2.5 as 'evaluations'"),
+            ({"designer": {"seed": -1}}, "problem.json, designer: found -1 as 'seed'"),
+            ({"verify": [40, 0]}, "problem.json: found 0 as 'verify', expected a whole number from 8"),
+            ({"verify": [41]}, "problem.json: found 41 in 'verify', expected even numbers"),
+            ({"verify": 40}, "problem.json: expected an array as 'verify'"),
+            ({"target": "naca2412"}, "problem.json: found 'target' with the objective 'drag', expected 'inverse'"),
+            ({"symmetric": 1}, "problem.json: found 1 as 'symmetric'"),
+            ({"airfoil": "rae2822"}, "problem.json: found an airfoil as 'airfoil' whose surfaces differ by 0.0"),
         ):
             self.refused("design", self.problem(**changes), "-o", "run", names=name)
         self.refused("design", self.write("a.json", "{"), "-o", "run", names="a.json")
+        self.refused("design", self.write("a.json", '{"degree": 4, "degree": 5}'), "-o", "run", names='a.json: found the key "degree" twice')
+        self.refused("design", self.write("a.json", "[" * 100000), "-o", "run", names="a.json: found more than 64 brackets")
         self.path("thesis").mkdir()
         self.path("thesis/chapter").write_text("1")
         self.refused("design", self.problem(), "-o", "thesis", names="thesis")
+
+
+    def test_refusals_of_constraints(self):
+        """One sentence with the file, the constraint's number and what was expected; nothing is left out in silence."""
+        blunt_nose = {"degree": 2, "upper": [0.1, 0.1, 0.1], "lower": [-0.1, -0.1, -0.1], "e1": 0.6}
+        for entry, name in (
+            ({"kind": "leading_edge_radius", "at_least": -0.01}, "found -0.01 as 'at_least', expected 0.0 to 1.0"),
+            ({"kind": "trailing_edge_angle", "at_least": 200}, "found 200.0 as 'at_least', expected 0.0 to 90.0"),
+            ({"kind": "trailing_edge_angle", "of_start": 8}, "degrees, expected 90 at most"),
+            ({"kind": "trailing_edge_angle", "at_least": "7"}, "found \"7\" as 'at_least', expected another kind"),
+            ({"kind": "trailing_edge_angle", "at_least": None}, "found null as 'at_least', expected another kind"),
+            ({"kind": "trailing_edge_angle", "at_leest": 7}, "found the key 'at_leest', expected kind"),
+            ({"kind": "trailing_edge_angle", "at_most": 7}, "found the key 'at_most', which 'trailing_edge_angle' has not"),
+            ({"kind": "leading_edge_radius", "at_least": 0.01, "x": [0]}, "found the key 'x', which"),
+            ({"kind": "leading_edge_radius"}, "expected one of at_least and of_start"),
+            ({"kind": "leading_edge_radius", "at_least": 0.01, "of_start": 1}, "expected one of at_least and of_start"),
+            ({"kind": "area", "at_least": 0.01, "of_start": 1}, "expected one of at_least and of_start"),
+            ({"kind": "thickness", "x": [], "at_least": 0.1}, "found no number in 'x'"),
+            ({"kind": "contains", "airfoil": "nope"}, "as 'airfoil', shape: found \"nope\""),
+            ({"kind": "lift", "point": 0.7, "at_least": 0}, "found 0.7 as 'point', expected a whole number from 0 to 0"),
+            ({"kind": "lift", "point": -1, "at_least": 0}, "found -1 as 'point'"),
+            (3, "found number, expected an object"),
+        ):
+            constraints = [{"kind": "area", "of_start": 1}, entry]
+            self.refused("design", self.problem(constraints=constraints), "-o", "run", names="problem.json, constraint 2: ")
+            self.refused("design", self.problem(constraints=constraints), "-o", "run", names=name)
+        self.write("nose.json", json.dumps(blunt_nose))
+        constraints = [{"kind": "leading_edge_radius", "of_start": 1}]
+        self.refused("design", self.problem(airfoil="nose.json", constraints=constraints, degree=2), "-o", "run",
+                     names="constraint 1: found an airfoil of another class, expected one that is round in front")
+
+    def test_angle_and_radius_are_kept(self):
+        """With an angle of attack the domain of a symmetric section is whole."""
+        constraints = [{"kind": "trailing_edge_angle", "at_least": 19}, {"kind": "leading_edge_radius", "of_start": 0.9}]
+        problem = self.problem(constraints=constraints, flow=[{"mach": 0.7, "alpha_deg": 1}], verify=[])
+        figures = self.figures("design", problem, "-o", "run")
+        self.assertEqual(sorted(self.figures("check", "run/last.vtkhdf")["boundary"]), ["airfoil", "farfield"])
+        start = self.figures("fit", "naca:0012", "--cst-degree", 4)["upper"]
+        best = figures["best"]["upper"]
+        self.assertGreater(2 * math.degrees(math.atan(best[-1])), 19 - 1e-6)
+        self.assertGreater(best[0] ** 2, 0.9 * start[0] ** 2 * (1 - 1e-6))
+        self.assertEqual([-c for c in best], figures["best"]["lower"])
 
 
 class Gradients(ProgramTest):
