@@ -47,6 +47,13 @@ DesignRun read_design_run(const std::filesystem::path& directory) {
   run.rows = history.records();
   if (run.rows.empty())
     throw Error(ErrorCode::format, file.string(), "found no design, expected one or more");
+  const std::size_t numbers = run.section_space().start().size();
+  for (const EvaluationRecord& row : run.rows)
+    if (row.coefficients.size() != numbers)
+      throw Error(ErrorCode::format, file.string(),
+                  "evaluation " + std::to_string(row.evaluation) + ": found a design of " +
+                      std::to_string(row.coefficients.size()) + " numbers, expected " +
+                      std::to_string(numbers));
   for (std::size_t i = 1; i < run.rows.size(); ++i)
     if (run.rows[i].best_objective < run.rows[run.best].best_objective) run.best = i;
   return run;

@@ -2,6 +2,7 @@
 
 import json
 import math
+import sqlite3
 
 from harness import SOURCE, ProgramTest
 
@@ -58,6 +59,18 @@ class Designs(ProgramTest):
         self.refused("design", "report", "run", names="history.sqlite")
         self.refused("design", "report", "nothing", names="nothing")
         self.refused("design", names="PROBLEM")
+
+    def test_reports_and_films_refuse_damaged_designs(self):
+        """A history whose designs have another number of numbers ends neither in a crash nor in an internal error."""
+        self.succeed("design", self.problem(designer={"evaluations": 2}, verify=[]), "-o", "run", "--quiet")
+        for text, found in (("[]", 0), (None, 0), ("[0.1,0.1,0.1]", 3)):
+            history = sqlite3.connect(self.path("run/history.sqlite"))
+            history.execute("update evaluations set coefficients = ? where evaluation = 2", (text,))
+            history.commit()
+            history.close()
+            message = f"run/history.sqlite: evaluation 2: found a design of {found} numbers, expected 5"
+            self.refused("design", "report", "run", names=message)
+            self.refused("film", "run", "-o", "film.webp", names="run/history.sqlite")
 
     def test_refusals(self):
         for changes, name in (
