@@ -198,6 +198,8 @@ class LivingFlow {
   LivingFlow& operator=(LivingFlow&&) noexcept;
 
   FlowResult solve(const Mesh& mesh, const FlowConditions& conditions);
+  // The same on Mesh::freeze(). Throws Error (argument) where vertices have no keys.
+  FlowResult solve(const FrozenMesh& mesh, const FlowConditions& conditions);
   // Gradients of the last flow that was found. They take the factors that there are, transposed, where these
   // serve; otherwise new ones, which the next flows have too. Throws Error (argument) before the first flow,
   // where functionals are of another size, and where there are inlets or outlets.

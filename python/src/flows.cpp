@@ -2,8 +2,8 @@
 
 #include "remodel/flow.h"
 
+#include "apart.h"
 #include "bindings.h"
-#include "interrupts.h"
 #include "living.h"
 
 namespace remodel::python {
@@ -48,8 +48,9 @@ py::object solved(const py::object& mesh, double mach, double alpha, const std::
   const Snapshot frozen = snapshot_of(mesh);
   const FlowConditions conditions = conditions_of(mach, alpha, cl, reference, reference_length);
   FlowOptions options = options_of(farfield, tolerance, max_steps, memory_mb, inlets, outlets);
-  const FlowPointer flow = interruptible([&](StepObserver& observer) {
-    options.observer = &observer;
+  const auto stop = std::make_shared<Stop>();
+  options.observer = stop.get();
+  const FlowPointer flow = Apart().run(stop, [frozen, conditions, options, stop] {
     return std::make_shared<FlowResult>(solve_flow(*frozen, conditions, options));
   });
   return with_mesh(flow, frozen);
@@ -62,50 +63,58 @@ py::dict dict_of(FlowGradient gradient) {
                   "mach"_a = gradient.mach, "alpha"_a = gradient.alpha_deg, "cl"_a = gradient.cl);
 }
 
-// A LivingFlow that threads may share, with the observer that it keeps for its whole life.
+// A LivingFlow, with the observer that it keeps for its whole life.
+struct Solver {
+  explicit Solver(FlowOptions options) : flow(observed(std::move(options), *stop)) {}
+  static FlowOptions observed(FlowOptions options, Stop& stop) {
+    options.observer = &stop;
+    return options;
+  }
+
+  std::shared_ptr<Stop> stop = std::make_shared<Stop>();
+  LivingFlow flow;
+};
+
+// A LivingFlow that threads may share. A call that was left behind owns it as well.
 class Flows {
  public:
-  explicit Flows(FlowOptions options) : flow_(observed(std::move(options))) {}
+  explicit Flows(FlowOptions options) : solver_(std::make_shared<Solver>(std::move(options))) {}
+
+  // Factors go when no other flow is being factored.
+  ~Flows() {
+    py::gil_scoped_release released;
+    solver_.reset();
+  }
+  Flows(const Flows&) = delete;
+  Flows& operator=(const Flows&) = delete;
 
   py::object solve(LivingMesh& mesh, double mach, double alpha, const std::optional<double>& cl,
                    const std::array<double, 2>& reference, double reference_length) {
     const FlowConditions conditions = conditions_of(mach, alpha, cl, reference, reference_length);
-    const ThreadLock::Held flow_held(lock_);
-    const ThreadLock::Held mesh_held(mesh.lock);
-    FlowPointer result;
-    {
-      py::gil_scoped_release released;
-      result = std::make_shared<FlowResult>(flow_.solve(mesh.mesh, conditions));
-    }
-    interrupts_.rethrow();
-    return with_mesh(result, mesh.freeze());
+    const ThreadLock::Held held(lock_);
+    const Snapshot frozen = mesh.snapshot();
+    const FlowPointer result = calls_.run(solver_->stop, [solver = solver_, frozen, conditions] {
+      return std::make_shared<FlowResult>(solver->flow.solve(*frozen, conditions));
+    });
+    return with_mesh(result, frozen);
   }
   // Of the last flow: by points of its mesh, and by Mach number and angle.
   py::dict gradients() {
     const ThreadLock::Held held(lock_);
-    FlowGradients found;
-    {
-      py::gil_scoped_release released;
-      found = flow_.gradients();
-    }
-    interrupts_.rethrow();
+    FlowGradients found = calls_.run(solver_->stop, [solver = solver_] { return solver->flow.gradients(); });
     return py::dict("cl"_a = dict_of(std::move(found.cl)), "cd"_a = dict_of(std::move(found.cd)),
                     "cm"_a = dict_of(std::move(found.cm)), "alpha"_a = dict_of(std::move(found.alpha_deg)));
   }
   void forget() {
     const ThreadLock::Held held(lock_);
-    flow_.forget();
+    calls_.settle();
+    solver_->flow.forget();
   }
 
  private:
-  FlowOptions observed(FlowOptions options) {
-    options.observer = &interrupts_;
-    return options;
-  }
-
-  Interrupts interrupts_;
   ThreadLock lock_;
-  LivingFlow flow_;
+  std::shared_ptr<Solver> solver_;
+  Apart calls_;
 };
 
 py::dict bodies_of(const FlowResult& flow) {
@@ -193,7 +202,7 @@ void add_flows(py::module_& module) {
       module, "LivingFlow",
       R"(A flow solver that outlives its mesh: each flow is found from the one before and the factors that are
 still good, whatever update() did to the mesh in between. The result depends on mesh and conditions alone, to
-the tolerance.)")
+the tolerance. After Ctrl-C the next call waits until a factorisation that was under way has ended.)")
       .def(py::init([](const std::string& farfield, double tolerance, int max_steps, double memory_mb,
                        const Inlets& inlets, const Outlets& outlets) {
              return std::make_unique<Flows>(

@@ -1,6 +1,6 @@
 #pragma once
 
-// Ctrl-C in long calls, and meshes that threads share.
+// Ctrl-C in long calls that ask for it, and meshes that threads share. apart.h has the calls that do not.
 
 #include <pybind11/pybind11.h>
 #include <unistd.h>

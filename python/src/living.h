@@ -27,6 +27,10 @@ struct LivingMesh {
     if (!frozen) frozen = std::make_shared<const FrozenMesh>(mesh.freeze());
     return frozen;
   }
+  Snapshot snapshot() {
+    const ThreadLock::Held held(lock);
+    return freeze();
+  }
   void changed() {
     frozen.reset();
     ++version;

@@ -1,5 +1,6 @@
 // Mesh: generation, import, files, copies and pickles. Its steps are in steps.cpp.
 
+#include "apart.h"
 #include "living.h"
 #include "pickles.h"
 #include "remodel/check.h"
@@ -61,18 +62,23 @@ LivingMeshPointer copy_of(LivingMesh& mesh) {
 }
 
 CheckResult checked(LivingMesh& mesh) {
-  const ThreadLock::Held held(mesh.lock);
-  const Snapshot frozen = mesh.freeze();
-  py::gil_scoped_release released;
-  const Mesh& living = mesh.mesh;
-  CheckOptions options{.min_angle_deg = living.options().min_angle_deg,
-                       .delaunay = !living.shows_file_triangles(),
-                       .design = &living.domain()};
-  if (mesh.stopped != Stopped::done)
-    options.min_angle_deg = 0.0;
-  else
-    options.max_gradation = living.promised_gradation();
-  return check(*frozen, options);
+  Snapshot frozen;
+  std::shared_ptr<const Domain> design;
+  CheckOptions options;
+  {
+    const ThreadLock::Held held(mesh.lock);
+    const Mesh& living = mesh.mesh;
+    frozen = mesh.freeze();
+    design = std::make_shared<const Domain>(living.domain());
+    options = {.min_angle_deg = living.options().min_angle_deg,
+               .delaunay = !living.shows_file_triangles(),
+               .design = design.get()};
+    if (mesh.stopped != Stopped::done)
+      options.min_angle_deg = 0.0;
+    else
+      options.max_gradation = living.promised_gradation();
+  }
+  return Apart().run(std::make_shared<Stop>(), [frozen, design, options] { return check(*frozen, options); });
 }
 
 template <class Read>

@@ -1,5 +1,6 @@
 // The extension module remodel._core. What users see is the package around it, python/remodel.
 
+#include "apart.h"
 #include "bindings.h"
 #include "remodel/version.h"
 
@@ -28,6 +29,7 @@ PYBIND11_MODULE(_core, module) {
   module.doc() = "The compiled part of remodel. Import remodel instead.";
   module.attr("__version__") = REMODEL_VERSION;
   add_errors(module);
+  add_apart(module);
   add_shapes(module);
   add_snapshots(module);
   add_meshes(module);

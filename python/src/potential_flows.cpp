@@ -1,5 +1,6 @@
 // Plane potential flow: PotentialSolver and PotentialFlow.
 
+#include "apart.h"
 #include "bindings.h"
 #include "remodel/potential_flow.h"
 
@@ -62,8 +63,10 @@ void add_potential_flows(py::module_& module) {
 milliseconds, without drag. Raises ArgumentError. docs/potential_flow.md has method and figures.)")
       .def(py::init([](const py::object& mesh, const std::string& farfield) {
              const Snapshot frozen = snapshot_of(mesh);
-             py::gil_scoped_release released;
-             return std::make_unique<PotentialSolver>(*frozen, PotentialOptions{.farfield = farfield});
+             return Apart().run(std::make_shared<Stop>(),
+                                [frozen, options = PotentialOptions{.farfield = farfield}] {
+                                  return std::make_unique<PotentialSolver>(*frozen, options);
+                                });
            }),
            "mesh"_a, py::kw_only(), "farfield"_a = "farfield")
       .def(

@@ -1,5 +1,6 @@
 // FrozenMesh: a mesh as read-only arrays, its validation, files and pictures.
 
+#include "apart.h"
 #include "bindings.h"
 #include "living.h"
 #include "remodel/check.h"
@@ -121,9 +122,9 @@ void add_check(py::module_& module) {
       "check",
       [](const py::object& mesh, double min_angle, double max_gradation, bool delaunay) {
         const Snapshot frozen = snapshot_of(mesh);
-        py::gil_scoped_release released;
-        return check(*frozen,
-                     {.min_angle_deg = min_angle, .max_gradation = max_gradation, .delaunay = delaunay});
+        const CheckOptions options{
+            .min_angle_deg = min_angle, .max_gradation = max_gradation, .delaunay = delaunay};
+        return Apart().run(std::make_shared<Stop>(), [frozen, options] { return check(*frozen, options); });
       },
       "mesh"_a, py::kw_only(), "min_angle"_a = 0.0, "max_gradation"_a = 0.0, "delaunay"_a = true,
       "Validates a Mesh or FrozenMesh of any origin. min_angle is in degrees; 0 tests no bound.");
@@ -204,9 +205,7 @@ FrozenMesh(points, triangles, boundaries) takes the arrays of another program; i
 Snapshot snapshot_of(const py::object& mesh) {
   if (py::isinstance<FrozenMesh>(mesh)) return mesh.cast<FrozenPointer>();
   if (py::isinstance<LivingMesh>(mesh)) {
-    const auto living = mesh.cast<LivingMeshPointer>();
-    const ThreadLock::Held held(living->lock);
-    return living->freeze();
+    return mesh.cast<LivingMeshPointer>()->snapshot();
   }
   throw py::type_error("expected a Mesh or a FrozenMesh");
 }

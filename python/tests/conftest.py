@@ -1,5 +1,9 @@
 """Small meshes that many tests begin with."""
 
+import os
+import signal
+import threading
+
 import numpy as np
 import pytest
 import remodel
@@ -18,6 +22,18 @@ def mesh(airfoil):
 def same(a, b):
     """Whether two meshes have the same arrays, to the last bit."""
     return all(np.array_equal(getattr(a, name), getattr(b, name)) for name in ("points", "triangles", "vertex_keys", "triangle_ids", "birth"))
+
+
+def interrupt_inside(call):
+    """Presses Ctrl-C in a call, later each time, until it was where the computation cannot end at once."""
+    for attempt in range(1, 40):
+        timer = threading.Timer(0.07 * attempt, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        with pytest.raises(KeyboardInterrupt):
+            call()
+        if remodel._core._left_behind() > 0:  # it goes on, and the exception is here all the same
+            return
+    pytest.fail("the call always ended in order")
 
 
 @pytest.fixture

@@ -1,11 +1,15 @@
 import json
 import os
 import signal
+import subprocess
+import sys
+import textwrap
 import threading
 
 import numpy as np
 import pytest
 import remodel
+from conftest import interrupt_inside
 
 
 @pytest.fixture(scope="module")
@@ -98,3 +102,40 @@ def test_ctrl_c_ends_a_flow():
         for _ in range(100):
             remodel.solve_flow(mesh, mach=0.5, alpha=1.25)
     timer.join()
+
+
+def test_ctrl_c_does_not_wait_for_a_factorisation(flowing):
+    _, small = flowing
+    mesh, solver = remodel.generate("naca:0012", points=400), remodel.LivingFlow()
+    for call in (lambda: remodel.solve_flow(mesh, mach=0.5), lambda: solver.solve(mesh, mach=0.5)):
+        interrupt_inside(call)
+    assert mesh.check().valid and mesh.update("naca:0013").triangles == len(mesh)
+    flow = solver.solve(small, mach=0.5, alpha=1.25)  # after what was left behind
+    assert flow.converged and abs(flow.cl - remodel.LivingFlow().solve(small, mach=0.5, alpha=1.25).cl) < 1e-10
+
+
+def test_a_flow_that_was_interrupted_is_not_the_last_one():
+    mesh, solver = remodel.generate("naca:0012", points=400), remodel.LivingFlow()
+    interrupt_inside(lambda: solver.solve(mesh, mach=0.5))
+    with pytest.raises(remodel.ArgumentError, match="no flow was found yet"):
+        solver.gradients()
+
+
+def test_a_fork_and_the_end_of_the_process_wait_for_what_was_left_behind():
+    script = """
+        import os
+        import remodel
+        from conftest import interrupt_inside
+
+        mesh, small = (remodel.generate("naca:0012", points=n) for n in (400, 60))
+        interrupt_inside(lambda: remodel.solve_flow(mesh))
+        if os.fork() == 0:
+            os._exit(0 if remodel._core._left_behind() == 0 and remodel.solve_flow(small).converged else 1)
+        assert os.wait()[1] == 0
+        solver = remodel.LivingFlow()
+        interrupt_inside(lambda: solver.solve(mesh))
+        del solver, mesh
+    """
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([os.path.dirname(__file__), os.environ.get("PYTHONPATH", "")])}
+    run = subprocess.run([sys.executable, "-c", textwrap.dedent(script)], env=environment, capture_output=True, text=True)
+    assert run.returncode == 0 and run.stderr == "", run.stderr

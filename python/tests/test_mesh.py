@@ -9,7 +9,7 @@ import time
 import numpy as np
 import pytest
 import remodel
-from conftest import same
+from conftest import interrupt_inside, same
 
 
 def test_a_generated_mesh_is_valid(mesh):
@@ -178,6 +178,14 @@ def test_ctrl_c_ends_a_long_call(airfoil):
         while time.monotonic() < started + 60:
             remodel.generate(airfoil, points=3000, gradation=12)
     timer.join()
+
+
+def test_ctrl_c_does_not_wait_for_the_validator(airfoil):
+    mesh = remodel.generate(airfoil, points=3000, gradation=12)
+    for check in (mesh.check, lambda: remodel.check(mesh)):
+        interrupt_inside(lambda: [check() for _ in range(1000)])
+        mesh.update(airfoil)  # while its arrays are still being looked at
+        assert mesh.check().valid
 
 
 def test_values_ride_along_and_the_matrix_says_the_same(mesh, designs):

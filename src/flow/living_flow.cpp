@@ -8,7 +8,6 @@
 #include "flow/adjoint.h"
 #include "flow/chord.h"
 #include "flow/solution.h"
-#include "mesh/mesh_data.h"
 #include "remodel/error.h"
 #include "remodel/flow.h"
 
@@ -41,11 +40,16 @@ class KeyTable {
   std::vector<Place> at_;
 };
 
-std::vector<VertexKey> keys_of(const Mesh& mesh, const FrozenMesh& frozen) {
+std::vector<VertexKey> keys_of(const FrozenMesh& frozen) {
+  if (frozen.vertex_keys.size() != frozen.points.size())
+    throw Error(ErrorCode::argument, "mesh",
+                "found " + std::to_string(frozen.vertex_keys.size()) +
+                    " keys of vertices, expected one for each of " + std::to_string(frozen.points.size()) +
+                    " points");
   std::vector<VertexKey> keys;
-  keys.reserve(frozen.vertex_ids.size());
-  for (const std::uint32_t id : frozen.vertex_ids)
-    keys.push_back({{id}, mesh.data().triangulation.generation(VertexId{id})});
+  keys.reserve(frozen.vertex_keys.size());
+  for (const std::uint64_t key : frozen.vertex_keys)
+    keys.push_back({{static_cast<std::uint32_t>(key)}, static_cast<std::uint32_t>(key >> 32)});
   return keys;
 }
 
@@ -80,7 +84,7 @@ struct LivingFlow::Impl {
   flow::BlockRows matrix;
   std::vector<std::array<std::uint32_t, 3>> matrix_triangles;
 
-  FlowResult solve(const Mesh& living, const FlowConditions& conditions);
+  FlowResult solve(const FrozenMesh& frozen, const FlowConditions& conditions);
   FlowGradients gradients(const std::vector<FlowFunctional>& functions);
 
  private:
@@ -112,6 +116,10 @@ LivingFlow::LivingFlow(LivingFlow&&) noexcept = default;
 LivingFlow& LivingFlow::operator=(LivingFlow&&) noexcept = default;
 
 FlowResult LivingFlow::solve(const Mesh& mesh, const FlowConditions& conditions) {
+  return impl_->solve(mesh.freeze(), conditions);
+}
+
+FlowResult LivingFlow::solve(const FrozenMesh& mesh, const FlowConditions& conditions) {
   return impl_->solve(mesh, conditions);
 }
 
@@ -239,13 +247,12 @@ void LivingFlow::Impl::search(Task& task) {
   belong(task.euler.mesh(), task.keys);
 }
 
-FlowResult LivingFlow::Impl::solve(const Mesh& living, const FlowConditions& conditions) {
+FlowResult LivingFlow::Impl::solve(const FrozenMesh& frozen, const FlowConditions& conditions) {
   const Stopwatch watch;
   flow::require_possible(conditions, options);
-  const FrozenMesh frozen = living.freeze();
   const flow::Stream stream = flow::stream_of(conditions, options);
   std::unique_ptr<flow::FlowMesh> dual;
-  const Keys now = flow::keys_of(living, frozen);
+  const Keys now = flow::keys_of(frozen);
   if (mesh && mesh->triangles() == frozen.triangles && now == keys) {
     dual = std::make_unique<flow::FlowMesh>(*mesh);
     dual->move(frozen.points);
@@ -260,6 +267,9 @@ FlowResult LivingFlow::Impl::solve(const Mesh& living, const FlowConditions& con
   search(task);
   FlowResult result = flow::result_of(euler, task.state, task.search, task.start);
   result.corrected_vertices = task.corrected;
+  // Asked to stop during its last step: whoever asked does not know this flow, gradients() must not have it.
+  if (result.converged() && options.observer != nullptr && options.observer->cancelled())
+    result.status = FlowStatus::interrupted, result.reason = "interrupted";
   // A flow that was not found is not carried on: the last one that was found is.
   if (result.converged()) {
     state = std::move(task.state);

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "flow/test_flows.h"
+#include "remodel/error.h"
 #include "remodel/flow.h"
 #include "remodel/remodel.h"
 #include "support.h"
@@ -46,6 +47,35 @@ TEST(LivingFlow, FindsTheFlowThatAColdSolverFinds) {
     EXPECT_EQ(warm.density.size(), cold.density.size());
   }
   EXPECT_GE(partial, 1);
+}
+
+TEST(LivingFlow, AFrozenViewIsAsGoodAsItsMesh) {
+  const Mesh mesh = generate(domain_of(named_airfoil("naca:0012", 5)), {.gradation = 1.2}).mesh;
+  const FlowConditions conditions = {.mach = 0.6, .alpha_deg = 1.25};
+  LivingFlow of_mesh, of_view;
+  EXPECT_EQ(of_mesh.solve(mesh, conditions).density, of_view.solve(mesh.freeze(), conditions).density);
+  FrozenMesh nameless = mesh.freeze();
+  nameless.vertex_keys.clear();
+  EXPECT_THROW(of_view.solve(nameless, conditions), Error);
+}
+
+// Says when it is asked for the nth time that the flow should end.
+struct EndsAt final : StepObserver {
+  explicit EndsAt(int n) : left(n) {}
+  bool cancelled() override { return --left <= 0; }
+  int left;
+};
+
+TEST(LivingFlow, AFlowThatIsCancelledInItsLastStepIsNotTheLastOne) {
+  const Mesh mesh = generate(domain_of(named_airfoil("naca:0012", 5)), {.gradation = 1.2}).mesh;
+  const FlowConditions conditions = {.mach = 0.6, .alpha_deg = 1.25};
+  constexpr int many = 1000;
+  EndsAt never(many);
+  ASSERT_TRUE(LivingFlow({.observer = &never}).solve(mesh, conditions).converged());
+  EndsAt last(many - never.left);
+  LivingFlow living({.observer = &last});
+  EXPECT_EQ(living.solve(mesh, conditions).status, FlowStatus::interrupted);
+  EXPECT_THROW(living.gradients(), Error);
 }
 
 TEST(LivingFlow, SmallStepsNeedNoFactorsOfTheirOwn) {
