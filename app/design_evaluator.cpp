@@ -47,7 +47,7 @@ class FlowEvaluator final : public Evaluator {
     }
     auto& memory = static_cast<FlowMemory&>(*state);
     while (memory.flows.size() < problem_.points.size())
-      memory.flows.emplace_back(FlowOptions{.observer = &task.observer});
+      memory.flows.emplace_back(flow_options(space_.half(), &task.observer));
     if (!task.step.full_adjustment) ++memory.connectivity;
     if (problem_.target) aim(task, memory);
     Evaluation result;
@@ -131,7 +131,7 @@ class FlowEvaluator final : public Evaluator {
     memory.target.clear();
     for (std::size_t i = 0; i < problem_.points.size(); ++i) {
       if (memory.target_flows.size() == i)
-        memory.target_flows.emplace_back(FlowOptions{.observer = &task.observer});
+        memory.target_flows.emplace_back(flow_options(space_.half(), &task.observer));
       const FlowResult flow = memory.target_flows[i].solve(mesh, problem_.points[i].conditions);
       if (!flow.converged()) throw std::runtime_error("no flow was found around the target: " + flow.reason);
       memory.target.push_back(at_stations(mesh.freeze(), pressure_coefficients(flow)));
@@ -207,6 +207,10 @@ class FlowEvaluator final : public Evaluator {
 };
 
 }  // namespace
+
+FlowOptions flow_options(bool half, StepObserver* observer) {
+  return {.vortex = !half, .observer = observer};
+}
 
 FlowResult whole(FlowResult half) {
   half.cd *= 2.0;

@@ -63,6 +63,9 @@ struct DesignProblemFile {
 // Throws Error (format) naming the file and the key.
 DesignProblemFile read_design_problem(const std::string& file);
 
+// Of the flows of a design. Half of one has a lift of its own, but the whole has none, and no vortex far
+// away.
+FlowOptions flow_options(bool half, StepObserver* observer = nullptr);
 // Coefficients of the whole of a flow of which half was found.
 FlowResult whole(FlowResult half);
 
