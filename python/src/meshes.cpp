@@ -36,23 +36,33 @@ LivingMeshPointer generated(const py::object& shape, int points, const std::opti
   return alive(std::move(result.mesh), result.stopped);
 }
 
+// Apart: an import does not ask whether to end.
+LivingMeshPointer made_alive(const Snapshot& foreign, const std::string& source,
+                             const ImportOptions& options) {
+  ImportResult result = Apart().run(std::make_shared<Stop>(), [foreign, source, options] {
+    return import_mesh(*foreign, source, options);
+  });
+  return alive(std::move(result.mesh));
+}
+
 LivingMeshPointer imported(const py::object& mesh, double refine_angle, double gradation,
                            const std::string& unnamed) {
-  const Snapshot frozen = snapshot_of(mesh);
-  py::gil_scoped_release released;
-  return alive(import_mesh(*frozen, "mesh",
-                           {.refine_angle_deg = refine_angle, .gradation = gradation, .unnamed = unnamed})
-                   .mesh);
+  return made_alive(snapshot_of(mesh), "mesh",
+                    {.refine_angle_deg = refine_angle, .gradation = gradation, .unnamed = unnamed});
 }
 
 LivingMeshPointer loaded(const std::filesystem::path& file) {
-  py::gil_scoped_release released;
-  try {
-    return alive(read_mesh(file));
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::argument) throw;
+  Snapshot foreign;
+  {
+    py::gil_scoped_release released;
+    try {
+      return alive(read_mesh(file));
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::argument) throw;
+    }
+    foreign = std::make_shared<const FrozenMesh>(read_frozen_mesh(file));
   }
-  return alive(import_mesh(read_frozen_mesh(file), file.string()).mesh);
+  return made_alive(foreign, file.string(), {});
 }
 
 LivingMeshPointer copy_of(LivingMesh& mesh) {

@@ -180,10 +180,10 @@ def test_ctrl_c_ends_a_long_call(airfoil):
     timer.join()
 
 
-def test_ctrl_c_does_not_wait_for_the_validator(airfoil):
+def test_ctrl_c_does_not_wait_for_the_validator_and_imports(airfoil):
     mesh = remodel.generate(airfoil, points=3000, gradation=12)
-    for check in (mesh.check, lambda: remodel.check(mesh)):
-        interrupt_inside(lambda: [check() for _ in range(1000)])
+    for call in (mesh.check, lambda: remodel.check(mesh), lambda: remodel.import_mesh(mesh.freeze())):
+        interrupt_inside(lambda: [call() for _ in range(1000)])
         mesh.update(airfoil)  # while its arrays are still being looked at
         assert mesh.check().valid
 
