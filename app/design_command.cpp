@@ -36,8 +36,7 @@ Json verified(const DesignProblemFile& problem, const SectionSpace& space, const
     const FrozenMesh mesh =
         generate(space.domain_of(airfoil, points), {.gradation = gradation}).mesh.freeze();
     for (const DesignPoint& point : problem.points) {
-      FlowResult flow = solve_flow(mesh, point.conditions, flow_options(space.half()));
-      if (space.half()) flow = whole(std::move(flow));
+      const FlowResult flow = solve_section(mesh, point.conditions, space.half());
       list.push_back({{"points", points},
                       {"vertices", mesh.points.size()},
                       {"mach", flow.mach},

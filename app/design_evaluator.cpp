@@ -218,6 +218,11 @@ FlowResult whole(FlowResult half) {
   return half;
 }
 
+FlowResult solve_section(const FrozenMesh& mesh, const FlowConditions& conditions, bool half) {
+  FlowResult flow = solve_flow(mesh, conditions, flow_options(half));
+  return half ? whole(std::move(flow)) : flow;
+}
+
 std::unique_ptr<Evaluator> make_flow_evaluator(const DesignProblemFile& problem, const SectionSpace& space) {
   return std::make_unique<FlowEvaluator>(problem, space);
 }

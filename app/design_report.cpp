@@ -74,10 +74,9 @@ Shown shown(const std::string& name, const CstAirfoil& airfoil, const Mesh& mesh
   const FrozenMesh frozen = mesh.freeze();
   Shown result{name, airfoil, run.space.half ? mirrored(frozen) : frozen, {}, {}, {}};
   for (const FlowConditions& conditions : run.conditions) {
-    FlowResult flow = solve_flow(frozen, conditions, flow_options(run.space.half));
+    FlowResult flow = solve_section(frozen, conditions, run.space.half);
     result.mach.push_back(mach_numbers(flow)), result.cp.push_back(pressure_coefficients(flow));
     if (run.space.half) {
-      flow = whole(std::move(flow));
       result.mach.back() = mirrored(frozen, result.mach.back());
       result.cp.back() = mirrored(frozen, result.cp.back());
     }

@@ -83,11 +83,8 @@ void run(const Case& task) {
     }
     for (const auto& [name, rung] : rungs)
       std::printf("| %d | %g | %s | %s | %zu | %.0f | %.3f | %.2f |\n", task.points, task.sigma,
-                  strategy == Strategy::renew   ? "renew"
-                  : strategy == Strategy::morph ? "morph"
-                                                : "reference",
-                  name.c_str(), rung.seconds.size(), median(rung.changed), 1e3 * median(rung.seconds),
-                  median(rung.seconds) / generation);
+                  name_of(strategy), name.c_str(), rung.seconds.size(), median(rung.changed),
+                  1e3 * median(rung.seconds), median(rung.seconds) / generation);
     std::fflush(stdout);
   }
 }

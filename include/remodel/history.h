@@ -4,8 +4,9 @@
 // is derived from it.
 //
 // Table run(key, value): "version", "options" (JSON), of optimise() from an airfoil "seed" and "from" (CST as
-// JSON), between two of them "to", and with a start mesh "place" (the airfoil's, as JSON). Table evaluations: `evaluation_figures`, a column each; lists as JSON arrays,
-// outputs as a JSON object; NULL for what was not measured or is empty.
+// JSON), between two of them "to", and with a start mesh "place" (the airfoil's, as JSON). Table evaluations:
+// `evaluation_figures`, a column each; lists as JSON arrays, outputs as a JSON object; NULL for what was not
+// measured or is empty.
 
 #include <cstddef>
 #include <cstdint>

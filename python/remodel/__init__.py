@@ -15,8 +15,8 @@ Lengths are in chords and angles in degrees. Every mesh is constrained Delaunay;
 input raises an Error: ArgumentError, FileError, FormatError or GeometryError, with the place and what was
 expected; a limit that was reached is in the result. Ctrl-C ends long calls within a tenth of a second
 and leaves meshes valid; only reading and writing files end first. A flow inside a factorisation, check() and an
-import go on in the background with nobody waiting for them: the next call of that LivingFlow waits for the factorisation to end, as a fork
-and the end of the process do (there a second Ctrl-C ends the wait).
+import go on in the background with nobody waiting for them: the next call of that LivingFlow waits for the
+factorisation to end, as a fork and the end of the process do (there a second Ctrl-C ends the wait).
 
 The method is that of the paper "Two-Dimensional Quality-Mesh Remodelling for Engineering Design Optimisation".
 """
