@@ -45,8 +45,10 @@ struct DirectSolver::Impl {
     id.job = initialise;
     dmumps_c(&id);
     for (int stream = 1; stream <= 4; ++stream) control(id, stream) = stream == 4 ? 0 : -1;  // prints nothing
-    control(id, 6) = 0;    // no permutation to a heavy diagonal: it is heavy
-    control(id, 7) = 7;    // ordering: chosen by MUMPS
+    control(id, 6) = 0;  // no permutation to a heavy diagonal: it is heavy
+    // Ordering by PORD. MUMPS's own choice for large matrices is METIS, whose orderings, and with them the
+    // last digits of a flow, differ from one process to the next.
+    control(id, 7) = 4;
     control(id, 10) = 0;   // no iterative refinement
     control(id, 14) = 30;  // percent of memory above the estimate
     control(id, 15) = -4;  // the graph is of blocks of four
