@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numeric>
 #include <random>
 #include <set>
@@ -14,7 +13,7 @@
 #include "mesh/renew_policy.h"
 #include "remodel/check.h"
 #include "remodel/error.h"
-#include "remodel/io.h"
+#include "remodel/mesh_state.h"
 #include "step/count_control.h"
 #include "step/renew.h"
 #include "step/test_designs.h"
@@ -357,9 +356,8 @@ TEST(Renew, SurplusOfAnotherDiscretisationIsGoneAfterThreeSteps) {
   EXPECT_GT(static_cast<double>(mesh.triangle_count()), 0.95 * wanted);
 }
 
-// What a step needs of those before is in the file.
-TEST(Renew, GoesOnFromAFileToTheSameBytes) {
-  const auto file = std::filesystem::temp_directory_path() / "remodel-strategy-test.vtkhdf";
+// What a step needs of those before is in the state, which native files hold.
+TEST(Renew, GoesOnFromAStateToTheSameBytes) {
   const auto seed = test::seed(7);
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937_64 random(seed);
@@ -369,15 +367,13 @@ TEST(Renew, GoesOnFromAFileToTheSameBytes) {
   bool waits = false;
   for (int i = 0; i < 20; ++i) {
     waits |= !other.data().renewal.pending_vertices.empty();
-    write_mesh(other, file);
-    other = read_mesh(file);
+    other = Mesh::restore(other.state(), "state");
     designs.next();
     remodel(mesh, designs.domain(50), renewing);
     remodel(other, designs.domain(50), renewing);
     ASSERT_TRUE(mesh.state() == other.state()) << "step " << i;
   }
   EXPECT_TRUE(waits);
-  std::filesystem::remove(file);
 }
 
 // What is pending fits the domain, also after a step of the other strategy to one with fewer loops.
