@@ -33,12 +33,11 @@ Json verified(const DesignProblemFile& problem, const SectionSpace& space, const
   Json list = Json::array();
   for (const int points : problem.verify) {
     const double gradation = problem.gradation * points / problem.domain.points;
-    const FrozenMesh mesh =
-        generate(space.domain_of(airfoil, points), {.gradation = gradation}).mesh.freeze();
+    const Mesh mesh = generate(space.domain_of(airfoil, points), {.gradation = gradation}).mesh;
     for (const DesignPoint& point : problem.points) {
       const FlowResult flow = solve_section(mesh, point.conditions, space.half());
       list.push_back({{"points", points},
-                      {"vertices", mesh.points.size()},
+                      {"vertices", mesh.freeze().points.size()},
                       {"mach", flow.mach},
                       {"alpha_deg", flow.alpha_deg},
                       {"cl", flow.cl},

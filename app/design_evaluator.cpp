@@ -218,7 +218,7 @@ FlowResult whole(FlowResult half) {
   return half;
 }
 
-FlowResult solve_section(const FrozenMesh& mesh, const FlowConditions& conditions, bool half) {
+FlowResult solve_section(const Mesh& mesh, const FlowConditions& conditions, bool half) {
   FlowResult flow = solve_flow(mesh, conditions, flow_options(half));
   return half ? whole(std::move(flow)) : flow;
 }

@@ -69,7 +69,7 @@ FlowOptions flow_options(bool half, StepObserver* observer = nullptr);
 // Coefficients of the whole of a flow of which half was found.
 FlowResult whole(FlowResult half);
 // A flow found cold with these options, with the coefficients of the whole.
-FlowResult solve_section(const FrozenMesh& mesh, const FlowConditions& conditions, bool half);
+FlowResult solve_section(const Mesh& mesh, const FlowConditions& conditions, bool half);
 
 std::unique_ptr<Designer> make_designer(const DesignProblemFile& problem, const DesignSpace& space);
 // The problem and space must outlive it.

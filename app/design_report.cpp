@@ -74,7 +74,7 @@ Shown shown(const std::string& name, const CstAirfoil& airfoil, const Mesh& mesh
   const FrozenMesh frozen = mesh.freeze();
   Shown result{name, airfoil, run.space.half ? mirrored(frozen) : frozen, {}, {}, {}};
   for (const FlowConditions& conditions : run.conditions) {
-    FlowResult flow = solve_section(frozen, conditions, run.space.half);
+    FlowResult flow = solve_section(mesh, conditions, run.space.half);
     result.mach.push_back(mach_numbers(flow)), result.cp.push_back(pressure_coefficients(flow));
     if (run.space.half) {
       result.mach.back() = mirrored(frozen, result.mach.back());

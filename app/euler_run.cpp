@@ -36,6 +36,7 @@ Json to_json(const FlowResult& flow) {
   if (!flow.reason.empty()) json["reason"] = flow.reason;
   json["residual"] = flow.residual;
   json["newton_steps"] = flow.newton_steps;
+  json["coarse_steps"] = flow.coarse_steps;
   json["factorisations"] = flow.factorisations;
   json["krylov_iterations"] = flow.krylov_iterations;
   json["corrected_vertices"] = flow.corrected_vertices;
@@ -131,9 +132,10 @@ class Comparison {
 
   void add(const Domain& domain, Json& entry) {
     if (kind_ == Compare::none) return;
-    FrozenMesh mesh = generate(domain, quality_).mesh.freeze();
+    const Mesh fresh = generate(domain, quality_).mesh;
+    FrozenMesh mesh = fresh.freeze();
     const bool cold = kind_ == Compare::cold || !flow_;
-    FlowResult flow = cold ? solve_flow(mesh, conditions_, options_)
+    FlowResult flow = cold ? solve_flow(fresh, conditions_, options_)
                            : solve_flow_from(mesh_, *flow_, mesh, conditions_, options_);
     entry[kind_ == Compare::cold ? "cold_seconds" : "rival_seconds"] = flow.seconds;
     entry[kind_ == Compare::cold ? "cold_cl" : "rival_cl"] = flow.cl;
@@ -228,8 +230,9 @@ Status run_euler(const EulerRun& run, const MeshInput& input, const std::string&
                 "given with the mesh of another program, expected a shape or a native mesh, whose curves are "
                 "known");
   LivingFlow living(options);
-  const FlowResult flow = run.gradient ? living.solve(*input.living, run.conditions)
-                                       : solve_flow(input.frozen, run.conditions, options, source);
+  const FlowResult flow = run.gradient   ? living.solve(*input.living, run.conditions)
+                          : input.living ? solve_flow(*input.living, run.conditions, options, source)
+                                         : solve_flow(input.frozen, run.conditions, options, source);
   std::vector<std::string> files;
   const std::string caption = flow_caption(flow.mach, flow.alpha_deg, flow.cl);
   if (!flow.converged()) {

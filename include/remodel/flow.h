@@ -91,7 +91,7 @@ const char* name_of(FlowStatus status);  // "converged", "step-limit", "stalled"
 
 // What a flow was found from.
 enum class FlowStart {
-  cold,        // undisturbed flow
+  cold,        // undisturbed flow, or that through a coarser mesh of the same domain, found from it
   carried,     // the last flow, with the factors of an earlier one
   refactored,  // the last flow, with factors of its own
 };
@@ -125,6 +125,7 @@ struct FlowResult {
   std::vector<double> history;         // residuals, from the first state on
   int newton_steps = 0;                // steps with a Jacobian of their own
   int factorisations = 0;              // of the whole matrix
+  int coarse_steps = 0;                // of the Newton steps: on coarser meshes, or from their flows in vain
   int krylov_iterations = 0;           // steps with older factors
   std::size_t corrected_vertices = 0;  // where older factors were corrected because the mesh has changed
   double memory_mb = 0.0;              // of the factors, the most
@@ -145,6 +146,13 @@ std::vector<Field> fields_of(const FlowResult& flow);
 // The flow through a mesh, from undisturbed flow. `source` names the mesh in messages.
 FlowResult solve_flow(const FrozenMesh& mesh, const FlowConditions& conditions,
                       const FlowOptions& options = {}, const std::string& source = "mesh");
+
+// The same on Mesh::freeze(). Fine meshes (of 4,000 vertices and more) begin with the flow through a coarser
+// mesh of the same domain, generated with every second station and half the gradation's G, which begins
+// likewise; where the domain has open chains or that does not lead on, with undisturbed flow. Steps,
+// factorisations, memory and seconds count coarser meshes too.
+FlowResult solve_flow(const Mesh& mesh, const FlowConditions& conditions, const FlowOptions& options = {},
+                      const std::string& source = "mesh");
 
 // The same, but beginning with the flow through another mesh, interpolated, one factorisation and its use
 // until the flow is found: the best that can be done where meshes are generated afresh.
@@ -197,8 +205,10 @@ class LivingFlow {
   LivingFlow(LivingFlow&&) noexcept;
   LivingFlow& operator=(LivingFlow&&) noexcept;
 
+  // Cold flows begin as those of solve_flow() of a Mesh do.
   FlowResult solve(const Mesh& mesh, const FlowConditions& conditions);
-  // The same on Mesh::freeze(). Throws Error (argument) where vertices have no keys.
+  // The same on Mesh::freeze(), cold flows always from undisturbed flow. Throws Error (argument) where
+  // vertices have no keys.
   FlowResult solve(const FrozenMesh& mesh, const FlowConditions& conditions);
   // Gradients of the last flow that was found. They take the factors that there are, transposed, where these
   // serve; otherwise new ones, which the next flows have too. Throws Error (argument) before the first flow,

@@ -6,6 +6,7 @@
 #include <nanoflann.hpp>
 
 #include "base/stopwatch.h"
+#include "flow/coarse_start.h"
 #include "flow/solution.h"
 #include "remodel/error.h"
 
@@ -241,8 +242,11 @@ std::vector<Primitive<double>> interpolated(const FlowMesh& mesh, const std::vec
 
 }  // namespace flow
 
-FlowResult solve_flow(const FrozenMesh& mesh, const FlowConditions& conditions, const FlowOptions& options,
-                      const std::string& source) {
+namespace {
+
+// From undisturbed flow, or, where the mesh's domain is known, as find_flow_by_meshes() begins.
+FlowResult cold_flow(const FrozenMesh& mesh, const Mesh* living, const FlowConditions& conditions,
+                     const FlowOptions& options, const std::string& source) {
   const Stopwatch watch;
   flow::require_possible(conditions, options);
   const flow::FlowMesh dual = flow::dual_of(mesh, conditions, options, source);
@@ -251,11 +255,28 @@ FlowResult solve_flow(const FrozenMesh& mesh, const FlowConditions& conditions, 
   flow::State state;
   flow::BlockRows matrix = euler.pattern();
   flow::Factors factors;
-  flow::Search search;
-  flow::find_flow_cold(euler, measure, options, matrix, factors, state, search);
+  flow::Search search, spent;
+  if (living != nullptr)
+    flow::find_flow_by_meshes(living->domain(), living->options(), euler, measure, conditions, options,
+                              matrix, factors, state, search, spent);
+  else
+    flow::find_flow_cold(euler, measure, options, matrix, factors, state, search);
   FlowResult result = flow::result_of(euler, state, search, FlowStart::cold);
+  flow::add_coarse(spent, result);
   result.seconds = watch.seconds();
   return result;
+}
+
+}  // namespace
+
+FlowResult solve_flow(const FrozenMesh& mesh, const FlowConditions& conditions, const FlowOptions& options,
+                      const std::string& source) {
+  return cold_flow(mesh, nullptr, conditions, options, source);
+}
+
+FlowResult solve_flow(const Mesh& mesh, const FlowConditions& conditions, const FlowOptions& options,
+                      const std::string& source) {
+  return cold_flow(mesh.freeze(), &mesh, conditions, options, source);
 }
 
 namespace {

@@ -99,6 +99,19 @@ TEST(Flow, TheSameInputGivesTheSameBits) {
   EXPECT_EQ(first.cl, second.cl);
 }
 
+TEST(Flow, FineMeshesBeginOnCoarserOnesAndFindTheSameFlow) {
+  const Mesh fine = test::airfoil_mesh("naca:2412", 290);
+  const FlowConditions conditions{.mach = 0.4, .alpha_deg = 1.0};
+  const FlowResult direct = solve_flow(fine.freeze(), conditions);
+  const FlowResult sequenced = solve_flow(fine, conditions);
+  ASSERT_TRUE(direct.converged() && sequenced.converged()) << direct.reason << sequenced.reason;
+  EXPECT_EQ(direct.coarse_steps, 0);
+  EXPECT_GT(sequenced.coarse_steps, 0);
+  EXPECT_LT(sequenced.newton_steps - sequenced.coarse_steps, direct.newton_steps);  // on the fine mesh
+  EXPECT_NEAR(sequenced.cl, direct.cl, 1e-8);
+  EXPECT_NEAR(sequenced.cd, direct.cd, 1e-8);
+}
+
 TEST(Flow, LimitsAreInTheResult) {
   const FrozenMesh mesh = test::airfoil_mesh("naca:4412", 60).freeze();
   const FlowResult few = solve_flow(mesh, {.mach = 0.6}, {.max_steps = 2});

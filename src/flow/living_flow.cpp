@@ -7,6 +7,7 @@
 #include "base/stopwatch.h"
 #include "flow/adjoint.h"
 #include "flow/chord.h"
+#include "flow/coarse_start.h"
 #include "flow/solution.h"
 #include "remodel/error.h"
 #include "remodel/flow.h"
@@ -84,7 +85,8 @@ struct LivingFlow::Impl {
   flow::BlockRows matrix;
   std::vector<std::array<std::uint32_t, 3>> matrix_triangles;
 
-  FlowResult solve(const FrozenMesh& frozen, const FlowConditions& conditions);
+  // living: the mesh that was frozen, if its domain is to be used.
+  FlowResult solve(const FrozenMesh& frozen, const Mesh* living, const FlowConditions& conditions);
   FlowGradients gradients(const std::vector<FlowFunctional>& functions);
 
  private:
@@ -104,8 +106,10 @@ struct LivingFlow::Impl::Task {
   const flow::Euler& euler;
   const flow::Measure& measure;
   const Keys& keys;
+  const FlowConditions& conditions;
+  const Mesh* living;
   flow::State state;
-  flow::Search search = {};
+  flow::Search search = {}, spent = {};
   FlowStart start = FlowStart::cold;
   std::size_t corrected = 0;
 };
@@ -116,11 +120,11 @@ LivingFlow::LivingFlow(LivingFlow&&) noexcept = default;
 LivingFlow& LivingFlow::operator=(LivingFlow&&) noexcept = default;
 
 FlowResult LivingFlow::solve(const Mesh& mesh, const FlowConditions& conditions) {
-  return impl_->solve(mesh.freeze(), conditions);
+  return impl_->solve(mesh.freeze(), &mesh, conditions);
 }
 
 FlowResult LivingFlow::solve(const FrozenMesh& mesh, const FlowConditions& conditions) {
-  return impl_->solve(mesh, conditions);
+  return impl_->solve(mesh, nullptr, conditions);
 }
 
 void LivingFlow::forget() {
@@ -242,12 +246,17 @@ void LivingFlow::Impl::search(Task& task) {
       return;
   }
   task.start = FlowStart::cold;
-  flow::find_flow_cold(task.euler, task.measure, options, whole_matrix(task.euler), factors, task.state,
-                       task.search);
+  flow::BlockRows& whole = whole_matrix(task.euler);
+  if (task.living != nullptr)
+    flow::find_flow_by_meshes(task.living->domain(), task.living->options(), task.euler, task.measure,
+                              task.conditions, options, whole, factors, task.state, task.search, task.spent);
+  else
+    flow::find_flow_cold(task.euler, task.measure, options, whole, factors, task.state, task.search);
   belong(task.euler.mesh(), task.keys);
 }
 
-FlowResult LivingFlow::Impl::solve(const FrozenMesh& frozen, const FlowConditions& conditions) {
+FlowResult LivingFlow::Impl::solve(const FrozenMesh& frozen, const Mesh* living,
+                                   const FlowConditions& conditions) {
   const Stopwatch watch;
   flow::require_possible(conditions, options);
   const flow::Stream stream = flow::stream_of(conditions, options);
@@ -262,10 +271,16 @@ FlowResult LivingFlow::Impl::solve(const FrozenMesh& frozen, const FlowCondition
   }
   const flow::Euler euler(*dual, stream);
   const flow::Measure measure(euler);
-  Task task{.euler = euler, .measure = measure, .keys = now, .state = {}};
+  Task task{.euler = euler,
+            .measure = measure,
+            .keys = now,
+            .conditions = conditions,
+            .living = living,
+            .state = {}};
   if (solved) task.state = carry(*dual, now, stream);
   search(task);
   FlowResult result = flow::result_of(euler, task.state, task.search, task.start);
+  flow::add_coarse(task.spent, result);
   result.corrected_vertices = task.corrected;
   // Asked to stop during its last step: whoever asked does not know this flow, gradients() must not have it.
   if (result.converged() && options.observer != nullptr && options.observer->cancelled())

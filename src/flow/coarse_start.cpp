@@ -1,0 +1,97 @@
+#include "flow/coarse_start.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "flow/solution.h"
+#include "remodel/error.h"
+#include "remodel/generate.h"
+
+namespace remodel::flow {
+
+namespace {
+
+// How far a coarse flow is followed: the fine mesh's is another one, off by more than this.
+constexpr double coarse_tolerance = 1e-5;
+// The first pseudo-time step from an interpolated flow.
+constexpr double coarse_cfl = 50.0;
+
+// Every second station of every curve. Nothing where chains may end on a station that would be gone.
+std::optional<Domain> coarsened(const Domain& domain) {
+  Domain coarse = domain;
+  for (Loop& loop : coarse.loops) {
+    if (loop.open) return std::nullopt;
+    for (Curve& curve : loop.curves) {
+      std::vector<double> kept;
+      for (std::size_t i = 0; i < curve.parameters.size(); i += 2) kept.push_back(curve.parameters[i]);
+      curve.parameters = std::move(kept);
+    }
+  }
+  return coarse;
+}
+
+// The dual of a coarser mesh; nothing where there is none that is much coarser.
+std::optional<FlowMesh> coarse_mesh(const Domain& domain, const QualityOptions& quality, std::size_t fine,
+                                    const FlowConditions& conditions, const FlowOptions& options) {
+  try {
+    const GenerateResult made = generate(domain, quality, options.observer);
+    if (made.stopped != Stopped::done) return std::nullopt;
+    FlowMesh dual = dual_of(made.mesh.freeze(), conditions, options, "coarser mesh");
+    if (2 * dual.size() > fine) return std::nullopt;
+    return dual;
+  } catch (const Error&) {
+    return std::nullopt;  // walls that are close meet where stations are left out
+  }
+}
+
+std::optional<State> start_from_coarser(const Domain& domain, const QualityOptions& quality,
+                                        const FlowMesh& fine, const FlowConditions& conditions,
+                                        const FlowOptions& options, Search& spent) {
+  if (fine.size() < fine_mesh) return std::nullopt;
+  const std::optional<Domain> coarse = coarsened(domain);
+  if (!coarse) return std::nullopt;
+  QualityOptions half = quality;
+  half.gradation = 0.5 * quality.gradation;
+  const std::optional<FlowMesh> dual = coarse_mesh(*coarse, half, fine.size(), conditions, options);
+  if (!dual) return std::nullopt;
+  const Euler euler(*dual, stream_of(conditions, options));
+  const Measure measure(euler);
+  FlowOptions rough = options;
+  rough.tolerance = std::max(options.tolerance, coarse_tolerance);
+  State state;
+  Search search;
+  BlockRows matrix = euler.pattern();
+  Factors factors;
+  find_flow_by_meshes(*coarse, half, euler, measure, conditions, rough, matrix, factors, state, search,
+                      spent);
+  spent.newton_steps += search.newton_steps;
+  spent.factorisations += search.factorisations;
+  spent.memory_mb = std::max(spent.memory_mb, search.memory_mb);
+  if (search.status != FlowStatus::converged) return std::nullopt;
+  state.q = interpolated(*dual, state.q, fine.points());
+  return state;
+}
+
+}  // namespace
+
+void find_flow_by_meshes(const Domain& domain, const QualityOptions& quality, const Euler& euler,
+                         const Measure& measure, const FlowConditions& conditions, const FlowOptions& options,
+                         BlockRows& matrix, Factors& factors, State& state, Search& search, Search& spent) {
+  if (auto coarse = start_from_coarser(domain, quality, euler.mesh(), conditions, options, spent)) {
+    state = std::move(*coarse);
+    search.newton_steps = 0;
+    find_flow(euler, measure, coarse_cfl, options, matrix, factors, state, search);
+    if (search.status != FlowStatus::stalled && search.status != FlowStatus::step_limit) return;
+    spent.newton_steps += search.newton_steps;  // in vain; find_flow_cold() counts anew
+  }
+  find_flow_cold(euler, measure, options, matrix, factors, state, search);
+}
+
+void add_coarse(const Search& spent, FlowResult& result) {
+  result.coarse_steps = spent.newton_steps;
+  result.newton_steps += spent.newton_steps;
+  result.factorisations += spent.factorisations;
+  result.memory_mb = std::max(result.memory_mb, spent.memory_mb);
+}
+
+}  // namespace remodel::flow
