@@ -78,7 +78,7 @@ TEST(EdgeConstraints, AngleIsThatOfTheCurve) {
   for (const CatalogueEntry& entry : airfoil_catalogue()) {
     const CstAirfoil airfoil = entry.airfoil();
     const double upper = trailing_slope(airfoil, true), lower = trailing_slope(airfoil, false);
-    // Of a wedge of the same opening whose sides fall alike; the section's own is no larger.
+    // The angle of a wedge of the same opening whose sides fall alike; the section's own is no larger.
     const double angle = degrees(2.0 * std::atan(0.5 * (lower - upper)));
     EXPECT_LE(degrees(std::atan(lower) - std::atan(upper)), angle + 1e-6) << entry.name;
     const auto value = [&](double at_least) {

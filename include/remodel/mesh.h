@@ -91,7 +91,7 @@ class Mesh {
   // Strategy::reference: whether the mesh is the morph of a reference mesh that it remembers, whose
   // connectivity it has. Steps of other strategies start from that reference.
   bool held() const;
-  // Of a held mesh: the angles opposite an inner edge may sum up to 180 degrees and this. 0: it is Delaunay.
+  // By how much the angles opposite an inner edge of a held mesh may exceed 180 degrees. 0: it is Delaunay.
   double delaunay_slack_deg() const;
   std::uint32_t step() const;
   std::size_t triangle_count() const;  // of the domain; O(1)
@@ -118,9 +118,9 @@ class Mesh {
   Changes changes_since(const Mark& mark) const;
 
   // The quick validation, O(triangles): links return, triangles counter-clockwise, constrained edges on the
-  // design's boundary, locally Delaunay (but for delaunay_slack_deg()), angle and gradation within the options.
-  // Empty if valid, otherwise the first broken rule with the ids concerned. (check() of check.h is the
-  // independent, slow one.)
+  // design's boundary, locally Delaunay (but for delaunay_slack_deg()), angle and gradation within the
+  // options. Empty if valid, otherwise the first broken rule with the ids concerned. (check() of check.h is
+  // the independent, slow one.)
   std::string quick_check() const;
 
   MeshData& data();

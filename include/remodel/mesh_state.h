@@ -72,8 +72,8 @@ struct MeshState {
   std::uint32_t stopped = 0;  // a Stopped: why refinement of the whole mesh ended
   RenewalState renewal;
   ImportRecord imported;
-  // Of a mesh that is held (Strategy::reference): its reference's, slot by slot. Empty, and not in the file,
-  // for all others.
+  // The places and length scales of the reference of a mesh that is held (Strategy::reference), slot by slot.
+  // Empty, and not in the file, for all others.
   std::vector<double> reference_coordinates{};    // 2 per vertex slot
   std::vector<double> reference_length_scales{};  // 1 per vertex slot
   Domain reference_domain{};

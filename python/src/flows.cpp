@@ -98,7 +98,7 @@ class Flows {
     });
     return with_mesh(result, frozen);
   }
-  // Of the last flow: by points of its mesh, and by Mach number and angle.
+  // Gradients of the last flow: by the points of its mesh, and by Mach number and angle.
   py::dict gradients() {
     const ThreadLock::Held held(lock_);
     FlowGradients found = calls_.run(solver_->stop, [solver = solver_] { return solver->flow.gradients(); });

@@ -17,7 +17,7 @@ struct LivingMesh {
   Mesh mesh;
   Stopped stopped = Stopped::done;
   ThreadLock lock;
-  // Of the mesh as it is now; made when it is first asked for. Views of it keep it alive.
+  // The mesh as it is now, frozen when it is first asked for. Views of it keep it alive.
   Snapshot frozen;
   // How often the mesh has been changed here: a step's own mesh is there as long as this is its number.
   std::uint64_t version = 0;

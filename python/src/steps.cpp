@@ -69,7 +69,7 @@ std::vector<std::uint32_t> values(const std::vector<TriangleId>& ids) {
   return result;
 }
 
-// Of each triangle after the step: 0 kept, 1 moved, 2 new.
+// The fate of each triangle after the step: 0 kept, 1 moved, 2 new.
 py::array_t<std::uint8_t> fates_of(const StepRecord& step) {
   const Snapshot mesh = after_step(step);
   const std::vector<std::uint64_t> moved = values(step.changes.moved);

@@ -61,7 +61,7 @@ class SlotMap {
     values_[id.index] = value;
     return true;
   }
-  // Of an id that it contains.
+  // Precondition: contains(id).
   Value& operator[](Id id) { return values_[id.index]; }
   Value operator[](Id id) const { return values_[id.index]; }
   Value value_or(Id id, Value otherwise) const { return contains(id) ? values_[id.index] : otherwise; }

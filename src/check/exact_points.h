@@ -23,7 +23,7 @@ class ExactPoints {
   virtual Integer twice_area(std::uint32_t a, std::uint32_t b, std::uint32_t c) const = 0;
   // The scalar product of the vectors from a to b and to c, in the same units.
   virtual Integer dot(std::uint32_t a, std::uint32_t b, std::uint32_t c) const = 0;
-  // Of that area, its sign: +1 counter-clockwise, 0 without area.
+  // The sign of that area: +1 counter-clockwise, 0 without area.
   virtual int orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const = 0;
   // The cross product of the position vectors of a and b: summed over the edges of a polygon, twice its area.
   virtual Integer cross(std::uint32_t a, std::uint32_t b) const = 0;

@@ -127,8 +127,8 @@ std::optional<std::array<std::int64_t, 6>> as_integers(const std::array<Rounded,
   return integers;
 }
 
-// Of integers up to 2^62, products are at most 2^124 and sums of two products 2^125: minors and lifts fit 128
-// bits. Their products are at most 2^250, the sum of three is below 2^252.
+// For integers up to 2^62, products are at most 2^124 and sums of two products 2^125: minors and lifts fit
+// 128 bits. Their products are at most 2^250, the sum of three is below 2^252.
 int incircle_of_integers(const std::array<std::int64_t, 6>& differences) {
   const auto [ux, uy, vx, vy, wx, wy] = differences;
   const auto times = [](std::int64_t p, std::int64_t q) { return Int128{p} * q; };

@@ -12,7 +12,7 @@ namespace remodel {
 
 struct LoopsOfMesh {
   Domain domain;
-  // Of every loop: its points in the order of the domain's stations.
+  // The points of every loop, in the order of the domain's stations.
   std::vector<std::vector<std::uint32_t>> points;
   std::vector<bool> joint;  // per point: whether a chain ends there
 };

@@ -167,7 +167,7 @@ std::string list_text(const FoamList& list) {
   return out.take();
 }
 
-// Of each face of a patch after, the nearest one before.
+// For each face of a patch after, the nearest one before.
 std::vector<std::size_t> nearest_faces(const FrozenMesh& before, const FoamPatch& from,
                                        const FrozenMesh& after, const FoamPatch& to) {
   const auto middle = [](const FrozenMesh& mesh, const io::FoamEdge& edge) {

@@ -92,7 +92,7 @@ class Hdf5Reader {
   bool has_attribute(const std::string& group, const std::string& name) const;
   // The names of the datasets of reals in a group, in alphabetical order; none if there is no such group.
   std::vector<std::string> real_arrays(const std::string& group) const;
-  // Of a dataset with two dimensions; 1 if it has one, 0 if it has others.
+  // How many columns a dataset of two dimensions has; 1 if it has one dimension, 0 if it has others.
   std::size_t columns(const std::string& path) const;
   template <class Value>
   std::vector<Value> array(const std::string& path) const;

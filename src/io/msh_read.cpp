@@ -169,7 +169,7 @@ class MshReader {
       numbers_.integer("a bounding entity");
   }
 
-  // Of a node or an element: 64 bits from version 4.1 on.
+  // The tag of a node or an element: 64 bits from version 4.1 on.
   std::int64_t tag_of(const char* what) {
     return version_4_ && !early_4_ ? numbers_.tag(what) : numbers_.integer(what);
   }
@@ -295,7 +295,7 @@ class MshReader {
     return group != 0 ? "physical_" + std::to_string(group) : kind + std::to_string(entity);
   }
 
-  // Of the triangle that begins, by its physical group: surfaces alone are pieces of a drawing.
+  // The region of the triangle that begins, by its physical group: surfaces alone are pieces of a drawing.
   void add_region(std::int64_t group) {
     auto& name = region_of_[group];
     if (name.empty()) name = group == 0 ? domain_name : name_in(surface_names_, group, "", 0);

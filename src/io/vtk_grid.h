@@ -41,7 +41,7 @@ struct VtkGrid {
   std::vector<std::uint64_t> vertex_key;
   std::vector<std::int32_t> curve;
   std::vector<std::uint8_t> steiner;
-  // Of fields, for writing.
+  // The fields' values, for writing.
   std::vector<VtkArray> point_fields, cell_fields;
 };
 

@@ -61,7 +61,7 @@ void for_each_state_number(State& state, Visitor&& visit) {
   visit("until_shed", state.renewal.until_shed);
 }
 
-// Of a held mesh alone, in a group of their own.
+// The arrays that a held mesh alone has, in a group of their own.
 template <class State, class Visitor>
 void for_each_reference_array(State& state, Visitor&& visit) {
   visit("coordinates", state.reference_coordinates, 2);

@@ -155,7 +155,7 @@ TEST(CompressedVtu, DamagedIsReadOrRefusedInOneLine) {
   }
 }
 
-// Of blocks whose header alone asks for memory.
+// The header of the blocks alone asks for the memory.
 TEST(CompressedVtu, NeverBecomesAHundredTimesItsFile) {
   const auto with_header = [](const std::vector<std::uint64_t>& header) {
     std::string bytes;

@@ -28,7 +28,7 @@ class ChangeRecord {
     VertexId vertex[3];
   };
 
-  // Of a mesh with so many slots.
+  // A record of a mesh that has so many slots.
   ChangeRecord(std::size_t vertex_slots, std::size_t triangle_slots)
       : vertex_slots_(vertex_slots), triangle_slots_(triangle_slots) {}
 

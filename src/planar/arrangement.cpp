@@ -16,8 +16,8 @@ using Rational = boost::multiprecision::cpp_rational;
 
 // A crossing takes its place in memory: what crosses everywhere is refused in order.
 constexpr std::size_t most_vertices = 10'000'000;
-// Of the graph's size or its largest coordinate: crossings that are nearer than this to another point are
-// that point. The shortest edge that refinement splits is a tenth of it.
+// Crossings nearer than this to another point are that point; a share of the graph's size or of its largest
+// coordinate. The shortest edge that refinement splits is a tenth of it.
 constexpr double snapping = 1e-11;
 
 [[noreturn]] void refuse(const std::string& source, const std::string& problem) {

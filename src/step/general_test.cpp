@@ -267,8 +267,8 @@ Domain duct(double bulge, std::size_t wall_stations) {
          curve("outlet", Polyline{{{3, 0}, {3, 1}}}, 5), curve("wall", Polyline{{{3, 1}, {0, 1}}}, 12)}}}};
 }
 
-// Of each boundary by its name. Refinement may add some; that none goes means that the curve was not
-// replaced.
+// The vertices of each boundary, by its name. Refinement may add some; that none goes means that the curve
+// was not replaced.
 std::map<std::string, std::set<std::uint32_t>> vertices_of_boundaries(const Mesh& mesh) {
   const FrozenMesh frozen = mesh.freeze();
   std::map<std::string, std::set<std::uint32_t>> vertices;

@@ -24,7 +24,7 @@ struct Corners {
   Vertex a, b, c;
 };
 
-// Of all sizes, many of them flat, clockwise, or with corners that coincide.
+// Triangles of all sizes, many of them flat, clockwise, or with corners that coincide.
 Corners random_corners(std::mt19937_64& random) {
   const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
   const double size = std::pow(10.0, 300.0 * uniform() - 150.0), far = random() % 2 == 0 ? 0.0 : 1e3 * size;

@@ -118,7 +118,7 @@ TEST(LostVertices, HaveThePapersRegionUnlessRenewing) {
   EXPECT_EQ(radius(true, 10.0, 0.5), 5.0);
 }
 
-// Of the interior, those within `reach` of the least radius of a vertex that cannot be moved in place
+// How many interior vertices lie within `reach` of the least radius of a vertex that cannot be moved in place
 // although it hardly moves.
 std::size_t interior_near_lost(Mesh mesh, const Domain& domain, double reach) {
   MeshData& data = mesh.data();

@@ -143,7 +143,7 @@ void walk(Mesh& mesh, Walk& designs, int points, int steps, const RemodelOptions
   }
 }
 
-// Of several replacements one renews; until then the vertices of what the others made wait for it.
+// One of several replacements renews; until then the vertices of what the others made wait for it.
 TEST(Renew, RemembersWhatTheNextRenewalHasToLookAt) {
   const auto seed = test::seed(8);
   SCOPED_TRACE("seed " + std::to_string(seed));

@@ -72,7 +72,7 @@ Triangulation started(std::mt19937_64& random, int family) {
   }
 }
 
-// Of so many random points more, of the first family.
+// A triangulation of the first family's start and so many more of its random points.
 Triangulation triangulation_of(std::mt19937_64& random, int points) {
   Triangulation t = started(random, 0);
   for (int i = 0; i < points; ++i) t.insert(random_point(random, 0), any_triangle(t));
