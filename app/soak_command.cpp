@@ -34,6 +34,7 @@ Status run(const SoakCommand& command) {
                 result.full_checks > 0 ? Json(result.min_angle_deg) : Json(), "degrees");
   report.figure("slowest_step_ms", "slowest step, processor time", result.slowest_step_ms, "ms");
   report.figure("slowest_step", "its number", result.slowest_step);
+  report.figure("slowest_episode", "its episode", result.slowest_episode);
   report.figure("peak_memory_mib", "peak memory", result.peak_memory_mib, "MiB");
   report.figure("seconds", "wall time", result.seconds, "seconds");
   report.figure("seed", "seed", options.seed);
@@ -52,8 +53,11 @@ void add_soak_command(CLI::App& program, Action& action) {
                                  [command, &action] { action = [command] { return run(*command); }; });
   add_integer(app, {"--steps", "N", "1000", "Remodellings, refused designs included: at least 1"}, {.low = 1},
               [command](std::int64_t value) { command->soak.steps = static_cast<std::size_t>(value); });
-  add_integer(app, {"--seed", "N", "1", "Seed of the designs: 0 or more"}, {.low = 0},
+  add_integer(app, {"--seed", "N", "1", "Seed of the episodes: 0 or more"}, {.low = 0},
               [command](std::int64_t value) { command->soak.seed = static_cast<std::uint64_t>(value); });
+  add_integer(
+      app, {"--episode", "N", "1", "The first episode, of up to 200 steps each: at least 1"}, {.low = 1},
+      [command](std::int64_t value) { command->soak.first_episode = static_cast<std::size_t>(value); });
   add_integer(app,
               {"--full-check-every", "K", "200",
                "Every K-th mesh also goes through the independent validator; 0: never"},

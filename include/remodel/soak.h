@@ -12,7 +12,8 @@ namespace remodel {
 
 struct SoakOptions {
   std::size_t steps = 1000;            // remodellings asked for, refused designs included; at least 1
-  std::uint64_t seed = 1;              // the same seed, the same designs
+  std::uint64_t seed = 1;              // the same seed, the same episodes
+  std::size_t first_episode = 1;       // to see one again; from 1
   std::size_t full_check_every = 200;  // every K-th mesh also goes through check()
   std::function<bool(std::size_t)> keep_going =
       {};  // asked before every step, with the steps done; empty: always
@@ -30,15 +31,17 @@ struct SoakResult {
   double min_angle_deg = 90.0;   // smallest of all meshes that went through check()
   double slowest_step_ms = 0.0;  // processor time
   std::size_t slowest_step = 0;  // its number, from 1
+  std::size_t slowest_episode = 0;
   double peak_memory_mib = 0.0;  // of the process
   double seconds = 0.0;
-  std::string first_failure;  // the first broken rule, with what reproduces it
+  std::string first_failure;  // the first broken rule, with the options that reproduce it
 };
 
 // Episodes of up to 200 steps on one mesh. An episode draws a kind of domain (an airfoil of the catalogue,
 // slat, main airfoil and flap, a duct, a lake with an island, a wall and lone points, a mesh of another
 // program; some at the coordinates of a map), I from 8 to 400, G, D of the paper's four, method and strategy.
-// Its steps are random walks, jumps to other shapes, and designs that cross themselves.
+// Its steps are random walks, jumps to other shapes, and designs that cross themselves. Episodes know nothing
+// of each other: `first_episode` begins with a later one.
 SoakResult soak(const SoakOptions& options);
 
 }  // namespace remodel

@@ -24,11 +24,13 @@ double peak_memory_mib() {
 
 class Soak {
  public:
-  explicit Soak(const SoakOptions& options) : options_(options), random_(options.seed) {}
+  explicit Soak(const SoakOptions& options) : options_(options) {}
 
   SoakResult run() {
     const Stopwatch watch;
-    while (going()) episode();
+    portable::Generator seeds(options_.seed);
+    for (std::size_t skipped = 1; skipped < options_.first_episode; ++skipped) seeds.next();
+    for (episode_ = options_.first_episode; going(); ++episode_) episode(seeds.next());
     result_.peak_memory_mib = peak_memory_mib();
     result_.seconds = watch.seconds();
     return result_;
@@ -41,8 +43,9 @@ class Soak {
     return !stopped_;
   }
 
-  void episode() {
-    SoakCase drawn = draw_case(random_);
+  void episode(std::uint64_t seed) {
+    portable::Generator random(seed);
+    SoakCase drawn = draw_case(random);
     for (int i = 0; i < 200 && going(); ++i) step(drawn);
   }
 
@@ -74,6 +77,7 @@ class Soak {
     if (milliseconds <= result_.slowest_step_ms) return;
     result_.slowest_step_ms = milliseconds;
     result_.slowest_step = result_.steps;
+    result_.slowest_episode = episode_;
   }
 
   // A mesh that a limit left unfinished has the quality that it has, and is valid in all else.
@@ -82,8 +86,7 @@ class Soak {
     const bool chosen = options_.full_check_every != 0 && result_.steps % options_.full_check_every == 0;
     if (finished && !chosen) return;
     ++result_.full_checks;
-    const CheckResult checked =
-        check(mesh.freeze(), finished ? promises(mesh) : CheckOptions{.design = &mesh.domain()});
+    const CheckResult checked = check(mesh.freeze(), promises(mesh, finished));
     if (finished) result_.min_angle_deg = std::min(result_.min_angle_deg, checked.min_angle_deg);
     if (!checked.valid) fail(checked.violations.front().rule + ": " + checked.violations.front().detail);
     try {  // reading back looks at what lies outside the domain too
@@ -93,22 +96,24 @@ class Soak {
     }
   }
 
-  static CheckOptions promises(const Mesh& mesh) {
-    return {.min_angle_deg = mesh.options().min_angle_deg,
-            .max_gradation = mesh.promised_gradation(),
-            .delaunay_slack_deg = mesh.delaunay_slack_deg(),
-            .design = &mesh.domain()};
+  static CheckOptions promises(const Mesh& mesh, bool finished) {
+    CheckOptions promised{.delaunay_slack_deg = mesh.delaunay_slack_deg(), .design = &mesh.domain()};
+    if (!finished) return promised;
+    promised.min_angle_deg = mesh.options().min_angle_deg;
+    promised.max_gradation = mesh.promised_gradation();
+    return promised;
   }
 
   void fail(const std::string& rule) {
     ++result_.invalid_meshes;
     if (result_.first_failure.empty())
-      result_.first_failure =
-          "step " + std::to_string(result_.steps) + " of seed " + std::to_string(options_.seed) + ": " + rule;
+      result_.first_failure = "step " + std::to_string(result_.steps) + ", --seed " +
+                              std::to_string(options_.seed) + " --episode " + std::to_string(episode_) +
+                              ": " + rule;
   }
 
   const SoakOptions& options_;
-  portable::Generator random_;
+  std::size_t episode_ = 0;  // the one under way
   SoakResult result_;
   bool stopped_ = false;
 };

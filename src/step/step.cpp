@@ -359,7 +359,7 @@ bool Step::change_under_journal() {
   const bool renewal = renewing_ && renewal_is_due(mesh);
   const std::size_t budget = renewal ? prepare_renewal(mesh, options_.observer) : 0;
   if (morphing_ && !renewing_) count_imported(mesh);
-  const bool surplus = morphing_ && has_surplus(mesh, RenewPolicy::morph_surplus);
+  const bool surplus = morphs() && has_surplus(mesh, RenewPolicy::morph_surplus);
   const std::optional<List<VertexId>> moved = change_boundary();
   if (!moved) return false;
   if (renewal) renew_replaced(mesh, *moved, budget);
