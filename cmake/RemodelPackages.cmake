@@ -47,7 +47,10 @@ debian_package(development libremodel-dev libdevel
                "Static libraries, headers and the CMake package remodel with its components core, flow, io, draw and design.")
 
 # The static libraries are linked with these by whoever uses them; core needs none.
-set(used_by_flow libmumps-seq-dev)
+set(used_by_flow "")
+if(REMODEL_SPARSE_LU STREQUAL "MUMPS")
+  set(used_by_flow libmumps-seq-dev)
+endif()
 set(used_by_io libhdf5-dev zlib1g-dev libpugixml-dev pkg-config)
 set(used_by_draw libcairo2-dev libwebp-dev pkg-config)
 set(used_by_design libsqlite3-dev)

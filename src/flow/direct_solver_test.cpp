@@ -1,0 +1,130 @@
+// Solutions of systems whose right-hand sides are made of them. Compiled once for each solver.
+
+#include "flow/direct_solver.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace remodel::flow {
+namespace {
+
+using Vector = std::vector<std::array<double, 4>>;
+
+// Of a grid, each of whose vertices is joined with those at most two steps away, like the rings of a mesh.
+// The diagonal is heavy; `rows` of the grid's vertices, ascending.
+BlockRows grid_matrix(int width, const std::vector<std::uint32_t>& rows, std::mt19937& random) {
+  std::uniform_real_distribution<double> entry(-1.0, 1.0);
+  BlockRows matrix{.rows = rows, .start = {0}, .column = {}, .block = {}};
+  for (const std::uint32_t row : rows) {
+    const int x = static_cast<int>(row) % width, y = static_cast<int>(row) / width;
+    for (int other = 0; other < width * width; ++other) {
+      const int distance = std::abs(other % width - x) + std::abs(other / width - y);
+      if (distance > 2) continue;
+      Block block;
+      for (double& value : block) value = entry(random);
+      if (distance == 0)
+        for (std::size_t k = 0; k < 4; ++k) block[5 * k] += 12.0;
+      matrix.column.push_back(static_cast<std::uint32_t>(other));
+      matrix.block.push_back(block);
+    }
+    matrix.start.push_back(static_cast<std::uint32_t>(matrix.column.size()));
+  }
+  return matrix;
+}
+
+std::vector<std::uint32_t> all_rows(int width) {
+  std::vector<std::uint32_t> rows(static_cast<std::size_t>(width) * static_cast<std::size_t>(width));
+  for (std::uint32_t i = 0; i < rows.size(); ++i) rows[i] = i;
+  return rows;
+}
+
+// The matrix, or its transpose, times x; columns outside the rows are left out.
+Vector product(const BlockRows& matrix, const Vector& x, bool transposed) {
+  Vector y(x.size(), {0, 0, 0, 0});
+  for (std::size_t r = 0; r < matrix.rows.size(); ++r)
+    for (std::uint32_t i = matrix.start[r]; i < matrix.start[r + 1]; ++i) {
+      const auto at = std::find(matrix.rows.begin(), matrix.rows.end(), matrix.column[i]);
+      if (at == matrix.rows.end()) continue;
+      const auto c = static_cast<std::size_t>(at - matrix.rows.begin());
+      for (std::size_t j = 0; j < 4; ++j)
+        for (std::size_t k = 0; k < 4; ++k)
+          (transposed ? y[c][k] : y[r][j]) += matrix.block[i][4 * j + k] * (transposed ? x[r][j] : x[c][k]);
+    }
+  return y;
+}
+
+Vector random_vector(std::size_t size, std::mt19937& random) {
+  std::normal_distribution<double> entry;
+  Vector x(size);
+  for (auto& values : x)
+    for (double& value : values) value = entry(random);
+  return x;
+}
+
+double distance(const Vector& a, const Vector& b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t k = 0; k < 4; ++k) largest = std::max(largest, std::fabs(a[i][k] - b[i][k]));
+  return largest;
+}
+
+void expect_solved(DirectSolver& solver, const BlockRows& matrix, std::mt19937& random) {
+  const std::size_t size = matrix.rows.size();
+  const Vector x = random_vector(size, random), z = random_vector(size, random);
+  Vector both = product(matrix, x, false);
+  const Vector second = product(matrix, z, false);
+  both.insert(both.end(), second.begin(), second.end());
+  solver.solve(both, 2);
+  EXPECT_LT(distance(x, Vector(both.begin(), both.begin() + static_cast<std::ptrdiff_t>(size))), 1e-11);
+  EXPECT_LT(distance(z, Vector(both.begin() + static_cast<std::ptrdiff_t>(size), both.end())), 1e-11);
+  Vector transposed = product(matrix, x, true);
+  solver.solve_transposed(transposed, 1);
+  EXPECT_LT(distance(x, transposed), 1e-11);
+}
+
+TEST(DirectSolver, SolvesWithTheMatrixAndItsTranspose) {
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  DirectSolver solver;
+  EXPECT_FALSE(solver.ready());
+  for (const int width : {12, 12, 7}) {  // the same pattern again, and another
+    const BlockRows matrix = grid_matrix(width, all_rows(width), random);
+    ASSERT_EQ(solver.factor(matrix, 1000.0), Factored::done);
+    EXPECT_TRUE(solver.ready());
+    EXPECT_GT(solver.factor_work(), solver.solve_work());
+    EXPECT_GT(solver.solve_work(), 16.0 * static_cast<double>(matrix.rows.size()));
+    expect_solved(solver, matrix, random);
+  }
+  solver.forget();
+  EXPECT_FALSE(solver.ready());
+}
+
+TEST(DirectSolver, LeavesOutColumnsOutsideItsRows) {
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  std::vector<std::uint32_t> some;
+  for (std::uint32_t i = 3; i < 90; i += 1 + i % 3) some.push_back(i);
+  const BlockRows matrix = grid_matrix(10, some, random);
+  DirectSolver solver;
+  ASSERT_EQ(solver.factor(matrix, 1000.0), Factored::done);
+  expect_solved(solver, matrix, random);
+}
+
+TEST(DirectSolver, SaysThatAMatrixIsSingular) {
+  std::mt19937 random(1);
+  BlockRows matrix = grid_matrix(8, all_rows(8), random);
+  for (std::uint32_t i = matrix.start[5]; i < matrix.start[6]; ++i) matrix.block[i] = {};
+  DirectSolver solver;
+  EXPECT_EQ(solver.factor(matrix, 1000.0), Factored::singular);
+  EXPECT_FALSE(solver.ready());
+  ASSERT_EQ(solver.factor(grid_matrix(8, all_rows(8), random), 1000.0), Factored::done);
+  EXPECT_TRUE(solver.ready());
+}
+
+}  // namespace
+}  // namespace remodel::flow
