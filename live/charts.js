@@ -2,13 +2,13 @@
 
 // ---------------------------------------------------------------------------------------------- charts
 
-let strip = []; // step, flow, latency in milliseconds; kept and surplus as shares
+let strip = []; // step, flow, latency in milliseconds; kept and surplus as shares; the design
 let textsWaiting = false;
 
 function addToStrip(frame, latency) {
   const [triangles, , kept, , , , fresh] = frame.figures;
   const surplus = fresh ? triangles / fresh - 1 : NaN;
-  const entry = { step: frame.step, flow: frame.flow || NaN, latency, kept: kept / triangles, surplus };
+  const entry = { step: frame.step, flow: frame.flow || NaN, latency, kept: kept / triangles, surplus, design: frame.design };
   strip = [...strip.slice(1 - STRIP_LENGTH), entry];
 }
 
@@ -90,7 +90,8 @@ function drawCp(context, width, height) {
   drawFrame(context, box, [`cp ${signed(low, 0 + (low % 1 !== 0))}`, "1"]);
   drawChordAxis(context, box, at);
   if (pressure.sonic > low) drawSonicLine(context, at, pressure.sonic);
-  context.strokeStyle = shown.pressure ? theme.step : theme.flow; // pale where it is of an earlier design
+  const isCurrent = shown.pressure || pressure.model === "euler";
+  context.strokeStyle = isCurrent ? theme.step : theme.flow; // pale where it is of an earlier design
   context.lineWidth = 1.6;
   context.beginPath();
   for (let i = 0; i < wall.length; i += 2) context.lineTo(...at(wall[i], wall[i + 1]));
@@ -139,9 +140,10 @@ function drawCharts() {
 }
 
 function sentenceOfLift() {
+  if (pressure.model === "euler") return sentenceOfForces(pressure);
   const isSupersonic = pressure.wall.some((value, i) => i % 2 && value < pressure.sonic);
   const lift = `lift coefficient ${signed(pressure.lift, 3)}`;
-  return isSupersonic ? `${lift}; faster than sound somewhere, where this model does not hold` : lift;
+  return isSupersonic ? `${lift}; faster than sound somewhere, where potential flow does not hold` : lift;
 }
 
 const milliseconds = (value) => (Number.isFinite(value) ? `${value.toFixed(1)} ms` : "–");
@@ -157,10 +159,11 @@ function showTexts() {
   showFigures(shown);
 }
 
-function showFigures({ figures: [triangles, , kept, moved, made, angle], isFirst }) {
+function showFigures({ figures: [triangles, , kept, moved, made, angle], isFirst, going }) {
   const bold = (text) => element("b", {}, text);
   const share = (count) => bold(percent(count / triangles));
-  const fates = [": ", share(kept), " kept, ", share(moved), " moved, ", share(made), " new"];
+  const fates = [": ", share(kept), " kept, ", share(moved), " moved, ", share(made), " new",
+    ...(going === undefined ? [] : [", ", share(going), " about to go"])];
   $("figures").replaceChildren(bold(triangles.toLocaleString("en")), " triangles", ...(isFirst ? [] : fates),
     " · smallest angle ", bold(`${angle.toFixed(1)}°`));
 }
@@ -174,5 +177,5 @@ function describeCharts() {
   const values = pressure.wall.filter((_, i) => i % 2);
   const range = `${signed(Math.min(...values), 2)} to ${signed(Math.max(...values), 2)}`;
   $("cp").setAttribute("aria-label",
-    `Pressure coefficient along the chord: ${range}, lift coefficient ${signed(pressure.lift, 3)}`);
+    `Pressure coefficient along the chord: ${range}. ${sentenceOfLift()}`);
 }

@@ -48,11 +48,13 @@ struct Session {
   Mesh mesh;
   FrozenMesh frozen;
   std::vector<double> angles, sizes;
-  std::vector<std::uint32_t> wall;
+  std::vector<std::uint32_t> wall, keys, edges;
+  std::uint32_t meshes = 0;  // that were generated
+  std::vector<std::uint8_t> going;
   std::vector<double> figures = std::vector<double>(live_figure_count, 0.0);
   std::optional<PotentialSolver> solver;  // of the present mesh, made when it is asked for
   PotentialFlow flow;
-  std::vector<double> cp, speed, wall_cp;
+  std::vector<double> cp, mach, wall_cp;
   std::optional<Search> search;
 };
 Session session;
@@ -129,6 +131,25 @@ void find_wall() {
   }
 }
 
+// Names of vertices are those of their mesh, of which there may have been many.
+void name_vertices() {
+  constexpr unsigned generation_bits = 16;
+  session.keys.clear();
+  for (const std::uint64_t key : session.frozen.vertex_keys) {
+    session.keys.push_back(static_cast<std::uint32_t>(key));
+    session.keys.push_back(static_cast<std::uint32_t>(key >> 32) ^ (session.meshes << generation_bits));
+  }
+}
+
+void find_edges() {
+  session.edges.clear();
+  for (const bool is_airfoil : {true, false})
+    for (const FrozenBoundary& boundary : session.frozen.boundaries)
+      if ((boundary.name == "airfoil") == is_airfoil)
+        for (const auto& edge : boundary.edges)
+          session.edges.insert(session.edges.end(), edge.begin(), edge.end());
+}
+
 // The arrays and figures of the mesh as it is now. `before` is its state before the step, if there was one.
 void show(const FrozenMesh* before) {
   session.solver.reset();
@@ -156,6 +177,7 @@ void show(const FrozenMesh* before) {
 void take(Mesh mesh, const CstAirfoil& airfoil) {
   session.mesh = std::move(mesh);
   session.airfoil = airfoil;
+  ++session.meshes;
   auto& figures = session.figures;
   figures[live_full_adjustment] = figures[live_vertices_moved] = figures[live_vertices_inserted] =
       figures[live_vertices_removed] = 0.0;
@@ -173,6 +195,14 @@ double distance(const CstAirfoil& a, const CstAirfoil& b) {
     sum += gap * gap;
   }
   return std::sqrt(sum / (stations - 1));
+}
+
+// Of a flow without losses (gamma = 1.4) where the pressure coefficient is `cp`; at most `largest`.
+double local_mach(double cp, double mach) {
+  constexpr double largest = 10.0;
+  const double pressure = std::max(0.0, 1.0 + 0.7 * mach * mach * cp);  // over the stream's
+  const double factor = (1.0 + 0.2 * mach * mach) / std::pow(pressure, 2.0 / 7.0);
+  return std::min(largest, std::sqrt(std::max(0.0, 5.0 * (factor - 1.0))));
 }
 
 // Fails where no design of a thousand can be meshed.
@@ -289,6 +319,22 @@ LIVE std::uint32_t live_fresh() {
   });
 }
 
+LIVE std::uint32_t live_outlook(const double* design, std::uint32_t count) {
+  return attempt([&] {
+    const Domain domain = domain_of(airfoil_of(design, count));
+    FrozenMesh then;
+    {
+      const Trial trial(session.mesh, domain, {.strategy = Strategy::renew});
+      then = session.mesh.freeze();
+    }
+    session.going.clear();
+    for (const Fate fate : fates(then, session.frozen)) session.going.push_back(fate == Fate::made);
+  });
+}
+LIVE const std::uint8_t* live_going() {
+  return session.going.data();
+}
+
 LIVE double* live_figures() {
   return session.figures.data();
 }
@@ -315,6 +361,20 @@ LIVE std::uint32_t* live_wall() {
 }
 LIVE std::uint32_t live_wall_count() {
   return static_cast<std::uint32_t>(session.wall.size());
+}
+LIVE const std::uint32_t* live_keys() {
+  name_vertices();
+  return session.keys.data();
+}
+LIVE const std::uint32_t* live_edges() {
+  find_edges();
+  return session.edges.data();
+}
+LIVE std::uint32_t live_airfoil_edges() {
+  return live_wall_count();
+}
+LIVE std::uint32_t live_farfield_edges() {
+  return static_cast<std::uint32_t>(session.edges.size() / 2) - live_wall_count();
 }
 
 LIVE const char* live_check() {
@@ -349,27 +409,26 @@ LIVE std::uint32_t live_flow(double alpha_deg, double mach) {
     if (!session.solver) session.solver.emplace(session.frozen);
     session.flow = session.solver->at(alpha_deg, mach);
     session.cp.clear();
-    session.speed.clear();
     session.wall_cp.clear();
     for (const Point& velocity : session.flow.velocity) {
       const double squared = dot(velocity, velocity);
-      session.speed.push_back(std::sqrt(squared));
       session.cp.push_back(compressible_cp(1.0 - squared, mach));
     }
     for (const BodyFlow& body : session.flow.bodies) {
       for (const WallValue& value : body.wall) {
         session.cp[value.vertex] = value.cp;
-        session.speed[value.vertex] = std::abs(value.speed);
         session.wall_cp.insert(session.wall_cp.end(), {value.point.x, value.cp});
       }
     }
+    session.mach.clear();
+    for (const double value : session.cp) session.mach.push_back(local_mach(value, mach));
   });
 }
 LIVE double* live_cp() {
   return session.cp.data();
 }
-LIVE double* live_speed() {
-  return session.speed.data();
+LIVE double* live_mach() {
+  return session.mach.data();
 }
 LIVE double* live_wall_cp() {
   return session.wall_cp.data();

@@ -157,13 +157,13 @@ async function checkMesh() {
 
 // ---------------------------------------------------------------------------------------------- the link
 
-const LINK_NUMBERS = { points: [20, 1000], gradation: [1, 20], alpha: [-10, 15], mach: [0, 0.8] };
+const LINK_NUMBERS = { points: [20, 1000], gradation: [1, 20], alpha: [-10, 15], mach: [0, 0.85] };
 const LINK_SWITCHES = ["flow", "regenerate", "fresh"];
 let linkTimer = 0;
 
 function linkText() {
   const parts = Object.keys(LINK_NUMBERS).map((name) => `${name}=${wish[name]}`);
-  parts.push(`colour=${wish.colour}`, ...LINK_SWITCHES.map((name) => `${name}=${Number(wish[name])}`));
+  parts.push(`model=${wish.model}`, `colour=${wish.colour}`, ...LINK_SWITCHES.map((name) => `${name}=${Number(wish[name])}`));
   parts.push(`view=${[view.x, view.y, view.scale].map((value) => Number(value.toPrecision(6))).join(",")}`);
   parts.push(`design=${shown.design.join(",")}`);
   return `#${parts.join("&")}`;
@@ -190,6 +190,7 @@ function readLink() {
     if (value >= low && value <= high) wish[name] = value;
   }
   if (COLOURS.includes(link.get("colour"))) wish.colour = link.get("colour");
+  if (MODELS.includes(link.get("model"))) wish.model = link.get("model");
   for (const name of LINK_SWITCHES) if (link.has(name)) wish[name] = link.get(name) === "1";
   const [x, y, scale] = numbersOf(link.get("view"));
   if (scale > 0) view = { x, y, scale };

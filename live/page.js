@@ -11,10 +11,12 @@ const REST = 150; // milliseconds without a change
 const SEARCH_SIGMA = 0.02;
 const LEAST_SCALE = 120; // pixels per chord below which handles would cover each other
 const LONGEST_HISTORY = 500; // designs that can be undone
-const COLOURS = ["fate", "quality", "size", "age", "pressure"];
+const COLOURS = ["fate", "quality", "size", "age", "pressure", "mach"];
+const MODELS = ["potential", "euler"];
+const LONG_STEP = 8; // milliseconds: while a handle is held no step that takes longer is tried ahead
 
 const FIRST = {
-  design: null, points: 200, gradation: 4, alpha: 2, mach: 0, colour: "fate", flow: true, regenerate: false, fresh: false,
+  design: null, points: 200, gradation: 4, alpha: 2, mach: 0, model: "potential", colour: "fate", flow: true, regenerate: false, fresh: false,
 };
 
 const wish = { ...FIRST };
@@ -59,7 +61,7 @@ const stage = { width: 1, height: 1 };
 
 function readTheme() {
   const style = getComputedStyle(document.documentElement);
-  const names = "quiet rule body line kept moved new step flow low middle high";
+  const names = "quiet rule body line kept moved new going step flow low middle high";
   for (const name of names.split(" ")) theme[name] = style.getPropertyValue(`--${name}`).trim();
 }
 
@@ -69,23 +71,37 @@ function measureStage() {
 
 // ---------------------------------------------------------------------------------------------- the worker
 
-const replies = new Map();
-let worker = null;
-let calls = 0;
+let mesher = null; // the worker that owns the mesh
 
-function call(method, argument, transfer = []) {
-  const id = ++calls;
-  return new Promise((resolve, reject) => {
+const call = (method, argument, transfer) => mesher.call(method, argument, transfer);
+
+// A worker with a core of its own; onStep is told the steps of a search for a flow.
+async function openWorker(onStep = () => {}) {
+  const worker = new Worker(URL.createObjectURL(new Blob([$("worker").textContent], { type: "text/javascript" })));
+  const replies = new Map();
+  let calls = 0;
+  const post = (message, transfer = []) => new Promise((resolve, reject) => {
+    const id = ++calls;
     replies.set(id, { resolve, reject });
-    worker.postMessage(method === "start" ? { id, wasm: argument } : { id, method, argument }, transfer);
+    worker.postMessage({ id, ...message }, transfer);
   });
-}
-
-function takeReply({ data: { id, result, error } }) {
-  const { resolve, reject } = replies.get(id);
-  replies.delete(id);
-  if (error === undefined) resolve(result);
-  else reject(new Error(error));
+  worker.onmessage = ({ data: { id, flowStep, result, error, isBroken } }) => {
+    if (flowStep !== undefined) return onStep(flowStep);
+    const { resolve, reject } = replies.get(id);
+    replies.delete(id);
+    if (error === undefined) resolve(result);
+    else reject(Object.assign(new Error(error), { isBroken }));
+  };
+  worker.onerror = (event) => sayTrouble(new Error(`The worker has failed: ${event.message}. Open the page again.`));
+  const core = await unpackedCore();
+  await post({ wasm: core }, [core]);
+  return {
+    call: (method, argument, transfer) => post({ method, argument }, transfer),
+    close() {
+      worker.terminate();
+      for (const { reject } of replies.values()) reject(takenBack());
+    },
+  };
 }
 
 async function unpackedCore() {
@@ -93,14 +109,6 @@ async function unpackedCore() {
   const packed = Uint8Array.from(text, (letter) => letter.charCodeAt(0));
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
   return new Response(stream).arrayBuffer();
-}
-
-async function startWorker() {
-  worker = new Worker(URL.createObjectURL(new Blob([$("worker").textContent], { type: "text/javascript" })));
-  worker.onmessage = takeReply;
-  worker.onerror = (event) => sayTrouble(new Error(`The worker has failed: ${event.message}. Open the page again.`));
-  const core = await unpackedCore();
-  await call("start", core, [core]);
 }
 
 // ---------------------------------------------------------------------------------------------- wishes and frames
@@ -126,7 +134,7 @@ function change(changes, timeStamp = 0) {
 // A flow that was left out for its slowness is made up for once the shape rests.
 function makeUpFlow() {
   clearTimeout(restTimer);
-  if (wish.flow && !shown.pressure && !shown.notice) restTimer = setTimeout(refresh, REST);
+  if (wish.flow && !shown.pressure && !shown.notice && !eulerShown()) restTimer = setTimeout(refresh, REST);
 }
 
 // Asks for pictures until the last one shows what is wished. A design that is refused gives way to the one shown.
@@ -137,6 +145,7 @@ async function refresh() {
   while (again && !searching) {
     again = false;
     await showWish();
+    if (!again && !searching) await lookAhead();
   }
   busy = false;
   settle();
@@ -155,6 +164,24 @@ async function showWish() {
     sayTrouble(error);
     showControls();
   }
+}
+
+// Which triangles would go if the last change were made once more, as the worker finds by trying. It takes a step's time,
+// so that it waits where there is none.
+async function lookAhead() {
+  const wasStep = shown && !shown.isFirst && !shown.figures[8];
+  if (!wasStep || shown.colour !== "fate" || (gesture && shown.step > LONG_STEP)) return;
+  const outlook = await call("outlook");
+  if (!outlook.going || outlook.state !== shown.state || shown.colour !== "fate") return;
+  shown.going = 0;
+  outlook.going.forEach((isGoing, triangle) => {
+    if (!isGoing) return;
+    ++shown.going;
+    for (const corner of [2, 5, 8]) shown.vertices[9 * triangle + corner] = 7 / 8; // the last of four colours
+  });
+  uploadMesh(shown.vertices);
+  if (isPainting) paint();
+  showFigures(shown);
 }
 
 function settled() {
@@ -177,11 +204,15 @@ function showFrame(frame, { points, gradation, since = 0 }) {
   makeHandles();
   makeSliders();
   uploadMesh(frame.vertices);
+  colourByFlow();
   showLegend();
-  paint();
+  if (isPainting) paint();
   if (exact) gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits for the picture
   const latency = since ? performance.now() - since : NaN;
-  if (frame.pressure || !wish.flow) pressure = frame.pressure;
+  const potential = frame.pressure ?? (wish.flow ? pressure : null);
+  const wasEuler = pressure?.model === "euler";
+  pressure = eulerShown() ?? (potential?.model === "euler" ? null : potential);
+  if (wasEuler && pressure?.model !== "euler") showTexts(); // at once: those of another flow must not stay
   if (frame.flow && !frame.isFirst) flowTime = frame.flow; // the first one waits for the code to be compiled
   if (frame.stepped && !frame.isFirst) addToStrip(frame, latency);
   else if (frame.flow && strip.length && !strip.at(-1).flow) strip.at(-1).flow = frame.flow;
@@ -189,9 +220,12 @@ function showFrame(frame, { points, gradation, since = 0 }) {
   drawCharts();
   if (frame.notice) sayTrouble(new Error(frame.notice));
   else if (frame.stepped && !searching) say(sentenceOfStep(frame));
+  showFlowState();
+  searchFlow();
 }
 
 let exact = false; // whether measurements include the time until the picture is there
+let isPainting = true; // false where they leave painting out
 
 function sentenceOfStep({ figures, isFirst }) {
   if (isFirst) return "The mesh is there: drag a handle, or move one with the arrow keys.";
@@ -319,6 +353,7 @@ function showControls() {
   }
   for (const name of LINK_SWITCHES) $(name).checked = wish[name];
   $("colour").value = wish.colour;
+  for (const model of MODELS) $(`model-${model}`).checked = wish.model === model;
 }
 
 function listenToControls() {
@@ -331,6 +366,7 @@ function listenToControls() {
     });
   }
   for (const name of LINK_SWITCHES) $(name).addEventListener("change", () => change({ [name]: $(name).checked }));
+  for (const model of MODELS) $(`model-${model}`).addEventListener("change", () => chooseModel(model));
   $("colour").addEventListener("change", () => change({ colour: $("colour").value }));
   $("airfoil").addEventListener("change", () => $("airfoil").value && takeDesign("named", { name: $("airfoil").value }));
   $("naca-form").addEventListener("submit", (event) => {
@@ -398,7 +434,7 @@ async function start() {
   measureStage();
   showAirfoil();
   makePainter();
-  await startWorker();
+  mesher = await openWorker();
   await fillCatalogue();
   await showFirst();
   showControls();
@@ -409,15 +445,19 @@ async function start() {
   document.documentElement.dataset.ready = "true";
 }
 
-// For tests and the console. A picture counts as there when it is drawn; with `exact`, when its pixels can be read,
-// which holds up the page.
+// For tests and the console. A picture counts as there when it is drawn; measured to its "pixels", when these can be read,
+// which holds up the page; with "nothing", when it could be drawn.
 globalThis.live = {
-  wish, stage, call, change, settled, medians, meshText,
+  wish, stage, call, change, settled, solved, medians, meshText,
   get shown() { return shown; },
   get view() { return view; },
   get busy() { return busy; },
-  measure(isExact) {
-    exact = isExact;
+  get flow() { return eulerShown(); },
+  get flowSearch() { return flowSearch; },
+  get times() { return strip; },
+  measure(upTo) {
+    exact = upTo === "pixels";
+    isPainting = upTo !== "nothing";
     strip = [];
   },
 };

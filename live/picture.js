@@ -172,18 +172,19 @@ const rgb = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16) /
 // Viridis for what has a low and a high end, blue to red for what has a middle.
 const VIRIDIS = ["#440154", "#472d7b", "#3b528b", "#2c728e", "#21918c", "#28ae80", "#5ec962", "#addc30", "#fde725"];
 const STOPS = {
-  fate: () => [theme.kept, theme.moved, theme.new],
+  fate: () => [theme.kept, theme.moved, theme.new, theme.going],
   quality: () => VIRIDIS,
   size: () => VIRIDIS,
   age: () => [...VIRIDIS].reverse(),
   pressure: () => [theme.low, theme.middle, theme.high],
+  mach: () => [theme.low, theme.middle, theme.high],
 };
 
 function paletteOf(colour) {
   const stops = STOPS[colour]().map(rgb);
   const pixels = new Uint8Array(4 * 256);
   for (let i = 0; i < 256; ++i) {
-    const at = colour === "fate" ? Math.floor((i / 256) * 3) : (i / 255) * (stops.length - 1);
+    const at = colour === "fate" ? Math.floor((i / 256) * stops.length) : (i / 255) * (stops.length - 1);
     const low = stops[Math.floor(at)];
     const high = stops[Math.min(stops.length - 1, Math.floor(at) + 1)];
     for (let k = 0; k < 3; ++k) pixels[4 * i + k] = 255 * (low[k] + (at % 1) * (high[k] - low[k]));
@@ -205,11 +206,13 @@ function bar(pixels) {
 const swatch = (variable) => element("i", { style: `background: var(${variable})` });
 const short = (value) => Number(value.toPrecision(2)).toString();
 const LEGENDS = {
-  fate: () => [swatch("--kept"), "kept", swatch("--moved"), "moved", swatch("--new"), "new"],
+  fate: () => [swatch("--kept"), "kept", swatch("--moved"), "moved", swatch("--new"), "new",
+    swatch("--going"), "about to go"],
   quality: (pixels, [low, high]) => ["smallest angle ", `${low}°`, bar(pixels), `${high}°`],
   size: (pixels, [low, high]) => ["size ", short(low), bar(pixels), `${short(high)} chords`],
   age: (pixels, [low, high]) => ["age ", `${low}`, bar(pixels), `${high} steps`],
   pressure: (pixels, [low, high]) => ["pressure coefficient ", signed(low, 1), bar(pixels), signed(high, 1)],
+  mach: (pixels, [low, high]) => ["local Mach number ", short(low), bar(pixels), `${short(high)}, white at 1`],
 };
 let legendShown = "";
 

@@ -2,8 +2,12 @@
 
 import json
 import os
+import re
+import subprocess
 import time
+from pathlib import Path
 
+import harness
 from browser import BROWSER, Browser, colours
 from harness import ProgramTest
 
@@ -139,12 +143,36 @@ class Dragging(PageTest):
     def test_every_colouring_draws_another_picture(self):
         self.drag_handle(2, -20)
         pictures = []
-        for colour in ("fate", "quality", "size", "age", "pressure"):
+        for colour in ("fate", "quality", "size", "age", "pressure", "mach"):
             self.set("colour", colour)
             pictures.append(self.picture())
             self.assertGreater(len(pictures[-1]), 20, colour)
         for i, picture in enumerate(pictures):
             self.assertNotIn(picture, pictures[:i])
+        self.assertSound()
+
+
+    GOING = """(() => {
+        const { vertices, corners, going } = live.shown;
+        const gone = [];
+        for (let t = 0; t < vertices.length / 9; ++t) if (vertices[9 * t + 2] === 7 / 8) gone.push(corners.slice(3 * t, 3 * t + 3));
+        return [going, gone.length];
+    })()"""
+
+    def test_what_is_about_to_go_goes_when_the_change_is_made_again(self):
+        self.set("points", 60)
+        first = self.design()
+        self.change(design=[a + (0.01 if 0 < i < 5 else 0) for i, a in enumerate(first)])
+        going, marked = self.value(self.GOING)
+        self.assertGreater(going, 0)
+        self.assertEqual(going, marked)
+        triangles, second = self.value("live.shown.figures[0]"), self.design()
+        self.assertIn("about to go", self.value("document.getElementById('figures').textContent"))
+        hash_before = self.value("live.call('hash')")
+        self.value("live.call('outlook')")
+        self.assertEqual(self.value("live.call('hash')"), hash_before)  # a trial leaves nothing behind
+        self.change(design=[2 * b - a for a, b in zip(first, second)])
+        self.assertEqual(self.value("live.shown.figures[2] + live.shown.figures[3]"), triangles - going)
         self.assertSound()
 
 
@@ -322,6 +350,136 @@ class Input(PageTest):
         self.assertEqual([role for role, name in found if not name and role not in ("status", "group")], [])
 
 
+class EulerFlow(PageTest):
+    def solved(self):
+        self.value("live.solved()")
+
+    def choose(self, model):
+        self.click(f"model-{model}")
+        self.solved()
+
+    def text(self, element):
+        return self.value(f"document.getElementById({json.dumps(element)}).textContent")
+
+    def start(self, points=100, mach=0.8, alpha=1.25):
+        self.change(points=points, gradation=points / 50, mach=mach, alpha=alpha)
+        self.choose("euler")
+
+    def flow(self, *names):
+        return self.value("(({" + ", ".join(names) + "}) => [" + ", ".join(names) + "])(live.flow)")
+
+    def native_flow(self, mach, alpha):
+        self.write("page.su2", self.value("live.meshText()"))
+        return self.figures("flow", "page.su2", "--mach", mach, "--alpha", alpha)
+
+    def assertAsNatively(self, mach=0.8, alpha=1.25):
+        """Other factors, and a residual of 1e-6 where the program's is 1e-10."""
+        lift, drag = self.flow("lift", "drag")
+        native = self.native_flow(mach, alpha)
+        self.assertAlmostEqual(lift, native["cl"], delta=1e-4)
+        self.assertAlmostEqual(drag, native["cd"], delta=1e-5)
+
+    def test_a_shock_is_found_and_its_forces_are_those_of_the_program(self):
+        self.set("colour", "mach")
+        self.start()
+        before = self.picture()
+        self.assertGreater(self.flow("highestMach")[0], 1.1)
+        self.assertLess(self.flow("highestMach")[0], 2)
+        self.assertEqual(self.flow("start"), ["cold"])
+        self.assertAsNatively()
+        # The pressure along the upper side falls below that of sound and jumps back over it.
+        sonic, wall = self.flow("sonic", "wall")
+        self.assertLess(min(wall[str(i)] for i in range(1, len(wall), 2)), sonic)
+        steepest = max(abs(wall[str(i + 2)] - wall[str(i)]) for i in range(1, len(wall) - 2, 2)
+                       if 0.3 < wall[str(i - 1)] < 0.8)
+        self.assertGreater(steepest, 0.15)
+        self.assertRegex(self.text("lift"), r"CL 0\.3\d+, CD 2\d\d\.\d counts, highest Mach number 1\.")
+        self.assertRegex(self.text("flow-cost"), r"Found in [\d,]+ ms, cold.*Newton steps")
+        self.choose("potential")
+        self.assertNotEqual(self.picture(), before)
+        self.assertNotIn("Euler", self.text("lift"))
+        self.assertSound()
+
+    def test_a_flow_follows_the_design_and_is_of_no_other(self):
+        self.set("colour", "pressure")
+        self.start(points=60, mach=0.6)
+        first = self.flow("lift")[0]
+        self.value(self.WATCH)
+        for by in (-10, -6, 12):
+            self.drag_handle(2, by)
+            self.solved()
+            self.assertIn(self.flow("start")[0], ("carried", "refactored"))
+            self.assertAsNatively(mach=0.6)
+        self.assertNotAlmostEqual(self.flow("lift")[0], first, delta=1e-4)
+        self.assertEqual(self.value("watched.wrong"), 0)
+        self.assertGreater(self.value("watched.right"), 0)
+        self.set("alpha", 2)
+        self.solved()
+        self.assertAsNatively(mach=0.6, alpha=2)
+        self.set("points", 80)
+        self.solved()
+        self.assertAsNatively(mach=0.6, alpha=2)
+        self.assertSound()
+
+    # Whether what is drawn as Euler's flow is of the mesh that is drawn, at every frame.
+    WATCH = """globalThis.watched = { right: 0, wrong: 0 }, (function watch() {
+        const isEuler = document.getElementById("lift").textContent.startsWith("Euler");
+        if (live.flow && live.flow.state === live.shown.state) ++watched.right;
+        else if (live.flow || isEuler) ++watched.wrong;
+        requestAnimationFrame(watch);
+    })(), 0"""
+
+    def test_dragging_goes_on_while_a_flow_is_looked_for(self):
+        self.change(points=200, gradation=4, mach=0.8, alpha=1.25)
+        self.click("model-euler")
+        self.browser.wait_for("live.flowSearch?.steps > 0")
+        design = self.design()
+        self.drag_handle(2, -20)
+        self.assertTrue(self.value("live.flowSearch !== null"))  # a cold flow takes longer than a step
+        self.assertNotEqual(self.design(), design)
+        self.assertIn("looked for", self.text("flow-steps"))
+        self.assertNotIn("Euler", self.text("lift"))
+        self.click("model-potential")  # takes the search back
+        self.solved()
+        self.assertIsNone(self.value("live.flowSearch"))
+        self.assertNotIn("not found", self.status())
+        self.assertSound()
+
+    def test_a_flow_that_is_not_found_gives_a_sentence(self):
+        self.start(points=60, mach=0.4, alpha=2)
+        self.assertEqual(self.text("flow-steps"), "")
+        self.set("points", 700)
+        self.solved()
+        self.assertRegex(self.status(), r"^Euler’s flow was not found, potential flow is shown: the mesh has .* vertices.*\.$")
+        self.assertIsNone(self.value("live.flow"))
+        self.assertEqual(self.text("flow-cost"), "Euler’s flow was not found.")
+        self.assertNotIn("Euler", self.text("lift"))
+        self.set("points", 60)
+        self.solved()
+        self.assertAsNatively(mach=0.4, alpha=2)
+        self.assertSound()
+
+    def test_keys_choose_the_equations(self):
+        self.set("points", 60)
+        self.value("document.getElementById('model-potential').focus()")
+        self.browser.key("ArrowRight")
+        self.settled()
+        self.assertEqual(self.value("[live.wish.model, live.wish.mach]"), ["euler", 0.5])
+        self.assertIn("0.50", self.status())
+        self.solved()
+        self.assertIn("model=euler", self.browser.wait_for("location.hash.includes('model=euler') && location.hash"))
+        nodes = self.browser.call("Accessibility.getFullAXTree")["nodes"]
+        radios = [n["name"]["value"] for n in nodes if n.get("role", {}).get("value") == "radio"]
+        self.assertEqual(len(radios), 2)
+        self.assertTrue(all(radios))
+        label = self.value("document.getElementById('cp').getAttribute('aria-label')")
+        self.assertRegex(label, r"Euler: CL .* counts")
+        self.open(self.value("location.hash"))
+        self.solved()
+        self.assertEqual(self.value("live.flow.model"), "euler")
+        self.assertSound()
+
+
 class Keeping(PageTest):
     def test_the_link_holds_the_state(self):
         self.set("points", 120)
@@ -417,21 +575,58 @@ class Watching(PageTest):
         self.assertTrue(any("127.0.0.1" in line for line in self.browser.errors), self.browser.errors)
 
     def test_medians_of_the_strip_chart(self):
-        """Prints them: nothing is asked of a machine's speed."""
+        """Prints them, natively too: nothing is asked of a machine's speed."""
         for points, flow in ((200, True), (200, False), (700, False), (700, True)):
-            colour = "pressure" if flow else "fate"  # the picture of the pressure waits for the flow
-            for exact in (False, True):
-                self.change(points=points, gradation=points / 50, colour=colour, flow=flow)
-                self.value(f"live.measure({json.dumps(exact)})")
-                x, y = self.middle(".handle", 2)
-                self.browser.drag((x, y), (x, y - 12), 12)
-                self.browser.drag((x, y - 12), (x, y), 12)
-                self.settled()
-                medians = self.value("live.medians()")
+            colour = "pressure" if flow else "age"  # the picture of the pressure waits for the flow
+            self.change(points=points, gradation=points / 50, colour=colour, flow=flow)
+            for up_to in ("nothing", "drawing", "pixels"):
+                medians = self.dragged_medians(up_to)
                 self.assertGreater(medians["latency"], 0)
                 self.assertEqual(medians["flow"] is not None, flow)
                 print(f"I = {points}: step {medians['step']:.1f} ms"
                       + (f", flow {medians['flow']:.1f} ms" if flow else "")
-                      + f", pointer to picture {medians['latency']:.1f} ms"
-                      + (", its pixels included" if exact else "") + f", {100 * medians['kept']:.1f} % kept")
+                      + f", pointer to picture {medians['latency']:.1f} ms ({self.UP_TO[up_to]}), "
+                      + f"{100 * medians['kept']:.1f} % kept")
+            print(f"I = {points}, natively: {self.native_medians(points, 0)}")
         self.assertSound()
+
+    def test_times_of_eulers_flow(self):
+        """Prints them."""
+        self.change(points=200, gradation=4, alpha=1.25, mach=0.8, colour="mach")
+        self.click("model-euler")
+        self.value("live.solved()")
+        cold, times = self.value("live.flow.milliseconds"), []
+        self.value("live.measure('drawing')")
+        for _ in range(8):
+            self.drag_handle(2, -2)
+            self.value("live.solved()")
+            times.append(self.value("live.flow.milliseconds"))
+            print(f"  {self.value('live.flow.start')}: {times[-1]:.0f} ms")
+        print(f"Euler at I = 200, Mach 0.8: cold {cold:.0f} ms, living {sorted(times)[4]:.0f} ms")
+        print(f"natively: {self.native_medians(200, 0.8)}")
+        self.assertSound()
+
+    UP_TO = {"nothing": "drawing left out", "drawing": "drawn", "pixels": "its pixels read back"}
+
+    def dragged_medians(self, up_to):
+        self.value(f"live.measure({json.dumps(up_to)})")
+        x, y = self.middle(".handle", 2)
+        self.browser.drag((x, y), (x, y - 12), 12)
+        self.browser.drag((x, y - 12), (x, y), 12)
+        self.settled()
+        medians = self.value("live.medians()")
+        designs = self.value("live.times.map(({ design }) => design.join(' ')).join('\\n')")
+        self.write("designs.txt", designs)
+        self.value("live.measure('drawing')")
+        return medians
+
+    def native_medians(self, points, mach):
+        """Of the same designs by the program's own code; empty where that was not built."""
+        if not self.path("designs.txt").exists():
+            self.write("designs.txt", self.value("live.times.map(({ design }) => design.join(' ')).join('\\n')"))
+        program = Path(harness.PROGRAM).with_name("live_times")
+        if not program.exists():
+            return {}
+        with self.path("designs.txt").open() as designs:
+            process = subprocess.run([program, str(points), "1.25", str(mach)], stdin=designs, capture_output=True, check=True)
+        return json.loads(process.stdout)
