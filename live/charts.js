@@ -2,13 +2,15 @@
 
 // ---------------------------------------------------------------------------------------------- charts
 
-let strip = []; // step, flow, latency in milliseconds; kept and surplus as shares; the design
+// Of each design: step, flow, latency (since the pointer moved) and answer (since the page heard of it) in milliseconds,
+// kept and surplus as shares.
+let strip = [];
 let textsWaiting = false;
 
-function addToStrip(frame, latency) {
+function addToStrip(frame, times) {
   const [triangles, , kept, , , , fresh] = frame.figures;
   const surplus = fresh ? triangles / fresh - 1 : NaN;
-  const entry = { step: frame.step, flow: frame.flow || NaN, latency, kept: kept / triangles, surplus, design: frame.design };
+  const entry = { step: frame.step, flow: frame.flow || NaN, ...times, kept: kept / triangles, surplus, design: frame.design };
   strip = [...strip.slice(1 - STRIP_LENGTH), entry];
 }
 
@@ -16,7 +18,7 @@ const column = (name) => strip.map((entry) => entry[name]).filter(Number.isFinit
 
 // Medians of the strip chart's columns.
 function medians() {
-  return Object.fromEntries(["step", "flow", "latency", "kept", "surplus"].map((name) => [name, median(column(name))]));
+  return Object.fromEntries(["step", "flow", "latency", "answer", "kept", "surplus"].map((name) => [name, median(column(name))]));
 }
 
 function chart(canvas, draw) {
@@ -85,10 +87,11 @@ function drawCp(context, width, height) {
   let low = -1;
   for (let i = 1; i < wall.length; i += 2) low = Math.min(low, wall[i]);
   low = -roundUp(-low);
+  const high = pressure.wall.some((value, i) => i % 2 && value > 1) ? 1.2 : 1; // gas at rest is above 1
   const box = { x: 46, y: 6, width: width - 58, height: height - 24 };
-  const at = (x, cp) => [box.x + x * box.width, box.y + ((cp - low) / (1 - low)) * box.height];
-  drawFrame(context, box, [`cp ${signed(low, 0 + (low % 1 !== 0))}`, "1"]);
-  drawChordAxis(context, box, at);
+  const at = (x, cp) => [box.x + x * box.width, box.y + ((cp - low) / (high - low)) * box.height];
+  drawFrame(context, box, [`cp ${signed(low, 0 + (low % 1 !== 0))}`, String(high)]);
+  drawChordAxis(context, box, at, high);
   if (pressure.sonic > low) drawSonicLine(context, at, pressure.sonic);
   const isCurrent = shown.pressure || pressure.model === "euler";
   context.strokeStyle = isCurrent ? theme.step : theme.flow; // pale where it is of an earlier design
@@ -99,10 +102,10 @@ function drawCp(context, width, height) {
   context.stroke();
 }
 
-function drawChordAxis(context, box, at) {
+function drawChordAxis(context, box, at, high) {
   context.textBaseline = "top";
   context.textAlign = "center";
-  for (const x of [0, 0.25, 0.5, 0.75, 1]) context.fillText(String(x), at(x, 1)[0], box.y + box.height + 4);
+  for (const x of [0, 0.25, 0.5, 0.75, 1]) context.fillText(String(x), at(x, high)[0], box.y + box.height + 4);
   context.beginPath();
   context.moveTo(...at(0, 0));
   context.lineTo(...at(1, 0));
@@ -143,7 +146,7 @@ function sentenceOfLift() {
   if (pressure.model === "euler") return sentenceOfForces(pressure);
   const isSupersonic = pressure.wall.some((value, i) => i % 2 && value < pressure.sonic);
   const lift = `lift coefficient ${signed(pressure.lift, 3)}`;
-  return isSupersonic ? `${lift}; faster than sound somewhere, where potential flow does not hold` : lift;
+  return isSupersonic ? `${lift}; faster than sound: beyond this model` : lift;
 }
 
 const milliseconds = (value) => (Number.isFinite(value) ? `${value.toFixed(1)} ms` : "–");

@@ -27,7 +27,7 @@ async function searchFlow() {
   flowSearch = { state: shown.state, alpha: wish.alpha, mach: wish.mach, steps: 0 };
   showFlowState();
   try {
-    lastAnswer = { ...flowSearch, ...(await askForFlow(flowSearch)), reason: "" };
+    lastAnswer = { ...(await askForFlow(flowSearch)), reason: "" };
   } catch (error) {
     lastAnswer = error.isTakenBack ? null : { ...flowSearch, reason: error.message };
     if (error.isBroken) stopSolver();
@@ -105,18 +105,15 @@ function colourByFlow() {
 }
 
 const HOW_FOUND = {
-  cold: ({ coarse }) => (coarse ? "cold, by way of coarser meshes" : "cold, from undisturbed flow"),
-  carried: ({ corrected }) =>
-    "carried on with the factors of an earlier design" + (corrected ? `, corrected at ${corrected} vertices` : ""),
-  refactored: () => "carried on from the last flow, with new factors",
+  cold: ({ coarse }) => (coarse ? "cold, by way of coarser meshes" : "cold"),
+  carried: ({ corrected }) => (corrected ? `carried, older factors corrected at ${corrected} vertices` : "carried, older factors"),
+  refactored: () => "refactored",
 };
 
 function sentenceOfFlow(flow) {
-  const steps = [
-    flow.newton + flow.coarse ? `${flow.newton + flow.coarse} Newton steps` : "", flow.krylov ? `${flow.krylov} steps with its factors` : "",
-  ].filter(Boolean).join(", ");
-  return `Found in ${Math.round(flow.milliseconds).toLocaleString("en")} ms, ${HOW_FOUND[flow.start](flow)}` +
-         (steps ? ` (${steps}).` : ".");
+  const steps = [[flow.newton + flow.coarse, "Newton steps"], [flow.krylov, "others"]]
+    .filter(([count]) => count).map(([count, name]) => `${count} ${name}`).join(", ");
+  return `Found in ${Math.round(flow.milliseconds).toLocaleString("en")} ms: ${HOW_FOUND[flow.start](flow)}, ${steps || "no step"}.`;
 }
 
 function showFlowState() {

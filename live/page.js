@@ -153,7 +153,7 @@ async function refresh() {
 
 async function showWish() {
   const rests = performance.now() - lastChange > REST || (shown && wish.design === shown.design);
-  const asked = { ...wish, flow: wish.flow && (rests || flowTime < SLOW_FLOW), since: stamp };
+  const asked = { ...wish, flow: wish.flow && (rests || flowTime < SLOW_FLOW), since: stamp, heard: lastChange };
   stamp = 0;
   wish.remesh = false;
   try {
@@ -199,7 +199,7 @@ function settle() {
   while (idle.length) idle.pop()();
 }
 
-function showFrame(frame, { points, gradation, since = 0 }) {
+function showFrame(frame, { points, gradation, since = 0, heard = 0 }) {
   shown = { ...frame, points, gradation };
   makeHandles();
   makeSliders();
@@ -208,16 +208,17 @@ function showFrame(frame, { points, gradation, since = 0 }) {
   showLegend();
   if (isPainting) paint();
   if (exact) gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits for the picture
-  const latency = since ? performance.now() - since : NaN;
+  const now = performance.now();
+  const times = since ? { latency: now - since, answer: now - heard } : { latency: NaN, answer: NaN };
   const potential = frame.pressure ?? (wish.flow ? pressure : null);
   const wasEuler = pressure?.model === "euler";
   pressure = eulerShown() ?? (potential?.model === "euler" ? null : potential);
   if (wasEuler && pressure?.model !== "euler") showTexts(); // at once: those of another flow must not stay
   if (frame.flow && !frame.isFirst) flowTime = frame.flow; // the first one waits for the code to be compiled
-  if (frame.stepped && !frame.isFirst) addToStrip(frame, latency);
+  if (frame.stepped && !frame.isFirst) addToStrip(frame, times);
   else if (frame.flow && strip.length && !strip.at(-1).flow) strip.at(-1).flow = frame.flow;
   showSliders();
-  drawCharts();
+  if (isPainting) drawCharts();
   if (frame.notice) sayTrouble(new Error(frame.notice));
   else if (frame.stepped && !searching) say(sentenceOfStep(frame));
   showFlowState();
@@ -342,7 +343,7 @@ const usualGradation = (points) => Math.min(20, Math.max(1, points / 50));
 const RANGES = {
   points: String,
   gradation: (value) => value.toFixed(1),
-  alpha: (value) => `${signed(value, 1)}°`,
+  alpha: (value) => `${signed(value, 2)}°`,
   mach: (value) => value.toFixed(2),
 };
 
@@ -446,7 +447,7 @@ async function start() {
 }
 
 // For tests and the console. A picture counts as there when it is drawn; measured to its "pixels", when these can be read,
-// which holds up the page; with "nothing", when it could be drawn.
+// which holds up the page; with "nothing", when it could be drawn, and neither mesh nor charts are.
 globalThis.live = {
   wish, stage, call, change, settled, solved, medians, meshText,
   get shown() { return shown; },

@@ -223,7 +223,7 @@ function outlook() {
 
 // ---------------------------------------------------------------------------------------------- Euler's flow
 
-const FINE = 3000; // vertices from which on a first flow begins with that of a coarser mesh
+const FINE = 600; // vertices from which on a first flow begins with that of a coarser mesh
 const COARSENING = 2; // of I and G
 const COARSE_KEYS = 0x80000000; // sets names of vertices of coarser meshes apart from the others
 const STARTS = ["cold", "carried", "refactored"];
