@@ -105,7 +105,7 @@ function colourByFlow() {
 }
 
 const HOW_FOUND = {
-  cold: ({ coarse }) => (coarse ? "cold, by way of coarser meshes" : "cold"),
+  cold: ({ coarse }) => (coarse ? "cold, coarser meshes first" : "cold"),
   carried: ({ corrected }) => (corrected ? `carried, older factors corrected at ${corrected} vertices` : "carried, older factors"),
   refactored: () => "refactored",
 };
@@ -125,4 +125,4 @@ function showFlowState() {
 
 const counts = (drag) => (1e4 * drag).toFixed(1).replace("-", "−");
 const sentenceOfForces = ({ lift, drag, highestMach }) =>
-  `Euler: CL ${signed(lift, 4)}, CD ${counts(drag)} counts, highest Mach number ${highestMach.toFixed(2)}`;
+  `Euler: CL ${signed(lift, 4)}, CD ${counts(drag)} counts, up to Mach ${highestMach.toFixed(2)}`;

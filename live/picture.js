@@ -212,7 +212,7 @@ const LEGENDS = {
   size: (pixels, [low, high]) => ["size ", short(low), bar(pixels), `${short(high)} chords`],
   age: (pixels, [low, high]) => ["age ", `${low}`, bar(pixels), `${high} steps`],
   pressure: (pixels, [low, high]) => ["pressure coefficient ", signed(low, 1), bar(pixels), signed(high, 1)],
-  mach: (pixels, [low, high]) => ["local Mach number ", short(low), bar(pixels), `${short(high)}, sonic in the middle`],
+  mach: (pixels, [low, high]) => ["Mach number ", short(low), bar(pixels), `${short(high)}, sonic midway`],
 };
 let legendShown = "";
 
