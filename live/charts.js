@@ -10,7 +10,8 @@ let textsWaiting = false;
 function addToStrip(frame, times) {
   const [triangles, , kept, , , , fresh] = frame.figures;
   const surplus = fresh ? triangles / fresh - 1 : NaN;
-  const entry = { step: frame.step, flow: frame.flow || NaN, ...times, kept: kept / triangles, surplus, design: frame.design };
+  const { step, flow, design } = frame;
+  const entry = { step, flow: flow || NaN, ...times, kept: kept / triangles, surplus, design };
   strip = [...strip.slice(1 - STRIP_LENGTH), entry];
 }
 
@@ -18,7 +19,8 @@ const column = (name) => strip.map((entry) => entry[name]).filter(Number.isFinit
 
 // Medians of the strip chart's columns.
 function medians() {
-  return Object.fromEntries(["step", "flow", "latency", "answer", "kept", "surplus"].map((name) => [name, median(column(name))]));
+  const names = ["step", "flow", "latency", "answer", "kept", "surplus"];
+  return Object.fromEntries(names.map((name) => [name, median(column(name))]));
 }
 
 function chart(canvas, draw) {
@@ -81,8 +83,11 @@ function drawStrips() {
   chart($("strip-surplus"), drawStrip(["surplus"], surplus, `${Math.round(100 * surplus)} %`));
 }
 
+const sentenceOfNoPressure = () =>
+  (wish.flow ? "The pressure follows when the shape rests." : "The pressure is not asked for.");
+
 function drawCp(context, width, height) {
-  if (!pressure) return drawNote(context, width, height, "The pressure is not asked for.");
+  if (!pressure) return drawNote(context, width, height, sentenceOfNoPressure());
   const wall = pressure.wall;
   let low = -1;
   for (let i = 1; i < wall.length; i += 2) low = Math.min(low, wall[i]);
@@ -176,7 +181,7 @@ function describeCharts() {
   const { step, kept } = medians();
   $("strips").setAttribute("aria-label", strip.length === 0 ? "No design yet" :
     `The last ${strip.length} designs: median ${milliseconds(step)} a step, ${percent(kept)} of the triangles kept`);
-  if (!pressure) return $("cp").setAttribute("aria-label", "The pressure is not asked for");
+  if (!pressure) return $("cp").setAttribute("aria-label", sentenceOfNoPressure());
   const values = pressure.wall.filter((_, i) => i % 2);
   const range = `${signed(Math.min(...values), 2)} to ${signed(Math.max(...values), 2)}`;
   $("cp").setAttribute("aria-label",

@@ -23,13 +23,6 @@
 #include "remodel/potential_flow.h"
 #include "remodel/remodel.h"
 
-#ifdef __EMSCRIPTEN__
-#include <emscripten/emscripten.h>
-#define LIVE EMSCRIPTEN_KEEPALIVE
-#else
-#define LIVE
-#endif
-
 namespace {
 
 using namespace remodel;

@@ -9,6 +9,14 @@
 
 #include <cstdint>
 
+// Marks the definitions of the calls, so that the linker keeps them.
+#ifdef __EMSCRIPTEN__
+#include <emscripten/emscripten.h>
+#define LIVE EMSCRIPTEN_KEEPALIVE
+#else
+#define LIVE
+#endif
+
 // Of live_figures().
 enum LiveFigure : std::uint32_t {
   live_triangle_count,

@@ -14,13 +14,6 @@
 #include "remodel/frozen_mesh.h"
 #include "remodel/potential_flow.h"
 
-#ifdef __EMSCRIPTEN__
-#include <emscripten/emscripten.h>
-#define LIVE EMSCRIPTEN_KEEPALIVE
-#else
-#define LIVE
-#endif
-
 namespace {
 
 using namespace remodel;

@@ -44,14 +44,16 @@ async function askForFlow({ alpha, mach }) {
     flowSearch.steps = step;
     showFlowState();
   });
+  const asked = solver;
   const mesh = await call("meshForFlow");
   flowSearch.state = mesh.state;
   if (mesh.vertices > MOST_VERTICES) {
     const [most, have] = [MOST_VERTICES, mesh.vertices].map((count) => count.toLocaleString("en"));
-    throw new Error(`the mesh has ${have} vertices, and more than ${most} take too long here; \`remodel flow\` has no such limit`);
+    throw new Error(`the mesh has ${have} vertices, and more than ${most} take too long here; ` +
+                    "`remodel flow` has no such limit");
   }
   if (wish.model !== "euler") throw takenBack();
-  return solver.call("euler", { mesh, alpha, mach }, [mesh.points.buffer, mesh.numbers.buffer]);
+  return asked.call("euler", { mesh, alpha, mach }, [mesh.points.buffer, mesh.numbers.buffer]);
 }
 
 function giveWay() {
@@ -106,20 +108,24 @@ function colourByFlow() {
 
 const HOW_FOUND = {
   cold: ({ coarse }) => (coarse ? "cold, coarser meshes first" : "cold"),
-  carried: ({ corrected }) => (corrected ? `carried, older factors corrected at ${corrected} vertices` : "carried, older factors"),
+  carried: ({ corrected }) =>
+    (corrected ? `carried, older factors corrected at ${corrected} vertices` : "carried, older factors"),
   refactored: () => "refactored",
 };
 
 function sentenceOfFlow(flow) {
   const steps = [[flow.newton + flow.coarse, "Newton steps"], [flow.krylov, "others"]]
     .filter(([count]) => count).map(([count, name]) => `${count} ${name}`).join(", ");
-  return `Found in ${Math.round(flow.milliseconds).toLocaleString("en")} ms: ${HOW_FOUND[flow.start](flow)}, ${steps || "no step"}.`;
+  const time = Math.round(flow.milliseconds).toLocaleString("en");
+  return `Found in ${time} ms: ${HOW_FOUND[flow.start](flow)}, ${steps || "no step"}.`;
 }
 
 function showFlowState() {
   const flow = eulerShown();
-  $("flow-steps").textContent = flowSearch ? `Euler’s flow is looked for, step ${flowSearch.steps}; potential flow until then.` : "";
-  const sentence = flow ? sentenceOfFlow(flow) : lastAnswer?.reason && isOfPage(lastAnswer) ? "Euler’s flow was not found." : "";
+  const isMissing = wish.model === "euler" && isOfPage(lastAnswer) && lastAnswer.reason !== "";
+  $("flow-steps").textContent =
+    flowSearch ? `Euler’s flow is looked for, step ${flowSearch.steps}; potential flow until then.` : "";
+  const sentence = flow ? sentenceOfFlow(flow) : isMissing ? "Euler’s flow was not found." : "";
   if ($("flow-cost").textContent !== sentence) $("flow-cost").textContent = sentence;
 }
 

@@ -163,7 +163,8 @@ let linkTimer = 0;
 
 function linkText() {
   const parts = Object.keys(LINK_NUMBERS).map((name) => `${name}=${wish[name]}`);
-  parts.push(`model=${wish.model}`, `colour=${wish.colour}`, ...LINK_SWITCHES.map((name) => `${name}=${Number(wish[name])}`));
+  parts.push(`model=${wish.model}`, `colour=${wish.colour}`);
+  parts.push(...LINK_SWITCHES.map((name) => `${name}=${Number(wish[name])}`));
   parts.push(`view=${[view.x, view.y, view.scale].map((value) => Number(value.toPrecision(6))).join(",")}`);
   parts.push(`design=${shown.design.join(",")}`);
   return `#${parts.join("&")}`;

@@ -16,7 +16,8 @@ const MODELS = ["potential", "euler"];
 const LONG_STEP = 8; // milliseconds: while a handle is held no step that takes longer is tried ahead
 
 const FIRST = {
-  design: null, points: 200, gradation: 4, alpha: 2, mach: 0, model: "potential", colour: "fate", flow: true, regenerate: false, fresh: false,
+  design: null, points: 200, gradation: 4, alpha: 2, mach: 0, model: "potential", colour: "fate", flow: true,
+  regenerate: false, fresh: false,
 };
 
 const wish = { ...FIRST };
@@ -80,6 +81,7 @@ async function openWorker(onStep = () => {}) {
   const worker = new Worker(URL.createObjectURL(new Blob([$("worker").textContent], { type: "text/javascript" })));
   const replies = new Map();
   let calls = 0;
+  let isClosed = false;
   const post = (message, transfer = []) => new Promise((resolve, reject) => {
     const id = ++calls;
     replies.set(id, { resolve, reject });
@@ -96,8 +98,10 @@ async function openWorker(onStep = () => {}) {
   const core = await unpackedCore();
   await post({ wasm: core }, [core]);
   return {
-    call: (method, argument, transfer) => post({ method, argument }, transfer),
+    call: (method, argument, transfer) =>
+      (isClosed ? Promise.reject(takenBack()) : post({ method, argument }, transfer)),
     close() {
+      isClosed = true;
       worker.terminate();
       for (const { reject } of replies.values()) reject(takenBack());
     },

@@ -225,6 +225,7 @@ function outlook() {
 
 const FINE = 600; // vertices from which on a first flow begins with that of a coarser mesh
 const COARSENING = 2; // of I and G
+const FEWEST_POINTS = 40; // on an airfoil of a coarser mesh
 const COARSE_KEYS = 0x80000000; // sets names of vertices of coarser meshes apart from the others
 const STARTS = ["cold", "carried", "refactored"];
 let hasFlow = false;
@@ -261,7 +262,7 @@ function solveOn({ points, numbers, vertices, triangles, airfoil, farfield }, { 
 // begins without. Newton steps on all of them.
 function solveCoarser({ vertices, wish }, conditions) {
   const [points, gradation] = [Math.round(wish.points / COARSENING), wish.gradation / COARSENING];
-  if (vertices < FINE || points < 40 || !generate({ points, gradation }, wish.design)) return 0;
+  if (vertices < FINE || points < FEWEST_POINTS || !generate({ points, gradation }, wish.design)) return 0;
   const mesh = meshForFlow();
   for (let i = 0; i < mesh.vertices; ++i) mesh.numbers[3 * mesh.triangles + 2 * i + 1] ^= COARSE_KEYS;
   try {
@@ -346,7 +347,9 @@ const METHODS = {
 
 function buffersOf(result) {
   const { vertices, corners, points, triangles, numbers, going, wall, pressure, values } = result ?? {};
-  const arrays = [vertices, corners, points, triangles, numbers, going, wall, pressure?.wall, values?.pressure, values?.mach];
+  const arrays = [
+    vertices, corners, points, triangles, numbers, going, wall, pressure?.wall, values?.pressure, values?.mach,
+  ];
   return arrays.filter((array) => array?.buffer).map((array) => array.buffer);
 }
 
