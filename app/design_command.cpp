@@ -29,11 +29,11 @@ struct DesignCommand {
 };
 
 // The last design on fresh meshes, which no search has seen.
-Json verified(const DesignProblemFile& problem, const SectionSpace& space, const CstAirfoil& airfoil) {
+Json verified(const DesignProblemFile& problem, const FlowSpace& space, std::span<const double> design) {
   Json list = Json::array();
   for (const int points : problem.verify) {
     const double gradation = problem.gradation * points / problem.domain.points;
-    const Mesh mesh = generate(space.domain_of(airfoil, points), {.gradation = gradation}).mesh;
+    const Mesh mesh = generate(space.domain_with(design, points), {.gradation = gradation}).mesh;
     for (const DesignPoint& point : problem.points) {
       const FlowResult flow = solve_section(mesh, point.conditions, space.half());
       list.push_back({{"points", points},
@@ -74,9 +74,9 @@ Status run(DesignCommand& command) {
   if (command.run.resume && command.run.overwrite)
     throw Error(ErrorCode::argument, "--overwrite", "found with --resume, expected one of them");
   const DesignProblemFile problem = read_design_problem(command.problem);
-  const SectionSpace space = problem.space();
-  const std::unique_ptr<Evaluator> evaluator = make_flow_evaluator(problem, space);
-  const std::unique_ptr<Designer> designer = make_designer(problem, space);
+  const std::unique_ptr<FlowSpace> space = problem.space();
+  const std::unique_ptr<Evaluator> evaluator = make_flow_evaluator(problem, *space);
+  const std::unique_ptr<Designer> designer = make_designer(problem, *space);
   command.run.domain = problem.domain;
   command.run.quality.gradation = problem.gradation;
   command.run.strategy = MeshStrategy::chain;
@@ -84,30 +84,32 @@ Status run(DesignCommand& command) {
   command.run.workers = 1;
   command.run.checkpoint_every = 5;
   Progress progress(progress_style(command.quiet), problem.evaluations, "problem: " + command.problem);
-  const OptimiseResult result = optimise(space, *designer, *evaluator, command.run, &progress);
+  const OptimiseResult result = optimise(*space, *designer, *evaluator, command.run, &progress);
   progress.finish();
 
-  const CstAirfoil best = space.airfoil(result.best_design);
   Report report;
   report.figure("problem", "problem", command.problem);
   report.figure("evaluations", "designs evaluated", result.evaluations);
   report.figure("full_adjustments", "full adjustments", result.full_adjustments);
   report.figure("objective", "best objective", result.objective);
   for (const auto& [name, value] : result.outputs) report.figure(name, name, value);
+  for (const NamedNumber& number : space->named(result.best_design))
+    report.figure(number.name, number.name, number.value);
   add_cost(report, read_design_run(command.run.directory));
   report.figure("seconds", "wall time", result.seconds, "seconds");
   report.figure("stopped", "stopped", name_of(result.stopped));
   report.figure("converged", "converged", designer->finished());
   if (!result.detail.empty()) report.figure("detail", "detail", result.detail);
   const bool done = result.stopped == OptimiseStopped::done;
-  const Json fresh = done && std::isfinite(result.objective) ? verified(problem, space, best) : Json::array();
+  const Json fresh =
+      done && std::isfinite(result.objective) ? verified(problem, *space, result.best_design) : Json::array();
   for (const Json& entry : fresh)
     report.line("fresh mesh, I = " + entry["points"].dump(),
                 "CL " + entry["cl"].dump() + ", CD " + entry["cd"].dump() +
                     (entry["converged"] == true ? "" : ", no flow was found"));
   report.data("verified", fresh);
   if (!fresh.empty()) write_text_atomically(command.run.directory / "fresh.json", fresh.dump() + "\n");
-  report.data("best", Json::parse(airfoil_to_json(best)));
+  report.data("best", Json::parse(space->text(result.best_design)));
   report.figure("directory", "run directory", command.run.directory.string());
   report.print(command.json);
   if (!done) return Status::limit;

@@ -1,10 +1,14 @@
 // The evaluator of `remodel design`: the flows of all points on the living mesh, and their gradients.
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 
 #include "design_problem.h"
+#include "gap.h"
 #include "remodel/mesh_derivative.h"
 #include "remodel/remodel.h"
 
@@ -29,6 +33,13 @@ struct Slope {
   std::vector<double> by;
 };
 
+// By their names: "cl", "cd", "cm", "inverse", and suction peaks by suction_name().
+using Slopes = std::map<std::string, Slope>;
+
+std::string suction_name(const std::optional<std::size_t>& section) {
+  return section ? "suction " + std::to_string(*section) : "suction";
+}
+
 void add(Slope& to, double factor, const Slope& from) {
   to.value += factor * from.value;
   to.by.resize(from.by.size(), 0.0);
@@ -37,8 +48,11 @@ void add(Slope& to, double factor, const Slope& from) {
 
 class FlowEvaluator final : public Evaluator {
  public:
-  FlowEvaluator(const DesignProblemFile& problem, const SectionSpace& space)
-      : problem_(problem), space_(space) {}
+  FlowEvaluator(const DesignProblemFile& problem, const FlowSpace& space) : problem_(problem), space_(space) {
+    if (problem.target)
+      target_ = SectionSpace(problem.start, problem.section_options())
+                    .domain_of(*problem.target, problem.domain.points);
+  }
 
   Evaluation evaluate(const EvaluationTask& task, std::unique_ptr<EvaluatorState>& state) override {
     if (!state) {
@@ -53,30 +67,15 @@ class FlowEvaluator final : public Evaluator {
     Evaluation result;
     const MeshDerivative derivative(task.mesh);
     Slope objective;
-    std::vector<std::map<std::string, Slope>> coefficients;
+    std::vector<Slopes> coefficients;
     for (std::size_t i = 0; i < problem_.points.size(); ++i) {
       const DesignPoint& point = problem_.points[i];
       FlowResult flow = memory.flows[i].solve(task.mesh, point.conditions);
       if (space_.half()) flow = whole(std::move(flow));
       if (!flow.converged()) throw std::runtime_error("no flow was found: " + flow.reason);
-      std::map<std::string, Slope> of{{"cl", {flow.cl, {}}}, {"cd", {flow.cd, {}}}, {"cm", {flow.cm, {}}}};
-      std::optional<FlowFunctional> inverse;
-      if (problem_.target)
-        inverse = mismatch(task.mesh.freeze(), flow, memory.target[i], of["inverse"].value);
-      if (task.gradient) {
-        const FlowGradients gradients =
-            memory.flows[i].gradients(inverse ? std::vector{*inverse} : std::vector<FlowFunctional>{});
-        of["cl"].by = by_design(derivative, gradients.cl);
-        of["cd"].by = by_design(derivative, gradients.cd);
-        of["cm"].by = by_design(derivative, gradients.cm);
-        if (inverse) of["inverse"].by = by_design(derivative, gradients.functions.at(0));
-        if (space_.half())
-          for (double& x : of["cd"].by) x *= 2.0;
-        result.outputs["gradient_seconds"] += gradients.seconds;
-      }
-      add(objective, point.weight, objective_of(of));
+      coefficients.push_back(slopes_of(task, i, flow, memory, derivative, result.outputs));
+      add(objective, point.weight, objective_of(coefficients.back()));
       note(flow, i, result.outputs);
-      coefficients.push_back(std::move(of));
     }
     result.objective = objective.value;
     if (task.gradient) result.gradient = objective.by;
@@ -104,6 +103,51 @@ class FlowEvaluator final : public Evaluator {
   }
 
  private:
+  // What objective and constraints may ask for of a point's flow.
+  Slopes slopes_of(const EvaluationTask& task, std::size_t point, const FlowResult& flow, FlowMemory& memory,
+                   const MeshDerivative& derivative, std::map<std::string, double>& outputs) const {
+    Slopes of{{"cl", {flow.cl, {}}}, {"cd", {flow.cd, {}}}, {"cm", {flow.cm, {}}}};
+    const FrozenMesh frozen = task.mesh.freeze();
+    std::vector<std::string> names;
+    std::vector<FlowFunctional> functions;
+    if (problem_.target) {
+      names.push_back("inverse");
+      functions.push_back(mismatch(frozen, flow, memory.target[point], of["inverse"].value));
+    }
+    for (const FlowConstraint& constraint : problem_.flow) {
+      const std::string name = suction_name(constraint.section);
+      if (constraint.of != "suction" || constraint.point != point || of.contains(name)) continue;
+      names.push_back(name);
+      functions.push_back(suction_peak(task.mesh, frozen, flow, constraint.section, of[name].value));
+    }
+    if (!task.gradient) return of;
+    const FlowGradients gradients = memory.flows[point].gradients(functions, wanted_of(point));
+    for (const auto& [name, gradient] :
+         {std::pair{"cl", &gradients.cl}, {"cd", &gradients.cd}, {"cm", &gradients.cm}})
+      if (!gradient->points.empty()) of[name].by = by_design(derivative, *gradient);
+    for (std::size_t i = 0; i < names.size(); ++i)
+      of[names[i]].by = by_design(derivative, gradients.functions.at(i));
+    if (space_.half())
+      for (double& x : of["cd"].by) x *= 2.0;
+    outputs["gradient_seconds"] += gradients.seconds;
+    return of;
+  }
+
+  // The derivatives that the objective and the constraints of a point take.
+  WantedGradients wanted_of(std::size_t point) const {
+    const auto takes = [&](const char* coefficient, std::initializer_list<const char*> objectives) {
+      return std::any_of(objectives.begin(), objectives.end(),
+                         [&](const char* name) { return problem_.objective == name; }) ||
+             std::any_of(problem_.flow.begin(), problem_.flow.end(), [&](const FlowConstraint& constraint) {
+               return constraint.point == point && constraint.of == coefficient;
+             });
+    };
+    return {.lift = takes("cl", {"lift", "lift_over_drag"}),
+            .drag = takes("cd", {"drag", "lift_over_drag"}),
+            .moment = takes("cm", {"moment"}),
+            .angle = false};
+  }
+
   // By the design, of derivatives by points.
   std::vector<double> by_design(const MeshDerivative& mesh, const FlowGradient& gradient) const {
     return space_.gradient_of_domain(mesh.vjp(gradient.points));
@@ -124,8 +168,7 @@ class FlowEvaluator final : public Evaluator {
     const bool is_aimed = memory.aimed_at == memory.connectivity;
     if (is_aimed && memory.is_like) return;
     Mesh mesh = task.mesh;
-    const bool is_like =
-        remodel(mesh, space_.domain_of(*problem_.target, problem_.domain.points)).full_adjustment;
+    const bool is_like = remodel(mesh, *target_).full_adjustment;
     if (is_aimed && !is_like) return;
     if (is_aimed) ++memory.connectivity;
     memory.target.clear();
@@ -156,12 +199,12 @@ class FlowEvaluator final : public Evaluator {
     return function;
   }
 
-  Slope objective_of(std::map<std::string, Slope>& of) const {
+  Slope objective_of(Slopes& of) const {
     if (problem_.objective == "drag") return of["cd"];
     if (problem_.objective == "inverse") return of["inverse"];
     Slope result;
-    if (problem_.objective == "moment") {
-      add(result, -1.0, of["cm"]);
+    if (problem_.objective == "moment" || problem_.objective == "lift") {
+      add(result, -1.0, of[problem_.objective == "lift" ? "cl" : "cm"]);
       return result;
     }
     // Drag over lift is made small: it is smooth where drag is none.
@@ -182,28 +225,42 @@ class FlowEvaluator final : public Evaluator {
     outputs["factorisations"] += flow.factorisations;
   }
 
-  void add_constraints(const EvaluationTask& task, std::vector<std::map<std::string, Slope>>& of,
-                       Evaluation& result) const {
-    const std::vector<double> a = space_.coefficients(task.design);
+  void add_constraints(const EvaluationTask& task, std::vector<Slopes>& of, Evaluation& result) const {
+    const auto add_one = [&](double value, std::vector<double> by) {
+      result.constraints.push_back(value);
+      if (task.gradient) result.constraint_gradients.push_back(std::move(by));
+    };
     for (const SectionConstraint& constraint : problem_.section) {
+      const CstAirfoil section = space_.section(task.design, constraint.section);
+      const std::size_t n = section.upper.size();
       double value = constraint.bound;
       std::vector<double> row = constraint.row;
-      for (std::size_t i = 0; i < row.size(); ++i) value -= row[i] * a[i], row[i] = -row[i];
-      result.constraints.push_back(value);
-      if (task.gradient) result.constraint_gradients.push_back(space_.gradient(row));
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        value -= row[i] * (i < n ? section.upper[i] : section.lower[i - n]);
+        row[i] = -row[i];
+      }
+      add_one(value, space_.gradient_of_section(constraint.section, row));
+    }
+    for (const GapConstraint& constraint : problem_.gaps) {
+      Gap gap = gap_between(task.mesh.domain(), constraint.section, constraint.other);
+      for (double& x : gap.by_numbers) x = -x;
+      add_one(constraint.at_least - gap.distance, space_.gradient_of_domain(gap.by_numbers));
     }
     for (const FlowConstraint& constraint : problem_.flow) {
-      const Slope& slope = of[constraint.point][constraint.of];
-      result.constraints.push_back(constraint.sign * (slope.value - constraint.value));
-      if (!task.gradient) continue;
+      const bool is_suction = constraint.of == "suction";
+      const Slope& slope =
+          of[constraint.point][is_suction ? suction_name(constraint.section) : constraint.of];
+      // Suction peaks are large: they count in parts of what is allowed.
+      const double factor = constraint.sign / (is_suction ? constraint.value : 1.0);
       std::vector<double> row = slope.by;
-      for (double& x : row) x *= constraint.sign;
-      result.constraint_gradients.push_back(std::move(row));
+      for (double& x : row) x *= factor;
+      add_one(factor * (slope.value - constraint.value), std::move(row));
     }
   }
 
   const DesignProblemFile& problem_;
-  const SectionSpace& space_;
+  const FlowSpace& space_;
+  std::optional<Domain> target_;  // of inverse design
 };
 
 }  // namespace
@@ -218,12 +275,35 @@ FlowResult whole(FlowResult half) {
   return half;
 }
 
+FlowFunctional suction_peak(const Mesh& mesh, const FrozenMesh& frozen, const FlowResult& flow,
+                            std::optional<std::size_t> loop, double& value) {
+  constexpr double sharpness = 10.0;
+  FlowFunctional function{.pressure = std::vector<double>(frozen.points.size(), 0.0),
+                          .points = std::vector<Point>(frozen.points.size())};
+  const std::vector<double> cp = pressure_coefficients(flow);
+  const auto is_asked_for = [&](std::size_t p) {
+    if (frozen.curve[p] < 0 || frozen.steiner[p] != 0) return false;
+    const auto curve = static_cast<std::size_t>(frozen.curve[p]);
+    if (loop) return mesh.domain().loop_of(curve) == *loop;
+    const std::string& name = mesh.domain().curve(curve).name;
+    return name != "farfield" && name != "symmetry";
+  };
+  double most = -std::numeric_limits<double>::infinity(), sum = 0.0;
+  for (std::size_t p = 0; p < cp.size(); ++p)
+    if (is_asked_for(p)) most = std::max(most, -cp[p]);
+  for (std::size_t p = 0; p < cp.size(); ++p)
+    if (is_asked_for(p)) sum += function.pressure[p] = std::exp(sharpness * (-cp[p] - most));
+  for (double& share : function.pressure) share *= -1.0 / (sum * 0.5 * flow.mach * flow.mach);
+  value = most + std::log(sum) / sharpness;
+  return function;
+}
+
 FlowResult solve_section(const Mesh& mesh, const FlowConditions& conditions, bool half) {
   FlowResult flow = solve_flow(mesh, conditions, flow_options(half));
   return half ? whole(std::move(flow)) : flow;
 }
 
-std::unique_ptr<Evaluator> make_flow_evaluator(const DesignProblemFile& problem, const SectionSpace& space) {
+std::unique_ptr<Evaluator> make_flow_evaluator(const DesignProblemFile& problem, const FlowSpace& space) {
   return std::make_unique<FlowEvaluator>(problem, space);
 }
 

@@ -2,92 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <initializer_list>
 #include <set>
 
+#include "design_elements.h"
+#include "design_keys.h"
 #include "gradient_designer.h"
-#include "remodel/error.h"
 #include "remodel/io.h"
-#include "remodel/shape_files.h"
 #include "sqp_designer.h"
 
 namespace remodel::app {
 
 namespace {
-
-// A JSON object of which every key has to be known.
-class Keys {
- public:
-  Keys(const Json& object, std::string where, std::initializer_list<const char*> known)
-      : object_(object), where_(std::move(where)) {
-    if (!object.is_object()) fail("found " + std::string(object.type_name()) + ", expected an object");
-    for (const auto& [key, value] : object.items())
-      if (std::find(known.begin(), known.end(), key) == known.end()) {
-        std::string names;
-        for (const char* name : known) names += (names.empty() ? "" : ", ") + std::string(name);
-        fail("found the key '" + key + "', expected " + names);
-      }
-  }
-  bool has(const char* key) const { return object_.contains(key); }
-  void require(const char* key) const {
-    if (!has(key)) fail("the key '" + std::string(key) + "' is missing");
-  }
-  template <class T>
-  T get(const char* key, std::optional<T> fallback = {}) const {
-    if (!has(key) && fallback) return *fallback;
-    require(key);
-    try {
-      return object_.at(key).get<T>();
-    } catch (const Json::exception&) {
-      fail("found " + object_.at(key).dump() + " as '" + key + "', expected another kind of value");
-    }
-  }
-  double number(const char* key, std::optional<double> fallback, double low, double high) const {
-    const double value = get<double>(key, fallback);
-    if (!(value >= low && value <= high))
-      fail("found " + Json(value).dump() + " as '" + key + "', expected " + Json(low).dump() + " to " +
-           Json(high).dump());
-    return value;
-  }
-  // A whole number, 0 or more.
-  template <class T>
-  T whole(const char* key, std::optional<T> fallback, T low, T high) const {
-    if (!has(key) && fallback) return *fallback;
-    require(key);
-    return whole_number<T>(object_.at(key), key, low, high);
-  }
-  template <class T>
-  T whole_number(const Json& value, const char* key, T low, T high) const {
-    if (!value.is_number_unsigned() || value.get<std::uint64_t>() < static_cast<std::uint64_t>(low) ||
-        value.get<std::uint64_t>() > static_cast<std::uint64_t>(high))
-      fail("found " + value.dump() + " as '" + key + "', expected a whole number from " +
-           std::to_string(low) + " to " + std::to_string(high));
-    return value.get<T>();
-  }
-  std::string word(const char* key, std::optional<std::string> fallback,
-                   std::initializer_list<const char*> words) const {
-    const std::string value = get<std::string>(key, fallback);
-    if (std::find(words.begin(), words.end(), value) == words.end()) {
-      std::string names;
-      for (const char* name : words) names += (names.empty() ? "" : ", ") + std::string(name);
-      fail("found '" + value + "' as '" + key + "', expected " + names);
-    }
-    return value;
-  }
-  Json list(const char* key) const {
-    if (!has(key)) return Json::array();
-    if (!object_.at(key).is_array()) fail("expected an array as '" + std::string(key) + "'");
-    return object_.at(key);
-  }
-  [[noreturn]] void fail(const std::string& problem) const {
-    throw Error(ErrorCode::format, where_, problem);
-  }
-
- private:
-  const Json& object_;
-  std::string where_;
-};
 
 // t of the upper surface at this x; the lower one has it at 1 - t.
 double parameter_at(double x) {
@@ -149,16 +75,6 @@ double value_of(const SectionConstraint& function, const CstAirfoil& airfoil) {
   return sum - function.bound;
 }
 
-// The section that a key names. Fits are of degree 8 at most; what is beyond is raised, exactly.
-CstAirfoil section_named(const Keys& keys, const char* key, int degree) {
-  const std::string name = keys.get<std::string>(key);
-  try {
-    return raise_degree(load_airfoil(name, std::min(degree, 8)), degree);
-  } catch (const Error& error) {
-    keys.fail("as '" + std::string(key) + "', " + error.what());
-  }
-}
-
 // Throws where the lower surface is not the upper one's mirror image, but for the rounding of coordinates.
 void require_symmetric(const Keys& keys, const CstAirfoil& airfoil) {
   constexpr double rounding = 1e-4;  // of files with four decimals, in chords
@@ -179,9 +95,32 @@ bool is_of_start(const Keys& keys) {
   return keys.has("of_start");
 }
 
+// A section whose shape is constrained, as it is at the start.
+struct ConstrainedSection {
+  std::size_t index = 0;
+  CstAirfoil start;
+};
+
+std::size_t element_named(const Keys& keys, const std::string& name, const ElementSpace& elements) {
+  const std::optional<std::size_t> found = elements.find(name);
+  if (!found) keys.fail("found '" + name + "', expected the name of an element");
+  return *found;
+}
+
+ConstrainedSection constrained_section(const Keys& keys, const DesignProblemFile& problem) {
+  if (!problem.elements) return {0, problem.start};
+  const ElementSpace& elements = *problem.elements;
+  const auto name = keys.get<std::string>("element");
+  const std::size_t index = element_named(keys, name, elements);
+  if (!elements.has_coefficients(index))
+    keys.fail("found '" + name + "' as 'element', whose coefficients are no variables");
+  return {index, elements.section(elements.start(), index)};
+}
+
 // Angles and radii as linear constraints of what they follow from.
-void add_edge_constraints(const Keys& keys, bool is_angle, DesignProblemFile& problem) {
-  const CstAirfoil& start = problem.start;
+void add_edge_constraints(const Keys& keys, bool is_angle, const ConstrainedSection& section,
+                          DesignProblemFile& problem) {
+  const CstAirfoil& start = section.start;
   if (start.e1 != 0.5 || start.e2 != 1.0)
     keys.fail("found an airfoil of another class, expected one that is round in front and sharp behind");
   std::vector<SectionConstraint> functions;
@@ -209,75 +148,110 @@ void add_edge_constraints(const Keys& keys, bool is_angle, DesignProblemFile& pr
       least = is_angle ? 2.0 * std::tan(value * M_PI / 360.0) : std::sqrt(2.0 * value);
     }
     function.bound += least;
+    function.section = section.index;
     problem.section.push_back(std::move(function));
   }
 }
 
 // Throws for keys that a constraint of this kind has no use for.
-void require_keys_of(const Keys& keys, const std::string& kind) {
-  const bool is_flow = kind == "lift" || kind == "moment" || kind == "drag";
+void require_keys_of(const Keys& keys, const std::string& kind, bool has_elements) {
+  const bool is_coefficient = kind == "lift" || kind == "moment" || kind == "drag";
+  const bool is_flow = is_coefficient || kind == "suction";
   const auto refuse = [&](std::initializer_list<const char*> useless) {
     for (const char* key : useless)
       if (keys.has(key)) keys.fail("found the key '" + std::string(key) + "', which '" + kind + "' has not");
   };
   if (kind != "thickness") refuse({"x"});
   if (kind != "contains") refuse({"airfoil"});
+  if (kind != "gap") refuse({"between"});
   if (!is_flow) refuse({"point", "at_most"});
-  if (is_flow || kind == "contains") refuse({"of_start"});
-  if (kind == "contains") refuse({"at_least"});
+  if (is_flow || kind == "contains" || kind == "gap") refuse({"of_start"});
+  if (kind == "contains" || kind == "suction") refuse({"at_least"});
+  if (is_coefficient || kind == "gap" || !has_elements) refuse({"element"});
+}
+
+void add_containment(const Keys& keys, const ConstrainedSection& section, DesignProblemFile& problem) {
+  const CstAirfoil inner = section_named(keys, "airfoil", section.start.degree());
+  constexpr int stations = 40;
+  for (int i = 1; i < stations; ++i)
+    for (const bool upper : {true, false}) {
+      if (problem.symmetric && !upper) continue;
+      const double x = 0.5 * (1.0 + std::cos(M_PI * i / stations)), sign = upper ? 1.0 : -1.0;
+      SectionConstraint constraint{
+          .row = {}, .bound = sign * height(inner, x, upper), .section = section.index};
+      add_height(section.start, x, upper, sign, constraint);
+      problem.section.push_back(std::move(constraint));
+    }
+}
+
+// Area, or thickness at stations.
+void add_size_constraints(const Keys& keys, bool is_area, const ConstrainedSection& section,
+                          DesignProblemFile& problem) {
+  std::vector<SectionConstraint> functions;
+  std::vector<double> stations;
+  if (is_area)
+    functions.push_back(area(section.start));
+  else if ((stations = keys.get<std::vector<double>>("x")).empty())
+    keys.fail("found no number in 'x', expected at least one");
+  for (const double x : stations) {
+    if (!(x > 0.0 && x < 1.0)) keys.fail("found " + Json(x).dump() + " in 'x', expected 0 to 1");
+    functions.emplace_back();
+    add_height(section.start, x, true, 1.0, functions.back());
+    add_height(section.start, x, false, -1.0, functions.back());
+  }
+  for (SectionConstraint& function : functions) {
+    const double least = is_of_start(keys)
+                             ? keys.number("of_start", {}, 0.0, 10.0) * value_of(function, section.start)
+                             : keys.number("at_least", {}, 0.0, 10.0);
+    function.bound += least;
+    function.section = section.index;
+    problem.section.push_back(std::move(function));
+  }
+}
+
+void add_gap(const Keys& keys, DesignProblemFile& problem) {
+  if (!problem.elements) keys.fail("found 'gap', expected it with 'elements' alone");
+  const auto names = keys.get<std::vector<std::string>>("between");
+  if (names.size() != 2 || names[0] == names[1])
+    keys.fail("found " + Json(names).dump() + " as 'between', expected the names of two elements");
+  problem.gaps.push_back({.section = element_named(keys, names[0], *problem.elements),
+                          .other = element_named(keys, names[1], *problem.elements),
+                          .at_least = keys.number("at_least", {}, 1e-6, 10.0)});
+}
+
+void add_flow_constraint(const Keys& keys, const std::string& kind, DesignProblemFile& problem) {
+  FlowConstraint constraint{.of = kind == "lift"     ? "cl"
+                                  : kind == "drag"   ? "cd"
+                                  : kind == "moment" ? "cm"
+                                                     : kind,
+                            .point = keys.whole<std::size_t>("point", 0, 0, problem.points.size() - 1)};
+  if (kind == "suction") {
+    constraint.value = keys.number("at_most", {}, 0.1, 1000.0);
+    if (keys.has("element"))
+      constraint.section = element_named(keys, keys.get<std::string>("element"), *problem.elements);
+  } else {
+    if (keys.has("at_least") == keys.has("at_most")) keys.fail("expected one of at_least and at_most");
+    constraint.sign = keys.has("at_most") ? 1.0 : -1.0;
+    constraint.value = keys.number(keys.has("at_most") ? "at_most" : "at_least", {}, -100.0, 100.0);
+  }
+  problem.flow.push_back(constraint);
 }
 
 void add_constraint(const Json& entry, const std::string& where, DesignProblemFile& problem) {
-  const Keys keys(entry, where, {"kind", "point", "at_least", "at_most", "of_start", "x", "airfoil"});
+  const Keys keys(entry, where,
+                  {"kind", "point", "at_least", "at_most", "of_start", "x", "airfoil", "element", "between"});
   const std::string kind = keys.word("kind", {},
-                                     {"lift", "moment", "drag", "area", "thickness", "contains",
-                                      "trailing_edge_angle", "leading_edge_radius"});
-  require_keys_of(keys, kind);
+                                     {"lift", "moment", "drag", "suction", "gap", "area", "thickness",
+                                      "contains", "trailing_edge_angle", "leading_edge_radius"});
+  require_keys_of(keys, kind, problem.elements.has_value());
+  if (kind == "gap") return add_gap(keys, problem);
+  if (kind == "lift" || kind == "moment" || kind == "drag" || kind == "suction")
+    return add_flow_constraint(keys, kind, problem);
+  const ConstrainedSection section = constrained_section(keys, problem);
   if (kind == "trailing_edge_angle" || kind == "leading_edge_radius")
-    return add_edge_constraints(keys, kind == "trailing_edge_angle", problem);
-  if (kind == "contains") {
-    const CstAirfoil inner = section_named(keys, "airfoil", problem.start.degree());
-    constexpr int stations = 40;
-    for (int i = 1; i < stations; ++i)
-      for (const bool upper : {true, false}) {
-        if (problem.symmetric && !upper) continue;
-        const double x = 0.5 * (1.0 + std::cos(M_PI * i / stations)), sign = upper ? 1.0 : -1.0;
-        SectionConstraint constraint{.row = {}, .bound = sign * height(inner, x, upper)};
-        add_height(problem.start, x, upper, sign, constraint);
-        problem.section.push_back(std::move(constraint));
-      }
-    return;
-  }
-  if (kind == "area" || kind == "thickness") {
-    std::vector<SectionConstraint> functions;
-    std::vector<double> stations;
-    if (kind == "area")
-      functions.push_back(area(problem.start));
-    else if ((stations = keys.get<std::vector<double>>("x")).empty())
-      keys.fail("found no number in 'x', expected at least one");
-    for (const double x : stations) {
-      if (!(x > 0.0 && x < 1.0)) keys.fail("found " + Json(x).dump() + " in 'x', expected 0 to 1");
-      functions.emplace_back();
-      add_height(problem.start, x, true, 1.0, functions.back());
-      add_height(problem.start, x, false, -1.0, functions.back());
-    }
-    for (SectionConstraint& function : functions) {
-      const double least = is_of_start(keys)
-                               ? keys.number("of_start", {}, 0.0, 10.0) * value_of(function, problem.start)
-                               : keys.number("at_least", {}, 0.0, 10.0);
-      function.bound += least;
-      problem.section.push_back(std::move(function));
-    }
-    return;
-  }
-  FlowConstraint constraint{.of = kind == "lift"   ? "cl"
-                                  : kind == "drag" ? "cd"
-                                                   : "cm",
-                            .point = keys.whole<std::size_t>("point", 0, 0, problem.points.size() - 1)};
-  if (keys.has("at_least") == keys.has("at_most")) keys.fail("expected one of at_least and at_most");
-  constraint.sign = keys.has("at_most") ? 1.0 : -1.0;
-  constraint.value = keys.number(keys.has("at_most") ? "at_most" : "at_least", {}, -100.0, 100.0);
-  problem.flow.push_back(constraint);
+    return add_edge_constraints(keys, kind == "trailing_edge_angle", section, problem);
+  if (kind == "contains") return add_containment(keys, section, problem);
+  add_size_constraints(keys, kind == "area", section, problem);
 }
 
 DesignPoint point_of(const Json& entry, const std::string& where) {
@@ -293,6 +267,29 @@ DesignPoint point_of(const Json& entry, const std::string& where) {
   }
   point.weight = keys.number("weight", 1.0, 0.0, 1e6);
   return point;
+}
+
+void read_section(const Keys& keys, int degree, DesignProblemFile& problem) {
+  problem.start = section_named(keys, "airfoil", degree);
+  problem.symmetric = keys.get<bool>("symmetric", false);
+  if (!problem.symmetric) return;
+  require_symmetric(keys, problem.start);
+  problem.start.te_lower = -problem.start.te_upper;
+  for (std::size_t i = 0; i < problem.start.upper.size(); ++i)
+    problem.start.lower[i] = -problem.start.upper[i];
+}
+
+void read_objective(const Keys& keys, int degree, DesignProblemFile& problem) {
+  problem.objective = keys.word("objective", {}, {"drag", "lift", "lift_over_drag", "moment", "inverse"});
+  if (problem.objective == "lift")
+    for (const DesignPoint& point : problem.points)
+      if (point.conditions.cl) keys.fail("found the objective 'lift' with 'cl', expected 'alpha_deg' alone");
+  const bool is_inverse = problem.objective == "inverse";
+  if (is_inverse && problem.elements)
+    keys.fail("found the objective 'inverse' with 'elements', expected 'airfoil'");
+  if (is_inverse) problem.target = section_named(keys, "target", degree);
+  if (!is_inverse && keys.has("target"))
+    keys.fail("found 'target' with the objective '" + problem.objective + "', expected 'inverse'");
 }
 
 }  // namespace
@@ -315,17 +312,12 @@ DesignProblemFile read_design_problem(const std::string& file) {
     throw Error(ErrorCode::format, file, "found no JSON, expected a design problem");
   }
   const Keys keys(json, file,
-                  {"airfoil", "degree", "symmetric", "mesh", "flow", "objective", "target", "constraints",
-                   "designer", "verify"});
+                  {"airfoil", "elements", "degree", "symmetric", "mesh", "flow", "objective", "target",
+                   "constraints", "designer", "verify"});
   problem.text = json.dump();
   const int degree = keys.whole<int>("degree", 5, 1, 30);
-  problem.start = section_named(keys, "airfoil", degree);
-  problem.symmetric = keys.get<bool>("symmetric", false);
-  if (problem.symmetric) require_symmetric(keys, problem.start);
-  if (problem.symmetric) problem.start.te_lower = -problem.start.te_upper;
-  if (problem.symmetric)
-    for (std::size_t i = 0; i < problem.start.upper.size(); ++i)
-      problem.start.lower[i] = -problem.start.upper[i];
+  if (keys.has("airfoil") == keys.has("elements")) keys.fail("expected one of 'airfoil' and 'elements'");
+  if (keys.has("airfoil")) read_section(keys, degree, problem);
   const Json empty = Json::object();
   const Json mesh_json = keys.has("mesh") ? json.at("mesh") : empty;
   const Keys mesh(mesh_json, file + ", mesh", {"points", "gradation", "farfield_radius"});
@@ -334,13 +326,14 @@ DesignProblemFile read_design_problem(const std::string& file) {
     mesh.fail("found " + std::to_string(problem.domain.points) + " as 'points', expected an even number");
   problem.domain.farfield_radius = mesh.number("farfield_radius", 25, 2, 1e6);
   problem.gradation = mesh.number("gradation", problem.domain.points / 50.0, 0.1, 1000);
+  if (keys.has("elements")) {
+    if (keys.has("symmetric")) keys.fail("found 'symmetric' with 'elements', expected 'airfoil'");
+    problem.elements = read_elements(keys, file, degree, problem.domain);
+  }
   for (const Json& entry : keys.list("flow"))
     problem.points.push_back(point_of(entry, file + ", flow " + std::to_string(problem.points.size() + 1)));
   if (problem.points.empty()) keys.fail("expected at least one point of 'flow'");
-  problem.objective = keys.word("objective", {}, {"drag", "lift_over_drag", "moment", "inverse"});
-  if (problem.objective == "inverse") problem.target = section_named(keys, "target", degree);
-  if (!problem.target && keys.has("target"))
-    keys.fail("found 'target' with the objective '" + problem.objective + "', expected 'inverse'");
+  read_objective(keys, degree, problem);
   std::size_t number = 0;
   for (const Json& entry : keys.list("constraints"))
     add_constraint(entry, file + ", constraint " + std::to_string(++number), problem);
@@ -370,13 +363,20 @@ bool DesignProblemFile::is_half() const {
          std::all_of(flow.begin(), flow.end(), of_drag);
 }
 
-std::unique_ptr<Designer> make_designer(const DesignProblemFile& problem, const DesignSpace& space) {
+std::unique_ptr<FlowSpace> DesignProblemFile::space() const {
+  if (elements) return std::make_unique<ElementSpace>(*elements);
+  return std::make_unique<SectionSpace>(start, section_options());
+}
+
+std::unique_ptr<Designer> make_designer(const DesignProblemFile& problem, const FlowSpace& space) {
   const std::vector<double> start = space.start();
   if (problem.designer == "cmaes")
     return std::make_unique<CmaesDesigner>(start, CmaesOptions{.sigma = problem.sigma, .seed = problem.seed});
-  GradientOptions options{.method = problem.designer, .trust = problem.trust, .low = start, .high = start};
-  for (double& x : options.low) x -= problem.bounds;
-  for (double& x : options.high) x += problem.bounds;
+  DesignBounds bounds = space.bounds(problem.bounds);
+  GradientOptions options{.method = problem.designer,
+                          .trust = problem.trust,
+                          .low = std::move(bounds.low),
+                          .high = std::move(bounds.high)};
   if (problem.designer == "sqp") return std::make_unique<SqpDesigner>(start, options);
   return std::make_unique<GradientDesigner>(start, options);
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "remodel/design_space.h"
+#include "element_space.h"
 #include "remodel/designer.h"
 #include "remodel/evaluator.h"
 #include "remodel/flow.h"
@@ -21,31 +21,41 @@ struct DesignPoint {
   double weight = 1.0;
 };
 
-// A function of the section's coefficients (upper, then lower) that is to be at most 0: bound - row * a.
+// A function of a section's coefficients (upper, then lower) that is to be at most 0: bound - row * a.
 struct SectionConstraint {
   std::vector<double> row;
   double bound = 0.0;
+  std::size_t section = 0;
 };
 
-// A coefficient of a point's flow, at least or at most a value.
+// A coefficient of a point's flow, at least or at most a value; or the suction peak.
 struct FlowConstraint {
-  std::string of;  // "cl", "cm" or "cd"
+  std::string of;  // "cl", "cm", "cd" or "suction"
   std::size_t point = 0;
   double sign = 1.0;  // 1: at most the value, -1: at least
   double value = 0.0;
+  std::optional<std::size_t> section = {};  // of a suction peak; without: of all walls
+};
+
+// Two sections are to be this far apart.
+struct GapConstraint {
+  std::size_t section = 0, other = 0;
+  double at_least = 0.0;
 };
 
 struct DesignProblemFile {
-  std::string text;  // the file's, for the run's settings
-  CstAirfoil start;
-  bool symmetric = false;  // the lower surface is the upper one's mirror image
+  std::string text;                      // the file's, for the run's settings
+  CstAirfoil start;                      // of a problem of one section
+  std::optional<ElementSpace> elements;  // of one of several
+  bool symmetric = false;                // the lower surface is the upper one's mirror image
   AirfoilDomainOptions domain;
   double gradation = 2.0;
   std::vector<DesignPoint> points;
-  std::string objective;             // "drag", "lift_over_drag", "moment" or "inverse"
+  std::string objective;             // "drag", "lift", "lift_over_drag", "moment" or "inverse"
   std::optional<CstAirfoil> target;  // of inverse design
   std::vector<SectionConstraint> section;
   std::vector<FlowConstraint> flow;
+  std::vector<GapConstraint> gaps;
   std::string designer = "sqp";
   double bounds = 0.1, trust = 0.02, sigma = 0.01;
   std::uint64_t seed = 1;
@@ -55,9 +65,10 @@ struct DesignProblemFile {
   // Whether all flows are their own mirror images, so that half of each says all: a symmetric section closed
   // behind, along the x axis, and no word of lift or moment.
   bool is_half() const;
-  SectionSpace space() const {
-    return {start, {.symmetric = symmetric, .half = is_half(), .domain = domain}};
+  SectionSpaceOptions section_options() const {  // of a problem of one section
+    return {.symmetric = symmetric, .half = is_half(), .domain = domain};
   }
+  std::unique_ptr<FlowSpace> space() const;
 };
 
 // Throws Error (format) naming the file and the key.
@@ -68,11 +79,18 @@ DesignProblemFile read_design_problem(const std::string& file);
 FlowOptions flow_options(bool half, StepObserver* observer = nullptr);
 // Coefficients of the whole of a flow of which half was found.
 FlowResult whole(FlowResult half);
+// The suction peak of a flow, the largest -Cp at the stations of walls: of a loop of the mesh's domain, or of
+// all. A mean of the highest values takes the place of the largest one, which has no derivative where another
+// station becomes it: ln(sum of exp(k (-Cp))) / k with k = 10, larger than the largest by 0.1 ln n where n
+// stations share it (G. Kreisselmeier and R. Steinhauser, IFAC Symposium on Computer Aided Design of Control
+// Systems, 1979). With derivatives by pressures.
+FlowFunctional suction_peak(const Mesh& mesh, const FrozenMesh& frozen, const FlowResult& flow,
+                            std::optional<std::size_t> loop, double& value);
 // A flow found cold with these options, with the coefficients of the whole.
 FlowResult solve_section(const Mesh& mesh, const FlowConditions& conditions, bool half);
 
-std::unique_ptr<Designer> make_designer(const DesignProblemFile& problem, const DesignSpace& space);
+std::unique_ptr<Designer> make_designer(const DesignProblemFile& problem, const FlowSpace& space);
 // The problem and space must outlive it.
-std::unique_ptr<Evaluator> make_flow_evaluator(const DesignProblemFile& problem, const SectionSpace& space);
+std::unique_ptr<Evaluator> make_flow_evaluator(const DesignProblemFile& problem, const FlowSpace& space);
 
 }  // namespace remodel::app

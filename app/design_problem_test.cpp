@@ -6,11 +6,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 
+#include "gap.h"
 #include "remodel/generate.h"
 #include "remodel/mesh_derivative.h"
 
@@ -30,6 +32,7 @@ DesignProblemFile problem_of(const Json& changes) {
                {"mesh", {{"points", 40}}},
                {"flow", {{{"mach", 0.3}, {"alpha_deg", 1}}}},
                {"objective", "drag"}};
+  if (changes.contains("elements")) json.erase("airfoil");
   json.update(changes);
   const std::string file = written("problem.json", json.dump());
   DesignProblemFile problem = read_design_problem(file);
@@ -172,17 +175,17 @@ class Case {
   explicit Case(const Json& changes)
       : problem_(problem_of(changes)),
         space_(problem_.space()),
-        mesh_(generate(space_.domain(space_.start()), {.gradation = problem_.gradation}).mesh) {}
+        mesh_(generate(space_->domain(space_->start()), {.gradation = problem_.gradation}).mesh) {}
 
   const DesignProblemFile& problem() const { return problem_; }
-  const SectionSpace& space() const { return space_; }
+  const FlowSpace& space() const { return *space_; }
   const Mesh& mesh() const { return mesh_; }
-  Mesh mesh_of(const std::vector<double>& design) const { return mesh_at(mesh_, space_.domain(design)); }
+  Mesh mesh_of(const std::vector<double>& design) const { return mesh_at(mesh_, space_->domain(design)); }
   Evaluation evaluate(const std::vector<double>& design) const {
     StepObserver observer;
     const Mesh mesh = mesh_of(design);
     std::unique_ptr<EvaluatorState> state;
-    return make_flow_evaluator(problem_, space_)
+    return make_flow_evaluator(problem_, *space_)
         ->evaluate({.design = design,
                     .mesh = mesh,
                     .step = {},
@@ -195,9 +198,9 @@ class Case {
   std::vector<double> differences(const std::function<double(const std::vector<double>&)>& f,
                                   double h) const {
     std::vector<double> result;
-    for (std::size_t i = 0; i < space_.start().size(); ++i) {
+    for (std::size_t i = 0; i < space_->start().size(); ++i) {
       const auto at = [&](double s) {
-        std::vector<double> design = space_.start();
+        std::vector<double> design = space_->start();
         design[i] += s;
         return f(design);
       };
@@ -208,7 +211,7 @@ class Case {
 
  private:
   DesignProblemFile problem_;
-  SectionSpace space_;
+  std::unique_ptr<FlowSpace> space_;
   Mesh mesh_;
 };
 
@@ -230,13 +233,13 @@ TEST(EdgeConstraints, GradientsAreThoseOfTheCurve) {
     ASSERT_EQ(evaluation.constraint_gradients.size(), 3u);
     for (const double value : evaluation.constraints) EXPECT_NEAR(value, 0.0, 1e-12) << name;
     const auto slope = [&](const std::vector<double>& design) {
-      const CstAirfoil airfoil = task.space().airfoil(design);
+      const CstAirfoil airfoil = task.space().section(design, 0);
       return trailing_slope(airfoil, true) - trailing_slope(airfoil, false);
     };
     EXPECT_LT(relative(evaluation.constraint_gradients[0], task.differences(slope, 1e-3)), 1e-6) << name;
     for (const bool upper : {true, false}) {
       const auto root = [&](const std::vector<double>& design) {
-        return -std::sqrt(2.0 * nose_radius(task.space().airfoil(design), upper));
+        return -std::sqrt(2.0 * nose_radius(task.space().section(design, 0), upper));
       };
       EXPECT_LT(relative(evaluation.constraint_gradients[upper ? 1 : 2], task.differences(root, 1e-3)), 1e-6)
           << name;
@@ -350,6 +353,108 @@ TEST(HalfDomain, DragTendsToHalfOfTheMirroredMeshs) {
   }
   EXPECT_LT(differences[0], 0.06);
   EXPECT_LT(differences[1], 0.25 * differences[0]);
+}
+
+// A slat, a main section and a flap; of the main section two coefficients could be of interest, of the others
+// their places.
+Json three_elements() {
+  return {{"elements",
+           {{{"name", "slat"},
+             {"airfoil", "naca:2415"},
+             {"placement", {{"chord", 0.2}, {"rotation_deg", 35}, {"position", {-0.18, -0.09}}}},
+             {"variables",
+              {{"chord", {{"bounds", {0.1, 0.3}}}},
+               {"rotation_deg", {{"bounds", {15, 50}}}},
+               {"x", {{"bounds", {-0.22, -0.14}}}},
+               {"y", {{"bounds", {-0.14, -0.04}}}}}}},
+            {{"name", "main"}, {"airfoil", "naca:4412"}, {"variables", {{"coefficients", true}}}},
+            {{"name", "flap"},
+             {"airfoil", "naca:4415"},
+             {"placement", {{"chord", 0.3}, {"rotation_deg", -15}, {"position", {0.99, -0.035}}}},
+             {"variables",
+              {{"rotation_deg", {{"bounds", {-45, -5}}, {"scale", 10}}},
+               {"x", {{"bounds", {0.94, 1.04}}}},
+               {"y", {{"bounds", {-0.1, 0}}, {"scale", 0.1}}}}}}}},
+          {"degree", 3},
+          {"mesh", {{"points", 40}, {"gradation", 2}}},
+          {"flow", {{{"mach", 0.2}, {"alpha_deg", 4}}}},
+          {"objective", "lift"},
+          {"constraints",
+           {{{"kind", "suction"}, {"element", "slat"}, {"at_most", 8}},
+            {{"kind", "suction"}, {"at_most", 8}},
+            {{"kind", "gap"}, {"between", {"slat", "main"}}, {"at_least", 0.01}},
+            {{"kind", "gap"}, {"between", {"main", "flap"}}, {"at_least", 0.01}},
+            {{"kind", "thickness"}, {"element", "main"}, {"x", {0.3}}, {"of_start", 1}}}}};
+}
+
+TEST(Elements, GradientsAreThoseOfWholeFlows) {
+  const Case task(three_elements());
+  const std::vector<double> start = task.space().start();
+  ASSERT_EQ(start.size(), 4u + 8u + 3u);
+  Flows flow(task);
+  const Evaluation evaluation = task.evaluate(start);
+  ASSERT_EQ(evaluation.constraints.size(), 5u);
+  constexpr double h = 1e-5;
+  const auto lift = [&](const auto& design) { return -flow(design).cl; };
+  EXPECT_NEAR(evaluation.objective, lift(start), 1e-8 * std::fabs(evaluation.objective));
+  EXPECT_LT(relative(evaluation.gradient, task.differences(lift, h)), 1e-6);
+  for (const std::size_t i : {0u, 1u}) {
+    const auto peak = [&](const auto& design) {
+      const Mesh mesh = task.mesh_of(design);
+      double value = 0.0;
+      suction_peak(mesh, mesh.freeze(), flow(design), task.problem().flow.at(i).section, value);
+      return value / 8.0 - 1.0;
+    };
+    EXPECT_NEAR(evaluation.constraints[i + 3], peak(start), 1e-7);
+    EXPECT_LT(relative(evaluation.constraint_gradients[i + 3], task.differences(peak, h)), 1e-6);
+  }
+}
+
+// The derivative of a gap is that of the distance, found from all pairs of points of both outlines.
+TEST(Elements, GapsAreDistancesOfOutlines) {
+  const Case task(three_elements());
+  const std::vector<double> start = task.space().start();
+  const Evaluation evaluation = task.evaluate(start);
+  const Domain domain = task.space().domain(start);
+  for (const auto& [i, loop, other] : {std::array{1, 0, 1}, std::array{2, 1, 2}}) {
+    double least = 1e9;
+    const auto& outline = std::get<CstAirfoil>(domain.loops[other].curves[0].shape);
+    const Frame frame(domain.loops[other].placement);
+    for (const Point p : domain.points(loop))
+      for (int k = 0; k < 4000; ++k) {
+        const Point d = frame(outline.at(k / 4000.0)) - p;
+        least = std::min(least, std::sqrt(dot(d, d)));
+      }
+    // Polygons of 40 points lie inside of round outlines: 3 % of these gaps.
+    EXPECT_NEAR(0.01 - evaluation.constraints[i], least, 0.05 * least);
+    const auto gap = [&](const auto& design) {
+      return 0.01 - gap_between(task.space().domain(design), static_cast<std::size_t>(loop),
+                                static_cast<std::size_t>(other))
+                        .distance;
+    };
+    EXPECT_LT(relative(evaluation.constraint_gradients[i], task.differences(gap, 1e-6)), 1e-7);
+  }
+}
+
+TEST(Elements, ThatTouchOrLeaveTheirBoundsAreInfeasible) {
+  const Case task(three_elements());
+  const FlowSpace& space = task.space();
+  const std::vector<double> start = space.start();
+  const auto named = space.named(start);
+  EXPECT_EQ(named.at(1).name, "slat.rotation_deg");
+  EXPECT_NEAR(named.at(1).value, 35.0, 1e-12);
+  EXPECT_EQ(named.at(12).name, "flap.rotation_deg");
+  EXPECT_TRUE(space.feasible(start));
+  std::vector<double> design = start;
+  design[14] = 0.0;  // the flap's nose in the main section
+  EXPECT_FALSE(space.feasible(design));
+  design = start;
+  design[12] = -4.6;  // -46 degrees
+  EXPECT_FALSE(space.feasible(design));
+  // A run can be told from its description alone.
+  const ElementSpace again = ElementSpace::from_description(space.description(), "history");
+  EXPECT_EQ(again.domain(start), space.domain(start));
+  EXPECT_EQ(again.start(), start);
 }
 
 }  // namespace

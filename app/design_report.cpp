@@ -61,22 +61,24 @@ class Scratch {
   fs::path path_;
 };
 
-// One section: its mesh and the flows around it, whole.
+// One design: its mesh and the flows through it, whole.
 struct Shown {
   std::string name;
-  CstAirfoil airfoil;
+  std::vector<double> design;
   FrozenMesh mesh;
   std::vector<FlowResult> flows;
   std::vector<std::vector<double>> mach, cp;
 };
 
-Shown shown(const std::string& name, const CstAirfoil& airfoil, const Mesh& mesh, const DesignRun& run) {
+Shown shown(const std::string& name, const std::vector<double>& design, const Mesh& mesh,
+            const DesignRun& run) {
   const FrozenMesh frozen = mesh.freeze();
-  Shown result{name, airfoil, run.space.half ? mirrored(frozen) : frozen, {}, {}, {}};
+  const bool half = run.space->half();
+  Shown result{name, design, half ? mirrored(frozen) : frozen, {}, {}, {}};
   for (const FlowConditions& conditions : run.conditions) {
-    FlowResult flow = solve_section(mesh, conditions, run.space.half);
+    FlowResult flow = solve_section(mesh, conditions, half);
     result.mach.push_back(mach_numbers(flow)), result.cp.push_back(pressure_coefficients(flow));
-    if (run.space.half) {
+    if (half) {
       result.mach.back() = mirrored(frozen, result.mach.back());
       result.cp.back() = mirrored(frozen, result.cp.back());
     }
@@ -85,43 +87,59 @@ Shown shown(const std::string& name, const CstAirfoil& airfoil, const Mesh& mesh
   return result;
 }
 
-// Both outlines, thickness drawn as large as the chord's scale.
-std::string outlines(const Shown& first, const Shown& last) {
-  std::string svg =
-      "<svg class=\"outlines\" viewBox=\"-20 -210 1040 420\" role=\"img\" aria-label=\"first and best "
-      "section\">";
-  const auto add = [&](const CstAirfoil& airfoil, const char* kind) {
-    svg += std::string("<polygon class=\"") + kind + "\" points=\"";
-    constexpr int pieces = 400;
-    for (int i = 0; i < pieces; ++i) {
-      const Point p = airfoil.at(static_cast<double>(i) / pieces);
-      svg += number(1000.0 * p.x, "%.2f") + "," + number(-1000.0 * p.y, "%.2f") + " ";
+// Outlines of both designs.
+std::string both_outlines(const Shown& first, const Shown& last, const DesignRun& run) {
+  const auto [x0, y0, x1, y1] = window_of(run, {-0.02, -0.21, 1.02, 0.21}, 0.02, 0.02);
+  std::string svg = "<svg class=\"outlines\" viewBox=\"";
+  for (const double corner : {x0, -y1, x1 - x0, y1 - y0}) svg += number(1000.0 * corner, "%.0f") + " ";
+  svg += "\" role=\"img\" aria-label=\"first and best design\">";
+  for (const Shown* of : {&first, &last})
+    for (const std::vector<Point>& outline : outlines(*run.space, of->design)) {
+      svg += std::string("<polygon class=\"") + (of == &first ? "first" : "last") + "\" points=\"";
+      for (const Point p : outline)
+        svg += number(1000.0 * p.x, "%.2f") + "," + number(-1000.0 * p.y, "%.2f") + " ";
+      svg += "\"/>";
     }
-    svg += "\"/>";
-  };
-  add(first.airfoil, "first"), add(last.airfoil, "last");
   return svg + "</svg>\n";
 }
 
-std::string pressures(const Scratch& scratch, const Shown& first, const Shown& last, std::size_t point) {
+// The numbers of both designs that have names.
+std::string numbers_table(const Shown& first, const Shown& last, const FlowSpace& space) {
+  const std::vector<NamedNumber> from = space.named(first.design), to = space.named(last.design);
+  if (from.empty()) return {};
+  std::string table = "<table>\n<tr><th></th><th>" + first.name + "</th><th>" + last.name + "</th></tr>\n";
+  for (std::size_t i = 0; i < from.size(); ++i)
+    table += "<tr><th>" + escaped(from[i].name) + "</th><td>" + number(from[i].value, "%.5g") + "</td><td>" +
+             number(to[i].value, "%.5g") + "</td></tr>\n";
+  return table + "</table>\n";
+}
+
+std::string pressures(const Scratch& scratch, const Shown& first, const Shown& last, std::size_t sections,
+                      std::size_t point) {
   Plot plot;
   for (const Shown* of : {&first, &last}) {
     const FlowResult& flow = of->flows[point];
     Plot one = cp_plot(of->mesh, "farfield", of->cp[point], flow_caption(flow.mach, flow.alpha_deg, flow.cl),
                        "report");
-    // One curve a section: its boundary may be several rows of edges.
-    for (std::size_t i = 0; i < one.curves.size(); ++i) one.curves[i].name = i == 0 ? of->name : "";
     if (plot.curves.empty()) plot.x = one.x, plot.y = one.y, plot.caption = one.caption;
-    PlotCurve curve = one.curves.front();
-    for (std::size_t i = 1; i < one.curves.size(); ++i)
-      curve.points.insert(curve.points.end(), one.curves[i].points.begin(), one.curves[i].points.end());
-    plot.curves.push_back(std::move(curve));
+    for (std::size_t i = 0; i < one.curves.size(); ++i) {
+      PlotCurve& curve = one.curves[i];
+      // The boundary of one section may be several rows of edges. Of several sections each has a curve.
+      if (sections == 1 && i != 0) {
+        std::vector<Point>& points = plot.curves.back().points;
+        points.insert(points.end(), curve.points.begin(), curve.points.end());
+        continue;
+      }
+      curve.name = sections == 1 ? of->name : of->name + ", " + curve.name;
+      plot.curves.push_back(std::move(curve));
+    }
   }
   return scratch.picture(".svg", [&](const fs::path& file) { draw_plot(plot, file); });
 }
 
 // Mach numbers of one point around a section, in colours of one range.
-std::string mach_field(const Scratch& scratch, const Shown& of, std::size_t point, double most) {
+std::string mach_field(const Scratch& scratch, const DesignRun& run, const Shown& of, std::size_t point,
+                       double most) {
   const FlowResult& flow = of.flows[point];
   DrawField field;
   field.field.name = "mach";
@@ -129,7 +147,8 @@ std::string mach_field(const Scratch& scratch, const Shown& of, std::size_t poin
   field.label = "Mach";
   field.range = {0.0, most};
   field.iso_lines = 24;
-  DrawOptions options{.window = std::array{-0.35, -0.55, 1.35, 0.65}, .width = 1000, .line = 1.8};
+  DrawOptions options{
+      .window = window_of(run, {-0.35, -0.55, 1.35, 0.65}, 0.15, 0.25), .width = 1000, .line = 1.8};
   options.field = std::move(field);
   options.caption = of.name + ": " + flow_caption(flow.mach, flow.alpha_deg, flow.cl) + ", " +
                     number(1e4 * flow.cd, "%.1f") + " counts of drag";
@@ -265,24 +284,25 @@ std::string page_of(const fs::path& directory, const DesignRun& run, const Shown
   std::string page =
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\"><title>Remodel: a design</title><style>" +
-      std::string(style) + "</style></head><body>\n<h1>A section designed on one mesh</h1>\n";
+      std::string(style) + "</style></head><body>\n<h1>A design on one mesh</h1>\n";
   page += "<p>Objective (" + escaped(run.options["problem"]["objective"].get<std::string>()) + "): from " +
           number(cost["start_objective"].get<double>(), "%.6g") + " to <b>" +
           number(cost["objective"].get<double>(), "%.6g") + "</b>; " + std::to_string(run.rows.size()) +
           " designs on a mesh of " + std::to_string(first.mesh.triangles.size()) + " triangles" +
-          (run.space.half ? ", computed in the upper half and mirrored" : "") + ".</p>\n";
-  page += "<h2>Section</h2>\n<p><span class=\"first\">first</span>, <span class=\"last\">best</span></p>\n" +
-          outlines(first, last) + points_table(first, last) +
-          "<p class=\"note\">The run's own mesh; CD in counts (10⁻⁴).</p>\n";
+          (run.space->half() ? ", computed in the upper half and mirrored" : "") + ".</p>\n";
+  page += "<h2>Sections</h2>\n<p><span class=\"first\">first</span>, <span class=\"last\">best</span></p>\n" +
+          both_outlines(first, last, run) + numbers_table(first, last, *run.space) +
+          points_table(first, last) + "<p class=\"note\">The run's own mesh; CD in counts (10⁻⁴).</p>\n";
   page += fresh_table(directory);
   page += "<h2>Pressure</h2>\n";
-  for (std::size_t i = 0; i < run.conditions.size(); ++i) page += pressures(scratch, first, last, i);
+  for (std::size_t i = 0; i < run.conditions.size(); ++i)
+    page += pressures(scratch, first, last, run.space->sections(), i);
   page += "<h2>Mach number</h2>\n";
   for (std::size_t i = 0; i < run.conditions.size(); ++i) {
     const double most = std::max(*std::max_element(first.mach[i].begin(), first.mach[i].end()),
                                  *std::max_element(last.mach[i].begin(), last.mach[i].end()));
-    page += "<div class=\"pair\">" + mach_field(scratch, first, i, most) +
-            mach_field(scratch, last, i, most) + "</div>\n";
+    page += "<div class=\"pair\">" + mach_field(scratch, run, first, i, most) +
+            mach_field(scratch, run, last, i, most) + "</div>\n";
   }
   page += "<h2>Convergence</h2>\n" + convergence(scratch, run);
   page +=
@@ -293,7 +313,7 @@ std::string page_of(const fs::path& directory, const DesignRun& run, const Shown
   for (const Shown* of : {&first, &last})
     page += scratch.picture(".svg", [&](const fs::path& file) {
       draw(of->mesh, file,
-           {.window = std::array{-0.15, -0.25, 1.15, 0.25},
+           {.window = window_of(run, {-0.15, -0.25, 1.15, 0.25}, 0.08, 0.08),
             .width = 1000,
             .caption = of->name + ": " + std::to_string(of->mesh.triangles.size()) + " triangles"});
     });
@@ -305,13 +325,11 @@ std::string page_of(const fs::path& directory, const DesignRun& run, const Shown
 
 Json write_design_report(const fs::path& directory, const fs::path& page) {
   const DesignRun run = read_design_run(directory);
-  const SectionSpace space = run.section_space();
-  const CstAirfoil best = space.airfoil(run.rows[run.best].coefficients);
   Mesh mesh = read_mesh(directory / "first.vtkhdf");
-  const Shown first = shown("first", run.start, mesh, run);
+  const Shown first = shown("first", run.space->start(), mesh, run);
   mesh = read_mesh(directory / "last.vtkhdf");
-  remodel(mesh, space.domain_of(best, run.space.domain.points));
-  const Shown last = shown("best", best, mesh, run);
+  remodel(mesh, run.space->domain(run.best_design()));
+  const Shown last = shown("best", run.best_design(), mesh, run);
   const Json figures = cost(run, first, last);
   write_text_atomically(page, page_of(directory, run, first, last, figures));
   return figures;

@@ -1,8 +1,11 @@
 #include "design_run.h"
 
+#include <algorithm>
 #include <stdexcept>
 
+#include "element_space.h"
 #include "remodel/error.h"
+#include "section_space.h"
 
 namespace remodel::app {
 
@@ -20,20 +23,31 @@ bool holds_design_run(const std::filesystem::path& directory) {
          Json::parse(options->second).contains("problem");
 }
 
+namespace {
+
+std::unique_ptr<const FlowSpace> space_of(const Json& options, const std::string& file) {
+  if (options.contains("elements"))
+    return std::make_unique<ElementSpace>(ElementSpace::from_description(options.dump(), file));
+  const Json& space = options.at("space");
+  return std::make_unique<SectionSpace>(
+      airfoil_from_json(space.at("from").dump(), file),
+      SectionSpaceOptions{.symmetric = options.at("problem").value("symmetric", false),
+                          .half = options.at("half"),
+                          .domain = {.points = space.at("points"),
+                                     .farfield_radius = space.at("farfield_radius"),
+                                     .farfield_points = space.at("farfield_points")}});
+}
+
+}  // namespace
+
 DesignRun read_design_run(const std::filesystem::path& directory) {
   const std::filesystem::path file = directory / "history.sqlite";
   const History history = History::open(file);
   DesignRun run;
   try {
     run.options = Json::parse(history.run().at("options"));
-    const Json& space = run.options.at("space");
-    run.start = airfoil_from_json(space.at("from").dump(), file.string());
-    run.space.half = run.options.at("half");
-    run.space.domain.points = space.at("points");
-    run.space.domain.farfield_radius = space.at("farfield_radius");
-    run.space.domain.farfield_points = space.at("farfield_points");
     const Json& problem = run.options.at("problem");
-    run.space.symmetric = problem.value("symmetric", false);
+    run.space = space_of(run.options, file.string());
     for (const Json& entry : problem.at("flow")) {
       FlowConditions& at = run.conditions.emplace_back();
       at.mach = entry.at("mach"), at.alpha_deg = entry.value("alpha_deg", 0.0);
@@ -47,7 +61,7 @@ DesignRun read_design_run(const std::filesystem::path& directory) {
   run.rows = history.records();
   if (run.rows.empty())
     throw Error(ErrorCode::format, file.string(), "found no design, expected one or more");
-  const std::size_t numbers = run.section_space().start().size();
+  const std::size_t numbers = run.space->start().size();
   for (const EvaluationRecord& row : run.rows)
     if (row.coefficients.size() != numbers)
       throw Error(ErrorCode::format, file.string(),
@@ -57,6 +71,32 @@ DesignRun read_design_run(const std::filesystem::path& directory) {
   for (std::size_t i = 1; i < run.rows.size(); ++i)
     if (run.rows[i].best_objective < run.rows[run.best].best_objective) run.best = i;
   return run;
+}
+
+std::vector<std::vector<Point>> outlines(const FlowSpace& space, std::span<const double> design) {
+  constexpr int pieces = 400;
+  std::vector<std::vector<Point>> result;
+  for (std::size_t index = 0; index < space.sections(); ++index) {
+    const CstAirfoil section = space.section(design, index);
+    const Frame frame(space.placement(design, index));
+    result.emplace_back();
+    for (int i = 0; i < pieces; ++i)
+      result.back().push_back(frame(section.at(static_cast<double>(i) / pieces)));
+  }
+  return result;
+}
+
+std::array<double, 4> window_of(const DesignRun& run, const std::array<double, 4>& of_one, double beside,
+                                double above) {
+  if (run.space->sections() == 1) return of_one;
+  constexpr double far = 1e9;
+  std::array<double, 4> box = {far, far, -far, -far};
+  for (const std::vector<double>& design : {run.space->start(), run.best_design()})
+    for (const std::vector<Point>& outline : outlines(*run.space, design))
+      for (const Point p : outline)
+        box = {std::min(box[0], p.x), std::min(box[1], p.y), std::max(box[2], p.x), std::max(box[3], p.y)};
+  const double width = box[2] - box[0];
+  return {box[0] - beside * width, box[1] - above * width, box[2] + beside * width, box[3] + above * width};
 }
 
 }  // namespace remodel::app

@@ -2,25 +2,27 @@
 
 // A run of `remodel design` as its history has it.
 
+#include <array>
 #include <filesystem>
+#include <memory>
+#include <span>
 #include <vector>
 
+#include "flow_space.h"
 #include "remodel/flow.h"
 #include "remodel/history.h"
 #include "report.h"
-#include "section_space.h"
 
 namespace remodel::app {
 
 struct DesignRun {
   Json options;  // of the history; "problem" is the file's, but for designer and verification
   std::vector<EvaluationRecord> rows;
-  std::size_t best = 0;  // row
-  CstAirfoil start;
+  std::size_t best = 0;                    // row
   std::vector<FlowConditions> conditions;  // of the points
-  SectionSpaceOptions space;
+  std::unique_ptr<const FlowSpace> space;
 
-  SectionSpace section_space() const { return {start, space}; }
+  const std::vector<double>& best_design() const { return rows[best].coefficients; }
   bool with_gradients() const { return rows.front().outputs.contains("gradient_seconds"); }
   double sum(const char* output) const;  // over all rows that have it
 };
@@ -29,5 +31,12 @@ struct DesignRun {
 bool holds_design_run(const std::filesystem::path& directory);
 // Throws Error (file, format) for a directory that holds no such run.
 DesignRun read_design_run(const std::filesystem::path& directory);
+
+// Closed polygons of the sections of a design, where they lie.
+std::vector<std::vector<Point>> outlines(const FlowSpace& space, std::span<const double> design);
+// x0, y0, x1, y1 of what is worth seeing around the sections of the start and of the best design: `beside`
+// and `above` parts of their common width more on each side. What is given for one section.
+std::array<double, 4> window_of(const DesignRun& run, const std::array<double, 4>& of_one, double beside,
+                                double above);
 
 }  // namespace remodel::app

@@ -3,6 +3,7 @@
 #include "remodel/film.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -20,6 +21,7 @@
 #include "remodel/history.h"
 #include "remodel/io.h"
 #include "remodel/replay.h"
+#include "section_space.h"
 
 namespace remodel::app {
 namespace {
@@ -29,11 +31,7 @@ struct FilmCommand {
   std::string output;
   std::size_t frames = 80;
   std::uint64_t worker = 1;
-  FilmOptions film = [] {
-    FilmOptions usual;
-    usual.picture.window = {{-0.1, -0.25, 1.1, 0.25}};
-    return usual;
-  }();
+  FilmOptions film;
   bool json = false;
 };
 
@@ -87,9 +85,13 @@ Status run(const FilmCommand& command) {
   std::optional<DesignRun> design;
   if (holds_design_run(command.run)) design = read_design_run(command.run);
   const auto shown = [&](const FrozenMesh& mesh) {
-    return design && design->space.half ? mirrored(mesh) : mesh;
+    return design && design->space->half() ? mirrored(mesh) : mesh;
   };
-  Film film(command.film);
+  constexpr std::array one_section = {-0.1, -0.25, 1.1, 0.25};
+  FilmOptions options = command.film;
+  if (!options.picture.window)
+    options.picture.window = design ? window_of(*design, one_section, 0.08, 0.08) : one_section;
+  Film film(options);
   FrozenMesh last = read_frozen_mesh(command.run / "first.vtkhdf");
   last.fate.assign(last.triangles.size(), Fate::kept);
   const FrozenMesh first = shown(last);
@@ -105,7 +107,7 @@ Status run(const FilmCommand& command) {
     last = std::move(frame);
   };
   if (design)
-    replay(command.run, design->section_space(), command.worker, visit);
+    replay(command.run, *design->space, command.worker, visit);
   else
     replay(command.run, command.worker, visit);
   film.write(command.output);
@@ -141,7 +143,7 @@ void add_film_command(CLI::App& program, Action& action) {
   add_integer(app, {"--worker", "W", "1", "Worker whose mesh is shown, in a run with --workers: from 1"},
               {.low = 1},
               [command](std::int64_t value) { command->worker = static_cast<std::uint64_t>(value); });
-  add_window(app, "-0.1,-0.25,1.1,0.25", command->film.picture);
+  add_window(app, "-0.1,-0.25,1.1,0.25, or around all elements of a design", command->film.picture);
   add_integer(app, {"--width", "PIXELS", "960", "Width in pixels, 100 to 8000; the height follows"},
               {.low = 100, .high = 8000},
               [command](std::int64_t value) { command->film.picture.width = static_cast<int>(value); });

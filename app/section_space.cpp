@@ -81,6 +81,13 @@ Domain SectionSpace::domain_of(const CstAirfoil& airfoil, int points) const {
   return options_.half ? half_domain(airfoil, domain) : airfoil_domain(airfoil, domain);
 }
 
+DesignBounds SectionSpace::bounds(double coefficients) const {
+  DesignBounds result{start(), start()};
+  for (double& x : result.low) x -= coefficients;
+  for (double& x : result.high) x += coefficients;
+  return result;
+}
+
 std::vector<double> SectionSpace::start() const {
   std::vector<double> both = space_.start();
   if (options_.symmetric) both.resize(like_.upper.size());

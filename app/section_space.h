@@ -9,7 +9,7 @@
 // and Delaunay (no circle over an edge of the axis holds a point), the flow has no lift, and costs half as
 // much.
 
-#include "remodel/design_space.h"
+#include "flow_space.h"
 #include "remodel/frozen_mesh.h"
 
 namespace remodel::app {
@@ -20,19 +20,28 @@ struct SectionSpaceOptions {
   AirfoilDomainOptions domain = {};
 };
 
-class SectionSpace final : public DesignSpace {
+class SectionSpace final : public FlowSpace {
  public:
   SectionSpace(const CstAirfoil& start, const SectionSpaceOptions& options);
 
-  bool half() const { return options_.half; }
   std::vector<double> coefficients(std::span<const double> design) const;  // of both surfaces
   CstAirfoil airfoil(std::span<const double> design) const { return space_.airfoil(coefficients(design)); }
-  // Derivatives by the design of a function of the section: of those by the coefficients of both surfaces.
+  // Of derivatives by the coefficients of both surfaces, those by the design.
   std::vector<double> gradient(std::span<const double> by_coefficients) const;
-  // The same of those by the numbers of the domain (coefficients_of(Domain)).
-  std::vector<double> gradient_of_domain(std::span<const double> by_numbers) const;
   // The same domain with this number of points on the section.
   Domain domain_of(const CstAirfoil& airfoil, int points) const;
+
+  bool half() const override { return options_.half; }
+  Domain domain_with(std::span<const double> design, int points) const override {
+    return domain_of(airfoil(design), points);
+  }
+  DesignBounds bounds(double coefficients) const override;
+  CstAirfoil section(std::span<const double> design, std::size_t) const override { return airfoil(design); }
+  std::vector<double> gradient_of_domain(std::span<const double> by_numbers) const override;
+  std::vector<double> gradient_of_section(std::size_t,
+                                          std::span<const double> by_coefficients) const override {
+    return gradient(by_coefficients);
+  }
 
   std::vector<double> start() const override;
   Domain domain(std::span<const double> design) const override {

@@ -178,10 +178,16 @@ struct FlowFunctional {
   double mach = 0.0;
 };
 
+// Which derivatives are wanted. Each takes a row of solves of its own.
+struct WantedGradients {
+  bool lift = true, drag = true, moment = true;
+  bool angle = true;  // of the angle of attack, where lift is given
+};
+
 // Of the last flow that was found. Where lift is given the angle of attack follows too: cl has no derivative
 // but that by itself, and alpha_deg says how the angle follows.
 struct FlowGradients {
-  FlowGradient cl, cd, cm;
+  FlowGradient cl, cd, cm;              // empty if they were not wanted
   FlowGradient alpha_deg;               // of the angle, in degrees: 0 but by itself where it is given
   std::vector<FlowGradient> functions;  // that were asked for
   int factorisations = 0;               // 1 where the factors that there were did not serve
@@ -213,7 +219,8 @@ class LivingFlow {
   // Gradients of the last flow that was found. They take the factors that there are, transposed, where these
   // serve; otherwise new ones, which the next flows have too. Throws Error (argument) before the first flow,
   // where functionals are of another size, and where there are inlets or outlets.
-  FlowGradients gradients(const std::vector<FlowFunctional>& functions = {});
+  FlowGradients gradients(const std::vector<FlowFunctional>& functions = {},
+                          const WantedGradients& wanted = {});
   // The next flow is found cold.
   void forget();
 

@@ -6,15 +6,61 @@
 // and Combustion 65 (2000), section 2.
 
 #include <optional>
+#include <span>
 
 #include "flow/newton.h"
 
 namespace remodel::flow {
 
-// Solves with the transposed Jacobian `matrix`: by GMRES with the transposed factors of an earlier one, whose
-// rows are those of the same vertices (Y. Saad and M. H. Schultz, SIAM J. Sci. Stat. Comput. 7 (1986)).
-// False where that takes too long: the factors are too old then.
-bool solve_transposed(const BlockRows& matrix, DirectSolver& factors, Vector& right, int& iterations);
+// Where a mesh differs from the one that factors belong to.
+struct Overlap {
+  std::vector<std::uint32_t> row_of;  // per vertex its row in the factors, no_index if it has none
+  std::size_t rows = 0;               // of the factors
+  std::vector<std::uint32_t> zone;    // vertices with other neighbours and two rings around them, ascending
+};
+
+// The transposed bordered Jacobian [A B; C E] at a state.
+class TransposedSystem {
+ public:
+  TransposedSystem(const Euler& euler, const State& state, const BlockRows& matrix)
+      : matrix_(matrix), columns_(euler.border_columns(state)), rows_(euler.border_rows(state)) {}
+  Increment times(const Increment& x) const;
+  const BlockRows& matrix() const { return matrix_; }
+  const Euler::BorderRows& border_rows() const { return rows_; }
+
+ private:
+  const BlockRows& matrix_;  // A
+  std::array<Vector, 2> columns_;
+  Euler::BorderRows rows_;
+};
+
+// About its inverse: the transposed factors of an earlier Jacobian and, in the zone, an exact solve with the
+// present one, closed by the border. It is the transpose of what Preconditioner (chord.h) does.
+class TransposedInverse {
+ public:
+  TransposedInverse(const TransposedSystem& system, Factors& factors, const Overlap& overlap,
+                    double memory_mb);
+  bool ready() const { return ready_; }
+  void apply(Increment& x);
+
+ private:
+  void apply_to_vertices(Vector& x);
+
+  const Euler::BorderRows& rows_;
+  Factors& factors_;
+  const Overlap& overlap_;
+  BlockRows zone_;
+  DirectSolver zone_lu_;
+  std::array<Vector, 2> columns_;               // A^-1 B, of the earlier matrix
+  std::array<std::array<double, 2>, 2> small_;  // E^T - (A^-1 B)^T C^T
+  bool ready_ = true;
+};
+
+// Solves to a residual of `tolerance` times the right-hand side by GMRES (Y. Saad and M. H. Schultz, SIAM J.
+// Sci. Stat. Comput. 7 (1986)), from `guess` where that is better than nothing; the solution comes to lie in
+// `guess`. False where it takes too long: the factors are too old then.
+bool solve_transposed(const TransposedSystem& system, TransposedInverse& inverse, const Increment& right,
+                      double tolerance, double most_solves, Increment& guess, int& iterations);
 
 // Derivatives of a function of the flow, which follows the parameters.
 struct Total {
@@ -22,24 +68,13 @@ struct Total {
   double condition = 0.0;  // by the angle of attack, a radian; where lift is given, by the lift
 };
 
-// The transposed border, which is the same for all functions of one flow.
-class Adjoint {
- public:
-  // None where the factors do not serve.
-  static std::optional<Adjoint> make(const Euler& euler, const State& state, const BlockRows& matrix,
-                                     DirectSolver& factors, int& iterations);
-  std::optional<Total> total(const ForceSlope& function, int& iterations);
-
- private:
-  Adjoint(const Euler& euler, const State& state, const BlockRows& matrix, DirectSolver& factors)
-      : euler_(euler), state_(state), matrix_(matrix), factors_(factors) {}
-  const Euler& euler_;
-  const State& state_;
-  const BlockRows& matrix_;
-  DirectSolver& factors_;
-  std::array<Vector, 2> columns_;  // the border's
-  Euler::BorderRows rows_;
-  Vector lift_;  // the transposed matrix's solution for the derivative of lift
-};
+// The derivatives of these functions. None where the factors do not serve, or where that takes more than
+// `most_solves` with them, for all functions together. multipliers: a guess for each function, or one that is
+// empty; the solutions come to lie there.
+std::optional<std::vector<Total>> totals(const Euler& euler, const State& state, const BlockRows& matrix,
+                                         Factors& factors, const Overlap& overlap, const FlowOptions& options,
+                                         std::span<const ForceSlope> functions,
+                                         std::vector<Increment>& multipliers, double most_solves,
+                                         int& iterations);
 
 }  // namespace remodel::flow

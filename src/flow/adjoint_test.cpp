@@ -162,6 +162,65 @@ TEST(Adjoint, PlacementsOfSeveralElements) {
   }
 }
 
+// Three sections at M 0.5, lightly loaded: the gradients in all places of slat and flap, as vectors.
+TEST(Adjoint, PlacesOfThreeElements) {
+  const CstAirfoil thin = named_airfoil("naca:2415", 5), main = named_airfoil("naca:4412", 5);
+  const Domain domain =
+      airfoils_domain({{.name = "slat", .airfoil = thin, .placement = {0.2, 30.0, {-0.18, -0.1}}},
+                       {.name = "main", .airfoil = main},
+                       {.name = "flap", .airfoil = thin, .placement = {0.3, -5.0, {1.0, -0.05}}}},
+                      {.points = 60});
+  Case task(domain, {.mach = 0.5, .alpha_deg = 0.0}, {.gradation = 2});
+  const FlowGradients gradients = task.gradients();
+  const MeshDerivative derivative(task.mesh());
+  const std::vector<double> cl = derivative.vjp(gradients.cl.points),
+                            cd = derivative.vjp(gradients.cd.points),
+                            cm = derivative.vjp(gradients.cm.points);
+  double wrong[3] = {}, size[3] = {};
+  constexpr std::size_t section = 14;  // coefficients and ordinates of the trailing edge
+  for (const std::size_t element : {0u, 2u})
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t number = element * (section + 4) + section + i;
+      std::vector<double> direction(derivative.coefficients(), 0.0);
+      direction[number] = i == 1 ? 50.0 : 1.0;  // degrees
+      const Coefficients3 d = task.along(direction, 1e-5);
+      const double found[3] = {cl[number], cd[number], cm[number]}, expected[3] = {d.cl, d.cd, d.cm};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double error = direction[number] * found[k] - expected[k];
+        wrong[k] += error * error, size[k] += expected[k] * expected[k];
+      }
+    }
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_LT(std::sqrt(wrong[k] / size[k]), 1e-7) << k;
+}
+
+// What is not wanted changes nothing of what is, and where a step replaced vertices the older factors serve.
+TEST(Adjoint, OnlyWhatIsWantedAfterPartialSteps) {
+  std::mt19937_64 random(test::seed(43));
+  CstAirfoil airfoil = named_airfoil("naca:2412", 5);
+  Case task(airfoil_domain(airfoil, {.points = 60}), {.mach = 0.5, .alpha_deg = 1.0, .cl = 0.3},
+            {.gradation = 1.2});
+  task.gradients();
+  int partial = 0;
+  for (int i = 0; i < 40 && partial == 0; ++i) {
+    for (auto* surface : {&airfoil.upper, &airfoil.lower})
+      for (double& c : *surface) c += test::uniform(random, -2e-3, 2e-3);
+    partial += !remodel(task.mesh(), airfoil_domain(airfoil, {.points = 60})).full_adjustment;
+  }
+  ASSERT_EQ(partial, 1);
+  const FlowGradients all = task.gradients();
+  EXPECT_EQ(all.factorisations, 0);
+  const FlowGradients drag = task.living().gradients({}, {.lift = false, .moment = false, .angle = false});
+  EXPECT_TRUE(drag.cl.points.empty() && drag.cm.points.empty() && drag.alpha_deg.points.empty());
+  double wrong = 0.0, size = 0.0;
+  for (std::size_t p = 0; p < all.cd.points.size(); ++p) {
+    const Point difference = drag.cd.points.at(p) - all.cd.points[p];
+    wrong += dot(difference, difference), size += dot(all.cd.points[p], all.cd.points[p]);
+  }
+  EXPECT_LT(std::sqrt(wrong / size), 1e-8);
+  EXPECT_NEAR(drag.cd.cl, all.cd.cl, 1e-8 * std::fabs(all.cd.cl));
+  EXPECT_LT(task.error(all, 1e-5), 1e-6);
+}
+
 TEST(Adjoint, OldFactorsServeUntilTheyDoNot) {
   std::mt19937_64 random(test::seed(41));
   CstAirfoil airfoil = named_airfoil("naca:2412", 5);

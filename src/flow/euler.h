@@ -152,8 +152,10 @@ class Euler {
   std::vector<double> mass_flows(const State& state) const;  // into the domain, through each opening
 
   // What follows is in euler_adjoint.cpp.
-  // The derivative, at this state, of the sum over vertices of weight times residual.
-  ShapeSlope residual_slope(const State& state, const std::vector<std::array<double, 4>>& weight) const;
+  // The derivative, at this state, of the sum over vertices of weight times residual, for each row of
+  // weights: fluxes are differentiated once.
+  std::vector<ShapeSlope> residual_slopes(const State& state,
+                                          std::span<const std::vector<std::array<double, 4>>> weights) const;
   // The derivative of the sum of coefficients, each times its weight.
   ForceSlope force_slope(const State& state, const Coefficients& weight) const;
 
@@ -170,6 +172,8 @@ class Euler {
   void add_boundary(const State& state, std::vector<std::array<double, 4>>& out) const;
   void add_boundary_blocks(const State& state, BlockRows& matrix,
                            std::span<const std::uint32_t> row_of) const;
+  std::vector<Point> add_boundary_slopes(const State& state, const std::vector<std::array<double, 4>>& weight,
+                                         ShapeSlope& result) const;
   template <class Visit>
   void for_each_wall_half(Visit visit) const;
 

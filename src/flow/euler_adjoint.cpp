@@ -14,10 +14,10 @@ Point turned_back(Point by_normal) {
   return {-by_normal.y, by_normal.x};
 }
 
+// Of the weighted sum of residuals.
 struct Slopes {
-  std::vector<Point> normal, weight;               // of dual faces and gradient weights
-  std::vector<std::array<Point, 4>> gradient;      // of each vertex's
-  std::vector<std::array<Point, 4>> at_gradients;  // the gradients themselves
+  std::vector<Point> normal, weight;           // by dual faces and gradient weights
+  std::vector<std::array<Point, 4>> gradient;  // by each vertex's
 };
 
 std::vector<std::array<Point, 4>> gradients_of(const FlowMesh& mesh, const State& state) {
@@ -50,38 +50,56 @@ FaceSide reconstruct(const Primitive<double>& here, const std::array<Point, 4>& 
   return side;
 }
 
-// Adds one inner face's part; returns the derivative by the edge's vector.
-Point add_face(const FlowMesh& mesh, const State& state, const DualEdge& edge, std::size_t index, Point d,
-               double limiter, const std::array<double, 4>& weight, Slopes& slopes) {
+// An inner face with the derivatives of its flux.
+struct FaceSlopes {
+  std::array<std::uint32_t, 2> source;  // of each side's gradient
+  FaceSide side[2];
+  std::array<std::array<double, 10>, 4> flux;  // by both sides' values and the normal
+  double by_length = 0.0;                      // of epsilon, over the edge's length
+};
+
+FaceSlopes face_slopes(const FlowMesh& mesh, const State& state,
+                       const std::vector<std::array<Point, 4>>& gradients, const DualEdge& edge, Point d,
+                       double limiter) {
   using Ten = Dual<10>;
-  const double length = std::sqrt(dot(d, d));
-  const double epsilon = limiter * limiter * limiter * length * length * length;
+  const double length = std::sqrt(dot(d, d)), cube = limiter * limiter * limiter;
+  const double epsilon = cube * length * length * length;
   const Primitive<double>&qa = state.q[edge.a], &qb = state.q[edge.b];
   std::array<double, 4> central;
   for (std::size_t k = 0; k < 4; ++k) central[k] = qb[k] - qa[k];
   const EdgeEnd end[2] = {end_of(mesh, edge.a, edge.b), end_of(mesh, edge.b, edge.a)};
-  const std::uint32_t source[2] = {gradient_source(end[0], edge.a, edge.b),
-                                   gradient_source(end[1], edge.b, edge.a)};
-  const FaceSide side[2] = {
-      reconstruct(qa, slopes.at_gradients[source[0]], end[0], d, central, epsilon, 1.0),
-      reconstruct(qb, slopes.at_gradients[source[1]], end[1], d, central, epsilon, -1.0)};
+  FaceSlopes face{
+      .source = {gradient_source(end[0], edge.a, edge.b), gradient_source(end[1], edge.b, edge.a)},
+      .side = {},
+      .flux = {},
+      .by_length = 3.0 * cube * length};
+  face.side[0] = reconstruct(qa, gradients[face.source[0]], end[0], d, central, epsilon, 1.0);
+  face.side[1] = reconstruct(qb, gradients[face.source[1]], end[1], d, central, epsilon, -1.0);
   Primitive<Ten> l, r;
   for (std::size_t k = 0; k < 4; ++k)
-    l[k] = Ten::variable(side[0].value[k], k), r[k] = Ten::variable(side[1].value[k], k + 4);
+    l[k] = Ten::variable(face.side[0].value[k], k), r[k] = Ten::variable(face.side[1].value[k], k + 4);
   const std::array<Ten, 4> flux =
       roe_flux_through<Ten, Ten>(l, r, Ten::variable(edge.normal.x, 8), Ten::variable(edge.normal.y, 9));
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t k = 0; k < 10; ++k) face.flux[i][k] = flux[i].slope[k];
+  return face;
+}
+
+// Adds the face's part; returns the derivative by the edge's vector.
+Point add_face(const FaceSlopes& face, const std::vector<std::array<Point, 4>>& gradients, std::size_t index,
+               Point d, const std::array<double, 4>& weight, Slopes& slopes) {
   std::array<double, 10> by = {};
   for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t k = 0; k < 10; ++k) by[k] += weight[i] * flux[i].slope[k];
+    for (std::size_t k = 0; k < 10; ++k) by[k] += weight[i] * face.flux[i][k];
   slopes.normal[index] = slopes.normal[index] + Point{by[8], by[9]};
   Point by_d = {};
   for (std::size_t s = 0; s < 2; ++s) {
-    const std::uint32_t v = source[s];
+    const std::uint32_t v = face.source[s];
     for (std::size_t k = 0; k < 4; ++k) {
-      const double by_product = 2.0 * by[4 * s + k] * side[s].by_upwind[k];
+      const double by_product = 2.0 * by[4 * s + k] * face.side[s].by_upwind[k];
       slopes.gradient[v][k] = slopes.gradient[v][k] + by_product * d;
-      by_d = by_d + by_product * slopes.at_gradients[v][k];
-      by_d = by_d + (by[4 * s + k] * side[s].by_epsilon[k] * 3.0 * limiter * limiter * limiter * length) * d;
+      by_d = by_d + by_product * gradients[v][k];
+      by_d = by_d + (by[4 * s + k] * face.side[s].by_epsilon[k] * face.by_length) * d;
     }
   }
   return by_d;
@@ -154,34 +172,47 @@ void FlowMesh::add_slopes(std::span<const Point> by_normal, std::span<const Poin
   }
 }
 
-ShapeSlope Euler::residual_slope(const State& state, const std::vector<std::array<double, 4>>& weight) const {
-  const std::size_t n = mesh_.size();
-  ShapeSlope result{.points = std::vector<Point>(n)};
-  Slopes slopes{.normal = std::vector<Point>(mesh_.edges().size()),
-                .weight = std::vector<Point>(2 * mesh_.edges().size()),
-                .gradient = std::vector<std::array<Point, 4>>(n, std::array<Point, 4>{}),
-                .at_gradients = gradients_of(mesh_, state)};
-  const auto add_vector = [&](std::uint32_t a, std::uint32_t b, Point by_d) {
-    result.points[a] = result.points[a] - by_d;
-    result.points[b] = result.points[b] + by_d;
-  };
-  for (std::size_t e = 0; e < mesh_.edges().size(); ++e) {
+std::vector<ShapeSlope> Euler::residual_slopes(
+    const State& state, std::span<const std::vector<std::array<double, 4>>> weights) const {
+  const std::size_t n = mesh_.size(), edges = mesh_.edges().size();
+  const std::vector<std::array<Point, 4>> gradients = gradients_of(mesh_, state);
+  std::vector<ShapeSlope> results(weights.size(), {.points = std::vector<Point>(n)});
+  std::vector<Slopes> slopes(weights.size(),
+                             {.normal = std::vector<Point>(edges),
+                              .weight = std::vector<Point>(2 * edges),
+                              .gradient = std::vector<std::array<Point, 4>>(n, std::array<Point, 4>{})});
+  for (std::size_t e = 0; e < edges; ++e) {
     const DualEdge& edge = mesh_.edges()[e];
-    std::array<double, 4> w;
-    for (std::size_t k = 0; k < 4; ++k) w[k] = weight[edge.a][k] - weight[edge.b][k];
     const Point d = mesh_.points()[edge.b] - mesh_.points()[edge.a];
-    add_vector(edge.a, edge.b,
-               add_face(mesh_, state, edge, e, d, stream_.limiter / stream_.length, w, slopes));
-  }
-  for (std::size_t v = 0; v < n; ++v) {
-    std::size_t i = mesh_.ring_begin(v);
-    for (const RingEntry& entry : mesh_.ring(v)) {
-      for (std::size_t k = 0; k < 4; ++k)
-        slopes.weight[i] =
-            slopes.weight[i] + (state.q[entry.vertex][k] - state.q[v][k]) * slopes.gradient[v][k];
-      ++i;
+    const FaceSlopes face = face_slopes(mesh_, state, gradients, edge, d, stream_.limiter / stream_.length);
+    for (std::size_t j = 0; j < weights.size(); ++j) {
+      std::array<double, 4> w;
+      for (std::size_t k = 0; k < 4; ++k) w[k] = weights[j][edge.a][k] - weights[j][edge.b][k];
+      const Point by_d = add_face(face, gradients, e, d, w, slopes[j]);
+      std::vector<Point>& points = results[j].points;
+      points[edge.a] = points[edge.a] - by_d, points[edge.b] = points[edge.b] + by_d;
     }
   }
+  for (std::size_t j = 0; j < weights.size(); ++j) {
+    for (std::size_t v = 0; v < n; ++v) {
+      std::size_t i = mesh_.ring_begin(v);
+      for (const RingEntry& entry : mesh_.ring(v)) {
+        for (std::size_t k = 0; k < 4; ++k)
+          slopes[j].weight[i] =
+              slopes[j].weight[i] + (state.q[entry.vertex][k] - state.q[v][k]) * slopes[j].gradient[v][k];
+        ++i;
+      }
+    }
+    const std::vector<Point> by_half = add_boundary_slopes(state, weights[j], results[j]);
+    mesh_.add_slopes(slopes[j].normal, slopes[j].weight, by_half, results[j].points);
+  }
+  return results;
+}
+
+// Of fluxes through the boundary; returns the derivatives by halves of its edges.
+std::vector<Point> Euler::add_boundary_slopes(const State& state,
+                                              const std::vector<std::array<double, 4>>& weight,
+                                              ShapeSlope& result) const {
   using Five = Dual<5>;
   const double strength = stream_.vortex ? state.border[0] * stream_.length : 0.0;
   std::vector<Point> by_half(2 * mesh_.boundary().size());
@@ -215,8 +246,7 @@ ShapeSlope Euler::residual_slope(const State& state, const std::vector<std::arra
       result.mach += by[4];
     }
   }
-  mesh_.add_slopes(slopes.normal, slopes.weight, by_half, result.points);
-  return result;
+  return by_half;
 }
 
 ForceSlope Euler::force_slope(const State& state, const Coefficients& weight) const {

@@ -56,6 +56,8 @@ std::vector<VertexKey> keys_of(const FrozenMesh& frozen) {
 
 // Vertices that a step changed beyond this part of the mesh are not worth a correction.
 constexpr double largest_zone = 0.2;
+// A flow or a function's gradient takes about this many solves with factors of its own.
+constexpr int own_solves = 4;
 // The first pseudo-time step from a flow that was carried.
 constexpr double carried_cfl = 50.0;
 
@@ -84,21 +86,26 @@ struct LivingFlow::Impl {
   // The pattern of the whole matrix, for the triangles it was made of.
   flow::BlockRows matrix;
   std::vector<std::array<std::uint32_t, 3>> matrix_triangles;
+  // What the last gradients were found by, and whose positions these are.
+  std::vector<flow::Increment> multipliers;
+  Keys multiplier_keys;
 
   // living: the mesh that was frozen, if its domain is to be used.
   FlowResult solve(const FrozenMesh& frozen, const Mesh* living, const FlowConditions& conditions);
-  FlowGradients gradients(const std::vector<FlowFunctional>& functions);
+  FlowGradients gradients(const std::vector<FlowFunctional>& functions, const WantedGradients& wanted);
 
  private:
   struct Task;
   flow::State carry(const flow::FlowMesh& now, const Keys& now_keys, const flow::Stream& stream) const;
   flow::BlockRows& whole_matrix(const flow::Euler& euler);
   void belong(const flow::FlowMesh& dual, const Keys& now);
+  flow::Overlap overlap(const flow::FlowMesh& dual, const Keys& now) const;
   bool try_older_factors(Task& task);
   bool try_own_factors(Task& task);
   void search(Task& task);
-  bool try_gradients(const flow::Euler& euler, const std::vector<FlowFunctional>& functions,
-                     FlowGradients& result);
+  std::optional<std::vector<flow::Total>> try_gradients(const flow::Euler& euler,
+                                                        std::span<const flow::ForceSlope> functions,
+                                                        int& iterations);
 };
 
 // One flow that is looked for.
@@ -177,14 +184,13 @@ void LivingFlow::Impl::belong(const flow::FlowMesh& dual, const Keys& now) {
   }
 }
 
-// The chord method with the factors that there are. False where they are of no use (any more).
-bool LivingFlow::Impl::try_older_factors(Task& task) {
-  if (!factored || rent > factors.lu.factor_work()) return false;
-  const flow::FlowMesh& dual = task.euler.mesh();
+// Where the mesh is not the one that the factors belong to.
+flow::Overlap LivingFlow::Impl::overlap(const flow::FlowMesh& dual, const Keys& now) const {
   const flow::KeyTable table(factored_keys);
-  std::vector<std::uint32_t> row_of(dual.size());
+  flow::Overlap result{
+      .row_of = std::vector<std::uint32_t>(dual.size()), .rows = factored_keys.size(), .zone = {}};
+  std::vector<std::uint32_t>& zone = result.zone;
   std::vector<bool> in_zone(dual.size(), false);
-  std::vector<std::uint32_t> zone;
   std::vector<VertexKey> ring;
   const auto note = [&](std::uint32_t v) {
     if (in_zone[v]) return;
@@ -192,28 +198,35 @@ bool LivingFlow::Impl::try_older_factors(Task& task) {
     zone.push_back(v);
   };
   for (std::uint32_t v = 0; v < dual.size(); ++v) {
-    row_of[v] = table.find(task.keys[v]);
+    const std::uint32_t row = result.row_of[v] = table.find(now[v]);
     ring.clear();
-    for (const flow::RingEntry& entry : dual.ring(v)) ring.push_back(task.keys[entry.vertex]);
+    for (const flow::RingEntry& entry : dual.ring(v)) ring.push_back(now[entry.vertex]);
     std::sort(ring.begin(), ring.end());
-    if (row_of[v] == no_index || ring != factored_rings[row_of[v]]) note(v);
+    if (row == no_index || ring != factored_rings[row]) note(v);
   }
   for (int rings = 0; rings < 2; ++rings)
     for (std::size_t i = 0, n = zone.size(); i < n; ++i)
       for (const flow::RingEntry& entry : dual.ring(zone[i])) note(entry.vertex);
   std::sort(zone.begin(), zone.end());
+  return result;
+}
+
+// The chord method with the factors that there are. False where they are of no use (any more).
+bool LivingFlow::Impl::try_older_factors(Task& task) {
+  if (!factored || rent > factors.lu.factor_work()) return false;
+  const flow::FlowMesh& dual = task.euler.mesh();
+  flow::Overlap shared = overlap(dual, task.keys);
+  const std::vector<std::uint32_t>& zone = shared.zone;
   task.corrected = zone.size();
   if (static_cast<double>(zone.size()) > flow::largest_zone * static_cast<double>(dual.size())) return false;
 
-  flow::Preconditioner inverse(task.euler, task.state, factors, std::move(row_of), factored_keys.size(), zone,
+  flow::Preconditioner inverse(task.euler, task.state, factors, std::move(shared.row_of), shared.rows, zone,
                                options);
   if (!inverse.ready()) return false;
   const int before = task.search.iterations;
   const flow::ChordEnd end =
       flow::chord_steps(task.measure, inverse, factors, options, task.state, task.search);
-  // Factors of its own would have taken about this many steps.
-  constexpr int own_steps = 4;
-  rent += std::max(0, task.search.iterations - before - own_steps) * factors.lu.solve_work() +
+  rent += std::max(0, task.search.iterations - before - flow::own_solves) * factors.lu.solve_work() +
           inverse.zone_work();
   if (end == flow::ChordEnd::interrupted) {
     task.search.status = FlowStatus::interrupted, task.search.reason = "interrupted";
@@ -314,42 +327,55 @@ ForceSlope slope_of(const FlowFunctional& function) {
 
 // The angle of attack itself, in degrees.
 ForceSlope angle(std::size_t size) {
-  return {.shape = {.points = std::vector<Point>(size)},
-          .pressure = std::vector<double>(size, 0.0),
-          .alpha = 180.0 / M_PI};
+  ForceSlope result;
+  result.shape.points.assign(size, {});
+  result.pressure.assign(size, 0.0);
+  result.alpha = 180.0 / M_PI;
+  return result;
 }
 
 }  // namespace
 
 }  // namespace flow
 
-FlowGradients LivingFlow::gradients(const std::vector<FlowFunctional>& functions) {
-  return impl_->gradients(functions);
+FlowGradients LivingFlow::gradients(const std::vector<FlowFunctional>& functions,
+                                    const WantedGradients& wanted) {
+  return impl_->gradients(functions, wanted);
 }
 
-// False where the factors do not serve.
-bool LivingFlow::Impl::try_gradients(const flow::Euler& euler, const std::vector<FlowFunctional>& functions,
-                                     FlowGradients& result) {
-  int& iterations = result.krylov_iterations;
-  auto adjoint = flow::Adjoint::make(euler, state, matrix, factors.lu, iterations);
-  if (!adjoint) return false;
-  const auto find = [&](const flow::ForceSlope& function, FlowGradient& gradient) {
-    std::optional<flow::Total> total = adjoint->total(function, iterations);
-    if (!total) return false;
-    gradient = flow::gradient_of(std::move(*total), last_stream.lift.has_value());
-    return true;
-  };
-  result.functions.assign(functions.size(), {});
-  bool found = find(euler.force_slope(state, {.lift = 1.0}), result.cl) &&
-               find(euler.force_slope(state, {.drag = 1.0}), result.cd) &&
-               find(euler.force_slope(state, {.moment = 1.0}), result.cm) &&
-               find(flow::angle(euler.mesh().size()), result.alpha_deg);
-  for (std::size_t i = 0; i < functions.size() && found; ++i)
-    found = find(flow::slope_of(functions[i]), result.functions[i]);
-  return found;
+// None where the factors that there are do not serve.
+std::optional<std::vector<flow::Total>> LivingFlow::Impl::try_gradients(
+    const flow::Euler& euler, std::span<const flow::ForceSlope> functions, int& iterations) {
+  if (!factored) return std::nullopt;
+  const flow::Overlap shared = overlap(*mesh, keys);
+  if (static_cast<double>(shared.zone.size()) > flow::largest_zone * static_cast<double>(mesh->size()))
+    return std::nullopt;
+  // The multipliers of the last gradients are the guess for these.
+  if (multipliers.size() != functions.size()) multipliers.assign(functions.size(), {});
+  const flow::KeyTable table(multiplier_keys);
+  for (flow::Increment& multiplier : multipliers) {
+    if (multiplier.q.size() != multiplier_keys.size()) continue;
+    flow::Vector guess(keys.size(), {0, 0, 0, 0});
+    for (std::size_t v = 0; v < keys.size(); ++v)
+      if (const std::uint32_t old = table.find(keys[v]); old != no_index) guess[v] = multiplier.q[old];
+    multiplier.q = std::move(guess);
+  }
+  multiplier_keys = keys;
+  // Older factors serve until they have cost as much as new ones.
+  const bool are_own = shared.zone.empty() && rent == 0.0;
+  const double solve_work = factors.lu.solve_work();
+  const double most_solves = are_own ? std::numeric_limits<double>::infinity()
+                                     : std::max(0.0, factors.lu.factor_work() - rent) / solve_work;
+  const int before = iterations;
+  auto totals = flow::totals(euler, state, matrix, factors, shared, options, functions, multipliers,
+                             most_solves, iterations);
+  const int own = flow::own_solves * static_cast<int>(functions.size());
+  rent += std::max(0, iterations - before - own) * solve_work;
+  return totals;
 }
 
-FlowGradients LivingFlow::Impl::gradients(const std::vector<FlowFunctional>& functions) {
+FlowGradients LivingFlow::Impl::gradients(const std::vector<FlowFunctional>& functions,
+                                          const WantedGradients& wanted) {
   const Stopwatch watch;
   if (!solved) throw Error(ErrorCode::argument, "gradients", "no flow was found yet, expected one");
   if (!options.inlets.empty() || !options.outlets.empty())
@@ -361,19 +387,35 @@ FlowGradients LivingFlow::Impl::gradients(const std::vector<FlowFunctional>& fun
                       " pressures, expected the mesh's " + std::to_string(mesh->size()) + " points");
   const flow::Euler euler(*mesh, last_stream);
   FlowGradients result;
+  result.functions.assign(functions.size(), {});
+  std::vector<flow::ForceSlope> slopes;
+  std::vector<FlowGradient*> places;
+  const auto add = [&](flow::ForceSlope slope, FlowGradient& place) {
+    slopes.push_back(std::move(slope)), places.push_back(&place);
+  };
+  if (wanted.lift) add(euler.force_slope(state, {.lift = 1.0}), result.cl);
+  if (wanted.drag) add(euler.force_slope(state, {.drag = 1.0}), result.cd);
+  if (wanted.moment) add(euler.force_slope(state, {.moment = 1.0}), result.cm);
+  if (wanted.angle) add(flow::angle(mesh->size()), result.alpha_deg);
+  for (std::size_t i = 0; i < functions.size(); ++i) add(flow::slope_of(functions[i]), result.functions[i]);
+
   euler.jacobian(state, whole_matrix(euler));
-  if (!factored || factored_keys != keys || !try_gradients(euler, functions, result)) {
+  auto totals = try_gradients(euler, slopes, result.krylov_iterations);
+  if (!totals) {
     flow::Search made;
     if (flow::factor_at(euler, state, std::numeric_limits<double>::infinity(), options, matrix, factors,
                         made) == flow::Factored::done) {
       belong(*mesh, keys);
       result.factorisations = 1;
+      totals = try_gradients(euler, slopes, result.krylov_iterations);
     }
-    if (result.factorisations == 0 || !try_gradients(euler, functions, result))
+    if (!totals)
       throw Error(ErrorCode::argument, "gradients",
                   "the adjoint was not found: the Jacobian is singular, or the factors need more than the "
                   "memory that they may take");
   }
+  for (std::size_t i = 0; i < places.size(); ++i)
+    *places[i] = flow::gradient_of(std::move((*totals)[i]), last_stream.lift.has_value());
   result.seconds = watch.seconds();
   return result;
 }

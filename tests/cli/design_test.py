@@ -101,6 +101,65 @@ class Designs(ProgramTest):
         self.refused("design", self.problem(), "-o", "thesis", names="thesis")
 
 
+    def elements(self, points=24, evaluations=4, **changes):
+        """The three elements of the example on a coarse mesh."""
+        problem = json.loads((SOURCE / "examples/design/flap.json").read_text())
+        problem["mesh"] = {"points": points, "gradation": 1.5}
+        problem["designer"]["evaluations"] = evaluations
+        problem["verify"] = [points]
+        return self.write("flap.json", json.dumps({**problem, **changes}))
+
+    def test_flap_and_slat_are_set_for_lift(self):
+        """More lift within bounds, gaps and suction peaks; the best design is a domain file; page and film of the run."""
+        figures = self.figures("design", self.elements(), "-o", "run")
+        self.assertLess(figures["objective"], 1.02 * figures["start_objective"])  # minus the lift
+        self.assertAlmostEqual(figures["cl"], -figures["objective"])
+        for name, (low, high) in {"slat.rotation_deg": (15, 50), "flap.rotation_deg": (-45, -5), "flap.x": (0.94, 1.04)}.items():
+            self.assertGreaterEqual(figures[name], low - 1e-9)
+            self.assertLessEqual(figures[name], high + 1e-9)
+        self.assertEqual([loop["curves"][0]["name"] for loop in figures["best"]["loops"]], ["slat", "main", "flap", "farfield"])
+        self.assertEqual(figures["best"]["loops"][2]["placement"]["rotation_deg"], figures["flap.rotation_deg"])
+        self.assertTrue(figures["verified"][0]["converged"])
+        fresh = self.figures("mesh", "run/best.json", "-o", "best.vtkhdf")
+        self.assertEqual(sorted(fresh["boundary"]), ["farfield", "flap", "main", "slat"])
+        report = self.figures("design", "report", "run")
+        self.assertEqual(report["objective"], figures["objective"])
+        page = self.path("run/report.html").read_text()
+        self.assertEqual(page.count("<polygon"), 6)
+        self.assertIn("slat.rotation_deg", page)
+        self.assertEqual(self.figures("film", "run", "-o", "film.webp", "--frames", 3)["frames"], 3)
+        resumed = self.figures("design", self.elements(), "-o", "run", "--resume")
+        self.assertEqual(resumed["best"], figures["best"])
+
+    def test_refusals_of_elements(self):
+        elements = json.loads(self.path(self.elements()).read_text())["elements"]
+
+        def changed(index, **changes):
+            return {"elements": [{**e, **changes} if i == index else e for i, e in enumerate(elements)], "constraints": []}
+
+        suction = {"kind": "suction", "at_most": 5}
+        for changes, name in (
+            ({"airfoil": "naca:0012"}, "expected one of 'airfoil' and 'elements'"),
+            ({"symmetric": True}, "found 'symmetric' with 'elements'"),
+            ({"objective": "inverse", "target": "naca:0012"}, "found the objective 'inverse' with 'elements'"),
+            ({"flow": [{"mach": 0.2, "cl": 1}]}, "found the objective 'lift' with 'cl'"),
+            (changed(2, placement={"chord": 0.3, "position": [0.5, 0]}), "found 'elements' that make no domain: "),
+            (changed(2, placement={"chord": 0.3, "position": [0.5]}), "element 3, placement: found [0.5] as 'position', expected [x, y]"),
+            (changed(0, name="main"), "found two elements of the name 'main'"),
+            (changed(0, variables={"z": {"bounds": [0, 1]}}), "element 1, variables: found the key 'z', expected coefficients, chord"),
+            (changed(0, variables={"x": {"bounds": [1, 0]}}), "element 1, variables, x: found [1.0,0.0] as 'bounds'"),
+            (changed(0, variables={"x": {"bounds": [0, 1]}}), "element 1, variables, x: found bounds that the start, -0.18, is not within"),
+            ({"elements": [{**e, "variables": {}} for e in elements], "constraints": []}, "found no variable of any element"),
+            ({"constraints": [{**suction, "element": "tail"}]}, "constraint 1: found 'tail', expected the name of an element"),
+            ({"constraints": [{**suction, "at_least": 1}]}, "found the key 'at_least', which 'suction' has not"),
+            ({"constraints": [{"kind": "gap", "between": ["slat"], "at_least": 0.01}]}, "expected the names of two elements"),
+            ({"constraints": [{"kind": "area", "element": "main", "of_start": 1}]}, "found 'main' as 'element', whose coefficients are no variables"),
+        ):
+            self.refused("design", self.elements(**changes), "-o", "run", names="flap.json")
+            self.refused("design", self.elements(**changes), "-o", "run", names=name)
+        gap = [{"kind": "gap", "between": ["a", "b"], "at_least": 0.01}]
+        self.refused("design", self.problem(constraints=gap), "-o", "run", names="found 'gap', expected it with 'elements' alone")
+
     def test_refusals_of_constraints(self):
         """One sentence with the file, the constraint's number and what was expected; nothing is left out in silence."""
         blunt_nose = {"degree": 2, "upper": [0.1, 0.1, 0.1], "lower": [-0.1, -0.1, -0.1], "e1": 0.6}

@@ -1,0 +1,111 @@
+#pragma once
+
+// Objects of a design problem, read key by key.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "remodel/airfoil.h"
+#include "remodel/design_space.h"
+#include "remodel/error.h"
+#include "remodel/shape_files.h"
+#include "report.h"
+
+namespace remodel::app {
+
+// A JSON object of which every key has to be known.
+class Keys {
+ public:
+  Keys(const Json& object, std::string where, std::initializer_list<const char*> known)
+      : object_(object), where_(std::move(where)) {
+    if (!object.is_object()) fail("found " + std::string(object.type_name()) + ", expected an object");
+    for (const auto& [key, value] : object.items())
+      if (std::find(known.begin(), known.end(), key) == known.end()) {
+        std::string names;
+        for (const char* name : known) names += (names.empty() ? "" : ", ") + std::string(name);
+        fail("found the key '" + key + "', expected " + names);
+      }
+  }
+  bool has(const char* key) const { return object_.contains(key); }
+  void require(const char* key) const {
+    if (!has(key)) fail("the key '" + std::string(key) + "' is missing");
+  }
+  template <class T>
+  T get(const char* key, std::optional<T> fallback = {}) const {
+    if (!has(key) && fallback) return *fallback;
+    require(key);
+    try {
+      return object_.at(key).get<T>();
+    } catch (const Json::exception&) {
+      fail("found " + object_.at(key).dump() + " as '" + key + "', expected another kind of value");
+    }
+  }
+  double number(const char* key, std::optional<double> fallback, double low, double high) const {
+    const double value = get<double>(key, fallback);
+    if (!(value >= low && value <= high))
+      fail("found " + Json(value).dump() + " as '" + key + "', expected " + Json(low).dump() + " to " +
+           Json(high).dump());
+    return value;
+  }
+  // A whole number, 0 or more.
+  template <class T>
+  T whole(const char* key, std::optional<T> fallback, T low, T high) const {
+    if (!has(key) && fallback) return *fallback;
+    require(key);
+    return whole_number<T>(object_.at(key), key, low, high);
+  }
+  template <class T>
+  T whole_number(const Json& value, const char* key, T low, T high) const {
+    if (!value.is_number_unsigned() || value.get<std::uint64_t>() < static_cast<std::uint64_t>(low) ||
+        value.get<std::uint64_t>() > static_cast<std::uint64_t>(high))
+      fail("found " + value.dump() + " as '" + key + "', expected a whole number from " +
+           std::to_string(low) + " to " + std::to_string(high));
+    return value.get<T>();
+  }
+  std::string word(const char* key, std::optional<std::string> fallback,
+                   std::initializer_list<const char*> words) const {
+    const std::string value = get<std::string>(key, fallback);
+    if (std::find(words.begin(), words.end(), value) == words.end()) {
+      std::string names;
+      for (const char* name : words) names += (names.empty() ? "" : ", ") + std::string(name);
+      fail("found '" + value + "' as '" + key + "', expected " + names);
+    }
+    return value;
+  }
+  Json list(const char* key) const {
+    if (!has(key)) return Json::array();
+    if (!object_.at(key).is_array()) fail("expected an array as '" + std::string(key) + "'");
+    return object_.at(key);
+  }
+  // Two numbers, the second one not below the first one.
+  std::array<double, 2> pair(const char* key) const {
+    const auto values = get<std::vector<double>>(key);
+    if (values.size() != 2 || !(values[0] <= values[1]))
+      fail("found " + Json(values).dump() + " as '" + key + "', expected two numbers, the lower one first");
+    return {values[0], values[1]};
+  }
+  [[noreturn]] void fail(const std::string& problem) const {
+    throw Error(ErrorCode::format, where_, problem);
+  }
+
+ private:
+  const Json& object_;
+  std::string where_;
+};
+
+// The section that a key names. Fits are of degree 8 at most; what is beyond is raised, exactly.
+inline CstAirfoil section_named(const Keys& keys, const char* key, int degree) {
+  const std::string name = keys.get<std::string>(key);
+  try {
+    return raise_degree(load_airfoil(name, std::min(degree, 8)), degree);
+  } catch (const Error& error) {
+    keys.fail("as '" + std::string(key) + "', " + error.what());
+  }
+}
+
+}  // namespace remodel::app
