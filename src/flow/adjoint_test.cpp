@@ -162,15 +162,16 @@ TEST(Adjoint, PlacementsOfSeveralElements) {
   }
 }
 
-// Three sections at M 0.5, lightly loaded: the gradients in all places of slat and flap, as vectors.
+// The gradients in all places of slat and flap, as vectors. The limit is that of the differences: longer
+// steps bend too much in the gaps, shorter ones drown in the flows' residuals.
 TEST(Adjoint, PlacesOfThreeElements) {
   const CstAirfoil thin = named_airfoil("naca:2415", 5), main = named_airfoil("naca:4412", 5);
   const Domain domain =
-      airfoils_domain({{.name = "slat", .airfoil = thin, .placement = {0.2, 30.0, {-0.18, -0.1}}},
+      airfoils_domain({{.name = "slat", .airfoil = thin, .placement = {0.2, 35.0, {-0.18, -0.09}}},
                        {.name = "main", .airfoil = main},
-                       {.name = "flap", .airfoil = thin, .placement = {0.3, -5.0, {1.0, -0.05}}}},
-                      {.points = 60});
-  Case task(domain, {.mach = 0.5, .alpha_deg = 0.0}, {.gradation = 2});
+                       {.name = "flap", .airfoil = thin, .placement = {0.3, -8.0, {0.99, -0.035}}}},
+                      {.points = 48});
+  Case task(domain, {.mach = 0.3, .alpha_deg = 4.0}, {.gradation = 2});
   const FlowGradients gradients = task.gradients();
   const MeshDerivative derivative(task.mesh());
   const std::vector<double> cl = derivative.vjp(gradients.cl.points),
@@ -183,14 +184,14 @@ TEST(Adjoint, PlacesOfThreeElements) {
       const std::size_t number = element * (section + 4) + section + i;
       std::vector<double> direction(derivative.coefficients(), 0.0);
       direction[number] = i == 1 ? 50.0 : 1.0;  // degrees
-      const Coefficients3 d = task.along(direction, 1e-5);
+      const Coefficients3 d = task.along(direction, 1e-6);
       const double found[3] = {cl[number], cd[number], cm[number]}, expected[3] = {d.cl, d.cd, d.cm};
       for (std::size_t k = 0; k < 3; ++k) {
         const double error = direction[number] * found[k] - expected[k];
         wrong[k] += error * error, size[k] += expected[k] * expected[k];
       }
     }
-  for (std::size_t k = 0; k < 3; ++k) EXPECT_LT(std::sqrt(wrong[k] / size[k]), 1e-7) << k;
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_LT(std::sqrt(wrong[k] / size[k]), 1e-6) << k;
 }
 
 // What is not wanted changes nothing of what is, and where a step replaced vertices the older factors serve.
