@@ -1,12 +1,12 @@
 // Cost of a flow per design on a row of designs: cold on fresh meshes, from the interpolated flow before with
 // one factorisation on fresh meshes ("rival"), and by the solver that outlives its mesh ("living").
 //
-//     flow [morph] [I MACH SIGMA DESIGNS]...
+//     flow [morph | reference] [I MACH SIGMA DESIGNS]...
 //     flow row [DESIGNS]
 //
-// `morph` remodels by Strategy::morph instead of renew. `row` is one row of 1,000 designs at I = 200, Mach
-// 0.5, SIGMA falling from 1e-2 to 1e-4 as an optimiser's does, by the living solver alone; it ends with
-// status 1 where a flow was not found.
+// `morph` and `reference` remodel by these strategies instead of renew. `row` is one row of 1,000 designs at
+// I = 200, Mach 0.5, SIGMA falling from 1e-2 to 1e-4 as an optimiser's does, by the living solver alone; it
+// ends with status 1 where a flow was not found.
 //
 // Designs are a random walk from NACA 0012 at 1.25 degrees, SIGMA the standard deviation of each step in all
 // coefficients. Flows to a residual of 1e-8; processor time, that of meshing left out. Full adjustments and
@@ -149,7 +149,10 @@ void run(const Case& task, Strategy strategy) {
 int main(int argc, char** argv) {
   const std::string first = argc > 1 ? argv[1] : "";
   if (first == "row") return run_row(argc > 2 ? std::atoi(argv[2]) : 1000) ? 0 : 1;
-  const int offset = first == "morph" ? 2 : 1;
+  const Strategy strategy = first == "morph"       ? Strategy::morph
+                            : first == "reference" ? Strategy::reference
+                                                   : Strategy::renew;
+  const int offset = strategy == Strategy::renew ? 1 : 2;
   std::vector<Case> cases;
   for (int i = offset; i + 3 < argc; i += 4)
     cases.push_back(
@@ -162,5 +165,5 @@ int main(int argc, char** argv) {
       "cold | over "
       "rival | carried | factorisations | steps per design | not found "
       "|\n|---|---|---|---|---|---|---|---|---|---|");
-  for (const Case& task : cases) run(task, offset == 2 ? Strategy::morph : Strategy::renew);
+  for (const Case& task : cases) run(task, strategy);
 }

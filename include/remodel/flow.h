@@ -24,7 +24,8 @@
 //
 // Method: Roe's flux on the median dual, reconstruction along edges of third order on even spacing, van
 // Albada's limiter, weak boundary conditions; the exact Jacobian; Newton's method by pseudo-transient
-// continuation with a line search; sparse LU. docs/flow.md has equations, sources and verification.
+// continuation with a line search, in stages from first order where that stalls; sparse LU. docs/flow.md has
+// equations, sources and verification.
 //
 // Errors: Error (argument) for conditions and options out of range, and for a mesh without a far field or
 // another way in and out, without a wall or with unnamed boundary edges. A flow that is not found is no
@@ -82,8 +83,8 @@ struct FlowOptions {
 enum class FlowStatus {
   converged,
   step_limit,  // max_steps
-  stalled,  // no step of any length leads on: a flow that has no steady state, or that this method does not
-            // find
+  stalled,  // nothing leads on, neither straight nor in stages from a scheme of first order: a flow that has
+            // no steady state, or that this method does not find
   memory,   // the factors need more than memory_mb
   interrupted,  // by the observer
 };

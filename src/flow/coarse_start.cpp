@@ -80,7 +80,8 @@ void find_flow_by_meshes(const Domain& domain, const QualityOptions& quality, co
   if (auto coarse = start_from_coarser(domain, quality, euler.mesh(), conditions, options, spent)) {
     state = std::move(*coarse);
     search.newton_steps = 0;
-    find_flow(euler, measure, coarse_cfl, options, matrix, factors, state, search);
+    find_flow(euler, measure, {.cfl = coarse_cfl, .patience = usual_patience}, options, matrix, factors,
+              state, search);
     if (search.status != FlowStatus::stalled && search.status != FlowStatus::step_limit) return;
     spent.newton_steps += search.newton_steps;  // in vain; find_flow_cold() counts anew
   }

@@ -51,10 +51,10 @@ Euler::Face Euler::face(const State& state, const DualEdge& edge) const {
       face.source[0] == face.source[1] ? da : difference(state, face.source[1], d);
   for (std::size_t k = 0; k < 4; ++k) {
     const double central = qb[k] - qa[k];
-    const Two from_a =
-        reconstruction_step(end[0], Two::variable(2.0 * da[k] - central, 0), Two::variable(central, 1), eps);
-    const Two from_b =
-        reconstruction_step(end[1], Two::variable(2.0 * db[k] - central, 0), Two::variable(central, 1), eps);
+    const Two from_a = stream_.slopes * reconstruction_step(end[0], Two::variable(2.0 * da[k] - central, 0),
+                                                            Two::variable(central, 1), eps);
+    const Two from_b = stream_.slopes * reconstruction_step(end[1], Two::variable(2.0 * db[k] - central, 0),
+                                                            Two::variable(central, 1), eps);
     face.left[k] = qa[k] + from_a.value;
     face.right[k] = qb[k] - from_b.value;
     face.by_upwind[0][k] = from_a.slope[0], face.by_central[0][k] = from_a.slope[1];
@@ -124,10 +124,10 @@ void Euler::residual(const State& state, std::vector<std::array<double, 4>>& out
     Primitive<double> left, right;
     for (std::size_t k = 0; k < 4; ++k) {
       const double central = qb[k] - qa[k];
-      left[k] =
-          qa[k] + reconstruction_step<double>(end_a, 2.0 * dot(gradient_a[k], d) - central, central, eps);
-      right[k] =
-          qb[k] - reconstruction_step<double>(end_b, 2.0 * dot(gradient_b[k], d) - central, central, eps);
+      left[k] = qa[k] + stream_.slopes * reconstruction_step<double>(
+                                             end_a, 2.0 * dot(gradient_a[k], d) - central, central, eps);
+      right[k] = qb[k] - stream_.slopes * reconstruction_step<double>(
+                                              end_b, 2.0 * dot(gradient_b[k], d) - central, central, eps);
     }
     if (!usable(left, qa)) left = qa;
     if (!usable(right, qb)) right = qb;
@@ -135,6 +135,8 @@ void Euler::residual(const State& state, std::vector<std::array<double, 4>>& out
     for (std::size_t k = 0; k < 4; ++k) out[edge.a][k] += flux[k], out[edge.b][k] -= flux[k];
   }
   add_boundary(state, out);
+  for (std::size_t v = 0; v < stream_.source.size(); ++v)
+    for (std::size_t k = 0; k < 4; ++k) out[v][k] -= stream_.source[v][k];
 }
 
 void Euler::add_boundary(const State& state, std::vector<std::array<double, 4>>& out) const {

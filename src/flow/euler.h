@@ -82,6 +82,11 @@ struct Stream {
   std::vector<Opening> openings = {};  // in the order of the mesh's
   // Instead of the stream: the state at points of the far field, for flows with known solutions.
   std::function<Primitive<double>(Point)> prescribed = nullptr;
+  // What is added to mass, momentum and energy in each dual cell, for flows made to order; empty: nothing.
+  std::vector<std::array<double, 4>> source = {};
+  // The part of each step of the reconstruction that is taken: 1 is the scheme, 0 the one of first order,
+  // less than 1 a stage on the way to a flow. Slopes by the shape (euler_adjoint.cpp) are those of 1.
+  double slopes = 1.0;
 };
 
 struct Coefficients {

@@ -251,8 +251,8 @@ void LivingFlow::Impl::search(Task& task) {
   if (solved && (try_older_factors(task) || try_own_factors(task))) return;
   if (solved) {
     task.start = FlowStart::refactored;
-    flow::find_flow(task.euler, task.measure, flow::carried_cfl, options, whole_matrix(task.euler), factors,
-                    task.state, task.search);
+    flow::find_flow(task.euler, task.measure, {.cfl = flow::carried_cfl, .patience = flow::usual_patience},
+                    options, whole_matrix(task.euler), factors, task.state, task.search);
     belong(task.euler.mesh(), task.keys);
     const FlowStatus status = task.search.status;
     if (status == FlowStatus::converged || status == FlowStatus::interrupted || status == FlowStatus::memory)
@@ -446,7 +446,7 @@ FlowResult solve_flow_from(const FrozenMesh& before, const FlowResult& known, co
   FlowStart start = FlowStart::refactored;
   if (flow::steps_with_own_factors(euler, measure, options, matrix, factors, state, search) ==
       flow::ChordEnd::slow)
-    flow::find_flow(euler, measure, flow::carried_cfl, options, matrix, factors, state, search);
+    flow::find_flow(euler, measure, {.cfl = flow::carried_cfl}, options, matrix, factors, state, search);
   if (search.status == FlowStatus::stalled || search.status == FlowStatus::step_limit) {
     start = FlowStart::cold;
     flow::find_flow_cold(euler, measure, options, matrix, factors, state, search);

@@ -66,13 +66,15 @@ void end_without_factors(Factored outcome, const FlowOptions& options, Search& s
   }
 }
 
-void find_flow(const Euler& euler, const Measure& measure, double cfl, const FlowOptions& options,
+void find_flow(const Euler& euler, const Measure& measure, const Pace& pace, const FlowOptions& options,
                BlockRows& matrix, Factors& factors, State& state, Search& search) {
   Vector residual;
   Border border;
   search.residual = measure(state, residual, border);
   search.history.push_back(search.residual);
-  double least = search.residual;
+  const double first = search.residual;
+  double least = first, halved = first, cfl = pace.cfl;
+  int last_halved = search.newton_steps;
   constexpr double smallest_cfl = 1e-2;
   while (search.residual > options.tolerance) {
     if (options.observer != nullptr && options.observer->cancelled()) {
@@ -84,6 +86,12 @@ void find_flow(const Euler& euler, const Measure& measure, double cfl, const Flo
       search.reason = "residual " + text_of(search.residual) + " after " +
                       std::to_string(search.newton_steps) + " Newton steps, expected " +
                       text_of(options.tolerance);
+      return;
+    }
+    if (search.newton_steps - last_halved >= pace.patience) {
+      search.status = FlowStatus::stalled;
+      search.reason = "the residual, " + text_of(search.residual) + ", has not halved in " +
+                      std::to_string(pace.patience) + " Newton steps, expected " + text_of(options.tolerance);
       return;
     }
     const Factored outcome = factor_at(euler, state, cfl, options, matrix, factors, search);
@@ -106,10 +114,12 @@ void find_flow(const Euler& euler, const Measure& measure, double cfl, const Flo
         continue;
       if (length == 1.0) cfl = std::min(full_cfl, cfl * 2.0 * std::max(1.0, search.residual / size));
       if (length < 0.25) cfl *= 0.5;
+      if (pace.relaxed) cfl = std::min(cfl, pace.cfl * first / size);
       state = std::move(next), residual = std::move(next_residual), border = next_border;
       search.residual = size;
       search.history.push_back(size);
       least = std::min(least, size);
+      if (least <= 0.5 * halved) halved = least, last_halved = search.newton_steps;
       taken = true;
     }
     if (taken) continue;
@@ -126,25 +136,58 @@ void find_flow(const Euler& euler, const Measure& measure, double cfl, const Flo
   search.reason.clear();
 }
 
+namespace {
+
+// By way of the scheme of first order, whose flow is found from anywhere, and of more and more of the steps
+// of the reconstruction: a homotopy in dissipation. Of each stage but the last only the neighbourhood of its
+// flow is needed.
+void find_flow_in_stages(const Euler& euler, const Measure& measure, const FlowOptions& options,
+                         BlockRows& matrix, Factors& factors, State& state, Search& search) {
+  constexpr double stages[] = {0.0, 0.5, 0.75, 0.9}, stage_cfl = 20.0, stage_tolerance = 1e-2;
+  state = euler.uniform();
+  Pace pace = {.cfl = cold_cfl, .patience = usual_patience, .relaxed = true};
+  FlowOptions rough = options;
+  rough.tolerance = std::max(options.tolerance, stage_tolerance);
+  for (const double slopes : stages) {
+    Stream stream = euler.stream();
+    stream.slopes = slopes;
+    const Euler stage(euler.mesh(), stream);
+    find_flow(stage, Measure(stage), pace, rough, matrix, factors, state, search);
+    if (search.status != FlowStatus::converged && search.status != FlowStatus::stalled) return;
+    pace.cfl = stage_cfl;
+  }
+  pace.patience = last_patience;
+  find_flow(euler, measure, pace, options, matrix, factors, state, search);
+}
+
+// Straight from undisturbed flow, or where that leads nowhere, in stages.
+void find_flow_at_angle(const Euler& euler, const Measure& measure, const FlowOptions& options,
+                        BlockRows& matrix, Factors& factors, State& state, Search& search) {
+  state = euler.uniform();
+  find_flow(euler, measure, {.cfl = cold_cfl, .patience = usual_patience}, options, matrix, factors, state,
+            search);
+  if (search.status == FlowStatus::stalled)
+    find_flow_in_stages(euler, measure, options, matrix, factors, state, search);
+}
+
+}  // namespace
+
 // A lift that is asked for is looked for from the flow at the first guess of the angle: undisturbed flow is
 // too far from it for the angle to follow.
 void find_flow_cold(const Euler& euler, const Measure& measure, const FlowOptions& options, BlockRows& matrix,
                     Factors& factors, State& state, Search& search) {
   constexpr double rough_tolerance = 1e-4, late_cfl = 1e6;
-  state = euler.uniform();
   search.newton_steps = 0;
-  double cfl = cold_cfl;
-  if (euler.stream().lift) {
-    Stream at_angle = euler.stream();
-    at_angle.lift.reset();
-    const Euler first(euler.mesh(), at_angle);
-    FlowOptions rough = options;
-    rough.tolerance = std::max(options.tolerance, rough_tolerance);
-    find_flow(first, Measure(first), cfl, rough, matrix, factors, state, search);
-    if (search.status != FlowStatus::converged) return;
-    cfl = late_cfl;
-  }
-  find_flow(euler, measure, cfl, options, matrix, factors, state, search);
+  if (!euler.stream().lift)
+    return find_flow_at_angle(euler, measure, options, matrix, factors, state, search);
+  Stream at_angle = euler.stream();
+  at_angle.lift.reset();
+  const Euler first(euler.mesh(), at_angle);
+  FlowOptions rough = options;
+  rough.tolerance = std::max(options.tolerance, rough_tolerance);
+  find_flow_at_angle(first, Measure(first), rough, matrix, factors, state, search);
+  if (search.status != FlowStatus::converged) return;
+  find_flow(euler, measure, {.cfl = late_cfl}, options, matrix, factors, state, search);
 }
 
 }  // namespace remodel::flow

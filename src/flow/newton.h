@@ -3,8 +3,13 @@
 // Newton's method for the bordered Euler equations, globalised by pseudo-transient continuation. Source: C.
 // T. Kelley and D. E. Keyes, "Convergence analysis of pseudo-transient continuation", SIAM J. Numer. Anal. 35
 // (1998); the line search lets the residual rise for a while, as it must while a shock moves (L. Grippo, F.
-// Lampariello and S. Lucidi, SIAM J. Numer. Anal. 23 (1986)).
+// Lampariello and S. Lucidi, SIAM J. Numer. Anal. 23 (1986)). Relaxed pace: W. A. Mulder and
+// B. van Leer, "Experiments with implicit upwind methods for the Euler equations", J. Comput. Phys. 59
+// (1985). What stalls is found by homotopy in dissipation (D. A. Brown and D. W. Zingg, "Monolithic homotopy
+// continuation with predictor based on higher derivatives", J. Comput. Appl. Math., 2018,
+// doi 10.1016/j.cam.2018.06.036, and references there).
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,8 +19,18 @@
 
 namespace remodel::flow {
 
-// The first pseudo-time step from undisturbed flow.
-inline constexpr double cold_cfl = 5.0;
+// How pseudo-time goes on.
+struct Pace {
+  double cfl;  // of the first step; doubled and more after each whole step
+  // Newton steps without halving the residual after which the search is stalled.
+  int patience = std::numeric_limits<int>::max();
+  // Switched evolution relaxation: at most `cfl` times what the residual has fallen by since the start, so
+  // that time steps become short again where it rises. Slower, but a shock cannot be thrown to and fro for
+  // ever.
+  bool relaxed = false;
+};
+inline constexpr double cold_cfl = 5.0;  // from undisturbed flow
+inline constexpr int usual_patience = 30, last_patience = 60;
 
 // What a search for a flow has done so far.
 struct Search {
@@ -40,10 +55,11 @@ Factored factor_at(const Euler& euler, const State& state, double cfl, const Flo
 
 // Goes on from `state` to the flow, or to where it ends; search.status and reason say which. Leaves the
 // factors of its last step.
-void find_flow(const Euler& euler, const Measure& measure, double cfl, const FlowOptions& options,
+void find_flow(const Euler& euler, const Measure& measure, const Pace& pace, const FlowOptions& options,
                BlockRows& matrix, Factors& factors, State& state, Search& search);
 
-// The same from undisturbed flow.
+// The same from undisturbed flow, and where that stalls, from it in stages from the scheme of
+// first order.
 void find_flow_cold(const Euler& euler, const Measure& measure, const FlowOptions& options, BlockRows& matrix,
                     Factors& factors, State& state, Search& search);
 

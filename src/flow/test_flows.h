@@ -63,18 +63,26 @@ inline FrozenMesh ring_mesh(std::uint32_t n) {
   return mesh;
 }
 
+// The flow that is found from this one.
+inline flow::State found_from(const flow::Euler& euler,
+                              const std::function<flow::Primitive<double>(Point)>& exact_at) {
+  flow::State state = euler.uniform();
+  for (std::size_t v = 0; v < state.q.size(); ++v) state.q[v] = exact_at(euler.mesh().points()[v]);
+  flow::BlockRows matrix = euler.pattern();
+  flow::Factors factors;
+  flow::Search search;
+  flow::find_flow(euler, flow::Measure(euler), {.cfl = 1e3}, {.tolerance = 1e-11}, matrix, factors, state,
+                  search);
+  EXPECT_EQ(search.status, FlowStatus::converged) << search.reason;
+  return state;
+}
+
 // The errors of density and of p / rho^gamma in the mean square over the area, of the flow found from the
 // exact one.
 inline std::array<double, 2> errors_of(const flow::Euler& euler,
                                        const std::function<flow::Primitive<double>(Point)>& exact_at) {
   const flow::FlowMesh& dual = euler.mesh();
-  flow::State state = euler.uniform();
-  for (std::size_t v = 0; v < dual.size(); ++v) state.q[v] = exact_at(dual.points()[v]);
-  flow::BlockRows matrix = euler.pattern();
-  flow::Factors factors;
-  flow::Search search;
-  flow::find_flow(euler, flow::Measure(euler), 1e3, {.tolerance = 1e-11}, matrix, factors, state, search);
-  EXPECT_EQ(search.status, FlowStatus::converged) << search.reason;
+  const flow::State state = found_from(euler, exact_at);
   double density = 0.0, entropy = 0.0, area = 0.0;
   for (std::size_t v = 0; v < dual.size(); ++v) {
     const double e = state.q[v][0] - exact_at(dual.points()[v])[0];

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "flow/newton.h"
 #include "flow/test_flows.h"
@@ -112,6 +113,123 @@ TEST(Verification, RinglebsFlowThroughTheSpeedOfSound) {
   const auto errors = ringleb_errors(1.2);
   EXPECT_GT(std::log2(errors[1][0] / errors[3][0]) / 2.0, 1.9);
   EXPECT_GT(std::log2(errors[1][1] / errors[3][1]) / 2.0, 1.7);
+}
+
+// Manufactured solutions: flows that are written down, with the sources that make them steady. Source: P. J.
+// Roache, "Code verification by the method of manufactured solutions", J. Fluids Eng. 124 (2002).
+
+// A flow as a function of the place, for derivatives by it.
+using Written = std::function<Primitive<Dual<2>>(const Dual<2>& x, const Dual<2>& y)>;
+
+Primitive<double> values_at(const Written& flow, Point p) {
+  const Primitive<Dual<2>> q = flow(Dual<2>(p.x), Dual<2>(p.y));
+  return {q[0].value, q[1].value, q[2].value, q[3].value};
+}
+
+// The divergence of the fluxes of mass, momentum and energy.
+std::array<double, 4> source_at(const Written& flow, Point p) {
+  const auto [rho, u, v, pressure] = flow(Dual<2>::variable(p.x, 0), Dual<2>::variable(p.y, 1));
+  const Dual<2> energy =
+      pressure * (gas_gamma / (gas_gamma - 1.0)) + 0.5 * rho * (u * u + v * v);  // and the pressure's work
+  const Dual<2> along_x[4] = {rho * u, rho * u * u + pressure, rho * u * v, energy * u};
+  const Dual<2> along_y[4] = {rho * v, rho * u * v, rho * v * v + pressure, energy * v};
+  std::array<double, 4> sum;
+  for (std::size_t k = 0; k < 4; ++k) sum[k] = along_x[k].slope[0] + along_y[k].slope[1];
+  return sum;
+}
+
+// The integrals over dual cells of a function that is linear in each triangle: exact over the third of a
+// triangle that belongs to a corner, with 22/36 of this corner's value and 7/36 of the others'.
+std::vector<std::array<double, 4>> sources_on(const FlowMesh& dual, const Written& flow) {
+  std::vector<std::array<double, 4>> sources(dual.size());
+  for (const auto& corners : dual.triangles()) {
+    std::array<double, 4> at[3];
+    Point p[3];
+    for (std::size_t i = 0; i < 3; ++i) p[i] = dual.points()[corners[i]], at[i] = source_at(flow, p[i]);
+    const double third = cross(p[1] - p[0], p[2] - p[0]) / 6.0;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 4; ++k)
+        sources[corners[i]][k] +=
+            third / 36.0 * (22.0 * at[i][k] + 7.0 * (at[(i + 1) % 3][k] + at[(i + 2) % 3][k]));
+  }
+  return sources;
+}
+
+// The errors of density, velocity and pressure in the mean square over the area.
+std::array<double, 4> errors_of_written(const FrozenMesh& mesh, const Written& flow) {
+  const FlowMesh dual(mesh, "farfield", "manufactured");
+  const auto exact = [&](Point p) { return values_at(flow, p); };
+  const Euler euler(dual,
+                    {.mach = 0.5, .vortex = false, .prescribed = exact, .source = sources_on(dual, flow)});
+  const State state = test::found_from(euler, exact);
+  std::array<double, 4> errors = {};
+  double area = 0.0;
+  for (std::size_t v = 0; v < dual.size(); ++v) {
+    const Primitive<double> expected = exact(dual.points()[v]);
+    area += dual.areas()[v];
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double e = state.q[v][k] - expected[k];
+      errors[k] += dual.areas()[v] * e * e;
+    }
+  }
+  for (double& e : errors) e = std::sqrt(e / area);
+  return errors;
+}
+
+// The unit square, n cells across, its inner vertices moved at random by up to a fifth of a cell, its
+// diagonals this way or that at random.
+FrozenMesh uneven_square(std::uint32_t n) {
+  std::mt19937 random(n);
+  const auto uniform = [&] { return static_cast<double>(random()) * 0x1p-32; };
+  FrozenMesh mesh;
+  for (std::uint32_t j = 0; j <= n; ++j)
+    for (std::uint32_t i = 0; i <= n; ++i) {
+      const double reach = i % n == 0 || j % n == 0 ? 0.0 : 0.4;
+      const double dx = reach * (uniform() - 0.5), dy = reach * (uniform() - 0.5);
+      mesh.points.push_back({(i + dx) / n, (j + dy) / n});
+    }
+  const auto at = [&](std::uint32_t i, std::uint32_t j) { return j * (n + 1) + i; };
+  for (std::uint32_t j = 0; j < n; ++j)
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const std::uint32_t a = at(i, j), b = at(i + 1, j), c = at(i + 1, j + 1), d = at(i, j + 1);
+      if (random() % 2 == 0) {
+        mesh.triangles.push_back({a, b, c});
+        mesh.triangles.push_back({a, c, d});
+      } else {
+        mesh.triangles.push_back({a, b, d});
+        mesh.triangles.push_back({b, c, d});
+      }
+    }
+  mesh.boundaries = {{"farfield", {}}};
+  for (std::uint32_t i = 0; i < n; ++i) {
+    mesh.boundaries[0].edges.push_back({at(i, 0), at(i + 1, 0)});
+    mesh.boundaries[0].edges.push_back({at(n, i), at(n, i + 1)});
+    mesh.boundaries[0].edges.push_back({at(i + 1, n), at(i, n)});
+    mesh.boundaries[0].edges.push_back({at(0, i + 1), at(0, i)});
+  }
+  return mesh;
+}
+
+void expect_second_order(const std::function<FrozenMesh(std::uint32_t)>& mesh, const Written& flow) {
+  std::array<double, 4> before = {};
+  for (const std::uint32_t n : {8U, 16U, 32U}) {
+    const std::array<double, 4> errors = errors_of_written(mesh(n), flow);
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (n > 8) {
+        EXPECT_GT(std::log2(before[k] / errors[k]), 1.9) << "unknown " << k << ", " << n << " cells across";
+      }
+      ::testing::Test::RecordProperty("error_" + std::to_string(k) + "_" + std::to_string(n),
+                                      std::to_string(1e6 * errors[k]) + "e-6");
+    }
+    before = errors;
+  }
+}
+
+TEST(Verification, AManufacturedFlowInsideAnUnevenMesh) {
+  expect_second_order(uneven_square, [](const Dual<2>& x, const Dual<2>& y) -> Primitive<Dual<2>> {
+    return {1.0 + 0.15 * sin(2.0 * x + y), 0.5 + 0.1 * sin(1.5 * x - y), 0.2 + 0.1 * cos(x + 2.0 * y),
+            (1.0 / gas_gamma) * (1.0 + 0.2 * cos(1.5 * x + 1.5 * y))};
+  });
 }
 
 // Around a cylinder of radius 1/2, out to 20, n edges around it; `tilt` turns the mesh's diagonals one way.
