@@ -69,6 +69,13 @@ void add_evaluation_options(CLI::App& app, EvaluateOptions& options) {
               "Directories of evaluations by --evaluate that stay in DIR/evaluations: none, failed, all"},
              {"none", "failed", "all"},
              [&](std::size_t choice) { options.run.keep = static_cast<KeepEvaluations>(choice); });
+  add_integer(app,
+              {"--snapshots", "N", "0: the last state alone",
+               "States of earlier designs that are kept with each mesh, the latest: while its connectivity "
+               "stays, their combination that reproduces the new design is the state handed to --evaluate; "
+               "0 to 1000"},
+              {.low = 0, .high = 1000},
+              [&](std::int64_t value) { options.run.snapshots = static_cast<std::size_t>(value); });
 }
 
 std::unique_ptr<Evaluator> shell_evaluator(const EvaluateOptions& options) {

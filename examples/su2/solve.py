@@ -3,8 +3,9 @@
 
     remodel optimise --from naca:0012 --evaluate './solve.py drag.cfg {mesh} {state} {result}' --time-limit 600 -o run
 
-The state is SU2's restart file of the design before, carried over to this mesh; what SU2 leaves takes its place. The
-program is SU2_CFD of the PATH, or the command in the variable SU2_CFD (`mpirun -n 4 SU2_CFD`, `srun -n 16 SU2_CFD`).
+The state is SU2's restart file of the design before, carried over to this mesh; what SU2 leaves takes its place, with the
+angle of attack as one more column, which SU2 does not read: the next design begins at that angle. With `--snapshots 20` flow
+and angle are combined of those of several designs. The program is SU2_CFD of the PATH, or the command in the variable SU2_CFD (`mpirun -n 4 SU2_CFD`, `srun -n 16 SU2_CFD`).
 """
 
 import csv
@@ -12,7 +13,6 @@ import json
 import os
 import re
 import shlex
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -25,9 +25,25 @@ def setting(config, name):
     return re.search(rf"^\s*{name}\s*=\s*(.*?)\s*$", config, re.MULTILINE).group(1)
 
 
+def alpha_of(state):
+    """The angle of attack, in degrees, that a state was found at."""
+    with open(state) as lines:
+        names, first = csv.reader([next(lines), next(lines)], skipinitialspace=True)
+    return float(first[names.index("AoA")])
+
+
+def write_state(restart, alpha, state):
+    """SU2's table of the flow with the angle of attack as its last column."""
+    with open(restart) as lines, open(state, "w") as out:
+        out.write(next(lines).rstrip() + ',"AoA"\n')
+        out.writelines(f"{line.rstrip()}, {alpha!r}\n" for line in lines)
+
+
 def configuration(config, mesh, state):
     """The case's configuration and its names of files: SU2 adds .csv to those of restart files itself."""
     warm = "YES" if state.exists() else "NO"
+    if state.exists():
+        config = re.sub(r"^\s*AOA\s*=.*$", f"AOA= {alpha_of(state)!r}", config, flags=re.MULTILINE)
     return config + f"""
 MESH_FILENAME= {mesh.name}
 MESH_FORMAT= SU2
@@ -75,13 +91,14 @@ def main(config_file, mesh, state, result):
     last = rows[-1]
     if last["rms[Rho]"] > float(setting(config, "CONV_RESIDUAL_MINVAL")):
         sys.exit(f"not converged: rms[Rho] is {last['rms[Rho]']} after {len(rows)} iterations")
-    shutil.move(directory / "restart.csv", state)
+    write_state(directory / "restart.csv", last["AoA"], state)
     lift_error = abs(last["CL"] - float(setting(config, "TARGET_CL")))
     area = airfoil_area(mesh)
     Path(result).write_text(json.dumps({
         "objective": 1e4 * last["CD"],  # drag counts
         "constraints": [lift_error - LIFT_ERROR, AREA - area],
-        "outputs": {"cl": last["CL"], "cd": last["CD"], "area": area, "iterations": len(rows), "warm": int(warm)},
+        "outputs": {"cl": last["CL"], "cd": last["CD"], "area": area, "alpha": last["AoA"], "iterations": len(rows),
+                    "warm": int(warm)},
     }))
 
 

@@ -7,6 +7,7 @@
 //
 // examples/own_evaluator.cpp is one in thirty lines.
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -83,6 +84,12 @@ struct CommandOptions {
   // digits. Empty: a temporary one each, which is never kept.
   std::filesystem::path directory{};
   KeepEvaluations keep = KeepEvaluations::failed;
+  // Most states of earlier designs that are kept with each living mesh, in memory and in checkpoints. As long
+  // as its connectivity stays, the start of the next design is their combination (remodel/snapshots.h), but
+  // the nearest one alone where a variable that is positive in all of them would not be so any more. The
+  // evaluation's outputs then have "state_snapshots", how many were combined (0: there was no state, or the
+  // connectivity had changed and the last one was carried over), and "state_misfit". 0: the last state alone.
+  std::size_t snapshots = 0;
 };
 
 // A program of the user's, run once for each design. In the words of the command

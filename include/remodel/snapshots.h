@@ -35,6 +35,7 @@ struct SnapshotOptions {
 struct SnapshotStart {
   std::vector<double> values;
   std::size_t snapshots = 0;  // that were combined
+  std::size_t base = 0;       // the nearest one, of kept()
   // Distance of the combined design from the new one, over that of the nearest snapshot: 0 where the
   // combination is exact, 1 where it is no better than the nearest.
   double misfit = 0.0;
@@ -42,6 +43,10 @@ struct SnapshotStart {
 
 class Snapshots {
  public:
+  struct Snapshot {
+    std::vector<double> design, values;
+  };
+
   // Throws Error (argument) for options out of range.
   explicit Snapshots(const SnapshotOptions& options = {});
 
@@ -53,12 +58,17 @@ class Snapshots {
   // are found by least squares. Nothing where none is left. Throws Error (argument) for another number of
   // parameters.
   std::optional<SnapshotStart> start(const Mesh& mesh, std::span<const double> design);
+
+  // The same for a caller who compares connectivities himself, between frozen meshes for example, and calls
+  // clear() when one ends.
+  void add(std::span<const double> design, std::vector<double> values);
+  std::optional<SnapshotStart> start(std::span<const double> design) const;
+  void clear() { kept_.clear(); }
+
   std::size_t size() const { return kept_.size(); }
+  const std::deque<Snapshot>& kept() const { return kept_; }  // the oldest first
 
  private:
-  struct Snapshot {
-    std::vector<double> design, values;
-  };
   void drop_if_replaced(const Mesh& mesh);
   std::size_t nearest(std::span<const double> design) const;
 

@@ -17,12 +17,10 @@
 
 #include "base/stopwatch.h"
 #include "design/child_process.h"
+#include "design/solver_state.h"
 #include "remodel/error.h"
 #include "remodel/evaluator.h"
-#include "remodel/foam.h"
 #include "remodel/io.h"
-#include "remodel/su2_restart.h"
-#include "remodel/transfer.h"
 
 namespace remodel {
 namespace {
@@ -99,74 +97,11 @@ Evaluation evaluation_from(const std::string& text) {
   return evaluation;
 }
 
-// What a solver left of a design: its values on that design's mesh.
-struct SolverState final : EvaluatorState {
-  FrozenMesh mesh;
-  std::optional<Su2Restart> restart;
-  std::optional<FoamTime> time;
-
-  std::string bytes() const override {
-    const auto binary = [](const std::string& text) {
-      return Json::binary(std::vector<std::uint8_t>(text.begin(), text.end()));
-    };
-    Json content = Json::object();
-    if (restart) content["restart"] = binary(su2_restart_bytes(*restart));
-    if (time)
-      for (const FoamField& field : time->fields) content["time"][field.name] = binary(foam_text(field));
-    const std::vector<std::uint8_t> bytes = Json::to_cbor(content);
-    return {bytes.begin(), bytes.end()};
-  }
-  static std::unique_ptr<SolverState> from(const std::string& bytes, FrozenMesh mesh,
-                                           const std::string& source) {
-    auto state = std::make_unique<SolverState>();
-    const auto text = [](const Json& json) {
-      const auto& binary = json.get_binary();
-      return std::string(binary.begin(), binary.end());
-    };
-    try {
-      const Json content = Json::from_cbor(bytes);
-      if (content.contains("restart"))
-        state->restart = parse_su2_restart(text(content.at("restart")), source);
-      if (content.contains("time")) state->time.emplace();
-      if (state->time)
-        for (const auto& [name, field] : content.at("time").items())
-          state->time->fields.push_back(parse_foam_field(name, text(field), source, mesh));
-    } catch (const Json::exception& problem) {
-      throw Error(ErrorCode::format, source,
-                  std::string("expected the state of a solver: ") + problem.what());
-    }
-    if (state->restart) set_coordinates(*state->restart, mesh, source);
-    state->mesh = std::move(mesh);
-    return state;
-  }
-
-  // Writes what there is of it, carried over to another mesh.
-  void write(const FrozenMesh& now, const fs::path& directory, const std::string& file) const {
-    const Transfer transfer(mesh, now);
-    if (restart && !file.empty()) {
-      Su2Restart on = *restart;
-      transfer.ride(FieldPlace::vertices, static_cast<int>(on.names.size()), on.values);
-      set_coordinates(on, now, file);
-      write_su2_restart(on, directory / file);
-    }
-    if (!time) return;
-    // Within the bounds of old values: weights of a ride on triangles may be negative.
-    FoamTime on = *time;
-    carry_foam_time(on, mesh, now, [&](int components, std::vector<double>& values) {
-      transfer.remap(FieldPlace::triangles, components, values);
-    });
-    write_foam_time(on, directory / "case" / "0");
-  }
-};
-
 // The files that the words of a command name.
 struct CommandFiles {
   std::set<std::string> names;
-  std::string state;    // empty: none
+  StateFiles state;
   bool result = false;  // a file; otherwise standard output
-  bool has_case = false;
-
-  bool carry() const { return has_case || !state.empty(); }
 };
 
 CommandFiles files_of(const std::vector<std::string>& words) {
@@ -174,11 +109,12 @@ CommandFiles files_of(const std::vector<std::string>& words) {
   for (const std::string& word : words)
     for (const CommandPlace& place : command_places(word)) {
       if (place.file.starts_with("mesh.")) mesh_format(place.file);  // refuses others
-      if (place.file.starts_with("state.") && !files.state.empty() && files.state != place.file)
+      std::string& restart = files.state.restart;
+      if (place.file.starts_with("state.") && !restart.empty() && restart != place.file)
         throw Error(ErrorCode::argument, word,
                     "found two files of the state, expected {state} or {state.dat}");
-      if (place.file.starts_with("state.")) files.state = place.file;
-      files.has_case = files.has_case || place.file == "case";
+      if (place.file.starts_with("state.")) restart = place.file;
+      files.state.foam_case = files.state.foam_case || place.file == "case";
       files.result = files.result || place.file == "result.json";
       files.names.insert(place.file);
     }
@@ -219,15 +155,18 @@ class CommandEvaluator final : public Evaluator {
 
   std::unique_ptr<EvaluatorState> restore(const std::string& bytes, const Mesh& mesh,
                                           const std::string& source) override {
-    return SolverState::from(bytes, mesh.freeze(), source);
+    return SolverState::from(bytes, mesh.freeze(), source, options_.snapshots);
   }
-  std::string description() const override { return Json{{"command", command_}}.dump(); }
+  std::string description() const override {
+    Json description{{"command", command_}};
+    if (options_.snapshots != 0) description["snapshots"] = options_.snapshots;
+    return description.dump();
+  }
 
  private:
   Evaluation evaluate_in(const fs::path& directory, const EvaluationTask& task,
                          std::unique_ptr<EvaluatorState>& state) const;
   void run(const fs::path& directory, const fs::path& output, StepObserver& observer) const;
-  std::unique_ptr<EvaluatorState> state_left(const fs::path& directory, FrozenMesh mesh) const;
   const std::string& name() const { return command_.front(); }
 
   std::vector<std::string> command_;
@@ -249,10 +188,11 @@ Evaluation CommandEvaluator::evaluate_in(const fs::path& directory, const Evalua
                             Json(std::vector<double>(task.design.begin(), task.design.end())).dump());
   }
   FrozenMesh mesh;
-  if (files_.carry()) {
+  StartRecord start;
+  auto* const before = dynamic_cast<SolverState*>(state.get());
+  if (files_.state.any()) {
     mesh = task.mesh.freeze();
-    if (const auto* before = dynamic_cast<const SolverState*>(state.get()))
-      before->write(mesh, directory, files_.state);
+    if (before != nullptr) start = before->write(mesh, task.design, directory, files_.state);
   }
   const fs::path output = directory / "output";
   run(directory, output, task.observer);
@@ -262,7 +202,14 @@ Evaluation CommandEvaluator::evaluate_in(const fs::path& directory, const Evalua
   } catch (const Json::exception& problem) {
     throw std::runtime_error(name() + ": expected one JSON object with an objective: " + problem.what());
   }
-  if (files_.carry()) state = state_left(directory, std::move(mesh));
+  if (!files_.state.any()) return evaluation;
+  std::unique_ptr<SolverState> left = SolverState::read(directory, files_.state, std::move(mesh));
+  if (options_.snapshots != 0) {
+    if (left) left->remember(before, task.design, options_.snapshots);
+    evaluation.outputs["state_snapshots"] = static_cast<double>(start.snapshots);
+    evaluation.outputs["state_misfit"] = start.misfit;
+  }
+  state = std::move(left);
   return evaluation;
 }
 
@@ -280,22 +227,6 @@ void CommandEvaluator::run(const fs::path& directory, const fs::path& output, St
   }
   if (const std::string failure = child.failure(); !failure.empty())
     throw std::runtime_error(name() + ": " + failure + ": " + end_of(errors));
-}
-
-std::unique_ptr<EvaluatorState> CommandEvaluator::state_left(const fs::path& directory,
-                                                             FrozenMesh mesh) const {
-  auto state = std::make_unique<SolverState>();
-  const fs::path file = directory / files_.state;
-  if (!files_.state.empty() && fs::exists(file)) {
-    state->restart = read_su2_restart(file);
-    set_coordinates(*state->restart, mesh, file.string());
-  }
-  if (files_.has_case)
-    if (const fs::path latest = latest_foam_time(directory / "case"); !latest.empty())
-      state->time = read_foam_time(latest, mesh);
-  if (!state->restart && !state->time) return nullptr;
-  state->mesh = std::move(mesh);
-  return state;
 }
 
 }  // namespace

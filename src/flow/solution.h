@@ -20,6 +20,8 @@ Stream stream_of(const FlowConditions& conditions, const FlowOptions& options);
 FlowResult result_of(const Euler& euler, const State& state, const Search& search, FlowStart start);
 
 // The state of another mesh at these points, interpolated linearly; beyond it that of its nearest triangle.
+// Transfer (remodel/transfer.h) does not serve here: it goes by keys of vertices, and the meshes of
+// find_flow_by_meshes() and solve_flow_from() have no history in common.
 std::vector<Primitive<double>> interpolated(const FlowMesh& mesh, const std::vector<Primitive<double>>& state,
                                             std::span<const Point> at);
 

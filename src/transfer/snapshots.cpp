@@ -40,13 +40,16 @@ void Snapshots::drop_if_replaced(const Mesh& mesh) {
 
 void Snapshots::add(Mesh& mesh, std::span<const double> design, std::vector<double> values) {
   drop_if_replaced(mesh);
+  add(design, std::move(values));
+  if (kept_.size() == 1) mark_ = mesh.mark();
+}
+
+void Snapshots::add(std::span<const double> design, std::vector<double> values) {
   const auto finite = [](double value) { return std::isfinite(value); };
   if (!std::all_of(design.begin(), design.end(), finite) ||
       !std::all_of(values.begin(), values.end(), finite))
     throw Error(ErrorCode::argument, "snapshot", "found a value that is not finite, expected finite ones");
-  if (kept_.empty()) {
-    mark_ = mesh.mark();
-  } else {
+  if (!kept_.empty()) {
     require_size("design", design.size(), kept_.front().design.size());
     require_size("values", values.size(), kept_.front().values.size());
   }
@@ -64,10 +67,14 @@ std::size_t Snapshots::nearest(std::span<const double> design) const {
 
 std::optional<SnapshotStart> Snapshots::start(const Mesh& mesh, std::span<const double> design) {
   drop_if_replaced(mesh);
+  return start(design);
+}
+
+std::optional<SnapshotStart> Snapshots::start(std::span<const double> design) const {
   if (kept_.empty()) return std::nullopt;
   require_size("design", design.size(), kept_.front().design.size());
   const std::size_t base = nearest(design);
-  SnapshotStart start{.values = kept_[base].values, .snapshots = kept_.size()};
+  SnapshotStart start{.values = kept_[base].values, .snapshots = kept_.size(), .base = base};
   const double distance = std::sqrt(squared_distance_of(kept_[base].design, design));
   if (distance == 0.0 || kept_.size() == 1) {
     start.misfit = distance == 0.0 ? 0.0 : 1.0;

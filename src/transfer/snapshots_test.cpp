@@ -104,5 +104,22 @@ TEST_F(OfAHole, AReplacementEndsThem) {
   EXPECT_EQ(snapshots.start(mesh, std::vector{0.1, 0.05})->values, (std::vector{1.0, 2.0, 3.0}));
 }
 
+TEST(Snapshots, WithoutAMeshTheCallerSaysWhereTheyEnd) {
+  Snapshots snapshots({.limit = 2, .regularisation = 0.0});
+  EXPECT_FALSE(snapshots.start(std::vector{0.0}));
+  for (const double d : {0.0, 1.0, 2.0}) snapshots.add(std::vector{d}, {3.0 * d, 1.0 - d});
+  ASSERT_EQ(snapshots.kept().size(), 2U);
+  EXPECT_EQ(snapshots.kept().front().design, std::vector{1.0});  // the oldest has gone
+  const auto start = snapshots.start(std::vector{4.0});
+  ASSERT_TRUE(start);
+  EXPECT_EQ(start->base, 1U);
+  EXPECT_NEAR(start->values[0], 12.0, 1e-12);
+  EXPECT_NEAR(start->values[1], -3.0, 1e-12);
+  snapshots.clear();
+  EXPECT_FALSE(snapshots.start(std::vector{4.0}));
+  snapshots.add(std::vector{1.0, 2.0}, {5.0});  // of another connectivity: other sizes
+  EXPECT_EQ(snapshots.start(std::vector{1.0, 2.0})->values, std::vector{5.0});
+}
+
 }  // namespace
 }  // namespace remodel

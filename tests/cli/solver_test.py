@@ -8,6 +8,7 @@ import sqlite3
 import stat
 import subprocess
 import sys
+from pathlib import Path
 
 import harness
 from harness import SOURCE, ProgramTest
@@ -31,6 +32,20 @@ open(state, "w").write('"PointID","x","y","Linear","Seven"\\n' + "".join(
 json.dump({"objective": sum(a * a for a in json.load(open(design))), "outputs": outputs}, open(result, "w"))
 """
 
+# A solver whose state is an affine function of the design, and says how far from it its start was.
+AFFINE = """import json, os, sys
+mesh, design, state, result = sys.argv[1:5]
+points = next(int(line.split("=")[1]) for line in open(mesh) if line.startswith("NPOIN="))
+d = json.load(open(design))
+exact = [1 + sum((1 + (i + k) % 3) * a for k, a in enumerate(d)) for i in range(points)]
+outputs = {"warm": int(os.path.exists(state))}
+if outputs["warm"]:
+    found = [float(line.split(",")[1]) for line in open(state).read().splitlines()[1:]]
+    outputs["off"] = max(abs(a - b) for a, b in zip(found, exact))
+open(state, "w").write('"PointID","Affine"\\n' + "".join(f"{i}, {a!r}\\n" for i, a in enumerate(exact)))
+json.dump({"objective": d[0] ** 2, "outputs": outputs}, open(result, "w"))
+"""
+
 SU2 = """#!/usr/bin/env python3
 # A stand-in for SU2_CFD: relaxes a made-up flow at the mesh's points until its residual is small.
 import math, os, re, sys
@@ -52,18 +67,22 @@ flow = lambda x, y: (1 + 0.1 * math.tanh(x), 0.5, 0.1 * math.tanh(y), 2 + 0.2 * 
 state = [[1.0, 0.5, 0.0, 2.0] for _ in points]
 if config["RESTART_SOL"] == "YES":
     rows = open(config["SOLUTION_FILENAME"] + ".csv").read().splitlines()
-    assert [name.strip('"') for name in rows[0].split(",")] == ["PointID", *names]
-    state = [[float(v) for v in row.split(",")][3:] for row in rows[1:]]
+    assert [name.strip('"') for name in rows[0].split(",")][:7] == ["PointID", *names]
+    state = [[float(v) for v in row.split(",")][3:7] for row in rows[1:]]
     assert len(state) == len(points) and all(row[0] > 0 for row in state)
+alpha, fixed = float(config["AOA"]), config.get("FIXED_CL_MODE") == "YES"
 area = 0.5 * abs(sum(points[a][0] * points[b][1] - points[a][1] * points[b][0] for a, b in wall))
 with open(config["CONV_FILENAME"] + ".csv", "w") as history:
-    history.write('"Inner_Iter",    "rms[Rho]"   ,       "CD"       ,       "CL"       \\n')
+    history.write('"Inner_Iter",    "rms[Rho]"   ,       "CD"       ,       "CL"       ,       "AoA"      \\n')
     for iteration in range(int(config["ITER"])):
         target = [flow(*p) for p in points]
-        residual = math.log10(max(abs(t[0] - s[0]) for t, s in zip(target, state)) + 1e-16)
-        history.write(f"{iteration}, {residual}, {area * area}, {config.get('TARGET_CL', 0.5)}\\n")
+        lift = 3 * area + 0.11 * alpha  # a flow that follows its angle at once
+        miss = float(config["TARGET_CL"]) - lift if fixed else 0.0
+        residual = math.log10(max(abs(t[0] - s[0]) for t, s in zip(target, state)) + 0.1 * abs(miss) + 1e-16)
+        history.write(f"{iteration}, {residual}, {area * area}, {lift}, {alpha}\\n")
         if residual < float(config["CONV_RESIDUAL_MINVAL"]): break
         state = [[s + 0.5 * (t - s) for s, t in zip(a, b)] for a, b in zip(state, target)]
+        alpha += 0.5 * miss / 0.11
 with open(config["RESTART_FILENAME"] + ".csv", "w") as restart:
     restart.write(",".join(f'"{name}"' for name in ["PointID", *names]) + "\\n")
     for i, (p, s) in enumerate(zip(points, state)):
@@ -72,9 +91,9 @@ with open(config["RESTART_FILENAME"] + ".csv", "w") as restart:
 
 
 class Loop(ProgramTest):
-    def optimise(self, directory, command, *options, evaluations=20, status=0):
+    def optimise(self, directory, command, *options, evaluations=20, sigma=0.005, status=0):
         return self.figures(
-            "optimise", "--from", "naca:0012", "--evaluate", command, "--points", 40, "--sigma", 0.005,
+            "optimise", "--from", "naca:0012", "--evaluate", command, "--points", 40, "--sigma", sigma,
             "--evaluations", evaluations, "--quiet", "-o", directory, *options, status=status)
 
     def rows(self, directory, query):
@@ -121,6 +140,44 @@ json.dump({"objective": 1, "outputs": {"warm": int(found is not None)}}, open(re
         query = "select coefficients, objective, outputs from evaluations"
         self.assertEqual(self.rows("whole", query), self.rows("parts", query))
 
+    def test_earlier_states_of_one_connectivity_are_combined(self):
+        self.write("affine.py", AFFINE)
+        command = "python3 affine.py {mesh} {design} {state} {result}"
+        held = {"sigma": 1e-4, "evaluations": 30}
+        self.optimise("last", command, "--strategy", "reference", **held)
+        self.optimise("combined", command, "--strategy", "reference", "--snapshots", 20, **held)
+        last, combined = self.outputs("last"), self.outputs("combined")
+        self.assertNotIn("state_snapshots", last[-1])
+        self.assertEqual([row["state_snapshots"] for row in combined], [min(i, 20) for i in range(30)])
+        for i in range(2, 14):  # the nearest one of several, and some of the way from there
+            self.assertLess(combined[i]["state_misfit"], 1)
+        for before, now in zip(last[14:], combined[14:]):  # thirteen designs span all twelve parameters
+            self.assertLess(now["state_misfit"], 1e-2)
+            self.assertLess(now["off"], before["off"] / 20)
+
+    def test_a_replacement_ends_what_is_combined(self):
+        self.write("affine.py", AFFINE)
+        command = "python3 affine.py {mesh} {design} {state} {result}"
+        self.optimise("run", command, "--snapshots", 5, sigma=0.02)
+        steps = self.rows("run", "select connected, triangles_before, triangles, outputs from evaluations")
+        same = [before == connected == after for connected, before, after, _ in steps]
+        self.assertIn(False, same[1:])
+        for now, outputs in zip(same, [json.loads(row[3]) for row in steps]):
+            if not now:
+                self.assertEqual(outputs["state_snapshots"], 0)
+
+    def test_resumed_runs_combine_the_same_states(self):
+        self.write("affine.py", AFFINE)
+        command = "python3 affine.py {mesh} {design} {state} {result}"
+        options = ("--strategy", "reference", "--snapshots", 4)
+        self.optimise("whole", command, *options, evaluations=12, sigma=1e-4)
+        self.optimise("parts", command, *options, evaluations=7, sigma=1e-4)
+        self.optimise("parts", command, *options, "--resume", evaluations=12, sigma=1e-4)
+        query = "select coefficients, objective, outputs from evaluations"
+        self.assertEqual(self.rows("whole", query), self.rows("parts", query))
+        self.refused("optimise", "--from", "naca:0012", "--evaluate", command, "--points", 40, "--sigma", 1e-4, "--strategy",
+                     "reference", "--resume", "--evaluations", 20, "-o", "parts", names="options")
+
     def test_failures_are_infeasible_designs_and_leave_their_directory(self):
         self.write("fails.sh", """case "$3" in */000002/*) sleep 60 & wait;; */000004/*) echo no licence >&2; exit 3;;
 */000006/*) echo 'nothing of the kind' > "$2";; esac
@@ -156,14 +213,21 @@ class Su2(Loop):
         before = os.environ["PATH"]
         os.environ["PATH"] = f"{self.directory}{os.pathsep}{before}"
         self.addCleanup(os.environ.__setitem__, "PATH", before)
-        figures = self.optimise("run", "./solve.py drag.cfg {mesh} {state} {result}", "--time-limit", 60, evaluations=10)
+        figures = self.optimise("run", "./solve.py drag.cfg {mesh} {state} {result}", "--time-limit", 60,
+                                "--keep-evaluations", "all", evaluations=10)
         self.assertEqual(figures["failed_evaluations"], 0, figures["detail"])
         outputs = self.outputs("run")
         for row in outputs:
             self.assertAlmostEqual(row["cd"], row["area"] ** 2, delta=1e-12)
-            self.assertEqual(row["cl"], 0.5)
+            self.assertAlmostEqual(row["cl"], 0.5, delta=1e-7)
         self.assertEqual([row["warm"] for row in outputs], [0] + [1] * 9)
         self.assertLess(max(row["iterations"] for row in outputs[1:]), outputs[0]["iterations"])
+        alphas = [2.0] + [row["alpha"] for row in outputs]
+        for i, before in enumerate(alphas[:10]):  # each design begins at the angle of the one before
+            config = (self.path("run") / f"evaluations/{i + 1:06}/case.cfg").read_text()
+            starts = [float(line.split("=")[1]) for line in config.splitlines() if line.startswith("AOA=")]
+            self.assertEqual(len(starts), 1)
+            self.assertAlmostEqual(starts[0], before, delta=1e-12)
 
     def test_the_table_of_iterations(self):
         self.write("SU2_CFD", SU2)
@@ -172,12 +236,44 @@ class Su2(Loop):
                  "--cases", "0.5:1e-3"]
         done = subprocess.run([*table, "--su2", self.path("SU2_CFD")], capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
-        cold, fresh, living = (int(cell.split("(")[0]) for cell in done.stdout.splitlines()[-1].split("|")[3:6])
+        cold, fresh, living, combined = (int(cell.split("(")[0]) for cell in done.stdout.splitlines()[-1].split("|")[3:7])
+        self.assertLess(combined, fresh)
         self.assertLess(living, fresh)
         self.assertLess(fresh, cold)
         skipped = subprocess.run([*table, "--su2", "no-such-program"], capture_output=True, text=True)
         self.assertEqual((skipped.returncode, skipped.stdout), (77, ""))
         self.assertIn("skipped: no-such-program is not found", skipped.stderr)
+
+    def test_the_job_file_goes_on_where_the_job_before_ended(self):
+        self.copy_example()
+        shutil.copy(SOURCE / "examples/solver.slurm", self.directory)
+        # srun, as far as the job file uses it: the command with its ranks, of which the stand-in needs one.
+        self.write("srun", """#!/bin/sh
+test "$1 $2" = "--exact -n" || exit 9
+echo "$3" >> "$RANKS_SEEN"
+shift 3
+exec "$@"
+""")
+        self.write("SU2_CFD", SU2)
+        for name in ("srun", "SU2_CFD"):
+            self.path(name).chmod(stat.S_IRWXU)
+        self.path("remodel").symlink_to(Path(harness.PROGRAM).resolve())
+        job = {**os.environ, "PATH": f"{self.directory}{os.pathsep}{os.environ['PATH']}", "SLURM_NTASKS": "8", "RANKS": "4",
+               "SLURM_SUBMIT_DIR": str(self.directory), "RANKS_SEEN": str(self.path("ranks"))}
+        job.pop("SU2_CFD", None)
+        for evaluations in (2, 4):
+            done = subprocess.run(["bash", "solver.slurm"], cwd=self.directory, env={**job, "EVALUATIONS": str(evaluations)},
+                                  capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.path("ranks").read_text().split(), ["4"] * 4)
+        outputs = self.outputs("run")
+        self.assertEqual(len(outputs), 4)
+        self.assertGreater(sum(row["warm"] for row in outputs), 1)
+        self.assertEqual({worker for worker, in self.rows("run", "select worker from evaluations")}, {1, 2})
+        small = subprocess.run(["bash", "solver.slurm"], cwd=self.directory, env={**job, "SLURM_NTASKS": "3"},
+                               capture_output=True, text=True)
+        self.assertEqual(small.returncode, 2)
+        self.assertIn("expected 4 or more", small.stderr)
 
     def test_the_example_with_su2_itself(self):
         if shutil.which("SU2_CFD") is None:
