@@ -1,8 +1,9 @@
 // A three-element airfoil whose slat and flap are set anew again and again, in one living mesh:
 //
-//   high_lift [SETTINGS] [SEED] [PREFIX]
+//   high_lift [SETTINGS] [SEED] [STRATEGY] [PREFIX]
 //
-// A row for every setting; with PREFIX the first and the last mesh as PREFIX-first.vtkhdf and
+// STRATEGY is chain (the usual), renew, morph or reference; meshes for the last have angle_with_slack(). A
+// row for every setting; with PREFIX the first and the last mesh as PREFIX-first.vtkhdf and
 // PREFIX-last.vtkhdf. Settings whose elements would touch are refused and drawn again. Exit status 1 if a
 // mesh is invalid.
 
@@ -66,44 +67,61 @@ class Random {
 
 bool valid(const Mesh& mesh) {
   return mesh.quick_check().empty() && check(mesh.freeze(), {.min_angle_deg = mesh.options().min_angle_deg,
-                                                             .max_gradation = mesh.options().max_gradation,
+                                                             .max_gradation = mesh.promised_gradation(),
+                                                             .delaunay_slack_deg = mesh.delaunay_slack_deg(),
                                                              .design = &mesh.domain()})
                                            .valid;
 }
 
-int run(int settings, std::uint64_t seed, const std::string& prefix) {
+Strategy strategy_named(const std::string& name) {
+  for (const Strategy strategy : {Strategy::chain, Strategy::renew, Strategy::morph, Strategy::reference})
+    if (name == name_of(strategy)) return strategy;
+  throw Error(ErrorCode::argument, "STRATEGY",
+              "found '" + name + "', expected chain, renew, morph or reference");
+}
+
+int run(int settings, std::uint64_t seed, Strategy strategy, const std::string& prefix) {
   Random random(seed);
-  Mesh mesh = generate(three_elements({}), {.gradation = 2.4}).mesh;
+  QualityOptions quality{.gradation = 2.4};
+  if (strategy == Strategy::reference) quality.refine_angle_deg = angle_with_slack(quality);
+  Mesh mesh = generate(three_elements({}), quality).mesh;
   if (!prefix.empty()) write_mesh(mesh, prefix + "-first.vtkhdf");
   std::puts(
-      "setting,slat_deg,flap_deg,flap_shift,triangles,preserved_percent,min_angle_deg,exempt,method,valid");
+      "setting,slat_deg,flap_deg,flap_shift,triangles,preserved_percent,connectivity_percent,changed,min_"
+      "angle_"
+      "deg,exempt,method,valid");
   int invalid = 0, regenerated = 0, refused = 0;
-  double preserved = 0.0, smallest = 90.0;
+  double preserved = 0.0, connected = 0.0, least_connected = 100.0, changed = 0.0, smallest = 90.0;
   for (int i = 1; i <= settings;) {
     const Setting setting = random.setting();
     RemodelResult result;
     try {
-      result = remodel::remodel(mesh, three_elements(setting));
+      result = remodel::remodel(mesh, three_elements(setting), {.strategy = strategy});
     } catch (const Error&) {
       ++refused;
       continue;
     }
     const bool fine = valid(mesh);
     const MeshStatistics statistics = mesh.statistics();
-    std::printf("%d,%.2f,%.2f,%.3f,%zu,%.2f,%.4f,%zu,%s,%s\n", i, setting.slat_deg, setting.flap_deg,
-                setting.flap_shift, result.triangles, result.preserved_percent(), statistics.min_angle_deg,
+    std::printf("%d,%.2f,%.2f,%.3f,%zu,%.2f,%.2f,%zu,%.4f,%zu,%s,%s\n", i, setting.slat_deg, setting.flap_deg,
+                setting.flap_shift, result.triangles, result.preserved_percent(),
+                result.connectivity_percent(), result.born() + result.gone(), statistics.min_angle_deg,
                 statistics.exempt_triangles, name_of(result.method), fine ? "yes" : "NO");
     invalid += fine ? 0 : 1;
     regenerated += result.regenerated ? 1 : 0;
     preserved += result.preserved_percent() / settings;
+    connected += result.connectivity_percent() / settings;
+    least_connected = std::min(least_connected, result.connectivity_percent());
+    changed += static_cast<double>(result.born() + result.gone()) / settings;
     smallest = std::min(smallest, statistics.min_held_angle_deg);
     ++i;
   }
   std::fprintf(stderr,
                "%d settings, %d refused: %d invalid, %d generated afresh, %.1f %% preserved on average, "
-               "smallest angle "
+               "%.1f %% joined as before (least %.1f), %.0f triangles born and gone, smallest angle "
                "%.4f degrees, %zu triangles at the end, %zu in a fresh mesh\n",
-               settings, refused, invalid, regenerated, preserved, smallest, mesh.triangle_count(),
+               settings, refused, invalid, regenerated, preserved, connected, least_connected, changed,
+               smallest, mesh.triangle_count(),
                generate(mesh.domain(), mesh.options()).mesh.triangle_count());
   if (!prefix.empty()) write_mesh(mesh, prefix + "-last.vtkhdf");
   return invalid == 0 ? 0 : 1;
@@ -114,7 +132,7 @@ int run(int settings, std::uint64_t seed, const std::string& prefix) {
 int main(int argc, char** argv) {
   try {
     return run(argc > 1 ? std::atoi(argv[1]) : 500, argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1,
-               argc > 3 ? argv[3] : "");
+               strategy_named(argc > 3 ? argv[3] : "chain"), argc > 4 ? argv[4] : "");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "high_lift: error: %s\n", error.what());
     return 2;

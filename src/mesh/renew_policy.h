@@ -47,6 +47,11 @@ struct RenewPolicy {
   static constexpr int shedding_passes = 4;  // at most
   // A morph of a mesh whose surplus is larger sheds it: what a large change stretches and the next one squeezes
   // is refined but not coarsened between renewals, so that walks of large steps may run away.
+  // Steiner vertices of boundaries that have a triangle below dense_below are dissolved then, and at each
+  // renewal of a morph. Without it they heap up, 491 beside 200 stations, and cannot be shed: two of nine
+  // searches at I = 200 lost half of their triangles in every step. Measured there: dissolved at renewals too,
+  // the surplus is 2.7 instead of 8.1 % where it is largest, and a step 15 % cheaper; only those below 0.2
+  // leave 4.6 %, all of them 16 %.
   static constexpr double morph_surplus = 0.2;
   // Samples of K where the discretisation has changed: it depends on that.
   static constexpr int samples_of_another_discretisation = 2;

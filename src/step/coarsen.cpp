@@ -35,7 +35,30 @@ class Coarsening {
     triangulation_.remove(going);
   }
 
+  bool dissolve_below(double bound) {
+    List<std::uint32_t> going(&mesh_.arena);
+    for (const std::uint32_t head : mesh_.loop_heads)
+      mesh_.walk(head, [&](std::uint32_t k) {
+        if (mesh_.at(k).steiner && mesh_.at(k).twin == k && is_dense(mesh_.at(k).vertex, bound))
+          going.push_back(k);
+      });
+    bool any = false;
+    for (const std::uint32_t k : going) {
+      if (!triangulation_.unsplit(mesh_.at(k).vertex)) continue;
+      mesh_.remove_boundary_vertex(k);
+      any = true;
+    }
+    return any;
+  }
+
  private:
+  bool is_dense(VertexId v, double bound) const {
+    return triangulation_.any_corner(v, [&](Corner c) {
+      const Triangle& triangle = triangulation_[c.triangle];
+      return triangle.in_domain() && squared_ratio(triangle) < bound;
+    });
+  }
+
   std::size_t remove_candidates(std::size_t budget) {
     std::size_t removed = 0;
     std::sort(candidates_.begin(), candidates_.end());
@@ -108,6 +131,10 @@ std::size_t coarsen_touched(MeshData& mesh, std::span<const VertexId> around, st
 
 void remove_dense(MeshData& mesh, double bound) {
   Coarsening(mesh).everywhere_below(bound);
+}
+
+bool dissolve_dense(MeshData& mesh, double bound) {
+  return Coarsening(mesh).dissolve_below(bound);
 }
 
 }  // namespace remodel

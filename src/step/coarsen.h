@@ -15,5 +15,8 @@ std::size_t coarsen_touched(MeshData& mesh, std::span<const VertexId> around, st
 // Under a journal: removes every interior vertex of the domain that has a triangle with (r / (H LS))^2 below
 // the bound. What takes their place is for refinement to make good. O(triangles).
 void remove_dense(MeshData& mesh, double bound);
+// Likewise, of Steiner vertices on boundaries and curves, those that can be dissolved: their two edges become
+// one. Those that chains share stay. Whether there were any.
+bool dissolve_dense(MeshData& mesh, double bound);
 
 }  // namespace remodel

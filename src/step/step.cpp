@@ -363,6 +363,8 @@ bool Step::change_under_journal() {
   const std::optional<List<VertexId>> moved = change_boundary();
   if (!moved) return false;
   if (renewal) renew_replaced(mesh, *moved, budget);
+  // Morphs take along the Steiner vertices of boundaries, which replacements make anew.
+  if (renewal && morphing_) dissolve_dense(mesh, RenewPolicy::dense_below);
   result_.stopped = cancelled() ? Stopped::interrupted : refine_touched(mesh, made(), options_.observer);
   if (renewing_ && other_discretisation_) discretisation_changed(mesh, options_.observer);
   if (surplus || (renewing_ && mesh.renewal.until_shed > 0)) shed_and_refine();
@@ -383,8 +385,11 @@ bool Step::change_under_journal() {
 
 // A boundary of fewer points than before leaves a mesh that is far too dense, and so may a row of morphs.
 void Step::shed_and_refine() {
+  bool dissolved = morphing_ && dissolve_dense(data(), RenewPolicy::dense_below);
   for (int pass = 0; pass < RenewPolicy::shedding_passes; ++pass) {
-    if (result_.stopped != Stopped::done || !shed_surplus(data())) break;
+    if (result_.stopped != Stopped::done) break;
+    const bool shed = shed_surplus(data());
+    if (!shed && !std::exchange(dissolved, false)) break;
     result_.stopped = refine_touched(data(), made(), options_.observer);
   }
   if (data().renewal.until_shed > 0) --data().renewal.until_shed;
