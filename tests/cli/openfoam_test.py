@@ -62,7 +62,42 @@ boundaryField {{ airfoil {{ type calculated; value {listed(airfoil)}; }}
 """
 
 
+# Leaves a field that is an affine function of the design, in cells and on the airfoil's faces, and says how far from it its
+# start was.
+AFFINE = """import json, re, sys
+from pathlib import Path
+case, design, result = Path(sys.argv[1]), json.loads(Path(sys.argv[2]).read_text()), sys.argv[3]
+boundary = (case / "constant/polyMesh/boundary").read_text()
+count = lambda patch: int(re.search(patch + r"\\s*{[^}]*nFaces\\s+(\\d+)", boundary).group(1))
+exact = [[300 + sum((1 + (i + k) % 3) * a for k, a in enumerate(design)) for i in range(count(patch))]
+         for patch in ("front", "airfoil")]
+listed = lambda values: f"nonuniform List<scalar> {len(values)} ({' '.join(map(repr, values))})"
+header = "FoamFile { version 2.0; format ascii; class volScalarField; object T; } dimensions [0 0 0 1 0 0 0];"
+outputs = {}
+if (case / "0/T").exists():
+    lists = re.findall(r"List<scalar>\\s*\\d+\\s*\\(([^)]*)\\)", (case / "0/T").read_text())
+    found = [list(map(float, text.split())) for text in lists]
+    assert [len(values) for values in found] == [len(values) for values in exact]
+    outputs["off"] = max(abs(a - b) for x, y in zip(found, exact) for a, b in zip(x, y))
+(case / "100").mkdir()
+(case / "100/T").write_text(f"{header} internalField {listed(exact[0])}; boundaryField {{ airfoil {{ type calculated; "
+                            f"value {listed(exact[1])}; }} farfield {{ type fixedValue; value uniform 293; }} }}")
+Path(result).write_text(json.dumps({"objective": design[0] ** 2, "outputs": outputs}))
+"""
+
+
 class Files(ProgramTest):
+    def test_earlier_fields_of_one_connectivity_are_combined(self):
+        self.write("affine.py", AFFINE)
+        self.figures("optimise", "--from", "naca:0012", "--evaluate", "python3 affine.py {case} {design} {result}", "--points",
+                     40, "--sigma", 1e-4, "--strategy", "reference", "--snapshots", 20, "--evaluations", 22, "--quiet", "-o",
+                     "run")
+        with sqlite3.connect(self.path("run") / "history.sqlite") as history:
+            rows = [json.loads(row) for row, in history.execute("select outputs from evaluations order by evaluation")]
+        self.assertEqual([row["state_snapshots"] for row in rows], [min(i, 20) for i in range(22)])
+        early, late = [row["off"] for row in rows[1:4]], [row["off"] for row in rows[15:]]
+        self.assertLess(max(late), min(early) / 20)
+
     def mesh(self, points=60):
         self.succeed("mesh", "naca:0012", "--points", points, "-o", "old.vtkhdf")
         self.path("case").mkdir()
