@@ -415,7 +415,8 @@ TEST(Elements, GapsAreDistancesOfOutlines) {
   const std::vector<double> start = task.space().start();
   const Evaluation evaluation = task.evaluate(start);
   const Domain domain = task.space().domain(start);
-  for (const auto& [i, loop, other] : {std::array{1, 0, 1}, std::array{2, 1, 2}}) {
+  for (const std::size_t i : {1U, 2U}) {
+    const std::size_t loop = i - 1, other = i;
     double least = 1e9;
     const auto& outline = std::get<CstAirfoil>(domain.loops[other].curves[0].shape);
     const Frame frame(domain.loops[other].placement);
@@ -427,9 +428,7 @@ TEST(Elements, GapsAreDistancesOfOutlines) {
     // Polygons of 40 points lie inside of round outlines: 3 % of these gaps.
     EXPECT_NEAR(0.01 - evaluation.constraints[i], least, 0.05 * least);
     const auto gap = [&](const auto& design) {
-      return 0.01 - gap_between(task.space().domain(design), static_cast<std::size_t>(loop),
-                                static_cast<std::size_t>(other))
-                        .distance;
+      return 0.01 - gap_between(task.space().domain(design), loop, other).distance;
     };
     EXPECT_LT(relative(evaluation.constraint_gradients[i], task.differences(gap, 1e-6)), 1e-7);
   }
