@@ -95,7 +95,7 @@ Status run(DesignCommand& command) {
   for (const auto& [name, value] : result.outputs) report.figure(name, name, value);
   for (const NamedNumber& number : space->named(result.best_design))
     report.figure(number.name, number.name, number.value);
-  add_cost(report, read_design_run(command.run.directory));
+  if (result.evaluations > 0) add_cost(report, read_design_run(command.run.directory));
   report.figure("seconds", "wall time", result.seconds, "seconds");
   report.figure("stopped", "stopped", name_of(result.stopped));
   report.figure("converged", "converged", designer->finished());

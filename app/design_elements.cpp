@@ -83,7 +83,8 @@ ElementSpace read_elements(const Keys& problem, const std::string& file, int deg
     if (elements.size() == most) problem.fail("found more than 20 'elements'");
     elements.push_back(element_of(entry, file + ", element " + std::to_string(elements.size() + 1), degree));
     const std::string& name = elements.back().placed.name;
-    if (name.empty() || name == "farfield") problem.fail("found '" + name + "' as the name of an element");
+    if (name.empty() || name == "farfield" || name == "symmetry")
+      problem.fail("found '" + name + "' as the name of an element");
     for (const PlacedAirfoil& other : placed)
       if (other.name == name) problem.fail("found two elements of the name '" + name + "'");
     placed.push_back(elements.back().placed);

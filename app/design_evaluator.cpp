@@ -16,9 +16,22 @@ namespace remodel::app {
 
 namespace {
 
+// Asks the observer of the evaluation under way: flows outlive it.
+class LatestObserver final : public StepObserver {
+ public:
+  void ask(StepObserver& observer) { latest_ = &observer; }
+  bool cancelled() override { return latest_ != nullptr && latest_->cancelled(); }
+
+ private:
+  StepObserver* latest_ = nullptr;
+};
+
 struct FlowMemory final : EvaluatorState {
+  LatestObserver observer;
   std::vector<LivingFlow> flows;
-  std::uint64_t connectivity = 0;  // how often it has changed
+  // A number for the mesh's connectivity that no other one has had in the run: twice that of the evaluation
+  // that found it first, and one more where the target's mesh has joined it since.
+  std::uint64_t connectivity = 0;
   // Of inverse design: the target's pressures at stations, on a copy of the mesh that followed to it.
   std::vector<LivingFlow> target_flows;
   std::vector<std::map<double, double>> target;
@@ -55,14 +68,13 @@ class FlowEvaluator final : public Evaluator {
   }
 
   Evaluation evaluate(const EvaluationTask& task, std::unique_ptr<EvaluatorState>& state) override {
-    if (!state) {
-      auto fresh = std::make_unique<FlowMemory>();
-      state = std::move(fresh);
-    }
+    const bool is_first = !state;
+    if (is_first) state = std::make_unique<FlowMemory>();
     auto& memory = static_cast<FlowMemory&>(*state);
+    memory.observer.ask(task.observer);
     while (memory.flows.size() < problem_.points.size())
-      memory.flows.emplace_back(flow_options(space_.half(), &task.observer));
-    if (!task.step.full_adjustment) ++memory.connectivity;
+      memory.flows.emplace_back(flow_options(space_.half(), &memory.observer));
+    if (is_first || !task.step.full_adjustment) memory.connectivity = 2 * task.evaluation;
     if (problem_.target) aim(task, memory);
     Evaluation result;
     const MeshDerivative derivative(task.mesh);
@@ -174,7 +186,7 @@ class FlowEvaluator final : public Evaluator {
     memory.target.clear();
     for (std::size_t i = 0; i < problem_.points.size(); ++i) {
       if (memory.target_flows.size() == i)
-        memory.target_flows.emplace_back(flow_options(space_.half(), &task.observer));
+        memory.target_flows.emplace_back(flow_options(space_.half(), &memory.observer));
       const FlowResult flow = memory.target_flows[i].solve(mesh, problem_.points[i].conditions);
       if (!flow.converged()) throw std::runtime_error("no flow was found around the target: " + flow.reason);
       memory.target.push_back(at_stations(mesh.freeze(), pressure_coefficients(flow)));

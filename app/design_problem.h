@@ -63,7 +63,7 @@ struct DesignProblemFile {
   std::vector<int> verify;  // numbers of points of fresh meshes for the last design
 
   // Whether all flows are their own mirror images, so that half of each says all: a symmetric section closed
-  // behind, along the x axis, and no word of lift or moment.
+  // behind, along the x axis, and no word of lift, moment or suction.
   bool is_half() const;
   SectionSpaceOptions section_options() const {  // of a problem of one section
     return {.symmetric = symmetric, .half = is_half(), .domain = domain};

@@ -15,6 +15,7 @@
 #include "gap.h"
 #include "remodel/generate.h"
 #include "remodel/mesh_derivative.h"
+#include "sqp_designer.h"
 
 namespace remodel::app {
 namespace {
@@ -432,6 +433,32 @@ TEST(Elements, GapsAreDistancesOfOutlines) {
     };
     EXPECT_LT(relative(evaluation.constraint_gradients[i], task.differences(gap, 1e-6)), 1e-7);
   }
+}
+
+TEST(Elements, AreFeasibleAtTheirBoundWhateverTheScale) {
+  for (const double scale : {1e-6, 1e-4, 0.1, 7.0})
+    for (const double x : {1.751, -0.333, 0.0007}) {
+      const Case task({{"elements",
+                        {{{"name", "section"},
+                          {"airfoil", "naca:0012"},
+                          {"placement", {{"position", {x, 0}}}},
+                          {"variables", {{"x", {{"bounds", {x, x + 0.1}}, {"scale", scale}}}}}}}},
+                       {"mesh", {{"points", 20}}},
+                       {"flow", {{{"mach", 0.3}, {"alpha_deg", 1}}}},
+                       {"objective", "lift"}});
+      EXPECT_TRUE(task.space().feasible(task.space().start())) << x << " by a scale of " << scale;
+    }
+}
+
+TEST(Sqp, WhoseStartIsRefusedHasFinished) {
+  GradientOptions options;
+  options.low = {0.0, 0.0}, options.high = {1.0, 1.0};
+  SqpDesigner designer({0.1, 0.2}, options);
+  const Proposal start = designer.ask();
+  designer.refuse(start);
+  EXPECT_TRUE(designer.finished());
+  designer.refuse(start);
+  EXPECT_TRUE(designer.finished());
 }
 
 TEST(Elements, ThatTouchOrLeaveTheirBoundsAreInfeasible) {

@@ -103,10 +103,12 @@ std::vector<double> ElementSpace::gradient_of_section(std::size_t index,
 }
 
 bool ElementSpace::feasible(std::span<const double> design) const {
-  constexpr double rounding = 1e-12;  // of numbers that are multiplied by their scale
+  constexpr double rounding = 1e-12;  // of numbers that are divided and multiplied by their scale
   for (std::size_t i = 0; i < variables_.size(); ++i) {
     const ElementVariable& variable = variables_[i];
-    const double value = design[i] * variable.scale, slack = rounding * variable.scale;
+    const double value = design[i] * variable.scale;
+    const double slack =
+        rounding * std::max({variable.scale, std::fabs(variable.low), std::fabs(variable.high)});
     if (!variable.is_coefficient && !(value >= variable.low - slack && value <= variable.high + slack))
       return false;
   }

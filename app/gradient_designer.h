@@ -25,7 +25,8 @@ struct KnownDesign {
   std::vector<double> design;
   Evaluation evaluation;
 };
-// The output "connectivity": how often the mesh's connectivity had changed; 0 where there is none.
+// The output "connectivity": the number of the mesh's connectivity, another one after each change; 0 where
+// there is none.
 double connectivity_of(const Evaluation& evaluation);
 std::string json_of(const KnownDesign& known);      // without other outputs
 KnownDesign known_design(const std::string& text);  // throws nlohmann's exceptions

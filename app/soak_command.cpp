@@ -55,9 +55,10 @@ void add_soak_command(CLI::App& program, Action& action) {
               [command](std::int64_t value) { command->soak.steps = static_cast<std::size_t>(value); });
   add_integer(app, {"--seed", "N", "1", "Seed of the episodes: 0 or more"}, {.low = 0},
               [command](std::int64_t value) { command->soak.seed = static_cast<std::uint64_t>(value); });
-  add_integer(
-      app, {"--episode", "N", "1", "The first episode, of up to 200 steps each: at least 1"}, {.low = 1},
-      [command](std::int64_t value) { command->soak.first_episode = static_cast<std::size_t>(value); });
+  add_integer(app, {"--episode", "N", "1", "The first episode, of 200 steps each: 1 to 1000000"},
+              {.low = 1, .high = 1000000}, [command](std::int64_t value) {
+                command->soak.first_episode = static_cast<std::size_t>(value);
+              });
   add_integer(app,
               {"--full-check-every", "K", "200",
                "Every K-th mesh also goes through the independent validator; 0: never"},

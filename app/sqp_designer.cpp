@@ -214,6 +214,7 @@ void SqpDesigner::refuse(const Proposal& proposal) {
 }
 
 void SqpDesigner::tell(const Proposal& proposal, const Evaluation& evaluation) {
+  if (finished_) return;
   const std::size_t n = proposal.design.size();
   const bool failed = !std::isfinite(evaluation.objective) || evaluation.gradient.size() != n;
   const KnownDesign known{proposal.design, evaluation};

@@ -38,7 +38,7 @@ enum LiveFigure : std::uint32_t {
 
 // Of live_euler_figures().
 enum LiveEulerFigure : std::uint32_t {
-  live_euler_converged,  // 0 or 1: no other figure is of use then, but for the steps
+  live_euler_converged,  // 0 or 1; where 0, no other figure is of use but for the steps
   live_euler_start,      // a FlowStart
   live_euler_cl,
   live_euler_cd,

@@ -30,18 +30,18 @@ struct SoakResult {
   std::size_t full_checks = 0;
   double min_angle_deg = 90.0;   // smallest of all meshes that went through check()
   double slowest_step_ms = 0.0;  // processor time
-  std::size_t slowest_step = 0;  // its number, from 1
+  std::size_t slowest_step = 0;  // its number, from 1; steps before the first episode count
   std::size_t slowest_episode = 0;
   double peak_memory_mib = 0.0;  // of the process
   double seconds = 0.0;
-  std::string first_failure;  // the first broken rule, with the options that reproduce it
+  std::string first_failure;  // the first broken rule, with the seed and the episode that reproduce it
 };
 
 // Episodes of up to 200 steps on one mesh. An episode draws a kind of domain (an airfoil of the catalogue,
 // slat, main airfoil and flap, a duct, a lake with an island, a wall and lone points, a mesh of another
 // program; some at the coordinates of a map), I from 8 to 400, G, D of the paper's four, method and strategy.
 // Its steps are random walks, jumps to other shapes, and designs that cross themselves. Episodes know nothing
-// of each other: `first_episode` begins with a later one.
+// of each other: `first_episode` begins with a later one. Throws Error (argument) for episode 0.
 SoakResult soak(const SoakOptions& options);
 
 }  // namespace remodel

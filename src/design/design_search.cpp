@@ -9,6 +9,7 @@ std::optional<Sample> next_sample(Designer& designer, const Feasible& feasible, 
     Proposal proposal = designer.ask();
     if (feasible(proposal.design)) return Sample{std::move(proposal), refused};
     designer.refuse(proposal);
+    if (designer.finished()) break;  // it has nothing else to propose
   }
   return std::nullopt;
 }

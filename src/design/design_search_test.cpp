@@ -152,6 +152,32 @@ TEST(InterpolationObjective, HasTheGradientOfCentralDifferences) {
   }
 }
 
+// Proposes its start and nothing else.
+class OneProposal final : public Designer {
+ public:
+  std::size_t population() const override { return 1; }
+  Proposal ask() override { return ++asked_, Proposal{.design = {0.0}}; }
+  void refuse(const Proposal&) override { finished_ = true; }
+  void tell(const Proposal&, const Evaluation&) override { finished_ = true; }
+  bool finished() const override { return finished_; }
+  std::uint64_t generation() const override { return 0; }
+  std::string state() const override { return {}; }
+  void restore(const std::string&, const std::string&) override {}
+  std::string description() const override { return "{}"; }
+  int asked() const { return asked_; }
+
+ private:
+  int asked_ = 0;
+  bool finished_ = false;
+};
+
+TEST(NextSample, IsNotAskedOfADesignerThatHasFinished) {
+  OneProposal designer;
+  EXPECT_FALSE(next_sample(
+      designer, [](std::span<const double>) { return false; }, 100));
+  EXPECT_EQ(designer.asked(), 1);
+}
+
 TEST(RaiseDegree, KeepsTheAirfoil) {
   for (const CatalogueEntry& entry : airfoil_catalogue()) {
     const CstAirfoil airfoil = entry.airfoil(), raised = raise_degree(airfoil, airfoil.degree() + 3);

@@ -46,14 +46,17 @@ class Soak {
   void episode(std::uint64_t seed) {
     portable::Generator random(seed);
     SoakCase drawn = draw_case(random);
-    for (int i = 0; i < 200 && going(); ++i) step(drawn);
+    for (std::size_t i = 1; i <= steps_of_an_episode && going(); ++i) {
+      number_ = (episode_ - 1) * steps_of_an_episode + i;
+      step(drawn);
+    }
   }
 
   void step(SoakCase& drawn) {
     ++result_.steps;
     Mesh& mesh = drawn.mesh;
     std::optional<MeshState> before;  // to compare with, now and then
-    if (result_.steps % 50 == 0) before = mesh.state();
+    if (number_ % 50 == 0) before = mesh.state();
     const std::uint32_t step_before = mesh.step();
     const ThreadStopwatch watch;
     bool finished = true;
@@ -76,14 +79,14 @@ class Soak {
   void note_time(double milliseconds) {
     if (milliseconds <= result_.slowest_step_ms) return;
     result_.slowest_step_ms = milliseconds;
-    result_.slowest_step = result_.steps;
+    result_.slowest_step = number_;
     result_.slowest_episode = episode_;
   }
 
   // A mesh that a limit left unfinished has the quality that it has, and is valid in all else.
   void validate(const Mesh& mesh, bool finished) {
     if (const std::string broken = finished ? mesh.quick_check() : ""; !broken.empty()) fail(broken);
-    const bool chosen = options_.full_check_every != 0 && result_.steps % options_.full_check_every == 0;
+    const bool chosen = options_.full_check_every != 0 && number_ % options_.full_check_every == 0;
     if (finished && !chosen) return;
     ++result_.full_checks;
     const CheckResult checked = check(mesh.freeze(), promises(mesh, finished));
@@ -107,13 +110,15 @@ class Soak {
   void fail(const std::string& rule) {
     ++result_.invalid_meshes;
     if (result_.first_failure.empty())
-      result_.first_failure = "step " + std::to_string(result_.steps) + ", --seed " +
+      result_.first_failure = "step " + std::to_string(number_) + ", --seed " +
                               std::to_string(options_.seed) + " --episode " + std::to_string(episode_) +
                               ": " + rule;
   }
 
   const SoakOptions& options_;
-  std::size_t episode_ = 0;  // the one under way
+  static constexpr std::size_t steps_of_an_episode = 200;
+  std::size_t episode_ = 0,
+              number_ = 0;  // of what is under way, as if the run had begun with the first episode
   SoakResult result_;
   bool stopped_ = false;
 };
@@ -121,6 +126,8 @@ class Soak {
 }  // namespace
 
 SoakResult soak(const SoakOptions& options) {
+  if (options.first_episode == 0)
+    throw Error(ErrorCode::argument, "first_episode", "found 0, expected 1 or more");
   return Soak(options).run();
 }
 

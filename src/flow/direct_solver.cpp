@@ -1,3 +1,7 @@
+// By MUMPS, sequential. Source: P. R. Amestoy, I. S. Duff, J.-Y. L'Excellent and J. Koster, "A fully
+// asynchronous multifrontal solver using distributed dynamic scheduling", SIAM J. Matrix Anal. Appl. 23
+// (2001).
+
 #include "flow/direct_solver.h"
 
 #include <dmumps_c.h>

@@ -1,8 +1,7 @@
 #pragma once
 
-// Sparse LU of a block matrix by MUMPS, sequential. Source: P. R. Amestoy, I. S. Duff, J.-Y. L'Excellent and
-// J. Koster, "A fully asynchronous multifrontal solver using distributed dynamic scheduling", SIAM J. Matrix
-// Anal. Appl. 23 (2001). Calls from several threads take turns: MUMPS keeps state of its own.
+// Sparse LU of a block matrix, by MUMPS (direct_solver.cpp) or by Eigen (direct_solver_eigen.cpp). Calls from
+// several threads are safe: MUMPS, which keeps state of its own, takes them in turn.
 
 #include <array>
 #include <cstdint>

@@ -128,6 +128,7 @@ void DirectSolver::forget() {
 Factored DirectSolver::factor(const BlockRows& matrix, double memory_mb) {
   if (!impl_) impl_ = std::make_unique<Impl>();
   const bool same = impl_->start == matrix.start && impl_->column == matrix.column;
+  if (!same && !impl_->start.empty()) impl_ = std::make_unique<Impl>();
   impl_->factored = false;
   if (!same) impl_->order(matrix);
   impl_->fill(matrix);
@@ -138,7 +139,12 @@ Factored DirectSolver::factor(const BlockRows& matrix, double memory_mb) {
     impl_->start = matrix.start, impl_->column = matrix.column;
   }
   impl_->lu.factorize(impl_->matrix);
-  if (impl_->lu.info() != Eigen::Success) return Factored::singular;
+  // Eigen says in words alone that memory ran out, and info() may still be that of the factors before.
+  const bool lacks_memory = impl_->lu.lastErrorMessage().rfind("UNABLE TO", 0) == 0;
+  if (lacks_memory || impl_->lu.info() != Eigen::Success) {
+    impl_ = std::make_unique<Impl>();
+    return lacks_memory ? Factored::out_of_memory : Factored::singular;
+  }
   if (this->memory_mb() > memory_mb) return Factored::out_of_memory;
   impl_->factored = true;
   return Factored::done;

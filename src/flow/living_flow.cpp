@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/stopwatch.h"
 #include "flow/adjoint.h"
@@ -240,15 +241,20 @@ bool LivingFlow::Impl::try_older_factors(Task& task) {
 bool LivingFlow::Impl::try_own_factors(Task& task) {
   task.start = FlowStart::refactored;
   const int before = task.search.factorisations;
+  const bool were_factored = std::exchange(factored, false);  // whatever is thrown on the way
   const flow::ChordEnd end = flow::steps_with_own_factors(
       task.euler, task.measure, options, whole_matrix(task.euler), factors, task.state, task.search);
-  if (task.search.factorisations > before) belong(task.euler.mesh(), task.keys);
+  if (task.search.factorisations > before)
+    belong(task.euler.mesh(), task.keys);
+  else
+    factored = were_factored && factors.lu.ready();
   return end != flow::ChordEnd::slow;
 }
 
 // Cheapest first: older factors, new ones, pseudo-time from the last flow, undisturbed flow.
 void LivingFlow::Impl::search(Task& task) {
   if (solved && (try_older_factors(task) || try_own_factors(task))) return;
+  factored = false;
   if (solved) {
     task.start = FlowStart::refactored;
     flow::find_flow(task.euler, task.measure, {.cfl = flow::carried_cfl, .patience = flow::usual_patience},
@@ -403,9 +409,11 @@ FlowGradients LivingFlow::Impl::gradients(const std::vector<FlowFunctional>& fun
   auto totals = try_gradients(euler, slopes, result.krylov_iterations);
   if (!totals) {
     flow::Search made;
-    if (flow::factor_at(euler, state, std::numeric_limits<double>::infinity(), options, matrix, factors,
-                        made) == flow::Factored::done) {
-      belong(*mesh, keys);
+    factored = false;
+    const flow::Factored outcome = flow::factor_at(euler, state, std::numeric_limits<double>::infinity(),
+                                                   options, matrix, factors, made);
+    belong(*mesh, keys);
+    if (outcome == flow::Factored::done) {
       result.factorisations = 1;
       totals = try_gradients(euler, slopes, result.krylov_iterations);
     }
@@ -446,7 +454,8 @@ FlowResult solve_flow_from(const FrozenMesh& before, const FlowResult& known, co
   FlowStart start = FlowStart::refactored;
   if (flow::steps_with_own_factors(euler, measure, options, matrix, factors, state, search) ==
       flow::ChordEnd::slow)
-    flow::find_flow(euler, measure, {.cfl = flow::carried_cfl}, options, matrix, factors, state, search);
+    flow::find_flow(euler, measure, {.cfl = flow::carried_cfl, .patience = flow::usual_patience}, options,
+                    matrix, factors, state, search);
   if (search.status == FlowStatus::stalled || search.status == FlowStatus::step_limit) {
     start = FlowStart::cold;
     flow::find_flow_cold(euler, measure, options, matrix, factors, state, search);

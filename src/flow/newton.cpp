@@ -176,7 +176,7 @@ void find_flow_at_angle(const Euler& euler, const Measure& measure, const FlowOp
 // too far from it for the angle to follow.
 void find_flow_cold(const Euler& euler, const Measure& measure, const FlowOptions& options, BlockRows& matrix,
                     Factors& factors, State& state, Search& search) {
-  constexpr double rough_tolerance = 1e-4, late_cfl = 1e6;
+  constexpr double rough_tolerance = 1e-4, late_cfl = 1e6, cautious_cfl = 20.0;
   search.newton_steps = 0;
   if (!euler.stream().lift)
     return find_flow_at_angle(euler, measure, options, matrix, factors, state, search);
@@ -187,7 +187,13 @@ void find_flow_cold(const Euler& euler, const Measure& measure, const FlowOption
   rough.tolerance = std::max(options.tolerance, rough_tolerance);
   find_flow_at_angle(first, Measure(first), rough, matrix, factors, state, search);
   if (search.status != FlowStatus::converged) return;
-  find_flow(euler, measure, {.cfl = late_cfl}, options, matrix, factors, state, search);
+  const State at_first_angle = state;
+  find_flow(euler, measure, {.cfl = late_cfl, .patience = usual_patience}, options, matrix, factors, state,
+            search);
+  if (search.status != FlowStatus::stalled) return;
+  state = at_first_angle;
+  find_flow(euler, measure, {.cfl = cautious_cfl, .patience = last_patience, .relaxed = true}, options,
+            matrix, factors, state, search);
 }
 
 }  // namespace remodel::flow

@@ -58,8 +58,8 @@ Factored factor_at(const Euler& euler, const State& state, double cfl, const Flo
 void find_flow(const Euler& euler, const Measure& measure, const Pace& pace, const FlowOptions& options,
                BlockRows& matrix, Factors& factors, State& state, Search& search);
 
-// The same from undisturbed flow, and where that stalls, from it in stages from the scheme of
-// first order.
+// The same from undisturbed flow, and where that stalls, from it in stages from the scheme of first order. A
+// given lift is looked for from the flow at a guess of the angle, and where that stalls by shorter steps.
 void find_flow_cold(const Euler& euler, const Measure& measure, const FlowOptions& options, BlockRows& matrix,
                     Factors& factors, State& state, Search& search);
 
