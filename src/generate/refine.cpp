@@ -295,6 +295,8 @@ void Refiner::consider_star(VertexId v) {
 // is, and both halves are recovered.
 std::uint32_t Refiner::split_far(Segment segment, Point p, double t, int depth) {
   if (depth > max_depth) throw RecoveryError("boundary splits ask for each other without end");
+  const bool outermost = labelled_ && depth == 0;  // deeper, the edges that asked for this split are missing
+  if (outermost) triangulation_.mark();
   const VertexId a = mesh_.at(segment.from).vertex, b = mesh_.at(segment.to).vertex;
   triangulation_.release(a, b);
   const VertexId v = insert_boundary_point(triangulation_, p, a);
@@ -302,8 +304,7 @@ std::uint32_t Refiner::split_far(Segment segment, Point p, double t, int depth) 
   const std::uint32_t k = add_split(segment, v, t);
   recover(a, v, depth);
   recover(v, b, depth);
-  if (labelled_ && depth == 0)
-    clear_outside();  // deeper: the edges that asked for this split are not there yet
+  if (outermost) clear_outside();
   return k;
 }
 
@@ -341,8 +342,8 @@ void Refiner::recover(VertexId a, VertexId b, int depth) {
 
 // After a far split: what changed may lie on another side of the boundary now, and free vertices outside go.
 void Refiner::clear_outside() {
-  relabel_touched(mesh_);
-  for (const TriangleId t : triangulation_.touched()) consider(t);
+  relabel_touched_since_mark(mesh_);
+  for (const TriangleId t : triangulation_.touched_since_mark()) consider(t);
 }
 
 }  // namespace remodel

@@ -140,7 +140,7 @@ class Replacement {
   // anew. What insertion meets in holes, of other loops too, is Delaunay: all that lies outside was restored.
   void reinsert() {
     require_something_to_stand_on();
-    triangulation_.set_step(torn);
+    triangulation_.mark();
     release_boundary();
     List<std::uint32_t> loose(&mesh_.arena);
     triangulation_.remove(take_stuck(loose));
@@ -192,16 +192,11 @@ class Replacement {
     return result;
   }
 
-  // What was made meanwhile, which its birth tells apart, the step's from now on, and what lies beside the
-  // edges that are back.
+  // What has changed since the boundary was torn, and what lies beside the edges that are back.
   List<TriangleId> uncertain_since_torn(std::span<const std::uint32_t> loose) {
-    triangulation_.set_step(mesh_.step + 1);
     List<TriangleId> result(&mesh_.arena);
-    for (const TriangleId t : triangulation_.touched()) {
-      if (!triangulation_[t].alive() || triangulation_[t].birth != torn) continue;
-      triangulation_.set_birth(t, mesh_.step + 1);
-      result.push_back(t);
-    }
+    for (const TriangleId t : triangulation_.touched_since_mark())
+      if (triangulation_[t].alive()) result.push_back(t);
     for (const std::uint32_t k : loose) {
       if (!begins_edge(k)) continue;
       const Corner c = *triangulation_.find_edge(mesh_.at(k).vertex, mesh_.at(mesh_.at(k).next).vertex);
@@ -276,9 +271,8 @@ class Replacement {
   Triangulation& triangulation_;
   AdjustCache& cache_;
   ReplaceOptions options_;
-  static constexpr std::uint32_t torn = no_index;  // birth of triangles made while edges are missing
-  List<std::size_t> stuck_;                        // lost vertices, as positions in cache_.moving
-  List<VertexId> moved_;                           // kept and relocated ones
+  List<std::size_t> stuck_;  // lost vertices, as positions in cache_.moving
+  List<VertexId> moved_;     // kept and relocated ones
 };
 
 }  // namespace

@@ -2,29 +2,53 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 
 #include "remodel/predicates.h"
 #include "triangulation/triangulation.h"
 
 namespace remodel {
 
-// The first change of a triangle since begin(). A record's mark from an earlier journal means nothing;
-// outside of journals marks are not kept up.
+// The first change of a triangle since begin(), or since mark(). Outside of journals numbers are not kept up.
 void Triangulation::remember(TriangleId t) {
   if (!journalling_) return;
-  if (t.index < triangle_slots_before_) {
-    triangle_journal_.push_back({t, triangles_[t.index]});
-    triangle_journal_.back().triangle.badness = 0;  // refinement may have marked it since begin()
+  if (!is_touched(t)) {
+    if (t.index < triangle_slots_before_) {
+      triangle_journal_.push_back({t, triangles_[t.index]});
+      triangle_journal_.back().triangle.badness = 0;  // refinement may have marked it since begin()
+    }
+    touched_.push_back(t);
   }
-  touched_.push_back(t);
-  triangles_[t.index].journal = journal_;
+  if (marked_) touched_since_mark_.push_back(t);
+  triangles_[t.index].journal = number_;
 }
 
-// The first change of a vertex since begin().
+// The same of a vertex.
 void Triangulation::remember(VertexId v) {
   if (!journalling_) return;
-  if (v.index < vertex_slots_before_) earlier_vertices_.push_back({v, vertices_[v.index]});
-  vertex_journals_[v.index] = journal_;
+  if (v.index < vertex_slots_before_ && vertex_journals_[v.index] < first_number_)
+    earlier_vertices_.push_back({v, vertices_[v.index]});
+  vertex_journals_[v.index] = number_;
+}
+
+// When all numbers have been given out, what the journal under way has touched gets the first of them.
+void Triangulation::begin_number() {
+  if (last_number_ == std::numeric_limits<std::uint16_t>::max()) {
+    const auto renumber = [&](std::uint16_t& number) {
+      number = journalling_ && number >= first_number_ ? 1 : 0;
+    };
+    for (Triangle& t : triangles_) renumber(t.journal);
+    for (std::uint16_t& number : vertex_journals_) renumber(number);
+    first_number_ = last_number_ = 1;
+  }
+  number_ = ++last_number_;
+}
+
+void Triangulation::mark() {
+  assert(journalling_);
+  begin_number();
+  touched_since_mark_.clear();
+  marked_ = true;
 }
 
 bool Triangulation::same_edges(const Triangle& a, const Triangle& b) {
@@ -55,16 +79,14 @@ void Triangulation::begin() {
   triangle_journal_.clear();
   moved_journal_.clear();
   touched_.clear();
+  touched_since_mark_.clear();
   earlier_vertices_.clear();
   generation_journal_.clear();
   inserted_ = removed_ = 0;
   flipped_ = 0;
-  if (++journals_ == 0) {  // marks of 65535 journals ago would be mistaken for new ones
-    for (Triangle& t : triangles_) t.journal = 0;
-    std::fill(vertex_journals_.begin(), vertex_journals_.end(), 0);
-    journals_ = 1;
-  }
-  journal_ = journals_;
+  begin_number();
+  first_number_ = number_;
+  marked_ = false;
   journalling_ = true;
 }
 
@@ -74,13 +96,13 @@ void Triangulation::commit() {
   for (FreeList* list : {&free_vertices_, &free_triangles_}) list->reserve();
   for (FreeList* list : {&free_vertices_, &free_triangles_}) list->commit();
   journalling_ = false;
-  journal_ = 0;
+  number_ = 0;
 }
 
 void Triangulation::rollback() {
   assert(journalling_);
   journalling_ = false;
-  journal_ = 0;
+  number_ = 0;
   for (auto entry = triangle_journal_.rbegin(); entry != triangle_journal_.rend(); ++entry)
     triangles_[entry->id.index] = entry->triangle;
   for (auto entry = moved_journal_.rbegin(); entry != moved_journal_.rend(); ++entry) {
@@ -97,6 +119,7 @@ void Triangulation::rollback() {
   for (FreeList* list : {&free_vertices_, &free_triangles_}) list->rollback();
   live_vertices_ = live_vertices_before_;
   touched_.clear();
+  touched_since_mark_.clear();
   triangle_journal_.clear();
   moved_journal_.clear();
   earlier_vertices_.clear();

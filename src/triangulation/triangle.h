@@ -60,7 +60,7 @@ struct alignas(64) Triangle {
   std::uint32_t birth = 0;  // the step that made this triangle: with the id it names a triangle for ever
   Region region = Region::outside;
   std::uint8_t badness = 0;   // used by refinement while it runs: 0 when no refinement is under way
-  std::uint16_t journal = 0;  // the journal that holds this triangle's earlier state
+  std::uint16_t journal = 0;  // the number of its last change: see Triangulation::last_number_
 
   bool alive() const { return static_cast<bool>(vertex[0]); }
   bool in_domain() const { return alive() && region == Region::domain; }

@@ -201,7 +201,7 @@ class Triangulation {
   // than a change of another kind, and listed by moved_in_place().
   void set_moved(TriangleId t, const Circle& circle, std::uint32_t birth) {
     Triangle& triangle = triangles_[t.index];
-    if (journalling_ && triangle.journal != journal_)
+    if (journalling_ && triangle.journal < first_number_)
       moved_journal_.push_back({t, triangle.birth, triangle.circle});
     triangle.circle = circle;
     triangle.birth = birth;
@@ -241,7 +241,11 @@ class Triangulation {
   };
   std::span<const TriangleId> touched() const { return touched_; }
   // Whether it is among them; after commit() too, until the next begin().
-  bool is_touched(TriangleId t) const { return journals_ != 0 && triangles_[t.index].journal == journals_; }
+  bool is_touched(TriangleId t) const { return triangles_[t.index].journal >= first_number_; }
+  // Under a journal: lists the slots touched from now on by themselves, until the next mark() or begin(), so
+  // that a part of a step looks at what it changed alone.
+  void mark();
+  std::span<const TriangleId> touched_since_mark() const { return touched_since_mark_; }
   std::span<const Earlier> earlier() const { return triangle_journal_; }
   // The triangles that were given to set_moved() before anything else of them changed, with what they had.
   // Those that changed afterwards are in both lists; one that is given twice is here twice.
@@ -297,15 +301,16 @@ class Triangulation {
   // Every change of a record goes through these two, or set_moved().
   Triangle& edit(TriangleId t) {
     Triangle& triangle = triangles_[t.index];
-    if (triangle.journal != journal_) remember(t);
+    if (triangle.journal != number_) remember(t);
     return triangle;
   }
   Vertex& edit(VertexId v) {
-    if (vertex_journals_[v.index] != journal_) remember(v);
+    if (vertex_journals_[v.index] != number_) remember(v);
     return vertices_[v.index];
   }
   void remember(TriangleId t);
   void remember(VertexId v);
+  void begin_number();
 
   std::string check_triangle(std::uint32_t index) const;
   void set_star(VertexId v, TriangleId t, int corner) {
@@ -395,7 +400,7 @@ class Triangulation {
 
   SlotArray<Vertex> vertices_;
   SlotArray<std::uint32_t> generations_;
-  SlotArray<std::uint16_t> vertex_journals_;  // the journal that holds a vertex's earlier state
+  SlotArray<std::uint16_t> vertex_journals_;  // numbers of vertices: see last_number_
   SlotArray<Triangle> triangles_;
   // Free slots; those before the count are there to be given out (last first). A triangle's slot that is
   // freed under a journal is given out again at once, while it lies in the caches; a vertex's only after
@@ -416,11 +421,15 @@ class Triangulation {
   std::uint32_t step_ = 0;
 
   bool journalling_ = false;
-  std::uint16_t journals_ = 0;  // the last one's number
-  std::uint16_t journal_ = 0;   // of the journal under way; 0, as in records of new slots, when there is none
+  // Journals are numbered, and count one more with each mark. A record has the number of its last change
+  // under a journal; 0 in new slots.
+  std::uint16_t last_number_ = 0;
+  std::uint16_t first_number_ = 1;  // of the last journal
+  std::uint16_t number_ = 0;        // for changes from now on; 0 without a journal
   std::vector<Earlier> triangle_journal_;
   std::vector<MovedInPlace> moved_journal_;
-  std::vector<TriangleId> touched_;
+  std::vector<TriangleId> touched_, touched_since_mark_;
+  bool marked_ = false;
   std::vector<VertexBefore> earlier_vertices_;
   std::vector<std::uint32_t> generation_journal_;
   std::size_t vertex_slots_before_ = 0, triangle_slots_before_ = 0, live_vertices_before_ = 0;

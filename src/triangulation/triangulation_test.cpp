@@ -324,6 +324,42 @@ TEST(Journal, GivesFreedTrianglesOutAgain) {
   EXPECT_EQ(t.check(), "");
 }
 
+bool same_record(const Triangle& a, const Triangle& b) {
+  return std::ranges::equal(a.vertex, b.vertex) && std::ranges::equal(a.link, b.link);
+}
+
+// With more marks than there are numbers, so that they are given out anew within a journal.
+TEST(Journal, ListsWhatChangedSinceAMarkAndComesBackFromBeforeIt) {
+  const auto seed = test::seed(30);
+  SCOPED_TRACE("REMODEL_TEST_SEED=" + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  Triangulation t = triangulation_of(random, 60);
+  const Triangulation before = t;
+  t.begin();
+  std::vector<VertexId> vertices;
+  std::set<TriangleId> touched;
+  for (int mark = 0; mark < 70000; ++mark) {
+    t.mark();
+    if (mark % 500 != 0) continue;
+    const Triangulation at_mark = t;
+    insert_or_remove(t, vertices, 0, 2, random);
+    std::set<TriangleId> since;
+    for (const TriangleId id : t.touched_since_mark()) ASSERT_TRUE(since.insert(id).second);
+    for (std::uint32_t i = 0; i < t.triangle_slots(); ++i) {
+      const bool same = i < at_mark.triangle_slots() && same_record(t[TriangleId{i}], at_mark[TriangleId{i}]);
+      ASSERT_TRUE(same || since.contains(TriangleId{i})) << i;
+    }
+    touched.insert(since.begin(), since.end());
+  }
+  EXPECT_EQ(std::set<TriangleId>(t.touched().begin(), t.touched().end()), touched);
+  EXPECT_EQ(t.touched().size(), touched.size());
+  t.rollback();
+  EXPECT_EQ(t.check(), "");
+  ASSERT_EQ(t.triangle_slots(), before.triangle_slots());
+  for (std::uint32_t i = 0; i < t.triangle_slots(); ++i)
+    EXPECT_TRUE(same_record(t[TriangleId{i}], before[TriangleId{i}])) << i;
+}
+
 INSTANTIATE_TEST_SUITE_P(Families, KernelOnFamily, testing::Range(0, 5));
 
 TEST(Constraints, OfRandomSegmentsAreKeptThroughInsertionAndRemoval) {
