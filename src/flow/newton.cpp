@@ -75,6 +75,7 @@ void find_flow(const Euler& euler, const Measure& measure, const Pace& pace, con
   const double first = search.residual;
   double least = first, halved = first, cfl = pace.cfl;
   int last_halved = search.newton_steps;
+  const int end_of_march = search.newton_steps + pace.march;
   constexpr double smallest_cfl = 1e-2;
   while (search.residual > options.tolerance) {
     if (options.observer != nullptr && options.observer->cancelled()) {
@@ -94,6 +95,8 @@ void find_flow(const Euler& euler, const Measure& measure, const Pace& pace, con
                       std::to_string(pace.patience) + " Newton steps, expected " + text_of(options.tolerance);
       return;
     }
+    const bool marching = search.newton_steps < end_of_march;
+    if (marching) cfl = pace.cfl, least = halved = search.residual, last_halved = search.newton_steps;
     const Factored outcome = factor_at(euler, state, cfl, options, matrix, factors, search);
     if (outcome != Factored::done) return end_without_factors(outcome, options, search);
     ++search.newton_steps;
@@ -110,6 +113,7 @@ void find_flow(const Euler& euler, const Measure& measure, const Pace& pace, con
       Vector next_residual;
       Border next_border;
       const double size = measure(next, next_residual, next_border);
+      // While it marches, `least` is the last residual.
       if (!(size <= LineSearch::step_rise * search.residual && size <= LineSearch::whole_rise * least))
         continue;
       if (length == 1.0) cfl = std::min(full_cfl, cfl * 2.0 * std::max(1.0, search.residual / size));
@@ -160,14 +164,21 @@ void find_flow_in_stages(const Euler& euler, const Measure& measure, const FlowO
   find_flow(euler, measure, pace, options, matrix, factors, state, search);
 }
 
-// Straight from undisturbed flow, or where that leads nowhere, in stages.
+// Straight from undisturbed flow; where that leads nowhere, in stages; where these end near a state that is
+// nearly steady but no flow (a fold of the equations, at which Newton's method stays for ever), away from it
+// in pseudo-time, along which it is unstable.
 void find_flow_at_angle(const Euler& euler, const Measure& measure, const FlowOptions& options,
                         BlockRows& matrix, Factors& factors, State& state, Search& search) {
+  constexpr int marches = 3, steps_of_march = 15;
+  constexpr double cfl_of_march = 20.0;
   state = euler.uniform();
   find_flow(euler, measure, {.cfl = cold_cfl, .patience = usual_patience}, options, matrix, factors, state,
             search);
   if (search.status == FlowStatus::stalled)
     find_flow_in_stages(euler, measure, options, matrix, factors, state, search);
+  for (int i = 0; i < marches && search.status == FlowStatus::stalled; ++i)
+    find_flow(euler, measure, {.cfl = cfl_of_march, .patience = usual_patience, .march = steps_of_march},
+              options, matrix, factors, state, search);
 }
 
 }  // namespace

@@ -28,6 +28,8 @@ struct Pace {
   // that time steps become short again where it rises. Slower, but a shock cannot be thrown to and fro for
   // ever.
   bool relaxed = false;
+  // So many steps first that all have `cfl`, while the residual rises as it will.
+  int march = 0;
 };
 inline constexpr double cold_cfl = 5.0;  // from undisturbed flow
 inline constexpr int usual_patience = 30, last_patience = 60;
