@@ -10,7 +10,19 @@ struct Euler::Face {
   // Derivatives of the reconstructed values by both differences, left then right: the upwind one, the central
   // one.
   std::array<double, 4> by_upwind[2] = {{}, {}}, by_central[2] = {{}, {}};
+  std::array<double, 4> by_own[2] = {{1, 1, 1, 1}, {1, 1, 1, 1}};  // by the vertex's own value
   std::uint32_t source[2];  // whose gradient the upwind difference is of
+
+  // Bends a value that is too near to vacuum, with its derivatives.
+  void bend(std::size_t side, std::size_t k, const Primitive<double>& vertex) {
+    Primitive<double>& value = side == 0 ? left : right;
+    if (!is_bent(value, vertex, k)) return;
+    const double part = value[k] / vertex[k];
+    const Bent to = bent(part);
+    value[k] = to.part * vertex[k];
+    by_upwind[side][k] *= to.slope, by_central[side][k] *= to.slope;
+    by_own[side][k] = to.part - to.slope * (part - 1.0);
+  }
 };
 
 State Euler::uniform() const {
@@ -60,8 +72,7 @@ Euler::Face Euler::face(const State& state, const DualEdge& edge) const {
     face.by_upwind[0][k] = from_a.slope[0], face.by_central[0][k] = from_a.slope[1];
     face.by_upwind[1][k] = from_b.slope[0], face.by_central[1][k] = from_b.slope[1];
   }
-  if (!usable(face.left, qa)) face.left = qa, face.by_upwind[0] = face.by_central[0] = {};
-  if (!usable(face.right, qb)) face.right = qb, face.by_upwind[1] = face.by_central[1] = {};
+  for (const std::size_t k : {std::size_t{0}, std::size_t{3}}) face.bend(0, k, qa), face.bend(1, k, qb);
   return face;
 }
 
@@ -129,8 +140,10 @@ void Euler::residual(const State& state, std::vector<std::array<double, 4>>& out
       right[k] = qb[k] - stream_.slopes * reconstruction_step<double>(
                                               end_b, 2.0 * dot(gradient_b[k], d) - central, central, eps);
     }
-    if (!usable(left, qa)) left = qa;
-    if (!usable(right, qb)) right = qb;
+    for (const std::size_t k : {std::size_t{0}, std::size_t{3}}) {
+      if (is_bent(left, qa, k)) left[k] = qa[k] * bent(left[k] / qa[k]).part;
+      if (is_bent(right, qb, k)) right[k] = qb[k] * bent(right[k] / qb[k]).part;
+    }
     const std::array<double, 4> flux = roe_flux<double>(left, right, edge.normal);
     for (std::size_t k = 0; k < 4; ++k) out[edge.a][k] += flux[k], out[edge.b][k] -= flux[k];
   }
@@ -228,7 +241,7 @@ void Euler::jacobian(const State& state, BlockRows& matrix) const {
       const std::uint32_t end[2] = {edge.a, edge.b};
       for (std::size_t side = 0; side < 2; ++side) {
         const Block& by = flux.by[side];
-        // value = q(end) +- step(2 g d - (qb - qa), qb - qa)
+        // value = q(end) +- step(2 g d - (qb - qa), qb - qa), where nothing bends it
         const double direction = side == 0 ? 1.0 : -1.0;
         std::array<double, 4> up = flux.face.by_upwind[side], across = {};
         for (std::size_t k = 0; k < 4; ++k) {
@@ -243,7 +256,7 @@ void Euler::jacobian(const State& state, BlockRows& matrix) const {
         for (std::size_t i = 0; i < 4; ++i)
           for (std::size_t k = 0; k < 4; ++k) {
             const double f = sign * by[4 * i + k];
-            at_own[4 * i + k] += f;
+            at_own[4 * i + k] += f * flux.face.by_own[side][k];
             at_b[4 * i + k] += f * across[k];
             at_a[4 * i + k] -= f * across[k];
           }

@@ -24,8 +24,20 @@ namespace remodel::flow {
 // that half.
 inline constexpr double near_weight = 5.0 / 6.0, far_weight = 1.0 / 6.0;
 inline constexpr double near_place = 0.75, far_place = 0.25;
-// A reconstructed density or pressure below this part of the vertex's is not used: the vertex's is.
-inline constexpr double least_part = 0.1;
+// A reconstructed density or pressure keeps away from vacuum: below `bent_part` of the vertex's it is bent
+// towards `least_part` of it, by a hyperbola that leaves the derivative continuous.
+inline constexpr double bent_part = 0.3, least_part = 0.1;
+struct Bent {
+  double part = 1.0, slope = 1.0;  // by the part that was reconstructed
+};
+inline Bent bent(double part) {
+  constexpr double s = bent_part - least_part;
+  const double ratio = s / (s + bent_part - part);
+  return {least_part + s * ratio, ratio * ratio};
+}
+inline bool is_bent(const Primitive<double>& reconstructed, const Primitive<double>& vertex, std::size_t k) {
+  return (k == 0 || k == 3) && reconstructed[k] < bent_part * vertex[k];
+}
 
 inline Primitive<double> weighted(const Primitive<double>& here, const Primitive<double>& there) {
   Primitive<double> mean;
@@ -52,10 +64,6 @@ template <class T, class E>
 T reconstruction_step(EdgeEnd end, const T& upwind, const T& central, const E& epsilon) {
   if (end == EdgeEnd::inner) return limited_half_step<T, E>(upwind, central, epsilon);
   return half_step<T>(T(1.0), end == EdgeEnd::wall ? 2.0 * central - upwind : upwind, central);
-}
-
-inline bool usable(const Primitive<double>& reconstructed, const Primitive<double>& vertex) {
-  return reconstructed[0] > least_part * vertex[0] && reconstructed[3] > least_part * vertex[3];
 }
 
 struct State {

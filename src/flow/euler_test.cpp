@@ -90,14 +90,9 @@ TEST(Euler, DerivativesOfTheFluxAreThoseOfAComplexStep) {
   }
 }
 
-TEST(Euler, TheJacobianTimesAStepIsTheDifferenceOfResiduals) {
-  const unsigned long long seed = test::seed(6);
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937_64 random(seed);
-  const FrozenMesh mesh = test::airfoil_mesh("naca:2412", 40).freeze();
-  const FlowMesh dual(mesh, "farfield", "mesh");
-  const Euler euler(dual, {.mach = 0.6, .alpha = 0.02});
-  const State state = disturbed(euler, random);
+// How far the Jacobian times a random step is from the difference of residuals, over its own size.
+double jacobian_error(const Euler& euler, const State& state, std::mt19937_64& random) {
+  const FlowMesh& dual = euler.mesh();
   BlockRows matrix = euler.pattern();
   euler.jacobian(state, matrix);
   const auto columns = euler.border_columns(state);
@@ -127,7 +122,21 @@ TEST(Euler, TheJacobianTimesAStepIsTheDifferenceOfResiduals) {
     least =
         std::min(least, distance(difference, product) / distance(product, Vector(dual.size(), {0, 0, 0, 0})));
   }
-  EXPECT_LT(least, 1e-7);
+  return least;
+}
+
+TEST(Euler, TheJacobianTimesAStepIsTheDifferenceOfResiduals) {
+  const unsigned long long seed = test::seed(6);
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  const FrozenMesh mesh = test::airfoil_mesh("naca:2412", 40).freeze();
+  const FlowMesh dual(mesh, "farfield", "mesh");
+  const Euler euler(dual, {.mach = 0.6, .alpha = 0.02});
+  State state = disturbed(euler, random);
+  EXPECT_LT(jacobian_error(euler, state, random), 1e-7);
+  // Nearly a vacuum here and there, so that what is reconstructed is bent.
+  for (std::size_t v = 0; v < state.q.size(); v += 7) state.q[v][v % 2 == 0 ? 0 : 3] *= 0.1;
+  EXPECT_LT(jacobian_error(euler, state, random), 1e-7);
 }
 
 TEST(Euler, TheBordersRowsAreTheDerivativesOfItsEquations) {

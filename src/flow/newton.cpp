@@ -147,7 +147,7 @@ namespace {
 // flow is needed.
 void find_flow_in_stages(const Euler& euler, const Measure& measure, const FlowOptions& options,
                          BlockRows& matrix, Factors& factors, State& state, Search& search) {
-  constexpr double stages[] = {0.0, 0.5, 0.75, 0.9}, stage_cfl = 20.0, stage_tolerance = 1e-2;
+  constexpr double stages[] = {0.0, 0.5, 0.75, 0.9, 0.95, 0.975, 0.99}, stage_cfl = 20.0, stage_tolerance = 1e-2;
   state = euler.uniform();
   Pace pace = {.cfl = cold_cfl, .patience = usual_patience, .relaxed = true};
   FlowOptions rough = options;
