@@ -40,18 +40,23 @@ Increment close_border(Vector x, const std::array<Vector, 2>& y, const Euler::Bo
 }
 
 State moved(const State& state, const Increment& increment, double length) {
+  constexpr double least_left = 0.2;  // of a density or pressure
   State result = state;
-  for (std::size_t v = 0; v < result.q.size(); ++v)
+  for (std::size_t v = 0; v < result.q.size(); ++v) {
     for (std::size_t k = 0; k < 4; ++k) result.q[v][k] += length * increment.q[v][k];
+    for (const std::size_t k : {std::size_t{0}, std::size_t{3}})
+      if (result.q[v][k] < least_left * state.q[v][k]) result.q[v][k] = least_left * state.q[v][k];
+  }
   for (std::size_t z = 0; z < 2; ++z) result.border[z] += length * increment.border[z];
   return result;
 }
 
 double largest_change(const State& state, const Increment& increment) {
+  constexpr double nearly_none = 0.05;
   double largest = 0.0;
   for (std::size_t v = 0; v < state.q.size(); ++v)
     for (const std::size_t k : {std::size_t{0}, std::size_t{3}}) {
-      const double part = std::fabs(increment.q[v][k]) / state.q[v][k];
+      const double part = std::fabs(increment.q[v][k]) / std::max(state.q[v][k], nearly_none);
       if (!(part <= largest)) largest = part;  // NaN stays
     }
   return largest;
