@@ -2,25 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "geometry/vector_clones.h"
 
 namespace remodel::flow {
 
 namespace {
 
-// a -= b c.
-inline void subtract_product(Block& a, const Block& b, const std::array<float, 16>& c) {
+// All blocks here are by columns, unlike the matrix's, so that four equations are computed side by side.
+Block by_columns(const Block& a) {
+  Block result;
   for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t k = 0; k < 4; ++k)
-      for (std::size_t j = 0; j < 4; ++j) a[4 * i + j] -= b[4 * i + k] * double{c[4 * k + j]};
+    for (std::size_t k = 0; k < 4; ++k) result[4 * k + i] = a[4 * i + k];
+  return result;
 }
 
-Block product(const Block& b, const std::array<float, 16>& c) {
-  Block a = {};
-  for (std::size_t i = 0; i < 4; ++i)
+// a -= b c.
+inline void subtract_product(Block& a, const Block& b, const std::array<float, 16>& c) {
+  for (std::size_t j = 0; j < 4; ++j)
     for (std::size_t k = 0; k < 4; ++k)
-      for (std::size_t j = 0; j < 4; ++j) a[4 * i + j] += b[4 * i + k] * double{c[4 * k + j]};
-  return a;
+      for (std::size_t i = 0; i < 4; ++i) a[4 * j + i] -= b[4 * k + i] * double{c[4 * j + k]};
 }
 
 // By Gauss and Jordan with pivots from columns; not finite where the block is singular.
@@ -54,15 +55,15 @@ std::array<float, 16> rounded(const Block& a) {
 // y -= a x.
 inline void subtract(std::array<double, 4>& y, const std::array<float, 16>& a,
                      const std::array<double, 4>& x) {
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t k = 0; k < 4; ++k) y[i] -= double{a[4 * i + k]} * x[k];
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t i = 0; i < 4; ++i) y[i] -= double{a[4 * k + i]} * x[k];
 }
 
 // y -= the transposed a times x.
 inline void subtract_transposed(std::array<double, 4>& y, const std::array<float, 16>& a,
                                 const std::array<double, 4>& x) {
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t k = 0; k < 4; ++k) y[k] -= double{a[4 * i + k]} * x[i];
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t i = 0; i < 4; ++i) y[k] -= double{a[4 * k + i]} * x[i];
 }
 
 }  // namespace
@@ -150,7 +151,7 @@ double IncompleteLu::analysed_mb(const BlockRows& matrix, int level) {
   return memory_mb();
 }
 
-bool IncompleteLu::factor(const BlockRows& matrix) {
+REMODEL_VECTOR_CLONES bool IncompleteLu::factor(const BlockRows& matrix) {
   ready_ = false;
   block_.resize(column_.size());
   const auto size = static_cast<std::uint32_t>(row_at_.size());
@@ -161,10 +162,12 @@ bool IncompleteLu::factor(const BlockRows& matrix) {
       row[column_[at]] = {}, holds[column_[at]] = i;
     const std::uint32_t r = row_at_[i];
     for (std::uint32_t j = matrix.start[r]; j < matrix.start[r + 1]; ++j)
-      row[place_of_[matrix.column[j]]] = matrix.block[j];
+      row[place_of_[matrix.column[j]]] = by_columns(matrix.block[j]);
     for (std::uint32_t at = start_[i]; at < diagonal_[i]; ++at) {
       const std::uint32_t k = column_[at];
-      const Block factor = product(row[k], block_[diagonal_[k]]);
+      Block factor = {};
+      subtract_product(factor, row[k], block_[diagonal_[k]]);
+      for (double& value : factor) value = -value;
       block_[at] = rounded(factor);
       for (std::uint32_t u = diagonal_[k] + 1; u < start_[k + 1]; ++u)
         if (const std::uint32_t j = column_[u]; holds[j] == i) subtract_product(row[j], factor, block_[u]);
@@ -178,7 +181,7 @@ bool IncompleteLu::factor(const BlockRows& matrix) {
   return ready_ = true;
 }
 
-void IncompleteLu::solve(std::span<std::array<double, 4>> x) const {
+REMODEL_VECTOR_CLONES void IncompleteLu::solve(std::span<std::array<double, 4>> x) const {
   const std::size_t size = row_at_.size();
   std::vector<std::array<double, 4>> y(size);
   for (std::size_t i = 0; i < size; ++i) {
