@@ -129,7 +129,8 @@ void end_without_factors(Factored outcome, const FlowOptions& options, Search& s
         "even incomplete factors need more than the " + text_of(options.memory_mb) + " MB that they may take";
   } else {
     search.status = FlowStatus::stalled;
-    search.reason = "the Jacobian is singular at a residual of " + text_of(search.residual);
+    search.reason =
+        "the Jacobian, or its incomplete LU, is singular at a residual of " + text_of(search.residual);
   }
 }
 
