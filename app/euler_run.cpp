@@ -40,6 +40,8 @@ Json to_json(const FlowResult& flow) {
   json["factorisations"] = flow.factorisations;
   json["krylov_iterations"] = flow.krylov_iterations;
   json["corrected_vertices"] = flow.corrected_vertices;
+  json["solver"] = name_of(flow.solver);
+  json["gmres_iterations"] = flow.gmres_iterations;
   json["memory_mb"] = flow.memory_mb;
   json["seconds"] = flow.seconds;
   json["warm"] = name_of(flow.start);
@@ -76,6 +78,11 @@ void add_flow_figures(Report& report, const FlowResult& flow) {
   figure("factorisations", "factorisations");
   figure("krylov_iterations", "steps with older factors");
   report.data("corrected_vertices", figures.at("corrected_vertices"));
+  figure("solver", "linear solver");
+  if (flow.gmres_iterations > 0)
+    figure("gmres_iterations", "steps of GMRES");
+  else
+    report.data("gmres_iterations", figures.at("gmres_iterations"));
   figure("memory_mb", "factors", "MB");
   figure("seconds", "solving", "seconds");
   report.data("warm", figures.at("warm"));
@@ -165,7 +172,10 @@ void add_euler_options(CLI::App& app, EulerRun& run) {
   add_integer(app, {"--max-steps", "N", "200", "Newton steps of one flow: at least 1"},
               {.low = 1, .high = 100000},
               [&](std::int64_t value) { run.options.max_steps = static_cast<int>(value); });
-  add_real(app, {"--memory", "MB", "4096", "What the factors of a matrix may take, megabytes: at least 1"},
+  add_real(app,
+           {"--memory", "MB", "4096",
+            "What the factors of a matrix may take, megabytes: at least 1; where LU takes more, GMRES with "
+            "incomplete factors takes its place"},
            {.low = 1.0, .high = 1e9}, [&](double value) { run.options.memory_mb = value; });
   add_real(app,
            {"--limiter", "K", "30",

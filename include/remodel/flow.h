@@ -24,8 +24,8 @@
 //
 // Method: Roe's flux on the median dual, reconstruction along edges of third order on even spacing, van
 // Albada's limiter, weak boundary conditions; the exact Jacobian; Newton's method by pseudo-transient
-// continuation with a line search, in stages from first order where that stalls; sparse LU. docs/flow.md has
-// equations, sources and verification.
+// continuation with a line search, in stages from first order where that stalls; sparse LU, or GMRES with
+// incomplete factors where that needs too much memory. docs/flow.md has equations, sources and verification.
 //
 // Errors: Error (argument) for conditions and options out of range, and for a mesh without a far field or
 // another way in and out, without a wall or with unnamed boundary edges. A flow that is not found is no
@@ -74,7 +74,9 @@ struct FlowOptions {
   bool vortex = true;   // in the far field
   double limiter =
       30.0;  // K: differences along an edge of length h below (K h / length)^(3/2) are not limited; > 0
-  double memory_mb = 4096;               // what factors may take
+  // What factors may take. Where those of a sparse LU are estimated to take more, GMRES with incomplete
+  // factors takes its place.
+  double memory_mb = 4096;
   StepObserver* observer = nullptr;      // asked at every step
   std::vector<FlowInlet> inlets = {};    // without a far field: at least one of each
   std::vector<FlowOutlet> outlets = {};  // their names are not `farfield`, and not one twice
@@ -85,10 +87,17 @@ enum class FlowStatus {
   step_limit,  // max_steps
   stalled,  // nothing leads on, neither straight nor in stages from a scheme of first order: a flow that has
             // no steady state, or that this method does not find
-  memory,   // the factors need more than memory_mb
+  memory,   // even incomplete factors need more than memory_mb
   interrupted,  // by the observer
 };
 const char* name_of(FlowStatus status);  // "converged", "step-limit", "stalled", "memory", "interrupted"
+
+// How the linear systems of Newton's method were solved.
+enum class FlowSolver {
+  lu,     // sparse LU
+  gmres,  // GMRES with incomplete factors: LU needs more than memory_mb
+};
+const char* name_of(FlowSolver solver);  // "lu", "gmres"
 
 // What a flow was found from.
 enum class FlowStart {
@@ -129,7 +138,9 @@ struct FlowResult {
   int coarse_steps = 0;                // of the Newton steps: on coarser meshes, or from their flows in vain
   int krylov_iterations = 0;           // steps with older factors
   std::size_t corrected_vertices = 0;  // where older factors were corrected because the mesh has changed
-  double memory_mb = 0.0;              // of the factors, the most
+  FlowSolver solver = FlowSolver::lu;  // coarser meshes may have had LU still
+  int gmres_iterations = 0;            // of all Newton steps
+  double memory_mb = 0.0;              // of the factors and of GMRES's vectors, the most
   double seconds = 0.0;
 
   // Per point of the frozen mesh.

@@ -151,6 +151,12 @@ void add_figures(py::class_<FlowResult, FlowPointer>& type) {
   type.def_readonly("newton_steps", &FlowResult::newton_steps);
   type.def_readonly("factorisations", &FlowResult::factorisations);
   type.def_readonly("krylov_iterations", &FlowResult::krylov_iterations);
+  type.def_property_readonly(
+      "solver", [](const FlowResult& f) { return name_of(f.solver); },
+      "'lu', or 'gmres' where LU needs more than memory_mb.");
+  type.def_readonly("gmres_iterations", &FlowResult::gmres_iterations);
+  type.def_readonly("memory_mb", &FlowResult::memory_mb,
+                    "What the factors and GMRES's vectors took, the most.");
   type.def_readonly("seconds", &FlowResult::seconds);
   type.def_property_readonly(
       "history", [](const FlowPointer& f) { return view(f, f->history); },

@@ -43,6 +43,14 @@ def test_a_living_flow_goes_on_over_steps(flowing):
     assert solver.solve(mesh, mach=0.5, alpha=1.25).start == "cold"
 
 
+def test_little_memory_makes_it_gmres(flowing):
+    whole = remodel.solve_flow(flowing[1], mach=0.5, alpha=1.25)
+    little = remodel.solve_flow(flowing[1], mach=0.5, alpha=1.25, memory_mb=0.5 * whole.memory_mb)
+    assert (whole.solver, little.solver) == ("lu", "gmres") and whole.gmres_iterations == 0
+    assert little.converged and little.gmres_iterations > 0 and little.memory_mb <= 0.5 * whole.memory_mb
+    assert abs(little.cl - whole.cl) < 1e-9
+
+
 def test_the_angle_of_a_lift_is_found(flowing):
     flow = remodel.solve_flow(flowing[1], mach=0.5, cl=0.3)
     assert abs(flow.cl - 0.3) < 1e-8 and flow.alpha > 1

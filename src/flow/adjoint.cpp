@@ -3,30 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flow/gmres.h"
+
 namespace remodel::flow {
 
 namespace {
-
-double inner(const Vector& a, const Vector& b) {
-  double sum = 0.0;
-  for (std::size_t v = 0; v < a.size(); ++v)
-    for (std::size_t k = 0; k < 4; ++k) sum += a[v][k] * b[v][k];
-  return sum;
-}
-
-double inner(const Increment& a, const Increment& b) {
-  return inner(a.q, b.q) + a.border[0] * b.border[0] + a.border[1] * b.border[1];
-}
-
-void add_times(Increment& to, double factor, const Increment& v) {
-  for (std::size_t i = 0; i < to.q.size(); ++i)
-    for (std::size_t k = 0; k < 4; ++k) to.q[i][k] += factor * v.q[i][k];
-  for (std::size_t k = 0; k < 2; ++k) to.border[k] += factor * v.border[k];
-}
-
-Increment zero(std::size_t size) {
-  return {.q = Vector(size, std::array<double, 4>{}), .border = {0.0, 0.0}};
-}
 
 // to += factor times the transposed matrix times x, the r-th of x for its r-th row.
 void add_transposed(const BlockRows& matrix, double factor, const Vector& x, Vector& to) {
@@ -41,43 +22,6 @@ void add_transposed(const BlockRows& matrix, double factor, const Vector& x, Vec
     }
   }
 }
-
-// The upper triangle of GMRES by Givens rotations, one column a step.
-class Triangle {
- public:
-  explicit Triangle(double beta) : right_{beta} {}
-  // Returns what is left of the residual.
-  double add(std::vector<double> column) {
-    for (std::size_t i = 0; i < cosine_.size(); ++i) {
-      const double a = column[i], b = column[i + 1];
-      column[i] = cosine_[i] * a + sine_[i] * b;
-      column[i + 1] = cosine_[i] * b - sine_[i] * a;
-    }
-    const std::size_t n = cosine_.size();
-    const double size = std::hypot(column[n], column[n + 1]);
-    cosine_.push_back(column[n] / size), sine_.push_back(column[n + 1] / size);
-    column[n] = size;
-    columns_.push_back(std::move(column));
-    right_.push_back(-sine_[n] * right_[n]);
-    right_[n] *= cosine_[n];
-    return std::fabs(right_.back());
-  }
-  std::vector<double> solution() const {
-    const std::size_t n = columns_.size();
-    std::vector<double> y(right_.begin(), right_.end() - 1);
-    for (std::size_t i = n; i-- > 0;) {
-      for (std::size_t j = i + 1; j < n; ++j) y[i] -= columns_[j][i] * y[j];
-      y[i] /= columns_[i][i];
-    }
-    return y;
-  }
-
- private:
-  std::vector<double> right_, cosine_, sine_;
-  std::vector<std::vector<double>> columns_;
-};
-
-constexpr int most_steps = 25;  // before it begins anew
 
 // Some rows of the whole matrix.
 BlockRows rows_of(const BlockRows& matrix, const std::vector<std::uint32_t>& rows) {
@@ -114,7 +58,7 @@ TransposedInverse::TransposedInverse(const TransposedSystem& system, Factors& fa
   for (std::size_t z = 0; z < 2; ++z) {
     columns_[z].assign(overlap.row_of.size(), {});
     for (std::size_t v = 0; v < overlap.row_of.size(); ++v)
-      if (overlap.row_of[v] != no_index) columns_[z][v] = factors.columns[z][overlap.row_of[v]];
+      if (overlap.row_of[v] != no_index) columns_[z][v] = factors.columns()[z][overlap.row_of[v]];
     small_[z] = {rows_.corner[0][z], rows_.corner[1][z]};
     for (const auto& entry : rows_.lift) small_[z][0] -= columns_[z][entry.vertex][3] * entry.value;
   }
@@ -130,7 +74,7 @@ void TransposedInverse::apply_to_vertices(Vector& x) {
   Vector earlier(overlap_.rows, {0, 0, 0, 0});
   for (std::size_t v = 0; v < x.size(); ++v)
     if (overlap_.row_of[v] != no_index) earlier[overlap_.row_of[v]] = x[v];
-  factors_.lu.solve_transposed(earlier, 1);
+  factors_.solve_transposed(earlier);
   for (std::size_t v = 0; v < x.size(); ++v)
     x[v] = overlap_.row_of[v] != no_index ? earlier[overlap_.row_of[v]] : std::array<double, 4>{};
   for (std::size_t r = 0; r < rest.size(); ++r)
@@ -146,53 +90,21 @@ void TransposedInverse::apply(Increment& x) {
   apply_to_vertices(x.q);
 }
 
-// Preconditioned from the right, so that the residual is that of the system itself. It is kept as small as
-// rounding lets it by beginning anew once.
+// With whole factors the residual is kept as small as rounding lets it by beginning anew once.
 bool solve_transposed(const TransposedSystem& system, TransposedInverse& inverse, const Increment& right,
                       double tolerance, double most_solves, Increment& guess, int& iterations) {
-  const std::size_t n = right.q.size();
-  const double size_of_right = std::sqrt(inner(right, right)), wanted = tolerance * size_of_right;
-  Increment x = zero(n), residual = right;
-  if (guess.q.size() == n) {
-    add_times(residual, -1.0, system.times(guess));
-    if (std::sqrt(inner(residual, residual)) < size_of_right)
-      x = std::move(guess);
-    else
-      residual = right;
-  }
-  const int before = iterations;
-  for (int round = 0; round < 2; ++round) {
-    const double beta = std::sqrt(inner(residual, residual));
-    if (!(beta > wanted)) break;
-    std::vector<Increment> basis(1, zero(n)), solved;
-    add_times(basis[0], 1.0 / beta, residual);
-    Triangle triangle(beta);
-    for (int step = 0; step < most_steps; ++step) {
-      if (iterations - before >= most_solves) return false;
-      solved.push_back(basis.back());
-      inverse.apply(solved.back());
-      ++iterations;
-      Increment next = system.times(solved.back());
-      std::vector<double> column;
-      for (const Increment& b : basis) {
-        column.push_back(inner(b, next));
-        add_times(next, -column.back(), b);
-      }
-      const double size = std::sqrt(inner(next, next));
-      column.push_back(size);
-      const double left = triangle.add(std::move(column));
-      if (!(left > wanted) || size == 0.0) break;
-      basis.push_back(zero(n));
-      add_times(basis.back(), 1.0 / size, next);
-    }
-    const std::vector<double> y = triangle.solution();
-    for (std::size_t i = 0; i < y.size(); ++i) add_times(x, y[i], solved[i]);
-    residual = right;
-    add_times(residual, -1.0, system.times(x));
-  }
+  const double wanted = tolerance * norm(right);
+  const Factors& factors = inverse.factors();
+  const GmresEnd end = gmres([&](const Increment& x) { return system.times(x); },
+                             [&](Increment& x) { inverse.apply(x); }, right,
+                             {.wanted = wanted,
+                              .restart = factors.whole() ? 25 : factors.restart(),
+                              .rounds = factors.whole() ? 2 : 10,
+                              .most_iterations = most_solves},
+                             guess);
+  iterations += end.iterations;
   constexpr double slack = 10.0;  // rounding of the residual itself
-  guess = std::move(x);
-  return std::sqrt(inner(residual, residual)) <= slack * wanted;
+  return end.in_time && end.residual <= slack * wanted;
 }
 
 std::optional<std::vector<Total>> totals(const Euler& euler, const State& state, const BlockRows& matrix,

@@ -41,6 +41,7 @@ class TransposedInverse {
   TransposedInverse(const TransposedSystem& system, Factors& factors, const Overlap& overlap,
                     double memory_mb);
   bool ready() const { return ready_; }
+  const Factors& factors() const { return factors_; }
   void apply(Increment& x);
 
  private:

@@ -23,6 +23,32 @@ double lift_of(const Euler::BorderRows& rows, const Vector& x) {
 
 }  // namespace
 
+Increment zero(std::size_t vertices) {
+  return {.q = Vector(vertices, std::array<double, 4>{}), .border = {0.0, 0.0}};
+}
+
+// Four sums side by side.
+double inner(const Vector& a, const Vector& b) {
+  std::array<double, 4> sum = {};
+  for (std::size_t v = 0; v < a.size(); ++v)
+    for (std::size_t k = 0; k < 4; ++k) sum[k] += a[v][k] * b[v][k];
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+double inner(const Increment& a, const Increment& b) {
+  return inner(a.q, b.q) + (a.border[0] * b.border[0] + a.border[1] * b.border[1]);
+}
+
+double norm(const Increment& a) {
+  return std::sqrt(inner(a, a));
+}
+
+void add_times(Increment& to, double factor, const Increment& what) {
+  for (std::size_t v = 0; v < to.q.size(); ++v)
+    for (std::size_t k = 0; k < 4; ++k) to.q[v][k] += factor * what.q[v][k];
+  for (std::size_t z = 0; z < 2; ++z) to.border[z] += factor * what.border[z];
+}
+
 Increment close_border(Vector x, const std::array<Vector, 2>& y, const Euler::BorderRows& rows,
                        const Border& right) {
   // The Schur complement E - D y, where D's second row is empty.

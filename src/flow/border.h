@@ -20,6 +20,12 @@ struct Increment {
   Border border = {0, 0};
 };
 
+Increment zero(std::size_t vertices);
+double inner(const Vector& a, const Vector& b);
+double inner(const Increment& a, const Increment& b);
+double norm(const Increment& a);
+void add_times(Increment& to, double factor, const Increment& what);
+
 // x and the solutions y of A y = B for both columns. Not finite where the small system is singular.
 Increment close_border(Vector x, const std::array<Vector, 2>& y, const Euler::BorderRows& rows,
                        const Border& right);

@@ -90,7 +90,7 @@ Preconditioner::Preconditioner(const Euler& euler, const State& state, Factors& 
   for (std::size_t z = 0; z < 2; ++z) {
     columns_[z].assign(row_of_.size(), {});
     for (std::size_t v = 0; v < row_of_.size(); ++v)
-      if (row_of_[v] != no_index) columns_[z][v] = factors_.columns[z][row_of_[v]];
+      if (row_of_[v] != no_index) columns_[z][v] = factors_.columns()[z][row_of_[v]];
     correct(right[z], columns_[z]);
   }
 }
@@ -120,7 +120,7 @@ Increment Preconditioner::apply(const State& state, const Vector& residual, cons
   Vector inner(rows_, {0, 0, 0, 0});
   for (std::size_t v = 0; v < right.size(); ++v)
     if (row_of_[v] != no_index) inner[row_of_[v]] = right[v];
-  factors_.lu.solve(inner, 1);
+  factors_.solve(inner);
   Vector x(right.size(), {0, 0, 0, 0});
   for (std::size_t v = 0; v < right.size(); ++v)
     if (row_of_[v] != no_index) x[v] = inner[row_of_[v]];
@@ -162,11 +162,26 @@ ChordEnd chord_steps(const Measure& measure, Preconditioner& inverse, const Fact
     const double rate = std::pow(least / sizes[sizes.size() - 1 - watched], 1.0 / double{watched});
     if (!(rate < fruitless)) return end(ChordEnd::slow);
     const double left = std::log(options.tolerance / least) / std::log(rate);
-    if (left * factors.lu.solve_work() > factors.lu.factor_work() + double{watched} * factors.lu.solve_work())
+    if (left * factors.solve_work() > factors.factor_work() + double{watched} * factors.solve_work())
       return end(ChordEnd::slow);
   }
   return end(least <= options.tolerance ? ChordEnd::converged : ChordEnd::slow);
 }
+
+namespace {
+
+constexpr double no_pseudo_time = std::numeric_limits<double>::infinity();
+
+// Incomplete factors are too rough for chord steps, and cheap: Newton's method makes its own at each step.
+ChordEnd gmres_steps(const Euler& euler, const Measure& measure, const FlowOptions& options,
+                     BlockRows& matrix, Factors& factors, State& state, Search& search) {
+  find_flow(euler, measure, {.cfl = no_pseudo_time, .patience = usual_patience}, options, matrix, factors,
+            state, search);
+  if (search.status == FlowStatus::converged) return ChordEnd::converged;
+  return search.status == FlowStatus::interrupted ? ChordEnd::interrupted : ChordEnd::slow;
+}
+
+}  // namespace
 
 ChordEnd steps_with_own_factors(const Euler& euler, const Measure& measure, const FlowOptions& options,
                                 BlockRows& matrix, Factors& factors, State& state, Search& search) {
@@ -178,10 +193,12 @@ ChordEnd steps_with_own_factors(const Euler& euler, const Measure& measure, cons
   for (int attempt = 0; attempt < attempts; ++attempt) {
     const double before = measure(state, residual, border);
     if (!(before < reach)) return ChordEnd::slow;
-    constexpr double no_pseudo_time = std::numeric_limits<double>::infinity();
+    if (factors.ready() && !factors.whole())
+      return gmres_steps(euler, measure, options, matrix, factors, state, search);
     const Factored outcome = factor_at(euler, state, no_pseudo_time, options, matrix, factors, search);
     ++search.newton_steps;
     if (outcome != Factored::done) return ChordEnd::slow;
+    if (!factors.whole()) return gmres_steps(euler, measure, options, matrix, factors, state, search);
     std::vector<std::uint32_t> same(state.q.size());
     std::iota(same.begin(), same.end(), 0U);
     Preconditioner inverse(euler, state, factors, std::move(same), state.q.size(), {}, options);

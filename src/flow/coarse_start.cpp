@@ -66,6 +66,7 @@ std::optional<State> start_from_coarser(const Domain& domain, const QualityOptio
                       spent);
   spent.newton_steps += search.newton_steps;
   spent.factorisations += search.factorisations;
+  spent.gmres_iterations += search.gmres_iterations;
   spent.memory_mb = std::max(spent.memory_mb, search.memory_mb);
   if (search.status != FlowStatus::converged) return std::nullopt;
   state.q = interpolated(*dual, state.q, fine.points());
@@ -92,6 +93,7 @@ void add_coarse(const Search& spent, FlowResult& result) {
   result.coarse_steps = spent.newton_steps;
   result.newton_steps += spent.newton_steps;
   result.factorisations += spent.factorisations;
+  result.gmres_iterations += spent.gmres_iterations;
   result.memory_mb = std::max(result.memory_mb, spent.memory_mb);
 }
 

@@ -31,6 +31,12 @@ int& control(DMUMPS_STRUC_C& id, int number) {
 constexpr int initialise = -1, finish = -2, analyse = 1, factorise = 2, solve_factored = 3;
 constexpr int use_comm_world = -987654;
 
+bool is_singular(int outcome) {
+  return outcome == -10 || outcome == -6;
+}
+
+constexpr double bytes_of_entry = 8.0;
+
 }  // namespace
 
 struct DirectSolver::Impl {
@@ -105,6 +111,11 @@ void DirectSolver::forget() {
 }
 
 Factored DirectSolver::factor(const BlockRows& matrix, double memory_mb) {
+  // The factors hold the matrix at least: often there is no need to ask.
+  if (1e-6 * bytes_of_entry * 16.0 * static_cast<double>(matrix.column.size()) > memory_mb) {
+    impl_.reset();
+    return Factored::out_of_memory;
+  }
   if (!impl_) impl_ = std::make_unique<Impl>();
   const bool same = impl_->start == matrix.start && impl_->column == matrix.column;
   if (!same && !impl_->start.empty()) impl_ = std::make_unique<Impl>();
@@ -120,9 +131,11 @@ Factored DirectSolver::factor(const BlockRows& matrix, double memory_mb) {
   control(id, 23) = static_cast<int>(std::min(memory_mb, double{std::numeric_limits<int>::max()}));
   if (!same) {
     impl_->start.clear();
-    if (impl_->run(analyse) < 0) return Factored::singular;
+    const int outcome = impl_->run(analyse);
+    if (outcome < 0) return is_singular(outcome) ? Factored::singular : Factored::out_of_memory;
     impl_->start = matrix.start, impl_->column = matrix.column;
   }
+  if (id.infog[15] > memory_mb) return Factored::out_of_memory;  // INFOG(16): megabytes, an estimate
   // Pivots that were put off take more memory than was estimated.
   constexpr int attempts = 4;
   for (int attempt = 0; attempt < attempts; ++attempt) {
@@ -132,7 +145,7 @@ Factored DirectSolver::factor(const BlockRows& matrix, double memory_mb) {
       return Factored::done;
     }
     const bool more = outcome == -8 || outcome == -9 || outcome == -11 || outcome == -12;
-    if (outcome == -10 || outcome == -6) return Factored::singular;
+    if (is_singular(outcome)) return Factored::singular;
     if (!more) return Factored::out_of_memory;
     control(id, 14) *= 2;
   }

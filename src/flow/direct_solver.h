@@ -23,7 +23,8 @@ class DirectSolver {
   DirectSolver& operator=(DirectSolver&&) noexcept;
 
   // A square matrix: columns outside its rows are left out. The ordering is kept from the last call where the
-  // pattern is the same. memory_mb: what the factorisation may take.
+  // pattern is the same. memory_mb: what the factorisation may take; where an estimate says that it takes
+  // more, no factors are made.
   Factored factor(const BlockRows& matrix, double memory_mb);
   bool ready() const;
   void forget();

@@ -29,6 +29,7 @@ struct DirectSolver::Impl {
   Columns matrix;
   Eigen::SparseLU<Columns, Eigen::NaturalOrdering<int>> lu;
   Eigen::VectorXd right;
+  double estimate = 0.0;  // of the factors' entries
   bool factored = false;
 
   void order(const BlockRows& given);
@@ -39,6 +40,26 @@ struct DirectSolver::Impl {
 };
 
 namespace {
+
+// The entries of the lower factor of a symmetric pattern without pivoting, its diagonal among them. Row i has
+// one in every column on the way from its own entries up the elimination tree to i. Source: J. W. H. Liu,
+// SIAM J. Matrix Anal. Appl. 11 (1990), section 5.
+double blocks_of_cholesky(const Columns& graph) {
+  std::vector<int> parent(static_cast<std::size_t>(graph.cols()), -1), seen = parent;
+  double count = 0.0;
+  for (int i = 0; i < graph.cols(); ++i) {
+    seen[static_cast<std::size_t>(i)] = i;
+    ++count;
+    for (Columns::InnerIterator entry(graph, i); entry && entry.row() < i; ++entry)
+      for (auto j = static_cast<std::size_t>(entry.row()); seen[j] != i;
+           j = static_cast<std::size_t>(parent[j])) {
+        if (parent[j] < 0) parent[j] = i;
+        seen[j] = i;
+        ++count;
+      }
+  }
+  return count;
+}
 
 // Per vertex its row, -1 where it has none.
 std::vector<int> positions(const BlockRows& matrix) {
@@ -61,7 +82,7 @@ void DirectSolver::Impl::order(const BlockRows& given) {
   for (int r = 0; r < size; ++r)
     for (std::uint32_t i = given.start[r]; i < given.start[r + 1]; ++i)
       if (position[given.column[i]] >= 0) edges.emplace_back(r, position[given.column[i]], 1.0);
-  Columns graph(size, size);
+  Columns graph(size, size);  // which is symmetric
   graph.setFromTriplets(edges.begin(), edges.end());
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> found;
   Eigen::AMDOrdering<int>()(graph, found);
@@ -71,6 +92,9 @@ void DirectSolver::Impl::order(const BlockRows& given) {
     row_at[k] = static_cast<std::uint32_t>(found.indices()[k]);
     place[row_at[k]] = k;
   }
+  Columns ordered(size, size);
+  ordered = graph.twistedBy(Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>(found.transpose()));
+  estimate = 16.0 * 2.0 * blocks_of_cholesky(ordered);
 }
 
 void DirectSolver::Impl::fill(const BlockRows& given) {
@@ -131,6 +155,10 @@ Factored DirectSolver::factor(const BlockRows& matrix, double memory_mb) {
   if (!same && !impl_->start.empty()) impl_ = std::make_unique<Impl>();
   impl_->factored = false;
   if (!same) impl_->order(matrix);
+  if (1e-6 * bytes_of_entry * impl_->estimate > memory_mb) {
+    impl_.reset();
+    return Factored::out_of_memory;
+  }
   impl_->fill(matrix);
   if (!same) {
     impl_->lu.isSymmetric(true);

@@ -115,6 +115,19 @@ TEST(DirectSolver, LeavesOutColumnsOutsideItsRows) {
   expect_solved(solver, matrix, random);
 }
 
+TEST(DirectSolver, MakesNoFactorsThatTakeTooMuch) {
+  std::mt19937 random(2);
+  const BlockRows matrix = grid_matrix(40, all_rows(40), random);
+  DirectSolver solver;
+  ASSERT_EQ(solver.factor(matrix, 1000.0), Factored::done);
+  const double needed = solver.memory_mb();
+  for (const double memory_mb : {0.01 * needed, 0.5 * needed}) {
+    EXPECT_EQ(solver.factor(matrix, memory_mb), Factored::out_of_memory);
+    EXPECT_FALSE(solver.ready());
+  }
+  EXPECT_EQ(solver.factor(matrix, 2.0 * needed), Factored::done);
+}
+
 TEST(DirectSolver, SaysThatAMatrixIsSingular) {
   std::mt19937 random(1);
   BlockRows matrix = grid_matrix(8, all_rows(8), random);

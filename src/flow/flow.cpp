@@ -40,6 +40,16 @@ const char* name_of(FlowStart start) {
   return "unknown";
 }
 
+const char* name_of(FlowSolver solver) {
+  switch (solver) {
+    case FlowSolver::lu:
+      return "lu";
+    case FlowSolver::gmres:
+      return "gmres";
+  }
+  return "unknown";
+}
+
 namespace flow {
 
 namespace {
@@ -196,6 +206,8 @@ FlowResult result_of(const Euler& euler, const State& state, const Search& searc
   result.newton_steps = search.newton_steps;
   result.factorisations = search.factorisations;
   result.krylov_iterations = search.iterations;
+  result.solver = search.whole_factors ? FlowSolver::lu : FlowSolver::gmres;
+  result.gmres_iterations = search.gmres_iterations;
   result.memory_mb = search.memory_mb;
   for (const Primitive<double>& q : state.q) {
     result.density.push_back(q[0]);

@@ -174,7 +174,7 @@ flow::State LivingFlow::Impl::carry(const flow::FlowMesh& now, const Keys& now_k
 
 // The factors that find_flow() or factor_at() left belong to this mesh.
 void LivingFlow::Impl::belong(const flow::FlowMesh& dual, const Keys& now) {
-  factored = factors.lu.ready();
+  factored = factors.ready();
   rent = 0.0;
   factored_keys = now;
   factored_rings.resize(now.size());
@@ -214,7 +214,7 @@ flow::Overlap LivingFlow::Impl::overlap(const flow::FlowMesh& dual, const Keys& 
 
 // The chord method with the factors that there are. False where they are of no use (any more).
 bool LivingFlow::Impl::try_older_factors(Task& task) {
-  if (!factored || rent > factors.lu.factor_work()) return false;
+  if (!factored || !factors.whole() || rent > factors.factor_work()) return false;
   const flow::FlowMesh& dual = task.euler.mesh();
   flow::Overlap shared = overlap(dual, task.keys);
   const std::vector<std::uint32_t>& zone = shared.zone;
@@ -227,7 +227,7 @@ bool LivingFlow::Impl::try_older_factors(Task& task) {
   const int before = task.search.iterations;
   const flow::ChordEnd end =
       flow::chord_steps(task.measure, inverse, factors, options, task.state, task.search);
-  rent += std::max(0, task.search.iterations - before - flow::own_solves) * factors.lu.solve_work() +
+  rent += std::max(0, task.search.iterations - before - flow::own_solves) * factors.solve_work() +
           inverse.zone_work();
   if (end == flow::ChordEnd::interrupted) {
     task.search.status = FlowStatus::interrupted, task.search.reason = "interrupted";
@@ -247,7 +247,7 @@ bool LivingFlow::Impl::try_own_factors(Task& task) {
   if (task.search.factorisations > before)
     belong(task.euler.mesh(), task.keys);
   else
-    factored = were_factored && factors.lu.ready();
+    factored = were_factored && factors.ready();
   return end != flow::ChordEnd::slow;
 }
 
@@ -369,9 +369,9 @@ std::optional<std::vector<flow::Total>> LivingFlow::Impl::try_gradients(
   multiplier_keys = keys;
   // Older factors serve until they have cost as much as new ones.
   const bool are_own = shared.zone.empty() && rent == 0.0;
-  const double solve_work = factors.lu.solve_work();
+  const double solve_work = factors.solve_work();
   const double most_solves = are_own ? std::numeric_limits<double>::infinity()
-                                     : std::max(0.0, factors.lu.factor_work() - rent) / solve_work;
+                                     : std::max(0.0, factors.factor_work() - rent) / solve_work;
   const int before = iterations;
   auto totals = flow::totals(euler, state, matrix, factors, shared, options, functions, multipliers,
                              most_solves, iterations);
@@ -420,7 +420,7 @@ FlowGradients LivingFlow::Impl::gradients(const std::vector<FlowFunctional>& fun
     if (!totals)
       throw Error(ErrorCode::argument, "gradients",
                   "the adjoint was not found: the Jacobian is singular, or the factors need more than the "
-                  "memory that they may take");
+                  "memory that they may take, or GMRES takes too long with them");
   }
   for (std::size_t i = 0; i < places.size(); ++i)
     *places[i] = flow::gradient_of(std::move((*totals)[i]), last_stream.lift.has_value());

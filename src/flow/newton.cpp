@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
+#include <utility>
+
+#include "flow/linear_step.h"
 
 namespace remodel::flow {
 
@@ -41,28 +45,92 @@ struct LineSearch {
   static constexpr int halvings = 4;
 };
 
+// A state with its residuals.
+struct Place {
+  State state = {};
+  Vector residual = {};
+  Border border = {};
+  double size = 0.0;
+};
+
+// A place along the step that may be gone to, and the part of the step it lies at.
+std::optional<std::pair<Place, double>> place_along(const Increment& step, const Measure& measure,
+                                                    const State& state, double size, double least) {
+  double length = std::min(1.0, LineSearch::largest_part / largest_change(state, step));
+  for (int i = 0; i <= LineSearch::halvings; ++i) {
+    if (i > 0) length *= 0.5;
+    Place next{.state = moved(state, step, length)};
+    next.size = measure(next.state, next.residual, next.border);
+    if (next.size <= LineSearch::step_rise * size && next.size <= LineSearch::whole_rise * least)
+      return std::pair{std::move(next), length};
+  }
+  return std::nullopt;
+}
+
+// Whether the search has to end before its next step.
+bool is_over(const Pace& pace, const FlowOptions& options, int last_halved, Search& search) {
+  if (options.observer != nullptr && options.observer->cancelled()) {
+    search.status = FlowStatus::interrupted, search.reason = "interrupted";
+    return true;
+  }
+  if (search.newton_steps >= options.max_steps) {
+    search.status = FlowStatus::step_limit;
+    search.reason = "residual " + text_of(search.residual) + " after " + std::to_string(search.newton_steps) +
+                    " Newton steps, expected " + text_of(options.tolerance);
+    return true;
+  }
+  if (search.newton_steps - last_halved >= pace.patience) {
+    search.status = FlowStatus::stalled;
+    search.reason = "the residual, " + text_of(search.residual) + ", has not halved in " +
+                    std::to_string(pace.patience) + " Newton steps, expected " + text_of(options.tolerance);
+    return true;
+  }
+  return false;
+}
+
+// The part of the linear residual that GMRES may leave: less and less, so that Newton's method converges
+// faster than linearly, but no less than the flow's tolerance needs.
+double forcing(double residual, const FlowOptions& options) {
+  constexpr double least = 1e-3, most = 1e-2, needed = 0.3;
+  return std::clamp(std::max(residual, needed * options.tolerance / residual), least, most);
+}
+// Where GMRES leaves more than this, its step is not tried.
+constexpr double most_left = 0.5;
+
+void end_without_step(double left, const FlowOptions& options, Search& search) {
+  search.status = FlowStatus::stalled;
+  if (left > most_left)
+    search.reason = "GMRES leaves " + text_of(left) + " of the linear residual at a residual of " +
+                    text_of(search.residual) + ", expected " + text_of(most_left) +
+                    ": the factors would have to be better ones, with more memory";
+  else
+    search.reason = "no step leads on from a residual of " + text_of(search.residual) + ", expected " +
+                    text_of(options.tolerance) + ": there may be no steady flow";
+}
+
 }  // namespace
 
 Factored factor_at(const Euler& euler, const State& state, double cfl, const FlowOptions& options,
                    BlockRows& matrix, Factors& factors, Search& search) {
   euler.jacobian(state, matrix);
   if (cfl < full_cfl) add_pseudo_time(euler, state, cfl, matrix);
-  const Factored outcome = factors.lu.factor(matrix, options.memory_mb);
+  const Factored outcome = factors.factor(matrix, euler.border_columns(state), options.memory_mb);
   ++search.factorisations;
-  search.memory_mb = std::max(search.memory_mb, factors.lu.memory_mb());
   if (outcome != Factored::done) return outcome;
-  factors.columns = euler.border_columns(state);
-  for (Vector& column : factors.columns) factors.lu.solve(column, 1);
+  search.memory_mb = std::max(search.memory_mb, factors.memory_mb());
+  search.whole_factors = factors.whole();
   return outcome;
 }
 
 void end_without_factors(Factored outcome, const FlowOptions& options, Search& search) {
   if (outcome == Factored::out_of_memory) {
     search.status = FlowStatus::memory;
-    search.reason = "the factors need more than the " + text_of(options.memory_mb) + " MB that they may take";
+    search.reason =
+        "even incomplete factors need more than the " + text_of(options.memory_mb) + " MB that they may take";
   } else {
     search.status = FlowStatus::stalled;
-    search.reason = "the Jacobian is singular at a residual of " + text_of(search.residual);
+    search.reason =
+        "the Jacobian, or its incomplete LU, is singular at a residual of " + text_of(search.residual);
   }
 }
 
@@ -78,63 +146,31 @@ void find_flow(const Euler& euler, const Measure& measure, const Pace& pace, con
   const int end_of_march = search.newton_steps + pace.march;
   constexpr double smallest_cfl = 1e-2;
   while (search.residual > options.tolerance) {
-    if (options.observer != nullptr && options.observer->cancelled()) {
-      search.status = FlowStatus::interrupted, search.reason = "interrupted";
-      return;
-    }
-    if (search.newton_steps >= options.max_steps) {
-      search.status = FlowStatus::step_limit;
-      search.reason = "residual " + text_of(search.residual) + " after " +
-                      std::to_string(search.newton_steps) + " Newton steps, expected " +
-                      text_of(options.tolerance);
-      return;
-    }
-    if (search.newton_steps - last_halved >= pace.patience) {
-      search.status = FlowStatus::stalled;
-      search.reason = "the residual, " + text_of(search.residual) + ", has not halved in " +
-                      std::to_string(pace.patience) + " Newton steps, expected " + text_of(options.tolerance);
-      return;
-    }
+    if (is_over(pace, options, last_halved, search)) return;
     const bool marching = search.newton_steps < end_of_march;
     if (marching) cfl = pace.cfl, least = halved = search.residual, last_halved = search.newton_steps;
     const Factored outcome = factor_at(euler, state, cfl, options, matrix, factors, search);
     if (outcome != Factored::done) return end_without_factors(outcome, options, search);
     ++search.newton_steps;
-    for (auto& block : residual)
-      for (double& x : block) x = -x;
-    factors.lu.solve(residual, 1);
-    const Increment step = close_border(std::move(residual), factors.columns, euler.border_rows(state),
-                                        {-border[0], -border[1]});
-    double length = std::min(1.0, LineSearch::largest_part / largest_change(state, step));
-    bool taken = false;
-    for (int i = 0; i <= LineSearch::halvings && !taken; ++i) {
-      if (i > 0) length *= 0.5;
-      State next = moved(state, step, length);
-      Vector next_residual;
-      Border next_border;
-      const double size = measure(next, next_residual, next_border);
-      // While it marches, `least` is the last residual.
-      if (!(size <= LineSearch::step_rise * search.residual && size <= LineSearch::whole_rise * least))
+    const LinearStep linear =
+        linear_step(euler, state, matrix, factors, residual, border, forcing(search.residual, options));
+    search.gmres_iterations += linear.iterations;
+    if (!(linear.left > most_left))
+      if (auto found = place_along(linear.step, measure, state, search.residual, least)) {
+        auto& [next, length] = *found;
+        if (length == 1.0 && linear.solved)
+          cfl = std::min(full_cfl, cfl * 2.0 * std::max(1.0, search.residual / next.size));
+        if (length < 0.25) cfl *= 0.5;
+        if (pace.relaxed) cfl = std::min(cfl, pace.cfl * first / next.size);
+        state = std::move(next.state), residual = std::move(next.residual), border = next.border;
+        search.residual = next.size;
+        search.history.push_back(next.size);
+        least = std::min(least, next.size);
+        if (least <= 0.5 * halved) halved = least, last_halved = search.newton_steps;
         continue;
-      if (length == 1.0) cfl = std::min(full_cfl, cfl * 2.0 * std::max(1.0, search.residual / size));
-      if (length < 0.25) cfl *= 0.5;
-      if (pace.relaxed) cfl = std::min(cfl, pace.cfl * first / size);
-      state = std::move(next), residual = std::move(next_residual), border = next_border;
-      search.residual = size;
-      search.history.push_back(size);
-      least = std::min(least, size);
-      if (least <= 0.5 * halved) halved = least, last_halved = search.newton_steps;
-      taken = true;
-    }
-    if (taken) continue;
+      }
     cfl = std::min(cfl, 1e4) * 0.1;
-    if (!(cfl >= smallest_cfl)) {
-      search.status = FlowStatus::stalled;
-      search.reason = "no step leads on from a residual of " + text_of(search.residual) + ", expected " +
-                      text_of(options.tolerance) + ": there may be no steady flow";
-      return;
-    }
-    search.residual = measure(state, residual, border);
+    if (!(cfl >= smallest_cfl)) return end_without_step(linear.left, options, search);
   }
   search.status = FlowStatus::converged;
   search.reason.clear();
@@ -147,7 +183,8 @@ namespace {
 // flow is needed.
 void find_flow_in_stages(const Euler& euler, const Measure& measure, const FlowOptions& options,
                          BlockRows& matrix, Factors& factors, State& state, Search& search) {
-  constexpr double stages[] = {0.0, 0.5, 0.75, 0.9, 0.95, 0.975, 0.99}, stage_cfl = 20.0, stage_tolerance = 1e-2;
+  constexpr double stages[] = {0.0, 0.5, 0.75, 0.9, 0.95, 0.975, 0.99}, stage_cfl = 20.0,
+                   stage_tolerance = 1e-2;
   state = euler.uniform();
   Pace pace = {.cfl = cold_cfl, .patience = usual_patience, .relaxed = true};
   FlowOptions rough = options;

@@ -13,8 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "flow/border.h"
-#include "flow/direct_solver.h"
+#include "flow/factors.h"
 #include "remodel/flow.h"
 
 namespace remodel::flow {
@@ -40,14 +39,9 @@ struct Search {
   std::string reason;
   double residual = 0.0;
   std::vector<double> history;
-  int newton_steps = 0, factorisations = 0, iterations = 0;
+  int newton_steps = 0, factorisations = 0, iterations = 0, gmres_iterations = 0;
   double memory_mb = 0.0;
-};
-
-// Factors of a Jacobian, closed by the border.
-struct Factors {
-  DirectSolver lu;
-  std::array<Vector, 2> columns;  // A^-1 B
+  bool whole_factors = true;
 };
 
 // Jacobian and factors at a state; cfl: infinite, or the diagonal has that pseudo-time step. Counts in

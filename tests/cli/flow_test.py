@@ -10,7 +10,7 @@ KEYS = "cl cd cm alpha_deg mach converged residual newton_steps factorisations k
 class Flows(ProgramTest):
     def test_keys_and_values(self):
         figures = self.figures("flow", "naca:0012", "--points", 60, "--mach", 0.5, "--alpha", 1.25)
-        self.assertKeys(figures, KEYS + " status bodies history memory_mb triangles vertices model")
+        self.assertKeys(figures, KEYS + " status bodies history memory_mb solver gmres_iterations triangles vertices model")
         self.assertTrue(figures["converged"])
         self.assertEqual(figures["warm"], "cold")
         self.assertLessEqual(figures["residual"], 1e-10)
@@ -58,6 +58,19 @@ class Flows(ProgramTest):
         first, second = (self.figures(*shape) for _ in range(2))
         for key in ("cl", "cd", "cm", "residual", "history"):
             self.assertEqual(first[key], second[key], key)
+
+    def test_little_memory_makes_it_gmres(self):
+        shape = ("flow", "naca:2412", "--points", 60, "--mach", 0.5, "--alpha", 1)
+        whole, little = self.figures(*shape), self.figures(*shape, "--memory", 4)
+        self.assertEqual([f["solver"] for f in (whole, little)], ["lu", "gmres"])
+        self.assertEqual(whole["gmres_iterations"], 0)
+        self.assertGreater(little["gmres_iterations"], 0)
+        self.assertGreater(whole["memory_mb"], 4)
+        self.assertLessEqual(little["memory_mb"], 4)
+        self.assertAlmostEqual(little["cl"], whole["cl"], delta=1e-9)
+        self.assertIn("linear solver", str(self.succeed(*shape, "--memory", 4)))
+        none = self.figures(*shape, "--memory", 1, status=3)
+        self.assertEqual((none["converged"], none["status"]), (False, "memory"))
 
     def test_nothing_is_written_without_a_flow(self):
         self.succeed("flow", "naca:0012", "--points", 40, "--mach", 0.6, "--max-steps", 2, "-o", "flow.vtu", status=3)

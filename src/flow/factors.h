@@ -1,0 +1,46 @@
+#pragma once
+
+// What solves with a Jacobian: its LU, or where this needs more memory than is given, an incomplete one, with
+// which GMRES solves.
+
+#include <limits>
+
+#include "flow/border.h"
+#include "flow/direct_solver.h"
+#include "flow/incomplete_lu.h"
+
+namespace remodel::flow {
+
+class Factors {
+ public:
+  // Whole factors if memory_mb, the same in all calls, has room for them; otherwise incomplete ones of the
+  // highest level of fill, 2 at most, that leaves room for the vectors of GMRES. `border`: the two columns
+  // beside the matrix, which are solved for.
+  Factored factor(const BlockRows& matrix, std::array<Vector, 2> border, double memory_mb);
+  bool ready() const { return lu_.ready() || incomplete_.ready(); }
+  bool whole() const { return lu_.ready(); }
+
+  // In place, one right-hand side in the order of the matrix's rows: the solution, or with incomplete factors
+  // about that.
+  void solve(Vector& right);
+  void solve_transposed(Vector& right);
+  const std::array<Vector, 2>& columns() const { return columns_; }  // of the border, solved
+
+  int restart() const { return restart_; }  // of GMRES: what there is room for
+  double memory_mb() const;                 // of the factors and, where they are incomplete, GMRES's vectors
+  // As DirectSolver counts.
+  double factor_work() const;
+  double solve_work() const;
+
+ private:
+  Factored factor_incompletely(const BlockRows& matrix, double memory_mb);
+
+  DirectSolver lu_;
+  IncompleteLu incomplete_;
+  // Meshes of so many vertices and more have been found to need more memory.
+  std::size_t too_large_ = std::numeric_limits<std::size_t>::max();
+  int restart_ = 0;
+  std::array<Vector, 2> columns_;
+};
+
+}  // namespace remodel::flow
