@@ -177,6 +177,14 @@ void add_euler_options(CLI::App& app, EulerRun& run) {
             "What the factors of a matrix may take, megabytes: at least 1; where LU takes more, GMRES with "
             "incomplete factors takes its place"},
            {.low = 1.0, .high = 1e9}, [&](double value) { run.options.memory_mb = value; });
+  add_choice(
+      app,
+      {"--solver", "SOLVER", "auto",
+       "Linear systems: by lu, by gmres, or by gmres far from a flow and by lu where its factors serve "
+       "for several steps or designs"},
+      {"auto", "lu", "gmres"}, [&](std::size_t choice) {
+        if (choice > 0) run.options.solver = choice == 1 ? FlowSolver::lu : FlowSolver::gmres;
+      });
   add_real(app,
            {"--limiter", "K", "30",
             "Differences below (K h)^(3/2) along an edge of length h are not limited: above 0, no unit"},

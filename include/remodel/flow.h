@@ -65,6 +65,13 @@ struct FlowOutlet {
   double pressure = 1.0;  // more than 0
 };
 
+// How the linear systems of Newton's method are solved.
+enum class FlowSolver {
+  lu,     // sparse LU; GMRES still where that needs more than memory_mb
+  gmres,  // GMRES with incomplete factors
+};
+const char* name_of(FlowSolver solver);  // "lu", "gmres"
+
 struct FlowOptions {
   std::string farfield = "farfield";
   // Converged: the root of the sum of squares of all residuals is at most this part of what it is for
@@ -77,6 +84,9 @@ struct FlowOptions {
   // What factors may take. Where those of a sparse LU are estimated to take more, GMRES with incomplete
   // factors takes its place.
   double memory_mb = 4096;
+  // How linear systems are solved. None: by GMRES far from a flow, where a matrix is solved with but once,
+  // and by LU where its factors serve for several steps or designs, if GMRES fails, too.
+  std::optional<FlowSolver> solver = {};
   StepObserver* observer = nullptr;      // asked at every step
   std::vector<FlowInlet> inlets = {};    // without a far field: at least one of each
   std::vector<FlowOutlet> outlets = {};  // their names are not `farfield`, and not one twice
@@ -91,13 +101,6 @@ enum class FlowStatus {
   interrupted,  // by the observer
 };
 const char* name_of(FlowStatus status);  // "converged", "step-limit", "stalled", "memory", "interrupted"
-
-// How the linear systems of Newton's method were solved.
-enum class FlowSolver {
-  lu,     // sparse LU
-  gmres,  // GMRES with incomplete factors: LU needs more than memory_mb
-};
-const char* name_of(FlowSolver solver);  // "lu", "gmres"
 
 // What a flow was found from.
 enum class FlowStart {
@@ -138,7 +141,7 @@ struct FlowResult {
   int coarse_steps = 0;                // of the Newton steps: on coarser meshes, or from their flows in vain
   int krylov_iterations = 0;           // steps with older factors
   std::size_t corrected_vertices = 0;  // where older factors were corrected because the mesh has changed
-  FlowSolver solver = FlowSolver::lu;  // coarser meshes may have had LU still
+  FlowSolver solver = FlowSolver::lu;  // of the last step
   int gmres_iterations = 0;            // of all Newton steps
   double memory_mb = 0.0;              // of the factors and of GMRES's vectors, the most
   double seconds = 0.0;

@@ -23,10 +23,18 @@ FlowConditions conditions_of(double mach, double alpha, const std::optional<doub
 using Inlets = std::map<std::string, std::array<double, 2>>;  // total pressure and total temperature
 using Outlets = std::map<std::string, double>;                // pressure
 
+FlowSolver solver_named(const std::string& name) {
+  for (const FlowSolver solver : {FlowSolver::lu, FlowSolver::gmres})
+    if (name == name_of(solver)) return solver;
+  throw Error(ErrorCode::argument, "solver", "found '" + name + "', expected 'lu', 'gmres' or None");
+}
+
 FlowOptions options_of(const std::string& farfield, double tolerance, int max_steps, double memory_mb,
-                       const Inlets& inlets, const Outlets& outlets) {
+                       const std::optional<std::string>& solver, const Inlets& inlets,
+                       const Outlets& outlets) {
   FlowOptions options{
       .farfield = farfield, .tolerance = tolerance, .max_steps = max_steps, .memory_mb = memory_mb};
+  if (solver) options.solver = solver_named(*solver);
   for (const auto& [name, total] : inlets)
     options.inlets.push_back({.name = name, .total_pressure = total[0], .total_temperature = total[1]});
   for (const auto& [name, pressure] : outlets)
@@ -44,10 +52,10 @@ py::object with_mesh(const FlowPointer& flow, const Snapshot& mesh) {
 py::object solved(const py::object& mesh, double mach, double alpha, const std::optional<double>& cl,
                   const std::array<double, 2>& reference, double reference_length,
                   const std::string& farfield, double tolerance, int max_steps, double memory_mb,
-                  const Inlets& inlets, const Outlets& outlets) {
+                  const std::optional<std::string>& solver, const Inlets& inlets, const Outlets& outlets) {
   const Snapshot frozen = snapshot_of(mesh);
   const FlowConditions conditions = conditions_of(mach, alpha, cl, reference, reference_length);
-  FlowOptions options = options_of(farfield, tolerance, max_steps, memory_mb, inlets, outlets);
+  FlowOptions options = options_of(farfield, tolerance, max_steps, memory_mb, solver, inlets, outlets);
   const auto stop = std::make_shared<Stop>();
   options.observer = stop.get();
   const FlowPointer flow = Apart().run(stop, [frozen, conditions, options, stop] {
@@ -153,7 +161,7 @@ void add_figures(py::class_<FlowResult, FlowPointer>& type) {
   type.def_readonly("krylov_iterations", &FlowResult::krylov_iterations);
   type.def_property_readonly(
       "solver", [](const FlowResult& f) { return name_of(f.solver); },
-      "'lu', or 'gmres' where LU needs more than memory_mb.");
+      "'lu' or 'gmres': how the linear systems of the last step were solved.");
   type.def_readonly("gmres_iterations", &FlowResult::gmres_iterations);
   type.def_readonly("memory_mb", &FlowResult::memory_mb,
                     "What the factors and GMRES's vectors took, the most.");
@@ -202,21 +210,22 @@ void add_flows(py::module_& module) {
   module.def("solve_flow", &solved, "mesh"_a, py::kw_only(), "mach"_a = 0.5, "alpha"_a = 0.0,
              "cl"_a = py::none(), "reference"_a = quarter, "reference_length"_a = 1.0,
              "farfield"_a = "farfield", "tolerance"_a = defaults.tolerance,
-             "max_steps"_a = defaults.max_steps, "memory_mb"_a = defaults.memory_mb, "inlets"_a = Inlets(),
-             "outlets"_a = Outlets(), solver_text);
+             "max_steps"_a = defaults.max_steps, "memory_mb"_a = defaults.memory_mb, "solver"_a = py::none(),
+             "inlets"_a = Inlets(), "outlets"_a = Outlets(), solver_text);
   py::class_<Flows>(
       module, "LivingFlow",
       R"(A flow solver that outlives its mesh: each flow is found from the one before and the factors that are
 still good, whatever update() did to the mesh in between. The result depends on mesh and conditions alone, to
 the tolerance. After Ctrl-C the next call waits until a factorisation that was under way has ended.)")
       .def(py::init([](const std::string& farfield, double tolerance, int max_steps, double memory_mb,
-                       const Inlets& inlets, const Outlets& outlets) {
+                       const std::optional<std::string>& solver, const Inlets& inlets,
+                       const Outlets& outlets) {
              return std::make_unique<Flows>(
-                 options_of(farfield, tolerance, max_steps, memory_mb, inlets, outlets));
+                 options_of(farfield, tolerance, max_steps, memory_mb, solver, inlets, outlets));
            }),
            py::kw_only(), "farfield"_a = "farfield", "tolerance"_a = defaults.tolerance,
-           "max_steps"_a = defaults.max_steps, "memory_mb"_a = defaults.memory_mb, "inlets"_a = Inlets(),
-           "outlets"_a = Outlets())
+           "max_steps"_a = defaults.max_steps, "memory_mb"_a = defaults.memory_mb, "solver"_a = py::none(),
+           "inlets"_a = Inlets(), "outlets"_a = Outlets())
       .def("solve", &Flows::solve, "mesh"_a, py::kw_only(), "mach"_a = 0.5, "alpha"_a = 0.0,
            "cl"_a = py::none(), "reference"_a = quarter, "reference_length"_a = 1.0, solver_text)
       .def(

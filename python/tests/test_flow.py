@@ -44,11 +44,13 @@ def test_a_living_flow_goes_on_over_steps(flowing):
 
 
 def test_little_memory_makes_it_gmres(flowing):
-    whole = remodel.solve_flow(flowing[1], mach=0.5, alpha=1.25)
-    little = remodel.solve_flow(flowing[1], mach=0.5, alpha=1.25, memory_mb=0.5 * whole.memory_mb)
+    whole = remodel.solve_flow(flowing[1], mach=0.5, alpha=1.25, solver="lu")
+    little = remodel.solve_flow(flowing[1], mach=0.5, alpha=1.25, solver="lu", memory_mb=0.5 * whole.memory_mb)
     assert (whole.solver, little.solver) == ("lu", "gmres") and whole.gmres_iterations == 0
     assert little.converged and little.gmres_iterations > 0 and little.memory_mb <= 0.5 * whole.memory_mb
     assert abs(little.cl - whole.cl) < 1e-9
+    with pytest.raises(remodel.ArgumentError, match="found 'cholesky', expected 'lu', 'gmres' or None"):
+        remodel.solve_flow(flowing[1], mach=0.5, solver="cholesky")
 
 
 def test_the_angle_of_a_lift_is_found(flowing):

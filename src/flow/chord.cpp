@@ -193,9 +193,10 @@ ChordEnd steps_with_own_factors(const Euler& euler, const Measure& measure, cons
   for (int attempt = 0; attempt < attempts; ++attempt) {
     const double before = measure(state, residual, border);
     if (!(before < reach)) return ChordEnd::slow;
-    if (factors.ready() && !factors.whole())
+    if (options.solver == FlowSolver::gmres || factors.too_large(state.q.size()))
       return gmres_steps(euler, measure, options, matrix, factors, state, search);
-    const Factored outcome = factor_at(euler, state, no_pseudo_time, options, matrix, factors, search);
+    const Factored outcome =
+        factor_at(euler, state, no_pseudo_time, FactorKind::whole, options, matrix, factors, search);
     ++search.newton_steps;
     if (outcome != Factored::done) return ChordEnd::slow;
     if (!factors.whole()) return gmres_steps(euler, measure, options, matrix, factors, state, search);

@@ -14,11 +14,14 @@ constexpr int highest_level = 2, longest_restart = 60, shortest_restart = 20;
 
 }  // namespace
 
-Factored Factors::factor(const BlockRows& matrix, std::array<Vector, 2> border, double memory_mb) {
+Factored Factors::factor(const BlockRows& matrix, std::array<Vector, 2> border, FactorKind kind,
+                         double memory_mb) {
   Factored outcome = Factored::out_of_memory;
-  if (matrix.rows.size() < too_large_) outcome = lu_.factor(matrix, memory_mb);
+  if (kind == FactorKind::whole && !too_large(matrix.rows.size())) {
+    outcome = lu_.factor(matrix, memory_mb);
+    if (outcome == Factored::out_of_memory) too_large_ = matrix.rows.size();
+  }
   if (outcome == Factored::out_of_memory) {
-    too_large_ = std::min(too_large_, matrix.rows.size());
     lu_.forget();
     outcome = factor_incompletely(matrix, memory_mb);
   } else {

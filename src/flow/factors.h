@@ -11,12 +11,17 @@
 
 namespace remodel::flow {
 
+// What a matrix is factored for: many solves, or the one of a step with GMRES.
+enum class FactorKind { whole, incomplete };
+
 class Factors {
  public:
-  // Whole factors if memory_mb, the same in all calls, has room for them; otherwise incomplete ones of the
-  // highest level of fill, 2 at most, that leaves room for the vectors of GMRES. `border`: the two columns
-  // beside the matrix, which are solved for.
-  Factored factor(const BlockRows& matrix, std::array<Vector, 2> border, double memory_mb);
+  // Whole factors if memory_mb, the same in all calls, has room for them; otherwise, or if they are asked
+  // for, incomplete ones of the highest level of fill, 2 at most, that leaves room for the vectors of GMRES.
+  // `border`: the two columns beside the matrix, which are solved for.
+  Factored factor(const BlockRows& matrix, std::array<Vector, 2> border, FactorKind kind, double memory_mb);
+  // Whether whole factors of so many vertices are known to need more memory.
+  bool too_large(std::size_t vertices) const { return vertices >= too_large_; }
   bool ready() const { return lu_.ready() || incomplete_.ready(); }
   bool whole() const { return lu_.ready(); }
 

@@ -410,8 +410,9 @@ FlowGradients LivingFlow::Impl::gradients(const std::vector<FlowFunctional>& fun
   if (!totals) {
     flow::Search made;
     factored = false;
-    const flow::Factored outcome = flow::factor_at(euler, state, std::numeric_limits<double>::infinity(),
-                                                   options, matrix, factors, made);
+    const flow::Factored outcome =
+        flow::factor_at(euler, state, std::numeric_limits<double>::infinity(), flow::lasting_kind(options),
+                        options, matrix, factors, made);
     belong(*mesh, keys);
     if (outcome == flow::Factored::done) {
       result.factorisations = 1;

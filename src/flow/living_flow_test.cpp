@@ -78,6 +78,7 @@ TEST(LivingFlow, AFlowThatIsCancelledInItsLastStepIsNotTheLastOne) {
   EXPECT_THROW(living.gradients(), Error);
 }
 
+// The first needs them: the flow that it begins with was found by GMRES.
 TEST(LivingFlow, SmallStepsNeedNoFactorsOfTheirOwn) {
   std::mt19937_64 random(12);
   CstAirfoil airfoil = named_airfoil("naca:2412", 5);
@@ -90,8 +91,8 @@ TEST(LivingFlow, SmallStepsNeedNoFactorsOfTheirOwn) {
     remodel(mesh, domain_of(airfoil));
     const FlowResult flow = living.solve(mesh, conditions);
     ASSERT_TRUE(flow.converged()) << flow.reason;
-    EXPECT_EQ(flow.start, FlowStart::carried);
-    EXPECT_EQ(flow.factorisations, 0);
+    EXPECT_EQ(flow.start, i == 0 ? FlowStart::refactored : FlowStart::carried);
+    EXPECT_EQ(flow.factorisations, i == 0 ? 1 : 0);
     EXPECT_LT(flow.krylov_iterations, 15);
   }
 }

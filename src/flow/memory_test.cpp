@@ -16,8 +16,8 @@ constexpr double little_mb = 2.0;
 
 void expect_the_same_flow(const FlowConditions& conditions, double little) {
   const FrozenMesh mesh = test::airfoil_mesh("naca:0012", 60).freeze();
-  const FlowResult lu = solve_flow(mesh, conditions);
-  const FlowResult gmres = solve_flow(mesh, conditions, {.memory_mb = little});
+  const FlowResult lu = solve_flow(mesh, conditions, {.solver = FlowSolver::lu});
+  const FlowResult gmres = solve_flow(mesh, conditions, {.memory_mb = little, .solver = FlowSolver::lu});
   ASSERT_TRUE(lu.converged() && gmres.converged()) << lu.reason << gmres.reason;
   EXPECT_EQ(lu.solver, FlowSolver::lu);
   EXPECT_EQ(lu.gmres_iterations, 0);

@@ -110,11 +110,15 @@ void end_without_step(double left, const FlowOptions& options, Search& search) {
 
 }  // namespace
 
-Factored factor_at(const Euler& euler, const State& state, double cfl, const FlowOptions& options,
-                   BlockRows& matrix, Factors& factors, Search& search) {
+FactorKind lasting_kind(const FlowOptions& options) {
+  return options.solver == FlowSolver::gmres ? FactorKind::incomplete : FactorKind::whole;
+}
+
+Factored factor_at(const Euler& euler, const State& state, double cfl, FactorKind kind,
+                   const FlowOptions& options, BlockRows& matrix, Factors& factors, Search& search) {
   euler.jacobian(state, matrix);
   if (cfl < full_cfl) add_pseudo_time(euler, state, cfl, matrix);
-  const Factored outcome = factors.factor(matrix, euler.border_columns(state), options.memory_mb);
+  const Factored outcome = factors.factor(matrix, euler.border_columns(state), kind, options.memory_mb);
   ++search.factorisations;
   if (outcome != Factored::done) return outcome;
   search.memory_mb = std::max(search.memory_mb, factors.memory_mb());
@@ -145,16 +149,21 @@ void find_flow(const Euler& euler, const Measure& measure, const Pace& pace, con
   int last_halved = search.newton_steps;
   const int end_of_march = search.newton_steps + pace.march;
   constexpr double smallest_cfl = 1e-2;
+  FactorKind kind = options.solver == FlowSolver::lu ? FactorKind::whole : FactorKind::incomplete;
   while (search.residual > options.tolerance) {
     if (is_over(pace, options, last_halved, search)) return;
     const bool marching = search.newton_steps < end_of_march;
     if (marching) cfl = pace.cfl, least = halved = search.residual, last_halved = search.newton_steps;
-    const Factored outcome = factor_at(euler, state, cfl, options, matrix, factors, search);
+    const Factored outcome = factor_at(euler, state, cfl, kind, options, matrix, factors, search);
     if (outcome != Factored::done) return end_without_factors(outcome, options, search);
     ++search.newton_steps;
     const LinearStep linear =
         linear_step(euler, state, matrix, factors, residual, border, forcing(search.residual, options));
     search.gmres_iterations += linear.iterations;
+    if (linear.left > most_left && kind != lasting_kind(options) && !factors.too_large(state.q.size())) {
+      kind = FactorKind::whole;  // the same step once more, and all to come
+      continue;
+    }
     if (!(linear.left > most_left))
       if (auto found = place_along(linear.step, measure, state, search.residual, least)) {
         auto& [next, length] = *found;

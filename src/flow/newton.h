@@ -46,8 +46,10 @@ struct Search {
 
 // Jacobian and factors at a state; cfl: infinite, or the diagonal has that pseudo-time step. Counts in
 // `search`.
-Factored factor_at(const Euler& euler, const State& state, double cfl, const FlowOptions& options,
-                   BlockRows& matrix, Factors& factors, Search& search);
+Factored factor_at(const Euler& euler, const State& state, double cfl, FactorKind kind,
+                   const FlowOptions& options, BlockRows& matrix, Factors& factors, Search& search);
+// Of factors that serve for several solves.
+FactorKind lasting_kind(const FlowOptions& options);
 
 // Goes on from `state` to the flow, or to where it ends; search.status and reason say which. Leaves the
 // factors of its last step.
