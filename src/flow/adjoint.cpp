@@ -149,9 +149,9 @@ void TransposedInverse::apply(Increment& x) {
 // Preconditioned from the right, so that the residual is that of the system itself. It is kept as small as
 // rounding lets it by beginning anew once.
 bool solve_transposed(const TransposedSystem& system, TransposedInverse& inverse, const Increment& right,
-                      double tolerance, double most_solves, Increment& guess, int& iterations) {
+                      const TransposedLimits& limits, Increment& guess, int& iterations) {
   const std::size_t n = right.q.size();
-  const double size_of_right = std::sqrt(inner(right, right)), wanted = tolerance * size_of_right;
+  const double size_of_right = std::sqrt(inner(right, right)), wanted = limits.tolerance * size_of_right;
   Increment x = zero(n), residual = right;
   if (guess.q.size() == n) {
     add_times(residual, -1.0, system.times(guess));
@@ -168,7 +168,8 @@ bool solve_transposed(const TransposedSystem& system, TransposedInverse& inverse
     add_times(basis[0], 1.0 / beta, residual);
     Triangle triangle(beta);
     for (int step = 0; step < most_steps; ++step) {
-      if (iterations - before >= most_solves) return false;
+      if (iterations - before >= limits.most_solves) return false;
+      if (limits.observer != nullptr && limits.observer->cancelled()) return false;
       solved.push_back(basis.back());
       inverse.apply(solved.back());
       ++iterations;
@@ -212,8 +213,8 @@ std::optional<std::vector<Total>> totals(const Euler& euler, const State& state,
     for (std::size_t v = 0; v < right.q.size(); ++v) right.q[v][3] = functions[i].pressure[v];
     right.border[1] = functions[i].alpha;
     const int before = iterations;
-    if (!solve_transposed(system, inverse, right, tolerance, most_solves, multipliers[i], iterations))
-      return std::nullopt;
+    const TransposedLimits limits{tolerance, most_solves, options.observer};
+    if (!solve_transposed(system, inverse, right, limits, multipliers[i], iterations)) return std::nullopt;
     most_solves -= iterations - before;
     weights.push_back(multipliers[i].q);
   }
