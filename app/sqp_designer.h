@@ -25,7 +25,7 @@ class SqpDesigner final : public Designer {
   SqpDesigner(std::vector<double> start, GradientOptions options);
 
   std::size_t population() const override { return 1; }
-  Proposal ask() override { return {.design = pending_, .gradient = true}; }
+  Proposal ask() override { return {.design = pending_, .gradient = true, .from = best_.design}; }
   void refuse(const Proposal& proposal) override;
   void tell(const Proposal& proposal, const Evaluation& evaluation) override;
   bool finished() const override { return finished_; }
