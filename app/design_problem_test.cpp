@@ -517,6 +517,21 @@ TEST(Sqp, FollowsAValleyToTheConstraintFromTheBestDesign) {
   EXPECT_NEAR(best.at(0) + best.at(1), 1.0, 1e-6);
 }
 
+// f = -5000 x under x <= 0.1, over its first value of 1: more than the first penalty would hold.
+TEST(Sqp, KeepsConstraintsWhoseViolationWouldPay) {
+  SqpDesigner designer({0.0}, {.trust = 0.5, .low = {-2}, .high = {2}});
+  double last = 0.0;
+  for (int i = 0; i < 20 && !designer.finished(); ++i) {
+    const Proposal proposal = designer.ask();
+    last = proposal.design.at(0);
+    designer.tell(proposal, {.objective = 1.0 - 5000.0 * last,
+                             .constraints = {last - 0.1},
+                             .gradient = {-5000.0},
+                             .constraint_gradients = {{1.0}}});
+  }
+  EXPECT_NEAR(last, 0.1, 1e-6);
+}
+
 TEST(Sqp, WhoseStartIsRefusedHasFinished) {
   GradientOptions options;
   options.low = {0.0, 0.0}, options.high = {1.0, 1.0};

@@ -14,7 +14,8 @@ namespace {
 
 using DesignJson = nlohmann::ordered_json;
 
-constexpr double penalty = 100.0;       // of the worst violation, beside the objective over its first value
+// Of the worst violation, beside the objective over its first value: at first, and the most that it grows to.
+constexpr double first_penalty = 1000.0, most_penalty = 1e6;
 constexpr double first_shift = 0.02;    // of the objective's first value: before any was seen
 constexpr double least_promise = 1e-6;  // likewise: a model that promises less is at its end
 
@@ -43,10 +44,17 @@ double quadratic_value(const Evaluation& at, const std::vector<double>& curvatur
   return sum;
 }
 
+struct Model {
+  const Evaluation& at;
+  const std::vector<double>& curvature;
+  double scale, penalty;
+};
+
 // The step in the box that makes the model small, with one variable more, by which all constraints may be
-// violated: at most by as much as they are now.
-std::vector<double> small_step(const Evaluation& at, const std::vector<double>& curvature, double scale,
-                               const std::vector<double>& low, const std::vector<double>& high) {
+// violated: at most by twice as much as they are now.
+std::vector<double> small_step(const Model& model, const std::vector<double>& low,
+                               const std::vector<double>& high) {
+  const auto& [at, curvature, scale, penalty] = model;
   const std::size_t n = low.size();
   QuadraticProgram program{
       .h = std::vector<double>((n + 1) * (n + 1), 0.0), .g = {}, .a = {}, .b = {}, .low = low, .high = high};
@@ -71,7 +79,11 @@ std::vector<double> small_step(const Evaluation& at, const std::vector<double>& 
 }  // namespace
 
 SqpDesigner::SqpDesigner(std::vector<double> start, GradientOptions options)
-    : options_(std::move(options)), pending_(std::move(start)), trust_(options_.trust), shift_(first_shift) {
+    : options_(std::move(options)),
+      pending_(std::move(start)),
+      trust_(options_.trust),
+      penalty_(first_penalty),
+      shift_(first_shift) {
   if (options_.low.size() != pending_.size() || options_.high.size() != pending_.size())
     throw Error(ErrorCode::argument, "designer", "expected bounds for each variable");
   const std::size_t n = pending_.size();
@@ -83,12 +95,12 @@ SqpDesigner::SqpDesigner(std::vector<double> start, GradientOptions options)
 }
 
 double SqpDesigner::merit(const Evaluation& evaluation) const {
-  return evaluation.objective / scale_ + penalty * violation_of(evaluation.constraints);
+  return evaluation.objective / scale_ + penalty_ * violation_of(evaluation.constraints);
 }
 
 double SqpDesigner::model(const std::vector<double>& step) const {
   const double violated = worst_after(best_.evaluation, step) - violation_of(best_.evaluation.constraints);
-  return quadratic_value(best_.evaluation, curvature_, scale_, step) + penalty * violated;
+  return quadratic_value(best_.evaluation, curvature_, scale_, step) + penalty_ * violated;
 }
 
 void SqpDesigner::propose() {
@@ -98,7 +110,15 @@ void SqpDesigner::propose() {
     low[i] = std::min(0.0, std::max(options_.low[i] - best_.design[i], -trust_));
     high[i] = std::max(0.0, std::min(options_.high[i] - best_.design[i], trust_));
   }
-  const std::vector<double> step = small_step(best_.evaluation, curvature_, scale_, low, high);
+  const auto search = [&] { return small_step({best_.evaluation, curvature_, scale_, penalty_}, low, high); };
+  std::vector<double> step = search();
+  // Where the objective's fall pays for a violation that need not be, the penalty is too small.
+  constexpr double rounding = 1e-7, worth_it = 0.9, growth = 10.0;
+  const double violated = std::max(rounding, worth_it * violation_of(best_.evaluation.constraints));
+  while (worst_after(best_.evaluation, step) > violated && penalty_ < most_penalty) {
+    penalty_ *= growth;
+    step = search();
+  }
   promised_ = -model(step);
   finished_ = trust_ < options_.least_trust || !(promised_ > least_promise);
   pending_ = best_.design;
@@ -218,12 +238,20 @@ void SqpDesigner::tell(const Proposal& proposal, const Evaluation& evaluation) {
 }
 
 std::string SqpDesigner::state() const {
-  DesignJson json = {
-      {"pending", pending_}, {"curvature", curvature_}, {"learnt", learnt_},
-      {"scale", scale_},     {"trust", trust_},         {"promised", promised_},
-      {"shift", shift_},     {"begun_at", begun_at_},   {"steps", steps_},
-      {"started", started_}, {"finished", finished_},   {"best", DesignJson::parse(json_of(best_))},
-      {"waiting", nullptr}};
+  DesignJson json = {{"pending", pending_},
+                     {"curvature", curvature_},
+                     {"learnt", learnt_},
+                     {"scale", scale_},
+                     {"trust", trust_},
+                     {"promised", promised_},
+                     {"penalty", penalty_},
+                     {"shift", shift_},
+                     {"begun_at", begun_at_},
+                     {"steps", steps_},
+                     {"started", started_},
+                     {"finished", finished_},
+                     {"best", DesignJson::parse(json_of(best_))},
+                     {"waiting", nullptr}};
   if (waiting_) json["waiting"] = DesignJson::parse(json_of(*waiting_));
   return json.dump();
 }
@@ -235,6 +263,7 @@ void SqpDesigner::restore(const std::string& state, const std::string& source) {
       throw Error(ErrorCode::format, source, "found another number of variables");
     json.at("pending").get_to(pending_), json.at("curvature").get_to(curvature_);
     json.at("learnt").get_to(learnt_), json.at("scale").get_to(scale_), json.at("trust").get_to(trust_);
+    json.at("penalty").get_to(penalty_);
     json.at("promised").get_to(promised_), json.at("shift").get_to(shift_),
         json.at("begun_at").get_to(begun_at_);
     json.at("steps").get_to(steps_), json.at("started").get_to(started_);
