@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <thread>
 
 #include "arguments.h"
 #include "command.h"
@@ -25,17 +27,33 @@ namespace {
 struct DesignCommand {
   std::string problem;
   OptimiseOptions run;
+  std::size_t threads = 0;
   bool quiet = false, json = false;
 };
 
-// The last design on fresh meshes, which no search has seen.
-Json verified(const DesignProblemFile& problem, const FlowSpace& space, std::span<const double> design) {
+// Asks the progress, which knows of signals, from within meshes and flows.
+class SignalObserver final : public StepObserver {
+ public:
+  explicit SignalObserver(Progress& progress) : progress_(progress) {}
+  bool cancelled() override { return progress_.cancelled(); }
+
+ private:
+  Progress& progress_;
+};
+
+// The last design on fresh meshes, which no search has seen. None where that was interrupted.
+std::optional<Json> verified(const DesignProblemFile& problem, const FlowSpace& space,
+                             std::span<const double> design, StepObserver& observer) {
   Json list = Json::array();
   for (const int points : problem.verify) {
     const double gradation = problem.gradation * points / problem.domain.points;
-    const Mesh mesh = generate(space.domain_with(design, points), {.gradation = gradation}).mesh;
+    const GenerateResult made =
+        generate(space.domain_with(design, points), {.gradation = gradation}, &observer);
+    if (made.stopped == Stopped::interrupted) return std::nullopt;
+    const Mesh& mesh = made.mesh;
     for (const DesignPoint& point : problem.points) {
-      const FlowResult flow = solve_section(mesh, point.conditions, space.half());
+      const FlowResult flow = solve_section(mesh, point.conditions, space.half(), &observer);
+      if (flow.status == FlowStatus::interrupted) return std::nullopt;
       list.push_back({{"points", points},
                       {"vertices", mesh.freeze().points.size()},
                       {"mach", flow.mach},
@@ -66,53 +84,78 @@ void add_cost(Report& report, const DesignRun& run) {
                   (run.sum("flow_seconds") + run.sum("gradient_seconds")) / first->second);
 }
 
-Status run(DesignCommand& command) {
+void require_possible(const DesignCommand& command) {
   if (command.problem.empty() || command.run.directory.empty())
     throw Error(ErrorCode::argument, command.problem.empty() ? "PROBLEM" : "--output",
                 "is missing, expected a design problem and -o, a run directory");
   require_run_directory(command.run.directory);
   if (command.run.resume && command.run.overwrite)
     throw Error(ErrorCode::argument, "--overwrite", "found with --resume, expected one of them");
-  const DesignProblemFile problem = read_design_problem(command.problem);
-  const std::unique_ptr<FlowSpace> space = problem.space();
-  const std::unique_ptr<Evaluator> evaluator = make_flow_evaluator(problem, *space);
-  const std::unique_ptr<Designer> designer = make_designer(problem, *space);
-  command.run.domain = problem.domain;
-  command.run.quality.gradation = problem.gradation;
-  command.run.strategy = MeshStrategy::chain;
-  command.run.evaluations = problem.evaluations;
-  command.run.workers = 1;
-  command.run.checkpoint_every = 5;
-  Progress progress(progress_style(command.quiet), problem.evaluations, "problem: " + command.problem);
-  const OptimiseResult result = optimise(*space, *designer, *evaluator, command.run, &progress);
-  progress.finish();
+}
 
-  Report report;
-  report.figure("problem", "problem", command.problem);
+// The run's options, of which the problem has some.
+OptimiseOptions options_of(const DesignCommand& command, const DesignProblemFile& problem,
+                           StepObserver& observer) {
+  OptimiseOptions options = command.run;
+  options.domain = problem.domain;
+  options.quality.gradation = problem.gradation;
+  options.remodel.observer = &observer;
+  options.strategy = MeshStrategy::chain;
+  options.evaluations = problem.evaluations;
+  options.workers = 1;
+  options.checkpoint_every = 5;
+  return options;
+}
+
+void add_result(Report& report, const OptimiseResult& result, const FlowSpace& space) {
   report.figure("evaluations", "designs evaluated", result.evaluations);
   report.figure("full_adjustments", "full adjustments", result.full_adjustments);
   report.figure("objective", "best objective", result.objective);
   for (const auto& [name, value] : result.outputs) report.figure(name, name, value);
-  for (const NamedNumber& number : space->named(result.best_design))
+  for (const NamedNumber& number : space.named(result.best_design))
     report.figure(number.name, number.name, number.value);
-  if (result.evaluations > 0) add_cost(report, read_design_run(command.run.directory));
-  report.figure("seconds", "wall time", result.seconds, "seconds");
-  report.figure("stopped", "stopped", name_of(result.stopped));
-  report.figure("converged", "converged", designer->finished());
-  if (!result.detail.empty()) report.figure("detail", "detail", result.detail);
-  const bool done = result.stopped == OptimiseStopped::done;
-  const Json fresh =
-      done && std::isfinite(result.objective) ? verified(problem, *space, result.best_design) : Json::array();
+}
+
+void add_verified(Report& report, const Json& fresh, const std::filesystem::path& directory) {
   for (const Json& entry : fresh)
     report.line("fresh mesh, I = " + entry["points"].dump(),
                 "CL " + entry["cl"].dump() + ", CD " + entry["cd"].dump() +
                     (entry["converged"] == true ? "" : ", no flow was found"));
   report.data("verified", fresh);
-  if (!fresh.empty()) write_text_atomically(command.run.directory / "fresh.json", fresh.dump() + "\n");
+  if (!fresh.empty()) write_text_atomically(directory / "fresh.json", fresh.dump() + "\n");
+}
+
+Status run(const DesignCommand& command) {
+  require_possible(command);
+  const DesignProblemFile problem = read_design_problem(command.problem);
+  const std::unique_ptr<FlowSpace> space = problem.space();
+  const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
+  const std::unique_ptr<Evaluator> evaluator =
+      make_flow_evaluator(problem, *space, command.threads != 0 ? command.threads : cores);
+  const std::unique_ptr<Designer> designer = make_designer(problem, *space);
+  Progress progress(progress_style(command.quiet), problem.evaluations, "problem: " + command.problem);
+  SignalObserver signals(progress);
+  const OptimiseOptions options = options_of(command, problem, signals);
+  const OptimiseResult result = optimise(*space, *designer, *evaluator, options, &progress);
+  progress.finish();
+  std::optional<Json> fresh = Json::array();
+  if (result.stopped == OptimiseStopped::done && std::isfinite(result.objective))
+    fresh = verified(problem, *space, result.best_design, signals);
+  const OptimiseStopped stopped = fresh ? result.stopped : OptimiseStopped::interrupted;
+
+  Report report;
+  report.figure("problem", "problem", command.problem);
+  add_result(report, result, *space);
+  if (result.evaluations > 0) add_cost(report, read_design_run(options.directory));
+  report.figure("seconds", "wall time", result.seconds, "seconds");
+  report.figure("stopped", "stopped", name_of(stopped));
+  report.figure("converged", "converged", designer->finished());
+  if (!result.detail.empty()) report.figure("detail", "detail", result.detail);
+  if (fresh) add_verified(report, *fresh, options.directory);
   report.data("best", Json::parse(space->text(result.best_design)));
-  report.figure("directory", "run directory", command.run.directory.string());
+  report.figure("directory", "run directory", options.directory.string());
   report.print(command.json);
-  if (!done) return Status::limit;
+  if (stopped != OptimiseStopped::done) return Status::limit;
   return std::isfinite(result.objective) ? Status::done : Status::answer_is_no;
 }
 
@@ -163,6 +206,13 @@ void add_design_command(CLI::App& program, Action& action) {
       Presence::optional, [command](const std::string& text) { command->run.directory = text; });
   add_flag(app, "--resume", "Continue from the checkpoint in the run directory", command->run.resume);
   add_flag(app, "--overwrite", "Replace the run that the run directory holds", command->run.overwrite);
+  add_integer(
+      app,
+      {"--threads", "T", "as many as cores",
+       "Flows of the problem's points that are looked for at the same time. The result does not depend "
+       "on it; 1 to 1000"},
+      {.low = 1, .high = 1000},
+      [command](std::int64_t value) { command->threads = static_cast<std::size_t>(value); });
   add_flag(app, "--quiet", "No progress on standard error", command->quiet);
   add_json_flag(app, command->json);
   add_design_report_command(app, action);

@@ -1,12 +1,17 @@
 // The evaluator of `remodel design`: the flows of all points on the living mesh, and their gradients.
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <exception>
+#include <functional>
 #include <initializer_list>
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <thread>
 
+#include "design_memory.h"
 #include "design_problem.h"
 #include "gap.h"
 #include "remodel/mesh_derivative.h"
@@ -15,30 +20,6 @@
 namespace remodel::app {
 
 namespace {
-
-// Asks the observer of the evaluation under way: flows outlive it.
-class LatestObserver final : public StepObserver {
- public:
-  void ask(StepObserver& observer) { latest_ = &observer; }
-  bool cancelled() override { return latest_ != nullptr && latest_->cancelled(); }
-
- private:
-  StepObserver* latest_ = nullptr;
-};
-
-struct FlowMemory final : EvaluatorState {
-  LatestObserver observer;
-  std::vector<LivingFlow> flows;
-  // A number for the mesh's connectivity that no other one has had in the run: twice that of the evaluation
-  // that found it first, and one more where the target's mesh has joined it since.
-  std::uint64_t connectivity = 0;
-  // Of inverse design: the target's pressures at stations, on a copy of the mesh that followed to it.
-  std::vector<LivingFlow> target_flows;
-  std::vector<std::map<double, double>> target;
-  std::optional<std::uint64_t> aimed_at = {};  // the connectivity that the copy was made of
-  bool is_like = false;                        // and has itself
-  std::string bytes() const override { return std::to_string(connectivity); }
-};
 
 // A value and its derivatives by the coefficients of the domain, of one flow.
 struct Slope {
@@ -59,9 +40,33 @@ void add(Slope& to, double factor, const Slope& from) {
   for (std::size_t i = 0; i < from.by.size(); ++i) to.by[i] += factor * from.by[i];
 }
 
+// Calls task(0) to task(count - 1), each once, on so many threads at most. Of what tasks throw, that of the
+// lowest number is thrown when all have ended: which one does not depend on the threads.
+void at_once(std::size_t count, std::size_t threads, const std::function<void(std::size_t)>& task) {
+  std::vector<std::exception_ptr> thrown(count);
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < count; i = next++) {
+      try {
+        task(i);
+      } catch (...) {
+        thrown[i] = std::current_exception();
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    for (std::size_t i = 1; i < std::min(count, threads); ++i) others.emplace_back(work);
+    work();
+  }
+  for (const std::exception_ptr& one : thrown)
+    if (one) std::rethrow_exception(one);
+}
+
 class FlowEvaluator final : public Evaluator {
  public:
-  FlowEvaluator(const DesignProblemFile& problem, const FlowSpace& space) : problem_(problem), space_(space) {
+  FlowEvaluator(const DesignProblemFile& problem, const FlowSpace& space, std::size_t threads)
+      : problem_(problem), space_(space), threads_(threads) {
     if (problem.target)
       target_ = SectionSpace(problem.start, problem.section_options())
                     .domain_of(*problem.target, problem.domain.points);
@@ -76,19 +81,19 @@ class FlowEvaluator final : public Evaluator {
       memory.flows.emplace_back(flow_options(space_.half(), &memory.observer));
     if (is_first || !task.step.full_adjustment) memory.connectivity = 2 * task.evaluation;
     if (problem_.target) aim(task, memory);
+    memory.known.go_on_from(task.from, memory.flows);
+    const Shared shared = shared_of(task);
+    std::vector<PointFlow> points(problem_.points.size());
+    at_once(points.size(), threads_, [&](std::size_t i) { points[i] = point_of(shared, i, memory); });
     Evaluation result;
-    const MeshDerivative derivative(task.mesh);
     Slope objective;
     std::vector<Slopes> coefficients;
-    for (std::size_t i = 0; i < problem_.points.size(); ++i) {
-      const DesignPoint& point = problem_.points[i];
-      FlowResult flow = memory.flows[i].solve(task.mesh, point.conditions);
-      if (space_.half()) flow = whole(std::move(flow));
-      if (!flow.converged()) throw std::runtime_error("no flow was found: " + flow.reason);
-      coefficients.push_back(slopes_of(task, i, flow, memory, derivative, result.outputs));
-      add(objective, point.weight, objective_of(coefficients.back()));
-      note(flow, i, result.outputs);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      note(points[i], i, task.gradient, result.outputs);
+      coefficients.push_back(std::move(points[i].slopes));
+      add(objective, problem_.points[i].weight, objective_of(coefficients.back()));
     }
+    memory.known.note(task.design, task.from, memory.flows);
     result.objective = objective.value;
     if (task.gradient) result.gradient = objective.by;
     add_constraints(task, coefficients, result);
@@ -115,34 +120,65 @@ class FlowEvaluator final : public Evaluator {
   }
 
  private:
+  // What the points of a design have in common.
+  struct Shared {
+    const EvaluationTask& task;
+    MeshDerivative derivative;
+    FrozenMesh frozen;  // where functions of pressures are asked for
+  };
+  // What came of a point.
+  struct PointFlow {
+    FlowResult flow;
+    Slopes slopes;
+    double gradient_seconds = 0.0;
+  };
+
+  Shared shared_of(const EvaluationTask& task) const {
+    const bool of_pressures =
+        problem_.target.has_value() || std::any_of(problem_.flow.begin(), problem_.flow.end(),
+                                                   [](const auto& c) { return c.of == "suction"; });
+    return {task, MeshDerivative(task.mesh), of_pressures ? task.mesh.freeze() : FrozenMesh{}};
+  }
+
+  // Called from several threads: of the memory it changes this point's flow alone.
+  PointFlow point_of(const Shared& shared, std::size_t index, FlowMemory& memory) const {
+    PointFlow point{.flow = memory.flows[index].solve(shared.task.mesh, problem_.points[index].conditions),
+                    .slopes = {}};
+    if (space_.half()) point.flow = whole(std::move(point.flow));
+    if (!point.flow.converged()) throw std::runtime_error("no flow was found: " + point.flow.reason);
+    add_slopes(shared, index, memory, point);
+    return point;
+  }
+
   // What objective and constraints may ask for of a point's flow.
-  Slopes slopes_of(const EvaluationTask& task, std::size_t point, const FlowResult& flow, FlowMemory& memory,
-                   const MeshDerivative& derivative, std::map<std::string, double>& outputs) const {
-    Slopes of{{"cl", {flow.cl, {}}}, {"cd", {flow.cd, {}}}, {"cm", {flow.cm, {}}}};
-    const FrozenMesh frozen = task.mesh.freeze();
+  void add_slopes(const Shared& shared, std::size_t index, FlowMemory& memory, PointFlow& point) const {
+    const FlowResult& flow = point.flow;
+    Slopes& of = point.slopes;
+    of = {{"cl", {flow.cl, {}}}, {"cd", {flow.cd, {}}}, {"cm", {flow.cm, {}}}};
     std::vector<std::string> names;
     std::vector<FlowFunctional> functions;
     if (problem_.target) {
       names.push_back("inverse");
-      functions.push_back(mismatch(frozen, flow, memory.target[point], of["inverse"].value));
+      functions.push_back(mismatch(shared.frozen, flow, memory.target[index], of["inverse"].value));
     }
     for (const FlowConstraint& constraint : problem_.flow) {
       const std::string name = suction_name(constraint.section);
-      if (constraint.of != "suction" || constraint.point != point || of.contains(name)) continue;
+      if (constraint.of != "suction" || constraint.point != index || of.contains(name)) continue;
       names.push_back(name);
-      functions.push_back(suction_peak(task.mesh, frozen, flow, constraint.section, of[name].value));
+      functions.push_back(
+          suction_peak(shared.task.mesh, shared.frozen, flow, constraint.section, of[name].value));
     }
-    if (!task.gradient) return of;
-    const FlowGradients gradients = memory.flows[point].gradients(functions, wanted_of(point));
+    if (!shared.task.gradient) return;
+    const FlowGradients gradients = memory.flows[index].gradients(functions, wanted_of(index));
+    if (gradients.interrupted) throw std::runtime_error("interrupted");
     for (const auto& [name, gradient] :
          {std::pair{"cl", &gradients.cl}, {"cd", &gradients.cd}, {"cm", &gradients.cm}})
-      if (!gradient->points.empty()) of[name].by = by_design(derivative, *gradient);
+      if (!gradient->points.empty()) of[name].by = by_design(shared.derivative, *gradient);
     for (std::size_t i = 0; i < names.size(); ++i)
-      of[names[i]].by = by_design(derivative, gradients.functions.at(i));
+      of[names[i]].by = by_design(shared.derivative, gradients.functions.at(i));
     if (space_.half())
       for (double& x : of["cd"].by) x *= 2.0;
-    outputs["gradient_seconds"] += gradients.seconds;
-    return of;
+    point.gradient_seconds = gradients.seconds;
   }
 
   // The derivatives that the objective and the constraints of a point take.
@@ -229,12 +265,15 @@ class FlowEvaluator final : public Evaluator {
     return result;
   }
 
-  static void note(const FlowResult& flow, std::size_t point, std::map<std::string, double>& outputs) {
-    const std::string suffix = point == 0 ? "" : "_" + std::to_string(point + 1);
+  static void note(const PointFlow& point, std::size_t index, bool with_gradients,
+                   std::map<std::string, double>& outputs) {
+    const FlowResult& flow = point.flow;
+    const std::string suffix = index == 0 ? "" : "_" + std::to_string(index + 1);
     outputs["cl" + suffix] = flow.cl, outputs["cd" + suffix] = flow.cd, outputs["cm" + suffix] = flow.cm;
     outputs["alpha_deg" + suffix] = flow.alpha_deg;
     outputs["flow_seconds"] += flow.seconds;
     outputs["factorisations"] += flow.factorisations;
+    if (with_gradients) outputs["gradient_seconds"] += point.gradient_seconds;
   }
 
   void add_constraints(const EvaluationTask& task, std::vector<Slopes>& of, Evaluation& result) const {
@@ -272,6 +311,7 @@ class FlowEvaluator final : public Evaluator {
 
   const DesignProblemFile& problem_;
   const FlowSpace& space_;
+  std::size_t threads_;
   std::optional<Domain> target_;  // of inverse design
 };
 
@@ -310,13 +350,15 @@ FlowFunctional suction_peak(const Mesh& mesh, const FrozenMesh& frozen, const Fl
   return function;
 }
 
-FlowResult solve_section(const Mesh& mesh, const FlowConditions& conditions, bool half) {
-  FlowResult flow = solve_flow(mesh, conditions, flow_options(half));
+FlowResult solve_section(const Mesh& mesh, const FlowConditions& conditions, bool half,
+                         StepObserver* observer) {
+  FlowResult flow = solve_flow(mesh, conditions, flow_options(half, observer));
   return half ? whole(std::move(flow)) : flow;
 }
 
-std::unique_ptr<Evaluator> make_flow_evaluator(const DesignProblemFile& problem, const FlowSpace& space) {
-  return std::make_unique<FlowEvaluator>(problem, space);
+std::unique_ptr<Evaluator> make_flow_evaluator(const DesignProblemFile& problem, const FlowSpace& space,
+                                               std::size_t threads) {
+  return std::make_unique<FlowEvaluator>(problem, space, threads);
 }
 
 }  // namespace remodel::app

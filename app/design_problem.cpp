@@ -376,7 +376,8 @@ std::unique_ptr<Designer> make_designer(const DesignProblemFile& problem, const 
   GradientOptions options{.method = problem.designer,
                           .trust = problem.trust,
                           .low = std::move(bounds.low),
-                          .high = std::move(bounds.high)};
+                          .high = std::move(bounds.high),
+                          .metric = space.metric()};
   if (problem.designer == "sqp") return std::make_unique<SqpDesigner>(start, options);
   return std::make_unique<GradientDesigner>(start, options);
 }

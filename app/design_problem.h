@@ -87,10 +87,13 @@ FlowResult whole(FlowResult half);
 FlowFunctional suction_peak(const Mesh& mesh, const FrozenMesh& frozen, const FlowResult& flow,
                             std::optional<std::size_t> loop, double& value);
 // A flow found cold with these options, with the coefficients of the whole.
-FlowResult solve_section(const Mesh& mesh, const FlowConditions& conditions, bool half);
+FlowResult solve_section(const Mesh& mesh, const FlowConditions& conditions, bool half,
+                         StepObserver* observer = nullptr);
 
 std::unique_ptr<Designer> make_designer(const DesignProblemFile& problem, const FlowSpace& space);
-// The problem and space must outlive it.
-std::unique_ptr<Evaluator> make_flow_evaluator(const DesignProblemFile& problem, const FlowSpace& space);
+// The problem and space must outlive it. The flows of a problem's points are found on so many threads at most;
+// times alone depend on it.
+std::unique_ptr<Evaluator> make_flow_evaluator(const DesignProblemFile& problem, const FlowSpace& space,
+                                               std::size_t threads = 1);
 
 }  // namespace remodel::app

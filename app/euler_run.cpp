@@ -215,8 +215,10 @@ void add_euler_options(CLI::App& app, EulerRun& run) {
 namespace {
 
 // Derivatives by coefficients_of() the mesh's domain, the Mach number and what is given of angle and lift.
+// Null where they were interrupted.
 Json gradients_json(LivingFlow& living, const Mesh& mesh, const FlowConditions& conditions) {
   const FlowGradients gradients = living.gradients();
+  if (gradients.interrupted) return nullptr;
   const MeshDerivative derivative(mesh);
   Json json = Json::object();
   const auto note = [&](const char* name, const FlowGradient& gradient) {
@@ -274,15 +276,17 @@ Status run_euler(const EulerRun& run, const MeshInput& input, const std::string&
   Report report;
   add_flow_mesh(report, source, "euler", input.frozen);
   add_flow_figures(report, flow);
-  if (run.gradient && flow.converged()) {
-    const Json gradients = gradients_json(living, *input.living, run.conditions);
+  Json gradients;
+  if (run.gradient && flow.converged()) gradients = gradients_json(living, *input.living, run.conditions);
+  if (!gradients.is_null()) {
     report.data("gradient", gradients);
     report.line("gradient of CD", gradients["cd"].dump());
     report.line("gradient of CL", gradients["cl"].dump());
   }
   if (flow.converged()) add_output_figures(report, files);
   report.print(run.json);
-  return status_of(flow);
+  const bool interrupted = run.gradient && flow.converged() && gradients.is_null();
+  return interrupted ? Status::limit : status_of(flow);
 }
 
 Status run_series(const EulerRun& run, StartMesh start) {

@@ -34,6 +34,9 @@ class FlowSpace : public DesignSpace {
   // `coefficients`: how far a coefficient of a section may go from the start.
   virtual DesignBounds bounds(double coefficients) const = 0;
 
+  // What second derivatives by the design may be like (GradientOptions::metric); empty: nothing is known.
+  virtual std::vector<double> metric() const { return {}; }
+
   // Sections in their own chords, and where they lie.
   virtual std::size_t sections() const { return 1; }
   virtual CstAirfoil section(std::span<const double> design, std::size_t index) const = 0;

@@ -214,7 +214,7 @@ void GradientDesigner::search(Oracle& oracle) {
 
 Proposal GradientDesigner::ask() {
   // Refused at its start, the search has nothing to ask for: the start again, which ends the run.
-  return {.design = pending_ ? *pending_ : centre_, .gradient = true};
+  return {.design = pending_ ? *pending_ : centre_, .gradient = true, .from = centre_};
 }
 
 void GradientDesigner::refuse(const Proposal& proposal) {

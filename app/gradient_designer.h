@@ -18,6 +18,9 @@ struct GradientOptions {
   double trust = 0.02;            // first half-width of the trust box
   double least_trust = 1e-5;      // the search ends below
   std::vector<double> low, high;  // bounds of the design
+  // Of sqp: what second derivatives are taken to be like before any were seen, a symmetric positive matrix
+  // row by row; empty: the unit matrix.
+  std::vector<double> metric = {};
 };
 
 // What designers that follow gradients keep of a design.

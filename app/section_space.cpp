@@ -88,6 +88,27 @@ DesignBounds SectionSpace::bounds(double coefficients) const {
   return result;
 }
 
+std::vector<double> SectionSpace::metric() const {
+  constexpr int pieces = 400;
+  constexpr double floor = 1e-3;  // in parts of the mean of the diagonal
+  const std::size_t n = like_.upper.size(), all = options_.symmetric ? n : 2 * n;
+  std::vector<double> of_surface(n * n, 0.0), row(n), before(n);
+  for (int i = 0; i <= pieces; ++i) {
+    cst_basis(0.5 * i / pieces, like_.degree(), like_.e1, like_.e2, row);
+    for (std::size_t j = 0; i > 0 && j < n; ++j)
+      for (std::size_t k = 0; k < n; ++k)
+        of_surface[j * n + k] += (row[j] - before[j]) * (row[k] - before[k]);
+    std::swap(row, before);
+  }
+  double mean = 0.0;
+  for (std::size_t j = 0; j < n; ++j) mean += of_surface[j * n + j] / static_cast<double>(n);
+  std::vector<double> result(all * all, 0.0);
+  for (std::size_t j = 0; j < all; ++j)
+    for (std::size_t k = 0; k < n; ++k)
+      result[j * all + (j < n ? 0 : n) + k] = of_surface[j % n * n + k] / mean + (j % n == k ? floor : 0.0);
+  return result;
+}
+
 std::vector<double> SectionSpace::start() const {
   std::vector<double> both = space_.start();
   if (options_.symmetric) both.resize(like_.upper.size());

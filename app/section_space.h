@@ -36,6 +36,11 @@ class SectionSpace final : public FlowSpace {
     return domain_of(airfoil(design), points);
   }
   DesignBounds bounds(double coefficients) const override;
+  // The mean square of the surfaces' slopes, as drag has it in linear theory of supersonic flow (J. Ackeret,
+  // Z. Flugtechnik Motorluftschiffahrt 16 (1925)), by the angle theta of x = (1 + cos theta) / 2, so that it
+  // is finite at round noses. Coefficients of Bernstein polynomials by themselves are badly scaled: of high
+  // degrees, large alternating ones change the section little.
+  std::vector<double> metric() const override;
   CstAirfoil section(std::span<const double> design, std::size_t) const override { return airfoil(design); }
   std::vector<double> gradient_of_domain(std::span<const double> by_numbers) const override;
   std::vector<double> gradient_of_section(std::size_t,

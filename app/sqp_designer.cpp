@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <nlopt.hpp>
 #include <numeric>
 
+#include "quadratic_program.h"
 #include "remodel/error.h"
 
 namespace remodel::app {
@@ -14,7 +14,8 @@ namespace {
 
 using DesignJson = nlohmann::ordered_json;
 
-constexpr double penalty = 100.0;       // of the worst violation, beside the objective over its first value
+// Of the worst violation, beside the objective over its first value: at first, and the most that it grows to.
+constexpr double first_penalty = 1000.0, most_penalty = 1e6;
 constexpr double first_shift = 0.02;    // of the objective's first value: before any was seen
 constexpr double least_promise = 1e-6;  // likewise: a model that promises less is at its end
 
@@ -33,92 +34,73 @@ double worst_after(const Evaluation& at, const std::vector<double>& step) {
   return worst;
 }
 
-// The quadratic problem with one variable more, by which all constraints may be violated.
-struct Quadratic {
+// x' B x / 2 + g' x, over the objective's scale.
+double quadratic_value(const Evaluation& at, const std::vector<double>& curvature, double scale,
+                       const std::vector<double>& x) {
+  const std::size_t n = x.size();
+  double sum = 0.0;
+  for (std::size_t i = 0; i < n; ++i)
+    sum += x[i] * (at.gradient[i] / scale + 0.5 * dot(curvature.data() + i * n, x));
+  return sum;
+}
+
+struct Model {
   const Evaluation& at;
   const std::vector<double>& curvature;
-  double scale;
-
-  double value(const std::vector<double>& x, std::vector<double>& gradient) const {
-    const std::size_t n = x.size() - 1;
-    double sum = penalty * x[n];
-    if (!gradient.empty()) gradient[n] = penalty;
-    for (std::size_t i = 0; i < n; ++i) {
-      double bend = 0.0;
-      for (std::size_t j = 0; j < n; ++j) bend += curvature[i * n + j] * x[j];
-      sum += x[i] * (at.gradient[i] / scale + 0.5 * bend);
-      if (!gradient.empty()) gradient[i] = at.gradient[i] / scale + bend;
-    }
-    return sum;
-  }
-  void constraints(double* values, unsigned dimension, const double* x, double* gradient) const {
-    const std::size_t n = dimension - 1;
-    for (std::size_t i = 0; i < at.constraints.size(); ++i) {
-      values[i] = at.constraints[i] + margin + dot(x, at.constraint_gradients[i]) - x[n];
-      if (gradient == nullptr) continue;
-      std::copy(at.constraint_gradients[i].begin(), at.constraint_gradients[i].end(),
-                gradient + i * dimension);
-      gradient[i * dimension + n] = -1.0;
-    }
-  }
+  double scale, penalty;
 };
 
-double quadratic_value(const std::vector<double>& x, std::vector<double>& gradient, void* data) {
-  return static_cast<const Quadratic*>(data)->value(x, gradient);
-}
-
-void quadratic_constraints(unsigned, double* values, unsigned dimension, const double* x, double* gradient,
-                           void* data) {
-  static_cast<const Quadratic*>(data)->constraints(values, dimension, x, gradient);
-}
-
-// The step in the box that makes the model small.
-std::vector<double> small_step(Quadratic quadratic, const std::vector<double>& low,
+// The step in the box that makes the model small, with one variable more, by which all constraints may be
+// violated: at most by twice as much as they are now.
+std::vector<double> small_step(const Model& model, const std::vector<double>& low,
                                const std::vector<double>& high) {
+  const auto& [at, curvature, scale, penalty] = model;
   const std::size_t n = low.size();
-  nlopt::opt search(nlopt::LD_SLSQP, static_cast<unsigned>(n + 1));
-  std::vector<double> from = low, to = high;
-  from.push_back(0.0), to.push_back(1e3);
-  search.set_lower_bounds(from), search.set_upper_bounds(to);
-  search.set_min_objective(quadratic_value, &quadratic);
-  const std::size_t m = quadratic.at.constraints.size();
-  constexpr double tolerance = 1e-10;
-  if (m != 0)
-    search.add_inequality_mconstraint(quadratic_constraints, &quadratic, std::vector<double>(m, tolerance));
-  search.set_ftol_rel(1e-12);
-  search.set_xtol_abs(1e-9);
-  search.set_maxeval(500);
-  std::vector<double> x(n + 1, 0.0);
-  x[n] = worst_after(quadratic.at, std::vector<double>(n, 0.0));
-  double value = 0.0;
-  try {
-    search.optimize(x, value);
-  } catch (const std::runtime_error&) {
-    // Rounding ended it: x is the best it found.
+  QuadraticProgram program{
+      .h = std::vector<double>((n + 1) * (n + 1), 0.0), .g = {}, .a = {}, .b = {}, .low = low, .high = high};
+  for (std::size_t i = 0; i < n; ++i) {
+    std::copy_n(curvature.begin() + static_cast<std::ptrdiff_t>(i * n), n,
+                program.h.begin() + static_cast<std::ptrdiff_t>(i * (n + 1)));
+    program.g.push_back(at.gradient[i] / scale);
   }
+  program.g.push_back(penalty);
+  program.low.push_back(0.0);
+  program.high.push_back(2.0 * worst_after(at, std::vector<double>(n, 0.0)) + margin);
+  for (std::size_t i = 0; i < at.constraints.size(); ++i) {
+    program.a.push_back(at.constraint_gradients[i]);
+    program.a.back().push_back(-1.0);
+    program.b.push_back(-at.constraints[i] - margin);
+  }
+  std::vector<double> x = solved(program);
   x.pop_back();
-  for (std::size_t i = 0; i < n; ++i) x[i] = std::clamp(std::isfinite(x[i]) ? x[i] : 0.0, low[i], high[i]);
   return x;
 }
 
 }  // namespace
 
 SqpDesigner::SqpDesigner(std::vector<double> start, GradientOptions options)
-    : options_(std::move(options)), pending_(std::move(start)), trust_(options_.trust), shift_(first_shift) {
+    : options_(std::move(options)),
+      pending_(std::move(start)),
+      trust_(options_.trust),
+      penalty_(first_penalty),
+      shift_(first_shift) {
   if (options_.low.size() != pending_.size() || options_.high.size() != pending_.size())
     throw Error(ErrorCode::argument, "designer", "expected bounds for each variable");
+  const std::size_t n = pending_.size();
+  if (options_.metric.empty()) {
+    options_.metric.assign(n * n, 0.0);
+    for (std::size_t i = 0; i < n; ++i) options_.metric[i * n + i] = 1.0;
+  }
   best_.design = pending_;
 }
 
 double SqpDesigner::merit(const Evaluation& evaluation) const {
-  return evaluation.objective / scale_ + penalty * violation_of(evaluation.constraints);
+  return evaluation.objective / scale_ + penalty_ * violation_of(evaluation.constraints);
 }
 
 double SqpDesigner::model(const std::vector<double>& step) const {
-  std::vector<double> x = step, none;
-  x.push_back(worst_after(best_.evaluation, step));
-  const double before = penalty * violation_of(best_.evaluation.constraints);
-  return Quadratic{best_.evaluation, curvature_, scale_}.value(x, none) - before;
+  const double violated = worst_after(best_.evaluation, step) - violation_of(best_.evaluation.constraints);
+  return quadratic_value(best_.evaluation, curvature_, scale_, step) + penalty_ * violated;
 }
 
 void SqpDesigner::propose() {
@@ -128,7 +110,15 @@ void SqpDesigner::propose() {
     low[i] = std::min(0.0, std::max(options_.low[i] - best_.design[i], -trust_));
     high[i] = std::max(0.0, std::min(options_.high[i] - best_.design[i], trust_));
   }
-  const std::vector<double> step = small_step({best_.evaluation, curvature_, scale_}, low, high);
+  const auto search = [&] { return small_step({best_.evaluation, curvature_, scale_, penalty_}, low, high); };
+  std::vector<double> step = search();
+  // Where the objective's fall pays for a violation that need not be, the penalty is too small.
+  constexpr double rounding = 1e-7, worth_it = 0.9, growth = 10.0;
+  const double violated = std::max(rounding, worth_it * violation_of(best_.evaluation.constraints));
+  while (worst_after(best_.evaluation, step) > violated && penalty_ < most_penalty) {
+    penalty_ *= growth;
+    step = search();
+  }
   promised_ = -model(step);
   finished_ = trust_ < options_.least_trust || !(promised_ > least_promise);
   pending_ = best_.design;
@@ -146,8 +136,11 @@ void SqpDesigner::learn(const KnownDesign& trial) {
     ss += s[i] * s[i], sy += s[i] * y[i];
   }
   if (ss == 0.0) return;
-  if (!learnt_ && sy > 0.0)
-    for (std::size_t i = 0; i < n; ++i) curvature_[i * n + i] = sy / ss;
+  if (!learnt_ && sy > 0.0) {
+    double sms = 0.0;
+    for (std::size_t i = 0; i < n; ++i) sms += s[i] * dot(options_.metric.data() + i * n, s);
+    for (std::size_t k = 0; k < n * n; ++k) curvature_[k] = sy / sms * options_.metric[k];
+  }
   learnt_ = learnt_ || sy > 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) bend[i] += curvature_[i * n + j] * s[j];
@@ -201,8 +194,8 @@ void SqpDesigner::begin_model() {
     steepest = std::max(steepest, std::fabs(slope) / scale_);
   double farthest = 0.0;
   for (double bend = steepest / trust_; farthest < 0.5 * trust_ && bend > 1e-6 * steepest; bend *= 0.1) {
-    curvature_.assign(n * n, 0.0);
-    for (std::size_t i = 0; i < n; ++i) curvature_[i * n + i] = bend;
+    curvature_ = options_.metric;
+    for (double& x : curvature_) x *= bend;
     propose();
     for (std::size_t i = 0; i < n; ++i)
       farthest = std::max(farthest, std::fabs(pending_[i] - best_.design[i]));
@@ -245,12 +238,20 @@ void SqpDesigner::tell(const Proposal& proposal, const Evaluation& evaluation) {
 }
 
 std::string SqpDesigner::state() const {
-  DesignJson json = {
-      {"pending", pending_}, {"curvature", curvature_}, {"learnt", learnt_},
-      {"scale", scale_},     {"trust", trust_},         {"promised", promised_},
-      {"shift", shift_},     {"begun_at", begun_at_},   {"steps", steps_},
-      {"started", started_}, {"finished", finished_},   {"best", DesignJson::parse(json_of(best_))},
-      {"waiting", nullptr}};
+  DesignJson json = {{"pending", pending_},
+                     {"curvature", curvature_},
+                     {"learnt", learnt_},
+                     {"scale", scale_},
+                     {"trust", trust_},
+                     {"promised", promised_},
+                     {"penalty", penalty_},
+                     {"shift", shift_},
+                     {"begun_at", begun_at_},
+                     {"steps", steps_},
+                     {"started", started_},
+                     {"finished", finished_},
+                     {"best", DesignJson::parse(json_of(best_))},
+                     {"waiting", nullptr}};
   if (waiting_) json["waiting"] = DesignJson::parse(json_of(*waiting_));
   return json.dump();
 }
@@ -262,6 +263,7 @@ void SqpDesigner::restore(const std::string& state, const std::string& source) {
       throw Error(ErrorCode::format, source, "found another number of variables");
     json.at("pending").get_to(pending_), json.at("curvature").get_to(curvature_);
     json.at("learnt").get_to(learnt_), json.at("scale").get_to(scale_), json.at("trust").get_to(trust_);
+    json.at("penalty").get_to(penalty_);
     json.at("promised").get_to(promised_), json.at("shift").get_to(shift_),
         json.at("begun_at").get_to(begun_at_);
     json.at("steps").get_to(steps_), json.at("started").get_to(started_);

@@ -14,7 +14,8 @@ namespace remodel::app {
 
 // Each step makes a model of the objective small, a quadratic one whose second derivatives are gathered from
 // the gradients of all steps, within a box around the best design and under the constraints, linear ones. The
-// step is taken if the objective becomes smaller, and the box follows how well the model said so.
+// step is taken if the objective becomes smaller, and the box follows how well the model said so. What
+// constraints are violated by counts with a penalty, which grows where a violation would pay.
 //
 // A change of the mesh's connectivity (output "connectivity") shifts the objective. A design on another
 // connectivity than the best one's is taken where it is better by more than twice the shifts seen lately;
@@ -25,7 +26,7 @@ class SqpDesigner final : public Designer {
   SqpDesigner(std::vector<double> start, GradientOptions options);
 
   std::size_t population() const override { return 1; }
-  Proposal ask() override { return {.design = pending_, .gradient = true}; }
+  Proposal ask() override { return {.design = pending_, .gradient = true, .from = best_.design}; }
   void refuse(const Proposal& proposal) override;
   void tell(const Proposal& proposal, const Evaluation& evaluation) override;
   bool finished() const override { return finished_; }
@@ -51,7 +52,7 @@ class SqpDesigner final : public Designer {
   std::optional<KnownDesign> waiting_;  // for the best design's evaluation on the present mesh
   std::vector<double> curvature_;       // symmetric, row by row
   bool learnt_ = false;                 // from a step
-  double scale_ = 1.0, trust_ = 0.0, promised_ = 0.0, shift_ = 0.0;
+  double scale_ = 1.0, trust_ = 0.0, penalty_ = 0.0, promised_ = 0.0, shift_ = 0.0;
   double begun_at_ = 0.0;  // merit where the model began
   std::uint64_t steps_ = 0;
   bool started_ = false, finished_ = false;

@@ -25,6 +25,8 @@ namespace remodel {
 struct Proposal {
   std::vector<double> design;
   bool gradient = false;  // whether the evaluation should come with gradients
+  // The evaluated design that this one is a step from, or is itself once more; empty: none in particular.
+  std::vector<double> from = {};
 };
 
 class Designer {

@@ -46,6 +46,8 @@ struct EvaluationTask {
   // that the run is cancelled did not fail. The run ends, to be resumed from its last checkpoint.
   StepObserver& observer;
   std::uint64_t evaluation = 0;  // its number in the run, from 1
+  // Proposal::from: whatever was evaluated in between, that design's solution is where this one's is near.
+  std::span<const double> from = {};
 };
 
 class Evaluator {

@@ -205,9 +205,21 @@ struct FlowGradients {
   FlowGradient cl, cd, cm;              // empty if they were not wanted
   FlowGradient alpha_deg;               // of the angle, in degrees: 0 but by itself where it is given
   std::vector<FlowGradient> functions;  // that were asked for
+  bool interrupted = false;             // by the observer: then there are none
   int factorisations = 0;               // 1 where the factors that there were did not serve
   int krylov_iterations = 0;
   double seconds = 0.0;
+};
+
+// A flow that a LivingFlow has found, to be gone on from later. Copies share what they hold.
+class KeptFlow {
+ public:
+  bool empty() const { return flow_ == nullptr; }
+
+ private:
+  friend class LivingFlow;
+  struct Flow;
+  std::shared_ptr<const Flow> flow_;
 };
 
 // A solver that outlives its mesh. It keeps the last flow and the factors of a matrix, by the keys of
@@ -238,6 +250,11 @@ class LivingFlow {
                           const WantedGradients& wanted = {});
   // The next flow is found cold.
   void forget();
+  // The last flow that was found, without its factors; empty before the first one.
+  KeptFlow keep() const;
+  // The next flow begins with that one, as if it had been the last, with the factors that there are. Where
+  // flows are not unique it decides which of them is found. Nothing happens if it is empty.
+  void go_on_from(const KeptFlow& kept);
 
  private:
   struct Impl;

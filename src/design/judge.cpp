@@ -59,7 +59,7 @@ Stopped judge(const Evaluating& evaluating, const LivingMesh& living, std::uniqu
   try {
     job.evaluation =
         evaluating.evaluator.evaluate({proposal.design, living.mesh(), job.record, living.before(),
-                                       proposal.gradient, observer, job.record.evaluation},
+                                       proposal.gradient, observer, job.record.evaluation, proposal.from},
                                       state);
     require_good(job.evaluation, proposal.design.size());
     record(job.evaluation, job.record);

@@ -92,15 +92,16 @@ void TransposedInverse::apply(Increment& x) {
 
 // With whole factors the residual is kept as small as rounding lets it by beginning anew once.
 bool solve_transposed(const TransposedSystem& system, TransposedInverse& inverse, const Increment& right,
-                      double tolerance, double most_solves, Increment& guess, int& iterations) {
-  const double wanted = tolerance * norm(right);
+                      const TransposedLimits& limits, Increment& guess, int& iterations) {
+  const double wanted = limits.tolerance * norm(right);
   const Factors& factors = inverse.factors();
   const GmresEnd end = gmres([&](const Increment& x) { return system.times(x); },
                              [&](Increment& x) { inverse.apply(x); }, right,
                              {.wanted = wanted,
                               .restart = factors.whole() ? 25 : factors.restart(),
                               .rounds = factors.whole() ? 2 : 10,
-                              .most_iterations = most_solves},
+                              .most_iterations = limits.most_solves,
+                              .observer = limits.observer},
                              guess);
   iterations += end.iterations;
   constexpr double slack = 10.0;  // rounding of the residual itself
@@ -124,8 +125,8 @@ std::optional<std::vector<Total>> totals(const Euler& euler, const State& state,
     for (std::size_t v = 0; v < right.q.size(); ++v) right.q[v][3] = functions[i].pressure[v];
     right.border[1] = functions[i].alpha;
     const int before = iterations;
-    if (!solve_transposed(system, inverse, right, tolerance, most_solves, multipliers[i], iterations))
-      return std::nullopt;
+    const TransposedLimits limits{tolerance, most_solves, options.observer};
+    if (!solve_transposed(system, inverse, right, limits, multipliers[i], iterations)) return std::nullopt;
     most_solves -= iterations - before;
     weights.push_back(multipliers[i].q);
   }

@@ -57,11 +57,18 @@ class TransposedInverse {
   bool ready_ = true;
 };
 
-// Solves to a residual of `tolerance` times the right-hand side by GMRES (Y. Saad and M. H. Schultz, SIAM J.
+// When a solve ends.
+struct TransposedLimits {
+  double tolerance;    // of the residual, in parts of the right-hand side
+  double most_solves;  // with the factors
+  StepObserver* observer;
+};
+
+// Solves to within the tolerance by GMRES (Y. Saad and M. H. Schultz, SIAM J.
 // Sci. Stat. Comput. 7 (1986)), from `guess` where that is better than nothing; the solution comes to lie in
-// `guess`. False where it takes too long: the factors are too old then.
+// `guess`. False where it takes too long, as the factors are too old then, or is interrupted.
 bool solve_transposed(const TransposedSystem& system, TransposedInverse& inverse, const Increment& right,
-                      double tolerance, double most_solves, Increment& guess, int& iterations);
+                      const TransposedLimits& limits, Increment& guess, int& iterations);
 
 // Derivatives of a function of the flow, which follows the parameters.
 struct Total {

@@ -62,7 +62,8 @@ GmresEnd gmres(const std::function<Increment(const Increment&)>& times,
     add_times(basis[0], 1.0 / end.residual, residual);
     Triangle triangle(end.residual);
     for (int step = 0; step < limits.restart; ++step) {
-      if (end.iterations >= limits.most_iterations) {
+      if (end.iterations >= limits.most_iterations ||
+          (limits.observer != nullptr && limits.observer->cancelled())) {
         end.in_time = false;
         return end;
       }

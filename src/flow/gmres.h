@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "flow/border.h"
+#include "remodel/mesh.h"
 
 namespace remodel::flow {
 
@@ -16,12 +17,13 @@ struct GmresLimits {
   int restart;    // steps before it begins anew, and how often it does so
   int rounds;
   double most_iterations = std::numeric_limits<double>::infinity();  // in all
+  StepObserver* observer = nullptr;                                  // asked at each
 };
 
 struct GmresEnd {
   double residual;  // of the system, computed afresh
   int iterations;
-  bool in_time = true;  // false: most_iterations ended it, and `x` is what it was
+  bool in_time = true;  // false: most_iterations or the observer ended it, and `x` is what it was
 };
 
 // From x where that is better than nothing; it becomes the solution. `times` is the system's matrix,

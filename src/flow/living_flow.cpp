@@ -66,6 +66,13 @@ constexpr double carried_cfl = 50.0;
 
 }  // namespace flow
 
+struct KeptFlow::Flow {
+  std::shared_ptr<const flow::FlowMesh> mesh;
+  std::vector<VertexKey> keys;
+  flow::State state;
+  flow::Stream stream;
+};
+
 struct LivingFlow::Impl {
   using Keys = std::vector<VertexKey>;
 
@@ -73,7 +80,7 @@ struct LivingFlow::Impl {
 
   FlowOptions options;
   // The last flow: by position, and whose positions these are.
-  std::unique_ptr<flow::FlowMesh> mesh;
+  std::shared_ptr<const flow::FlowMesh> mesh;
   Keys keys;
   flow::State state;
   bool solved = false;
@@ -137,6 +144,23 @@ FlowResult LivingFlow::solve(const FrozenMesh& mesh, const FlowConditions& condi
 
 void LivingFlow::forget() {
   impl_ = std::make_unique<Impl>(impl_->options);
+}
+
+KeptFlow LivingFlow::keep() const {
+  KeptFlow kept;
+  if (impl_->solved)
+    kept.flow_ = std::make_shared<const KeptFlow::Flow>(
+        KeptFlow::Flow{impl_->mesh, impl_->keys, impl_->state, impl_->last_stream});
+  return kept;
+}
+
+void LivingFlow::go_on_from(const KeptFlow& kept) {
+  if (kept.empty()) return;
+  impl_->mesh = kept.flow_->mesh;
+  impl_->keys = kept.flow_->keys;
+  impl_->state = kept.flow_->state;
+  impl_->last_stream = kept.flow_->stream;
+  impl_->solved = true;
 }
 
 flow::BlockRows& LivingFlow::Impl::whole_matrix(const flow::Euler& euler) {
@@ -279,14 +303,14 @@ FlowResult LivingFlow::Impl::solve(const FrozenMesh& frozen, const Mesh* living,
   const Stopwatch watch;
   flow::require_possible(conditions, options);
   const flow::Stream stream = flow::stream_of(conditions, options);
-  std::unique_ptr<flow::FlowMesh> dual;
+  std::shared_ptr<flow::FlowMesh> dual;
   const Keys now = flow::keys_of(frozen);
   if (mesh && mesh->triangles() == frozen.triangles && now == keys) {
-    dual = std::make_unique<flow::FlowMesh>(*mesh);
+    dual = std::make_shared<flow::FlowMesh>(*mesh);
     dual->move(frozen.points);
     flow::require_ways(*dual, conditions, options, "mesh");
   } else {
-    dual = std::make_unique<flow::FlowMesh>(flow::dual_of(frozen, conditions, options, "mesh"));
+    dual = std::make_shared<flow::FlowMesh>(flow::dual_of(frozen, conditions, options, "mesh"));
   }
   const flow::Euler euler(*dual, stream);
   const flow::Measure measure(euler);
@@ -407,6 +431,10 @@ FlowGradients LivingFlow::Impl::gradients(const std::vector<FlowFunctional>& fun
 
   euler.jacobian(state, whole_matrix(euler));
   auto totals = try_gradients(euler, slopes, result.krylov_iterations);
+  if (options.observer != nullptr && options.observer->cancelled()) {
+    result.interrupted = true;
+    return result;
+  }
   if (!totals) {
     flow::Search made;
     factored = false;

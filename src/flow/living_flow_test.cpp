@@ -59,6 +59,24 @@ TEST(LivingFlow, AFrozenViewIsAsGoodAsItsMesh) {
   EXPECT_THROW(of_view.solve(nameless, conditions), Error);
 }
 
+TEST(LivingFlow, GoesOnFromAFlowThatWasKept) {
+  Mesh mesh = generate(domain_of(named_airfoil("naca:0012", 5)), {.gradation = 1.2}).mesh;
+  const Mesh first = mesh;
+  const FlowConditions conditions = {.mach = 0.6, .alpha_deg = 1.25};
+  LivingFlow living;
+  EXPECT_TRUE(living.keep().empty());
+  const FlowResult found = living.solve(first, conditions);
+  const KeptFlow kept = living.keep();
+  remodel(mesh, domain_of(named_airfoil("naca:2412", 5)));
+  ASSERT_TRUE(living.solve(mesh, conditions).converged());
+  living.go_on_from({});
+  EXPECT_GT(living.solve(mesh, {.mach = 0.6, .alpha_deg = 1.0}).history.front(), 1e-10);
+  living.go_on_from(kept);
+  const FlowResult again = living.solve(first, conditions);
+  EXPECT_LE(again.history.front(), 1e-10);  // it is that flow
+  EXPECT_EQ(again.density, found.density);
+}
+
 // Says when it is asked for the nth time that the flow should end.
 struct EndsAt final : StepObserver {
   explicit EndsAt(int n) : left(n) {}
@@ -76,6 +94,21 @@ TEST(LivingFlow, AFlowThatIsCancelledInItsLastStepIsNotTheLastOne) {
   LivingFlow living({.observer = &last});
   EXPECT_EQ(living.solve(mesh, conditions).status, FlowStatus::interrupted);
   EXPECT_THROW(living.gradients(), Error);
+}
+
+TEST(LivingFlow, GradientsEndWhereTheyAreCancelled) {
+  const Mesh mesh = generate(domain_of(named_airfoil("naca:0012", 5)), {.gradation = 1.2}).mesh;
+  constexpr int many = 1000;
+  EndsAt observer(many);
+  LivingFlow living({.observer = &observer});
+  ASSERT_TRUE(living.solve(mesh, {.mach = 0.6, .alpha_deg = 1.25}).converged());
+  observer.left = 1;
+  const FlowGradients none = living.gradients();
+  EXPECT_TRUE(none.interrupted);
+  EXPECT_TRUE(none.cl.points.empty());
+  EXPECT_EQ(none.krylov_iterations, 0);
+  observer.left = many;
+  EXPECT_FALSE(living.gradients().cl.points.empty());
 }
 
 // The first needs them: the flow that it begins with was found by GMRES.

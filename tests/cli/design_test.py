@@ -2,8 +2,12 @@
 
 import json
 import math
+import signal
 import sqlite3
+import subprocess
+import time
 
+import harness
 from harness import SOURCE, ProgramTest
 
 PROBLEM = {
@@ -201,6 +205,51 @@ class Designs(ProgramTest):
         self.assertGreater(2 * math.degrees(math.atan(best[-1])), 19 - 1e-6)
         self.assertGreater(best[0] ** 2, 0.9 * start[0] ** 2 * (1 - 1e-6))
         self.assertEqual([-c for c in best], figures["best"]["lower"])
+
+
+    def rows(self, directory):
+        file = self.path(directory) / "history.sqlite"
+        if not file.exists():
+            return []
+        with sqlite3.connect(f"file:{file}?mode=ro", uri=True) as history:
+            return history.execute("select evaluation, coefficients, objective, constraints from evaluations").fetchall()
+
+    def test_several_points_have_the_same_bits_on_any_number_of_threads(self):
+        points = [{"mach": 0.8, "alpha_deg": 0}, {"mach": 0.75, "alpha_deg": 1, "weight": 0.5}]
+        problem = self.problem(flow=points, verify=[])
+        for threads in (1, 2):
+            self.succeed("design", problem, "-o", f"run{threads}", "--threads", threads, "--quiet")
+        self.assertEqual(len(self.rows("run1")), 5)
+        self.assertEqual(self.rows("run1"), self.rows("run2"))
+
+    def end_by_sigterm(self, problem, begun):
+        """Status, figures, and the seconds from the signal, which is sent as soon as it has begun, to the end."""
+        process = subprocess.Popen([harness.PROGRAM, "design", problem, "-o", "run", "--overwrite", "--quiet", "--json"],
+                                   cwd=self.directory, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+        deadline = time.monotonic() + 120
+        while not begun() and process.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.05)
+        time.sleep(2)
+        sent = time.monotonic()
+        process.send_signal(signal.SIGTERM)
+        try:
+            out, _ = process.communicate(timeout=60)
+        finally:
+            process.kill()
+        return process.returncode, json.loads(out), time.monotonic() - sent
+
+    def test_a_hard_flow_ends_when_it_is_told(self):
+        """SIGTERM in the search's first flow, and in a flow of the verification: M 0.85 on 600 points would take long."""
+        hard = {"flow": [{"mach": 0.85, "alpha_deg": 0}]}
+        search = self.problem(**hard, mesh={"points": 600}, symmetric=False)
+        status, figures, seconds = self.end_by_sigterm(search, lambda: self.path("run/first.vtkhdf").exists())
+        self.assertEqual((status, figures["stopped"], figures["evaluations"]), (3, "interrupted", 0))
+        self.assertLess(seconds, 30)
+        verification = self.problem(**hard, degree=9, mesh={"points": 100}, designer={"evaluations": 1}, verify=[1200])
+        status, figures, seconds = self.end_by_sigterm(verification, lambda: self.path("run/best.json").exists())
+        self.assertEqual((status, figures["stopped"], figures["evaluations"]), (3, "interrupted", 1))
+        self.assertFalse(self.path("run/fresh.json").exists())
+        self.assertLess(seconds, 30)
 
 
 class Gradients(ProgramTest):
