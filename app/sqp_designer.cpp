@@ -15,7 +15,7 @@ namespace {
 using DesignJson = nlohmann::ordered_json;
 
 // Of the worst violation, beside the objective over its first value: at first, and the most that it grows to.
-constexpr double first_penalty = 1000.0, most_penalty = 1e6;
+constexpr double first_penalty = 1000.0, most_penalty = 1e5;
 constexpr double first_shift = 0.02;    // of the objective's first value: before any was seen
 constexpr double least_promise = 1e-6;  // likewise: a model that promises less is at its end
 

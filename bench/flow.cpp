@@ -1,10 +1,11 @@
-// Cost of a flow per design on a row of designs: cold on fresh meshes, from the interpolated flow before with
-// one factorisation on fresh meshes ("rival"), and by the solver that outlives its mesh ("living").
+// Cost of a flow per design on a row of designs: cold on fresh meshes, from the interpolated flow before on
+// fresh meshes ("rival"), and by the solver that outlives its mesh ("living").
 //
-//     flow [morph | reference] [I MACH SIGMA DESIGNS]...
+//     flow [morph | reference] [lu] [I MACH SIGMA DESIGNS]...
 //     flow row [DESIGNS]
 //
-// `morph` and `reference` remodel by these strategies instead of renew. `row` is one row of 1,000 designs at
+// `morph` and `reference` remodel by these strategies instead of renew. `lu`: all linear systems by LU, the
+// rival's by one factorisation and its use. `row` is one row of 1,000 designs at
 // I = 200, Mach 0.5, SIGMA falling from 1e-2 to 1e-4 as an optimiser's does, by the living solver alone; it
 // ends with status 1 where a flow was not found.
 //
@@ -17,6 +18,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -109,13 +111,13 @@ bool run_row(int designs) {
   return cost.failed == 0;
 }
 
-void run(const Case& task, Strategy strategy) {
+void run(const Case& task, Strategy strategy, std::optional<FlowSolver> solver) {
   std::mt19937_64 random(1);
   CstAirfoil airfoil = named_airfoil("naca:0012", 5);
   const QualityOptions quality = {.gradation = task.points / 50.0};
   const auto domain = [&] { return airfoil_domain(airfoil, {.points = task.points}); };
   const FlowConditions conditions = {.mach = task.mach, .alpha_deg = 1.25};
-  const FlowOptions options = {.tolerance = 1e-8};
+  const FlowOptions options = {.tolerance = 1e-8, .solver = solver};
   Mesh mesh = generate(domain(), quality).mesh;
   LivingFlow living(options);
   FlowResult known = living.solve(mesh, conditions);
@@ -152,7 +154,9 @@ int main(int argc, char** argv) {
   const Strategy strategy = first == "morph"       ? Strategy::morph
                             : first == "reference" ? Strategy::reference
                                                    : Strategy::renew;
-  const int offset = strategy == Strategy::renew ? 1 : 2;
+  int offset = strategy == Strategy::renew ? 1 : 2;
+  std::optional<FlowSolver> solver;
+  if (offset < argc && std::string(argv[offset]) == "lu") solver = FlowSolver::lu, ++offset;
   std::vector<Case> cases;
   for (int i = offset; i + 3 < argc; i += 4)
     cases.push_back(
@@ -165,5 +169,5 @@ int main(int argc, char** argv) {
       "cold | over "
       "rival | carried | factorisations | steps per design | not found "
       "|\n|---|---|---|---|---|---|---|---|---|---|");
-  for (const Case& task : cases) run(task, strategy);
+  for (const Case& task : cases) run(task, strategy, solver);
 }

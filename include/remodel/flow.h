@@ -24,8 +24,9 @@
 //
 // Method: Roe's flux on the median dual, reconstruction along edges of third order on even spacing, van
 // Albada's limiter, weak boundary conditions; the exact Jacobian; Newton's method by pseudo-transient
-// continuation with a line search, in stages from first order where that stalls; sparse LU, or GMRES with
-// incomplete factors where that needs too much memory. docs/flow.md has equations, sources and verification.
+// continuation with a line search, in stages from first order where that stalls; linear systems by GMRES with
+// incomplete factors, and by sparse LU where its factors last. docs/flow.md has equations, sources and
+// verification.
 //
 // Errors: Error (argument) for conditions and options out of range, and for a mesh without a far field or
 // another way in and out, without a wall or with unnamed boundary edges. A flow that is not found is no
@@ -94,10 +95,10 @@ struct FlowOptions {
 
 enum class FlowStatus {
   converged,
-  step_limit,  // max_steps
-  stalled,  // nothing leads on, neither straight nor in stages from a scheme of first order: a flow that has
-            // no steady state, or that this method does not find
-  memory,   // even incomplete factors need more than memory_mb
+  step_limit,   // max_steps
+  stalled,      // nothing leads on, neither straight, nor in stages from a scheme of first order, nor in
+                // pseudo-time: a flow that has no steady state, or that this method does not find
+  memory,       // even incomplete factors need more than memory_mb
   interrupted,  // by the observer
 };
 const char* name_of(FlowStatus status);  // "converged", "step-limit", "stalled", "memory", "interrupted"

@@ -142,6 +142,7 @@ Stopped LivingMesh::step(std::span<const double> design, const StepTasks& tasks,
   record.remodel_seconds = watch.seconds();
   count_losses(result);
   copy_figures(result, record);
+  if (result.stopped == Stopped::interrupted) return result.stopped;
 
   const StepCheck check = checked(domain, tasks.check);
   record.checked = tasks.check == Checked::changes && check.whole ? Checked::quick : tasks.check;

@@ -30,10 +30,11 @@ void add_times(Increment& to, double factor, const Increment& what);
 Increment close_border(Vector x, const std::array<Vector, 2>& y, const Euler::BorderRows& rows,
                        const Border& right);
 
-// state + length * increment.
+// state + length * increment, where no density or pressure falls to less than a fifth by it.
 State moved(const State& state, const Increment& increment, double length);
 
-// The largest part of density or pressure that an increment changes anywhere.
+// The largest part of density or pressure that an increment changes anywhere; of what is nearly a vacuum, as
+// a part of 0.05.
 double largest_change(const State& state, const Increment& increment);
 
 // The size of residuals: of the flow's relative to undisturbed flow through the same mesh, and of the

@@ -171,35 +171,39 @@ ChordEnd chord_steps(const Measure& measure, Preconditioner& inverse, const Fact
 namespace {
 
 constexpr double no_pseudo_time = std::numeric_limits<double>::infinity();
-
-// Incomplete factors are too rough for chord steps, and cheap: Newton's method makes its own at each step.
-ChordEnd gmres_steps(const Euler& euler, const Measure& measure, const FlowOptions& options,
-                     BlockRows& matrix, Factors& factors, State& state, Search& search) {
-  find_flow(euler, measure, {.cfl = no_pseudo_time, .patience = usual_patience}, options, matrix, factors,
-            state, search);
-  if (search.status == FlowStatus::converged) return ChordEnd::converged;
-  return search.status == FlowStatus::interrupted ? ChordEnd::interrupted : ChordEnd::slow;
-}
+// Above these residuals Newton's method wants pseudo-time: with factors that serve for several steps,
+// without.
+constexpr double reach = 0.3, near = 0.02;
 
 }  // namespace
 
+void find_flow_near(const Euler& euler, const Measure& measure, const FlowOptions& options, BlockRows& matrix,
+                    Factors& factors, State& state, Search& search) {
+  constexpr double carried_cfl = 50.0;
+  Vector residual;
+  Border border;
+  if (measure(state, residual, border) < near) {
+    find_flow(euler, measure, {.cfl = no_pseudo_time, .patience = usual_patience}, options, matrix, factors,
+              state, search);
+    if (search.status != FlowStatus::stalled) return;
+  }
+  find_flow(euler, measure, {.cfl = carried_cfl, .patience = usual_patience}, options, matrix, factors, state,
+            search);
+}
+
 ChordEnd steps_with_own_factors(const Euler& euler, const Measure& measure, const FlowOptions& options,
                                 BlockRows& matrix, Factors& factors, State& state, Search& search) {
-  // Above this residual Newton's method wants pseudo-time; below a gain of less than this, too.
-  constexpr double reach = 0.3, least_gain = 0.3;
+  constexpr double least_gain = 0.3;  // of an attempt; below it Newton's method wants pseudo-time
   constexpr int attempts = 4;
   Vector residual;
   Border border;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     const double before = measure(state, residual, border);
     if (!(before < reach)) return ChordEnd::slow;
-    if (options.solver == FlowSolver::gmres || factors.too_large(state.q.size()))
-      return gmres_steps(euler, measure, options, matrix, factors, state, search);
     const Factored outcome =
         factor_at(euler, state, no_pseudo_time, FactorKind::whole, options, matrix, factors, search);
     ++search.newton_steps;
-    if (outcome != Factored::done) return ChordEnd::slow;
-    if (!factors.whole()) return gmres_steps(euler, measure, options, matrix, factors, state, search);
+    if (outcome != Factored::done || !factors.whole()) return ChordEnd::slow;
     std::vector<std::uint32_t> same(state.q.size());
     std::iota(same.begin(), same.end(), 0U);
     Preconditioner inverse(euler, state, factors, std::move(same), state.q.size(), {}, options);

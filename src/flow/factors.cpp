@@ -18,6 +18,7 @@ Factored Factors::factor(const BlockRows& matrix, std::array<Vector, 2> border, 
                          double memory_mb) {
   Factored outcome = Factored::out_of_memory;
   if (kind == FactorKind::whole && !too_large(matrix.rows.size())) {
+    incomplete_.forget();
     outcome = lu_.factor(matrix, memory_mb);
     if (outcome == Factored::out_of_memory) too_large_ = matrix.rows.size();
   }

@@ -1,7 +1,7 @@
 #pragma once
 
-// What solves with a Jacobian: its LU, or where this needs more memory than is given, an incomplete one, with
-// which GMRES solves.
+// What solves with a Jacobian: its LU, or an incomplete one, with which GMRES solves: where it is solved with
+// but once, or where LU needs more memory than is given.
 
 #include <limits>
 

@@ -23,7 +23,7 @@ struct GmresLimits {
 struct GmresEnd {
   double residual;  // of the system, computed afresh
   int iterations;
-  bool in_time = true;  // false: most_iterations or the observer ended it, and `x` is what it was
+  bool in_time = true;  // false: most_iterations or the observer ended it, and `x` is the last round's
 };
 
 // From x where that is better than nothing; it becomes the solution. `times` is the system's matrix,

@@ -44,7 +44,7 @@ class System {
 }  // namespace
 
 LinearStep linear_step(const Euler& euler, const State& state, const BlockRows& matrix, Factors& factors,
-                       const Vector& residual, const Border& border, double part) {
+                       const Vector& residual, const Border& border, double part, StepObserver* observer) {
   Increment right{.q = residual, .border = {-border[0], -border[1]}};
   for (auto& block : right.q)
     for (double& x : block) x = -x;
@@ -60,9 +60,10 @@ LinearStep linear_step(const Euler& euler, const State& state, const BlockRows& 
   };
   const double size = norm(right);
   LinearStep result;
-  const GmresEnd end =
-      gmres([&](const Increment& x) { return system.times(x); }, precondition, right,
-            {.wanted = part * size, .restart = factors.restart(), .rounds = most_rounds}, result.step);
+  const GmresEnd end = gmres(
+      [&](const Increment& x) { return system.times(x); }, precondition, right,
+      {.wanted = part * size, .restart = factors.restart(), .rounds = most_rounds, .observer = observer},
+      result.step);
   result.left = end.residual / size;
   result.iterations = end.iterations;
   result.solved = end.residual <= part * size;

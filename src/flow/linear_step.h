@@ -15,8 +15,9 @@ struct LinearStep {
   bool solved = true;  // as far as was asked for
 };
 
-// The matrix at a state, and its factors. `part`: of the residual that may be left.
+// The matrix at a state, and its factors. `part`: of the residual that may be left;
+// `observer` ends GMRES, whose step is not solved then.
 LinearStep linear_step(const Euler& euler, const State& state, const BlockRows& matrix, Factors& factors,
-                       const Vector& residual, const Border& border, double part);
+                       const Vector& residual, const Border& border, double part, StepObserver* observer);
 
 }  // namespace remodel::flow

@@ -59,8 +59,25 @@ std::vector<VertexKey> keys_of(const FrozenMesh& frozen) {
 constexpr double largest_zone = 0.2;
 // A flow or a function's gradient takes about this many solves with factors of its own.
 constexpr int own_solves = 4;
-// The first pseudo-time step from a flow that was carried.
-constexpr double carried_cfl = 50.0;
+
+// Whether new factors are worth their time: those made before have served other flows than their own. Where
+// they have not, flows go by without, more each time (1, 3, 7, ...), before it is tried again.
+class Worth {
+ public:
+  bool pays() {
+    if (gone_by_ == pause_) return true;
+    ++gone_by_;
+    return false;
+  }
+  void served() { pause_ = 0; }
+  void of_no_use() {
+    constexpr int longest = 31;
+    pause_ = std::min(2 * pause_ + 1, longest), gone_by_ = 0;
+  }
+
+ private:
+  int pause_ = 0, gone_by_ = 0;
+};
 
 }  // namespace
 
@@ -91,6 +108,10 @@ struct LivingFlow::Impl {
   Keys factored_keys;
   std::vector<std::vector<VertexKey>> factored_rings;
   double rent = 0.0;  // what older factors have cost beyond new ones
+  int served = 0;     // flows that they have found
+  flow::Worth worth;
+  // Of flows that are looked for by steps of which each has a matrix of its own.
+  flow::Factors passing;
   // The pattern of the whole matrix, for the triangles it was made of.
   flow::BlockRows matrix;
   std::vector<std::array<std::uint32_t, 3>> matrix_triangles;
@@ -110,6 +131,7 @@ struct LivingFlow::Impl {
   flow::Overlap overlap(const flow::FlowMesh& dual, const Keys& now) const;
   bool try_older_factors(Task& task);
   bool try_own_factors(Task& task);
+  void forget_factors();
   void search(Task& task);
   std::optional<std::vector<flow::Total>> try_gradients(const flow::Euler& euler,
                                                         std::span<const flow::ForceSlope> functions,
@@ -199,7 +221,7 @@ flow::State LivingFlow::Impl::carry(const flow::FlowMesh& now, const Keys& now_k
 // The factors that find_flow() or factor_at() left belong to this mesh.
 void LivingFlow::Impl::belong(const flow::FlowMesh& dual, const Keys& now) {
   factored = factors.ready();
-  rent = 0.0;
+  rent = 0.0, served = 0;
   factored_keys = now;
   factored_rings.resize(now.size());
   for (std::size_t v = 0; v < now.size(); ++v) {
@@ -263,6 +285,9 @@ bool LivingFlow::Impl::try_older_factors(Task& task) {
 }
 
 bool LivingFlow::Impl::try_own_factors(Task& task) {
+  if (flow::lasting_kind(options) != flow::FactorKind::whole || factors.too_large(task.keys.size()) ||
+      !worth.pays())
+    return false;
   task.start = FlowStart::refactored;
   const int before = task.search.factorisations;
   const bool were_factored = std::exchange(factored, false);  // whatever is thrown on the way
@@ -272,30 +297,37 @@ bool LivingFlow::Impl::try_own_factors(Task& task) {
     belong(task.euler.mesh(), task.keys);
   else
     factored = were_factored && factors.ready();
+  if (end == flow::ChordEnd::slow) forget_factors();
   return end != flow::ChordEnd::slow;
 }
 
-// Cheapest first: older factors, new ones, pseudo-time from the last flow, undisturbed flow.
+// Where they do not lead on.
+void LivingFlow::Impl::forget_factors() {
+  if (std::exchange(factored, false) && served == 0) worth.of_no_use();
+}
+
+// Cheapest first: older factors, new ones, Newton's method from the last flow, undisturbed flow.
 void LivingFlow::Impl::search(Task& task) {
-  if (solved && (try_older_factors(task) || try_own_factors(task))) return;
-  factored = false;
+  flow::BlockRows& whole = whole_matrix(task.euler);
   if (solved) {
+    if (try_older_factors(task)) {
+      ++served, worth.served();
+      return;
+    }
+    forget_factors();
+    if (try_own_factors(task)) return;
     task.start = FlowStart::refactored;
-    flow::find_flow(task.euler, task.measure, {.cfl = flow::carried_cfl, .patience = flow::usual_patience},
-                    options, whole_matrix(task.euler), factors, task.state, task.search);
-    belong(task.euler.mesh(), task.keys);
+    flow::find_flow_near(task.euler, task.measure, options, whole, passing, task.state, task.search);
     const FlowStatus status = task.search.status;
     if (status == FlowStatus::converged || status == FlowStatus::interrupted || status == FlowStatus::memory)
       return;
   }
   task.start = FlowStart::cold;
-  flow::BlockRows& whole = whole_matrix(task.euler);
   if (task.living != nullptr)
     flow::find_flow_by_meshes(task.living->domain(), task.living->options(), task.euler, task.measure,
-                              task.conditions, options, whole, factors, task.state, task.search, task.spent);
+                              task.conditions, options, whole, passing, task.state, task.search, task.spent);
   else
-    flow::find_flow_cold(task.euler, task.measure, options, whole, factors, task.state, task.search);
-  belong(task.euler.mesh(), task.keys);
+    flow::find_flow_cold(task.euler, task.measure, options, whole, passing, task.state, task.search);
 }
 
 FlowResult LivingFlow::Impl::solve(const FrozenMesh& frozen, const Mesh* living,
@@ -430,11 +462,12 @@ FlowGradients LivingFlow::Impl::gradients(const std::vector<FlowFunctional>& fun
   for (std::size_t i = 0; i < functions.size(); ++i) add(flow::slope_of(functions[i]), result.functions[i]);
 
   euler.jacobian(state, whole_matrix(euler));
+  const auto told_to_end = [&] {
+    result.interrupted = options.observer != nullptr && options.observer->cancelled();
+    return result.interrupted;
+  };
   auto totals = try_gradients(euler, slopes, result.krylov_iterations);
-  if (options.observer != nullptr && options.observer->cancelled()) {
-    result.interrupted = true;
-    return result;
-  }
+  if (told_to_end()) return result;
   if (!totals) {
     flow::Search made;
     factored = false;
@@ -446,6 +479,7 @@ FlowGradients LivingFlow::Impl::gradients(const std::vector<FlowFunctional>& fun
       result.factorisations = 1;
       totals = try_gradients(euler, slopes, result.krylov_iterations);
     }
+    if (told_to_end()) return result;
     if (!totals)
       throw Error(ErrorCode::argument, "gradients",
                   "the adjoint was not found: the Jacobian is singular, or the factors need more than the "
@@ -481,10 +515,10 @@ FlowResult solve_flow_from(const FrozenMesh& before, const FlowResult& known, co
   flow::Factors factors;
   flow::Search search;
   FlowStart start = FlowStart::refactored;
-  if (flow::steps_with_own_factors(euler, measure, options, matrix, factors, state, search) ==
-      flow::ChordEnd::slow)
-    flow::find_flow(euler, measure, {.cfl = flow::carried_cfl, .patience = flow::usual_patience}, options,
-                    matrix, factors, state, search);
+  if (options.solver != FlowSolver::lu ||
+      flow::steps_with_own_factors(euler, measure, options, matrix, factors, state, search) ==
+          flow::ChordEnd::slow)
+    flow::find_flow_near(euler, measure, options, matrix, factors, state, search);
   if (search.status == FlowStatus::stalled || search.status == FlowStatus::step_limit) {
     start = FlowStart::cold;
     flow::find_flow_cold(euler, measure, options, matrix, factors, state, search);

@@ -147,7 +147,7 @@ void find_flow(const Euler& euler, const Measure& measure, const Pace& pace, con
   const double first = search.residual;
   double least = first, halved = first, cfl = pace.cfl;
   int last_halved = search.newton_steps;
-  const int end_of_march = search.newton_steps + pace.march;
+  int end_of_march = search.newton_steps + pace.march;
   constexpr double smallest_cfl = 1e-2;
   FactorKind kind = options.solver == FlowSolver::lu ? FactorKind::whole : FactorKind::incomplete;
   while (search.residual > options.tolerance) {
@@ -155,16 +155,21 @@ void find_flow(const Euler& euler, const Measure& measure, const Pace& pace, con
     const bool marching = search.newton_steps < end_of_march;
     if (marching) cfl = pace.cfl, least = halved = search.residual, last_halved = search.newton_steps;
     const Factored outcome = factor_at(euler, state, cfl, kind, options, matrix, factors, search);
+    const bool may_be_whole = kind != lasting_kind(options) && !factors.too_large(state.q.size());
+    if (outcome == Factored::singular && may_be_whole) {
+      kind = FactorKind::whole;
+      continue;
+    }
     if (outcome != Factored::done) return end_without_factors(outcome, options, search);
     ++search.newton_steps;
-    const LinearStep linear =
-        linear_step(euler, state, matrix, factors, residual, border, forcing(search.residual, options));
+    const LinearStep linear = linear_step(euler, state, matrix, factors, residual, border,
+                                          forcing(search.residual, options), options.observer);
     search.gmres_iterations += linear.iterations;
-    if (linear.left > most_left && kind != lasting_kind(options) && !factors.too_large(state.q.size())) {
+    if (!(linear.left <= most_left) && may_be_whole) {
       kind = FactorKind::whole;  // the same step once more, and all to come
       continue;
     }
-    if (!(linear.left > most_left))
+    if (linear.left <= most_left)
       if (auto found = place_along(linear.step, measure, state, search.residual, least)) {
         auto& [next, length] = *found;
         if (length == 1.0 && linear.solved)
@@ -178,6 +183,7 @@ void find_flow(const Euler& euler, const Measure& measure, const Pace& pace, con
         if (least <= 0.5 * halved) halved = least, last_halved = search.newton_steps;
         continue;
       }
+    end_of_march = search.newton_steps;
     cfl = std::min(cfl, 1e4) * 0.1;
     if (!(cfl >= smallest_cfl)) return end_without_step(linear.left, options, search);
   }

@@ -16,6 +16,7 @@ void Triangulation::remember(TriangleId t) {
     if (t.index < triangle_slots_before_) {
       triangle_journal_.push_back({t, triangles_[t.index]});
       triangle_journal_.back().triangle.badness = 0;  // refinement may have marked it since begin()
+      triangle_journal_.back().triangle.journal = 0;  // numbers may be given out anew before it comes back
     }
     touched_.push_back(t);
   }

@@ -358,6 +358,14 @@ TEST(Journal, ListsWhatChangedSinceAMarkAndComesBackFromBeforeIt) {
   ASSERT_EQ(t.triangle_slots(), before.triangle_slots());
   for (std::uint32_t i = 0; i < t.triangle_slots(); ++i)
     EXPECT_TRUE(same_record(t[TriangleId{i}], before[TriangleId{i}])) << i;
+  // What came back is touched anew by the next journal, and comes back once more.
+  t.begin();
+  for (std::uint32_t i = 0; i < t.triangle_slots(); ++i) ASSERT_FALSE(t.is_touched(TriangleId{i})) << i;
+  vertices.clear();
+  for (int i = 0; i < 20; ++i) insert_or_remove(t, vertices, 0, 2, random);
+  EXPECT_FALSE(t.touched().empty());
+  t.rollback();
+  EXPECT_EQ(t.check(), "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, KernelOnFamily, testing::Range(0, 5));
