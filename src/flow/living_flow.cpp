@@ -65,11 +65,11 @@ constexpr int own_solves = 4;
 class Worth {
  public:
   bool pays() {
-    if (gone_by_ == pause_) return true;
+    if (gone_by_ >= pause_) return true;
     ++gone_by_;
     return false;
   }
-  void served() { pause_ = 0; }
+  void served() { pause_ = gone_by_ = 0; }
   void of_no_use() {
     constexpr int longest = 31;
     pause_ = std::min(2 * pause_ + 1, longest), gone_by_ = 0;
