@@ -58,7 +58,9 @@ double longest(const ArrayXd& x, const ArrayXd& dx) {
 std::vector<double> solved(const QuadraticProgram& program) {
   constexpr int most_steps = 100;
   constexpr double accuracy = 1e-11, back_off = 0.995;
-  const auto [h, a, g, b, unit] = scaled(program);
+  const Scaled within = scaled(program);
+  const MatrixXd &h = within.h, &a = within.a;
+  const VectorXd &g = within.g, &b = within.b;
   VectorXd x = VectorXd::Zero(g.size());
   ArrayXd slack = (b - a * x).array().max(1.0), price = ArrayXd::Ones(b.size());
   for (int step = 0; step < most_steps; ++step) {
@@ -86,7 +88,7 @@ std::vector<double> solved(const QuadraticProgram& program) {
   std::vector<double> result;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
-    result.push_back(std::clamp(x(i) * unit(i), program.low[k], program.high[k]));
+    result.push_back(std::clamp(x(i) * within.unit(i), program.low[k], program.high[k]));
   }
   return result;
 }

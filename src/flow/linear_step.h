@@ -5,6 +5,7 @@
 // and T. Steihaug, SIAM J. Numer. Anal. 19 (1982)).
 
 #include "flow/factors.h"
+#include "remodel/mesh.h"
 
 namespace remodel::flow {
 
