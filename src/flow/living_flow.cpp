@@ -112,7 +112,6 @@ struct LivingFlow::Impl {
   flow::Worth worth;
   // Of flows that are looked for by steps of which each has a matrix of its own.
   flow::Factors passing;
-  bool differentiated = false;  // the last flow's gradients were wanted
   // The pattern of the whole matrix, for the triangles it was made of.
   flow::BlockRows matrix;
   std::vector<std::array<std::uint32_t, 3>> matrix_triangles;
@@ -133,7 +132,6 @@ struct LivingFlow::Impl {
   bool try_older_factors(Task& task);
   bool try_own_factors(Task& task);
   void forget_factors();
-  void find_near(Task& task);
   void search(Task& task);
   std::optional<std::vector<flow::Total>> try_gradients(const flow::Euler& euler,
                                                         std::span<const flow::ForceSlope> functions,
@@ -149,7 +147,6 @@ struct LivingFlow::Impl::Task {
   const Mesh* living;
   flow::State state;
   flow::Search search = {}, spent = {};
-  bool differentiated = false;
   FlowStart start = FlowStart::cold;
   std::size_t corrected = 0;
 };
@@ -289,7 +286,7 @@ bool LivingFlow::Impl::try_older_factors(Task& task) {
 
 bool LivingFlow::Impl::try_own_factors(Task& task) {
   if (flow::lasting_kind(options) != flow::FactorKind::whole || factors.too_large(task.keys.size()) ||
-      !(task.differentiated || worth.pays()))
+      !worth.pays())
     return false;
   task.start = FlowStart::refactored;
   const int before = task.search.factorisations;
@@ -309,18 +306,6 @@ void LivingFlow::Impl::forget_factors() {
   if (std::exchange(factored, false) && served == 0) worth.of_no_use();
 }
 
-// Newton's method from the last flow. The factors of its last step serve the gradients that are wanted next
-// if those of the last flow were.
-void LivingFlow::Impl::find_near(Task& task) {
-  flow::BlockRows& whole = whole_matrix(task.euler);
-  if (!task.differentiated)
-    return flow::find_flow_near(task.euler, task.measure, options, whole, passing, task.state, task.search);
-  FlowOptions lasting = options;
-  if (!lasting.solver) lasting.solver = FlowSolver::lu;
-  flow::find_flow_near(task.euler, task.measure, lasting, whole, factors, task.state, task.search);
-  belong(task.euler.mesh(), task.keys);
-}
-
 // Cheapest first: older factors, new ones, Newton's method from the last flow, undisturbed flow.
 void LivingFlow::Impl::search(Task& task) {
   flow::BlockRows& whole = whole_matrix(task.euler);
@@ -332,7 +317,7 @@ void LivingFlow::Impl::search(Task& task) {
     forget_factors();
     if (try_own_factors(task)) return;
     task.start = FlowStart::refactored;
-    find_near(task);
+    flow::find_flow_near(task.euler, task.measure, options, whole, passing, task.state, task.search);
     const FlowStatus status = task.search.status;
     if (status == FlowStatus::converged || status == FlowStatus::interrupted || status == FlowStatus::memory)
       return;
@@ -367,7 +352,6 @@ FlowResult LivingFlow::Impl::solve(const FrozenMesh& frozen, const Mesh* living,
             .conditions = conditions,
             .living = living,
             .state = {}};
-  task.differentiated = std::exchange(differentiated, false);
   if (solved) task.state = carry(*dual, now, stream);
   search(task);
   FlowResult result = flow::result_of(euler, task.state, task.search, task.start);
@@ -456,7 +440,6 @@ FlowGradients LivingFlow::Impl::gradients(const std::vector<FlowFunctional>& fun
                                           const WantedGradients& wanted) {
   const Stopwatch watch;
   if (!solved) throw Error(ErrorCode::argument, "gradients", "no flow was found yet, expected one");
-  differentiated = true;
   if (!options.inlets.empty() || !options.outlets.empty())
     throw Error(ErrorCode::argument, "gradients", "found inlets or outlets, expected a far field alone");
   for (const FlowFunctional& function : functions)
