@@ -31,16 +31,6 @@ struct DesignCommand {
   bool quiet = false, json = false;
 };
 
-// Asks the progress, which knows of signals, from within meshes and flows.
-class SignalObserver final : public StepObserver {
- public:
-  explicit SignalObserver(Progress& progress) : progress_(progress) {}
-  bool cancelled() override { return progress_.cancelled(); }
-
- private:
-  Progress& progress_;
-};
-
 // The last design on fresh meshes, which no search has seen. None where that was interrupted.
 std::optional<Json> verified(const DesignProblemFile& problem, const FlowSpace& space,
                              std::span<const double> design, StepObserver& observer) {
@@ -134,13 +124,12 @@ Status run(const DesignCommand& command) {
       make_flow_evaluator(problem, *space, command.threads != 0 ? command.threads : cores);
   const std::unique_ptr<Designer> designer = make_designer(problem, *space);
   Progress progress(progress_style(command.quiet), problem.evaluations, "problem: " + command.problem);
-  SignalObserver signals(progress);
-  const OptimiseOptions options = options_of(command, problem, signals);
+  const OptimiseOptions options = options_of(command, problem, progress.step_observer());
   const OptimiseResult result = optimise(*space, *designer, *evaluator, options, &progress);
   progress.finish();
   std::optional<Json> fresh = Json::array();
   if (result.stopped == OptimiseStopped::done && std::isfinite(result.objective))
-    fresh = verified(problem, *space, result.best_design, signals);
+    fresh = verified(problem, *space, result.best_design, progress.step_observer());
   const OptimiseStopped stopped = fresh ? result.stopped : OptimiseStopped::interrupted;
 
   Report report;

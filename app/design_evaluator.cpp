@@ -1,16 +1,13 @@
 // The evaluator of `remodel design`: the flows of all points on the living mesh, and their gradients.
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
-#include <functional>
 #include <initializer_list>
 #include <limits>
 #include <optional>
 #include <stdexcept>
-#include <thread>
 
+#include "base/threads.h"
 #include "design_memory.h"
 #include "design_problem.h"
 #include "gap.h"
@@ -40,29 +37,6 @@ void add(Slope& to, double factor, const Slope& from) {
   for (std::size_t i = 0; i < from.by.size(); ++i) to.by[i] += factor * from.by[i];
 }
 
-// Calls task(0) to task(count - 1), each once, on so many threads at most. Of what tasks throw, that of the
-// lowest number is thrown when all have ended: which one does not depend on the threads.
-void at_once(std::size_t count, std::size_t threads, const std::function<void(std::size_t)>& task) {
-  std::vector<std::exception_ptr> thrown(count);
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < count; i = next++) {
-      try {
-        task(i);
-      } catch (...) {
-        thrown[i] = std::current_exception();
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> others;
-    for (std::size_t i = 1; i < std::min(count, threads); ++i) others.emplace_back(work);
-    work();
-  }
-  for (const std::exception_ptr& one : thrown)
-    if (one) std::rethrow_exception(one);
-}
-
 class FlowEvaluator final : public Evaluator {
  public:
   FlowEvaluator(const DesignProblemFile& problem, const FlowSpace& space, std::size_t threads)
@@ -84,7 +58,9 @@ class FlowEvaluator final : public Evaluator {
     memory.known.go_on_from(task.from, memory.flows);
     const Shared shared = shared_of(task);
     std::vector<PointFlow> points(problem_.points.size());
-    at_once(points.size(), threads_, [&](std::size_t i) { points[i] = point_of(shared, i, memory); });
+    ThreadTeam(std::min(points.size(), threads_)).run(points.size(), [&](std::size_t i) {
+      points[i] = point_of(shared, i, memory);
+    });
     Evaluation result;
     Slope objective;
     std::vector<Slopes> coefficients;

@@ -33,7 +33,9 @@ class Progress : public OptimiseObserver {
   // What is to be said when the first evaluation shows that the run was not refused.
   void say_at_first(std::function<void()> say) { at_first_ = std::move(say); }
   void evaluated(const EvaluationRecord& record) override;
-  bool cancelled() override { return interrupt_.raised(); }
+  bool cancelled() override { return interrupt_.cancelled(); }
+  // The same question for steps and flows.
+  StepObserver& step_observer() { return interrupt_; }
   // Ends the line of the progress bar.
   void finish();
 
@@ -44,7 +46,7 @@ class Progress : public OptimiseObserver {
   std::size_t evaluations_;
   std::string heading_;
   std::function<void()> at_first_;
-  InterruptFlag interrupt_;
+  InterruptObserver interrupt_;
   Stopwatch watch_;
   double shown_at_ = 0.0;  // seconds
   std::size_t first_ = 0;  // the first evaluation of this session: not 1 in a resumed run

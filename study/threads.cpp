@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "design/threads.h"
+#include "base/threads.h"
 #include "study/study.h"
 
 namespace remodel {

@@ -19,7 +19,7 @@
 #include "design/hub.h"
 #include "design/living_mesh.h"
 #include "design/regeneration_rule.h"
-#include "design/threads.h"
+#include "base/threads.h"
 #include "remodel/designer.h"
 #include "remodel/evaluator.h"
 #include "remodel/optimise.h"

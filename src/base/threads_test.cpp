@@ -1,4 +1,4 @@
-#include "design/threads.h"
+#include "base/threads.h"
 
 #include <gtest/gtest.h>
 
