@@ -49,6 +49,20 @@ void add_times(Increment& to, double factor, const Increment& what) {
   for (std::size_t z = 0; z < 2; ++z) to.border[z] += factor * what.border[z];
 }
 
+void add_product(const BlockRows& matrix, double factor, const Vector& x, Vector& to) {
+  for (std::size_t r = 0; r < matrix.rows.size(); ++r) {
+    std::array<double, 4> sum = to[r];
+    for (std::uint32_t i = matrix.start[r]; i < matrix.start[r + 1]; ++i) {
+      const Block& block = matrix.block[i];
+      std::array<double, 4> value = x[matrix.column[i]];
+      for (double& entry : value) entry *= factor;
+      for (std::size_t row = 0; row < 4; ++row)
+        for (std::size_t k = 0; k < 4; ++k) sum[row] += block[4 * row + k] * value[k];
+    }
+    to[r] = sum;
+  }
+}
+
 Increment close_border(Vector x, const std::array<Vector, 2>& y, const Euler::BorderRows& rows,
                        const Border& right) {
   // The Schur complement E - D y, where D's second row is empty.
@@ -70,7 +84,7 @@ State moved(const State& state, const Increment& increment, double length) {
   State result = state;
   for (std::size_t v = 0; v < result.q.size(); ++v) {
     for (std::size_t k = 0; k < 4; ++k) result.q[v][k] += length * increment.q[v][k];
-    for (const std::size_t k : {std::size_t{0}, std::size_t{3}})
+    for (const std::size_t k : positive)
       if (result.q[v][k] < least_left * state.q[v][k]) result.q[v][k] = least_left * state.q[v][k];
   }
   for (std::size_t z = 0; z < 2; ++z) result.border[z] += length * increment.border[z];
@@ -81,7 +95,7 @@ double largest_change(const State& state, const Increment& increment) {
   constexpr double nearly_none = 0.05;
   double largest = 0.0;
   for (std::size_t v = 0; v < state.q.size(); ++v)
-    for (const std::size_t k : {std::size_t{0}, std::size_t{3}}) {
+    for (const std::size_t k : positive) {
       const double part = std::fabs(increment.q[v][k]) / std::max(state.q[v][k], nearly_none);
       if (!(part <= largest)) largest = part;  // NaN stays
     }

@@ -25,6 +25,8 @@ double inner(const Vector& a, const Vector& b);
 double inner(const Increment& a, const Increment& b);
 double norm(const Increment& a);
 void add_times(Increment& to, double factor, const Increment& what);
+// to += factor times the matrix times x, the r-th of `to` for its r-th row.
+void add_product(const BlockRows& matrix, double factor, const Vector& x, Vector& to);
 
 // x and the solutions y of A y = B for both columns. Not finite where the small system is singular.
 Increment close_border(Vector x, const std::array<Vector, 2>& y, const Euler::BorderRows& rows,

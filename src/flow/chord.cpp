@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace remodel::flow {
@@ -99,15 +98,8 @@ Preconditioner::Preconditioner(const Euler& euler, const State& state, Factors& 
 void Preconditioner::correct(const Vector& right, Vector& x) {
   if (zone_.rows.empty()) return;
   Vector rest(zone_.rows.size());
-  for (std::size_t r = 0; r < zone_.rows.size(); ++r) {
-    rest[r] = right[zone_.rows[r]];
-    for (std::uint32_t i = zone_.start[r]; i < zone_.start[r + 1]; ++i) {
-      const Block& block = zone_.block[i];
-      const std::array<double, 4>& value = x[zone_.column[i]];
-      for (std::size_t j = 0; j < 4; ++j)
-        for (std::size_t k = 0; k < 4; ++k) rest[r][j] -= block[4 * j + k] * value[k];
-    }
-  }
+  for (std::size_t r = 0; r < zone_.rows.size(); ++r) rest[r] = right[zone_.rows[r]];
+  add_product(zone_, -1.0, x, rest);
   zone_lu_.solve(rest, 1);
   for (std::size_t r = 0; r < zone_.rows.size(); ++r)
     for (std::size_t k = 0; k < 4; ++k) x[zone_.rows[r]][k] += rest[r][k];
@@ -168,32 +160,10 @@ ChordEnd chord_steps(const Measure& measure, Preconditioner& inverse, const Fact
   return end(least <= options.tolerance ? ChordEnd::converged : ChordEnd::slow);
 }
 
-namespace {
-
-constexpr double no_pseudo_time = std::numeric_limits<double>::infinity();
-// Above these residuals Newton's method wants pseudo-time: with factors that serve for several steps,
-// without.
-constexpr double reach = 0.3, near = 0.02;
-
-}  // namespace
-
-void find_flow_near(const Euler& euler, const Measure& measure, const FlowOptions& options, BlockRows& matrix,
-                    Factors& factors, State& state, Search& search) {
-  constexpr double carried_cfl = 50.0;
-  Vector residual;
-  Border border;
-  if (measure(state, residual, border) < near) {
-    find_flow(euler, measure, {.cfl = no_pseudo_time, .patience = usual_patience}, options, matrix, factors,
-              state, search);
-    if (search.status != FlowStatus::stalled) return;
-  }
-  find_flow(euler, measure, {.cfl = carried_cfl, .patience = usual_patience}, options, matrix, factors, state,
-            search);
-}
-
 ChordEnd steps_with_own_factors(const Euler& euler, const Measure& measure, const FlowOptions& options,
                                 BlockRows& matrix, Factors& factors, State& state, Search& search) {
-  constexpr double least_gain = 0.3;  // of an attempt; below it Newton's method wants pseudo-time
+  // Above this residual Newton's method wants pseudo-time; below a gain of less than this, too.
+  constexpr double reach = 0.3, least_gain = 0.3;
   constexpr int attempts = 4;
   Vector residual;
   Border border;

@@ -68,10 +68,6 @@ enum class ChordEnd {
 ChordEnd chord_steps(const Measure& measure, Preconditioner& inverse, const Factors& factors,
                      const FlowOptions& options, State& state, Search& search);
 
-// The flow from one that is near: Newton's method, and where it stalls, with pseudo-time.
-void find_flow_near(const Euler& euler, const Measure& measure, const FlowOptions& options, BlockRows& matrix,
-                    Factors& factors, State& state, Search& search);
-
 // New factors at the state as it is and steps with them, again while that leads on; from a residual within
 // Newton's reach only. The factors are of this mesh then.
 ChordEnd steps_with_own_factors(const Euler& euler, const Measure& measure, const FlowOptions& options,

@@ -44,6 +44,15 @@ std::optional<FlowMesh> coarse_mesh(const Domain& domain, const QualityOptions& 
   }
 }
 
+// To those of another search, or of a result.
+template <class Counted>
+void add_cost(const Search& of, Counted& to) {
+  to.newton_steps += of.newton_steps;
+  to.factorisations += of.factorisations;
+  to.gmres_iterations += of.gmres_iterations;
+  to.memory_mb = std::max(to.memory_mb, of.memory_mb);
+}
+
 std::optional<State> start_from_coarser(const Domain& domain, const QualityOptions& quality,
                                         const FlowMesh& fine, const FlowConditions& conditions,
                                         const FlowOptions& options, Search& spent) {
@@ -64,10 +73,7 @@ std::optional<State> start_from_coarser(const Domain& domain, const QualityOptio
   Factors factors;
   find_flow_by_meshes(*coarse, half, euler, measure, conditions, rough, matrix, factors, state, search,
                       spent);
-  spent.newton_steps += search.newton_steps;
-  spent.factorisations += search.factorisations;
-  spent.gmres_iterations += search.gmres_iterations;
-  spent.memory_mb = std::max(spent.memory_mb, search.memory_mb);
+  add_cost(search, spent);
   if (search.status != FlowStatus::converged) return std::nullopt;
   state.q = interpolated(*dual, state.q, fine.points());
   return state;
@@ -91,10 +97,7 @@ void find_flow_by_meshes(const Domain& domain, const QualityOptions& quality, co
 
 void add_coarse(const Search& spent, FlowResult& result) {
   result.coarse_steps = spent.newton_steps;
-  result.newton_steps += spent.newton_steps;
-  result.factorisations += spent.factorisations;
-  result.gmres_iterations += spent.gmres_iterations;
-  result.memory_mb = std::max(result.memory_mb, spent.memory_mb);
+  add_cost(spent, result);
 }
 
 }  // namespace remodel::flow

@@ -12,17 +12,6 @@ struct Euler::Face {
   std::array<double, 4> by_upwind[2] = {{}, {}}, by_central[2] = {{}, {}};
   std::array<double, 4> by_own[2] = {{1, 1, 1, 1}, {1, 1, 1, 1}};  // by the vertex's own value
   std::uint32_t source[2];  // whose gradient the upwind difference is of
-
-  // Bends a value that is too near to vacuum, with its derivatives.
-  void bend(std::size_t side, std::size_t k, const Primitive<double>& vertex) {
-    Primitive<double>& value = side == 0 ? left : right;
-    if (!is_bent(value, vertex, k)) return;
-    const double part = value[k] / vertex[k];
-    const Bent to = bent(part);
-    value[k] = to.part * vertex[k];
-    by_upwind[side][k] *= to.slope, by_central[side][k] *= to.slope;
-    by_own[side][k] = to.part - to.slope * (part - 1.0);
-  }
 };
 
 State Euler::uniform() const {
@@ -72,7 +61,14 @@ Euler::Face Euler::face(const State& state, const DualEdge& edge) const {
     face.by_upwind[0][k] = from_a.slope[0], face.by_central[0][k] = from_a.slope[1];
     face.by_upwind[1][k] = from_b.slope[0], face.by_central[1][k] = from_b.slope[1];
   }
-  for (const std::size_t k : {std::size_t{0}, std::size_t{3}}) face.bend(0, k, qa), face.bend(1, k, qb);
+  for (const std::size_t k : positive) {
+    const Bent to[2] = {bent(face.left[k], qa[k]), bent(face.right[k], qb[k])};
+    face.left[k] = to[0].value, face.right[k] = to[1].value;
+    for (std::size_t side = 0; side < 2; ++side) {
+      face.by_upwind[side][k] *= to[side].slope, face.by_central[side][k] *= to[side].slope;
+      face.by_own[side][k] = to[side].own;
+    }
+  }
   return face;
 }
 
@@ -140,10 +136,8 @@ void Euler::residual(const State& state, std::vector<std::array<double, 4>>& out
       right[k] = qb[k] - stream_.slopes * reconstruction_step<double>(
                                               end_b, 2.0 * dot(gradient_b[k], d) - central, central, eps);
     }
-    for (const std::size_t k : {std::size_t{0}, std::size_t{3}}) {
-      if (is_bent(left, qa, k)) left[k] = qa[k] * bent(left[k] / qa[k]).part;
-      if (is_bent(right, qb, k)) right[k] = qb[k] * bent(right[k] / qb[k]).part;
-    }
+    for (const std::size_t k : positive)
+      left[k] = bent(left[k], qa[k]).value, right[k] = bent(right[k], qb[k]).value;
     const std::array<double, 4> flux = roe_flux<double>(left, right, edge.normal);
     for (std::size_t k = 0; k < 4; ++k) out[edge.a][k] += flux[k], out[edge.b][k] -= flux[k];
   }

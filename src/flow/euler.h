@@ -27,16 +27,17 @@ inline constexpr double near_place = 0.75, far_place = 0.25;
 // A reconstructed density or pressure keeps away from vacuum: below `bent_part` of the vertex's it is bent
 // towards `least_part` of it, by a hyperbola that leaves the derivative continuous.
 inline constexpr double bent_part = 0.3, least_part = 0.1;
+inline constexpr std::size_t positive[] = {0, 3};  // density and pressure among the unknowns of a vertex
 struct Bent {
-  double part = 1.0, slope = 1.0;  // by the part that was reconstructed
+  double value;
+  double slope = 1.0, own = 1.0;  // by the step of the reconstruction, by the vertex's value
 };
-inline Bent bent(double part) {
+inline Bent bent(double reconstructed, double vertex) {
+  if (!(reconstructed < bent_part * vertex)) return {reconstructed};
   constexpr double s = bent_part - least_part;
-  const double ratio = s / (s + bent_part - part);
-  return {least_part + s * ratio, ratio * ratio};
-}
-inline bool is_bent(const Primitive<double>& reconstructed, const Primitive<double>& vertex, std::size_t k) {
-  return (k == 0 || k == 3) && reconstructed[k] < bent_part * vertex[k];
+  const double part = reconstructed / vertex, ratio = s / (s + bent_part - part);
+  const double to = least_part + s * ratio, slope = ratio * ratio;
+  return {to * vertex, slope, to - slope * (part - 1.0)};
 }
 
 inline Primitive<double> weighted(const Primitive<double>& here, const Primitive<double>& there) {

@@ -45,9 +45,10 @@ FaceSide reconstruct(const Primitive<double>& here, const std::array<Point, 4>& 
     side.value[k] = here[k] + direction * step.value;
     side.by_upwind[k] = direction * step.slope[0];
     side.by_epsilon[k] = direction * step.slope[1];
-    if (!is_bent(side.value, here, k)) continue;
-    const Bent to = bent(side.value[k] / here[k]);
-    side.value[k] = to.part * here[k];
+  }
+  for (const std::size_t k : positive) {
+    const Bent to = bent(side.value[k], here[k]);
+    side.value[k] = to.value;
     side.by_upwind[k] *= to.slope, side.by_epsilon[k] *= to.slope;
   }
   return side;

@@ -25,8 +25,6 @@ Factored Factors::factor(const BlockRows& matrix, std::array<Vector, 2> border, 
   if (outcome == Factored::out_of_memory) {
     lu_.forget();
     outcome = factor_incompletely(matrix, memory_mb);
-  } else {
-    incomplete_.forget();
   }
   if (outcome != Factored::done) return outcome;
   columns_ = std::move(border);

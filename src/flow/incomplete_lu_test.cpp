@@ -7,6 +7,7 @@
 
 #include "flow/border.h"
 #include "flow/gmres.h"
+#include "flow/test_vectors.h"
 
 namespace remodel::flow {
 namespace {
@@ -31,33 +32,6 @@ BlockRows strip_matrix(std::uint32_t size, bool bridge, std::mt19937& random) {
     matrix.start.push_back(static_cast<std::uint32_t>(matrix.column.size()));
   }
   return matrix;
-}
-
-Vector product(const BlockRows& matrix, const Vector& x, bool transposed) {
-  Vector y(x.size(), {0, 0, 0, 0});
-  for (std::size_t r = 0; r < x.size(); ++r)
-    for (std::uint32_t i = matrix.start[r]; i < matrix.start[r + 1]; ++i)
-      for (std::size_t j = 0; j < 4; ++j)
-        for (std::size_t k = 0; k < 4; ++k) {
-          const std::uint32_t c = matrix.column[i];
-          (transposed ? y[c][k] : y[r][j]) += matrix.block[i][4 * j + k] * (transposed ? x[r][j] : x[c][k]);
-        }
-  return y;
-}
-
-Vector random_vector(std::size_t size, std::mt19937& random) {
-  std::normal_distribution<double> entry;
-  Vector x(size);
-  for (auto& values : x)
-    for (double& value : values) value = entry(random);
-  return x;
-}
-
-double distance(const Vector& a, const Vector& b) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    for (std::size_t k = 0; k < 4; ++k) largest = std::max(largest, std::fabs(a[i][k] - b[i][k]));
-  return largest;
 }
 
 // The larger error of a solution by these factors alone, transposed or not.

@@ -16,18 +16,10 @@ class System {
 
   Increment times(const Increment& x) const {
     Increment result = zero(x.q.size());
-    for (std::size_t r = 0; r < x.q.size(); ++r) {
-      std::array<double, 4> sum = {};
+    for (std::size_t r = 0; r < x.q.size(); ++r)
       for (std::size_t z = 0; z < 2; ++z)
-        for (std::size_t k = 0; k < 4; ++k) sum[k] += columns_[z][r][k] * x.border[z];
-      for (std::uint32_t i = matrix_.start[r]; i < matrix_.start[r + 1]; ++i) {
-        const Block& block = matrix_.block[i];
-        const std::array<double, 4>& value = x.q[matrix_.column[i]];
-        for (std::size_t row = 0; row < 4; ++row)
-          for (std::size_t k = 0; k < 4; ++k) sum[row] += block[4 * row + k] * value[k];
-      }
-      result.q[r] = sum;
-    }
+        for (std::size_t k = 0; k < 4; ++k) result.q[r][k] += columns_[z][r][k] * x.border[z];
+    add_product(matrix_, 1.0, x.q, result.q);
     for (const auto& entry : rows_.lift) result.border[0] += entry.value * x.q[entry.vertex][3];
     for (std::size_t row = 0; row < 2; ++row)
       for (std::size_t z = 0; z < 2; ++z) result.border[row] += rows_.corner[row][z] * x.border[z];

@@ -69,13 +69,15 @@ class Worth {
     ++gone_by_;
     return false;
   }
-  void served() { pause_ = gone_by_ = 0; }
-  void of_no_use() {
+  void made() { served_ = false; }
+  void served() { served_ = true, pause_ = gone_by_ = 0; }
+  void given_up() {
     constexpr int longest = 31;
-    pause_ = std::min(2 * pause_ + 1, longest), gone_by_ = 0;
+    if (!served_) pause_ = std::min(2 * pause_ + 1, longest), gone_by_ = 0;
   }
 
  private:
+  bool served_ = false;
   int pause_ = 0, gone_by_ = 0;
 };
 
@@ -108,7 +110,6 @@ struct LivingFlow::Impl {
   Keys factored_keys;
   std::vector<std::vector<VertexKey>> factored_rings;
   double rent = 0.0;  // what older factors have cost beyond new ones
-  int served = 0;     // flows that they have found
   flow::Worth worth;
   // Of flows that are looked for by steps of which each has a matrix of its own.
   flow::Factors passing;
@@ -221,7 +222,8 @@ flow::State LivingFlow::Impl::carry(const flow::FlowMesh& now, const Keys& now_k
 // The factors that find_flow() or factor_at() left belong to this mesh.
 void LivingFlow::Impl::belong(const flow::FlowMesh& dual, const Keys& now) {
   factored = factors.ready();
-  rent = 0.0, served = 0;
+  rent = 0.0;
+  worth.made();
   factored_keys = now;
   factored_rings.resize(now.size());
   for (std::size_t v = 0; v < now.size(); ++v) {
@@ -290,39 +292,33 @@ bool LivingFlow::Impl::try_own_factors(Task& task) {
     return false;
   task.start = FlowStart::refactored;
   const int before = task.search.factorisations;
-  const bool were_factored = std::exchange(factored, false);  // whatever is thrown on the way
   const flow::ChordEnd end = flow::steps_with_own_factors(
       task.euler, task.measure, options, whole_matrix(task.euler), factors, task.state, task.search);
-  if (task.search.factorisations > before)
-    belong(task.euler.mesh(), task.keys);
-  else
-    factored = were_factored && factors.ready();
+  if (task.search.factorisations > before) belong(task.euler.mesh(), task.keys);
   if (end == flow::ChordEnd::slow) forget_factors();
   return end != flow::ChordEnd::slow;
 }
 
 // Where they do not lead on.
 void LivingFlow::Impl::forget_factors() {
-  if (std::exchange(factored, false) && served == 0) worth.of_no_use();
+  if (std::exchange(factored, false)) worth.given_up();
 }
 
 // Cheapest first: older factors, new ones, Newton's method from the last flow, undisturbed flow.
 void LivingFlow::Impl::search(Task& task) {
-  flow::BlockRows& whole = whole_matrix(task.euler);
   if (solved) {
-    if (try_older_factors(task)) {
-      ++served, worth.served();
-      return;
-    }
+    if (try_older_factors(task)) return worth.served();
     forget_factors();
     if (try_own_factors(task)) return;
     task.start = FlowStart::refactored;
-    flow::find_flow_near(task.euler, task.measure, options, whole, passing, task.state, task.search);
+    flow::find_flow_near(task.euler, task.measure, options, whole_matrix(task.euler), passing, task.state,
+                         task.search);
     const FlowStatus status = task.search.status;
     if (status == FlowStatus::converged || status == FlowStatus::interrupted || status == FlowStatus::memory)
       return;
   }
   task.start = FlowStart::cold;
+  flow::BlockRows& whole = whole_matrix(task.euler);
   if (task.living != nullptr)
     flow::find_flow_by_meshes(task.living->domain(), task.living->options(), task.euler, task.measure,
                               task.conditions, options, whole, passing, task.state, task.search, task.spent);
@@ -471,9 +467,8 @@ FlowGradients LivingFlow::Impl::gradients(const std::vector<FlowFunctional>& fun
   if (!totals) {
     flow::Search made;
     factored = false;
-    const flow::Factored outcome =
-        flow::factor_at(euler, state, std::numeric_limits<double>::infinity(), flow::lasting_kind(options),
-                        options, matrix, factors, made);
+    const flow::Factored outcome = flow::factor_at(
+        euler, state, flow::no_pseudo_time, flow::lasting_kind(options), options, matrix, factors, made);
     belong(*mesh, keys);
     if (outcome == flow::Factored::done) {
       result.factorisations = 1;

@@ -191,6 +191,20 @@ void find_flow(const Euler& euler, const Measure& measure, const Pace& pace, con
   search.reason.clear();
 }
 
+void find_flow_near(const Euler& euler, const Measure& measure, const FlowOptions& options, BlockRows& matrix,
+                    Factors& factors, State& state, Search& search) {
+  constexpr double near = 0.02, carried_cfl = 50.0;
+  Vector residual;
+  Border border;
+  if (measure(state, residual, border) < near) {
+    find_flow(euler, measure, {.cfl = no_pseudo_time, .patience = usual_patience}, options, matrix, factors,
+              state, search);
+    if (search.status != FlowStatus::stalled) return;
+  }
+  find_flow(euler, measure, {.cfl = carried_cfl, .patience = usual_patience}, options, matrix, factors, state,
+            search);
+}
+
 namespace {
 
 // By way of the scheme of first order, whose flow is found from anywhere, and of more and more of the steps

@@ -30,7 +30,8 @@ struct Pace {
   // So many steps first that all have `cfl`, while the residual rises as it will.
   int march = 0;
 };
-inline constexpr double cold_cfl = 5.0;  // from undisturbed flow
+inline constexpr double cold_cfl = 5.0;                                            // from undisturbed flow
+inline constexpr double no_pseudo_time = std::numeric_limits<double>::infinity();  // as a CFL number
 inline constexpr int usual_patience = 30, last_patience = 60;
 
 // What a search for a flow has done so far.
@@ -44,7 +45,7 @@ struct Search {
   bool whole_factors = true;
 };
 
-// Jacobian and factors at a state; cfl: infinite, or the diagonal has that pseudo-time step. Counts in
+// Jacobian and factors at a state; cfl: no_pseudo_time, or the diagonal has that step. Counts in
 // `search`.
 Factored factor_at(const Euler& euler, const State& state, double cfl, FactorKind kind,
                    const FlowOptions& options, BlockRows& matrix, Factors& factors, Search& search);
@@ -55,6 +56,10 @@ FactorKind lasting_kind(const FlowOptions& options);
 // factors of its last step.
 void find_flow(const Euler& euler, const Measure& measure, const Pace& pace, const FlowOptions& options,
                BlockRows& matrix, Factors& factors, State& state, Search& search);
+
+// The same from a flow that is near: without pseudo-time where it is very near and that does not stall.
+void find_flow_near(const Euler& euler, const Measure& measure, const FlowOptions& options, BlockRows& matrix,
+                    Factors& factors, State& state, Search& search);
 
 // The same from undisturbed flow, and where that stalls, from it in stages from the scheme of first order. A
 // given lift is looked for from the flow at a guess of the angle, and where that stalls by shorter steps.

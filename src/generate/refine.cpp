@@ -342,7 +342,10 @@ void Refiner::recover(VertexId a, VertexId b, int depth) {
 
 // After a far split: what changed may lie on another side of the boundary now, and free vertices outside go.
 void Refiner::clear_outside() {
-  relabel_touched_since_mark(mesh_);
+  {
+    const Arena::Scope scope(mesh_.arena);  // not of what consider() queues
+    relabel(mesh_, alive_since_mark(mesh_));
+  }
   for (const TriangleId t : triangulation_.touched_since_mark()) consider(t);
 }
 

@@ -116,12 +116,11 @@ void relabel_touched(MeshData& mesh) {
   relabel(mesh, changed);
 }
 
-void relabel_touched_since_mark(MeshData& mesh) {
-  const Arena::Scope scope(mesh.arena);
-  List<TriangleId> changed(&mesh.arena);
+List<TriangleId> alive_since_mark(MeshData& mesh) {
+  List<TriangleId> result(&mesh.arena);
   for (const TriangleId t : mesh.triangulation.touched_since_mark())
-    if (mesh.triangulation[t].alive()) changed.push_back(t);
-  relabel(mesh, changed);
+    if (mesh.triangulation[t].alive()) result.push_back(t);
+  return result;
 }
 
 }  // namespace remodel

@@ -13,7 +13,7 @@ namespace remodel {
 void relabel(MeshData& mesh, std::span<const TriangleId> uncertain);
 // The same for every touched triangle that is not as it was.
 void relabel_touched(MeshData& mesh);
-// The same for what was touched since the triangulation's mark.
-void relabel_touched_since_mark(MeshData& mesh);
+// The triangles that were touched since the triangulation's mark, in the mesh's arena.
+List<TriangleId> alive_since_mark(MeshData& mesh);
 
 }  // namespace remodel

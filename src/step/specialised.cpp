@@ -194,9 +194,7 @@ class Replacement {
 
   // What has changed since the boundary was torn, and what lies beside the edges that are back.
   List<TriangleId> uncertain_since_torn(std::span<const std::uint32_t> loose) {
-    List<TriangleId> result(&mesh_.arena);
-    for (const TriangleId t : triangulation_.touched_since_mark())
-      if (triangulation_[t].alive()) result.push_back(t);
+    List<TriangleId> result = alive_since_mark(mesh_);
     for (const std::uint32_t k : loose) {
       if (!begins_edge(k)) continue;
       const Corner c = *triangulation_.find_edge(mesh_.at(k).vertex, mesh_.at(mesh_.at(k).next).vertex);

@@ -146,7 +146,7 @@ MUTATIONS = [
     ("vertices relocated across edges", R + "specialised.cpp", "return orient2d(p, triangulation_.point(a), triangulation_.point(b)) <= 0;", "return false;"),
     ("hull vertices relocated", R + "specialised.cpp", "      if (a == infinite_vertex || b == infinite_vertex) return true;\n", ""),
     ("relocated vertices not counted as moved", R + "specialised.cpp", "      if (cache_.changes_place(i)) moved_.push_back(v);\n", ""),
-    ("nothing relabelled after edges were torn", R + "specialised.cpp", "if (triangulation_[t].alive()) result.push_back(t);", ";"),
+    ("nothing relabelled after edges were torn", G + "relabel.cpp", "    if (mesh.triangulation[t].alive()) result.push_back(t);", "    ;"),
     ("contradictions of other triangles overlooked", G + "relabel.cpp", "    for (const TriangleId t : relabelled_) require_agreement(t);\n", ""),
     ("regions of the two sides of an unsplit edge", T + "remove.cpp", "  write_pieces(right, regions[1]);", "  write_pieces(right, regions[0]);"),
     ("unsplit star not restored", T + "remove.cpp", "restore_delaunay({side->slots.begin(), side->slots.size() - 1});", "(void)side;"),
