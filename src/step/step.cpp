@@ -11,6 +11,7 @@
 #include "generate/require_option.h"
 #include "mesh/renew_policy.h"
 #include "remodel/error.h"
+#include "step/coarsen.h"
 #include "step/follow.h"
 #include "step/methods.h"
 #include "step/morph.h"
