@@ -59,6 +59,16 @@ namespace {
   throw Error(ErrorCode::format, source, "not the state of a mesh: " + problem);
 }
 
+bool is_scale(double value) {
+  return std::isfinite(value) && value > 0.0;
+}
+
+void require_length_scales(const Triangulation& triangulation, const std::string& source) {
+  for (std::uint32_t i = 1; i < triangulation.vertex_slots(); ++i)
+    if (const Vertex& vertex = triangulation[VertexId{i}]; vertex.alive() && !is_scale(vertex.length_scale))
+      refuse(source, "vertex " + std::to_string(i) + " has no positive length scale");
+}
+
 TriangulationState unpack(const MeshState& state, const std::string& source) {
   const std::size_t vertices = state.vertex_stars.size(), triangles = state.triangle_regions.size();
   if (state.coordinates.size() != 2 * vertices || state.length_scales.size() != vertices ||
@@ -163,6 +173,9 @@ class BoundaryRestorer {
         const auto& parameters = curves[c].parameters;
         const bool station = std::binary_search(parameters.begin(), parameters.end(), entry.t) ||
                              (entry.t == 1.0 && mesh_.domain.loops[loop].open && c + 1 == curves.size());
+        if (!is_scale(state_.vertex_scale_factors[entry.vertex]))
+          refuse(source_, "vertex " + std::to_string(entry.vertex) +
+                              " of the boundary has no positive factor of its length scale");
         previous = mesh_.add_boundary_vertex({.vertex = VertexId{entry.vertex},
                                               .curve = static_cast<std::uint32_t>(first_curve + c),
                                               .t = entry.t,
@@ -249,6 +262,7 @@ void put_held(MeshData& mesh, const MeshState& state, const std::string& source)
     const Triangle& t = triangulation[TriangleId{i}];
     if (t.alive() && !t.ghost()) triangulation.refresh_circle(TriangleId{i});
   }
+  require_length_scales(triangulation, source);
 }
 
 }  // namespace
@@ -277,6 +291,7 @@ Mesh Mesh::restore(const MeshState& state, const std::string& source) {
   data.imported = state.imported;
   if (std::string broken = unpack(state, source).restore(data.triangulation); !broken.empty())
     refuse(source, broken);
+  require_length_scales(data.triangulation, source);
   data.index_curves();
   BoundaryRestorer(data, state, source).run();
   data.domain_triangles = data.count_domain_triangles();
