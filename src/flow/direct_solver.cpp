@@ -4,10 +4,9 @@
 
 #include "flow/direct_solver.h"
 
-#include <dmumps_c.h>
+#include <smumps_c.h>
 
 #include <algorithm>
-#include <limits>
 #include <mutex>
 
 // OpenBLAS's threads spin on small fronts, which costs more than they bring. Absent where BLAS is another
@@ -24,7 +23,7 @@ std::mutex& turn() {
 }
 
 // MUMPS counts from 1, as its manual does.
-int& control(DMUMPS_STRUC_C& id, int number) {
+int& control(SMUMPS_STRUC_C& id, int number) {
   return id.icntl[number - 1];
 }
 
@@ -35,15 +34,15 @@ bool is_singular(int outcome) {
   return outcome == -10 || outcome == -6;
 }
 
-constexpr double bytes_of_entry = 8.0;
+constexpr double bytes_of_entry = sizeof(float);
 
 }  // namespace
 
 struct DirectSolver::Impl {
-  DMUMPS_STRUC_C id = {};
+  SMUMPS_STRUC_C id = {};
   std::vector<std::uint32_t> start, column;  // of the pattern that was analysed
   std::vector<int> row_number, column_number;
-  std::vector<double> values;
+  std::vector<float> values, right;
   bool factored = false;
 
   Impl() {
@@ -53,7 +52,7 @@ struct DirectSolver::Impl {
     id.sym = 0;
     id.comm_fortran = use_comm_world;
     id.job = initialise;
-    dmumps_c(&id);
+    smumps_c(&id);
     for (int stream = 1; stream <= 4; ++stream) control(id, stream) = stream == 4 ? 0 : -1;  // prints nothing
     control(id, 6) = 0;  // no permutation to a heavy diagonal: it is heavy
     // Ordering by PORD. MUMPS's own choice for large matrices is METIS, whose orderings, and with them the
@@ -67,11 +66,11 @@ struct DirectSolver::Impl {
   ~Impl() {
     const std::scoped_lock lock(turn());
     id.job = finish;
-    dmumps_c(&id);
+    smumps_c(&id);
   }
   int run(int job) {
     id.job = job;
-    dmumps_c(&id);
+    smumps_c(&id);
     return id.infog[0];
   }
   void fill(const BlockRows& matrix, bool pattern);
@@ -88,7 +87,7 @@ void DirectSolver::Impl::fill(const BlockRows& matrix, bool pattern) {
     for (std::uint32_t i = matrix.start[r]; i < matrix.start[r + 1]; ++i) {
       const std::uint32_t c = matrix.column[i];
       if (c > highest || position[c] < 0) continue;
-      values.insert(values.end(), matrix.block[i].begin(), matrix.block[i].end());
+      for (const double x : matrix.block[i]) values.push_back(static_cast<float>(x));
       if (!pattern) continue;
       for (int j = 0; j < 16; ++j) {
         row_number.push_back(4 * static_cast<int>(r) + j / 4 + 1);
@@ -122,20 +121,23 @@ Factored DirectSolver::factor(const BlockRows& matrix, double memory_mb) {
   impl_->factored = false;
   impl_->fill(matrix, !same);
   const std::scoped_lock lock(turn());
-  DMUMPS_STRUC_C& id = impl_->id;
+  SMUMPS_STRUC_C& id = impl_->id;
   id.n = 4 * static_cast<int>(matrix.rows.size());
   id.nnz = static_cast<MUMPS_INT8>(impl_->values.size());
   id.irn = impl_->row_number.data();
   id.jcn = impl_->column_number.data();
   id.a = impl_->values.data();
-  control(id, 23) = static_cast<int>(std::min(memory_mb, double{std::numeric_limits<int>::max()}));
   if (!same) {
     impl_->start.clear();
     const int outcome = impl_->run(analyse);
     if (outcome < 0) return is_singular(outcome) ? Factored::singular : Factored::out_of_memory;
     impl_->start = matrix.start, impl_->column = matrix.column;
   }
-  if (id.infog[15] > memory_mb) return Factored::out_of_memory;  // INFOG(16): megabytes, an estimate
+  const double estimate_mb = id.infog[15];  // INFOG(16)
+  if (estimate_mb > memory_mb) return Factored::out_of_memory;
+  // What MUMPS may take it asks the system for at once.
+  constexpr double most = 16.0, least_mb = 64.0;
+  control(id, 23) = static_cast<int>(std::min(memory_mb, most * estimate_mb + least_mb));
   // Pivots that were put off take more memory than was estimated.
   constexpr int attempts = 4;
   for (int attempt = 0; attempt < attempts; ++attempt) {
@@ -153,12 +155,18 @@ Factored DirectSolver::factor(const BlockRows& matrix, double memory_mb) {
 }
 
 void DirectSolver::solve(std::span<std::array<double, 4>> right, std::size_t count) {
+  std::vector<float>& rounded = impl_->right;
+  rounded.clear();
+  for (const auto& block : right)
+    for (const double x : block) rounded.push_back(static_cast<float>(x));
   const std::scoped_lock lock(turn());
-  DMUMPS_STRUC_C& id = impl_->id;
+  SMUMPS_STRUC_C& id = impl_->id;
   id.nrhs = static_cast<int>(count);
   id.lrhs = id.n;
-  id.rhs = right.data()->data();
+  id.rhs = rounded.data();
   impl_->run(solve_factored);
+  for (std::size_t v = 0; v < right.size(); ++v)
+    for (std::size_t k = 0; k < 4; ++k) right[v][k] = double{rounded[4 * v + k]};
 }
 
 void DirectSolver::solve_transposed(std::span<std::array<double, 4>> right, std::size_t count) {

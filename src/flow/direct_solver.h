@@ -1,7 +1,9 @@
 #pragma once
 
-// Sparse LU of a block matrix, by MUMPS (direct_solver.cpp) or by Eigen (direct_solver_eigen.cpp). Calls from
-// several threads are safe: MUMPS, which keeps state of its own, takes them in turn.
+// Sparse LU of a block matrix, by MUMPS (direct_solver.cpp) or by Eigen (direct_solver_eigen.cpp), in single
+// precision: half the memory, and a solve takes the time of reading the factors. All that solve with them
+// correct their steps by residuals in double precision. Calls from several threads are safe: MUMPS, which
+// keeps state of its own, takes them in turn.
 
 #include <array>
 #include <cstdint>
@@ -29,7 +31,7 @@ class DirectSolver {
   bool ready() const;
   void forget();
 
-  // In place, `count` right-hand sides after each other, in the order of the matrix's rows.
+  // In place, `count` right-hand sides after each other, in the order of the matrix's rows. Single precision.
   void solve(std::span<std::array<double, 4>> right, std::size_t count);
 
   // The same with the transposed matrix.

@@ -12,12 +12,12 @@ namespace remodel::flow {
 
 namespace {
 
-using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
-using Columns = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+using Rows = Eigen::SparseMatrix<float, Eigen::RowMajor, int>;
+using Columns = Eigen::SparseMatrix<float, Eigen::ColMajor, int>;
 
 // The diagonal's entry is the pivot from this part of the column's largest on.
-constexpr double pivot_threshold = 0.01;
-constexpr double bytes_of_entry = 12.0;
+constexpr float pivot_threshold = 0.01F;
+constexpr double bytes_of_entry = sizeof(float) + sizeof(int);
 
 }  // namespace
 
@@ -28,7 +28,7 @@ struct DirectSolver::Impl {
   Rows rows;
   Columns matrix;
   Eigen::SparseLU<Columns, Eigen::NaturalOrdering<int>> lu;
-  Eigen::VectorXd right;
+  Eigen::VectorXf right;
   double estimate = 0.0;  // of the factors' entries
   bool factored = false;
 
@@ -77,11 +77,11 @@ std::vector<int> positions(const BlockRows& matrix) {
 void DirectSolver::Impl::order(const BlockRows& given) {
   const std::vector<int> position = positions(given);
   const int size = static_cast<int>(given.rows.size());
-  std::vector<Eigen::Triplet<double>> edges;
+  std::vector<Eigen::Triplet<float>> edges;
   edges.reserve(given.column.size());
   for (int r = 0; r < size; ++r)
     for (std::uint32_t i = given.start[r]; i < given.start[r + 1]; ++i)
-      if (position[given.column[i]] >= 0) edges.emplace_back(r, position[given.column[i]], 1.0);
+      if (position[given.column[i]] >= 0) edges.emplace_back(r, position[given.column[i]], 1.0F);
   Columns graph(size, size);  // which is symmetric
   graph.setFromTriplets(edges.begin(), edges.end());
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> found;
@@ -113,7 +113,8 @@ void DirectSolver::Impl::fill(const BlockRows& given) {
       rows.startVec(4 * k + equation);
       for (const auto& [c, block] : entries)
         for (int unknown = 0; unknown < 4; ++unknown)
-          rows.insertBack(4 * k + equation, 4 * c + unknown) = given.block[block][4 * equation + unknown];
+          rows.insertBack(4 * k + equation, 4 * c + unknown) =
+              static_cast<float>(given.block[block][4 * equation + unknown]);
     }
   }
   rows.finalize();
@@ -186,20 +187,20 @@ void DirectSolver::Impl::solve(std::span<std::array<double, 4>> right_sides, std
   for (std::size_t n = 0; n < count; ++n) {
     const auto one = right_sides.subspan(n * size, size);
     for (std::size_t k = 0; k < size; ++k)
-      for (std::size_t i = 0; i < 4; ++i) right[static_cast<Eigen::Index>(4 * k + i)] = one[row_at[k]][i];
-    const Eigen::VectorXd solution = solve_one(right);
+      for (std::size_t i = 0; i < 4; ++i) right[static_cast<Eigen::Index>(4 * k + i)] = static_cast<float>(one[row_at[k]][i]);
+    const Eigen::VectorXf solution = solve_one(right);
     for (std::size_t k = 0; k < size; ++k)
-      for (std::size_t i = 0; i < 4; ++i) one[row_at[k]][i] = solution[static_cast<Eigen::Index>(4 * k + i)];
+      for (std::size_t i = 0; i < 4; ++i) one[row_at[k]][i] = double{solution[static_cast<Eigen::Index>(4 * k + i)]};
   }
 }
 
 void DirectSolver::solve(std::span<std::array<double, 4>> right, std::size_t count) {
-  impl_->solve(right, count, [this](const auto& b) -> Eigen::VectorXd { return impl_->lu.solve(b); });
+  impl_->solve(right, count, [this](const auto& b) -> Eigen::VectorXf { return impl_->lu.solve(b); });
 }
 
 void DirectSolver::solve_transposed(std::span<std::array<double, 4>> right, std::size_t count) {
   impl_->solve(right, count,
-               [this](const auto& b) -> Eigen::VectorXd { return impl_->lu.transpose().solve(b); });
+               [this](const auto& b) -> Eigen::VectorXf { return impl_->lu.transpose().solve(b); });
 }
 
 double DirectSolver::memory_mb() const {
