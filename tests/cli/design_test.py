@@ -227,12 +227,12 @@ class Designs(ProgramTest):
         self.assertEqual(len(self.rows("run1")), 5)
         self.assertEqual(self.rows("run1"), self.rows("run2"))
 
-    def end_by_sigterm(self, problem, begun):
-        """Status, figures, and the seconds from the signal, which is sent as soon as it has begun, to the end."""
-        process = subprocess.Popen([harness.PROGRAM, "design", problem, "-o", "run", "--overwrite", "--quiet", "--json"],
+    def end_by_sigterm(self, problem, run, file):
+        """Status, figures, and the seconds from the signal, which is sent once the run has this file, to the end."""
+        process = subprocess.Popen([harness.PROGRAM, "design", problem, "-o", run, "--quiet", "--json"],
                                    cwd=self.directory, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
         deadline = time.monotonic() + 120
-        while not begun() and process.poll() is None and time.monotonic() < deadline:
+        while not self.path(f"{run}/{file}").exists() and process.poll() is None and time.monotonic() < deadline:
             time.sleep(0.05)
         time.sleep(2)
         sent = time.monotonic()
@@ -247,13 +247,13 @@ class Designs(ProgramTest):
         """SIGTERM in the search's first flow, and in a flow of the verification: M 0.85 on 600 points would take long."""
         hard = {"flow": [{"mach": 0.85, "alpha_deg": 0}]}
         search = self.problem(**hard, mesh={"points": 600}, symmetric=False)
-        status, figures, seconds = self.end_by_sigterm(search, lambda: self.path("run/first.vtkhdf").exists())
+        status, figures, seconds = self.end_by_sigterm(search, "searching", "first.vtkhdf")
         self.assertEqual((status, figures["stopped"], figures["evaluations"]), (3, "interrupted", 0))
         self.assertLess(seconds, 30)
         verification = self.problem(**hard, degree=9, mesh={"points": 100}, designer={"evaluations": 1}, verify=[1200])
-        status, figures, seconds = self.end_by_sigterm(verification, lambda: self.path("run/result.json").exists())
+        status, figures, seconds = self.end_by_sigterm(verification, "verifying", "result.json")
         self.assertEqual((status, figures["stopped"], figures["evaluations"]), (3, "interrupted", 1))
-        self.assertFalse(self.path("run/fresh.json").exists())
+        self.assertFalse(self.path("verifying/fresh.json").exists())
         self.assertLess(seconds, 30)
 
 
