@@ -13,8 +13,8 @@ namespace {
 
 // How far a coarse flow is followed: the fine mesh's is another one, off by more than this.
 constexpr double coarse_tolerance = 1e-5;
-// The first pseudo-time step from an interpolated flow.
-constexpr double coarse_cfl = 50.0;
+// The first pseudo-time step from an interpolated flow, and the most where the residual rises.
+constexpr double coarse_cfl = 20.0;
 
 // Every second station of every curve. Nothing where chains may end on a station that would be gone.
 std::optional<Domain> coarsened(const Domain& domain) {
@@ -87,7 +87,7 @@ void find_flow_by_meshes(const Domain& domain, const QualityOptions& quality, co
   if (auto coarse = start_from_coarser(domain, quality, euler.mesh(), conditions, options, spent)) {
     state = std::move(*coarse);
     search.newton_steps = 0;
-    find_flow(euler, measure, {.cfl = coarse_cfl, .patience = usual_patience}, options, matrix, factors,
+    find_flow(euler, measure, {.cfl = coarse_cfl, .patience = usual_patience, .most = coarse_cfl}, options, matrix, factors,
               state, search);
     if (search.status != FlowStatus::stalled && search.status != FlowStatus::step_limit) return;
     spent.newton_steps += search.newton_steps;  // in vain; find_flow_cold() counts anew

@@ -10,7 +10,7 @@
 namespace remodel::flow {
 
 // Meshes of at least this many vertices begin on a coarser one.
-inline constexpr std::size_t fine_mesh = 4000;
+inline constexpr std::size_t fine_mesh = 1500;
 
 // find_flow_cold(), but from the flow through a coarser mesh where the mesh is fine, its domain has one and
 // that leads on; otherwise from undisturbed flow. `spent` gets what coarser meshes took.

@@ -175,7 +175,7 @@ void find_flow(const Euler& euler, const Measure& measure, const Pace& pace, con
         if (length == 1.0 && linear.solved)
           cfl = std::min(full_cfl, cfl * 2.0 * std::max(1.0, search.residual / next.size));
         if (length < 0.25) cfl *= 0.5;
-        if (pace.relaxed) cfl = std::min(cfl, pace.cfl * first / next.size);
+        cfl = std::min(cfl, pace.most * first / next.size);
         state = std::move(next.state), residual = std::move(next.residual), border = next.border;
         search.residual = next.size;
         search.history.push_back(next.size);
@@ -215,7 +215,7 @@ void find_flow_in_stages(const Euler& euler, const Measure& measure, const FlowO
   constexpr double stages[] = {0.0, 0.5, 0.75, 0.9, 0.95, 0.975, 0.99}, stage_cfl = 20.0,
                    stage_tolerance = 1e-2;
   state = euler.uniform();
-  Pace pace = {.cfl = cold_cfl, .patience = usual_patience, .relaxed = true};
+  Pace pace = {.cfl = cold_cfl, .patience = usual_patience, .most = cold_cfl};
   FlowOptions rough = options;
   rough.tolerance = std::max(options.tolerance, stage_tolerance);
   for (const double slopes : stages) {
@@ -224,7 +224,7 @@ void find_flow_in_stages(const Euler& euler, const Measure& measure, const FlowO
     const Euler stage(euler.mesh(), stream);
     find_flow(stage, Measure(stage), pace, rough, matrix, factors, state, search);
     if (search.status != FlowStatus::converged && search.status != FlowStatus::stalled) return;
-    pace.cfl = stage_cfl;
+    pace.cfl = pace.most = stage_cfl;
   }
   pace.patience = last_patience;
   find_flow(euler, measure, pace, options, matrix, factors, state, search);
@@ -238,8 +238,8 @@ void find_flow_at_angle(const Euler& euler, const Measure& measure, const FlowOp
   constexpr int marches = 3, steps_of_march = 15;
   constexpr double cfl_of_march = 20.0;
   state = euler.uniform();
-  find_flow(euler, measure, {.cfl = cold_cfl, .patience = usual_patience}, options, matrix, factors, state,
-            search);
+  find_flow(euler, measure, {.cfl = cold_cfl, .patience = usual_patience, .most = cold_most}, options, matrix,
+            factors, state, search);
   if (search.status == FlowStatus::stalled)
     find_flow_in_stages(euler, measure, options, matrix, factors, state, search);
   for (int i = 0; i < marches && search.status == FlowStatus::stalled; ++i)
@@ -269,7 +269,7 @@ void find_flow_cold(const Euler& euler, const Measure& measure, const FlowOption
             search);
   if (search.status != FlowStatus::stalled) return;
   state = at_first_angle;
-  find_flow(euler, measure, {.cfl = cautious_cfl, .patience = last_patience, .relaxed = true}, options,
+  find_flow(euler, measure, {.cfl = cautious_cfl, .patience = last_patience, .most = cautious_cfl}, options,
             matrix, factors, state, search);
 }
 

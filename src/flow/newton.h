@@ -23,14 +23,14 @@ struct Pace {
   double cfl;  // of the first step; doubled and more after each whole step
   // Newton steps without halving the residual after which the search is stalled.
   int patience = std::numeric_limits<int>::max();
-  // Switched evolution relaxation: at most `cfl` times what the residual has fallen by since the start, so
-  // that time steps become short again where it rises. Slower, but a shock cannot be thrown to and fro for
-  // ever.
-  bool relaxed = false;
+  // Switched evolution relaxation (W. A. Mulder and B. van Leer, J. Comput. Phys. 59 (1985)): the CFL number is
+  // at most this times what the residual has fallen by since the start, so that time steps become short again
+  // where it rises. A shock cannot be thrown to and fro for ever.
+  double most = std::numeric_limits<double>::infinity();
   // So many steps first that all have `cfl`, while the residual rises as it will.
   int march = 0;
 };
-inline constexpr double cold_cfl = 5.0;                                            // from undisturbed flow
+inline constexpr double cold_cfl = 5.0, cold_most = 40.0;                          // from undisturbed flow
 inline constexpr double no_pseudo_time = std::numeric_limits<double>::infinity();  // as a CFL number
 inline constexpr int usual_patience = 30, last_patience = 60;
 
