@@ -239,8 +239,8 @@ void find_flow_at_angle(const Euler& euler, const Measure& measure, const FlowOp
   constexpr int marches = 3, steps_of_march = 15;
   constexpr double cfl_of_march = 20.0;
   state = euler.uniform();
-  find_flow(euler, measure, {.cfl = cold_cfl, .patience = usual_patience, .most = cold_most}, options, matrix,
-            factors, state, search);
+  find_flow(euler, measure, {.cfl = cold_cfl, .patience = usual_patience}, options, matrix, factors, state,
+            search);
   if (search.status == FlowStatus::stalled)
     find_flow_in_stages(euler, measure, options, matrix, factors, state, search);
   for (int i = 0; i < marches && search.status == FlowStatus::stalled; ++i)

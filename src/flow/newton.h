@@ -30,7 +30,7 @@ struct Pace {
   // So many steps first that all have `cfl`, while the residual rises as it will.
   int march = 0;
 };
-inline constexpr double cold_cfl = 5.0, cold_most = 40.0;                          // from undisturbed flow
+inline constexpr double cold_cfl = 5.0;                                            // from undisturbed flow
 inline constexpr double no_pseudo_time = std::numeric_limits<double>::infinity();  // as a CFL number
 inline constexpr int usual_patience = 30, last_patience = 60;
 
