@@ -13,8 +13,20 @@ namespace {
 
 // How far a coarse flow is followed: the fine mesh's is another one, off by more than this.
 constexpr double coarse_tolerance = 1e-5;
-// The first pseudo-time step from an interpolated flow, and the most where the residual rises.
-constexpr double coarse_cfl = 20.0;
+// How an interpolated flow is gone on from: by shorter time steps where the residual rises, unless it has to
+// rise because the angle is looked for too.
+Pace pace_from_coarser(const Stream& stream) {
+  constexpr double with_lift = 50.0, at_angle = 20.0;
+  if (stream.lift) return {.cfl = with_lift, .patience = usual_patience};
+  return {.cfl = at_angle, .patience = usual_patience, .most = at_angle};
+}
+
+// Shocks are what a coarser mesh is for. Without them it gains little, and around several elements it may
+// lead to another flow, of less lift.
+std::size_t least_vertices(const Stream& stream) {
+  constexpr double mach_of_shocks = 0.6;
+  return stream.mach < mach_of_shocks ? fine_mesh : fine_mesh_with_shocks;
+}
 
 // Every second station of every curve. Nothing where chains may end on a station that would be gone.
 std::optional<Domain> coarsened(const Domain& domain) {
@@ -56,7 +68,7 @@ void add_cost(const Search& of, Counted& to) {
 std::optional<State> start_from_coarser(const Domain& domain, const QualityOptions& quality,
                                         const FlowMesh& fine, const FlowConditions& conditions,
                                         const FlowOptions& options, Search& spent) {
-  if (fine.size() < fine_mesh) return std::nullopt;
+  if (fine.size() < least_vertices(stream_of(conditions, options))) return std::nullopt;
   const std::optional<Domain> coarse = coarsened(domain);
   if (!coarse) return std::nullopt;
   QualityOptions half = quality;
@@ -87,8 +99,7 @@ void find_flow_by_meshes(const Domain& domain, const QualityOptions& quality, co
   if (auto coarse = start_from_coarser(domain, quality, euler.mesh(), conditions, options, spent)) {
     state = std::move(*coarse);
     search.newton_steps = 0;
-    find_flow(euler, measure, {.cfl = coarse_cfl, .patience = usual_patience, .most = coarse_cfl}, options, matrix, factors,
-              state, search);
+    find_flow(euler, measure, pace_from_coarser(euler.stream()), options, matrix, factors, state, search);
     if (search.status != FlowStatus::stalled && search.status != FlowStatus::step_limit) return;
     spent.newton_steps += search.newton_steps;  // in vain; find_flow_cold() counts anew
   }

@@ -9,8 +9,8 @@
 
 namespace remodel::flow {
 
-// Meshes of at least this many vertices begin on a coarser one.
-inline constexpr std::size_t fine_mesh = 1500;
+// Meshes of at least this many vertices begin on a coarser one: fewer from Mach 0.6 on, where shocks are.
+inline constexpr std::size_t fine_mesh = 4000, fine_mesh_with_shocks = 1500;
 
 // find_flow_cold(), but from the flow through a coarser mesh where the mesh is fine, its domain has one and
 // that leads on; otherwise from undisturbed flow. `spent` gets what coarser meshes took.

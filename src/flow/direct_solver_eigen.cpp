@@ -187,10 +187,12 @@ void DirectSolver::Impl::solve(std::span<std::array<double, 4>> right_sides, std
   for (std::size_t n = 0; n < count; ++n) {
     const auto one = right_sides.subspan(n * size, size);
     for (std::size_t k = 0; k < size; ++k)
-      for (std::size_t i = 0; i < 4; ++i) right[static_cast<Eigen::Index>(4 * k + i)] = static_cast<float>(one[row_at[k]][i]);
+      for (std::size_t i = 0; i < 4; ++i)
+        right[static_cast<Eigen::Index>(4 * k + i)] = static_cast<float>(one[row_at[k]][i]);
     const Eigen::VectorXf solution = solve_one(right);
     for (std::size_t k = 0; k < size; ++k)
-      for (std::size_t i = 0; i < 4; ++i) one[row_at[k]][i] = double{solution[static_cast<Eigen::Index>(4 * k + i)]};
+      for (std::size_t i = 0; i < 4; ++i)
+        one[row_at[k]][i] = double{solution[static_cast<Eigen::Index>(4 * k + i)]};
   }
 }
 

@@ -198,8 +198,8 @@ void find_flow_near(const Euler& euler, const Measure& measure, const FlowOption
   Vector residual;
   Border border;
   if (measure(state, residual, border) < near) {
-    find_flow(euler, measure, {.cfl = no_pseudo_time, .patience = patience}, options, matrix, factors,
-              state, search);
+    find_flow(euler, measure, {.cfl = no_pseudo_time, .patience = patience}, options, matrix, factors, state,
+              search);
     if (search.status != FlowStatus::stalled) return;
   }
   find_flow(euler, measure, {.cfl = carried_cfl, .patience = usual_patience}, options, matrix, factors, state,

@@ -23,9 +23,9 @@ struct Pace {
   double cfl;  // of the first step; doubled and more after each whole step
   // Newton steps without halving the residual after which the search is stalled.
   int patience = std::numeric_limits<int>::max();
-  // Switched evolution relaxation (W. A. Mulder and B. van Leer, J. Comput. Phys. 59 (1985)): the CFL number is
-  // at most this times what the residual has fallen by since the start, so that time steps become short again
-  // where it rises. A shock cannot be thrown to and fro for ever.
+  // Switched evolution relaxation (W. A. Mulder and B. van Leer, J. Comput. Phys. 59 (1985)): the CFL number
+  // is at most this times what the residual has fallen by since the start, so that time steps become short
+  // again where it rises. A shock cannot be thrown to and fro for ever.
   double most = std::numeric_limits<double>::infinity();
   // So many steps first that all have `cfl`, while the residual rises as it will.
   int march = 0;
