@@ -193,7 +193,7 @@ void find_flow(const Euler& euler, const Measure& measure, const Pace& pace, con
 
 void find_flow_near(const Euler& euler, const Measure& measure, const FlowOptions& options, BlockRows& matrix,
                     Factors& factors, State& state, Search& search) {
-  constexpr double near = 0.02, carried_cfl = 200.0;
+  constexpr double near = 0.02, carried_cfl = 50.0;
   constexpr int patience = 5;  // what is near enough is found at once
   Vector residual;
   Border border;
