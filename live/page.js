@@ -323,7 +323,7 @@ function endSearch() {
   target = null;
   $("search").textContent = "Optimise";
   $("search").disabled = false;
-  paintSoon();
+  placeTarget();
   if (again || !same(wish.design, shown.design)) refresh();
   else settle();
 }

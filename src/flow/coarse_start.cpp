@@ -21,11 +21,12 @@ Pace pace_from_coarser(const Stream& stream) {
   return {.cfl = at_angle, .patience = usual_patience, .most = at_angle};
 }
 
-// Shocks are what a coarser mesh is for. Without them it gains little, and around several elements it may
-// lead to another flow, of less lift.
-std::size_t least_vertices(const Stream& stream) {
+// Meshes of at least this many vertices begin on a coarser one. Shocks are what that is for: without them it
+// gains little, and around several elements it may lead to another flow, of less lift.
+std::size_t least_vertices(double mach) {
   constexpr double mach_of_shocks = 0.6;
-  return stream.mach < mach_of_shocks ? fine_mesh : fine_mesh_with_shocks;
+  constexpr std::size_t with_shocks = 1500, without = 4000;
+  return mach < mach_of_shocks ? without : with_shocks;
 }
 
 // Every second station of every curve. Nothing where chains may end on a station that would be gone.
@@ -68,7 +69,7 @@ void add_cost(const Search& of, Counted& to) {
 std::optional<State> start_from_coarser(const Domain& domain, const QualityOptions& quality,
                                         const FlowMesh& fine, const FlowConditions& conditions,
                                         const FlowOptions& options, Search& spent) {
-  if (fine.size() < least_vertices(stream_of(conditions, options))) return std::nullopt;
+  if (fine.size() < least_vertices(conditions.mach)) return std::nullopt;
   const std::optional<Domain> coarse = coarsened(domain);
   if (!coarse) return std::nullopt;
   QualityOptions half = quality;

@@ -9,9 +9,6 @@
 
 namespace remodel::flow {
 
-// Meshes of at least this many vertices begin on a coarser one: fewer from Mach 0.6 on, where shocks are.
-inline constexpr std::size_t fine_mesh = 4000, fine_mesh_with_shocks = 1500;
-
 // find_flow_cold(), but from the flow through a coarser mesh where the mesh is fine, its domain has one and
 // that leads on; otherwise from undisturbed flow. `spent` gets what coarser meshes took.
 void find_flow_by_meshes(const Domain& domain, const QualityOptions& quality, const Euler& euler,

@@ -531,7 +531,7 @@ class Watching(PageTest):
         self.value("{ const button = document.getElementById('search'); if (button.textContent === 'Stop') button.click() }")
         self.browser.wait_for("document.getElementById('search').textContent === 'Optimise'")
         self.settled()
-        self.browser.wait_for("document.getElementById('target').getAttribute('points') === ''")
+        self.assertEqual(self.value("document.getElementById('target').getAttribute('points')"), "")
         self.assertSound()
 
     def test_zoom_by_wheel_and_pinch(self):
