@@ -1,5 +1,5 @@
 // What it costs to carry values over, as parts of the step that made it necessary:
-// build/bench/bench/transfer_cost
+// build/bench/transfer_cost
 //
 // Airfoils at I points and G = I / 50, and a hole that moves in a domain of about five thousand and of about
 // a million triangles. One line each, medians of processor times, which are measured alternately.

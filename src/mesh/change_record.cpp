@@ -1,6 +1,7 @@
 #include "mesh/change_record.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "remodel/error.h"
 
@@ -147,31 +148,44 @@ void note_all(const Triangulation& before, const Triangulation& after, ChangeRec
   }
 }
 
-Changes changes_in(const Triangulation& triangulation, const ChangeRecord& record) {
-  Changes changes;
-  std::vector<VertexId> other;  // vertices whose slot does not hold what it held at the mark
+Fates fates_in(const Triangulation& triangulation, const ChangeRecord& record) {
+  Fates fates;
+  std::size_t slots = std::max(record.vertex_slots(), triangulation.vertex_slots());
+  for (const ChangeRecord::VertexThen& then : record.vertices())
+    slots = std::max<std::size_t>(slots, then.id.index + 1);
+  fates.other.resize(slots);
   for (const ChangeRecord::VertexThen& then : record.vertices()) {
     const bool alive = then.id.index < triangulation.vertex_slots() && triangulation[then.id].alive();
     const std::uint32_t generation = alive ? triangulation.generation(then.id) : 0;
     if (then.alive && alive && then.generation == generation) {
-      if (!(then.point == triangulation.point(then.id))) changes.moved.push_back({then.id, generation});
+      if (!(then.point == triangulation.point(then.id))) fates.moved.push_back({then.id, generation});
       continue;
     }
-    if (then.alive) changes.removed.push_back({then.id, then.generation});
-    if (alive) changes.inserted.push_back({then.id, generation});
-    other.push_back(then.id);
+    if (then.alive) fates.removed.push_back({then.id, then.generation});
+    if (alive) fates.inserted.push_back({then.id, generation});
+    fates.other[then.id.index] = true;
   }
-  std::sort(other.begin(), other.end());
-  const auto is_other = [&](VertexId v) { return std::binary_search(other.begin(), other.end(), v); };
-  for (const ChangeRecord::TriangleThen& then : record.triangles()) {
+  const auto is_other = [&](VertexId v) { return fates.other[v.index]; };
+  for (std::uint32_t i = 0; i < record.triangles().size(); ++i) {
+    const ChangeRecord::TriangleThen& then = record.triangles()[i];
     const Triangle* now = then.id.index < triangulation.triangle_slots() ? &triangulation[then.id] : nullptr;
     const bool domain = now != nullptr && now->in_domain();
     if (then.domain && domain && same_turn(then.vertex, now->vertex) &&
         std::none_of(then.vertex, then.vertex + 3, is_other))
       continue;
-    if (then.domain) changes.gone.push_back(then.id);
-    if (domain) changes.born.push_back(then.id);
+    if (then.domain) fates.gone.push_back(i);
+    if (domain) fates.born.push_back(then.id);
   }
+  return fates;
+}
+
+Changes changes_in(const Triangulation& triangulation, const ChangeRecord& record) {
+  Fates fates = fates_in(triangulation, record);
+  Changes changes;
+  changes.moved = std::move(fates.moved);
+  changes.inserted = std::move(fates.inserted), changes.removed = std::move(fates.removed);
+  changes.born = std::move(fates.born);
+  for (const std::uint32_t note : fates.gone) changes.gone.push_back(record.triangles()[note].id);
   for (auto* list : {&changes.moved, &changes.inserted, &changes.removed})
     std::sort(list->begin(), list->end());
   for (auto* list : {&changes.born, &changes.gone}) std::sort(list->begin(), list->end());

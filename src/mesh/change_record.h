@@ -103,7 +103,16 @@ class ChangeRecords {
 void note_journal(const Triangulation& triangulation, ChangeRecord& record);
 // Notes all of a mesh that makes room for another.
 void note_all(const Triangulation& before, const Triangulation& after, ChangeRecord& record);
-// What the record says of a mesh as it is now.
+
+// What became of all that a record notes, in the order of its notes.
+struct Fates {
+  std::vector<VertexKey> moved, inserted, removed;
+  std::vector<std::uint32_t> gone;  // triangles, as numbers in ChangeRecord::triangles()
+  std::vector<TriangleId> born;
+  std::vector<bool> other;  // by slot of vertices that are noted: it does not hold what it held
+};
+Fates fates_in(const Triangulation& triangulation, const ChangeRecord& record);
+// The same for everybody: what the record says of a mesh as it is now.
 Changes changes_in(const Triangulation& triangulation, const ChangeRecord& record);
 
 }  // namespace remodel

@@ -18,17 +18,18 @@ constexpr std::size_t following(std::size_t i) {
   return i == 2 ? 0 : i + 1;
 }
 
-Sides3 sides_of(const Corners& corners, const Corners& edges) {
-  Sides3 side;
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) side[i][j] = orient2d(edges[j], edges[following(j)], corners[i]);
-  return side;
+// The ends of an edge, which most neighbours share, are on it: no exact arithmetic has to find that out.
+int side_of(Point a, Point b, Point p) {
+  return p == a || p == b ? 0 : orient2d(a, b, p);
 }
 
-bool separated(const Sides3& side) {
-  for (std::size_t j = 0; j < 3; ++j)
-    if (side[0][j] <= 0 && side[1][j] <= 0 && side[2][j] <= 0) return true;
-  return false;
+// False, and nothing said of the sides, where an edge has all corners beyond it.
+bool find_sides(const Corners& corners, const Corners& edges, Sides3& side) {
+  for (std::size_t j = 0; j < 3; ++j) {
+    for (std::size_t i = 0; i < 3; ++i) side[i][j] = side_of(edges[j], edges[following(j)], corners[i]);
+    if (side[0][j] <= 0 && side[1][j] <= 0 && side[2][j] <= 0) return false;
+  }
+  return true;
 }
 
 bool within(const std::array<int, 3>& side) {
@@ -88,10 +89,8 @@ class Polygon {
 }  // namespace
 
 Intersection intersect(const Corners& a, const Corners& b) {
-  const Sides3 of_a = sides_of(a, b);
-  if (separated(of_a)) return {};
-  const Sides3 of_b = sides_of(b, a);
-  if (separated(of_b)) return {};
+  Sides3 of_a, of_b;
+  if (!find_sides(a, b, of_a) || !find_sides(b, a, of_b)) return {};
   Polygon polygon;
   for (std::size_t i = 0; i < 3; ++i) {
     if (within(of_a[i])) polygon.add(a[i]);

@@ -24,7 +24,9 @@ std::array<double, 3> clamped_weights_at(const Corners& t, Point p);
 class Locator {
  public:
   // Of the first triangles of a side, which stay where they are in it.
-  Locator(const PatchSide& side, std::size_t count);
+  Locator(const PatchSide& side, std::size_t count) : side_(side) { extend(count); }
+  // To more of its first triangles.
+  void extend(std::size_t count);
 
   // Where p lies, in the first triangle of several.
   std::optional<Place> within(Point p) const;
@@ -35,8 +37,14 @@ class Locator {
   void find(const Corners& corners, std::vector<std::uint32_t>& found) const;
 
  private:
+  struct Part {
+    std::uint32_t first;  // triangle of its tree
+    BoxTree tree;
+  };
+
   const PatchSide& side_;
-  BoxTree tree_;
+  std::vector<Part> parts_;
+  std::size_t count_ = 0;
 };
 
 // Of vertices, since a moment.

@@ -11,14 +11,14 @@ class SinceMark {
  public:
   explicit SinceMark(const Moment& moment)
       : moment_(moment),
-        builder_(patches_, 8 * moment.changes.moved.size() + 2 * moment.changes.born.size()),
-        seen_(16 * moment.changes.moved.size() + 4 * moment.changes.born.size()) {}
+        builder_(patches_, 8 * moment.fates.moved.size() + 2 * moment.fates.born.size()),
+        seen_(16 * moment.fates.moved.size() + 4 * moment.fates.born.size()) {}
 
   Patches run() {
     count();
     moment_.for_each_gone([&](TriangleId id, const Moment::Triple& vertices) { add_before(vertices, id); });
-    for (const TriangleId t : moment_.changes.born) see(t), add_after(t);
-    for (const VertexKey& moved : moment_.changes.moved) add_star(moved.id);
+    for (const TriangleId t : moment_.fates.born) see(t), add_after(t);
+    for (const VertexKey& moved : moment_.fates.moved) add_star(moved.id);
     // Triangles around that have not changed: what the vertices of the patch need to know of their cells, and
     // its triangles for their slopes.
     const std::vector<std::uint32_t> rim = patches_.after.numbers;
@@ -34,8 +34,9 @@ class SinceMark {
     patches_.triangles_before = moment_.record.triangle_slots();
     patches_.vertices_after = moment_.triangulation.vertex_slots();
     patches_.triangles_after = moment_.triangulation.triangle_slots();
-    for (const VertexKey& key : moment_.changes.removed) patches_.gone_vertices.push_back(key.id.index);
-    for (const TriangleId t : moment_.changes.gone) patches_.gone_triangles.push_back(t.index);
+    for (const VertexKey& key : moment_.fates.removed) patches_.gone_vertices.push_back(key.id.index);
+    moment_.for_each_gone(
+        [&](TriangleId id, const Moment::Triple&) { patches_.gone_triangles.push_back(id.index); });
   }
 
   void add_before(const Moment::Triple& vertices, TriangleId id) {

@@ -1,6 +1,7 @@
 // The map of vertices since a mark alone: of what has changed it looks at triangles that are gone, and around
 // new vertices.
 
+#include <algorithm>
 #include <optional>
 
 #include "transfer/locator.h"
@@ -20,9 +21,12 @@ class VertexProvenance {
   Place place_of(VertexId v) {
     const Point p = moment_.triangulation.point(v);
     if (const std::optional<Place> found = locator_->within(p)) return *found;
-    if (const std::optional<Place> found = locate_around(v, p)) return *found;
-    if (!whole_) add_moved(), whole_.emplace(side_, side_.triangles.size());
-    return whole_->locate(p, outside_);
+    if (!moved_too_) {
+      if (const std::optional<Place> found = locate_around(v, p)) return *found;
+      add_moved();
+      if (const std::optional<Place> found = locator_->within(p)) return *found;
+    }
+    return locator_->beyond(p, outside_);
   }
   // The corners of the triangle that a place is in, by slot.
   const Moment::Triple& corners_of(const Place& place) const { return vertices_[place.triangle]; }
@@ -38,12 +42,14 @@ class VertexProvenance {
   // All triangles that are there still but have moved.
   void add_moved() {
     NumberMap seen;
-    for (const VertexKey& moved : moment_.changes.moved)
+    for (const VertexKey& moved : moment_.fates.moved)
       moment_.triangulation.for_each_corner(moved.id, [&](Corner c) {
         const Triangle& triangle = moment_.triangulation[c.triangle];
         if (triangle.in_domain() && !moment_.is_born(c.triangle) && seen.emplace(c.triangle.index, 0).second)
           add(c.triangle, Moment::triple_of(triangle));
       });
+    locator_->extend(side_.triangles.size());
+    moved_too_ = true;
   }
 
   // What is not in a triangle that is gone is mostly in one beside it that has moved.
@@ -72,7 +78,7 @@ class VertexProvenance {
   PatchSide side_;
   std::vector<Moment::Triple> vertices_;
   std::optional<Locator> locator_;  // of those that are gone
-  std::optional<Locator> whole_;    // of those that have moved too, where it is needed
+  bool moved_too_ = false;          // and of those that have moved, where that was needed
 };
 
 }  // namespace
@@ -81,11 +87,13 @@ ValueMap vertex_map_since(const Moment& moment, Outside outside) {
   ValueMap map;
   map.size_before = moment.record.vertex_slots();
   map.size_after = moment.triangulation.vertex_slots();
-  for (const VertexKey& key : moment.changes.removed) map.gone.push_back(key.id.index);
+  for (const VertexKey& key : moment.fates.removed) map.gone.push_back(key.id.index);
   map.starts.push_back(0);
-  if (moment.changes.inserted.empty()) return map;
+  if (moment.fates.inserted.empty()) return map;
+  std::vector<VertexKey> inserted = moment.fates.inserted;
+  std::sort(inserted.begin(), inserted.end());
   VertexProvenance provenance(moment, outside);
-  for (const VertexKey& key : moment.changes.inserted) {
+  for (const VertexKey& key : inserted) {
     bool used = false;  // by a triangle of the domain
     moment.triangulation.for_each_corner(
         key.id, [&](Corner c) { used = used || moment.triangulation[c.triangle].in_domain(); });
