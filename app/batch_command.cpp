@@ -52,10 +52,11 @@ struct Design {
 };
 
 // Reads all designs and checks that each is a domain before the first is meshed.
-std::vector<Design> read_designs(const BatchCommand& command, const StartMesh& start) {
+std::vector<Design> read_designs(const BatchCommand& command, const StartMesh& start,
+                                 std::vector<ShapeFit>& fits) {
   std::vector<Design> designs;
   for (const std::string& shape : command.shapes) {
-    const CstAirfoil airfoil = fit_shape(shape, command.fit).airfoil;
+    const CstAirfoil airfoil = fit_shape(shape, command.fit, fits).airfoil;
     try {
       Domain domain = with_new_airfoil(start, command.start, airfoil);
       validate(domain);
@@ -121,6 +122,10 @@ void require_directory(const BatchCommand& command) {
   if (!std::filesystem::is_directory(directory, error))
     throw Error(ErrorCode::file, directory.string(), "is a file, expected a directory");
   require_writable(directory / "report.json");
+  for (const char* file : {"history.sqlite", "checkpoint.json", "study.sqlite"})
+    if (std::filesystem::exists(directory / file, error))
+      throw Error(ErrorCode::argument, directory.string(),
+                  std::string("holds ") + file + " of a run: expected another directory");
   if (!command.overwrite && !files_of_a_batch(directory).empty())
     throw Error(ErrorCode::argument, directory.string(),
                 "holds a batch: expected another directory, or --overwrite to replace it");
@@ -215,7 +220,8 @@ class Batch {
 Status run(const BatchCommand& command) {
   require_directory(command);
   const StartMesh start = read_start_mesh(command.mesh, command.start);
-  const std::vector<Design> designs = read_designs(command, start);
+  std::vector<ShapeFit> fits;
+  const std::vector<Design> designs = read_designs(command, start, fits);
   const std::vector<std::size_t> order = order_of(command, start, designs);
   const DirectoryLock lock(command.directory);
   require_directory(command);  // another batch may have ended there meanwhile
@@ -223,7 +229,7 @@ Status run(const BatchCommand& command) {
 
   if (std::count(command.meshes.begin(), command.meshes.end(), "su2") != 0 && !command.inner_markers)
     warn_of_inner_curves(start.mesh.freeze(), (command.directory / "*.su2").string(),
-                         "--inner-markers writes it");
+                         "which SU2 would take for a wall (--inner-markers writes it)");
   const InterruptFlag interrupt;
   Batch batch(command, start.mesh);
   bool finished = true;
@@ -236,6 +242,7 @@ Status run(const BatchCommand& command) {
   report.figure("mesh", "mesh", command.mesh);
   report.figure("order", "order", command.order == Order::given ? "given" : "nearest");
   report.figure("strategy", "strategy", name_of(command.remodelling.strategy));
+  add_fit_figures(report, fits);
   batch.add_figures(report);
   write_text_atomically(command.directory / "report.json", report.json_text());
   report.line("written", (command.directory / "report.json").string());

@@ -91,8 +91,8 @@ FlowResult solve_section(const Mesh& mesh, const FlowConditions& conditions, boo
                          StepObserver* observer = nullptr);
 
 std::unique_ptr<Designer> make_designer(const DesignProblemFile& problem, const FlowSpace& space);
-// The problem and space must outlive it. The flows of a problem's points are found on so many threads at most;
-// times alone depend on it.
+// The problem and space must outlive it. The flows of a problem's points are found on so many threads at
+// most; times alone depend on it.
 std::unique_ptr<Evaluator> make_flow_evaluator(const DesignProblemFile& problem, const FlowSpace& space,
                                                std::size_t threads = 1);
 

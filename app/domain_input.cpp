@@ -62,17 +62,29 @@ void require_at_most_one_each(const char* option, std::size_t found, std::size_t
                     std::to_string(airfoils) + " airfoils");
 }
 
-std::vector<Curve> outline_of_file(const std::string& shape, OutlineCurve curve, const std::string& name) {
+std::vector<Curve> outline_of_file(const std::string& shape, OutlineCurve curve, const std::string& name,
+                                   std::vector<ShapeOutline>& outlines) {
   if (!is_coordinate_file(shape))
     throw Error(ErrorCode::argument, "--as-given",
                 "given for '" + shape + "', expected for coordinate files");
-  return outline_of(read_airfoil(shape), curve, name);
+  const AirfoilCoordinates coordinates = read_airfoil(shape);
+  outlines.push_back({.shape = shape,
+                      .points = coordinates.upper.size() + coordinates.lower.size() - 1,
+                      .gap = coordinates.upper.back().y - coordinates.lower.back().y});
+  return outline_of(coordinates, curve, name);
 }
 
-CstAirfoil fitted(const std::string& shape, const FitOptions& options, std::vector<ShapeFit>& fits) {
-  const CstFit fit = fit_shape(shape, options);
-  if (is_coordinate_file(shape)) fits.push_back({shape, fit});
-  return fit.airfoil;
+void add_outline_figures(Report& report, const std::vector<ShapeOutline>& outlines) {
+  Json list = Json::array();
+  for (const ShapeOutline& outline : outlines) {
+    list.push_back(
+        {{"shape", outline.shape}, {"points", outline.points}, {"trailing_edge_gap", outline.gap}});
+    std::string text = std::to_string(outline.points) + " points as given, in chords from the leading edge";
+    if (outline.gap != 0.0)
+      text += "; its trailing edge is open by " + short_text(outline.gap) + " chords, kept";
+    report.line("outline of " + outline.shape, text);
+  }
+  if (!list.empty()) report.data("outlines", std::move(list));
 }
 
 void require_alone(const DomainInputOptions& options, const std::string& shape) {
@@ -144,10 +156,13 @@ DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOp
     const std::string& shape = options.shapes[i];
     PlacedAirfoil placed;
     if (options.shapes.size() > 1 || !options.names.empty()) placed.name = name_of(options, i, airfoils);
+    if (options.as_given && fit.close_trailing_edge)
+      throw Error(ErrorCode::argument, "--close-trailing-edge",
+                  "given with --as-given, which leaves the outline as it is, expected one of them");
     if (options.as_given)
-      placed.outline = outline_of_file(shape, *options.as_given, placed.name);
+      placed.outline = outline_of_file(shape, *options.as_given, placed.name, input.outlines);
     else
-      placed.airfoil = fitted(shape, fit, input.fits);
+      placed.airfoil = fit_shape(shape, fit, input.fits).airfoil;
     if (i < options.places.size()) placed.placement = placement_of(options.places[i]);
     airfoils.push_back(std::move(placed));
   }
@@ -158,6 +173,7 @@ DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOp
 
 void add_findings(Report& report, const DomainInput& input) {
   add_fit_figures(report, input.fits);
+  add_outline_figures(report, input.outlines);
   if (!input.findings) return;
   const PlanarFindings& found = *input.findings;
   report.data("input", {{"duplicate_points", found.duplicate_points},

@@ -32,18 +32,26 @@ void add_domain_input(CLI::App& app, DomainInputOptions& options);
 // True if the input is one airfoil without a place and a name, as opposed to a domain or an outline as given.
 bool is_single_airfoil(const DomainInputOptions& options);
 
+// The points of a coordinate file as given.
+struct ShapeOutline {
+  std::string shape;
+  std::size_t points = 0;
+  double gap = 0.0;  // of the trailing edge, in chords
+};
+
 struct DomainInput {
   Domain domain;
   std::optional<PlanarFindings> findings = std::nullopt;  // of a planar graph
   std::vector<ShapeFit> fits = {};                        // of coordinate files
+  std::vector<ShapeOutline> outlines = {};                // of those that are not fitted
   bool in_farfield = false;                               // airfoils in the farfield of the options
 };
 // Throws Error as the readers do, and for more places or names than shapes.
 DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOptions& discretisation,
                         const FitOptions& fit);
 
-// Reports under input{...} the defects of a planar graph that were found and resolved, and under fits[] how
-// well coordinate files were fitted.
+// Reports under input{...} the defects of a planar graph that were found and resolved, under fits[] how well
+// coordinate files were fitted, and under outlines[] those that were taken as given.
 void add_findings(Report& report, const DomainInput& input);
 
 }  // namespace remodel::app

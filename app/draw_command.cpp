@@ -21,8 +21,8 @@
 namespace remodel::app {
 namespace {
 
-constexpr std::array mesh_colors{DrawColor::quality, DrawColor::length_scale, DrawColor::age, DrawColor::fate,
-                                 DrawColor::region, DrawColor::gradation};
+constexpr std::array mesh_colors{DrawColor::quality, DrawColor::length_scale, DrawColor::age,
+                                 DrawColor::fate,    DrawColor::region,       DrawColor::gradation};
 // Colours that are the field of that name.
 constexpr std::array field_colors{"mach", "cp", "pressure", "entropy"};
 

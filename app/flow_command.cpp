@@ -54,8 +54,7 @@ std::optional<std::string> mesh_file(const FlowCommand& command) {
 MeshInput read_input(const FlowCommand& command) {
   if (const auto file = mesh_file(command)) return read_any_mesh(*file);
   const DomainInput domain = read_domain(command.input, command.meshing.discretisation, command.meshing.fit);
-  InterruptObserver observer;
-  GenerateResult result = generate(domain.domain, command.meshing.resolved_quality(), &observer);
+  GenerateResult result = generate(domain.domain, command.meshing.resolved_quality());
   if (result.stopped != Stopped::done)
     throw Error(
         ErrorCode::argument, command.input.shapes.front(),

@@ -1,5 +1,5 @@
-// The program remodel-mpi has no `live`, `flow`, `design` and `noise`: the sequential MUMPS brings a stand-in for MPI
-// that must not meet the real one.
+// The program remodel-mpi has no `live`, `flow`, `design` and `noise`: the sequential MUMPS brings a stand-in
+// for MPI that must not meet the real one.
 
 #include "command.h"
 

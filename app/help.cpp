@@ -51,12 +51,14 @@ class HelpFormatter : public CLI::Formatter {
   // The name, and beside it or, where it is long, below it what it does.
   std::string entry(const std::string& name, const std::string& text) const {
     const std::size_t column = std::min(get_column_width(), width_ / 3);
-    std::string lines = "  " + name;
+    const std::string indent(column, ' ');
+    std::string lines;
+    for (const std::string& line : lines_of(name, width_ - 4))
+      lines += (lines.empty() ? "  " : "\n    ") + line;
     if (lines.size() + 2 > column)
-      lines += "\n" + std::string(column, ' ');
+      lines += "\n" + indent;
     else
       lines.resize(column, ' ');
-    const std::string indent(column, ' ');
     bool first = true;
     for (const std::string& line : lines_of(text, width_ - column)) {
       lines += (first ? "" : indent) + line + "\n";

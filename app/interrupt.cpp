@@ -11,21 +11,33 @@ namespace remodel::app {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
+bool on_terminal = false;
+
+void write_error(std::string_view text) {
+  static_cast<void>(!write(STDERR_FILENO, text.data(), text.size()));
+}
+
+// A terminal writes ^C over the line of progress: what comes next begins a clean line.
+void clear_line() {
+  if (on_terminal) write_error("\r\033[K");
+}
 
 void note(int signal) {
   interrupted = 1;
+  clear_line();
   std::signal(signal, SIG_DFL);
 }
 
 void end(int) {
-  constexpr std::string_view message = "remodel: interrupted\n";
-  static_cast<void>(!write(STDERR_FILENO, message.data(), message.size()));
+  clear_line();
+  write_error("remodel: interrupted\n");
   _exit(static_cast<int>(Status::limit));
 }
 
 }  // namespace
 
 void end_at_interrupt() {
+  on_terminal = isatty(STDERR_FILENO) != 0;
   std::signal(SIGINT, end);
 }
 

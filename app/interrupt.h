@@ -4,9 +4,12 @@
 
 namespace remodel::app {
 
-// From now on the first SIGINT ends the process with the exit status of a limit, except during the lifetime of
-// an InterruptFlag.
+// From now on the first SIGINT ends the process with the exit status of a limit, except during the lifetime
+// of an InterruptFlag.
 void end_at_interrupt();
+
+// Thrown where an interrupt leaves nothing to report: the program ends as end_at_interrupt() has it.
+struct Interrupted {};
 
 // During the lifetime of an object the first SIGINT or SIGTERM only sets a flag; a second one ends the
 // process as usual.

@@ -67,11 +67,12 @@ Words options_of(const CLI::App& app) {
 }
 
 std::string explain_word(const Words& words, const CLI::App& program) {
-  const Words names = subcommands_of(program);
+  Words names = subcommands_of(program);
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
   std::string problem = "command line: found " + (words.empty() ? "nothing" : "'" + words[0] + "'") +
                         ", expected one of " + list;
+  for (const std::string& option : options_of(program)) names.push_back(option);
   const std::string nearest = words.empty() ? "" : nearest_word(words[0], names);
   return nearest.empty() ? problem : problem + " (did you mean '" + nearest + "'?)";
 }
@@ -118,11 +119,10 @@ int run(const Words& words) {
   program.require_subcommand(1);
   const KeptPipes input_is_read_once;
   Action action;
-  for (const auto add :
-       {add_mesh_command, add_update_command, add_batch_command, add_check_command, add_fit_command,
-        add_flow_command, add_optimise_command, add_design_command, add_draw_command, add_film_command,
-        add_live_command, add_noise_command, add_transfer_command, add_convert_command, add_shapes_command,
-        add_soak_command}) {
+  for (const auto add : {add_mesh_command, add_update_command, add_batch_command, add_check_command,
+                         add_fit_command, add_flow_command, add_optimise_command, add_design_command,
+                         add_draw_command, add_film_command, add_live_command, add_noise_command,
+                         add_transfer_command, add_convert_command, add_shapes_command, add_soak_command}) {
     add(program, action);
   }
 #ifdef REMODEL_STUDY
@@ -144,6 +144,8 @@ int run(const Words& words) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return program.exit(error);
     return fail(Status::bad_input, "error: " + explain(error, program, words));
+  } catch (const Interrupted&) {
+    return fail(Status::limit, "interrupted");
   } catch (const Error& error) {
     return fail(Status::bad_input, std::string("error: ") + error.what());
   } catch (const std::filesystem::filesystem_error& error) {

@@ -45,7 +45,7 @@ Status run(const MeshCommand& command) {
   report.data("shape", command.shapes.shapes.size() == 1 ? Json(command.shapes.shapes[0])
                                                          : Json(command.shapes.shapes));
   add_findings(report, input);
-  describe(report, command.meshing, input.in_farfield);
+  describe(report, command.meshing, input.in_farfield, input.outlines.empty());
   add_mesh_figures(report, result.mesh.freeze(), result.mesh.statistics());
   report.figure("small_angles", "input angles below 60 degrees", result.small_angles);
   add_gradation_error(report, result.mesh.gradation_error());

@@ -95,13 +95,14 @@ Json to_json(const MeshingOptions& options) {
   return json;
 }
 
-void describe(Report& report, const MeshingOptions& options, bool farfield) {
+void describe(Report& report, const MeshingOptions& options, bool farfield, bool points) {
   const QualityOptions quality = options.resolved_quality();
   report.data("options", to_json(options));
   if (farfield)
-    report.line("discretisation", std::to_string(options.discretisation.points) + " points, farfield of " +
-                                      std::to_string(options.discretisation.farfield_points) + " at " +
-                                      short_text(options.discretisation.farfield_radius) + " chords");
+    report.line("discretisation",
+                (points ? std::to_string(options.discretisation.points) + " points, " : std::string()) +
+                    "farfield of " + std::to_string(options.discretisation.farfield_points) + " at " +
+                    short_text(options.discretisation.farfield_radius) + " chords");
   const bool slack = quality.refine_angle_deg > quality.min_angle_deg;
   const std::string refined = slack ? " (refined to " + short_text(quality.refine_angle_deg) + ")" : "";
   report.line("quality asked for", "angle >= " + short_text(quality.min_angle_deg) + " degrees" + refined +

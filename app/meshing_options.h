@@ -38,7 +38,8 @@ void add_repeat(CLI::App& app, int& repeat);
 
 // Reports the resolved values: as "options" in JSON, as one line per group in text.
 // `farfield`: whether there is one, and airfoils in it; else the discretisation is the domain's own.
-void describe(Report& report, const MeshingOptions& options, bool farfield);
+// `points`: whether the airfoils have that many, and not those of their files.
+void describe(Report& report, const MeshingOptions& options, bool farfield, bool points);
 Json to_json(const MeshingOptions& options);
 
 }  // namespace remodel::app

@@ -25,7 +25,10 @@ Domain generated_with_airfoil(const Domain& old, const CstAirfoil& airfoil, cons
   Domain domain = old;
   CstAirfoil* place = find_airfoil(domain);
   if (place == nullptr) {
-    throw Error(ErrorCode::argument, file, "found a mesh without an airfoil, expected one to remodel");
+    throw Error(
+        ErrorCode::argument, file,
+        "found a mesh without an airfoil of coefficients, expected one, or --boundary with the name of the "
+        "loop to replace");
   }
   if (!closed_trailing_edge(*place) || !closed_trailing_edge(airfoil)) {
     return airfoil_domain(airfoil, discretisation_of(old));

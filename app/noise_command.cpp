@@ -1,5 +1,6 @@
 // remodel noise SHAPE --spacing S --count N: an objective along a line of designs, on fresh meshes, on one
-// living mesh, on copies of a hub and on morphs of one reference. It answers whether finite differences can be used, and with which step.
+// living mesh, on copies of a hub and on morphs of one reference. It answers whether finite differences can
+// be used, and with which step.
 
 #include "remodel/noise.h"
 
@@ -120,6 +121,7 @@ DesignLine line_of(const NoiseCommand& command, const AirfoilSpace& space) {
 
 Mesh finished_mesh(const Domain& domain, const QualityOptions& quality, StepObserver& observer) {
   GenerateResult result = generate(domain, quality, &observer);
+  if (result.stopped == Stopped::interrupted) throw Interrupted();
   if (result.stopped != Stopped::done)
     throw Error(ErrorCode::argument, "noise",
                 std::string("a mesh is unfinished (") + name_of(result.stopped) + "), expected whole ones");

@@ -102,7 +102,7 @@ void require_one_evaluator(const OptimiseCommand& command) {
 }
 
 // One run. Command, start and progress must outlive it.
-std::function<OptimiseResult()> once(const OptimiseCommand& command, const OptimiseStart& start,
+std::function<OptimiseResult()> once(const OptimiseCommand& command, OptimiseStart& start,
                                      Progress& progress) {
   if (!command.evaluate.command.empty()) {
     EvaluateOptions options = command.evaluate;
@@ -110,7 +110,7 @@ std::function<OptimiseResult()> once(const OptimiseCommand& command, const Optim
     std::shared_ptr<Evaluator> evaluator = shell_evaluator(options);
     return [&, evaluator] { return optimise(start.from, *evaluator, command.run, &progress); };
   }
-  CstAirfoil to = fit_shape(command.to, command.meshing.fit).airfoil;
+  CstAirfoil to = fit_shape(command.to, command.meshing.fit, start.fits).airfoil;
   // A search of coefficients does not change the trailing edge: the target has the start's.
   to.te_upper = start.from.te_upper, to.te_lower = start.from.te_lower;
   return [&, to] { return optimise(start.from, to, command.run, &progress); };
@@ -125,13 +125,13 @@ Status run(OptimiseCommand& command) {
   }
   if (command.run.resume && command.run.overwrite)
     throw Error(ErrorCode::argument, "--overwrite", "found with --resume, expected one of them");
-  const OptimiseStart start = read_start(command.start, command.meshing, command.run);
+  OptimiseStart start = read_start(command.start, command.meshing, command.run);
   const Json options = options_json(command);
   Progress progress(progress_style(command.quiet), command.run.evaluations, "options: " + options.dump());
   if (!command.evaluate.command.empty() && command.run.start)
     progress.say_at_first([&] {
       warn_of_inner_curves(command.run.start->mesh.freeze(), "mesh.su2 of the evaluator",
-                           "no marker of its is a curve inside the mesh");
+                           "which SU2 would take for a wall (no marker of its is a curve inside the mesh)");
     });
   const OptimiseResult result = run_repeatedly(command, once(command, start, progress));
   progress.finish();
@@ -142,6 +142,7 @@ Status run(OptimiseCommand& command) {
     report.figure("to", "to", command.to);
   else
     report.figure("evaluator", "evaluator", command.evaluate.command);
+  add_fit_figures(report, start.fits);
   report.data("options", options);
   add_result(report, result);
   add_last_mesh_figures(report, command);

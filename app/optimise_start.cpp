@@ -67,7 +67,7 @@ OptimiseStart read_start(const OptimiseStartOptions& options, const MeshingOptio
   run.domain = meshing.discretisation;
   run.quality = meshing.resolved_quality();
   OptimiseStart start;
-  start.from = fit_shape(options.from, meshing.fit).airfoil;
+  start.from = fit_shape(options.from, meshing.fit, start.fits).airfoil;
   return start;
 }
 

@@ -8,6 +8,7 @@
 
 #include "meshing_options.h"
 #include "remodel/optimise.h"
+#include "shape_input.h"
 #include "start_mesh.h"
 
 namespace remodel::app {
@@ -27,6 +28,7 @@ void add_optimise_start_options(CLI::App& app, OptimiseStartOptions& options);
 struct OptimiseStart {
   CstAirfoil from;
   std::optional<StartMesh> file;  // of a mesh start, without its mesh
+  std::vector<ShapeFit> fits;     // of coordinate files
   CstFit fit;                     // of the mesh's airfoil
   RemodelResult first;            // from the file's mesh to the fitted airfoil
 };

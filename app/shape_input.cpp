@@ -37,6 +37,12 @@ CstFit fit_shape(const std::string& shape, const FitOptions& options) {
   return {.airfoil = airfoil};
 }
 
+CstFit fit_shape(const std::string& shape, const FitOptions& options, std::vector<ShapeFit>& fits) {
+  const CstFit fit = fit_shape(shape, options);
+  if (is_coordinate_file(shape)) fits.push_back({shape, fit});
+  return fit;
+}
+
 void add_fit_figures(Report& report, const std::vector<ShapeFit>& fits) {
   Json list = Json::array();
   for (const auto& [shape, fit] : fits) {

@@ -21,6 +21,8 @@ struct ShapeFit {
   std::string shape;
   CstFit fit;
 };
+// The same, and adds the fit of a file of coordinates to those to be reported.
+CstFit fit_shape(const std::string& shape, const FitOptions& options, std::vector<ShapeFit>& fits);
 // Reports fits of coordinate files: as "fits" in JSON, as a line each in text. Nothing if there are none.
 void add_fit_figures(Report& report, const std::vector<ShapeFit>& fits);
 

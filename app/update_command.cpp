@@ -1,9 +1,12 @@
 // remodel update MESH SHAPE... [-o MESH]...: the same mesh, remodelled to another shape.
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "arguments.h"
 #include "carry.h"
@@ -37,19 +40,58 @@ struct UpdateCommand {
   bool json = false;
 };
 
+// Triangles of the file that the new mesh has too, by the places of their corners: what import exchanges for
+// Delaunay triangles is lost as well as what the step replaces.
+std::size_t triangles_in_common(const FrozenMesh& file, const FrozenMesh& after) {
+  const auto sorted_triangles = [](const FrozenMesh& mesh) {
+    using Place = std::pair<double, double>;
+    std::vector<std::array<Place, 3>> triangles;
+    for (const auto& triangle : mesh.triangles) {
+      std::array<Place, 3> corners;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Point p = mesh.points[triangle[k]];
+        corners[k] = {p.x, p.y};
+      }
+      std::sort(corners.begin(), corners.end());
+      triangles.push_back(corners);
+    }
+    std::sort(triangles.begin(), triangles.end());
+    return triangles;
+  };
+  const auto of_file = sorted_triangles(file), now = sorted_triangles(after);
+  std::size_t common = 0;
+  for (const auto& triangle : of_file) common += std::binary_search(now.begin(), now.end(), triangle);
+  return common;
+}
+
 // Triangles that are lost are what a solver pays for: nobody should find out from its run time.
-void warn_of_losses(const UpdateCommand& command, const RemodelResult& result) {
-  const std::string lost = std::to_string(result.triangles_before - result.preserved) + " of " +
-                           std::to_string(result.triangles_before) + " triangles were not preserved";
-  std::string message;
+void warn_of_losses(const UpdateCommand& command, const StartMesh& start, const Mesh& mesh,
+                    const RemodelResult& result) {
+  const auto of = [](std::size_t part, std::size_t all) {
+    return std::to_string(part) + " of " + std::to_string(all);
+  };
+  const auto say = [&](const std::string& message) {
+    std::fprintf(stderr, "remodel: %s: %s\n", command.mesh.c_str(), message.c_str());
+  };
+  const std::string lost = of(result.triangles_before - result.preserved, result.triangles_before) +
+                           " triangles were not preserved";
   if (result.abandoned)
-    message =
-        "cannot be completed without generating the mesh afresh: " + result.reason + "; nothing was written";
-  else if (result.regenerated)
-    message = "generated afresh, " + lost + ": " + result.reason;
-  else if (2 * (result.morphed ? result.connected : result.preserved) < result.triangles_before)
-    message = lost;
-  if (!message.empty()) std::fprintf(stderr, "remodel: %s: %s\n", command.mesh.c_str(), message.c_str());
+    return say("cannot be completed without generating the mesh afresh: " + result.reason +
+               "; nothing was written");
+  if (result.regenerated) return say("generated afresh, " + lost + ": " + result.reason);
+  if (2 * result.preserved < result.triangles_before)
+    return say(!result.morphed
+                   ? lost
+                   : lost + ", as their vertices moved; " + of(result.connected, result.triangles_before) +
+                         " join the same vertices as before");
+  if (!start.imported || start.imported->flipped_edges == 0) return;
+  const FrozenMesh file = read_frozen_mesh(command.mesh);
+  const std::size_t common = triangles_in_common(file, mesh.freeze());
+  if (2 * common < file.triangles.size())
+    say(of(file.triangles.size() - common, file.triangles.size()) +
+        " triangles of the file are not in the new mesh: " +
+        std::to_string(start.imported->non_delaunay_edges) +
+        " of its edges are not Delaunay, and Delaunay triangles took their places");
 }
 
 void add_figures(Report& report, const RemodelResult& result) {
@@ -79,14 +121,15 @@ void add_figures(Report& report, const RemodelResult& result) {
 DomainInput new_domain(const StartMesh& start, const UpdateCommand& command) {
   if (is_single_airfoil(command.shapes)) {
     const std::string& shape = command.shapes.shapes[0];
-    const CstFit fit = fit_shape(shape, command.fit);
-    DomainInput input{.domain = with_new_airfoil(start, command.start, fit.airfoil)};
-    if (is_coordinate_file(shape)) input.fits.push_back({shape, fit});
+    DomainInput input;
+    const CstFit fit = fit_shape(shape, command.fit, input.fits);
+    input.domain = with_new_airfoil(start, command.start, fit.airfoil);
     return input;
   }
   if (!command.start.boundary.empty())
     throw Error(ErrorCode::argument, "--boundary",
-                "given with a whole domain, expected one airfoil to put there");
+                "given with a whole domain (several airfoils, a domain file, --place, --name or --as-given), "
+                "expected one airfoil to put there");
   AirfoilDomainOptions discretisation = discretisation_of(start.mesh.domain());
   if (command.start.points) discretisation.points = *command.start.points;
   return read_domain(command.shapes, discretisation, command.fit);
@@ -132,7 +175,7 @@ Status run(const UpdateCommand& command) {
     command.outputs.write(mesh, cargo.fields());
     cargo.write_state(after);
   }
-  warn_of_losses(command, result);
+  warn_of_losses(command, start, mesh, result);
 
   Report report;
   report.line("mesh", command.mesh);

@@ -27,7 +27,7 @@ void require_new(const fs::path& directory) {
   if (!fs::exists(directory, problem)) return;
   if (StudyStore::exists(directory))
     throw Error(ErrorCode::argument, directory.string(),
-                "holds a study: expected resume, or another directory");
+                "holds a study: expected another directory, or --resume to go on with it");
   for (const fs::directory_entry& entry : fs::directory_iterator(directory))
     if (!is_temporary(entry.path()))
       throw Error(ErrorCode::file, directory.string(),

@@ -78,8 +78,8 @@ struct AirfoilCoordinates {
 // and commas, numbers such as -.0228, open and closed trailing edges, leading edges that are not the
 // minimum-x point, either surface first, and lines of text before and after the coordinates: the first line
 // is the name. At most 16 MiB. Throws Error (file, format) naming file and line,
-// also for fewer than 3 points a surface, repeated points, x out of order, surfaces that cross, ends that do
-// not meet in x. read_airfoil() of remodel/shape_files.h reads a file.
+// also for fewer than 3 points a surface, x out of order, surfaces that cross, ends that do not meet in x. A
+// point that is there twice in a row counts once. read_airfoil() of remodel/shape_files.h reads a file.
 AirfoilCoordinates parse_airfoil(std::string_view text, const std::string& source);
 
 // What a fit does with a trailing edge that is open: te_upper and te_lower are the file's, or 0. A gap of

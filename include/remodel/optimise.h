@@ -163,7 +163,8 @@ class OptimiseObserver {
   // After each evaluation, from the thread that runs optimise().
   virtual void evaluated(const EvaluationRecord& record) { static_cast<void>(record); }
   // Asked before each evaluation, or where there are workers before those that they do at once; true ends the
-  // run in order, with a checkpoint. Evaluations that take long ask too, from their own threads.
+  // run in order, with a checkpoint. Evaluations that take long ask too, from their own threads. Asked while
+  // the first mesh is made too, before which there is no run: then nothing is left.
   virtual bool cancelled() { return false; }
 };
 

@@ -248,8 +248,25 @@ OptimiseResult Run::finish(OptimiseStopped stopped) {
   return result;
 }
 
+// A history of evaluations is a run too, whatever became of its checkpoint. That of a start that was killed
+// has none.
+bool has_evaluations(const fs::path& history) {
+  if (!fs::exists(history)) return false;
+  bool any = false;
+  History::open(history).each([&](const EvaluationRecord&) { any = true; });
+  return any;
+}
+
 void refuse_other_run(const OptimiseOptions& options) {
-  if (options.overwrite || !has_checkpoint(options.directory)) return;
+  if (options.overwrite) return;
+  if (!has_checkpoint(options.directory)) {
+    if (has_evaluations(options.directory / "history.sqlite"))
+      throw Error(
+          ErrorCode::argument, options.directory.string(),
+          "holds the history of a run without its checkpoint: expected another directory, or --overwrite "
+          "to replace it");
+    return;
+  }
   const Checkpoint other = read_checkpoint(options.directory);
   throw Error(ErrorCode::argument, options.directory.string(),
               "holds " + std::string(other.finished ? "a finished run" : "an unfinished run") + " of " +
@@ -353,9 +370,10 @@ Progress go_on(const DesignProblem& problem, const Evaluating& evaluating) {
           .earlier_seconds = checkpoint.seconds};
 }
 
-OptimiseResult unmeshable_start(const DesignProblem& problem, const OptimiseOptions& options) {
+OptimiseResult without_start(const DesignProblem& problem, const OptimiseOptions& options, Stopped stopped) {
   OptimiseResult result;
-  result.stopped = OptimiseStopped::mesh_limit;
+  result.stopped =
+      stopped == Stopped::interrupted ? OptimiseStopped::interrupted : OptimiseStopped::mesh_limit;
   result.workers = worker_count(options, problem.designer.population());
   result.best_design = problem.space.start();
   if (problem.complete) problem.complete(result);
@@ -386,11 +404,11 @@ OptimiseResult run_design_loop(const DesignProblem& problem, const OptimiseOptio
     directory.emplace(options.directory);
     refuse_other_run(options);
   }
-  std::optional<Mesh> first = first_mesh(problem.space, options);
-  if (!first) return unmeshable_start(problem, options);
+  const GenerateResult first = first_mesh(problem.space, options, &question);
+  if (first.stopped != Stopped::done) return without_start(problem, options, first.stopped);
   if (!directory) directory.emplace(options.directory);
   refuse_other_run(options);
-  Run run(begin(problem, evaluating, std::move(*directory), *first), problem, options);
+  Run run(begin(problem, evaluating, std::move(*directory), first.mesh), problem, options);
   return run.finish(run.evaluate_all(listener));
 }
 

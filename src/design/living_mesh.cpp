@@ -96,18 +96,20 @@ QualityOptions quality_of(const OptimiseOptions& options) {
   return quality;
 }
 
-std::optional<Mesh> first_mesh(const DesignSpace& space, const OptimiseOptions& options) {
+GenerateResult first_mesh(const DesignSpace& space, const OptimiseOptions& options, StepObserver* observer) {
   const Domain domain = space.domain(space.start());
-  const RemodelOptions step = step_options(options);
+  RemodelOptions step = step_options(options);
+  step.observer = observer;
   if (options.start) {
     Mesh mesh = options.start->mesh;
-    if (remodel(mesh, domain, step).stopped != Stopped::done) return std::nullopt;
-    return mesh;
+    const Stopped stopped = remodel(mesh, domain, step).stopped;
+    return {std::move(mesh), stopped};
   }
-  GenerateResult generated = generate(domain, quality_of(options));
-  if (generated.stopped != Stopped::done) return std::nullopt;
-  if (step.strategy != Strategy::chain) calibrate(generated.mesh.data(), RenewPolicy::samples_before_a_run);
-  return std::move(generated.mesh);
+  GenerateResult generated = generate(domain, quality_of(options), observer);
+  if (generated.stopped != Stopped::done || step.strategy == Strategy::chain) return generated;
+  calibrate(generated.mesh.data(), RenewPolicy::samples_before_a_run, observer);
+  if (observer != nullptr && observer->cancelled()) generated.stopped = Stopped::interrupted;
+  return generated;
 }
 
 LivingMesh::LivingMesh(const OptimiseOptions& options, const DesignSpace& space, Mesh mesh,

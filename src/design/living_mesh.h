@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "remodel/design_space.h"
+#include "remodel/generate.h"
 #include "remodel/living_mesh.h"
 #include "remodel/mesh.h"
 #include "remodel/optimise.h"
@@ -26,8 +27,10 @@ struct StepTasks {
 // The quality that a run's meshes promise.
 QualityOptions quality_of(const OptimiseOptions& options);
 
-// The mesh of the space's start, as a run begins with it. None where a limit keeps it from being finished.
-std::optional<Mesh> first_mesh(const DesignSpace& space, const OptimiseOptions& options);
+// The mesh of the space's start, as a run begins with it. Anything but Stopped::done: a limit, or the
+// observer, has kept it from being finished.
+GenerateResult first_mesh(const DesignSpace& space, const OptimiseOptions& options,
+                          StepObserver* observer = nullptr);
 
 class LivingMesh {
  public:

@@ -102,7 +102,7 @@ TEST_F(OptimiseRun, EvaluatesTheSameDesignsWhateverTheStrategy) {
 TEST_F(OptimiseRun, GoesOnFromAnInterruptToTheSameHistoryAndMesh) {
   optimise(from_, to_, options("whole"));
   OptimiseOptions parts = options("parts");
-  for (const std::uint64_t stop : {0, 7, 8, 40}) {
+  for (const std::uint64_t stop : {1, 7, 8, 40}) {
     StopAfter observer(stop, StopAfter::How::cancel);
     const OptimiseResult result = optimise(from_, to_, parts, &observer);
     EXPECT_EQ(result.stopped, OptimiseStopped::interrupted);
@@ -110,6 +110,12 @@ TEST_F(OptimiseRun, GoesOnFromAnInterruptToTheSameHistoryAndMesh) {
   }
   EXPECT_EQ(optimise(from_, to_, parts).stopped, OptimiseStopped::done);
   expect_same_runs(root_ / "whole", root_ / "parts");
+}
+
+TEST_F(OptimiseRun, LeavesNothingWhereItIsEndedBeforeItsFirstMesh) {
+  StopAfter observer(0, StopAfter::How::cancel);
+  EXPECT_EQ(optimise(from_, to_, options("early"), &observer).stopped, OptimiseStopped::interrupted);
+  EXPECT_FALSE(std::filesystem::exists(root_ / "early"));
 }
 
 TEST_F(OptimiseRun, GoesOnFromTheLastCheckpointOfAKilledRun) {

@@ -15,11 +15,11 @@
 #include <string>
 #include <vector>
 
+#include "base/threads.h"
 #include "design/design_profile.h"
 #include "design/hub.h"
 #include "design/living_mesh.h"
 #include "design/regeneration_rule.h"
-#include "base/threads.h"
 #include "remodel/designer.h"
 #include "remodel/evaluator.h"
 #include "remodel/optimise.h"

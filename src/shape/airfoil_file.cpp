@@ -76,13 +76,9 @@ Rows outline_of_lednicer(const Rows& rows, const std::string& source) {
   return outline;
 }
 
-void check_no_repetition(const Rows& outline, const std::string& source) {
-  for (std::size_t i = 1; i < outline.size(); ++i) {
-    if (outline[i].point == outline[i - 1].point) {
-      refuse_file(place(source, outline[i]),
-                  "found the same point twice in a row, expected different points");
-    }
-  }
+void drop_repetitions(Rows& outline) {
+  const auto same = [](const AirfoilRow& a, const AirfoilRow& b) { return a.point == b.point; };
+  outline.erase(std::unique(outline.begin(), outline.end(), same), outline.end());
 }
 
 // The parametrisation is y over x, so the leading edge is where x is smallest, whatever point the file's
@@ -174,8 +170,8 @@ std::vector<Point> points_of(const Rows& rows) {
 
 }  // namespace
 
-AirfoilCoordinates surfaces_of_outline(std::string name, const Rows& outline, const std::string& source) {
-  check_no_repetition(outline, source);
+AirfoilCoordinates surfaces_of_outline(std::string name, Rows outline, const std::string& source) {
+  drop_repetitions(outline);
   const auto nose = outline.begin() + static_cast<std::ptrdiff_t>(leading_edge(outline));
   Rows upper(outline.begin(), nose + 1);
   std::reverse(upper.begin(), upper.end());

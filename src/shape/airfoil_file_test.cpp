@@ -267,9 +267,17 @@ TEST(AirfoilFile, RefusesTooFewPoints) {
   EXPECT_NO_THROW(parse_airfoil("1 0\n.5 .1\n0 0\n.5 -.1\n1 0\n", "wing.dat"));
 }
 
-TEST(AirfoilFile, RefusesRepeatedPoints) {
-  EXPECT_TRUE(says(refusal(with_line(3, selig_lines[2])), "wing.dat:5"));
-  EXPECT_TRUE(says(refusal(with_line(3, selig_lines[2])), "twice"));
+TEST(AirfoilFile, TakesAPointThatIsThereTwiceForOne) {
+  for (std::size_t i = 0; i < selig_lines.size(); ++i) {
+    std::vector<std::string> lines = selig_lines;
+    lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(i), lines[i]);
+    expect_wedge(parse_airfoil("wedge\n" + joined(lines), "wing.dat"));
+  }
+}
+
+TEST(AirfoilFile, TakesACountBeforeTheCoordinates) {
+  expect_wedge(parse_airfoil("wedge\n129\n" + joined(selig_lines), "wing.dat"));
+  EXPECT_TRUE(says(refusal("wedge\n" + joined(selig_lines) + "129\n"), "wing.dat:11"));
 }
 
 TEST(AirfoilFile, RefusesPointsOutOfOrder) {

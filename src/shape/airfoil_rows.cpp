@@ -111,6 +111,12 @@ bool is_two_numbers(std::string_view line) {
   return tokens.size() == 2 && number_of(tokens[0]) && number_of(tokens[1]);
 }
 
+// A line of its own before the coordinates: "129".
+bool is_count(std::string_view line) {
+  return line.size() > 1 &&
+         std::all_of(line.begin(), line.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
@@ -177,7 +183,7 @@ AirfoilRows read_airfoil_rows(std::string_view text, const std::string& source) 
     const bool box = result.rows.empty() && is_box_of_mses(content);
     if (first && !box && !is_two_numbers(content)) {
       result.name = content;
-    } else if (box) {
+    } else if (box || (result.rows.empty() && is_count(content))) {
       // It says nothing of the airfoil.
     } else if (is_remark(content)) {
       if (remark.empty() && !result.rows.empty()) remark = content, remark_line = number;

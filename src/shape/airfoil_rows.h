@@ -28,8 +28,9 @@ inline constexpr std::size_t airfoil_text_limit = std::size_t{16} << 20;
 AirfoilRows read_airfoil_rows(std::string_view text, const std::string& source);
 
 // The surfaces of a closed or open outline that runs from the trailing edge around the leading edge back to
-// the trailing edge, in either direction. Throws Error (format) where it is no airfoil's.
-AirfoilCoordinates surfaces_of_outline(std::string name, const std::vector<AirfoilRow>& outline,
+// the trailing edge, in either direction; a point that is there twice in a row counts once. Throws Error
+// (format) where it is no airfoil's.
+AirfoilCoordinates surfaces_of_outline(std::string name, std::vector<AirfoilRow> outline,
                                        const std::string& source);
 
 }  // namespace remodel

@@ -64,7 +64,7 @@ Stopped refine_touched(MeshData& mesh, Step::Made made, StepObserver* observer) 
   const Triangulation& triangulation = mesh.triangulation;
   Refiner refiner(mesh, observer);
   const std::size_t count = triangulation.vertex_count();
-  const std::size_t runaway = morphed ? count + count / 2 + 1000 : 4 * count + 10000;
+  const std::size_t runaway = morphed ? count + count / 2 + 1000 : 8 * count + 10000;
   refiner.limit_vertices(std::min<std::size_t>(mesh.options.max_vertices, runaway));
   if (morphed) {
     const auto consider = [&](TriangleId t) {
@@ -371,6 +371,9 @@ bool Step::change_under_journal() {
   if (surplus || (renewing_ && mesh.renewal.until_shed > 0)) shed_and_refine();
   if (result_.stopped != Stopped::done) {
     failure_ = std::string("refinement stopped: ") + name_of(result_.stopped);
+    if (result_.stopped == Stopped::vertex_budget &&
+        mesh.triangulation.vertex_count() < mesh.options.max_vertices)
+      failure_ = "refinement ran away: it needed several times as many vertices as the mesh had";
     return false;
   }
   require_points_in_domain(mesh);
@@ -385,8 +388,10 @@ bool Step::change_under_journal() {
 }
 
 // A boundary of fewer points than before leaves a mesh that is far too dense, and so may a row of morphs.
+// Steiner vertices that the dense mesh put on boundaries go first: they would keep what lies around them
+// dense.
 void Step::shed_and_refine() {
-  bool dissolved = morphing_ && dissolve_dense(data(), RenewPolicy::dense_below);
+  bool dissolved = dissolve_dense(data(), RenewPolicy::dense_below);
   for (int pass = 0; pass < RenewPolicy::shedding_passes; ++pass) {
     if (result_.stopped != Stopped::done) break;
     const bool shed = shed_surplus(data());

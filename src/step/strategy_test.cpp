@@ -346,14 +346,16 @@ TEST(Renew, ReturnsFromATrialToTheLastBit) {
 }
 
 // What a boundary of many more points leaves behind goes with the next steps.
-TEST(Renew, SurplusOfAnotherDiscretisationIsGoneAfterThreeSteps) {
+TEST(Renew, SurplusOfAnotherDiscretisationIsGoneInTheStepThatChangesIt) {
   const auto airfoil = [](std::size_t i) { return airfoil_catalogue()[i].airfoil(); };
-  Mesh mesh = generated(airfoil_domain(airfoil(0), {.points = 2000}), {.gradation = 4.0});
-  for (std::size_t i = 0; i < 3; ++i) remodel(mesh, airfoil_domain(airfoil(i), {.points = 100}), renewing);
-  EXPECT_EQ(mesh.quick_check(), "");
-  const double wanted = measured_count_factor(mesh.data(), 5, nullptr) * size_of(mesh.data());
-  EXPECT_LT(static_cast<double>(mesh.triangle_count()), 1.06 * wanted);
-  EXPECT_GT(static_cast<double>(mesh.triangle_count()), 0.95 * wanted);
+  for (const std::size_t last : {0, 1}) {  // the same airfoil, or another one
+    Mesh mesh = generated(airfoil_domain(airfoil(0), {.points = 2000}), {.gradation = 4.0});
+    remodel(mesh, airfoil_domain(airfoil(last), {.points = 100}), renewing);
+    EXPECT_EQ(mesh.quick_check(), "");
+    const double wanted = measured_count_factor(mesh.data(), 5, nullptr) * size_of(mesh.data());
+    EXPECT_LT(static_cast<double>(mesh.triangle_count()), 1.05 * wanted);
+    EXPECT_GT(static_cast<double>(mesh.triangle_count()), 0.95 * wanted);
+  }
 }
 
 // What a step needs of those before is in the state, which native files hold.

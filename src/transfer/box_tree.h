@@ -43,7 +43,7 @@ class BoxTree {
   // The box with the least squared distance(box number), the first of several, where that is less than the
   // one given. Precondition: no distance is less than that to the box.
   template <class Distance>
-  Nearest nearest(Point p, Distance distance, Nearest best = {}) const {
+  Nearest nearest(Point p, Distance distance, Nearest best) const {
     if (!boxes_.empty()) nearest(0, 0, order_.size(), p, distance, best);
     return best;
   }

@@ -66,6 +66,8 @@ class Airfoils(ProgramTest):
                     self.assertEqual(figures["stopped"], "done")
                     self.assertTrue(self.figures("check", "x.vtkhdf")["valid"])
                     self.assertNotIn("fits", figures)
+                    self.assertAlmostEqual(figures["outlines"][0]["trailing_edge_gap"], gap, delta=1e-6)
+                    self.refused("mesh", file, "--as-given", curve, "--close-trailing-edge", names="--close-trailing-edge")
                     self.succeed("convert", "x.vtkhdf", "-o", "x.su2")
                     lines = self.path("x.su2").read_text().splitlines()
                     found = [tuple(map(float, l.split()[:2])) for l in lines if len(l.split()) == 3]

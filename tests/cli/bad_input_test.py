@@ -69,10 +69,6 @@ class AirfoilFiles(ProgramTest):
         self.refuse_content(shapes.text_of([points[0], points[20], points[-1]]))
         self.refuse_content(shapes.text_of(points[:1]))
 
-    def test_repeated_points(self):
-        points = shapes.selig_points()
-        self.refuse_content(shapes.text_of(points[:10] + [points[9]] + points[10:]))
-
     def test_one_point_many_times(self):
         self.refuse_content(shapes.text_of([(0.5, 0.0)] * 40))
 

@@ -97,6 +97,18 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual(missing, [], f"keys that are not in {sorted(figures)}")
 
 
+def read_terminal(descriptor):
+    """All that is shown on a pseudo-terminal until its other end is closed; closes this end."""
+    shown = b""
+    while True:
+        try:
+            shown += os.read(descriptor, 4096)
+        except OSError:
+            break
+    os.close(descriptor)
+    return shown
+
+
 def shared_file(test, name):
     file = SHARED / name
     if not file.exists():

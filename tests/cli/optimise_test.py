@@ -254,14 +254,7 @@ print(json.dumps({"objective": sum(a * a for a in design), "constraints": [0.1 -
             stdout=subprocess.DEVNULL,
         ) as process:
             os.close(terminal)
-            shown = b""
-            while True:
-                try:
-                    part = os.read(ours, 4096)
-                except OSError:  # the other end is closed
-                    break
-                shown += part
-        os.close(ours)
+            shown = harness.read_terminal(ours)
         self.assertEqual(process.returncode, 0, shown)
         heading, *lines = shown.decode().removesuffix("\r\n").split("\r\n")
         self.assertTrue(heading.startswith("options: "), heading)
@@ -286,6 +279,9 @@ print(json.dumps({"objective": sum(a * a for a in design), "constraints": [0.1 -
         self.refused(*self.arguments(10, "run", "--overwrite", "--resume"), names="--overwrite")
         self.assertEqual(self.path("run", "history.sqlite").read_bytes(), before)
         self.succeed(*self.arguments(10, "run", "--overwrite"))
+        self.assertEqual(len(self.designs("run")), 10)
+        self.path("run", "checkpoint.json").unlink()
+        self.refused(*self.arguments(20), names="without its checkpoint")
         self.assertEqual(len(self.designs("run")), 10)
 
     def test_resume_with_other_options_is_refused(self):

@@ -4,10 +4,13 @@ import fcntl
 import json
 import math
 import os
+import pty
 import re
 import shutil
 import signal
+import struct
 import subprocess
+import termios
 import time
 
 import harness
@@ -214,6 +217,31 @@ class Interrupts(ProgramTest):
         self.assertEqual(status, 3)
         self.assertFalse(self.path("b.vtkhdf").exists())
 
+    # The mesh that comes before a flow, and the samples that come before a run, take seconds here.
+    def test_end_with_status_3_before_the_work_itself(self):
+        flow = ("flow", "naca:0012", "--mach", 0.5, "--points", 12000, "--gradation", 240)
+        status, stderr = self.interrupted(*flow)
+        self.assertEqual((status, stderr), (3, "remodel: interrupted\n"))
+        began = time.monotonic()
+        run = ("optimise", "--from", "naca:0012", "--to", "rae2822", "--points", 8000, "--gradation", 160, "-o", "run")
+        status, stderr = self.interrupted(*run)
+        self.assertEqual(status, 3, stderr)
+        self.assertLess(time.monotonic() - began, 10)
+        self.assertFalse(self.path("run").exists())
+
+    # A terminal writes ^C: what comes next stands in a line of its own.
+    def test_leave_a_clean_line_on_a_terminal(self):
+        ours, terminal = pty.openpty()
+        with subprocess.Popen([harness.PROGRAM, "soak", "--steps", "100000"], stdin=terminal, stdout=terminal,
+                              stderr=terminal, start_new_session=True, cwd=self.directory,
+                              preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0)) as process:
+            os.close(terminal)
+            time.sleep(0.5)
+            os.write(ours, b"\x03")
+            shown = harness.read_terminal(ours)
+        self.assertEqual(process.returncode, 3, shown)
+        self.assertIn(b"^C\r\x1b[K", shown)
+
     # Reading from a pipe that nobody writes to.
     def test_end_with_status_3_where_nothing_looks_for_them(self):
         os.mkfifo(self.path("pipe.su2"))
@@ -239,6 +267,16 @@ class Help(ProgramTest):
             self.assertEqual(text, self.succeed(*command.split(), "--help").stdout)
             self.assertLessEqual(max(map(len, text.splitlines())), 100, text)
             self.assertEqual("Exit status" in text, text == overview)
+
+    def test_help_fits_a_narrow_terminal(self):
+        for command in ("mesh", "update", "film", "optimise"):
+            ours, terminal = pty.openpty()
+            fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 60, 0, 0))
+            with subprocess.Popen([harness.PROGRAM, command, "--help"], stdout=terminal) as process:
+                os.close(terminal)
+                shown = harness.read_terminal(ours)
+            self.assertEqual(process.returncode, 0)
+            self.assertLessEqual(max(map(len, shown.decode().split("\r\n"))), 60, shown)
 
     def test_version(self):
         self.assertRegex(self.succeed("--version").stdout, r"^\d+\.\d+\.\d+\n$")
@@ -300,6 +338,18 @@ class Batches(ProgramTest):
         self.succeed(*again, "--overwrite")
         self.assertEqual(sorted(path.name for path in self.path("out").iterdir()),
                          ["001.vtkhdf", "002.vtkhdf", "notes.txt", "report.json"])
+
+    def test_a_batch_does_not_write_into_a_run(self):
+        self.succeed("optimise", "--from", "naca:0012", "--to", "rae2822", "--points", 50, "--evaluations", 5, "-o", "run")
+        before = sorted(path.name for path in self.path("run").iterdir())
+        for more in ((), ("--overwrite",)):
+            self.refused("batch", "a.vtkhdf", "rae2822", "-o", "run", *more, names="of a run")
+        self.assertEqual(sorted(path.name for path in self.path("run").iterdir()), before)
+
+    def test_fits_of_files_are_reported(self):
+        self.write("open.dat", shapes.selig())
+        figures = self.figures("batch", "a.vtkhdf", "rae2822", "open.dat", "-o", "out")
+        self.assertEqual([fit["shape"] for fit in figures["fits"]], ["open.dat"])
 
     def test_meshes_in_several_formats(self):
         figures = self.figures("batch", "a.vtkhdf", *self.SHAPES[:2], "-o", "out", "--meshes", "su2,vtkhdf")
@@ -418,6 +468,39 @@ class Updates(ProgramTest):
         self.assertIn("triangles were not preserved", outcome.stderr)
         outcome = self.succeed("update", "b.vtkhdf", "naca:0012", "-o", "c.vtkhdf")
         self.assertEqual(outcome.stderr, "")
+
+    # Every vertex of a morph may move, and all its triangles stay joined: that is said too.
+    def test_a_morph_says_how_many_triangles_have_moved(self):
+        self.succeed("mesh", "naca:0012", "--points", 50, "--farfield-radius", 2, "-o", "a.vtkhdf")
+        outcome = self.succeed("update", "a.vtkhdf", "naca:4424", "--strategy", "morph", "-o", "b.vtkhdf", "--json")
+        self.assertLess(outcome.json()["preserved_percent"], 50)
+        self.assertRegex(outcome.stderr, r"\d+ of \d+ triangles were not preserved, as their vertices moved; \d+ of")
+
+    # Long diagonals of thin cells: Delaunay triangles take the places of nearly all, before the step.
+    def test_a_mesh_that_is_not_delaunay_loses_triangles_in_its_import(self):
+        rows, columns = 12, 12
+        points = [(i + 0.6 * j, 0.3 * j) for j in range(rows + 1) for i in range(columns + 1)]
+        at = lambda i, j: j * (columns + 1) + i
+        cells = [(i, j) for j in range(rows) for i in range(columns) if not (4 <= i < 7 and 4 <= j < 7)]
+        triangles = [t for i, j in cells for t in ((at(i, j), at(i + 1, j), at(i + 1, j + 1)),
+                                                   (at(i, j), at(i + 1, j + 1), at(i, j + 1)))]
+        edges = {}
+        for t in triangles:
+            for a, b in zip(t, t[1:] + t[:1]):
+                edges[tuple(sorted((a, b)))] = None if tuple(sorted((a, b))) in edges else (a, b)
+        boundary = [e for e in edges.values() if e]
+        inner = lambda v: 4 <= v % (columns + 1) <= 7 and 4 <= v // (columns + 1) <= 7
+        markers = {"hole": [e for e in boundary if inner(e[0]) and inner(e[1])]}
+        markers["outer"] = [e for e in boundary if e not in markers["hole"]]
+        text = f"NDIME= 2\nNELEM= {len(triangles)}\n" + "".join(f"5 {a} {b} {c}\n" for a, b, c in triangles)
+        text += f"NPOIN= {len(points)}\n" + "".join(f"{x} {y}\n" for x, y in points) + f"NMARK= {len(markers)}\n"
+        for name, found in markers.items():
+            text += f"MARKER_TAG= {name}\nMARKER_ELEMS= {len(found)}\n" + "".join(f"3 {a} {b}\n" for a, b in found)
+        self.write("sheared.su2", text)
+        outcome = self.run_program("update", "sheared.su2", "naca:0012", "--boundary", "hole", "-o", "b.su2", "--json")
+        self.assertEqual(outcome.status, 0, outcome)
+        self.assertGreater(outcome.json()["import"]["non_delaunay_edges"], 0)
+        self.assertRegex(outcome.stderr, r"sheared.su2: \d+ of \d+ triangles of the file are not in the new mesh")
 
     def test_the_specialised_method_is_never_replaced_by_another(self):
         self.mesh(points=50)
