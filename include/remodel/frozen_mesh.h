@@ -40,6 +40,9 @@ struct FrozenMesh {
   // Per point: VertexKey::value(), which is never given out again in the life of a mesh, over regenerations
   // and files too. Points ascend by vertex id.
   std::vector<std::uint64_t> vertex_keys{};
+  // The highest generation of a key so far, of a vertex that is there or is not: import_mesh() goes on above
+  // it.
+  std::uint32_t last_generation = 0;
   // Per point: 1 on a boundary where refinement put it, 0 if it is the design's (or an imported file's).
   // Every format keeps it, so that an imported mesh has the design's own points.
   std::vector<std::uint8_t> steiner{};

@@ -28,6 +28,9 @@ struct VertexKey {
   friend auto operator<=>(const VertexKey&, const VertexKey&) = default;
   // Id and generation as one number, as they stand in files.
   std::uint64_t value() const { return std::uint64_t{generation} << 32 | id.index; }
+  static VertexKey of(std::uint64_t value) {
+    return {{static_cast<std::uint32_t>(value)}, static_cast<std::uint32_t>(value >> 32)};
+  }
 };
 
 }  // namespace remodel

@@ -5,8 +5,8 @@
 //
 // The promises of an imported mesh differ from place to place:
 //  - Its *kept* triangles are the file's (birth 0): not better than the file made them. No triangle of the
-//    mesh ever gets worse than the worst of them was in the file, or than refine_angle_deg where that is less:
-//    that angle is the mesh's min_angle_deg.
+//    mesh ever gets worse than the worst of them was in the file, or than refine_angle_deg where that is
+//    less: that angle is the mesh's min_angle_deg.
 //  - Its *changed* triangles are the others (birth above 0). What refinement made of them keeps
 //    refine_angle_deg, but for small input angles; where boundary vertices were moved in place and nothing
 //    had to be refined, the mesh's min_angle_deg.
@@ -55,12 +55,14 @@ struct ImportResult {
   std::size_t flipped_edges = 0;       // of the file that the living mesh does not have: those, and ties
 };
 
-// A mesh as a file has it, made alive. Points and triangles keep their order; boundaries keep their names in
-// their order. The domain is made of polylines through the mesh's boundary points, one a run of edges with
-// equal names. Points that FrozenMesh::steiner says refinement added are Steiner vertices, the others the
-// design's own: a mesh that goes from step to step through files does not take its own refinement for a
-// design. Length scales are the triangles' own: no triangle of the file is too large for them. G is such that
-// nine tenths of the edges have length scales at their ends that differ by no more than length / G.
+// A mesh as a file has it, made alive. Points and triangles keep their order, vertices the keys that a living
+// mesh wrote with them (FrozenMesh::vertex_keys), and no key of the file is given to another vertex;
+// boundaries keep their names in their order. The domain is made of polylines through the mesh's boundary
+// points, one a run of edges with equal names. Points that FrozenMesh::steiner says refinement added are
+// Steiner vertices, the others the design's own: a mesh that goes from step to step through files does not
+// take its own refinement for a design. Length scales are the triangles' own: no triangle of the file is too
+// large for them. G is such that nine tenths of the edges have length scales at their ends that differ by no
+// more than length / G.
 //
 // Edges inside that have a name are internal curves, and so are those between two regions
 // (FrozenMesh::region), under the name "interface" where they have none: remodelling keeps them, and no

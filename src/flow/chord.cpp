@@ -123,7 +123,7 @@ Increment Preconditioner::apply(const State& state, const Vector& residual, cons
 ChordEnd chord_steps(const Measure& measure, Preconditioner& inverse, const Factors& factors,
                      const FlowOptions& options, State& state, Search& search) {
   constexpr std::size_t limit = 60, watched = 4;  // steps; over which the contraction is looked at
-  constexpr double largest_part = 0.4, rise = 3.0, fruitless = 0.9;
+  constexpr double largest_part = 0.4, rise = 6.0, fruitless = 0.9;
   Anderson anderson;
   Vector residual;
   Border border;

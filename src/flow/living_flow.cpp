@@ -51,7 +51,7 @@ std::vector<VertexKey> keys_of(const FrozenMesh& frozen) {
   std::vector<VertexKey> keys;
   keys.reserve(frozen.vertex_keys.size());
   for (const std::uint64_t key : frozen.vertex_keys)
-    keys.push_back({{static_cast<std::uint32_t>(key)}, static_cast<std::uint32_t>(key >> 32)});
+    keys.push_back(VertexKey::of(key));
   return keys;
 }
 

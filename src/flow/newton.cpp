@@ -114,16 +114,29 @@ FactorKind lasting_kind(const FlowOptions& options) {
   return options.solver == FlowSolver::gmres ? FactorKind::incomplete : FactorKind::whole;
 }
 
-Factored factor_at(const Euler& euler, const State& state, double cfl, FactorKind kind,
-                   const FlowOptions& options, BlockRows& matrix, Factors& factors, Search& search) {
+namespace {
+
+void jacobian_at(const Euler& euler, const State& state, double cfl, BlockRows& matrix) {
   euler.jacobian(state, matrix);
   if (cfl < full_cfl) add_pseudo_time(euler, state, cfl, matrix);
+}
+
+Factored factor(const Euler& euler, const State& state, FactorKind kind, const FlowOptions& options,
+                const BlockRows& matrix, Factors& factors, Search& search) {
   const Factored outcome = factors.factor(matrix, euler.border_columns(state), kind, options.memory_mb);
   ++search.factorisations;
   if (outcome != Factored::done) return outcome;
   search.memory_mb = std::max(search.memory_mb, factors.memory_mb());
   search.whole_factors = factors.whole();
   return outcome;
+}
+
+}  // namespace
+
+Factored factor_at(const Euler& euler, const State& state, double cfl, FactorKind kind,
+                   const FlowOptions& options, BlockRows& matrix, Factors& factors, Search& search) {
+  jacobian_at(euler, state, cfl, matrix);
+  return factor(euler, state, kind, options, matrix, factors, search);
 }
 
 void end_without_factors(Factored outcome, const FlowOptions& options, Search& search) {
@@ -150,11 +163,19 @@ void find_flow(const Euler& euler, const Measure& measure, const Pace& pace, con
   int end_of_march = search.newton_steps + pace.march;
   constexpr double smallest_cfl = 1e-2;
   FactorKind kind = options.solver == FlowSolver::lu ? FactorKind::whole : FactorKind::incomplete;
+  // Incomplete factors serve the matrices of the next steps too, until GMRES takes this many steps more with
+  // them than it took with the matrix of their own: new ones take about as long.
+  constexpr int steps_of_factors = 8;
+  bool worn = true;
+  int with_own = 0;
   while (search.residual > options.tolerance) {
     if (is_over(pace, options, last_halved, search)) return;
     const bool marching = search.newton_steps < end_of_march;
     if (marching) cfl = pace.cfl, least = halved = search.residual, last_halved = search.newton_steps;
-    const Factored outcome = factor_at(euler, state, cfl, kind, options, matrix, factors, search);
+    jacobian_at(euler, state, cfl, matrix);
+    const bool older = !worn && kind == FactorKind::incomplete;
+    const Factored outcome =
+        older ? Factored::done : factor(euler, state, kind, options, matrix, factors, search);
     const bool may_be_whole = kind != lasting_kind(options) && !factors.too_large(state.q.size());
     if (outcome == Factored::singular && may_be_whole) {
       kind = FactorKind::whole;
@@ -165,6 +186,12 @@ void find_flow(const Euler& euler, const Measure& measure, const Pace& pace, con
     const LinearStep linear = linear_step(euler, state, matrix, factors, residual, border,
                                           forcing(search.residual, options), options.observer);
     search.gmres_iterations += linear.iterations;
+    if (!older) with_own = linear.iterations;
+    worn = linear.iterations > with_own + steps_of_factors;
+    if (older && !linear.solved) {
+      worn = true;  // the same step once more, with factors of its own
+      continue;
+    }
     if (!(linear.left <= most_left) && may_be_whole) {
       kind = FactorKind::whole;  // the same step once more, and all to come
       continue;

@@ -15,20 +15,16 @@ namespace remodel {
 
 namespace {
 
-VertexId vertex_of(std::uint32_t point) {
-  return VertexId{point + 1};
-}
-
 // ---- the graft
 
 // Slots of the finished triangulation by those of the boundary's own.
-std::vector<VertexId> renumbered(const MeshData& filler, const LoopsOfMesh& loops) {
+std::vector<VertexId> renumbered(const MeshData& filler, const SoundMesh& mesh, const LoopsOfMesh& loops) {
   std::vector<VertexId> result(filler.triangulation.vertex_slots());
   result[infinite_vertex.index] = infinite_vertex;
   for (std::size_t loop = 0; loop < loops.points.size(); ++loop) {
     std::uint32_t k = filler.loop_heads[loop];
     for (const std::uint32_t point : loops.points[loop]) {
-      result[filler.at(k).vertex.index] = vertex_of(point);
+      result[filler.at(k).vertex.index] = mesh.vertex(point);
       k = filler.at(k).next;
     }
   }
@@ -51,8 +47,8 @@ using Edges = std::vector<std::pair<VertexId, VertexId>>;
 Edges inner_edges(const SoundMesh& mesh) {
   Edges edges;
   for (const InnerEdge& edge : mesh.inner) {
-    edges.push_back({vertex_of(edge.from), vertex_of(edge.to)});
-    edges.push_back({vertex_of(edge.to), vertex_of(edge.from)});
+    edges.push_back({mesh.vertex(edge.from), mesh.vertex(edge.to)});
+    edges.push_back({mesh.vertex(edge.to), mesh.vertex(edge.from)});
   }
   std::sort(edges.begin(), edges.end());
   return edges;
@@ -78,20 +74,35 @@ void link_triangles(std::vector<Triangle>& triangles, const Edges& inner) {
   }
 }
 
+// Each point in the slot of its vertex. Slots without one are free, and their next keys are new ones.
+void place_vertices(const SoundMesh& mesh, TriangulationState& state) {
+  const auto points = static_cast<std::uint32_t>(mesh.points.size());
+  const std::size_t slots = mesh.vertex(points - 1).index + std::size_t{1};
+  state.vertices.resize(slots);
+  state.generations.assign(slots, mesh.last_generation + (mesh.keys.empty() ? 1 : 0));
+  state.generations[infinite_vertex.index] = mesh.last_generation;
+  std::vector<bool> taken(slots, false);
+  taken[infinite_vertex.index] = true;
+  for (std::uint32_t i = 0; i < points; ++i) {
+    const VertexId v = mesh.vertex(i);
+    state.vertices[v.index].point = mesh.points[i];
+    if (!mesh.keys.empty()) state.generations[v.index] = mesh.keys[i].generation;
+    taken[v.index] = true;
+  }
+  for (auto i = static_cast<std::uint32_t>(slots); i-- > 0;)
+    if (!taken[i]) state.free_vertices.push_back(i);
+}
+
 }  // namespace
 
 void graft(const SoundMesh& mesh, const LoopsOfMesh& loops, MeshData& data) {
   discretise(data);
-  const std::vector<VertexId> vertices = renumbered(data, loops);
+  const std::vector<VertexId> vertices = renumbered(data, mesh, loops);
   TriangulationState state;
-  state.vertices.resize(mesh.points.size() + 1);
-  state.generations.assign(mesh.points.size() + 1, 1);
-  state.generations[infinite_vertex.index] = 0;
-  for (std::uint32_t i = 0; i < mesh.points.size(); ++i)
-    state.vertices[vertex_of(i).index].point = mesh.points[i];
+  place_vertices(mesh, state);
   for (const auto& corners : mesh.triangles) {
     Triangle& t = state.triangles.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) t.vertex[k] = vertex_of(corners[k]);
+    for (std::size_t k = 0; k < 3; ++k) t.vertex[k] = mesh.vertex(corners[k]);
     t.region = Region::domain;
   }
   for (std::uint32_t i = 0; i < data.triangulation.triangle_slots(); ++i) {

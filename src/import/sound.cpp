@@ -71,8 +71,26 @@ class Mender {
       if (mesh_.steiner.size() == mesh_.points.size()) sound_.steiner.push_back(mesh_.steiner[v]);
       number_.push_back(v);
     }
+    take_keys();
     for (const auto& [a, b, c] : mesh_.triangles) sound_.triangles.push_back({index[a], index[b], index[c]});
     index_ = std::move(index);
+  }
+
+  // Keys that a living mesh wrote ascend, and their ids leave few gaps: vertices go on with them. Of others
+  // it is enough that no key to come is one of them.
+  void take_keys() {
+    constexpr std::uint32_t largest_generation = 1U << 31;
+    if (mesh_.vertex_keys.size() != mesh_.points.size()) return;
+    std::uint32_t last = mesh_.last_generation, highest = 0;
+    bool ascending = true;
+    for (const std::uint32_t v : number_) {
+      const VertexKey key = VertexKey::of(mesh_.vertex_keys[v]);
+      ascending = ascending && key.id.index > highest && key.generation > 0;
+      highest = key.id.index, last = std::max(last, key.generation);
+      sound_.keys.push_back(key);
+    }
+    if (last > largest_generation || !ascending || highest > 2 * number_.size() + 1000) sound_.keys.clear();
+    if (last <= largest_generation) sound_.last_generation = last;
   }
 
   void refuse_coinciding_points() const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "remodel/frozen_mesh.h"
+#include "remodel/ids.h"
 
 namespace remodel {
 
@@ -39,6 +40,11 @@ struct SoundMesh {
   std::vector<InnerEdge> inner;
   std::vector<std::uint32_t> region;  // per triangle; empty: there is one alone
   std::vector<std::string> region_names;
+  // The keys that the vertices go on with, ascending; empty: they get new ones. Those to come are above
+  // last_generation.
+  std::vector<VertexKey> keys;
+  std::uint32_t last_generation = 0;
+  VertexId vertex(std::uint32_t point) const { return keys.empty() ? VertexId{point + 1} : keys[point].id; }
   std::size_t turned = 0, unused = 0, unnamed = 0;
   bool is_steiner(std::uint32_t point) const { return !steiner.empty() && steiner[point] != 0; }
 };

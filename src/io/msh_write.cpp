@@ -61,7 +61,9 @@ class MshWriter {
   }
 
   void comments() {
-    const std::string note = steiner_note(mesh_, "");
+    std::string note = steiner_note(mesh_, "");
+    if (!mesh_.vertex_keys.empty())
+      note += std::string(last_generation_mark) + " " + std::to_string(mesh_.last_generation) + "\n";
     if (!note.empty()) out_ << "$Comments\n" << note << "$EndComments\n";
   }
 

@@ -42,6 +42,7 @@ class GridReader {
     mesh_.length_scale = grid_.length_scale;
     mesh_.vertex_ids = grid_.vertex_id;
     mesh_.vertex_keys = grid_.vertex_key;
+    mesh_.last_generation = grid_.last_generation;
     mesh_.curve = grid_.curve;
     mesh_.parameter = grid_.parameter;
     mesh_.steiner = grid_.steiner;
@@ -211,6 +212,7 @@ VtkGrid to_vtk_grid(const FrozenMesh& mesh, std::span<const Field> fields) {
   grid.parameter = mesh.parameter;
   grid.vertex_id = mesh.vertex_ids;
   grid.vertex_key = mesh.vertex_keys;
+  grid.last_generation = mesh.last_generation;
   grid.curve = mesh.curve;
   add_fields(grid, mesh, fields);
   grid.steiner = mesh.steiner;

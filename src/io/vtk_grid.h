@@ -29,6 +29,7 @@ struct VtkGrid {
   std::vector<std::int64_t> offsets;  // one more than cells, from 0
   std::vector<std::uint8_t> types;
   std::vector<std::string> boundary_names, region_names;
+  std::uint32_t last_generation = 0;  // of vertex_key
 
   // Per cell. boundary: index into boundary_names, -1 for triangles. The others are empty or hold 0 for
   // edges.
@@ -47,6 +48,7 @@ struct VtkGrid {
 
 inline constexpr std::string_view boundary_names_array = "boundary_names";
 inline constexpr std::string_view region_names_array = "region_names";
+inline constexpr std::string_view last_generation_array = "last_generation";
 // What other programs call the array that says which part of the domain a cell is in.
 inline constexpr const char* foreign_region_arrays[] = {"gmsh:physical", "CellEntityIds", "MaterialIds"};
 

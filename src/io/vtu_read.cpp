@@ -50,6 +50,9 @@ class VtuReader {
     expect_count("Cells/types", grid.types.size(), cells_);
     grid.boundary_names = names(boundary_names_array);
     grid.region_names = names(region_names_array);
+    std::vector<std::uint32_t> last_generation;
+    read_optional("FieldData/", std::string(last_generation_array).c_str(), last_generation);
+    if (!last_generation.empty()) grid.last_generation = last_generation.front();
     for_each_point_array(grid,
                          [this](const char* name, auto& array) { read_optional("PointData/", name, array); });
     for_each_cell_array(grid,

@@ -210,6 +210,7 @@ FrozenMesh Mesh::freeze() const {
     for (const VertexId v : t.vertex) point_of[v.index] = 0;
   });
   for (std::uint32_t i = 0; i < triangulation.vertex_slots(); ++i) {
+    frozen.last_generation = std::max(frozen.last_generation, triangulation.generation(VertexId{i}));
     if (point_of[i] == no_index) continue;
     point_of[i] = static_cast<std::uint32_t>(frozen.points.size());
     frozen.points.push_back(triangulation.point(VertexId{i}));
