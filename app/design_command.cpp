@@ -8,11 +8,13 @@
 
 #include "arguments.h"
 #include "command.h"
+#include "design_constraints.h"
 #include "design_problem.h"
 #include "design_report.h"
 #include "design_run.h"
 #include "figures.h"
 #include "interrupt.h"
+#include "number_text.h"
 #include "optimise_start.h"
 #include "outputs.h"
 #include "progress.h"
@@ -31,6 +33,20 @@ struct DesignCommand {
   bool quiet = false, json = false;
 };
 
+// The names and excesses of a point's constraints that its flow on a fresh mesh violates.
+Json violated_by(const DesignProblemFile& problem, std::size_t point, const Mesh& mesh,
+                 const FlowResult& flow) {
+  Json result = Json::object();
+  if (!flow.converged()) return result;
+  const std::vector<std::string> names = constraint_names(Json::parse(problem.text));
+  const std::size_t before = names.size() - problem.flow.size();  // constraints of shapes
+  for (std::size_t i = 0; i < problem.flow.size(); ++i)
+    if (problem.flow[i].point == point)
+      if (const double excess = excess_of(problem.flow[i], mesh, flow); excess > problem.constraint_tolerance)
+        result[names[before + i]] = excess;
+  return result;
+}
+
 // The last design on fresh meshes, which no search has seen. None where that was interrupted.
 std::optional<Json> verified(const DesignProblemFile& problem, const FlowSpace& space,
                              std::span<const double> design, StepObserver& observer) {
@@ -41,8 +57,8 @@ std::optional<Json> verified(const DesignProblemFile& problem, const FlowSpace& 
         generate(space.domain_with(design, points), {.gradation = gradation}, &observer);
     if (made.stopped == Stopped::interrupted) return std::nullopt;
     const Mesh& mesh = made.mesh;
-    for (const DesignPoint& point : problem.points) {
-      const FlowResult flow = solve_section(mesh, point.conditions, space.half(), &observer);
+    for (std::size_t i = 0; i < problem.points.size(); ++i) {
+      const FlowResult flow = solve_section(mesh, problem.points[i].conditions, space.half(), &observer);
       if (flow.status == FlowStatus::interrupted) return std::nullopt;
       list.push_back({{"points", points},
                       {"vertices", mesh.freeze().points.size()},
@@ -52,26 +68,44 @@ std::optional<Json> verified(const DesignProblemFile& problem, const FlowSpace& 
                       {"cd", flow.cd},
                       {"cm", flow.cm},
                       {"converged", flow.converged()},
+                      {"violated", violated_by(problem, i, mesh, flow)},
                       {"seconds", flow.seconds}});
     }
   }
   return list;
 }
 
+// A figure that there may be none of.
+void add_figure(Report& report, const std::string& key, const std::string& label,
+                const std::optional<double>& value) {
+  if (value) return report.figure(key, label, *value);
+  report.data(key, nullptr);
+  report.line(label, "none");
+}
+
 // What the search took: the first design's flows were found cold.
 void add_cost(Report& report, const DesignRun& run) {
   const auto first = run.rows.front().outputs.find("flow_seconds");
-  const double flows = static_cast<double>(run.rows.size() * run.conditions.size());
+  const std::size_t flows = run.rows.size() * run.conditions.size();
   const auto full = std::count_if(run.rows.begin(), run.rows.end(),
                                   [](const EvaluationRecord& row) { return row.full_adjustment; });
-  report.figure("start_objective", "objective of the start", run.rows.front().objective);
+  add_figure(report, "start_objective", "objective of the start", run.start_objective());
   report.figure("flows", "flows", flows);
-  report.figure("gradients", "of them with gradients", run.with_gradients() ? flows : 0.0);
+  report.figure("gradients", "of them with gradients", run.with_gradients() ? flows : 0);
   report.figure("replacements", "designs for which vertices were replaced",
                 static_cast<std::ptrdiff_t>(run.rows.size()) - full);
   if (first != run.rows.front().outputs.end())
     report.figure("cold_equivalents", "flows and gradients, in cold solves of the start",
                   (run.sum("flow_seconds") + run.sum("gradient_seconds")) / first->second);
+}
+
+// By how much the best design, or the least violated one, violates each constraint.
+void add_constraints(Report& report, const DesignRun& run) {
+  const Json by = violations(run.options.at("problem"), run.rows[run.best].constraints);
+  report.data("constraints", by);
+  for (const auto& [name, violation] : by.items())
+    report.line("constraint: " + name,
+                violation == 0.0 ? "kept" : "violated by " + short_text(violation.get<double>()));
 }
 
 void require_possible(const DesignCommand& command) {
@@ -92,27 +126,62 @@ OptimiseOptions options_of(const DesignCommand& command, const DesignProblemFile
   options.remodel.observer = &observer;
   options.strategy = MeshStrategy::chain;
   options.evaluations = problem.evaluations;
+  options.constraint_tolerance = problem.constraint_tolerance;
   options.workers = 1;
   options.checkpoint_every = 5;
+  options.keep_finished = true;
   return options;
 }
 
 void add_result(Report& report, const OptimiseResult& result, const FlowSpace& space) {
   report.figure("evaluations", "designs evaluated", result.evaluations);
   report.figure("full_adjustments", "full adjustments", result.full_adjustments);
-  report.figure("objective", "best objective", result.objective);
-  for (const auto& [name, value] : result.outputs) report.figure(name, name, value);
+  const bool is_found = std::isfinite(result.objective);
+  add_figure(report, "objective", "best objective",
+             is_found ? std::optional(result.objective) : std::nullopt);
+  for (const auto& [name, value] : result.outputs)
+    if (name == "connectivity" || name == "factorisations")
+      report.figure(name, name, static_cast<std::uint64_t>(value));
+    else
+      report.figure(name, name, value);
   for (const NamedNumber& number : space.named(result.best_design))
     report.figure(number.name, number.name, number.value);
 }
 
-void add_verified(Report& report, const Json& fresh, const std::filesystem::path& directory) {
-  for (const Json& entry : fresh)
-    report.line("fresh mesh, I = " + entry["points"].dump(),
-                "CL " + entry["cl"].dump() + ", CD " + entry["cd"].dump() +
-                    (entry["converged"] == true ? "" : ", no flow was found"));
+std::string text_of(const Json& fresh) {
+  if (fresh["converged"] != true) return "no flow was found";
+  std::string text = "CL " + fresh["cl"].dump() + ", CD " + fresh["cd"].dump() + ", CM " + fresh["cm"].dump();
+  for (const auto& [name, excess] : fresh["violated"].items())
+    text += ", violates '" + name + "' by " + short_text(excess.get<double>());
+  return text;
+}
+
+// The file says of which design it is: a search that goes on may find a better one.
+void add_verified(Report& report, const Json& fresh, const OptimiseResult& result,
+                  const std::filesystem::path& directory) {
+  for (const Json& entry : fresh) report.line("fresh mesh, I = " + entry["points"].dump(), text_of(entry));
   report.data("verified", fresh);
-  if (!fresh.empty()) write_text_atomically(directory / "fresh.json", fresh.dump() + "\n");
+  if (fresh.empty()) return;
+  const Json file = {{"design", result.best_design}, {"verified", fresh}};
+  write_text_atomically(directory / "fresh.json", file.dump() + "\n");
+}
+
+std::string detail_of(const DesignRun& run, const OptimiseResult& result) {
+  if (run.has_best()) return result.detail;
+  return why_no_design(run.options.at("problem"), run.rows) + "; best.json is the start" +
+         (result.detail.empty() ? "" : "; " + result.detail);
+}
+
+void add_run(Report& report, const OptimiseResult& result, const std::filesystem::path& directory) {
+  if (result.evaluations == 0) {
+    if (!result.detail.empty()) report.figure("detail", "detail", result.detail);
+    return;
+  }
+  const DesignRun run = read_design_run(directory);
+  add_constraints(report, run);
+  add_cost(report, run);
+  if (const std::string detail = detail_of(run, result); !detail.empty())
+    report.figure("detail", "detail", detail);
 }
 
 Status run(const DesignCommand& command) {
@@ -127,25 +196,25 @@ Status run(const DesignCommand& command) {
   const OptimiseOptions options = options_of(command, problem, progress.step_observer());
   const OptimiseResult result = optimise(*space, *designer, *evaluator, options, &progress);
   progress.finish();
+  const bool is_found = std::isfinite(result.objective);
   std::optional<Json> fresh = Json::array();
-  if (result.stopped == OptimiseStopped::done && std::isfinite(result.objective))
+  if (result.stopped == OptimiseStopped::done && is_found)
     fresh = verified(problem, *space, result.best_design, progress.step_observer());
   const OptimiseStopped stopped = fresh ? result.stopped : OptimiseStopped::interrupted;
 
   Report report;
   report.figure("problem", "problem", command.problem);
   add_result(report, result, *space);
-  if (result.evaluations > 0) add_cost(report, read_design_run(options.directory));
+  add_run(report, result, options.directory);
   report.figure("seconds", "wall time", result.seconds, "seconds");
   report.figure("stopped", "stopped", name_of(stopped));
-  report.figure("converged", "converged", designer->finished());
-  if (!result.detail.empty()) report.figure("detail", "detail", result.detail);
-  if (fresh) add_verified(report, *fresh, options.directory);
+  report.figure("converged", "converged", is_found && designer->finished());
+  if (fresh) add_verified(report, *fresh, result, options.directory);
   report.data("best", Json::parse(space->text(result.best_design)));
   report.figure("directory", "run directory", options.directory.string());
   report.print(command.json);
   if (stopped != OptimiseStopped::done) return Status::limit;
-  return std::isfinite(result.objective) ? Status::done : Status::answer_is_no;
+  return is_found ? Status::done : Status::answer_is_no;
 }
 
 struct DesignReportCommand {

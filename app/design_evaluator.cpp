@@ -277,8 +277,7 @@ class FlowEvaluator final : public Evaluator {
       const bool is_suction = constraint.of == "suction";
       const Slope& slope =
           of[constraint.point][is_suction ? suction_name(constraint.section) : constraint.of];
-      // Suction peaks are large: they count in parts of what is allowed.
-      const double factor = constraint.sign / (is_suction ? constraint.value : 1.0);
+      const double factor = constraint.factor();
       std::vector<double> row = slope.by;
       for (double& x : row) x *= factor;
       add_one(factor * (slope.value - constraint.value), std::move(row));
@@ -324,6 +323,12 @@ FlowFunctional suction_peak(const Mesh& mesh, const FrozenMesh& frozen, const Fl
   for (double& share : function.pressure) share *= -1.0 / (sum * 0.5 * flow.mach * flow.mach);
   value = most + std::log(sum) / sharpness;
   return function;
+}
+
+double excess_of(const FlowConstraint& constraint, const Mesh& mesh, const FlowResult& flow) {
+  double value = constraint.of == "cl" ? flow.cl : constraint.of == "cd" ? flow.cd : flow.cm;
+  if (constraint.of == "suction") suction_peak(mesh, mesh.freeze(), flow, constraint.section, value);
+  return constraint.factor() * (value - constraint.value);
 }
 
 FlowResult solve_section(const Mesh& mesh, const FlowConditions& conditions, bool half,

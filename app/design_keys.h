@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "remodel/airfoil.h"
@@ -17,6 +18,16 @@
 #include "report.h"
 
 namespace remodel::app {
+
+// What a value of a type is called in messages.
+template <class T>
+constexpr const char* kind_of() {
+  if constexpr (std::is_same_v<T, bool>) return "true or false";
+  if constexpr (std::is_same_v<T, std::string>) return "a text in quotes";
+  if constexpr (std::is_same_v<T, double>) return "a number";
+  if constexpr (std::is_same_v<T, std::vector<double>>) return "an array of numbers";
+  if constexpr (std::is_same_v<T, std::vector<std::string>>) return "an array of texts in quotes";
+}
 
 // A JSON object of which every key has to be known.
 class Keys {
@@ -42,7 +53,7 @@ class Keys {
     try {
       return object_.at(key).get<T>();
     } catch (const Json::exception&) {
-      fail("found " + object_.at(key).dump() + " as '" + key + "', expected another kind of value");
+      fail("found " + object_.at(key).dump() + " as '" + key + "', expected " + kind_of<T>());
     }
   }
   double number(const char* key, std::optional<double> fallback, double low, double high) const {

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <initializer_list>
 #include <set>
+#include <string_view>
 
+#include "design_constraints.h"
 #include "design_elements.h"
 #include "design_keys.h"
 #include "gradient_designer.h"
@@ -172,7 +174,7 @@ void require_keys_of(const Keys& keys, const std::string& kind, bool has_element
 
 void add_containment(const Keys& keys, const ConstrainedSection& section, DesignProblemFile& problem) {
   const CstAirfoil inner = section_named(keys, "airfoil", section.start.degree());
-  constexpr int stations = 40;
+  constexpr int stations = containment_stations + 1;
   for (int i = 1; i < stations; ++i)
     for (const bool upper : {true, false}) {
       if (problem.symmetric && !upper) continue;
@@ -194,7 +196,8 @@ void add_size_constraints(const Keys& keys, bool is_area, const ConstrainedSecti
   else if ((stations = keys.get<std::vector<double>>("x")).empty())
     keys.fail("found no number in 'x', expected at least one");
   for (const double x : stations) {
-    if (!(x > 0.0 && x < 1.0)) keys.fail("found " + Json(x).dump() + " in 'x', expected 0 to 1");
+    if (!(x > 0.0 && x < 1.0))
+      keys.fail("found " + Json(x).dump() + " in 'x', expected numbers above 0 and below 1");
     functions.emplace_back();
     add_height(section.start, x, true, 1.0, functions.back());
     add_height(section.start, x, false, -1.0, functions.back());
@@ -292,6 +295,16 @@ void read_objective(const Keys& keys, int degree, DesignProblemFile& problem) {
     keys.fail("found 'target' with the objective '" + problem.objective + "', expected 'inverse'");
 }
 
+// The byte, from 1, at which a text stops being JSON.
+[[noreturn]] void fail_at(const std::string& file, const std::string& text, std::size_t byte) {
+  const std::string_view before(text.data(), std::min(text.size(), std::max<std::size_t>(byte, 1) - 1));
+  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  const std::size_t line_start = before.rfind('\n') + 1;  // 0 in the first line
+  throw Error(ErrorCode::format, file + ":" + std::to_string(line),
+              "found no JSON at column " + std::to_string(before.size() - line_start + 1) +
+                  ", expected a design problem");
+}
+
 }  // namespace
 
 DesignProblemFile read_design_problem(const std::string& file) {
@@ -306,14 +319,17 @@ DesignProblemFile read_design_problem(const std::string& file) {
       throw Error(ErrorCode::format, file, "found the key " + parsed.dump() + " twice in one object");
     return true;
   };
+  const std::string text = read_text(file);
   try {
-    json = Json::parse(read_text(file), watch);
-  } catch (const Json::exception&) {
-    throw Error(ErrorCode::format, file, "found no JSON, expected a design problem");
+    json = Json::parse(text, watch);
+  } catch (const Json::parse_error& error) {
+    fail_at(file, text, error.byte);
+  } catch (const Json::out_of_range&) {
+    throw Error(ErrorCode::format, file, "found a number that is too large, expected one below 1.8e308");
   }
   const Keys keys(json, file,
                   {"airfoil", "elements", "degree", "symmetric", "mesh", "flow", "objective", "target",
-                   "constraints", "designer", "verify"});
+                   "constraints", "constraint_tolerance", "designer", "verify"});
   problem.text = json.dump();
   const int degree = keys.whole<int>("degree", 5, 1, 30);
   if (keys.has("airfoil") == keys.has("elements")) keys.fail("expected one of 'airfoil' and 'elements'");
@@ -337,6 +353,7 @@ DesignProblemFile read_design_problem(const std::string& file) {
   std::size_t number = 0;
   for (const Json& entry : keys.list("constraints"))
     add_constraint(entry, file + ", constraint " + std::to_string(++number), problem);
+  problem.constraint_tolerance = keys.number("constraint_tolerance", problem.constraint_tolerance, 0.0, 1.0);
   const Json designer_json = keys.has("designer") ? json.at("designer") : empty;
   const Keys designer(designer_json, file + ", designer",
                       {"name", "evaluations", "bounds", "trust", "sigma", "seed"});
@@ -371,7 +388,8 @@ std::unique_ptr<FlowSpace> DesignProblemFile::space() const {
 std::unique_ptr<Designer> make_designer(const DesignProblemFile& problem, const FlowSpace& space) {
   const std::vector<double> start = space.start();
   if (problem.designer == "cmaes")
-    return std::make_unique<CmaesDesigner>(start, CmaesOptions{.sigma = problem.sigma, .seed = problem.seed});
+    return std::make_unique<CmaesDesigner>(start, CmaesOptions{.sigma = problem.sigma, .seed = problem.seed},
+                                           CmaesDesigner::AtConvergence::go_on, problem.constraint_tolerance);
   DesignBounds bounds = space.bounds(problem.bounds);
   GradientOptions options{.method = problem.designer,
                           .trust = problem.trust,

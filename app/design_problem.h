@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "design_constraints.h"
 #include "element_space.h"
 #include "remodel/designer.h"
 #include "remodel/evaluator.h"
@@ -35,6 +36,9 @@ struct FlowConstraint {
   double sign = 1.0;  // 1: at most the value, -1: at least
   double value = 0.0;
   std::optional<std::size_t> section = {};  // of a suction peak; without: of all walls
+
+  // Suction peaks are large: they count in parts of what is allowed.
+  double factor() const { return of == "suction" ? sign / value : sign; }
 };
 
 // Two sections are to be this far apart.
@@ -56,6 +60,7 @@ struct DesignProblemFile {
   std::vector<SectionConstraint> section;
   std::vector<FlowConstraint> flow;
   std::vector<GapConstraint> gaps;
+  double constraint_tolerance = default_constraint_tolerance;
   std::string designer = "sqp";
   double bounds = 0.1, trust = 0.02, sigma = 0.01;
   std::uint64_t seed = 1;
@@ -89,6 +94,9 @@ FlowFunctional suction_peak(const Mesh& mesh, const FrozenMesh& frozen, const Fl
 // A flow found cold with these options, with the coefficients of the whole.
 FlowResult solve_section(const Mesh& mesh, const FlowConditions& conditions, bool half,
                          StepObserver* observer = nullptr);
+
+// By how much a flow through a mesh violates a constraint; negative where it keeps it.
+double excess_of(const FlowConstraint& constraint, const Mesh& mesh, const FlowResult& flow);
 
 std::unique_ptr<Designer> make_designer(const DesignProblemFile& problem, const FlowSpace& space);
 // The problem and space must outlive it. The flows of a problem's points are found on so many threads at

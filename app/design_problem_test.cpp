@@ -12,6 +12,7 @@
 #include <fstream>
 #include <functional>
 
+#include "design_constraints.h"
 #include "gap.h"
 #include "quadratic_program.h"
 #include "remodel/generate.h"
@@ -530,6 +531,35 @@ TEST(Sqp, KeepsConstraintsWhoseViolationWouldPay) {
                              .constraint_gradients = {{1.0}}});
   }
   EXPECT_NEAR(last, 0.1, 1e-6);
+}
+
+// Functions and names of a file's constraints are counted in two places.
+TEST(Constraints, HaveANameForEachFunction) {
+  for (const bool symmetric : {false, true}) {
+    const Json constraints = {{{"kind", "lift"}, {"at_least", 0.1}},
+                              {{"kind", "thickness"}, {"x", {0.2, 0.4, 0.8}}, {"of_start", 1}},
+                              {{"kind", "contains"}, {"airfoil", "naca:0006"}},
+                              {{"kind", "leading_edge_radius"}, {"of_start", 0.5}},
+                              {{"kind", "trailing_edge_angle"}, {"of_start", 0.5}},
+                              {{"kind", "area"}, {"of_start", 1}},
+                              {{"kind", "lift"}, {"at_most", 0.3}},
+                              {{"kind", "suction"}, {"at_most", 3}}};
+    const DesignProblemFile problem = problem_of({{"symmetric", symmetric}, {"constraints", constraints}});
+    const std::vector<std::string> names = constraint_names(Json::parse(problem.text));
+    ASSERT_EQ(names.size(), problem.section.size() + problem.flow.size());
+    EXPECT_EQ(names.front(), "thickness");
+    EXPECT_EQ(names[3], "contains");
+    EXPECT_EQ(names[problem.section.size() - 1], "area");
+    EXPECT_EQ(names[problem.section.size()], "lift (constraint 1)");
+    EXPECT_EQ(names[problem.section.size() + 1], "lift (constraint 7)");
+    std::vector<double> values(names.size(), -1.0);
+    values[1] = 0.25, values[2] = 0.125, values.back() = 1e-9;
+    const Json by = violations(Json::parse(problem.text), values);
+    EXPECT_EQ(by.size(), constraints.size());
+    EXPECT_EQ(by.at("thickness"), 0.25);
+    EXPECT_EQ(by.at("area"), 0.0);
+    EXPECT_EQ(by.at("suction"), 0.0);  // within the tolerance
+  }
 }
 
 TEST(Sqp, WhoseStartIsRefusedHasFinished) {

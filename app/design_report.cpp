@@ -5,8 +5,10 @@
 #include <cstdio>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "base64_text.h"
+#include "design_constraints.h"
 #include "design_problem.h"
 #include "design_run.h"
 #include "flow_plots.h"
@@ -114,11 +116,20 @@ std::string numbers_table(const Shown& first, const Shown& last, const FlowSpace
   return table + "</table>\n";
 }
 
+std::string not_found(const Shown& of, std::size_t point) {
+  return "<p>" + of.name + ", point " + std::to_string(point + 1) + ": no flow was found.</p>\n";
+}
+
 std::string pressures(const Scratch& scratch, const Shown& first, const Shown& last, std::size_t sections,
                       std::size_t point) {
   Plot plot;
+  std::string missing;
   for (const Shown* of : {&first, &last}) {
     const FlowResult& flow = of->flows[point];
+    if (!flow.converged()) {
+      missing += not_found(*of, point);
+      continue;
+    }
     Plot one = cp_plot(of->mesh, "farfield", of->cp[point], flow_caption(flow.mach, flow.alpha_deg, flow.cl),
                        "report");
     if (plot.curves.empty()) plot.x = one.x, plot.y = one.y, plot.caption = one.caption;
@@ -134,13 +145,15 @@ std::string pressures(const Scratch& scratch, const Shown& first, const Shown& l
       plot.curves.push_back(std::move(curve));
     }
   }
-  return scratch.picture(".svg", [&](const fs::path& file) { draw_plot(plot, file); });
+  if (plot.curves.empty()) return missing;
+  return scratch.picture(".svg", [&](const fs::path& file) { draw_plot(plot, file); }) + missing;
 }
 
 // Mach numbers of one point around a section, in colours of one range.
 std::string mach_field(const Scratch& scratch, const DesignRun& run, const Shown& of, std::size_t point,
                        double most) {
   const FlowResult& flow = of.flows[point];
+  if (!flow.converged()) return not_found(of, point);
   DrawField field;
   field.field.name = "mach";
   field.field.values = of.mach[point];
@@ -171,10 +184,15 @@ std::string convergence(const Scratch& scratch, const DesignRun& run) {
   return scratch.picture(".svg", [&](const fs::path& file) { draw_plot(plot, file); });
 }
 
+Json or_null(const std::optional<double>& value) {
+  return value ? Json(*value) : Json();
+}
+
 // What the run cost, and what a cold solve of every flow would have.
 Json cost(const DesignRun& run, const Shown& first, const Shown& last) {
   std::size_t full = 0;
-  double preserved = 0.0, shift = 0.0;
+  double preserved = 0.0;
+  std::optional<double> shift;
   for (std::size_t i = 0; i < run.rows.size(); ++i) {
     const EvaluationRecord& row = run.rows[i];
     full += row.full_adjustment ? 1 : 0;
@@ -183,7 +201,7 @@ Json cost(const DesignRun& run, const Shown& first, const Shown& last) {
     for (std::size_t j = 0; j < i; ++j)
       if (run.rows[j].coefficients == row.coefficients && std::isfinite(row.objective) &&
           std::isfinite(run.rows[j].objective))
-        shift = std::max(shift, std::fabs(row.objective - run.rows[j].objective));
+        shift = std::max(shift.value_or(0.0), std::fabs(row.objective - run.rows[j].objective));
   }
   double cold = 0.0;
   for (const Shown* of : {&first, &last})
@@ -194,15 +212,16 @@ Json cost(const DesignRun& run, const Shown& first, const Shown& last) {
           {"flows", run.rows.size() * run.conditions.size()},
           {"full_adjustments", full},
           {"preserved_percent", preserved},
-          {"factorisations", run.sum("factorisations")},
+          {"factorisations", static_cast<std::uint64_t>(run.sum("factorisations"))},
           {"flow_seconds", flow_seconds},
           {"gradient_seconds", gradient_seconds},
           {"cold_seconds_a_design", cold},
           {"cold_seconds", cold * designs},
           {"cold_equivalents", (flow_seconds + gradient_seconds) / cold},
-          {"largest_shift", shift},
-          {"start_objective", run.rows.front().objective},
-          {"objective", run.rows[run.best].objective}};
+          {"largest_shift", or_null(shift)},
+          {"start_objective", or_null(run.start_objective())},
+          {"objective", run.has_best() ? Json(run.rows[run.best].objective) : Json()},
+          {"constraints", violations(run.options.at("problem"), run.rows[run.best].constraints)}};
 }
 
 std::string row(const std::string& name, const std::string& value) {
@@ -225,7 +244,7 @@ std::string cost_table(const Json& cost) {
          row("all flows found cold would have taken, seconds", at("cold_seconds", "%.0f")) +
          row("the whole search, in cold solves of a design", at("cold_equivalents", "%.1f")) +
          row("largest shift of the objective by a change of connectivity, same design",
-             at("largest_shift", "%.2g")) +
+             cost.at("largest_shift").is_null() ? "not measured" : at("largest_shift", "%.2g")) +
          "</table>\n";
 }
 
@@ -236,29 +255,50 @@ std::string points_table(const Shown& first, const Shown& last) {
     for (const Shown* of : {&first, &last}) {
       const FlowResult& flow = of->flows[i];
       table += "<tr><th>" + of->name + "</th>";
-      for (const std::string& cell :
-           {number(flow.mach), number(flow.alpha_deg, "%.3f") + "°", number(flow.cl, "%.4f"),
-            number(1e4 * flow.cd, "%.2f"), number(flow.cm, "%.4f")})
+      table += "<td>" + number(flow.mach) + "</td>";
+      if (!flow.converged()) {
+        table += "<td colspan=\"4\">no flow was found</td></tr>\n";
+        continue;
+      }
+      for (const std::string& cell : {number(flow.alpha_deg, "%.3f") + "°", number(flow.cl, "%.4f"),
+                                      number(1e4 * flow.cd, "%.2f"), number(flow.cm, "%.4f")})
         table += "<td>" + cell + "</td>";
-      table += flow.converged() ? "</tr>\n" : "<td>no flow was found</td></tr>\n";
+      table += "</tr>\n";
     }
   return table + "</table>\n";
 }
 
-// The best design on fresh meshes, as the command left it.
-std::string fresh_table(const fs::path& directory) {
-  if (!fs::exists(directory / "fresh.json")) return {};
+// By how much the best design, or the one shown in its place, violates constraints.
+std::string constraints_table(const Json& by) {
+  if (by.empty()) return {};
+  std::string table = "<table>\n<tr><th>constraint</th><th>violated by</th></tr>\n";
+  for (const auto& [name, violation] : by.items())
+    table += row(escaped(name), violation == 0.0 ? "kept" : number(violation.get<double>()));
+  return table + "</table>\n";
+}
+
+// The best design on fresh meshes, as the command left it: nothing where the file is that of another design.
+std::string fresh_table(const fs::path& directory, const DesignRun& run) {
+  const fs::path file = directory / "fresh.json";
+  const Json fresh = fs::exists(file) ? Json::parse(read_text(file), nullptr, false) : Json();
+  if (!run.has_best() || !fresh.is_object() || fresh.at("design") != Json(run.best_design())) return {};
   std::string table =
       "<h2>On fresh meshes</h2>\n<p>The best section on meshes that the search has not seen, flows found "
       "cold.</p>\n<table>\n<tr><th>points</th><th>vertices</th><th>Mach</th><th>CL</th><th>CD, counts</th>"
-      "<th>seconds</th></tr>\n";
-  for (const Json& entry : Json::parse(read_text(directory / "fresh.json"))) {
-    table += "<tr>";
+      "<th>CM</th><th>constraints violated</th><th>seconds</th></tr>\n";
+  for (const Json& entry : fresh.at("verified")) {
+    table += "<tr><td>" + entry.at("points").dump() + "</td><td>" + entry.at("vertices").dump() +
+             "</td><td>" + number(entry.at("mach")) + "</td>";
+    if (entry.at("converged") != true) {
+      table += "<td colspan=\"5\">no flow was found</td></tr>\n";
+      continue;
+    }
+    std::string violated;
+    for (const auto& [name, excess] : entry.at("violated").items())
+      violated += (violated.empty() ? "" : ", ") + escaped(name) + " by " + number(excess.get<double>());
     for (const std::string& cell :
-         {entry.at("points").dump(), entry.at("vertices").dump(), number(entry.at("mach")),
-          number(entry.at("cl"), "%.4f"),
-          entry.at("converged") == true ? number(1e4 * entry.at("cd").get<double>(), "%.2f")
-                                        : std::string("no flow was found"),
+         {number(entry.at("cl"), "%.4f"), number(1e4 * entry.at("cd").get<double>(), "%.2f"),
+          number(entry.at("cm"), "%.4f"), violated.empty() ? "none" : violated,
           number(entry.at("seconds"), "%.1f")})
       table += "<td>" + cell + "</td>";
     table += "</tr>\n";
@@ -278,6 +318,32 @@ constexpr const char* style =
     "pre{overflow-x:auto;background:#f0f1f0;padding:10px;font-size:12px}@media(max-width:700px){.pair{"
     "grid-template-columns:1fr}}";
 
+// What the search has come to, in words.
+std::string outcome(const DesignRun& run, const Json& cost) {
+  const std::string objective = escaped(run.options["problem"]["objective"].get<std::string>());
+  if (!run.has_best())
+    return "Objective: " + objective +
+           ". No best design: " + escaped(why_no_design(run.options["problem"], run.rows));
+  const Json& start = cost["start_objective"];
+  return "Objective (" + objective +
+         "): " + (start.is_null() ? "" : "from " + number(start.get<double>(), "%.6g") + " to ") + "<b>" +
+         number(cost["objective"].get<double>(), "%.6g") + "</b>";
+}
+
+// The mesh that the last design left, led to the best one. A run that has not finished may have left none:
+// then that of the start is.
+Mesh mesh_of_best(const fs::path& directory, const DesignRun& run) {
+  const fs::path last = directory / "last.vtkhdf";
+  Mesh mesh = read_mesh(fs::exists(last) ? last : directory / "first.vtkhdf");
+  remodel(mesh, run.space->domain(run.best_design()));
+  return mesh;
+}
+
+const char* name_of_best(const DesignRun& run) {
+  if (run.has_best()) return "best";
+  return least_violated(run.rows) ? "least violated" : "first tried";
+}
+
 std::string page_of(const fs::path& directory, const DesignRun& run, const Shown& first, const Shown& last,
                     const Json& cost) {
   const Scratch scratch;
@@ -285,15 +351,14 @@ std::string page_of(const fs::path& directory, const DesignRun& run, const Shown
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\"><title>Remodel: a design</title><style>" +
       std::string(style) + "</style></head><body>\n<h1>A design on one mesh</h1>\n";
-  page += "<p>Objective (" + escaped(run.options["problem"]["objective"].get<std::string>()) + "): from " +
-          number(cost["start_objective"].get<double>(), "%.6g") + " to <b>" +
-          number(cost["objective"].get<double>(), "%.6g") + "</b>; " + std::to_string(run.rows.size()) +
-          " designs on a mesh of " + std::to_string(first.mesh.triangles.size()) + " triangles" +
+  page += "<p>" + outcome(run, cost) + "; " + std::to_string(run.rows.size()) + " designs on a mesh of " +
+          std::to_string(first.mesh.triangles.size()) + " triangles" +
           (run.space->half() ? ", computed in the upper half and mirrored" : "") + ".</p>\n";
-  page += "<h2>Sections</h2>\n<p><span class=\"first\">first</span>, <span class=\"last\">best</span></p>\n" +
-          both_outlines(first, last, run) + numbers_table(first, last, *run.space) +
-          points_table(first, last) + "<p class=\"note\">The run's own mesh; CD in counts (10⁻⁴).</p>\n";
-  page += fresh_table(directory);
+  page += "<h2>Sections</h2>\n<p><span class=\"first\">first</span>, <span class=\"last\">" + last.name +
+          "</span></p>\n" + both_outlines(first, last, run) + numbers_table(first, last, *run.space) +
+          points_table(first, last) + "<p class=\"note\">The run's own mesh; CD in counts (10⁻⁴).</p>\n" +
+          constraints_table(cost.at("constraints"));
+  page += fresh_table(directory, run);
   page += "<h2>Pressure</h2>\n";
   for (std::size_t i = 0; i < run.conditions.size(); ++i)
     page += pressures(scratch, first, last, run.space->sections(), i);
@@ -325,11 +390,8 @@ std::string page_of(const fs::path& directory, const DesignRun& run, const Shown
 
 Json write_design_report(const fs::path& directory, const fs::path& page) {
   const DesignRun run = read_design_run(directory);
-  Mesh mesh = read_mesh(directory / "first.vtkhdf");
-  const Shown first = shown("first", run.space->start(), mesh, run);
-  mesh = read_mesh(directory / "last.vtkhdf");
-  remodel(mesh, run.space->domain(run.best_design()));
-  const Shown last = shown("best", run.best_design(), mesh, run);
+  const Shown first = shown("first", run.space->start(), read_mesh(directory / "first.vtkhdf"), run);
+  const Shown last = shown(name_of_best(run), run.best_design(), mesh_of_best(directory, run), run);
   const Json figures = cost(run, first, last);
   write_text_atomically(page, page_of(directory, run, first, last, figures));
   return figures;

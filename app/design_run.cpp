@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "design_constraints.h"
 #include "element_space.h"
 #include "remodel/error.h"
 #include "section_space.h"
@@ -14,6 +15,12 @@ double DesignRun::sum(const char* output) const {
   for (const EvaluationRecord& row : rows)
     if (const auto found = row.outputs.find(output); found != row.outputs.end()) total += found->second;
   return total;
+}
+
+std::optional<double> DesignRun::start_objective() const {
+  const EvaluationRecord& first = rows.front();
+  if (first.coefficients != space->start() || !std::isfinite(first.objective)) return std::nullopt;
+  return first.objective;
 }
 
 bool holds_design_run(const std::filesystem::path& directory) {
@@ -70,6 +77,7 @@ DesignRun read_design_run(const std::filesystem::path& directory) {
                       std::to_string(numbers));
   for (std::size_t i = 1; i < run.rows.size(); ++i)
     if (run.rows[i].best_objective < run.rows[run.best].best_objective) run.best = i;
+  if (!run.has_best()) run.best = least_violated(run.rows).value_or(0);
   return run;
 }
 

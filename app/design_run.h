@@ -3,8 +3,10 @@
 // A run of `remodel design` as its history has it.
 
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,11 +20,14 @@ namespace remodel::app {
 struct DesignRun {
   Json options;  // of the history; "problem" is the file's, but for designer and verification
   std::vector<EvaluationRecord> rows;
-  std::size_t best = 0;                    // row
+  std::size_t best = 0;  // row; without a best design the least violated one's, or the first
   std::vector<FlowConditions> conditions;  // of the points
   std::unique_ptr<const FlowSpace> space;
 
   const std::vector<double>& best_design() const { return rows[best].coefficients; }
+  bool has_best() const { return std::isfinite(rows[best].best_objective); }
+  // Of the start, where the search evaluated it and found its flows.
+  std::optional<double> start_objective() const;
   bool with_gradients() const { return rows.front().outputs.contains("gradient_seconds"); }
   double sum(const char* output) const;  // over all rows that have it
 };

@@ -125,6 +125,7 @@ Status run(OptimiseCommand& command) {
   }
   if (command.run.resume && command.run.overwrite)
     throw Error(ErrorCode::argument, "--overwrite", "found with --resume, expected one of them");
+  command.run.keep_finished = !command.evaluate.command.empty();
   OptimiseStart start = read_start(command.start, command.meshing, command.run);
   const Json options = options_json(command);
   Progress progress(progress_style(command.quiet), command.run.evaluations, "options: " + options.dump());

@@ -66,9 +66,9 @@ class CmaesDesigner final : public Designer {
   // Whether the search ends where it has converged: where designs hardly differ any more, the largest
   // standard deviation within ten times CmaesOptions::least_deviation, above which it wavers.
   enum class AtConvergence { go_on, end };
-  // Throws Error (argument) as Cmaes does.
+  // Constraints may be violated by constraint_tolerance. Throws Error (argument) as Cmaes does.
   CmaesDesigner(std::vector<double> start, const CmaesOptions& options,
-                AtConvergence at_convergence = AtConvergence::go_on);
+                AtConvergence at_convergence = AtConvergence::go_on, double constraint_tolerance = 0.0);
 
   std::size_t population() const override;
   Proposal ask() override;
@@ -84,6 +84,7 @@ class CmaesDesigner final : public Designer {
  private:
   CmaesOptions options_;
   AtConvergence at_convergence_;
+  double constraint_tolerance_;
   Cmaes cmaes_;
 };
 

@@ -58,16 +58,20 @@ struct OptimiseOptions {
   // which the search has converged; 0: only after all evaluations. Not one of the settings that a resumed run
   // has to have: the designs until then do not depend on it.
   double tolerance = 0.0;
-  std::size_t compare_every = 0;  // every K-th evaluation also generates a fresh mesh; 0: never
+  double constraint_tolerance = 0.0;  // a design is within a constraint that it violates by so much at most
+  std::size_t compare_every = 0;      // every K-th evaluation also generates a fresh mesh; 0: never
   // Every K-th mesh goes through check() too; 0: as compare_every. Of the others every 20th is checked as a
   // whole, as is each worker's first, by Mesh::quick_check(), and the rest by its rules where the step
   // changed them. `hub` checks all as a whole.
   std::size_t full_check_every = 0;
   std::size_t checkpoint_every =
-      500;                          // evaluations between checkpoints; 0: at the start, the end, an interrupt
-  std::size_t max_refused = 10000;  // infeasible samples in a row that end the run; at least 1
-  bool resume = false;              // go on from the directory's checkpoint
-  bool overwrite = false;           // replace the run that the directory holds; not with resume
+      500;  // evaluations between checkpoints; 0: at the start, the end, an interrupt
+  // Where evaluations are long: a copy of the meshes before each of them, so that an interrupt within one
+  // loses none that was finished. Of those that several workers do at once the finished ones are lost.
+  bool keep_finished = false;
+  std::size_t max_refused = 10000;    // infeasible samples in a row that end the run; at least 1
+  bool resume = false;                // go on from the directory's checkpoint
+  bool overwrite = false;             // replace the run that the directory holds; not with resume
   std::filesystem::path directory{};  // of the run's files; made if missing
   std::optional<MeshStart> start{};   // then domain and quality say nothing: the mesh has its own
 };
@@ -178,12 +182,13 @@ class OptimiseObserver {
 // A sample that the design space finds infeasible is refused, and the designer is asked again.
 //
 // With resume the run goes on to the designs, rows (but for their seconds) and meshes of a run that was not
-// interrupted. All options but evaluations, tolerance, checkpoint_every, max_refused and threads, and the
-// descriptions of space, designer and evaluator must be those of the checkpoint. The designer comes as it was
-// made, and is restored. Without resume, a directory that holds a run is refused; with overwrite its files
-// are replaced, once the start of the new run is complete on the disk. A checkpoint, its mesh or a history
-// that is damaged is refused before anything is written. One run at a time holds the directory, by flock; a
-// second one is refused. Where evaluations are long a checkpoint is written at least about once a minute.
+// interrupted. All options but evaluations, tolerance, checkpoint_every, keep_finished, max_refused and
+// threads, and the descriptions of space, designer and evaluator must be those of the checkpoint. The
+// designer comes as it was made, and is restored. Without resume, a directory that holds a run is refused;
+// with overwrite its files are replaced, once the start of the new run is complete on the disk. A checkpoint,
+// its mesh or a history that is damaged is refused before anything is written. One run at a time holds the
+// directory, by flock; a second one is refused. Where evaluations are long a checkpoint is written at least
+// about once a minute.
 //
 // The options domain, sigma and seed are not read here, and of a start mesh only the mesh is: the space has
 // the rest. Throws Error (argument, file, format, geometry).

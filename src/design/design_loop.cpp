@@ -54,7 +54,7 @@ struct Progress {
   RunDirectory directory;
   Workers workers;
   History history;
-  Summary summary{};
+  Summary summary;
   Checksum written{};         // of the history
   std::uint64_t refused = 0;  // infeasible samples since the last evaluation
   double earlier_seconds = 0.0;
@@ -81,6 +81,9 @@ class Run {
   void complete(const Sample& sample, Job& job);
   StepTasks tasks(const Proposal& proposal, std::uint64_t evaluation) const;
   bool checkpoint_due() const;
+  Checkpoint present_checkpoint() const;
+  void keep_present();
+  void write(const Checkpoint& checkpoint, std::span<const Mesh* const> meshes);
   void checkpoint();
   std::uint64_t evaluations() const { return progress_.summary.evaluations(); }
   std::uint64_t middle() const { return (options_.evaluations + 1) / 2; }
@@ -98,6 +101,13 @@ class Run {
   Feasible feasible_;
   std::string settings_;
   bool mesh_is_of_last_row_ = true;
+  // What was there before the evaluations under way: where one of them is interrupted, the meshes have gone
+  // on.
+  struct Kept {
+    Checkpoint checkpoint;
+    std::vector<Mesh> meshes;
+  };
+  std::optional<Kept> kept_;
 };
 
 OptimiseStopped Run::evaluate_all(OptimiseObserver& observer) {
@@ -137,6 +147,7 @@ std::size_t Run::at_once() const {
 }
 
 OptimiseStopped Run::evaluate_some(OptimiseObserver& observer) {
+  if (options_.keep_finished) keep_present();
   if (evaluations() % population_ == 0) begin_generation();
   std::vector<Sample> samples;
   std::vector<Job> jobs;
@@ -213,28 +224,45 @@ bool Run::checkpoint_due() const {
          (options_.checkpoint_every != 0 && since_checkpoint_.seconds() >= seconds_between);
 }
 
+Checkpoint Run::present_checkpoint() const {
+  return {.settings = settings_,
+          .evaluation = evaluations(),
+          .refused = progress_.refused,
+          .finished = finished(),
+          .seconds = seconds(),
+          .designer = problem_.designer.state(),
+          .workers = progress_.workers.state(),
+          .history_checksum = progress_.written.text()};
+}
+
+void Run::keep_present() {
+  kept_.emplace(Kept{.checkpoint = present_checkpoint(), .meshes = {}});
+  for (const Mesh* mesh : progress_.workers.meshes()) kept_->meshes.push_back(*mesh);
+}
+
 // The history first: a checkpoint never stands for rows that are not on disk.
-void Run::checkpoint() {
+void Run::write(const Checkpoint& checkpoint, std::span<const Mesh* const> meshes) {
   progress_.history.commit();
-  write_checkpoint(options_.directory,
-                   {.settings = settings_,
-                    .evaluation = evaluations(),
-                    .refused = progress_.refused,
-                    .finished = finished(),
-                    .seconds = seconds(),
-                    .designer = problem_.designer.state(),
-                    .workers = progress_.workers.state(),
-                    .history_checksum = progress_.written.text()},
-                   progress_.workers.meshes());
+  write_checkpoint(options_.directory, checkpoint, meshes);
   since_checkpoint_ = Stopwatch();
 }
 
-// Where the mesh is not that of the last row, the checkpoint before is what can be gone on from.
+void Run::checkpoint() {
+  write(present_checkpoint(), progress_.workers.meshes());
+}
+
+// Where the meshes are not those of the last row, those kept before may be; otherwise the checkpoint before
+// is what can be gone on from.
 OptimiseResult Run::finish(OptimiseStopped stopped) {
   progress_.history.commit();
   if (mesh_is_of_last_row_) {
     write_mesh(progress_.workers.last_mesh(), options_.directory / "last.vtkhdf");
     checkpoint();
+  } else if (kept_ && kept_->checkpoint.evaluation == evaluations()) {
+    std::vector<const Mesh*> meshes;
+    for (const Mesh& mesh : kept_->meshes) meshes.push_back(&mesh);
+    write_mesh(*meshes[kept_->checkpoint.workers.last], options_.directory / "last.vtkhdf");
+    write(kept_->checkpoint, meshes);
   }
   OptimiseResult result = progress_.summary.result();
   result.infeasible_samples += progress_.refused;
@@ -305,18 +333,21 @@ Progress begin(const DesignProblem& problem, const Evaluating& evaluating, RunDi
   return {.directory = std::move(directory),
           .workers = std::move(workers),
           .history = std::move(history),
+          .summary = Summary(options.constraint_tolerance),
           .written = written};
 }
 
 // The first rows of the history as the checkpoint knows them. Whatever a damaged file may hold, it is refused
 // before it is written to.
-Summary replay(const fs::path& file, const Checkpoint& checkpoint, std::size_t dimension, Checksum& written) {
+Summary replay(const fs::path& file, const Checkpoint& checkpoint, const DesignProblem& problem,
+               const OptimiseOptions& options, Checksum& written) {
   const History history = History::open(file);
   const std::map<std::string, std::string> run = history.run();
   const auto stored = run.find("options");
   require_settings(stored == run.end() ? "" : stored->second, checkpoint.settings, file.parent_path());
   add(written, run);
-  Summary summary;
+  const std::size_t dimension = problem.space.start().size();
+  Summary summary(options.constraint_tolerance);
   history.each([&](const EvaluationRecord& record) {
     if (record.evaluation > checkpoint.evaluation) return;
     if (record.coefficients.size() != dimension)
@@ -360,7 +391,7 @@ Progress go_on(const DesignProblem& problem, const Evaluating& evaluating) {
   const std::size_t dimension = problem.space.start().size();
   Workers workers = restored_workers(evaluating, checkpoint, dimension);
   Checksum written;
-  Summary summary = replay(history_file, checkpoint, dimension, written);
+  Summary summary = replay(history_file, checkpoint, problem, options, written);
   return {.directory = std::move(directory),
           .workers = std::move(workers),
           .history = History::resume(history_file, checkpoint.evaluation),

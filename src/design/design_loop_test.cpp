@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "design/checkpoint.h"
 #include "design/test_runs.h"
 #include "remodel/error.h"
 
@@ -153,6 +154,24 @@ TEST_F(DesignLoop, FindsTheBestDesignWithinTheConstraints) {
   EXPECT_EQ(result.objective, best);
 }
 
+TEST_F(DesignLoop, TakesDesignsThatViolateConstraintsByTheToleranceAtMost) {
+  Counting evaluator;
+  OptimiseOptions given = small("run", 100);
+  given.constraint_tolerance = 0.2;
+  const OptimiseResult result = run(evaluator, given);
+  double best = Evaluation::failed;
+  bool violated = false;  // by a design that was the best one
+  for (const EvaluationRecord& row : rows(given)) {
+    if (violation_of(row.constraints) <= 0.2 && row.objective < best) {
+      best = row.objective;
+      violated |= violation_of(row.constraints) > 0.0;
+    }
+    EXPECT_EQ(row.best_objective, best);
+  }
+  EXPECT_EQ(result.objective, best);
+  EXPECT_TRUE(violated);
+}
+
 TEST_F(DesignLoop, KeepsEvaluatorStatesInItsCheckpoints) {
   for (const std::size_t workers : {1, 3}) {
     const std::string name = std::to_string(workers);
@@ -217,24 +236,50 @@ struct Waiting : Evaluator {
   std::atomic<bool> cancel = false;
 };
 
+struct CancelWaiting : OptimiseObserver {
+  explicit CancelWaiting(Waiting& e) : evaluator(e) {}
+  bool cancelled() override { return evaluator.cancel; }
+  Waiting& evaluator;
+};
+
 TEST_F(DesignLoop, IsInterruptedInTheMiddleOfAnEvaluationAndGoesOnFromTheCheckpointBefore) {
   Waiting whole;
   run(whole, small("whole"));
-  struct Cancel : OptimiseObserver {
-    explicit Cancel(Waiting& e) : evaluator(e) {}
-    bool cancelled() override { return evaluator.cancel; }
-    Waiting& evaluator;
-  };
   OptimiseOptions parts = small("parts");
   Waiting waiting;
   waiting.wait_at = 37;
-  Cancel observer(waiting);
+  CancelWaiting observer(waiting);
   const OptimiseResult result = run(waiting, parts, &observer);
   EXPECT_EQ(result.stopped, OptimiseStopped::interrupted);
   EXPECT_EQ(result.evaluations, 36U);
+  EXPECT_EQ(read_checkpoint(parts.directory).evaluation, 25U);
   parts.resume = true;
   EXPECT_EQ(run(whole, parts).stopped, OptimiseStopped::done);
   expect_same_runs(root_ / "whole", parts.directory);
+}
+
+// Sessions of a single design each, of all strategies that have a state of their own: every one gets on.
+TEST_F(DesignLoop, LosesNoFinishedEvaluationWhereItIsToKeepThem) {
+  for (const MeshStrategy strategy : {MeshStrategy::chain, MeshStrategy::hub, MeshStrategy::regenerate}) {
+    const std::string name = info_of(strategy).name;
+    OptimiseOptions whole = small(name + "-whole", 12), parts = small(name + "-parts", 12);
+    whole.strategy = parts.strategy = strategy;
+    whole.workers = parts.workers = 1;
+    parts.keep_finished = true;
+    Waiting uninterrupted;
+    run(uninterrupted, whole);
+    for (std::uint64_t done = 1; done < 6; ++done) {
+      Waiting waiting;
+      waiting.wait_at = 2;
+      CancelWaiting observer(waiting);
+      EXPECT_EQ(run(waiting, parts, &observer).evaluations, done);
+      EXPECT_EQ(rows(parts).size(), done);
+      EXPECT_EQ(read_checkpoint(parts.directory).evaluation, done);
+      parts.resume = true;
+    }
+    EXPECT_EQ(run(uninterrupted, parts).stopped, OptimiseStopped::done);
+    expect_same_runs(whole.directory, parts.directory);
+  }
 }
 
 TEST_F(DesignLoop, ServesADesignerThatFollowsGradientsAndEndsByItself) {

@@ -12,10 +12,10 @@ namespace {
 
 // One number that orders designs as Deb's rules do: those within all constraints by their objective, which
 // has to be below 1e300, the others behind them by their violation.
-double rank_of(const Evaluation& evaluation) {
+double rank_of(const Evaluation& evaluation, double constraint_tolerance) {
   constexpr double behind_all = 1e300;
   const double violation = violation_of(evaluation.constraints);
-  if (violation == 0.0 || !std::isfinite(evaluation.objective)) return evaluation.objective;
+  if (violation <= constraint_tolerance || !std::isfinite(evaluation.objective)) return evaluation.objective;
   return std::isfinite(violation) ? behind_all * (1.0 + violation / (1.0 + violation)) : 2.0 * behind_all;
 }
 
@@ -29,8 +29,11 @@ double violation_of(const std::vector<double>& constraints) {
 }
 
 CmaesDesigner::CmaesDesigner(std::vector<double> start, const CmaesOptions& options,
-                             AtConvergence at_convergence)
-    : options_(options), at_convergence_(at_convergence), cmaes_(std::move(start), options) {}
+                             AtConvergence at_convergence, double constraint_tolerance)
+    : options_(options),
+      at_convergence_(at_convergence),
+      constraint_tolerance_(constraint_tolerance),
+      cmaes_(std::move(start), options) {}
 
 std::size_t CmaesDesigner::population() const {
   return static_cast<std::size_t>(cmaes_.population());
@@ -41,7 +44,7 @@ Proposal CmaesDesigner::ask() {
 }
 
 void CmaesDesigner::tell(const Proposal& proposal, const Evaluation& evaluation) {
-  cmaes_.tell(proposal.design, rank_of(evaluation));
+  cmaes_.tell(proposal.design, rank_of(evaluation, constraint_tolerance_));
 }
 
 // The distribution wavers above its floor by a small factor: it is not waited for to be hit.

@@ -55,6 +55,8 @@ void require_good(const OptimiseOptions& options) {
   require(options.evaluations >= 1, "evaluations", "expected at least 1");
   require(options.max_refused >= 1, "max_refused", "expected at least 1");
   require(options.tolerance >= 0.0 && std::isfinite(options.tolerance), "tolerance", "expected at least 0");
+  require(options.constraint_tolerance >= 0.0 && std::isfinite(options.constraint_tolerance),
+          "constraint_tolerance", "expected at least 0");
   require(options.workers <= most_workers, "workers", "expected 0 to 1000");
   require(options.threads <= most_workers, "threads", "expected 0 to 1000");
   require(options.strategy != MeshStrategy::regenerate || !options.start, "strategy",
@@ -84,6 +86,7 @@ std::string settings_of(const DesignSpace& space, const Designer& designer, cons
                           {"keep", resolved_keep(step, quality)},
                           {"compare_every", options.compare_every},
                           {"full_check_every", options.full_check_every}});
+  if (options.constraint_tolerance != 0.0) json["constraint_tolerance"] = options.constraint_tolerance;
   if (options.start) {
     json["refine_angle_deg"] = quality.refine_angle_deg;
     json["start_mesh"] = identity_of(options.start->mesh);

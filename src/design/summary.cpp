@@ -22,7 +22,7 @@ const char* name_of(OptimiseStopped stopped) {
 }
 
 bool Summary::is_better(const EvaluationRecord& record) const {
-  return record.objective < best_objective_ && violation_of(record.constraints) == 0.0;
+  return record.objective < best_objective_ && violation_of(record.constraints) <= constraint_tolerance_;
 }
 
 void Summary::add(const EvaluationRecord& record) {

@@ -10,6 +10,8 @@ namespace remodel {
 
 class Summary {
  public:
+  // Constraints may be violated by so much.
+  explicit Summary(double constraint_tolerance = 0.0) : constraint_tolerance_(constraint_tolerance) {}
   void add(const EvaluationRecord& record);
 
   std::uint64_t evaluations() const { return evaluations_; }
@@ -35,6 +37,7 @@ class Summary {
     std::size_t count = 0;
   };
 
+  double constraint_tolerance_;
   std::uint64_t evaluations_ = 0, infeasible_samples_ = 0, failed_ = 0, full_adjustments_ = 0, invalid_ = 0,
                 recoveries_ = 0, refreshes_ = 0;
   double best_objective_ = std::numeric_limits<double>::infinity();
