@@ -16,7 +16,7 @@ namespace remodel::app {
 constexpr int containment_stations = 39;  // of a surface
 // A design is within a constraint that it violates by so much at most, in the measure of the history's column
 // `constraints`: what linearised constraints leave at the end of a search, and far above rounding.
-constexpr double default_constraint_tolerance = 1e-6;
+constexpr double default_constraint_tolerance = 1e-5;
 // That of a problem file.
 double constraint_tolerance_of(const Json& problem);
 
