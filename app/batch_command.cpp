@@ -229,7 +229,7 @@ Status run(const BatchCommand& command) {
 
   if (std::count(command.meshes.begin(), command.meshes.end(), "su2") != 0 && !command.inner_markers)
     warn_of_inner_curves(start.mesh.freeze(), (command.directory / "*.su2").string(),
-                         "which SU2 would take for a wall (--inner-markers writes it)");
+                         "--inner-markers writes it");
   const InterruptFlag interrupt;
   Batch batch(command, start.mesh);
   bool finished = true;

@@ -151,14 +151,14 @@ DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOp
   }
   require_at_most_one_each("--place", options.places.size(), options.shapes.size());
   require_at_most_one_each("--name", options.names.size(), options.shapes.size());
+  if (options.as_given && fit.close_trailing_edge)
+    throw Error(ErrorCode::argument, "--close-trailing-edge",
+                "given with --as-given, which leaves the outline as it is, expected one of them");
   Airfoils airfoils;
   for (std::size_t i = 0; i < options.shapes.size(); ++i) {
     const std::string& shape = options.shapes[i];
     PlacedAirfoil placed;
     if (options.shapes.size() > 1 || !options.names.empty()) placed.name = name_of(options, i, airfoils);
-    if (options.as_given && fit.close_trailing_edge)
-      throw Error(ErrorCode::argument, "--close-trailing-edge",
-                  "given with --as-given, which leaves the outline as it is, expected one of them");
     if (options.as_given)
       placed.outline = outline_of_file(shape, *options.as_given, placed.name, input.outlines);
     else

@@ -11,7 +11,6 @@
 #include "domain_input.h"
 #include "euler_run.h"
 #include "figures.h"
-#include "interrupt.h"
 #include "mesh_input.h"
 #include "meshing_options.h"
 #include "outputs.h"

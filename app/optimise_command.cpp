@@ -132,7 +132,7 @@ Status run(OptimiseCommand& command) {
   if (!command.evaluate.command.empty() && command.run.start)
     progress.say_at_first([&] {
       warn_of_inner_curves(command.run.start->mesh.freeze(), "mesh.su2 of the evaluator",
-                           "which SU2 would take for a wall (no marker of its is a curve inside the mesh)");
+                           "no marker of its is a curve inside the mesh");
     });
   const OptimiseResult result = run_repeatedly(command, once(command, start, progress));
   progress.finish();

@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <set>
 #include <type_traits>
 
 #include "arguments.h"
@@ -40,23 +39,27 @@ void require_writable_as(const std::string& file, std::initializer_list<const ch
   require_writable(file);
 }
 
-void warn_of_inner_curves(const FrozenMesh& mesh, const std::string& file, const std::string& why) {
-  for (const std::string& name : inner_curves(mesh))
+namespace {
+
+// What is missing in a file is said: whoever needs it there asks for it.
+void say_left_out(const std::vector<std::string>& curves, const std::string& file, const std::string& why) {
+  for (const std::string& name : curves)
     std::fprintf(stderr, "remodel: %s: inner curve '%s' left out, %s\n", file.c_str(), name.c_str(),
                  why.c_str());
 }
 
-namespace {
-
 // .su2 and .foam have no place for regions; where curves divide them, these are spoken of.
 void warn_of_regions(const FrozenMesh& mesh, const std::string& file) {
-  std::set<std::uint32_t> regions(mesh.region.begin(), mesh.region.end());
-  if (regions.size() > 1 && inner_curves(mesh).empty())
+  if (mesh.region_names.size() > 1 && inner_curves(mesh).empty())
     std::fprintf(stderr, "remodel: %s: %zu regions left out, for which the format has no place\n",
-                 file.c_str(), regions.size());
+                 file.c_str(), mesh.region_names.size());
 }
 
 }  // namespace
+
+void warn_of_inner_curves(const FrozenMesh& mesh, const std::string& file, const std::string& remedy) {
+  say_left_out(inner_curves(mesh), file, "which SU2 would take for a wall (" + remedy + ")");
+}
 
 void MeshOutputs::add_options(CLI::App& app, Presence presence) {
   add_texts(app,
@@ -86,9 +89,9 @@ template <class AnyMesh>
 void MeshOutputs::write_each(const AnyMesh& mesh, std::span<const Field> fields) const {
   const auto warn = [&](const FrozenMesh& frozen, const std::string& file, MeshFormat format) {
     if (format == MeshFormat::foam)
-      warn_of_inner_curves(frozen, file, "as OpenFOAM has no patches inside a mesh");
+      say_left_out(inner_curves(frozen), file, "as OpenFOAM has no patches inside a mesh");
     else if (!inner_markers_)
-      warn_of_inner_curves(frozen, file, "which SU2 would take for a wall (--inner-markers writes it)");
+      warn_of_inner_curves(frozen, file, "--inner-markers writes it");
     warn_of_regions(frozen, file);
   };
   for (const std::string& file : files_) {

@@ -38,8 +38,8 @@ class MeshOutputs {
   WriteOptions options_;
 };
 
-// Says on standard error which curves inside the mesh a file leaves out, and why.
-void warn_of_inner_curves(const FrozenMesh& mesh, const std::string& file, const std::string& why);
+// Says on standard error which curves inside the mesh a .su2 file leaves out, and how to have them there.
+void warn_of_inner_curves(const FrozenMesh& mesh, const std::string& file, const std::string& remedy);
 // Throws Error (file) if the file is a directory, or its directory is missing or not writable.
 void require_writable(const std::filesystem::path& file);
 // The same, and throws Error (argument) if the file has none of the extensions (".png").

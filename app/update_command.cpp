@@ -65,8 +65,8 @@ std::size_t triangles_in_common(const FrozenMesh& file, const FrozenMesh& after)
 }
 
 // Triangles that are lost are what a solver pays for: nobody should find out from its run time.
-void warn_of_losses(const UpdateCommand& command, const StartMesh& start, const Mesh& mesh,
-                    const RemodelResult& result) {
+void warn_of_losses(const UpdateCommand& command, const StartMesh& start, const FrozenMesh& file,
+                    const FrozenMesh& after, const RemodelResult& result) {
   const auto of = [](std::size_t part, std::size_t all) {
     return std::to_string(part) + " of " + std::to_string(all);
   };
@@ -85,8 +85,7 @@ void warn_of_losses(const UpdateCommand& command, const StartMesh& start, const 
                    : lost + ", as their vertices moved; " + of(result.connected, result.triangles_before) +
                          " join the same vertices as before");
   if (!start.imported || start.imported->flipped_edges == 0) return;
-  const FrozenMesh file = read_frozen_mesh(command.mesh);
-  const std::size_t common = triangles_in_common(file, mesh.freeze());
+  const std::size_t common = triangles_in_common(file, after);
   if (2 * common < file.triangles.size())
     say(of(file.triangles.size() - common, file.triangles.size()) +
         " triangles of the file are not in the new mesh: " +
@@ -136,8 +135,8 @@ DomainInput new_domain(const StartMesh& start, const UpdateCommand& command) {
 }
 
 // On the mesh that the step starts from, whose points an import may have renumbered.
-Cargo cargo_of(const UpdateCommand& command, const StartMesh& start, const FrozenMesh& before) {
-  const FrozenMesh file = start.imported ? read_frozen_mesh(command.mesh) : before;
+Cargo cargo_of(const UpdateCommand& command, const StartMesh& start, const FrozenMesh& file,
+               const FrozenMesh& before) {
   Cargo cargo(command.mesh, file, command.carry);
   if (start.imported && !cargo.empty()) {
     FrozenMesh by_places = before;
@@ -152,7 +151,9 @@ Status run(const UpdateCommand& command) {
   const StartMesh start = read_start_mesh(command.mesh, command.start);
   const Mesh& original = start.mesh;
   const FrozenMesh before = original.freeze();
-  Cargo cargo = cargo_of(command, start, before);
+  // As it was: the new mesh may be written in its place.
+  const FrozenMesh file = start.imported ? read_frozen_mesh(command.mesh) : before;
+  Cargo cargo = cargo_of(command, start, file, before);
   const DomainInput input = new_domain(start, command);
 
   InterruptObserver observer;
@@ -169,13 +170,13 @@ Status run(const UpdateCommand& command) {
     seconds.push_back(watch.seconds());
   }
   const bool given_up = result.abandoned || result.stopped == Stopped::interrupted;
+  const FrozenMesh after = mesh.freeze();
   if (!given_up) {
-    const FrozenMesh after = mesh.freeze();
     cargo.carry(before, after);
     command.outputs.write(mesh, cargo.fields());
     cargo.write_state(after);
   }
-  warn_of_losses(command, start, mesh, result);
+  warn_of_losses(command, start, file, after, result);
 
   Report report;
   report.line("mesh", command.mesh);

@@ -405,11 +405,7 @@ FrozenMesh parse_msh(std::string_view text, const std::string& file) {
   if (keys == nullptr || keys->values.size() != mesh.points.size()) return mesh;
   for (const double key : keys->values)
     mesh.vertex_keys.push_back(key >= 0.0 && key < 0x1p53 ? static_cast<std::uint64_t>(key) : 0);
-  if (const auto mark = text.find(last_generation_mark); mark != std::string_view::npos) {
-    const std::string_view rest = text.substr(mark + last_generation_mark.size());
-    const char* const begin = rest.data() + std::min(rest.find_first_not_of(' '), rest.size());
-    std::from_chars(begin, rest.data() + rest.size(), mesh.last_generation);
-  }
+  take_generation_note(text, mesh);
   return mesh;
 }
 

@@ -61,9 +61,7 @@ class MshWriter {
   }
 
   void comments() {
-    std::string note = steiner_note(mesh_, "");
-    if (!mesh_.vertex_keys.empty())
-      note += std::string(last_generation_mark) + " " + std::to_string(mesh_.last_generation) + "\n";
+    const std::string note = steiner_note(mesh_, "") + generation_note(mesh_);
     if (!note.empty()) out_ << "$Comments\n" << note << "$EndComments\n";
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <utility>
 
 #include "io/text_writer.h"
 
@@ -13,6 +14,7 @@ namespace {
 // The number of the mesh's points follows, then the points.
 constexpr std::string_view steiner_mark = "remodel: Steiner points of ";
 constexpr std::size_t points_per_line = 12;
+constexpr std::string_view generation_mark = "last generation of vertex_key:";
 
 // The next number of a line, behind blanks and the colon; false at its end.
 bool next_number(std::string_view& line, std::uint64_t& number) {
@@ -50,6 +52,19 @@ void take_steiner_notes(std::string_view text, FrozenMesh& mesh) {
     mesh.steiner.resize(mesh.points.size(), 0);
     while (next_number(line, number) && number < mesh.steiner.size()) mesh.steiner[number] = 1;
   }
+}
+
+std::string generation_note(const FrozenMesh& mesh) {
+  if (mesh.vertex_keys.empty()) return {};
+  return std::string(generation_mark) + " " + std::to_string(mesh.last_generation) + "\n";
+}
+
+void take_generation_note(std::string_view text, FrozenMesh& mesh) {
+  const std::size_t at = text.find(generation_mark);
+  if (at == text.npos) return;
+  text.remove_prefix(at + generation_mark.size());
+  if (std::uint64_t number = 0; next_number(text, number) && std::in_range<std::uint32_t>(number))
+    mesh.last_generation = static_cast<std::uint32_t>(number);
 }
 
 }  // namespace remodel::io

@@ -1,7 +1,7 @@
 #pragma once
 
-// Which points of the boundary refinement put there, as a comment in formats that have no place for it: who
-// reads the file back does not take them for points of the design.
+// What formats have no place for, as comments. Which points of the boundary refinement put there: who reads
+// the file back does not take them for points of the design. And how far the keys of vertices have come.
 
 #include <string>
 #include <string_view>
@@ -16,5 +16,9 @@ std::string steiner_note(const FrozenMesh& mesh, std::string_view prefix);
 // Takes what the text of a mesh's file says of its points. A note of another number of points than the mesh
 // has is from another time: it is passed over.
 void take_steiner_notes(std::string_view text, FrozenMesh& mesh);
+
+// FrozenMesh::last_generation, of a mesh with keys.
+std::string generation_note(const FrozenMesh& mesh);
+void take_generation_note(std::string_view text, FrozenMesh& mesh);
 
 }  // namespace remodel::io

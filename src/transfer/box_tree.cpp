@@ -1,6 +1,7 @@
 #include "transfer/box_tree.h"
 
 #include <array>
+#include <utility>
 
 namespace remodel {
 

@@ -2,10 +2,8 @@
 
 // Boxes in the plane, found by what they overlap or by how near they are.
 
-#include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "geometry/box.h"
@@ -24,7 +22,6 @@ inline Box box_of(Point a, Point b, Point c) {
 // children 2k + 1 and 2k + 2, which halve its boxes.
 class BoxTree {
  public:
-  BoxTree() = default;
   explicit BoxTree(const std::vector<Box>& boxes) : order_(z_order(boxes)) {
     boxes_.reserve(boxes.size());
     for (const std::uint32_t box : order_) boxes_.push_back(boxes[box]);

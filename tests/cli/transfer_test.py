@@ -188,3 +188,27 @@ class Keys(ProgramTest):
             self.assertEqual(vtu_array(self.path("again.vtu"), "vertex_key", int), keys)
         # Ids come again: what an id alone says of a vertex is not enough.
         self.assertLess(len({key & 0xFFFFFFFF for key in interior}), len(interior))
+
+    # A mesh that lives in files alone is imported at every step.
+    def test_a_key_names_one_vertex_over_steps_through_files_of_other_programs(self):
+        for end in ("vtu", "msh"):
+            self.succeed("mesh", "naca:0012", "--points", 40, "-o", f"0.{end}")
+            interior, kept = {}, 0
+            for i, shape in enumerate(["naca:2412", "naca:2410", "naca:0014"], start=1):
+                self.succeed("update", f"{i - 1}.{end}", shape, "--boundary", "airfoil", "-o", f"{i}.{end}")
+                self.succeed("convert", f"{i}.{end}", "-o", "now.vtu")
+                points = vtu_array(self.path("now.vtu"), "Points")
+                boundary = self.boundary_points("now.vtu")
+                for k, key in enumerate(vtu_array(self.path("now.vtu"), "vertex_key", int)):
+                    if k in boundary:
+                        continue
+                    place = (points[3 * k], points[3 * k + 1])
+                    kept += key in interior
+                    self.assertEqual(interior.setdefault(key, place), place)
+            self.assertGreater(kept, 100)
+
+    def boundary_points(self, name):
+        corners = vtu_array(self.path(name), "connectivity", int)
+        offsets = vtu_array(self.path(name), "offsets", int)
+        ends = zip([0, *offsets], offsets)
+        return {v for begin, end in ends if end - begin == 2 for v in corners[begin:end]}
