@@ -53,8 +53,10 @@ class LivingMesh {
   virtual RemodelResult advance(const Domain& domain);
   // Corrects what advance() says was before and is preserved. Not timed.
   virtual void count_losses(RemodelResult& result) { static_cast<void>(result); }
-  // Checks what the last advance() changed, or all that it may have changed.
-  virtual StepCheck check_last() const { return check_changes(mesh_, *before_); }
+  // Checks what the last advance() changed, or all that it may have changed, or a fresh mesh.
+  virtual StepCheck check_last() const {
+    return before_ ? check_changes(mesh_, *before_) : check_whole(mesh_);
+  }
   // A fresh mesh takes the place of the last design's.
   virtual void put(Mesh&& fresh) { before_.reset(), mesh_ = std::move(fresh); }
 
