@@ -49,6 +49,14 @@ std::optional<std::array<int, 4>> conserved_columns(const std::vector<std::strin
   return found;
 }
 
+void require_time_out(const std::string& directory) {
+  const std::string extension = std::filesystem::path(directory).extension().string();
+  if (extension == ".csv" || extension == ".dat")
+    throw Error(ErrorCode::argument, directory,
+                "found a restart file for --state-out, expected a time directory, as --state is one");
+  require_writable_directory(directory);
+}
+
 }  // namespace
 
 void add_carry_options(CLI::App& app, CarryOptions& options) {
@@ -78,7 +86,10 @@ Cargo::Cargo(const std::string& file, const FrozenMesh& mesh, const CarryOptions
     throw Error(ErrorCode::argument, options.state.empty() ? "--state-out" : "--state",
                 "found alone, expected --state and --state-out together");
   const bool is_time = !options.state.empty() && std::filesystem::is_directory(options.state);
-  if (!options.state_out.empty() && !is_time) require_writable(options.state_out);
+  if (is_time)
+    require_time_out(options.state_out);
+  else if (!options.state_out.empty())
+    require_writable_as(options.state_out, {".csv", ".dat"});
   for (Field& field : read_fields(file)) {
     if (is_finite(field))
       fields_.push_back(std::move(field));

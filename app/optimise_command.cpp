@@ -3,6 +3,7 @@
 
 #include "remodel/optimise.h"
 
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -61,9 +62,13 @@ void add_result(Report& report, const OptimiseResult& result) {
   report.data("best", object["best"]);
 }
 
+bool all_failed(const OptimiseResult& result) {
+  return result.evaluations != 0 && result.failed_evaluations == result.evaluations;
+}
+
 Status status_of(const OptimiseResult& result) {
   if (result.stopped != OptimiseStopped::done) return Status::limit;
-  return result.invalid_meshes == 0 ? Status::done : Status::answer_is_no;
+  return result.invalid_meshes == 0 && !all_failed(result) ? Status::done : Status::answer_is_no;
 }
 
 // Runs `repeat` times with the same seed: the same designs and meshes each time, only the times differ, and
@@ -149,6 +154,9 @@ Status run(OptimiseCommand& command) {
   add_last_mesh_figures(report, command);
   report.figure("directory", "run directory", command.run.directory.string());
   report.print(command.json);
+  if (all_failed(result))
+    std::fprintf(stderr, "remodel: all %llu evaluations failed: %s\n",
+                 static_cast<unsigned long long>(result.evaluations), result.detail.c_str());
   return status_of(result);
 }
 

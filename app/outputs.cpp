@@ -29,6 +29,17 @@ void require_writable(const std::filesystem::path& given) {
   }
 }
 
+void require_writable_directory(const std::filesystem::path& directory) {
+  std::filesystem::path there = std::filesystem::absolute(directory);
+  std::error_code ignored;
+  while (!std::filesystem::exists(there, ignored) && there.has_relative_path()) there = there.parent_path();
+  if (!std::filesystem::is_directory(there, ignored))
+    throw Error(ErrorCode::file, there.string(), "is a file, expected a directory to write to");
+  if (access(there.c_str(), W_OK | X_OK) != 0)
+    throw Error(ErrorCode::file, directory.string(),
+                "directory '" + there.string() + "' is not writable: " + std::strerror(errno));
+}
+
 void require_writable_as(const std::string& file, std::initializer_list<const char*> extensions) {
   const std::string extension = std::filesystem::path(file).extension().string();
   if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {

@@ -44,5 +44,7 @@ void warn_of_inner_curves(const FrozenMesh& mesh, const std::string& file, const
 void require_writable(const std::filesystem::path& file);
 // The same, and throws Error (argument) if the file has none of the extensions (".png").
 void require_writable_as(const std::string& file, std::initializer_list<const char*> extensions);
+// Throws Error (file) if there is no such directory and none can be made, or it is not writable.
+void require_writable_directory(const std::filesystem::path& directory);
 
 }  // namespace remodel::app

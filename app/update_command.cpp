@@ -113,7 +113,10 @@ void add_figures(Report& report, const RemodelResult& result) {
   report.figure("refreshed", "generated afresh by the strategy", result.refreshed);
   report.figure("regenerated", "generated afresh", result.regenerated);
   if (result.abandoned) report.figure("abandoned", "given up, the mesh is as it was", result.abandoned);
-  if (!result.reason.empty()) report.figure("reason", "because", result.reason);
+  if (result.reason.empty())
+    report.data("reason", result.reason);
+  else
+    report.figure("reason", "because", result.reason);
 }
 
 // A single airfoil replaces the mesh's own; several airfoils, or a domain, replace the whole domain.
@@ -182,6 +185,7 @@ Status run(const UpdateCommand& command) {
   report.line("mesh", command.mesh);
   for (const std::string& shape : command.shapes.shapes) report.line("shape", shape);
   add_findings(report, input);
+  report.figure("strategy", "strategy", name_of(command.remodelling.strategy));
   report.line("removal distance D", Json(command.remodelling.distance).dump());
   add_import_figures(report, start);
   add_figures(report, result);

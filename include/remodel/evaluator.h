@@ -82,8 +82,10 @@ enum class KeepEvaluations { none, failed, all };
 
 struct CommandOptions {
   double time_limit = 0.0;  // seconds of wall time for one evaluation, after which it fails; 0: none
-  // Each evaluation has a directory of its own in it, made if missing: EvaluationTask::evaluation in six
-  // digits. Empty: a temporary one each, which is never kept.
+  // Directories of evaluations that are kept are in it, EvaluationTask::evaluation in six digits; it is made
+  // if missing. While it runs, an evaluation is in running-XXXXXX there, which is new with each evaluator;
+  // those of earlier ones are removed, so that only one at a time may have this directory. Empty: a temporary
+  // one each, which is never kept.
   std::filesystem::path directory{};
   KeepEvaluations keep = KeepEvaluations::failed;
   // Most states of earlier designs that are kept with each living mesh, in memory and in checkpoints. As long
@@ -112,8 +114,9 @@ struct CommandOptions {
 // object of numbers. The evaluation fails where the program cannot be started, ends with another status than
 // 0 or is too slow, or where the result or state that it leaves cannot be read; the message has the end of
 // what it wrote to standard error, which stays in the file `errors` where the directory is kept. Time limits
-// and cancelled runs end the program with all processes of its group; the next design of that mesh begins
-// without a state. Throws Error (argument) for an empty command and for formats that are not known.
+// and cancelled runs end the program; the next design of that mesh begins without a state. All processes of
+// its group end with it, however it ends. Throws Error (argument) for an empty command, for formats that are
+// not known, and for other words of lower-case letters in braces, but for ${word}.
 std::unique_ptr<Evaluator> command_evaluator(std::vector<std::string> command, CommandOptions options = {});
 
 // Where a text names one of these files.

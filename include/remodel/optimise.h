@@ -98,6 +98,9 @@ struct OptimiseResult {
   double max_error = none;
   double preserved_percent = none;         // mean over all evaluations
   double lost_mean = none;                 // triangles not preserved: mean over all evaluations
+  double connectivity_percent = none;      // mean over all evaluations
+  double connectivity_kept_steps = none;   // share of the steps in which no triangle was born or gone
+  double changed_triangles_mean = none;    // triangles born and gone: mean over all evaluations
   double triangles_mean = none;            // over all evaluations
   double generated_triangles_mean = none;  // over the compared evaluations
   double surplus_percent = none;  // mean of (triangles - generated) / generated over the compared evaluations
@@ -133,6 +136,11 @@ inline constexpr std::tuple optimise_figures{
     Figure{"max_error", "largest distance to the target", "chords", &OptimiseResult::max_error},
     Figure{"preserved_percent", "preserved, mean", "%", &OptimiseResult::preserved_percent},
     Figure{"lost_mean", "lost, mean", "triangles", &OptimiseResult::lost_mean},
+    Figure{"connectivity_percent", "joined as before, mean", "%", &OptimiseResult::connectivity_percent},
+    Figure{"connectivity_kept_steps", "steps that kept the connectivity, share", "",
+           &OptimiseResult::connectivity_kept_steps},
+    Figure{"changed_triangles_mean", "born and gone, mean", "triangles",
+           &OptimiseResult::changed_triangles_mean},
     Figure{"triangles_mean", "triangles, mean", "", &OptimiseResult::triangles_mean},
     Figure{"generated_triangles_mean", "of a fresh mesh, mean", "",
            &OptimiseResult::generated_triangles_mean},

@@ -74,11 +74,11 @@ struct TransferOptions {
 };
 
 struct RemapOptions {
-  // No value beyond those of the old triangles that it is made of. Without, linear fields are exact up to the
-  // boundary on triangles too.
+  // No value beyond those of the old triangles that it is made of, in each component by itself. Without,
+  // linear fields are exact up to the boundary on triangles too.
   bool limited = true;
   // The components that are density, momentum in x and y, and total energy, each per volume: density and
-  // pressure stay positive wherever they were.
+  // pressure stay positive wherever they were. These four are limited together.
   std::optional<std::array<int, 4>> conserved = {};
 };
 

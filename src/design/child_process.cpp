@@ -44,14 +44,23 @@ ChildProcess::~ChildProcess() {
   kill(-id_, SIGTERM);
   for (const Stopwatch watch; !ended() && watch.seconds() < patience;)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  kill(-id_, SIGKILL);
-  if (!ended_) waitpid(id_, &status_, 0);
+  if (!ended_) end_group();
 }
 
 bool ChildProcess::ended() {
-  const pid_t waited = ended_ ? 0 : waitpid(id_, &status_, WNOHANG);
-  ended_ = ended_ || waited == id_ || (waited < 0 && errno != EINTR);
+  if (ended_) return true;
+  siginfo_t found{};
+  const int failed = waitid(P_PID, static_cast<id_t>(id_), &found, WEXITED | WNOHANG | WNOWAIT);
+  if (failed != 0 ? errno != EINTR : found.si_pid == id_) end_group();
   return ended_;
+}
+
+// As long as the child has not been waited for, no other group can have its number.
+void ChildProcess::end_group() {
+  kill(-id_, SIGKILL);
+  while (waitpid(id_, &status_, 0) < 0 && errno == EINTR) {
+  }
+  ended_ = true;
 }
 
 std::string ChildProcess::failure() const {

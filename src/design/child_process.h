@@ -10,7 +10,8 @@
 
 namespace remodel {
 
-// A child in a process group of its own, which does not outlive this object. It reads nothing.
+// A child in a process group of its own. It reads nothing. The group outlives neither this object nor the
+// child; processes that leave it (setsid) do.
 class ChildProcess {
  public:
   // Its standard output and error go into two files. Throws std::runtime_error where it cannot be started.
@@ -21,11 +22,14 @@ class ChildProcess {
   // Where it has not ended, its group is told to, and two seconds later killed.
   ~ChildProcess();
 
+  // When it has, what it started in its group is killed.
   bool ended();
   // The way in which it ended; empty where its status is 0.
   std::string failure() const;
 
  private:
+  void end_group();
+
   pid_t id_ = 0;
   int status_ = 0;
   bool ended_ = false;

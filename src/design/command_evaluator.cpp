@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -28,47 +29,100 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-fs::path temporary_directory() {
-  std::string name = (fs::temp_directory_path() / "remodel-evaluation-XXXXXX").string();
+// Of a name that begins like this.
+fs::path unique_directory(const fs::path& start) {
+  std::string name = start.string() + "XXXXXX";
   if (mkdtemp(name.data()) == nullptr)
     throw Error(ErrorCode::file, name, std::string("cannot make the directory: ") + std::strerror(errno));
   return name;
 }
 
-// An empty one, in the place of what a run that was killed may have left there.
-fs::path numbered_directory(const fs::path& parent, std::uint64_t number) {
-  const std::string digits = std::to_string(number);
-  const fs::path path =
-      fs::absolute(parent) / (std::string(6 - std::min<std::size_t>(6, digits.size()), '0') + digits);
-  std::error_code problem;
-  fs::remove_all(path, problem);
-  if (!problem) fs::create_directories(path, problem);
-  if (problem) throw Error(ErrorCode::file, path.string(), "cannot make the directory: " + problem.message());
-  return path;
-}
+// Evaluations run in DIR/running-XXXXXX/NUMBER and go to DIR/NUMBER where they are kept: a program that
+// outlived the run it belonged to writes to a name that no later run has.
+class EvaluationDirectories {
+ public:
+  explicit EvaluationDirectories(const fs::path& parent)
+      : parent_(parent.empty() ? parent : fs::absolute(parent)) {}
+  // Here and not with each evaluation, as another thread may be about to make one.
+  ~EvaluationDirectories() {
+    if (running_.empty()) return;
+    std::error_code ignored;
+    fs::remove(running_, ignored);
+    fs::remove(parent_, ignored);  // where none was kept
+  }
+  EvaluationDirectories(const EvaluationDirectories&) = delete;
+  EvaluationDirectories& operator=(const EvaluationDirectories&) = delete;
+
+  bool temporary() const { return parent_.empty(); }
+  fs::path kept(std::uint64_t number) const {
+    const std::string digits = std::to_string(number);
+    return parent_ / (std::string(6 - std::min<std::size_t>(6, digits.size()), '0') + digits);
+  }
+  // An empty one. What an earlier run kept under its number goes.
+  fs::path make(std::uint64_t number) {
+    if (temporary()) return unique_directory(fs::temp_directory_path() / "remodel-evaluation-");
+    const std::scoped_lock lock(mutex_);
+    if (running_.empty()) running_ = start();
+    const fs::path old = kept(number), path = running_ / old.filename();
+    std::error_code problem;
+    fs::remove_all(old, problem);
+    if (!problem) fs::create_directories(path, problem);
+    if (problem)
+      throw Error(ErrorCode::file, path.string(), "cannot make the directory: " + problem.message());
+    return path;
+  }
+
+ private:
+  static constexpr const char* prefix = "running-";
+
+  // Without what runs that were killed have left.
+  fs::path start() const {
+    std::error_code ignored;
+    fs::create_directories(parent_, ignored);
+    std::vector<fs::path> left;
+    for (const fs::directory_entry& entry : fs::directory_iterator(parent_, ignored))
+      if (entry.path().filename().string().starts_with(prefix)) left.push_back(entry.path());
+    for (const fs::path& path : left) fs::remove_all(path, ignored);
+    return unique_directory(parent_ / prefix);
+  }
+
+  const fs::path parent_;
+  fs::path running_;
+  std::mutex mutex_;
+};
 
 // The directory of one evaluation, which goes with all that is in it unless it is to be kept.
 class EvaluationDirectory {
  public:
-  EvaluationDirectory(const CommandOptions& options, std::uint64_t number)
-      : path_(options.directory.empty() ? temporary_directory()
-                                        : numbered_directory(options.directory, number)),
-        keep_(!options.directory.empty() && options.keep != KeepEvaluations::none),
-        keep_good_(options.keep == KeepEvaluations::all) {}
+  EvaluationDirectory(EvaluationDirectories& all, KeepEvaluations keep, std::uint64_t number)
+      : path_(all.make(number)),
+        kept_(all.kept(number)),
+        keep_(!all.temporary() && keep != KeepEvaluations::none),
+        keep_good_(keep == KeepEvaluations::all) {}
   ~EvaluationDirectory() {
-    if (keep_ && (keep_good_ || !good_)) return;
     std::error_code ignored;
-    fs::remove_all(path_, ignored);
-    fs::remove(path_.parent_path(), ignored);  // where this was the last one
+    if (keep_ && (keep_good_ || !good_))
+      fs::rename(path_, kept_, ignored);
+    else
+      fs::remove_all(path_, ignored);
   }
   EvaluationDirectory(const EvaluationDirectory&) = delete;
   EvaluationDirectory& operator=(const EvaluationDirectory&) = delete;
   const fs::path& path() const { return path_; }
   void succeeded() { good_ = true; }
   void forget() { keep_ = false; }
+  // A message about its files, with the names that they are going to have.
+  std::string as_kept(std::string message) const {
+    const std::string now = path_.string(), then = kept_.string();
+    if (!keep_) return message;
+    for (std::size_t at = message.find(now); at != std::string::npos;
+         at = message.find(now, at + then.size()))
+      message.replace(at, now.size(), then);
+    return message;
+  }
 
  private:
-  fs::path path_;
+  fs::path path_, kept_;
   bool keep_, keep_good_, good_ = false;
 };
 
@@ -97,6 +151,34 @@ Evaluation evaluation_from(const std::string& text) {
   return evaluation;
 }
 
+constexpr std::array<std::array<std::string_view, 2>, 6> known_words{{{"{mesh}", "mesh.su2"},
+                                                                      {"{design}", "design.json"},
+                                                                      {"{state}", "state.csv"},
+                                                                      {"{result}", "result.json"},
+                                                                      {"{case}", "case"},
+                                                                      {"{directory}", ""}}};
+
+// A word in braces that looks like that of a file and is none. Braces after a dollar sign, or with anything
+// else in them, belong to a shell.
+void refuse_unknown_words(const std::string& text, const std::vector<CommandPlace>& places) {
+  const auto letter = [](char c) { return c >= 'a' && c <= 'z'; };
+  const auto plain = [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '.' || c == '_'; };
+  for (std::size_t at = text.find('{'); at != std::string::npos; at = text.find('{', at + 1)) {
+    const std::size_t end = text.find('}', at);
+    if (end == std::string::npos) return;
+    const std::string inner = text.substr(at + 1, end - at - 1);
+    if (inner.empty() || !letter(inner[0]) || !std::all_of(inner.begin(), inner.end(), plain)) continue;
+    if (at > 0 && text[at - 1] == '$') continue;
+    if (std::any_of(places.begin(), places.end(), [&](const CommandPlace& place) { return place.at == at; }))
+      continue;
+    std::string expected;
+    for (const auto& word : known_words) expected += (expected.empty() ? "" : ", ") + std::string(word[0]);
+    throw Error(ErrorCode::argument, text,
+                "found {" + inner + "}, expected one of " + expected +
+                    " (a space in the braces leaves them to the shell)");
+  }
+}
+
 // The files that the words of a command name.
 struct CommandFiles {
   std::set<std::string> names;
@@ -106,8 +188,10 @@ struct CommandFiles {
 
 CommandFiles files_of(const std::vector<std::string>& words) {
   CommandFiles files;
-  for (const std::string& word : words)
-    for (const CommandPlace& place : command_places(word)) {
+  for (const std::string& word : words) {
+    const std::vector<CommandPlace> places = command_places(word);
+    refuse_unknown_words(word, places);
+    for (const CommandPlace& place : places) {
       if (place.file.starts_with("mesh.")) mesh_format(place.file);  // refuses others
       std::string& restart = files.state.restart;
       if (place.file.starts_with("state.") && !restart.empty() && restart != place.file)
@@ -118,6 +202,7 @@ CommandFiles files_of(const std::vector<std::string>& words) {
       files.result = files.result || place.file == "result.json";
       files.names.insert(place.file);
     }
+  }
   return files;
 }
 
@@ -134,7 +219,10 @@ std::vector<std::string> with_files(std::vector<std::string> words, const fs::pa
 class CommandEvaluator final : public Evaluator {
  public:
   CommandEvaluator(std::vector<std::string> command, CommandOptions options)
-      : command_(std::move(command)), words_(command_), options_(std::move(options)) {
+      : command_(std::move(command)),
+        words_(command_),
+        options_(std::move(options)),
+        directories_(options_.directory) {
     if (std::all_of(words_.begin(), words_.end(),
                     [](const std::string& word) { return command_places(word).empty(); }))
       words_.insert(words_.end(), {"{mesh}", "{design}"});
@@ -142,14 +230,14 @@ class CommandEvaluator final : public Evaluator {
   }
 
   Evaluation evaluate(const EvaluationTask& task, std::unique_ptr<EvaluatorState>& state) override {
-    EvaluationDirectory directory(options_, task.evaluation);
+    EvaluationDirectory directory(directories_, options_.keep, task.evaluation);
     try {
       const Evaluation evaluation = evaluate_in(directory.path(), task, state);
       if (std::isfinite(evaluation.objective)) directory.succeeded();
       return evaluation;
-    } catch (...) {
+    } catch (const std::exception& problem) {
       if (task.observer.cancelled()) directory.forget();
-      throw;
+      throw std::runtime_error(directory.as_kept(problem.what()));
     }
   }
 
@@ -172,6 +260,7 @@ class CommandEvaluator final : public Evaluator {
   std::vector<std::string> command_;
   std::vector<std::string> words_;  // with the files that a command without any is given
   CommandOptions options_;
+  EvaluationDirectories directories_;
   CommandFiles files_;
 };
 
@@ -232,19 +321,13 @@ void CommandEvaluator::run(const fs::path& directory, const fs::path& output, St
 }  // namespace
 
 std::vector<CommandPlace> command_places(std::string_view text) {
-  static constexpr std::array<std::array<std::string_view, 2>, 6> names{{{"{mesh}", "mesh.su2"},
-                                                                         {"{design}", "design.json"},
-                                                                         {"{state}", "state.csv"},
-                                                                         {"{result}", "result.json"},
-                                                                         {"{case}", "case"},
-                                                                         {"{directory}", ""}}};
   std::vector<CommandPlace> places;
   for (std::size_t at = text.find('{'); at != std::string_view::npos; at = text.find('{', at + 1)) {
     const std::size_t end = text.find('}', at);
     if (end == std::string_view::npos) break;
     const std::string_view name = text.substr(at, end + 1 - at), inner = name.substr(1, name.size() - 2);
     const auto plain = [](char c) { return c == '.' || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); };
-    for (const auto& [known, file] : names)
+    for (const auto& [known, file] : known_words)
       if (name == known) places.push_back({at, name.size(), std::string(file)});
     if (std::all_of(inner.begin(), inner.end(), plain) &&
         (inner.starts_with("mesh.") || inner == "state.csv" || inner == "state.dat"))

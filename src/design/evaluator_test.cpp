@@ -4,10 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <limits>
 #include <stdexcept>
+#include <string>
+#include <thread>
 
 #include "design/airfoil_space.h"
 #include "design/judge.h"
@@ -128,6 +132,20 @@ TEST_F(Judged, CommandsThatFailSayWhy) {
 
 TEST_F(Judged, CommandsEndWithACancelledRun) {
   EXPECT_EQ(run("sleep 1000", true), Stopped::interrupted);
+}
+
+// A zombie counts as ended: whoever has to wait for it may take its time.
+bool runs(long process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+  std::string id, name, state;
+  return file >> id >> name >> state && state != "Z" && state != "X";
+}
+
+TEST_F(Judged, WhatACommandLeavesBehindEndsWithIt) {
+  EXPECT_EQ(run(R"(sleep 1000 > /dev/null & printf '{"objective": %d}' $!)"), Stopped::done);
+  const auto left = static_cast<long>(job_.record.objective);
+  for (int i = 0; i < 1000 && runs(left); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_FALSE(runs(left)) << left;
 }
 
 TEST(Violation, IsTheLargestAndNothingWhereAllAreSatisfied) {

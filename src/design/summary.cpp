@@ -47,6 +47,11 @@ void Summary::add(const EvaluationRecord& record) {
   const double triangles = static_cast<double>(record.triangles);
   preserved_percent_.add(record.preserved_percent);
   lost_.add(static_cast<double>(record.triangles_before) - static_cast<double>(record.preserved));
+  const double changed =
+      static_cast<double>(record.triangles_before) + triangles - 2.0 * static_cast<double>(record.connected);
+  connectivity_percent_.add(record.connectivity_percent);
+  connectivity_kept_.add(changed == 0.0 ? 1.0 : 0.0);
+  changed_.add(changed);
   triangles_.add(triangles);
   remodel_ms_.add(1e3 * record.remodel_seconds);
   if (record.generated_triangles) {
@@ -73,6 +78,9 @@ OptimiseResult Summary::result() const {
   }
   result.preserved_percent = preserved_percent_.value();
   result.lost_mean = lost_.value();
+  result.connectivity_percent = connectivity_percent_.value();
+  result.connectivity_kept_steps = connectivity_kept_.value();
+  result.changed_triangles_mean = changed_.value();
   result.triangles_mean = triangles_.value();
   result.generated_triangles_mean = generated_triangles_.value();
   result.surplus_percent = surplus_percent_.value();

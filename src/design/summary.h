@@ -46,9 +46,9 @@ class Summary {
   double min_angle_deg_ = std::numeric_limits<double>::infinity();
   std::vector<double> best_design_;
   std::map<std::string, double> best_outputs_;
-  Mean preserved_percent_, lost_, triangles_, generated_triangles_, surplus_percent_, remodel_ms_,
-      generate_ms_, gradation_bias_, gradation_deviation_, generated_gradation_bias_,
-      generated_gradation_deviation_;
+  Mean preserved_percent_, lost_, connectivity_percent_, connectivity_kept_, changed_, triangles_,
+      generated_triangles_, surplus_percent_, remodel_ms_, generate_ms_, gradation_bias_,
+      gradation_deviation_, generated_gradation_bias_, generated_gradation_deviation_;
   std::string detail_;
 };
 

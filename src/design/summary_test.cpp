@@ -50,6 +50,19 @@ TEST(Summary, TakesComparedFiguresFromComparedEvaluationsAlone) {
   EXPECT_DOUBLE_EQ(result.lost_mean, 100.0);
 }
 
+TEST(Summary, CountsWhatIsBornAndGone) {
+  Summary summary;
+  EvaluationRecord changed = record_of(1, 3.0), kept = record_of(2, 2.0);
+  changed.connected = 950, changed.connectivity_percent = 95.0;
+  kept.triangles_before = kept.triangles = kept.connected = 1100, kept.connectivity_percent = 100.0;
+  summary.add(changed);
+  summary.add(kept);
+  const OptimiseResult result = summary.result();
+  EXPECT_DOUBLE_EQ(result.connectivity_percent, 97.5);
+  EXPECT_DOUBLE_EQ(result.connectivity_kept_steps, 0.5);
+  EXPECT_DOUBLE_EQ(result.changed_triangles_mean, 100.0);
+}
+
 TEST(Summary, KeepsTheFirstBestDesignAndTheFirstTrouble) {
   Summary summary;
   for (const double objective : {3.0, 1.0, 2.0, 1.0}) {
@@ -95,10 +108,27 @@ TEST(OptimiseResult, IsWrittenAsJsonWithNullForWhatWasNotMeasured) {
   OptimiseResult result = summary.result();
   result.best = {.upper = {0.1, 0.2}, .lower = {-0.1, -0.2}};
   const auto json = nlohmann::json::parse(optimise_result_to_json(result));
-  for (const char* key : {"evaluations", "infeasible_samples", "full_adjustments", "objective", "max_error",
-                          "preserved_percent", "lost_mean", "triangles_mean", "generated_triangles_mean",
-                          "surplus_percent", "remodel_ms_mean", "generate_ms_mean", "speedup",
-                          "min_angle_deg", "invalid_meshes", "recoveries", "seconds", "stopped"})
+  for (const char* key : {"evaluations",
+                          "infeasible_samples",
+                          "full_adjustments",
+                          "objective",
+                          "max_error",
+                          "preserved_percent",
+                          "lost_mean",
+                          "connectivity_percent",
+                          "connectivity_kept_steps",
+                          "changed_triangles_mean",
+                          "triangles_mean",
+                          "generated_triangles_mean",
+                          "surplus_percent",
+                          "remodel_ms_mean",
+                          "generate_ms_mean",
+                          "speedup",
+                          "min_angle_deg",
+                          "invalid_meshes",
+                          "recoveries",
+                          "seconds",
+                          "stopped"})
     EXPECT_TRUE(json.contains(key)) << key;
   EXPECT_TRUE(json.at("surplus_percent").is_null());
   EXPECT_EQ(json.at("objective").get<double>(), 0.1);

@@ -178,7 +178,9 @@ std::size_t Su2Restart::column(const std::string& name) const {
 Su2Restart parse_su2_restart(std::string_view bytes, const std::string& source) {
   std::int32_t first = 0;
   if (bytes.size() >= 5 * sizeof first) std::memcpy(&first, bytes.data(), sizeof first);
-  return first == su2_magic ? parse_binary(bytes, source) : parse_ascii(bytes, source);
+  Su2Restart restart = first == su2_magic ? parse_binary(bytes, source) : parse_ascii(bytes, source);
+  require_names(restart, source);  // whatever is read can be written
+  return restart;
 }
 
 Su2Restart read_su2_restart(const std::filesystem::path& file) {

@@ -87,8 +87,10 @@ class TriangleRemap {
     if (!positive(&old_[t * width_], conserved)) return false;
     for (int i = 0; i <= halvings; ++i) {
       if (corners_positive(t)) return i > 0;
-      for (std::size_t k = 0; k < width_; ++k)
-        slopes_[t * width_ + k] = (i < halvings ? 0.5 : 0.0) * slopes_[t * width_ + k];
+      for (const int component : conserved) {
+        Point& slope = slopes_[t * width_ + static_cast<std::size_t>(component)];
+        slope = (i < halvings ? 0.5 : 0.0) * slope;
+      }
     }
     return true;
   }

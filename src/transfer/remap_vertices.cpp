@@ -9,7 +9,8 @@
 //  T)
 //          conserve as well and are means of old values, so that they keep every bound that old values keep.
 //          The difference u - l is a sum over triangles whose three shares add up to 0: each triangle's is
-//          taken by a factor, smaller where a vertex breaks a bound, until none does.
+//          taken by a factor, smaller where a vertex breaks a bound, until none does. Each component has
+//          factors of its own, but for those that RemapOptions::conserved couples.
 
 #include <algorithm>
 #include <cmath>
@@ -36,9 +37,14 @@ class VertexRemap {
   Balance run() {
     interpolate();
     intersect_all();
-    factors_.assign(after_.triangles.size(), 1.0);
-    combine();
-    if (input_.options.limited) limit();
+    made_.resize(interpolated_.size());
+    limited_.assign(after_.triangles.size(), false);
+    for (const std::vector<std::size_t>& group : groups()) {
+      factors_.assign(after_.triangles.size(), 1.0);
+      combine(group);
+      if (input_.options.limited) limit(group);
+    }
+    balance_.limited = static_cast<std::size_t>(std::count(limited_.begin(), limited_.end(), true));
     finish_balance();
     return std::move(balance_);
   }
@@ -149,12 +155,36 @@ class VertexRemap {
     }
   }
 
+  // Components that share factors; those of RemapOptions::conserved come first.
+  std::vector<std::vector<std::size_t>> groups() const {
+    std::vector<std::vector<std::size_t>> result;
+    std::vector<bool> coupled(width_, false);
+    if (input_.options.conserved) {
+      result.emplace_back();
+      for (const int component : *input_.options.conserved) {
+        const auto k = static_cast<std::size_t>(component);
+        if (!coupled[k]) result.back().push_back(k);
+        coupled[k] = true;
+      }
+    }
+    for (std::size_t k = 0; k < width_; ++k)
+      if (!coupled[k]) result.push_back({k});
+    return result;
+  }
+
+  bool is_conserved(std::size_t k) const {
+    const auto& conserved = input_.options.conserved;
+    return conserved &&
+           std::find(conserved->begin(), conserved->end(), static_cast<int>(k)) != conserved->end();
+  }
+
   // The values for the present factors.
-  void combine() {
-    made_ = interpolated_;
+  void combine(const std::vector<std::size_t>& group) {
+    for (std::size_t v = 0; v < after_.points.size(); ++v)
+      for (const std::size_t k : group) made_[v * width_ + k] = interpolated_[v * width_ + k];
     for (std::size_t t = 0; t < after_.triangles.size(); ++t) {
       const double third = area_of(after_.corners(t)) / 3.0, rest = 1.0 - factors_[t];
-      for (std::size_t k = 0; k < width_; ++k) {
+      for (const std::size_t k : group) {
         const double share = defects_[t * width_ + k] / 3.0, mean = means_[t * width_ + k];
         for (const std::uint32_t v : after_.triangles[t].corners) {
           const double flux = third * (interpolated_[v * width_ + k] - mean) + share;
@@ -164,23 +194,23 @@ class VertexRemap {
     }
   }
 
-  bool keeps_bounds(std::size_t v) const {
-    for (std::size_t k = 0; k < width_; ++k) {
+  bool keeps_bounds(std::size_t v, const std::vector<std::size_t>& group) const {
+    for (const std::size_t k : group) {
       const std::size_t i = v * width_ + k;
       const double rounding = 1e-14 * (std::abs(low_[i]) + std::abs(high_[i]));
       if (!(made_[i] >= low_[i] - rounding && made_[i] <= high_[i] + rounding)) return false;
     }
-    return !input_.options.conserved || positive(&made_[v * width_], *input_.options.conserved);
+    return !is_conserved(group.front()) || positive(&made_[v * width_], *input_.options.conserved);
   }
 
   // Step 3. Each round halves the factors around vertices that break a bound; the last ones take all.
-  void limit() {
+  void limit(const std::vector<std::size_t>& group) {
     constexpr int halvings = 6, rounds = 40;
     for (int round = 0; round < rounds; ++round) {
       std::vector<bool> broken(after_.points.size());
       bool any = false;
       for (std::size_t v = 0; v < after_.points.size(); ++v) {
-        broken[v] = !keeps_bounds(v);
+        broken[v] = !keeps_bounds(v, group);
         any = any || broken[v];
       }
       if (!any) break;
@@ -192,10 +222,9 @@ class VertexRemap {
         factors_[t] = round < halvings ? 0.5 * factors_[t] : 0.0;
       }
       if (!changed) break;
-      combine();
+      combine(group);
     }
-    balance_.limited = static_cast<std::size_t>(
-        std::count_if(factors_.begin(), factors_.end(), [](double factor) { return factor < 1.0; }));
+    for (std::size_t t = 0; t < factors_.size(); ++t) limited_[t] = limited_[t] || factors_[t] < 1.0;
   }
 
   // Vertices at the rim of the patch have a part of their cells beyond it.
@@ -219,7 +248,8 @@ class VertexRemap {
   std::vector<double> interpolated_, made_;        // by new vertex
   std::vector<double> low_, high_;                 // bounds of each
   std::vector<double> cell_;                       // C_v
-  std::vector<double> defects_, means_, factors_;  // by new triangle
+  std::vector<double> defects_, means_, factors_;  // by new triangle; the factors are those of one group
+  std::vector<bool> limited_;                      // by new triangle: whether any factor is below 1
   std::vector<std::uint32_t> candidates_;
   Balance balance_;
 };

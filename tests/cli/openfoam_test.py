@@ -170,6 +170,10 @@ class Files(ProgramTest):
                              ("'list'", "nonuniform list")):
             self.write("200/T", re.sub(r"nonuniform List<scalar> \d+ \([^)]*\)", wrong, good, count=1))
             self.refused(*update, names="200/T")
+        self.write("200/T", good)
+        self.write("file", "")
+        for out, names in (("b.csv", "b.csv"), ("file", "is a file"), ("file/0", "is a file")):
+            self.refused(*update[:-1], out, "-o", "new.vtkhdf", names=names)
         self.write("200/T", good.replace("ascii", "binary"))
         self.refused(*update, names="binary")
         self.refused("draw", "case/case.foam", "-o", "x.png", names="case.foam")

@@ -16,7 +16,8 @@ import harness
 from harness import ProgramTest
 
 KEYS = (
-    "evaluations infeasible_samples full_adjustments objective max_error preserved_percent lost_mean triangles_mean "
+    "evaluations infeasible_samples full_adjustments objective max_error preserved_percent lost_mean connectivity_percent "
+    "connectivity_kept_steps changed_triangles_mean triangles_mean "
     "generated_triangles_mean surplus_percent remodel_ms_mean generate_ms_mean speedup min_angle_deg invalid_meshes "
     "recoveries seconds"
 )

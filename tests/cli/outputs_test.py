@@ -21,7 +21,7 @@ MESH_KEYS = (
     "triangles vertices boundary steiner_boundary_vertices min_angle_deg max_radius_edge max_gradation seconds stopped"
 )
 UPDATE_KEYS = (
-    "triangles_before triangles preserved preserved_percent moved inserted removed full_adjustment method seconds "
+    "triangles_before triangles preserved preserved_percent moved inserted removed full_adjustment method seconds strategy reason "
     "min_angle_deg max_gradation"
 )
 CHECK_KEYS = "valid violations triangles vertices min_angle_deg delaunay boundary area"

@@ -8,6 +8,7 @@ import sqlite3
 import stat
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import harness
@@ -26,7 +27,7 @@ if outputs["warm"]:
     assert [(int(row[0]), row[1], row[2]) for row in rows] == [(i, *p) for i, p in enumerate(points)]
     off = sorted(abs(row[3] - linear(p)) for row, p in zip(rows, points))
     outputs.update(median=off[len(off) // 2], largest=off[-1])
-    assert all(row[4] == 7 for row in rows)
+    assert all(abs(row[4] - 7) < 1e-13 for row in rows)
 open(state, "w").write('"PointID","x","y","Linear","Seven"\\n' + "".join(
     f"{i}, {x!r}, {y!r}, {linear((x, y))!r}, 7\\n" for i, (x, y) in enumerate(points)))
 json.dump({"objective": sum(a * a for a in json.load(open(design))), "outputs": outputs}, open(result, "w"))
@@ -91,9 +92,9 @@ with open(config["RESTART_FILENAME"] + ".csv", "w") as restart:
 
 
 class Loop(ProgramTest):
-    def optimise(self, directory, command, *options, evaluations=20, sigma=0.005, status=0):
+    def optimise(self, directory, command, *options, evaluations=20, sigma=0.005, points=40, status=0):
         return self.figures(
-            "optimise", "--from", "naca:0012", "--evaluate", command, "--points", 40, "--sigma", sigma,
+            "optimise", "--from", "naca:0012", "--evaluate", command, "--points", points, "--sigma", sigma,
             "--evaluations", evaluations, "--quiet", "-o", directory, *options, status=status)
 
     def rows(self, directory, query):
@@ -200,6 +201,50 @@ echo '{"objective": 1}' > "$3"
         run = ["optimise", "--from", "naca:0012", "--points", 40, "-o", "run", "--evaluate"]
         self.refused(*run, "true {mesh.xyz}", names=".xyz")
         self.refused(*run, "true {state} {state.dat}", names="state")
+        self.refused(*run, "true {mesh} {results}", names="found {results}, expected one of {mesh}, {design}, {state}, {result}")
+        shell = "value=1; echo \"{\\\"objective\\\": ${value}}\" | awk '{print $1, $2}'; true {mesh}"
+        self.assertEqual(self.optimise("shell", shell, evaluations=2)["failed_evaluations"], 0)
+
+    def test_a_run_whose_evaluations_all_failed_says_so(self):
+        outcome = self.succeed("optimise", "--from", "naca:0012", "--points", 40, "--evaluations", 3, "--quiet", "-o", "run",
+                               "--evaluate", "no-such-program {mesh}", status=1)
+        self.assertIn("all 3 evaluations failed", outcome.stderr)
+        self.assertIn("no-such-program", outcome.stderr)
+
+    def test_threads_do_not_take_one_anothers_directories(self):
+        self.write("constant.sh", "echo '{\"objective\": 1}' > \"$1\"\n")
+        for name, threads in (("alone", 1), ("together", 2)):
+            figures = self.optimise(name, "sh constant.sh {result}", "--workers", 2, "--threads", threads,
+                                    evaluations=600, sigma=0.02, points=20)
+            self.assertEqual(figures["failed_evaluations"], 0, figures["detail"])
+        query = "select coefficients, objective, triangles from evaluations order by evaluation"
+        self.assertEqual(self.rows("alone", query), self.rows("together", query))
+
+    def test_states_ride_to_meshes_that_a_strategy_generated(self):
+        self.write("rider.py", RIDER)
+        figures = self.optimise("run", "python3 rider.py {mesh} {design} {state} {result}", "--strategy", "regenerate",
+                                evaluations=40, sigma=0.02)
+        self.assertEqual(figures["failed_evaluations"], 0, figures["detail"])
+        self.assertGreater(figures["refreshes"], 0)
+        self.assertEqual([row["warm"] for row in self.outputs("run")], [0] + [1] * 39)
+
+    def test_a_solver_that_outlived_its_run_does_not_answer_for_the_next(self):
+        self.write("slow.sh", """if [ -e second ]; then
+  echo > written; while [ ! -e orphan ]; do sleep 0.01; done; [ -e "$1" ] || echo '{"objective": 222}' > "$1"; exit
+fi
+echo > first; while [ ! -e written ]; do sleep 0.01; done
+echo '{"objective": 111}' > "$1"; echo > orphan
+""")
+        run = ["optimise", "--from", "naca:0012", "--points", "40", "--evaluations", "1", "--quiet", "-o", "run", "--evaluate",
+               "sh slow.sh {result}"]
+        killed = subprocess.Popen([harness.PROGRAM, *run], cwd=self.directory, stderr=subprocess.DEVNULL)
+        while not self.path("first").exists():
+            time.sleep(0.01)
+        killed.kill()
+        killed.wait()
+        self.write("second", "")
+        self.assertEqual(self.figures(*run, "--resume")["objective"], 222)
+        self.assertFalse((self.path("run") / "evaluations").exists())
 
 
 class Su2(Loop):

@@ -144,6 +144,11 @@ class States(ProgramTest):
                 self.refused(*update, "--state", place.split(":")[0], names=place)
         self.refused(*update, names="--state")
         self.refused("update", "a.vtkhdf", "naca:2412", "--state", "a.csv", "--state-out", "b.txt", names="b.txt")
+        self.path("directory.csv").mkdir()
+        for out, names in (("b.txt", "b.txt"), ("directory.csv", "is a directory"), ("none/b.csv", "none")):
+            self.refused(*update[:-1], out, "--state", "a.csv", names=names)
+        self.write("long.csv", ascii_restart(points, rows).replace("Density", "D" * 33, 1))
+        self.refused(*update, "--state", "long.csv", names="1 to 32 characters")
         self.refused("transfer", "a.vtkhdf", "a.vtkhdf", "-o", "c.vtu", names="no fields")
         self.refused("transfer", "a.vtkhdf", "a.vtkhdf", "--state", "a.csv", names="--state")
         thinner = [*update[:2], "naca:0006", "--method", "general", *update[3:], "--state", "a.csv"]
