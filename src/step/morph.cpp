@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "remodel/predicates.h"
+#include "step/relax.h"
 #include "step/replace.h"
 #include "step/wall_field.h"
 
@@ -12,32 +13,22 @@ namespace {
 
 class Morph {
  public:
-  Morph(MeshData& mesh, const AdjustCache& cache)
+  Morph(MeshData& mesh, const AdjustCache& cache, const QualityBounds& bounds)
       : mesh_(mesh),
         triangulation_(mesh.triangulation),
         cache_(cache),
+        bounds_(bounds),
         moves_(&mesh.arena),
         triangles_(&mesh.arena),
         displacements_(&mesh.arena),
         at_start_(&mesh.arena) {}
 
-  // Halves the part that is tried wherever triangles turn over, and goes on with parts of that size.
-  bool run() {
+  bool run(Interior interior) {
     note_start();
     restore_all_outside();
-    int done = 0, part = parts;
-    for (int tried = 0; tried < most_tries && part > 0; ++tried) {
-      part = std::min(part, parts - done);
-      if (part == 0) break;
-      if (displaced_for_ != done) displace(done);
-      if (advance(done, part))
-        done += part;
-      else
-        part /= 2;
-    }
-    if (done < parts) return false;
-    restore_all_outside();
-    return true;
+    const bool done = interior == Interior::still ? walls_alone() : all();
+    if (done) restore_all_outside();
+    return done;
   }
 
   List<VertexId> moved() const {
@@ -60,6 +51,27 @@ class Morph {
     VertexId vertex;
     Point from, to;
   };
+
+  bool walls_alone() {
+    list_moves(0, parts, Interior::still);
+    return advance() && all_mended_;
+  }
+
+  // Halves the part that is tried wherever triangles turn over, and goes on with parts of that size.
+  bool all() {
+    int done = 0, part = parts;
+    for (int tried = 0; tried < most_tries && part > 0; ++tried) {
+      part = std::min(part, parts - done);
+      if (part == 0) break;
+      if (displaced_for_ != done) displace(done);
+      list_moves(done, part, Interior::along);
+      if (advance())
+        done += part;
+      else
+        part /= 2;
+    }
+    return done == parts;
+  }
 
   bool interior(VertexId v) const {
     const Vertex& vertex = triangulation_[v];
@@ -85,25 +97,25 @@ class Morph {
     return cache_.old_points[i] + share * (cache_.new_points[i] - cache_.old_points[i]);
   }
 
-  // Brings the walls from one part of the way to another. False, and nothing has changed, where triangles
-  // turn over.
-  bool advance(int done, int part) {
-    list_moves(done, part);
+  // Makes the moves that are listed, and mends what they spoil. False, and nothing has changed, where
+  // triangles turn over.
+  bool advance() {
     for (const Move& move : moves_) place(move.vertex, move.to);
     list_triangles();
     if (std::ranges::any_of(triangles_, [&](TriangleId t) { return turned_over(t); })) {
       for (const Move& move : moves_) place(move.vertex, move.from);
       return false;
     }
+    for (std::size_t i = 0; i < cache_.moving.size(); ++i)
+      triangulation_.set_length_scale(cache_.moving[i].vertex, cache_.new_scales[i]);
     for (const TriangleId t : triangles_) {
       const Triangle& triangle = triangulation_[t];
       triangulation_.set_moved(
           t, triangulation_.circle_of(triangle.vertex[0], triangle.vertex[1], triangle.vertex[2]),
           mesh_.step + 1);
     }
+    all_mended_ = relax(mesh_, bounds_, triangles_);
     triangulation_.restore_delaunay(triangles_);
-    for (std::size_t i = 0; i < cache_.moving.size(); ++i)
-      triangulation_.set_length_scale(cache_.moving[i].vertex, cache_.new_scales[i]);
     return true;
   }
 
@@ -125,7 +137,7 @@ class Morph {
     displaced_for_ = done;
   }
 
-  void list_moves(int done, int part) {
+  void list_moves(int done, int part, Interior interior) {
     moves_.clear();
     mesh_.seen_vertices.clear(triangulation_.vertex_slots());
     const auto add = [&](VertexId v, Point from, Point to) {
@@ -136,6 +148,7 @@ class Morph {
       const VertexId v = cache_.moving[i].vertex;
       add(v, triangulation_.point(v), wall_place(i, done + part));
     }
+    if (interior == Interior::still) return;
     const double share = static_cast<double>(part) / (parts - done);
     for (std::size_t i = walls; i < at_start_.size(); ++i) {
       const VertexId v = at_start_[i].vertex;
@@ -164,18 +177,21 @@ class Morph {
   MeshData& mesh_;
   Triangulation& triangulation_;
   const AdjustCache& cache_;
+  const QualityBounds bounds_;
   List<Move> moves_;
   List<TriangleId> triangles_;
   List<Point> displacements_;  // of the interior, in the order of at_start_
   int displaced_for_ = -1;     // the part of the way at which they were computed
+  bool all_mended_ = false;    // by the last relaxation, to the bounds
   List<Place> at_start_;  // of the moving loops' vertices, in the cache's order, and then of the interior
 };
 
 }  // namespace
 
-std::optional<List<VertexId>> morph_mesh(MeshData& mesh, AdjustCache& cache, const Domain& domain) {
-  Morph morph(mesh, cache);
-  if (!morph.run()) return std::nullopt;
+std::optional<List<VertexId>> morph_mesh(MeshData& mesh, AdjustCache& cache, const Domain& domain,
+                                         Interior interior, const QualityBounds& bounds) {
+  Morph morph(mesh, cache, bounds);
+  if (!morph.run(interior)) return std::nullopt;
   for (const std::size_t loop : cache.loops) {
     mesh.domain.loops[loop] = domain.loops[loop];
     mesh.loop_moved(loop);

@@ -1,10 +1,12 @@
 #pragma once
 
-// The rung of Strategy::morph: boundary vertices come to their places on the new design, the interior moves
-// along with them (wall_field.h), and edges that are no longer Delaunay are flipped.
+// The two rungs of Strategy::morph. Boundary vertices come to their places on the new design, and single
+// vertices of the interior are moved to mend what that spoils (relax.h). On the first rung that is all, and
+// has to be enough. On the second the whole interior moves along with the walls before (wall_field.h), and
+// edges that are not Delaunay after all are flipped.
 //
-// Where triangles would turn over, the change is made in parts: boundary vertices go a part of the straight
-// way, flips restore the Delaunay property, and the interior is displaced anew from there.
+// Where triangles would turn over, the second rung makes the change in parts: boundary vertices go a part of
+// the straight way, the interior is mended, and displaced anew from there.
 
 #include <optional>
 
@@ -12,10 +14,13 @@
 
 namespace remodel {
 
+enum class Interior { still, along };
+
 // Under a journal, after adjust_all() returned false. The vertices that are at other places, in the mesh's
-// arena; nothing where triangles turn over in the smallest parts too: then the caller takes the step back.
-// Angles, gradation and encroachment are left to refinement. Throws RecoveryError where the hull crosses
-// itself.
-std::optional<List<VertexId>> morph_mesh(MeshData& mesh, AdjustCache& cache, const Domain& domain);
+// arena; nothing where triangles turn over in the smallest parts too, or where a still interior is not
+// enough: then the caller takes the step back. What misses these bounds on angles and gradation after all is
+// left to refinement. Throws RecoveryError where the hull crosses itself.
+std::optional<List<VertexId>> morph_mesh(MeshData& mesh, AdjustCache& cache, const Domain& domain,
+                                         Interior interior, const QualityBounds& bounds);
 
 }  // namespace remodel

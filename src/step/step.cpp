@@ -14,7 +14,6 @@
 #include "step/coarsen.h"
 #include "step/follow.h"
 #include "step/methods.h"
-#include "step/morph.h"
 #include "step/outcome.h"
 #include "step/strategy.h"
 
@@ -303,17 +302,21 @@ RemodelResult Step::finish_adjustment() {
 }
 
 // After a full adjustment was not possible, as Strategy::morph has it. False, with the mesh as it was, where
-// triangles turn over, or what misses a bound cannot be refined: then vertices are replaced.
+// triangles turn over, or what misses a bound cannot be refined: then vertices are replaced. What becomes a
+// reference moves with its interior: beside walls that moved alone its triangles would have little slack.
 bool Step::morph() {
   if (!morphs() || cache_ == nullptr || !cache_->finite()) return false;
-  morphing_ = true;
-  const bool done = attempt();
-  morphing_ = false;
-  if (!done) {
-    journal_.reset();
-    result_ = {};
-  }
-  return done;
+  const auto morph_by = [&](Interior interior) {
+    morphing_ = interior;
+    const bool done = attempt();
+    morphing_.reset();
+    if (!done) {
+      journal_.reset();
+      result_ = {};
+    }
+    return done;
+  };
+  return (options_.strategy == Strategy::morph && morph_by(Interior::still)) || morph_by(Interior::along);
 }
 
 // After a full adjustment was not possible or does not apply: the paper's two methods, the specialised one
@@ -378,7 +381,7 @@ bool Step::change_under_journal() {
   }
   require_points_in_domain(mesh);
   result_ = places_before_ ? count_replacement(mesh, moved_since_before()) : count_replacement(mesh, *moved);
-  result_.morphed = morphing_;
+  result_.morphed = morphing_.has_value();
   result_.stopped = what_still_stops();
   if (renewing_)
     finish_replacement(mesh, renewal);
@@ -415,7 +418,7 @@ std::optional<List<VertexId>> Step::change_boundary() {
   MeshData& mesh = data();
   if (morphing_) {
     note_moved(mesh, cache_->loops);
-    return morph_mesh(mesh, *cache_, domain_);
+    return morph_mesh(mesh, *cache_, domain_, *morphing_, bounds_of_morph());
   }
   const ReplaceOptions options{.distance = options_.distance, .renewing = renewing_};
   if (cache_ != nullptr) {
@@ -425,6 +428,15 @@ std::optional<List<VertexId>> Step::change_boundary() {
   replace_loops(mesh, domain_, options);
   note_all_moved(mesh);
   return List<VertexId>(&mesh.arena);
+}
+
+// A new reference is as good as refinement makes it, so that designs around it are held.
+QualityBounds Step::bounds_of_morph() const {
+  const MeshData& mesh = mesh_.data();
+  QualityBounds bounds = mesh.promised_bounds();
+  if (options_.strategy == Strategy::reference)
+    bounds.squared_radius_edge = QualityBounds::of_refinement(mesh.options).squared_radius_edge;
+  return bounds;
 }
 
 void Step::note_replacement() {

@@ -6,7 +6,8 @@
 //   nothing moves           nothing is done
 //   follow()                Strategy::reference: all vertices go where the mesh's reference takes them
 //   adjust_in_place()       all boundary vertices moved to the new design, connectivity unchanged
-//   morph()                 Strategy::morph: the interior moves along, what misses a bound is mended
+//   morph()                 Strategy::morph: the interior moves beside the walls or with them, what misses a
+//                           bound is mended
 //   replace()               what cannot move is relocated or replaced, what was touched is refined
 //   regenerate()            the mesh is taken back and one of the new design generated
 
@@ -16,6 +17,7 @@
 #include "remodel/generate.h"
 #include "remodel/remodel.h"
 #include "step/adjust.h"
+#include "step/morph.h"
 #include "step/step_journal.h"
 
 namespace remodel {
@@ -70,6 +72,7 @@ class Step {
            : options_.strategy == Strategy::reference ? Made::reference
                                                       : Made::morphed;
   }
+  QualityBounds bounds_of_morph() const;
   void note_replacement();
   void shed_and_refine();
   Stopped what_still_stops();
@@ -92,7 +95,7 @@ class Step {
   std::optional<LoopIndices> moving_;  // the loops that differ, where their vertices correspond one to one
   Method method_ = Method::general;
   bool renewing_ = false;
-  bool morphing_ = false;              // the attempt under way moves the interior too
+  std::optional<Interior> morphing_;   // how the attempt under way moves the interior, if it is a morph
   bool other_discretisation_ = false;  // boundary vertices do not correspond
   bool refresh_is_due_ = false;
   AdjustCache* cache_ = nullptr;              // of the specialised method
