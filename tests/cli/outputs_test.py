@@ -339,6 +339,33 @@ class Batches(ProgramTest):
         self.assertEqual(sorted(path.name for path in self.path("out").iterdir()),
                          ["001.vtkhdf", "002.vtkhdf", "notes.txt", "report.json"])
 
+    def names_in(self, directory):
+        return sorted(path.name for path in self.path(directory).iterdir())
+
+    def test_overwriting_takes_what_a_batch_wrote_alone(self):
+        batch = ("batch", "a.vtkhdf", "naca:0013", "naca:0014", "-o", "out", "--meshes")
+        self.assertEqual(self.figures(*batch, "su2,vtkhdf")["files"],
+                         ["001.su2", "001.vtkhdf", "002.su2", "002.vtkhdf"])
+        self.write("out/2024.msh", "of the user")
+        self.write("out/001.vtu", "of the user")
+        outcome = self.succeed(*batch, "su2", "--overwrite")
+        self.assertEqual(self.names_in("out"), ["001.su2", "001.vtu", "002.su2", "2024.msh", "report.json"])
+        self.assertEqual(self.path("out/2024.msh").read_text(), "of the user")
+        for name in ("001.vtu", "2024.msh"):
+            self.assertIn(f"out/{name}: left as it is", outcome.stderr)
+        # What it would write over is not its own.
+        self.refused(*batch, "vtu", "--overwrite", names="holds 001.vtu")
+        self.assertEqual(self.path("out/001.vtu").read_text(), "of the user")
+        # As a batch that was killed leaves it, and as older programs wrote it.
+        for record in ({"designs": [], "files": ["001.su2", "002.su2", "../a.vtkhdf"], "finished": False},
+                       {"designs": [{"meshes": ["001.su2"]}, {"meshes": ["002.su2"]}]}):
+            self.write("out/report.json", json.dumps(record))
+            self.succeed(*batch, "su2", "--overwrite")
+            self.assertTrue(self.path("a.vtkhdf").exists())
+        for report in ("{}", "of the user"):
+            self.write("out/report.json", report)
+            self.refused(*batch, "su2", "--overwrite", names="report.json")
+
     def test_a_batch_does_not_write_into_a_run(self):
         self.succeed("optimise", "--from", "naca:0012", "--to", "rae2822", "--points", 50, "--evaluations", 5, "-o", "run")
         before = sorted(path.name for path in self.path("run").iterdir())
