@@ -98,6 +98,28 @@ TEST(Import, ClockwiseTrianglesAreTurnedAndUnusedPointsLeftOut) {
   EXPECT_EQ(all_corners(result.mesh.freeze()), all_corners(before));
 }
 
+TEST(Import, TrianglesThatAreListedTwiceAreTakenOnce) {
+  FrozenMesh mesh = test::foreign_holes();
+  const FrozenMesh before = mesh;
+  // Beside the triangle itself, turned, the other way around, and in another region.
+  mesh.region.assign(mesh.triangles.size(), 0);
+  mesh.region_names = {"all", "part"};
+  const auto [a, b, c] = mesh.triangles[3];
+  mesh.triangles.insert(mesh.triangles.begin() + 5, {{{a, b, c}, {b, c, a}, {b, a, c}}});
+  mesh.region.insert(mesh.region.begin() + 5, 3, 1);
+  const ImportResult result = imported(mesh);
+  EXPECT_EQ(result.duplicate_triangles, 3U);
+  EXPECT_EQ(result.mesh.freeze().triangles, before.triangles);
+  EXPECT_EQ(result.mesh.quick_check(), "");
+  // A triangle that lies on others without being one of them overlaps them; it has the file's number.
+  mesh.triangles.push_back({a, b, mesh.triangles[20][0]});
+  mesh.region.push_back(0);
+  const std::string number = std::to_string(mesh.triangles.size() - 1);
+  const std::string error = test::error_of([&] { imported(mesh); });
+  EXPECT_NE(error.find("overlap"), std::string::npos) << error;
+  EXPECT_NE(error.find(number), std::string::npos) << error;
+}
+
 // ---- meshes that are not Delaunay
 
 TEST(Import, FlipsMakeAMeshDelaunayOrAreNotSeen) {
