@@ -145,12 +145,15 @@ void Hdf5Writer::attribute(const std::string& group, const std::string& name, co
   if (!attribute || H5Awrite(attribute.get(), type.get(), value.data()) < 0) fail(group + "@" + name);
 }
 
-std::string Hdf5Writer::bytes() {
+std::string Hdf5Writer::take() {
   if (H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) < 0) fail("/");
   const ssize_t size = H5Fget_file_image(file_.get(), nullptr, 0);
   if (size < 0) fail("/");
-  std::string image(static_cast<std::size_t>(size), '\0');
+  std::string image;
+  image.reserve(static_cast<std::size_t>(size) + seal_size);
+  image.resize(static_cast<std::size_t>(size));
   if (H5Fget_file_image(file_.get(), image.data(), image.size()) < 0) fail("/");
+  file_ = Hdf5Handle();
   return image;
 }
 

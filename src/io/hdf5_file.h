@@ -67,7 +67,8 @@ class Hdf5Writer {
   void attribute(const std::string& group, const std::string& name, const std::vector<Value>& values);
   void attribute(const std::string& group, const std::string& name, const std::string& value);
 
-  std::string bytes();
+  // The file, which ends with that: room for a seal is there.
+  std::string take();
 
  private:
   [[noreturn]] void fail(const std::string& path) const;

@@ -123,7 +123,7 @@ TEST(NativeFile, AnotherStateVersionIsNamed) {
   out.attribute("/VTKHDF", "Type", "UnstructuredGrid");
   out.group("/remodel");
   out.attribute("/remodel", "format_version", std::vector<std::int64_t>{9});
-  write_text_atomically(file, out.bytes());
+  write_text_atomically(file, out.take());
   EXPECT_EQ(error_of([&] { io::read_vtkhdf_state(file); }),
             file.string() + ":/remodel@format_version: 9 found, 6 expected");
 }
@@ -159,7 +159,7 @@ std::string layout_problem(const Layout& layout) {
     out.group("/VTKHDF/CellData");
     out.array("/VTKHDF/CellData/boundary", layout.boundary);
   }
-  write_text_atomically(file, out.bytes());
+  write_text_atomically(file, out.take());
   const std::string error = error_of([&] { read_frozen_mesh(file); });
   return error.empty() ? "read" : error.substr(file.string().size());
 }
@@ -220,6 +220,18 @@ TEST(VtkhdfLayout, ADatasetThatClaimsMoreThanTheFileHoldsIsRefused) {
   const Hdf5Reader in(file);
   EXPECT_TRUE(contains(error_of([&] { in.array<double>("/huge"); }),
                        "/huge: 1099511627776 values found, no more than the file can hold expected"));
+}
+
+TEST(VtkHdf, KeepsTheLastGenerationOfKeysWithoutAStateToo) {
+  const Scratch scratch;
+  FrozenMesh mesh = test::full_square_ring();
+  mesh.last_generation = 12;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    mesh.vertex_keys.push_back((std::uint64_t{1} << 32) + v + 1);
+  for (const char* name : {"m.vtkhdf", "m.vtu", "m.msh"}) {
+    write_mesh(mesh, scratch / name);
+    EXPECT_EQ(read_frozen_mesh(scratch / name).last_generation, 12U) << name;
+  }
 }
 
 }  // namespace
