@@ -254,7 +254,7 @@ void write_vtkhdf(const std::filesystem::path& file, const FrozenMesh& mesh, con
   Hdf5Writer out(file.string());
   write_grid(out, to_vtk_grid(mesh, fields));
   if (state != nullptr) write_state(out, *state);
-  write_text_atomically(file, sealed(out.take()));
+  write_text_atomically(file, out.sealed());
 }
 
 // One view after the other: each is as large as the mesh.
@@ -265,7 +265,7 @@ void write_vtkhdf(const std::filesystem::path& file, const Mesh& mesh, std::span
     write_grid(out, grid);
   }
   write_state(out, mesh.state());
-  write_text_atomically(file, sealed(out.take()));
+  write_text_atomically(file, out.sealed());
 }
 
 FrozenMesh read_vtkhdf_frozen(const std::filesystem::path& file) {

@@ -40,7 +40,7 @@ void write_triangle_without(const std::filesystem::path& file, const std::string
     array("/VTKHDF/Offsets", std::vector<std::int64_t>{0, 3});
     array("/VTKHDF/Types", std::vector<std::uint8_t>{5});
   }
-  write_text_atomically(file, out.take());
+  write_text_atomically(file, out.bytes());
   const Hdf5Handle opened(H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
   replace(opened.get());
 }
@@ -178,7 +178,7 @@ TEST(VtkhdfStorage, OneLongTextForManyIsRefused) {
   texts[0] = std::string(60'000, 'y');
   Hdf5Writer out("m");
   out.texts("/texts", texts);
-  std::string bytes = out.take();
+  std::string bytes(out.bytes());
   // A reference is the length, the heap's address and the place in the heap: 16 bytes.
   const std::string length = std::string("\x60\xea\0\0", 4);
   const std::size_t first = bytes.find(length);

@@ -123,7 +123,7 @@ TEST(NativeFile, AnotherStateVersionIsNamed) {
   out.attribute("/VTKHDF", "Type", "UnstructuredGrid");
   out.group("/remodel");
   out.attribute("/remodel", "format_version", std::vector<std::int64_t>{9});
-  write_text_atomically(file, out.take());
+  write_text_atomically(file, out.bytes());
   EXPECT_EQ(error_of([&] { io::read_vtkhdf_state(file); }),
             file.string() + ":/remodel@format_version: 9 found, 6 expected");
 }
@@ -159,7 +159,7 @@ std::string layout_problem(const Layout& layout) {
     out.group("/VTKHDF/CellData");
     out.array("/VTKHDF/CellData/boundary", layout.boundary);
   }
-  write_text_atomically(file, out.take());
+  write_text_atomically(file, out.bytes());
   const std::string error = error_of([&] { read_frozen_mesh(file); });
   return error.empty() ? "read" : error.substr(file.string().size());
 }
