@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <set>
 
 #include "arguments.h"
 #include "command.h"
@@ -95,9 +97,14 @@ std::vector<std::string> formats_of(const std::string& option, const std::string
   return formats;
 }
 
-// Whether a batch writes files of this name: report.json, 001.su2.
-bool is_of_a_batch(const std::filesystem::path& file) {
-  if (file.filename() == "report.json") return true;
+std::string file_of(std::size_t number, const std::string& extension) {
+  std::string digits = std::to_string(number);
+  if (digits.size() < 3) digits.insert(0, 3 - digits.size(), '0');
+  return digits + "." + extension;
+}
+
+// Whether a batch gives files such names: 001.su2.
+bool is_named_as_of_a_batch(const std::filesystem::path& file) {
   const std::string stem = file.stem().string();
   const std::string extension = file.extension().string();
   return stem.size() >= 3 && stem.find_first_not_of("0123456789") == std::string::npos &&
@@ -105,11 +112,71 @@ bool is_of_a_batch(const std::filesystem::path& file) {
                      [&](const char* known) { return extension == std::string(".") + known; });
 }
 
-std::vector<std::filesystem::path> files_of_a_batch(const std::filesystem::path& directory) {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(directory))
-    if (is_of_a_batch(entry.path())) files.push_back(entry.path());
+constexpr const char* report_name = "report.json";
+
+// What a directory holds of an earlier batch, and beside it.
+struct Earlier {
+  bool report = false;             // of a batch
+  std::set<std::string> written;   // as the report says
+  std::vector<std::string> alike;  // named like files of a batch; no report says that one wrote them
+};
+
+// Files that a report says its batch wrote: all at once, or in an older one design by design.
+std::set<std::string> files_in_report(const std::filesystem::path& file) {
+  const auto refuse = [&] {
+    throw Error(ErrorCode::argument, file.string(),
+                "found a file that no batch wrote, expected another directory");
+  };
+  const Json report = Json::parse(read_text(file), nullptr, false);
+  if (!report.is_object() || !report.contains("designs") || !report["designs"].is_array()) refuse();
+  std::set<std::string> names;
+  const auto take = [&](const Json& list) {
+    if (!list.is_array()) return;
+    for (const Json& name : list)
+      if (name.is_string() && is_named_as_of_a_batch(name.get<std::string>()) &&
+          !std::filesystem::path(name.get<std::string>()).has_parent_path())
+        names.insert(name.get<std::string>());
+  };
+  if (report.contains("files")) take(report["files"]);
+  for (const Json& design : report["designs"])
+    if (design.is_object() && design.contains("meshes")) take(design["meshes"]);
+  return names;
+}
+
+Earlier earlier_in(const std::filesystem::path& directory) {
+  Earlier earlier;
+  earlier.report = std::filesystem::exists(directory / report_name);
+  if (earlier.report) earlier.written = files_in_report(directory / report_name);
+  for (const auto& entry : std::filesystem::directory_iterator(directory)) {
+    const std::string name = entry.path().filename().string();
+    if (is_named_as_of_a_batch(name) && !earlier.written.contains(name)) earlier.alike.push_back(name);
+  }
+  std::sort(earlier.alike.begin(), earlier.alike.end());
+  return earlier;
+}
+
+// All that a batch may write beside its report.
+std::vector<std::string> files_to_write(const BatchCommand& command) {
+  std::vector<std::string> files;
+  for (std::size_t i = 1; i <= command.shapes.size(); ++i)
+    for (const std::string& extension : command.meshes) files.push_back(file_of(i, extension));
   return files;
+}
+
+// Nothing that this batch did not write is lost, whatever is to be overwritten.
+void require_room(const BatchCommand& command) {
+  const Earlier earlier = earlier_in(command.directory);
+  const std::string directory = command.directory.string();
+  if (!command.overwrite && (earlier.report || !earlier.alike.empty()))
+    throw Error(ErrorCode::argument, directory,
+                "holds a batch: expected another directory, or --overwrite to replace it");
+  const std::vector<std::string> files = files_to_write(command);
+  for (const std::string& name : earlier.alike)
+    if (std::find(files.begin(), files.end(), name) != files.end())
+      throw Error(ErrorCode::argument, directory,
+                  "holds " + name +
+                      ", of which no report.json there says that a batch wrote it: expected another "
+                      "directory, or that file elsewhere");
 }
 
 void require_directory(const BatchCommand& command) {
@@ -121,20 +188,24 @@ void require_directory(const BatchCommand& command) {
   }
   if (!std::filesystem::is_directory(directory, error))
     throw Error(ErrorCode::file, directory.string(), "is a file, expected a directory");
-  require_writable(directory / "report.json");
+  require_writable(directory / report_name);
   for (const char* file : {"history.sqlite", "checkpoint.json", "study.sqlite"})
     if (std::filesystem::exists(directory / file, error))
       throw Error(ErrorCode::argument, directory.string(),
                   std::string("holds ") + file + " of a run: expected another directory");
-  if (!command.overwrite && !files_of_a_batch(directory).empty())
-    throw Error(ErrorCode::argument, directory.string(),
-                "holds a batch: expected another directory, or --overwrite to replace it");
+  require_room(command);
 }
 
-std::string file_of(std::size_t number, const std::string& extension) {
-  std::string digits = std::to_string(number);
-  if (digits.size() < 3) digits.insert(0, 3 - digits.size(), '0');
-  return digits + "." + extension;
+// Removes what the batch before wrote, and records what this one will write: a batch that is killed leaves
+// files that are known to be its own.
+void begin_record(const BatchCommand& command) {
+  const Earlier earlier = earlier_in(command.directory);
+  for (const std::string& name : earlier.written) std::filesystem::remove(command.directory / name);
+  for (const std::string& name : earlier.alike)
+    std::fprintf(stderr, "remodel: %s: left as it is: no batch's report says that it wrote it\n",
+                 (command.directory / name).c_str());
+  const Json record{{"designs", Json::array()}, {"files", files_to_write(command)}, {"finished", false}};
+  write_text_atomically(command.directory / report_name, record.dump(2) + "\n");
 }
 
 // Remodels the mesh to one design after the other. Sums are over the designs so far.
@@ -183,6 +254,7 @@ class Batch {
                  {.inner = command_.inner_markers ? InnerCurves::markers : InnerCurves::left_out});
       if (!entry.contains("mesh")) entry["mesh"] = file;
       entry["meshes"].push_back(file);
+      files_.push_back(file);
     }
     designs_[index] = std::move(entry);
     lost_ += static_cast<double>(lost);
@@ -208,11 +280,13 @@ class Batch {
     report.data("designs", std::move(all));
   }
   std::size_t invalid() const { return invalid_; }
+  const std::vector<std::string>& files() const { return files_; }  // written, in their order
 
  private:
   const BatchCommand& command_;
   Mesh mesh_;
   Json designs_;
+  std::vector<std::string> files_;
   std::size_t done_ = 0, full_adjustments_ = 0, invalid_ = 0;
   double lost_ = 0.0, preserved_percent_ = 0.0, seconds_ = 0.0;
 };
@@ -225,7 +299,7 @@ Status run(const BatchCommand& command) {
   const std::vector<std::size_t> order = order_of(command, start, designs);
   const DirectoryLock lock(command.directory);
   require_directory(command);  // another batch may have ended there meanwhile
-  for (const std::filesystem::path& file : files_of_a_batch(command.directory)) std::filesystem::remove(file);
+  begin_record(command);
 
   if (std::count(command.meshes.begin(), command.meshes.end(), "su2") != 0 && !command.inner_markers)
     warn_of_inner_curves(start.mesh.freeze(), (command.directory / "*.su2").string(),
@@ -244,8 +318,10 @@ Status run(const BatchCommand& command) {
   report.figure("strategy", "strategy", name_of(command.remodelling.strategy));
   add_fit_figures(report, fits);
   batch.add_figures(report);
-  write_text_atomically(command.directory / "report.json", report.json_text());
-  report.line("written", (command.directory / "report.json").string());
+  report.data("files", batch.files());
+  report.data("finished", finished);
+  write_text_atomically(command.directory / report_name, report.json_text());
+  report.line("written", (command.directory / report_name).string());
   report.print(command.json);
   if (!finished) return Status::limit;
   return batch.invalid() == 0 ? Status::done : Status::answer_is_no;

@@ -9,6 +9,17 @@
 
 namespace remodel::app {
 
+namespace {
+
+std::vector<std::string> columns_of(const std::string& name, std::size_t components) {
+  if (components == 1) return {name};
+  std::vector<std::string> columns;
+  for (std::size_t k = 0; k < components; ++k) columns.push_back(name + "." + std::to_string(k));
+  return columns;
+}
+
+}  // namespace
+
 // All values of one place side by side, so that they share intersections and limits.
 struct Cargo::Table {
   std::vector<std::string> names;  // of columns, as figures call them
@@ -17,8 +28,7 @@ struct Cargo::Table {
   int width() const { return static_cast<int>(names.size()); }
   void take(const std::string& name, std::size_t components, const std::vector<double>& from) {
     const std::size_t rows = from.size() / components, before = names.size();
-    for (std::size_t k = 0; k < components; ++k)
-      names.push_back(components == 1 ? name : name + "." + std::to_string(k));
+    for (std::string& column : columns_of(name, components)) names.push_back(std::move(column));
     std::vector<double> wider(rows * names.size());
     for (std::size_t i = 0; i < rows; ++i) {
       for (std::size_t k = 0; k < before; ++k) wider[i * names.size() + k] = values[i * before + k];
@@ -47,6 +57,18 @@ std::optional<std::array<int, 4>> conserved_columns(const std::vector<std::strin
     found[k] = static_cast<int>(at - names.begin());
   }
   return found;
+}
+
+// Component by component: tensors of OpenFOAM have more than a field of a mesh may have.
+std::vector<double> integrals_of(const Field& field, const FrozenMesh& mesh) {
+  const auto width = static_cast<std::size_t>(field.components);
+  std::vector<double> result;
+  for (std::size_t k = 0; k < width; ++k) {
+    Field one{field.name, field.place, 1, {}};
+    for (std::size_t i = k; i < field.values.size(); i += width) one.values.push_back(field.values[i]);
+    result.push_back(integral(one, mesh).front());
+  }
+  return result;
 }
 
 void require_time_out(const std::string& directory) {
@@ -102,6 +124,7 @@ Cargo::Cargo(const std::string& file, const FrozenMesh& mesh, const CarryOptions
   }
   if (options.state.empty() || is_time) return;
   state_ = read_su2_restart(options.state);
+  require_coordinates(*state_, mesh, options.state);
   set_coordinates(*state_, mesh, options.state);
 }
 
@@ -119,19 +142,33 @@ std::vector<Field> Cargo::with_state() const {
   return all;
 }
 
-void Cargo::note_integrals(const FrozenMesh& mesh, Json& integrals) const {
-  for (const Field& field : with_state()) {
-    const std::vector<double> values = integral(field, mesh);
-    integrals[field.name] = values.size() == 1 ? Json(values[0]) : Json(values);
-  }
+std::vector<Field> Cargo::in_cells() const {
+  std::vector<Field> all;
+  if (!time_) return all;
+  for (const FoamField& field : time_->fields)
+    for (const FoamList& list : field.lists)
+      if (list.patch.empty())
+        all.push_back({field.name, FieldPlace::triangles, list.components, list.values});
+  return all;
 }
 
-void Cargo::note_balance(const Table& table, const Balance& balance) {
+void Cargo::note_integrals(const FrozenMesh& mesh, Json& integrals) const {
+  const auto note = [&](const std::vector<Field>& fields) {
+    for (const Field& field : fields) {
+      const std::vector<double> values = integrals_of(field, mesh);
+      integrals[field.name] = values.size() == 1 ? Json(values[0]) : Json(values);
+    }
+  };
+  note(with_state());
+  note(in_cells());
+}
+
+void Cargo::note_balance(const std::vector<std::string>& names, const Balance& balance) {
   Json& swept = figures_["swept"];
   swept["area_gained"] = balance.area_gained, swept["area_lost"] = balance.area_lost;
-  for (std::size_t k = 0; k < table.names.size(); ++k) {
-    swept["gained"][table.names[k]] = balance.gained[k];
-    swept["lost"][table.names[k]] = balance.lost[k];
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    swept["gained"][names[k]] = balance.gained[k];
+    swept["lost"][names[k]] = balance.lost[k];
   }
 }
 
@@ -150,8 +187,8 @@ void Cargo::move(const Transfer& transfer, FieldPlace place, bool conservative) 
   }
   if (table.names.empty()) return;
   if (conservative)
-    note_balance(table, transfer.remap(place, table.width(), table.values,
-                                       {.conserved = conserved_columns(table.names)}));
+    note_balance(table.names, transfer.remap(place, table.width(), table.values,
+                                             {.conserved = conserved_columns(table.names)}));
   else
     transfer.ride(place, table.width(), table.values);
   std::size_t column = 0;
@@ -166,9 +203,13 @@ void Cargo::move(const Transfer& transfer, FieldPlace place, bool conservative) 
 void Cargo::move_time(const Transfer& transfer, const FrozenMesh& before, const FrozenMesh& after,
                       bool conservative) {
   if (!time_) return;
+  const std::vector<Field> cells = in_cells();
+  auto field = cells.begin();
   carry_foam_time(*time_, before, after, [&](int components, std::vector<double>& values) {
+    const std::string& name = (field++)->name;
     if (conservative)
-      transfer.remap(FieldPlace::triangles, components, values);
+      note_balance(columns_of(name, static_cast<std::size_t>(components)),
+                   transfer.remap(FieldPlace::triangles, components, values));
     else
       transfer.ride(FieldPlace::triangles, components, values);
   });

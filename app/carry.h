@@ -50,8 +50,9 @@ class Cargo {
   void move_time(const Transfer& transfer, const FrozenMesh& before, const FrozenMesh& after,
                  bool conservative);
   void note_integrals(const FrozenMesh& mesh, Json& integrals) const;
-  void note_balance(const Table& table, const Balance& balance);
+  void note_balance(const std::vector<std::string>& names, const Balance& balance);
   std::vector<Field> with_state() const;
+  std::vector<Field> in_cells() const;  // of a time directory, in the order in which they are carried
 
   CarryOptions options_;
   std::vector<Field> fields_;

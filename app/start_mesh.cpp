@@ -115,6 +115,7 @@ void add_import_figures(Report& report, const StartMesh& start) {
                          {"refine_angle_deg", promised.refine_angle_deg},
                          {"gradation", promised.gradation},
                          {"turned_triangles", import.turned_triangles},
+                         {"duplicate_triangles", import.duplicate_triangles},
                          {"unused_points", import.unused_points},
                          {"unnamed_edges", import.unnamed_edges},
                          {"non_delaunay_edges", import.non_delaunay_edges},
@@ -126,6 +127,7 @@ void add_import_figures(Report& report, const StartMesh& start) {
     if (count > 0) report.line(label, std::to_string(count) + what);
   };
   line(import.turned_triangles, "turned", " clockwise triangles");
+  line(import.duplicate_triangles, "taken once", " triangles that the file lists again");
   line(import.unused_points, "left out", " points of no triangle");
   line(import.unnamed_edges, "named 'boundary'", " boundary edges without a marker");
   line(import.non_delaunay_edges, "not Delaunay", " edges");

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -14,6 +16,7 @@
 #include "domain_input.h"
 #include "figures.h"
 #include "interrupt.h"
+#include "mesh_input.h"
 #include "meshing_options.h"
 #include "new_airfoil.h"
 #include "outputs.h"
@@ -29,6 +32,7 @@ namespace {
 
 struct UpdateCommand {
   std::string mesh;
+  std::string reference;  // empty: the mesh itself
   StartMeshOptions start;
   DomainInputOptions shapes;
   FitOptions fit;
@@ -38,6 +42,7 @@ struct UpdateCommand {
   int repeat = 1;
   bool no_regenerate = false;
   bool json = false;
+  std::function<bool(const std::string&)> given;  // on the command line
 };
 
 // Triangles of the file that the new mesh has too, by the places of their corners: what import exchanges for
@@ -137,56 +142,109 @@ DomainInput new_domain(const StartMesh& start, const UpdateCommand& command) {
   return read_domain(command.shapes, discretisation, command.fit);
 }
 
-// On the mesh that the step starts from, whose points an import may have renumbered.
-Cargo cargo_of(const UpdateCommand& command, const StartMesh& start, const FrozenMesh& file,
-               const FrozenMesh& before) {
-  Cargo cargo(command.mesh, file, command.carry);
-  if (start.imported && !cargo.empty()) {
-    FrozenMesh by_places = before;
+// What the step starts from, and what it is compared with.
+struct Origin {
+  StartMesh start;
+  FrozenMesh before;  // start.mesh, as the step finds it
+  FrozenMesh file;    // MESH as it was: the new mesh may be written in its place
+};
+
+Origin read_origin(const UpdateCommand& command) {
+  const bool referenced = !command.reference.empty();
+  Origin origin{read_start_mesh(referenced ? command.reference : command.mesh, command.start), {}, {}};
+  origin.before = origin.start.mesh.freeze();
+  if (referenced)
+    origin.file = read_any_mesh(command.mesh).frozen;
+  else
+    origin.file = origin.start.imported ? read_frozen_mesh(command.mesh) : origin.before;
+  return origin;
+}
+
+// With --reference on MESH itself; otherwise on the mesh that the step starts from, whose points an import
+// may have renumbered.
+Cargo cargo_of(const UpdateCommand& command, const Origin& origin) {
+  Cargo cargo(command.mesh, origin.file, command.carry);
+  if (command.reference.empty() && origin.start.imported && !cargo.empty()) {
+    FrozenMesh by_places = origin.before;
     by_places.vertex_keys.clear();
-    cargo.renumber(file, by_places);
+    cargo.renumber(origin.file, by_places);
   }
   return cargo;
 }
 
-Status run(const UpdateCommand& command) {
-  command.outputs.require_possible();
-  const StartMesh start = read_start_mesh(command.mesh, command.start);
-  const Mesh& original = start.mesh;
-  const FrozenMesh before = original.freeze();
-  // As it was: the new mesh may be written in its place.
-  const FrozenMesh file = start.imported ? read_frozen_mesh(command.mesh) : before;
-  Cargo cargo = cargo_of(command, start, file, before);
-  const DomainInput input = new_domain(start, command);
+// The step was one of the reference's; whoever has MESH asks what of that is still there.
+void count_against_mesh(RemodelResult& result, const Origin& origin, const FrozenMesh& after) {
+  const InCommon common = in_common(origin.file, after, origin.before);
+  result.triangles_before = origin.file.triangles.size();
+  result.preserved = common.preserved;
+  result.connected = common.connected;
+  result.moved = common.moved;
+  result.inserted = common.inserted;
+  result.removed = common.removed;
+}
 
+void require_reference_kept(const UpdateCommand& command) {
+  if (command.reference.empty()) return;
+  if (command.start.points)
+    throw Error(ErrorCode::argument, "--points",
+                "given with --reference, expected one of them: a morph of the reference has its points");
+  for (const std::string& file : command.outputs.files()) {
+    std::error_code none_there;
+    if (std::filesystem::equivalent(file, command.reference, none_there))
+      throw Error(ErrorCode::argument, "-o",
+                  "found '" + file + "', which is the reference, expected another file");
+  }
+}
+
+// The same step `repeat` times; seconds of each.
+std::vector<double> remodel_timed(const UpdateCommand& command, const Mesh& original, const Domain& domain,
+                                  Mesh& mesh, RemodelResult& result) {
   InterruptObserver observer;
   RemodelOptions remodelling = command.remodelling;
   remodelling.observer = &observer;
   remodelling.regenerate = !command.no_regenerate;
-  Mesh mesh;
-  RemodelResult result;
   std::vector<double> seconds;
   for (int i = 0; i < command.repeat && result.stopped != Stopped::interrupted; ++i) {
     mesh = original;
     const Stopwatch watch;
-    result = remodel(mesh, input.domain, remodelling);
+    result = remodel(mesh, domain, remodelling);
     seconds.push_back(watch.seconds());
   }
-  const bool given_up = result.abandoned || result.stopped == Stopped::interrupted;
-  const FrozenMesh after = mesh.freeze();
-  if (!given_up) {
-    cargo.carry(before, after);
-    command.outputs.write(mesh, cargo.fields());
-    cargo.write_state(after);
-  }
-  warn_of_losses(command, start, file, after, result);
+  return seconds;
+}
 
-  Report report;
+void add_settings(Report& report, const UpdateCommand& command, const DomainInput& input) {
   report.line("mesh", command.mesh);
   for (const std::string& shape : command.shapes.shapes) report.line("shape", shape);
   add_findings(report, input);
   report.figure("strategy", "strategy", name_of(command.remodelling.strategy));
+  if (!command.reference.empty()) report.figure("reference", "reference", command.reference);
   report.line("removal distance D", Json(command.remodelling.distance).dump());
+}
+
+Status run(const UpdateCommand& command) {
+  command.outputs.require_possible();
+  require_reference_kept(command);
+  const Origin origin = read_origin(command);
+  const StartMesh& start = origin.start;
+  Cargo cargo = cargo_of(command, origin);
+  const DomainInput input = new_domain(start, command);
+
+  Mesh mesh;
+  RemodelResult result;
+  const std::vector<double> seconds = remodel_timed(command, start.mesh, input.domain, mesh, result);
+  const bool given_up = result.abandoned || result.stopped == Stopped::interrupted;
+  const FrozenMesh after = mesh.freeze();
+  if (!command.reference.empty()) count_against_mesh(result, origin, after);
+  if (!given_up) {
+    cargo.carry(command.reference.empty() ? origin.before : origin.file, after);
+    command.outputs.write(mesh, cargo.fields());
+    cargo.write_state(after);
+  }
+  warn_of_losses(command, start, origin.file, after, result);
+
+  Report report;
+  add_settings(report, command, input);
   add_import_figures(report, start);
   add_figures(report, result);
   add_part_figures(report, mesh);
@@ -206,15 +264,33 @@ Status run(const UpdateCommand& command) {
   return result.stopped == Stopped::done ? Status::done : Status::limit;
 }
 
+// --reference has a strategy of its own.
+void settle_strategy(UpdateCommand& command) {
+  if (command.reference.empty()) return;
+  if (command.given("--strategy") && command.remodelling.strategy != Strategy::reference)
+    throw Error(ErrorCode::argument, "--strategy",
+                std::string("found ") + name_of(command.remodelling.strategy) +
+                    " with --reference, expected reference or none");
+  command.remodelling.strategy = Strategy::reference;
+}
+
 }  // namespace
 
 void add_update_command(CLI::App& program, Action& action) {
   auto command = std::make_shared<UpdateCommand>();
-  CLI::App& app =
-      add_subcommand(program, "update", "Remodels a mesh to another airfoil, or to another domain",
-                     [command, &action] { action = [command] { return run(*command); }; });
+  CLI::App& app = add_subcommand(
+      program, "update", "Remodels a mesh to another airfoil, or to another domain", [command, &action] {
+        settle_strategy(*command);
+        action = [command] { return run(*command); };
+      });
   add_text(app, {"mesh", "MESH", "", "Mesh: a native one (.vtkhdf), or .su2, .msh, .vtu with --boundary"},
            Presence::required, command->mesh);
+  add_text(
+      app,
+      {"--reference", "MESH", "",
+       "The new mesh is the morph of this one to the new shape, whatever MESH is; fields and figures are "
+       "still those of MESH"},
+      Presence::optional, command->reference);
   add_domain_input(app, command->shapes);
   add_start_mesh_options(app, command->start);
   add_integer(app,
@@ -226,6 +302,7 @@ void add_update_command(CLI::App& program, Action& action) {
   add_fit_options(app, command->fit);
   add_remodel_options(app, command->remodelling);
   add_step_strategy(app, command->remodelling);
+  command->given = [&app](const std::string& name) { return given(app, name); };
   add_flag(app, "--no-regenerate",
            "Where the mesh would have to be generated afresh: exit status 1, and no mesh",
            command->no_regenerate);

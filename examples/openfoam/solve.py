@@ -4,7 +4,8 @@
     remodel optimise --from naca:0012 --evaluate './solve.py {case} {result}' --time-limit 600 -o run
 
 The case has its mesh and, from the second design on, the fields of the design before as its time 0. This program adds
-system, constant, and at first the fields of `start`. Drag without friction and shocks is an error of the mesh and the
+system, constant, and at first the fields of `start`, which are also what it begins with again where the fields of the
+design before lead nowhere. Drag without friction and shocks is an error of the mesh and the
 scheme: it keeps the example short, not true.
 """
 
@@ -27,13 +28,21 @@ def environment():
     return found
 
 
-def run(case, *command):
-    with open(case / f"{command[0]}.log", "w") as log:
-        ended = subprocess.run([*command, "-case", case], stdout=log, stderr=subprocess.STDOUT, env=environment())
-    text = (case / f"{command[0]}.log").read_text()
+def converged(case):
+    """Runs rhoSimpleFoam; its log, and what went wrong, or nothing."""
+    file = case / "rhoSimpleFoam.log"
+    with open(file, "w") as log:
+        ended = subprocess.run(["rhoSimpleFoam", "-case", case], stdout=log, stderr=subprocess.STDOUT, env=environment())
+    text = file.read_text(errors="replace")
     if ended.returncode != 0:
-        sys.exit(f"{command[0]} ended with status {ended.returncode}: {text[-300:]}")
-    return text
+        return text, f"rhoSimpleFoam ended with status {ended.returncode}: {text[-300:]}"
+    if "solution converged" not in text:
+        return text, f"not converged after {iterations(text)} iterations"
+    return text, None
+
+
+def iterations(log):
+    return len(re.findall(r"^Time = ", log, re.M))
 
 
 def complete(case):
@@ -44,6 +53,15 @@ def complete(case):
     if not warm:
         shutil.copytree(HERE / "start", case / "0")
     return warm
+
+
+def begin_again(case):
+    """Takes away what a run left, and the fields that it began with."""
+    for found in list(case.iterdir()):
+        if found.is_dir() and (found.name == "postProcessing" or re.fullmatch(r"[0-9.e+-]+", found.name)):
+            shutil.rmtree(found)
+    (case / "rhoSimpleFoam.log").rename(case / "rhoSimpleFoam.warm.log")
+    shutil.copytree(HERE / "start", case / "0")
 
 
 def coefficients(case):
@@ -72,16 +90,22 @@ def airfoil_area(case):
 def main(case, result):
     case = Path(case)
     warm = complete(case)
-    log = run(case, "rhoSimpleFoam")
-    iterations = len(re.findall(r"^Time = ", log, re.M))
-    if "solution converged" not in log:
-        sys.exit(f"not converged after {iterations} iterations")
+    log, problem = converged(case)
+    retried = warm and problem is not None
+    if retried:
+        # Fields of another shape are no solution of this one: where they lead nowhere, uniform ones may.
+        print(f"the warm start failed, now cold: {problem}", file=sys.stderr)
+        begin_again(case)
+        log, problem = converged(case)
+    if problem:
+        sys.exit(problem)
     last = coefficients(case)
     area = airfoil_area(case)
     Path(result).write_text(json.dumps({
         "objective": last["Cd"] / last["Cl"] if last["Cl"] > 0 else 1e3,
         "constraints": [AREA - area],
-        "outputs": {"cl": last["Cl"], "cd": last["Cd"], "area": area, "iterations": iterations, "warm": int(warm)},
+        "outputs": {"cl": last["Cl"], "cd": last["Cd"], "area": area, "iterations": iterations(log),
+                    "warm": int(warm and not retried), "retried": int(retried)},
     }))
 
 

@@ -116,7 +116,8 @@ struct CommandOptions {
 // what it wrote to standard error, which stays in the file `errors` where the directory is kept. Time limits
 // and cancelled runs end the program; the next design of that mesh begins without a state. All processes of
 // its group end with it, however it ends. Throws Error (argument) for an empty command, for formats that are
-// not known, and for other words of lower-case letters in braces, but for ${word}.
+// not known, and for words in braces that are at most two letters off one of these, but for ${word}: all
+// others are the shell's.
 std::unique_ptr<Evaluator> command_evaluator(std::vector<std::string> command, CommandOptions options = {});
 
 // Where a text names one of these files.

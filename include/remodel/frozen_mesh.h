@@ -64,4 +64,19 @@ struct FrozenMesh {
 // without ids or births.
 std::vector<Fate> fates(const FrozenMesh& before, const FrozenMesh& after);
 
+// What two meshes have in common, however either was made; RemodelResult has the same figures of one step.
+struct InCommon {
+  std::size_t preserved = 0;              // triangles whose vertices stand where they stood
+  std::size_t connected = 0;              // triangles whose vertices are the same, moved or not
+  std::size_t moved = 0;                  // vertices that are the same at another place
+  std::size_t inserted = 0, removed = 0;  // vertices of `after` alone and of `before` alone
+};
+
+// Vertices are the same if they have the same key, and lie both in the interior or on the same curve at the
+// same parameter. Two meshes that were made from `origin` may have given one key to two vertices since: a key
+// that `origin` does not have counts where its vertices stand at the same place. Meshes without keys, and
+// those that have no origin in common with `after` (nothing in their interior stands where a vertex of the
+// same key stands in `origin`), are compared by places alone.
+InCommon in_common(const FrozenMesh& before, const FrozenMesh& after, const FrozenMesh& origin);
+
 }  // namespace remodel

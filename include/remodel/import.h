@@ -47,12 +47,13 @@ struct ImportOptions {
 
 struct ImportResult {
   Mesh mesh;
-  double min_angle_deg = 0.0;          // of the file
-  std::size_t turned_triangles = 0;    // clockwise in the file
-  std::size_t unused_points = 0;       // in no triangle: left out
-  std::size_t unnamed_edges = 0;       // of the boundary
-  std::size_t non_delaunay_edges = 0;  // of the file: a point lies inside a circle
-  std::size_t flipped_edges = 0;       // of the file that the living mesh does not have: those, and ties
+  double min_angle_deg = 0.0;           // of the file
+  std::size_t turned_triangles = 0;     // clockwise in the file
+  std::size_t duplicate_triangles = 0;  // listed before with the same points: left out
+  std::size_t unused_points = 0;        // in no triangle: left out
+  std::size_t unnamed_edges = 0;        // of the boundary
+  std::size_t non_delaunay_edges = 0;   // of the file: a point lies inside a circle
+  std::size_t flipped_edges = 0;        // of the file that the living mesh does not have: those, and ties
 };
 
 // A mesh as a file has it, made alive. Points and triangles keep their order, vertices the keys that a living
@@ -68,7 +69,8 @@ struct ImportResult {
 // (FrozenMesh::region), under the name "interface" where they have none: remodelling keeps them, and no
 // triangle lies on both sides. Each triangle of the living mesh is in the region on its side of them.
 //
-// Clockwise triangles are turned. Throws Error (geometry) naming `source` and the triangle, point or marker
+// Clockwise triangles are turned, and those that are listed twice, with the same points, taken once, in the
+// region that is named first. Throws Error (geometry) naming `source` and the triangle, point or marker
 // (counted from 0) for indices out of range, coordinates out of range, triangles without area, points that
 // coincide, triangles that overlap, an edge of more than two triangles, boundaries that touch at a point,
 // named edges that are none of the mesh's or have two names, triangles too flat to compute with.

@@ -74,7 +74,9 @@ class KeptPipes {
   KeptPipes& operator=(const KeptPipes&) = delete;
 };
 
-// The whole file as text; Error (file) if it is missing, a directory, unreadable or larger than limit bytes.
+// The whole file as text; Error (file) if it is missing, a directory, a device (but a terminal as standard
+// input) or unreadable, Error (format) if it is larger than limit bytes, or a pipe that brings more than
+// 2^31.
 std::string read_text(const std::filesystem::path& file, std::size_t limit = std::size_t{1} << 32);
 
 // Triangle's .poly file (https://www.cs.cmu.edu/~quake/triangle.poly.html): vertices, segments, holes,

@@ -36,6 +36,10 @@ std::string su2_restart_bytes(const Su2Restart& restart);
 // for names that such a file cannot hold.
 void write_su2_restart(const Su2Restart& restart, const std::filesystem::path& file);
 
+// Throws Error (argument) naming `source` and the first row that is not of a mesh's point: where the columns
+// x and y, as far as they are there, differ from its coordinates by more than what files of 6 digits leave
+// (1e-5 of the value and 1e-7 of the mesh's extent), or where the mesh has another number of points.
+void require_coordinates(const Su2Restart& restart, const FrozenMesh& mesh, const std::string& source);
 // Sets the columns x and y, where they are there, to the points of a mesh. Throws Error (argument) naming
 // `source` where it has another number of points.
 void set_coordinates(Su2Restart& restart, const FrozenMesh& mesh, const std::string& source);

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -158,8 +159,31 @@ constexpr std::array<std::array<std::string_view, 2>, 6> known_words{{{"{mesh}",
                                                                       {"{case}", "case"},
                                                                       {"{directory}", ""}}};
 
-// A word in braces that looks like that of a file and is none. Braces after a dollar sign, or with anything
-// else in them, belong to a shell.
+// How many letters have to be changed, added or left out to make one word of the other.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = std::exchange(row[j], std::min({changed, row[j] + 1, row[j - 1] + 1}));
+    }
+  }
+  return row.back();
+}
+
+// At most two letters off a word of ours, with an extension or without.
+bool is_misspelt(std::string_view word) {
+  const std::string_view stem = word.substr(0, word.find('.'));
+  return std::any_of(known_words.begin(), known_words.end(), [&](const auto& known) {
+    const std::string_view meant = known[0].substr(1, known[0].size() - 2);
+    return edit_distance(word, meant) <= 2 || edit_distance(stem, meant) <= 2;
+  });
+}
+
+// A word in braces that is nearly that of a file. Braces after a dollar sign, or with anything else in them
+// (awk '{print}'), belong to a shell and the programs that it runs.
 void refuse_unknown_words(const std::string& text, const std::vector<CommandPlace>& places) {
   const auto letter = [](char c) { return c >= 'a' && c <= 'z'; };
   const auto plain = [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '.' || c == '_'; };
@@ -171,6 +195,7 @@ void refuse_unknown_words(const std::string& text, const std::vector<CommandPlac
     if (at > 0 && text[at - 1] == '$') continue;
     if (std::any_of(places.begin(), places.end(), [&](const CommandPlace& place) { return place.at == at; }))
       continue;
+    if (!is_misspelt(inner)) continue;
     std::string expected;
     for (const auto& word : known_words) expected += (expected.empty() ? "" : ", ") + std::string(word[0]);
     throw Error(ErrorCode::argument, text,

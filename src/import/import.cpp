@@ -107,6 +107,7 @@ ImportResult import_mesh(const FrozenMesh& mesh, const std::string& source, cons
   const SoundMesh sound = make_sound(mesh, source, options.unnamed);
   ImportResult result;
   result.turned_triangles = sound.turned;
+  result.duplicate_triangles = sound.duplicates;
   result.unused_points = sound.unused;
   result.unnamed_edges = sound.unnamed;
   result.min_angle_deg = 180.0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <sstream>
 #include <tuple>
 
@@ -28,6 +29,7 @@ class Mender {
     take_points();
     refuse_coinciding_points();
     turn_triangles();
+    drop_duplicates();
     edges_ = directed_edges(sound_.triangles);
     refuse_shared_edges();
     take_boundary();
@@ -119,10 +121,26 @@ class Mender {
     }
   }
 
+  // A triangle that is listed again is one: Gmsh's version 2.2 lists it once for each physical surface that
+  // it is in. The first one counts.
+  void drop_duplicates() {
+    std::set<std::array<std::uint32_t, 3>> seen;
+    std::vector<std::array<std::uint32_t, 3>> once;
+    for (std::uint32_t i = 0; i < sound_.triangles.size(); ++i) {
+      std::array<std::uint32_t, 3> corners = sound_.triangles[i];
+      std::sort(corners.begin(), corners.end());
+      if (!seen.insert(corners).second) continue;
+      once.push_back(sound_.triangles[i]);
+      listed_.push_back(i);
+    }
+    sound_.duplicates = sound_.triangles.size() - once.size();
+    sound_.triangles = std::move(once);
+  }
+
   void refuse_shared_edges() const {
     for (std::size_t i = 1; i < edges_.size(); ++i)
       if (!listed_before(edges_[i - 1], edges_[i]))
-        refuse("triangles ", edges_[i - 1].triangle, " and ", edges_[i].triangle,
+        refuse("triangles ", listed_[edges_[i - 1].triangle], " and ", listed_[edges_[i].triangle],
                " overlap: both have the edge of points ", number_[edges_[i].from], " and ",
                number_[edges_[i].to], " with the same side, one triangle on each side expected");
   }
@@ -150,7 +168,7 @@ class Mender {
       if (mesh_.region[i] >= mesh_.region_names.size())
         refuse("triangle ", i, ": region ", mesh_.region[i], " found, an index below ",
                mesh_.region_names.size(), " expected");
-    sound_.region = mesh_.region;
+    for (const std::uint32_t i : listed_) sound_.region.push_back(mesh_.region[i]);
     sound_.region_names = mesh_.region_names;
   }
 
@@ -239,6 +257,7 @@ class Mender {
   SoundMesh sound_;
   std::vector<std::uint32_t> number_;  // of each point in the file
   std::vector<std::uint32_t> index_;   // of each of the file's points
+  std::vector<std::uint32_t> listed_;  // of each triangle in the file
   std::vector<DirectedEdge> edges_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>
       inner_;  // lower point first; index of inner edges

@@ -45,7 +45,7 @@ struct SoundMesh {
   std::vector<VertexKey> keys;
   std::uint32_t last_generation = 0;
   VertexId vertex(std::uint32_t point) const { return keys.empty() ? VertexId{point + 1} : keys[point].id; }
-  std::size_t turned = 0, unused = 0, unnamed = 0;
+  std::size_t turned = 0, unused = 0, unnamed = 0, duplicates = 0;
   bool is_steiner(std::uint32_t point) const { return !steiner.empty() && steiner[point] != 0; }
 };
 

@@ -100,8 +100,8 @@ void check_size(const fs::path& file, std::size_t size, std::size_t limit) {
               "larger than the " + std::to_string(limit) + " bytes allowed");
 }
 
-// A pipe has no size that could bound what is read.
-constexpr std::size_t largest_piped = std::size_t{1} << 32;
+// A pipe has no size that could bound what is read; documented at read_text().
+constexpr std::size_t largest_piped = std::size_t{1} << 31;
 
 // What was read from pipes while somebody wants it kept.
 struct KeptTexts {
@@ -121,6 +121,9 @@ std::string read_once(const fs::path& file, std::size_t limit) {
   struct stat status {};
   if (::fstat(descriptor.get(), &status) != 0) fail_reading(file, errno);
   if (S_ISDIR(status.st_mode)) fail_reading(file, EISDIR);
+  const bool device = S_ISBLK(status.st_mode) || S_ISCHR(status.st_mode);
+  if (device && !(standard && ::isatty(descriptor.get()) != 0))
+    throw Error(ErrorCode::file, file.string(), "is a device, expected a file or a pipe");
 
   // Read to the end rather than to the size: a pipe has none.
   constexpr std::size_t piece = std::size_t{1} << 20;

@@ -28,10 +28,13 @@ class FieldScanner {
  public:
   FieldScanner(std::string_view text, const std::string& source) : text_(text), source_(source) {}
 
+  // Of a whole file: one that a solver was writing when it was ended has open braces, or no boundaryField.
   std::vector<FoamList> lists() {
     std::vector<FoamList> found;
     std::string_view last;
+    bool boundary = false;
     for (std::string_view word = next(); !word.empty(); last = word, word = next()) {
+      boundary = boundary || (open_.empty() && word == "boundaryField");
       if (word == "{")
         open_.push_back(last);
       else if (word == "}" && !open_.empty())
@@ -39,8 +42,11 @@ class FieldScanner {
       else if (word == "nonuniform")
         found.push_back(list());
     }
+    if (!open_.empty()) refuse_end("'}' of " + io::in_quotes(open_.back()));
+    if (!boundary) refuse_end("boundaryField");
     return found;
   }
+  bool begins_with(std::string_view word) { return next() == word; }
   // The value of an entry of the header.
   std::string header(std::string_view key) {
     for (std::string_view word = next(); !word.empty() && word != "}"; word = next())
@@ -53,6 +59,10 @@ class FieldScanner {
     const auto line = 1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(at_), '\n');
     throw Error(ErrorCode::format, source_ + ":" + std::to_string(line),
                 "found " + found + ", expected " + expected);
+  }
+
+  [[noreturn]] void refuse_end(const std::string& expected) const {
+    refuse("the end of the file", expected + " before it: it is not whole");
   }
 
   void skip() {
@@ -148,6 +158,19 @@ class FieldScanner {
 bool is_cell_field(const std::string& type) {
   return type == "volScalarField" || type == "volVectorField" || type == "volSymmTensorField" ||
          type == "volTensorField";
+}
+
+// Of the field that a file holds; empty for files that are none of OpenFOAM's.
+std::string class_of(const std::string& text, const std::string& source) {
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos)
+    throw Error(ErrorCode::format, source, "found an empty file, expected a field");
+  std::string type = FieldScanner(text, source).header("class");
+  if (type.empty() && FieldScanner(text, source).begins_with("FoamFile"))
+    throw Error(
+        ErrorCode::format, source,
+        "found a header without a class, expected 'class volScalarField;' or another: the file is not "
+        "whole");
+  return type;
 }
 
 std::string list_text(const FoamList& list) {
@@ -248,7 +271,8 @@ FoamTime read_foam_time(const fs::path& directory, const FrozenMesh& mesh) {
       throw Error(ErrorCode::format, file.string(), "found a compressed file, expected writeCompression off");
     std::string text = read_text(file), name = file.filename().string();
     const std::string source = file.string();
-    if (is_cell_field(FieldScanner(text, source).header("class")))
+    const std::string type = class_of(text, source);
+    if (is_cell_field(type))
       time.fields.push_back(parsed(std::move(name), std::move(text), source, mesh, patches));
     else
       time.left_out.push_back(std::move(name));

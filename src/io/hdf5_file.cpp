@@ -1,6 +1,8 @@
 #include "io/hdf5_file.h"
 
+#include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <utility>
 
 #include "base/checksum.h"
@@ -28,6 +30,27 @@ Hdf5Handle without_times(hid_t kind) {
 constexpr std::string_view seal_mark = "rmdlseal";
 constexpr std::size_t seal_size = 16;
 
+// HDF5 would copy the whole file to hand it out: its memory is ours from the beginning.
+void* begin_image(std::size_t size, H5FD_file_image_op_t, void*) {
+  return std::malloc(size + seal_size);
+}
+void* grow_image(void* bytes, std::size_t size, H5FD_file_image_op_t, void*) {
+  return std::realloc(bytes, size + seal_size);
+}
+herr_t end_image(void* bytes, H5FD_file_image_op_t operation, void* image) {
+  if (operation == H5FD_FILE_IMAGE_OP_FILE_CLOSE)
+    static_cast<Hdf5Image*>(image)->bytes = static_cast<char*>(bytes);
+  else
+    std::free(bytes);
+  return 0;
+}
+void* same_image_owner(void* image) {
+  return image;
+}
+herr_t keep_image_owner(void*) {
+  return 0;
+}
+
 // Lowest byte first whatever the machine.
 std::string checksum_bytes(std::string_view bytes) {
   Checksum sum;
@@ -46,9 +69,8 @@ bool has_broken_seal(std::string_view bytes) {
   return seal.starts_with(seal_mark) && seal.substr(seal_mark.size()) != checksum_bytes(content);
 }
 
-std::string sealed(std::string bytes) {
-  const std::string checksum = checksum_bytes(bytes);
-  return std::move(bytes.append(seal_mark).append(checksum));
+Hdf5Image::~Hdf5Image() {
+  std::free(bytes);
 }
 
 Hdf5Handle::~Hdf5Handle() {
@@ -74,6 +96,9 @@ Hdf5Writer::Hdf5Writer(std::string name) : name_(std::move(name)) {
   constexpr std::size_t growth = std::size_t{4} << 20;
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fapl_core(access.get(), growth, 0);  // 0: stays in memory
+  H5FD_file_image_callbacks_t callbacks = {begin_image,      nullptr,          grow_image, end_image,
+                                           same_image_owner, keep_image_owner, &image_};
+  H5Pset_file_image_callbacks(access.get(), &callbacks);
   const Hdf5Handle creation = without_times(H5P_FILE_CREATE);
   file_ = Hdf5Handle(H5Fcreate(name_.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose);
   if (!file_) fail("/");
@@ -145,13 +170,24 @@ void Hdf5Writer::attribute(const std::string& group, const std::string& name, co
   if (!attribute || H5Awrite(attribute.get(), type.get(), value.data()) < 0) fail(group + "@" + name);
 }
 
-std::string Hdf5Writer::bytes() {
-  if (H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) < 0) fail("/");
-  const ssize_t size = H5Fget_file_image(file_.get(), nullptr, 0);
-  if (size < 0) fail("/");
-  std::string image(static_cast<std::size_t>(size), '\0');
-  if (H5Fget_file_image(file_.get(), image.data(), image.size()) < 0) fail("/");
-  return image;
+std::string_view Hdf5Writer::bytes() {
+  if (file_) {
+    if (H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) < 0) fail("/");
+    const ssize_t size = H5Fget_file_image(file_.get(), nullptr, 0);
+    if (size < 0) fail("/");
+    image_.size = static_cast<std::size_t>(size);
+    file_ = Hdf5Handle();
+    if (image_.bytes == nullptr) fail("/");
+  }
+  return {image_.bytes, image_.size};
+}
+
+std::string_view Hdf5Writer::sealed() {
+  const std::string_view content = bytes();
+  const std::string checksum = checksum_bytes(content);
+  std::copy(seal_mark.begin(), seal_mark.end(), image_.bytes + content.size());
+  std::copy(checksum.begin(), checksum.end(), image_.bytes + content.size() + seal_mark.size());
+  return {image_.bytes, content.size() + seal_size};
 }
 
 #define REMODEL_HDF5_VALUE(Value)                                                              \

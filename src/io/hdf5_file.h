@@ -44,9 +44,18 @@ class Hdf5Silence {
   void* data_ = nullptr;
 };
 
+// The memory in which HDF5 builds a file, kept when it closes it.
+struct Hdf5Image {
+  Hdf5Image() = default;
+  ~Hdf5Image();
+  Hdf5Image(const Hdf5Image&) = delete;
+  Hdf5Image& operator=(const Hdf5Image&) = delete;
+  char* bytes = nullptr;  // of std::malloc, with room for a seal
+  std::size_t size = 0;
+};
+
 // HDF5 ignores what follows its own end of a file. There stands a seal, sixteen bytes: a mark and a checksum
 // over all before it, so that a damaged file of ours is refused before HDF5 follows its broken links.
-std::string sealed(std::string bytes);
 // A file without a seal was made or changed by another program: nothing is said about it.
 bool has_broken_seal(std::string_view bytes);
 
@@ -67,7 +76,9 @@ class Hdf5Writer {
   void attribute(const std::string& group, const std::string& name, const std::vector<Value>& values);
   void attribute(const std::string& group, const std::string& name, const std::string& value);
 
-  std::string bytes();
+  // The file, which ends with that, without a seal or with one; as long as the writer is there.
+  std::string_view bytes();
+  std::string_view sealed();
 
  private:
   [[noreturn]] void fail(const std::string& path) const;
@@ -76,6 +87,7 @@ class Hdf5Writer {
 
   Hdf5Silence silence_;
   std::string name_;
+  Hdf5Image image_;
   Hdf5Handle file_;
 };
 

@@ -10,8 +10,7 @@ namespace remodel {
 
 void write_mesh(const Mesh& mesh, const std::filesystem::path& file, const WriteOptions& options) {
   if (mesh_format(file) != MeshFormat::vtkhdf) return write_mesh(mesh.freeze(), file, options);
-  const MeshState state = mesh.state();
-  io::write_vtkhdf(file, mesh.freeze(), &state, options.fields);
+  io::write_vtkhdf(file, mesh, options.fields);
 }
 
 Mesh read_mesh(const std::filesystem::path& file) {

@@ -169,6 +169,18 @@ void require_names(const Su2Restart& restart, const std::string& file) {
                 "found more than 2147483647 points, expected as many as SU2 can count");
 }
 
+std::string shortest(double value) {
+  char digits[40];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+void require_points(const Su2Restart& restart, const FrozenMesh& mesh, const std::string& source) {
+  if (restart.points() != mesh.points.size())
+    throw Error(ErrorCode::argument, source,
+                "found " + std::to_string(restart.points()) + " rows, expected one for each of the " +
+                    std::to_string(mesh.points.size()) + " points of its mesh");
+}
+
 }  // namespace
 
 std::size_t Su2Restart::column(const std::string& name) const {
@@ -208,11 +220,30 @@ void write_su2_restart(const Su2Restart& restart, const std::filesystem::path& f
   write_text_atomically(file, extension == ".csv" ? ascii_of(restart) : su2_restart_bytes(restart));
 }
 
+void require_coordinates(const Su2Restart& restart, const FrozenMesh& mesh, const std::string& source) {
+  require_points(restart, mesh, source);
+  constexpr double of_value = 1e-5, of_extent = 1e-7;
+  const std::size_t columns = restart.names.size();
+  for (const auto& [name, coordinate] : {std::pair("x", &Point::x), std::pair("y", &Point::y)}) {
+    const std::size_t column = restart.column(name);
+    if (column == columns) continue;
+    const auto [least, most] =
+        std::minmax_element(mesh.points.begin(), mesh.points.end(),
+                            [&](const Point& a, const Point& b) { return a.*coordinate < b.*coordinate; });
+    const double extent = (*most).*coordinate - (*least).*coordinate;
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+      const double found = restart.values[i * columns + column], expected = mesh.points[i].*coordinate;
+      if (std::abs(found - expected) <= of_value * std::abs(expected) + of_extent * extent) continue;
+      throw Error(ErrorCode::argument, source,
+                  "found " + std::string(name) + " = " + shortest(found) + " in the row of point " +
+                      std::to_string(i) + ", expected " + shortest(expected) +
+                      " as in its mesh: the file is of another mesh");
+    }
+  }
+}
+
 void set_coordinates(Su2Restart& restart, const FrozenMesh& mesh, const std::string& source) {
-  if (restart.points() != mesh.points.size())
-    throw Error(ErrorCode::argument, source,
-                "found " + std::to_string(restart.points()) + " rows, expected one for each of the " +
-                    std::to_string(mesh.points.size()) + " points of its mesh");
+  require_points(restart, mesh, source);
   const std::size_t columns = restart.names.size(), x = restart.column("x"), y = restart.column("y");
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {
     if (x < columns) restart.values[i * columns + x] = mesh.points[i].x;

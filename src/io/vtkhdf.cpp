@@ -114,6 +114,9 @@ void write_grid(Hdf5Writer& out, const VtkGrid& grid) {
   if (!grid.region_names.empty()) {
     out.texts("/VTKHDF/FieldData/" + std::string(region_names_array), grid.region_names);
   }
+  if (!grid.vertex_key.empty()) {
+    out.array("/VTKHDF/FieldData/" + std::string(last_generation_array), std::vector{grid.last_generation});
+  }
 }
 
 bool has_reference(const MeshState& state) {
@@ -196,6 +199,9 @@ VtkGrid read_grid(const Hdf5Reader& in) {
   if (in.exists(names)) grid.boundary_names = in.texts(names);
   const std::string regions = "/VTKHDF/FieldData/" + std::string(region_names_array);
   if (in.exists(regions)) grid.region_names = in.texts(regions);
+  std::vector<std::uint32_t> last_generation;
+  read_optional(in, "/VTKHDF/FieldData/" + std::string(last_generation_array), last_generation);
+  if (!last_generation.empty()) grid.last_generation = last_generation.front();
   return grid;
 }
 
@@ -248,7 +254,18 @@ void write_vtkhdf(const std::filesystem::path& file, const FrozenMesh& mesh, con
   Hdf5Writer out(file.string());
   write_grid(out, to_vtk_grid(mesh, fields));
   if (state != nullptr) write_state(out, *state);
-  write_text_atomically(file, sealed(out.bytes()));
+  write_text_atomically(file, out.sealed());
+}
+
+// One view after the other: each is as large as the mesh.
+void write_vtkhdf(const std::filesystem::path& file, const Mesh& mesh, std::span<const Field> fields) {
+  Hdf5Writer out(file.string());
+  {
+    const VtkGrid grid = to_vtk_grid(mesh.freeze(), fields);
+    write_grid(out, grid);
+  }
+  write_state(out, mesh.state());
+  write_text_atomically(file, out.sealed());
 }
 
 FrozenMesh read_vtkhdf_frozen(const std::filesystem::path& file) {

@@ -20,6 +20,8 @@ namespace remodel::io {
 // state may be null. Written atomically.
 void write_vtkhdf(const std::filesystem::path& file, const FrozenMesh& mesh, const MeshState* state,
                   std::span<const Field> fields = {});
+// With its state.
+void write_vtkhdf(const std::filesystem::path& file, const Mesh& mesh, std::span<const Field> fields = {});
 
 FrozenMesh read_vtkhdf_frozen(const std::filesystem::path& file);
 std::vector<Field> read_vtkhdf_fields(const std::filesystem::path& file);

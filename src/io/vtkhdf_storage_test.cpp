@@ -178,7 +178,7 @@ TEST(VtkhdfStorage, OneLongTextForManyIsRefused) {
   texts[0] = std::string(60'000, 'y');
   Hdf5Writer out("m");
   out.texts("/texts", texts);
-  std::string bytes = out.bytes();
+  std::string bytes(out.bytes());
   // A reference is the length, the heap's address and the place in the heap: 16 bytes.
   const std::string length = std::string("\x60\xea\0\0", 4);
   const std::size_t first = bytes.find(length);

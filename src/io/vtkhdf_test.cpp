@@ -222,5 +222,17 @@ TEST(VtkhdfLayout, ADatasetThatClaimsMoreThanTheFileHoldsIsRefused) {
                        "/huge: 1099511627776 values found, no more than the file can hold expected"));
 }
 
+TEST(VtkHdf, KeepsTheLastGenerationOfKeysWithoutAStateToo) {
+  const Scratch scratch;
+  FrozenMesh mesh = test::full_square_ring();
+  mesh.last_generation = 12;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    mesh.vertex_keys.push_back((std::uint64_t{1} << 32) + v + 1);
+  for (const char* name : {"m.vtkhdf", "m.vtu", "m.msh"}) {
+    write_mesh(mesh, scratch / name);
+    EXPECT_EQ(read_frozen_mesh(scratch / name).last_generation, 12U) << name;
+  }
+}
+
 }  // namespace
 }  // namespace remodel

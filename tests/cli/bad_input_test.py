@@ -513,6 +513,14 @@ class Outputs(ProgramTest):
     def test_resume_without_a_checkpoint(self):
         self.refused("optimise", "--from", "naca:0012", "--to", "rae2822", "-o", "run", "--resume", names="run")
 
+    def test_devices_and_endless_pipes_are_not_read_as_meshes(self):
+        os.symlink("/dev/zero", self.path("zero.su2"))
+        os.symlink("/dev/zero", self.path("zero.vtkhdf"))
+        for name in ("zero.su2", "zero.vtkhdf", "/dev/zero", "/dev/null"):
+            self.refused("check", name, names="is a device, expected a file or a pipe")
+        self.refused("update", "/dev/zero", "naca:0012", "-o", "b.vtkhdf", names="is a device")
+        self.refused("mesh", "/dev/zero", "-o", "b.vtkhdf", names="/dev/zero")
+
     def test_standard_output_on_a_full_disk(self):
         if not os.path.exists("/dev/full"):
             self.skipTest("needs /dev/full")

@@ -159,6 +159,43 @@ class Files(ProgramTest):
         self.assertEqual(list(map(float, airfoil.split())), [291.5] * after.patches["airfoil"][1])
         self.assertIn("/* nonuniform } */", text)
 
+    def test_conservative_fields_come_with_their_balance(self):
+        mesh = self.mesh()
+        _, faces, _ = mesh.patches["airfoil"]
+        self.path("case/200").mkdir()
+        self.write("case/200/T", field("T", mesh.cells, [300 + c[0] for c in mesh.centres()], [291.5] * faces))
+        vectors = " ".join(f"({1 + c[1]} {c[0]} 0)" for c in mesh.centres())
+        self.write("case/200/U", HEADER.format("ascii", "volVectorField", "U") +
+                   f"internalField nonuniform List<vector> {mesh.cells} ({vectors});\nboundaryField {{ }}\n")
+        figures = self.figures("update", "old.vtkhdf", "naca:2412", "-o", "new.vtkhdf", "--state", "case/200",
+                               "--state-out", "0", "--conservative")
+        swept = figures["swept"]
+        self.assertGreater(swept["area_gained"], 0)
+        before, after = figures["integral_before"], figures["integral_after"]
+        self.assertEqual((len(before["U"]), set(swept["gained"])), (3, {"T", "U.0", "U.1", "U.2"}))
+        for name, old, new in [("T", before["T"], after["T"]), ("U.0", before["U"][0], after["U"][0])]:
+            balance = old + swept["gained"][name] - swept["lost"][name]
+            self.assertAlmostEqual(new, balance, delta=1e-11 * abs(before["T"]))
+        # Without, the integrals alone, as of SU2's states.
+        figures = self.figures("update", "old.vtkhdf", "naca:2412", "--state", "case/200", "--state-out", "1")
+        self.assertNotIn("swept", figures)
+        self.assertEqual(figures["integral_before"], before)
+
+    def test_files_that_are_not_whole_are_refused(self):
+        mesh = self.mesh()
+        self.path("200").mkdir()
+        update = ("update", "old.vtkhdf", "naca:0013", "--state", "200", "--state-out", "0")
+        good = field("T", mesh.cells, [1.0] * mesh.cells, [1.0] * mesh.patches["airfoil"][1])
+        self.write("200/T", good)
+        for text, found in (("", "an empty file"), (good[:40], "a header without a class"),
+                            (good[:good.index("boundaryField")], "expected boundaryField"),
+                            (good[:-10], "the end of the file"), (good[:good.index(";\nboundary") - 20], "200/p:")):
+            self.write("200/p", text)
+            self.refused(*update, names=found)
+            self.assertIn("200/p", self.refused(*update, names="found"))
+        self.write("200/p", "notes of somebody\n")
+        self.assertEqual(self.figures(*update)["fields_left_out"], ["p"])
+
     def test_what_is_no_time_directory_is_refused(self):
         mesh = self.mesh()
         self.path("200").mkdir()
@@ -177,6 +214,39 @@ class Files(ProgramTest):
         self.write("200/T", good.replace("ascii", "binary"))
         self.refused(*update, names="binary")
         self.refused("draw", "case/case.foam", "-o", "x.png", names="case.foam")
+
+
+# Like a solver that a bad start ends; from a good one it converges at once.
+STAND_IN = """#!/bin/sh
+case=$2
+echo "Time = 1"
+mkdir -p $case/postProcessing/forces/0 $case/1
+if grep -q nonuniform $case/0/T; then echo "Floating point exception"; exit 136; fi
+printf '# Time Cd Cl\n1 0.01 0.5\n' > $case/postProcessing/forces/0/coefficient.dat
+echo "SIMPLE solution converged in 1 iterations"
+"""
+
+
+class Example(ProgramTest):
+    def test_a_warm_start_that_fails_is_tried_again_cold(self):
+        self.succeed("mesh", "naca:0012", "--points", 60, "-o", "old.vtkhdf")
+        self.path("bin").mkdir()
+        self.write("bin/rhoSimpleFoam", STAND_IN)
+        self.path("bin/rhoSimpleFoam").chmod(0o755)
+        solve = SOURCE / "examples/openfoam/solve.py"
+        environment = {**os.environ, "PATH": f"{self.path('bin')}:{os.environ['PATH']}"}
+        for kind, state, warm, retried in (("cold", None, 0, 0), ("warm", "uniform 300", 1, 0), ("bad", "nonuniform", 0, 1)):
+            case = self.path(kind)
+            case.mkdir()
+            self.succeed("convert", "old.vtkhdf", "-o", f"{kind}/case.foam")
+            if state:
+                (case / "0").mkdir()
+                (case / "0/T").write_text(state)
+            done = subprocess.run([solve, case, self.path(f"{kind}.json")], env=environment, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            outputs = json.loads(self.path(f"{kind}.json").read_text())["outputs"]
+            self.assertEqual((outputs["warm"], outputs["retried"]), (warm, retried))
+            self.assertEqual("the warm start failed, now cold" in done.stderr, bool(retried))
 
 
 class OpenFoam(ProgramTest):

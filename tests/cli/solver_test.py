@@ -202,6 +202,10 @@ echo '{"objective": 1}' > "$3"
         self.refused(*run, "true {mesh.xyz}", names=".xyz")
         self.refused(*run, "true {state} {state.dat}", names="state")
         self.refused(*run, "true {mesh} {results}", names="found {results}, expected one of {mesh}, {design}, {state}, {result}")
+        for near in ("{mehs}", "{dsign}", "{state.cvs}", "{cases}", "{meshes}"):
+            self.refused(*run, "true {mesh} " + near, names=f"found {near}, expected one of")
+        awk = "echo '{\"objective\": 1}' | awk '{print}'; : {mesh} {name_of} {a,b}"
+        self.assertEqual(self.optimise("awk", awk, evaluations=2)["failed_evaluations"], 0)
         shell = "value=1; echo \"{\\\"objective\\\": ${value}}\" | awk '{print $1, $2}'; true {mesh}"
         self.assertEqual(self.optimise("shell", shell, evaluations=2)["failed_evaluations"], 0)
 

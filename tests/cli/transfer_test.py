@@ -130,6 +130,22 @@ class States(ProgramTest):
             if point in old:
                 self.assertEqual(row, old[point])
 
+    def test_a_state_of_another_mesh_is_refused(self):
+        points, rows = self.meshes()
+        update = ("update", "a.vtkhdf", "naca:2412", "--state", "other.csv", "--state-out", "b.csv")
+        # As many points, of which one is elsewhere; then numbers of six digits, as SU2 may write them.
+        moved = [[*rows[0]], *rows[1:7], [rows[7][0], rows[7][1] + 1e-3, *rows[7][2:]], *rows[8:]]
+        self.write("other.csv", ascii_restart(points, moved))
+        self.assertIn("in the row of point 7, expected", self.refused(*update, names="other.csv: found y = "))
+        self.write("other.csv", ascii_restart(points, list(reversed(rows))))
+        self.refused(*update, names="the file is of another mesh")
+        self.refused("transfer", "a.vtkhdf", "a.su2", *update[3:], names="other.csv: found x = ")
+        self.write("other.csv", ascii_restart(points, [[float(f"{value:.5e}") for value in row] for row in rows]))
+        self.succeed(*update)
+        # Without coordinates nothing can be said.
+        self.write("other.csv", ascii_restart(points, [row[2:] for row in reversed(rows)], NAMES[2:]))
+        self.succeed(*update)
+
     def test_bad_states_are_refused(self):
         points, rows = self.meshes()
         self.write("short.csv", ascii_restart(points, rows[:-1]))
