@@ -58,15 +58,14 @@ class Designs(ProgramTest):
         whole = self.figures("design", self.problem(designer={"evaluations": 100}), "-o", "whole")
         self.assertEqual(whole["evaluations"], figures["evaluations"])
 
-    def test_methods_of_nlopt_end_by_themselves(self):
-        """Without designs on the way that hardly differ: MMA took 60 to 71 counts, SLSQP 40 more for nothing."""
-        for name, designs in (("mma", 50), ("slsqp", 50)):
-            problem = self.problem(designer={"name": name, "evaluations": designs, "trust": 0.02, "bounds": 0.2}, verify=[])
-            figures = self.figures("design", problem, "-o", name)
-            self.assertLess(figures["objective"], 0.006)
+    def test_methods_of_nlopt_waste_no_designs(self):
+        """MMA ends by itself, where it had 71 counts after 60; and few designs hardly differ, where half of them had."""
+        for name, run in (("mma", self.figures), ("slsqp", self.limited)):
+            problem = self.problem(designer={"name": name, "evaluations": 50, "trust": 0.02, "bounds": 0.2}, verify=[])
+            self.assertLess(run("design", problem, "-o", name)["objective"], 0.006)
             designs = sorted(json.loads(text) for _, text, _, _ in self.rows(name))
             near = sum(max(abs(x - y) for x, y in zip(a, b)) < 1e-5 for a, b in zip(designs, designs[1:]))
-            self.assertLess(near, len(designs) / 4)
+            self.assertLess(near, len(designs) / 5)
 
     def test_paths_lead_on_from_the_problem_file(self):
         """Not from the directory in which the program is, which may have another file of the name."""
