@@ -177,7 +177,7 @@ std::string convergence(const Scratch& scratch, const DesignRun& run) {
     positive = positive && row.objective > 0.0 && (row.best_objective > 0.0);
   }
   if (each.points.empty()) return "<p>No design had a flow.</p>\n";
-  Plot plot{.x = {"design"}, .y = {.label = "objective", .logarithmic = positive}};
+  Plot plot{.x = {.label = "design", .whole = true}, .y = {.label = "objective", .logarithmic = positive}};
   plot.curves.push_back(std::move(each));
   if (!best.points.empty()) plot.curves.push_back(std::move(best));
   return scratch.picture(".svg", [&](const fs::path& file) { draw_plot(plot, file); });
