@@ -348,7 +348,8 @@ std::string page_of(const fs::path& directory, const DesignRun& run, const Shown
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\"><title>Remodel: a design</title><style>" +
       std::string(style) + "</style></head><body>\n<h1>A design on one mesh</h1>\n";
-  page += "<p>" + outcome(run, cost) + "; " + std::to_string(run.rows.size()) + " designs on a mesh of " +
+  page += "<p>" + outcome(run, cost) + "; " + std::to_string(run.rows.size()) +
+          (run.rows.size() == 1 ? " design" : " designs") + " on a mesh of " +
           std::to_string(first.mesh.triangles.size()) + " triangles" +
           (run.space->half() ? ", computed in the upper half and mirrored" : "") + ".</p>\n";
   page += "<h2>Sections</h2>\n<p><span class=\"first\">first</span>, <span class=\"last\">" + last.name +

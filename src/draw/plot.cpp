@@ -102,7 +102,7 @@ class PlotPainter {
     if (!any) throw Error(ErrorCode::argument, "plot", "no points found, a curve expected");
     x_.open();
     y_.open();
-    x_.from = 110.0 * unit_;
+    x_.from = left() * unit_;
     x_.to = width() - 30.0 * unit_;
     y_.from = height() - 80.0 * unit_;
     y_.to = 60.0 * unit_;
@@ -124,6 +124,14 @@ class PlotPainter {
   }
 
  private:
+  // Room for the numbers at the ticks of the y axis, by how long they are, and its label.
+  double left() const {
+    constexpr double least = 110.0, label = 50.0, digit = 12.0;
+    std::size_t longest = 0;
+    for (const double tick : y_.ticks()) longest = std::max(longest, label_of(tick).size());
+    return std::max(least, label + digit * static_cast<double>(longest));
+  }
+
   void line(cairo_t* cairo, double x0, double y0, double x1, double y1) const {
     cairo_move_to(cairo, x0, y0);
     cairo_line_to(cairo, x1, y1);
