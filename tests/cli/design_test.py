@@ -330,6 +330,7 @@ class Designs(ProgramTest):
         self.succeed("design", self.problem(designer={"evaluations": 2}), "-o", "run", "--quiet", status=3)
         self.succeed("design", "report", "run")
         self.assertIn("On fresh meshes", self.path("run/report.html").read_text())
+        self.assertIn("; 2 designs on a mesh", self.path("run/report.html").read_text())
         self.succeed("design", self.problem(designer={"evaluations": 1}, verify=[]), "-o", "run", "--quiet", "--overwrite", status=3)
         self.assertFalse(self.path("run/fresh.json").exists())
         self.assertFalse(self.path("run/report.html").exists())
