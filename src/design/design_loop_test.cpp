@@ -366,6 +366,31 @@ TEST_F(DesignLoop, ServesADesignerThatFollowsGradientsAndEndsByItself) {
   EXPECT_EQ(optimise(space, again, *evaluator, in_its_place).evaluations, result.evaluations);
 }
 
+// Its last proposal is infeasible, and with that it has ended.
+class EndsRefused : public Descent {
+ public:
+  using Descent::Descent;
+  Proposal ask() override { return told_ < 3 ? Descent::ask() : Proposal{.design = {-1.0, -1.0}}; }
+  void tell(const Proposal& proposal, const Evaluation& evaluation) override {
+    ++told_;
+    Descent::tell(proposal, evaluation);
+  }
+  void refuse(const Proposal&) override { ended_ = true; }
+  bool finished() const override { return ended_; }
+
+ private:
+  int told_ = 0;
+  bool ended_ = false;
+};
+
+TEST_F(DesignLoop, IsDoneWhereASearchEndsWithARefusedProposal) {
+  Counting evaluator;
+  EndsRefused designer(space_.start());
+  const OptimiseResult result = optimise(space_, designer, evaluator, small("run"));
+  EXPECT_EQ(result.stopped, OptimiseStopped::done);
+  EXPECT_EQ(result.evaluations, 3U);
+}
+
 TEST_F(DesignLoop, NamesThePartThatAResumedRunHasOtherwise) {
   Counting counting;
   Moody moody;
