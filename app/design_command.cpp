@@ -8,7 +8,6 @@
 
 #include "arguments.h"
 #include "command.h"
-#include "design_constraints.h"
 #include "design_problem.h"
 #include "design_report.h"
 #include "design_run.h"
@@ -38,41 +37,48 @@ Json violated_by(const DesignProblemFile& problem, std::size_t point, const Mesh
                  const FlowResult& flow) {
   Json result = Json::object();
   if (!flow.converged()) return result;
-  const std::vector<std::string> names = constraint_names(Json::parse(problem.text));
-  const std::size_t before = names.size() - problem.flow.size();  // constraints of shapes
-  for (std::size_t i = 0; i < problem.flow.size(); ++i)
-    if (problem.flow[i].point == point)
-      if (const double excess = excess_of(problem.flow[i], mesh, flow); excess > problem.constraint_tolerance)
-        result[names[before + i]] = excess;
+  for (const FlowConstraint& constraint : problem.flow)
+    if (constraint.point == point)
+      if (const double excess = excess_of(constraint, mesh, flow); excess > problem.constraint_tolerance)
+        result[constraint.name] = excess;
   return result;
 }
 
-// The last design on fresh meshes, which no search has seen. None where that was interrupted.
-std::optional<Json> verified(const DesignProblemFile& problem, const FlowSpace& space,
-                             std::span<const double> design, StepObserver& observer) {
-  Json list = Json::array();
+// The best design on fresh meshes, which no search has seen.
+struct Verification {
+  Json list = Json::array();        // of what was finished
+  Stopped stopped = Stopped::done;  // or what kept one of the meshes or flows from being finished
+};
+
+Verification verified(const DesignProblemFile& problem, const FlowSpace& space,
+                      std::span<const double> design, StepObserver& observer) {
+  Verification result;
   for (const int points : problem.verify) {
     const double gradation = problem.gradation * points / problem.domain.points;
     const GenerateResult made =
         generate(space.domain_with(design, points), {.gradation = gradation}, &observer);
-    if (made.stopped == Stopped::interrupted) return std::nullopt;
+    result.stopped = made.stopped;
+    if (made.stopped != Stopped::done) return result;
     const Mesh& mesh = made.mesh;
     for (std::size_t i = 0; i < problem.points.size(); ++i) {
       const FlowResult flow = solve_section(mesh, problem.points[i].conditions, space.half(), &observer);
-      if (flow.status == FlowStatus::interrupted) return std::nullopt;
-      list.push_back({{"points", points},
-                      {"vertices", mesh.freeze().points.size()},
-                      {"mach", flow.mach},
-                      {"alpha_deg", flow.alpha_deg},
-                      {"cl", flow.cl},
-                      {"cd", flow.cd},
-                      {"cm", flow.cm},
-                      {"converged", flow.converged()},
-                      {"violated", violated_by(problem, i, mesh, flow)},
-                      {"seconds", flow.seconds}});
+      if (flow.status == FlowStatus::interrupted) {
+        result.stopped = Stopped::interrupted;
+        return result;
+      }
+      result.list.push_back({{"points", points},
+                             {"vertices", mesh.freeze().points.size()},
+                             {"mach", flow.mach},
+                             {"alpha_deg", flow.alpha_deg},
+                             {"cl", flow.cl},
+                             {"cd", flow.cd},
+                             {"cm", flow.cm},
+                             {"converged", flow.converged()},
+                             {"violated", violated_by(problem, i, mesh, flow)},
+                             {"seconds", flow.seconds}});
     }
   }
-  return list;
+  return result;
 }
 
 // A figure that there may be none of.
@@ -101,7 +107,7 @@ void add_cost(Report& report, const DesignRun& run) {
 
 // By how much the best design, or the least violated one, violates each constraint.
 void add_constraints(Report& report, const DesignRun& run) {
-  const Json by = violations(run.options.at("problem"), run.rows[run.best].constraints);
+  const Json by = run.violations();
   report.data("constraints", by);
   for (const auto& [name, violation] : by.items())
     report.line("constraint: " + name,
@@ -168,7 +174,7 @@ void add_verified(Report& report, const Json& fresh, const OptimiseResult& resul
 
 std::string detail_of(const DesignRun& run, const OptimiseResult& result) {
   if (run.has_best()) return result.detail;
-  return why_no_design(run.options.at("problem"), run.rows) + "; best.json is the start" +
+  return run.why_no_design() + "; best.json is the start" +
          (result.detail.empty() ? "" : "; " + result.detail);
 }
 
@@ -184,6 +190,13 @@ void add_run(Report& report, const OptimiseResult& result, const std::filesystem
     report.figure("detail", "detail", detail);
 }
 
+// Why the command ended: "done" where the search has by itself.
+std::string stopped_by(const OptimiseResult& result, const Verification& fresh, const Designer& designer) {
+  if (result.stopped != OptimiseStopped::done) return name_of(result.stopped);
+  if (fresh.stopped != Stopped::done) return name_of(fresh.stopped);
+  return designer.finished() ? "done" : "evaluations";
+}
+
 Status run(const DesignCommand& command) {
   require_possible(command);
   const DesignProblemFile problem = read_design_problem(command.problem);
@@ -197,23 +210,23 @@ Status run(const DesignCommand& command) {
   const OptimiseResult result = optimise(*space, *designer, *evaluator, options, &progress);
   progress.finish();
   const bool is_found = std::isfinite(result.objective);
-  std::optional<Json> fresh = Json::array();
+  Verification fresh;
   if (result.stopped == OptimiseStopped::done && is_found)
     fresh = verified(problem, *space, result.best_design, progress.step_observer());
-  const OptimiseStopped stopped = fresh ? result.stopped : OptimiseStopped::interrupted;
+  const std::string stopped = stopped_by(result, fresh, *designer);
 
   Report report;
   report.figure("problem", "problem", command.problem);
   add_result(report, result, *space);
   add_run(report, result, options.directory);
   report.figure("seconds", "wall time", result.seconds, "seconds");
-  report.figure("stopped", "stopped", name_of(stopped));
+  report.figure("stopped", "stopped", stopped);
   report.figure("converged", "converged", is_found && designer->finished());
-  if (fresh) add_verified(report, *fresh, result, options.directory);
+  if (fresh.stopped != Stopped::interrupted) add_verified(report, fresh.list, result, options.directory);
   report.data("best", Json::parse(space->text(result.best_design)));
   report.figure("directory", "run directory", options.directory.string());
   report.print(command.json);
-  if (stopped != OptimiseStopped::done) return Status::limit;
+  if (stopped != "done") return Status::limit;
   return is_found ? Status::done : Status::answer_is_no;
 }
 

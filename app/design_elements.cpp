@@ -31,11 +31,12 @@ struct Element {
   std::string where;
 };
 
-Element element_of(const Json& entry, const std::string& where, int degree) {
+Element element_of(const Json& entry, const std::string& where, int degree,
+                   const std::filesystem::path& directory) {
   const Keys keys(entry, where, {"name", "airfoil", "placement", "variables"});
-  Element element{
-      .placed = {.name = keys.get<std::string>("name"), .airfoil = section_named(keys, "airfoil", degree)},
-      .where = where};
+  Element element{.placed = {.name = keys.get<std::string>("name"),
+                             .airfoil = section_named(keys, "airfoil", degree, directory)},
+                  .where = where};
   if (keys.has("placement"))
     element.placed.placement = placement_of(entry.at("placement"), where + ", placement");
   if (keys.has("variables")) element.variables = entry.at("variables");
@@ -81,7 +82,8 @@ ElementSpace read_elements(const Keys& problem, const std::string& file, int deg
   std::vector<PlacedAirfoil> placed;
   for (const Json& entry : problem.list("elements")) {
     if (elements.size() == most) problem.fail("found more than 20 'elements'");
-    elements.push_back(element_of(entry, file + ", element " + std::to_string(elements.size() + 1), degree));
+    elements.push_back(element_of(entry, file + ", element " + std::to_string(elements.size() + 1), degree,
+                                  std::filesystem::path(file).parent_path()));
     const std::string& name = elements.back().placed.name;
     if (name.empty() || name == "farfield" || name == "symmetry")
       problem.fail("found '" + name + "' as the name of an element");

@@ -92,7 +92,9 @@ class FlowEvaluator final : public Evaluator {
     Json problem = Json::parse(problem_.text);
     problem.erase("verify");
     problem.erase("designer");
-    return Json{{"evaluator", "flow"}, {"problem", problem}}.dump();
+    return Json{
+        {"evaluator", "flow"}, {"problem", problem}, {"constraint_names", problem_.constraint_names()}}
+        .dump();
   }
 
  private:

@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <set>
-#include <string_view>
 
-#include "design_constraints.h"
 #include "design_elements.h"
+#include "design_json.h"
 #include "design_keys.h"
 #include "gradient_designer.h"
-#include "remodel/io.h"
 #include "sqp_designer.h"
 
 namespace remodel::app {
@@ -173,7 +170,7 @@ void require_keys_of(const Keys& keys, const std::string& kind, bool has_element
 }
 
 void add_containment(const Keys& keys, const ConstrainedSection& section, DesignProblemFile& problem) {
-  const CstAirfoil inner = section_named(keys, "airfoil", section.start.degree());
+  const CstAirfoil inner = section_named(keys, "airfoil", section.start.degree(), problem.directory);
   constexpr int stations = containment_stations + 1;
   for (int i = 1; i < stations; ++i)
     for (const bool upper : {true, false}) {
@@ -237,24 +234,33 @@ void add_flow_constraint(const Keys& keys, const std::string& kind, DesignProble
     constraint.sign = keys.has("at_most") ? 1.0 : -1.0;
     constraint.value = keys.number(keys.has("at_most") ? "at_most" : "at_least", {}, -100.0, 100.0);
   }
+  if (kind == "lift" && problem.points[constraint.point].conditions.cl)
+    keys.fail("found 'lift' of a point whose 'cl' is given, expected 'alpha_deg' alone there");
   problem.flow.push_back(constraint);
 }
 
-void add_constraint(const Json& entry, const std::string& where, DesignProblemFile& problem) {
+// Returns its kind.
+std::string add_constraint(const Json& entry, const std::string& where, DesignProblemFile& problem) {
   const Keys keys(entry, where,
                   {"kind", "point", "at_least", "at_most", "of_start", "x", "airfoil", "element", "between"});
   const std::string kind = keys.word("kind", {},
                                      {"lift", "moment", "drag", "suction", "gap", "area", "thickness",
                                       "contains", "trailing_edge_angle", "leading_edge_radius"});
   require_keys_of(keys, kind, problem.elements.has_value());
-  if (kind == "gap") return add_gap(keys, problem);
-  if (kind == "lift" || kind == "moment" || kind == "drag" || kind == "suction")
-    return add_flow_constraint(keys, kind, problem);
-  const ConstrainedSection section = constrained_section(keys, problem);
-  if (kind == "trailing_edge_angle" || kind == "leading_edge_radius")
-    return add_edge_constraints(keys, kind == "trailing_edge_angle", section, problem);
-  if (kind == "contains") return add_containment(keys, section, problem);
-  add_size_constraints(keys, kind == "area", section, problem);
+  if (kind == "gap") {
+    add_gap(keys, problem);
+  } else if (kind == "lift" || kind == "moment" || kind == "drag" || kind == "suction") {
+    add_flow_constraint(keys, kind, problem);
+  } else {
+    const ConstrainedSection section = constrained_section(keys, problem);
+    if (kind == "trailing_edge_angle" || kind == "leading_edge_radius")
+      add_edge_constraints(keys, kind == "trailing_edge_angle", section, problem);
+    else if (kind == "contains")
+      add_containment(keys, section, problem);
+    else
+      add_size_constraints(keys, kind == "area", section, problem);
+  }
+  return kind;
 }
 
 DesignPoint point_of(const Json& entry, const std::string& where) {
@@ -273,7 +279,7 @@ DesignPoint point_of(const Json& entry, const std::string& where) {
 }
 
 void read_section(const Keys& keys, int degree, DesignProblemFile& problem) {
-  problem.start = section_named(keys, "airfoil", degree);
+  problem.start = section_named(keys, "airfoil", degree, problem.directory);
   problem.symmetric = keys.get<bool>("symmetric", false);
   if (!problem.symmetric) return;
   require_symmetric(keys, problem.start);
@@ -290,58 +296,109 @@ void read_objective(const Keys& keys, int degree, DesignProblemFile& problem) {
   const bool is_inverse = problem.objective == "inverse";
   if (is_inverse && problem.elements)
     keys.fail("found the objective 'inverse' with 'elements', expected 'airfoil'");
-  if (is_inverse) problem.target = section_named(keys, "target", degree);
+  if (is_inverse) problem.target = section_named(keys, "target", degree, problem.directory);
   if (!is_inverse && keys.has("target"))
     keys.fail("found 'target' with the objective '" + problem.objective + "', expected 'inverse'");
 }
 
-// The byte, from 1, at which a text stops being JSON.
-[[noreturn]] void fail_at(const std::string& file, const std::string& text, std::size_t byte) {
-  const std::string_view before(text.data(), std::min(text.size(), std::max<std::size_t>(byte, 1) - 1));
-  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-  const std::size_t line_start = before.rfind('\n') + 1;  // 0 in the first line
-  throw Error(ErrorCode::format, file + ":" + std::to_string(line),
-              "found no JSON at column " + std::to_string(before.size() - line_start + 1) +
-                  ", expected a design problem");
+// The object of a key, empty where there is none.
+Json object_of(const Json& problem, const char* key) {
+  return problem.contains(key) ? problem.at(key) : Json::object();
 }
 
-}  // namespace
-
-DesignProblemFile read_design_problem(const std::string& file) {
-  DesignProblemFile problem;
-  Json json;
-  std::vector<std::set<std::string>> open;  // the keys of objects that are not read to their ends
-  const auto watch = [&](int depth, Json::parse_event_t event, const Json& parsed) {
-    if (depth > 64) throw Error(ErrorCode::format, file, "found more than 64 brackets inside each other");
-    if (event == Json::parse_event_t::object_start) open.emplace_back();
-    if (event == Json::parse_event_t::object_end) open.pop_back();
-    if (event == Json::parse_event_t::key && !open.back().insert(parsed.get<std::string>()).second)
-      throw Error(ErrorCode::format, file, "found the key " + parsed.dump() + " twice in one object");
-    return true;
-  };
-  const std::string text = read_text(file);
-  try {
-    json = Json::parse(text, watch);
-  } catch (const Json::parse_error& error) {
-    fail_at(file, text, error.byte);
-  } catch (const Json::out_of_range&) {
-    throw Error(ErrorCode::format, file, "found a number that is too large, expected one below 1.8e308");
-  }
-  const Keys keys(json, file,
-                  {"airfoil", "elements", "degree", "symmetric", "mesh", "flow", "objective", "target",
-                   "constraints", "constraint_tolerance", "designer", "verify"});
-  problem.text = json.dump();
-  const int degree = keys.whole<int>("degree", 5, 1, 30);
-  if (keys.has("airfoil") == keys.has("elements")) keys.fail("expected one of 'airfoil' and 'elements'");
-  if (keys.has("airfoil")) read_section(keys, degree, problem);
-  const Json empty = Json::object();
-  const Json mesh_json = keys.has("mesh") ? json.at("mesh") : empty;
-  const Keys mesh(mesh_json, file + ", mesh", {"points", "gradation", "farfield_radius"});
+void read_mesh_options(const Json& json, const std::string& file, DesignProblemFile& problem) {
+  const Json object = object_of(json, "mesh");
+  const Keys mesh(object, file + ", mesh", {"points", "gradation", "farfield_radius"});
   problem.domain.points = mesh.whole<int>("points", 100, 8, 100000);
   if (problem.domain.points % 2 != 0)
     mesh.fail("found " + std::to_string(problem.domain.points) + " as 'points', expected an even number");
   problem.domain.farfield_radius = mesh.number("farfield_radius", 25, 2, 1e6);
   problem.gradation = mesh.number("gradation", problem.domain.points / 50.0, 0.1, 1000);
+}
+
+// Each constraint of the file has one name, whatever the number of functions that it takes.
+void read_constraints(const Keys& keys, const std::string& file, DesignProblemFile& problem) {
+  const Json entries = keys.list("constraints");
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const std::size_t sections = problem.section.size(), gaps = problem.gaps.size(),
+                      flows = problem.flow.size();
+    const std::string kind =
+        add_constraint(entries[i], file + ", constraint " + std::to_string(i + 1), problem);
+    const auto is_of_kind = [&](const Json& other) {
+      return other.is_object() && other.contains("kind") && other.at("kind") == kind;
+    };
+    const bool is_only = std::count_if(entries.begin(), entries.end(), is_of_kind) == 1;
+    const std::string name = is_only ? kind : kind + " (constraint " + std::to_string(i + 1) + ")";
+    const auto call = [&](auto& constraints, std::size_t from) {
+      for (std::size_t k = from; k < constraints.size(); ++k) constraints[k].name = name;
+    };
+    call(problem.section, sections), call(problem.gaps, gaps), call(problem.flow, flows);
+  }
+  if (entries.empty() && keys.has("constraint_tolerance"))
+    keys.fail("found 'constraint_tolerance' without 'constraints', expected both or none");
+  problem.constraint_tolerance = keys.number("constraint_tolerance", problem.constraint_tolerance, 0.0, 1.0);
+}
+
+// A point without a weight is looked at for its constraints alone.
+void require_weights(const Keys& keys, const std::string& file, const DesignProblemFile& problem) {
+  bool any = false;
+  for (std::size_t i = 0; i < problem.points.size(); ++i) {
+    any = any || problem.points[i].weight > 0.0;
+    const bool is_constrained =
+        std::any_of(problem.flow.begin(), problem.flow.end(),
+                    [&](const FlowConstraint& constraint) { return constraint.point == i; });
+    if (problem.points[i].weight == 0.0 && !is_constrained)
+      throw Error(ErrorCode::format, file + ", flow " + std::to_string(i + 1),
+                  "found 0 as 'weight' of a point that no constraint names, expected a number above 0");
+  }
+  if (!any) keys.fail("found 0 as 'weight' of each point of 'flow', expected a number above 0 of one");
+}
+
+// Throws for keys that this designer has no use for.
+void require_keys_of_designer(const Keys& keys, const DesignProblemFile& problem) {
+  const bool is_cmaes = problem.designer == "cmaes";
+  const std::string expected = is_cmaes ? "evaluations, sigma, seed" : "evaluations, bounds, trust";
+  for (const char* key : {"bounds", "trust", "sigma", "seed"})
+    if (keys.has(key) && expected.find(key) == std::string::npos)
+      keys.fail("found the key '" + std::string(key) + "', which '" + problem.designer +
+                "' has no use for, expected " + expected);
+  const auto has_coefficients = [&] {
+    for (std::size_t i = 0; i < problem.elements->sections(); ++i)
+      if (problem.elements->has_coefficients(i)) return true;
+    return false;
+  };
+  if (keys.has("bounds") && problem.elements && !has_coefficients())
+    keys.fail(
+        "found the key 'bounds', which is of coefficients, expected it where an element has "
+        "\"coefficients\": true");
+}
+
+void read_designer(const Json& json, const std::string& file, DesignProblemFile& problem) {
+  const Json object = object_of(json, "designer");
+  const Keys keys(object, file + ", designer", {"name", "evaluations", "bounds", "trust", "sigma", "seed"});
+  problem.designer = keys.word("name", "sqp", {"sqp", "slsqp", "mma", "cmaes"});
+  problem.evaluations = keys.whole<std::size_t>("evaluations", 100, 1, 1000000);
+  problem.bounds = keys.number("bounds", 0.1, 1e-9, 10);
+  problem.trust = keys.number("trust", 0.02, 1e-6, 10);
+  problem.sigma = keys.number("sigma", 0.01, 1e-9, 10);
+  problem.seed = keys.whole<std::uint64_t>("seed", 1, 0, UINT64_MAX);
+  require_keys_of_designer(keys, problem);
+}
+
+}  // namespace
+
+DesignProblemFile read_design_problem(const std::string& file) {
+  const Json json = read_design_json(file);
+  const Keys keys(json, file,
+                  {"airfoil", "elements", "degree", "symmetric", "mesh", "flow", "objective", "target",
+                   "constraints", "constraint_tolerance", "designer", "verify"});
+  DesignProblemFile problem;
+  problem.directory = std::filesystem::path(file).parent_path();
+  problem.text = json.dump();
+  const int degree = keys.whole<int>("degree", 5, 1, 30);
+  if (keys.has("airfoil") == keys.has("elements")) keys.fail("expected one of 'airfoil' and 'elements'");
+  if (keys.has("airfoil")) read_section(keys, degree, problem);
+  read_mesh_options(json, file, problem);
   if (keys.has("elements")) {
     if (keys.has("symmetric")) keys.fail("found 'symmetric' with 'elements', expected 'airfoil'");
     problem.elements = read_elements(keys, file, degree, problem.domain);
@@ -350,24 +407,23 @@ DesignProblemFile read_design_problem(const std::string& file) {
     problem.points.push_back(point_of(entry, file + ", flow " + std::to_string(problem.points.size() + 1)));
   if (problem.points.empty()) keys.fail("expected at least one point of 'flow'");
   read_objective(keys, degree, problem);
-  std::size_t number = 0;
-  for (const Json& entry : keys.list("constraints"))
-    add_constraint(entry, file + ", constraint " + std::to_string(++number), problem);
-  problem.constraint_tolerance = keys.number("constraint_tolerance", problem.constraint_tolerance, 0.0, 1.0);
-  const Json designer_json = keys.has("designer") ? json.at("designer") : empty;
-  const Keys designer(designer_json, file + ", designer",
-                      {"name", "evaluations", "bounds", "trust", "sigma", "seed"});
-  problem.designer = designer.word("name", "sqp", {"sqp", "slsqp", "mma", "cmaes"});
-  problem.evaluations = designer.whole<std::size_t>("evaluations", 100, 1, 1000000);
-  problem.bounds = designer.number("bounds", 0.1, 1e-9, 10);
-  problem.trust = designer.number("trust", 0.02, 1e-6, 10);
-  problem.sigma = designer.number("sigma", 0.01, 1e-9, 10);
-  problem.seed = designer.whole<std::uint64_t>("seed", 1, 0, UINT64_MAX);
+  read_constraints(keys, file, problem);
+  require_weights(keys, file, problem);
+  read_designer(json, file, problem);
   for (const Json& entry : keys.list("verify")) {
     problem.verify.push_back(keys.whole_number<int>(entry, "verify", 8, 100000));
     if (entry.get<int>() % 2 != 0) keys.fail("found " + entry.dump() + " in 'verify', expected even numbers");
   }
   return problem;
+}
+
+std::vector<std::string> DesignProblemFile::constraint_names() const {
+  std::vector<std::string> names;
+  const auto add = [&](const auto& constraints) {
+    for (const auto& constraint : constraints) names.push_back(constraint.name);
+  };
+  add(section), add(gaps), add(flow);
+  return names;
 }
 
 bool DesignProblemFile::is_half() const {

@@ -2,6 +2,7 @@
 
 // The problem of `remodel design`: docs/design.md describes the file.
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,6 +28,7 @@ struct SectionConstraint {
   std::vector<double> row;
   double bound = 0.0;
   std::size_t section = 0;
+  std::string name = {};  // of the file's constraint, as of those that follow
 };
 
 // A coefficient of a point's flow, at least or at most a value; or the suction peak.
@@ -36,6 +38,7 @@ struct FlowConstraint {
   double sign = 1.0;  // 1: at most the value, -1: at least
   double value = 0.0;
   std::optional<std::size_t> section = {};  // of a suction peak; without: of all walls
+  std::string name = {};
 
   // Suction peaks are large: they count in parts of what is allowed.
   double factor() const { return of == "suction" ? sign / value : sign; }
@@ -45,10 +48,12 @@ struct FlowConstraint {
 struct GapConstraint {
   std::size_t section = 0, other = 0;
   double at_least = 0.0;
+  std::string name = {};
 };
 
 struct DesignProblemFile {
   std::string text;                      // the file's, for the run's settings
+  std::filesystem::path directory;       // the file's: paths of airfoils in it lead on from there
   CstAirfoil start;                      // of a problem of one section
   std::optional<ElementSpace> elements;  // of one of several
   bool symmetric = false;                // the lower surface is the upper one's mirror image
@@ -60,6 +65,9 @@ struct DesignProblemFile {
   std::vector<SectionConstraint> section;
   std::vector<FlowConstraint> flow;
   std::vector<GapConstraint> gaps;
+  // For each function that an evaluation has, in their order, the name of its constraint: the kind, and its
+  // number in the file where there are several of a kind.
+  std::vector<std::string> constraint_names() const;
   double constraint_tolerance = default_constraint_tolerance;
   std::string designer = "sqp";
   double bounds = 0.1, trust = 0.02, sigma = 0.01;

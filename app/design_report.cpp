@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "base64_text.h"
-#include "design_constraints.h"
 #include "design_problem.h"
 #include "design_run.h"
 #include "flow_plots.h"
@@ -178,7 +177,7 @@ std::string convergence(const Scratch& scratch, const DesignRun& run) {
     positive = positive && row.objective > 0.0 && (row.best_objective > 0.0);
   }
   if (each.points.empty()) return "<p>No design had a flow.</p>\n";
-  Plot plot{.x = {"design"}, .y = {.label = "objective", .logarithmic = positive}};
+  Plot plot{.x = {.label = "design", .whole = true}, .y = {.label = "objective", .logarithmic = positive}};
   plot.curves.push_back(std::move(each));
   if (!best.points.empty()) plot.curves.push_back(std::move(best));
   return scratch.picture(".svg", [&](const fs::path& file) { draw_plot(plot, file); });
@@ -221,7 +220,7 @@ Json cost(const DesignRun& run, const Shown& first, const Shown& last) {
           {"largest_shift", or_null(shift)},
           {"start_objective", or_null(run.start_objective())},
           {"objective", run.has_best() ? Json(run.rows[run.best].objective) : Json()},
-          {"constraints", violations(run.options.at("problem"), run.rows[run.best].constraints)}};
+          {"constraints", run.violations()}};
 }
 
 std::string row(const std::string& name, const std::string& value) {
@@ -321,9 +320,7 @@ constexpr const char* style =
 // What the search has come to, in words.
 std::string outcome(const DesignRun& run, const Json& cost) {
   const std::string objective = escaped(run.options["problem"]["objective"].get<std::string>());
-  if (!run.has_best())
-    return "Objective: " + objective +
-           ". No best design: " + escaped(why_no_design(run.options["problem"], run.rows));
+  if (!run.has_best()) return "Objective: " + objective + ". No best design: " + escaped(run.why_no_design());
   const Json& start = cost["start_objective"];
   return "Objective (" + objective +
          "): " + (start.is_null() ? "" : "from " + number(start.get<double>(), "%.6g") + " to ") + "<b>" +
@@ -341,7 +338,7 @@ Mesh mesh_of_best(const fs::path& directory, const DesignRun& run) {
 
 const char* name_of_best(const DesignRun& run) {
   if (run.has_best()) return "best";
-  return least_violated(run.rows) ? "least violated" : "first tried";
+  return run.has_flow ? "least violated" : "first tried";
 }
 
 std::string page_of(const fs::path& directory, const DesignRun& run, const Shown& first, const Shown& last,
@@ -351,7 +348,8 @@ std::string page_of(const fs::path& directory, const DesignRun& run, const Shown
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\"><title>Remodel: a design</title><style>" +
       std::string(style) + "</style></head><body>\n<h1>A design on one mesh</h1>\n";
-  page += "<p>" + outcome(run, cost) + "; " + std::to_string(run.rows.size()) + " designs on a mesh of " +
+  page += "<p>" + outcome(run, cost) + "; " + std::to_string(run.rows.size()) +
+          (run.rows.size() == 1 ? " design" : " designs") + " on a mesh of " +
           std::to_string(first.mesh.triangles.size()) + " triangles" +
           (run.space->half() ? ", computed in the upper half and mirrored" : "") + ".</p>\n";
   page += "<h2>Sections</h2>\n<p><span class=\"first\">first</span>, <span class=\"last\">" + last.name +

@@ -5,7 +5,9 @@
 
 #include "design_constraints.h"
 #include "element_space.h"
+#include "number_text.h"
 #include "remodel/error.h"
+#include "remodel/evaluation.h"
 #include "section_space.h"
 
 namespace remodel::app {
@@ -21,6 +23,19 @@ std::optional<double> DesignRun::start_objective() const {
   const EvaluationRecord& first = rows.front();
   if (first.coefficients != space->start() || !std::isfinite(first.objective)) return std::nullopt;
   return first.objective;
+}
+
+Json DesignRun::violations() const {
+  return app::violations(constraint_names, constraint_tolerance, rows[best].constraints);
+}
+
+std::string DesignRun::why_no_design() const {
+  if (!has_flow) return "no flow was found for any design";
+  const Json by = violations();
+  const auto worst = std::max_element(by.begin(), by.end());
+  return "no design is within all constraints: the least violated one, design " +
+         std::to_string(rows[best].evaluation) + ", violates '" + worst.key() + "' most, by " +
+         short_text(worst->get<double>());
 }
 
 bool holds_design_run(const std::filesystem::path& directory) {
@@ -45,6 +60,18 @@ std::unique_ptr<const FlowSpace> space_of(const Json& options, const std::string
                                      .farfield_points = space.at("farfield_points")}});
 }
 
+// Of the designs whose flows were found, the row of the one that violates its worst constraint least, of
+// several the first; without a flow the first row.
+std::size_t least_violated(const std::vector<EvaluationRecord>& rows) {
+  std::size_t least = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    if (std::isfinite(rows[i].objective) &&
+        (!std::isfinite(rows[least].objective) ||
+         violation_of(rows[i].constraints) < violation_of(rows[least].constraints)))
+      least = i;
+  return least;
+}
+
 }  // namespace
 
 DesignRun read_design_run(const std::filesystem::path& directory) {
@@ -55,6 +82,8 @@ DesignRun read_design_run(const std::filesystem::path& directory) {
     run.options = Json::parse(history.run().at("options"));
     const Json& problem = run.options.at("problem");
     run.space = space_of(run.options, file.string());
+    run.options.at("constraint_names").get_to(run.constraint_names);
+    run.constraint_tolerance = run.options.value("constraint_tolerance", 0.0);
     for (const Json& entry : problem.at("flow")) {
       FlowConditions& at = run.conditions.emplace_back();
       at.mach = entry.at("mach"), at.alpha_deg = entry.value("alpha_deg", 0.0);
@@ -77,7 +106,8 @@ DesignRun read_design_run(const std::filesystem::path& directory) {
                       std::to_string(numbers));
   for (std::size_t i = 1; i < run.rows.size(); ++i)
     if (run.rows[i].best_objective < run.rows[run.best].best_objective) run.best = i;
-  if (!run.has_best()) run.best = least_violated(run.rows).value_or(0);
+  if (!run.has_best()) run.best = least_violated(run.rows);
+  run.has_flow = std::isfinite(run.rows[run.best].objective);
   return run;
 }
 

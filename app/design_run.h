@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "flow_space.h"
@@ -19,8 +20,11 @@ namespace remodel::app {
 
 struct DesignRun {
   Json options;  // of the history; "problem" is the file's, but for designer and verification
+  std::vector<std::string> constraint_names;  // of each function that an evaluation has
+  double constraint_tolerance = 0.0;
   std::vector<EvaluationRecord> rows;
-  std::size_t best = 0;  // row; without a best design the least violated one's, or the first
+  std::size_t best = 0;   // row; without a best design the least violated one's, or the first
+  bool has_flow = false;  // of that row; otherwise none of any design was found
   std::vector<FlowConditions> conditions;  // of the points
   std::unique_ptr<const FlowSpace> space;
 
@@ -30,6 +34,11 @@ struct DesignRun {
   std::optional<double> start_objective() const;
   bool with_gradients() const { return rows.front().outputs.contains("gradient_seconds"); }
   double sum(const char* output) const;  // over all rows that have it
+  // By how much the design of `best` violates each constraint at its worst, by name.
+  Json violations() const;
+  // Without a best design: which constraint is violated most at the least violated design, or that no flow
+  // was found.
+  std::string why_no_design() const;
 };
 
 // Whether the directory holds a run of `remodel design`, rather than of `remodel optimise`.

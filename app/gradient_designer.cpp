@@ -15,6 +15,9 @@ using DesignJson = nlohmann::ordered_json;
 
 constexpr double constraint_tolerance = 1e-7;
 constexpr int most_rounds = 100, most_a_round = 40;
+constexpr double least_gain = 1e-4;  // of a round, that is worth another one in a box of this size
+constexpr double shrinking = 0.25;   // of the box where there was less
+constexpr double least_step = 1e-2;  // of a design from others of its round, in half-widths of the box
 
 // One number that orders designs: the objective, over that of the start, and what constraints are violated
 // by.
@@ -104,57 +107,122 @@ void GradientDesigner::advance() {
   pending_ = std::move(oracle.pending);
 }
 
-// The best design of the box around the centre, as far as it is known; none where the search waits.
-std::optional<GradientDesigner::Known> GradientDesigner::search_box(Oracle& oracle, bool& failed) {
+// What NLopt asks for in a round, and what comes of it. Its calls throw nlopt::forced_stop where the round is
+// at its end, or waits for an evaluation.
+class GradientDesigner::Round {
+ public:
+  Round(Oracle& oracle, const Known& first, double scale, double least_step)
+      : best(first),
+        oracle_(oracle),
+        first_(first),
+        scale_(scale),
+        least_step_(least_step),
+        seen_{first.design} {}
+
+  const Known& at(const std::vector<double>& x) {
+    const Known* found = over_ || is_near(x) ? nullptr : oracle_.ask_in_round(x);
+    over_ = over_ || found == nullptr;
+    if (over_) throw nlopt::forced_stop();
+    seen_.push_back(x);
+    failed = !std::isfinite(found->evaluation.objective) || found->evaluation.gradient.size() != x.size();
+    const bool is_better = !failed && merit_of(found->evaluation, scale_) < merit_of(best.evaluation, scale_);
+    if (is_better) best = *found;
+    unlike = ends_where_unlike && !is_better && !failed &&
+             connectivity_of(found->evaluation) != connectivity_of(first_.evaluation);
+    over_ = failed || unlike;
+    if (over_) throw nlopt::forced_stop();
+    return *found;
+  }
+
+  Known best;
+  bool failed = false;  // the last design
+  bool unlike = false;  // it is on another connectivity than the first one, and not better
+  // MMA makes a step shorter until its model is on the safe side, which is never where meshes have shifted
+  // the objective. SLSQP goes back along its line a few times and has done.
+  bool ends_where_unlike = false;
+  double objective_factor = 1.0;
+  std::vector<double> constraint_factors = {};
+
+ private:
+  // Nearer to a design of the round than a step that can tell anything, but not that design: there methods
+  // creep on where meshes have changed, or their models promise what the box does not hold.
+  bool is_near(const std::vector<double>& x) const {
+    const auto distance = [&](const std::vector<double>& other) {
+      double farthest = 0.0;
+      for (std::size_t i = 0; i < x.size(); ++i) farthest = std::max(farthest, std::fabs(x[i] - other[i]));
+      return farthest;
+    };
+    return std::find(seen_.begin(), seen_.end(), x) == seen_.end() &&
+           std::any_of(seen_.begin(), seen_.end(),
+                       [&](const std::vector<double>& other) { return distance(other) < least_step_; });
+  }
+
+  Oracle& oracle_;
+  const Known first_;
+  double scale_, least_step_;
+  std::vector<std::vector<double>> seen_;
+  bool over_ = false;
+};
+
+namespace {
+
+double steepest(const std::vector<double>& gradient) {
+  double most = 0.0;
+  for (const double slope : gradient) most = std::max(most, std::fabs(slope));
+  return most;
+}
+
+// MMA begins with second derivatives of 1 over the half-width of the box: against them slopes have to count,
+// those of constraints above all, or its first steps are tiny.
+double mma_factor(const std::vector<double>& gradient, double trust, double slope) {
+  const double most = steepest(gradient) * trust;
+  return most > 0.0 ? slope / most : 1.0;
+}
+
+}  // namespace
+
+void GradientDesigner::scale(Round& round, double objective_scale) const {
+  const Evaluation& first = round.best.evaluation;
+  round.objective_factor = 1.0 / objective_scale;
+  round.constraint_factors.assign(first.constraints.size(), 1.0);
+  if (options_.method != "mma") return;
+  round.ends_where_unlike = true;
+  round.objective_factor = mma_factor(first.gradient, trust_, 1.0);
+  for (std::size_t i = 0; i < first.constraints.size(); ++i)
+    round.constraint_factors[i] = mma_factor(first.constraint_gradients[i], trust_, 10.0);
+}
+
+// Searches the box around the centre.
+void GradientDesigner::search_box(Round& round) const {
   const std::size_t n = start_.size();
-  const Known* first = oracle.ask_in_round(centre_);
-  if (first == nullptr) return std::nullopt;
-  const double scale = std::max(std::fabs(known_.front().evaluation.objective), 1e-12);
-  Known best = *first;
-  bool stop = false;
-  const auto answer = [&](const std::vector<double>& x) -> const Known* {
-    if (stop) return nullptr;
-    const Known* found = oracle.ask_in_round(x);
-    if (found == nullptr) stop = true;
-    if (found != nullptr &&
-        !(std::isfinite(found->evaluation.objective) && found->evaluation.gradient.size() == n))
-      stop = failed = true, found = nullptr;
-    if (found != nullptr && merit_of(found->evaluation, scale) < merit_of(best.evaluation, scale))
-      best = *found;
-    return found;
-  };
-  const std::size_t m = first->evaluation.constraints.size();
   const nlopt::vfunc objective = [](const std::vector<double>& x, std::vector<double>& gradient, void* data) {
-    const auto& [ask, size] = *static_cast<std::pair<decltype(answer)*, double>*>(data);
-    const Known* found = (*ask)(x);
-    if (found == nullptr) throw nlopt::forced_stop();
-    for (std::size_t i = 0; i < gradient.size(); ++i) gradient[i] = found->evaluation.gradient[i] / size;
-    return found->evaluation.objective / size;
+    Round& of = *static_cast<Round*>(data);
+    const Evaluation& found = of.at(x).evaluation;
+    for (std::size_t i = 0; i < gradient.size(); ++i) gradient[i] = of.objective_factor * found.gradient[i];
+    return of.objective_factor * found.objective;
   };
   const nlopt::mfunc constraints = [](unsigned count, double* values, unsigned dimension, const double* x,
                                       double* gradient, void* data) {
-    const auto& [ask, size] = *static_cast<std::pair<decltype(answer)*, double>*>(data);
-    const Known* found = (*ask)(std::vector<double>(x, x + dimension));
-    if (found == nullptr) throw nlopt::forced_stop();
+    Round& of = *static_cast<Round*>(data);
+    const Evaluation& found = of.at(std::vector<double>(x, x + dimension)).evaluation;
     for (unsigned i = 0; i < count; ++i) {
-      values[i] = found->evaluation.constraints[i];
-      if (gradient != nullptr)
-        std::copy_n(found->evaluation.constraint_gradients[i].begin(), dimension, gradient + i * dimension);
+      values[i] = of.constraint_factors[i] * found.constraints[i];
+      if (gradient == nullptr) continue;
+      for (unsigned k = 0; k < dimension; ++k)
+        gradient[i * dimension + k] = of.constraint_factors[i] * found.constraint_gradients[i][k];
     }
   };
-  std::pair data{&answer, scale};
   nlopt::opt search(options_.method == "mma" ? nlopt::LD_MMA : nlopt::LD_SLSQP, static_cast<unsigned>(n));
-  std::vector<double> low(n), high(n);
+  std::vector<double> low(n), high(n), tolerances = round.constraint_factors;
   for (std::size_t i = 0; i < n; ++i) {
     low[i] = std::max(options_.low[i], centre_[i] - trust_);
     high[i] = std::min(options_.high[i], centre_[i] + trust_);
   }
+  for (double& tolerance : tolerances) tolerance *= constraint_tolerance;
   search.set_lower_bounds(low), search.set_upper_bounds(high);
-  search.set_min_objective(objective, &data);
-  if (m != 0)
-    search.add_inequality_mconstraint(constraints, &data, std::vector<double>(m, constraint_tolerance));
+  search.set_min_objective(objective, &round);
+  if (!tolerances.empty()) search.add_inequality_mconstraint(constraints, &round, tolerances);
   search.set_ftol_rel(1e-5);
-  search.set_xtol_abs(1e-3 * options_.least_trust);
   search.set_maxeval(most_a_round);
   std::vector<double> x = centre_;
   double value = 0.0;
@@ -163,10 +231,33 @@ std::optional<GradientDesigner::Known> GradientDesigner::search_box(Oracle& orac
   } catch (const nlopt::forced_stop&) {
   } catch (const nlopt::roundoff_limited&) {
   } catch (const std::runtime_error&) {
-    if (!stop) failed = true;
+    round.failed = true;
   }
-  if (oracle.pending) return std::nullopt;
-  return best;
+}
+
+// Evaluates the centre once more where the mesh has another connectivity than with it. If the last design,
+// on the same one, proves better then, it is the centre. How many of the last answers are of one mesh; none
+// where the search waits, or the centre has no flow any more.
+std::optional<std::size_t> GradientDesigner::compare_again(Oracle& oracle, Known& centre, bool unlike,
+                                                           double scale) {
+  const Known last = known_[oracle.next() - 1];
+  if (last.design == centre.design) return 1;
+  if (connectivity_of(last.evaluation) == connectivity_of(centre.evaluation)) {
+    std::size_t again = 1;
+    for (std::size_t i = oracle.next(); i-- > 0 && known_[i].design != centre.design;) ++again;
+    return again;
+  }
+  const Known* at = oracle.ask(centre_);
+  if (at == nullptr || at->evaluation.gradient.size() != start_.size()) return std::nullopt;
+  centre = *at;
+  if (!unlike) return 1;
+  const bool is_like = connectivity_of(last.evaluation) == connectivity_of(centre.evaluation);
+  const double gain = merit_of(centre.evaluation, scale) - merit_of(last.evaluation, scale);
+  if (is_like && gain > least_gain)
+    centre = last, centre_ = centre.design;
+  else
+    trust_ *= shrinking;
+  return is_like ? 2 : 1;
 }
 
 void GradientDesigner::search(Oracle& oracle) {
@@ -176,37 +267,27 @@ void GradientDesigner::search(Oracle& oracle) {
   const Known* at = oracle.ask(centre_);
   if (at == nullptr) return;
   if (at->evaluation.gradient.size() != start_.size()) return;  // the start failed: nothing to go on from
-  const double scale = std::max(std::fabs(at->evaluation.objective), 1e-12);
+  const double scale_of_start = std::max(std::fabs(at->evaluation.objective), 1e-12);
   Known centre = *at;
+  bool unlike = false;
   for (; round_ < most_rounds && trust_ >= options_.least_trust; ++round_) {
-    std::size_t again = 1;
-    const Known& last = known_[oracle.next() - 1];
-    if (last.design != centre.design) {
-      if (connectivity_of(last.evaluation) != connectivity_of(centre.evaluation) ||
-          !std::isfinite(last.evaluation.objective)) {
-        at = oracle.ask(centre_);
-        if (at == nullptr) return;
-        if (at->evaluation.gradient.size() != start_.size()) return;
-        centre = *at;
-      } else {
-        // The same mesh: what is known of the centre holds.
-        again = 0;
-        for (std::size_t i = oracle.next(); i-- > 0 && known_[i].design != centre.design;) ++again;
-        ++again;
-      }
-    }
-    oracle.begin_round(again);
-    bool failed = false;
-    const std::optional<Known> best = search_box(oracle, failed);
-    if (!best) return;
-    const double gain = merit_of(centre.evaluation, scale) - merit_of(best->evaluation, scale);
+    const std::optional<std::size_t> again = compare_again(oracle, centre, unlike, scale_of_start);
+    if (!again) return;
+    oracle.begin_round(*again);
+    Round round(oracle, centre, scale_of_start, least_step * trust_);
+    scale(round, scale_of_start);
+    search_box(round);
+    if (oracle.pending) return;
+    const double gain =
+        merit_of(centre.evaluation, scale_of_start) - merit_of(round.best.evaluation, scale_of_start);
     double farthest = 0.0;
     for (std::size_t i = 0; i < centre_.size(); ++i)
-      farthest = std::max(farthest, std::fabs(best->design[i] - centre_[i]));
-    constexpr double least_gain = 1e-4;
-    if (gain > 0.0) centre = *best, centre_ = centre.design;
-    if (failed || gain < least_gain)
-      trust_ *= 0.25;
+      farthest = std::max(farthest, std::fabs(round.best.design[i] - centre_[i]));
+    if (gain > 0.0) centre = round.best, centre_ = centre.design;
+    unlike = round.unlike && gain < least_gain;
+    if (unlike) continue;
+    if (round.failed || gain < least_gain)
+      trust_ *= shrinking;
     else if (farthest > 0.99 * trust_)
       trust_ *= 2.0;
   }
@@ -217,8 +298,11 @@ Proposal GradientDesigner::ask() {
   return {.design = pending_ ? *pending_ : centre_, .gradient = true, .from = centre_};
 }
 
+// The mesh has not changed.
 void GradientDesigner::refuse(const Proposal& proposal) {
-  tell(proposal, {});
+  Evaluation refused;
+  if (!known_.empty()) refused.outputs["connectivity"] = connectivity_of(known_.back().evaluation);
+  tell(proposal, refused);
 }
 
 void GradientDesigner::tell(const Proposal& proposal, const Evaluation& evaluation) {

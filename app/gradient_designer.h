@@ -40,9 +40,11 @@ std::string description_of(const std::string& method, const GradientOptions& opt
 // are known; its own work takes milliseconds. All there is to its state are these evaluations.
 //
 // Each round searches the box around the best design so far. The box doubles where the round's best lies on
-// it, and shrinks to a quarter where the round found nothing better or a design failed. Where the mesh's
-// connectivity (output "connectivity") is not that of the best design's evaluation any more, the best design
-// is evaluated again before a round begins, so that designs are compared on like meshes.
+// it, and shrinks to a quarter where the round found nothing better or a design failed. A round ends before a
+// design that is nearer to another one of its own than a hundredth of the box, and with MMA behind one
+// on another connectivity (output "connectivity") that is not better. Where the mesh's connectivity is not
+// that of the best design's evaluation any more, the best design is evaluated again before a round begins, so
+// that designs are compared on like meshes; the last one too.
 class GradientDesigner final : public Designer {
  public:
   GradientDesigner(std::vector<double> start, GradientOptions options);
@@ -64,7 +66,10 @@ class GradientDesigner final : public Designer {
   class Oracle;
   void advance();
   void search(Oracle& oracle);
-  std::optional<Known> search_box(Oracle& oracle, bool& failed);
+  class Round;
+  void scale(Round& round, double objective_scale) const;
+  void search_box(Round& round) const;
+  std::optional<std::size_t> compare_again(Oracle& oracle, Known& centre, bool unlike, double scale);
 
   std::vector<double> start_;
   GradientOptions options_;

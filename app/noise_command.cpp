@@ -10,6 +10,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <optional>
 
 #include "arguments.h"
@@ -25,6 +26,7 @@
 #include "remodel/evaluator.h"
 #include "remodel/flow.h"
 #include "remodel/generate.h"
+#include "remodel/mesh_derivative.h"
 #include "remodel/plot.h"
 #include "remodel/remodel.h"
 #include "shape_input.h"
@@ -51,6 +53,9 @@ using Values = std::optional<std::vector<double>>;
 struct Objective {
   std::vector<std::string> names;
   std::function<Values(const Mesh&, std::span<const double> design)> values;
+  // By the adjoint method, on the mesh of the last values: slopes along a direction in the design, of length
+  // 1. None where there is no such method.
+  std::function<std::vector<double>(const Mesh&, std::span<const double> direction)> slopes = {};
 };
 
 // A new solver for each way of making meshes. With fresh meshes nothing of the last flow is of use.
@@ -64,6 +69,18 @@ Objective flow_objective(const NoiseCommand& command, StepObserver& observer, bo
             const FlowResult flow = solver->solve(mesh, conditions);
             if (!flow.converged()) return std::nullopt;
             return std::vector{flow.cl, flow.cd};
+          },
+          [=](const Mesh& mesh, std::span<const double> direction) {
+            const MeshDerivative derivative(mesh);
+            const FlowGradients gradients = solver->gradients({}, {.moment = false, .angle = false});
+            if (gradients.interrupted) throw Interrupted();
+            std::vector<double> slopes;
+            for (const FlowGradient* of : {&gradients.cl, &gradients.cd}) {
+              // The domain's numbers begin with the airfoil's coefficients.
+              const std::vector<double> by = derivative.vjp(of->points);
+              slopes.push_back(std::inner_product(direction.begin(), direction.end(), by.begin(), 0.0));
+            }
+            return slopes;
           }};
 }
 
@@ -88,6 +105,7 @@ Objective command_objective(const NoiseCommand& command, StepObserver& observer,
 
 // The places of designs on the line, around 0, and the designs.
 struct DesignLine {
+  std::vector<double> direction;  // of length 1
   std::vector<double> places;
   std::vector<std::vector<double>> designs;
 };
@@ -103,7 +121,8 @@ DesignLine line_of(const NoiseCommand& command, const AirfoilSpace& space) {
   for (const double d : direction) length += d * d;
   if (!(length > 0.0))
     throw Error(ErrorCode::argument, "--direction", "found zeros alone, expected a direction");
-  DesignLine line;
+  DesignLine line{.direction = direction, .places = {}, .designs = {}};
+  for (double& d : line.direction) d /= std::sqrt(length);
   for (int i = 0; i < command.count; ++i) {
     const double place = (i - 0.5 * (command.count - 1)) * command.spacing;
     std::vector<double> design = start;
@@ -167,7 +186,16 @@ class LineMeshes {
 struct Series {
   std::vector<std::vector<double>> values;  // per design, as Objective::names; empty where there are none
   std::vector<LineFit> fits;                // as Objective::names; none where too few are left
+  // By the adjoint method at place 0, as Objective::names: of an even number of designs the mean of the two
+  // beside it. None where there is no such method, or no value.
+  std::vector<double> adjoint;
 };
+
+// Whether a design of the line is in its middle.
+bool is_middle(const DesignLine& line, std::size_t i) {
+  const std::size_t count = line.designs.size();
+  return i == count / 2 || (count % 2 == 0 && i + 1 == count / 2);
+}
 
 LineFit fit_of(const DesignLine& line, const Series& series, std::size_t k, int degree) {
   std::vector<double> places, values;
@@ -182,10 +210,16 @@ Series evaluate(Way way, const Objective& objective, const DesignLine& line, con
                 const NoiseCommand& command, StepObserver& observer) {
   LineMeshes meshes(way, space, line, command.meshing.resolved_quality(), observer);
   Series series;
-  for (const std::vector<double>& design : line.designs) {
-    if (observer.cancelled()) break;
-    series.values.push_back(objective.values(meshes.next(design), design).value_or(std::vector<double>{}));
+  std::vector<std::vector<double>> slopes;  // of the middle
+  for (std::size_t i = 0; i < line.designs.size() && !observer.cancelled(); ++i) {
+    const Mesh mesh = meshes.next(line.designs[i]);
+    series.values.push_back(objective.values(mesh, line.designs[i]).value_or(std::vector<double>{}));
+    if (objective.slopes && is_middle(line, i) && !series.values.back().empty())
+      slopes.push_back(objective.slopes(mesh, line.direction));
   }
+  if (slopes.size() == 2 - line.designs.size() % 2)
+    for (std::size_t k = 0; k < objective.names.size(); ++k)
+      series.adjoint.push_back(0.5 * (slopes.front()[k] + slopes.back()[k]));
   series.values.resize(line.designs.size());
   const auto found = static_cast<std::size_t>(
       std::count_if(series.values.begin(), series.values.end(), [](const auto& v) { return !v.empty(); }));
@@ -209,16 +243,21 @@ Json to_json(const Objective& objective, const Series& series) {
     slope.push_back(series.fits[k].slope), error.push_back(series.fits[k].slope_error);
     step.push_back(series.fits[k].step), step_error.push_back(series.fits[k].step_error);
   }
+  if (objective.slopes) json["adjoint"] = series.adjoint;
   json["slope"] = slope, json["slope_error"] = error, json["step"] = step, json["step_error"] = step_error;
   json["not_found"] =
       std::count_if(series.values.begin(), series.values.end(), [](const auto& v) { return v.empty(); });
   return json;
 }
 
-std::string table_row(const LineFit& fit) {
+std::string table_row(const LineFit& fit, const double* adjoint) {
   char text[160];
   std::snprintf(text, sizeof text, "residual %.2e, slope %.8g +- %.1e", fit.rms, fit.slope, fit.slope_error);
   std::string row = text;
+  if (adjoint != nullptr) {
+    std::snprintf(text, sizeof text, ", by the adjoint %.8g", *adjoint);
+    row += text;
+  }
   if (fit.step > 0.0) {
     std::snprintf(text, sizeof text, ", best central differences: step %.1e, error %.1e", fit.step,
                   fit.step_error);
@@ -281,7 +320,9 @@ Status run(const NoiseCommand& command) {
     report.data(way_names[w], to_json(objective, all[w]));
     for (std::size_t k = 0; k < objective.names.size(); ++k)
       report.line(std::string(way_names[w]) + ", " + objective.names[k],
-                  all[w].fits.empty() ? "too few values were found" : table_row(all[w].fits[k]));
+                  all[w].fits.empty()
+                      ? "too few values were found"
+                      : table_row(all[w].fits[k], all[w].adjoint.empty() ? nullptr : &all[w].adjoint[k]));
   }
   if (!command.picture.empty() && whole) add_output_figures(report, {command.picture});
   report.print(command.json);

@@ -66,8 +66,9 @@ struct OptimiseOptions {
   std::size_t full_check_every = 0;
   std::size_t checkpoint_every =
       500;  // evaluations between checkpoints; 0: at the start, the end, an interrupt
-  // Where evaluations are long: a copy of the meshes before each of them, so that an interrupt within one
-  // loses none that was finished. Of those that several workers do at once the finished ones are lost.
+  // Where evaluations are long: a copy of its mesh before each of them, so that an interrupt within one loses
+  // none that was finished. Where several workers are interrupted, rows end before the first design that was
+  // not finished; those behind it that were are in the checkpoint, and are not evaluated again.
   bool keep_finished = false;
   std::size_t max_refused = 10000;    // infeasible samples in a row that end the run; at least 1
   bool resume = false;                // go on from the directory's checkpoint
@@ -185,7 +186,7 @@ class OptimiseObserver {
 // and the files it names. The middle is where half of the evaluations are done; of a shape interpolation with
 // a tolerance, where that is sooner, the end of the generation in which the best design is half as far from
 // the target as the start (a quarter of its objective). Where there are workers, middle and last are meshes
-// of the worker that evaluated that design.
+// of the worker that evaluated that design; of interrupted workers the last is as far as that one had come.
 //
 // A sample that the design space finds infeasible is refused, and the designer is asked again.
 //

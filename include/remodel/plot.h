@@ -18,6 +18,7 @@ struct PlotCurve {
 struct PlotAxis {
   std::string label = {};
   bool logarithmic = false;  // ticks at powers of ten; values have to be more than 0
+  bool whole = false;        // ticks at whole numbers: of what is counted
   bool reversed = false;     // larger values to the left, or below: Cp is drawn like that
 };
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "base/checksum.h"
+#include "design/finished_design.h"
 #include "remodel/error.h"
 #include "remodel/io.h"
 
@@ -108,6 +109,9 @@ Stored parse(const std::string& text) {
   content.at("designer").get_to(stored.checkpoint.designer);
   content.at("history_checksum").get_to(stored.checkpoint.history_checksum);
   stored.checkpoint.workers = workers_from(content.at("workers"));
+  if (content.contains("ahead"))
+    for (const Json& each : content.at("ahead"))
+      stored.checkpoint.ahead.push_back(finished_design_from(each));
   stored.meshes = files_from(content.at("meshes"));
   stored.states = files_from(content.at("states"));
   require(!stored.meshes.empty() && std::all_of(stored.meshes.begin(), stored.meshes.end(),
@@ -204,6 +208,7 @@ void write_checkpoint(const fs::path& directory, const Checkpoint& checkpoint,
                   {"history_checksum", checkpoint.history_checksum},
                   {"meshes", write_meshes(directory, set, meshes)},
                   {"states", write_states(directory, set, checkpoint.workers.workers)}};
+  for (const FinishedDesign& design : checkpoint.ahead) content["ahead"].push_back(to_json(design));
   content["checksum"] = checksum(content.dump());
   write_text_atomically(file_of(directory), content.dump());
 }

@@ -1,7 +1,9 @@
 #pragma once
 
 // A checkpoint is all that a run goes on from: the states of the designer and the evaluators, the living
-// meshes and where the history stands, as of one moment.
+// meshes and where the history stands, as of one moment. Where several workers were interrupted, meshes and
+// evaluators' states are those after the last finished design of each, and what came of the ones that the
+// history has not come to is `ahead`.
 //
 // checkpoint.json is the only thing that is replaced, at once, when a checkpoint is made. It names the meshes
 // and evaluators' states that belong to it, one of two sets that are written in turn, so that a run killed at
@@ -16,9 +18,17 @@
 #include <vector>
 
 #include "design/workers.h"
+#include "remodel/history.h"
 #include "remodel/mesh.h"
 
 namespace remodel {
+
+// A design that was evaluated before one that comes ahead of it was: its row, which the loop has not
+// completed, and its evaluation. Its worker's mesh is its own already.
+struct FinishedDesign {
+  EvaluationRecord record;
+  Evaluation evaluation;
+};
 
 struct Checkpoint {
   std::string settings;  // that the run cannot be continued without: compared as text
@@ -28,7 +38,8 @@ struct Checkpoint {
   double seconds = 0.0;
   std::string designer;  // its state
   WorkersState workers;
-  std::string history_checksum;  // of the history's run and rows as of then
+  std::vector<FinishedDesign> ahead{};  // of later evaluations, where workers were interrupted
+  std::string history_checksum;         // of the history's run and rows as of then
 };
 
 bool has_checkpoint(const std::filesystem::path& directory);

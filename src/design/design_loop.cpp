@@ -55,8 +55,9 @@ struct Progress {
   Workers workers;
   History history;
   Summary summary;
-  Checksum written{};         // of the history
-  std::uint64_t refused = 0;  // infeasible samples since the last evaluation
+  Checksum written{};                                  // of the history
+  std::uint64_t refused = 0;                           // infeasible samples since the last evaluation
+  std::map<std::uint64_t, FinishedDesign> ahead = {};  // finished before an interrupt, by evaluation
   double earlier_seconds = 0.0;
 };
 
@@ -75,14 +76,19 @@ class Run {
 
  private:
   OptimiseStopped evaluate_some(OptimiseObserver& observer);
+  bool begins_generation() const { return evaluations() % population_ == 0; }
+  void remember();
   void begin_generation();
   std::size_t at_once() const;
-  Job job_of(const Sample& sample, std::uint64_t evaluation) const;
+  Job job_of(const Sample& sample, std::uint64_t evaluation);
   void complete(const Sample& sample, Job& job);
   StepTasks tasks(const Proposal& proposal, std::uint64_t evaluation) const;
   bool checkpoint_due() const;
   Checkpoint present_checkpoint() const;
-  void keep_present();
+  OptimiseStopped stop_within(std::vector<Sample>& samples, std::vector<Job>& jobs,
+                              OptimiseObserver& observer);
+  void go_back_to(std::size_t finished);
+  void keep_finished(std::span<const Job> jobs, std::size_t first);
   void write(const Checkpoint& checkpoint, std::span<const Mesh* const> meshes);
   void checkpoint();
   std::uint64_t evaluations() const { return progress_.summary.evaluations(); }
@@ -101,11 +107,18 @@ class Run {
   Feasible feasible_;
   std::string settings_;
   bool mesh_is_of_last_row_ = true;
-  // What was there before the evaluations under way: where one of them is interrupted, the meshes have gone
-  // on.
+  // What was there before the evaluations under way.
+  struct Before {
+    std::string designer;
+    WorkersState workers;
+    bool begins = false;        // a generation
+    std::optional<Mesh> hub{};  // which goes on where a generation begins
+  };
+  std::optional<Before> before_;
+  // What can be gone on from where one of them was interrupted.
   struct Kept {
     Checkpoint checkpoint;
-    std::vector<Mesh> meshes;
+    std::vector<const Mesh*> meshes;
   };
   std::optional<Kept> kept_;
 };
@@ -147,8 +160,8 @@ std::size_t Run::at_once() const {
 }
 
 OptimiseStopped Run::evaluate_some(OptimiseObserver& observer) {
-  if (options_.keep_finished) keep_present();
-  if (evaluations() % population_ == 0) begin_generation();
+  if (options_.keep_finished) remember();
+  if (begins_generation()) begin_generation();
   std::vector<Sample> samples;
   std::vector<Job> jobs;
   const std::size_t wanted = at_once();
@@ -159,13 +172,13 @@ OptimiseStopped Run::evaluate_some(OptimiseObserver& observer) {
     samples.push_back(std::move(*sample));
   }
   progress_.workers.evaluate(jobs);
+  mesh_is_of_last_row_ = std::all_of(jobs.begin(), jobs.end(), [](const Job& job) { return job.finished; });
+  if (!mesh_is_of_last_row_) return stop_within(samples, jobs, observer);
   for (std::size_t i = 0; i < jobs.size(); ++i) {
-    mesh_is_of_last_row_ = jobs[i].stopped == Stopped::done;
-    if (jobs[i].stopped == Stopped::interrupted) return OptimiseStopped::interrupted;
-    if (jobs[i].stopped != Stopped::done) return OptimiseStopped::mesh_limit;
     complete(samples[i], jobs[i]);
     observer.evaluated(jobs[i].record);
   }
+  if (jobs.size() < wanted && problem_.designer.finished()) return OptimiseStopped::done;
   if (jobs.size() < wanted) {
     progress_.refused += options_.max_refused;
     return OptimiseStopped::infeasible;
@@ -175,17 +188,71 @@ OptimiseStopped Run::evaluate_some(OptimiseObserver& observer) {
   return OptimiseStopped::done;
 }
 
+// Of the designs that were evaluated at once, one or more were not finished: those before the first of them
+// are completed, and those behind it kept.
+OptimiseStopped Run::stop_within(std::vector<Sample>& samples, std::vector<Job>& jobs,
+                                 OptimiseObserver& observer) {
+  const auto unfinished =
+      std::find_if(jobs.begin(), jobs.end(), [](const Job& job) { return !job.finished; });
+  const auto first = static_cast<std::size_t>(unfinished - jobs.begin());
+  if (options_.keep_finished) go_back_to(first);
+  for (std::size_t i = 0; i < first; ++i) {
+    complete(samples[i], jobs[i]);
+    observer.evaluated(jobs[i].record);
+  }
+  if (options_.keep_finished) keep_finished(jobs, first);
+  return unfinished->stopped == Stopped::interrupted ? OptimiseStopped::interrupted
+                                                     : OptimiseStopped::mesh_limit;
+}
+
+// The designer as if it had been asked for so many designs alone. Where there are none, its state from before
+// is all that is asked for.
+void Run::go_back_to(std::size_t finished) {
+  if (finished == 0) return;
+  problem_.designer.restore(before_->designer, "designer");
+  for (std::size_t i = 0; i < finished; ++i) next_sample(problem_.designer, feasible_, options_.max_refused);
+}
+
+void Run::keep_finished(std::span<const Job> jobs, std::size_t first) {
+  for (const Job& job : jobs.subspan(first))
+    if (job.finished) progress_.ahead[job.record.evaluation] = {job.record, job.evaluation};
+  WorkersState before = before_->workers;
+  if (first != 0 && before_->begins)
+    for (WorkerState& worker : before.workers) worker.evaluated = worker.full_adjustments = 0;
+  KeptWorkers workers = progress_.workers.kept(std::move(before), jobs.first(first));
+  if (first == 0 && before_->hub) workers.meshes.back() = &*before_->hub;
+  Checkpoint checkpoint = present_checkpoint();
+  if (first == 0) checkpoint.designer = before_->designer;
+  checkpoint.workers = std::move(workers.state);
+  kept_.emplace(Kept{std::move(checkpoint), std::move(workers.meshes)});
+}
+
+void Run::remember() {
+  before_.emplace(Before{.designer = problem_.designer.state(),
+                         .workers = progress_.workers.state(),
+                         .begins = begins_generation()});
+  if (before_->begins && options_.strategy == MeshStrategy::hub)
+    before_->hub = *progress_.workers.meshes().back();
+}
+
 void Run::begin_generation() {
   const bool hub = options_.strategy == MeshStrategy::hub;
   progress_.workers.begin_generation(hub ? feasible_centre(problem_.designer, feasible_) : std::nullopt);
 }
 
-Job Run::job_of(const Sample& sample, std::uint64_t evaluation) const {
+// One that was finished before an interrupt is so still.
+Job Run::job_of(const Sample& sample, std::uint64_t evaluation) {
   Job job{.proposal = sample.proposal, .tasks = tasks(sample.proposal, evaluation)};
   job.record.evaluation = evaluation;
   job.record.generation = problem_.designer.generation();
   job.record.coefficients = sample.proposal.design;
   job.record.sigma = problem_.designer.step_size();
+  const auto found = progress_.ahead.find(evaluation);
+  if (found == progress_.ahead.end()) return job;
+  job.record = std::move(found->second.record);
+  job.evaluation = std::move(found->second.evaluation);
+  job.finished = true;
+  progress_.ahead.erase(found);
   return job;
 }
 
@@ -225,6 +292,8 @@ bool Run::checkpoint_due() const {
 }
 
 Checkpoint Run::present_checkpoint() const {
+  std::vector<FinishedDesign> ahead;
+  for (const auto& [evaluation, design] : progress_.ahead) ahead.push_back(design);
   return {.settings = settings_,
           .evaluation = evaluations(),
           .refused = progress_.refused,
@@ -232,12 +301,8 @@ Checkpoint Run::present_checkpoint() const {
           .seconds = seconds(),
           .designer = problem_.designer.state(),
           .workers = progress_.workers.state(),
+          .ahead = std::move(ahead),
           .history_checksum = progress_.written.text()};
-}
-
-void Run::keep_present() {
-  kept_.emplace(Kept{.checkpoint = present_checkpoint(), .meshes = {}});
-  for (const Mesh* mesh : progress_.workers.meshes()) kept_->meshes.push_back(*mesh);
 }
 
 // The history first: a checkpoint never stands for rows that are not on disk.
@@ -258,11 +323,9 @@ OptimiseResult Run::finish(OptimiseStopped stopped) {
   if (mesh_is_of_last_row_) {
     write_mesh(progress_.workers.last_mesh(), options_.directory / "last.vtkhdf");
     checkpoint();
-  } else if (kept_ && kept_->checkpoint.evaluation == evaluations()) {
-    std::vector<const Mesh*> meshes;
-    for (const Mesh& mesh : kept_->meshes) meshes.push_back(&mesh);
-    write_mesh(*meshes[kept_->checkpoint.workers.last], options_.directory / "last.vtkhdf");
-    write(kept_->checkpoint, meshes);
+  } else if (kept_) {
+    write_mesh(*kept_->meshes[kept_->checkpoint.workers.last], options_.directory / "last.vtkhdf");
+    write(kept_->checkpoint, kept_->meshes);
   }
   OptimiseResult result = progress_.summary.result();
   result.infeasible_samples += progress_.refused;
@@ -378,6 +441,12 @@ Workers restored_workers(const Evaluating& evaluating, const Checkpoint& checkpo
   return Workers(evaluating, checkpoint.workers, std::move(meshes), source);
 }
 
+std::map<std::uint64_t, FinishedDesign> by_evaluation(const std::vector<FinishedDesign>& designs) {
+  std::map<std::uint64_t, FinishedDesign> result;
+  for (const FinishedDesign& design : designs) result[design.record.evaluation] = design;
+  return result;
+}
+
 Progress go_on(const DesignProblem& problem, const Evaluating& evaluating) {
   const OptimiseOptions& options = evaluating.options;
   if (!has_checkpoint(options.directory)) read_checkpoint(options.directory);  // says that it is missing
@@ -398,6 +467,7 @@ Progress go_on(const DesignProblem& problem, const Evaluating& evaluating) {
           .summary = std::move(summary),
           .written = written,
           .refused = checkpoint.refused,
+          .ahead = by_evaluation(checkpoint.ahead),
           .earlier_seconds = checkpoint.seconds};
 }
 

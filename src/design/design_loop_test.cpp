@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <mutex>
@@ -282,6 +284,71 @@ TEST_F(DesignLoop, LosesNoFinishedEvaluationWhereItIsToKeepThem) {
   }
 }
 
+// Waits for the run to be cancelled at a design, and hands in others at once, a failure among them.
+struct WaitingAt : Counting {
+  Evaluation evaluate(const EvaluationTask& task, std::unique_ptr<EvaluatorState>& state) override {
+    if (task.evaluation == wait_at) {
+      while (!task.observer.cancelled()) continue;
+      throw std::runtime_error("cancelled");
+    }
+    ++evaluated[task.evaluation];
+    if (task.evaluation == 5) throw std::runtime_error("no solution");
+    return Counting::evaluate(task, state);
+  }
+  std::uint64_t wait_at = 0;
+  std::array<std::atomic<int>, 64> evaluated{};
+};
+
+// Cancels once these designs are finished.
+struct CancelAt : OptimiseObserver {
+  CancelAt(WaitingAt& given, std::vector<std::uint64_t> wanted)
+      : evaluator(given), finished(std::move(wanted)) {}
+  bool cancelled() override {
+    return std::all_of(finished.begin(), finished.end(),
+                       [&](std::uint64_t evaluation) { return evaluator.evaluated[evaluation] > 0; });
+  }
+  WaitingAt& evaluator;
+  std::vector<std::uint64_t> finished;
+};
+
+// Three workers with two designs of each generation of six. One of the designs is interrupted when all others
+// that do not wait for it are finished: at a generation's begin, behind that, and in the next generation.
+TEST_F(DesignLoop, LosesNoFinishedEvaluationOfSeveralWorkers) {
+  for (const MeshStrategy strategy : {MeshStrategy::chain, MeshStrategy::hub, MeshStrategy::regenerate}) {
+    const std::string name = info_of(strategy).name;
+    SCOPED_TRACE(name);
+    OptimiseOptions whole = small(name + "-whole", 14), parts = small(name + "-parts", 14);
+    whole.strategy = parts.strategy = strategy;
+    whole.workers = parts.workers = whole.threads = parts.threads = 3;
+    parts.keep_finished = true;
+    WaitingAt uninterrupted, evaluator;
+    run(uninterrupted, whole);
+    const std::vector<EvaluationRecord> of = rows(whole);
+    const auto session = [&](std::uint64_t waits, std::uint64_t last) {
+      evaluator.wait_at = waits;
+      std::vector<std::uint64_t> finished;
+      for (std::uint64_t i = 1; i <= last; ++i)
+        if (i < waits || of[i - 1].worker != of[waits - 1].worker) finished.push_back(i);
+      CancelAt observer(evaluator, finished);
+      EXPECT_EQ(run(evaluator, parts, &observer).evaluations, waits - 1);
+      EXPECT_EQ(rows(parts).size(), waits - 1);
+      EXPECT_EQ(read_checkpoint(parts.directory).evaluation, waits - 1);
+      parts.resume = true;
+    };
+    std::uint64_t second = 6;  // of the worker that has the first design
+    while (of[second - 1].worker != of[0].worker) --second;
+    ASSERT_GT(second, 1U);
+    session(1, 6);
+    session(second, 6);
+    session(9, 12);
+    evaluator.wait_at = 0;
+    EXPECT_EQ(run(evaluator, parts).stopped, OptimiseStopped::done);
+    for (std::size_t i = 1; i <= 14; ++i) EXPECT_EQ(evaluator.evaluated[i], 1) << i;
+    expect_same_runs(whole.directory, parts.directory);
+    EXPECT_EQ(of[4].objective, Evaluation::failed);
+  }
+}
+
 TEST_F(DesignLoop, ServesADesignerThatFollowsGradientsAndEndsByItself) {
   const AirfoilSpace space(load_airfoil("naca:0012", 3), {.points = 50});
   CstAirfoil target = load_airfoil("naca:0012", 3);
@@ -297,6 +364,31 @@ TEST_F(DesignLoop, ServesADesignerThatFollowsGradientsAndEndsByItself) {
   in_its_place.overwrite = true;
   Descent again(space.start());
   EXPECT_EQ(optimise(space, again, *evaluator, in_its_place).evaluations, result.evaluations);
+}
+
+// Its last proposal is infeasible, and with that it has ended.
+class EndsRefused : public Descent {
+ public:
+  using Descent::Descent;
+  Proposal ask() override { return told_ < 3 ? Descent::ask() : Proposal{.design = {-1.0, -1.0}}; }
+  void tell(const Proposal& proposal, const Evaluation& evaluation) override {
+    ++told_;
+    Descent::tell(proposal, evaluation);
+  }
+  void refuse(const Proposal&) override { ended_ = true; }
+  bool finished() const override { return ended_; }
+
+ private:
+  int told_ = 0;
+  bool ended_ = false;
+};
+
+TEST_F(DesignLoop, IsDoneWhereASearchEndsWithARefusedProposal) {
+  Counting evaluator;
+  EndsRefused designer(space_.start());
+  const OptimiseResult result = optimise(space_, designer, evaluator, small("run"));
+  EXPECT_EQ(result.stopped, OptimiseStopped::done);
+  EXPECT_EQ(result.evaluations, 3U);
 }
 
 TEST_F(DesignLoop, NamesThePartThatAResumedRunHasOtherwise) {

@@ -11,13 +11,26 @@
 namespace remodel {
 namespace {
 
+// A worker as it was before the job under way, which may be interrupted.
+struct Before {
+  Mesh mesh;
+  RegenerationRule::Row row;
+  bool checked;
+  std::string evaluator;
+};
+
 struct Worker {
   std::unique_ptr<LivingMesh> living;
   WorkerState state;
   DesignProfile profile;  // of its last design
   std::unique_ptr<EvaluatorState> evaluator{};
-  std::vector<Job*> jobs{};  // handed to it, in order
+  std::vector<Job*> jobs{};        // handed to it, in order
+  std::optional<Before> before{};  // where finished designs are to be kept, and the last one is not
 };
+
+std::string bytes_of(const std::unique_ptr<EvaluatorState>& state) {
+  return state ? state->bytes() : std::string();
+}
 
 std::size_t thread_count(const OptimiseOptions& options, std::size_t workers) {
   const std::size_t wanted =
@@ -54,6 +67,7 @@ struct Workers::Crew {
   Worker& nearest(const DesignProfile& design);
   void hand_out(std::vector<Job>& jobs);
   void evaluate(Worker& worker, Job& job) const;
+  void evaluate_next(Worker& worker, Job& job) const;
 
   Evaluating evaluating;
   const OptimiseOptions& options;
@@ -107,7 +121,10 @@ void Workers::Crew::hand_out(std::vector<Job>& jobs) {
     }
     worker->state.design = design;
     ++worker->state.evaluated;
-    worker->jobs.push_back(&job);
+    if (job.finished)
+      worker->state.full_adjustments += job.record.full_adjustment ? 1 : 0;
+    else
+      worker->jobs.push_back(&job);
     last = static_cast<std::size_t>(worker - workers.data());
     job.record.worker = last + 1;
   }
@@ -123,6 +140,15 @@ void Workers::Crew::evaluate(Worker& worker, Job& job) const {
   if (regenerates())
     state.row = RegenerationRule::after(state.row, job.record.full_adjustment, job.tasks.generate);
   job.stopped = judge(evaluating, *worker.living, worker.evaluator, job);
+}
+
+void Workers::Crew::evaluate_next(Worker& worker, Job& job) const {
+  if (options.keep_finished)
+    worker.before.emplace(
+        Before{worker.living->mesh(), worker.state.row, worker.state.checked, bytes_of(worker.evaluator)});
+  evaluate(worker, job);
+  job.finished = job.stopped == Stopped::done;
+  if (job.finished) worker.before.reset();
 }
 
 Workers::Workers(const Evaluating& evaluating, const Mesh& mesh) : crew_(std::make_unique<Crew>(evaluating)) {
@@ -170,8 +196,8 @@ void Workers::evaluate(std::vector<Job>& jobs) {
     if (!worker.jobs.empty()) busy.push_back(&worker);
   crew_->team.run(busy.size(), [&](std::size_t i) {
     for (Job* job : std::exchange(busy[i]->jobs, {})) {
-      crew_->evaluate(*busy[i], *job);
-      if (job->stopped != Stopped::done) return;
+      crew_->evaluate_next(*busy[i], *job);
+      if (!job->finished) return;
     }
   });
   jobs.front().record.remodel_seconds += std::exchange(crew_->hub_seconds, 0.0);
@@ -193,7 +219,31 @@ WorkersState Workers::state() const {
   WorkersState result{.workers = {}, .last = crew_->last};
   for (const Worker& worker : crew_->workers) {
     WorkerState& state = result.workers.emplace_back(worker.state);
-    state.evaluator = worker.evaluator ? worker.evaluator->bytes() : std::string();
+    state.evaluator = bytes_of(worker.evaluator);
+  }
+  return result;
+}
+
+KeptWorkers Workers::kept(WorkersState before, std::span<const Job> first) const {
+  KeptWorkers result{.state = std::move(before), .meshes = meshes()};
+  for (const Job& job : first) {
+    result.state.last = job.record.worker - 1;
+    WorkerState& state = result.state.workers[result.state.last];
+    state.design = job.proposal.design;
+    ++state.evaluated;
+    state.full_adjustments += job.record.full_adjustment ? 1 : 0;
+  }
+  for (std::size_t i = 0; i < crew_->workers.size(); ++i) {
+    const Worker& worker = crew_->workers[i];
+    WorkerState& state = result.state.workers[i];
+    if (worker.before) {
+      result.meshes[i] = &worker.before->mesh;
+      state.row = worker.before->row, state.checked = worker.before->checked;
+      state.evaluator = worker.before->evaluator;
+    } else {
+      state.row = worker.state.row, state.checked = worker.state.checked;
+      state.evaluator = bytes_of(worker.evaluator);
+    }
   }
   return result;
 }

@@ -12,6 +12,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,9 @@ struct Job {
   // Anything but done: the mesh could not be finished, or the evaluation was cancelled; and the designs that
   // its worker was to evaluate after this one were not.
   Stopped stopped = Stopped::done;
+  // Record and evaluation are complete. Where that is so beforehand, the design was evaluated before an
+  // interrupt, and the worker's mesh has been its own since.
+  bool finished = false;
   double squared_displacement = 0.0;  // from its worker's last design, where that matters
 };
 
@@ -51,6 +55,12 @@ struct WorkerState {
 struct WorkersState {
   std::vector<WorkerState> workers;
   std::uint64_t last = 0;  // the one that evaluated the last design
+};
+
+// A worker's part of a checkpoint.
+struct KeptWorkers {
+  WorkersState state;
+  std::vector<const Mesh*> meshes;  // each worker's, then the hub; as long as the workers are not at work
 };
 
 // The parts of a run that workers need; they must outlive them, as the options must.
@@ -82,6 +92,10 @@ class Workers {
   const Mesh& last_mesh() const;            // of the last design
   std::vector<const Mesh*> meshes() const;  // each worker's, then the hub
   WorkersState state() const;
+  // Where evaluate() was interrupted and the options' keep_finished is set: with `before`, what state() gave
+  // before, the state after the first jobs alone, of which all are finished; but meshes, and what belongs to
+  // them, are those after the last finished job of each worker.
+  KeptWorkers kept(WorkersState before, std::span<const Job> first) const;
 
  private:
   struct Crew;

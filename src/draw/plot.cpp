@@ -59,12 +59,25 @@ struct Scale {
   }
   std::vector<double> ticks() const {
     std::vector<double> values;
+    if (axis.whole) return whole_ticks();
     if (!axis.logarithmic) return ticks_within(low, high);
+    // Powers of ten say nothing of an axis that has one or none.
+    if (std::floor(high) - std::ceil(low) < 1.0) return ticks_below_a_decade();
     const double step = std::max(1.0, std::ceil((high - low) / 10.0));
     constexpr int most = 30;
     double power = std::ceil(low / step) * step;
     for (int i = 0; i < most && power <= high; ++i, power += step) values.push_back(std::pow(10.0, power));
     return values;
+  }
+  std::vector<double> whole_ticks() const {
+    std::vector<double> values;
+    for (const double tick : ticks_within(low, high))
+      if (tick == std::round(tick)) values.push_back(tick);
+    if (values.empty()) values.push_back(std::round(0.5 * (low + high)));
+    return values;
+  }
+  std::vector<double> ticks_below_a_decade() const {
+    return ticks_within(std::pow(10.0, low), std::pow(10.0, high));
   }
 };
 
@@ -89,7 +102,7 @@ class PlotPainter {
     if (!any) throw Error(ErrorCode::argument, "plot", "no points found, a curve expected");
     x_.open();
     y_.open();
-    x_.from = 110.0 * unit_;
+    x_.from = left() * unit_;
     x_.to = width() - 30.0 * unit_;
     y_.from = height() - 80.0 * unit_;
     y_.to = 60.0 * unit_;
@@ -111,6 +124,14 @@ class PlotPainter {
   }
 
  private:
+  // Room for the numbers at the ticks of the y axis, by how long they are, and its label.
+  double left() const {
+    constexpr double least = 110.0, label = 50.0, digit = 12.0;
+    std::size_t longest = 0;
+    for (const double tick : y_.ticks()) longest = std::max(longest, label_of(tick).size());
+    return std::max(least, label + digit * static_cast<double>(longest));
+  }
+
   void line(cairo_t* cairo, double x0, double y0, double x1, double y1) const {
     cairo_move_to(cairo, x0, y0);
     cairo_line_to(cairo, x1, y1);
@@ -146,10 +167,18 @@ class PlotPainter {
     cairo_set_line_width(cairo, 2.0 * unit_);
     cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
     for (std::size_t k = 0; k < plot_.curves.size(); ++k) {
+      const std::vector<Point>& points = plot_.curves[k].points;
       cairo_new_path(cairo);
-      for (const Point p : plot_.curves[k].points) cairo_line_to(cairo, x_.pixel(p.x), y_.pixel(p.y));
+      for (const Point p : points) cairo_line_to(cairo, x_.pixel(p.x), y_.pixel(p.y));
       set_color(cairo, curve_colors[k % curve_colors.size()]);
       cairo_stroke(cairo);
+      // A line through few points says little of where they are, and through one nothing at all.
+      constexpr std::size_t few = 3;
+      if (points.size() > few) continue;
+      for (const Point p : points) {
+        cairo_arc(cairo, x_.pixel(p.x), y_.pixel(p.y), 6.0 * unit_, 0.0, 2.0 * std::numbers::pi);
+        cairo_fill(cairo);
+      }
     }
   }
 

@@ -49,6 +49,41 @@ TEST(Plots, OfOnePointOrOneValueAreNoTrouble) {
   EXPECT_NE(drawn(plot, "a.png"), "");
 }
 
+// Lines of an SVG: the grid's, the frame and the curves.
+std::size_t lines_of(const Plot& plot) {
+  const std::string text = drawn(plot, "a.svg");
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = text.find("stroke-width", at)) != text.npos; ++at) ++count;
+  return count;
+}
+
+TEST(Plots, HaveTicksOnALogarithmicAxisWithinADecade) {
+  Plot plot{.x = {"design"}, .y = {.label = "objective"}};
+  plot.curves = {{"", {{1.0, 0.046}, {2.0, 0.03}, {3.0, 0.018}}}};
+  const std::size_t linear = lines_of(plot);
+  plot.y.logarithmic = true;  // neither 0.1 nor 0.01 is on it
+  EXPECT_GE(lines_of(plot) + 2, linear);
+}
+
+TEST(Plots, HaveTicksAtWholeNumbersAloneWhereThingsAreCounted) {
+  for (const std::size_t designs : {1, 2, 3}) {
+    Plot plot{.x = {.label = "design", .whole = true}, .y = {"objective"}};
+    plot.curves = {{"", {}}};
+    for (std::size_t i = 1; i <= designs; ++i) plot.curves[0].points.push_back({static_cast<double>(i), 1.0});
+    Plot broken = plot;
+    broken.x.whole = false;
+    EXPECT_LT(lines_of(plot), lines_of(broken)) << designs;
+  }
+}
+
+TEST(Plots, MarkTheFewPointsOfACurve) {
+  Plot plot = wave();
+  plot.curves.push_back({"another", {{0.5, 1.0}}});
+  Plot without = plot;
+  without.curves.back().points[0] = {0.5, 1.1};
+  EXPECT_NE(drawn(plot, "a.png"), drawn(without, "a.png"));
+}
+
 TEST(Plots, RefuseInOneSentenceWhatTheyCannotShow) {
   Plot plot = wave();
   EXPECT_EQ(error_of([&] { draw_plot(plot, "a.pdf"); }),

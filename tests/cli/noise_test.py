@@ -51,8 +51,20 @@ class Noise(ProgramTest):
         for way in WAYS:
             self.assertKeys(figures[way], "cl_rms cd_rms slope slope_error cl cd")
             self.assertEqual(figures[way]["not_found"], 0)
+            self.assertEqual(len(figures[way]["adjoint"]), 2)
         self.assertLess(figures["hub"]["cl_rms"], 1e-6)
         self.assertLess(figures["reference"]["cl_rms"], 1e-6)
+
+    def test_slopes_of_a_flow_are_those_of_the_adjoint(self):
+        """On copies of one mesh the fitted slope is the derivative of what was computed; fresh meshes' noise hides it."""
+        for count in (5, 6):
+            figures = self.noise("--count", count, "--spacing", 1e-5, "--degree", 2, "--mach", 0.4, "--alpha", 1)
+            for k in range(2):
+                slope, adjoint = (figures["hub"][key][k] for key in ("slope", "adjoint"))
+                self.assertAlmostEqual(slope, adjoint, delta=1e-4 * abs(adjoint) + 1e-7)
+                self.assertAlmostEqual(figures["fresh"]["adjoint"][k], adjoint, delta=0.5 * abs(adjoint))
+        text = self.succeed("noise", "naca:0012", "--points", 20, "--farfield-points", 12, "--count", 5, "--mach", 0.4).stdout
+        self.assertEqual(text.count("by the adjoint"), 8)
 
     def test_what_is_no_line_is_refused(self):
         line = ["noise", "naca:0012", "--mach", 0.4]

@@ -1,0 +1,15 @@
+#pragma once
+
+// The text of a design problem as JSON, with the places of what is wrong in it.
+
+#include <string>
+
+#include "report.h"
+
+namespace remodel::app {
+
+// Throws Error (format) naming the file, the line and the column where the text is no JSON, has a key twice
+// in one object, a number that is too large, or more than 64 brackets inside each other.
+Json read_design_json(const std::string& file);
+
+}  // namespace remodel::app
