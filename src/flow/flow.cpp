@@ -1,9 +1,9 @@
 #include "remodel/flow.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <nanoflann.hpp>
 
@@ -56,11 +56,20 @@ namespace flow {
 
 namespace {
 
+// Reads as the same number; the library of the page's compiler has no std::to_chars() of it.
+std::string shortest_text(double value) {
+  constexpr int least = 6, enough = 17;
+  char text[32];
+  for (int digits = least; digits <= enough; ++digits) {
+    std::snprintf(text, sizeof text, "%.*g", digits, value);
+    if (std::strtod(text, nullptr) == value) break;
+  }
+  return text;
+}
+
 void require(bool holds, const char* what, double found, const char* expected) {
   if (holds) return;
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, found).ptr;
-  throw Error(ErrorCode::argument, what, "found " + std::string(text, end) + ", expected " + expected);
+  throw Error(ErrorCode::argument, what, "found " + shortest_text(found) + ", expected " + expected);
 }
 
 constexpr double degree = M_PI / 180.0;
