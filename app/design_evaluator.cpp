@@ -53,7 +53,7 @@ class FlowEvaluator final : public Evaluator {
     memory.observer.ask(task.observer);
     while (memory.flows.size() < problem_.points.size())
       memory.flows.emplace_back(flow_options(space_.half(), &memory.observer));
-    if (is_first || !task.step.full_adjustment) memory.connectivity = 2 * task.evaluation;
+    if (is_first || (std::getenv("KEEPC") ? !(task.step.connected == task.step.triangles && task.step.triangles == task.step.triangles_before) : !task.step.full_adjustment)) memory.connectivity = 2 * task.evaluation;
     if (problem_.target) aim(task, memory);
     memory.known.go_on_from(task.from, memory.flows);
     const Shared shared = shared_of(task);

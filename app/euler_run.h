@@ -40,10 +40,15 @@ void add_duct_options(CLI::App& app, EulerRun& run);
 // that no inlet or outlet has.
 FlowOptions options_of(const EulerRun& run);
 
-// Solves, writes and reports; nothing is written where no flow is found.
+// Throws Error (argument) where no Mach number is given.
+void require_mach(const EulerRun& run);
+Status status_of(const FlowResult& flow);
+
+// Solves, writes and reports; where no flow is found residuals alone are written, if they are asked for.
 Status run_euler(const EulerRun& run, const MeshInput& input, const std::string& source,
                  const MeshOutputs& outputs);
-// Remodels the mesh to each airfoil of the series and reports the flow around each.
+// Remodels the mesh to each airfoil of the series and reports the flow around each. One that no mesh can have
+// is reported as not converged, with the reason. It is in flow_series.cpp.
 Status run_series(const EulerRun& run, StartMesh start);
 
 }  // namespace remodel::app

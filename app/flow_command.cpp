@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -11,6 +13,7 @@
 #include "domain_input.h"
 #include "euler_run.h"
 #include "figures.h"
+#include "flow_files.h"
 #include "mesh_input.h"
 #include "meshing_options.h"
 #include "outputs.h"
@@ -32,7 +35,13 @@ struct FlowCommand {
   bool json = false;
   EulerRun euler;
   MeshOutputs outputs;
+  std::function<bool(const char*)> given;  // whether an option is on the command line
 };
+
+void refuse(const FlowCommand& command, std::initializer_list<const char*> options, const char* why) {
+  for (const char* option : options)
+    if (command.given(option)) throw Error(ErrorCode::argument, option, why);
+}
 
 bool is_mesh_file(const std::string& name) {
   const std::string extension = std::filesystem::path(name).extension().string();
@@ -46,6 +55,11 @@ std::optional<std::string> mesh_file(const FlowCommand& command) {
   if (file == names.end()) return std::nullopt;
   if (names.size() > 1 || !command.input.places.empty())
     throw Error(ErrorCode::argument, *file, "holds a mesh, expected it alone and without --place");
+  refuse(command,
+         {"--name", "--as-given", "--crossings", "--points", "--farfield-radius", "--farfield-points",
+          "--gradation", "--resolution", "--min-angle", "--max-gradation", "--min-edge", "--max-vertices",
+          "--cst-degree", "--close-trailing-edge"},
+         "given with a mesh, which has its own, expected with a shape");
   return *file;
 }
 
@@ -88,13 +102,15 @@ StartMesh start_mesh(const FlowCommand& command) {
 Status run(const FlowCommand& command) {
   command.outputs.require_possible();
   if (!command.cp_plot.empty()) require_writable_as(command.cp_plot, {".svg", ".png"});
+  if (!command.euler.history.empty()) require_writable_as(command.euler.history, {".csv", ".svg", ".png"});
+  require_different_files(command.outputs,
+                          {{"--cp-plot", command.cp_plot}, {"--history", command.euler.history}});
   if (command.is_potential) {
-    for (const auto& [option, is_given] : {std::pair{"--series", !command.euler.series.empty()},
-                                           std::pair{"--inlet", !command.euler.inlets.empty()},
-                                           std::pair{"--outlet", !command.euler.outlets.empty()},
-                                           std::pair{"--history", !command.euler.history.empty()}})
-      if (is_given)
-        throw Error(ErrorCode::argument, option, "given with --model potential, expected --model euler");
+    refuse(command,
+           {"--tolerance", "--max-steps", "--memory", "--solver", "--limiter", "--series", "--gradient",
+            "--compare", "--inlet", "--total-pressure", "--total-temperature", "--outlet", "--pressure",
+            "--history"},
+           "given with --model potential, expected --model euler");
     return run_potential_flow(command, read_input(command));
   }
   EulerRun euler = command.euler;
@@ -138,6 +154,7 @@ void add_flow_command(CLI::App& program, Action& action) {
   command->outputs.add_options(app, Presence::optional);
   add_meshing_options(app, command->meshing);
   add_json_flag(app, command->json);
+  command->given = [&app](const char* option) { return given(app, option); };
 }
 
 }  // namespace remodel::app

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <map>
+#include <set>
 
 #include "remodel/error.h"
 #include "remodel/io.h"
@@ -15,19 +17,47 @@ std::string flow_caption(double mach, double alpha_deg, double cl) {
   return caption;
 }
 
+std::string duct_caption(double mach) {
+  char caption[40];
+  std::snprintf(caption, sizeof caption, "M %.4g", mach);
+  return caption;
+}
+
+namespace {
+
+// The vertices along a boundary, piece by piece, whatever the order of its edges is.
+std::vector<std::vector<std::uint32_t>> pieces_of(const FrozenBoundary& boundary) {
+  std::map<std::uint32_t, std::uint32_t> next;
+  std::set<std::uint32_t> within;
+  for (const auto& [from, to] : boundary.edges) next[from] = to, within.insert(to);
+  std::vector<std::vector<std::uint32_t>> pieces;
+  const auto follow = [&](std::uint32_t v) {
+    if (!next.contains(v)) return;
+    pieces.push_back({v});
+    for (auto at = next.find(v); at != next.end(); at = next.find(pieces.back().back())) {
+      pieces.back().push_back(at->second);
+      next.erase(at);
+    }
+  };
+  for (const auto& [from, to] : boundary.edges)
+    if (!within.contains(from)) follow(from);  // where an open piece begins
+  for (const auto& [from, to] : boundary.edges) follow(from);
+  return pieces;
+}
+
+}  // namespace
+
 Plot cp_plot(const FrozenMesh& mesh, const std::string& farfield, std::span<const double> cp,
              const std::string& caption, const std::string& option) {
-  Plot plot{.x = {"x/c"}, .y = {.label = "Cp", .reversed = true}, .caption = caption};
+  Plot plot{.x = {"x"}, .y = {.label = "Cp", .reversed = true}, .caption = caption};
   const auto point_of = [&](std::uint32_t v) { return Point{mesh.points[v].x, cp[v]}; };
   for (const FrozenBoundary& boundary : mesh.boundaries) {
     if (boundary.name == farfield || boundary.edges.empty()) continue;
-    // A curve for each body of that name.
-    std::uint32_t last = 0;
-    for (const auto& [from, to] : boundary.edges) {
-      const bool first = &from == &boundary.edges.front()[0];
-      if (first || from != last) plot.curves.push_back({first ? boundary.name : "", {point_of(from)}});
-      plot.curves.back().points.push_back(point_of(to));
-      last = to;
+    const auto pieces = pieces_of(boundary);
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      PlotCurve& curve = plot.curves.emplace_back();
+      curve.name = pieces.size() == 1 ? boundary.name : boundary.name + " " + std::to_string(i + 1);
+      for (const std::uint32_t v : pieces[i]) curve.points.push_back(point_of(v));
     }
   }
   if (plot.curves.empty()) throw Error(ErrorCode::argument, option, "found no body, expected one");

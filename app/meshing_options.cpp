@@ -10,9 +10,11 @@ void add_discretisation(CLI::App& app, AirfoilDomainOptions& options) {
   add_integer(app, {"--points", "I", "200", "Vertices on the airfoil before refinement: even, 8 to 100000"},
               {.low = 8, .high = 100000, .even = true},
               [&](std::int64_t value) { options.points = static_cast<int>(value); });
-  add_real(app, {"--farfield-radius", "CHORDS", "25", "Radius of the farfield circle in chords: above 1"},
-           {.low = 1.0, .high = 1e6, .above_low = true},
-           [&](double value) { options.farfield_radius = value; });
+  add_real(
+      app,
+      {"--farfield-radius", "CHORDS", "25",
+       "Radius of the farfield circle in chords of 1, about (0.5, 0) wherever airfoils are placed: above 1"},
+      {.low = 1.0, .high = 1e6, .above_low = true}, [&](double value) { options.farfield_radius = value; });
   add_integer(app, {"--farfield-points", "N", "50", "Vertices on the farfield circle: 8 to 100000"},
               {.low = 8, .high = 100000},
               [&](std::int64_t value) { options.farfield_points = static_cast<int>(value); });

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "figures.h"
+#include "flow_files.h"
 #include "flow_plots.h"
 #include "remodel/plot.h"
 #include "report.h"
@@ -53,6 +54,7 @@ void run_potential(const PotentialRun& run, const MeshInput& input, const std::s
                    flow_caption(flow.mach, flow.alpha_deg, flow.lift), "--cp-plot");
   }
   write_with_fields(outputs, input, fields);
+  say_flow_left_out(outputs);
   std::vector<std::string> files = outputs.files();
   if (plot) {
     draw_plot(*plot, run.cp_plot);

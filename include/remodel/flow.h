@@ -29,9 +29,11 @@
 // verification.
 //
 // Errors: Error (argument) for conditions and options out of range, and for a mesh without a far field or
-// another way in and out, without a wall or with unnamed boundary edges. A flow that is not found is no
-// error: FlowResult::status and reason say so, and no coefficient of it should be used.
+// another way in and out, without a wall, with unnamed boundary edges, with triangles that are clockwise or
+// have no area, or with a far field that is the boundary of a hole. A flow that is not found is no error:
+// FlowResult::status and reason say so, and no coefficient of it should be used.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -48,7 +50,7 @@ struct FlowConditions {
   double alpha_deg = 0.0;  // its angle to the x axis, -90 to 90; where cl is given, where the search begins
   std::optional<double> cl = {};  // the lift coefficient that the angle is to be found for; not above Mach 1
   Point reference = {0.25, 0.0};
-  double reference_length = 1.0;  // more than 0
+  double reference_length = 1.0;  // that coefficients are made with, and nothing else: more than 0
 };
 
 // A boundary through which gas enters at a right angle, with a given total pressure and total temperature:
@@ -60,7 +62,8 @@ struct FlowInlet {
 };
 
 // A boundary through which gas leaves against a given pressure, a part of the stream's. Where it leaves
-// faster than sound the pressure has no effect.
+// faster than sound the pressure has no effect. It is less than the largest total pressure that gas enters
+// with.
 struct FlowOutlet {
   std::string name;
   double pressure = 1.0;  // more than 0
@@ -73,6 +76,12 @@ enum class FlowSolver {
 };
 const char* name_of(FlowSolver solver);  // "lu", "gmres"
 
+// How far a search has come. Beside fine meshes coarser ones count by themselves.
+struct FlowProgress {
+  int newton_step = 0;
+  double residual = 0.0, cl = 0.0;
+};
+
 struct FlowOptions {
   std::string farfield = "farfield";
   // Converged: the root of the sum of squares of all residuals is at most this part of what it is for
@@ -80,17 +89,22 @@ struct FlowOptions {
   double tolerance = 1e-10;
   int max_steps = 200;  // Newton steps of one flow, 1 or more
   bool vortex = true;   // in the far field
-  double limiter =
-      30.0;  // K: differences along an edge of length h below (K h / length)^(3/2) are not limited; > 0
+  // K: differences along an edge of length h below (K h / extent)^(3/2) are not limited; more than 0. The
+  // extent is the largest distance between two bends of one connected wall, so that flows through meshes of
+  // another size are the same: the chord of a section (of several elements that of the largest, wherever
+  // they lie, and of half a section its own, without the line of symmetry), the curved part of a duct's
+  // wall. Where no wall bends it is the longest wall's.
+  double limiter = 30.0;
   // What factors may take. Where those of a sparse LU are estimated to take more, GMRES with incomplete
   // factors takes its place.
   double memory_mb = 4096;
   // How linear systems are solved. None: by GMRES far from a flow, where a matrix is solved with but once,
   // and by LU where its factors serve for several steps or designs, if GMRES fails, too.
   std::optional<FlowSolver> solver = {};
-  StepObserver* observer = nullptr;      // asked at every step
-  std::vector<FlowInlet> inlets = {};    // without a far field: at least one of each
-  std::vector<FlowOutlet> outlets = {};  // their names are not `farfield`, and not one twice
+  StepObserver* observer = nullptr;                       // asked at every step
+  std::vector<FlowInlet> inlets = {};                     // without a far field: at least one of each
+  std::vector<FlowOutlet> outlets = {};                   // their names are not `farfield`, and not one twice
+  std::function<void(const FlowProgress&)> on_step = {};  // called after each Newton step
 };
 
 enum class FlowStatus {

@@ -141,6 +141,12 @@ std::optional<std::vector<Total>> totals(const Euler& euler, const State& state,
     for (std::size_t v = 0; v < total.shape.points.size(); ++v)
       total.shape.points[v] =
           total.shape.points[v] - by_residual[i].points[v] - by_lift * lift.shape.points[v];
+    // The limiter's length is the distance between two vertices.
+    const Extent& extent = euler.mesh().extent();
+    const Point far = euler.mesh().points()[extent.b] - euler.mesh().points()[extent.a];
+    const Point by_far = (by_residual[i].length * euler.stream().length / dot(far, far)) * far;
+    total.shape.points[extent.b] = total.shape.points[extent.b] - by_far;
+    total.shape.points[extent.a] = total.shape.points[extent.a] + by_far;
     total.shape.mach += -by_residual[i].mach - by_lift * lift.shape.mach;
   }
   return result;

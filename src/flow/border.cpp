@@ -103,7 +103,7 @@ double largest_change(const State& state, const Increment& increment) {
 }
 
 // Where undisturbed flow has next to no residual (a thin plate along the stream), a thousandth of the
-// pressure on the reference length takes its place.
+// pressure on the extent of the walls takes its place.
 Measure::Measure(const Euler& euler) : euler_(euler) {
   Vector residual;
   euler.residual(euler.uniform(), residual);

@@ -76,7 +76,7 @@ std::optional<State> start_from_coarser(const Domain& domain, const QualityOptio
   half.gradation = 0.5 * quality.gradation;
   const std::optional<FlowMesh> dual = coarse_mesh(*coarse, half, fine.size(), conditions, options);
   if (!dual) return std::nullopt;
-  const Euler euler(*dual, stream_of(conditions, options));
+  const Euler euler(*dual, stream_of(conditions, options, *dual));
   const Measure measure(euler);
   FlowOptions rough = options;
   rough.tolerance = std::max(options.tolerance, coarse_tolerance);
@@ -89,6 +89,7 @@ std::optional<State> start_from_coarser(const Domain& domain, const QualityOptio
   add_cost(search, spent);
   if (search.status != FlowStatus::converged) return std::nullopt;
   state.q = interpolated(*dual, state.q, fine.points());
+  state.border[0] *= dual->extent().length / fine.extent().length;
   return state;
 }
 

@@ -169,6 +169,16 @@ TEST(Duct, TheJacobianOfInletsAndOutletsIsExact) {
     }
 }
 
+TEST(Duct, GasLeavesAgainstLessThanTheTotalPressure) {
+  const FrozenMesh mesh = duct_mesh(4, 8, 2.0, [](double) { return 1.0; });
+  const std::string refusal =
+      ", expected less than the 1.06443 of the total pressure that the gas enters with, for it to leave by "
+      "'out'";
+  EXPECT_EQ(message_of(mesh, {.mach = 0.3}, through(1.0, 2.0)), "pressure: found 2" + refusal);
+  EXPECT_EQ(message_of(mesh, {.mach = 0.3}, through(1.0, 1.07)), "pressure: found 1.07" + refusal);
+  EXPECT_EQ(message_of(mesh, {.mach = 0.3}, through(1.0, 1.06)), "no error");
+}
+
 TEST(Duct, WrongNamesAndPressuresAreOneSentence) {
   const FrozenMesh mesh = duct_mesh(4, 8, 2.0, [](double) { return 1.0; });
   EXPECT_EQ(

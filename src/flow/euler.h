@@ -85,7 +85,10 @@ struct Stream {
   double alpha = 0.0;               // radians; the first guess where lift is given
   std::optional<double> lift = {};  // the lift coefficient that alpha is to be found for
   Point reference = {0.25, 0.0};    // the vortex, and the point that moments are about
-  double length = 1.0;              // reference length
+  // What lift and moment are made with in here, and what the limiter compares edges with: the extent of the
+  // walls. Flows do not depend on what coefficients are reported with, `reference_length`.
+  double length = 1.0;
+  double reference_length = 1.0;
   bool vortex = true;
   double limiter = 30.0;               // K: slopes of less than (K h / length)^(3/2) are not limited
   std::vector<Opening> openings = {};  // in the order of the mesh's
@@ -98,6 +101,11 @@ struct Stream {
   double slopes = 1.0;
 };
 
+// What the coefficients that are reported are, over those of Euler: a length over another.
+inline double reported_length(const Stream& stream) {
+  return stream.length / stream.reference_length;
+}
+
 struct Coefficients {
   double lift = 0.0, drag = 0.0, moment = 0.0;
 };
@@ -106,6 +114,7 @@ struct Coefficients {
 struct ShapeSlope {
   std::vector<Point> points;
   double mach = 0.0;
+  double length = 0.0;  // of residuals, by the stream's, which the limiter has
 };
 // The same, with those by the vertices' pressures and by the angle of attack.
 struct ForceSlope {
@@ -160,6 +169,7 @@ class Euler {
   // Sum over dual faces of |speed| + sound, times length: what a time step is bounded by.
   std::vector<double> wave_speeds(const State& state) const;
 
+  // With the stream's length.
   Coefficients coefficients(const State& state) const;
   Coefficients coefficients(const State& state, std::int32_t body) const;  // the part of one wall
 

@@ -18,6 +18,7 @@ Point turned_back(Point by_normal) {
 struct Slopes {
   std::vector<Point> normal, weight;           // by dual faces and gradient weights
   std::vector<std::array<Point, 4>> gradient;  // by each vertex's
+  double log_length = 0.0;                     // by the logarithm of the limiter's length
 };
 
 std::vector<std::array<Point, 4>> gradients_of(const FlowMesh& mesh, const State& state) {
@@ -103,7 +104,9 @@ Point add_face(const FaceSlopes& face, const std::vector<std::array<Point, 4>>& 
       const double by_product = 2.0 * by[4 * s + k] * face.side[s].by_upwind[k];
       slopes.gradient[v][k] = slopes.gradient[v][k] + by_product * d;
       by_d = by_d + by_product * gradients[v][k];
-      by_d = by_d + (by[4 * s + k] * face.side[s].by_epsilon[k] * face.by_length) * d;
+      const double by_length = by[4 * s + k] * face.side[s].by_epsilon[k] * face.by_length;
+      by_d = by_d + by_length * d;
+      slopes.log_length -= by_length * dot(d, d);  // epsilon has the edge's length over the limiter's
     }
   }
   return by_d;
@@ -207,6 +210,7 @@ std::vector<ShapeSlope> Euler::residual_slopes(
         ++i;
       }
     }
+    results[j].length = slopes[j].log_length / stream_.length;
     const std::vector<Point> by_half = add_boundary_slopes(state, weights[j], results[j]);
     mesh_.add_slopes(slopes[j].normal, slopes[j].weight, by_half, results[j].points);
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <nanoflann.hpp>
 
@@ -54,11 +56,20 @@ namespace flow {
 
 namespace {
 
+// Reads as the same number; the library of the page's compiler has no std::to_chars() of it.
+std::string shortest_text(double value) {
+  constexpr int least = 6, enough = 17;
+  char text[32];
+  for (int digits = least; digits <= enough; ++digits) {
+    std::snprintf(text, sizeof text, "%.*g", digits, value);
+    if (std::strtod(text, nullptr) == value) break;
+  }
+  return text;
+}
+
 void require(bool holds, const char* what, double found, const char* expected) {
   if (holds) return;
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", found);
-  throw Error(ErrorCode::argument, what, std::string("found ") + text + ", expected " + expected);
+  throw Error(ErrorCode::argument, what, "found " + shortest_text(found) + ", expected " + expected);
 }
 
 constexpr double degree = M_PI / 180.0;
@@ -148,12 +159,34 @@ FlowMesh dual_of(const FrozenMesh& mesh, const FlowConditions& conditions, const
                  const std::string& source) {
   FlowMesh dual(mesh, options.farfield, source, names_of_openings(options));
   dual.require_walls(source);
+  dual.require_farfield_around(source);
   require_ways(dual, conditions, options, source);
   return dual;
 }
 
+namespace {
+
+// Gas leaves by no outlet whose pressure is that of the gas at rest, or more.
+void require_lower_pressures(bool has_farfield, const FlowConditions& conditions,
+                             const FlowOptions& options) {
+  double total = has_farfield ? 1.0 : 0.0;
+  for (const FlowInlet& inlet : options.inlets) total = std::max(total, inlet.total_pressure);
+  total *= std::pow(1.0 + 0.5 * (gas_gamma - 1.0) * conditions.mach * conditions.mach,
+                    gas_gamma / (gas_gamma - 1.0));
+  char least[32];
+  std::snprintf(least, sizeof least, "%.6g", total);
+  for (const FlowOutlet& outlet : options.outlets)
+    require(outlet.pressure < total, "pressure", outlet.pressure,
+            (std::string("less than the ") + least +
+             " of the total pressure that the gas enters with, for it to leave by '" + outlet.name + "'")
+                .c_str());
+}
+
+}  // namespace
+
 void require_ways(const FlowMesh& dual, const FlowConditions& conditions, const FlowOptions& options,
                   const std::string& source) {
+  require_lower_pressures(dual.has_farfield(), conditions, options);
   if (dual.has_farfield()) return;
   if (options.inlets.empty() || options.outlets.empty())
     throw Error(ErrorCode::argument, source,
@@ -164,7 +197,8 @@ void require_ways(const FlowMesh& dual, const FlowConditions& conditions, const 
                 "given for a mesh without a far field, expected an angle of attack");
 }
 
-Stream stream_of(const FlowConditions& conditions, const FlowOptions& options) {
+Stream stream_of(const FlowConditions& conditions, const FlowOptions& options, const FlowMesh& dual) {
+  const double extent = dual.extent().length;
   const double factor = 1.0 + 0.5 * (gas_gamma - 1.0) * conditions.mach * conditions.mach;
   const double total_pressure = std::pow(factor, gas_gamma / (gas_gamma - 1.0)) / gas_gamma;
   std::vector<Opening> openings;
@@ -177,9 +211,11 @@ Stream stream_of(const FlowConditions& conditions, const FlowOptions& options) {
     openings.push_back({.name = outlet.name, .is_inlet = false, .pressure = outlet.pressure / gas_gamma});
   return {.mach = conditions.mach,
           .alpha = conditions.alpha_deg * degree,
-          .lift = conditions.cl,
+          .lift = conditions.cl ? std::optional(*conditions.cl * conditions.reference_length / extent)
+                                : std::nullopt,
           .reference = conditions.reference,
-          .length = conditions.reference_length,
+          .length = extent,
+          .reference_length = conditions.reference_length,
           .vortex = options.vortex,
           .limiter = options.limiter,
           .openings = std::move(openings)};
@@ -191,11 +227,13 @@ FlowResult result_of(const Euler& euler, const State& state, const Search& searc
   result.reason = search.reason;
   result.mach = euler.stream().mach;
   result.alpha_deg = state.border[1] / degree;
+  const double scale = reported_length(euler.stream());
   const Coefficients sum = euler.coefficients(state);
-  result.cl = sum.lift, result.cd = sum.drag, result.cm = sum.moment;
+  result.cl = scale * sum.lift, result.cd = scale * sum.drag, result.cm = scale * scale * sum.moment;
   for (std::size_t i = 0; i < euler.mesh().bodies().size(); ++i) {
     const Coefficients part = euler.coefficients(state, static_cast<std::int32_t>(i));
-    result.bodies.push_back({euler.mesh().bodies()[i], part.lift, part.drag, part.moment});
+    result.bodies.push_back(
+        {euler.mesh().bodies()[i], scale * part.lift, scale * part.drag, scale * scale * part.moment});
   }
   const std::vector<double> mass_flows = euler.mass_flows(state);
   for (std::size_t i = 0; i < mass_flows.size(); ++i)
@@ -262,7 +300,7 @@ FlowResult cold_flow(const FrozenMesh& mesh, const Mesh* living, const FlowCondi
   const Stopwatch watch;
   flow::require_possible(conditions, options);
   const flow::FlowMesh dual = flow::dual_of(mesh, conditions, options, source);
-  const flow::Euler euler(dual, flow::stream_of(conditions, options));
+  const flow::Euler euler(dual, flow::stream_of(conditions, options, dual));
   const flow::Measure measure(euler);
   flow::State state;
   flow::BlockRows matrix = euler.pattern();

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
+#include "flow/wall_extent.h"
 #include "remodel/error.h"
 
 namespace remodel::flow {
@@ -41,6 +43,7 @@ std::string list_of_names(const FrozenMesh& mesh) {
 FlowMesh::FlowMesh(const FrozenMesh& mesh, const std::string& farfield, const std::string& source,
                    std::span<const std::string> openings)
     : points_(mesh.points), triangles_(mesh.triangles) {
+  require_triangles(source);
   make_edges();
   for (std::size_t v = 0; v < size(); ++v)
     if (ring(v).empty())
@@ -140,6 +143,41 @@ void FlowMesh::require_walls(const std::string& source) const {
     throw Error(ErrorCode::argument, source, "found no boundary but the far field, expected a wall");
 }
 
+void FlowMesh::require_triangles(const std::string& source) const {
+  constexpr double least_area = 1e-14;  // as a part of the longest side's square: less is rounding
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const auto& corners = triangles_[t];
+    const Point u = points_[corners[1]] - points_[corners[0]], v = points_[corners[2]] - points_[corners[0]];
+    const double area = 0.5 * cross(u, v), side = std::max({dot(u, u), dot(v, v), dot(v - u, v - u)});
+    if (area > least_area * side) continue;
+    throw Error(ErrorCode::argument, source,
+                "triangle " + std::to_string(t) + " (points " + std::to_string(corners[0]) + ", " +
+                    std::to_string(corners[1]) + ", " + std::to_string(corners[2]) + ") " +
+                    (area < -least_area * side ? "is clockwise" : "has no area") +
+                    ", expected every triangle to be counter-clockwise");
+  }
+}
+
+// Boundaries have the domain on their left: those around it turn counter-clockwise, those of holes clockwise.
+void FlowMesh::require_farfield_around(const std::string& source) const {
+  std::vector<std::uint32_t> parent(size());
+  std::iota(parent.begin(), parent.end(), 0U);
+  const auto root = [&](std::uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const BoundaryEdge& edge : boundary_) parent[root(edge.a)] = root(edge.b);
+  std::vector<double> area(size(), 0.0);
+  for (const BoundaryEdge& edge : boundary_) {
+    const std::uint32_t loop = root(edge.a);
+    area[loop] += 0.5 * cross(points_[edge.a] - points_[loop], points_[edge.b] - points_[loop]);
+  }
+  for (const BoundaryEdge& edge : boundary_)
+    if (edge.body == -1 && area[root(edge.a)] < 0.0)
+      throw Error(ErrorCode::argument, source,
+                  "the far field bounds a hole of the domain, expected it to lie around the walls");
+}
+
 void FlowMesh::link_walls() {
   on_wall_.assign(size(), false);
   links_.assign(boundary_.size(), {});
@@ -216,6 +254,7 @@ void FlowMesh::measure() {
       ring_[i].weight = (1.0 / around[v]) * ring_[i].weight;
   }
   bend_walls();
+  extent_ = wall_extent(points_, boundary_);
 }
 
 }  // namespace remodel::flow

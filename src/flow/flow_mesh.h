@@ -38,16 +38,27 @@ struct BoundaryEdge {
   Point half[2] = {};
 };
 
+// The largest distance between two vertices of a set, and which these are.
+struct Extent {
+  double length = 0.0;
+  std::uint32_t a = no_index, b = no_index;
+};
+
 class FlowMesh {
  public:
   // Every boundary edge of the mesh belongs to a named boundary; the one called `farfield` is the far field,
   // those called like one of `openings` are inlets or outlets, all others are walls. Edges with the domain on
   // both sides are no boundary. Throws Error (argument) naming `source` where there is no far field (and no
-  // opening), no boundary of an opening's name, an edge without a name, or a point of no triangle.
+  // opening), no boundary of an opening's name, an edge without a name, a point of no triangle, or a triangle
+  // that is not counter-clockwise.
   FlowMesh(const FrozenMesh& mesh, const std::string& farfield, const std::string& source,
            std::span<const std::string> openings = {});
   // Throws Error (argument) where the far field is the only boundary.
   void require_walls(const std::string& source) const;
+  // Throws Error (argument) where the far field, or a part of it, bounds a hole of the domain.
+  void require_farfield_around(const std::string& source) const;
+  // Throws Error (argument) where a triangle is clockwise or has next to no area.
+  void require_triangles(const std::string& source) const;
   // The same triangles with vertices elsewhere.
   void move(std::span<const Point> points);
 
@@ -73,6 +84,7 @@ class FlowMesh {
   const std::vector<BoundaryEdge>& boundary() const { return boundary_; }
   const std::vector<std::string>& bodies() const { return bodies_; }  // names of walls
   bool on_wall(std::size_t v) const { return on_wall_[v]; }
+  const Extent& extent() const { return extent_; }  // of the walls: see wall_extent.h
   const std::vector<std::array<std::uint32_t, 3>>& triangles() const { return triangles_; }
 
  private:
@@ -103,6 +115,7 @@ class FlowMesh {
   std::vector<bool> on_wall_;
   std::vector<std::string> bodies_;
   bool has_farfield_ = false;
+  Extent extent_;
 };
 
 template <class T>

@@ -147,6 +147,51 @@ TEST(Flow, BadInputIsOneSentence) {
   EXPECT_EQ(message_of(mesh, {}), "file.su2: found no boundary but the far field, expected a wall");
 }
 
+TEST(Flow, TrianglesThatAreNotCounterClockwiseAreRefused) {
+  const FrozenMesh mesh = test::airfoil_mesh("naca:0012", 40).freeze();
+  FrozenMesh turned = mesh;
+  std::swap(turned.triangles[7][1], turned.triangles[7][2]);
+  const auto& corners = turned.triangles[7];
+  const std::string points =
+      std::to_string(corners[0]) + ", " + std::to_string(corners[1]) + ", " + std::to_string(corners[2]);
+  EXPECT_EQ(message_of(turned, {}), "file.su2: triangle 7 (points " + points +
+                                        ") is clockwise, expected every triangle to be counter-clockwise");
+  FrozenMesh flat = mesh;
+  flat.triangles[9][2] = flat.triangles[9][1];
+  EXPECT_NE(message_of(flat, {}).find("file.su2: triangle 9 "), std::string::npos);
+  EXPECT_NE(message_of(flat, {}).find("has no area"), std::string::npos);
+}
+
+TEST(Flow, TheFarFieldLiesAroundTheWalls) {
+  const FrozenMesh mesh = test::airfoil_mesh("naca:0012", 40).freeze();
+  EXPECT_EQ(message_of(mesh, {}, {.farfield = "airfoil"}),
+            "file.su2: the far field bounds a hole of the domain, expected it to lie around the walls");
+}
+
+// Also where a search has ended on its way, which need not be exact itself.
+TEST(Flow, MessagesNameTheToleranceThatWasAskedFor) {
+  const FrozenMesh mesh = test::airfoil_mesh("e376", 50).freeze();
+  const FlowConditions stalls = {.mach = 0.823, .alpha_deg = -0.57};
+  const FlowResult in_stages = solve_flow(mesh, stalls, {.tolerance = 1e-9, .max_steps = 45});
+  ASSERT_EQ(in_stages.status, FlowStatus::step_limit);
+  EXPECT_NE(in_stages.reason.find("expected 1e-09"), std::string::npos) << in_stages.reason;
+  const FlowResult lift = solve_flow(mesh, {.mach = 0.5, .cl = 0.4}, {.tolerance = 1e-9, .max_steps = 2});
+  ASSERT_EQ(lift.status, FlowStatus::step_limit);
+  EXPECT_NE(lift.reason.find("expected 1e-09"), std::string::npos) << lift.reason;
+}
+
+TEST(Flow, EachNewtonStepIsTold) {
+  const FrozenMesh mesh = test::airfoil_mesh("naca:2412", 40).freeze();
+  std::vector<FlowProgress> steps;
+  const FlowResult flow =
+      solve_flow(mesh, {.mach = 0.5, .alpha_deg = 1.0, .reference_length = 0.5},
+                 {.on_step = [&](const FlowProgress& progress) { steps.push_back(progress); }});
+  ASSERT_FALSE(steps.empty());
+  EXPECT_EQ(steps.back().newton_step, flow.newton_steps);
+  EXPECT_EQ(steps.back().residual, flow.residual);
+  EXPECT_DOUBLE_EQ(steps.back().cl, flow.cl);
+}
+
 // At the nose a vertex runs empty, from undisturbed flow.
 TEST(Flow, AFlowThatStallsIsFoundInStages) {
   const FrozenMesh mesh = test::airfoil_mesh("e376", 50).freeze();

@@ -12,7 +12,10 @@ constexpr int most_rounds = 4;
 class System {
  public:
   System(const Euler& euler, const State& state, const BlockRows& matrix)
-      : matrix_(matrix), columns_(euler.border_columns(state)), rows_(euler.border_rows(state)) {}
+      : matrix_(matrix),
+        columns_(euler.border_columns(state)),
+        rows_(euler.border_rows(state)),
+        length_(euler.stream().length) {}
 
   Increment times(const Increment& x) const {
     Increment result = zero(x.q.size());
@@ -23,14 +26,20 @@ class System {
     for (const auto& entry : rows_.lift) result.border[0] += entry.value * x.q[entry.vertex][3];
     for (std::size_t row = 0; row < 2; ++row)
       for (std::size_t z = 0; z < 2; ++z) result.border[row] += rows_.corner[row][z] * x.border[z];
+    scale(result.border, length_);
     return result;
   }
   const Euler::BorderRows& rows() const { return rows_; }
+  double length() const { return length_; }
+  static void scale(Border& border, double by) {
+    for (double& x : border) x *= by;
+  }
 
  private:
   const BlockRows& matrix_;
   std::array<Vector, 2> columns_;
   Euler::BorderRows rows_;
+  double length_;  // residuals grow with the mesh: the border's equations are multiplied by it, too
 };
 
 }  // namespace
@@ -46,7 +55,9 @@ LinearStep linear_step(const Euler& euler, const State& state, const BlockRows& 
                 close_border(std::move(right.q), factors.columns(), euler.border_rows(state), right.border)};
   }
   const System system(euler, state, matrix);
+  System::scale(right.border, system.length());
   const auto precondition = [&](Increment& x) {
+    System::scale(x.border, 1.0 / system.length());
     factors.solve(x.q);
     x = close_border(std::move(x.q), factors.columns(), system.rows(), x.border);
   };

@@ -199,6 +199,7 @@ flow::State LivingFlow::Impl::carry(const flow::FlowMesh& now, const Keys& now_k
                                     const flow::Stream& stream) const {
   flow::State carried;
   carried.border = state.border;
+  carried.border[0] *= last_stream.length / stream.length;
   if (!stream.lift) carried.border[1] = stream.alpha;
   const flow::KeyTable table(keys);
   std::vector<std::uint32_t> fresh;
@@ -330,16 +331,17 @@ FlowResult LivingFlow::Impl::solve(const FrozenMesh& frozen, const Mesh* living,
                                    const FlowConditions& conditions) {
   const Stopwatch watch;
   flow::require_possible(conditions, options);
-  const flow::Stream stream = flow::stream_of(conditions, options);
   std::shared_ptr<flow::FlowMesh> dual;
   const Keys now = flow::keys_of(frozen);
   if (mesh && mesh->triangles() == frozen.triangles && now == keys) {
     dual = std::make_shared<flow::FlowMesh>(*mesh);
     dual->move(frozen.points);
+    dual->require_triangles("mesh");
     flow::require_ways(*dual, conditions, options, "mesh");
   } else {
     dual = std::make_shared<flow::FlowMesh>(flow::dual_of(frozen, conditions, options, "mesh"));
   }
+  const flow::Stream stream = flow::stream_of(conditions, options, *dual);
   const flow::Euler euler(*dual, stream);
   const flow::Measure measure(euler);
   Task task{.euler = euler,
@@ -372,15 +374,22 @@ namespace flow {
 
 namespace {
 
-FlowGradient gradient_of(Total total, bool lift_given) {
+// scale: the function that is reported, over the one that these are of.
+FlowGradient gradient_of(Total total, double scale, const Stream& stream) {
+  for (Point& point : total.shape.points) point = scale * point;
+  const double by_condition = scale * total.condition;
   return {.points = std::move(total.shape.points),
-          .mach = total.shape.mach,
-          .alpha_deg = lift_given ? 0.0 : total.condition * M_PI / 180.0,
-          .cl = lift_given ? total.condition : 0.0};
+          .mach = scale * total.shape.mach,
+          .alpha_deg = stream.lift ? 0.0 : by_condition * M_PI / 180.0,
+          .cl = stream.lift ? by_condition / reported_length(stream) : 0.0};
 }
 
 ForceSlope slope_of(const FlowFunctional& function) {
-  return {.shape = {.points = function.points, .mach = function.mach}, .pressure = function.pressure};
+  ForceSlope result;
+  result.shape.points = function.points;
+  result.shape.mach = function.mach;
+  result.pressure = function.pressure;
+  return result;
 }
 
 // The angle of attack itself, in degrees.
@@ -447,13 +456,14 @@ FlowGradients LivingFlow::Impl::gradients(const std::vector<FlowFunctional>& fun
   FlowGradients result;
   result.functions.assign(functions.size(), {});
   std::vector<flow::ForceSlope> slopes;
-  std::vector<FlowGradient*> places;
-  const auto add = [&](flow::ForceSlope slope, FlowGradient& place) {
-    slopes.push_back(std::move(slope)), places.push_back(&place);
+  std::vector<std::pair<FlowGradient*, double>> places;
+  const auto add = [&](flow::ForceSlope slope, FlowGradient& place, double scale = 1.0) {
+    slopes.push_back(std::move(slope)), places.push_back({&place, scale});
   };
-  if (wanted.lift) add(euler.force_slope(state, {.lift = 1.0}), result.cl);
-  if (wanted.drag) add(euler.force_slope(state, {.drag = 1.0}), result.cd);
-  if (wanted.moment) add(euler.force_slope(state, {.moment = 1.0}), result.cm);
+  const double scale = flow::reported_length(last_stream);
+  if (wanted.lift) add(euler.force_slope(state, {.lift = 1.0}), result.cl, scale);
+  if (wanted.drag) add(euler.force_slope(state, {.drag = 1.0}), result.cd, scale);
+  if (wanted.moment) add(euler.force_slope(state, {.moment = 1.0}), result.cm, scale * scale);
   if (wanted.angle) add(flow::angle(mesh->size()), result.alpha_deg);
   for (std::size_t i = 0; i < functions.size(); ++i) add(flow::slope_of(functions[i]), result.functions[i]);
 
@@ -481,7 +491,7 @@ FlowGradients LivingFlow::Impl::gradients(const std::vector<FlowFunctional>& fun
                   "memory that they may take, or GMRES takes too long with them");
   }
   for (std::size_t i = 0; i < places.size(); ++i)
-    *places[i] = flow::gradient_of(std::move((*totals)[i]), last_stream.lift.has_value());
+    *places[i].first = flow::gradient_of(std::move((*totals)[i]), places[i].second, last_stream);
   result.seconds = watch.seconds();
   return result;
 }
@@ -497,14 +507,14 @@ FlowResult solve_flow_from(const FrozenMesh& before, const FlowResult& known, co
     throw Error(ErrorCode::argument, source,
                 "found a flow at " + std::to_string(known.density.size()) + " points, expected one at the " +
                     std::to_string(old.size()) + " of its mesh");
-  const flow::Euler euler(dual, flow::stream_of(conditions, options));
+  const flow::Euler euler(dual, flow::stream_of(conditions, options, dual));
   const flow::Measure measure(euler);
   std::vector<flow::Primitive<double>> q(old.size());
   for (std::size_t v = 0; v < q.size(); ++v)
     q[v] = {known.density[v], known.velocity_x[v], known.velocity_y[v], known.pressure[v]};
   flow::State state;
   state.q = flow::interpolated(old, q, dual.points());
-  state.border = {known.cl, conditions.cl ? known.alpha_deg * M_PI / 180.0 : euler.stream().alpha};
+  state.border = {known.cl / flow::reported_length(euler.stream()), conditions.cl ? known.alpha_deg * M_PI / 180.0 : euler.stream().alpha};
 
   flow::BlockRows matrix = euler.pattern();
   flow::Factors factors;

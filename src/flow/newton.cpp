@@ -90,9 +90,9 @@ bool is_over(const Pace& pace, const FlowOptions& options, int last_halved, Sear
 
 // The part of the linear residual that GMRES may leave: less and less, so that Newton's method converges
 // faster than linearly, but no less than the flow's tolerance needs.
-double forcing(double residual, const FlowOptions& options) {
+double forcing(double residual, double target) {
   constexpr double least = 1e-3, most = 1e-2, needed = 0.3;
-  return std::clamp(std::max(residual, needed * options.tolerance / residual), least, most);
+  return std::clamp(std::max(residual, needed * target / residual), least, most);
 }
 // Where GMRES leaves more than this, its step is not tried.
 constexpr double most_left = 0.5;
@@ -119,6 +119,15 @@ namespace {
 void jacobian_at(const Euler& euler, const State& state, double cfl, BlockRows& matrix) {
   euler.jacobian(state, matrix);
   if (cfl < full_cfl) add_pseudo_time(euler, state, cfl, matrix);
+}
+
+void note_step(const Euler& euler, const State& state, double size, const FlowOptions& options,
+               Search& search) {
+  search.residual = size;
+  search.history.push_back(size);
+  if (options.on_step)
+    options.on_step(
+        {search.newton_steps, size, euler.coefficients(state).lift * reported_length(euler.stream())});
 }
 
 Factored factor(const Euler& euler, const State& state, FactorKind kind, const FlowOptions& options,
@@ -157,7 +166,7 @@ void find_flow(const Euler& euler, const Measure& measure, const Pace& pace, con
   Border border;
   search.residual = measure(state, residual, border);
   search.history.push_back(search.residual);
-  const double first = search.residual;
+  const double first = search.residual, target = std::max(options.tolerance, pace.rough);
   double least = first, halved = first, cfl = pace.cfl;
   int last_halved = search.newton_steps;
   int end_of_march = search.newton_steps + pace.march;
@@ -168,7 +177,7 @@ void find_flow(const Euler& euler, const Measure& measure, const Pace& pace, con
   constexpr int steps_of_factors = 8;
   bool worn = true;
   int with_own = 0;
-  while (search.residual > options.tolerance) {
+  while (search.residual > target) {
     if (is_over(pace, options, last_halved, search)) return;
     const bool marching = search.newton_steps < end_of_march;
     if (marching) cfl = pace.cfl, least = halved = search.residual, last_halved = search.newton_steps;
@@ -184,7 +193,7 @@ void find_flow(const Euler& euler, const Measure& measure, const Pace& pace, con
     if (outcome != Factored::done) return end_without_factors(outcome, options, search);
     ++search.newton_steps;
     const LinearStep linear = linear_step(euler, state, matrix, factors, residual, border,
-                                          forcing(search.residual, options), options.observer);
+                                          forcing(search.residual, target), options.observer);
     search.gmres_iterations += linear.iterations;
     if (!older) with_own = linear.iterations;
     worn = linear.iterations > with_own + steps_of_factors;
@@ -204,8 +213,7 @@ void find_flow(const Euler& euler, const Measure& measure, const Pace& pace, con
         if (length < 0.25) cfl *= 0.5;
         cfl = std::min(cfl, pace.most * first / next.size);
         state = std::move(next.state), residual = std::move(next.residual), border = next.border;
-        search.residual = next.size;
-        search.history.push_back(next.size);
+        note_step(euler, state, next.size, options, search);
         least = std::min(least, next.size);
         if (least <= 0.5 * halved) halved = least, last_halved = search.newton_steps;
         continue;
@@ -238,41 +246,43 @@ namespace {
 // By way of the scheme of first order, whose flow is found from anywhere, and of more and more of the steps
 // of the reconstruction: a homotopy in dissipation. Of each stage but the last only the neighbourhood of its
 // flow is needed.
-void find_flow_in_stages(const Euler& euler, const Measure& measure, const FlowOptions& options,
+void find_flow_in_stages(const Euler& euler, const Measure& measure, double rough, const FlowOptions& options,
                          BlockRows& matrix, Factors& factors, State& state, Search& search) {
   constexpr double stages[] = {0.0, 0.5, 0.75, 0.9, 0.95, 0.975, 0.99}, stage_cfl = 20.0,
                    stage_tolerance = 1e-2;
   state = euler.uniform();
-  Pace pace = {.cfl = cold_cfl, .patience = usual_patience, .most = cold_cfl};
-  FlowOptions rough = options;
-  rough.tolerance = std::max(options.tolerance, stage_tolerance);
+  Pace pace = {.cfl = cold_cfl,
+               .patience = usual_patience,
+               .most = cold_cfl,
+               .rough = std::max(rough, stage_tolerance)};
   for (const double slopes : stages) {
     Stream stream = euler.stream();
     stream.slopes = slopes;
     const Euler stage(euler.mesh(), stream);
-    find_flow(stage, Measure(stage), pace, rough, matrix, factors, state, search);
+    find_flow(stage, Measure(stage), pace, options, matrix, factors, state, search);
     if (search.status != FlowStatus::converged && search.status != FlowStatus::stalled) return;
     pace.cfl = pace.most = stage_cfl;
   }
-  pace.patience = last_patience;
+  pace.patience = last_patience, pace.rough = rough;
   find_flow(euler, measure, pace, options, matrix, factors, state, search);
 }
 
 // Straight from undisturbed flow; where that leads nowhere, in stages; where these end near a state that is
 // nearly steady but no flow (a fold of the equations, at which Newton's method stays for ever), away from it
-// in pseudo-time, along which it is unstable.
-void find_flow_at_angle(const Euler& euler, const Measure& measure, const FlowOptions& options,
+// in pseudo-time, along which it is unstable. rough: see Pace.
+void find_flow_at_angle(const Euler& euler, const Measure& measure, double rough, const FlowOptions& options,
                         BlockRows& matrix, Factors& factors, State& state, Search& search) {
   constexpr int marches = 3, steps_of_march = 15;
   constexpr double cfl_of_march = 20.0;
   state = euler.uniform();
-  find_flow(euler, measure, {.cfl = cold_cfl, .patience = usual_patience}, options, matrix, factors, state,
-            search);
+  find_flow(euler, measure, {.cfl = cold_cfl, .patience = usual_patience, .rough = rough}, options, matrix,
+            factors, state, search);
   if (search.status == FlowStatus::stalled)
-    find_flow_in_stages(euler, measure, options, matrix, factors, state, search);
+    find_flow_in_stages(euler, measure, rough, options, matrix, factors, state, search);
+  const Pace march = {
+      .cfl = cfl_of_march, .patience = usual_patience, .march = steps_of_march, .rough = rough};
   for (int i = 0; i < marches && search.status == FlowStatus::stalled; ++i)
-    find_flow(euler, measure, {.cfl = cfl_of_march, .patience = usual_patience, .march = steps_of_march},
-              options, matrix, factors, state, search);
+    find_flow(euler, measure, march, options, matrix, factors, state, search);
 }
 
 }  // namespace
@@ -284,13 +294,11 @@ void find_flow_cold(const Euler& euler, const Measure& measure, const FlowOption
   constexpr double rough_tolerance = 1e-4, late_cfl = 1e6, cautious_cfl = 20.0;
   search.newton_steps = 0;
   if (!euler.stream().lift)
-    return find_flow_at_angle(euler, measure, options, matrix, factors, state, search);
+    return find_flow_at_angle(euler, measure, 0.0, options, matrix, factors, state, search);
   Stream at_angle = euler.stream();
   at_angle.lift.reset();
   const Euler first(euler.mesh(), at_angle);
-  FlowOptions rough = options;
-  rough.tolerance = std::max(options.tolerance, rough_tolerance);
-  find_flow_at_angle(first, Measure(first), rough, matrix, factors, state, search);
+  find_flow_at_angle(first, Measure(first), rough_tolerance, options, matrix, factors, state, search);
   if (search.status != FlowStatus::converged) return;
   const State at_first_angle = state;
   find_flow(euler, measure, {.cfl = late_cfl, .patience = usual_patience}, options, matrix, factors, state,

@@ -29,6 +29,9 @@ struct Pace {
   double most = std::numeric_limits<double>::infinity();
   // So many steps first that all have `cfl`, while the residual rises as it will.
   int march = 0;
+  // The search ends at this residual where it is more than the tolerance that was asked for, which is the one
+  // that messages name.
+  double rough = 0.0;
 };
 inline constexpr double cold_cfl = 5.0;                                            // from undisturbed flow
 inline constexpr double no_pseudo_time = std::numeric_limits<double>::infinity();  // as a CFL number

@@ -16,7 +16,7 @@ FlowMesh dual_of(const FrozenMesh& mesh, const FlowConditions& conditions, const
 // Without a far field there have to be an inlet and an outlet, and no lift can be asked for.
 void require_ways(const FlowMesh& dual, const FlowConditions& conditions, const FlowOptions& options,
                   const std::string& source);
-Stream stream_of(const FlowConditions& conditions, const FlowOptions& options);
+Stream stream_of(const FlowConditions& conditions, const FlowOptions& options, const FlowMesh& dual);
 FlowResult result_of(const Euler& euler, const State& state, const Search& search, FlowStart start);
 
 // The state of another mesh at these points, interpolated linearly; beyond it that of its nearest triangle.

@@ -1,8 +1,13 @@
 """`remodel flow`: keys of the contract, flows that agree with each other, refusals."""
 
 import json
+import os
+import pty
+import subprocess
+import threading
 
-from harness import ProgramTest
+import harness
+from harness import ProgramTest, read_terminal
 
 KEYS = "cl cd cm alpha_deg mach converged residual newton_steps factorisations krylov_iterations seconds warm"
 
@@ -51,6 +56,61 @@ class Flows(ProgramTest):
         self.assertFalse(figures["converged"])
         self.assertEqual(figures["status"], "step-limit")
         self.assertIn("no flow was found", outcome.stderr)
+        self.assertIn("expected 1e-10", outcome.stderr)  # the tolerance, not that of a stage
+
+    def test_figures_of_no_flow_are_marked(self):
+        shape = ("flow", "naca:0012", "--points", 40, "--mach", 0.6)
+        lines = self.succeed(*shape, "--max-steps", 2, status=3).stdout.splitlines()
+        end = next(i for i, line in enumerate(lines) if line.startswith("not converged"))
+        for label in ("CL", "CD", "CM"):
+            place = next(i for i, line in enumerate(lines) if line.split()[0] == label)
+            self.assertGreater(place, end)
+            self.assertTrue(lines[place].endswith("(not converged)"), lines[place])
+        self.assertNotIn("not converged", self.succeed(*shape).stdout)
+
+    def test_the_reference_length_leaves_the_flow_alone(self):
+        shape = ("flow", "naca:2412", "--points", 60, "--mach", 0.7, "--alpha", 1)
+        one, half = self.figures(*shape), self.figures(*shape, "--reference-length", 0.5)
+        self.assertEqual(half["history"], one["history"])
+        self.assertAlmostEqual(half["cl"], 2 * one["cl"], delta=1e-14)
+        self.assertAlmostEqual(half["cm"], 4 * one["cm"], delta=1e-14)
+
+    def test_gradients_have_names(self):
+        shape = ("flow", "naca:2412", "--points", 40, "--mach", 0.4, "--gradient")
+        gradient = self.figures(*shape, "--alpha", 1)["gradient"]
+        self.assertEqual(gradient["names"][:2], ["airfoil.upper[0]", "airfoil.upper[1]"])
+        self.assertEqual(gradient["names"][6], "airfoil.lower[0]")
+        for key in ("cl", "cd", "cm"):
+            self.assertEqual(len(gradient[key]["coefficients"]), len(gradient["names"]))
+            self.assertIn("alpha_deg", gradient[key])
+        text = self.succeed(*shape, "--cl", 0.3).stdout
+        for label in ("gradients by", "gradient of CL", "gradient of CD", "gradient of CM", "gradient of the angle"):
+            self.assertIn(label, text)
+
+    def test_a_format_without_fields_says_so(self):
+        outcome = self.succeed("flow", "naca:0012", "--points", 40, "--mach", 0.4, "-o", "a.su2", "-o", "a.vtu")
+        self.assertEqual(outcome.stderr, "remodel: a.su2: the flow left out, for which the format has no place\n")
+        outcome = self.succeed("flow", "naca:0012", "--points", 40, "--model", "potential", "-o", "a.su2")
+        self.assertEqual(outcome.stderr, "remodel: a.su2: the flow left out, for which the format has no place\n")
+
+    def test_a_slow_stream_is_warned_of(self):
+        shape = ("flow", "naca:0012", "--points", 40, "--alpha", 1, "--mach")
+        self.assertIn("remodel: --mach: below 0.1", self.succeed(*shape, 0.09).stderr)
+        self.assertEqual(self.succeed(*shape, 0.1).stderr, "")
+
+    def test_each_step_is_shown_on_a_terminal(self):
+        ours, theirs = pty.openpty()
+        shown = []
+        reader = threading.Thread(target=lambda: shown.append(read_terminal(ours)))
+        reader.start()
+        command = [harness.PROGRAM, "flow", "naca:0012", "--points", "40", "--mach", "0.4", "--json"]
+        result = subprocess.run(command, cwd=self.directory, stdout=subprocess.PIPE, stderr=theirs, timeout=60)
+        os.close(theirs)
+        reader.join()
+        text = shown[0].decode()
+        self.assertEqual(text.count("\r" + "step "), json.loads(result.stdout)["newton_steps"])
+        self.assertIn("step 1  residual ", text)
+        self.assertTrue(text.endswith("\r\x1b[K\r"), text)
 
     def test_every_process_finds_the_same_bits(self):
         # 200 points: a matrix so large that MUMPS, left to itself, would choose an ordering that is drawn at random.
@@ -75,6 +135,10 @@ class Flows(ProgramTest):
     def test_nothing_is_written_without_a_flow(self):
         self.succeed("flow", "naca:0012", "--points", 40, "--mach", 0.6, "--max-steps", 2, "-o", "flow.vtu", status=3)
         self.assertEqual(self.files(), {})
+        outcome = self.succeed("flow", "naca:0012", "--points", 40, "--mach", 0.6, "--max-steps", 2, "-o", "flow.vtu",
+                               "--history", "h.csv", status=3)
+        self.assertIn("nothing was written but residuals to h.csv", outcome.stderr)
+        self.assertEqual(list(self.files()), ["h.csv"])
 
 
 class Ducts(ProgramTest):
@@ -129,6 +193,8 @@ class Ducts(ProgramTest):
         self.refused("flow", duct, "--model", "potential", "--inlet", "in", names="--inlet")
         self.refused("flow", duct, "--mach", 0.3, "--inlet", "in", "--outlet", "out", "--history", "h.txt",
                      names="h.txt")
+        self.refused("flow", duct, "--mach", 0.3, "--inlet", "in", "--outlet", "out", "--pressure", 1.07,
+                     names="pressure: found 1.07")
 
 
 class Series(ProgramTest):
@@ -153,6 +219,18 @@ class Series(ProgramTest):
             self.assertAlmostEqual(entry["cl"], entry["rival_cl"], delta=5e-3)
         self.assertEqual([entry["warm"] for entry in series["designs"][:3]], ["cold", "refactored", "carried"])
 
+    def test_a_design_without_a_mesh_does_not_end_the_row(self):
+        designs = self.designs()
+        designs[1]["upper"], designs[1]["lower"] = designs[1]["lower"], designs[1]["upper"]  # they cross
+        self.write("designs.json", json.dumps(designs))
+        series = self.figures("flow", "naca:0012", "--points", 60, "--mach", 0.5, "--series", "designs.json", status=1)
+        self.assertEqual([entry["converged"] for entry in series["designs"]], [True, False, True, True])
+        self.assertEqual(series["designs"][1]["status"], "refused")
+        self.assertNotEqual(series["designs"][1]["detail"], "")
+        self.assertEqual(series["not_converged"], 1)
+        text = self.succeed("flow", "naca:0012", "--points", 60, "--mach", 0.5, "--series", "designs.json", status=1).stdout
+        self.assertRegex(text, "design 2 +refused: .*cross")
+
     def test_refusals(self):
         self.refused("flow", "naca:0012", "--mach", 0.5, "--series", self.write("a.json", "{"), names="a.json")
         self.refused("flow", "naca:0012", "--mach", 0.5, "--series", self.write("b.json", "{}"), names="b.json")
@@ -175,3 +253,28 @@ class Refusals(ProgramTest):
         self.succeed("mesh", "naca:0012", "--points", 40, "-o", "mesh.su2")
         self.refused("flow", "mesh.su2", "--mach", 0.5, "--farfield", "outer", names="mesh.su2")
         self.refused("flow", "mesh.su2", "naca:0012", "--mach", 0.5, names="mesh.su2")
+        self.refused("flow", "mesh.su2", "--mach", 0.5, "--farfield", "airfoil", names="mesh.su2: the far field bounds a hole")
+
+    def test_options_that_would_have_no_effect(self):
+        self.succeed("mesh", "naca:0012", "--points", 40, "-o", "mesh.su2")
+        for option in (["--points", 60], ["--name", "wing"], ["--as-given", "spline"], ["--gradation", 2],
+                       ["--close-trailing-edge"]):
+            self.refused("flow", "mesh.su2", "--mach", 0.5, *option, names=option[0] + ": given with a mesh")
+        for option in (["--gradient"], ["--tolerance", 1e-8], ["--memory", 100], ["--solver", "lu"], ["--limiter", 5],
+                       ["--max-steps", 9], ["--pressure", 0.9]):
+            self.refused("flow", "naca:0012", "--model", "potential", *option,
+                         names=option[0] + ": given with --model potential")
+
+    def test_two_outputs_are_two_files(self):
+        shape = ("flow", "naca:0012", "--points", 40, "--mach", 0.4)
+        self.refused(*shape, "--cp-plot", "a.svg", "--history", "./a.svg", names="--history: found './a.svg'")
+        self.refused(*shape, "-o", "a.vtu", "-o", "./a.vtu", names="-o")
+
+    def test_a_mesh_with_a_clockwise_triangle(self):
+        self.succeed("mesh", "naca:0012", "--points", 40, "-o", "mesh.su2")
+        lines = self.path("mesh.su2").read_text().splitlines()
+        row = next(i for i, line in enumerate(lines) if line.startswith("NELEM")) + 1 + 5
+        kind, a, b, c, *rest = lines[row].split()
+        lines[row] = " ".join([kind, b, a, c, *rest])
+        self.write("turned.su2", "\n".join(lines) + "\n")
+        self.refused("flow", "turned.su2", "--mach", 0.5, names="triangle 5")

@@ -1,0 +1,115 @@
+#include "flow_report.h"
+
+#include "gradient_names.h"
+#include "remodel/mesh_derivative.h"
+
+namespace remodel::app {
+namespace {
+
+constexpr const char* not_converged = " (not converged)";
+
+}  // namespace
+
+Json to_json(const FlowResult& flow) {
+  Json json{{"cl", flow.cl},
+            {"cd", flow.cd},
+            {"cm", flow.cm},
+            {"alpha_deg", flow.alpha_deg},
+            {"mach", flow.mach},
+            {"converged", flow.converged()},
+            {"status", name_of(flow.status)}};
+  if (!flow.reason.empty()) json["reason"] = flow.reason;
+  json["residual"] = flow.residual;
+  json["newton_steps"] = flow.newton_steps;
+  json["coarse_steps"] = flow.coarse_steps;
+  json["factorisations"] = flow.factorisations;
+  json["krylov_iterations"] = flow.krylov_iterations;
+  json["corrected_vertices"] = flow.corrected_vertices;
+  json["solver"] = name_of(flow.solver);
+  json["gmres_iterations"] = flow.gmres_iterations;
+  json["memory_mb"] = flow.memory_mb;
+  json["seconds"] = flow.seconds;
+  json["warm"] = name_of(flow.start);
+  return json;
+}
+
+namespace {
+
+void add_bodies(Report& report, const FlowResult& flow) {
+  Json bodies = Json::array();
+  for (const FlowBody& body : flow.bodies) {
+    bodies.push_back({{"name", body.name}, {"cl", body.cl}, {"cd", body.cd}, {"cm", body.cm}});
+    if (flow.bodies.size() > 1)
+      report.line("body " + body.name, "CL " + Json(body.cl).dump() + ", CD " + Json(body.cd).dump() +
+                                           (flow.converged() ? "" : not_converged));
+  }
+  report.data("bodies", bodies);
+  Json openings = Json::array();
+  for (const FlowOpening& opening : flow.openings) {
+    openings.push_back({{"name", opening.name}, {"mass_flow", opening.mass_flow}});
+    report.line("boundary " + opening.name,
+                "mass flow " + Json(opening.mass_flow).dump() + (flow.converged() ? "" : not_converged));
+  }
+  if (!openings.empty()) report.data("openings", openings);
+}
+
+}  // namespace
+
+void add_flow_figures(Report& report, const FlowResult& flow) {
+  const Json figures = to_json(flow);
+  for (const auto& [key, value] : figures.items()) report.data(key, value);
+  const auto figure = [&](const char* key, const char* label, const std::string& unit = "") {
+    if (figures.contains(key)) report.figure(key, label, figures.at(key), unit);
+  };
+  const auto add_end = [&] {
+    figure("converged", "converged"), figure("status", "ended"), figure("reason", "because");
+  };
+  if (!flow.converged()) {
+    report.line("not converged", "what follows is where the search ended, and no flow");
+    add_end();
+  }
+  const std::string mark = flow.converged() ? "" : not_converged + 1;  // behind the space of units
+  figure("cl", "CL", mark), figure("cd", "CD", mark), figure("cm", "CM", mark);
+  figure("alpha_deg", "angle of attack", "degrees");
+  figure("mach", "Mach number");
+  if (flow.converged()) add_end();
+  figure("residual", "residual, of undisturbed flow's");
+  figure("newton_steps", "Newton steps");
+  figure("factorisations", "factorisations");
+  figure("krylov_iterations", "steps with older factors");
+  figure("solver", "linear solver");
+  if (flow.gmres_iterations > 0) figure("gmres_iterations", "steps of GMRES");
+  figure("memory_mb", "factors", "MB");
+  figure("seconds", "solving", "seconds");
+  add_bodies(report, flow);
+  report.data("history", flow.history);
+}
+
+Json gradients_json(LivingFlow& living, const Mesh& mesh, const FlowConditions& conditions) {
+  const FlowGradients gradients = living.gradients();
+  if (gradients.interrupted) return nullptr;
+  const MeshDerivative derivative(mesh);
+  Json json = Json::object();
+  json["names"] = coefficient_names(mesh.domain());
+  const auto note = [&](const char* name, const FlowGradient& gradient) {
+    json[name] = {{"coefficients", derivative.vjp(gradient.points)}, {"mach", gradient.mach}};
+    if (conditions.cl)
+      json[name]["cl"] = gradient.cl;
+    else
+      json[name]["alpha_deg"] = gradient.alpha_deg;
+  };
+  note("cl", gradients.cl), note("cd", gradients.cd), note("cm", gradients.cm);
+  if (conditions.cl) note("alpha_deg", gradients.alpha_deg);
+  json["seconds"] = gradients.seconds;
+  return json;
+}
+
+void add_gradients(Report& report, const Json& gradients) {
+  report.data("gradient", gradients);
+  report.line("gradients by", gradients["names"].dump());
+  for (const auto& [key, label] : {std::pair{"cl", "CL"}, std::pair{"cd", "CD"}, std::pair{"cm", "CM"},
+                                   std::pair{"alpha_deg", "the angle, degrees"}})
+    if (gradients.contains(key)) report.line(std::string("gradient of ") + label, gradients[key].dump());
+}
+
+}  // namespace remodel::app

@@ -1,0 +1,19 @@
+#pragma once
+
+// Flows as figures.
+
+#include "remodel/flow.h"
+#include "remodel/mesh.h"
+#include "report.h"
+
+namespace remodel::app {
+
+Json to_json(const FlowResult& flow);
+// In text a flow that was not found says so first, and its coefficients say it again.
+void add_flow_figures(Report& report, const FlowResult& flow);
+// Derivatives by coefficients_of() the mesh's domain, which `names` has the names of, the Mach number and
+// what is given of angle and lift. Null where they were interrupted.
+Json gradients_json(LivingFlow& living, const Mesh& mesh, const FlowConditions& conditions);
+void add_gradients(Report& report, const Json& gradients);
+
+}  // namespace remodel::app

@@ -1,0 +1,163 @@
+// Rows of designs on one living mesh: `remodel flow --series`.
+
+#include <algorithm>
+#include <optional>
+
+#include "euler_run.h"
+#include "flow_files.h"
+#include "flow_report.h"
+#include "interrupt.h"
+#include "new_airfoil.h"
+#include "remodel/error.h"
+#include "remodel/generate.h"
+#include "remodel/io.h"
+#include "remodel/remodel.h"
+
+namespace remodel::app {
+namespace {
+
+// A JSON array of airfoils, each as `remodel fit` writes it.
+std::vector<CstAirfoil> read_series(const std::string& file) {
+  Json list;
+  try {
+    list = Json::parse(read_text(file));
+  } catch (const Json::exception&) {
+    throw Error(ErrorCode::format, file, "found no JSON, expected an array of airfoils");
+  }
+  if (!list.is_array() || list.empty())
+    throw Error(ErrorCode::format, file,
+                std::string("found ") + (list.is_array() ? "an empty array" : list.type_name()) +
+                    ", expected an array of airfoils as `remodel fit` writes them");
+  std::vector<CstAirfoil> airfoils;
+  for (const Json& entry : list)
+    airfoils.push_back(
+        airfoil_from_json(entry.dump(), file + ", airfoil " + std::to_string(airfoils.size() + 1)));
+  return airfoils;
+}
+
+// The same designs on fresh meshes, for comparison.
+class Comparison {
+ public:
+  Comparison(Compare kind, const QualityOptions& quality, const FlowConditions& conditions,
+             const FlowOptions& options)
+      : kind_(kind), quality_(quality), conditions_(conditions), options_(options) {}
+
+  void add(const Domain& domain, Json& entry) {
+    if (kind_ == Compare::none) return;
+    const Mesh fresh = generate(domain, quality_).mesh;
+    FrozenMesh mesh = fresh.freeze();
+    const bool cold = kind_ == Compare::cold || !flow_;
+    FlowResult flow = cold ? solve_flow(fresh, conditions_, options_)
+                           : solve_flow_from(mesh_, *flow_, mesh, conditions_, options_);
+    entry[kind_ == Compare::cold ? "cold_seconds" : "rival_seconds"] = flow.seconds;
+    entry[kind_ == Compare::cold ? "cold_cl" : "rival_cl"] = flow.cl;
+    if (!flow.converged()) return;
+    flow_ = std::move(flow), mesh_ = std::move(mesh);
+  }
+
+ private:
+  Compare kind_;
+  QualityOptions quality_;
+  FlowConditions conditions_;
+  FlowOptions options_;
+  FrozenMesh mesh_;
+  std::optional<FlowResult> flow_;
+};
+
+// A design that has no flow because it has no mesh.
+Json refused_design(const std::string& why) {
+  return {{"converged", false}, {"status", "refused"}, {"detail", why}};
+}
+
+// The row so far.
+class Row {
+ public:
+  explicit Row(std::string source) : source_(std::move(source)) {}
+
+  void add(const FlowResult& flow, Json entry) {
+    factorisations_ += flow.factorisations;
+    seconds_ += flow.seconds;
+    not_found_ += !flow.converged();
+    if (!flow.converged()) ended(status_of(flow));
+    designs_.push_back(std::move(entry));
+  }
+  void add_refused(const std::string& why) {
+    ++not_found_;
+    ended(Status::answer_is_no);
+    designs_.push_back(refused_design(why));
+  }
+  // The first that did not go well says how the row ends, but for a limit, at which it ends.
+  void ended(Status status) {
+    if (worst_ == Status::done || status == Status::limit) worst_ = status;
+  }
+  Status report(bool json) const {
+    Report report;
+    report.figure("mesh", "mesh", source_);
+    report.data("model", "euler");
+    report.figure("flows", "flows", designs_.size());
+    report.figure("not_converged", "flows that were not found", not_found_);
+    report.figure("factorisations", "factorisations", factorisations_);
+    report.figure("seconds", "solving", seconds_, "seconds");
+    for (std::size_t i = 0; i < designs_.size(); ++i)
+      report.line("design " + std::to_string(i + 1), text_of(designs_[i]));
+    report.data("designs", designs_);
+    report.print(json);
+    return worst_;
+  }
+
+ private:
+  static std::string text_of(const Json& design) {
+    if (!design.contains("cl"))
+      return design["status"].get<std::string>() + ": " + design["detail"].get<std::string>();
+    const std::string figures = "CL " + design["cl"].dump() + ", CD " + design["cd"].dump() + ", " +
+                                design["warm"].get<std::string>() + ", " +
+                                design["status"].get<std::string>();
+    return design["converged"].get<bool>() ? figures : "not converged: " + figures;
+  }
+
+  std::string source_;
+  Json designs_ = Json::array();
+  Status worst_ = Status::done;
+  int factorisations_ = 0, not_found_ = 0;
+  double seconds_ = 0.0;
+};
+
+}  // namespace
+
+Status run_series(const EulerRun& run, StartMesh start) {
+  require_mach(run);
+  if (run.gradient)
+    throw Error(ErrorCode::argument, "--gradient", "given with --series, expected a single flow");
+  warn_of_slow_stream(run.conditions);
+  InterruptObserver observer;
+  FlowOptions options = options_of(run);
+  options.observer = &observer;
+  LivingFlow living(options);
+  Comparison comparison(run.compare, start.mesh.options(), run.conditions, options);
+  Row row(start.source);
+  for (const CstAirfoil& airfoil : read_series(run.series)) {
+    std::optional<Domain> domain;
+    RemodelResult step;
+    try {
+      domain = with_new_airfoil(start, {}, airfoil);
+      step = remodel(start.mesh, *domain, {.observer = &observer});
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::geometry) throw;
+      row.add_refused(error.what());
+      continue;
+    }
+    if (step.stopped == Stopped::interrupted) {
+      row.ended(Status::limit);
+      break;
+    }
+    const FlowResult flow = living.solve(start.mesh, run.conditions);
+    Json entry = to_json(flow);
+    entry["full_adjustment"] = step.full_adjustment;
+    comparison.add(*domain, entry);
+    row.add(flow, std::move(entry));
+    if (flow.status == FlowStatus::interrupted || flow.status == FlowStatus::memory) break;
+  }
+  return row.report(run.json);
+}
+
+}  // namespace remodel::app
