@@ -93,13 +93,12 @@ void add_figure(Report& report, const std::string& key, const std::string& label
 void add_cost(Report& report, const DesignRun& run) {
   const auto first = run.rows.front().outputs.find("flow_seconds");
   const std::size_t flows = run.rows.size() * run.conditions.size();
-  const auto full = std::count_if(run.rows.begin(), run.rows.end(),
-                                  [](const EvaluationRecord& row) { return row.full_adjustment; });
+  const auto replaced = std::count_if(run.rows.begin(), run.rows.end(),
+                                      [](const EvaluationRecord& row) { return row.changed() != 0; });
   add_figure(report, "start_objective", "objective of the start", run.start_objective());
   report.figure("flows", "flows", flows);
   report.figure("gradients", "of them with gradients", run.with_gradients() ? flows : 0);
-  report.figure("replacements", "designs for which vertices were replaced",
-                static_cast<std::ptrdiff_t>(run.rows.size()) - full);
+  report.figure("replacements", "designs for which triangles were replaced", replaced);
   if (first != run.rows.front().outputs.end())
     report.figure("cold_equivalents", "flows and gradients, in cold solves of the start",
                   (run.sum("flow_seconds") + run.sum("gradient_seconds")) / first->second);
@@ -130,7 +129,7 @@ OptimiseOptions options_of(const DesignCommand& command, const DesignProblemFile
   options.domain = problem.domain;
   options.quality.gradation = problem.gradation;
   options.remodel.observer = &observer;
-  options.strategy = MeshStrategy::chain;
+  options.strategy = MeshStrategy::morph;
   options.evaluations = problem.evaluations;
   options.constraint_tolerance = problem.constraint_tolerance;
   options.workers = 1;

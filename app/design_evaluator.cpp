@@ -53,7 +53,7 @@ class FlowEvaluator final : public Evaluator {
     memory.observer.ask(task.observer);
     while (memory.flows.size() < problem_.points.size())
       memory.flows.emplace_back(flow_options(space_.half(), &memory.observer));
-    if (is_first || (std::getenv("KEEPC") ? !(task.step.connected == task.step.triangles && task.step.triangles == task.step.triangles_before) : !task.step.full_adjustment)) memory.connectivity = 2 * task.evaluation;
+    if (is_first || task.step.changed() != 0) memory.connectivity = 2 * task.evaluation;
     if (problem_.target) aim(task, memory);
     memory.known.go_on_from(task.from, memory.flows);
     const Shared shared = shared_of(task);
@@ -194,7 +194,8 @@ class FlowEvaluator final : public Evaluator {
     const bool is_aimed = memory.aimed_at == memory.connectivity;
     if (is_aimed && memory.is_like) return;
     Mesh mesh = task.mesh;
-    const bool is_like = remodel(mesh, *target_).full_adjustment;
+    const RemodelResult step = remodel(mesh, *target_, {.strategy = Strategy::morph});
+    const bool is_like = step.born() == 0 && step.gone() == 0;
     if (is_aimed && !is_like) return;
     if (is_aimed) ++memory.connectivity;
     memory.target.clear();

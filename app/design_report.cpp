@@ -189,13 +189,13 @@ Json or_null(const std::optional<double>& value) {
 
 // What the run cost, and what a cold solve of every flow would have.
 Json cost(const DesignRun& run, const Shown& first, const Shown& last) {
-  std::size_t full = 0;
-  double preserved = 0.0;
+  std::size_t kept = 0;
+  double connected = 0.0;
   std::optional<double> shift;
   for (std::size_t i = 0; i < run.rows.size(); ++i) {
     const EvaluationRecord& row = run.rows[i];
-    full += row.full_adjustment ? 1 : 0;
-    preserved += row.preserved_percent / static_cast<double>(run.rows.size());
+    kept += row.changed() == 0 ? 1 : 0;
+    connected += row.connectivity_percent / static_cast<double>(run.rows.size());
     // The same design on two connectivities.
     for (std::size_t j = 0; j < i; ++j)
       if (run.rows[j].coefficients == row.coefficients && std::isfinite(row.objective) &&
@@ -209,8 +209,8 @@ Json cost(const DesignRun& run, const Shown& first, const Shown& last) {
   const double designs = static_cast<double>(run.rows.size());
   return {{"designs", run.rows.size()},
           {"flows", run.rows.size() * run.conditions.size()},
-          {"full_adjustments", full},
-          {"preserved_percent", preserved},
+          {"connectivity_kept", kept},
+          {"connectivity_percent", connected},
           {"factorisations", static_cast<std::uint64_t>(run.sum("factorisations"))},
           {"flow_seconds", flow_seconds},
           {"gradient_seconds", gradient_seconds},
@@ -233,8 +233,9 @@ std::string cost_table(const Json& cost) {
   };
   return "<table>\n" + row("designs, each with its gradients", at("designs", "%.0f")) +
          row("flows", at("flows", "%.0f")) +
-         row("meshes moved in place, connectivity as it was", at("full_adjustments", "%.0f")) +
-         row("triangles kept from design to design, mean", at("preserved_percent", "%.1f") + " %") +
+         row("meshes with the connectivity of the design before", at("connectivity_kept", "%.0f")) +
+         row("triangles joined as they were from design to design, mean",
+             at("connectivity_percent", "%.1f") + " %") +
          row("factorisations", at("factorisations", "%.0f")) +
          row("flows, seconds", at("flow_seconds", "%.1f")) +
          row("gradients, seconds", at("gradient_seconds", "%.1f")) +

@@ -85,6 +85,9 @@ struct MeshStep {
   bool valid = true;  // what the remodelled mesh was before any recovery
   std::string
       detail{};  // the broken rule, why the mesh was regenerated or the evaluation failed; mostly empty
+
+  // Triangles born and gone: 0 where connectivity was kept whole.
+  std::size_t changed() const { return triangles_before + triangles - 2 * connected; }
 };
 
 inline constexpr std::tuple mesh_step_figures{

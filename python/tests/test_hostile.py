@@ -52,7 +52,7 @@ def test_numbers_out_of_range(airfoil, mesh):
 
 def test_arrays_of_other_programs_that_are_no_mesh(mesh):
     points, triangles = mesh.points.copy(), mesh.triangles.astype(np.int64)
-    wrong = [(points, triangles - 1), (points, triangles + 1), (points[:-1], triangles), (points * np.nan, triangles), (points, np.concatenate([triangles, triangles[:1]])), (points * 0, triangles), (points, triangles[:0])]
+    wrong = [(points, triangles - 1), (points, triangles + 1), (points[:-1], triangles), (points * np.nan, triangles), (points, np.concatenate([triangles, [[0, len(points) // 2, len(points) - 1]]])), (points * 0, triangles), (points, triangles[:0])]
     for p, t in wrong:
         with pytest.raises(OURS):
             remodel.import_mesh(remodel.FrozenMesh(p, t, {}))

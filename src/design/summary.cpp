@@ -47,11 +47,9 @@ void Summary::add(const EvaluationRecord& record) {
   const double triangles = static_cast<double>(record.triangles);
   preserved_percent_.add(record.preserved_percent);
   lost_.add(static_cast<double>(record.triangles_before) - static_cast<double>(record.preserved));
-  const double changed =
-      static_cast<double>(record.triangles_before) + triangles - 2.0 * static_cast<double>(record.connected);
   connectivity_percent_.add(record.connectivity_percent);
-  connectivity_kept_.add(changed == 0.0 ? 1.0 : 0.0);
-  changed_.add(changed);
+  connectivity_kept_.add(record.changed() == 0 ? 1.0 : 0.0);
+  changed_.add(static_cast<double>(record.changed()));
   triangles_.add(triangles);
   remodel_ms_.add(1e3 * record.remodel_seconds);
   if (record.generated_triangles) {

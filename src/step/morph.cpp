@@ -140,24 +140,27 @@ class Morph {
   void list_moves(int done, int part, Interior interior) {
     moves_.clear();
     mesh_.seen_vertices.clear(triangulation_.vertex_slots());
-    const auto add = [&](VertexId v, Point from, Point to) {
-      if (!(from == to) && mesh_.seen_vertices.insert(v)) moves_.push_back({v, from, to});
+    const auto add = [&](VertexId v, Point to) {
+      if (mesh_.seen_vertices.insert(v)) moves_.push_back({v, triangulation_.point(v), to});
     };
     const std::size_t walls = cache_.moving.size();
     for (std::size_t i = 0; i < walls; ++i) {
       const VertexId v = cache_.moving[i].vertex;
-      add(v, triangulation_.point(v), wall_place(i, done + part));
+      const Point to = wall_place(i, done + part);
+      // Where only its length scale is another one, the triangles around it may miss the bound on gradation.
+      if (!(triangulation_.point(v) == to) || cache_.new_scales[i] != triangulation_[v].length_scale)
+        add(v, to);
     }
     if (interior == Interior::still) return;
     const double share = static_cast<double>(part) / (parts - done);
     for (std::size_t i = walls; i < at_start_.size(); ++i) {
       const VertexId v = at_start_[i].vertex;
-      const Point p = triangulation_.point(v);
-      add(v, p, p + share * displacements_[i - walls]);
+      const Point p = triangulation_.point(v), to = p + share * displacements_[i - walls];
+      if (!(p == to)) add(v, to);
     }
   }
 
-  // Those with a vertex that moves.
+  // Those with a vertex that is listed.
   void list_triangles() {
     triangles_.clear();
     const auto moves = [&](VertexId v) { return mesh_.seen_vertices.contains(v); };

@@ -67,8 +67,11 @@ RemodelResult count_replacement(MeshData& mesh, std::span<const VertexId> moved)
     if (!joined || std::any_of(earlier.triangle.vertex, earlier.triangle.vertex + 3, has_moved)) ++lost;
   }
   mesh.seen_triangles.clear(triangulation.triangle_slots());
-  triangulation.for_each_moved_only([&](TriangleId t) {  // a vertex of it moved
-    if (triangulation[t].region == Region::domain && mesh.seen_triangles.insert(t)) ++lost;
+  triangulation.for_each_moved_only([&](TriangleId id) {
+    const Triangle& t = triangulation[id];
+    if (t.region == Region::domain && std::any_of(t.vertex, t.vertex + 3, has_moved) &&
+        mesh.seen_triangles.insert(id))
+      ++lost;
   });
   for (const TriangleId t : triangulation.touched())
     if (triangulation[t].in_domain()) ++after;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mesh/small_angles.h"
 #include "remodel/predicates.h"
 
 namespace remodel {
@@ -16,13 +17,14 @@ class Star {
  public:
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 
-  // False where the vertex cannot be moved: it has too many neighbours.
-  bool gather(const MeshData& mesh, VertexId v) {
+  // False where the vertex is not to be moved: it has too many neighbours, or a triangle that may miss the
+  // bound because of a small angle of the walls, and would be no such triangle after other moves.
+  bool gather(const MeshData& mesh, const SmallAngles& small_angles, VertexId v) {
     const Triangulation& t = mesh.triangulation;
     count_ = 0;
     scale_ = t[v].length_scale;
-    const bool too_many = t.any_corner(v, [&](Corner c) {
-      if (count_ == most_spokes) return true;
+    return !t.any_corner(v, [&](Corner c) {
+      if (count_ == most_spokes || small_angles.exempt(t[c.triangle])) return true;
       Spoke& spoke = spokes_[count_++];
       const VertexId a = t.following(c), b = t.preceding(c);
       spoke.end = t.point(a);
@@ -31,7 +33,6 @@ class Star {
       spoke.across = rim.constrained() ? 0.0 : cotangent(t.point(t.apex(rim)), t.point(b), spoke.end);
       return false;
     });
-    return !too_many;
   }
 
   double shortest(Point p) const {
@@ -96,6 +97,7 @@ class Relaxation {
       : mesh_(mesh),
         triangulation_(mesh.triangulation),
         bounds_(bounds),
+        small_angles_(mesh),
         triangles_(triangles),
         queue_(&mesh.arena),
         moved_(&mesh.arena) {}
@@ -139,7 +141,7 @@ class Relaxation {
   void consider(TriangleId id) {
     const Triangle& t = triangulation_[id];
     if (!t.in_domain()) return;
-    if (badness(triangulation_, t, bounds_) > 1.0)
+    if (badness(triangulation_, t, bounds_) > 1.0 && !small_angles_.exempt(t))
       for (const VertexId v : t.vertex) queue(v);
     for (int k = 0; k < 3; ++k) {
       const VertexId a = t.vertex[next3(k)], b = t.vertex[previous3(k)];
@@ -165,7 +167,7 @@ class Relaxation {
     static constexpr Point directions[] = {
         {1.0, 0.0},  {diagonal, diagonal},   {0.0, 1.0},  {-diagonal, diagonal},
         {-1.0, 0.0}, {-diagonal, -diagonal}, {0.0, -1.0}, {diagonal, -diagonal}};
-    if (!star_.gather(mesh_, v)) return false;
+    if (!star_.gather(mesh_, small_angles_, v)) return false;
     const Point start = triangulation_.point(v);
     Point best = start;
     double least = star_.penalty(start, bounds_, Star::infinite), reach = 0.1 * star_.shortest(start);
@@ -187,6 +189,7 @@ class Relaxation {
   MeshData& mesh_;
   Triangulation& triangulation_;
   const QualityBounds bounds_;
+  const SmallAngles small_angles_;
   List<TriangleId>& triangles_;
   List<VertexId> queue_, moved_;
   Star star_;

@@ -306,6 +306,8 @@ RemodelResult Step::finish_adjustment() {
 // reference moves with its interior: beside walls that moved alone its triangles would have little slack.
 bool Step::morph() {
   if (!morphs() || cache_ == nullptr || !cache_->finite()) return false;
+  // What has to shed begins anew along the walls: it is as dense as a fresh mesh then, and sheds less often.
+  if (has_surplus(data(), RenewPolicy::morph_surplus)) return false;
   const auto morph_by = [&](Interior interior) {
     morphing_ = interior;
     const bool done = attempt();
