@@ -164,8 +164,7 @@ class LineMeshes {
   Mesh next(std::span<const double> design) {
     const Domain domain = space_.domain(design);
     if (way_ == Way::fresh) return finished_mesh(domain, quality_, observer_);
-    const RemodelOptions options{.strategy = way_ == Way::reference ? Strategy::reference : Strategy::renew,
-                                 .observer = &observer_};
+    const RemodelOptions options{.strategy = strategy(), .observer = &observer_};
     if (way_ == Way::living) {
       remodel(mesh_, domain, options);
       return mesh_;
@@ -176,6 +175,12 @@ class LineMeshes {
   }
 
  private:
+  // The living mesh follows as that of `remodel design` does.
+  Strategy strategy() const {
+    if (way_ == Way::reference) return Strategy::reference;
+    return way_ == Way::living ? Strategy::morph : Strategy::renew;
+  }
+
   Way way_;
   const AirfoilSpace& space_;
   QualityOptions quality_;

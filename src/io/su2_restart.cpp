@@ -227,9 +227,7 @@ void require_coordinates(const Su2Restart& restart, const FrozenMesh& mesh, cons
   for (const auto& [name, coordinate] : {std::pair("x", &Point::x), std::pair("y", &Point::y)}) {
     const std::size_t column = restart.column(name);
     if (column == columns) continue;
-    const auto [least, most] =
-        std::minmax_element(mesh.points.begin(), mesh.points.end(),
-                            [&](const Point& a, const Point& b) { return a.*coordinate < b.*coordinate; });
+    const auto [least, most] = std::ranges::minmax_element(mesh.points, {}, coordinate);
     const double extent = (*most).*coordinate - (*least).*coordinate;
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
       const double found = restart.values[i * columns + column], expected = mesh.points[i].*coordinate;
