@@ -89,17 +89,22 @@ Json gradients_json(LivingFlow& living, const Mesh& mesh, const FlowConditions& 
   const FlowGradients gradients = living.gradients();
   if (gradients.interrupted) return nullptr;
   const MeshDerivative derivative(mesh);
-  Json json = Json::object();
-  json["names"] = coefficient_names(mesh.domain());
+  const std::vector<std::string> names = coefficient_names(mesh.domain());
+  Json sections = Json::object(), others = Json::object(), mach = Json::object();
+  const auto place_of = [&](std::size_t i) -> Json& { return is_of_section(names[i]) ? sections : others; };
+  for (std::size_t i = 0; i < names.size(); ++i) place_of(i)["names"].push_back(names[i]);
+  sections["names"].push_back(conditions.cl ? "cl" : "alpha_deg");
   const auto note = [&](const char* name, const FlowGradient& gradient) {
-    json[name] = {{"coefficients", derivative.vjp(gradient.points)}, {"mach", gradient.mach}};
-    if (conditions.cl)
-      json[name]["cl"] = gradient.cl;
-    else
-      json[name]["alpha_deg"] = gradient.alpha_deg;
+    const std::vector<double> by = derivative.vjp(gradient.points);
+    for (std::size_t i = 0; i < names.size(); ++i) place_of(i)[name].push_back(by[i]);
+    sections[name].push_back(conditions.cl ? gradient.cl : gradient.alpha_deg);
+    mach[name] = gradient.mach;
   };
   note("cl", gradients.cl), note("cd", gradients.cd), note("cm", gradients.cm);
   if (conditions.cl) note("alpha_deg", gradients.alpha_deg);
+  Json json = std::move(sections);
+  json["others"] = std::move(others);
+  json["mach"] = std::move(mach);
   json["seconds"] = gradients.seconds;
   return json;
 }

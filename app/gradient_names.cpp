@@ -49,4 +49,8 @@ std::vector<std::string> coefficient_names(const Domain& domain) {
   return names;
 }
 
+bool is_of_section(const std::string& name) {
+  return name.find(".upper[") != std::string::npos || name.find(".lower[") != std::string::npos;
+}
+
 }  // namespace remodel::app

@@ -80,9 +80,16 @@ class Flows(ProgramTest):
         gradient = self.figures(*shape, "--alpha", 1)["gradient"]
         self.assertEqual(gradient["names"][:2], ["airfoil.upper[0]", "airfoil.upper[1]"])
         self.assertEqual(gradient["names"][6], "airfoil.lower[0]")
+        self.assertEqual(gradient["names"][12:], ["alpha_deg"])
+        self.assertIn("farfield.radius", gradient["others"]["names"])
         for key in ("cl", "cd", "cm"):
-            self.assertEqual(len(gradient[key]["coefficients"]), len(gradient["names"]))
-            self.assertIn("alpha_deg", gradient[key])
+            self.assertEqual(len(gradient[key]), len(gradient["names"]))
+            self.assertEqual(len(gradient["others"][key]), len(gradient["others"]["names"]))
+            self.assertIn(key, gradient["mach"])
+        held = self.figures(*shape, "--cl", 0.3)["gradient"]
+        self.assertEqual(held["names"][12:], ["cl"])
+        self.assertAlmostEqual(held["cl"][12], 1, delta=1e-9)
+        self.assertEqual(len(held["alpha_deg"]), 13)
         text = self.succeed(*shape, "--cl", 0.3).stdout
         for label in ("gradients by", "gradient of CL", "gradient of CD", "gradient of CM", "gradient of the angle"):
             self.assertIn(label, text)
