@@ -29,11 +29,13 @@ enum class Strategy {
   // adjustments in a row a mesh whose count is off is generated afresh. The angle bound never
   // relaxes. Imported meshes, whose length scales are measured, are remodelled as by chain.
   renew,
-  // As renew, but where not all boundary vertices can be moved in place with the interior still, the interior
-  // moves along with them (remodel/displacement.h): almost all triangles go on joining the same vertices.
-  // Edges that are no longer Delaunay are flipped, and triangles that miss a bound are refined. A large change
-  // is made in several parts. Where triangles turn over all the same, the step is that of renew. Vertices of
-  // imported meshes move too; their length scales are not renewed.
+  // As renew, but where not all boundary vertices can be moved in place with the interior still, single
+  // vertices beside them move too, and where that is not enough the whole interior moves along
+  // (remodel/displacement.h): almost all triangles go on joining the same vertices. Vertices around what
+  // misses a bound then are moved until it is met; edges that are not Delaunay after that are flipped, and
+  // triangles refined. A large change is made in several parts. Where triangles turn over all the same, or the
+  // mesh has a fifth more triangles than a fresh one, the step is that of renew. Vertices of imported meshes
+  // move too; their length scales are not renewed.
   morph,
   // The mesh of a design is the morph of one reference mesh, whatever designs came in between: the same design
   // has the same mesh, to the last bit, and what is computed on meshes is a smooth function of designs. The
@@ -75,7 +77,7 @@ struct RemodelResult {
   std::size_t removed = 0;
   std::size_t flipped = 0;       // flips of edges
   bool full_adjustment = false;  // every vertex that moved did so in place, connectivity unchanged
-  bool morphed = false;          // Strategy::morph: the interior moved along with the boundary
+  bool morphed = false;          // Strategy::morph: the interior moved too, all or beside the boundary
   bool held = false;             // Strategy::reference: a morph of the reference; if not, it is a new one
   Method method = Method::specialised;  // the one that ran
   bool refreshed = false;               // the strategy generated the mesh afresh: its triangle count was off
