@@ -33,9 +33,9 @@ enum class Strategy {
   // vertices beside them move too, and where that is not enough the whole interior moves along
   // (remodel/displacement.h): almost all triangles go on joining the same vertices. Vertices around what
   // misses a bound then are moved until it is met; edges that are not Delaunay after that are flipped, and
-  // triangles refined. A large change is made in several parts. Where triangles turn over all the same, or the
-  // mesh has a fifth more triangles than a fresh one, the step is that of renew. Vertices of imported meshes
-  // move too; their length scales are not renewed.
+  // triangles refined. A large change is made in several parts. Where triangles turn over all the same, or
+  // the mesh has a fifth more triangles than a fresh one, the step is that of renew. Vertices of imported
+  // meshes move too; their length scales are not renewed.
   morph,
   // The mesh of a design is the morph of one reference mesh, whatever designs came in between: the same design
   // has the same mesh, to the last bit, and what is computed on meshes is a smooth function of designs. The

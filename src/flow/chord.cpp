@@ -32,29 +32,35 @@ double product(const Increment& a, const Increment& b) {
 
 }  // namespace
 
+void Anderson::add(Difference difference) {
+  if (differences_.size() == depth) {
+    differences_.pop_front();
+    const Eigen::Index left = products_.rows() - 1;
+    products_ = products_.bottomRightCorner(left, left).eval();
+  }
+  differences_.push_back(std::move(difference));
+  const auto m = static_cast<Eigen::Index>(differences_.size());
+  products_.conservativeResize(m, m);
+  for (Eigen::Index i = 0; i < m; ++i)
+    products_(m - 1, i) = products_(i, m - 1) =
+        product(differences_.back().f, differences_[static_cast<std::size_t>(i)].f);
+}
+
 // Least squares by normal equations of normalised columns: cheap, and as good as what the acceleration needs;
 // columns that hardly add anything are left out by the rank that Eigen finds.
 Increment Anderson::step(Increment f) {
-  if (last_) {
-    differences_.push_back({minus(f, *last_), std::move(taken_)});
-    if (differences_.size() > depth) differences_.pop_front();
-  }
+  if (last_) add({minus(f, *last_), std::move(taken_)});
   last_ = f;
   const auto m = static_cast<Eigen::Index>(differences_.size());
   Increment step = std::move(f);
   if (m > 0) {
-    Eigen::MatrixXd gram(m, m);
-    Eigen::VectorXd right(m), norm(m);
+    Eigen::VectorXd right(m), norm = products_.diagonal().cwiseSqrt();
     for (Eigen::Index i = 0; i < m; ++i) {
-      const Increment& fi = differences_[static_cast<std::size_t>(i)].f;
-      for (Eigen::Index j = 0; j <= i; ++j)
-        gram(i, j) = gram(j, i) = product(fi, differences_[static_cast<std::size_t>(j)].f);
-      right(i) = product(fi, *last_);
-      norm(i) = std::sqrt(gram(i, i));
-    }
-    for (Eigen::Index i = 0; i < m; ++i)
+      right(i) = product(differences_[static_cast<std::size_t>(i)].f, *last_);
       if (!(norm(i) > 0.0)) norm(i) = 1.0;
-    const Eigen::MatrixXd scaled = norm.cwiseInverse().asDiagonal() * gram * norm.cwiseInverse().asDiagonal();
+    }
+    const Eigen::MatrixXd scaled =
+        norm.cwiseInverse().asDiagonal() * products_ * norm.cwiseInverse().asDiagonal();
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
     solver.setThreshold(1e-12);
     solver.compute(scaled);

@@ -5,6 +5,7 @@
 // for the acceleration; X.-C. Cai and M. Sarkis, SIAM J. Sci. Comput. 21 (1999), for the correction on a part
 // of the mesh, here multiplicative and behind the whole.
 
+#include <Eigen/Core>
 #include <deque>
 #include <optional>
 
@@ -19,14 +20,16 @@ class Anderson {
   Increment step(Increment f);
   // `taken` of the last step was taken: 1 all of it.
   void scale_last(double taken);
-  void forget() { differences_.clear(), last_.reset(); }
 
  private:
   static constexpr std::size_t depth = 12;
   struct Difference {
     Increment f, x;  // of f, and of the state, between two steps
   };
+  void add(Difference difference);
+
   std::deque<Difference> differences_;
+  Eigen::MatrixXd products_;       // of the differences of f with each other
   std::optional<Increment> last_;  // f of the last step
   Increment taken_;                // the last step
 };

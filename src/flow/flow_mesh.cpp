@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
+#include "base/disjoint_sets.h"
 #include "flow/wall_extent.h"
 #include "remodel/error.h"
 
@@ -160,20 +160,15 @@ void FlowMesh::require_triangles(const std::string& source) const {
 
 // Boundaries have the domain on their left: those around it turn counter-clockwise, those of holes clockwise.
 void FlowMesh::require_farfield_around(const std::string& source) const {
-  std::vector<std::uint32_t> parent(size());
-  std::iota(parent.begin(), parent.end(), 0U);
-  const auto root = [&](std::uint32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  for (const BoundaryEdge& edge : boundary_) parent[root(edge.a)] = root(edge.b);
+  DisjointSets loops(size());
+  for (const BoundaryEdge& edge : boundary_) loops.join(edge.a, edge.b);
   std::vector<double> area(size(), 0.0);
   for (const BoundaryEdge& edge : boundary_) {
-    const std::uint32_t loop = root(edge.a);
+    const std::uint32_t loop = loops.root(edge.a);
     area[loop] += 0.5 * cross(points_[edge.a] - points_[loop], points_[edge.b] - points_[loop]);
   }
   for (const BoundaryEdge& edge : boundary_)
-    if (edge.body == -1 && area[root(edge.a)] < 0.0)
+    if (edge.body == -1 && area[loops.root(edge.a)] < 0.0)
       throw Error(ErrorCode::argument, source,
                   "the far field bounds a hole of the domain, expected it to lie around the walls");
 }

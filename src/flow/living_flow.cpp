@@ -50,8 +50,7 @@ std::vector<VertexKey> keys_of(const FrozenMesh& frozen) {
                     " points");
   std::vector<VertexKey> keys;
   keys.reserve(frozen.vertex_keys.size());
-  for (const std::uint64_t key : frozen.vertex_keys)
-    keys.push_back(VertexKey::of(key));
+  for (const std::uint64_t key : frozen.vertex_keys) keys.push_back(VertexKey::of(key));
   return keys;
 }
 
@@ -514,7 +513,8 @@ FlowResult solve_flow_from(const FrozenMesh& before, const FlowResult& known, co
     q[v] = {known.density[v], known.velocity_x[v], known.velocity_y[v], known.pressure[v]};
   flow::State state;
   state.q = flow::interpolated(old, q, dual.points());
-  state.border = {known.cl / flow::reported_length(euler.stream()), conditions.cl ? known.alpha_deg * M_PI / 180.0 : euler.stream().alpha};
+  state.border = {known.cl / flow::reported_length(euler.stream()),
+                  conditions.cl ? known.alpha_deg * M_PI / 180.0 : euler.stream().alpha};
 
   flow::BlockRows matrix = euler.pattern();
   flow::Factors factors;

@@ -2,29 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
+
+#include "base/disjoint_sets.h"
 
 namespace remodel::flow {
 
 namespace {
-
-// Which vertices walls join to each other.
-class Walls {
- public:
-  Walls(std::size_t points, std::span<const BoundaryEdge> boundary) : parent_(points) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-    for (const BoundaryEdge& edge : boundary)
-      if (edge.body >= 0) parent_[root(edge.a)] = root(edge.b);
-  }
-  std::uint32_t root(std::uint32_t v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 bool turns(Point in, Point out) {
   constexpr double least_turn = 1e-4;  // radians: less is a straight line, as files write it
@@ -75,7 +59,8 @@ std::vector<std::uint32_t> hull_of(std::span<const Point> points, std::vector<st
   return hull;
 }
 
-Extent largest_extent(std::span<const Point> points, Walls& walls, std::vector<std::uint32_t> vertices) {
+Extent largest_extent(std::span<const Point> points, DisjointSets& walls,
+                      std::vector<std::uint32_t> vertices) {
   std::stable_sort(vertices.begin(), vertices.end(),
                    [&](std::uint32_t i, std::uint32_t j) { return walls.root(i) < walls.root(j); });
   Extent largest;
@@ -97,7 +82,9 @@ Extent largest_extent(std::span<const Point> points, Walls& walls, std::vector<s
 }  // namespace
 
 Extent wall_extent(std::span<const Point> points, std::span<const BoundaryEdge> boundary) {
-  Walls walls(points.size(), boundary);
+  DisjointSets walls(points.size());  // vertices that walls join to each other
+  for (const BoundaryEdge& edge : boundary)
+    if (edge.body >= 0) walls.join(edge.a, edge.b);
   const Extent bends = largest_extent(points, walls, wall_vertices(points, boundary, true));
   return bends.length > 0.0 ? bends : largest_extent(points, walls, wall_vertices(points, boundary, false));
 }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <tuple>
 
+#include "base/disjoint_sets.h"
 #include "generate/discretise.h"
 #include "generate/recovery_error.h"
 #include "remodel/mesh_state.h"
@@ -177,9 +177,8 @@ class Faces {
         file_(file),
         file_edges_(directed_edges(file)),
         living_edges_(directed_edges(corners_of(data, file.size()))),
-        parent_(file.size()),
+        faces_(file.size()),
         proper_(file.size(), false) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
     for (const DirectedEdge& edge : file_edges_) join(edge);
   }
 
@@ -189,10 +188,12 @@ class Faces {
   // file's triangles in it: a flip writes both its triangles into the slots of the two before.
   void record(Record what, ImportRecord& into) {
     std::vector<std::uint32_t> sizes(file_.size(), 0);
-    for (std::uint32_t i = 0; i < file_.size(); ++i) ++sizes[root(i)];
+    for (std::uint32_t i = 0; i < file_.size(); ++i) ++sizes[faces_.root(i)];
     std::map<std::uint32_t, std::vector<std::uint32_t>> slots;  // by the face's root
     for (std::uint32_t i = 0; i < file_.size(); ++i)
-      if (sizes[root(i)] > 1 && (what == Record::all || !proper_[root(i)])) slots[root(i)].push_back(i);
+      if (const std::uint32_t face = faces_.root(i);
+          sizes[face] > 1 && (what == Record::all || !proper_[face]))
+        slots[face].push_back(i);
     std::uint32_t face = 0;
     for (const auto& [first, members] : slots) {
       for (const std::uint32_t slot : members) {
@@ -205,11 +206,6 @@ class Faces {
   }
 
  private:
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-
   std::uint32_t apex(const DirectedEdge& edge) const {
     for (const std::uint32_t v : file_[edge.triangle])
       if (v != edge.from && v != edge.to) return v;
@@ -224,16 +220,16 @@ class Faces {
     const auto point = [&](std::uint32_t v) { return data_.triangulation.point(VertexId{v}); };
     const bool inside =
         incircle(point(edge.from), point(edge.to), point(apex(edge)), point(apex(*other))) > 0;
-    const std::uint32_t a = root(edge.triangle), b = root(other->triangle);
+    const std::uint32_t a = faces_.root(edge.triangle), b = faces_.root(other->triangle);
     const std::uint32_t low = std::min(a, b);
     proper_[low] = proper_[a] || proper_[b] || inside;
-    parent_[std::max(a, b)] = low;
+    faces_.join(std::max(a, b), low);
   }
 
   const MeshData& data_;
   const std::vector<Corners>& file_;
   std::vector<DirectedEdge> file_edges_, living_edges_;
-  std::vector<std::uint32_t> parent_;
+  DisjointSets faces_;
   std::vector<bool> proper_;  // of a face's root: an edge of the file in it is not Delaunay
   Flips flips_;
 };

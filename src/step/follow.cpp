@@ -267,8 +267,7 @@ class Follow {
       if (!t.alive() || t.ghost() || mesh_.seen_triangles.contains(id) ||
           !std::any_of(t.vertex, t.vertex + 3, moved))
         continue;
-      triangulation_.set_moved(id, triangulation_.circle_of(t.vertex[0], t.vertex[1], t.vertex[2]),
-                               mesh_.step + 1);
+      triangulation_.set_moved(id, mesh_.step + 1);
       if (t.region == Region::domain) ++changed;
     }
     return changed;
@@ -366,8 +365,7 @@ void return_to_reference(MeshData& mesh) {
     const Triangle& t = triangulation[TriangleId{i}];
     if (t.alive() && !t.ghost() &&
         std::any_of(t.vertex, t.vertex + 3, [&](VertexId v) { return mesh.seen_vertices.contains(v); }))
-      triangulation.set_moved(TriangleId{i}, triangulation.circle_of(t.vertex[0], t.vertex[1], t.vertex[2]),
-                              mesh.step + 1);
+      triangulation.set_moved(TriangleId{i}, mesh.step + 1);
   }
   forget_other_rows(mesh, reference.domain);
   mesh.domain = reference.domain;

@@ -108,12 +108,7 @@ class Morph {
     }
     for (std::size_t i = 0; i < cache_.moving.size(); ++i)
       triangulation_.set_length_scale(cache_.moving[i].vertex, cache_.new_scales[i]);
-    for (const TriangleId t : triangles_) {
-      const Triangle& triangle = triangulation_[t];
-      triangulation_.set_moved(
-          t, triangulation_.circle_of(triangle.vertex[0], triangle.vertex[1], triangle.vertex[2]),
-          mesh_.step + 1);
-    }
+    for (const TriangleId t : triangles_) triangulation_.set_moved(t, mesh_.step + 1);
     all_mended_ = relax(mesh_, bounds_, triangles_);
     triangulation_.restore_delaunay(triangles_);
     return true;

@@ -131,9 +131,7 @@ class Relaxation {
   }
 
   void refresh(TriangleId id) {
-    const Triangle& t = triangulation_[id];
-    triangulation_.set_moved(id, triangulation_.circle_of(t.vertex[0], t.vertex[1], t.vertex[2]),
-                             mesh_.step + 1);
+    triangulation_.set_moved(id, mesh_.step + 1);
     triangles_.push_back(id);
   }
 

@@ -34,8 +34,8 @@ struct Pushed {
       if (t.any_corner(v, [&](Corner c) { return turned_over(t[c.triangle]); }))
         t.move(v, old, t[v].length_scale);
     }
-    t.for_each_domain_triangle([&](TriangleId id, const Triangle& triangle) {
-      t.set_moved(id, t.circle_of(triangle.vertex[0], triangle.vertex[1], triangle.vertex[2]), 0);
+    t.for_each_domain_triangle([&](TriangleId id, const Triangle&) {
+      t.set_moved(id, 0);
       triangles.push_back(id);
     });
   }

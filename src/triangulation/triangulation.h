@@ -206,6 +206,11 @@ class Triangulation {
     triangle.circle = circle;
     triangle.birth = birth;
   }
+  // The same of a triangle whose circle is not known.
+  void set_moved(TriangleId t, std::uint32_t birth) {
+    const Triangle& triangle = triangles_[t.index];
+    set_moved(t, circle_of(triangle.vertex[0], triangle.vertex[1], triangle.vertex[2]), birth);
+  }
   // Lawson flips from the edges opposite all corners of the given triangles.
   void restore_delaunay(std::span<const TriangleId> triangles);
   // Fills dents of the hull with triangles, Delaunay among what is around them, as long as its edges do not
