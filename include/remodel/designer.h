@@ -60,10 +60,10 @@ class Designer {
 
 // CMA-ES (remodel/cmaes.h). Designs are ranked by an augmented Lagrangian of objective and constraints, whose
 // coefficients are adapted once a generation (src/design/augmented_lagrangian.h has method and sources): the
-// search comes to the constrained optimum from both sides, so that about half of its designs violate an active
-// constraint, by less and less. Designs whose evaluation failed, or has a constraint that is not finite or not
-// as many constraints as the others, rank behind all. Without constraints, or where none is ever violated, the
-// search is that of the objective alone, to the bit.
+// search comes to the constrained optimum from both sides, so that half of its designs or more violate an
+// active constraint, by less and less. Behind all others rank designs whose evaluation failed, or has a
+// constraint that is not finite, or not as many constraints as the others. Without constraints, or where none
+// is ever violated, the search is that of the objective alone, to the bit.
 class CmaesDesigner final : public Designer {
  public:
   // Whether the search ends where it has converged: where designs hardly differ any more, the largest
