@@ -1,18 +1,18 @@
 #pragma once
 
-// Constraints (satisfied where at most 0) for a search that ranks designs by one number. With a multiplier l and
-// a penalty m of each constraint g that number is the objective and, added up,
+// Constraints (satisfied where at most 0) for a search that ranks designs by one number. With a multiplier l
+// and a penalty m of each constraint g that number is the objective and, added up,
 //
 //   l g + m g^2 / 2, or that term's minimum -l^2 / (2 m) where g is below -l / m:
 //
-// its minimum is the constrained one where the multipliers are right, whatever the penalties. Both are adapted
-// once a generation, so that the designs of a generation are ranked by the same.
+// its minimum is the constrained one where the multipliers are right, whatever the penalties. Both are
+// adapted once a generation, so that the designs of a generation are ranked by the same.
 //
 // Sources: A. Atamna, A. Auger, N. Hansen, "Linearly convergent evolution strategies via augmented Lagrangian
 // constraint handling", FOGA 2017, algorithm 1, how both are adapted; P. Dufosse, N. Hansen, "Augmented
-// Lagrangian, penalty techniques and surrogate modeling for constrained optimization with CMA-ES", GECCO 2021,
-// by how much, and the thought of taking first values from the spread of objective and constraint. Where we
-// depart:
+// Lagrangian, penalty techniques and surrogate modeling for constrained optimization with CMA-ES", GECCO
+// 2021, by how much, as their Python package `cma` has it, from which the thought is too that first values
+// come from the spread of objective and constraint. Where we depart:
 //  (1) the mean of the distribution is not evaluated: its objective and constraints are recombined from those
 //      of the best designs as the mean is from the designs, which is exact for linear ones;
 //  (2) multipliers start at 0, and penalties with the first design that violates the constraint; while all

@@ -170,6 +170,17 @@ TEST(ConstrainedDesigner, LeavesAConstraintThatIsInactiveAtTheOptimum) {
   }
 }
 
+TEST(ConstrainedDesigner, ComesBackFromFarOutsideWhereTheObjectiveLeadsFurther) {
+  const ConstrainedProblem problem{"",
+                                   [](const auto& x) { return -x[0] - x[1]; },
+                                   [](const auto& x) { return std::vector<double>{test::sphere(x) - 1.0}; },
+                                   std::vector<double>(6, 10.0),
+                                   1.0,
+                                   -std::sqrt(2.0)};
+  for (std::uint64_t seed = 1; seed <= 10; ++seed)
+    EXPECT_LT(excess_of_the_designer(problem, seed, 1200), 0.1) << "seed " << seed;
+}
+
 // A design fails altogether, or has a constraint that is no number, or one too few.
 Evaluation with_failures(const ConstrainedProblem& problem, const std::vector<double>& x, int i) {
   Evaluation evaluation = problem(x);
@@ -184,6 +195,10 @@ TEST(ConstrainedDesigner, GoesOnToTheSameDesignsFromAStateSavedAnywhereInAGenera
   const auto problem = constrained_problems()[4];
   const auto evaluate = [&](const auto& x, int i) { return with_failures(problem, x, i); };
   CmaesDesigner designer(problem.start, {.sigma = 0.5, .seed = 6});
+  for (int i = 0; i < 600; ++i) {
+    const Proposal proposal = designer.ask();
+    designer.tell(proposal, evaluate(proposal.design, i));
+  }
   for (int i = 0; i < 80; ++i) {
     CmaesDesigner first(problem.start, {}), second(problem.start, {});
     first.restore(designer.state(), "test");
@@ -196,6 +211,7 @@ TEST(ConstrainedDesigner, GoesOnToTheSameDesignsFromAStateSavedAnywhereInAGenera
       ASSERT_EQ(second.ask().design, proposal.design) << i << ' ' << k;
       second.tell(proposal, evaluate(proposal.design, k));
     }
+    ASSERT_EQ(first.state(), second.state()) << i;
     const Proposal proposal = designer.ask();
     designer.tell(proposal, evaluate(proposal.design, i));
   }
@@ -319,6 +335,24 @@ TEST(AugmentedLagrangian, HasTheValuesOfItsFormula) {
   EXPECT_DOUBLE_EQ(next[1], 3.0 - multiplier * multiplier / (2.0 * penalty));
   EXPECT_DOUBLE_EQ(next[2], 2.0 + multiplier * 0.5 + 0.5 * penalty * 0.25);
   EXPECT_EQ(lagrangian.state().at("penalties")[1], 0.0);
+}
+
+TEST(AugmentedLagrangian, LeavesThePenaltyOfAConstraintThatBecomesInactive) {
+  AugmentedLagrangian lagrangian(2);
+  const auto state_after = [&](double constraint) {
+    const std::vector<Evaluation> generation = {{.objective = 1.0, .constraints = {constraint}},
+                                                {.objective = 2.0, .constraints = {constraint + 1.0}}};
+    lagrangian.rank(generation, std::vector<double>{0.5, 0.5});
+    return lagrangian.state();
+  };
+  state_after(0.0);
+  const double penalty = state_after(-10.0).at("penalties")[0];
+  EXPECT_GT(penalty, 0.0);
+  for (int i = 0; i < 100; ++i) {
+    const auto state = state_after(-10.0 - i % 3);
+    EXPECT_EQ(state.at("penalties")[0], penalty);
+    EXPECT_EQ(state.at("multipliers")[0], 0.0);
+  }
 }
 
 TEST(AugmentedLagrangian, FindsTheMultiplier) {
