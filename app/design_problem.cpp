@@ -444,8 +444,7 @@ std::unique_ptr<FlowSpace> DesignProblemFile::space() const {
 std::unique_ptr<Designer> make_designer(const DesignProblemFile& problem, const FlowSpace& space) {
   const std::vector<double> start = space.start();
   if (problem.designer == "cmaes")
-    return std::make_unique<CmaesDesigner>(start, CmaesOptions{.sigma = problem.sigma, .seed = problem.seed},
-                                           CmaesDesigner::AtConvergence::go_on, problem.constraint_tolerance);
+    return std::make_unique<CmaesDesigner>(start, CmaesOptions{.sigma = problem.sigma, .seed = problem.seed});
   DesignBounds bounds = space.bounds(problem.bounds);
   GradientOptions options{.method = problem.designer,
                           .trust = problem.trust,

@@ -34,6 +34,8 @@ class Cmaes {
   double sigma() const;
   double largest_deviation() const;  // of any direction: sigma times the longest axis
   std::uint64_t generation() const;  // updates so far
+  std::size_t told() const;          // samples of this generation so far
+  std::span<const double> weights() const;  // of the best samples in the mean's update, best first; their sum is 1
 
   // A sample of the current distribution. Refused samples are simply not told: ask again.
   std::vector<double> ask();

@@ -58,17 +58,23 @@ class Designer {
   virtual std::string description() const = 0;
 };
 
-// CMA-ES (remodel/cmaes.h). Designs that violate constraints rank behind all that do not, by their violation,
-// and designs whose evaluation failed behind these. Source: K. Deb, "An efficient constraint handling method
-// for genetic algorithms", Comput. Methods Appl. Mech. Engrg. 186 (2000), the rules of section 3.
+// CMA-ES (remodel/cmaes.h). Designs are ranked by an augmented Lagrangian of objective and constraints, whose
+// coefficients are adapted once a generation (src/design/augmented_lagrangian.h has method and sources): the
+// search comes to the constrained optimum from both sides, so that half of its designs or more violate an
+// active constraint, by less and less. Behind all others rank designs whose evaluation failed, or has a
+// constraint that is not finite, or not as many constraints as the others. Without constraints, or where none
+// is ever violated, the search is that of the objective alone, to the bit.
 class CmaesDesigner final : public Designer {
  public:
   // Whether the search ends where it has converged: where designs hardly differ any more, the largest
   // standard deviation within ten times CmaesOptions::least_deviation, above which it wavers.
   enum class AtConvergence { go_on, end };
-  // Constraints may be violated by constraint_tolerance. Throws Error (argument) as Cmaes does.
+  // Throws Error (argument) as Cmaes does.
   CmaesDesigner(std::vector<double> start, const CmaesOptions& options,
-                AtConvergence at_convergence = AtConvergence::go_on, double constraint_tolerance = 0.0);
+                AtConvergence at_convergence = AtConvergence::go_on);
+  ~CmaesDesigner() override;
+  CmaesDesigner(CmaesDesigner&&) noexcept;
+  CmaesDesigner& operator=(CmaesDesigner&&) noexcept;
 
   std::size_t population() const override;
   Proposal ask() override;
@@ -82,10 +88,12 @@ class CmaesDesigner final : public Designer {
   std::string description() const override;
 
  private:
+  struct Constrained;
+
   CmaesOptions options_;
   AtConvergence at_convergence_;
-  double constraint_tolerance_;
   Cmaes cmaes_;
+  std::unique_ptr<Constrained> constrained_;
 };
 
 }  // namespace remodel

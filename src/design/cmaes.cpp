@@ -203,6 +203,13 @@ double Cmaes::largest_deviation() const {
 std::uint64_t Cmaes::generation() const {
   return state_->generation;
 }
+std::size_t Cmaes::told() const {
+  return state_->told.size();
+}
+std::span<const double> Cmaes::weights() const {
+  const Vector& weights = state_->parameters.weights;
+  return {weights.data(), static_cast<std::size_t>(weights.size())};
+}
 
 std::vector<double> Cmaes::ask() {
   State& s = *state_;

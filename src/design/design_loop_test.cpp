@@ -405,23 +405,5 @@ TEST_F(DesignLoop, NamesThePartThatAResumedRunHasOtherwise) {
   }
 }
 
-TEST(CmaesDesigner, RanksViolationsBehindAllThatViolateNothingAndFailuresLast) {
-  const auto mean_after = [](const std::vector<Evaluation>& evaluations) {
-    CmaesDesigner designer({0.0, 0.0}, {.sigma = 1.0, .seed = 1, .population = 4});
-    std::vector<Proposal> asked;
-    for (int i = 0; i < 4; ++i) asked.push_back(designer.ask());
-    for (std::size_t i = 0; i < 4; ++i) designer.tell(asked[i], evaluations[i]);
-    return designer.centre();
-  };
-  const auto of_ranks =
-      mean_after({{.objective = 1.0}, {.objective = 2.0}, {.objective = 3.0}, {.objective = 4.0}});
-  EXPECT_EQ(mean_after({{.objective = 1e9},
-                        {.objective = -5.0, .constraints = {1e-9}},
-                        {.objective = -9.0, .constraints = {-1.0, 3.0}},
-                        {}}),
-            of_ranks);
-  EXPECT_NE(mean_after({{}, {.objective = 2.0}, {.objective = 3.0}, {.objective = 4.0}}), of_ranks);
-}
-
 }  // namespace
 }  // namespace remodel
