@@ -17,11 +17,11 @@ struct Euler::Face {
   std::uint32_t source[2];  // whose gradient the upwind difference is of
 };
 
-// The derivatives of the flux from a to b: by the states on its left and right, by what linear extrapolation
-// is more than these, and by the vertices' own values directly.
+// The derivatives of the flux from a to b: by the products of an edge's vector with the gradients of both
+// sides' sources, by the difference of b's value and a's, and by both values directly.
 struct Euler::Linear {
-  Face face;
-  Block by[2], by_more[2], by_own[2];
+  Block by_product[2], by_difference, by_own[2];
+  std::uint32_t source[2];
 };
 
 State Euler::uniform() const {
@@ -224,8 +224,10 @@ BlockRows Euler::pattern(std::vector<std::uint32_t> rows) const {
 Euler::Linear Euler::linearised(const Face& face, const Primitive<double>& qa, const Primitive<double>& qb,
                                 Point normal) {
   using Eight = Dual<8>;
-  using Twelve = Dual<12>;
-  Linear made{.face = face, .by = {}, .by_more = {}, .by_own = {}};
+  using One = Dual<1>;
+  Block by[2], by_more[2] = {{}, {}};  // by the states on both sides, by what linear extrapolation is more
+  Linear made{
+      .by_product = {}, .by_difference = {}, .by_own = {}, .source = {face.source[0], face.source[1]}};
   Primitive<Eight> l, r, a, b;
   for (std::size_t k = 0; k < 4; ++k) {
     l[k] = Eight::variable(face.left[k], k), r[k] = Eight::variable(face.right[k], k + 4);
@@ -235,29 +237,41 @@ Euler::Linear Euler::linearised(const Face& face, const Primitive<double>& qa, c
   const Eight part = alike<Eight>(a, b);
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t k = 0; k < 4; ++k)
-      made.by[0][4 * i + k] = flux[i].slope[k], made.by[1][4 * i + k] = flux[i].slope[k + 4];
+      by[0][4 * i + k] = flux[i].slope[k], by[1][4 * i + k] = flux[i].slope[k + 4];
   for (std::size_t side = 0; side < 2; ++side) {
     if (face.linear[side] == 0.0) continue;
-    Primitive<Twelve> vertex, value;
-    std::array<Twelve, 4> more;
+    const Primitive<double>&vertex = side == 0 ? qa : qb, &value = side == 0 ? face.left : face.right;
+    const std::array<double, 4> above =
+        linearised_above<double, double, double>(vertex, value, face.more[side], normal.x, normal.y);
+    Primitive<One> along;  // the whole step that the flux is linear in
     for (std::size_t k = 0; k < 4; ++k) {
-      vertex[k] = Twelve::variable((side == 0 ? qa : qb)[k], k);
-      value[k] = Twelve::variable((side == 0 ? face.left : face.right)[k], k + 4);
-      more[k] = Twelve::variable(face.more[side][k], k + 8);
+      along[k].value = vertex[k];
+      along[k].slope[0] = value[k] - vertex[k] + face.more[side][k];
     }
-    const std::array<Twelve, 4> above =
-        linearised_above<Twelve, Twelve, double>(vertex, value, more, normal.x, normal.y);
+    const std::array<One, 16> at_vertex = flux_slopes<One>(along, normal);
+    const std::array<double, 16> at_value = flux_slopes<double>(value, normal);
     const double weight = face.linear[side] * part.value;
-    for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t k = 0; k < 4; ++k) {
-        const std::size_t z = 4 * i + k;
-        made.by_own[side][z] += weight * above[i].slope[k];
-        made.by[side][z] += weight * above[i].slope[k + 4];
-        made.by_more[side][z] = weight * above[i].slope[k + 8];
-        for (std::size_t end = 0; end < 2; ++end)
-          made.by_own[end][z] += face.linear[side] * above[i].value * part.slope[k + 4 * end];
-      }
+    for (std::size_t z = 0; z < 16; ++z) {
+      made.by_own[side][z] += weight * at_vertex[z].slope[0];
+      by[side][z] += weight * (at_vertex[z].value - at_value[z]);
+      by_more[side][z] = weight * at_vertex[z].value;
+      for (std::size_t end = 0; end < 2; ++end)
+        made.by_own[end][z] += face.linear[side] * above[z / 4] * part.slope[z % 4 + 4 * end];
+    }
   }
+  // value = q(end) +- step(2 g d - (qb - qa), qb - qa), where nothing bends it; what is more likewise
+  for (std::size_t side = 0; side < 2; ++side)
+    for (std::size_t z = 0; z < 16; ++z) {
+      const std::size_t k = z % 4;
+      const double direction = side == 0 ? 1.0 : -1.0;
+      const double up =
+          by[side][z] * face.by_upwind[side][k] + by_more[side][z] * face.more_by_upwind[side][k];
+      const double central =
+          by[side][z] * face.by_central[side][k] + by_more[side][z] * face.more_by_central[side][k];
+      made.by_product[side][z] = 2.0 * direction * up;
+      made.by_difference[z] += direction * (central - up);
+      made.by_own[side][z] += by[side][z] * face.by_own[side][k];
+    }
   return made;
 }
 
@@ -266,14 +280,13 @@ Euler::Linear Euler::linearised(const Face& face, const Primitive<double>& qa, c
 void Euler::jacobian(const State& state, BlockRows& matrix) const {
   std::fill(matrix.block.begin(), matrix.block.end(), Block{});
   std::vector<Linear> fluxes;
+  if (matrix.rows.size() == mesh_.size()) fluxes.reserve(mesh_.edges().size());
   std::vector<std::uint32_t> flux_of(mesh_.edges().size(), no_index);
   const auto linear = [&](std::uint32_t e) -> const Linear& {
     if (flux_of[e] != no_index) return fluxes[flux_of[e]];
     flux_of[e] = static_cast<std::uint32_t>(fluxes.size());
     const DualEdge& edge = mesh_.edges()[e];
-    const Linear& made =
-        fluxes.emplace_back(linearised(face(state, edge), state.q[edge.a], state.q[edge.b], edge.normal));
-    return made;
+    return fluxes.emplace_back(linearised(face(state, edge), state.q[edge.a], state.q[edge.b], edge.normal));
   };
 
   std::vector<std::uint32_t> place(mesh_.size()), row_of(mesh_.size(), no_index);
@@ -286,36 +299,22 @@ void Euler::jacobian(const State& state, BlockRows& matrix) const {
       const DualEdge& edge = mesh_.edges()[entry.edge];
       const double sign = here == edge.a ? 1.0 : -1.0;
       const Point d = mesh_.points()[edge.b] - mesh_.points()[edge.a];
-      const std::uint32_t end[2] = {edge.a, edge.b};
+      Block &at_a = matrix.block[place[edge.a]], &at_b = matrix.block[place[edge.b]];
+      for (std::size_t z = 0; z < 16; ++z) {
+        at_a[z] += sign * (flux.by_own[0][z] - flux.by_difference[z]);
+        at_b[z] += sign * (flux.by_own[1][z] + flux.by_difference[z]);
+      }
       for (std::size_t side = 0; side < 2; ++side) {
-        const Block &by = flux.by[side], &by_more = flux.by_more[side];
-        // value = q(end) +- step(2 g d - (qb - qa), qb - qa), where nothing bends it; `more` likewise
-        const double direction = side == 0 ? sign : -sign;
-        const std::uint32_t source = flux.face.source[side];
-        Block& at_own = matrix.block[place[end[side]]];
-        Block& at_source = matrix.block[place[source]];
-        Block& at_a = matrix.block[place[edge.a]];
-        Block& at_b = matrix.block[place[edge.b]];
-        Block scaled;
-        for (std::size_t z = 0; z < 16; ++z) {
-          const std::size_t k = z % 4;
-          const double up =
-              by[z] * flux.face.by_upwind[side][k] + by_more[z] * flux.face.more_by_upwind[side][k];
-          const double across =
-              by[z] * flux.face.by_central[side][k] + by_more[z] * flux.face.more_by_central[side][k] - up;
-          scaled[z] = 2.0 * direction * up;
-          at_own[z] += sign * (by[z] * flux.face.by_own[side][k] + flux.by_own[side][z]);
-          at_b[z] += direction * across;
-          at_a[z] -= direction * across;
-        }
+        const Block& by = flux.by_product[side];
         double total = 0.0;
-        for (const RingEntry& around : mesh_.ring(source)) {
-          const double w = dot(around.weight, d);
+        for (const RingEntry& around : mesh_.ring(flux.source[side])) {
+          const double w = sign * dot(around.weight, d);
           total += w;
           Block& at = matrix.block[place[around.vertex]];
-          for (std::size_t i = 0; i < 16; ++i) at[i] += w * scaled[i];
+          for (std::size_t z = 0; z < 16; ++z) at[z] += w * by[z];
         }
-        for (std::size_t i = 0; i < 16; ++i) at_source[i] -= total * scaled[i];
+        Block& at_source = matrix.block[place[flux.source[side]]];
+        for (std::size_t z = 0; z < 16; ++z) at_source[z] -= total * by[z];
       }
     }
   }

@@ -80,6 +80,34 @@ std::array<T, 4> roe_flux(const Primitive<T>& l, const Primitive<T>& r, Point no
   return roe_flux_through<T, double>(l, r, normal.x, normal.y);
 }
 
+// Derivatives of the flux through a face by density, velocity and pressure; row-major.
+template <class T>
+std::array<T, 16> flux_slopes(const Primitive<T>& q, Point normal) {
+  constexpr double g = gas_gamma / (gas_gamma - 1.0);
+  const T through = q[1] * normal.x + q[2] * normal.y, mass = q[0] * through;
+  const T square = 0.5 * (q[1] * q[1] + q[2] * q[2]);
+  const T energy = g * q[3] + q[0] * square;
+  const T mx = q[0] * normal.x, my = q[0] * normal.y;
+  const T nx(normal.x), ny(normal.y), none(0.0);
+  const T along_x = energy * normal.x, along_y = energy * normal.y;
+  return {through,
+          mx,
+          my,
+          none,  //
+          q[1] * through,
+          mass + q[1] * mx,
+          q[1] * my,
+          nx,  //
+          q[2] * through,
+          q[2] * mx,
+          mass + q[2] * my,
+          ny,  //
+          square * through,
+          q[1] * mass + along_x,
+          q[2] * mass + along_y,
+          g * through};
+}
+
 // Fluxes that are linear in the differences to a vertex: what the flux through a face, linearised at
 // `vertex`, is at `value` and `more` above the flux at `value` itself. With linear extrapolations to the
 // middle of an edge the mean of both ends' is exact for quadratic fluxes without sources, over dual cells of
