@@ -417,7 +417,7 @@ TEST(Elements, GradientsAreThoseOfWholeFlows) {
   Flows flow(task);
   const Evaluation evaluation = task.evaluate(start);
   ASSERT_EQ(evaluation.constraints.size(), 5u);
-  constexpr double h = 1e-6;
+  constexpr double h = 2e-7;  // flows in narrow gaps bend: of 1e-6 differences are off by 3e-5
   const auto lift = [&](const auto& design) { return -flow(design).cl; };
   EXPECT_NEAR(evaluation.objective, lift(start), 1e-8 * std::fabs(evaluation.objective));
   EXPECT_LT(relative(evaluation.gradient, task.differences(lift, h)), 1e-5);

@@ -11,7 +11,17 @@ struct Euler::Face {
   // one.
   std::array<double, 4> by_upwind[2] = {{}, {}}, by_central[2] = {{}, {}};
   std::array<double, 4> by_own[2] = {{1, 1, 1, 1}, {1, 1, 1, 1}};  // by the vertex's own value
+  // What linear extrapolation is more, with the same derivatives, and the weights of linearised fluxes.
+  std::array<double, 4> more[2] = {{}, {}}, more_by_upwind[2] = {{}, {}}, more_by_central[2] = {{}, {}};
+  double linear[2];
   std::uint32_t source[2];  // whose gradient the upwind difference is of
+};
+
+// The derivatives of the flux from a to b: by the products of an edge's vector with the gradients of both
+// sides' sources, by the difference of b's value and a's, and by both values directly.
+struct Euler::Linear {
+  Block by_product[2], by_difference, by_own[2];
+  std::uint32_t source[2];
 };
 
 State Euler::uniform() const {
@@ -47,19 +57,24 @@ Euler::Face Euler::face(const State& state, const DualEdge& edge) const {
   const EdgeEnd end[2] = {end_of(mesh_, edge.a, edge.b), end_of(mesh_, edge.b, edge.a)};
   face.source[0] = gradient_source(end[0], edge.a, edge.b);
   face.source[1] = gradient_source(end[1], edge.b, edge.a);
+  face.linear[0] = linear_weight(end[0]), face.linear[1] = linear_weight(end[1]);
   const std::array<double, 4> da = difference(state, face.source[0], d);
   const std::array<double, 4> db =
       face.source[0] == face.source[1] ? da : difference(state, face.source[1], d);
   for (std::size_t k = 0; k < 4; ++k) {
     const double central = qb[k] - qa[k];
-    const Two from_a = stream_.slopes * reconstruction_step(end[0], Two::variable(2.0 * da[k] - central, 0),
-                                                            Two::variable(central, 1), eps);
-    const Two from_b = stream_.slopes * reconstruction_step(end[1], Two::variable(2.0 * db[k] - central, 0),
-                                                            Two::variable(central, 1), eps);
-    face.left[k] = qa[k] + from_a.value;
-    face.right[k] = qb[k] - from_b.value;
-    face.by_upwind[0][k] = from_a.slope[0], face.by_central[0][k] = from_a.slope[1];
-    face.by_upwind[1][k] = from_b.slope[0], face.by_central[1][k] = from_b.slope[1];
+    const std::array<double, 4>* products[2] = {&da, &db};
+    for (std::size_t side = 0; side < 2; ++side) {
+      const double direction = side == 0 ? stream_.slopes : -stream_.slopes;
+      const Step<Two> to = reconstruction_step(
+          end[side], Two::variable(2.0 * (*products[side])[k] - central, 0), Two::variable(central, 1), eps);
+      (side == 0 ? face.left : face.right)[k] = (side == 0 ? qa : qb)[k] + direction * to.step.value;
+      face.more[side][k] = direction * to.more.value;
+      face.by_upwind[side][k] = stream_.slopes * to.step.slope[0];
+      face.by_central[side][k] = stream_.slopes * to.step.slope[1];
+      face.more_by_upwind[side][k] = stream_.slopes * to.more.slope[0];
+      face.more_by_central[side][k] = stream_.slopes * to.more.slope[1];
+    }
   }
   for (const std::size_t k : positive) {
     const Bent to[2] = {bent(face.left[k], qa[k]), bent(face.right[k], qb[k])};
@@ -129,16 +144,26 @@ void Euler::residual(const State& state, std::vector<std::array<double, 4>>& out
     const auto& gradient_a = gradient[gradient_source(end_a, edge.a, edge.b)];
     const auto& gradient_b = gradient[gradient_source(end_b, edge.b, edge.a)];
     Primitive<double> left, right;
+    std::array<double, 4> more_left, more_right;
     for (std::size_t k = 0; k < 4; ++k) {
       const double central = qb[k] - qa[k];
-      left[k] = qa[k] + stream_.slopes * reconstruction_step<double>(
-                                             end_a, 2.0 * dot(gradient_a[k], d) - central, central, eps);
-      right[k] = qb[k] - stream_.slopes * reconstruction_step<double>(
-                                              end_b, 2.0 * dot(gradient_b[k], d) - central, central, eps);
+      const Step<double> a =
+          reconstruction_step<double>(end_a, 2.0 * dot(gradient_a[k], d) - central, central, eps);
+      const Step<double> b =
+          reconstruction_step<double>(end_b, 2.0 * dot(gradient_b[k], d) - central, central, eps);
+      left[k] = qa[k] + stream_.slopes * a.step, more_left[k] = stream_.slopes * a.more;
+      right[k] = qb[k] - stream_.slopes * b.step, more_right[k] = -stream_.slopes * b.more;
     }
     for (const std::size_t k : positive)
       left[k] = bent(left[k], qa[k]).value, right[k] = bent(right[k], qb[k]).value;
-    const std::array<double, 4> flux = roe_flux<double>(left, right, edge.normal);
+    std::array<double, 4> flux = roe_flux<double>(left, right, edge.normal);
+    const std::array<double, 4> above_a =
+        linearised_above<double, double, double>(qa, left, more_left, edge.normal.x, edge.normal.y);
+    const std::array<double, 4> above_b =
+        linearised_above<double, double, double>(qb, right, more_right, edge.normal.x, edge.normal.y);
+    const double part = alike<double>(qa, qb);
+    for (std::size_t k = 0; k < 4; ++k)
+      flux[k] += part * (linear_weight(end_a) * above_a[k] + linear_weight(end_b) * above_b[k]);
     for (std::size_t k = 0; k < 4; ++k) out[edge.a][k] += flux[k], out[edge.b][k] -= flux[k];
   }
   add_boundary(state, out);
@@ -151,12 +176,13 @@ void Euler::add_boundary(const State& state, std::vector<std::array<double, 4>>&
     const std::uint32_t end[2] = {edge.a, edge.b};
     for (int i = 0; i < 2; ++i) {
       const std::uint32_t here = end[i], there = end[1 - i];
-      const Primitive<double> q = weighted(state.q[here], state.q[there]);
       if (edge.body >= 0) {
-        const Point half = edge.half[i];
-        out[here][1] += q[3] * half.x, out[here][2] += q[3] * half.y;
+        const Point force =
+            wall_force(edge, static_cast<std::size_t>(i), state.q[here][3], state.q[there][3]);
+        out[here][1] += force.x, out[here][2] += force.y;
         continue;
       }
+      const Primitive<double> q = weighted(state.q[here], state.q[there]);
       const Point p = near_weight * mesh_.points()[here] + far_weight * mesh_.points()[there];
       const std::array<double, 4> flux = open_flux<double>(edge, q, state, p);
       for (std::size_t k = 0; k < 4; ++k) out[here][k] += flux[k];
@@ -195,31 +221,72 @@ BlockRows Euler::pattern(std::vector<std::uint32_t> rows) const {
   return matrix;
 }
 
+Euler::Linear Euler::linearised(const Face& face, const Primitive<double>& qa, const Primitive<double>& qb,
+                                Point normal) {
+  using Eight = Dual<8>;
+  using One = Dual<1>;
+  Block by[2], by_more[2] = {{}, {}};  // by the states on both sides, by what linear extrapolation is more
+  Linear made{
+      .by_product = {}, .by_difference = {}, .by_own = {}, .source = {face.source[0], face.source[1]}};
+  Primitive<Eight> l, r, a, b;
+  for (std::size_t k = 0; k < 4; ++k) {
+    l[k] = Eight::variable(face.left[k], k), r[k] = Eight::variable(face.right[k], k + 4);
+    a[k] = Eight::variable(qa[k], k), b[k] = Eight::variable(qb[k], k + 4);
+  }
+  const std::array<Eight, 4> flux = roe_flux<Eight>(l, r, normal);
+  const Eight part = alike<Eight>(a, b);
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t k = 0; k < 4; ++k)
+      by[0][4 * i + k] = flux[i].slope[k], by[1][4 * i + k] = flux[i].slope[k + 4];
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (face.linear[side] == 0.0) continue;
+    const Primitive<double>&vertex = side == 0 ? qa : qb, &value = side == 0 ? face.left : face.right;
+    const std::array<double, 4> above =
+        linearised_above<double, double, double>(vertex, value, face.more[side], normal.x, normal.y);
+    Primitive<One> along;  // the whole step that the flux is linear in
+    for (std::size_t k = 0; k < 4; ++k) {
+      along[k].value = vertex[k];
+      along[k].slope[0] = value[k] - vertex[k] + face.more[side][k];
+    }
+    const std::array<One, 16> at_vertex = flux_slopes<One>(along, normal);
+    const std::array<double, 16> at_value = flux_slopes<double>(value, normal);
+    const double weight = face.linear[side] * part.value;
+    for (std::size_t z = 0; z < 16; ++z) {
+      made.by_own[side][z] += weight * at_vertex[z].slope[0];
+      by[side][z] += weight * (at_vertex[z].value - at_value[z]);
+      by_more[side][z] = weight * at_vertex[z].value;
+      for (std::size_t end = 0; end < 2; ++end)
+        made.by_own[end][z] += face.linear[side] * above[z / 4] * part.slope[z % 4 + 4 * end];
+    }
+  }
+  // value = q(end) +- step(2 g d - (qb - qa), qb - qa), where nothing bends it; what is more likewise
+  for (std::size_t side = 0; side < 2; ++side)
+    for (std::size_t z = 0; z < 16; ++z) {
+      const std::size_t k = z % 4;
+      const double direction = side == 0 ? 1.0 : -1.0;
+      const double up =
+          by[side][z] * face.by_upwind[side][k] + by_more[side][z] * face.more_by_upwind[side][k];
+      const double central =
+          by[side][z] * face.by_central[side][k] + by_more[side][z] * face.more_by_central[side][k];
+      made.by_product[side][z] = 2.0 * direction * up;
+      made.by_difference[z] += direction * (central - up);
+      made.by_own[side][z] += by[side][z] * face.by_own[side][k];
+    }
+  return made;
+}
+
 // A row's flux depends, by the chain rule, on what is reconstructed at both ends of each of its edges, and
 // this on the rings of both ends.
 void Euler::jacobian(const State& state, BlockRows& matrix) const {
-  using Eight = Dual<8>;
   std::fill(matrix.block.begin(), matrix.block.end(), Block{});
-  struct Linear {
-    Face face;
-    Block by[2];  // of the flux from a to b, by the states on its left and right
-  };
   std::vector<Linear> fluxes;
+  if (matrix.rows.size() == mesh_.size()) fluxes.reserve(mesh_.edges().size());
   std::vector<std::uint32_t> flux_of(mesh_.edges().size(), no_index);
   const auto linear = [&](std::uint32_t e) -> const Linear& {
     if (flux_of[e] != no_index) return fluxes[flux_of[e]];
     flux_of[e] = static_cast<std::uint32_t>(fluxes.size());
-    Linear& made = fluxes.emplace_back();
     const DualEdge& edge = mesh_.edges()[e];
-    made.face = face(state, edge);
-    Primitive<Eight> l, r;
-    for (std::size_t k = 0; k < 4; ++k)
-      l[k] = Eight::variable(made.face.left[k], k), r[k] = Eight::variable(made.face.right[k], k + 4);
-    const std::array<Eight, 4> flux = roe_flux<Eight>(l, r, edge.normal);
-    for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t k = 0; k < 4; ++k)
-        made.by[0][4 * i + k] = flux[i].slope[k], made.by[1][4 * i + k] = flux[i].slope[k + 4];
-    return made;
+    return fluxes.emplace_back(linearised(face(state, edge), state.q[edge.a], state.q[edge.b], edge.normal));
   };
 
   std::vector<std::uint32_t> place(mesh_.size()), row_of(mesh_.size(), no_index);
@@ -232,39 +299,22 @@ void Euler::jacobian(const State& state, BlockRows& matrix) const {
       const DualEdge& edge = mesh_.edges()[entry.edge];
       const double sign = here == edge.a ? 1.0 : -1.0;
       const Point d = mesh_.points()[edge.b] - mesh_.points()[edge.a];
-      const std::uint32_t end[2] = {edge.a, edge.b};
+      Block &at_a = matrix.block[place[edge.a]], &at_b = matrix.block[place[edge.b]];
+      for (std::size_t z = 0; z < 16; ++z) {
+        at_a[z] += sign * (flux.by_own[0][z] - flux.by_difference[z]);
+        at_b[z] += sign * (flux.by_own[1][z] + flux.by_difference[z]);
+      }
       for (std::size_t side = 0; side < 2; ++side) {
-        const Block& by = flux.by[side];
-        // value = q(end) +- step(2 g d - (qb - qa), qb - qa), where nothing bends it
-        const double direction = side == 0 ? 1.0 : -1.0;
-        std::array<double, 4> up = flux.face.by_upwind[side], across = {};
-        for (std::size_t k = 0; k < 4; ++k) {
-          across[k] = direction * (flux.face.by_central[side][k] - up[k]);
-          up[k] *= 2.0 * direction;
-        }
-        const std::uint32_t source = flux.face.source[side];
-        Block& at_own = matrix.block[place[end[side]]];
-        Block& at_source = matrix.block[place[source]];
-        Block& at_a = matrix.block[place[edge.a]];
-        Block& at_b = matrix.block[place[edge.b]];
-        for (std::size_t i = 0; i < 4; ++i)
-          for (std::size_t k = 0; k < 4; ++k) {
-            const double f = sign * by[4 * i + k];
-            at_own[4 * i + k] += f * flux.face.by_own[side][k];
-            at_b[4 * i + k] += f * across[k];
-            at_a[4 * i + k] -= f * across[k];
-          }
-        Block scaled;
-        for (std::size_t i = 0; i < 4; ++i)
-          for (std::size_t k = 0; k < 4; ++k) scaled[4 * i + k] = sign * by[4 * i + k] * up[k];
+        const Block& by = flux.by_product[side];
         double total = 0.0;
-        for (const RingEntry& around : mesh_.ring(source)) {
-          const double w = dot(around.weight, d);
+        for (const RingEntry& around : mesh_.ring(flux.source[side])) {
+          const double w = sign * dot(around.weight, d);
           total += w;
           Block& at = matrix.block[place[around.vertex]];
-          for (std::size_t i = 0; i < 16; ++i) at[i] += w * scaled[i];
+          for (std::size_t z = 0; z < 16; ++z) at[z] += w * by[z];
         }
-        for (std::size_t i = 0; i < 16; ++i) at_source[i] -= total * scaled[i];
+        Block& at_source = matrix.block[place[flux.source[side]]];
+        for (std::size_t z = 0; z < 16; ++z) at_source[z] -= total * by[z];
       }
     }
   }
@@ -287,9 +337,9 @@ void Euler::add_boundary_blocks(const State& state, BlockRows& matrix,
       if (row_of[here] == no_index) continue;
       Block &own = at(row_of[here], here), &other = at(row_of[here], there);
       if (edge.body >= 0) {
-        const Point half = edge.half[i];
-        own[7] += near_weight * half.x, own[11] += near_weight * half.y;
-        other[7] += far_weight * half.x, other[11] += far_weight * half.y;
+        const auto [by_own, by_other] = wall_force_slopes(edge, static_cast<std::size_t>(i));
+        own[7] += by_own.x, own[11] += by_own.y;
+        other[7] += by_other.x, other[11] += by_other.y;
         continue;
       }
       const Primitive<double> q = weighted(state.q[here], state.q[there]);
@@ -330,13 +380,13 @@ std::array<std::vector<std::array<double, 4>>, 2> Euler::border_columns(const St
   return columns;
 }
 
-// visit(edge, half, here, there): the half of the edge at `here`.
+// visit(edge, i, here, there): half i of the edge, at `here`.
 template <class Visit>
 void Euler::for_each_wall_half(Visit visit) const {
   for (const BoundaryEdge& edge : mesh_.boundary()) {
     if (edge.body < 0) continue;
-    visit(edge, edge.half[0], edge.a, edge.b);
-    visit(edge, edge.half[1], edge.b, edge.a);
+    visit(edge, 0, edge.a, edge.b);
+    visit(edge, 1, edge.b, edge.a);
   }
 }
 
@@ -348,10 +398,9 @@ Coefficients Euler::coefficients(const State& state, std::int32_t body) const {
   Point force = {};
   double turning = 0.0;  // counter-clockwise
   const double outside = 1.0 / gas_gamma;
-  for_each_wall_half([&](const BoundaryEdge& edge, Point half, std::uint32_t here, std::uint32_t there) {
+  for_each_wall_half([&](const BoundaryEdge& edge, std::size_t i, std::uint32_t here, std::uint32_t there) {
     if (body >= 0 && edge.body != body) return;
-    const double p = near_weight * state.q[here][3] + far_weight * state.q[there][3] - outside;
-    const Point f = p * half;
+    const Point f = wall_force(edge, i, state.q[here][3] - outside, state.q[there][3] - outside);
     const Point at = near_place * mesh_.points()[here] + far_place * mesh_.points()[there];
     force = force + f;
     turning += cross(at - stream_.reference, f);
@@ -373,10 +422,10 @@ Euler::BorderRows Euler::border_rows(const State& state) const {
   BorderRows rows;
   const double scale = 1.0 / (0.5 * stream_.mach * stream_.mach * stream_.length);
   const double ca = std::cos(state.border[1]), sa = std::sin(state.border[1]);
-  for_each_wall_half([&](const BoundaryEdge&, Point half, std::uint32_t here, std::uint32_t there) {
-    const double value = scale * (half.y * ca - half.x * sa);
-    rows.lift.push_back({here, near_weight * value});
-    rows.lift.push_back({there, far_weight * value});
+  for_each_wall_half([&](const BoundaryEdge& edge, std::size_t i, std::uint32_t here, std::uint32_t there) {
+    const auto [by_own, by_other] = wall_force_slopes(edge, i);
+    rows.lift.push_back({here, scale * (by_own.y * ca - by_own.x * sa)});
+    rows.lift.push_back({there, scale * (by_other.y * ca - by_other.x * sa)});
   });
   rows.corner[0] = {-1.0, -coefficients(state).drag};
   rows.corner[1] = stream_.lift ? std::array{1.0, 0.0} : std::array{0.0, 1.0};

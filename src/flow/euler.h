@@ -5,9 +5,10 @@
 // that the vortex in the far field belongs to, and the angle of attack.
 //
 // The scheme: Roe's flux between dual cells, of values reconstructed along each edge (gas.h:
-// limited_half_step) from gradients that are the area-weighted means of those of the triangles around a
-// vertex. Weak boundary conditions, with weights 5/6 and 1/6 of an edge's ends: the pressure's flux at walls
-// (H. Nishikawa, J. Comput. Phys. 281 (2015), section 3), Roe's flux against the stream far away.
+// half_step) from gradients that are the area-weighted means of those of the triangles around a vertex, and
+// moved towards the mean of fluxes linearised at the vertices (linearised_above). Weak boundary conditions,
+// with weights 5/6 and 1/6 of an edge's ends: the pressure's flux at walls (H. Nishikawa, J. Comput. Phys.
+// 281 (2015), section 3), Roe's flux against the stream far away.
 
 #include <array>
 #include <functional>
@@ -60,11 +61,32 @@ inline EdgeEnd end_of(const FlowMesh& mesh, std::uint32_t here, std::uint32_t th
 inline std::uint32_t gradient_source(EdgeEnd end, std::uint32_t here, std::uint32_t there) {
   return end == EdgeEnd::wall ? there : here;
 }
-// From the value at the end to that at the middle.
+// From the value at the end to that at the middle, and what linear extrapolation is more.
+template <class T>
+struct Step {
+  T step, more;
+};
 template <class T, class E>
-T reconstruction_step(EdgeEnd end, const T& upwind, const T& central, const E& epsilon) {
-  if (end == EdgeEnd::inner) return limited_half_step<T, E>(upwind, central, epsilon);
-  return half_step<T>(T(1.0), end == EdgeEnd::wall ? 2.0 * central - upwind : upwind, central);
+Step<T> reconstruction_step(EdgeEnd end, const T& upwind, const T& central, const E& epsilon) {
+  const T s = end == EdgeEnd::inner ? slope_limiter<T, E>(upwind, central, epsilon) : T(1.0);
+  const T own = end == EdgeEnd::wall ? 2.0 * central - upwind : upwind;
+  return {half_step<T>(s, own, central), more_of_step<T>(s, own, central)};
+}
+// The weight of an end's linearised flux: the gradient at a wall is none to linearise with.
+inline double linear_weight(EdgeEnd end) {
+  return end == EdgeEnd::inner ? 0.5 : end == EdgeEnd::wall ? 0.0 : 1.0;
+}
+
+// The pressure on the half of a wall's edge at `here`, i: exact to second order where pressure is linear and
+// the curvature even. The half turns away from the edge (wall_bulge.h) with the pressure of its middle.
+inline Point wall_force(const BoundaryEdge& edge, std::size_t i, double here, double there) {
+  return (near_place * here + far_place * there) * edge.half[i] +
+         (near_weight - near_place) * 0.5 * (here - there) * edge.normal;
+}
+// Its derivatives by both pressures.
+inline std::array<Point, 2> wall_force_slopes(const BoundaryEdge& edge, std::size_t i) {
+  const Point by_difference = (near_weight - near_place) * 0.5 * edge.normal;
+  return {near_place * edge.half[i] + by_difference, far_place * edge.half[i] - by_difference};
 }
 
 struct State {
@@ -185,6 +207,9 @@ class Euler {
 
  private:
   struct Face;
+  struct Linear;
+  static Linear linearised(const Face& face, const Primitive<double>& qa, const Primitive<double>& qb,
+                           Point normal);
   std::array<double, 4> difference(const State& state, std::size_t vertex, Point d) const;
   Face face(const State& state, const DualEdge& edge) const;
   double epsilon(Point d) const;

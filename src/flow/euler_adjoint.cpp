@@ -30,10 +30,12 @@ std::vector<std::array<Point, 4>> gradients_of(const FlowMesh& mesh, const State
   return gradient;
 }
 
-// One side of a face: value = q + direction * step(2 g d - central, central, epsilon).
+// One side of a face: value = q + direction * step(2 g d - central, central, epsilon), and what linear
+// extrapolation is more.
 struct FaceSide {
   Primitive<double> value;
   std::array<double, 4> by_upwind = {}, by_epsilon = {};
+  std::array<double, 4> more = {}, more_by_upwind = {}, more_by_epsilon = {};
 };
 
 FaceSide reconstruct(const Primitive<double>& here, const std::array<Point, 4>& gradient, EdgeEnd end,
@@ -41,11 +43,12 @@ FaceSide reconstruct(const Primitive<double>& here, const std::array<Point, 4>& 
   using Two = Dual<2>;
   FaceSide side;
   for (std::size_t k = 0; k < 4; ++k) {
-    const Two step = reconstruction_step<Two>(end, Two::variable(2.0 * dot(gradient[k], d) - central[k], 0),
-                                              Two(central[k]), Two::variable(epsilon, 1));
-    side.value[k] = here[k] + direction * step.value;
-    side.by_upwind[k] = direction * step.slope[0];
-    side.by_epsilon[k] = direction * step.slope[1];
+    const auto [step, more] =
+        reconstruction_step<Two>(end, Two::variable(2.0 * dot(gradient[k], d) - central[k], 0),
+                                 Two(central[k]), Two::variable(epsilon, 1));
+    side.value[k] = here[k] + direction * step.value, side.more[k] = direction * more.value;
+    side.by_upwind[k] = direction * step.slope[0], side.by_epsilon[k] = direction * step.slope[1];
+    side.more_by_upwind[k] = direction * more.slope[0], side.more_by_epsilon[k] = direction * more.slope[1];
   }
   for (const std::size_t k : positive) {
     const Bent to = bent(side.value[k], here[k]);
@@ -59,9 +62,35 @@ FaceSide reconstruct(const Primitive<double>& here, const std::array<Point, 4>& 
 struct FaceSlopes {
   std::array<std::uint32_t, 2> source;  // of each side's gradient
   FaceSide side[2];
-  std::array<std::array<double, 10>, 4> flux;  // by both sides' values and the normal
-  double by_length = 0.0;                      // of epsilon, over the edge's length
+  std::array<std::array<double, 10>, 4> flux;            // by both sides' values and the normal
+  std::array<std::array<double, 4>, 4> by_more[2] = {};  // by what each side has more
+  double by_length = 0.0;                                // of epsilon, over the edge's length
 };
+
+// Adds the derivatives of the part that linearised fluxes have.
+void add_linearised(const Primitive<double>& qa, const Primitive<double>& qb, const EdgeEnd (&end)[2],
+                    Point normal, FaceSlopes& face) {
+  using Ten = Dual<10>;
+  const double part = alike<double>(qa, qb);
+  for (std::size_t s = 0; s < 2; ++s) {
+    const double weight = part * linear_weight(end[s]);
+    Primitive<Ten> value;
+    std::array<Ten, 4> more;
+    for (std::size_t k = 0; k < 4; ++k) {
+      value[k] = Ten::variable(face.side[s].value[k], k);
+      more[k] = Ten::variable(face.side[s].more[k], k + 4);
+    }
+    const std::array<Ten, 4> above = linearised_above<Ten, double, Ten>(
+        s == 0 ? qa : qb, value, more, Ten::variable(normal.x, 8), Ten::variable(normal.y, 9));
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        face.flux[i][4 * s + k] += weight * above[i].slope[k];
+        face.by_more[s][i][k] = weight * above[i].slope[k + 4];
+      }
+      for (std::size_t k = 8; k < 10; ++k) face.flux[i][k] += weight * above[i].slope[k];
+    }
+  }
+}
 
 FaceSlopes face_slopes(const FlowMesh& mesh, const State& state,
                        const std::vector<std::array<Point, 4>>& gradients, const DualEdge& edge, Point d,
@@ -77,6 +106,7 @@ FaceSlopes face_slopes(const FlowMesh& mesh, const State& state,
       .source = {gradient_source(end[0], edge.a, edge.b), gradient_source(end[1], edge.b, edge.a)},
       .side = {},
       .flux = {},
+      .by_more = {},
       .by_length = 3.0 * cube * length};
   face.side[0] = reconstruct(qa, gradients[face.source[0]], end[0], d, central, epsilon, 1.0);
   face.side[1] = reconstruct(qb, gradients[face.source[1]], end[1], d, central, epsilon, -1.0);
@@ -87,6 +117,7 @@ FaceSlopes face_slopes(const FlowMesh& mesh, const State& state,
       roe_flux_through<Ten, Ten>(l, r, Ten::variable(edge.normal.x, 8), Ten::variable(edge.normal.y, 9));
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t k = 0; k < 10; ++k) face.flux[i][k] = flux[i].slope[k];
+  add_linearised(qa, qb, end, edge.normal, face);
   return face;
 }
 
@@ -100,11 +131,15 @@ Point add_face(const FaceSlopes& face, const std::vector<std::array<Point, 4>>& 
   Point by_d = {};
   for (std::size_t s = 0; s < 2; ++s) {
     const std::uint32_t v = face.source[s];
+    const FaceSide& side = face.side[s];
     for (std::size_t k = 0; k < 4; ++k) {
-      const double by_product = 2.0 * by[4 * s + k] * face.side[s].by_upwind[k];
+      double by_more = 0.0;
+      for (std::size_t i = 0; i < 4; ++i) by_more += weight[i] * face.by_more[s][i][k];
+      const double by_product = 2.0 * (by[4 * s + k] * side.by_upwind[k] + by_more * side.more_by_upwind[k]);
       slopes.gradient[v][k] = slopes.gradient[v][k] + by_product * d;
       by_d = by_d + by_product * gradients[v][k];
-      const double by_length = by[4 * s + k] * face.side[s].by_epsilon[k] * face.by_length;
+      const double by_length =
+          (by[4 * s + k] * side.by_epsilon[k] + by_more * side.more_by_epsilon[k]) * face.by_length;
       by_d = by_d + by_length * d;
       slopes.log_length -= by_length * dot(d, d);  // epsilon has the edge's length over the limiter's
     }
@@ -217,6 +252,17 @@ std::vector<ShapeSlope> Euler::residual_slopes(
   return results;
 }
 
+namespace {
+
+// Adds to the derivatives by both halves of a wall's edge those of wall_force() of its half i.
+void add_wall_force(Point by_force, std::size_t i, double here, double there, Point* by_half) {
+  by_half[i] = by_half[i] + (near_place * here + far_place * there) * by_force;
+  const Point by_normal = ((near_weight - near_place) * 0.5 * (here - there)) * by_force;
+  by_half[0] = by_half[0] + by_normal, by_half[1] = by_half[1] + by_normal;  // halves' sum is the normal
+}
+
+}  // namespace
+
 // Of fluxes through the boundary; returns the derivatives by halves of its edges.
 std::vector<Point> Euler::add_boundary_slopes(const State& state,
                                               const std::vector<std::array<double, 4>>& weight,
@@ -233,7 +279,7 @@ std::vector<Point> Euler::add_boundary_slopes(const State& state,
       const Primitive<double> q = weighted(state.q[here], state.q[there]);
       const std::array<double, 4>& w = weight[here];
       if (edge.body >= 0) {
-        by_half[2 * e + i] = q[3] * Point{w[1], w[2]};
+        add_wall_force({w[1], w[2]}, i, state.q[here][3], state.q[there][3], &by_half[2 * e]);
         continue;
       }
       if (stream_.prescribed) continue;
@@ -277,17 +323,17 @@ ForceSlope Euler::force_slope(const State& state, const Coefficients& weight) co
     const std::uint32_t end[2] = {edge.a, edge.b};
     for (std::size_t i = 0; i < 2; ++i) {
       const std::uint32_t here = end[i], there = end[1 - i];
-      const double p = near_weight * state.q[here][3] + far_weight * state.q[there][3] - 1.0 / gas_gamma;
-      const Point f = p * edge.half[i];
+      const double p_here = state.q[here][3] - 1.0 / gas_gamma, p_there = state.q[there][3] - 1.0 / gas_gamma;
+      const Point f = wall_force(edge, i, p_here, p_there);
       const Point arm =
           near_place * mesh_.points()[here] + far_place * mesh_.points()[there] - stream_.reference;
       const Point by_f = by_force + by_turning * Point{-arm.y, arm.x};
       const Point by_arm = by_turning * Point{f.y, -f.x};
-      const double by_p = dot(by_f, edge.half[i]);
-      result.pressure[here] += near_weight * by_p;
-      result.pressure[there] += far_weight * by_p;
+      const std::array<Point, 2> by_pressure = wall_force_slopes(edge, i);
+      result.pressure[here] += dot(by_f, by_pressure[0]);
+      result.pressure[there] += dot(by_f, by_pressure[1]);
       std::vector<Point>& points = result.shape.points;
-      by_half[2 * e + i] = p * by_f;
+      add_wall_force(by_f, i, p_here, p_there, &by_half[2 * e]);
       points[here] = points[here] + near_place * by_arm;
       points[there] = points[there] + far_place * by_arm;
     }
