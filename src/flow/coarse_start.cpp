@@ -102,6 +102,7 @@ void find_flow_by_meshes(const Domain& domain, const QualityOptions& quality, co
     state = std::move(*coarse);
     search.newton_steps = 0;
     find_flow(euler, measure, pace_from_coarser(euler.stream()), options, matrix, factors, state, search);
+    find_flow_beside(euler, measure, options, matrix, factors, state, search);
     if (search.status != FlowStatus::stalled && search.status != FlowStatus::step_limit) return;
     spent.newton_steps += search.newton_steps;  // in vain; find_flow_cold() counts anew
   }

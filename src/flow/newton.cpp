@@ -226,6 +226,14 @@ void find_flow(const Euler& euler, const Measure& measure, const Pace& pace, con
   search.reason.clear();
 }
 
+void find_flow_beside(const Euler& euler, const Measure& measure, const FlowOptions& options,
+                      BlockRows& matrix, Factors& factors, State& state, Search& search) {
+  constexpr double beside = 1e-3, short_cfl = 20.0;
+  if (search.status != FlowStatus::stalled || !(search.residual < beside)) return;
+  find_flow(euler, measure, {.cfl = short_cfl, .patience = last_patience, .most = short_cfl}, options, matrix,
+            factors, state, search);
+}
+
 void find_flow_near(const Euler& euler, const Measure& measure, const FlowOptions& options, BlockRows& matrix,
                     Factors& factors, State& state, Search& search) {
   constexpr double near = 0.02, carried_cfl = 50.0;
@@ -277,6 +285,7 @@ void find_flow_at_angle(const Euler& euler, const Measure& measure, double rough
   state = euler.uniform();
   find_flow(euler, measure, {.cfl = cold_cfl, .patience = usual_patience, .rough = rough}, options, matrix,
             factors, state, search);
+  find_flow_beside(euler, measure, options, matrix, factors, state, search);
   if (search.status == FlowStatus::stalled)
     find_flow_in_stages(euler, measure, rough, options, matrix, factors, state, search);
   const Pace march = {

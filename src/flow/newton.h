@@ -60,6 +60,11 @@ FactorKind lasting_kind(const FlowOptions& options);
 void find_flow(const Euler& euler, const Measure& measure, const Pace& pace, const FlowOptions& options,
                BlockRows& matrix, Factors& factors, State& state, Search& search);
 
+// Where the last search has stalled with little residual left: goes on from there, by short time steps again.
+// All but a stagnation point may be steady by then, and what is gained there is lost by the next long step.
+void find_flow_beside(const Euler& euler, const Measure& measure, const FlowOptions& options,
+                      BlockRows& matrix, Factors& factors, State& state, Search& search);
+
 // The same from a flow that is near: without pseudo-time where it is very near and that does not stall.
 void find_flow_near(const Euler& euler, const Measure& measure, const FlowOptions& options, BlockRows& matrix,
                     Factors& factors, State& state, Search& search);

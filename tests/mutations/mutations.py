@@ -197,7 +197,7 @@ MUTATIONS = [
     ("Steiner points where chains end", I + "design.cpp", "loops.joint[*point] || ", ""),
     ("Steiner points of a file are the design's", I + "graft.cpp", "!end && !std::binary_search(stations", "false && !std::binary_search(stations"),
     ("regions spread across curves", M + "freeze.cpp", "if (link.constrained() || region_[", "if (region_["),
-    ("faces that are no ties always shown", I + "graft.cpp", "!proper_[root(i)]", "(true || !proper_[root(i)])"),
+    ("faces that are no ties always shown", I + "graft.cpp", "!proper_[face]", "(true || !proper_[face])"),
     ("length scales not raised for large triangles", I + "scales.cpp",
      "    for (const VertexId v : t) scales[v.index] *= margin * wanted / mean;\n", ""),
     ("promised angle of the living triangles only", I + "scales.cpp",
