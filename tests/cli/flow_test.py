@@ -296,13 +296,16 @@ class Warnings(ProgramTest):
             self.assertRegex(text, r"(?m)^CL .*\(not determined\)$")
             self.succeed("mesh", "strut.json", "-o", "strut.su2")
             self.assertIn("'strut'", self.warnings("strut.su2", *model)[0])
-        self.assertEqual(self.warnings("strut.json", "--mach", 1.5), [])  # nothing goes around it upstream
+        # Nothing goes around it upstream above Mach 1. (One step: this is not about flows that are found.)
+        counts = [len(self.succeed("flow", "strut.json", "--mach", mach, "--max-steps", 1, "--json", status=3).json()["warnings"])
+                  for mach in (0.9, 1.5)]
+        self.assertEqual(counts, [1, 0])
 
     def test_the_one_body_without_an_edge_is_named(self):
         wedge = polygon("wedge", [[0, -0.15], [0, 0.15], [1, 0], [0, -0.15]], 60)
         self.domain("two.json", [wedge], [arc("wheel", 0.3, 40, centre=(-2, 0))])
         for model in (["--mach", 0.3], ["--model", "potential"]):
-            warnings = self.warnings("two.json", *model)
+            warnings = [text for text in self.warnings("two.json", *model) if "not determined" in text]
             self.assertEqual(["the lift of 'wheel'" in text for text in warnings], [True], warnings)
 
     def test_a_blunt_base_is_an_edge_and_a_round_end_is_none(self):
