@@ -182,7 +182,7 @@ def main(file):
             fixed = config.get("FIXED_CL_MODE") and abs(config["TARGET_CL"] - lift) > 1e-5
             if iteration >= config.get("CONV_STARTITER", 5) and row[1] <= config.get("CONV_RESIDUAL_MINVAL", -14) and not fixed:
                 break
-            state = [[s + 0.2 * (t - s) for s, t in zip(a, b)] for a, b in zip(state, target)]
+            state = [[s + 0.1 * (t - s) for s, t in zip(a, b)] for a, b in zip(state, target)]
             if fixed and (iteration + 1) % config.get("UPDATE_AOA_ITER_LIMIT", 200) == 0:
                 alpha += (config["TARGET_CL"] - lift) / config["DCL_DALPHA"]
     with open(config["RESTART_FILENAME"] + ".csv", "w") as restart:
