@@ -137,7 +137,7 @@ function designText(design) {
 }
 
 function savePicture() {
-  if (pictureLost) return say(PICTURE_LOST, true);
+  if (pictureLost) return say(PICTURE_LOST);
   paint(); // what is drawn is there until the browser has shown it
   $("mesh").toBlob((blob) => save("remodel.png", blob));
 }

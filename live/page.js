@@ -34,7 +34,7 @@ function element(tag, attributes, ...children) {
 }
 
 function say(sentence, trouble = false) {
-  if (pictureLost && !trouble) return; // what keeps the picture away is not to be talked over
+  if (pictureLost && !trouble) return say(PICTURE_LOST, true); // what keeps it away is not to be talked over
   $("status").textContent = sentence;
   $("status").classList.toggle("trouble", trouble);
 }
@@ -309,9 +309,9 @@ async function aim() {
     design = wish.design;
     const other = await call("named", { name: goal, degree: surfaceLength(design) - 1 });
     target = await designLike(design, other);
+    placeTarget();
     await call("searchStart", { target, sigma: SEARCH_SIGMA, seed: 1 });
   } while (goal !== $("goal").value || (!searching && (gesture || wish.design !== design)));
-  placeTarget();
 }
 
 async function searchOnce() {

@@ -60,7 +60,7 @@ function listenToContext() {
   $("mesh").addEventListener("webglcontextlost", (event) => {
     event.preventDefault(); // says that it may be given back
     pictureLost = true;
-    say(PICTURE_LOST, true);
+    say(PICTURE_LOST);
   });
   $("mesh").addEventListener("webglcontextrestored", () => {
     pictureLost = false;
@@ -166,7 +166,10 @@ function fitCanvas(canvas, { width, height }) {
 
 function paint() {
   wantsPicture = false;
-  if (!shown || gl.isContextLost()) return;
+  if (!shown) return;
+  placeHandles();
+  placeTarget();
+  if (gl.isContextLost()) return;
   const canvas = $("mesh");
   const ratio = fitCanvas(canvas, stage);
   gl.viewport(0, 0, canvas.width, canvas.height);
@@ -177,8 +180,6 @@ function paint() {
   gl.uniform1f(painter.width, 0.5 * ratio + 0.5);
   gl.uniform3f(painter.line, ...rgb(theme.line));
   gl.drawArrays(gl.TRIANGLES, 0, painter.count);
-  placeHandles();
-  placeTarget();
 }
 
 function paintSoon() {
