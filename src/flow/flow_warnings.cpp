@@ -64,6 +64,19 @@ std::vector<Outline> bodies_of(const FlowMesh& mesh) {
   return bodies;
 }
 
+// Of the largest body: its chord.
+double largest_extent(const std::vector<PotentialOutline>& bodies) {
+  double largest = 0.0;
+  for (const PotentialOutline& body : bodies) {
+    const auto by_x = [](Point a, Point b) { return a.x < b.x; };
+    const auto by_y = [](Point a, Point b) { return a.y < b.y; };
+    const auto [left, right] = std::minmax_element(body.points.begin(), body.points.end(), by_x);
+    const auto [low, high] = std::minmax_element(body.points.begin(), body.points.end(), by_y);
+    largest = std::max({largest, right->x - left->x, high->y - low->y});
+  }
+  return largest;
+}
+
 std::string undetermined(const std::string& name) {
   return "the lift of '" + name +
          "' is not determined: it has no edge that the flow has to leave from, so that flows without "
@@ -110,7 +123,7 @@ Warnings warnings_of(const std::vector<PotentialOutline>& bodies, const Potentia
   const bool blunt =
       std::any_of(bodies.begin(), bodies.end(), [](const auto& body) { return body.base > 1; });
   const double error = std::abs(lift - by_pressure.lift) + (blunt ? 0.0 : std::abs(by_pressure.drag));
-  if (error > part * std::abs(lift) + least)
+  if (error > part * std::abs(lift) + least * largest_extent(bodies) / by_pressure.reference_length)
     warnings.sentences.push_back("the mesh is too coarse for this flow: without compressibility CL is " +
                                  short_text(lift) + " by circulation and " + short_text(by_pressure.lift) +
                                  " by pressure, expected the same, and CD by pressure is " +

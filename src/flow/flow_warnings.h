@@ -26,8 +26,9 @@ struct PotentialOutline {
   std::vector<Point> points;
   std::size_t base = 0;
 };
-// Sums over all bodies, of the incompressible flow.
+// Sums over all bodies, of the incompressible flow, as coefficients with that length.
 struct PressureForces {
+  double reference_length = 1.0;
   double lift = 0.0, drag = 0.0;
 };
 // Of a potential flow: bodies without an edge, or with one that faces the stream; meshes on which lift by

@@ -453,7 +453,7 @@ PotentialFlow PotentialSolver::at(double alpha_deg, double mach) const {
                  b * lift_of(s.flow[1], s.options.reference_length)) /
                 std::sqrt(1.0 - mach * mach);
   std::vector<flow::PotentialOutline> outlines;
-  flow::PressureForces incompressible;
+  flow::PressureForces incompressible{.reference_length = s.options.reference_length};
   combine(result.stream_function, a, s.flow[0].stream_function, b, s.flow[1].stream_function);
   result.velocity = mean_velocities(s.mesh, s.areas, result.stream_function);
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {
