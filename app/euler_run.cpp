@@ -154,7 +154,6 @@ Status run_euler(const EulerRun& run, const MeshInput& input, const std::string&
   InterruptObserver observer;
   FlowOptions options = options_of(run);
   options.observer = &observer;
-  warn_of_slow_stream(run.conditions);
   FlowResult flow;
   Json gradients;
   {
@@ -164,6 +163,7 @@ Status run_euler(const EulerRun& run, const MeshInput& input, const std::string&
     if (run.gradient && flow.converged()) gradients = gradients_json(living, *input.living, run.conditions);
   }
   const std::vector<std::string> files = write_files(run, input, source, outputs, options, flow);
+  print_warnings(source, flow.warnings);
   Report report;
   add_flow_mesh(report, source, "euler", input.frozen);
   add_flow_figures(report, flow);

@@ -32,14 +32,9 @@ void say_flow_left_out(const MeshOutputs& outputs) {
   }
 }
 
-void warn_of_slow_stream(const FlowConditions& conditions) {
-  constexpr double least = 0.1;
-  if (!(conditions.mach < least)) return;
-  std::fprintf(
-      stderr,
-      "remodel: --mach: below %g lift comes out too low and drag too high, the more so the slower the "
-      "stream is; --model potential is made for it\n",
-      least);
+void print_warnings(const std::string& source, const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings)
+    std::fprintf(stderr, "remodel: %s: %s\n", source.c_str(), warning.c_str());
 }
 
 }  // namespace remodel::app

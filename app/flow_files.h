@@ -1,13 +1,12 @@
 #pragma once
 
-// The files of a flow, and what is said of them and of its conditions on standard error.
+// The files of a flow, and what is said of them and of it on standard error.
 
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "outputs.h"
-#include "remodel/flow.h"
 
 namespace remodel::app {
 
@@ -17,7 +16,7 @@ void require_different_files(const MeshOutputs& outputs,
                              const std::vector<std::pair<std::string, std::string>>& others);
 // Formats of the mesh alone have no flow.
 void say_flow_left_out(const MeshOutputs& outputs);
-// Says so below Mach 0.1, where the scheme is inaccurate: docs/flow.md has figures, under "Slow streams".
-void warn_of_slow_stream(const FlowConditions& conditions);
+// A line each on standard error.
+void print_warnings(const std::string& source, const std::vector<std::string>& warnings);
 
 }  // namespace remodel::app

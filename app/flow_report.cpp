@@ -7,6 +7,12 @@ namespace remodel::app {
 namespace {
 
 constexpr const char* not_converged = " (not converged)";
+constexpr const char* not_determined = " (not determined)";
+
+const char* mark_of(const FlowResult& flow) {
+  if (!flow.converged()) return not_converged;
+  return flow.lift_determined ? "" : not_determined;
+}
 
 }  // namespace
 
@@ -30,6 +36,8 @@ Json to_json(const FlowResult& flow) {
   json["memory_mb"] = flow.memory_mb;
   json["seconds"] = flow.seconds;
   json["warm"] = name_of(flow.start);
+  json["lift_determined"] = flow.lift_determined;
+  json["warnings"] = flow.warnings;
   return json;
 }
 
@@ -40,8 +48,8 @@ void add_bodies(Report& report, const FlowResult& flow) {
   for (const FlowBody& body : flow.bodies) {
     bodies.push_back({{"name", body.name}, {"cl", body.cl}, {"cd", body.cd}, {"cm", body.cm}});
     if (flow.bodies.size() > 1)
-      report.line("body " + body.name, "CL " + Json(body.cl).dump() + ", CD " + Json(body.cd).dump() +
-                                           (flow.converged() ? "" : not_converged));
+      report.line("body " + body.name,
+                  "CL " + Json(body.cl).dump() + ", CD " + Json(body.cd).dump() + mark_of(flow));
   }
   report.data("bodies", bodies);
   Json openings = Json::array();
@@ -69,7 +77,8 @@ void add_flow_figures(Report& report, const FlowResult& flow) {
     add_end();
   }
   const std::string mark = flow.converged() ? "" : not_converged + 1;  // behind the space of units
-  figure("cl", "CL", mark), figure("cd", "CD", mark), figure("cm", "CM", mark);
+  const std::string lift_mark = mark.empty() && !flow.lift_determined ? not_determined + 1 : mark;
+  figure("cl", "CL", lift_mark), figure("cd", "CD", mark), figure("cm", "CM", lift_mark);
   figure("alpha_deg", "angle of attack", "degrees");
   figure("mach", "Mach number");
   if (flow.converged()) add_end();

@@ -80,6 +80,7 @@ class Row {
     not_found_ += !flow.converged();
     if (!flow.converged()) ended(status_of(flow));
     designs_.push_back(std::move(entry));
+    warn(flow.warnings);
   }
   void add_refused(const std::string& why) {
     ++not_found_;
@@ -101,11 +102,20 @@ class Row {
     for (std::size_t i = 0; i < designs_.size(); ++i)
       report.line("design " + std::to_string(i + 1), text_of(designs_[i]));
     report.data("designs", designs_);
+    report.data("warnings", warnings_);
     report.print(json);
     return worst_;
   }
 
  private:
+  // Once for all designs.
+  void warn(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) {
+      if (std::find(warnings_.begin(), warnings_.end(), warning) != warnings_.end()) continue;
+      print_warnings(source_, {warning});
+      warnings_.push_back(warning);
+    }
+  }
   static std::string text_of(const Json& design) {
     if (!design.contains("cl"))
       return design["status"].get<std::string>() + ": " + design["detail"].get<std::string>();
@@ -117,6 +127,7 @@ class Row {
 
   std::string source_;
   Json designs_ = Json::array();
+  std::vector<std::string> warnings_;
   Status worst_ = Status::done;
   int factorisations_ = 0, not_found_ = 0;
   double seconds_ = 0.0;
@@ -128,7 +139,6 @@ Status run_series(const EulerRun& run, StartMesh start) {
   require_mach(run);
   if (run.gradient)
     throw Error(ErrorCode::argument, "--gradient", "given with --series, expected a single flow");
-  warn_of_slow_stream(run.conditions);
   InterruptObserver observer;
   FlowOptions options = options_of(run);
   options.observer = &observer;

@@ -24,9 +24,11 @@ struct LiveCommand {
 
 Status run(const LiveCommand& command) {
   if (live_page().empty())
-    throw Error(ErrorCode::argument, "live",
-                "found a program that was built without its page, expected one built where emscripten was "
-                "(Debian: emscripten)");
+    throw Error(
+        ErrorCode::argument, "live",
+        "found a program that was built without its page (that of ./demo is), expected one built with "
+        "emscripten: `scripts/install-dependencies program live && cmake --preset release "
+        "-DREMODEL_TESTS=OFF && cmake --build --preset release` makes build/release/remodel");
   require_writable_as(command.output, {".html"});
   write_text_atomically(command.output, live_page());
   Report report;

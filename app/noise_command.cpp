@@ -56,6 +56,8 @@ struct Objective {
   // By the adjoint method, on the mesh of the last values: slopes along a direction in the design, of length
   // 1. None where there is no such method.
   std::function<std::vector<double>(const Mesh&, std::span<const double> direction)> slopes = {};
+  // Why there were no values, of each design without.
+  std::shared_ptr<std::vector<std::string>> failures = std::make_shared<std::vector<std::string>>();
 };
 
 // A new solver for each way of making meshes. With fresh meshes nothing of the last flow is of use.
@@ -63,12 +65,14 @@ Objective flow_objective(const NoiseCommand& command, StepObserver& observer, bo
   FlowOptions options = command.flow;
   options.observer = &observer;
   auto solver = std::make_shared<LivingFlow>(options);
+  auto failures = std::make_shared<std::vector<std::string>>();
   return {{"cl", "cd"},
           [=, conditions = command.conditions](const Mesh& mesh, std::span<const double>) -> Values {
             if (!carry) solver->forget();
             const FlowResult flow = solver->solve(mesh, conditions);
-            if (!flow.converged()) return std::nullopt;
-            return std::vector{flow.cl, flow.cd};
+            if (flow.converged()) return std::vector{flow.cl, flow.cd};
+            failures->push_back(flow.reason);
+            return std::nullopt;
           },
           [=](const Mesh& mesh, std::span<const double> direction) {
             const MeshDerivative derivative(mesh);
@@ -81,14 +85,17 @@ Objective flow_objective(const NoiseCommand& command, StepObserver& observer, bo
               slopes.push_back(std::inner_product(direction.begin(), direction.end(), by.begin(), 0.0));
             }
             return slopes;
-          }};
+          },
+          failures};
 }
 
 // The same: a state that the command left is carried on where meshes are not fresh.
 Objective command_objective(const NoiseCommand& command, StepObserver& observer, bool carry) {
   std::shared_ptr<Evaluator> evaluator = shell_evaluator(command.evaluate);
   auto state = std::make_shared<std::unique_ptr<EvaluatorState>>();
-  return {{"objective"}, [=, &observer](const Mesh& mesh, std::span<const double> design) -> Values {
+  auto failures = std::make_shared<std::vector<std::string>>();
+  return {{"objective"},
+          [=, &observer](const Mesh& mesh, std::span<const double> design) -> Values {
             if (!carry) state->reset();
             const MeshStep step;
             const EvaluationTask task{.design = design,
@@ -97,10 +104,19 @@ Objective command_objective(const NoiseCommand& command, StepObserver& observer,
                                       .before = nullptr,
                                       .gradient = false,
                                       .observer = observer};
-            const Evaluation evaluation = evaluator->evaluate(task, *state);
-            if (!std::isfinite(evaluation.objective)) return std::nullopt;
-            return std::vector{evaluation.objective};
-          }};
+            try {
+              const Evaluation evaluation = evaluator->evaluate(task, *state);
+              if (std::isfinite(evaluation.objective)) return std::vector{evaluation.objective};
+              failures->emplace_back("found an objective that is not finite");
+            } catch (const std::exception& problem) {
+              if (observer.cancelled()) return std::nullopt;
+              failures->emplace_back(problem.what());
+            }
+            state->reset();
+            return std::nullopt;
+          },
+          {},
+          failures};
 }
 
 // The places of designs on the line, around 0, and the designs.
@@ -194,6 +210,7 @@ struct Series {
   // By the adjoint method at place 0, as Objective::names: of an even number of designs the mean of the two
   // beside it. None where there is no such method, or no value.
   std::vector<double> adjoint;
+  std::vector<std::string> failures;  // why there are no values, of each design without
 };
 
 // Whether a design of the line is in its middle.
@@ -226,6 +243,7 @@ Series evaluate(Way way, const Objective& objective, const DesignLine& line, con
     for (std::size_t k = 0; k < objective.names.size(); ++k)
       series.adjoint.push_back(0.5 * (slopes.front()[k] + slopes.back()[k]));
   series.values.resize(line.designs.size());
+  series.failures = *objective.failures;
   const auto found = static_cast<std::size_t>(
       std::count_if(series.values.begin(), series.values.end(), [](const auto& v) { return !v.empty(); }));
   if (found < static_cast<std::size_t>(command.degree) + 2) return series;
@@ -252,6 +270,7 @@ Json to_json(const Objective& objective, const Series& series) {
   json["slope"] = slope, json["slope_error"] = error, json["step"] = step, json["step_error"] = step_error;
   json["not_found"] =
       std::count_if(series.values.begin(), series.values.end(), [](const auto& v) { return v.empty(); });
+  if (!series.failures.empty()) json["failures"] = series.failures;
   return json;
 }
 
@@ -290,6 +309,14 @@ void draw(const NoiseCommand& command, const DesignLine& line, const Objective& 
   if (!plot.curves.empty()) draw_plot(plot, command.picture);
 }
 
+// The first reason of each way, on standard error.
+void say_failures(const std::vector<Series>& all) {
+  for (std::size_t w = 0; w < all.size(); ++w)
+    if (const auto& failures = all[w].failures; !failures.empty())
+      std::fprintf(stderr, "remodel: %s: %zu of %zu designs have no value: %s\n", way_names[w],
+                   failures.size(), all[w].values.size(), failures.front().c_str());
+}
+
 Status run(const NoiseCommand& command) {
   if (!command.picture.empty()) require_writable_as(command.picture, {".svg", ".png"});
   if (command.mach.has_value() == !command.evaluate.command.empty())
@@ -314,6 +341,8 @@ Status run(const NoiseCommand& command) {
   const bool whole =
       std::none_of(all.begin(), all.end(), [](const Series& series) { return series.fits.empty(); });
   if (!command.picture.empty()) draw(command, line, objective, all);
+
+  say_failures(all);
 
   Report report;
   report.figure("shape", "shape", command.shape);

@@ -13,16 +13,16 @@ namespace remodel::app {
 namespace {
 
 void add_flow_figures(Report& report, const PotentialFlow& flow) {
-  report.figure("cl", "CL", flow.lift);
+  const std::string mark = flow.lift_determined ? "" : "(not determined)";
+  report.figure("cl", "CL", flow.lift, mark);
   report.figure("cd", "CD by pressure, an error", flow.drag_by_pressure);
-  report.figure("cm", "CM", flow.moment);
-  report.figure("cl_by_pressure", "CL by pressure", flow.lift_by_pressure);
+  report.figure("cm", "CM", flow.moment, mark);
+  report.figure("cl_by_pressure", "CL by pressure", flow.lift_by_pressure, mark);
   report.figure("alpha_deg", "angle of attack", flow.alpha_deg, "degrees");
   report.figure("mach", "Mach number", flow.mach);
   report.data("supersonic", flow.supersonic);
-  if (flow.supersonic)
-    report.line("pressures",
-                "some are below that of sonic speed, where the rule of Karman and Tsien does not hold");
+  report.data("lift_determined", flow.lift_determined);
+  report.data("warnings", flow.warnings);
   report.data("converged", true);
   Json bodies = Json::array();
   for (const BodyFlow& body : flow.bodies) {
@@ -55,6 +55,7 @@ void run_potential(const PotentialRun& run, const MeshInput& input, const std::s
   }
   write_with_fields(outputs, input, fields);
   say_flow_left_out(outputs);
+  print_warnings(source, flow.warnings);
   std::vector<std::string> files = outputs.files();
   if (plot) {
     draw_plot(*plot, run.cp_plot);

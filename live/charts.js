@@ -86,6 +86,9 @@ function drawStrips() {
 const sentenceOfNoPressure = () =>
   (wish.flow ? "The pressure follows when the shape rests." : "The pressure is not asked for.");
 
+// Of the design that is shown, not of an earlier one.
+const pressureIsCurrent = () => Boolean(shown.pressure) || pressure?.model === "euler";
+
 function drawCp(context, width, height) {
   if (!pressure) return drawNote(context, width, height, sentenceOfNoPressure());
   const wall = pressure.wall;
@@ -98,8 +101,7 @@ function drawCp(context, width, height) {
   drawFrame(context, box, [`cp ${signed(low, 0 + (low % 1 !== 0))}`, String(high)]);
   drawChordAxis(context, box, at, high);
   if (pressure.sonic > low) drawSonicLine(context, at, pressure.sonic);
-  const isCurrent = shown.pressure || pressure.model === "euler";
-  context.strokeStyle = isCurrent ? theme.step : theme.flow; // pale where it is of an earlier design
+  context.strokeStyle = pressureIsCurrent() ? theme.step : theme.flow; // pale where it is of an earlier design
   context.lineWidth = 1.6;
   context.beginPath();
   for (let i = 0; i < wall.length; i += 2) context.lineTo(...at(wall[i], wall[i + 1]));
@@ -150,7 +152,7 @@ function drawCharts() {
 function sentenceOfLift() {
   if (pressure.model === "euler") return sentenceOfForces(pressure);
   const isSupersonic = pressure.wall.some((value, i) => i % 2 && value < pressure.sonic);
-  const lift = `lift coefficient ${signed(pressure.lift, 3)}`;
+  const lift = `lift coefficient ${signed(pressure.lift, 3)}${pressureIsCurrent() ? "" : ", of an earlier shape"}`;
   return isSupersonic ? `${lift}; faster than sound: beyond this model` : lift;
 }
 
@@ -163,8 +165,13 @@ function showTexts() {
   $("median-latency").textContent = milliseconds(latency);
   $("median-kept").textContent = strip.length ? percent(kept) : "–";
   $("median-surplus").textContent = Number.isFinite(surplus) ? percent(surplus) : "not counted";
-  $("lift").textContent = pressure ? sentenceOfLift() : "";
+  showLift();
   showFigures(shown);
+}
+
+function showLift() {
+  $("lift").textContent = pressure ? sentenceOfLift() : "";
+  $("lift").classList.toggle("stale", pressure !== null && !pressureIsCurrent());
 }
 
 function showFigures({ figures: [triangles, , kept, moved, made, angle], isFirst, going }) {

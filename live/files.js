@@ -7,10 +7,14 @@ const SU2_MARKERS = ["airfoil", "wall", "body"]; // names of the airfoil's marke
 const LARGEST_FILE = 64 * 1024 * 1024;
 
 // True where the design is shown then.
+let taking = Promise.resolve(); // the last design that was asked for
+
 async function takeDesign(method, argument) {
   stopSearch();
   try {
-    const design = await call(method, { degree: DEGREE, ...argument });
+    taking = call(method, { degree: DEGREE, ...argument });
+    const design = await taking;
+    stopSearch();
     change({ design });
     await settled();
     return same(shown.design, design);
@@ -133,6 +137,7 @@ function designText(design) {
 }
 
 function savePicture() {
+  if (pictureLost) return say(PICTURE_LOST);
   paint(); // what is drawn is there until the browser has shown it
   $("mesh").toBlob((blob) => save("remodel.png", blob));
 }

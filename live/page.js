@@ -34,6 +34,7 @@ function element(tag, attributes, ...children) {
 }
 
 function say(sentence, trouble = false) {
+  if (pictureLost && !trouble) return say(PICTURE_LOST, true); // what keeps it away is not to be talked over
   $("status").textContent = sentence;
   $("status").classList.toggle("trouble", trouble);
 }
@@ -215,9 +216,8 @@ function showFrame(frame, { points, gradation, since = 0, heard = 0 }) {
   const now = performance.now();
   const times = since ? { latency: now - since, answer: now - heard } : { latency: NaN, answer: NaN };
   const potential = frame.pressure ?? (wish.flow ? pressure : null);
-  const wasEuler = pressure?.model === "euler";
   pressure = eulerShown() ?? (potential?.model === "euler" ? null : potential);
-  if (wasEuler && pressure?.model !== "euler") showTexts(); // at once: those of another flow must not stay
+  showLift(); // at once: that of another flow or shape must not stay as if it were this one's
   if (frame.flow && !frame.isFirst) flowTime = frame.flow; // the first one waits for the code to be compiled
   if (frame.stepped && !frame.isFirst) addToStrip(frame, times);
   else if (frame.flow && strip.length && !strip.at(-1).flow) strip.at(-1).flow = frame.flow;
@@ -276,25 +276,42 @@ function takeKeyOfPage(event) {
 
 let searching = false;
 let target = null; // the design that the search looks for
+let goal = ""; // its name: what the page shows as the goal while the search runs
 
 async function startSearch() {
   $("search").disabled = true;
   try {
+    await taking.catch(() => {}); // a shape that was chosen is the one to begin with
     await settled();
     clearTimeout(restTimer);
-    const degree = surfaceLength(wish.design) - 1;
-    target = await designLike(wish.design, await call("named", { name: $("goal").value, degree }));
-    await call("searchStart", { target, sigma: SEARCH_SIGMA, seed: 1 });
+    await aim();
     searching = true;
     $("search").textContent = "Stop";
     $("search").disabled = false;
     $("undo").disabled = false;
     say("The search is running.");
-    while (searching) await searchOnce();
+    while (searching) {
+      if ($("goal").value === goal) await searchOnce();
+      else await aim();
+    }
   } catch (error) {
     sayTrouble(error);
   }
   endSearch();
+}
+
+// Begins a search from the design that is shown towards the goal that is shown, whatever is chosen meanwhile.
+async function aim() {
+  let design = null;
+  do {
+    if (!searching) await settled();
+    goal = $("goal").value;
+    design = wish.design;
+    const other = await call("named", { name: goal, degree: surfaceLength(design) - 1 });
+    target = await designLike(design, other);
+    placeTarget();
+    await call("searchStart", { target, sigma: SEARCH_SIGMA, seed: 1 });
+  } while (goal !== $("goal").value || (!searching && (gesture || wish.design !== design)));
 }
 
 async function searchOnce() {
@@ -405,8 +422,6 @@ function listenToWindow() {
     paintSoon();
     drawCharts();
   });
-  $("mesh").addEventListener("webglcontextlost", () =>
-    sayTrouble(new Error("The browser has taken the picture away. Open the page again.")));
 }
 
 async function fillCatalogue() {
@@ -435,6 +450,7 @@ async function showFirst() {
 async function start() {
   gl = $("mesh").getContext("webgl2", { antialias: false, alpha: false, powerPreference: "high-performance" });
   if (!gl) throw new Error("This browser has no WebGL 2, which the picture needs.");
+  listenToContext();
   readTheme();
   measureStage();
   showAirfoil();

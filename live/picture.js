@@ -51,6 +51,27 @@ function outline(design, samples = 160) {
 let gl = null; // the context of WebGL 2
 let painter = null; // program, buffer, palette and their places
 let wantsPicture = false;
+let pictureLost = false; // the browser has taken the context, and all that was on it
+
+const PICTURE_LOST = "The browser has taken the picture away. If it does not give it back, open the page again.";
+
+// From the first moment on: a browser may take the context while the mesher starts.
+function listenToContext() {
+  $("mesh").addEventListener("webglcontextlost", (event) => {
+    event.preventDefault(); // says that it may be given back
+    pictureLost = true;
+    say(PICTURE_LOST);
+  });
+  $("mesh").addEventListener("webglcontextrestored", () => {
+    pictureLost = false;
+    makePainter();
+    say("The picture is back.");
+    if (!shown) return;
+    uploadMesh(shown.vertices);
+    showLegend(true);
+    paint();
+  });
+}
 
 const VERTEX_SHADER = `#version 300 es
 layout(location = 0) in vec3 corner;
@@ -86,7 +107,7 @@ function compiled(kind, source) {
   const shader = gl.createShader(kind);
   gl.shaderSource(shader, source);
   gl.compileShader(shader);
-  if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) throw new Error(gl.getShaderInfoLog(shader));
+  if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS) && !gl.isContextLost()) throw new Error(gl.getShaderInfoLog(shader));
   return shader;
 }
 
@@ -95,7 +116,7 @@ function linkedProgram() {
   gl.attachShader(program, compiled(gl.VERTEX_SHADER, VERTEX_SHADER));
   gl.attachShader(program, compiled(gl.FRAGMENT_SHADER, FRAGMENT_SHADER));
   gl.linkProgram(program);
-  if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program));
+  if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) throw new Error(gl.getProgramInfoLog(program));
   return program;
 }
 
@@ -145,7 +166,10 @@ function fitCanvas(canvas, { width, height }) {
 
 function paint() {
   wantsPicture = false;
-  if (!shown || gl.isContextLost()) return;
+  if (!shown) return;
+  placeHandles();
+  placeTarget();
+  if (gl.isContextLost()) return;
   const canvas = $("mesh");
   const ratio = fitCanvas(canvas, stage);
   gl.viewport(0, 0, canvas.width, canvas.height);
@@ -156,8 +180,6 @@ function paint() {
   gl.uniform1f(painter.width, 0.5 * ratio + 0.5);
   gl.uniform3f(painter.line, ...rgb(theme.line));
   gl.drawArrays(gl.TRIANGLES, 0, painter.count);
-  placeHandles();
-  placeTarget();
 }
 
 function paintSoon() {

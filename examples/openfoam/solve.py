@@ -31,8 +31,11 @@ def environment():
 def converged(case):
     """Runs rhoSimpleFoam; its log, and what went wrong, or nothing."""
     file = case / "rhoSimpleFoam.log"
-    with open(file, "w") as log:
-        ended = subprocess.run(["rhoSimpleFoam", "-case", case], stdout=log, stderr=subprocess.STDOUT, env=environment())
+    try:
+        with open(file, "w") as log:
+            ended = subprocess.run(["rhoSimpleFoam", "-case", case], stdout=log, stderr=subprocess.STDOUT, env=environment())
+    except OSError as problem:
+        sys.exit(f"solve.py: rhoSimpleFoam cannot be started ({problem}): expected it in the PATH (Debian's package openfoam)")
     text = file.read_text(errors="replace")
     if ended.returncode != 0:
         return text, f"rhoSimpleFoam ended with status {ended.returncode}: {text[-300:]}"

@@ -148,6 +148,11 @@ struct FlowResult {
 
   std::vector<FlowOpening> openings;  // inlets, then outlets
 
+  // What has to be known before a coefficient is used, a sentence each: bodies whose lift is not determined
+  // because they have no edge that the flow leaves from (below Mach 1), streams too slow for the scheme.
+  std::vector<std::string> warnings;
+  bool lift_determined = true;  // no warning is of a body without an edge
+
   FlowStart start = FlowStart::cold;
   double residual = 0.0;               // as FlowOptions::tolerance counts it
   std::vector<double> history;         // residuals, from the first state on

@@ -71,6 +71,10 @@ struct PotentialFlow {
   std::vector<BodyFlow> bodies;
   std::vector<double> stream_function;  // per vertex
   std::vector<Point> velocity;          // per vertex
+  // What has to be known before a coefficient is used, a sentence each: bodies whose lift is not determined
+  // because they have no edge that the flow leaves from, meshes too coarse, rules that do not hold.
+  std::vector<std::string> warnings;
+  bool lift_determined = true;  // no warning is of a body without an edge
 
   // cp, and of the incompressible flow speed, stream_function and velocity, for files and pictures.
   std::vector<Field> fields() const;
@@ -79,8 +83,8 @@ struct PotentialFlow {
 // Solves for two angles and combines them: the flow at another angle costs no more than its arrays.
 class PotentialSolver {
  public:
-  // Throws Error (argument) naming `source` for a mesh without a far field around everything, with edges of
-  // no named boundary, with boundaries that touch, overlapping or inverted triangles.
+  // Throws Error (argument) naming `source` for a mesh without a far field around everything, without a
+  // body, with edges of no named boundary, with boundaries that touch, overlapping or inverted triangles.
   explicit PotentialSolver(const FrozenMesh& mesh, const PotentialOptions& options = {},
                            const std::string& source = "mesh");
   ~PotentialSolver();

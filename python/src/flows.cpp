@@ -143,6 +143,10 @@ void add_figures(py::class_<FlowResult, FlowPointer>& type) {
                              "Whether the flow was found; otherwise no coefficient should be used.");
   type.def_property_readonly("status", [](const FlowResult& f) { return name_of(f.status); });
   type.def_readonly("reason", &FlowResult::reason, "Why it did not converge; empty if it did.");
+  type.def_readonly("warnings", &FlowResult::warnings,
+                    "What has to be known before a coefficient is used: a list of sentences.");
+  type.def_readonly("lift_determined", &FlowResult::lift_determined,
+                    "Whether every body has an edge that the flow leaves from.");
   type.def_property_readonly(
       "start", [](const FlowResult& f) { return name_of(f.start); },
       "'cold', 'carried' or 'refactored': what the flow was found from.");

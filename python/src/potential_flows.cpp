@@ -43,6 +43,10 @@ void add_potential_flows(py::module_& module) {
       .def_readonly("lift_by_pressure", &PotentialFlow::lift_by_pressure)
       .def_readonly("drag_by_pressure", &PotentialFlow::drag_by_pressure, "An error of the mesh.")
       .def_readonly("moment", &PotentialFlow::moment)
+      .def_readonly("warnings", &PotentialFlow::warnings,
+                    "What has to be known before a coefficient is used: a list of sentences.")
+      .def_readonly("lift_determined", &PotentialFlow::lift_determined,
+                    "Whether every body has an edge that the flow leaves from.")
       .def_property_readonly("bodies", &bodies_of,
                              "By name: points, vertices, cp and speed along the wall; lift, drag, moment.")
       .def_property_readonly("stream_function",

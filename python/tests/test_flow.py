@@ -69,6 +69,21 @@ def test_potential_flow(flowing):
     assert flow.velocity.shape == (len(mesh.points), 2) and flow.cp.max() < 1.1
 
 
+def test_lift_without_an_edge_is_warned_of(flowing):
+    far = {"name": "farfield", "stations": 32, "shape": {"kind": "arc", "centre": [0, 0], "radius": 20, "start": 0,
+                                                         "sweep": 2 * np.pi}}
+    wheel = {"name": "wheel", "stations": 40, "shape": {"kind": "arc", "centre": [0, 0], "radius": 0.5, "start": 0.1,
+                                                        "sweep": 2 * np.pi}}
+    loops = [{"role": "outer", "curves": [far]}, {"role": "hole", "curves": [wheel]}]
+    mesh = remodel.generate(remodel.Domain.from_json(json.dumps({"loops": loops})))
+    for flow in (remodel.LivingFlow().solve(mesh, mach=0.3), remodel.PotentialSolver(mesh).at(0.0)):
+        assert not flow.lift_determined
+        assert len(flow.warnings) == 1 and "'wheel' is not determined" in flow.warnings[0]
+    section = flowing[1]
+    for flow in (remodel.LivingFlow().solve(section, mach=0.3), remodel.PotentialSolver(section).at(2.0)):
+        assert flow.warnings == [] and flow.lift_determined
+
+
 def test_potential_flow_knows_the_mach_number(flowing):
     solver = remodel.PotentialSolver(flowing[1])
     slow, fast = solver.at(2.0), solver.at(2.0, mach=0.5)

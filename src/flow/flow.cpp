@@ -9,6 +9,7 @@
 
 #include "base/stopwatch.h"
 #include "flow/coarse_start.h"
+#include "flow/flow_warnings.h"
 #include "flow/solution.h"
 #include "remodel/error.h"
 
@@ -238,6 +239,9 @@ FlowResult result_of(const Euler& euler, const State& state, const Search& searc
   const std::vector<double> mass_flows = euler.mass_flows(state);
   for (std::size_t i = 0; i < mass_flows.size(); ++i)
     result.openings.push_back({euler.stream().openings[i].name, mass_flows[i]});
+  Warnings warnings = warnings_of(euler.mesh(), result.mach, result.alpha_deg);
+  result.warnings = std::move(warnings.sentences);
+  result.lift_determined = warnings.lift_determined;
   result.start = start;
   result.residual = search.residual;
   result.history = search.history;

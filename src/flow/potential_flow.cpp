@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "flow/flow_warnings.h"
 #include "flow/trailing_edge.h"
 #include "flow/wall_loops.h"
 #include "remodel/error.h"
@@ -26,7 +27,7 @@ struct Body {
   std::vector<double> lengths;          // of walls that belong to each vertex: half of its two edges
   std::size_t base = 0;                 // vertices of the trailing edge: 1 if it is sharp, 0 if there is none
   Point centre;                         // where its vortex is for those far away
-  std::vector<std::pair<std::size_t, double>> kutta;
+  flow::KuttaCondition kutta;
 };
 
 // What is the same at every angle, and two flows: at 0 and at 90 degrees.
@@ -85,7 +86,7 @@ Body body_of(const WallLoop& loop, const FrozenMesh& mesh) {
     return std::hypot(d.x, d.y);
   };
   for (std::size_t i = 0; i < n; ++i) body.lengths.push_back(0.5 * (length(i) + length(i + n - 1)));
-  if (body.base > 0) body.kutta = flow::kutta_weights(points, body.base);
+  if (body.base > 0) body.kutta = flow::kutta_condition(points, body.base);
   // A quarter chord behind the point farthest from the first one.
   const auto farther = [&](Point a, Point b) {
     return dot(a - points[0], a - points[0]) < dot(b - points[0], b - points[0]);
@@ -102,6 +103,8 @@ struct PotentialSolver::Solution {
   Solution(const FrozenMesh& frozen, const PotentialOptions& given, const std::string& name)
       : mesh(frozen), options(given), source(name) {
     loops = flow::find_wall_loops(mesh, options.farfield, source);
+    if (loops.bodies.empty())
+      throw Error(ErrorCode::argument, source, "found no boundary but the far field, expected a body");
     number_unknowns();
     areas = areas_at(mesh.points);
     solve();
@@ -289,8 +292,7 @@ struct PotentialSolver::Solution {
     };
     const auto around_edge = [&](std::size_t function, std::size_t body) {
       double sum = 0.0;
-      for (const auto& [i, weight] : bodies[body].kutta)
-        sum += weight * flows[function][body][i] / bodies[body].lengths[i];
+      for (const auto& [i, weight] : bodies[body].kutta.terms) sum += weight * flows[function][body][i];
       return sum;
     };
     std::vector<double> matrix(n * n, 0.0), rhs(n, 0.0);
@@ -450,6 +452,8 @@ PotentialFlow PotentialSolver::at(double alpha_deg, double mach) const {
   result.lift = (a * lift_of(s.flow[0], s.options.reference_length) +
                  b * lift_of(s.flow[1], s.options.reference_length)) /
                 std::sqrt(1.0 - mach * mach);
+  std::vector<flow::PotentialOutline> outlines;
+  flow::PressureForces incompressible{.reference_length = s.options.reference_length};
   combine(result.stream_function, a, s.flow[0].stream_function, b, s.flow[1].stream_function);
   result.velocity = mean_velocities(s.mesh, s.areas, result.stream_function);
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {
@@ -462,8 +466,8 @@ PotentialFlow PotentialSolver::at(double alpha_deg, double mach) const {
     std::vector<double> speeds;
     combine(speeds, a, s.flow[0].speeds[k], b, s.flow[1].speeds[k]);
     const std::size_t n = speeds.size();
-    const double leaving =
-        body.base > 0 ? 0.5 * (std::abs(speeds[body.base]) + std::abs(speeds[n - 1])) : 0.0;
+    const auto& [lower, upper] = body.kutta.beside;
+    const double leaving = 0.5 * (std::abs(speeds[lower]) + std::abs(speeds[upper]));
     std::fill_n(speeds.begin(), body.base, leaving);
     for (std::size_t i = 0; i < n; ++i) {
       const std::uint32_t v = body.vertices[i];
@@ -476,12 +480,19 @@ PotentialFlow PotentialSolver::at(double alpha_deg, double mach) const {
     }
     for (std::size_t i = 0; i < body.base; ++i)
       result.velocity[body.vertices[i]] =
-          0.5 * (result.velocity[body.vertices[body.base]] + result.velocity[body.vertices[n - 1]]);
-    add_forces(part, body.base, alpha, mach, s.options);
+          0.5 * (result.velocity[body.vertices[lower]] + result.velocity[body.vertices[upper]]);
+    add_forces(part, body.base, alpha, 0.0, s.options);
+    incompressible.lift += part.lift, incompressible.drag += part.drag;
+    if (mach > 0.0) add_forces(part, body.base, alpha, mach, s.options);
     result.lift_by_pressure += part.lift;
     result.drag_by_pressure += part.drag;
     result.moment += part.moment;
+    auto& outline = outlines.emplace_back(flow::PotentialOutline{body.name, {}, body.base});
+    for (const WallValue& value : part.wall) outline.points.push_back(value.point);
   }
+  flow::Warnings warnings = flow::warnings_of(outlines, result, incompressible);
+  result.warnings = std::move(warnings.sentences);
+  result.lift_determined = warnings.lift_determined;
   return result;
 }
 

@@ -13,6 +13,11 @@ double distance(Point a, Point b) {
   return std::hypot(b.x - a.x, b.y - a.y);
 }
 
+// From a to b, of length 1.
+Point direction(Point a, Point b) {
+  return (1.0 / distance(a, b)) * (b - a);
+}
+
 // Of the body at corner i, radians: in [0, 2 pi).
 double corner_angle(std::span<const Point> body, std::size_t i) {
   const std::size_t n = body.size();
@@ -23,51 +28,35 @@ double corner_angle(std::span<const Point> body, std::size_t i) {
   return angle < 0.0 ? angle + 2.0 * std::numbers::pi : angle;
 }
 
-struct Sample {
-  std::size_t index;
-  double distance;  // from the edge, of the mean over the vertex's hat function
-  double towards;   // 1 or -1: the sign of a clockwise speed towards the edge; that of A and B too
-};
-
-// At most per_side of each side, as many of both, farther from the base than twice its width.
-std::vector<Sample> samples_near(std::span<const Point> body, std::size_t base, std::size_t per_side) {
-  const std::size_t n = body.size(), most = (n - base) / 2;
-  const double nearest = 2.0 * distance(body[0], body[base - 1]);
-  std::array<std::vector<Sample>, 2> sides;
-  for (const bool clockwise : {true, false}) {
-    const auto at = [&](std::size_t k) { return clockwise ? (base - 1 + k) % n : (n - k) % n; };
-    std::vector<Sample>& samples = sides[clockwise ? 0 : 1];
-    double walked = 0.0;
-    for (std::size_t k = 1; k <= most && samples.size() < per_side; ++k) {
-      const double inner = distance(body[at(k - 1)], body[at(k)]);
-      const double outer = distance(body[at(k)], body[at(k + 1)]);
-      walked += inner;
-      if (walked >= nearest)
-        samples.push_back({at(k), walked + (outer - inner) / 3.0, clockwise ? -1.0 : 1.0});
-    }
-  }
-  const std::size_t both = std::min(sides[0].size(), sides[1].size());
-  sides[0].resize(both);
-  sides[0].insert(sides[0].end(), sides[1].begin(), sides[1].begin() + static_cast<std::ptrdiff_t>(both));
-  return sides[0];
-}
-
 // In the fluid, between the surfaces beside the base.
-double fluid_angle(std::span<const Point> body, std::size_t base) {
-  const Point lower = body[base % body.size()] - body[base - 1], upper = body[body.size() - 1] - body[0];
+double fluid_angle(Point upper, Point lower) {
   const double angle = std::atan2(cross(upper, lower), dot(upper, lower));
   return 2.0 * std::numbers::pi - std::max(angle, 0.0);
 }
 
-using Matrix3 = std::array<std::array<double, 3>, 3>;
+double second_integral(double s, double power) {
+  return std::pow(std::abs(s), power + 2.0) / ((power + 1.0) * (power + 2.0));
+}
 
-// The first row of the inverse of a symmetric matrix.
-std::array<double, 3> first_row_of_inverse(const Matrix3& m) {
-  const double c0 = m[1][1] * m[2][2] - m[1][2] * m[2][1];
-  const double c1 = m[1][2] * m[2][0] - m[1][0] * m[2][2];
-  const double c2 = m[1][0] * m[2][1] - m[1][1] * m[2][0];
-  const double determinant = m[0][0] * c0 + m[0][1] * c1 + m[0][2] * c2;
-  return {c0 / determinant, c1 / determinant, c2 / determinant};
+// The integral of s^power against a function of s that is 1 up to `from` and falls to 0 at `to`.
+double integral_falling(double from, double to, double power) {
+  return (second_integral(to, power) - second_integral(from, power)) / (to - from);
+}
+
+// A side of the body, walked from its corner at the trailing edge.
+struct Side {
+  std::vector<std::size_t> vertices;  // the corner first
+  std::vector<double> s;              // how far each is ahead of the middle of the base, along the side
+};
+
+Side side_of(std::span<const Point> body, std::size_t base, bool clockwise, Point middle, Point along) {
+  const std::size_t n = body.size(), corner = clockwise ? base - 1 : 0;
+  Side side{{corner}, {dot(body[corner] - middle, along)}};
+  for (std::size_t k = 1; k <= n - base; ++k) {
+    side.vertices.push_back(clockwise ? (corner + k) % n : n - k);
+    side.s.push_back(side.s.back() + distance(body[side.vertices[k - 1]], body[side.vertices[k]]));
+  }
+  return side;
 }
 
 }  // namespace
@@ -87,39 +76,64 @@ std::optional<TrailingEdge> trailing_edge(std::span<const Point> body) {
   double downstream = 0.0;
   for (std::size_t k = 0; corners.size() > 1 && k < corners.size(); ++k) {
     const std::size_t upper = corners[k], lower = corners[(k + 1) % corners.size()];
-    const double width = distance(body[upper], body[lower]), x = 0.5 * (body[upper].x + body[lower].x);
+    const std::size_t count = (lower + body.size() - upper) % body.size() + 1;
+    double width = 0.0;
+    for (std::size_t i = upper; i != lower; i = (i + 1) % body.size())
+      width += distance(body[i], body[(i + 1) % body.size()]);
+    const double x = 0.5 * (body[upper].x + body[lower].x);
     if (width > widest * outline || (found && x <= downstream)) continue;
-    found = {upper, (lower + body.size() - upper) % body.size() + 1};
+    found = {upper, count};
     downstream = x;
   }
   return found;
 }
 
-std::vector<std::pair<std::size_t, double>> kutta_weights(std::span<const Point> body, std::size_t base) {
-  constexpr std::size_t per_side = 4;
-  const std::vector<Sample> samples = samples_near(body, base, per_side);
-  std::vector<std::pair<std::size_t, double>> weights;
-  if (samples.size() < 4) {  // equal speeds at the edge's neighbours
-    return {{base % body.size(), 1.0}, {body.size() - 1, 1.0}};
+Point edge_direction(std::span<const Point> body, std::size_t base) {
+  const Point lower = direction(body[base % body.size()], body[base - 1]);
+  const Point upper = direction(body.back(), body.front());
+  return direction({}, lower + upper);
+}
+
+bool edge_faces_downstream(std::span<const Point> body, Point stream) {
+  constexpr double sharpest_round = 2.0 * std::numbers::pi / 3.0;
+  const auto leaves_at = [&](const TrailingEdge& edge) {
+    std::vector<Point> turned(body.begin(), body.end());
+    std::rotate(turned.begin(), turned.begin() + static_cast<std::ptrdiff_t>(edge.first), turned.end());
+    return dot(edge_direction(turned, edge.count), stream) >= least_cosine;
+  };
+  for (std::size_t i = 0; i < body.size(); ++i)
+    if (corner_angle(body, i) < sharpest_round && leaves_at({i, 1})) return true;
+  const auto edge = trailing_edge(body);
+  return edge && leaves_at(*edge);
+}
+
+KuttaCondition kutta_condition(std::span<const Point> body, std::size_t base) {
+  constexpr double widths = 2.0;
+  const std::size_t n = body.size();
+  const Point lower = body[base - 1], upper = body[0];
+  const Point to_lower = direction(lower, body[base % n]), to_upper = direction(upper, body[n - 1]);
+  const Point along = -1.0 * edge_direction(body, base), middle = 0.5 * (lower + upper);
+  const double power = 2.0 * std::numbers::pi / fluid_angle(to_upper, to_lower) - 1.0;
+
+  KuttaCondition condition;
+  for (std::size_t i = 0; i < base; ++i) condition.terms.push_back({i, 1.0});
+  double rest = 0.0, speeds = 0.0;
+  for (const double sign : {-1.0, 1.0}) {  // clockwise is away from the edge below it and towards it above
+    const Side side = side_of(body, base, sign < 0.0, middle, along);
+    const std::size_t most = std::max<std::size_t>(1, (n - base) / 2);
+    std::size_t k = 1;
+    for (; k < most && side.s[k] < widths * distance(lower, upper); ++k)
+      condition.terms.push_back({side.vertices[k], 1.0});
+    const double falling = integral_falling(side.s[k - 1], side.s[k], power);
+    rest += sign * falling;
+    // The neighbour's hat; where it is the last vertex before the base, that of its first half.
+    const double next = side.s[std::min(k + 1, side.s.size() - 1)];
+    speeds += next > side.s[k] ? integral_falling(side.s[k], next, power) - falling : falling;
+    condition.beside[sign < 0.0 ? 0 : 1] = side.vertices[k];
   }
-  double longest = 0.0;
-  for (const Sample& sample : samples) longest = std::max(longest, sample.distance);
-  const double power = std::numbers::pi / fluid_angle(body, base);
-  std::vector<std::array<double, 3>> rows;
-  Matrix3 normal{};
-  for (const Sample& sample : samples) {
-    const double s = sample.distance / longest;
-    rows.push_back({sample.towards * std::pow(s, power - 1.0), std::pow(s, 2.0 * power - 1.0),
-                    sample.towards * std::pow(s, 3.0 * power - 1.0)});
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t k = 0; k < 3; ++k) normal[i][k] += rows.back()[i] * rows.back()[k];
-  }
-  const std::array<double, 3> row = first_row_of_inverse(normal);
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double weight = row[0] * rows[i][0] + row[1] * rows[i][1] + row[2] * rows[i][2];
-    weights.emplace_back(samples[i].index, samples[i].towards * weight);
-  }
-  return weights;
+  condition.terms.push_back({condition.beside[0], rest / speeds});
+  condition.terms.push_back({condition.beside[1], -rest / speeds});
+  return condition;
 }
 
 }  // namespace remodel::flow

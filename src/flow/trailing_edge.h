@@ -2,6 +2,7 @@
 
 // Where and how the flow leaves a body.
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -24,13 +25,37 @@ struct TrailingEdge {
 // if there is neither.
 std::optional<TrailingEdge> trailing_edge(std::span<const Point> body);
 
+// Where the edge of a body that begins with the `base` vertices of its trailing edge points: away from the
+// body, between its sides, of length 1.
+Point edge_direction(std::span<const Point> body, std::size_t base);
+
+// The least cosine, of an edge's direction and the stream's, with which the flow leaves there.
+constexpr double least_cosine = -0.1;
+
+// Whether there is anything that a flow without friction has to leave the body from: a trailing edge, or a
+// corner where the outline turns by more than 60 degrees, which does not face the stream.
+bool edge_faces_downstream(std::span<const Point> body, Point stream);
+
 // Near a trailing edge with the angle theta in the fluid the speed along the wall, towards the edge, is
-//   +-A s^(pi/theta - 1) + C s^(2 pi/theta - 1) +- B s^(3 pi/theta - 1) + ...,   s: distance from the edge,
+//   +-A s^(pi/theta - 1) + C s^(2 pi/theta - 1) +- ...,   s: distance from the edge,
 // with + on one side and - on the other. The first term is the flow around the edge: Kutta's condition is A =
-// 0. From farther than twice its width a blunt base is taken for an edge between the surfaces beside it. A is
-// a weighted sum of the speeds along the wall (clockwise) at the nearest vertices on both sides; the sum's
-// terms, by index into the body, which begins with the `base` vertices of its trailing edge. Speeds are means
-// weighted by the vertices' hat functions.
-std::vector<std::pair<std::size_t, double>> kutta_weights(std::span<const Point> body, std::size_t base);
+// 0. Along the two halves of edges that meet in the trailing edge (and along the whole of a blunt base) the
+// integral of the clockwise speed against the hat functions of its vertices has the first term alone where
+// these edges are equally long, and of the second one what follows from the speeds at both neighbours where
+// they are not. So nothing but the flow in the triangles around the edge decides, however coarse the rest is.
+//
+// The condition: the sum of weight * (clockwise speed integrated against the vertex's hat function) is zero,
+// by index into the body, which begins with the `base` vertices of its trailing edge.
+struct KuttaTerm {
+  std::size_t vertex;
+  double weight;
+};
+struct KuttaCondition {
+  std::vector<KuttaTerm> terms;
+  // The nearest vertex on each side that the corners of a blunt base do not trouble: of a sharp edge its
+  // neighbours.
+  std::array<std::size_t, 2> beside = {};
+};
+KuttaCondition kutta_condition(std::span<const Point> body, std::size_t base);
 
 }  // namespace remodel::flow

@@ -1,6 +1,7 @@
 """`remodel flow`: keys of the contract, flows that agree with each other, refusals."""
 
 import json
+import math
 import os
 import pty
 import subprocess
@@ -102,7 +103,9 @@ class Flows(ProgramTest):
 
     def test_a_slow_stream_is_warned_of(self):
         shape = ("flow", "naca:0012", "--points", 40, "--alpha", 1, "--mach")
-        self.assertIn("remodel: --mach: below 0.1", self.succeed(*shape, 0.09).stderr)
+        warned = self.succeed(*shape, 0.09, "--json")
+        self.assertIn("remodel: naca:0012: below Mach 0.1", warned.stderr)
+        self.assertEqual(["below Mach 0.1" in warning for warning in warned.json()["warnings"]], [True])
         self.assertEqual(self.succeed(*shape, 0.1).stderr, "")
 
     def test_each_step_is_shown_on_a_terminal(self):
@@ -244,6 +247,116 @@ class Series(ProgramTest):
         self.refused("flow", "naca:0012", "--mach", 0.5, "--series", self.write("c.json", "[]"), names="c.json")
         self.refused("flow", "naca:0012", "--mach", 0.5, "--series", self.write("d.json", "[{\"upper\": 1}]"),
                      names="d.json, airfoil 1")
+
+
+def arc(name, radius, stations, centre=(0, 0), start=0.0):
+    return {"name": name, "stations": stations, "shape": {"kind": "arc", "centre": list(centre), "radius": radius,
+                                                          "start": start, "sweep": 6.283185307179586}}
+
+
+def polygon(name, points, stations):
+    return {"name": name, "stations": stations, "shape": {"kind": "polyline", "points": points}}
+
+
+# Stations a tenth of the chord apart at the trailing edge, as in reports of the 1920s.
+UPPER = """1 0  .9 .01816  .8 .04081  .7 .06326  .6 .08267  .5 .09739  .4 .10646  .3 .1083  .25 .10438  .2 .09671
+.15 .08493  .1 .06841  .075 .05796  .05 .04554  .025 .03005  .0125 .01999  0 0"""
+LOWER = """.0125 -.01157  .025 -.01352  .05 -.0137  .075 -.01204  .1 -.00963  .15 -.00413  .2 .00117  .25 .00558  .3 .00873
+.4 .01115  .5 .01232  .6 .01229  .7 .0107  .8 .0076  .9 .00362  1 0"""
+
+
+class Warnings(ProgramTest):
+    """Flows that are no answers say so."""
+
+    def domain(self, name, *holes, **others):
+        loops = [{"role": "outer", "curves": [arc("farfield", 20, 40)]}]
+        loops += [{"role": "hole", "curves": curves} for curves in holes]
+        loops += others.get("loops", [])
+        return self.write(name, json.dumps({"loops": loops}))
+
+    def warnings(self, *arguments, status=0):
+        """Those of the JSON object, which are the lines of standard error too."""
+        outcome = self.succeed("flow", *arguments, "--json", status=status)
+        figures = outcome.json()
+        self.assertEqual(outcome.stderr.splitlines(), [f"remodel: {arguments[0]}: {text}" for text in figures["warnings"]])
+        self.assertEqual(figures["lift_determined"], not any("not determined" in text for text in figures["warnings"]))
+        return figures["warnings"]
+
+    def test_ordinary_flows_have_none(self):
+        for model in (["--mach", 0.4], ["--model", "potential"], ["--model", "potential", "--mach", 0.4]):
+            for points in (50, 100):
+                self.assertEqual(self.warnings("naca:2412", "--points", points, "--alpha", 4, *model), [])
+
+    def test_lift_without_an_edge_is_not_determined(self):
+        self.domain("strut.json", [arc("strut", 0.7, 60, start=0.1)])
+        for model in (["--mach", 0.3], ["--model", "potential"]):
+            warnings = self.warnings("strut.json", *model)
+            self.assertEqual(["the lift of 'strut' is not determined" in text for text in warnings], [True])
+            text = self.succeed("flow", "strut.json", *model).stdout
+            self.assertRegex(text, r"(?m)^CL .*\(not determined\)$")
+            self.succeed("mesh", "strut.json", "-o", "strut.su2")
+            self.assertIn("'strut'", self.warnings("strut.su2", *model)[0])
+        # Nothing goes around it upstream above Mach 1. (One step: this is not about flows that are found.)
+        counts = [len(self.succeed("flow", "strut.json", "--mach", mach, "--max-steps", 1, "--json", status=3).json()["warnings"])
+                  for mach in (0.9, 1.5)]
+        self.assertEqual(counts, [1, 0])
+
+    def test_the_one_body_without_an_edge_is_named(self):
+        wedge = polygon("wedge", [[0, -0.15], [0, 0.15], [1, 0], [0, -0.15]], 60)
+        self.domain("two.json", [wedge], [arc("wheel", 0.3, 40, centre=(-2, 0))])
+        for model in (["--mach", 0.3], ["--model", "potential"]):
+            warnings = [text for text in self.warnings("two.json", *model) if "not determined" in text]
+            self.assertEqual(["the lift of 'wheel'" in text for text in warnings], [True], warnings)
+
+    def test_a_blunt_base_is_an_edge_and_a_round_end_is_none(self):
+        half = [(0.5 - 0.5 * math.cos(math.pi * i / 30), 0.06 * math.sin(math.pi * i / 30)) for i in range(31)]
+        ellipse = half + [(x, -y) for x, y in reversed(half[1:-1])] + half[:1]
+        blunt = [[x, y] for x, y in ellipse if x < 0.995]
+        first = next(i for i, (x, y) in enumerate(blunt) if y < 0)
+        blunt = blunt[first:-1] + blunt[:first] + [blunt[first]]
+        self.domain("blunt.json", [polygon("section", blunt, 120)])
+        self.assertEqual(self.warnings("blunt.json", "--mach", 0.4, "--alpha", 2), [])
+        self.domain("round.json", [polygon("section", [list(point) for point in ellipse], 120)])
+        for model in (["--mach", 0.4], ["--model", "potential"]):
+            self.assertIn("'section' is not determined", self.warnings("round.json", *model, "--alpha", 2)[0])
+
+    def test_an_edge_that_faces_the_stream_is_no_trailing_edge(self):
+        turned = [[-0.8, 0.0]] + [[0.2 * math.cos(t), 0.2 * math.sin(t)]
+                                  for t in (math.pi * (0.5 - i / 24) for i in range(25))] + [[-0.8, 0.0]]
+        self.domain("drop.json", [polygon("drop", turned, 100)])
+        for model in (["--mach", 0.3], ["--model", "potential"]):
+            self.assertIn("'drop' is not determined", self.warnings("drop.json", *model, "--alpha", 2)[0])
+
+    def test_without_a_body_there_is_no_flow(self):
+        sail = {"role": "internal", "open": True, "curves": [polygon("sail", [[-0.5, 0], [0, 0.08], [0.5, 0]], 30)]}
+        self.domain("sail.json", loops=[sail])
+        self.domain("nothing.json")
+        for name in ("sail.json", "nothing.json"):
+            self.refused("flow", name, "--mach", 0.3, names="found no boundary but the far field")
+            self.refused("flow", name, "--model", "potential", "-o", "a.vtu", names="found no boundary but the far field")
+
+    def test_a_coarse_edge_carries_its_condition(self):
+        points = [float(word) for word in f"{UPPER} {LOWER}".split()]
+        rows = [f"{x:.5f} {y:.5f}" for x, y in zip(points[::2], points[1::2])]
+        self.write("coarse.dat", "33 stations as of old reports\n" + "\n".join(rows) + "\n")
+        for shape in ("spline", "polyline"):
+            lifts = [self.figures("flow", "coarse.dat", "--as-given", shape, "--model", "potential", "--alpha", 2,
+                                  "--resolution", resolution)["cl"] for resolution in (1, 2, 4, 8)]
+            for lift in lifts:
+                self.assertAlmostEqual(lift, 0.807, delta=0.03 * 0.807)
+
+    def test_meshes_too_coarse_and_pressures_too_low_are_warned_of(self):
+        shape = ("naca:2412", "--model", "potential", "--alpha", 2)
+        self.assertIn("too coarse", self.warnings(*shape, "--points", 8)[0])
+        self.assertIn("sonic speed", self.warnings(*shape, "--points", 100, "--mach", 0.8)[0])
+
+    def test_a_row_says_each_once(self):
+        base = self.figures("fit", "naca:0012")
+        self.write("designs.json", json.dumps([{key: base[key] for key in ("degree", "upper", "lower")}] * 3))
+        outcome = self.succeed("flow", "naca:0012", "--points", 40, "--mach", 0.09, "--series", "designs.json", "--json")
+        self.assertEqual(len(outcome.stderr.splitlines()), 1)
+        self.assertEqual(len(outcome.json()["warnings"]), 1)
+        self.assertEqual([len(design["warnings"]) for design in outcome.json()["designs"]], [1, 1, 1])
 
 
 class Refusals(ProgramTest):

@@ -534,6 +534,108 @@ class Watching(PageTest):
         self.assertEqual(self.value("document.getElementById('target').getAttribute('points')"), "")
         self.assertSound()
 
+    def test_the_search_goes_towards_the_shape_that_is_shown_as_its_goal(self):
+        """Also where another goal, or another shape to begin with, is chosen while it begins and while it runs."""
+        self.change(flow=False)
+        far = "(a, b) => Math.hypot(...a.map((v, i) => v - b[i]))"
+        named = "(name) => live.call('named', { name, degree: 5 })"
+        # In one go, as the search may end at any time: what it was aimed at first and then, and what was drawn of it.
+        first, then, drawn, outline = self.value("""(async () => {
+            const [goal, button, line] = ["goal", "search", "target"].map((id) => document.getElementById(id));
+            const until = async (holds) => { while (!holds()) await new Promise((resume) => setTimeout(resume, 1)); };
+            goal.value = "naca0012";
+            button.click();
+            goal.value = "rae2822";
+            await until(() => button.textContent === "Stop");
+            const first = [...target];
+            goal.value = "naca2412";
+            await until(() => target === null || target.some((value, i) => value !== first[i]));
+            const outlined = outline(target).map(([x, y]) => toScreen(x, y).map((p) => p.toFixed(1)).join(",")).join(" ");
+            await until(() => line.getAttribute("points") !== "");
+            return [first, [...target], line.getAttribute("points"), outlined];
+        })()""")
+        for name, found in (("rae2822", first), ("naca2412", then)):
+            self.assertLess(self.value(f"({named})('{name}').then((goal) => ({far})({json.dumps(found)}, goal))"), 1e-12)
+        self.assertEqual(drawn, outline)
+        ended = "document.getElementById('search').textContent === 'Optimise' && !document.getElementById('search').disabled"
+        self.browser.wait_for(ended)
+        self.assertIn("converged", self.status())
+        self.assertLess(self.value(f"({named})('naca2412').then((goal) => ({far})([...live.shown.design], goal))"), 1e-2)
+        # A shape is chosen, and the search asked for before it has come.
+        self.value("""(() => {
+            takeDesign("named", { name: "rae2822" });
+            document.getElementById('goal').value = 'naca0012';
+            document.getElementById('search').click();
+        })()""")
+        self.browser.wait_for("document.getElementById('search').textContent === 'Stop'")
+        self.value("{ const button = document.getElementById('search'); if (button.textContent === 'Stop') button.click() }")
+        self.browser.wait_for(ended)
+        self.settled()
+        self.click("undo")
+        self.settled()
+        self.assertLess(self.value(f"({named})('rae2822').then((goal) => ({far})([...live.shown.design], goal))"), 1e-12)
+        self.assertSound()
+
+    def test_lift_of_an_earlier_shape_is_not_shown_as_that_of_this_one(self):
+        """Where flows are slow they follow when the shape rests, also after a search."""
+        lift = "document.getElementById('lift').textContent"
+        stale = "document.getElementById('lift').classList.contains('stale')"
+        self.change(flow=True)
+        self.browser.wait_for("live.shown.pressure !== null && live.shown.pressure !== undefined")
+        self.assertFalse(self.value(stale))
+        before = self.value(lift)
+        thicker = "live.change({ design: live.shown.design.map((v, i) => i < 6 ? 1.2 * v : v) })"
+        during = self.value(f"flowTime = 1e9; {thicker}; live.settled().then(() => [{lift}, {stale}])")
+        self.assertEqual(during, [before + ", of an earlier shape", True])
+        self.browser.wait_for("live.shown.pressure")
+        self.browser.wait_for(f"!{stale}")
+        after = self.value(lift)
+        self.assertNotEqual(after, before)
+        self.assertEqual(after, self.value("`lift coefficient ${signed(live.shown.pressure.lift, 3)}`"))
+        self.value("document.getElementById('goal').value = 'rae2822'; flowTime = 1e9")
+        self.click("search")
+        self.browser.wait_for("document.getElementById('search').textContent === 'Stop'")
+        self.value("document.getElementById('search').click()")
+        self.browser.wait_for("document.getElementById('search').textContent === 'Optimise'")
+        self.browser.wait_for(f"live.shown.pressure && !{stale}")
+        self.assertEqual(self.value(lift), self.value("`lift coefficient ${signed(live.shown.pressure.lift, 3)}`"))
+        self.assertSound()
+
+    def test_a_context_that_is_lost_at_once_comes_back_with_the_picture(self):
+        """The browser takes it before the mesher has started, as one does that has too many pages."""
+        good = self.picture()
+        script = self.browser.call("Page.addScriptToEvaluateOnNewDocument", source="""
+            const asked = HTMLCanvasElement.prototype.getContext;
+            HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
+              const context = asked.call(this, kind, ...more);
+              if (kind === "webgl2" && !globalThis.lose) {
+                globalThis.lose = context.getExtension("WEBGL_lose_context");
+                globalThis.lose.loseContext();
+              }
+              return context;
+            };""")["identifier"]
+        self.open()
+        self.browser.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)
+        self.assertIn("taken the picture away", self.status())
+        self.assertLess(len(self.picture()), len(good))
+        self.drag_handle(2, -20)  # the mesh lives on
+        self.assertIn("taken the picture away", self.status())
+        self.drag_handle(2, 20)
+        self.click("undo")
+        self.settled()
+        self.click("undo")
+        self.settled()
+        self.value("lose.restoreContext()")
+        self.browser.wait_for(f"{STATUS}.includes('back')")
+        self.assertGreater(len(self.picture()), 0.5 * len(good))
+        # And once more, later.
+        self.value("lose.loseContext()")
+        self.browser.wait_for(f"{STATUS}.includes('taken the picture away')")
+        self.value("lose.restoreContext()")
+        self.browser.wait_for(f"{STATUS}.includes('back')")
+        self.assertGreater(len(self.picture()), 0.5 * len(good))
+        self.assertSound()
+
     def test_zoom_by_wheel_and_pinch(self):
         x, y = self.middle("#mesh")
         before, scale = self.picture(), self.value("live.view.scale")

@@ -66,6 +66,35 @@ class Noise(ProgramTest):
         text = self.succeed("noise", "naca:0012", "--points", 20, "--farfield-points", 12, "--count", 5, "--mach", 0.4).stdout
         self.assertEqual(text.count("by the adjoint"), 8)
 
+    def test_an_evaluation_that_fails_is_not_found_and_the_rest_goes_on(self):
+        """Of seven designs by four ways the third one fails each time, in a way of its own."""
+        self.write("fails.py", """import json, os, sys
+design = json.load(open(sys.argv[2]))
+count = int(open("count").read()) if os.path.exists("count") else 0
+open("count", "w").write(str(count + 1))
+way, number = divmod(count, 7)
+if number == 2 and way == 0: sys.exit("no licence")
+if number == 2 and way == 1: print("no JSON"); sys.exit()
+if number == 2 and way == 2: print('{"objective": NaN}'); sys.exit()
+if number == 2: os.abort()
+print(json.dumps({"objective": (1 + sum(design)) ** 3}))
+""")
+        line = ["noise", "naca:0012", "--points", 20, "--farfield-points", 12, "--count", 7]
+        outcome = self.succeed(*line, "--evaluator", "python3 fails.py", "--json")
+        figures = outcome.json()
+        for way in WAYS:
+            self.assertEqual(figures[way]["not_found"], 1)
+            self.assertEqual([value is None for value in figures[way]["objective"]], [i == 2 for i in range(7)])
+            self.assertEqual(len(figures[way]["failures"]), 1)
+            self.assertLess(figures[way]["objective_rms"], 1e-12)
+        self.assertIn("no licence", figures["fresh"]["failures"][0])
+        lines = outcome.stderr.splitlines()
+        self.assertEqual([row.split(":")[1].strip() for row in lines], list(WAYS))
+        self.assertIn("1 of 7 designs have no value: ", lines[0])
+        nothing = self.succeed(*line, "--evaluator", "exit 3", "--json", status=1)
+        self.assertEqual([nothing.json()[way]["not_found"] for way in WAYS], [7] * 4)
+        self.assertNotIn("bug", nothing.stderr)
+
     def test_what_is_no_line_is_refused(self):
         line = ["noise", "naca:0012", "--mach", 0.4]
         self.refused("noise", "naca:0012", names="--mach")

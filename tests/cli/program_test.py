@@ -9,6 +9,18 @@ import harness
 
 
 class Program(harness.ProgramTest):
+    def test_a_program_without_the_page_says_how_to_build_one(self):
+        outcome = self.run_program("live", "-o", "live.html")
+        if outcome.status == 0:
+            self.skipTest("the program has its page")
+        self.assertEqual(outcome.status, 2)
+        self.assertFalse(self.path("live.html").exists())
+        commands = outcome.stderr.split("`")[1].split(" && ")
+        self.assertEqual(commands[0], "scripts/install-dependencies program live")
+        readme = (harness.SOURCE / "README.md").read_text()
+        for command in commands:  # those of the README, where the page is promised
+            self.assertIn(command, readme)
+
     def libraries(self):
         """The names of the shared libraries that the program loads."""
         process = subprocess.run([harness.PROGRAM], env={**os.environ, "LD_TRACE_LOADED_OBJECTS": "1"},

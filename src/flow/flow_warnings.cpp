@@ -1,0 +1,137 @@
+#include "flow/flow_warnings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "flow/trailing_edge.h"
+
+namespace remodel::flow {
+
+namespace {
+
+Point stream_at(double alpha_deg) {
+  const double alpha = alpha_deg * std::numbers::pi / 180.0;
+  return {std::cos(alpha), std::sin(alpha)};
+}
+
+std::string short_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+struct Outline {
+  std::string name;  // of its boundaries, joined by '+'
+  std::vector<Point> points;
+};
+
+double doubled_area(const std::vector<Point>& points) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) sum += cross(points[i], points[(i + 1) % points.size()]);
+  return sum;
+}
+
+// Closed loops of walls that are holes of the domain. Those that touch themselves or others are left out.
+std::vector<Outline> bodies_of(const FlowMesh& mesh) {
+  constexpr std::size_t none = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> from(mesh.size(), none);  // the boundary edge that begins at a vertex
+  std::vector<bool> seen(mesh.boundary().size(), false);
+  for (std::size_t i = 0; i < mesh.boundary().size(); ++i) {
+    std::size_t& at = from[mesh.boundary()[i].a];
+    if (at != none) seen[i] = seen[at] = true;
+    at = i;
+  }
+  std::vector<Outline> bodies;
+  for (std::size_t first = 0; first < seen.size(); ++first) {
+    Outline body;
+    std::vector<std::int32_t> names;
+    bool is_wall = !seen[first];
+    std::size_t i = first;
+    for (; i != none && !seen[i]; i = from[mesh.boundary()[i].b]) {
+      const BoundaryEdge& edge = mesh.boundary()[i];
+      seen[i] = true;
+      is_wall = is_wall && edge.body >= 0;
+      body.points.push_back(mesh.points()[edge.a]);
+      if (std::find(names.begin(), names.end(), edge.body) == names.end()) names.push_back(edge.body);
+    }
+    if (!is_wall || i != first || doubled_area(body.points) >= 0.0) continue;
+    for (const std::int32_t k : names)
+      body.name += (body.name.empty() ? "" : "+") + mesh.bodies()[static_cast<std::size_t>(k)];
+    bodies.push_back(std::move(body));
+  }
+  return bodies;
+}
+
+// Of the largest body: its chord.
+double largest_extent(const std::vector<PotentialOutline>& bodies) {
+  double largest = 0.0;
+  for (const PotentialOutline& body : bodies) {
+    const auto by_x = [](Point a, Point b) { return a.x < b.x; };
+    const auto by_y = [](Point a, Point b) { return a.y < b.y; };
+    const auto [left, right] = std::minmax_element(body.points.begin(), body.points.end(), by_x);
+    const auto [low, high] = std::minmax_element(body.points.begin(), body.points.end(), by_y);
+    largest = std::max({largest, right->x - left->x, high->y - low->y});
+  }
+  return largest;
+}
+
+std::string undetermined(const std::string& name) {
+  return "the lift of '" + name +
+         "' is not determined: it has no edge that the flow has to leave from, so that flows without "
+         "friction exist with any circulation; ";
+}
+
+}  // namespace
+
+Warnings warnings_of(const FlowMesh& mesh, double mach, double alpha_deg) {
+  constexpr double slow = 0.1;
+  Warnings warnings;
+  if (mach < slow)
+    warnings.sentences.push_back(
+        "below Mach " + short_text(slow) +
+        " lift comes out too low and drag too high, the more so the slower the stream is; the "
+        "model of potential flow is made for it");
+  if (mach >= 1.0) return warnings;
+  for (const Outline& body : bodies_of(mesh))
+    if (!edge_faces_downstream(body.points, stream_at(alpha_deg))) {
+      warnings.lift_determined = false;
+      warnings.sentences.push_back(undetermined(body.name) +
+                                   "this one is chosen by the errors of mesh and scheme");
+    }
+  return warnings;
+}
+
+Warnings warnings_of(const std::vector<PotentialOutline>& bodies, const PotentialFlow& flow,
+                     const PressureForces& by_pressure) {
+  constexpr double part = 0.04, least = 0.01;
+  Warnings warnings;
+  for (const PotentialOutline& body : bodies) {
+    const bool no_edge = body.base == 0;
+    const bool faces_stream =
+        !no_edge && dot(edge_direction(body.points, body.base), stream_at(flow.alpha_deg)) < least_cosine;
+    warnings.lift_determined = warnings.lift_determined && !no_edge && !faces_stream;
+    if (no_edge) warnings.sentences.push_back(undetermined(body.name) + "this one has none");
+    if (faces_stream)
+      warnings.sentences.push_back(
+          "the lift of '" + body.name +
+          "' is not determined: its only edge faces the stream, and is taken for a trailing one");
+  }
+  const double lift = flow.lift * std::sqrt(1.0 - flow.mach * flow.mach);
+  // Behind a blunt base there is drag on any mesh.
+  const bool blunt =
+      std::any_of(bodies.begin(), bodies.end(), [](const auto& body) { return body.base > 1; });
+  const double error = std::abs(lift - by_pressure.lift) + (blunt ? 0.0 : std::abs(by_pressure.drag));
+  if (error > part * std::abs(lift) + least * largest_extent(bodies) / by_pressure.reference_length)
+    warnings.sentences.push_back("the mesh is too coarse for this flow: without compressibility CL is " +
+                                 short_text(lift) + " by circulation and " + short_text(by_pressure.lift) +
+                                 " by pressure, expected the same, and CD by pressure is " +
+                                 short_text(by_pressure.drag) + ", expected none");
+  if (flow.supersonic)
+    warnings.sentences.push_back(
+        "some pressures are below that of sonic speed, where the rule of Karman and Tsien does not hold");
+  return warnings;
+}
+
+}  // namespace remodel::flow

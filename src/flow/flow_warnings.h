@@ -1,0 +1,40 @@
+#pragma once
+
+// What a person has to know of a flow before using its coefficients: sentences.
+
+#include <string>
+#include <vector>
+
+#include "flow/flow_mesh.h"
+#include "remodel/potential_flow.h"
+
+namespace remodel::flow {
+
+struct Warnings {
+  std::vector<std::string> sentences;
+  bool lift_determined = true;  // of all bodies
+};
+
+// Of a compressible flow: the lift of bodies without an edge below Mach 1 (closed walls inside the domain,
+// see edge_faces_downstream()), and streams slower than the scheme is accurate in.
+Warnings warnings_of(const FlowMesh& mesh, double mach, double alpha_deg);
+
+// A body of a potential flow: its outline, clockwise, that begins with the `base` vertices of its trailing
+// edge (0: there is none).
+struct PotentialOutline {
+  std::string name;
+  std::vector<Point> points;
+  std::size_t base = 0;
+};
+// Sums over all bodies, of the incompressible flow, as coefficients with that length.
+struct PressureForces {
+  double reference_length = 1.0;
+  double lift = 0.0, drag = 0.0;
+};
+// Of a potential flow: bodies without an edge, or with one that faces the stream; meshes on which lift by
+// circulation is not that by pressure, or there is drag; pressures that the rule for compressible flow does
+// not hold for.
+Warnings warnings_of(const std::vector<PotentialOutline>& bodies, const PotentialFlow& flow,
+                     const PressureForces& by_pressure);
+
+}  // namespace remodel::flow
