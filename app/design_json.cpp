@@ -47,7 +47,8 @@ std::size_t begin_of_quoted(const std::string& text, std::size_t end) {
 }  // namespace
 
 Json read_design_json(const std::string& file) {
-  const std::string text = read_text(file);
+  constexpr std::size_t most_bytes = std::size_t{16} << 20;
+  const std::string text = read_text(file, most_bytes);
   std::istringstream stream(text);
   std::vector<std::set<std::string>> open;  // the keys of objects that are not read to their ends
   const auto watch = [&](int depth, Json::parse_event_t event, const Json& parsed) {

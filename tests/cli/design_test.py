@@ -224,6 +224,30 @@ class Designs(ProgramTest):
         resumed = self.limited("design", self.elements(), "-o", "run", "--resume")
         self.assertEqual(resumed["best"], figures["best"])
 
+    def test_lists_are_bounded(self):
+        """Each is refused at once, whatever its length."""
+        many = 100_000
+        lift = {"kind": "lift", "at_least": 0.1}
+        thickness = {"kind": "thickness", "x": [0.5] * 1000, "of_start": 0.9}
+        changes = {
+            "100000 entries in 'constraints', expected at most 1000": {"constraints": [lift] * many},
+            "100000 entries in 'verify', expected at most 100": {"verify": [40] * many},
+            "100000 entries in 'flow', expected at most 1000": {"flow": [{"mach": 0.5}] * many},
+            "100000 entries in 'x', expected at most 1000": {"constraints": [{**thickness, "x": [0.5] * many}]},
+            "expected at most 10000": {"constraints": [thickness] * 1000},
+        }
+        for name, change in changes.items():
+            with self.subTest(name):
+                begin = time.monotonic()
+                self.refused("design", self.problem(**change), "-o", "run", names=name)
+                self.assertLess(time.monotonic() - begin, 20)
+        elements = [{"name": f"e{i}", "airfoil": "naca:0012"} for i in range(many)]
+        problem = {key: value for key, value in PROBLEM.items() if key not in ("airfoil", "symmetric")}
+        self.refused(
+            "design", self.write("many.json", json.dumps({**problem, "elements": elements})), "-o", "run",
+            names="100000 entries in 'elements', expected at most 20",
+        )  # fmt: skip
+
     def test_refusals_of_elements(self):
         elements = json.loads(self.path(self.elements()).read_text())["elements"]
 
