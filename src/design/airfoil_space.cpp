@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/checked_json.h"
 #include "base/checksum.h"
-#include "design/checked_json.h"
 #include "remodel/error.h"
 
 namespace remodel {

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "base/checked_json.h"
 #include "base/checksum.h"
-#include "design/checked_json.h"
 #include "design/finished_design.h"
 #include "remodel/error.h"
 #include "remodel/io.h"

@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "design/checked_json.h"
+#include "base/checked_json.h"
 #include "design/portable_math.h"
 #include "remodel/error.h"
 

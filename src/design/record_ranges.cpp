@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <optional>
 
-#include "design/checked_json.h"
+#include "base/checked_json.h"
 
 namespace remodel {
 

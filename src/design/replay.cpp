@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/checked_json.h"
 #include "design/airfoil_space.h"
-#include "design/checked_json.h"
 #include "design/design_search.h"
 #include "design/hub.h"
 #include "design/living_mesh.h"
