@@ -95,6 +95,55 @@ class Domains(ProgramTest):
                 self.assertNotIn("\x1b", line)
 
 
+class Meshes(ProgramTest):
+    """A hundred thousand names of each kind are read in linear time: minutes where each is compared with all others."""
+
+    MANY = 100_000
+    POINTS = "0 0 0\n1 0 1\n1 1 2\n0 1 3\n"
+
+    def quick(self, name, content, *command):
+        self.write(name, content)
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+        outcome = self.run_program(*command)
+        self.assertIn(outcome.status, (0, 1), outcome)
+        self.assertLess(resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before, 10)
+
+    def test_markers_of_su2(self):
+        markers = "".join(f"MARKER_TAG= m{i}\nMARKER_ELEMS= 0\n" for i in range(self.MANY))
+        text = (
+            f"NDIME= 2\nNELEM= 2\n5 0 1 2 0\n5 0 2 3 1\nNPOIN= 4\n{self.POINTS}NMARK= {self.MANY + 1}\n{markers}"
+            "MARKER_TAG= wall\nMARKER_ELEMS= 4\n3 0 1\n3 1 2\n3 2 3\n3 3 0\n"
+        )
+        self.quick("a.su2", text, "check", "a.su2")
+        for extension in ("su2", "msh", "vtu", "vtkhdf"):
+            with self.subTest(extension):
+                self.quick("a.su2", text, "convert", "a.su2", "-o", f"b.{extension}")
+                self.assertIn(self.run_program("check", f"b.{extension}").status, (0, 1))
+
+    def test_physical_names_and_fields_of_gmsh(self):
+        names = "".join(f'1 {i + 1} "m{i}"\n' for i in range(self.MANY))
+        field = '$NodeData\n1\n"f{}"\n1\n0\n3\n0\n1\n4\n1 1\n2 1\n3 1\n4 1\n$EndNodeData\n'
+        text = (
+            f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{self.MANY}\n{names}$EndPhysicalNames\n$Nodes\n4\n"
+            "1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n$Elements\n6\n1 1 2 1 1 1 2\n2 1 2 2 1 2 3\n3 1 2 3 1 3 4\n"
+            "4 1 2 4 1 4 1\n5 2 2 1 1 1 2 3\n6 2 2 1 1 1 3 4\n$EndElements\n" + "".join(map(field.format, range(20_000)))
+        )
+        self.quick("a.msh", text, "check", "a.msh")
+        self.quick("a.msh", text, "convert", "a.msh", "-o", "b.vtu")
+
+    def test_arrays_of_vtk(self):
+        array = '<DataArray type="Float64" Name="f{}" format="ascii">0 0 0 0</DataArray>\n'
+        text = (
+            '<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian"><UnstructuredGrid>\n'
+            '<Piece NumberOfPoints="4" NumberOfCells="2"><PointData>\n' + "".join(map(array.format, range(20_000))) +
+            '</PointData><Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 1 1 0 0 1 0'
+            '</DataArray></Points><Cells><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 0 2 3</DataArray>'
+            '<DataArray type="Int64" Name="offsets" format="ascii">3 6</DataArray>'
+            '<DataArray type="UInt8" Name="types" format="ascii">5 5</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>'
+        )
+        self.quick("a.vtu", text, "convert", "a.vtu", "-o", "b.vtu")
+
+
 class Runs(ProgramTest):
     def setUp(self):
         super().setUp()
