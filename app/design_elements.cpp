@@ -77,11 +77,9 @@ void add_variables(const Element& element, const LoopNumbers& numbers, std::span
 
 ElementSpace read_elements(const Keys& problem, const std::string& file, int degree,
                            const AirfoilDomainOptions& options) {
-  constexpr std::size_t most = 20;
   std::vector<Element> elements;
   std::vector<PlacedAirfoil> placed;
-  for (const Json& entry : problem.list("elements")) {
-    if (elements.size() == most) problem.fail("found more than 20 'elements'");
+  for (const Json& entry : problem.list("elements", 20)) {
     elements.push_back(element_of(entry, file + ", element " + std::to_string(elements.size() + 1), degree,
                                   std::filesystem::path(file).parent_path()));
     const std::string& name = elements.back().placed.name;

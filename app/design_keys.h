@@ -90,10 +90,17 @@ class Keys {
     }
     return value;
   }
-  Json list(const char* key) const {
+  // At most so many entries: a search with more of them would not end.
+  Json list(const char* key, std::size_t most) const {
     if (!has(key)) return Json::array();
     if (!object_.at(key).is_array()) fail("expected an array as '" + std::string(key) + "'");
+    require_at_most(object_.at(key).size(), key, most);
     return object_.at(key);
+  }
+  void require_at_most(std::size_t found, const char* key, std::size_t most) const {
+    if (found > most)
+      fail("found " + std::to_string(found) + " entries in '" + key + "', expected at most " +
+           std::to_string(most));
   }
   // Two numbers, the second one not below the first one.
   std::array<double, 2> pair(const char* key) const {

@@ -14,6 +14,10 @@ namespace remodel::app {
 
 namespace {
 
+// What a problem may have at most of each: more would not end, and is a mistake of whoever wrote the file.
+constexpr std::size_t most_points = 1000, most_constraints = 1000, most_stations = 1000, most_verified = 100;
+constexpr std::size_t most_functions = 10000;  // of all constraints together
+
 // t of the upper surface at this x; the lower one has it at 1 - t.
 double parameter_at(double x) {
   return std::acos(2.0 * x - 1.0) / (2.0 * M_PI);
@@ -192,6 +196,7 @@ void add_size_constraints(const Keys& keys, bool is_area, const ConstrainedSecti
     functions.push_back(area(section.start));
   else if ((stations = keys.get<std::vector<double>>("x")).empty())
     keys.fail("found no number in 'x', expected at least one");
+  keys.require_at_most(stations.size(), "x", most_stations);
   for (const double x : stations) {
     if (!(x > 0.0 && x < 1.0))
       keys.fail("found " + Json(x).dump() + " in 'x', expected numbers above 0 and below 1");
@@ -318,12 +323,14 @@ void read_mesh_options(const Json& json, const std::string& file, DesignProblemF
 
 // Each constraint of the file has one name, whatever the number of functions that it takes.
 void read_constraints(const Keys& keys, const std::string& file, DesignProblemFile& problem) {
-  const Json entries = keys.list("constraints");
+  const Json entries = keys.list("constraints", most_constraints);
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const std::size_t sections = problem.section.size(), gaps = problem.gaps.size(),
                       flows = problem.flow.size();
     const std::string kind =
         add_constraint(entries[i], file + ", constraint " + std::to_string(i + 1), problem);
+    keys.require_at_most(problem.section.size() + problem.gaps.size() + problem.flow.size(),
+                         "constraints, counting stations", most_functions);
     const auto is_of_kind = [&](const Json& other) {
       return other.is_object() && other.contains("kind") && other.at("kind") == kind;
     };
@@ -403,14 +410,14 @@ DesignProblemFile read_design_problem(const std::string& file) {
     if (keys.has("symmetric")) keys.fail("found 'symmetric' with 'elements', expected 'airfoil'");
     problem.elements = read_elements(keys, file, degree, problem.domain);
   }
-  for (const Json& entry : keys.list("flow"))
+  for (const Json& entry : keys.list("flow", most_points))
     problem.points.push_back(point_of(entry, file + ", flow " + std::to_string(problem.points.size() + 1)));
   if (problem.points.empty()) keys.fail("expected at least one point of 'flow'");
   read_objective(keys, degree, problem);
   read_constraints(keys, file, problem);
   require_weights(keys, file, problem);
   read_designer(json, file, problem);
-  for (const Json& entry : keys.list("verify")) {
+  for (const Json& entry : keys.list("verify", most_verified)) {
     problem.verify.push_back(keys.whole_number<int>(entry, "verify", 8, 100000));
     if (entry.get<int>() % 2 != 0) keys.fail("found " + entry.dump() + " in 'verify', expected even numbers");
   }

@@ -31,7 +31,13 @@ std::string number(double value, const char* format = "%.4g") {
 
 std::string escaped(const std::string& text) {
   std::string result;
-  for (const char c : text) result += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
+  for (const char c : text)
+    result += c == '<'    ? "&lt;"
+              : c == '>'  ? "&gt;"
+              : c == '&'  ? "&amp;"
+              : c == '"'  ? "&quot;"
+              : c == '\'' ? "&#39;"
+                          : std::string(1, c);
   return result;
 }
 

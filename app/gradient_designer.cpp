@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <nlopt.hpp>
+#include <stdexcept>
 
 #include "remodel/error.h"
 
@@ -53,6 +54,13 @@ KnownDesign known_design(const std::string& text) {
   json.at("gradient").get_to(one.evaluation.gradient);
   json.at("constraint_gradients").get_to(one.evaluation.constraint_gradients);
   one.evaluation.outputs["connectivity"] = json.at("connectivity").get<double>();
+  const auto fits = [&](const std::vector<double>& gradient) {
+    return gradient.empty() || gradient.size() == one.design.size();
+  };
+  const auto& rows = one.evaluation.constraint_gradients;
+  if (!fits(one.evaluation.gradient) || !std::all_of(rows.begin(), rows.end(), fits) ||
+      (!rows.empty() && rows.size() != one.evaluation.constraints.size()))
+    throw std::invalid_argument("found gradients of another number of variables or constraints");
   return one;
 }
 
@@ -325,8 +333,11 @@ void GradientDesigner::restore(const std::string& state, const std::string& sour
         throw Error(ErrorCode::format, source, "found another number of variables");
     }
     known_ = std::move(known);
-  } catch (const DesignJson::exception&) {
-    throw Error(ErrorCode::format, source, "found no state of a search by gradients");
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& problem) {
+    throw Error(ErrorCode::format, source,
+                std::string("found no state of a search by gradients: ") + problem.what());
   }
   advance();
 }

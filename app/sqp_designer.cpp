@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <stdexcept>
 
+#include "base/checked_json.h"
 #include "quadratic_program.h"
 #include "remodel/error.h"
 
@@ -259,20 +262,30 @@ std::string SqpDesigner::state() const {
 void SqpDesigner::restore(const std::string& state, const std::string& source) {
   try {
     const DesignJson json = DesignJson::parse(state);
-    if (json.at("pending").size() != pending_.size())
+    const std::size_t n = pending_.size();
+    if (json.at("pending").size() != n || json.at("best").at("design").size() != n)
       throw Error(ErrorCode::format, source, "found another number of variables");
     json.at("pending").get_to(pending_), json.at("curvature").get_to(curvature_);
-    json.at("learnt").get_to(learnt_), json.at("scale").get_to(scale_), json.at("trust").get_to(trust_);
-    json.at("penalty").get_to(penalty_);
+    json.at("learnt").get_to(learnt_);
+    constexpr double least = std::numeric_limits<double>::min(), most = std::numeric_limits<double>::max();
+    scale_ = number_at(json, "scale", least, most), trust_ = number_at(json, "trust", 0.0, most);
+    penalty_ = number_at(json, "penalty", 0.0, most);
     json.at("promised").get_to(promised_), json.at("shift").get_to(shift_),
         json.at("begun_at").get_to(begun_at_);
-    json.at("steps").get_to(steps_), json.at("started").get_to(started_);
+    steps_ = count_at(json, "steps"), json.at("started").get_to(started_);
     json.at("finished").get_to(finished_);
     best_ = known_design(json.at("best").dump());
     waiting_.reset();
     if (!json.at("waiting").is_null()) waiting_ = known_design(json.at("waiting").dump());
-  } catch (const DesignJson::exception&) {
-    throw Error(ErrorCode::format, source, "found no state of a search by gradients");
+    const bool goes_on = started_ && !finished_;
+    if ((waiting_ && (waiting_->design.size() != n || waiting_->evaluation.gradient.size() != n)) ||
+        (goes_on && (curvature_.size() != n * n || best_.evaluation.gradient.size() != n)))
+      throw std::invalid_argument("found a model of another number of variables");
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& problem) {
+    throw Error(ErrorCode::format, source,
+                std::string("found no state of a search by gradients: ") + problem.what());
   }
 }
 

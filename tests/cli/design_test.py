@@ -1,11 +1,15 @@
 """`remodel design`: a design falls in drag and keeps its constraints, on fresh meshes too; refusals. `flow --gradient`."""
 
+import base64
 import json
 import math
+import re
 import signal
 import sqlite3
 import subprocess
 import time
+from html.parser import HTMLParser
+from xml.etree import ElementTree
 
 import harness
 from harness import SOURCE, ProgramTest
@@ -223,6 +227,51 @@ class Designs(ProgramTest):
         self.assertEqual(self.figures("film", "run", "-o", "film.webp", "--frames", 3)["frames"], 3)
         resumed = self.limited("design", self.elements(), "-o", "run", "--resume")
         self.assertEqual(resumed["best"], figures["best"])
+
+    def test_names_of_elements_are_text_in_pages_and_pictures(self):
+        nasty = "</script><script>alert(1)</script><img src=x onerror=alert(2)> & \"'`"
+        text = self.path(self.elements(evaluations=1, verify=[])).read_text()
+        self.write("nasty.json", text.replace('"flap"', json.dumps(nasty)))
+        self.succeed("design", "nasty.json", "-o", "run", "--quiet", status=3)
+        self.succeed("design", "report", "run")
+        tags, words = [], []
+        parser = HTMLParser()
+        parser.handle_starttag = lambda tag, attributes: tags.append(tag)
+        parser.handle_data = words.append
+        page = self.path("run/report.html").read_text()
+        parser.feed(page)
+        self.assertNotIn("script", tags)
+        self.assertEqual(page.count("<img"), page.count('<img alt="" src="data:image/'))
+        self.assertIn(nasty + ".rotation_deg", words)
+        pictures = re.findall(r"data:image/svg\+xml;base64,([^\"]+)", page)
+        self.assertGreater(len(pictures), 2)
+        for picture in pictures:
+            tree = ElementTree.fromstring(base64.b64decode(picture))
+            self.assertEqual([e.tag for e in tree.iter() if e.tag.endswith("script")], [])
+
+    def test_lists_are_bounded(self):
+        """Each is refused at once, whatever its length."""
+        many = 100_000
+        lift = {"kind": "lift", "at_least": 0.1}
+        thickness = {"kind": "thickness", "x": [0.5] * 1000, "of_start": 0.9}
+        changes = {
+            "100000 entries in 'constraints', expected at most 1000": {"constraints": [lift] * many},
+            "100000 entries in 'verify', expected at most 100": {"verify": [40] * many},
+            "100000 entries in 'flow', expected at most 1000": {"flow": [{"mach": 0.5}] * many},
+            "100000 entries in 'x', expected at most 1000": {"constraints": [{**thickness, "x": [0.5] * many}]},
+            "expected at most 10000": {"constraints": [thickness] * 1000},
+        }
+        for name, change in changes.items():
+            with self.subTest(name):
+                begin = time.monotonic()
+                self.refused("design", self.problem(**change), "-o", "run", names=name)
+                self.assertLess(time.monotonic() - begin, 20)
+        elements = [{"name": f"e{i}", "airfoil": "naca:0012"} for i in range(many)]
+        problem = {key: value for key, value in PROBLEM.items() if key not in ("airfoil", "symmetric")}
+        self.refused(
+            "design", self.write("many.json", json.dumps({**problem, "elements": elements})), "-o", "run",
+            names="100000 entries in 'elements', expected at most 20",
+        )  # fmt: skip
 
     def test_refusals_of_elements(self):
         elements = json.loads(self.path(self.elements()).read_text())["elements"]
