@@ -3,6 +3,8 @@
 import os
 import tempfile
 
+import numpy as np
+
 from . import _bridges, _plot
 from ._core import FlowResult, FrozenMesh, Mesh, PotentialFlow, Step, Transfer, check
 from ._errors import ArgumentError
@@ -59,12 +61,23 @@ def _step_transfer(step):
     return Transfer(step.before, step.after)
 
 
+def turned_over(points, triangles):
+    """How many triangles are clockwise or have no area."""
+    a, b, c = (points[triangles[:, corner]] for corner in range(3))
+    (ux, uy), (vx, vy) = (b - a).T, (c - a).T
+    return int(np.count_nonzero(~(ux * vy - uy * vx > 0.0)))
+
+
+def _check(mesh, *, min_angle=0.0, max_gradation=0.0, delaunay=True, delaunay_slack=None):
+    return check(mesh, min_angle=min_angle, max_gradation=max_gradation, delaunay=delaunay, delaunay_slack=delaunay_slack)
+
+
 def extend():
     for name in _ARRAYS:
         setattr(Mesh, name, _array(name))
     Mesh.draw = _draw
-    FrozenMesh.check = lambda mesh, **bounds: check(mesh, **bounds)
-    FrozenMesh.check.__doc__ = check.__doc__
+    _check.__doc__ = check.__doc__
+    FrozenMesh.check = _check
     for kind in (Mesh, FrozenMesh):
         kind.plot = _plot.plot_mesh
         kind.to_meshio = _bridges.to_meshio

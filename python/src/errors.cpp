@@ -21,13 +21,24 @@ const char* exception_of(ErrorCode code) {
   return "Error";
 }
 
+// Options have their units in their names in C++, and none in Python.
+std::string text_of(const Error& error) {
+  std::string text = error.what();
+  constexpr std::string_view unit = "_deg";
+  const std::size_t end = text.find(": ");
+  if (error.code() == ErrorCode::argument && end != std::string::npos && end >= unit.size() &&
+      text.compare(end - unit.size(), unit.size(), unit) == 0)
+    text.erase(end - unit.size(), unit.size());
+  return text;
+}
+
 void raise(const Error& error, const char* name) {
   try {
     const py::object type = py::module_::import("remodel._errors").attr(name);
-    PyErr_SetObject(type.ptr(),
-                    type(py::str(PyUnicode_DecodeUTF8(
-                             error.what(), static_cast<py::ssize_t>(std::strlen(error.what())), "replace")))
-                        .ptr());
+    const std::string text = text_of(error);
+    const auto decoded = py::reinterpret_steal<py::object>(
+        PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "replace"));
+    PyErr_SetObject(type.ptr(), type(decoded).ptr());
   } catch (py::error_already_set& other) {
     other.restore();
   }

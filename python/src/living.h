@@ -53,7 +53,10 @@ Snapshot after_step(const StepRecord& step);
 // the place of the one called `boundary`.
 Domain next_domain(const LivingMesh& mesh, const py::object& shape, const std::string& boundary);
 
+// The loops of a domain that are an airfoil by its coefficients, of that name if there is one.
+std::vector<std::size_t> airfoil_loops(const Domain& domain, const std::string& name);
+
 RemodelOptions remodel_options(double distance, const std::string& method, const std::string& strategy,
-                               bool regenerate);
+                               bool regenerate, double delaunay_slack);
 
 }  // namespace remodel::python
