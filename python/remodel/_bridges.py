@@ -35,8 +35,8 @@ def _flat(points, what):
 def to_meshio(mesh, fields=None):
     """The mesh as a meshio.Mesh: triangles, a block for each region, then the boundary as lines, a block for each name.
 
-    Names are cell sets, and physical groups as Gmsh has them, which meshio writes to .msh. fields: values on points or
-    triangles, by name.
+    Names are cell sets, and physical groups as Gmsh has them, which meshio writes to .msh (file_format='gmsh22'). fields:
+    values on points or triangles, by name.
     """
     import meshio
 
@@ -111,6 +111,8 @@ def from_meshio(mesh, *, split_quadrilaterals=False):
                 names.append(name)
             for copy in range(copies):
                 region[first + copy * count + np.asarray(cells)] = names.index(name)
+    if len(names) == 1 and region.min() == 0:
+        names = []  # one region is none
     if names and region.min() < 0:
         region[region < 0], names = len(names), [*names, ""]
     regions = {"region": region, "region_names": names} if names else {}
@@ -123,17 +125,34 @@ def _named(mesh, index, dimension):
     for name, parts in mesh.cell_sets.items():
         if not name.startswith("gmsh:") and parts[index] is not None and len(parts[index]) > 0:
             yield name, np.asarray(parts[index], dtype=np.int64)
-    for key in (_PHYSICAL, "su2:tag", "medit:ref", "cell_tags"):
+    for key in (_PHYSICAL, "su2:tag", "medit:ref", "boundary" if dimension == 1 else _REGION):
         if key not in mesh.cell_data:
             continue
-        names = {int(data[0]): name for name, data in mesh.field_data.items() if len(np.atleast_1d(data)) > 1 and int(data[1]) == dimension}
-        column = np.asarray(mesh.cell_data[key][index])
+        names, column = _names_of_tags(mesh, key, dimension), np.asarray(mesh.cell_data[key][index])
         for tag in np.unique(column):
             name = names.get(int(tag), str(tag))
-            if int(tag) in names or dimension == 1:
-                if name not in mesh.cell_sets:
-                    yield name, np.flatnonzero(column == tag)
+            if (int(tag) in names or dimension == 1) and name not in mesh.cell_sets and tag >= 0:
+                yield name, np.flatnonzero(column == tag)
         return
+
+
+def _names_of_tags(mesh, key, dimension):
+    """The names of the numbers in a column of cells: Gmsh's physical names, those of this library's .vtu files, or what
+    meshio makes of cell sets in files that have none, a column with the names joined by '-'."""
+    listed = mesh.field_data.get(f"{key}_names")
+    if listed is not None:
+        return dict(enumerate(bytes(np.asarray(listed, dtype=np.uint8)).decode("utf-8", "replace").split("\0")[:-1]))
+    names = {int(data[0]): name for name, data in mesh.field_data.items() if np.size(data) == 2 and int(data[1]) == dimension}
+    if names or key not in (_PHYSICAL, "medit:ref"):
+        return names
+    for other, columns in mesh.cell_data.items():
+        joined = other.split("-")
+        if other.startswith("gmsh:") or other == key or not all(np.issubdtype(np.asarray(column).dtype, np.integer) for column in columns):
+            continue
+        sets, tags = np.concatenate(columns), np.concatenate(mesh.cell_data[key])
+        if set(np.unique(sets)) - {-1} == set(range(len(joined))):
+            return {int(tags[sets == number][0]): name for number, name in enumerate(joined)}
+    return names
 
 
 def to_pyvista(mesh, fields=None):

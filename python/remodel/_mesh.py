@@ -61,11 +61,23 @@ def _step_transfer(step):
     return Transfer(step.before, step.after)
 
 
-def turned_over(points, triangles):
-    """How many triangles are clockwise or have no area."""
-    a, b, c = (points[triangles[:, corner]] for corner in range(3))
-    (ux, uy), (vx, vy) = (b - a).T, (c - a).T
-    return int(np.count_nonzero(~(ux * vy - uy * vx > 0.0)))
+class Validity:
+    """Whether a frozen mesh is still valid with its points elsewhere: no triangle turns over, and no wall crosses itself
+    or another, which triangles alone do not show. Of a mesh that is not valid itself (loops that touch, say) triangles
+    are looked at alone."""
+
+    def __init__(self, start):
+        self._whole = check(start, delaunay=False).valid
+
+    def broken(self, mesh):
+        """The first rule that is broken, as text; empty if none is."""
+        if self._whole:
+            found = check(mesh, delaunay=False).violations
+            return f"{found[0].rule}: {found[0].detail}" if found else ""
+        a, b, c = (mesh.points[mesh.triangles[:, corner]] for corner in range(3))
+        (ux, uy), (vx, vy) = (b - a).T, (c - a).T
+        over = np.flatnonzero(~(ux * vy - uy * vx > 0.0))
+        return f"orientation: triangle {over[0]} is clockwise or has no area" if len(over) else ""
 
 
 def _check(mesh, *, min_angle=0.0, max_gradation=0.0, delaunay=True, delaunay_slack=None):

@@ -12,7 +12,7 @@ The calls are IDWarp's, in its order and with its arrays: the grid flat (x, y, z
 surface of shape (n, 3). Surfaces may be flat where they are handed in. The method is IDWarp's, inverse-distance
 weighting with rotations (E. Luke, E. Collins and E. Blades, J. Comput. Phys. 231, 2012), of edges, in the plane, and
 linear: warpDeriv() and warpDerivFwd() are exact at every surface. Connectivity stays, so that triangles get worse with
-the distance; where one turns over warpMesh() raises TopologyChanged, and the grid is as it was. Mesh.update() goes on
+the distance; where one turns over, or walls cross, warpMesh() raises TopologyChanged, and the grid is as it was. Mesh.update() goes on
 from there.
 """
 
@@ -24,7 +24,7 @@ import numpy as np
 from . import _calls
 from ._core import FrozenMesh, InteriorDisplacement, Mesh, import_mesh, read_frozen
 from ._errors import ArgumentError, ArgumentTypeError, TopologyChanged
-from ._mesh import turned_over
+from ._mesh import Validity
 
 _FILE_OPTIONS = {"gridFile": None, "fileType": "CGNS", "specifiedSurfaces": None, "symmetrySurfaces": None, "symmetryPlanes": None, "restartFile": None}
 # Of IDWarp's own method: they have no effect here, and a line says so where one is not what it is by default.
@@ -93,6 +93,7 @@ class USMesh:
             self._grid = np.array(mesh.points)
             mesh = import_mesh(mesh) if isinstance(mesh, FrozenMesh) else mesh.copy()
         self._mesh, self._start = mesh, mesh.freeze()
+        self._validity = Validity(self._start)
         self._size = float(np.ptp(self._grid, axis=0).max())
         self._external = None
         self._place_of = _matches(self._grid, self._start.points, 0.0)  # per point of the grid; -1 where no triangle has it
@@ -175,12 +176,12 @@ class USMesh:
         return self._field.jvp(walls)
 
     def warpMesh(self):
-        """Moves the grid. Raises TopologyChanged where a triangle would turn over."""
+        """Moves the grid. Raises TopologyChanged where a triangle would turn over or walls would cross."""
         self._set_internal_surface()
         points = self._start.points + self._along(self._wanted - self._first)
-        over = turned_over(points, self._start.triangles)
-        if over:
-            raise TopologyChanged(f"surface: {over} triangles turn over, expected a surface nearer to the grid's own, or Mesh.update()")
+        broken = self._validity.broken(self._start.with_points(points))
+        if broken:
+            raise TopologyChanged(f"surface: the grid is not valid ({broken}), expected a surface nearer to the grid's own, or Mesh.update()")
         self._points = points
 
     def _solid(self, points):

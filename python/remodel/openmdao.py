@@ -2,8 +2,8 @@
 
 OpenMDAO is imported with this module, and nothing else is that remodel does not need. Connectivity is fixed, as
 OpenMDAO's arrays are: the points of a design are those of the first mesh, its interior moved along with the walls
-(InteriorDisplacement), which is linear in the coefficients. What cannot be computed (triangles that turn over far from
-the first design, a flow that is not found) raises openmdao's AnalysisError. Drivers that do not catch it, as
+(InteriorDisplacement), which is linear in the coefficients. What cannot be computed (triangles that turn over or walls
+that cross far from the first design, a flow that is not found) raises openmdao's AnalysisError. Drivers that do not catch it, as
 ScipyOptimizeDriver, end with it: give the design variables bounds, or take pyOptSparseDriver. `MeshComponent.renew()`
 makes a mesh for the present design, for a problem that is set up again.
 """
@@ -13,7 +13,7 @@ from openmdao.api import AnalysisError, ExplicitComponent
 
 from ._core import InteriorDisplacement, LivingFlow
 from ._errors import ArgumentError, Error
-from ._mesh import turned_over
+from ._mesh import Validity
 
 _RECIPE = "; bound the design variables, or take a driver that catches AnalysisError, as pyOptSparseDriver"
 
@@ -33,7 +33,7 @@ class MeshComponent(ExplicitComponent):
     def setup(self):
         self._refer_to(self.options["mesh"].copy())
         airfoil = self.options["airfoil"]
-        if airfoil is not None and airfoil.with_design(self._base) != self._airfoil:
+        if airfoil is not None and (airfoil.degree != self._airfoil.degree or airfoil.with_design(self._base) != self._airfoil):
             raise ArgumentError("airfoil: is not the mesh's with other coefficients, expected the same degree, exponents and trailing edge")
         self.add_input("design", val=self._base if airfoil is None else airfoil.design)
         self.add_output("points", val=np.array(self.reference.points))
@@ -41,7 +41,8 @@ class MeshComponent(ExplicitComponent):
 
     def _refer_to(self, mesh):
         boundary = self.options["boundary"]
-        self.reference = mesh
+        self.reference, self._frozen = mesh, mesh.freeze()
+        self._validity = Validity(self._frozen)
         self._airfoil = mesh.domain.airfoil(boundary)
         self._base = self._airfoil.design
         names = None if not boundary else [boundary]
@@ -59,9 +60,9 @@ class MeshComponent(ExplicitComponent):
     def compute(self, inputs, outputs):
         self._present = np.array(inputs["design"])
         points = self.reference.points + self._moved(self._present - self._base)
-        over = turned_over(points, self.reference.triangles)
-        if over:
-            raise AnalysisError(f"design: {over} triangles of the mesh turn over, expected a design nearer to the mesh's own" + _RECIPE)
+        broken = self._validity.broken(self._frozen.with_points(points))
+        if broken:
+            raise AnalysisError(f"design: its mesh is not valid ({broken}), expected a design nearer to the mesh's own" + _RECIPE)
         outputs["points"] = points
 
     def compute_jacvec_product(self, inputs, d_inputs, d_outputs, mode):
@@ -95,6 +96,7 @@ class FlowComponent(ExplicitComponent):
             raise ArgumentError("mesh: not given, expected a mesh or the component that its points come from")
         mesh = geometry.options["mesh"] if mesh is None else mesh
         self.frozen = mesh.freeze() if hasattr(mesh, "freeze") else mesh
+        self._validity = Validity(self.frozen)
         self.solver = self.options["solver"] or LivingFlow(tolerance=1e-12)
         self._solved = self._gradients = None
         self.add_input("points", val=np.array(self.frozen.points))
@@ -114,7 +116,11 @@ class FlowComponent(ExplicitComponent):
                 return flow
         self._solved = self._gradients = None
         try:
-            flow = self.solver.solve(self.frozen.with_points(points), **conditions)
+            mesh = self.frozen.with_points(points)
+            broken = self._validity.broken(mesh)
+            if broken:
+                raise AnalysisError(f"points: the mesh is not valid ({broken}), expected points nearer to its own" + _RECIPE)
+            flow = self.solver.solve(mesh, **conditions)
         except Error as error:
             raise AnalysisError(str(error) + _RECIPE) from error
         if not flow.converged:

@@ -52,17 +52,18 @@ Range whole_range(const Domain& domain) {
   return all;
 }
 
-// How a mesh goes with its design: walls by their curves, and the interior of a mesh that is held along.
+// How a mesh goes with its design: walls by their curves, and the interior along or not.
 struct Way {
   Range range;
   MeshDerivative walls;
   std::optional<InteriorDisplacement> interior;
 
-  Way(const Mesh& mesh, const std::string& boundary, const std::string& of, const std::string& how)
-      : range(range_of(mesh.domain(), boundary, of)), walls(mesh) {
+  Way(const LivingMesh& living, const std::string& boundary, const std::string& of, const std::string& how)
+      : range(range_of(living.mesh.domain(), boundary, of)), walls(living.mesh) {
+    const Mesh& mesh = living.mesh;
     if (how != "own" && how != "still" && how != "along")
       throw Error(ErrorCode::argument, "interior", "found '" + how + "', expected own, still or along");
-    if (how == "still" || (how == "own" && !mesh.held())) return;
+    if (how == "still" || (how == "own" && !mesh.held() && !living.follows)) return;
     std::vector<std::size_t> moving;
     const Domain reference = mesh.held() ? mesh.state().reference_domain : mesh.domain();
     for (std::size_t i = 0; i < mesh.domain().loops.size(); ++i)
@@ -84,7 +85,7 @@ py::array jvp(LivingMesh& mesh, const Reals& direction, const std::string& bound
               const std::string& how) {
   const std::vector<double> given = reals(direction, "direction");
   const ThreadLock::Held held(mesh.lock);
-  const Way way(mesh.mesh, boundary, of, how);
+  const Way way(mesh, boundary, of, how);
   if (given.size() != way.range.count)
     throw Error(
         ErrorCode::argument, "direction",
@@ -121,7 +122,7 @@ py::array_t<double> vjp(LivingMesh& mesh, const py::object& by_points, const std
   std::vector<Point> weights = points(array_of(by_points, "by_points"), "by_points");
   const ThreadLock::Held held(mesh.lock);
   if (py::hasattr(by_points, "mesh")) require_of(by_points, *mesh.freeze());
-  const Way way(mesh.mesh, boundary, of, how);
+  const Way way(mesh, boundary, of, how);
   if (way.interior) weights = way.interior->vjp(weights);
   const std::vector<double> all = way.walls.vjp(weights);
   const auto begin = all.begin() + static_cast<std::ptrdiff_t>(way.range.first);
@@ -147,8 +148,7 @@ void add_derivatives(py::module_& module) {
       R"(How the points move, of shape (n, 2), with an airfoil's coefficients in a direction (Airfoil.design's
 order), at fixed connectivity: boundary vertices move with their curve. of='domain': with all numbers of
 Domain.coefficients, placements, splines and polygons included. interior: 'still', as in a full adjustment; 'along', by
-InteriorDisplacement; 'own': along in a mesh that is held (update(strategy='reference')), so that it is the derivative
-of that step, otherwise still.)");
+InteriorDisplacement; 'own': as the last step would, along after update(strategy='reference'), otherwise still.)");
   type.def(
       "vjp", &vjp, "by_points"_a, "boundary"_a = "", py::kw_only(), "of"_a = "airfoil", "interior"_a = "own",
       "Transposed: derivatives by points, of shape (n, 2), become derivatives by the coefficients. Raises "

@@ -16,6 +16,9 @@ namespace remodel::python {
 struct LivingMesh {
   Mesh mesh;
   Stopped stopped = Stopped::done;
+  // Whether the last step was by Strategy::reference: the next one of that strategy moves the interior along,
+  // also where the mesh is a new reference and not held.
+  bool follows = false;
   ThreadLock lock;
   // The mesh as it is now, frozen when it is first asked for. Views of it keep it alive.
   Snapshot frozen;

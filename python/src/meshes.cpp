@@ -11,10 +11,11 @@
 namespace remodel::python {
 namespace {
 
-LivingMeshPointer alive(Mesh mesh, Stopped stopped = Stopped::done) {
+LivingMeshPointer alive(Mesh mesh, Stopped stopped = Stopped::done, bool follows = false) {
   auto living = std::make_shared<LivingMesh>();
   living->mesh = std::move(mesh);
   living->stopped = stopped;
+  living->follows = follows;
   return living;
 }
 
@@ -69,7 +70,7 @@ LivingMeshPointer loaded(const std::filesystem::path& file) {
 LivingMeshPointer copy_of(LivingMesh& mesh) {
   const ThreadLock::Held held(mesh.lock);
   py::gil_scoped_release released;
-  return alive(mesh.mesh, mesh.stopped);
+  return alive(mesh.mesh, mesh.stopped, mesh.follows);
 }
 
 CheckResult checked(LivingMesh& mesh) {
@@ -171,15 +172,15 @@ alive by whoever holds them. Threads may share a mesh: they take turns. Copies a
   type.def(py::pickle(
       [](LivingMesh& mesh) {
         const ThreadLock::Held held(mesh.lock);
-        return py::make_tuple(dict_of(mesh.mesh.state()), static_cast<int>(mesh.stopped));
+        return py::make_tuple(dict_of(mesh.mesh.state()), static_cast<int>(mesh.stopped), mesh.follows);
       },
-      [](const py::tuple& state) {
-        if (state.size() != 2) throw Error(ErrorCode::format, "pickle", "expected the state of a mesh");
-        const int stopped = state[1].cast<int>();
+      [](const py::tuple& state) {  // earlier pickles end with the second member
+        const bool sound = (state.size() == 2 || state.size() == 3) && py::isinstance<py::dict>(state[0]);
+        const int stopped = sound ? state[1].cast<int>() : -1;
         if (stopped < 0 || stopped > static_cast<int>(Stopped::interrupted))
           throw Error(ErrorCode::format, "pickle", "expected the state of a mesh");
         return alive(Mesh::restore(state_of(state[0].cast<py::dict>()), "pickle"),
-                     static_cast<Stopped>(stopped));
+                     static_cast<Stopped>(stopped), state.size() == 3 && state[2].cast<bool>());
       }));
   module.def("generate", &generated, "shape"_a, py::kw_only(), "points"_a = 200, "gradation"_a = py::none(),
              "resolution"_a = 1.0, "min_angle"_a = 30.0, "max_gradation"_a = QualityOptions{}.max_gradation,

@@ -55,7 +55,10 @@ std::shared_ptr<StepRecord> updated(const LivingMeshPointer& mesh, const py::obj
     mesh->changed();
     return result;
   });
-  if (!step->result.abandoned) mesh->stopped = step->result.stopped;
+  if (!step->result.abandoned) {
+    mesh->stopped = step->result.stopped;
+    mesh->follows = options.strategy == Strategy::reference;
+  }
   step->mesh = mesh;
   step->version = mesh->version;
   if (record) step->after = mesh->freeze();
@@ -202,6 +205,7 @@ class Attempt {
     const ThreadLock::Held held(mesh_->lock);
     const Domain domain = next_domain(*mesh_, shape_, boundary_);
     stopped_ = mesh_->stopped;
+    follows_ = mesh_->follows;
     trial_ = interruptible([&](StepObserver& observer) {
       options_.observer = &observer;
       const Mark mark = mesh_->mesh.mark();
@@ -211,7 +215,10 @@ class Attempt {
       mesh_->changed();
       return trial;
     });
-    if (!step->result.abandoned) mesh_->stopped = step->result.stopped;
+    if (!step->result.abandoned) {
+      mesh_->stopped = step->result.stopped;
+      mesh_->follows = options_.strategy == Strategy::reference;
+    }
     step->mesh = mesh_;
     step->version = mesh_->version;
     step_ = std::move(step);
@@ -229,6 +236,7 @@ class Attempt {
     const ThreadLock::Held held(mesh_->lock);
     trial_.reset();
     mesh_->stopped = stopped_;
+    mesh_->follows = follows_;
     mesh_->changed();
   }
   const std::shared_ptr<StepRecord>& step() const {
@@ -243,6 +251,7 @@ class Attempt {
   std::string boundary_;
   RemodelOptions options_;
   Stopped stopped_ = Stopped::done;
+  bool follows_ = false;
   std::unique_ptr<Trial> trial_;
   std::shared_ptr<StepRecord> step_;
 };

@@ -51,16 +51,18 @@ def test_meshio_keeps_regions(mesh):
 
 
 @pytest.mark.parametrize("kind", ["ours", "regions"])
-def test_names_pass_through_gmsh_files_both_ways(mesh, tmp_path, kind):
-    """.msh has names, in both programs."""
+def test_names_pass_through_files_of_either_program(mesh, tmp_path, kind):
     meshio = pytest.importorskip("meshio")
     frozen = mesh.freeze() if kind == "ours" else two_regions()
-    frozen.save(tmp_path / "ours.msh")
-    assert named(remodel.from_meshio(meshio.read(tmp_path / "ours.msh"))) == named(frozen)
-    for format in ("gmsh22", "gmsh"):
-        frozen.to_meshio().write(tmp_path / "theirs.msh", file_format=format, binary=False)
-        assert named(remodel.read_frozen(tmp_path / "theirs.msh")) == named(frozen), format
-        assert named(remodel.from_meshio(meshio.read(tmp_path / "theirs.msh"))) == named(frozen), format
+    for name in ("ours.msh", "ours.vtu"):
+        frozen.save(tmp_path / name)
+        assert named(remodel.from_meshio(meshio.read(tmp_path / name))) == named(frozen), name
+    frozen.to_meshio().write(tmp_path / "theirs.msh", file_format="gmsh22", binary=False)
+    assert named(remodel.read_frozen(tmp_path / "theirs.msh")) == named(frozen)
+    for name in ("theirs.msh", "theirs.vtu", "theirs.vtk"):
+        if name != "theirs.msh":
+            frozen.to_meshio().write(tmp_path / name)
+        assert named(remodel.from_meshio(meshio.read(tmp_path / name))) == named(frozen), name
 
 
 def test_other_cells_are_refused_or_split():

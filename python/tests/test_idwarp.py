@@ -92,7 +92,12 @@ def test_what_cannot_be_warped_is_refused_and_leaves_the_grid(mesh, file):
     with pytest.raises(remodel.ArgumentError, match="getdXs"):
         warp.getdXs()
     warp.setSurfaceCoordinates(surface * [1.0, -1.0, 1.0])
-    with pytest.raises(remodel.TopologyChanged, match="turn over"):
+    with pytest.raises(remodel.TopologyChanged, match="^surface: the grid is not valid"):
+        warp.warpMesh()
+    flat = surface * [1.0, 1.0, 1.0]
+    flat[surface[:, 1] > 0.03, 1] = -0.08  # the upper surface crosses the lower one
+    warp.setSurfaceCoordinates(flat)
+    with pytest.raises(remodel.TopologyChanged, match="^surface: the grid is not valid"):
         warp.warpMesh()
     assert np.array_equal(warp.getSolverGrid(), grid)
     for call in (
