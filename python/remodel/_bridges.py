@@ -4,7 +4,7 @@ functions is called."""
 import numpy as np
 
 from ._core import FrozenMesh
-from ._errors import ArgumentError
+from ._errors import ArgumentError, ArgumentTypeError
 
 _PHYSICAL = "gmsh:physical"
 _BOUNDARY = "boundary:"  # then the name: pairs of points among PyVista's field data
@@ -84,6 +84,8 @@ def from_meshio(mesh, *, split_quadrilaterals=False):
     and vertices are. Lines of no set are left out; import_mesh() names boundary edges that have no name. Raises
     ArgumentError.
     """
+    if not hasattr(mesh, "cells") or not hasattr(mesh, "cell_sets"):
+        raise ArgumentTypeError(f"mesh: found an object of type {type(mesh).__name__}, expected a meshio.Mesh")
     triangles, lines, rows = [], [], 0
     for index, block in enumerate(mesh.cells):
         data = np.asarray(block.data)
@@ -181,6 +183,8 @@ def from_pyvista(grid, *, split_quadrilaterals=False):
 
     Quadrilaterals and other cells as in from_meshio(). Raises ArgumentError.
     """
+    if not hasattr(grid, "cells_dict"):
+        raise ArgumentTypeError(f"grid: found an object of type {type(grid).__name__}, expected a pyvista.UnstructuredGrid")
     blocks = {int(kind): np.asarray(cells) for kind, cells in grid.cells_dict.items()}
     triangles = [blocks[_VTK_TRIANGLE]] if _VTK_TRIANGLE in blocks else []
     quadrilaterals = blocks.get(9)

@@ -8,8 +8,10 @@ finite; and it says which argument has a wrong type, where pybind11 would list a
 import ast
 import functools
 import inspect
+import math
 import numbers
 import os
+import re
 from collections.abc import Mapping
 
 import numpy as np
@@ -27,11 +29,15 @@ def shown(value):
     if isinstance(value, (str, bytes, numbers.Number)):
         text = repr(value)
         return f"{text if len(text) <= _LARGEST else text[:_LARGEST] + '...'} of type {kind}"
+    if isinstance(value, (list, tuple)):
+        return f"a {kind} of {len(value)}"
     return "None" if value is None else f"an object of type {kind}"
 
 
 def finite(name, value):
     """Throws ArgumentError where the value has a part that is complex, NaN or infinite, naming it."""
+    if type(value) is np.ndarray and value.ndim == 1 and value.dtype.kind == "f" and math.isfinite(value.dot(value)):
+        return  # the usual case, soon
     if value is None or isinstance(value, (str, bytes, bool, int)):
         return
     if isinstance(value, (complex, np.complexfloating)):
@@ -118,7 +124,11 @@ def _kind(annotation, classes):
         return (lambda value: isinstance(value, classes[text])), f"a {text}" if text[0] not in "AI" else f"an {text}"
     if text in _KINDS:
         return _KINDS[text]
-    return None if text == "object" else ((lambda value: False), {"Dict": "a dict of numbers by name", "List": "numbers"}.get(text.split("[")[0], text))
+    if text == "object":
+        return None
+    if sized := re.match(r"(?:List|Annotated)\[\w+\[(\d+)\]", text):
+        return (lambda value: False), f"{sized[1]} numbers"
+    return (lambda value: False), {"Dict": "a dict of numbers by name", "List": "a list"}.get(text.split("[")[0], text)
 
 
 def _parsed(call, classes):
@@ -161,14 +171,20 @@ def _explained(error, name, signature, kinds, args, options):
 
 def _wrapped(call, name, signature, kinds, text, plain):
     names = list(signature.parameters)
+    arrays = frozenset(argument for argument, kind in kinds.items() if kind and kind[1].startswith("an array"))
+
+    def look(argument, value):
+        finite(argument, value)
+        if argument in arrays and not (type(value) is np.ndarray and value.dtype.kind in "biuf") and not kinds[argument][0](value):
+            raise ArgumentTypeError(f"{argument}: found {shown(value)}, expected {kinds[argument][1]}")
 
     def looked_at(*args, **options):
         for argument, value in zip(names, args):
-            if type(value) not in plain:
-                finite(argument, value)
+            if type(value) not in plain or argument in arrays:
+                look(argument, value)
         for argument, value in options.items():
-            if type(value) not in plain:
-                finite(argument, value)
+            if type(value) not in plain or argument in arrays:
+                look(argument, value)
         try:
             return call(*args, **options)
         except Error:
@@ -206,6 +222,13 @@ def python_call(**kinds):
     return decorate
 
 
+def _no_constructor(name):
+    def __init__(self, *args, **options):
+        raise ArgumentTypeError(f"{name}: has no constructor, expected one that a call returns (help(remodel) names them)")
+
+    return __init__
+
+
 def extend(core):
     """Puts such functions before the public calls of the compiled part."""
     classes = {name: thing for name, thing in vars(core).items() if inspect.isclass(thing) and not name.startswith("_")}
@@ -216,6 +239,8 @@ def extend(core):
         if (found := _parsed(thing, classes)) is not None:
             setattr(core, name, _wrapped(thing, name, *found, plain))
     for name, kind in classes.items():
+        if isinstance(vars(kind).get("__init__"), type(object.__init__)):  # pybind11's, which refuses too
+            kind.__init__ = _no_constructor(name)
         for member, thing in list(vars(kind).items()):
             if member.startswith("_") and member != "__init__" or isinstance(thing, property):
                 continue

@@ -31,11 +31,7 @@ class CMAES:
             raise ArgumentError(f"seed: found {seed}, expected 0 to 2**64 - 1")
         if not 0 <= popsize < 2**31:
             raise ArgumentError(f"popsize: found {popsize}, expected 0, or 4 or more")
-        try:
-            self._state = _Cmaes(np.asarray(x0, dtype=float), sigma0, seed, popsize)
-        except ArgumentError as error:
-            place = {"CMA-ES sigma": "sigma0", "CMA-ES population": "popsize"}.get(error.place, error.place)
-            raise ArgumentError(f"{place}: {error.problem}") from None
+        self._state = _Cmaes(np.asarray(x0, dtype=float), sigma0, seed, popsize)
         self.maxfevals, self.tolx = maxfevals, tolx
         self.countevals = 0
         self._best = None, np.inf

@@ -69,6 +69,8 @@ def _real(objective):
 
     def asked(*args):
         answer = objective(*args)
+        if answer is None or isinstance(answer, (str, bytes)):
+            raise ArgumentTypeError(f"objective: returned {_calls.shown(answer)}, expected a number, or a dict with one")
         numbers = answer.items() if isinstance(answer, dict) else [("objective", answer)]
         for name, value in numbers:
             values = value.values() if isinstance(value, dict) else value

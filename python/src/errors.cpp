@@ -21,15 +21,19 @@ const char* exception_of(ErrorCode code) {
   return "Error";
 }
 
-// Options have their units in their names in C++, and none in Python.
+// Options have their units in their names in C++, and none in Python, where some are called otherwise too.
 std::string text_of(const Error& error) {
-  std::string text = error.what();
-  constexpr std::string_view unit = "_deg";
+  static constexpr std::pair<const char*, const char*> renamed[] = {
+      {"CST degree", "degree"}, {"CMA-ES sigma", "sigma0"}, {"CMA-ES population", "popsize"}};
+  const std::string text = error.what();
   const std::size_t end = text.find(": ");
-  if (error.code() == ErrorCode::argument && end != std::string::npos && end >= unit.size() &&
-      text.compare(end - unit.size(), unit.size(), unit) == 0)
-    text.erase(end - unit.size(), unit.size());
-  return text;
+  if (error.code() != ErrorCode::argument || end == std::string::npos) return text;
+  std::string place = text.substr(0, end);
+  for (const auto& [from, to] : renamed)
+    if (place == from) place = to;
+  constexpr std::string_view unit = "_deg";
+  if (place.ends_with(unit)) place.resize(place.size() - unit.size());
+  return place + text.substr(end);
 }
 
 void raise(const Error& error, const char* name) {

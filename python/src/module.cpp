@@ -23,8 +23,12 @@ std::vector<Point> points(const Reals& values, const std::string& name) {
 }
 
 Reals array_of(const py::handle& object, const std::string& name) {
-  Reals values = Reals::ensure(object);
-  if (values) return values;
+  constexpr std::string_view numbers = "biufO";  // NumPy makes numbers of strings and dates too
+  const py::array any = py::array::ensure(object);
+  if (any && !object.is_none() && numbers.find(any.dtype().kind()) != std::string_view::npos) {
+    Reals values = Reals::ensure(any);
+    if (values) return values;
+  }
   PyErr_Clear();
   throw py::type_error(name + ": found " + type_of(object) + ", expected an array of numbers");
 }

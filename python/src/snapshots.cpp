@@ -104,8 +104,8 @@ std::vector<std::vector<std::uint32_t>> indices(const py::object& values, py::ss
       const std::int64_t value = *rows.data(i, k);
       if (value < 0 || value >= static_cast<std::int64_t>(count))
         throw Error(ErrorCode::argument, name,
-                    "row " + std::to_string(i) + ": found point " + std::to_string(value) +
-                        ", expected 0 to " + std::to_string(count) + " - 1");
+                    "row " + std::to_string(i) + ": found " + std::to_string(value) + ", expected 0 to " +
+                        std::to_string(count) + " - 1");
       result[static_cast<std::size_t>(i)].push_back(static_cast<std::uint32_t>(value));
     }
   return result;
@@ -114,6 +114,8 @@ std::vector<std::vector<std::uint32_t>> indices(const py::object& values, py::ss
 // The names and the numbers of the triangles' regions.
 void set_regions(FrozenMesh& mesh, const py::object& regions, const std::vector<std::string>& names) {
   if (regions.is_none() && names.empty()) return;
+  if (regions.is_none() || names.empty())
+    throw Error(ErrorCode::argument, "region, region_names", "found one of them, expected both");
   const py::object column = py::module_::import("numpy").attr("reshape")(regions, py::make_tuple(-1, 1));
   mesh.region_names = names;
   for (const auto& row : indices(column, 1, "region", names.size())) mesh.region.push_back(row[0]);

@@ -111,6 +111,8 @@ def test_a_wrong_type_is_named_in_one_short_line(mesh, airfoil):
         "elements[1]": [lambda: remodel.Domain.airfoils([{"name": "a", "airfoil": airfoil}, rows])],
         "elements[0]['chord']": [lambda: remodel.Domain.airfoils([{"name": "a", "airfoil": airfoil, "chord": "x"}])],
         "objective": [lambda: remodel.optimise(airfoil, rows)],
+        "conserved": [lambda: remodel.Transfer(mesh, mesh).remap(rows, conserved=[0, 1])],
+        "grid": [lambda: remodel.from_pyvista(rows)],
     }
     for name, calls in cases.items():
         for number, call in enumerate(calls):
@@ -120,11 +122,31 @@ def test_a_wrong_type_is_named_in_one_short_line(mesh, airfoil):
             assert text.startswith(f"{name}: found ") and "expected " in text and len(text) < 250 and "\n" not in text, (name, number, text)
 
 
+def test_strings_and_dates_are_no_numbers(mesh, airfoil):
+    """NumPy would make some of them."""
+    for name, right, call in array_calls(mesh, airfoil):
+        if name == "elements[0]['position']":
+            continue
+        for wrong in (np.full(right.shape, "0.5"), np.full(right.shape, "0.5").tolist(), np.full(right.shape, "2020", dtype="datetime64[Y]"), "0.5", None, {"a": 1.0}):
+            if wrong is None and name in ("upper", "lower"):
+                continue  # which may be left out
+            with pytest.raises(remodel.ArgumentTypeError) as raised:
+                call(wrong)
+            assert "expected an array of numbers" in str(raised.value), (name, wrong, raised.value)
+
+
+def test_classes_that_calls_return_are_not_made_by_hand():
+    for kind in (remodel.Mesh, remodel.Step, remodel.Changes, remodel.Trial, remodel.FlowResult, remodel.CheckResult, remodel.Violation, remodel.PotentialFlow):
+        with pytest.raises(remodel.ArgumentTypeError, match=f"^{kind.__name__}: has no constructor"):
+            kind()
+
+
 def test_options_have_pythons_names_in_messages(mesh, airfoil):
     for name, call in {
         "min_angle": lambda: remodel.generate(airfoil, min_angle=50.0), "refine_angle": lambda: remodel.generate(airfoil, refine_angle=50.0),
         "delaunay_slack": lambda: mesh.update(airfoil, delaunay_slack=-1.0), "distance": lambda: mesh.update(airfoil, distance=-1.0),
         "alpha": lambda: remodel.solve_flow(mesh, alpha=100.0), "sigma0": lambda: remodel.CMAES([0.0], -1.0), "popsize": lambda: remodel.CMAES([0.0], 1.0, popsize=2),
+        "degree": lambda: remodel.Airfoil("naca:0012", degree=50),
     }.items():  # fmt: skip
         with pytest.raises(remodel.ArgumentError) as raised:
             call()
