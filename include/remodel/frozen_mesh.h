@@ -55,6 +55,9 @@ struct FrozenMesh {
   std::vector<double> gradation_error{};
   // Per triangle: since an earlier state, only where it was asked for (fates()).
   std::vector<Fate> fate{};
+  // By how much the angles opposite an inner edge may exceed 180 degrees: Mesh::delaunay_slack_deg(), 0 for
+  // meshes that are not held. It is what CheckOptions::delaunay_slack_deg has to be for the mesh to be valid.
+  double delaunay_slack_deg = 0.0;
 };
 
 // The fate of each triangle of `after`, since `before`: two states of one living mesh, in the order of time.

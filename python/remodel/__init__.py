@@ -21,8 +21,11 @@ factorisation to end, as a fork and the end of the process do (there a second Ct
 The method is that of the paper "Two-Dimensional Quality-Mesh Remodelling for Engineering Design Optimisation".
 """
 
-from . import _core
-from ._bridges import from_meshio
+from . import _calls, _core
+
+_calls.extend(_core)
+
+from ._bridges import from_meshio, from_pyvista
 from ._core import (
     Airfoil,
     Changes,
@@ -30,6 +33,7 @@ from ._core import (
     Domain,
     FlowResult,
     FrozenMesh,
+    InteriorDisplacement,
     LivingFlow,
     Mesh,
     PotentialFlow,
@@ -48,17 +52,19 @@ from ._core import (
     solve_flow,
 )
 from ._designers import CMAES
-from ._errors import ArgumentError, Error, EvaluationFailed, FileError, FormatError, GeometryError, TopologyChanged
+from ._errors import ArgumentError, ArgumentTypeError, Error, EvaluationFailed, FileError, FormatError, GeometryError, TopologyChanged
+from ._gradients import PointGradient
 from ._mesh import extend as _extend
 from ._optimise import OptimiseResult, optimise
 
 _extend()
 
 __all__ = [
-    "Airfoil", "ArgumentError", "CMAES", "Changes", "CheckResult", "Domain", "Error", "EvaluationFailed", "FileError",
-    "FlowResult", "FormatError", "FrozenMesh", "GeometryError", "LivingFlow", "Mesh", "OptimiseResult",
-    "PotentialFlow", "PotentialSolver", "Step", "TopologyChanged", "Transfer", "Trial", "Violation", "__version__",
-    "catalogue", "check", "from_meshio", "generate", "import_mesh", "optimise", "read_fields", "read_frozen",
+    "Airfoil", "ArgumentError", "ArgumentTypeError", "CMAES", "Changes", "CheckResult", "Domain", "Error",
+    "EvaluationFailed", "FileError", "FlowResult", "FormatError", "FrozenMesh", "GeometryError",
+    "InteriorDisplacement", "LivingFlow", "Mesh", "OptimiseResult", "PointGradient", "PotentialFlow",
+    "PotentialSolver", "Step", "TopologyChanged", "Transfer", "Trial", "Violation", "__version__", "catalogue",
+    "check", "from_meshio", "from_pyvista", "generate", "import_mesh", "optimise", "read_fields", "read_frozen",
     "solve_flow",
 ]  # fmt: skip
 

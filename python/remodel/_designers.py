@@ -4,6 +4,7 @@ from collections import namedtuple
 
 import numpy as np
 
+from . import _calls
 from ._core import _Cmaes
 from ._errors import ArgumentError
 
@@ -24,7 +25,12 @@ class CMAES:
     to the same samples.
     """
 
+    @_calls.python_call(x0="array", sigma0="float", seed="int", popsize="int", maxfevals="float", tolx="float")
     def __init__(self, x0, sigma0, *, seed=1, popsize=0, maxfevals=None, tolx=1e-11):
+        if not 0 <= seed < 2**64:
+            raise ArgumentError(f"seed: found {seed}, expected 0 to 2**64 - 1")
+        if not 0 <= popsize < 2**31:
+            raise ArgumentError(f"popsize: found {popsize}, expected 0, or 4 or more")
         self._state = _Cmaes(np.asarray(x0, dtype=float), sigma0, seed, popsize)
         self.maxfevals, self.tolx = maxfevals, tolx
         self.countevals = 0
@@ -60,11 +66,12 @@ class CMAES:
     def tell(self, solutions, function_values):
         """The values of samples, the smaller the better; NaN and infinity rank last. popsize of them make a
         generation."""
-        solutions, values = list(solutions), [float(value) for value in function_values]
+        solutions = [_calls.reals(f"solutions[{number}]", solution) for number, solution in enumerate(solutions)]
+        values = [_value(number, value) for number, value in enumerate(function_values)]
         if len(solutions) != len(values):
             raise ArgumentError(f"tell: found {len(solutions)} solutions and {len(values)} values, expected as many of both")
         for solution, value in zip(solutions, values):
-            solution = np.array(solution, dtype=float)
+            solution = solution.copy()
             self._state.tell(solution, value)
             self.countevals += 1
             if value < self._best[1]:
@@ -83,3 +90,13 @@ class CMAES:
     def result(self):
         """xbest, fbest, evaluations, iterations, xfavorite (the mean) and sigma."""
         return Result(*self._best, self.countevals, self.countiter, self.mean, self.sigma)
+
+
+def _value(number, value):
+    """A function's value, which may be NaN or infinite, and not complex."""
+    if np.iscomplexobj(value) or isinstance(value, (str, bytes)):
+        raise ArgumentError(f"function_values[{number}]: found {_calls.shown(value)}, expected a real number")
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise ArgumentError(f"function_values[{number}]: found {_calls.shown(value)}, expected a real number") from None

@@ -24,6 +24,10 @@ class ArgumentError(Error, ValueError):
     """An argument is out of its range, or does not fit the others."""
 
 
+class ArgumentTypeError(ArgumentError, TypeError):
+    """An argument is of a type that the call does not take."""
+
+
 class FileError(Error, OSError):
     """A file cannot be opened, read or written."""
 

@@ -3,6 +3,8 @@
 import os
 import tempfile
 
+import numpy as np
+
 from . import _bridges, _plot
 from ._core import FlowResult, FrozenMesh, Mesh, PotentialFlow, Step, Transfer, check
 from ._errors import ArgumentError
@@ -59,12 +61,35 @@ def _step_transfer(step):
     return Transfer(step.before, step.after)
 
 
+class Validity:
+    """Whether a frozen mesh is still valid with its points elsewhere: no triangle turns over, and no wall crosses itself
+    or another, which triangles alone do not show. Of a mesh that is not valid itself (loops that touch, say) triangles
+    are looked at alone."""
+
+    def __init__(self, start):
+        self._whole = check(start, delaunay=False).valid
+
+    def broken(self, mesh):
+        """The first rule that is broken, as text; empty if none is."""
+        if self._whole:
+            found = check(mesh, delaunay=False).violations
+            return f"{found[0].rule}: {found[0].detail}" if found else ""
+        a, b, c = (mesh.points[mesh.triangles[:, corner]] for corner in range(3))
+        (ux, uy), (vx, vy) = (b - a).T, (c - a).T
+        over = np.flatnonzero(~(ux * vy - uy * vx > 0.0))
+        return f"orientation: triangle {over[0]} is clockwise or has no area" if len(over) else ""
+
+
+def _check(mesh, *, min_angle=0.0, max_gradation=0.0, delaunay=True, delaunay_slack=None):
+    return check(mesh, min_angle=min_angle, max_gradation=max_gradation, delaunay=delaunay, delaunay_slack=delaunay_slack)
+
+
 def extend():
     for name in _ARRAYS:
         setattr(Mesh, name, _array(name))
     Mesh.draw = _draw
-    FrozenMesh.check = lambda mesh, **bounds: check(mesh, **bounds)
-    FrozenMesh.check.__doc__ = check.__doc__
+    _check.__doc__ = check.__doc__
+    FrozenMesh.check = _check
     for kind in (Mesh, FrozenMesh):
         kind.plot = _plot.plot_mesh
         kind.to_meshio = _bridges.to_meshio

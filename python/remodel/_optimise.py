@@ -5,8 +5,9 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from . import _plot
+from . import _calls, _plot
 from ._core import Airfoil, _optimise
+from ._errors import ArgumentError, ArgumentTypeError
 
 
 class OptimiseResult(SimpleNamespace):
@@ -27,6 +28,8 @@ class OptimiseResult(SimpleNamespace):
         return f"OptimiseResult(evaluations={self.evaluations}, objective={self.objective:.6g}, stopped={self.stopped!r})"
 
 
+@_calls.python_call(directory="path", points="int", sigma="float", seed="int", evaluations="int", tolerance="float",
+                    strategy="str", workers="int", threads="int")  # fmt: skip
 def optimise(start, objective, *, directory=None, points=200, sigma=0.05, seed=1, evaluations=9000, tolerance=0.0,
              strategy="renew", workers=0, threads=None, resume=False, overwrite=False, callback=None):  # fmt: skip
     """Searches an airfoil by CMA-ES; one living mesh follows the designs. Returns an OptimiseResult.
@@ -44,13 +47,35 @@ def optimise(start, objective, *, directory=None, points=200, sigma=0.05, seed=1
     if not isinstance(start, Airfoil):
         start = Airfoil(start)
     if not (isinstance(objective, Airfoil) or callable(objective)):
-        raise TypeError("objective: expected an Airfoil or a function of (design, mesh, step)")
+        raise ArgumentTypeError(f"objective: found {_calls.shown(objective)}, expected an Airfoil or a function of (design, mesh, step)")
     if callback is not None and not callable(callback):
-        raise TypeError("callback: expected a function of a dict")
+        raise ArgumentTypeError(f"callback: found {_calls.shown(callback)}, expected a function of a dict")
+    for name, value, most in (("points", points, 2**31), ("seed", seed, 2**64), ("evaluations", evaluations, 2**63), ("workers", workers, 2**31), ("threads", threads or 0, 2**31)):
+        if not 0 <= value < most:
+            raise ArgumentError(f"{name}: found {value}, expected 0 to {most - 1}")
     if threads is None:
         threads = 0 if isinstance(objective, Airfoil) else 1
+    if not isinstance(objective, Airfoil):
+        objective = _real(objective)
     options = (points, sigma, seed, evaluations, tolerance, strategy, workers, threads, resume, overwrite, callback)
     if directory is not None:
         return OptimiseResult(**_optimise(start, objective, directory, *options))
     with tempfile.TemporaryDirectory() as scratch:
         return OptimiseResult(**_optimise(start, objective, scratch, *options))
+
+
+def _real(objective):
+    """The same function; what is complex in its answer raises, where half of it would be lost."""
+
+    def asked(*args):
+        answer = objective(*args)
+        if answer is None or isinstance(answer, (str, bytes)):
+            raise ArgumentTypeError(f"objective: returned {_calls.shown(answer)}, expected a number, or a dict with one")
+        numbers = answer.items() if isinstance(answer, dict) else [("objective", answer)]
+        for name, value in numbers:
+            values = value.values() if isinstance(value, dict) else value
+            if np.iscomplexobj(list(values) if isinstance(value, dict) else values):
+                raise ArgumentError(f"{name}: found the complex {value!r}, expected real numbers")
+        return answer
+
+    return asked

@@ -31,6 +31,7 @@ void add_meshes(py::module_& module);
 void add_steps(py::module_& module);
 void add_transfers(py::module_& module);
 void add_derivatives(py::module_& module);
+void add_displacements(py::module_& module);
 void add_flows(py::module_& module);
 void add_potential_flows(py::module_& module);
 void add_designers(py::module_& module);
@@ -38,11 +39,16 @@ void add_optimise(py::module_& module);
 
 // Throws Error (argument) unless the array has one dimension.
 std::vector<double> reals(const Reals& values, const char* name);
+// Throws TypeError naming the argument unless the object is an array of numbers, or can be made one.
+Reals array_of(const py::handle& object, const std::string& name);
 // Rows of x and y. Throws Error (argument) for another shape.
 std::vector<Point> points(const Reals& values, const std::string& name);
 Domain domain_of(const py::object& shape, const AirfoilDomainOptions& options);
 
-// A frozen mesh as it is now: of a FrozenMesh itself, or of a Mesh.
+// The name of an object's type, for messages.
+std::string type_of(const py::handle& object);
+
+// A frozen mesh as it is now: of a FrozenMesh itself, of a Mesh, or after a Step.
 Snapshot snapshot_of(const py::object& mesh);
 
 // An array that owns a copy.
@@ -62,6 +68,9 @@ py::array view(const std::shared_ptr<Owner>& owner, const T* data, std::vector<p
   py::detail::array_proxy(result.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return result;
 }
+
+// Points, of shape (n, 2), which the array takes.
+py::array view_of(std::vector<Point> points);
 
 template <class T, class Owner>
 py::array view(const std::shared_ptr<Owner>& owner, const std::vector<T>& values) {

@@ -22,13 +22,28 @@ const char* exception_of(ErrorCode code) {
   return "Error";
 }
 
+// Options have their units in their names in C++, and none in Python, where some are called otherwise too.
+std::string text_of(const Error& error) {
+  static constexpr std::pair<const char*, const char*> renamed[] = {
+      {"CST degree", "degree"}, {"CMA-ES sigma", "sigma0"}, {"CMA-ES population", "popsize"}};
+  const std::string text = error.what();
+  const std::size_t end = text.find(": ");
+  if (error.code() != ErrorCode::argument || end == std::string::npos) return text;
+  std::string place = text.substr(0, end);
+  for (const auto& [from, to] : renamed)
+    if (place == from) place = to;
+  constexpr std::string_view unit = "_deg";
+  if (place.ends_with(unit)) place.resize(place.size() - unit.size());
+  return place + text.substr(end);
+}
+
 void raise(const Error& error, const char* name) {
   try {
     const py::object type = py::module_::import("remodel._errors").attr(name);
-    PyErr_SetObject(type.ptr(),
-                    type(py::str(PyUnicode_DecodeUTF8(
-                             error.what(), static_cast<py::ssize_t>(std::strlen(error.what())), "replace")))
-                        .ptr());
+    const std::string text = text_of(error);
+    const auto decoded = py::reinterpret_steal<py::object>(
+        PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "replace"));
+    PyErr_SetObject(type.ptr(), type(decoded).ptr());
   } catch (py::error_already_set& other) {
     other.restore();
   }

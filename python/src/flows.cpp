@@ -2,9 +2,32 @@
 
 #include "remodel/flow.h"
 
+#include <numeric>
+
 #include "apart.h"
 #include "bindings.h"
 #include "living.h"
+#include "records.h"
+
+namespace remodel {
+
+template <python::Is<FlowBody> T>
+auto members(T& b) {
+  return std::tie(b.name, b.cl, b.cd, b.cm);
+}
+template <python::Is<FlowOpening> T>
+auto members(T& o) {
+  return std::tie(o.name, o.mass_flow);
+}
+template <python::Is<FlowResult> T>
+auto members(T& f) {
+  return std::tie(f.status, f.reason, f.mach, f.alpha_deg, f.cl, f.cd, f.cm, f.bodies, f.openings, f.start,
+                  f.residual, f.history, f.newton_steps, f.factorisations, f.coarse_steps,
+                  f.krylov_iterations, f.corrected_vertices, f.solver, f.gmres_iterations, f.memory_mb,
+                  f.seconds, f.density, f.velocity_x, f.velocity_y, f.pressure);
+}
+
+}  // namespace remodel
 
 namespace remodel::python {
 namespace {
@@ -64,10 +87,11 @@ py::object solved(const py::object& mesh, double mach, double alpha, const std::
   return with_mesh(flow, frozen);
 }
 
-py::dict dict_of(FlowGradient gradient) {
-  const auto held = std::make_shared<const std::vector<Point>>(std::move(gradient.points));
-  const double* data = held->empty() ? nullptr : &held->front().x;
-  return py::dict("points"_a = view(held, data, {static_cast<py::ssize_t>(held->size()), 2}),
+// Derivatives by points know the mesh that they are of (python/remodel/_gradients.py).
+py::dict dict_of(FlowGradient gradient, const Snapshot& mesh) {
+  const py::array points = view_of(std::move(gradient.points));
+  const py::object of_mesh = py::module_::import("remodel._gradients").attr("of_mesh");
+  return py::dict("points"_a = of_mesh(points, std::const_pointer_cast<FrozenMesh>(mesh)),
                   "mach"_a = gradient.mach, "alpha"_a = gradient.alpha_deg, "cl"_a = gradient.cl);
 }
 
@@ -86,7 +110,8 @@ struct Solver {
 // A LivingFlow that threads may share. A call that was left behind owns it as well.
 class Flows {
  public:
-  explicit Flows(FlowOptions options) : solver_(std::make_shared<Solver>(std::move(options))) {}
+  explicit Flows(FlowOptions options)
+      : options_(std::move(options)), solver_(std::make_shared<Solver>(options_)) {}
 
   // Factors go when no other flow is being factored.
   ~Flows() {
@@ -96,23 +121,26 @@ class Flows {
   Flows(const Flows&) = delete;
   Flows& operator=(const Flows&) = delete;
 
-  py::object solve(LivingMesh& mesh, double mach, double alpha, const std::optional<double>& cl,
+  py::object solve(const py::object& mesh, double mach, double alpha, const std::optional<double>& cl,
                    const std::array<double, 2>& reference, double reference_length) {
     const FlowConditions conditions = conditions_of(mach, alpha, cl, reference, reference_length);
     const ThreadLock::Held held(lock_);
-    const Snapshot frozen = mesh.snapshot();
+    const Snapshot given = snapshot_of(mesh), frozen = with_keys(given);
     const FlowPointer result = calls_.run(solver_->stop, [solver = solver_, frozen, conditions] {
       return std::make_shared<FlowResult>(solver->flow.solve(*frozen, conditions));
     });
-    return with_mesh(result, frozen);
+    if (result->converged()) last_ = given;
+    return with_mesh(result, given);
   }
   // Gradients of the last flow: by the points of its mesh, and by Mach number and angle.
   py::dict gradients() {
     const ThreadLock::Held held(lock_);
     FlowGradients found = calls_.run(solver_->stop, [solver = solver_] { return solver->flow.gradients(); });
-    return py::dict("cl"_a = dict_of(std::move(found.cl)), "cd"_a = dict_of(std::move(found.cd)),
-                    "cm"_a = dict_of(std::move(found.cm)), "alpha"_a = dict_of(std::move(found.alpha_deg)));
+    return py::dict(
+        "cl"_a = dict_of(std::move(found.cl), last_), "cd"_a = dict_of(std::move(found.cd), last_),
+        "cm"_a = dict_of(std::move(found.cm), last_), "alpha"_a = dict_of(std::move(found.alpha_deg), last_));
   }
+  const FlowOptions& options() const { return options_; }
   void forget() {
     const ThreadLock::Held held(lock_);
     calls_.settle();
@@ -120,9 +148,20 @@ class Flows {
   }
 
  private:
+  // A living flow knows vertices by their keys. Another program's mesh has none: its points are numbered.
+  static Snapshot with_keys(const Snapshot& mesh) {
+    if (mesh->vertex_keys.size() == mesh->points.size()) return mesh;
+    auto result = std::make_shared<FrozenMesh>(*mesh);
+    result->vertex_keys.resize(mesh->points.size());
+    std::iota(result->vertex_keys.begin(), result->vertex_keys.end(), std::uint64_t{0});
+    return result;
+  }
+
   ThreadLock lock_;
+  const FlowOptions options_;
   std::shared_ptr<Solver> solver_;
   Apart calls_;
+  Snapshot last_;  // the mesh of the last flow that was found
 };
 
 py::dict bodies_of(const FlowResult& flow) {
@@ -175,6 +214,20 @@ void add_figures(py::class_<FlowResult, FlowPointer>& type) {
       "The residuals, from the first state on.");
 }
 
+// Of a pickle: what was added to the object in Python, its mesh above all, is its __dict__.
+std::pair<FlowPointer, py::dict> flow_of(const py::tuple& state) {
+  require_pickle(state.size() == 2 && py::isinstance<py::dict>(state[1]), "a flow");
+  auto flow = std::make_shared<FlowResult>(unpacked<FlowResult>(state[0]));
+  const std::size_t points = flow->density.size();
+  require_pickle(flow->velocity_x.size() == points && flow->velocity_y.size() == points &&
+                     flow->pressure.size() == points && flow->status >= FlowStatus::converged &&
+                     flow->status <= FlowStatus::interrupted && flow->start >= FlowStart::cold &&
+                     flow->start <= FlowStart::refactored && flow->solver >= FlowSolver::lu &&
+                     flow->solver <= FlowSolver::gmres,
+                 "a flow");
+  return {std::move(flow), state[1].cast<py::dict>()};
+}
+
 void add_result(py::module_& module) {
   py::class_<FlowResult, FlowPointer> type(
       module, "FlowResult", py::dynamic_attr(),
@@ -190,10 +243,34 @@ void add_result(py::module_& module) {
   type.def_property_readonly(
       "entropy", [](const FlowResult& f) { return copied(entropy_errors(f)); },
       "p / rho**gamma over the stream's, minus 1.");
+  type.def(py::pickle(
+      [](const py::object& flow) {
+        return py::make_tuple(packed(flow.cast<const FlowResult&>()), flow.attr("__dict__"));
+      },
+      &flow_of));
   type.def("__repr__", [](const FlowResult& f) {
     return std::string("FlowResult(") + name_of(f.status) + ", cl=" + std::to_string(f.cl) +
            ", cd=" + std::to_string(f.cd) + ")";
   });
+}
+
+// A solver's options: what goes on from a pickle begins cold.
+py::tuple state_of(const Flows& flows) {
+  const FlowOptions& o = flows.options();
+  Inlets inlets;
+  for (const FlowInlet& inlet : o.inlets)
+    inlets[inlet.name] = {inlet.total_pressure, inlet.total_temperature};
+  Outlets outlets;
+  for (const FlowOutlet& outlet : o.outlets) outlets[outlet.name] = outlet.pressure;
+  return py::make_tuple(o.farfield, o.tolerance, o.max_steps, o.memory_mb,
+                        o.solver ? py::object(py::str(name_of(*o.solver))) : py::none(), inlets, outlets);
+}
+
+std::unique_ptr<Flows> flows_of(const py::tuple& state) {
+  require_pickle(state.size() == 7, "a LivingFlow");
+  return std::make_unique<Flows>(options_of(
+      state[0].cast<std::string>(), state[1].cast<double>(), state[2].cast<int>(), state[3].cast<double>(),
+      state[4].cast<std::optional<std::string>>(), state[5].cast<Inlets>(), state[6].cast<Outlets>()));
 }
 
 constexpr const char* solver_text =
@@ -220,7 +297,8 @@ void add_flows(py::module_& module) {
       module, "LivingFlow",
       R"(A flow solver that outlives its mesh: each flow is found from the one before and the factors that are
 still good, whatever update() did to the mesh in between. The result depends on mesh and conditions alone, to
-the tolerance. After Ctrl-C the next call waits until a factorisation that was under way has ended.)")
+the tolerance. Meshes are living ones, frozen ones (also of arrays) or what an update returns. A pickle goes on with
+the same options, and begins cold. After Ctrl-C the next call waits until a factorisation that was under way has ended.)")
       .def(py::init([](const std::string& farfield, double tolerance, int max_steps, double memory_mb,
                        const std::optional<std::string>& solver, const Inlets& inlets,
                        const Outlets& outlets) {
@@ -237,6 +315,7 @@ the tolerance. After Ctrl-C the next call waits until a factorisation that was u
           R"(Derivatives of the last flow's cl, cd, cm and alpha, by their adjoint: for each a dict of points, of
 shape (n, 2) (Mesh.vjp() makes derivatives by the airfoil of them), mach, alpha (a degree) and cl (by the lift that
 was given). Raises ArgumentError before the first flow.)")
+      .def(py::pickle(&state_of, &flows_of))
       .def("forget", &Flows::forget, "The next flow is found cold.");
 }
 

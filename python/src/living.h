@@ -16,6 +16,9 @@ namespace remodel::python {
 struct LivingMesh {
   Mesh mesh;
   Stopped stopped = Stopped::done;
+  // Whether the last step was by Strategy::reference: the next one of that strategy moves the interior along,
+  // also where the mesh is a new reference and not held.
+  bool follows = false;
   ThreadLock lock;
   // The mesh as it is now, frozen when it is first asked for. Views of it keep it alive.
   Snapshot frozen;
@@ -53,7 +56,10 @@ Snapshot after_step(const StepRecord& step);
 // the place of the one called `boundary`.
 Domain next_domain(const LivingMesh& mesh, const py::object& shape, const std::string& boundary);
 
+// The loops of a domain that are an airfoil by its coefficients, of that name if there is one.
+std::vector<std::size_t> airfoil_loops(const Domain& domain, const std::string& name);
+
 RemodelOptions remodel_options(double distance, const std::string& method, const std::string& strategy,
-                               bool regenerate);
+                               bool regenerate, double delaunay_slack);
 
 }  // namespace remodel::python

@@ -11,22 +11,24 @@
 namespace remodel::python {
 namespace {
 
-LivingMeshPointer alive(Mesh mesh, Stopped stopped = Stopped::done) {
+LivingMeshPointer alive(Mesh mesh, Stopped stopped = Stopped::done, bool follows = false) {
   auto living = std::make_shared<LivingMesh>();
   living->mesh = std::move(mesh);
   living->stopped = stopped;
+  living->follows = follows;
   return living;
 }
 
 LivingMeshPointer generated(const py::object& shape, int points, const std::optional<double>& gradation,
                             double resolution, double min_angle, double max_gradation, double farfield_radius,
-                            int farfield_points, std::uint32_t max_vertices) {
+                            int farfield_points, std::uint32_t max_vertices, double refine_angle) {
   const Domain domain = domain_of(
       shape, {.points = points, .farfield_radius = farfield_radius, .farfield_points = farfield_points});
   QualityOptions quality{.min_angle_deg = min_angle,
                          .max_gradation = max_gradation,
                          .resolution = resolution,
-                         .max_vertices = max_vertices};
+                         .max_vertices = max_vertices,
+                         .refine_angle_deg = refine_angle};
   if (gradation)
     quality.gradation = *gradation;
   else if (!py::isinstance<Domain>(shape))
@@ -68,7 +70,7 @@ LivingMeshPointer loaded(const std::filesystem::path& file) {
 LivingMeshPointer copy_of(LivingMesh& mesh) {
   const ThreadLock::Held held(mesh.lock);
   py::gil_scoped_release released;
-  return alive(mesh.mesh, mesh.stopped);
+  return alive(mesh.mesh, mesh.stopped, mesh.follows);
 }
 
 CheckResult checked(LivingMesh& mesh) {
@@ -82,6 +84,7 @@ CheckResult checked(LivingMesh& mesh) {
     design = std::make_shared<const Domain>(living.domain());
     options = {.min_angle_deg = living.options().min_angle_deg,
                .delaunay = !living.shows_file_triangles(),
+               .delaunay_slack_deg = living.delaunay_slack_deg(),
                .design = design.get()};
     if (mesh.stopped != Stopped::done)
       options.min_angle_deg = 0.0;
@@ -117,6 +120,13 @@ void add_figures(py::class_<LivingMesh, LivingMeshPointer>& type) {
   type.def_property_readonly("domain", reading([](LivingMesh& m) { return m.mesh.domain(); }),
                              "The present domain, a copy.");
   type.def_property_readonly("gradation", reading([](LivingMesh& m) { return m.mesh.options().gradation; }));
+  type.def_property_readonly(
+      "held", reading([](LivingMesh& m) { return m.mesh.held(); }),
+      "Whether it is the morph of a reference mesh (update(strategy='reference')), whose "
+      "connectivity it has.");
+  type.def_property_readonly(
+      "delaunay_slack", reading([](LivingMesh& m) { return m.mesh.delaunay_slack_deg(); }),
+      "By how much the angles opposite an inner edge of a held mesh may exceed 180 degrees; 0: Delaunay.");
   type.def("__len__", reading([](LivingMesh& m) { return m.mesh.triangle_count(); }));
   type.def("__repr__", reading([](LivingMesh& m) {
              return "Mesh(" + std::to_string(m.mesh.triangle_count()) + " triangles, step " +
@@ -162,26 +172,28 @@ alive by whoever holds them. Threads may share a mesh: they take turns. Copies a
   type.def(py::pickle(
       [](LivingMesh& mesh) {
         const ThreadLock::Held held(mesh.lock);
-        return py::make_tuple(dict_of(mesh.mesh.state()), static_cast<int>(mesh.stopped));
+        return py::make_tuple(dict_of(mesh.mesh.state()), static_cast<int>(mesh.stopped), mesh.follows);
       },
-      [](const py::tuple& state) {
-        if (state.size() != 2) throw Error(ErrorCode::format, "pickle", "expected the state of a mesh");
-        const int stopped = state[1].cast<int>();
+      [](const py::tuple& state) {  // earlier pickles end with the second member
+        const bool sound = (state.size() == 2 || state.size() == 3) && py::isinstance<py::dict>(state[0]);
+        const int stopped = sound ? state[1].cast<int>() : -1;
         if (stopped < 0 || stopped > static_cast<int>(Stopped::interrupted))
           throw Error(ErrorCode::format, "pickle", "expected the state of a mesh");
         return alive(Mesh::restore(state_of(state[0].cast<py::dict>()), "pickle"),
-                     static_cast<Stopped>(stopped));
+                     static_cast<Stopped>(stopped), state.size() == 3 && state[2].cast<bool>());
       }));
   module.def("generate", &generated, "shape"_a, py::kw_only(), "points"_a = 200, "gradation"_a = py::none(),
              "resolution"_a = 1.0, "min_angle"_a = 30.0, "max_gradation"_a = QualityOptions{}.max_gradation,
              "farfield_radius"_a = 25.0, "farfield_points"_a = 50,
-             "max_vertices"_a = QualityOptions{}.max_vertices,
+             "max_vertices"_a = QualityOptions{}.max_vertices, "refine_angle"_a = 0.0,
              R"(A mesh of a Domain, or around an Airfoil (or the name of one) in a circular far field.
 
 points: vertices on the airfoil, even, 8 to 100000; farfield_radius in chords. A Domain has its own and ignores
 these. gradation: how slowly triangles grow away from boundaries; points / 50 unless given, 4 for a Domain.
-min_angle: degrees, 0 to 34. Mesh.stopped tells a limit that was reached (max_vertices). Sources: J. Ruppert,
-1995; J. R. Shewchuk, 2002. Raises ArgumentError and GeometryError; Ctrl-C ends it.)");
+min_angle: degrees, 0 to 34; refine_angle: what refinement works to where it is more, 0 to 34: two degrees more
+than min_angle let update(strategy='reference') hold the connectivity longer. Mesh.stopped tells a limit that was
+reached (max_vertices). Sources: J. Ruppert, 1995; J. R. Shewchuk, 2002. Raises ArgumentError and GeometryError;
+Ctrl-C ends it.)");
   module.def("import_mesh", &imported, "mesh"_a, py::kw_only(), "refine_angle"_a = 30.0, "gradation"_a = 0.0,
              "unnamed"_a = "boundary",
              "Another program's mesh (FrozenMesh) as a living one; its triangles stay until a step comes "

@@ -22,6 +22,26 @@ std::vector<Point> points(const Reals& values, const std::string& name) {
   return result;
 }
 
+Reals array_of(const py::handle& object, const std::string& name) {
+  constexpr std::string_view numbers = "biufO";  // NumPy makes numbers of strings and dates too
+  const py::array any = py::array::ensure(object);
+  if (any && !object.is_none() && numbers.find(any.dtype().kind()) != std::string_view::npos) {
+    Reals values = Reals::ensure(any);
+    if (values) return values;
+  }
+  PyErr_Clear();
+  throw py::type_error(name + ": found " + type_of(object) + ", expected an array of numbers");
+}
+
+py::array view_of(std::vector<Point> points) {
+  const auto held = std::make_shared<const std::vector<Point>>(std::move(points));
+  return view(held, held->empty() ? nullptr : &held->front().x, {static_cast<py::ssize_t>(held->size()), 2});
+}
+
+std::string type_of(const py::handle& object) {
+  return py::str(py::type::handle_of(object).attr("__name__"));
+}
+
 }  // namespace remodel::python
 
 PYBIND11_MODULE(_core, module) {
@@ -36,6 +56,7 @@ PYBIND11_MODULE(_core, module) {
   add_steps(module);
   add_transfers(module);
   add_derivatives(module);
+  add_displacements(module);
   add_flows(module);
   add_potential_flows(module);
   add_designers(module);

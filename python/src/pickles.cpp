@@ -42,6 +42,14 @@ void each_member(State& s, Visit&& visit) {
   visit("import_triangles", s.imported.triangles);
 }
 
+// The reference of a mesh that is held, which other meshes and pickles of earlier versions do not have.
+template <class State, class Visit>
+void each_member_of_reference(State& s, Visit&& visit) {
+  visit("reference_coordinates", s.reference_coordinates);
+  visit("reference_length_scales", s.reference_length_scales);
+  visit("delaunay_slack_deg", s.delaunay_slack_deg);
+}
+
 template <class T>
 py::object to_python(const std::vector<T>& values) {
   return copied(values);
@@ -72,6 +80,11 @@ py::dict dict_of(const MeshState& state) {
   each_member(state, [&](const char* key, const auto& member) { result[key] = to_python(member); });
   result["markers"] = state.imported.markers;
   result["domain"] = domain_to_json(state.domain);
+  if (!state.reference_coordinates.empty()) {
+    each_member_of_reference(state,
+                             [&](const char* key, const auto& member) { result[key] = to_python(member); });
+    result["reference_domain"] = domain_to_json(state.reference_domain);
+  }
   return result;
 }
 
@@ -87,9 +100,16 @@ MeshState state_of(const py::dict& dict) {
   };
   each_member(state, read);
   read("markers", state.imported.markers);
-  std::string domain;
-  read("domain", domain);
-  state.domain = domain_from_json(domain, "pickle");
+  const auto read_domain = [&](const char* key) {
+    std::string domain;
+    read(key, domain);
+    return domain_from_json(domain, "pickle");
+  };
+  state.domain = read_domain("domain");
+  if (dict.contains("reference_coordinates")) {
+    each_member_of_reference(state, read);
+    state.reference_domain = read_domain("reference_domain");
+  }
   return state;
 }
 

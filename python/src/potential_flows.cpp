@@ -2,7 +2,27 @@
 
 #include "apart.h"
 #include "bindings.h"
+#include "records.h"
 #include "remodel/potential_flow.h"
+
+namespace remodel {
+
+template <python::Is<WallValue> T>
+auto members(T& v) {
+  return std::tie(v.vertex, v.point.x, v.point.y, v.speed, v.cp);
+}
+template <python::Is<BodyFlow> T>
+auto members(T& b) {
+  return std::tie(b.name, b.wall, b.trailing_edge, b.circulation, b.stream_function, b.lift, b.drag,
+                  b.moment);
+}
+template <python::Is<PotentialFlow> T>
+auto members(T& f) {
+  return std::tie(f.alpha_deg, f.mach, f.supersonic, f.lift, f.lift_by_pressure, f.drag_by_pressure, f.moment,
+                  f.bodies, f.stream_function, f.velocity);
+}
+
+}  // namespace remodel
 
 namespace remodel::python {
 namespace {
@@ -28,12 +48,25 @@ py::dict bodies_of(const PotentialFlow& flow) {
   return result;
 }
 
+// A solver and what it was made of, for pickles: the factors are made anew.
+struct Potential {
+  Potential(Snapshot from, std::string outer) : mesh(std::move(from)), farfield(std::move(outer)) {
+    solver = Apart().run(std::make_shared<Stop>(), [mesh = mesh, farfield = farfield] {
+      return std::make_shared<PotentialSolver>(*mesh, PotentialOptions{.farfield = farfield});
+    });
+  }
+  Snapshot mesh;
+  std::string farfield;
+  std::shared_ptr<PotentialSolver> solver;
+};
+
 }  // namespace
 
 void add_potential_flows(py::module_& module) {
   py::class_<PotentialFlow, PotentialPointer>(
       module, "PotentialFlow",
       "A potential flow; the free stream has speed 1, coefficients are per half chord.")
+      .def(record_pickle<PotentialFlow>())
       .def_readonly("alpha", &PotentialFlow::alpha_deg, "The angle of attack, in degrees.")
       .def_readonly("mach", &PotentialFlow::mach)
       .def_readonly(
@@ -61,28 +94,32 @@ void add_potential_flows(py::module_& module) {
         for (const Point v : f.velocity) cp.push_back(compressible_cp(1.0 - dot(v, v), f.mach));
         return copied(cp);
       });
-  py::class_<PotentialSolver>(
+  py::class_<Potential>(
       module, "PotentialSolver",
       R"(Plane potential flow around the bodies of a mesh, by one factorisation: lift and pressures in
 milliseconds, without drag. Raises ArgumentError. docs/potential_flow.md has method and figures.)")
       .def(py::init([](const py::object& mesh, const std::string& farfield) {
-             const Snapshot frozen = snapshot_of(mesh);
-             return Apart().run(std::make_shared<Stop>(),
-                                [frozen, options = PotentialOptions{.farfield = farfield}] {
-                                  return std::make_unique<PotentialSolver>(*frozen, options);
-                                });
+             return std::make_unique<Potential>(snapshot_of(mesh), farfield);
            }),
            "mesh"_a, py::kw_only(), "farfield"_a = "farfield")
       .def(
           "at",
-          [](const PotentialSolver& s, double alpha, double mach) {
-            return std::make_shared<PotentialFlow>(s.at(alpha, mach));
+          [](const Potential& s, double alpha, double mach) {
+            return std::make_shared<PotentialFlow>(s.solver->at(alpha, mach));
           },
           "alpha"_a, py::kw_only(), "mach"_a = 0.0,
           R"(The flow at an angle, -90 to 90 degrees. mach, less than 1: pressures by the rule of von Karman and
 Tsien, lift by circulation by Glauert's.)")
-      .def("alpha_for", &PotentialSolver::alpha_deg_for, "lift"_a, py::kw_only(), "mach"_a = 0.0,
-           "The angle with that lift by circulation, in degrees.");
+      .def(py::pickle([](const Potential& s) { return py::make_tuple(packed_mesh(s.mesh), s.farfield); },
+                      [](const py::tuple& state) {
+                        require_pickle(state.size() == 2 && !state[0].is_none(), "a PotentialSolver");
+                        return std::make_unique<Potential>(unpacked_mesh(state[0]),
+                                                           state[1].cast<std::string>());
+                      }))
+      .def(
+          "alpha_for",
+          [](const Potential& s, double lift, double mach) { return s.solver->alpha_deg_for(lift, mach); },
+          "lift"_a, py::kw_only(), "mach"_a = 0.0, "The angle with that lift by circulation, in degrees.");
 }
 
 }  // namespace remodel::python

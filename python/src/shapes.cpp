@@ -5,7 +5,9 @@
 
 #include <pybind11/operators.h>
 #include "bindings.h"
+#include "living.h"
 #include "remodel/io.h"
+#include "remodel/mesh_derivative.h"
 #include "remodel/shape_files.h"
 
 namespace remodel::python {
@@ -150,6 +152,15 @@ ArgumentError.)");
       "The names of the built-in airfoils, with what they are.");
 }
 
+template <class T>
+T member(const py::handle& value, const std::string& name, const char* expected) {
+  try {
+    return value.cast<T>();
+  } catch (const py::cast_error&) {
+    throw py::type_error(name + ": found " + type_of(value) + ", expected " + expected);
+  }
+}
+
 Loop polygon(const std::string& name, const Reals& values, LoopRole role) {
   std::vector<Point> corners = points(values, name);
   if (corners.size() < 3) throw Error(ErrorCode::argument, name, "expected at least 3 points");
@@ -163,34 +174,49 @@ Loop polygon(const std::string& name, const Reals& values, LoopRole role) {
 
 Domain polygons(const py::dict& outer, const py::dict& holes) {
   Domain domain;
-  for (const auto& [name, values] : outer)
-    domain.loops.push_back(polygon(name.cast<std::string>(), values.cast<Reals>(), LoopRole::outer));
-  for (const auto& [name, values] : holes)
-    domain.loops.push_back(polygon(name.cast<std::string>(), values.cast<Reals>(), LoopRole::hole));
+  const auto add = [&](const char* argument, const py::dict& loops, LoopRole role) {
+    for (const auto& [key, values] : loops) {
+      const auto name = member<std::string>(key, argument, "names of polygons");
+      domain.loops.push_back(polygon(name, array_of(values, name), role));
+    }
+  };
+  add("outer", outer, LoopRole::outer);
+  add("holes", holes, LoopRole::hole);
   validate(domain);
   return domain;
 }
 
+PlacedAirfoil placed_airfoil(const py::handle& item, const std::string& place) {
+  const auto element = member<py::dict>(item, place, "a dict");
+  PlacedAirfoil placed;
+  for (const char* needed : {"name", "airfoil"})
+    if (!element.contains(needed))
+      throw Error(ErrorCode::argument, place, std::string("found no '") + needed + "', expected one");
+  for (const auto& [key, value] : element) {
+    const auto word = member<std::string>(key, place, "names of its members");
+    const std::string name = place + "['" + word + "']";
+    if (word == "name")
+      placed.name = member<std::string>(value, name, "a string");
+    else if (word == "airfoil")
+      placed.airfoil = member<CstAirfoil>(value, name, "an Airfoil");
+    else if (word == "chord")
+      placed.placement.chord = member<double>(value, name, "a number");
+    else if (word == "rotation")
+      placed.placement.rotation_deg = member<double>(value, name, "a number");
+    else if (word == "position") {
+      const auto [x, y] = member<std::pair<double, double>>(value, name, "two numbers");
+      placed.placement.position = {x, y};
+    } else {
+      throw Error(ErrorCode::argument, name, "expected one of name, airfoil, chord, rotation, position");
+    }
+  }
+  return placed;
+}
+
 Domain placed(const py::iterable& list, int points, double radius, int farfield_points) {
   std::vector<PlacedAirfoil> airfoils;
-  for (const py::handle& item : list) {
-    const auto element = item.cast<py::dict>();
-    PlacedAirfoil placed{.name = element["name"].cast<std::string>(),
-                         .airfoil = element["airfoil"].cast<CstAirfoil>()};
-    for (const auto& [key, value] : element) {
-      const auto word = key.cast<std::string>();
-      if (word == "chord")
-        placed.placement.chord = value.cast<double>();
-      else if (word == "rotation")
-        placed.placement.rotation_deg = value.cast<double>();
-      else if (word == "position") {
-        const auto [x, y] = value.cast<std::pair<double, double>>();
-        placed.placement.position = {x, y};
-      } else if (word != "name" && word != "airfoil")
-        throw Error(ErrorCode::argument, word, "expected one of name, airfoil, chord, rotation, position");
-    }
-    airfoils.push_back(std::move(placed));
-  }
+  for (const py::handle& item : list)
+    airfoils.push_back(placed_airfoil(item, "elements[" + std::to_string(airfoils.size()) + "]"));
   if (airfoils.empty())
     throw Error(ErrorCode::argument, "elements", "found none, expected at least one airfoil");
   Domain domain = airfoils_domain(
@@ -211,6 +237,20 @@ py::dict loop_points(const Domain& domain) {
   return result;
 }
 
+CstAirfoil airfoil_of(const Domain& domain, const std::string& boundary) {
+  const std::vector<std::size_t> loops = airfoil_loops(domain, boundary);
+  if (loops.size() != 1)
+    throw Error(ErrorCode::argument, "boundary",
+                "names " + std::to_string(loops.size()) + " airfoils by coefficients, expected one");
+  return std::get<CstAirfoil>(domain.loops[loops[0]].curves.front().shape);
+}
+
+std::filesystem::path path_of(const py::object& shape) {
+  if (py::isinstance<py::str>(shape) || py::hasattr(shape, "__fspath__"))
+    return shape.cast<std::filesystem::path>();
+  throw py::type_error("shape: found " + type_of(shape) + ", expected an Airfoil or the name of a file");
+}
+
 void add_domain(py::module_& module) {
   py::class_<Domain> domain(module, "Domain",
                             R"(The part of the plane to be meshed: closed loops of named curves.
@@ -219,8 +259,7 @@ Domain(airfoil, points=200, farfield_radius=25, farfield_points=50), Domain("fil
 has the layout), Domain.polygons(...) or Domain.airfoils(...). Raises GeometryError for curves that cross or
 touch, with the loop and the place.)");
   domain.def(py::init([](const py::object& shape, int points, double radius, int farfield_points) {
-               if (!py::isinstance<CstAirfoil>(shape))
-                 return load_domain(shape.cast<std::filesystem::path>());
+               if (!py::isinstance<CstAirfoil>(shape)) return load_domain(path_of(shape));
                return airfoil_domain(
                    shape.cast<CstAirfoil>(),
                    {.points = points, .farfield_radius = radius, .farfield_points = farfield_points});
@@ -236,6 +275,18 @@ touch, with the loop and the place.)");
   domain.def_static(
       "from_json", [](const std::string& text) { return domain_from_json(text, "text"); }, "text"_a);
   domain.def("to_json", &domain_to_json, "The domain as JSON text, exact.");
+  domain.def_property_readonly(
+      "coefficients", [](const Domain& d) { return copied(coefficients_of(d)); },
+      "All numbers that its points depend on, loop by loop: those of each curve, then chord, rotation and "
+      "position (include/remodel/mesh_derivative.h).");
+  domain.def(
+      "with_coefficients",
+      [](const Domain& d, const Reals& values) {
+        return with_coefficients(d, reals(values, "coefficients"));
+      },
+      "coefficients"_a, "The same domain with other numbers, in the order of `coefficients`.");
+  domain.def("airfoil", &airfoil_of, "boundary"_a = "",
+             "The airfoil by coefficients of that name, or the only one there is. Raises ArgumentError.");
   domain.def("validate", &validate, "Raises GeometryError unless the domain can be meshed.");
   domain.def_property_readonly("loops", &loop_points,
                                "The stations of each loop, of shape (n, 2), by the name of its first curve.");
@@ -249,12 +300,24 @@ touch, with the loop and the place.)");
 
 }  // namespace
 
+std::vector<std::size_t> airfoil_loops(const Domain& domain, const std::string& name) {
+  std::vector<std::size_t> loops;
+  for (std::size_t i = 0; i < domain.loops.size(); ++i) {
+    const std::vector<Curve>& curves = domain.loops[i].curves;
+    if (!curves.empty() && std::holds_alternative<CstAirfoil>(curves.front().shape) &&
+        (name.empty() || curves.front().name == name))
+      loops.push_back(i);
+  }
+  return loops;
+}
+
 Domain domain_of(const py::object& shape, const AirfoilDomainOptions& options) {
   if (py::isinstance<Domain>(shape)) return shape.cast<Domain>();
   if (py::isinstance<CstAirfoil>(shape)) return airfoil_domain(shape.cast<const CstAirfoil&>(), options);
   if (py::isinstance<py::str>(shape))
     return airfoil_domain(load_airfoil(shape.cast<std::string>(), 5), options);
-  throw py::type_error("expected an Airfoil, a Domain or the name of an airfoil");
+  throw py::type_error("shape: found " + type_of(shape) +
+                       ", expected an Airfoil, a Domain or the name of an airfoil");
 }
 
 void add_shapes(py::module_& module) {

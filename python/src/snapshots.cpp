@@ -3,9 +3,25 @@
 #include "apart.h"
 #include "bindings.h"
 #include "living.h"
+#include "records.h"
 #include "remodel/check.h"
 #include "remodel/draw.h"
 #include "remodel/io.h"
+
+namespace remodel {
+
+template <python::Is<Violation> T>
+auto members(T& v) {
+  return std::tie(v.rule, v.ids, v.detail);
+}
+template <python::Is<CheckResult> T>
+auto members(T& r) {
+  return std::tie(r.valid, r.violations, r.triangles, r.vertices, r.unused_points, r.min_angle_deg,
+                  r.min_held_angle_deg, r.exempt_triangles, r.max_gradation, r.delaunay, r.boundary,
+                  r.regions, r.area);
+}
+
+}  // namespace remodel
 
 namespace remodel::python {
 namespace {
@@ -42,6 +58,8 @@ void add_columns(py::class_<FrozenMesh, FrozenPointer>& type) {
   type.def_property_readonly(
       "parameter", [](const FrozenPointer& m) { return view(m, m->parameter); },
       "Per point: t on that curve.");
+  type.def_readonly("delaunay_slack", &FrozenMesh::delaunay_slack_deg,
+                    "By how much the angles opposite an inner edge may exceed 180 degrees; 0: Delaunay.");
   type.def_property_readonly("region", [](const FrozenPointer& m) { return view(m, m->region); });
   type.def_readonly("region_names", &FrozenMesh::region_names);
 }
@@ -49,7 +67,9 @@ void add_columns(py::class_<FrozenMesh, FrozenPointer>& type) {
 std::vector<Field> fields_from(const py::dict& fields, const FrozenMesh& mesh) {
   std::vector<Field> result;
   for (const auto& [key, value] : fields) {
-    const auto values = value.cast<Reals>();
+    if (!py::isinstance<py::str>(key))
+      throw py::type_error("fields: found " + type_of(key) + ", expected names of fields");
+    const Reals values = array_of(value, key.cast<std::string>());
     if (values.ndim() != 1 && values.ndim() != 2)
       throw Error(ErrorCode::argument, key.cast<std::string>(),
                   "expected values of shape (n,) or (n, components)");
@@ -64,36 +84,74 @@ std::vector<Field> fields_from(const py::dict& fields, const FrozenMesh& mesh) {
   return result;
 }
 
-FrozenPointer from_arrays(
-    const Reals& coordinates,
-    const py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>& triangles,
-    const py::dict& named) {
+// Arrays of point indices of shape (n, columns). Throws Error (argument) for another shape and other numbers.
+std::vector<std::vector<std::uint32_t>> indices(const py::object& values, py::ssize_t columns,
+                                                const std::string& name, std::size_t count) {
+  const auto numbers = py::module_::import("numpy").attr("asarray")(values).cast<py::array>();
+  const char kind = numbers.dtype().kind();
+  if (numbers.size() > 0 && kind != 'i' && kind != 'u')
+    throw Error(
+        ErrorCode::argument, name,
+        "found values of type " + py::str(numbers.dtype()).cast<std::string>() + ", expected integers");
+  if (numbers.ndim() != 2 || numbers.shape(1) != columns)
+    throw Error(ErrorCode::argument, name,
+                "found an array of shape " + py::str(numbers.attr("shape")).cast<std::string>() +
+                    ", expected (n, " + std::to_string(columns) + ")");
+  const auto rows = numbers.cast<py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>>();
+  std::vector<std::vector<std::uint32_t>> result(static_cast<std::size_t>(rows.shape(0)));
+  for (py::ssize_t i = 0; i < rows.shape(0); ++i)
+    for (py::ssize_t k = 0; k < columns; ++k) {
+      const std::int64_t value = *rows.data(i, k);
+      if (value < 0 || value >= static_cast<std::int64_t>(count))
+        throw Error(ErrorCode::argument, name,
+                    "row " + std::to_string(i) + ": found " + std::to_string(value) + ", expected 0 to " +
+                        std::to_string(count) + " - 1");
+      result[static_cast<std::size_t>(i)].push_back(static_cast<std::uint32_t>(value));
+    }
+  return result;
+}
+
+// The names and the numbers of the triangles' regions.
+void set_regions(FrozenMesh& mesh, const py::object& regions, const std::vector<std::string>& names) {
+  if (regions.is_none() && names.empty()) return;
+  if (regions.is_none() || names.empty())
+    throw Error(ErrorCode::argument, "region, region_names", "found one of them, expected both");
+  const py::object column = py::module_::import("numpy").attr("reshape")(regions, py::make_tuple(-1, 1));
+  mesh.region_names = names;
+  for (const auto& row : indices(column, 1, "region", names.size())) mesh.region.push_back(row[0]);
+  if (mesh.region.size() != mesh.triangles.size())
+    throw Error(ErrorCode::argument, "region",
+                "found " + std::to_string(mesh.region.size()) + " values, expected one a triangle, " +
+                    std::to_string(mesh.triangles.size()));
+}
+
+FrozenPointer from_arrays(const Reals& coordinates, const py::object& triangles, const py::dict& named,
+                          const py::object& regions, const std::vector<std::string>& region_names) {
   auto mesh = std::make_shared<FrozenMesh>();
   mesh->points = points(coordinates, "points");
-  const auto index = [&](std::int64_t value, const char* what) {
-    if (value < 0 || value >= static_cast<std::int64_t>(mesh->points.size()))
-      throw Error(ErrorCode::argument, what,
-                  "found point " + std::to_string(value) + ", expected 0 to " +
-                      std::to_string(mesh->points.size()) + " - 1");
-    return static_cast<std::uint32_t>(value);
-  };
-  if (triangles.ndim() != 2 || triangles.shape(1) != 3)
-    throw Error(ErrorCode::argument, "triangles", "expected an array of shape (m, 3)");
-  for (py::ssize_t i = 0; i < triangles.shape(0); ++i)
-    mesh->triangles.push_back({index(*triangles.data(i, 0), "triangles"),
-                               index(*triangles.data(i, 1), "triangles"),
-                               index(*triangles.data(i, 2), "triangles")});
+  const std::size_t count = mesh->points.size();
+  for (const auto& row : indices(triangles, 3, "triangles", count))
+    mesh->triangles.push_back({row[0], row[1], row[2]});
   for (const auto& [name, value] : named) {
-    const auto edges = value.cast<py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>>();
-    if (edges.ndim() != 2 || edges.shape(1) != 2)
-      throw Error(ErrorCode::argument, name.cast<std::string>(), "expected an array of shape (k, 2)");
+    if (!py::isinstance<py::str>(name))
+      throw py::type_error("boundaries: found " + type_of(name) + ", expected names of boundaries");
     FrozenBoundary boundary{.name = name.cast<std::string>(), .edges = {}};
-    for (py::ssize_t i = 0; i < edges.shape(0); ++i)
-      boundary.edges.push_back(
-          {index(*edges.data(i, 0), "boundaries"), index(*edges.data(i, 1), "boundaries")});
+    for (const auto& row : indices(py::reinterpret_borrow<py::object>(value), 2, boundary.name, count))
+      boundary.edges.push_back({row[0], row[1]});
     mesh->boundaries.push_back(std::move(boundary));
   }
+  set_regions(*mesh, regions, region_names);
   return mesh;
+}
+
+FrozenPointer with_points(const FrozenPointer& mesh, const Reals& coordinates) {
+  auto result = std::make_shared<FrozenMesh>(*mesh);
+  result->points = points(coordinates, "points");
+  if (result->points.size() != mesh->points.size())
+    throw Error(ErrorCode::argument, "points",
+                "found " + std::to_string(result->points.size()) + " points, expected " +
+                    std::to_string(mesh->points.size()));
+  return result;
 }
 
 void add_check(py::module_& module) {
@@ -101,6 +159,7 @@ void add_check(py::module_& module) {
       .def_readonly("rule", &Violation::rule)
       .def_readonly("ids", &Violation::ids)
       .def_readonly("detail", &Violation::detail)
+      .def(record_pickle<Violation>())
       .def("__repr__", [](const Violation& v) { return "Violation(" + v.rule + ": " + v.detail + ")"; });
   py::class_<CheckResult>(module, "CheckResult",
                           "The verdict of the independent validator, which works in rational arithmetic.")
@@ -113,6 +172,7 @@ void add_check(py::module_& module) {
       .def_readonly("delaunay", &CheckResult::delaunay)
       .def_readonly("boundary", &CheckResult::boundary)
       .def_readonly("area", &CheckResult::area)
+      .def(record_pickle<CheckResult>())
       .def("__bool__", [](const CheckResult& r) { return r.valid; })
       .def("__repr__", [](const CheckResult& r) {
         return std::string("CheckResult(valid=") + (r.valid ? "True" : "False") +
@@ -120,14 +180,21 @@ void add_check(py::module_& module) {
       });
   module.def(
       "check",
-      [](const py::object& mesh, double min_angle, double max_gradation, bool delaunay) {
+      [](const py::object& mesh, double min_angle, double max_gradation, bool delaunay,
+         const std::optional<double>& delaunay_slack) {
         const Snapshot frozen = snapshot_of(mesh);
-        const CheckOptions options{
-            .min_angle_deg = min_angle, .max_gradation = max_gradation, .delaunay = delaunay};
+        const CheckOptions options{.min_angle_deg = min_angle,
+                                   .max_gradation = max_gradation,
+                                   .delaunay = delaunay,
+                                   .delaunay_slack_deg = delaunay_slack.value_or(frozen->delaunay_slack_deg)};
         return Apart().run(std::make_shared<Stop>(), [frozen, options] { return check(*frozen, options); });
       },
       "mesh"_a, py::kw_only(), "min_angle"_a = 0.0, "max_gradation"_a = 0.0, "delaunay"_a = true,
-      "Validates a Mesh or FrozenMesh of any origin. min_angle is in degrees; 0 tests no bound.");
+      "delaunay_slack"_a = py::none(),
+      "Validates a Mesh or FrozenMesh of any origin. min_angle is in degrees; 0 tests no bound. "
+      "delaunay_slack: degrees by which the angles opposite an inner edge may exceed 180, 0 to 60; the "
+      "mesh's "
+      "own unless given, which is 0 but for meshes that are held.");
 }
 
 }  // namespace
@@ -138,8 +205,10 @@ void add_snapshots(py::module_& module) {
       R"(A mesh as read-only numpy arrays, at one moment of its life. Arrays are views: they are not
 copied, and they stay valid whatever happens to the living mesh.
 
-FrozenMesh(points, triangles, boundaries) takes the arrays of another program; import_mesh() brings it to life.)");
-  type.def(py::init(&from_arrays), "points"_a, "triangles"_a, "boundaries"_a = py::dict());
+FrozenMesh(points, triangles, boundaries) takes the arrays of another program: boundaries are pairs of points by name;
+region says of each triangle which of region_names it lies in. import_mesh() brings it to life.)");
+  type.def(py::init(&from_arrays), "points"_a, "triangles"_a, "boundaries"_a = py::dict(), py::kw_only(),
+           "region"_a = py::none(), "region_names"_a = std::vector<std::string>());
   type.def_property_readonly(
       "points",
       [](const FrozenPointer& m) {
@@ -157,6 +226,10 @@ FrozenMesh(points, triangles, boundaries) takes the arrays of another program; i
   type.def_property_readonly(
       "boundaries", [](const FrozenPointer& m) { return boundaries(m); },
       "By name: pairs of point indices of shape (k, 2), the domain on their left.");
+  type.def(
+      "with_points", &with_points, "points"_a,
+      "The same mesh with its points at other places, of shape (n, 2): connectivity, keys and boundaries "
+      "are the same. check() says whether it is valid there.");
   add_columns(type);
   type.def(
       "save",
@@ -176,6 +249,9 @@ FrozenMesh(points, triangles, boundaries) takes the arrays of another program; i
       },
       "file"_a, py::kw_only(), "window"_a = py::none(), "width"_a = 1600,
       "Writes a picture, .svg or .png. window: x0, y0, x1, y1.");
+  type.def(py::pickle(
+      [](const FrozenPointer& mesh) { return py::tuple(packed_mesh(mesh)); },
+      [](const py::tuple& state) { return std::const_pointer_cast<FrozenMesh>(unpacked_mesh(state)); }));
   type.def("__repr__", [](const FrozenMesh& m) {
     return "FrozenMesh(" + std::to_string(m.points.size()) + " points, " +
            std::to_string(m.triangles.size()) + " triangles)";
@@ -204,10 +280,9 @@ FrozenMesh(points, triangles, boundaries) takes the arrays of another program; i
 
 Snapshot snapshot_of(const py::object& mesh) {
   if (py::isinstance<FrozenMesh>(mesh)) return mesh.cast<FrozenPointer>();
-  if (py::isinstance<LivingMesh>(mesh)) {
-    return mesh.cast<LivingMeshPointer>()->snapshot();
-  }
-  throw py::type_error("expected a Mesh or a FrozenMesh");
+  if (py::isinstance<LivingMesh>(mesh)) return mesh.cast<LivingMeshPointer>()->snapshot();
+  if (py::isinstance<StepRecord>(mesh)) return after_step(mesh.cast<const StepRecord&>());
+  throw py::type_error("mesh: found " + type_of(mesh) + ", expected a Mesh, a FrozenMesh or a Step");
 }
 
 }  // namespace remodel::python

@@ -3,25 +3,29 @@
 #include <algorithm>
 
 #include "living.h"
+#include "records.h"
 #include "remodel/import.h"
+
+namespace remodel {
+
+template <python::Is<Changes> T>
+auto members(T& c) {
+  return std::tie(c.moved, c.inserted, c.removed, c.born, c.gone);
+}
+template <python::Is<RemodelResult> T>
+auto members(T& r) {
+  return std::tie(r.triangles_before, r.triangles, r.preserved, r.connected, r.moved, r.inserted, r.removed,
+                  r.flipped, r.full_adjustment, r.morphed, r.held, r.method, r.refreshed, r.regenerated,
+                  r.abandoned, r.reason, r.stopped);
+}
+
+}  // namespace remodel
 
 namespace remodel::python {
 namespace {
 
 bool closed(const CstAirfoil& airfoil) {
   return airfoil.te_upper == airfoil.te_lower;
-}
-
-// The loops of a domain that are an airfoil by its coefficients, of that name if there is one.
-std::vector<std::size_t> airfoil_loops(const Domain& domain, const std::string& name) {
-  std::vector<std::size_t> loops;
-  for (std::size_t i = 0; i < domain.loops.size(); ++i) {
-    const std::vector<Curve>& curves = domain.loops[i].curves;
-    if (!curves.empty() && std::holds_alternative<CstAirfoil>(curves.front().shape) &&
-        (name.empty() || curves.front().name == name))
-      loops.push_back(i);
-  }
-  return loops;
 }
 
 Loop with_curve(Loop loop, const CstAirfoil& airfoil) {
@@ -36,9 +40,10 @@ Loop with_curve(Loop loop, const CstAirfoil& airfoil) {
 
 std::shared_ptr<StepRecord> updated(const LivingMeshPointer& mesh, const py::object& shape,
                                     const std::string& boundary, double distance, const std::string& method,
-                                    const std::string& strategy, bool regenerate, bool record) {
+                                    const std::string& strategy, bool regenerate, bool record,
+                                    double delaunay_slack) {
   auto step = std::make_shared<StepRecord>();
-  RemodelOptions options = remodel_options(distance, method, strategy, regenerate);
+  RemodelOptions options = remodel_options(distance, method, strategy, regenerate, delaunay_slack);
   const ThreadLock::Held held(mesh->lock);
   const Domain domain = next_domain(*mesh, shape, boundary);
   if (record) step->before = mesh->freeze();
@@ -50,7 +55,10 @@ std::shared_ptr<StepRecord> updated(const LivingMeshPointer& mesh, const py::obj
     mesh->changed();
     return result;
   });
-  if (!step->result.abandoned) mesh->stopped = step->result.stopped;
+  if (!step->result.abandoned) {
+    mesh->stopped = step->result.stopped;
+    mesh->follows = options.strategy == Strategy::reference;
+  }
   step->mesh = mesh;
   step->version = mesh->version;
   if (record) step->after = mesh->freeze();
@@ -85,11 +93,34 @@ py::array_t<std::uint8_t> fates_of(const StepRecord& step) {
   return result;
 }
 
+// With the meshes before and after, where they were recorded.
+py::tuple state_of(const StepRecord& step) {
+  return py::make_tuple(packed(step.result), packed(step.changes), packed_mesh(step.before),
+                        packed_mesh(step.after));
+}
+
+std::shared_ptr<StepRecord> step_of(const py::tuple& state) {
+  require_pickle(state.size() == 4, "a step");
+  auto step = std::make_shared<StepRecord>();
+  step->result = unpacked<RemodelResult>(state[0]);
+  step->changes = unpacked<Changes>(state[1]);
+  step->before = unpacked_mesh(state[2]);
+  step->after = unpacked_mesh(state[3]);
+  const auto within = [](auto value, auto last) { return value >= decltype(last){} && value <= last; };
+  require_pickle(within(step->result.method, Method::general) &&
+                     within(step->result.stopped, Stopped::interrupted) &&
+                     (!step->after || (step->after->vertex_keys.size() == step->after->points.size() &&
+                                       step->after->triangle_ids.size() == step->after->triangles.size())),
+                 "a step");
+  return step;
+}
+
 void add_changes(py::module_& module) {
   py::class_<Changes, std::shared_ptr<Changes>>(
       module, "Changes",
       "The changes of one step: vertices by key (Mesh.vertex_keys), triangles by id (Mesh.triangle_ids); all "
       "ascend.")
+      .def(record_pickle<Changes>())
       .def_property_readonly("moved", [](const Changes& c) { return copied(values(c.moved)); })
       .def_property_readonly("inserted", [](const Changes& c) { return copied(values(c.inserted)); })
       .def_property_readonly("removed", [](const Changes& c) { return copied(values(c.removed)); })
@@ -122,6 +153,8 @@ void add_step(py::module_& module) {
   figure("regenerated", &RemodelResult::regenerated,
          "Whether the step could not be completed, and the mesh was generated afresh.");
   figure("abandoned", &RemodelResult::abandoned, "The same with regenerate=False: the mesh is as it was.");
+  figure("held", &RemodelResult::held,
+         "Whether the mesh is the morph of its reference (strategy='reference').");
   figure("reason", &RemodelResult::reason, "Why it was regenerated or abandoned.");
   type.def_property_readonly(
       "preserved_percent", [](const StepRecord& s) { return s.result.preserved_percent(); },
@@ -144,6 +177,7 @@ void add_step(py::module_& module) {
       "The mesh after the step, as long as there was no other one, or with record=True.");
   type.def_property_readonly("fates", &fates_of,
                              "Per triangle of `after`: 0 kept, 1 moved with a boundary vertex, 2 new.");
+  type.def(py::pickle(&state_of, &step_of));
   type.def("__repr__", [](const StepRecord& s) {
     return "Step(" + std::to_string(s.result.triangles) + " triangles, " +
            std::to_string(s.result.preserved_percent()) + " % preserved)";
@@ -171,6 +205,7 @@ class Attempt {
     const ThreadLock::Held held(mesh_->lock);
     const Domain domain = next_domain(*mesh_, shape_, boundary_);
     stopped_ = mesh_->stopped;
+    follows_ = mesh_->follows;
     trial_ = interruptible([&](StepObserver& observer) {
       options_.observer = &observer;
       const Mark mark = mesh_->mesh.mark();
@@ -180,7 +215,10 @@ class Attempt {
       mesh_->changed();
       return trial;
     });
-    if (!step->result.abandoned) mesh_->stopped = step->result.stopped;
+    if (!step->result.abandoned) {
+      mesh_->stopped = step->result.stopped;
+      mesh_->follows = options_.strategy == Strategy::reference;
+    }
     step->mesh = mesh_;
     step->version = mesh_->version;
     step_ = std::move(step);
@@ -198,6 +236,7 @@ class Attempt {
     const ThreadLock::Held held(mesh_->lock);
     trial_.reset();
     mesh_->stopped = stopped_;
+    mesh_->follows = follows_;
     mesh_->changed();
   }
   const std::shared_ptr<StepRecord>& step() const {
@@ -212,6 +251,7 @@ class Attempt {
   std::string boundary_;
   RemodelOptions options_;
   Stopped stopped_ = Stopped::done;
+  bool follows_ = false;
   std::unique_ptr<Trial> trial_;
   std::shared_ptr<StepRecord> step_;
 };
@@ -238,11 +278,15 @@ Snapshot after_step(const StepRecord& step) {
     const ThreadLock::Held held(mesh->lock);
     if (mesh->version == step.version) return mesh->freeze();
   }
-  throw Error(ErrorCode::argument, "step", "its mesh has changed since, expected update(..., record=True)");
+  throw Error(ErrorCode::argument, "step",
+              "its mesh has changed since or is not here, expected update(..., record=True)");
 }
 
 Domain next_domain(const LivingMesh& mesh, const py::object& shape, const std::string& boundary) {
   if (py::isinstance<Domain>(shape)) return shape.cast<Domain>();
+  if (!py::isinstance<py::str>(shape) && !py::isinstance<CstAirfoil>(shape))
+    throw py::type_error("shape: found " + type_of(shape) +
+                         ", expected an Airfoil, a Domain or the name of an airfoil");
   const CstAirfoil airfoil =
       py::isinstance<py::str>(shape) ? named_airfoil(shape.cast<std::string>(), 5) : shape.cast<CstAirfoil>();
   Domain domain = mesh.mesh.domain();
@@ -258,8 +302,9 @@ Domain next_domain(const LivingMesh& mesh, const py::object& shape, const std::s
 }
 
 RemodelOptions remodel_options(double distance, const std::string& method, const std::string& strategy,
-                               bool regenerate) {
-  RemodelOptions options{.distance = distance, .regenerate = regenerate};
+                               bool regenerate, double delaunay_slack) {
+  RemodelOptions options{
+      .distance = distance, .delaunay_slack_deg = delaunay_slack, .regenerate = regenerate};
   bool known = false;
   for (const Method candidate : {Method::automatic, Method::specialised, Method::general})
     if (method == name_of(candidate)) options.method = candidate, known = true;
@@ -283,24 +328,26 @@ void add_steps(py::module_& module) {
   type.def(
       "update", &updated, "shape"_a, py::kw_only(), "boundary"_a = "", "distance"_a = 1.0,
       "method"_a = "auto", "strategy"_a = "renew", "regenerate"_a = true, "record"_a = false,
+      "delaunay_slack"_a = RemodelOptions{}.delaunay_slack_deg,
       R"(Remodels the mesh, in place, to an Airfoil in the place of its own, or to another Domain; returns a Step.
 
 boundary: the airfoil's name, where there are several. distance: D, the removal radius over the distance of old and
 new vertices. strategy: 'renew' keeps long runs in order, 'chain' is the paper's method to the
 letter, 'morph' moves the interior first, so that more triangles stay joined. 'reference' makes each design's mesh
-the morph of one reference mesh, whatever designs came in between, as long as connectivity can be held.
+the morph of one reference mesh, whatever designs came in between, as long as connectivity can be held; the angles
+opposite an inner edge may then exceed 180 degrees by delaunay_slack, 0 to 60.
 regenerate=False: a step that cannot be completed leaves the mesh as it was (Step.abandoned). record=True keeps
 the arrays before and after in the Step. The mesh is valid before and after: what raises (GeometryError,
 ArgumentError, KeyboardInterrupt) leaves it as it was, to the last bit.)");
   type.def(
       "trial",
       [](const LivingMeshPointer& mesh, const py::object& shape, const std::string& boundary, double distance,
-         const std::string& method, const std::string& strategy, bool regenerate) {
-        return std::make_unique<Attempt>(mesh, shape, boundary,
-                                         remodel_options(distance, method, strategy, regenerate));
+         const std::string& method, const std::string& strategy, bool regenerate, double delaunay_slack) {
+        return std::make_unique<Attempt>(
+            mesh, shape, boundary, remodel_options(distance, method, strategy, regenerate, delaunay_slack));
       },
       "shape"_a, py::kw_only(), "boundary"_a = "", "distance"_a = 1.0, "method"_a = "auto",
-      "strategy"_a = "renew", "regenerate"_a = true,
+      "strategy"_a = "renew", "regenerate"_a = true, "delaunay_slack"_a = RemodelOptions{}.delaunay_slack_deg,
       "Tries a design: `with mesh.trial(airfoil) as trial: ...; trial.keep()`. Options as in update().");
 }
 

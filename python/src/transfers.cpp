@@ -3,22 +3,35 @@
 #include "remodel/transfer.h"
 
 #include "bindings.h"
+#include "records.h"
 
 namespace remodel::python {
 namespace {
+
+// A transfer and what it was made of, for pickles.
+struct Carrier {
+  Carrier(Snapshot from, Snapshot to, std::string beyond)
+      : before(std::move(from)),
+        after(std::move(to)),
+        outside(std::move(beyond)),
+        transfer(*before, *after, {.outside = outside_named(outside)}) {}
+  Snapshot before, after;
+  std::string outside;
+  Transfer transfer;
+
+  static Outside outside_named(const std::string& name) {
+    if (name == "nearest") return Outside::nearest;
+    if (name == "extrapolate") return Outside::extrapolate;
+    if (name == "refuse") return Outside::refuse;
+    throw Error(ErrorCode::argument, "outside",
+                "found '" + name + "', expected nearest, extrapolate or refuse");
+  }
+};
 
 FieldPlace place_named(const std::string& name) {
   if (name == "vertices") return FieldPlace::vertices;
   if (name == "triangles") return FieldPlace::triangles;
   throw Error(ErrorCode::argument, "place", "found '" + name + "', expected vertices or triangles");
-}
-
-Outside outside_named(const std::string& name) {
-  if (name == "nearest") return Outside::nearest;
-  if (name == "extrapolate") return Outside::extrapolate;
-  if (name == "refuse") return Outside::refuse;
-  throw Error(ErrorCode::argument, "outside",
-              "found '" + name + "', expected nearest, extrapolate or refuse");
 }
 
 int components_of(const Reals& values) {
@@ -36,18 +49,18 @@ py::array_t<double> shaped_as(const Reals& before, const std::vector<double>& va
   return result;
 }
 
-py::array_t<double> rode(const Transfer& transfer, const Reals& values, const std::string& place) {
+py::array_t<double> rode(const Carrier& carrier, const Reals& values, const std::string& place) {
   const int components = components_of(values);
   const FieldPlace where = place_named(place);
   std::vector<double> all(values.data(), values.data() + values.size());
   {
     py::gil_scoped_release released;
-    transfer.ride(where, components, all);
+    carrier.transfer.ride(where, components, all);
   }
   return shaped_as(values, all);
 }
 
-py::tuple remapped(const Transfer& transfer, const Reals& values, const std::string& place, bool limited,
+py::tuple remapped(const Carrier& carrier, const Reals& values, const std::string& place, bool limited,
                    const std::optional<std::array<int, 4>>& conserved) {
   const int components = components_of(values);
   const FieldPlace where = place_named(place);
@@ -55,7 +68,7 @@ py::tuple remapped(const Transfer& transfer, const Reals& values, const std::str
   Balance balance;
   {
     py::gil_scoped_release released;
-    balance = transfer.remap(where, components, all, {.limited = limited, .conserved = conserved});
+    balance = carrier.transfer.remap(where, components, all, {.limited = limited, .conserved = conserved});
   }
   py::dict figures("area_gained"_a = balance.area_gained, "area_lost"_a = balance.area_lost,
                    "before"_a = copied(balance.before), "after"_a = copied(balance.after),
@@ -80,7 +93,7 @@ py::tuple entries_of(const ValueMap& map) {
 }  // namespace
 
 void add_transfers(py::module_& module) {
-  py::class_<Transfer> type(
+  py::class_<Carrier> type(
       module, "Transfer",
       R"(Values carried over from one mesh to what steps made of it: Transfer(before, after), each a Mesh
 or FrozenMesh; Step.transfer is one. Values are in the order of points (place='vertices') or triangles, of
@@ -90,9 +103,8 @@ outside: the value of a new vertex beyond the old domain: 'nearest', 'extrapolat
 P. E. Farrell and J. R. Maddison, 2011; F. Alauzet and M. Mehrenberger, 2010; docs/transfer.md.)");
   type.def(py::init([](const py::object& before, const py::object& after, const std::string& outside) {
              const Snapshot first = snapshot_of(before), second = snapshot_of(after);
-             const TransferOptions options{.outside = outside_named(outside)};
              py::gil_scoped_release released;
-             return std::make_unique<Transfer>(*first, *second, options);
+             return std::make_unique<Carrier>(first, second, outside);
            }),
            "before"_a, "after"_a, py::kw_only(), "outside"_a = "nearest");
   type.def("ride", &rode, "values"_a, "place"_a = "vertices",
@@ -103,13 +115,24 @@ P. E. Farrell and J. R. Maddison, 2011; F. Alauzet and M. Mehrenberger, 2010; do
            "dict. conserved: the columns that are density, momentum in x and y, and energy.");
   type.def(
       "_entries",
-      [](const Transfer& t, const std::string& place) {
-        return entries_of(place_named(place) == FieldPlace::vertices ? t.vertices() : t.triangles());
+      [](const Carrier& c, const std::string& place) {
+        const bool vertices = place_named(place) == FieldPlace::vertices;
+        return entries_of(vertices ? c.transfer.vertices() : c.transfer.triangles());
       },
       "place"_a);
-  type.def_property_readonly("outside", &Transfer::outside,
-                             "How many new vertices lie beyond the old domain.");
-  type.def_property_readonly("farthest_outside", &Transfer::farthest_outside, "How far, at most, in chords.");
+  type.def_property_readonly(
+      "outside", [](const Carrier& c) { return c.transfer.outside(); },
+      "How many new vertices lie beyond the old domain.");
+  type.def_property_readonly(
+      "farthest_outside", [](const Carrier& c) { return c.transfer.farthest_outside(); },
+      "How far, at most, in chords.");
+  type.def(py::pickle(
+      [](const Carrier& c) { return py::make_tuple(packed_mesh(c.before), packed_mesh(c.after), c.outside); },
+      [](const py::tuple& state) {
+        require_pickle(state.size() == 3 && !state[0].is_none() && !state[1].is_none(), "a Transfer");
+        return std::make_unique<Carrier>(unpacked_mesh(state[0]), unpacked_mesh(state[1]),
+                                         state[2].cast<std::string>());
+      }));
 }
 
 }  // namespace remodel::python

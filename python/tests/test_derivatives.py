@@ -1,6 +1,3 @@
-import sys
-import types
-
 import numpy as np
 import pytest
 import remodel
@@ -51,84 +48,121 @@ def test_connectivity_that_has_to_change_raises(mesh):
         mesh.at("rae2822")
 
 
-def test_idwarps_calls(mesh):
-    from remodel.idwarp import USMesh
+@pytest.mark.parametrize("strategy", ["reference", "renew"])
+def test_the_derivative_of_a_step_that_holds_the_mesh(airfoil, designs, strategy):
+    """interior='own' is the derivative of update(strategy='reference'), where that moves the interior too."""
+    mesh = remodel.generate(airfoil, points=40)
+    mesh.update(airfoil.with_design(airfoil.design * 1.03), strategy=strategy)
+    base, direction, h = mesh.domain.airfoil().design, designs(1)[0].design - airfoil.design, 1e-3
+    ends = []
+    for sign in (1.0, -1.0):
+        ends.append(mesh.copy())
+        step = ends[-1].update(airfoil.with_design(base + sign * h * direction), strategy="reference", record=True)
+        assert step.changes.same_connectivity
+    difference = (ends[0].points - ends[1].points) / (2 * h)
+    assert not mesh.held or strategy == "reference"
+    how = "own" if strategy == "reference" else "along"
+    moved = mesh.jvp(direction, interior=how)
+    assert np.allclose(moved, difference, atol=1e-9) and not np.allclose(mesh.jvp(direction, interior="still"), difference, atol=1e-4)
+    weights = np.random.default_rng(2).standard_normal(mesh.points.shape)
+    assert np.isclose(np.sum(weights * moved), mesh.vjp(weights, interior=how) @ direction, rtol=1e-11)
+    with pytest.raises(remodel.ArgumentError, match="^interior: found 'x'"):
+        mesh.jvp(direction, interior="x")
 
-    warp = USMesh(mesh)
-    surface = warp.getSurfaceCoordinates()
-    grid = warp.getSolverGrid()
-    assert grid.shape == (3 * len(mesh.points),) and len(surface) >= 40
-    warp.setSurfaceCoordinates(surface * [1.0, 1.001, 1.0])
-    warp.warpMesh()
-    moved = warp.getSolverGrid() - grid
-    assert np.any(moved != 0) and np.count_nonzero(moved.reshape(-1, 3).any(axis=1)) <= len(surface)
+
+def test_gradients_of_another_mesh_are_refused(mesh, airfoil):
+    solver = remodel.LivingFlow()
+    solver.solve(mesh, mach=0.4, alpha=1.0)
+    gradient = solver.gradients()["cd"]["points"]
+    expected = mesh.vjp(np.array(gradient))
+    for same_mesh in (mesh, mesh.copy(), mesh.freeze() and mesh):
+        assert np.array_equal(same_mesh.vjp(gradient), expected)
+    assert np.allclose(mesh.vjp(2.0 * gradient - gradient / 2), 1.5 * expected)
+    other = mesh.at(airfoil.with_design(airfoil.design * 1.001))
+    moved, kept = mesh.copy(), mesh.copy()
+    moved.update(airfoil.with_design(airfoil.design * 1.001))
+    kept.update(remodel.Airfoil("naca:2412"))
+    for wrong in (other, moved):
+        for stale in (gradient, -gradient, 3 * gradient + 1, gradient.copy()):
+            with pytest.raises(remodel.ArgumentError, match="^by_points: is of a flow on this mesh at another design"):
+                wrong.vjp(stale)
+    with pytest.raises(remodel.ArgumentError, match="^by_points"):
+        kept.vjp(gradient)
+    with mesh.trial(airfoil.with_design(airfoil.design * 1.01)):
+        with pytest.raises(remodel.ArgumentError, match="^by_points"):
+            mesh.vjp(gradient)
+    assert np.array_equal(mesh.vjp(gradient), expected)
+    solver.solve(other, mach=0.4, alpha=1.0)
+    with pytest.raises(remodel.ArgumentError, match="two meshes"):
+        gradient + solver.gradients()["cd"]["points"]
+    assert other.vjp(np.asarray(gradient)) is not None  # an array that knows nothing is the caller's own affair
+
+
+def test_a_flow_that_was_not_found_leaves_the_gradients_of_the_last_one(mesh, airfoil):
+    solver = remodel.LivingFlow()
+    solver.solve(mesh, mach=0.4, alpha=1.0)
+    first = solver.gradients()["cl"]["points"]
+    other = mesh.at(airfoil.with_design(airfoil.design * 1.001))
     with pytest.raises(remodel.ArgumentError):
-        warp.getdXs()
-    weights = np.random.default_rng(3).standard_normal(len(grid))
-    warp.warpDeriv(weights)
-    step = np.random.default_rng(4).standard_normal(surface.shape)
-    assert np.isclose(np.sum(warp.getdXs() * step), weights @ warp.warpDerivFwd(step))
-    after = warp.getSolverGrid()
-    warp.setSurfaceCoordinates(surface * [1.0, 4.0, 1.0])
-    with pytest.raises(remodel.TopologyChanged):
-        warp.warpMesh()
-    assert np.array_equal(warp.getSolverGrid(), after)
+        solver.solve(other, mach=-1.0)
+    again = solver.gradients()["cl"]["points"]
+    assert np.allclose(again, first, atol=1e-8) and mesh.vjp(again) is not None
+
+
+def test_a_living_flow_takes_what_the_package_gives(mesh, airfoil, designs):
+    solver, expected = remodel.LivingFlow(), remodel.solve_flow(mesh, mach=0.4, alpha=1.0).cl
+    foreign = remodel.FrozenMesh(mesh.points, mesh.triangles, mesh.boundaries)
+    for given in (mesh, mesh.freeze(), foreign, mesh.freeze().with_points(mesh.points), remodel.import_mesh(foreign)):
+        assert abs(solver.solve(given, mach=0.4, alpha=1.0).cl - expected) < 1e-8
+    step = mesh.update(designs(1)[0], record=True)
+    flow = solver.solve(step, mach=0.4, alpha=1.0)
+    assert abs(flow.cl - remodel.solve_flow(mesh, mach=0.4, alpha=1.0).cl) < 1e-8 and np.array_equal(flow.mesh.points, mesh.points)
+    seen = []
+
+    def objective(design, frozen, step):
+        seen.append(solver.solve(frozen, mach=0.4, alpha=1.0))
+        return seen[-1].cd
+
+    remodel.optimise(airfoil, objective, points=40, evaluations=5, sigma=0.01)
+    assert len(seen) >= 4 and all(flow.converged for flow in seen) and seen[-1].start != "cold"
+
+
+def test_the_interior_goes_along_with_the_walls(mesh):
+    field, wall = remodel.InteriorDisplacement(mesh), np.unique(mesh.boundaries["airfoil"])
+    walls = np.zeros_like(mesh.points)
+    walls[wall] = [0.0, 0.1]
+    moved = field.jvp(walls)
+    assert np.array_equal(moved[wall], walls[wall]) and np.all(moved[np.unique(mesh.boundaries["farfield"])] == 0)
+    assert mesh.freeze().with_points(mesh.points + moved).check(delaunay=False).valid
+    weights = np.random.default_rng(2).standard_normal(mesh.points.shape)
+    assert np.isclose(np.sum(weights * moved), np.sum(field.vjp(weights) * walls), rtol=1e-12)
+    outside = np.zeros_like(walls)
+    outside[mesh.boundaries["farfield"][0, 0]] = 1.0
+    with pytest.raises(remodel.ArgumentError, match="^walls: moves point"):
+        field.jvp(outside)
+    assert np.any(remodel.InteriorDisplacement(mesh, ["farfield"]).jvp(outside) != 0)
+    with pytest.raises(remodel.ArgumentError, match="^moving: found 'nobody'"):
+        remodel.InteriorDisplacement(mesh, ["nobody"])
+    assert len(field) == len(mesh.points)
+
+
+@pytest.mark.parametrize("interior", ["still", "along"])
+def test_derivatives_by_all_that_a_domain_has(airfoil, interior):
+    """Placements, polygons and airfoils alike, against the same mesh at other numbers."""
+    elements = [{"name": "main", "airfoil": airfoil}, {"name": "flap", "airfoil": airfoil, "chord": 0.3, "rotation": -20, "position": (1.05, -0.05)}]
+    square = np.array([[0.0, 0], [4, 0], [4, 4], [0, 4]])
+    for domain in (remodel.Domain.airfoils(elements, points=60), remodel.Domain.polygons({"outside": square}, {"hole": square / 4 + 1.5})):
+        mesh = remodel.generate(domain, gradation=1.5)
+        numbers, random, h = domain.coefficients, np.random.default_rng(5), 1e-6
+        assert domain.with_coefficients(numbers) == domain
+        direction = random.standard_normal(len(numbers)) * (numbers != 0)  # edges stay closed
+        moved = mesh.jvp(direction, of="domain", interior=interior)
+        wall = np.unique(np.concatenate(list(mesh.boundaries.values())))
+        ends = [mesh.at(domain.with_coefficients(numbers + s * h * direction)).points for s in (1.0, -1.0)]
+        assert np.allclose(moved[wall], (ends[0] - ends[1])[wall] / (2 * h), atol=1e-7) and np.any(moved[wall] != 0)
+        weights = random.standard_normal(mesh.points.shape)
+        assert np.isclose(np.sum(weights * moved), mesh.vjp(weights, of="domain", interior=interior) @ direction, rtol=1e-10)
+    with pytest.raises(remodel.ArgumentError, match="^of: "):
+        mesh.jvp(direction, of="curve")
     with pytest.raises(remodel.ArgumentError):
-        warp.setSurfaceCoordinates(surface[:-1])
-
-
-class Options(dict):
-    def declare(self, name, default=None):
-        self.setdefault(name, default)
-
-
-class ExplicitComponent:
-    """What the components use of OpenMDAO's, which is not in Debian."""
-
-    def __init__(self, **options):
-        self.options, self.inputs, self.outputs, self.partials = Options(), {}, {}, set()
-        self.initialize()
-        self.options.update(options)
-
-    def add_input(self, name, val):
-        self.inputs[name] = np.atleast_1d(np.array(val, dtype=float))
-
-    def add_output(self, name, val):
-        self.outputs[name] = np.atleast_1d(np.array(val, dtype=float))
-
-    def declare_partials(self, of, wrt):
-        self.partials.add((of, tuple(np.atleast_1d(wrt))))
-
-
-def test_openmdao_components(mesh, airfoil, designs, monkeypatch):
-    api = types.SimpleNamespace(ExplicitComponent=ExplicitComponent, AnalysisError=type("AnalysisError", (Exception,), {}))
-    monkeypatch.setitem(sys.modules, "openmdao", types.ModuleType("openmdao"))
-    monkeypatch.setitem(sys.modules, "openmdao.api", api)
-    monkeypatch.delitem(sys.modules, "remodel.openmdao", raising=False)
-    from remodel.openmdao import FlowComponent, MeshComponent
-
-    geometry = MeshComponent(mesh=mesh, airfoil=airfoil)
-    geometry.setup()
-    flow = FlowComponent(geometry=geometry, solver=remodel.LivingFlow(tolerance=1e-12), mach=0.4, alpha=1.0)
-    flow.setup()
-
-    def lift(design):
-        geometry.inputs["design"] = design
-        geometry.compute(geometry.inputs, geometry.outputs)
-        flow.inputs["points"] = geometry.outputs["points"]
-        flow.compute(flow.inputs, flow.outputs)
-        return flow.outputs["cl"]
-
-    direction, h = designs(1)[0].design - airfoil.design, 1e-3
-    difference = (lift(airfoil.design + h * direction) - lift(airfoil.design - h * direction)) / (2 * h)
-    lift(airfoil.design)
-    partials = {}
-    flow.compute_partials(flow.inputs, partials)
-    d_points = {"points": partials["cl", "points"].reshape(-1, 2)}
-    reverse, forward = {"design": np.zeros(12)}, {"points": np.zeros_like(mesh.points)}
-    geometry.compute_jacvec_product(geometry.inputs, reverse, d_points, "rev")
-    geometry.compute_jacvec_product(geometry.inputs, {"design": direction}, forward, "fwd")
-    assert np.isclose(reverse["design"] @ direction, difference, rtol=1e-3)
-    assert np.isclose(np.sum(forward["points"] * d_points["points"]), difference, rtol=1e-3)
-    with pytest.raises(api.AnalysisError):
-        lift(remodel.Airfoil("rae2822").design)
+        domain.with_coefficients(numbers[:-1])

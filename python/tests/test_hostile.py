@@ -67,7 +67,7 @@ def test_damaged_pickles(mesh):
     seed = 5
     print("seed", seed)
     random = np.random.default_rng(seed)
-    state, stopped = mesh.__getstate__()
+    state, stopped, _ = mesh.__getstate__()
     for key in state:
         for value in (None, "x", -1, np.zeros(3), np.array([2**31], dtype=np.uint32)):
             damaged = {**state, key: value}

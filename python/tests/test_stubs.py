@@ -1,5 +1,6 @@
 """The type stubs say what is there, and a type checker accepts them."""
 
+import ast
 import importlib.util
 import inspect
 import os
@@ -40,6 +41,38 @@ def test_every_name_has_a_stub_and_a_docstring():
             for member in vars(thing):
                 if not member.startswith("_"):
                     assert f"def {member}(" in body or f"    {member}:" in body, f"{name}.{member}"
+
+
+def stubbed(function, method):
+    """Names, kinds and defaults of a function in the stubs."""
+    a = function.args
+    positional = (a.posonlyargs + a.args)[1 if method else 0 :]
+    defaults = [None] * (len(positional) - len(a.defaults)) + a.defaults
+    rows = [(p.arg, False, d) for p, d in zip(positional, defaults)] + [(p.arg, True, d) for p, d in zip(a.kwonlyargs, a.kw_defaults)]
+    return [(name, keyword, d is not None) for name, keyword, d in rows], {name: ast.literal_eval(d) for name, _, d in rows if d is not None and not (isinstance(d, ast.Constant) and d.value is ...)}
+
+
+def test_the_stubs_have_the_signatures_that_there_are():
+    tree, checked = ast.parse((PACKAGE / "__init__.pyi").read_text()), 0
+    for node in tree.body:
+        members = [(None, node)] if isinstance(node, ast.FunctionDef) else [(node.name, m) for m in getattr(node, "body", []) if isinstance(m, ast.FunctionDef)]
+        for owner, function in members:
+            thing = getattr(remodel, owner, None) if owner else remodel
+            name = function.name
+            if thing is None or function.decorator_list and ast.unparse(function.decorator_list[0]) == "property" or name.startswith("__") and name != "__init__":
+                continue
+            call = vars(thing)[name] if owner else getattr(thing, name)
+            static = isinstance(call, staticmethod)
+            signature = inspect.signature(call.__func__ if static else call)
+            parameters = [p for p in signature.parameters.values() if p.kind not in (p.VAR_POSITIONAL, p.VAR_KEYWORD)]
+            parameters = parameters[1:] if owner and not static else parameters
+            expected, defaults = stubbed(function, owner and not static)
+            found = [(p.name, p.kind is p.KEYWORD_ONLY, p.default is not p.empty) for p in parameters]
+            assert found == expected, f"{owner}.{name}"
+            for p in parameters:
+                assert p.name not in defaults or p.default == defaults[p.name], f"{owner}.{name}({p.name})"
+            checked += 1
+    assert checked > 50
 
 
 def test_a_type_checker_accepts_them(tmp_path):

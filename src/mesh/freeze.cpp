@@ -198,6 +198,7 @@ bool made_of_chains(const Domain& domain) {
 FrozenMesh Mesh::freeze() const {
   const Triangulation& triangulation = data().triangulation;
   FrozenMesh frozen;
+  frozen.delaunay_slack_deg = delaunay_slack_deg();
   std::vector<std::uint32_t> point_of(triangulation.vertex_slots(), no_index);
   const auto as_imported = triangles_as_imported(data());
   triangulation.for_each_domain_triangle([&](TriangleId id, const Triangle& t) {

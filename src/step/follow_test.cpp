@@ -60,6 +60,7 @@ CheckResult checked(const Mesh& mesh, double slack_deg) {
 
 void expect_valid(const Mesh& mesh) {
   EXPECT_EQ(mesh.quick_check(), "");
+  EXPECT_EQ(mesh.freeze().delaunay_slack_deg, mesh.delaunay_slack_deg());
   const CheckResult result = checked(mesh, mesh.delaunay_slack_deg());
   EXPECT_TRUE(result.valid) << (result.violations.empty() ? "" : result.violations.front().detail);
 }

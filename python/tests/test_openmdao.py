@@ -1,0 +1,180 @@
+"""The components, under a stand-in of OpenMDAO's base class, and under OpenMDAO itself where it can be imported."""
+
+import importlib
+import importlib.util
+import sys
+import types
+
+import numpy as np
+import pytest
+import remodel
+
+
+class Options(dict):
+    def declare(self, name, default=None):
+        self.setdefault(name, default)
+
+
+class ExplicitComponent:
+    """What the components use of OpenMDAO's, which is not in Debian."""
+
+    def __init__(self, **options):
+        self.options, self.inputs, self.outputs, self.partials = Options(), {}, {}, set()
+        self.initialize()
+        self.options.update(options)
+
+    def add_input(self, name, val):
+        self.inputs[name] = np.atleast_1d(np.array(val, dtype=float))
+
+    def add_output(self, name, val):
+        self.outputs[name] = np.atleast_1d(np.array(val, dtype=float))
+
+    def declare_partials(self, of, wrt):
+        self.partials.add((of, tuple(np.atleast_1d(wrt))))
+
+
+@pytest.fixture
+def api(monkeypatch):
+    api = types.SimpleNamespace(ExplicitComponent=ExplicitComponent, AnalysisError=type("AnalysisError", (Exception,), {}))
+    monkeypatch.setitem(sys.modules, "openmdao", types.ModuleType("openmdao"))
+    monkeypatch.setitem(sys.modules, "openmdao.api", api)
+    monkeypatch.delitem(sys.modules, "remodel.openmdao", raising=False)
+    yield types.SimpleNamespace(AnalysisError=api.AnalysisError, components=importlib.import_module("remodel.openmdao"))
+    sys.modules.pop("remodel.openmdao", None)
+
+
+@pytest.fixture
+def mesh(airfoil):
+    return remodel.generate(airfoil, points=40)
+
+
+def flow_of(api, **options):
+    component = api.components.FlowComponent(mach=0.4, alpha=1.0, **options)
+    component.setup()
+    return component
+
+
+def value(component, name, **inputs):
+    component.inputs.update(inputs)
+    component.compute(component.inputs, component.outputs)
+    return float(np.ravel(component.outputs[name])[0])
+
+
+def test_outputs_depend_on_the_points_that_are_handed_in(api, mesh):
+    """Points of any other component: there need be no MeshComponent."""
+    flow = flow_of(api, mesh=mesh)
+    points, random = np.array(mesh.points), np.random.default_rng(1)
+    base = value(flow, "cl", points=points)
+    assert abs(base - remodel.solve_flow(mesh, mach=0.4, alpha=1.0).cl) < 1e-9
+    turned = points @ np.array([[1.0, -0.02], [0.02, 1.0]])
+    assert abs(value(flow, "cl", points=turned) - base) > 0.01
+    flow.compute(flow.inputs | {"points": points}, flow.outputs)
+    partials = {}
+    flow.compute_partials(flow.inputs | {"points": points}, partials)  # the inputs decide, not what was computed last
+    direction, h = random.standard_normal(points.shape) * 1e-3, 1e-3
+    for name in ("cl", "cd", "cm"):
+        difference = (value(flow, name, points=points + h * direction) - value(flow, name, points=points - h * direction)) / (2 * h)
+        assert np.isclose(np.sum(partials[name, "points"] * direction.ravel()), difference, rtol=1e-5, atol=1e-9), name
+
+
+def test_partials_are_those_of_the_inputs_although_the_solver_is_shared(api, mesh):
+    solver = remodel.LivingFlow(tolerance=1e-12)
+    one, other = flow_of(api, mesh=mesh, solver=solver), flow_of(api, mesh=mesh, solver=solver)
+    value(one, "cl", alpha=np.array([1.0]))
+    value(other, "cl", alpha=np.array([3.0]))
+    partials, alone = {}, {}
+    one.compute_partials(one.inputs, partials)
+    separate = flow_of(api, mesh=mesh)
+    separate.compute_partials(separate.inputs, alone)
+    for key in alone:
+        assert np.allclose(partials[key], alone[key], rtol=1e-6, atol=1e-9), key
+
+
+def test_coefficients_to_lift(api, mesh, airfoil, designs):
+    geometry = api.components.MeshComponent(mesh=mesh, airfoil=airfoil)
+    geometry.setup()
+    flow = flow_of(api, geometry=geometry)
+
+    def lift(design):
+        value(geometry, "points", design=design)
+        return value(flow, "cl", points=geometry.outputs["points"])
+
+    direction, h = designs(1)[0].design - airfoil.design, 1e-3
+    difference = (lift(airfoil.design + h * direction) - lift(airfoil.design - h * direction)) / (2 * h)
+    lift(airfoil.design)
+    partials = {}
+    flow.compute_partials(flow.inputs, partials)
+    d_points = {"points": partials["cl", "points"].reshape(-1, 2)}
+    reverse, forward = {"design": np.zeros(12)}, {"points": np.zeros_like(mesh.points)}
+    geometry.compute_jacvec_product(geometry.inputs, reverse, d_points, "rev")
+    geometry.compute_jacvec_product(geometry.inputs, {"design": direction}, forward, "fwd")
+    assert np.isclose(reverse["design"] @ direction, difference, rtol=1e-5)
+    assert np.isclose(np.sum(forward["points"] * d_points["points"]), difference, rtol=1e-5)
+
+
+def test_connectivity_is_held_for_other_sections_and_failures_say_what_to_do(api, mesh, airfoil):
+    geometry = api.components.MeshComponent(mesh=mesh)
+    geometry.setup()
+    for name in ("naca:2412", "naca:4412", "naca:0018"):
+        value(geometry, "points", design=remodel.Airfoil(name).design)
+        there = mesh.freeze().with_points(geometry.outputs["points"])
+        assert there.check(delaunay=False).valid and there.check().min_angle_deg > 10.0
+        wall = mesh.boundaries["airfoil"][:, 0]
+        outline = airfoil.with_design(remodel.Airfoil(name).design).coordinates(20001)
+        assert max(np.hypot(*(outline - point).T).min() for point in there.points[wall]) < 2e-4
+    with pytest.raises(api.AnalysisError, match="^design: its mesh is not valid.*bound the design variables"):
+        value(geometry, "points", design=-airfoil.design)
+    value(geometry, "points", design=remodel.Airfoil("naca:2412").design)
+    geometry.renew()
+    assert geometry.options["mesh"].check().valid
+    geometry.setup()
+    assert np.array_equal(geometry.inputs["design"], remodel.Airfoil("naca:2412").design)
+    flow = flow_of(api, mesh=mesh)
+    for wrong in (dict(points=-np.array(mesh.points)[:, ::-1]), dict(mach=np.array([-1.0]))):
+        with pytest.raises(api.AnalysisError, match="bound the design variables"):
+            value(flow_of(api, mesh=mesh), "cl", **wrong)
+    with pytest.raises(remodel.ArgumentError, match="^airfoil: "):
+        api.components.MeshComponent(mesh=mesh, airfoil=remodel.Airfoil("naca:0012", degree=7)).setup()
+    with pytest.raises(remodel.ArgumentError, match="^mesh: "):
+        api.components.FlowComponent().setup()
+    assert flow is not None
+
+
+@pytest.mark.skipif(importlib.util.find_spec("openmdao") is None, reason="no OpenMDAO")
+def test_check_partials_of_openmdao_itself(airfoil):
+    import openmdao.api as om
+    from remodel.openmdao import FlowComponent, MeshComponent
+
+    mesh = remodel.generate(airfoil, points=20, farfield_radius=10, farfield_points=12)
+    problem = om.Problem()
+    geometry = problem.model.add_subsystem("geometry", MeshComponent(mesh=mesh), promotes_inputs=["design"])
+    problem.model.add_subsystem("flow", FlowComponent(geometry=geometry, mach=0.4, alpha=2.0), promotes_inputs=["alpha", "mach"], promotes_outputs=["cl", "cd", "cm"])
+    problem.model.connect("geometry.points", "flow.points")
+    problem.setup()
+    problem.run_model()
+    for component, rows in problem.check_partials(out_stream=None, method="fd", form="central", step=1e-5).items():
+        for (of, wrt), row in rows.items():
+            assert row["abs error"].forward is None or row["abs error"].forward < 1e-5 * max(1.0, np.abs(row["J_fd"]).max()), (component, of, wrt)
+    totals = problem.check_totals(of=["cl", "cd", "cm"], wrt=["design", "alpha", "mach"], out_stream=None, form="central", step=1e-5)
+    for key, row in totals.items():
+        assert np.allclose(row["J_fwd"] if "J_fwd" in row else row["J_rev"], row["J_fd"], rtol=1e-5, atol=1e-6), key
+
+
+@pytest.mark.skipif(importlib.util.find_spec("openmdao") is None, reason="no OpenMDAO")
+def test_slsqp_of_openmdao_ends_by_itself(airfoil):
+    import openmdao.api as om
+    from remodel.openmdao import FlowComponent, MeshComponent
+
+    problem = om.Problem()
+    geometry = problem.model.add_subsystem("geometry", MeshComponent(mesh=remodel.generate(airfoil, points=40)), promotes_inputs=["design"])
+    problem.model.add_subsystem("flow", FlowComponent(geometry=geometry, mach=0.7, alpha=1.0), promotes_inputs=["alpha", "mach"], promotes_outputs=["cl", "cd", "cm"])
+    problem.model.connect("geometry.points", "flow.points")
+    problem.driver = om.ScipyOptimizeDriver(optimizer="SLSQP", tol=1e-6, maxiter=10, disp=False)
+    problem.model.add_design_var("design", lower=airfoil.design - 0.01, upper=airfoil.design + 0.01)
+    problem.model.add_design_var("alpha", lower=-2, upper=5)
+    problem.model.add_objective("cd", scaler=100.0)
+    problem.model.add_constraint("cl", equals=0.3)
+    problem.setup()
+    problem.run_model()
+    problem.run_driver()
+    assert abs(problem.get_val("cl")[0] - 0.3) < 1e-4
