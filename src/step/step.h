@@ -3,11 +3,14 @@
 // One remodelling step, and the only owner of what it takes to undo it: journal, backup, and the mesh from
 // before where a fresh one takes its place.
 //
+//   find_correspondence()   the new domain in the terms of the mesh's own: its loops by geometry, not by index
 //   nothing moves           nothing is done
 //   follow()                Strategy::reference: all vertices go where the mesh's reference takes them
 //   adjust_in_place()       all boundary vertices moved to the new design, connectivity unchanged
 //   morph()                 Strategy::morph: the interior moves beside the walls or with them, what misses a
 //                           bound is mended
+//   change_locally()        where the structure of the boundary differs: what is new in it is put in, what is gone
+//                           is taken out, and the rest moves, as above or as below
 //   replace()               what cannot move is relocated or replaced, what was touched is refined
 //   regenerate()            the mesh is taken back and one of the new design generated
 
@@ -17,7 +20,10 @@
 #include "remodel/generate.h"
 #include "remodel/remodel.h"
 #include "step/adjust.h"
+#include "step/correspondence.h"
+#include "step/methods.h"
 #include "step/morph.h"
+#include "step/rename.h"
 #include "step/step_journal.h"
 
 namespace remodel {
@@ -44,7 +50,10 @@ class Step {
  private:
   MeshData& data() { return mesh_.data(); }
   bool cancelled() const { return options_.observer != nullptr && options_.observer->cancelled(); }
-  void require_possible() const;
+  const Domain& domain() const { return correspondence_ ? correspondence_->domain : wanted_; }
+  void require_options() const;
+  void require_method() const;
+  RemodelResult remodel();
   void begin_journal();
   void take_back();
 
@@ -52,6 +61,9 @@ class Step {
     return options_.strategy == Strategy::morph || options_.strategy == Strategy::reference;
   }
   void find_moving_loops(const Domain& from);
+  void find_correspondence();
+  bool other_discretisation() const;
+  bool moves_by_parts() const;
   void choose_method();
   std::optional<RemodelResult> follow();
   void leave_reference();
@@ -61,12 +73,14 @@ class Step {
   bool adjust_in_place();
   RemodelResult finish_adjustment();
   bool morph();
+  bool change_locally();
   bool replace();
   bool replace_by(Method method);
   bool attempt();
   bool leaves_outside_restored() const;
   bool change_under_journal();
   std::optional<List<VertexId>> change_boundary();
+  std::optional<List<VertexId>> change_structure(const ReplaceOptions& options);
   Made made() const {
     return !morphing_                                 ? Made::replaced
            : options_.strategy == Strategy::reference ? Made::reference
@@ -81,7 +95,7 @@ class Step {
   RemodelResult exchange(GenerateResult&& fresh);
 
   Mesh& mesh_;
-  const Domain& domain_;
+  const Domain& wanted_;
   const RemodelOptions& options_;
   const Journal journalling_;
   const double keep_before_;   // the mesh's own
@@ -91,7 +105,13 @@ class Step {
   std::optional<StepJournal> journal_;
   std::optional<Mesh> before_;  // where a fresh mesh has taken its place
 
+  // What was renamed before all else; taken back after all else.
+  std::optional<Renaming> renaming_;
+
   // While it runs.
+  std::optional<Correspondence> correspondence_;  // where it is not by index alone
+  bool structure_differs_ = false;                // of the boundary: not all segments correspond
+  Places places_ = Places::wanted;                // of the attempt under way, where the structure differs
   std::optional<LoopIndices> moving_;  // the loops that differ, where their vertices correspond one to one
   Method method_ = Method::general;
   bool renewing_ = false;
