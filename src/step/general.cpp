@@ -68,6 +68,9 @@ class LoopReplacement {
     list_new();
     if (places_ == Places::wanted) drop_links_that_move();
     find_places();
+    if (places_ == Places::present)
+      for (std::size_t i = 0; i < new_.size(); ++i) blend_into_gaps(i);
+    claim();
     const std::vector<VertexId> old_boundary = replaces() ? clear_old() : forget_old();
     rebuild_table();
     if (!replaces()) return;
@@ -232,6 +235,41 @@ class LoopReplacement {
     }
   }
 
+  // Where stations of the old loop are gone, and what they held apart comes together, as where an open trailing
+  // edge closes: what is linked before the gap follows what is linked behind it, so that the two lie to each
+  // other as they do on the new domain. That goes over into old places along the loop; stations that it moves
+  // by more than a part of the way to their neighbours are replaced. Left apart, they would squeeze what is
+  // between when the rest moves.
+  void blend_into_gaps(std::size_t i) {
+    NewLoop& loop = new_[i];
+    LoopLinks& links = links_[i];
+    if (domain_.loops[i].open || links.from == no_link) return;
+    const OldLoop& old = old_[links.from];
+    for (std::size_t s = 0; s < links.segments.size(); ++s) {
+      const StationLink here = links.stations[s], there = links.stations[loop.next(s)];
+      if (links.segments[s].there() || here.loop != links.from || there.loop != links.from) continue;
+      blend(loop, links, s, loop.next(s), old.stations.size());
+    }
+  }
+  void blend(NewLoop& loop, LoopLinks& links, std::size_t a, std::size_t b, std::size_t most) {
+    constexpr double reach = 4.0, little = 0.25;
+    const auto distance = [](Point p, Point q) { return std::sqrt(squared_distance(p, q)); };
+    const Point moves = loop.points[b] - loop.places[b];
+    const double jump = distance(loop.points[a] - moves, loop.places[a]);
+    double way = 0.0;
+    for (std::size_t s = a, n = 0; n < most && way < reach * jump && s != b; s = loop.before(s), ++n) {
+      const double next = distance(loop.points[s], loop.points[loop.next(s)]);
+      const double previous = distance(loop.points[s], loop.points[loop.before(s)]);
+      const double share = way / (reach * jump), weight = (1.0 - share) * (1.0 - share) * (1.0 + 2.0 * share);
+      const Point offset = weight * ((loop.points[s] - moves) - loop.places[s]);
+      way += previous;
+      if (distance(offset, {}) <= little * std::min(next, previous)) continue;
+      loop.places[s] = loop.places[s] + offset;
+      links.stations[s] = {};
+      links.segments[s] = links.segments[loop.before(s)] = {};
+    }
+  }
+
   // Takes the old boundary out, but for what stays, and what lies in the regions of removal.
   std::vector<VertexId> clear_old() {
     mesh_.seen_vertices.clear(triangulation_.vertex_slots());
@@ -297,7 +335,7 @@ class LoopReplacement {
     TriangleId hint = any_triangle();
     for (std::size_t i = 0; i < model.points.size(); ++i) {
       const double nearest = std::sqrt(nearest_other.squared_distance_to(model.points[i]));
-      const double pair = std::isfinite(nearest) ? nearest : 0.0;
+      const double pair = std::isfinite(nearest) && places_ == Places::wanted ? nearest : 0.0;
       const double least = least_radius(options_, model.points[i], model.before[i], model.after[i]);
       result.push_back({model.points[i], std::max(options_.distance * pair, least), hint});
       hint = triangulation_.locate(model.points[i], hint).triangle;

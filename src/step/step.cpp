@@ -508,11 +508,12 @@ Stopped Step::what_still_stops() {
 // over.
 std::optional<List<VertexId>> Step::change_boundary() {
   MeshData& mesh = data();
+  const ReplaceOptions options{.distance = options_.distance, .renewing = renewing_};
+  if (structure_differs_) return change_structure(options);
   if (morphing_) {
     note_moved(mesh, cache_->loops);
     return morph_mesh(mesh, *cache_, domain(), *morphing_, bounds_of_morph());
   }
-  const ReplaceOptions options{.distance = options_.distance, .renewing = renewing_};
   if (cache_ != nullptr) {
     note_moved(mesh, cache_->loops);
     return replace_where_needed(mesh, *cache_, domain(), options);
