@@ -60,6 +60,12 @@ std::set<std::string> names_of(const Loop& loop) {
   return names;
 }
 
+bool has_airfoil(const Loop& loop) {
+  return std::any_of(loop.curves.begin(), loop.curves.end(), [](const Curve& curve) {
+    return std::holds_alternative<CstAirfoil>(curve.shape);
+  });
+}
+
 // Centres of boxes, as nanoflann asks for them.
 struct Centres {
   std::vector<Point> points;
@@ -307,11 +313,22 @@ class Pairing {
     return from;
   }
 
-  // Loops of which less corresponds are replaced as a whole, but for segments that are the same.
+  // Loops of which less corresponds are replaced as a whole, but for segments that are the same. Where not all
+  // stations correspond, only segments count that are alike: much else can be put side by side in order.
   bool most_segments(std::size_t i, std::size_t j, const SameStations& following) const {
+    const bool any = new_[i].size() == old_[j].size() || has_airfoil(*new_[i].loop);
     std::size_t linked = 0;
-    for (std::size_t s = 0; s < new_[i].segments(); ++s) linked += old_segment(i, j, following, s) ? 1 : 0;
+    for (std::size_t s = 0; s < new_[i].segments(); ++s) {
+      const std::optional<std::size_t> old = old_segment(i, j, following, s);
+      if (old && (any || alike(i, s, j, *old, following.reversed))) ++linked;
+    }
     return 2 * linked > std::max(new_[i].segments(), old_[j].segments());
+  }
+  bool alike(std::size_t i, std::size_t s, std::size_t j, std::size_t old, bool reversed) const {
+    constexpr double far = 0.5;
+    const Point a = new_[i].points[new_[i].after(s)] - new_[i].points[s];
+    const Point b = (reversed ? -1.0 : 1.0) * (old_[j].points[old_[j].after(old)] - old_[j].points[old]);
+    return squared_distance(a, b) <= far * far * std::max(dot(a, a), dot(b, b));
   }
 
   // Segments of the old loop that another new one claims as the same.
@@ -331,12 +348,6 @@ class Pairing {
   std::vector<std::size_t> partner_;
   std::vector<bool> taken_;
 };
-
-bool has_airfoil(const Loop& loop) {
-  return std::any_of(loop.curves.begin(), loop.curves.end(), [](const Curve& curve) {
-    return std::holds_alternative<CstAirfoil>(curve.shape);
-  });
-}
 
 // Each station moves by less than half the way to its neighbours.
 bool moves_little(const Domain& own, const Domain& wanted, std::size_t loop) {
@@ -369,6 +380,16 @@ bool corresponds_by_index(const Domain& own, const Domain& wanted, std::span<con
   return std::all_of(moving.begin(), moving.end(), [&](std::size_t loop) {
     return (distinct && has_airfoil(own.loops[loop])) || moves_little(own, wanted, loop);
   });
+}
+
+bool corresponds_in_parts(const Domain& own, const Correspondence& to) {
+  return own.loops.size() == to.loops.size() &&
+         std::all_of(to.loops.begin(), to.loops.end(), [&](const LoopLinks& links) {
+           if (links.from == no_link) return false;
+           const auto linked = std::count_if(links.segments.begin(), links.segments.end(),
+                                             [&](const SegmentLink& link) { return link.loop == links.from; });
+           return 2 * static_cast<std::size_t>(linked) > links.segments.size() || links.segments.empty();
+         });
 }
 
 Correspondence correspond(const Domain& own, const Domain& wanted) {

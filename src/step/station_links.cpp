@@ -134,6 +134,12 @@ Seed best_seed(const Outline& from, const Outline& to) {
 // same parameters.
 using CurveKey = std::tuple<std::size_t, std::size_t, std::string>;
 
+bool has_airfoil(const Loop& loop) {
+  return std::any_of(loop.curves.begin(), loop.curves.end(), [](const Curve& curve) {
+    return std::holds_alternative<CstAirfoil>(curve.shape);
+  });
+}
+
 bool begins_somewhere(const Loop& loop, std::size_t c) {
   const Shape& shape = loop.curves[c].shape;
   if (std::holds_alternative<CstAirfoil>(shape)) return true;
@@ -291,14 +297,16 @@ class GapFiller {
     for (std::size_t i = 0; i < gap.stations.size(); ++i) links_[gap.stations[i]] = gap.old_stations[i];
   }
 
+  // Where the counts differ by more than some, this is another discretisation, of which nothing corresponds.
   void link(const Gap& gap, Point from_a, Point from_b, Point to_a, Point to_b) {
-    constexpr std::size_t most = 4'000'000;
+    constexpr std::size_t most = 4'000'000, a_tenth = 10;
     if (gap.stations.empty() || gap.old_stations.empty()) return;
     if (gap.stations.size() == gap.old_stations.size()) {
       for (std::size_t i = 0; i < gap.stations.size(); ++i) links_[gap.stations[i]] = gap.old_stations[i];
       return;
     }
-    if (gap.stations.size() * gap.old_stations.size() > most) return;
+    const auto [fewer, more] = std::minmax({gap.stations.size(), gap.old_stations.size()});
+    if (more - fewer > 1 + more / a_tenth || more * fewer > most) return;
     Alignment(from_, to_, gap, from_a, from_b, to_a, to_b).link(links_);
   }
 
@@ -420,6 +428,8 @@ SameStations following_stations(const Outline& from, const Outline& to, std::vec
     known.assign(to.size(), no_station);
     if (link_curves(from, to, known)) {
       reversed = keep_one_order(from, known);
+    } else if (has_airfoil(*from.loop) || has_airfoil(*to.loop)) {
+      return {};  // of another discretisation
     } else {
       const Seed seed = best_seed(from, to);
       known[0] = seed.first;

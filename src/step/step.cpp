@@ -160,7 +160,7 @@ void Step::require_options() const {
 }
 
 void Step::require_method() const {
-  if (options_.method != Method::specialised || moving_ || moves_by_parts()) return;
+  if (options_.method != Method::specialised || moving_ || differs_in_parts_) return;
   throw Error(ErrorCode::argument, "method",
               "specialised needs two domains whose loops correspond, station to station but for some, and no "
               "chain that joins what moves");
@@ -217,6 +217,7 @@ void Step::find_correspondence() {
   validate(wanted_);
   correspondence_ = correspond(own, wanted_);
   structure_differs_ = !only_renames(own, *correspondence_);
+  differs_in_parts_ = structure_differs_ && corresponds_in_parts(own, *correspondence_);
   if (!structure_differs_ && !same_names(own, *correspondence_)) {
     renaming_.emplace(data(), *correspondence_);
     data().marked.for_each([](ChangeRecord& record) { record.note_all_loops(); });
@@ -237,15 +238,6 @@ bool Step::other_discretisation() const {
                                                      [](const StationLink& link) { return link.there(); }));
   }
   return static_cast<double>(all) - 2.0 * static_cast<double>(linked) > a_few * static_cast<double>(all);
-}
-
-// Whether the structure differs in parts of loops alone, or by whole loops that appear or are gone.
-bool Step::moves_by_parts() const {
-  return structure_differs_ &&
-         std::ranges::all_of(correspondence_->loops, [](const LoopLinks& links) {
-           return links.from == no_link || links.segments.empty() ||
-                  std::ranges::any_of(links.segments, [](const SegmentLink& link) { return link.there(); });
-         });
 }
 
 void Step::choose_method() {
@@ -389,7 +381,7 @@ bool Step::change_locally() {
   const auto change_by = [&](std::optional<Interior> interior) {
     if (result_.stopped == Stopped::interrupted) return false;
     morphing_ = interior;
-    const bool done = replace_by(Method::specialised);
+    const bool done = replace_by(differs_in_parts_ ? Method::specialised : Method::general);
     morphing_.reset();
     if (done) return true;
     journal_.reset();

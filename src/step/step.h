@@ -63,7 +63,6 @@ class Step {
   void find_moving_loops(const Domain& from);
   void find_correspondence();
   bool other_discretisation() const;
-  bool moves_by_parts() const;
   void choose_method();
   std::optional<RemodelResult> follow();
   void leave_reference();
@@ -111,6 +110,7 @@ class Step {
   // While it runs.
   std::optional<Correspondence> correspondence_;  // where it is not by index alone
   bool structure_differs_ = false;                // of the boundary: not all segments correspond
+  bool differs_in_parts_ = false;                 // and most of each loop does
   Places places_ = Places::wanted;                // of the attempt under way, where the structure differs
   std::optional<LoopIndices> moving_;  // the loops that differ, where their vertices correspond one to one
   Method method_ = Method::general;
