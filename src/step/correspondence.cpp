@@ -383,12 +383,15 @@ bool corresponds_by_index(const Domain& own, const Domain& wanted, std::span<con
 }
 
 bool corresponds_in_parts(const Domain& own, const Correspondence& to) {
+  constexpr std::size_t few = 4, a_tenth = 10;
   return own.loops.size() == to.loops.size() &&
          std::all_of(to.loops.begin(), to.loops.end(), [&](const LoopLinks& links) {
            if (links.from == no_link) return false;
-           const auto linked = std::count_if(links.segments.begin(), links.segments.end(),
-                                             [&](const SegmentLink& link) { return link.loop == links.from; });
-           return 2 * static_cast<std::size_t>(linked) > links.segments.size() || links.segments.empty();
+           const auto linked = static_cast<std::size_t>(
+               std::count_if(links.segments.begin(), links.segments.end(),
+                             [&](const SegmentLink& link) { return link.loop == links.from; }));
+           const std::size_t all = std::max(links.stations.size(), own.stations(links.from).size());
+           return links.segments.empty() || (linked > 0 && all - linked <= std::max(few, all / a_tenth));
          });
 }
 

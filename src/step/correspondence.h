@@ -50,7 +50,7 @@ struct Correspondence {
 // one old segment. n log n, but for loops that correspond in parts: n^2 of these.
 Correspondence correspond(const Domain& own, const Domain& wanted);
 
-// Whether no loop has appeared or is gone, and of each most segments correspond.
+// Whether no loop has appeared or is gone, and of each all segments correspond but for a few.
 bool corresponds_in_parts(const Domain& own, const Correspondence& to);
 
 // Whether no loop of a domain that corresponds to the mesh's own by index, in order, may be another one's, or
