@@ -225,15 +225,15 @@ void Step::find_correspondence() {
   find_moving_loops(data().domain);
 }
 
-// Whether more of the stations than a few are others than before.
+// Whether more of the stations than a few are others than before, on loops that were there before.
 bool Step::other_discretisation() const {
   if (!correspondence_) return true;
   constexpr double a_few = 0.25;
   const Domain& own = mesh_.data().domain;
   std::size_t all = 0, linked = 0;
-  for (std::size_t j = 0; j < own.loops.size(); ++j) all += own.stations(j).size();
   for (const LoopLinks& links : correspondence_->loops) {
-    all += links.stations.size();
+    if (links.from == no_link) continue;
+    all += links.stations.size() + own.stations(links.from).size();
     linked += static_cast<std::size_t>(std::count_if(links.stations.begin(), links.stations.end(),
                                                      [](const StationLink& link) { return link.there(); }));
   }
@@ -518,8 +518,8 @@ std::optional<List<VertexId>> Step::change_structure(const ReplaceOptions& optio
   MeshData& mesh = data();
   mesh.cache.reset();
   if (!correspondence_) correspondence_ = correspond(mesh.domain, wanted_);
+  note_changed(mesh, *correspondence_);
   replace_loops(mesh, *correspondence_, places_, options);
-  note_all_moved(mesh);
   List<VertexId> moved(&mesh.arena);
   const LoopIndices moving = settle(mesh, moved);
   if (moving.empty()) return moved;
