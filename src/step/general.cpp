@@ -68,7 +68,7 @@ class LoopReplacement {
     list_new();
     if (places_ == Places::wanted) drop_links_that_move();
     find_places();
-    if (places_ == Places::present)
+    if (places_ == Places::joined)
       for (std::size_t i = 0; i < new_.size(); ++i) blend_into_gaps(i);
     claim();
     const std::vector<VertexId> old_boundary = replaces() ? clear_old() : forget_old();

@@ -21,7 +21,9 @@ List<VertexId> replace_where_needed(MeshData& mesh, AdjustCache& cache, const Do
 //   wanted   stations come to lie where they lie on the new domain; what is linked, but would move, is replaced
 //   present  what is linked stays where it is: the boundary gets the structure of the new domain, mostly at the
 //            places of the old one, from where it is moved (settle(), replace_where_needed(), morph_mesh())
-enum class Places { wanted, present };
+//   joined   likewise, but where stations of the old loop are gone what they held apart comes together before:
+//            left apart it would squeeze what is between
+enum class Places { wanted, present, joined };
 void replace_loops(MeshData& mesh, const Correspondence& to, Places places, const ReplaceOptions& options);
 
 // After that: the loops that have vertices elsewhere than on the domain, ascending. Vertices of refinement that

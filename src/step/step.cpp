@@ -377,10 +377,12 @@ bool Step::morph() {
 // completed: then all that would move is replaced.
 bool Step::change_locally() {
   if (!structure_differs_ || options_.method == Method::general) return false;
-  places_ = Places::present;
-  const auto change_by = [&](std::optional<Interior> interior) {
+  const bool along = morphs() && !has_surplus(data(), RenewPolicy::morph_surplus);
+  const bool still = along && options_.strategy == Strategy::morph;
+  const auto change_by = [&](std::optional<Interior> interior, Places places) {
     if (result_.stopped == Stopped::interrupted) return false;
     morphing_ = interior;
+    places_ = places;
     const bool done = replace_by(differs_in_parts_ ? Method::specialised : Method::general);
     morphing_.reset();
     if (done) return true;
@@ -390,11 +392,11 @@ bool Step::change_locally() {
     if (result_.stopped != Stopped::interrupted) result_ = {};
     return false;
   };
-  const bool surplus = has_surplus(data(), RenewPolicy::morph_surplus);
-  const bool along = morphs() && !surplus, still = along && options_.strategy == Strategy::morph;
-  if ((still && change_by(Interior::still)) || (along && change_by(Interior::along)) ||
-      change_by(std::nullopt))
-    return true;
+  for (const Places places : {Places::joined, Places::present})
+    if ((still && change_by(Interior::still, places)) || (along && change_by(Interior::along, places)))
+      return true;
+  for (const Places places : {Places::joined, Places::present})
+    if (change_by(std::nullopt, places)) return true;
   places_ = Places::wanted;
   method_ = Method::general;
   return false;
