@@ -212,8 +212,7 @@ void Step::find_moving_loops(const Domain& from) {
 // none are refused here.
 void Step::find_correspondence() {
   const Domain& own = data().domain;
-  const std::optional<LoopIndices> by_index = moving_loops(data().arena, own, wanted_);
-  if (by_index && (by_index->empty() || corresponds_by_index(own, wanted_, *by_index))) return;
+  if (moving_ && (moving_->empty() || corresponds_by_index(own, wanted_, *moving_))) return;
   validate(wanted_);
   correspondence_ = correspond(own, wanted_);
   structure_differs_ = !only_renames(own, *correspondence_);
