@@ -37,12 +37,15 @@ enum class Strategy {
   // the mesh has a fifth more triangles than a fresh one, the step is that of renew. Vertices of imported
   // meshes move too; their length scales are not renewed.
   morph,
-  // The mesh of a design is the morph of one reference mesh, whatever designs came in between: the same design
+  // The mesh of a design is the morph of one reference mesh, whatever designs came in between: the same
+  // design
   // has the same mesh, to the last bit, and what is computed on meshes is a smooth function of designs. The
   // first reference is the mesh itself. All vertices move by the field of remodel/displacement.h, at the
-  // reference's places. Connectivity is held as long as no triangle turns over or misses its angle or the kept
+  // reference's places. Connectivity is held as long as no triangle turns over or misses its angle or the
+  // kept
   // gradation bound, although edges are no longer Delaunay: the angles opposite to them sum up to at most 180
-  // degrees and RemodelOptions::delaunay_slack_deg. Where that is not possible the reference is morphed to the
+  // degrees and RemodelOptions::delaunay_slack_deg. Where that is not possible the reference is morphed to
+  // the
   // design, and the mesh is the new reference. Meshes with slack in their angles are held longer
   // (QualityOptions::refine_angle_deg).
   reference,
@@ -51,7 +54,7 @@ const char* name_of(Strategy strategy);  // "chain", "renew", "morph", "referenc
 
 struct RemodelOptions {
   double distance = 1.0;  // D: removal radius over the distance of a pair of old and new vertices; >= 0
-  Method method = Method::automatic;  // automatic: specialised where the domains correspond one to one
+  Method method = Method::automatic;  // automatic: specialised where the domains correspond
   Strategy strategy = Strategy::chain;
   double keep = 0.0;  // renew: QualityOptions::keep of the mesh is at least this from now on; 1 or more, or
                       // 0: 1.1 for gradations up to 1, 1.2 up to 2, otherwise 1.25
@@ -97,7 +100,17 @@ struct RemodelResult {
   }
 };
 
-// Remodels mesh, in place, to the new domain. The mesh is valid before and after: if the new domain is no
+// Remodels mesh, in place, to the new domain. The loops of the two are paired by geometry: what is at the
+// same places in both is kept to the last bit, whatever the order of the loops, their direction and where
+// they begin; of the rest, loops of one name, or that lie where an old one lay, follow that one. Where the
+// stations of two loops differ in parts (an edge that opens, a corner more), the others still correspond and
+// move.
+//
+// Mesh::domain() then has the loops in the new domain's order, with its names, roles and regions. A loop that
+// is at the same places as before, to the last rounding, but written otherwise (backwards, from another
+// corner) keeps the curves that the mesh has: coefficients_of() and MeshDerivative go by Mesh::domain().
+//
+// The mesh is valid before and after: if the new domain is no
 // domain (validate() throws Error), the observer cancels, or anything else throws (std::bad_alloc, an
 // observer of its own), it is as it was, to the last bit. Invalidates: triangles and vertices near the
 // change; ids of what survives do not change.

@@ -61,9 +61,8 @@ std::set<std::string> names_of(const Loop& loop) {
 }
 
 bool has_airfoil(const Loop& loop) {
-  return std::any_of(loop.curves.begin(), loop.curves.end(), [](const Curve& curve) {
-    return std::holds_alternative<CstAirfoil>(curve.shape);
-  });
+  return std::any_of(loop.curves.begin(), loop.curves.end(),
+                     [](const Curve& curve) { return std::holds_alternative<CstAirfoil>(curve.shape); });
 }
 
 // Centres of boxes, as nanoflann asks for them.
@@ -215,8 +214,7 @@ class Pairing {
         for (const SegmentLink& link : result_.loops[i].segments)
           if (link.there()) ++shared[{i, link.loop}];
     std::vector<std::tuple<std::size_t, std::size_t, std::size_t>> most;
-    for (const auto& [loops, count] : shared)
-      most.emplace_back(old_.size() + new_.size() == 0 ? 0 : count, loops.first, loops.second);
+    for (const auto& [loops, count] : shared) most.emplace_back(count, loops.first, loops.second);
     std::stable_sort(most.begin(), most.end(),
                      [](const auto& a, const auto& b) { return std::get<0>(a) > std::get<0>(b); });
     for (const auto& [count, i, j] : most)
@@ -260,9 +258,8 @@ class Pairing {
         const double reach = 0.5 * (old_[j].diagonal() + new_[i].diagonal());
         if (!may_pair(i, j) || squared[k] > reach * reach) continue;
         if (named && names_of(*old_[j].loop) != names_of(*new_[i].loop)) continue;
-        near.emplace_back(squared[k] + squared_distance(old_[j].high - old_[j].low,
-                                                        new_[i].high - new_[i].low),
-                          i, j);
+        near.emplace_back(
+            squared[k] + squared_distance(old_[j].high - old_[j].low, new_[i].high - new_[i].low), i, j);
       }
     }
     std::sort(near.begin(), near.end());
@@ -294,8 +291,8 @@ class Pairing {
         links.segments[s] = {j, *segment, following.reversed};
     }
     forget_elsewhere(i, j);
-    links.in_order = !following.reversed && following.station[0] == 0 &&
-                     in_order(own_.loops[j], result_.domain.loops[i]);
+    links.in_order =
+        !following.reversed && following.station[0] == 0 && in_order(own_.loops[j], result_.domain.loops[i]);
   }
 
   bool sides_agree(std::size_t i, std::size_t j, bool reversed) const {
@@ -313,8 +310,8 @@ class Pairing {
     return from;
   }
 
-  // Loops of which less corresponds are replaced as a whole, but for segments that are the same. Where not all
-  // stations correspond, only segments count that are alike: much else can be put side by side in order.
+  // Loops of which less corresponds are replaced as a whole, but for segments that are the same. Where not
+  // all stations correspond, only segments count that are alike: much else can be put side by side in order.
   bool most_segments(std::size_t i, std::size_t j, const SameStations& following) const {
     const bool any = new_[i].size() == old_[j].size() || has_airfoil(*new_[i].loop);
     std::size_t linked = 0;
@@ -393,6 +390,18 @@ bool corresponds_in_parts(const Domain& own, const Correspondence& to) {
            const std::size_t all = std::max(links.stations.size(), own.stations(links.from).size());
            return links.segments.empty() || (linked > 0 && all - linked <= std::max(few, all / a_tenth));
          });
+}
+
+bool differs_much(const Domain& own, const Correspondence& to) {
+  constexpr double a_few = 0.25;
+  std::size_t all = 0, linked = 0;
+  for (const LoopLinks& links : to.loops) {
+    if (links.from == no_link) continue;
+    all += links.stations.size() + own.stations(links.from).size();
+    linked += static_cast<std::size_t>(std::count_if(links.stations.begin(), links.stations.end(),
+                                                     [](const StationLink& link) { return link.there(); }));
+  }
+  return static_cast<double>(all) - 2.0 * static_cast<double>(linked) > a_few * static_cast<double>(all);
 }
 
 Correspondence correspond(const Domain& own, const Domain& wanted) {

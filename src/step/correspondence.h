@@ -3,8 +3,8 @@
 // What of a domain another one has too, by geometry: whatever the order of the loops, their direction and
 // their first corner.
 //
-// Words: a *station* of a loop is one of its points; *segment* s of a loop runs from its station s to the next
-// one. A *link* names the old station or segment that a new one is, or is the successor of.
+// Words: a *station* of a loop is one of its points; *segment* s of a loop runs from its station s to the
+// next one. A *link* names the old station or segment that a new one is, or is the successor of.
 
 #include <cstddef>
 #include <limits>
@@ -52,6 +52,9 @@ Correspondence correspond(const Domain& own, const Domain& wanted);
 
 // Whether no loop has appeared or is gone, and of each all segments correspond but for a few.
 bool corresponds_in_parts(const Domain& own, const Correspondence& to);
+
+// Whether more than a few of the stations of loops that pair are none of the old ones.
+bool differs_much(const Domain& own, const Correspondence& to);
 
 // Whether no loop of a domain that corresponds to the mesh's own by index, in order, may be another one's, or
 // begin elsewhere, or run the other way round: what moves moves by less than the way to the next station, or

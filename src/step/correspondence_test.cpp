@@ -53,7 +53,8 @@ std::optional<Curve> backwards(const Curve& curve) {
     arc->sweep = -arc->sweep;
   } else if (auto* spline = std::get_if<Spline>(&result.shape)) {
     std::vector<Point> points(spline->points.rbegin(), spline->points.rend());
-    result.shape = spline_through(std::move(points), spline->corner ? SplineEnds::corner : SplineEnds::smooth);
+    result.shape =
+        spline_through(std::move(points), spline->corner ? SplineEnds::corner : SplineEnds::smooth);
   } else {
     return std::nullopt;
   }
@@ -119,13 +120,15 @@ std::vector<Point> around(Point centre, double radius, std::size_t corners, Rand
   std::vector<Point> points;
   const double turn = between(random, 0.0, 6.0);
   for (std::size_t i = 0; i < corners; ++i) {
-    const double angle = turn + 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(corners);
+    const double angle =
+        turn + 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(corners);
     points.push_back(centre + (radius * between(random, 0.6, 1.0)) * Point{std::cos(angle), std::sin(angle)});
   }
   return points;
 }
 
-// A feature in a cell of the unit square: a hole, an island in a hole is left out, a region, a chain or a point.
+// A feature in a cell of the unit square: a hole, an island in a hole is left out, a region, a chain or a
+// point.
 Loop feature(Point centre, double radius, Random& random) {
   const std::string name = random() % 2 == 0 ? "hole" : "h" + std::to_string(random() % 5);
   switch (random() % 8) {
@@ -159,10 +162,9 @@ Loop feature(Point centre, double radius, Random& random) {
     }
     case 6: {
       const CstAirfoil section = airfoil_catalogue()[below(random, 10)].airfoil();
-      Domain domain = airfoils_domain({{.name = name,
-                                        .airfoil = section,
-                                        .placement = {radius, between(random, -20, 20), centre}}},
-                                      {.points = 24});
+      Domain domain = airfoils_domain(
+          {{.name = name, .airfoil = section, .placement = {radius, between(random, -20, 20), centre}}},
+          {.points = 24});
       return domain.loops[0];
     }
     default:
@@ -184,7 +186,8 @@ Domain random_domain(Random& random, double shrink = 1.0) {
       domain.loops.push_back(feature(centre, shrink * 0.35 * cell, random));
     }
   // A chain from a corner of the outline: joined there.
-  if (random() % 2 == 0) domain.loops.push_back(chain_through({{1, 1}, {1 - 0.1 * cell, 1 - 0.12 * cell}}, "joined"));
+  if (random() % 2 == 0)
+    domain.loops.push_back(chain_through({{1, 1}, {1 - 0.1 * cell, 1 - 0.12 * cell}}, "joined"));
   return domain;
 }
 
@@ -269,15 +272,15 @@ TEST(Correspondence, NewNamesRolesAndRegionsWin) {
 
 // How many of the triangles that are farther than this from all points of a loop the mesh still has, in per
 // cent.
-double kept_beyond(const FrozenMesh& before, const Mesh& mesh, const std::vector<Point>& loop, double radius) {
+double kept_beyond(const FrozenMesh& before, const Mesh& mesh, const std::vector<Point>& loop,
+                   double radius) {
   const FrozenMesh after = mesh.freeze();
   const std::set<Seen> now = triangles_of(after);
   std::size_t all = 0, kept = 0;
   for (const auto& t : before.triangles) {
     const bool far = std::all_of(t.begin(), t.end(), [&](std::uint32_t v) {
-      return std::all_of(loop.begin(), loop.end(), [&](Point p) {
-        return squared_distance(p, before.points[v]) > radius * radius;
-      });
+      return std::all_of(loop.begin(), loop.end(),
+                         [&](Point p) { return squared_distance(p, before.points[v]) > radius * radius; });
     });
     if (!far) continue;
     ++all;
@@ -440,9 +443,10 @@ TEST(Correspondence, HolesThatMoveALittleMoveWhateverTheirOrderAndFirstCorners) 
     SCOPED_TRACE("domain " + std::to_string(i));
     Domain domain{{test::rectangle(LoopRole::outer, "outer", {0, 0}, {1, 1}, 4)}};
     for (int k = 0; k < 9; ++k)
-      domain.loops.push_back(test::polygon(
-          LoopRole::hole, "hole",
-          around({0.2 + 0.3 * (k % 3), 0.2 + 0.3 * static_cast<double>(k / 3)}, 0.1, 5 + below(random, 3), random)));
+      domain.loops.push_back(
+          test::polygon(LoopRole::hole, "hole",
+                        around({0.2 + 0.3 * (k % 3), 0.2 + 0.3 * static_cast<double>(k / 3)}, 0.1,
+                               5 + below(random, 3), random)));
     Mesh mesh = generate(domain, {.resolution = 2.0}).mesh;
     Domain moved = domain;
     for (std::size_t loop = 1; loop < moved.loops.size(); ++loop) {

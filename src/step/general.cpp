@@ -1,6 +1,6 @@
 // The general method (the paper's section 3): any loops and chains to any others. Segments that both domains
-// have, with what refinement put on them, are not touched; nor, where the boundary changes its structure before
-// it moves, those that correspond: they stay where they are.
+// have, with what refinement put on them, are not touched; nor, where the boundary changes its structure
+// before it moves, those that correspond: they stay where they are.
 
 #include <algorithm>
 #include <cmath>
@@ -235,11 +235,11 @@ class LoopReplacement {
     }
   }
 
-  // Where stations of the old loop are gone, and what they held apart comes together, as where an open trailing
-  // edge closes: what is linked before the gap follows what is linked behind it, so that the two lie to each
-  // other as they do on the new domain. That goes over into old places along the loop; stations that it moves
-  // by more than a part of the way to their neighbours are replaced. Left apart, they would squeeze what is
-  // between when the rest moves.
+  // Where stations of the old loop are gone, and what they held apart comes together, as where an open
+  // trailing edge closes: what is linked before the gap follows what is linked behind it, so that the two lie
+  // to each other as they do on the new domain. That goes over into old places along the loop; stations that
+  // it moves by more than a part of the way to their neighbours are replaced. Left apart, they would squeeze
+  // what is between when the rest moves.
   void blend_into_gaps(std::size_t i) {
     NewLoop& loop = new_[i];
     LoopLinks& links = links_[i];
@@ -402,29 +402,29 @@ class LoopReplacement {
   struct Draft {
     BoundaryVertex vertex;
     std::size_t station;
-    bool is_new;       // the station or a segment at it
-    bool begins_new;   // the segment from it
+    bool is_new;      // the station or a segment at it
+    bool begins_new;  // the segment from it
   };
   std::vector<Draft> draft(std::size_t i) const {
     const LoopLinks& links = links_[i];
     std::vector<Draft> drafts;
     for (std::size_t s = 0; s < new_[i].stations.size(); ++s) {
       const BoundaryStation& station = new_[i].stations[s];
-      BoundaryVertex vertex{
-          .vertex = {}, .curve = static_cast<std::uint32_t>(station.curve), .t = station.t};
+      BoundaryVertex vertex{.vertex = {}, .curve = static_cast<std::uint32_t>(station.curve), .t = station.t};
       if (links.stations[s].there()) {
         const BoundaryVertex& old = mesh_.at(entry(links.stations[s]));
         vertex.vertex = old.vertex;
         vertex.scale_factor = old.scale_factor;
       }
-      const bool has_next = s < links.segments.size(), has_previous = s > 0 || !domain_.loops[i].open;
+      const bool has_next = s<links.segments.size(), has_previous = s> 0 || !domain_.loops[i].open;
       const bool next_new = has_next && !links.segments[s].there();
-      const bool previous_new = has_previous && !links.segments.empty() &&
-                                !links.segments[new_[i].before(s)].there();
+      const bool previous_new =
+          has_previous && !links.segments.empty() && !links.segments[new_[i].before(s)].there();
       drafts.push_back({vertex, s, !vertex.vertex || next_new || previous_new, next_new});
       if (has_next && !next_new)
-        for_each_between(i, s, links.segments[s],
-                         [&](const BoundaryVertex& between) { drafts.push_back({between, s, false, false}); });
+        for_each_between(i, s, links.segments[s], [&](const BoundaryVertex& between) {
+          drafts.push_back({between, s, false, false});
+        });
     }
     return drafts;
   }

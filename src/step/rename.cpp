@@ -83,8 +83,7 @@ void Renaming::exchange(MeshData& mesh) noexcept {
   mesh.loop_heads.swap(loop_heads_);
   mesh.sides.swap(sides_);
   mesh.renewal.pending_loops.swap(pending_loops_);
-  for (std::uint32_t k = 0; k < mesh.boundary.size(); ++k)
-    std::swap(mesh.boundary.edit(k).curve, curves_[k]);
+  for (std::uint32_t k = 0; k < mesh.boundary.size(); ++k) std::swap(mesh.boundary.edit(k).curve, curves_[k]);
   mesh.index_curves();
   mesh.forget_extent();
   mesh.cache.reset();

@@ -102,7 +102,8 @@ std::vector<Seed> candidates(const Outline& from, const Outline& to) {
   std::vector<Seed> seeds{{0, false}, {0, true}};
   constexpr std::size_t few = 64, anchors = 8;
   if (n == m && n <= few) {
-    for (std::size_t first = 1; first < n; ++first) seeds.insert(seeds.end(), {{first, false}, {first, true}});
+    for (std::size_t first = 1; first < n; ++first)
+      seeds.insert(seeds.end(), {{first, false}, {first, true}});
     return seeds;
   }
   // Where the loops begin, and what is nearest to some stations.
@@ -135,9 +136,8 @@ Seed best_seed(const Outline& from, const Outline& to) {
 using CurveKey = std::tuple<std::size_t, std::size_t, std::string>;
 
 bool has_airfoil(const Loop& loop) {
-  return std::any_of(loop.curves.begin(), loop.curves.end(), [](const Curve& curve) {
-    return std::holds_alternative<CstAirfoil>(curve.shape);
-  });
+  return std::any_of(loop.curves.begin(), loop.curves.end(),
+                     [](const Curve& curve) { return std::holds_alternative<CstAirfoil>(curve.shape); });
 }
 
 bool begins_somewhere(const Loop& loop, std::size_t c) {
@@ -185,8 +185,8 @@ struct Gap {
   std::vector<std::size_t> old_stations, stations;
 };
 
-// Pairs stations of a gap in order, and leaves out the fewest and those that correspond least: an alignment of
-// two sequences by dynamic programming.
+// Pairs stations of a gap in order, and leaves out the fewest and those that correspond least: an alignment
+// of two sequences by dynamic programming.
 class Alignment {
  public:
   Alignment(const Outline& from, const Outline& to, const Gap& gap, Point from_a, Point from_b, Point to_a,
@@ -205,9 +205,9 @@ class Alignment {
     for (std::size_t j = 0; j <= q; ++j) cost[j] = static_cast<float>(j) * left_out;
     for (std::size_t i = 1; i <= p; ++i)
       for (std::size_t j = 1; j <= q; ++j)
-        cost[i * width + j] = std::min({cost[(i - 1) * width + j - 1] + apart(i - 1, j - 1),
-                                        cost[(i - 1) * width + j] + left_out,
-                                        cost[i * width + j - 1] + left_out});
+        cost[i * width + j] =
+            std::min({cost[(i - 1) * width + j - 1] + apart(i - 1, j - 1),
+                      cost[(i - 1) * width + j] + left_out, cost[i * width + j - 1] + left_out});
     std::size_t i = p, j = q;
     while (i > 0 && j > 0) {
       const float here = cost[i * width + j];

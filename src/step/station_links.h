@@ -33,8 +33,8 @@ Point on_segment(const Outline& outline, std::size_t segment, double fraction);
 // Rounding of points that are the same: relative to the largest coordinate.
 double rounding_of(const Outline& outline);
 
-// Of each station of `to` the one of `from` that is the same within rounding, where all of them and the curves
-// between are; empty where they are not. `reversed`: they follow each other backwards.
+// Of each station of `to` the one of `from` that is the same within rounding, where all of them and the
+// curves between are; empty where they are not. `reversed`: they follow each other backwards.
 struct SameStations {
   std::vector<std::size_t> station;
   bool reversed = false;

@@ -204,12 +204,12 @@ RemodelResult Step::remodel() {
 
 void Step::find_moving_loops(const Domain& from) {
   moving_ = moving_loops(data().arena, from, domain());
-  other_discretisation_ = !moving_ && other_discretisation();
+  other_discretisation_ = !moving_ && (!correspondence_ || differs_much(data().domain, *correspondence_));
   if (moving_ && joined(data(), *moving_)) moving_.reset();
 }
 
-// Where the domain may correspond to the mesh's own otherwise than by the order of its loops. Domains that are
-// none are refused here.
+// Where the domain may correspond to the mesh's own otherwise than by the order of its loops. Domains that
+// are none are refused here.
 void Step::find_correspondence() {
   const Domain& own = data().domain;
   if (moving_ && (moving_->empty() || corresponds_by_index(own, wanted_, *moving_))) return;
@@ -222,21 +222,6 @@ void Step::find_correspondence() {
     data().marked.for_each([](ChangeRecord& record) { record.note_all_loops(); });
   }
   find_moving_loops(data().domain);
-}
-
-// Whether more of the stations than a few are others than before, on loops that were there before.
-bool Step::other_discretisation() const {
-  if (!correspondence_) return true;
-  constexpr double a_few = 0.25;
-  const Domain& own = mesh_.data().domain;
-  std::size_t all = 0, linked = 0;
-  for (const LoopLinks& links : correspondence_->loops) {
-    if (links.from == no_link) continue;
-    all += links.stations.size() + own.stations(links.from).size();
-    linked += static_cast<std::size_t>(std::count_if(links.stations.begin(), links.stations.end(),
-                                                     [](const StationLink& link) { return link.there(); }));
-  }
-  return static_cast<double>(all) - 2.0 * static_cast<double>(linked) > a_few * static_cast<double>(all);
 }
 
 void Step::choose_method() {

@@ -33,8 +33,8 @@ void calibrate(MeshData& mesh, int samples, StepObserver* observer = nullptr);
 // it: much of what changes changes back with the designs, and what two of them change is looked at once.
 bool renewal_is_due(const MeshData& mesh);
 // That these loops have moved, or those that are not the same in the domain to come, by whose order loops are
-// counted from then on: the next renewal looks around them. The first, of ascending loops, throws nothing where
-// pending_loops has room for all.
+// counted from then on: the next renewal looks around them. The first, of ascending loops, throws nothing
+// where pending_loops has room for all.
 void note_moved(MeshData& mesh, std::span<const std::size_t> loops);
 void note_changed(MeshData& mesh, const Correspondence& to);
 

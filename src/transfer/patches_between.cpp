@@ -93,8 +93,7 @@ class BetweenMeshes {
       if (old == no_index || was_boundary[old] != is_boundary[v]) continue;
       // At the same place it is the same, although a domain whose loops have another order counts its curves
       // otherwise.
-      const bool same =
-          before_.points[old] == after_.points[v] || (is_boundary[v] && same_parameter(old, v));
+      const bool same = before_.points[old] == after_.points[v] || (is_boundary[v] && same_parameter(old, v));
       if (same) patches_.same_vertices[v] = old;
     }
   }
