@@ -18,13 +18,11 @@ List<VertexId> replace_where_needed(MeshData& mesh, AdjustCache& cache, const Do
                                     const ReplaceOptions& options);
 
 // The paper's section 3: replaces the boundary by that of `to`, but for what is linked.
-//   wanted   stations come to lie where they lie on the new domain; what is linked, but would move, is
-//   replaced present  what is linked stays where it is: the boundary gets the structure of the new domain,
-//   mostly at the
-//            places of the old one, from where it is moved (settle(), replace_where_needed(), morph_mesh())
-//   joined   likewise, but where stations of the old loop are gone what they held apart comes together
-//   before:
-//            left apart it would squeeze what is between
+// wanted: stations come to lie where they lie on the new domain. What is linked, but would move, is replaced.
+// present: what is linked stays where it is. The boundary gets the structure of the new domain, mostly at the
+// places of the old one, from where it is moved: settle(), replace_where_needed(), morph_mesh().
+// joined: likewise, but where stations of the old loop are gone, what they held apart comes together before.
+// Left apart it would squeeze what is between.
 enum class Places { wanted, present, joined };
 void replace_loops(MeshData& mesh, const Correspondence& to, Places places, const ReplaceOptions& options);
 

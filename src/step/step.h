@@ -3,15 +3,13 @@
 // One remodelling step, and the only owner of what it takes to undo it: journal, backup, and the mesh from
 // before where a fresh one takes its place.
 //
-//   find_correspondence()   the new domain in the terms of the mesh's own: its loops by geometry, not by
-//   index nothing moves           nothing is done follow()                Strategy::reference: all vertices
-//   go where the mesh's reference takes them adjust_in_place()       all boundary vertices moved to the new
-//   design, connectivity unchanged morph()                 Strategy::morph: the interior moves beside the
-//   walls or with them, what misses a
+//   find_correspondence()   the new domain's loops by geometry, where their order alone does not say it
+//   nothing moves           nothing is done
+//   follow()                Strategy::reference: all vertices go where the mesh's reference takes them
+//   adjust_in_place()       all boundary vertices moved to the new design, connectivity unchanged
+//   change_locally()        where the structure of the boundary differs: that is changed first, in place
+//   morph()                 Strategy::morph: the interior moves beside the walls or with them, what misses a
 //                           bound is mended
-//   change_locally()        where the structure of the boundary differs: what is new in it is put in, what is
-//   gone
-//                           is taken out, and the rest moves, as above or as below
 //   replace()               what cannot move is relocated or replaced, what was touched is refined
 //   regenerate()            the mesh is taken back and one of the new design generated
 
