@@ -81,6 +81,7 @@ class Mesh {
   Mesh& operator=(const Mesh&);
 
   bool empty() const;  // no domain: there is nothing to remodel
+  // In the order of the last one that it was remodelled to; see remodel() for loops that did not move.
   const Domain& domain() const;
   const QualityOptions& options() const;
   // Triangles that steps leave as they are may take this factor of H, new ones H itself: 1, or more once

@@ -26,7 +26,8 @@ Domain with_coefficients(const Domain& domain, std::span<const double> coefficie
 
 class MeshDerivative {
  public:
-  // At the design that the mesh has.
+  // At the design that the mesh has: by the coefficients of mesh.domain(), which may write loops that did not
+  // move otherwise than the domain that was given (remodel()).
   explicit MeshDerivative(const Mesh& mesh);
   // The same of a mesh's frozen view and its domain.
   MeshDerivative(const FrozenMesh& frozen, const Domain& domain);

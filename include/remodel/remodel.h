@@ -51,7 +51,7 @@ const char* name_of(Strategy strategy);  // "chain", "renew", "morph", "referenc
 
 struct RemodelOptions {
   double distance = 1.0;  // D: removal radius over the distance of a pair of old and new vertices; >= 0
-  Method method = Method::automatic;  // automatic: specialised where the domains correspond one to one
+  Method method = Method::automatic;  // automatic: specialised where the domains correspond
   Strategy strategy = Strategy::chain;
   double keep = 0.0;  // renew: QualityOptions::keep of the mesh is at least this from now on; 1 or more, or
                       // 0: 1.1 for gradations up to 1, 1.2 up to 2, otherwise 1.25
@@ -97,10 +97,19 @@ struct RemodelResult {
   }
 };
 
-// Remodels mesh, in place, to the new domain. The mesh is valid before and after: if the new domain is no
-// domain (validate() throws Error), the observer cancels, or anything else throws (std::bad_alloc, an
-// observer of its own), it is as it was, to the last bit. Invalidates: triangles and vertices near the
-// change; ids of what survives do not change.
+// Remodels mesh, in place, to the new domain. The loops of the two are paired by geometry: what is at the
+// same places in both is kept to the last bit, whatever the order of the loops, their direction and where
+// they begin; of the rest, loops of one name, or that lie where an old one lay, follow that one. Where the
+// stations of two loops differ in parts (an edge that opens, a corner more), the others still correspond and
+// move.
+//
+// Mesh::domain() then has the loops in the new domain's order, with its names, roles and regions. A loop that
+// is at the same places as before, to the last rounding, but written otherwise (backwards, from another
+// corner) keeps the curves that the mesh has: coefficients_of() and MeshDerivative go by Mesh::domain().
+//
+// The mesh is valid before and after: if the new domain is no domain (validate() throws Error), the observer
+// cancels, or anything else throws (std::bad_alloc, an observer of its own), it is as it was, to the last
+// bit. Invalidates: triangles and vertices near the change; ids of what survives do not change.
 RemodelResult remodel(Mesh& mesh, const Domain& domain, const RemodelOptions& options = {});
 
 // Tries a design: the mesh is remodelled, as by remodel(), and returns to what it was, to the last bit and

@@ -58,7 +58,10 @@ std::vector<std::uint32_t> same_vertices(const FrozenMesh& before, const FrozenM
   for (std::size_t v = 0; v < after.points.size(); ++v) {
     const auto found = of_before.find(after.vertex_keys[v]);
     std::uint32_t old = found == of_before.end() ? no_index : found->second;
-    if (old != no_index &&
+    // Where it rests, another number of its curve says that the domain has its loops in another order.
+    const bool rests = old != no_index && before.points[old] == after.points[v] &&
+                       (before.curve[old] < 0) == (after.curve[v] < 0);
+    if (old != no_index && !rests &&
         (before.curve[old] != after.curve[v] ||
          (after.curve[v] >= 0 && before.parameter[old] != after.parameter[v]) ||
          (!of_origin.contains(after.vertex_keys[v]) && before.points[old] != after.points[v])))

@@ -30,7 +30,8 @@ std::optional<LoopIndices> moving_loops(Arena& arena, const Domain& its_own, con
   LoopIndices moving(&arena);
   for (std::size_t i = 0; i < from.size(); ++i) {
     if (from[i] == to[i]) continue;
-    if (!one_to_one(from[i], to[i])) return std::nullopt;
+    const bool same_regions = from[i].region == to[i].region && from[i].right_region == to[i].right_region;
+    if (!same_regions || !one_to_one(from[i], to[i])) return std::nullopt;
     moving.push_back(i);
   }
   return moving;
@@ -112,7 +113,7 @@ const Mesh& require_mesh(const Mesh& mesh) {
 
 Step::Step(Mesh& mesh, const Domain& domain, const RemodelOptions& options, Journal journal)
     : mesh_(mesh),
-      domain_(domain),
+      wanted_(domain),
       options_(options),
       journalling_(journal),
       keep_before_(require_mesh(mesh).keep()),
@@ -127,10 +128,12 @@ Step::~Step() {
     mesh_ = std::move(*before_);
   }
   take_back();
+  if (renaming_) renaming_->undo(data());
 }
 
 void Step::take_back() {
   journal_.reset();
+  if (structure_differs_) data().cache.reset();  // it may be of the boundary that was taken back
   data().keep = keep_before_;
   data().outside_restored = outside_before_;
   data().marked.return_to(marked_before_);
@@ -143,7 +146,7 @@ void Step::keep() {
   before_.reset();
 }
 
-void Step::require_possible() const {
+void Step::require_options() const {
   require_option(std::isfinite(options_.distance) && options_.distance >= 0.0, "distance", options_.distance,
                  "0 or more");
   for (const auto& found :
@@ -152,44 +155,74 @@ void Step::require_possible() const {
     if (found) throw Error(ErrorCode::argument, found->option, found->problem);
   if (options_.designs_a_step == 0)
     throw Error(ErrorCode::argument, "designs_a_step", "found 0, expected 1 or more");
-  if (options_.method == Method::specialised && !moving_)
-    throw Error(
-        ErrorCode::argument, "method",
-        "specialised needs two domains that correspond one to one, and no chain that joins what moves");
   if (mesh_.data().triangulation.journalling())
     throw Error(ErrorCode::argument, "mesh",
                 "a trial of another design is under way, expected it to be kept or ended");
 }
 
+void Step::require_method() const {
+  if (options_.method != Method::specialised || moving_ || differs_in_parts_) return;
+  throw Error(ErrorCode::argument, "method",
+              "specialised needs two domains whose loops correspond, station to station but for some, and no "
+              "chain that joins what moves");
+}
+
 RemodelResult Step::run() {
   const Arena::Scope scope(data().arena);
+  require_options();
   find_moving_loops(data().domain);
-  require_possible();
-  RemodelResult result;
-  if (moving_ && moving_->empty()) {
-    result = unchanged(data());
-    result.full_adjustment = true;
-    result.held = options_.strategy == Strategy::reference;
-    result.method = Method::specialised;
-  } else {
-    require_surfaces_apart(domain_);
-    choose_method();
-    if (journalling_ == Journal::always) begin_journal();
-    renewing_ = renews(data(), options_);
-    if (renewing_) data().keep = std::max(data().keep, resolved_keep(options_, data().options));
-    std::optional<RemodelResult> followed = follow();
-    result = followed ? *std::move(followed) : adjust_or_replace();
-    result.method = method_;
+  find_correspondence();
+  require_method();
+  RemodelResult result = remodel();
+  const bool as_it_was = result.abandoned || result.stopped == Stopped::interrupted;
+  if (renaming_ && as_it_was && !before_) {
+    renaming_->undo(data());
+    renaming_.reset();
   }
   moving_.reset();
   places_before_.reset();
   return result;
 }
 
+RemodelResult Step::remodel() {
+  if (moving_ && moving_->empty()) {
+    RemodelResult result = unchanged(data());
+    result.full_adjustment = true;
+    result.held = options_.strategy == Strategy::reference;
+    result.method = Method::specialised;
+    return result;
+  }
+  require_surfaces_apart(domain());
+  choose_method();
+  if (journalling_ == Journal::always) begin_journal();
+  renewing_ = renews(data(), options_);
+  if (renewing_) data().keep = std::max(data().keep, resolved_keep(options_, data().options));
+  std::optional<RemodelResult> followed = follow();
+  RemodelResult result = followed ? *std::move(followed) : adjust_or_replace();
+  result.method = method_;
+  return result;
+}
+
 void Step::find_moving_loops(const Domain& from) {
-  moving_ = moving_loops(data().arena, from, domain_);
-  other_discretisation_ = !moving_;
+  moving_ = moving_loops(data().arena, from, domain());
+  other_discretisation_ = !moving_ && (!correspondence_ || differs_much(data().domain, *correspondence_));
   if (moving_ && joined(data(), *moving_)) moving_.reset();
+}
+
+// Where the domain may correspond to the mesh's own otherwise than by the order of its loops. Domains that
+// are none are refused here.
+void Step::find_correspondence() {
+  const Domain& own = data().domain;
+  if (moving_ && (moving_->empty() || corresponds_by_index(own, wanted_, *moving_))) return;
+  validate(wanted_);
+  correspondence_ = correspond(own, wanted_);
+  structure_differs_ = !only_renames(own, *correspondence_);
+  differs_in_parts_ = structure_differs_ && corresponds_in_parts(own, *correspondence_);
+  if (!structure_differs_ && !same_names(own, *correspondence_)) {
+    renaming_.emplace(data(), *correspondence_);
+    data().marked.for_each([](ChangeRecord& record) { record.note_all_loops(); });
+  }
+  find_moving_loops(data().domain);
 }
 
 void Step::choose_method() {
@@ -213,13 +246,15 @@ std::optional<RemodelResult> Step::follow() {
     choose_method();
   }
   if (options_.strategy == Strategy::reference && moving_) {
-    RemodelResult result = follow_reference(mesh, domain_, *moving_, options_.delaunay_slack_deg);
+    RemodelResult result = follow_reference(mesh, domain(), *moving_, options_.delaunay_slack_deg);
     if (result.held) {
       result.stopped = what_still_stops();
       return result;
     }
   }
-  if (mesh.reference) leave_reference();
+  if (!mesh.reference) return std::nullopt;
+  leave_reference();
+  if (structure_differs_) correspondence_ = correspond(mesh.domain, wanted_);
   return std::nullopt;
 }
 
@@ -249,7 +284,7 @@ List<VertexId> Step::moved_since_before() const {
 RemodelResult Step::finish_return() {
   MeshData& mesh = data();
   for (const std::size_t loop : *moving_) {
-    mesh.domain.loops[loop] = domain_.loops[loop];
+    mesh.domain.loops[loop] = domain().loops[loop];
     mesh.loop_moved(loop);
   }
   RemodelResult result = count_replacement(mesh, moved_since_before());
@@ -263,9 +298,9 @@ RemodelResult Step::adjust_or_replace() {
   if (adjust_in_place()) return leaving_reference_ ? finish_return() : finish_adjustment();
   // A design that corresponds to the present one and cannot be meshed is found out by the replacement itself,
   // exactly: its loops cannot be recovered or do not nest. Then generation says where.
-  if (cache_ == nullptr || !cache_->finite()) validate(domain_);
+  if (cache_ == nullptr || !cache_->finite()) validate(domain());
   if (cancelled()) return take_back(), interrupted(data());
-  if (morph() || replace()) return std::move(result_);
+  if (change_locally() || morph() || replace()) return std::move(result_);
   take_back();
   if (result_.stopped == Stopped::interrupted) return interrupted(data());
   return options_.regenerate ? regenerate() : abandon();
@@ -283,7 +318,7 @@ bool Step::adjust_in_place() {
     record.reserve(cache_->moving.size(), mesh.triangulation.vertex_slots(), mesh.domain.loops.size());
   });
   if (refresh_is_due_ && !journal_) begin_journal();
-  return adjust_all(mesh, *cache_, domain_);
+  return adjust_all(mesh, *cache_, domain());
 }
 
 RemodelResult Step::finish_adjustment() {
@@ -322,9 +357,42 @@ bool Step::morph() {
   return (options_.strategy == Strategy::morph && morph_by(Interior::still)) || morph_by(Interior::along);
 }
 
+// Where the structure of the boundary differs: what corresponds stays where it is until the rest is in place,
+// and moves then as it does where all corresponds. False, and the mesh is as it was, where that cannot be
+// completed: then all that would move is replaced.
+bool Step::change_locally() {
+  if (!structure_differs_ || options_.method == Method::general) return false;
+  const bool along = morphs() && !has_surplus(data(), RenewPolicy::morph_surplus);
+  const bool still = along && options_.strategy == Strategy::morph;
+  const auto change_by = [&](std::optional<Interior> interior, Places places) {
+    if (result_.stopped == Stopped::interrupted) return false;
+    morphing_ = interior;
+    places_ = places;
+    const bool done = replace_by(differs_in_parts_ ? Method::specialised : Method::general);
+    morphing_.reset();
+    if (done) return true;
+    journal_.reset();
+    cache_ = nullptr;
+    data().cache.reset();
+    if (result_.stopped != Stopped::interrupted) result_ = {};
+    return false;
+  };
+  for (const Places places : {Places::joined, Places::present})
+    if ((still && change_by(Interior::still, places)) || (along && change_by(Interior::along, places)))
+      return true;
+  for (const Places places : {Places::joined, Places::present})
+    if (change_by(std::nullopt, places)) return true;
+  places_ = Places::wanted;
+  method_ = Method::general;
+  return false;
+}
+
 // After a full adjustment was not possible or does not apply: the paper's two methods, the specialised one
 // first, if it applies. False, with the reason in failure_, if neither can be completed.
 bool Step::replace() {
+  if (structure_differs_ &&
+      (options_.method == Method::specialised || result_.stopped == Stopped::interrupted))
+    return false;
   if (replace_by(method_)) return true;
   const bool other_left = method_ == Method::specialised && options_.method == Method::automatic &&
                           result_.stopped == Stopped::done;
@@ -356,9 +424,9 @@ bool Step::attempt() {
 
 // The specialised method ends with all of it Delaunay; the hull is as it was where the outermost loop rests.
 bool Step::leaves_outside_restored() const {
-  if (cache_ == nullptr || morphing_) return false;
+  if (cache_ == nullptr || morphing_ || structure_differs_) return false;
   return std::ranges::none_of(cache_->loops,
-                              [&](std::size_t loop) { return domain_.loops[loop].role == LoopRole::outer; });
+                              [&](std::size_t loop) { return domain().loops[loop].role == LoopRole::outer; });
 }
 
 bool Step::change_under_journal() {
@@ -419,18 +487,43 @@ Stopped Step::what_still_stops() {
 // over.
 std::optional<List<VertexId>> Step::change_boundary() {
   MeshData& mesh = data();
+  const ReplaceOptions options{.distance = options_.distance, .renewing = renewing_};
+  if (structure_differs_) return change_structure(options);
   if (morphing_) {
     note_moved(mesh, cache_->loops);
-    return morph_mesh(mesh, *cache_, domain_, *morphing_, bounds_of_morph());
+    return morph_mesh(mesh, *cache_, domain(), *morphing_, bounds_of_morph());
   }
-  const ReplaceOptions options{.distance = options_.distance, .renewing = renewing_};
   if (cache_ != nullptr) {
     note_moved(mesh, cache_->loops);
-    return replace_where_needed(mesh, *cache_, domain_, options);
+    return replace_where_needed(mesh, *cache_, domain(), options);
   }
-  replace_loops(mesh, domain_, options);
-  note_all_moved(mesh);
-  return List<VertexId>(&mesh.arena);
+  return change_structure(options);
+}
+
+// The same where boundary vertices do not all correspond, or are all to be replaced.
+std::optional<List<VertexId>> Step::change_structure(const ReplaceOptions& options) {
+  MeshData& mesh = data();
+  mesh.cache.reset();
+  if (!correspondence_) correspondence_ = correspond(mesh.domain, wanted_);
+  note_changed(mesh, *correspondence_);
+  replace_loops(mesh, *correspondence_, places_, options);
+  List<VertexId> moved(&mesh.arena);
+  const LoopIndices moving = settle(mesh, moved);
+  if (moving.empty()) return moved;
+  if (joined(mesh, moving)) throw RecoveryError("chains are joined to what moves");
+  cache_ = &adjust_cache(mesh, moving);
+  std::optional<List<VertexId>> others(&mesh.arena);
+  if (adjust_all(mesh, *cache_, domain())) {
+    for (std::size_t i = 0; i < cache_->moving.size(); ++i)
+      if (cache_->changes_place(i)) others->push_back(cache_->moving[i].vertex);
+  } else if (morphing_) {
+    others = morph_mesh(mesh, *cache_, domain(), *morphing_, bounds_of_morph());
+  } else {
+    others = replace_where_needed(mesh, *cache_, domain(), options);
+  }
+  if (!others) return std::nullopt;
+  moved.insert(moved.end(), others->begin(), others->end());
+  return moved;
 }
 
 // A new reference is as good as refinement makes it, so that designs around it are held.
@@ -446,7 +539,7 @@ void Step::note_replacement() {
   MeshData& mesh = data();
   mesh.marked.for_each([&](ChangeRecord& record) {
     note_journal(mesh.triangulation, record);
-    if (cache_ != nullptr)
+    if (cache_ != nullptr && !structure_differs_)
       record.note_loops(cache_->loops);
     else
       record.note_all_loops();
@@ -462,7 +555,7 @@ RemodelResult Step::abandon() {
 
 // After a step that failed and was taken back.
 RemodelResult Step::regenerate() {
-  GenerateResult fresh = generate(domain_, mesh_.options(), options_.observer);
+  GenerateResult fresh = generate(domain(), mesh_.options(), options_.observer);
   if (fresh.stopped == Stopped::interrupted) return interrupted(data());
   fresh.mesh.data().keep = mesh_.keep();
   fresh.mesh.data().renewal.take_count_factor(data().renewal);

@@ -3,9 +3,11 @@
 // One remodelling step, and the only owner of what it takes to undo it: journal, backup, and the mesh from
 // before where a fresh one takes its place.
 //
+//   find_correspondence()   the new domain's loops by geometry, where their order alone does not say it
 //   nothing moves           nothing is done
 //   follow()                Strategy::reference: all vertices go where the mesh's reference takes them
 //   adjust_in_place()       all boundary vertices moved to the new design, connectivity unchanged
+//   change_locally()        where the structure of the boundary differs: that is changed first, in place
 //   morph()                 Strategy::morph: the interior moves beside the walls or with them, what misses a
 //                           bound is mended
 //   replace()               what cannot move is relocated or replaced, what was touched is refined
@@ -17,7 +19,10 @@
 #include "remodel/generate.h"
 #include "remodel/remodel.h"
 #include "step/adjust.h"
+#include "step/correspondence.h"
+#include "step/methods.h"
 #include "step/morph.h"
+#include "step/rename.h"
 #include "step/step_journal.h"
 
 namespace remodel {
@@ -44,7 +49,10 @@ class Step {
  private:
   MeshData& data() { return mesh_.data(); }
   bool cancelled() const { return options_.observer != nullptr && options_.observer->cancelled(); }
-  void require_possible() const;
+  const Domain& domain() const { return correspondence_ ? correspondence_->domain : wanted_; }
+  void require_options() const;
+  void require_method() const;
+  RemodelResult remodel();
   void begin_journal();
   void take_back();
 
@@ -52,6 +60,7 @@ class Step {
     return options_.strategy == Strategy::morph || options_.strategy == Strategy::reference;
   }
   void find_moving_loops(const Domain& from);
+  void find_correspondence();
   void choose_method();
   std::optional<RemodelResult> follow();
   void leave_reference();
@@ -61,12 +70,14 @@ class Step {
   bool adjust_in_place();
   RemodelResult finish_adjustment();
   bool morph();
+  bool change_locally();
   bool replace();
   bool replace_by(Method method);
   bool attempt();
   bool leaves_outside_restored() const;
   bool change_under_journal();
   std::optional<List<VertexId>> change_boundary();
+  std::optional<List<VertexId>> change_structure(const ReplaceOptions& options);
   Made made() const {
     return !morphing_                                 ? Made::replaced
            : options_.strategy == Strategy::reference ? Made::reference
@@ -81,7 +92,7 @@ class Step {
   RemodelResult exchange(GenerateResult&& fresh);
 
   Mesh& mesh_;
-  const Domain& domain_;
+  const Domain& wanted_;
   const RemodelOptions& options_;
   const Journal journalling_;
   const double keep_before_;   // the mesh's own
@@ -91,7 +102,14 @@ class Step {
   std::optional<StepJournal> journal_;
   std::optional<Mesh> before_;  // where a fresh mesh has taken its place
 
+  // What was renamed before all else; taken back after all else.
+  std::optional<Renaming> renaming_;
+
   // While it runs.
+  std::optional<Correspondence> correspondence_;  // where it is not by index alone
+  bool structure_differs_ = false;                // of the boundary: not all segments correspond
+  bool differs_in_parts_ = false;                 // and most of each loop does
+  Places places_ = Places::wanted;                // of the attempt under way, where the structure differs
   std::optional<LoopIndices> moving_;  // the loops that differ, where their vertices correspond one to one
   Method method_ = Method::general;
   bool renewing_ = false;

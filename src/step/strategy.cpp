@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "mesh/renew_policy.h"
 #include "step/coarsen.h"
@@ -79,9 +78,15 @@ void note_moved(MeshData& mesh, std::span<const std::size_t> loops) {
   }
 }
 
-void note_all_moved(MeshData& mesh) {
-  mesh.renewal.pending_loops.resize(mesh.domain.loops.size());
-  std::iota(mesh.renewal.pending_loops.begin(), mesh.renewal.pending_loops.end(), 0U);
+void note_changed(MeshData& mesh, const Correspondence& to) {
+  std::vector<std::uint32_t>& pending = mesh.renewal.pending_loops;
+  const std::vector<std::uint32_t> before = pending;
+  pending.clear();
+  for (std::uint32_t i = 0; i < to.loops.size(); ++i) {
+    const LoopLinks& links = to.loops[i];
+    const bool stays = links.from != no_link && mesh.domain.loops[links.from] == to.domain.loops[i];
+    if (!stays || std::binary_search(before.begin(), before.end(), links.from)) pending.push_back(i);
+  }
 }
 
 void renew_replaced(MeshData& mesh, std::span<const VertexId> moved, std::size_t budget) {

@@ -16,6 +16,7 @@
 #include "mesh/mesh_data.h"
 #include "remodel/generate.h"
 #include "remodel/remodel.h"
+#include "step/correspondence.h"
 
 namespace remodel {
 
@@ -31,10 +32,11 @@ void calibrate(MeshData& mesh, int samples, StepObserver* observer = nullptr);
 // Whether the next replacement renews length scales, and those of all replacements since the last one with
 // it: much of what changes changes back with the designs, and what two of them change is looked at once.
 bool renewal_is_due(const MeshData& mesh);
-// That these loops have moved, or all of them: the next renewal looks around them. The first, of ascending
-// loops, throws nothing where pending_loops has room for all.
+// That these loops have moved, or those that are not the same in the domain to come, by whose order loops are
+// counted from then on: the next renewal looks around them. The first, of ascending loops, throws nothing
+// where pending_loops has room for all.
 void note_moved(MeshData& mesh, std::span<const std::size_t> loops);
-void note_all_moved(MeshData& mesh);
+void note_changed(MeshData& mesh, const Correspondence& to);
 
 // Under a journal, before a replacement that renews. Measures K if it is not known: a mesh that was never
 // remodelled is its own sample; otherwise a few are generated. Returns how many vertices coarsening may

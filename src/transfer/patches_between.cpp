@@ -91,7 +91,9 @@ class BetweenMeshes {
     for (std::uint32_t v = 0; v < after_.points.size(); ++v) {
       const std::uint32_t old = keys.find(after_.vertex_keys[v]);
       if (old == no_index || was_boundary[old] != is_boundary[v]) continue;
-      const bool same = is_boundary[v] ? same_parameter(old, v) : before_.points[old] == after_.points[v];
+      // At the same place it is the same, although a domain whose loops have another order counts its curves
+      // otherwise.
+      const bool same = before_.points[old] == after_.points[v] || (is_boundary[v] && same_parameter(old, v));
       if (same) patches_.same_vertices[v] = old;
     }
   }

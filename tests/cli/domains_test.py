@@ -142,6 +142,86 @@ KINDS = {
     "far_and_tiny": outlines([(1e6, 1e6), (1e6 + 1e-3, 1e6), (1e6 + 1e-3, 1e6 + 1e-3), (1e6, 1e6 + 1e-3)]),
 }
 
+def shuffled(text, seed):
+    """The same graph: points and segments in another order, segments the other way round."""
+    draw = random.Random(seed)
+    rows = [line.split() for line in text.splitlines()]
+    count = int(rows[0][0])
+    points, places = rows[1:1 + count], list(range(count))
+    draw.shuffle(places)
+    number = {row[0]: str(places[i]) for i, row in enumerate(points)}
+    lines = [" ".join(rows[0])]
+    lines += [" ".join([number[row[0]], *row[1:]]) for row in sorted(points, key=lambda row: int(number[row[0]]))]
+    head = rows[1 + count]
+    segments = rows[2 + count:2 + count + int(head[0])]
+    draw.shuffle(segments)
+    lines.append(" ".join(head))
+    for i, (_, a, b, *marker) in enumerate(segments):
+        ends = [number[a], number[b]] if draw.random() < 0.5 else [number[b], number[a]]
+        lines.append(" ".join([str(i), *ends, *marker]))
+    return "\n".join(lines + [" ".join(row) for row in rows[2 + count + int(head[0]):]]) + "\n"
+
+
+def house(x, y):
+    return [(x, y), (x + 3.0, y), (x + 3.0, y + 2.5), (x, y + 2.5)]
+
+
+def town(houses):
+    """Houses in a square; one with a neighbour against its wall where there is a sixth corner."""
+    corners = [[(0.0, 0.0), (42.0, 0.0), (42.0, 32.0), (0.0, 32.0)], *houses]
+    holes = [(sum(x for x, _ in h) / len(h), sum(y for _, y in h) / len(h)) for h in houses]
+    return outlines(*corners, holes=holes)
+
+
+HOUSES = [house(4.0 + 9.0 * i, 4.0 + 9.0 * j) for i in range(4) for j in range(3)]
+TERRACE = [*HOUSES, [(7.0, 4.0), (9.0, 4.0), (9.0, 6.5), (7.0, 6.5)]]
+
+
+class Orders(ProgramTest):
+    """What a mesh keeps does not depend on the order of its domain."""
+
+    def preserved(self, before, after, *more):
+        self.write("before.poly", before)
+        self.write("after.poly", after)
+        self.figures("mesh", "before.poly", "-o", "before.vtkhdf")
+        figures = self.figures("update", "before.vtkhdf", "after.poly", "-o", "after.vtkhdf", *more)
+        self.assertTrue(self.figures("check", "after.vtkhdf")["valid"])
+        return figures["preserved_percent"]
+
+    def test_graphs_in_another_order_keep_all_triangles(self):
+        for name, text in KINDS.items():
+            with self.subTest(name):
+                self.assertEqual(self.preserved(text, shuffled(text, 7)), 100)
+
+    def test_a_town_listed_backwards_or_from_other_corners_keeps_all_triangles(self):
+        for strategy in ("chain", "renew", "morph", "reference"):
+            for after in (HOUSES[::-1], [h[2:] + h[:2] for h in HOUSES], [h[::-1] for h in HOUSES]):
+                self.assertEqual(self.preserved(town(HOUSES), town(after), "--strategy", strategy), 100)
+                self.assertEqual(self.preserved(town(TERRACE), shuffled(town(TERRACE), 3), "--strategy", strategy), 100)
+
+    def test_a_house_that_is_gone_or_new_leaves_the_others(self):
+        for strategy in ("chain", "renew", "morph", "reference"):
+            for gone in (3, 7, 11):
+                less = TERRACE[:gone] + TERRACE[gone + 1:]
+                self.assertGreater(self.preserved(town(TERRACE), town(less), "--strategy", strategy), 85)
+                self.assertGreater(self.preserved(town(less), town(TERRACE[::-1]), "--strategy", strategy), 85)
+
+    def test_an_edge_that_opens_or_closes_keeps_connectivity(self):
+        for points in ("naca:2412", "rae2822"):
+            self.figures("mesh", points, "-o", "x.vtkhdf", "--points", 100)
+            fit = self.figures("fit", points, "-o", "x.json")
+            self.assertTrue(fit)
+            airfoil = json.loads(self.path("x.json").read_text())
+            airfoil["te_upper"], airfoil["te_lower"] = airfoil["te_upper"] + 0.002, airfoil["te_lower"] - 0.002
+            self.write("open.json", json.dumps(airfoil))
+            there = self.figures("update", "x.vtkhdf", "open.json", "--strategy", "morph", "-o", "y.vtkhdf")
+            back = self.figures("update", "y.vtkhdf", points, "--strategy", "morph", "-o", "z.vtkhdf")
+            for figures in (there, back):
+                self.assertEqual(figures["method"], "specialised")
+                self.assertGreater(figures["connectivity_percent"], 90)
+            for file in ("y.vtkhdf", "z.vtkhdf"):
+                self.assertTrue(self.figures("check", file)["valid"])
+
 
 class Graphs(ProgramTest):
     def mesh(self, text, *more):
