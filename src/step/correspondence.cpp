@@ -108,16 +108,31 @@ class Pairing {
   void find_same() {
     for (std::size_t i = 0; i < new_.size() && i < old_.size(); ++i)
       if (own_.loops[i] == result_.domain.loops[i]) take_same(i, i, false);
-    std::multimap<double, std::size_t> by_side;  // the left sides of boxes
+    double rounding = 0.0;
+    for (const std::vector<Outline>* outlines : {&old_, &new_})
+      for (const Outline& outline : *outlines) rounding = std::max(rounding, rounding_of(outline));
+    std::multimap<Cell, std::size_t> by_cell;  // by the lower left corners of boxes
     for (std::size_t j = 0; j < old_.size(); ++j)
-      if (!taken_[j]) by_side.emplace(old_[j].low.x, j);
+      if (!taken_[j]) by_cell.emplace(cell_of(old_[j].low, rounding), j);
     for (std::size_t i = 0; i < new_.size(); ++i) {
       if (partner_[i] != no_link || new_[i].size() == 0) continue;
-      const double rounding = rounding_of(new_[i]);
-      for (auto it = by_side.lower_bound(new_[i].low.x - rounding);
-           it != by_side.end() && it->first <= new_[i].low.x + rounding; ++it)
-        if (!taken_[it->second] && is_same(i, it->second)) break;
+      std::set<Cell> cells;  // that a corner within rounding may be in
+      for (const double x : {-rounding, rounding})
+        for (const double y : {-rounding, rounding})
+          cells.insert(cell_of(new_[i].low + Point{x, y}, rounding));
+      for (const Cell& cell : cells) {
+        const auto [begin, end] = by_cell.equal_range(cell);
+        const auto same = std::find_if(
+            begin, end, [&](const auto& entry) { return !taken_[entry.second] && is_same(i, entry.second); });
+        if (same != end) break;
+      }
     }
+  }
+
+  using Cell = std::pair<double, double>;
+  static Cell cell_of(Point p, double rounding) {
+    const double size = rounding > 0.0 ? 2.0 * rounding : 1.0;
+    return {std::floor(p.x / size), std::floor(p.y / size)};
   }
 
   bool is_same(std::size_t i, std::size_t j) {

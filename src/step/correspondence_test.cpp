@@ -480,8 +480,39 @@ TEST(Correspondence, AHeldMeshStaysHeldWhereOnlyTheOrderOfTheDomainIsAnother) {
   Domain back = domain(0.0102);
   std::swap(back.loops[0], back.loops[2]);
   back.loops[0].curves[0].name = "pier";
+  const MeshState state = mesh.state();
+  { const Trial trial(mesh, domain(0.0102), options); }
+  EXPECT_TRUE(mesh.state() == state);
   EXPECT_TRUE(remodel(mesh, back, options).held);
   EXPECT_EQ(mesh.quick_check(), "");
+  for (const Strategy strategy : strategies) {  // and where a loop goes
+    Mesh other_mesh = mesh;
+    Domain less = back;
+    less.loops.erase(less.loops.begin());
+    const MeshState before = other_mesh.state();
+    { const Trial trial(other_mesh, less, {.strategy = strategy}); }
+    EXPECT_TRUE(other_mesh.state() == before) << name_of(strategy);
+    EXPECT_FALSE(remodel(other_mesh, less, {.strategy = strategy}).regenerated);
+    EXPECT_EQ(fault_of(other_mesh), "") << name_of(strategy);
+  }
+}
+
+TEST(Correspondence, AStepThatEndsEarlyLeavesNamesAndOrderAsTheyWere) {
+  class Cancelling : public StepObserver {
+   public:
+    bool cancelled() override { return true; }
+  };
+  Domain domain = test::with_holes({test::square_hole(0.3, 0.3, 0.1), test::circle_hole(0.7, 0.7, 0.1)});
+  Mesh mesh = generate(domain).mesh;
+  const MeshState before = mesh.state();
+  std::swap(domain.loops[1], domain.loops[2]);
+  std::get<Arc>(domain.loops[1].curves[0].shape).centre.x = 0.6;
+  Cancelling observer;
+  EXPECT_EQ(remodel(mesh, domain, {.observer = &observer}).stopped, Stopped::interrupted);
+  EXPECT_TRUE(mesh.state() == before);
+  domain.loops.pop_back();
+  EXPECT_EQ(remodel(mesh, domain, {.observer = &observer}).stopped, Stopped::interrupted);
+  EXPECT_TRUE(mesh.state() == before);
 }
 
 }  // namespace
