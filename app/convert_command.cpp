@@ -42,11 +42,7 @@ Status run(const ConvertCommand& command) {
   const auto left_out = std::stable_partition(fields.begin(), fields.end(), is_finite);
   const auto kept = std::span(fields.begin(), left_out);
   // A native copy of a native mesh keeps its state.
-  if (input.living) {
-    command.outputs.write(*input.living, kept);
-  } else {
-    command.outputs.write(input.frozen, kept);
-  }
+  write_with_fields(command.outputs.with_boxes(input.su2_boxes), input, kept);
   Report report;
   report.figure("mesh", "mesh", command.mesh);
   report.figure("triangles", "triangles", input.frozen.triangles.size());

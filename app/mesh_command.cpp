@@ -12,6 +12,7 @@
 #include "outputs.h"
 #include "remodel/generate.h"
 #include "timing.h"
+#include "warnings.h"
 
 namespace remodel::app {
 namespace {
@@ -52,6 +53,7 @@ Status run(const MeshCommand& command) {
   report.figure("seconds", command.repeat > 1 ? "generation, median" : "generation", median(seconds),
                 "seconds");
   report.figure("stopped", "stopped", name_of(result.stopped));
+  warn_of_limit(result.stopped, result.mesh);
   add_output_figures(report, command.outputs.files());
   report.print(command.json);
   return result.stopped == Stopped::done ? Status::done : Status::limit;

@@ -16,9 +16,10 @@ namespace remodel::app {
 struct MeshInput {
   std::optional<Mesh> living;  // of a native file with state
   FrozenMesh frozen;
+  std::string su2_boxes = {};  // ReadNotes::su2_boxes
 };
 
-// Throws Error as the readers of io.h do. A native file whose state is damaged is refused, not taken for one
+// Warns of what the reader left out. Throws Error as the readers of io.h do. A native file whose state is damaged is refused, not taken for one
 // without state.
 MeshInput read_any_mesh(const std::filesystem::path& file);
 

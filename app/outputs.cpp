@@ -10,6 +10,7 @@
 
 #include "arguments.h"
 #include "remodel/error.h"
+#include "warnings.h"
 
 namespace remodel::app {
 
@@ -109,6 +110,8 @@ void MeshOutputs::write_each(const AnyMesh& mesh, std::span<const Field> fields)
     WriteOptions options = options_;
     if (inner_markers_) options.inner = InnerCurves::markers;
     const MeshFormat format = mesh_format(file);
+    if (!options.su2_boxes.empty() && format != MeshFormat::su2 && format != MeshFormat::vtkhdf)
+      app::warn(file + ": FFD boxes are left out, for which the format has no place");
     if (format != MeshFormat::su2 && format != MeshFormat::foam)
       options.fields = fields;
     else if constexpr (std::is_same_v<AnyMesh, Mesh>)
@@ -117,6 +120,12 @@ void MeshOutputs::write_each(const AnyMesh& mesh, std::span<const Field> fields)
       warn(mesh, file, format);
     write_mesh(mesh, file, options);
   }
+}
+
+MeshOutputs MeshOutputs::with_boxes(const std::string& su2_boxes) const {
+  MeshOutputs result = *this;
+  result.options_.su2_boxes = su2_boxes;
+  return result;
 }
 
 void MeshOutputs::write(const Mesh& mesh) const {

@@ -38,7 +38,7 @@ CstAirfoil load_airfoil(const std::string& shape, int degree, TrailingEdge trail
   return fit_cst_apart(read_airfoil(file), degree, trailing_edge).airfoil;
 }
 
-Domain load_domain(const std::filesystem::path& file) {
+Domain load_domain(const std::filesystem::path& file, double join, Joins* joins) {
   const auto resolve = [directory = file.parent_path()](const std::string& name, int degree,
                                                         TrailingEdge trailing_edge) {
     const std::filesystem::path beside = directory / name;
@@ -46,7 +46,10 @@ Domain load_domain(const std::filesystem::path& file) {
     return load_airfoil(std::filesystem::is_regular_file(beside, ignored) ? beside.string() : name, degree,
                         trailing_edge);
   };
-  return domain_from_json(read_text(file, largest_airfoil_file), file.string(), resolve);
+  Domain domain = domain_from_json(read_text(file, largest_airfoil_file), file.string(), resolve);
+  const Joins found = join_ends(domain, file.string(), join);
+  if (joins != nullptr) *joins = found;
+  return domain;
 }
 
 bool holds_domain(const std::filesystem::path& file) {
