@@ -30,9 +30,9 @@ Stopped ended(const Mesh& mesh) {
   return static_cast<Stopped>(mesh.state().stopped);
 }
 
-// The bounds of a mesh that a limit ended are a wish: what is beyond them is counted, unless the command line asks
-// for them. A native mesh is checked against its own design and options; any other mesh against the rules of every
-// triangulation and the options of the command line.
+// The bounds of a mesh that a limit ended are a wish: what is beyond them is counted, unless the command line
+// asks for them. A native mesh is checked against its own design and options; any other mesh against the
+// rules of every triangulation and the options of the command line.
 CheckOptions rules_for(const CheckCommand& command, const MeshInput& input) {
   CheckOptions options;
   if (input.living) {
@@ -45,7 +45,8 @@ CheckOptions rules_for(const CheckCommand& command, const MeshInput& input) {
     options.delaunay = false;
     options.unused_points = true;
   }
-  options.bounds = !input.living || ended(*input.living) == Stopped::done || command.min_angle || command.max_gradation;
+  options.bounds =
+      !input.living || ended(*input.living) == Stopped::done || command.min_angle || command.max_gradation;
   options.delaunay_slack_deg = command.delaunay_slack.value_or(options.delaunay_slack_deg);
   options.min_angle_deg = command.min_angle.value_or(options.min_angle_deg);
   options.max_gradation = command.max_gradation.value_or(options.max_gradation);

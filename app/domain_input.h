@@ -48,7 +48,8 @@ struct DomainInput {
   std::vector<ShapeOutline> outlines = {};                // of those that are not fitted
   bool in_farfield = false;                               // airfoils in the farfield of the options
 };
-// Warns of what was joined and left out. Throws Error as the readers do, and for more places or names than shapes.
+// Warns of what was joined and left out. Throws Error as the readers do, and for more places or names than
+// shapes.
 DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOptions& discretisation,
                         const FitOptions& fit);
 

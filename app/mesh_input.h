@@ -19,8 +19,8 @@ struct MeshInput {
   std::string su2_boxes = {};  // ReadNotes::su2_boxes
 };
 
-// Warns of what the reader left out. Throws Error as the readers of io.h do. A native file whose state is damaged is refused, not taken for one
-// without state.
+// Warns of what the reader left out. Throws Error as the readers of io.h do. A native file whose state is
+// damaged is refused, not taken for one without state.
 MeshInput read_any_mesh(const std::filesystem::path& file);
 
 // Writes the living mesh where there is one, so that native outputs keep its state.

@@ -1,7 +1,7 @@
 #pragma once
 
-// What a person has to know although the command went on: a line on standard error when it has ended (an error is
-// one line alone), and one of warnings[] in the JSON of its report.
+// What a person has to know although the command went on: a line on standard error when it has ended (an
+// error is one line alone), and one of warnings[] in the JSON of its report.
 
 #include <string>
 #include <vector>

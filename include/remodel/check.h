@@ -47,7 +47,7 @@ struct CheckOptions {
                                // radius-edge ratio (rounding of the ratio itself, 1e-15, with a margin)
   double max_gradation = 0.0;  // H; 0: not tested; needs length_scale
   bool delaunay = true;        // false: report in the result only
-  bool bounds = true;          // false: what is beyond the two above is counted in the result, and no violation
+  bool bounds = true;  // false: what is beyond the two above is counted in the result, and no violation
   double delaunay_slack_deg =
       0.0;                     // Mesh::delaunay_slack_deg(); 0 to 60. CheckResult::delaunay knows of none
   bool unused_points = false;  // true: points of no triangle are counted, not refused: other programs leave
@@ -73,8 +73,8 @@ struct CheckResult {
   std::size_t exempt_triangles = 0;
   // r / (H mean LS), H = sqrt(1/2) unless given, but for exempt triangles; NaN without length scales.
   double max_gradation = std::numeric_limits<double>::quiet_NaN();
-  std::size_t beyond_bounds = 0;    // triangles beyond a bound, but for exempt ones
-  std::size_t touching_points = 0;  // points where boundary loops touch
+  std::size_t beyond_bounds = 0;                // triangles beyond a bound, but for exempt ones
+  std::size_t touching_points = 0;              // points where boundary loops touch
   bool delaunay = false;                        // false too where orientation or adjacency is broken
   std::map<std::string, std::size_t> boundary;  // edges per name
   std::map<std::string, std::size_t> regions;   // triangles per region; empty where there is but one

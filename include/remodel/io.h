@@ -35,8 +35,8 @@ struct WriteOptions {
   // .su2 file has no place for fields. Gmsh knows no fields of two components: a third, 0, is added. Throws
   // Error (argument) unless they fit, see require_fit().
   std::span<const Field> fields = {};
-  // The boxes for free-form deformation of .su2 files, see ReadNotes: for .su2 and .vtkhdf files. Others have no
-  // place for them.
+  // The boxes for free-form deformation of .su2 files, see ReadNotes: for .su2 and .vtkhdf files. Others have
+  // no place for them.
   std::string su2_boxes = {};
 };
 // The names that have such edges, in the order of the mesh's boundaries.
@@ -49,17 +49,19 @@ void write_mesh(const Mesh& mesh, const std::filesystem::path& file, const Write
 
 // What is said of a file beside its mesh, and what goes along with it.
 struct ReadNotes {
-  // Sentences on what the file holds and the view has no place for, and on what was taken in another way than it
-  // stands there (a mesh in another plane).
+  // Sentences on what the file holds and the view has no place for, and on what was taken in another way than
+  // it stands there (a mesh in another plane).
   std::vector<std::string> warnings;
-  // SU2's boxes for free-form deformation, its lines as they are (FFD_NBOX= and what follows); no part of a mesh.
+  // SU2's boxes for free-form deformation, its lines as they are (FFD_NBOX= and what follows); no part of a
+  // mesh.
   std::string su2_boxes;
 };
 // Reads the frozen view of any format (triangles only; boundary by marker or physical name). What comes
 // through a pipe without an extension is known by how it begins.
 FrozenMesh read_frozen_mesh(const std::filesystem::path& file, ReadNotes* notes = nullptr);
-// The boxes in a .su2 or .vtkhdf file, and those of a mesh whose points are no longer the file's: FFD_SURFACE_POINTS=
-// name these by their numbers, and are left out (0; SU2_DEF sets them anew). surface_points: their number.
+// The boxes in a .su2 or .vtkhdf file, and those of a mesh whose points are no longer the file's:
+// FFD_SURFACE_POINTS= name these by their numbers, and are left out (0; SU2_DEF sets them anew).
+// surface_points: their number.
 std::string read_su2_boxes(const std::filesystem::path& file);
 std::string without_surface_points(const std::string& su2_boxes, std::size_t& surface_points);
 // The fields of reals in a file, on the vertices and triangles of read_frozen_mesh(): those on vertices
@@ -94,9 +96,9 @@ class KeptPipes {
 // 2^31.
 std::string read_text(const std::filesystem::path& file, std::size_t limit = std::size_t{1} << 32);
 
-// Triangle's .poly file (https://www.cs.cmu.edu/~quake/triangle.poly.html): vertices, segments, holes, regions,
-// whose attributes are their names; attributes and markers may be there or not, numbering starts at 0
-// or 1, comments begin with #. A file without vertices has them in the .node file of the same name. At most
+// Triangle's .poly file (https://www.cs.cmu.edu/~quake/triangle.poly.html): vertices, segments, holes,
+// regions, whose attributes are their names; attributes and markers may be there or not, numbering starts at
+// 0 or 1, comments begin with #. A file without vertices has them in the .node file of the same name. At most
 // 256 MiB. Throws Error (file, format) naming file and line.
 PlanarGraph read_poly(const std::filesystem::path& file);
 // Whether the file is one: it is called .poly, or is a pipe without an extension that begins with the first

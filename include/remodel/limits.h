@@ -8,8 +8,8 @@
 
 namespace remodel {
 
-// Where triangles are smallest, as a part of a sentence: "at (1, 2), where the walls "a" and "b" are 1e-9 apart".
-// O(triangles). Empty for a mesh without triangles.
+// Where triangles are smallest, as a part of a sentence: "at (1, 2), where the walls "a" and "b" are 1e-9
+// apart". O(triangles). Empty for a mesh without triangles.
 std::string crowded_place(const Mesh& mesh);
 
 }  // namespace remodel

@@ -50,14 +50,15 @@ struct PlanarFindings {
 
 // The domain of a graph. What lies on what, and what crosses, is decided exactly; what differs by rounding is
 // joined before: a point that is nearer than `join` of the graph's size, or of its largest coordinate, to an
-// earlier one is that one, and a segment as near to a point is led through it. Between them no mesh could go, see
-// default_join. 0 leaves points apart. Crossings are rounded, and joined in the same way (with default_join at
-// least); where that moves a segment over another one, that is a crossing too, and resolved. Boundary curves are
-// named by their markers ("3"), "boundary" for 0; inner ones "internal" for 0. Chains run between the points where
-// more or fewer than two segments end. A point of no segment inside is kept as a vertex. Regions give the parts of
-// the domain that they lie in their names; of several in one part the first. Throws Error (geometry) where the
-// graph encloses nothing, coordinates are out of range, or segments cross and that is refused (naming the two and
-// the place); Error (argument) unless join is 0 or 1e-15 to 0.01.
+// earlier one is that one, and a segment as near to a point is led through it. Between them no mesh could go,
+// see default_join. 0 leaves points apart. Crossings are rounded, and joined in the same way (with
+// default_join at least); where that moves a segment over another one, that is a crossing too, and resolved.
+// Boundary curves are named by their markers ("3"), "boundary" for 0; inner ones "internal" for 0. Chains run
+// between the points where more or fewer than two segments end. A point of no segment inside is kept as a
+// vertex. Regions give the parts of the domain that they lie in their names; of several in one part the
+// first. Throws Error (geometry) where the graph encloses nothing, coordinates are out of range, or segments
+// cross and that is refused (naming the two and the place); Error (argument) unless join is 0 or 1e-15 to
+// 0.01.
 Domain planar_domain(const PlanarGraph& graph, const std::string& source,
                      Crossings crossings = Crossings::insert, PlanarFindings* findings = nullptr,
                      double join = default_join);

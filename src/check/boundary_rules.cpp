@@ -81,7 +81,8 @@ struct Place {
   std::uint32_t position = 0;
 };
 
-// Loops that pass points where several touch are cut there: which piece comes after which is a matter of taste.
+// Loops that pass points where several touch are cut there: which piece comes after which is a matter of
+// taste.
 std::vector<std::vector<std::uint32_t>> loops_cut_at_joints(const Subject& subject) {
   std::vector<std::vector<std::uint32_t>> pieces;
   const auto& edges = subject.topology.edges();

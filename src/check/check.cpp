@@ -182,7 +182,8 @@ bool holds(const Subject& subject, std::uint32_t v, const Wedge& wedge, std::uin
                 : !(left_of(wedge.to, p) >= 0 && left_of(p, wedge.from) >= 0);
 }
 
-// Where loops touch, their fans lie side by side. (Edges that share a point are not asked whether they cross.)
+// Where loops touch, their fans lie side by side. (Edges that share a point are not asked whether they
+// cross.)
 void check_fans_are_apart(const Subject& subject, Report& report) {
   std::map<std::uint32_t, std::vector<Wedge>> wedges;
   for (const Edge& edge : subject.topology.edges())
@@ -197,9 +198,10 @@ void check_fans_are_apart(const Subject& subject, Report& report) {
         }
 }
 
-// A vertex's triangles form one fan: they are all reached by turning around it. Two fans touch like a bow tie, where
-// loops of the boundary do: in a mesh of a design only where its chains are joined. Without a design nobody says
-// where that may be, and the file's format must not decide it. Returns the fans of all vertices.
+// A vertex's triangles form one fan: they are all reached by turning around it. Two fans touch like a bow
+// tie, where loops of the boundary do: in a mesh of a design only where its chains are joined. Without a
+// design nobody says where that may be, and the file's format must not decide it. Returns the fans of all
+// vertices.
 std::size_t check_fans(const Subject& subject, CheckResult& result, Report& report) {
   const std::vector<std::uint32_t> expected = triangles_per_point(subject.mesh);
   std::vector<std::size_t> fans(subject.mesh.points.size(), 0), reached(subject.mesh.points.size(), 0);

@@ -366,10 +366,10 @@ TEST(Check, CountsLoopsThatTouchAtAPoint) {
 
 TEST(Check, NamesTrianglesThatOverlapWhereLoopsTouch) {
   // The second one inside the first, and across one of its sides; the last beside it.
-  for (const auto& [third, fourth, valid] : {std::tuple(Point{0.6, 0.2}, Point{0.6, 0.4}, false),
-                                             std::tuple(Point{0.6, 0.2}, Point{0.6, 1.4}, false),
-                                             std::tuple(Point{2, 0.5}, Point{2, 4}, false),
-                                             std::tuple(Point{0.6, 1.2}, Point{-0.6, 1.4}, true)}) {
+  for (const auto& [third, fourth, valid] :
+       {std::tuple(Point{0.6, 0.2}, Point{0.6, 0.4}, false),
+        std::tuple(Point{0.6, 0.2}, Point{0.6, 1.4}, false), std::tuple(Point{2, 0.5}, Point{2, 4}, false),
+        std::tuple(Point{0.6, 1.2}, Point{-0.6, 1.4}, true)}) {
     const FrozenMesh mesh = make_mesh({{0, 0}, {1, 0}, {1, 1}, third, fourth}, {{0, 1, 2}, {0, 3, 4}},
                                       {{"one", polygon({0, 1, 2})}, {"other", polygon({0, 3, 4})}});
     EXPECT_EQ(check(mesh).valid, valid) << third.x << " " << fourth.y;

@@ -33,8 +33,8 @@ std::vector<std::uint32_t> name_edges(const FrozenMesh& mesh, const Topology& to
 // Rule "boundary", second part: every edge with a triangle on one side only is named.
 void check_names_are_complete(const Subject& subject, Report& report);
 
-// Rule "boundary", third part: under each name, the edges of one loop are in the order of the loop; where loops
-// touch, those between two such points. Needs the fans of every vertex to be as they should.
+// Rule "boundary", third part: under each name, the edges of one loop are in the order of the loop; where
+// loops touch, those between two such points. Needs the fans of every vertex to be as they should.
 void check_order_of_names(const Subject& subject, Report& report);
 
 // Rule "area": the triangles' areas sum up to that of the named polygons, exactly.

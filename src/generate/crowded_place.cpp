@@ -48,8 +48,8 @@ std::string crowded_place(const Mesh& whole) {
   const auto name = [&](VertexId v) {
     return "\"" + mesh.curve(mesh.at(mesh.triangulation[v].boundary).curve).name + "\"";
   };
-  // Triangles between two walls have edges about as long as the way across: less than a quarter of it is something
-  // else.
+  // Triangles between two walls have edges about as long as the way across: less than a quarter of it is
+  // something else.
   if (!(between.squared <= 16.0 * any.squared))
     return "at " + exact_text(mesh.triangulation.point(any.a)) + ", where edges are " +
            rough_text(std::sqrt(any.squared)) + " long";

@@ -36,7 +36,8 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 // ---------------------------------------------------------------------------------------- all text formats
 
 const std::string splitting_advice =
-    ": quadrilaterals will be read by a later version; until then split each a b c d into the triangles a b c and a "
+    ": quadrilaterals will be read by a later version; until then split each a b c d into the triangles a b "
+    "c and a "
     "c d (ParaView's filter Triangulate does; Gmsh makes none without Recombine)";
 
 struct TextFormat {
@@ -165,8 +166,9 @@ TEST(BadMshFiles, VersionsThatAreNotReadAreNamed) {
 }
 
 TEST(BadMshFiles, EachProblemNamesItsLineAndWhatWasExpected) {
-  EXPECT_EQ(msh_problem(22, "\n9 2 2", "\n9 3 2"),
-            ":31: element of type 3 found, only triangles (type 2) and lines (type 1) expected" + splitting_advice);
+  EXPECT_EQ(
+      msh_problem(22, "\n9 2 2", "\n9 3 2"),
+      ":31: element of type 3 found, only triangles (type 2) and lines (type 1) expected" + splitting_advice);
   EXPECT_EQ(msh_problem(22, "\n9 2 2 3 1 1 2 5", "\n9 2 2 3 1 1 2 99"),
             ":31: node 99 found, the tag of one of the 8 nodes expected");
   EXPECT_EQ(msh_problem(22, "\n2 3 0 0\n", "\n1 3 0 0\n"),
@@ -215,8 +217,9 @@ TEST(BadVtuFiles, EachProblemNamesItsLineAndWhatWasExpected) {
             ": point 44 found in cell 0, an index below 8 expected");
   EXPECT_EQ(vtu_problem("\n0 1 4\n", "\n0 1 -4\n").substr(4),
             ": point -4 found in cell 0, an index below 8 expected");
-  EXPECT_EQ(vtu_problem("\n5\n5\n5\n", "\n5\n9\n5\n").substr(4),
-            ": cell 1 of type 9 found, only triangles (type 5) and lines (type 3) expected" + splitting_advice);
+  EXPECT_EQ(
+      vtu_problem("\n5\n5\n5\n", "\n5\n9\n5\n").substr(4),
+      ": cell 1 of type 9 found, only triangles (type 5) and lines (type 3) expected" + splitting_advice);
   EXPECT_EQ(vtu_problem("\n3\n6\n9\n", "\n3\n-6\n9\n").substr(4),
             ": 3 to -6 found for cell 1, 3 values of connectivity expected");
   EXPECT_EQ(vtu_problem("format=\"ascii\"", "format=\"morse\"").substr(0, 32),

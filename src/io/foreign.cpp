@@ -47,7 +47,8 @@ std::string listed(const std::vector<std::string>& names) {
 
 std::string_view advice_on(CellKind kind) {
   if (kind == CellKind::other) return "";
-  return ": quadrilaterals will be read by a later version; until then split each a b c d into the triangles a b c "
+  return ": quadrilaterals will be read by a later version; until then split each a b c d into the triangles "
+         "a b c "
          "and a c d (ParaView's filter Triangulate does; Gmsh makes none without Recombine)";
 }
 
@@ -69,7 +70,8 @@ std::vector<Point> in_their_plane(std::span<const double> coordinates, const std
                     ", z = " + number(coordinates[2]) + " as at point 0 expected: a mesh in one plane");
   }
   const std::size_t first = across == 0 ? 1 : 0, second = across == 2 ? 1 : 2;
-  const std::string plane = std::string(axis_names[across]) + " = " + number(coordinates.empty() ? 0.0 : coordinates[across]);
+  const std::string plane =
+      std::string(axis_names[across]) + " = " + number(coordinates.empty() ? 0.0 : coordinates[across]);
   if (across != 2)
     warnings.add("the mesh lies in the plane " + plane + ": its " + axis_names[first] + " and " +
                  axis_names[second] + " are taken for x and y");

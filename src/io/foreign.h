@@ -1,7 +1,7 @@
 #pragma once
 
-// What formats of other programs hold and a plane mesh of triangles does not: said in sentences, or taken as it is
-// meant.
+// What formats of other programs hold and a plane mesh of triangles does not: said in sentences, or taken as
+// it is meant.
 
 #include <span>
 #include <string>
@@ -33,9 +33,9 @@ std::string listed(const std::vector<std::string>& names);
 enum class CellKind { quadrilateral, other };
 std::string_view advice_on(CellKind kind);
 
-// Points in space (3 numbers each, finite) of a mesh that lies in a plane, as points of that plane: x and y where
-// z is the same everywhere but for rounding, else x and z, or y and z. Warns unless it is z = 0. Throws Error
-// (format) naming a point that leaves the plane.
+// Points in space (3 numbers each, finite) of a mesh that lies in a plane, as points of that plane: x and y
+// where z is the same everywhere but for rounding, else x and z, or y and z. Warns unless it is z = 0. Throws
+// Error (format) naming a point that leaves the plane.
 std::vector<Point> in_their_plane(std::span<const double> coordinates, const std::string& place,
                                   const Warnings& warnings);
 

@@ -134,7 +134,8 @@ class MshReader {
 
   void skip_section(std::string_view name, const std::string& end) {
     const bool is_field = name == "$NodeData" || name == "$ElementData" || name == "$Comments";
-    if (!is_field && std::find(sections_left_out_.begin(), sections_left_out_.end(), name) == sections_left_out_.end())
+    if (!is_field &&
+        std::find(sections_left_out_.begin(), sections_left_out_.end(), name) == sections_left_out_.end())
       sections_left_out_.emplace_back(name);
     if (binary_) {
       scan_.skip_past(end);
@@ -329,9 +330,10 @@ class MshReader {
     } else if (type == msh_point) {
       read_node();
     } else {
-      scan_.fail("element of type " + std::to_string(type) +
-                 " found, only triangles (type 2) and lines (type 1) expected" +
-                 std::string(advice_on(type == msh_quadrilateral ? CellKind::quadrilateral : CellKind::other)));
+      scan_.fail(
+          "element of type " + std::to_string(type) +
+          " found, only triangles (type 2) and lines (type 1) expected" +
+          std::string(advice_on(type == msh_quadrilateral ? CellKind::quadrilateral : CellKind::other)));
     }
   }
 
@@ -439,9 +441,9 @@ class MshReader {
   bool elements_seen_ = false;
   std::vector<double> coordinates_;  // of the nodes, until they are points
   std::vector<std::string> sections_left_out_;
-  std::vector<std::string> other_names_;                       // of physical points and volumes
-  std::set<std::pair<int, std::int64_t>> groups_used_;         // by dimension and physical tag
-  std::set<std::pair<int, std::int64_t>> second_groups_;       // that elements would have besides their first
+  std::vector<std::string> other_names_;                  // of physical points and volumes
+  std::set<std::pair<int, std::int64_t>> groups_used_;    // by dimension and physical tag
+  std::set<std::pair<int, std::int64_t>> second_groups_;  // that elements would have besides their first
   std::unordered_map<Nodes, std::int64_t, HashOfNodes> group_of_;  // of version 2's elements
   bool fields_wanted_ = false;
   std::int64_t element_tag_ = 0;  // of the element that is being read

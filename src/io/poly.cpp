@@ -71,8 +71,7 @@ class PolyReader {
     read_segments();
     read_holes();
     read_regions();
-    if (point_data_)
-      graph_.left_out.push_back(source_ + ": attributes and markers of points are left out");
+    if (point_data_) graph_.left_out.push_back(source_ + ": attributes and markers of points are left out");
     return std::move(graph_);
   }
 
@@ -142,8 +141,9 @@ class PolyReader {
     }
   }
 
-  // It may be missing too. A line has a number, a place, an attribute, which is the region's name, and an area that
-  // its triangles should not exceed; without the last one, or where it is not positive, there is no such bound.
+  // It may be missing too. A line has a number, a place, an attribute, which is the region's name, and an
+  // area that its triangles should not exceed; without the last one, or where it is not positive, there is no
+  // such bound.
   void read_regions() {
     std::optional<io::Scanner> header = lines_.next();
     if (!header) return;

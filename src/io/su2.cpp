@@ -55,7 +55,8 @@ class Su2Reader {
                   "point " + std::to_string(largest_.value) +
                       " found, an index below NPOIN= " + std::to_string(mesh_.points.size()) + " expected");
     }
-    if (!left_out_.empty()) warnings_.add("sections without a place in a mesh are left out: " + listed(left_out_));
+    if (!left_out_.empty())
+      warnings_.add("sections without a place in a mesh are left out: " + listed(left_out_));
     adopt_conventions(mesh_, file_);
     return std::move(mesh_);
   }
@@ -131,8 +132,9 @@ class Su2Reader {
     for (std::size_t i = 0; i < count; ++i) {
       const auto type = scan_.integer("an element");
       if (type != su2_triangle) {
-        scan_.fail("element of type " + std::to_string(type) + " found, only triangles (type 5) expected" +
-                   std::string(advice_on(type == su2_quadrilateral ? CellKind::quadrilateral : CellKind::other)));
+        scan_.fail(
+            "element of type " + std::to_string(type) + " found, only triangles (type 5) expected" +
+            std::string(advice_on(type == su2_quadrilateral ? CellKind::quadrilateral : CellKind::other)));
       }
       auto& [a, b, c] = mesh_.triangles.emplace_back();
       a = read_index();

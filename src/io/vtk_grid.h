@@ -30,7 +30,7 @@ struct VtkGrid {
   std::vector<std::int64_t> offsets;  // one more than cells, from 0
   std::vector<std::uint8_t> types;
   std::vector<std::string> boundary_names, region_names;
-  bool foreign_region = false;         // region is another program's array, which lines have too
+  bool foreign_region = false;        // region is another program's array, which lines have too
   std::uint32_t last_generation = 0;  // of vertex_key
 
   // Per cell. boundary: index into boundary_names, -1 for triangles. The others are empty or hold 0 for

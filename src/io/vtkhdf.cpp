@@ -286,9 +286,9 @@ FrozenMesh read_vtkhdf_frozen(const std::filesystem::path& file, ReadNotes* note
   const Hdf5Reader in(file);
   check_header(in);
   if (notes != nullptr) notes->su2_boxes = boxes_in(in);
-  return from_vtk_grid(read_grid(in), file.string(),
-                       [&](std::string_view array) { return place_of(in, array); },
-                       Warnings(notes, file.string()));
+  return from_vtk_grid(
+      read_grid(in), file.string(), [&](std::string_view array) { return place_of(in, array); },
+      Warnings(notes, file.string()));
 }
 
 std::string read_vtkhdf_boxes(const std::filesystem::path& file) {

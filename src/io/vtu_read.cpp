@@ -64,7 +64,8 @@ class VtuReader {
         grid.foreign_region = !grid.region.empty();
       }
     warn_of_arrays();
-    return from_vtk_grid(grid, file_, [this](std::string_view name) { return place_of(name); }, warnings_);
+    return from_vtk_grid(
+        grid, file_, [this](std::string_view name) { return place_of(name); }, warnings_);
   }
 
   std::vector<Field> read_fields() {

@@ -100,16 +100,16 @@ void Arrangement::route(const Piece& piece, VertexId through) {
   todo_.push_back({piece.from, through, piece.marker, piece.segment});
 }
 
-// A segment that misses a point of the graph by rounding, and is led through it. (Beside crossings it is their own
-// rounding.)
+// A segment that misses a point of the graph by rounding, and is led through it. (Beside crossings it is
+// their own rounding.)
 void Arrangement::count_as_joined(const Piece& piece, VertexId through) {
   if (through.index >= first_crossing_) return;
   const Point a = point(piece.from), along = point(piece.to) - a;
-  const double distance =
-      std::abs(remodel::cross(along, point(through) - a)) / std::sqrt(dot(along, along));
+  const double distance = std::abs(remodel::cross(along, point(through) - a)) / std::sqrt(dot(along, along));
   Joins& joins = findings.joins;
   if (joins.count++ == 0)
-    joins.first = name_of_segment(piece.segment) + " with the point at " + exact_text(point(through)) + " beside it";
+    joins.first =
+        name_of_segment(piece.segment) + " with the point at " + exact_text(point(through)) + " beside it";
   joins.largest = std::max(joins.largest, distance);
 }
 

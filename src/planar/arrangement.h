@@ -69,9 +69,9 @@ class Arrangement {
   std::map<Key, std::size_t> segment_of_;
   std::vector<Piece> todo_;
   double snap_ = 0.0;
-  std::size_t first_crossing_ = 0;        // vertices from here on are crossings
-  std::vector<bool> outside_;             // per triangle slot
-  std::vector<std::uint32_t> region_;     // per triangle slot: index in region_names_
+  std::size_t first_crossing_ = 0;     // vertices from here on are crossings
+  std::vector<bool> outside_;          // per triangle slot
+  std::vector<std::uint32_t> region_;  // per triangle slot: index in region_names_
   std::vector<std::string> region_names_{""};
 };
 

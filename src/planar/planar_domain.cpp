@@ -74,7 +74,8 @@ void add_single_points(const PlanarGraph& graph, Arrangement& arrangement, Domai
   }
 }
 
-// The first end of the outline that is open, and the nearest vertex that it might have met. Empty if there is none.
+// The first end of the outline that is open, and the nearest vertex that it might have met. Empty if there is
+// none.
 std::string open_end(const Arrangement& arrangement) {
   std::map<VertexId, std::vector<VertexId>> neighbours;
   for (const auto& [key, marker] : arrangement.edges()) {

@@ -1,5 +1,6 @@
-// Ends of chains that miss what they were meant to meet by rounding. First ends are moved onto stations, or the
-// station onto the end where that alone can be moved; then what is still as near is refused by its two places.
+// Ends of chains that miss what they were meant to meet by rounding. First ends are moved onto stations, or
+// the station onto the end where that alone can be moved; then what is still as near is refused by its two
+// places.
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +9,8 @@
 
 #include "geometry/near_points.h"
 #include "geometry/place_text.h"
-#include "remodel/join.h"
 #include "remodel/error.h"
+#include "remodel/join.h"
 
 namespace remodel {
 namespace {
@@ -106,8 +107,9 @@ std::string place_of(const Domain& domain, const Station& station) {
 [[noreturn]] void refuse(const std::string& source, const std::string& one, const std::string& other,
                          double distance, const std::string& expected) {
   throw Error(ErrorCode::geometry, source,
-              one + " and " + other + " are " + rough_text(distance) + " apart, which is rounding: expected " +
-                  expected + ", or --join 0 to take them as they are");
+              one + " and " + other + " are " + rough_text(distance) +
+                  " apart, which is rounding: expected " + expected +
+                  ", or --join 0 to take them as they are");
 }
 
 // ---- The work ----
@@ -200,8 +202,10 @@ class NearMisses {
 
  private:
   void compare(const Station& from, const Station& to) const {
-    const double low = std::min(from.at.x, to.at.x) - tolerance_, high = std::max(from.at.x, to.at.x) + tolerance_;
-    const double bottom = std::min(from.at.y, to.at.y) - tolerance_, top = std::max(from.at.y, to.at.y) + tolerance_;
+    const double low = std::min(from.at.x, to.at.x) - tolerance_,
+                 high = std::max(from.at.x, to.at.x) + tolerance_;
+    const double bottom = std::min(from.at.y, to.at.y) - tolerance_,
+                 top = std::max(from.at.y, to.at.y) + tolerance_;
     auto next = std::lower_bound(order_.begin(), order_.end(), low,
                                  [&](std::size_t i, double x) { return stations_[i].at.x < x; });
     for (; next != order_.end() && stations_[*next].at.x <= high; ++next) {
@@ -210,9 +214,8 @@ class NearMisses {
       if (other.at == from.at || other.at == to.at) continue;
       const double distance = distance_to_side(other.at, from.at, to.at);
       if (distance > 0.0 && distance <= tolerance_)
-        refuse(source_, place_of(domain_, other),
-               place_of(domain_, from) + " to " + exact_text(to.at) + ",", distance,
-               other.end ? "a station there that the end lies on" : "walls that are apart");
+        refuse(source_, place_of(domain_, other), place_of(domain_, from) + " to " + exact_text(to.at) + ",",
+               distance, other.end ? "a station there that the end lies on" : "walls that are apart");
     }
   }
 
