@@ -1,5 +1,6 @@
 #include "warnings.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "number_text.h"
@@ -16,7 +17,7 @@ std::vector<std::string>& list() {
 }  // namespace
 
 void warn(const std::string& sentence) {
-  list().push_back(sentence);
+  if (std::find(list().begin(), list().end(), sentence) == list().end()) list().push_back(sentence);
 }
 
 // File names and foreign content may hold anything; a sentence stays one line.

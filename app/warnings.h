@@ -12,7 +12,7 @@
 
 namespace remodel::app {
 
-void warn(const std::string& sentence);
+void warn(const std::string& sentence);  // once
 // All so far, in their order: of this run of the program.
 const std::vector<std::string>& warnings();
 void print_warnings();

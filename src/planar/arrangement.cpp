@@ -272,7 +272,13 @@ void Arrangement::mark_outside() {
     return is_new;
   };
   spread_from(triangulation_.star(infinite_vertex).triangle, mark);
-  for (const Point hole : graph_.holes) spread_from(triangle_at(hole), mark);
+  const std::vector<bool> around = outside_;
+  for (const Point hole : graph_.holes) {
+    if (around[triangle_at(hole).index])
+      findings.left_out.push_back("the hole at " + exact_text(hole) +
+                                  " lies outside of all outlines: left out");
+    spread_from(triangle_at(hole), mark);
+  }
 }
 
 void Arrangement::mark_regions() {
