@@ -71,8 +71,11 @@ TEST(JoinEnds, ChainsThatMeetAtOnePointByRoundingAreJoinedThere) {
 }
 
 TEST(JoinEnds, AStationMovesOntoTheEndOfAnArc) {
-  const Arc arc{.centre = {1, 0.5}, .radius = 0.5, .start = -std::numbers::pi / 2, .sweep = 1.0};
-  Domain domain{{box(), chain(arc)}};
+  const Arc arc{.centre = {1, 0.3}, .radius = 0.3, .start = -std::numbers::pi / 2 + 1e-15, .sweep = 1.0};
+  Loop wall = box();
+  wall.curves[0].shape = Polyline{{{0, 0}, {1, 0}, {2, 0}, {2, 1}, {0, 1}, {0, 0}}};
+  wall.curves[0].parameters = Parameters::uniform(5);
+  Domain domain{{wall, chain(arc)}};
   const Point end = point_at(arc, 0.0);
   ASSERT_FALSE(end == (Point{1, 0}));  // by rounding
   EXPECT_EQ(join_ends(domain, "file").count, 1U);

@@ -79,7 +79,7 @@ class Test(ProgramTest):
 class Rounding(Test):
     def test_walls_that_differ_by_rounding_are_joined_and_said(self):
         figures = self.warned("mesh", CASES / "party_wall.poly", "-o", "m.vtkhdf",
-                              names=["point 8 at (412012.25000000303, 5712000.5) with point 5 at (412012.25, 5712000.5)"])
+                              names=["point 8 at (412012.250000003, 5712000.5) with point 5 at (412012.25, 5712000.5)"])
         self.assertEqual(figures["stopped"], "done")
         self.assertEqual(figures["input"]["joined"], 2)
         self.assertAlmostEqual(figures["input"]["joined_distance"], 3.03e-9, delta=1e-10)
@@ -90,7 +90,7 @@ class Rounding(Test):
         figures = self.warned("mesh", CASES / "circle_closed_by_rounding.poly", "-o", "m.vtkhdf", names="point 36 at")
         self.assertEqual((figures["input"]["joined"], figures["stopped"]), (1, "done"))
         self.refused("mesh", CASES / "circle_closed_by_rounding.poly", "--join", "0", "-o", "n.vtkhdf",
-                     names="open at (5, 0.99999999999999956), 4.44e-16 away from the point at (5, 1)")
+                     names="open at (5, 1), 4.44e-16 away from the point at (5, 0.9999999999999996)")
 
     def test_a_point_beside_a_wall_by_rounding_is_on_it(self):
         beside = math.nextafter(5712000.5, 0)
@@ -199,9 +199,9 @@ class Losses(Test):
         plain = self.path("plain.su2").read_text()
         self.write("a.su2", plain + BOXES + SURFACE)
         self.quiet("convert", "a.su2", "-o", "b.su2", "-o", "b.vtkhdf")
-        self.assertTrue(self.path("b.su2").read_text().endswith(BOXES + SURFACE))
+        self.assertIn("\n" + BOXES + SURFACE, self.path("b.su2").read_text())
         self.quiet("convert", "b.vtkhdf", "-o", "c.su2")
-        self.assertTrue(self.path("c.su2").read_text().endswith(BOXES + SURFACE))
+        self.assertEqual(self.path("c.su2").read_text(), self.path("b.su2").read_text())
         self.warned("convert", "a.su2", "-o", "d.msh", names="FFD boxes are left out")
         self.warned("update", "a.su2", "rae2822", "--boundary", "airfoil", "-o", "e.su2", "-o", "e.vtkhdf",
                     names="2 surface points of FFD boxes")
