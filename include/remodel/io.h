@@ -55,6 +55,9 @@ struct ReadNotes {
   // SU2's boxes for free-form deformation, its lines as they are (FFD_NBOX= and what follows); no part of a
   // mesh.
   std::string su2_boxes;
+  // Triangles that Gmsh's version 2 lists once for each of their physical groups: taken once, in the first
+  // one.
+  std::size_t repeated_triangles = 0;
 };
 // Reads the frozen view of any format (triangles only; boundary by marker or physical name). What comes
 // through a pipe without an extension is known by how it begins.

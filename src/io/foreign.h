@@ -17,6 +17,9 @@ namespace remodel::io {
 class Warnings {
  public:
   Warnings(ReadNotes* notes, std::string file) : notes_(notes), file_(std::move(file)) {}
+  void count_repeated_triangle() const {
+    if (notes_ != nullptr) ++notes_->repeated_triangles;
+  }
   void add(const std::string& sentence) const {
     if (notes_ != nullptr) notes_->warnings.push_back(file_ + ": " + sentence);
   }

@@ -64,9 +64,11 @@ class MshReader {
     say(sections_left_out_, "sections without a place in a mesh are left out: ");
     std::vector<std::string> without_elements = other_names_;
     for (const auto& [group, name] : curve_names_)
-      if (!groups_used_.contains({1, group})) without_elements.push_back(name);
+      if (!groups_used_.contains({1, group}) && !second_groups_.contains({1, group}))
+        without_elements.push_back(name);
     for (const auto& [group, name] : surface_names_)
-      if (!groups_used_.contains({2, group})) without_elements.push_back(name);
+      if (!groups_used_.contains({2, group}) && !second_groups_.contains({2, group}))
+        without_elements.push_back(name);
     say(without_elements, "physical groups without lines and triangles are left out: ");
     std::vector<std::string> second;
     for (const auto& [dimension, group] : second_groups_)
@@ -344,6 +346,7 @@ class MshReader {
     const auto [entry, is_new] = group_of_.try_emplace(nodes, group);
     if (is_new || entry->second == group) return false;
     second_groups_.insert({dimension, group});
+    if (dimension == 2) warnings_.count_repeated_triangle();
     return true;
   }
 

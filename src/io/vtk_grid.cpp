@@ -42,7 +42,9 @@ class GridReader {
     }
     for (std::size_t cell = 0; cell < grid_.types.size(); ++cell) read_cell(cell);
     if (single_points_ > 0)
-      warnings_.add(std::to_string(single_points_) + " cells of one point (type 1) are left out");
+      warnings_.add(single_points_ == 1
+                        ? "a cell of one point (type 1) is left out"
+                        : std::to_string(single_points_) + " cells of one point (type 1) are left out");
     mesh_.length_scale = grid_.length_scale;
     mesh_.vertex_ids = grid_.vertex_id;
     mesh_.vertex_keys = grid_.vertex_key;
