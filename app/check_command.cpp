@@ -10,6 +10,9 @@
 #include "command.h"
 #include "figures.h"
 #include "mesh_input.h"
+#include "number_text.h"
+#include "remodel/mesh_state.h"
+#include "warnings.h"
 
 namespace remodel::app {
 namespace {
@@ -22,8 +25,14 @@ struct CheckCommand {
   bool json = false;
 };
 
-// A native mesh is checked against its own design and options; any other mesh against the rules of every
-// triangulation and the options of the command line.
+// Why refinement of the whole mesh ended.
+Stopped ended(const Mesh& mesh) {
+  return static_cast<Stopped>(mesh.state().stopped);
+}
+
+// The bounds of a mesh that a limit ended are a wish: what is beyond them is counted, unless the command line
+// asks for them. A native mesh is checked against its own design and options; any other mesh against the
+// rules of every triangulation and the options of the command line.
 CheckOptions rules_for(const CheckCommand& command, const MeshInput& input) {
   CheckOptions options;
   if (input.living) {
@@ -36,6 +45,8 @@ CheckOptions rules_for(const CheckCommand& command, const MeshInput& input) {
     options.delaunay = false;
     options.unused_points = true;
   }
+  options.bounds =
+      !input.living || ended(*input.living) == Stopped::done || command.min_angle || command.max_gradation;
   options.delaunay_slack_deg = command.delaunay_slack.value_or(options.delaunay_slack_deg);
   options.min_angle_deg = command.min_angle.value_or(options.min_angle_deg);
   options.max_gradation = command.max_gradation.value_or(options.max_gradation);
@@ -72,6 +83,17 @@ void add_gradation(Report& report, const CheckResult& result, const MeshInput& i
                 result.max_gradation);
 }
 
+void warn_of_result(const CheckCommand& command, const MeshInput& input, const CheckOptions& options,
+                    const CheckResult& result) {
+  if (result.touching_points > 0)
+    warn(command.mesh + ": loops of the boundary touch in " + std::to_string(result.touching_points) +
+         (result.touching_points == 1 ? " point" : " points"));
+  if (!options.bounds)
+    warn(command.mesh + ": refinement ended at a limit (" + name_of(ended(*input.living)) +
+         "): the mesh is valid but below its quality, " + std::to_string(result.beyond_bounds) +
+         " times beyond its bounds of " + short_text(options.min_angle_deg) + " degrees and of H");
+}
+
 Status run(const CheckCommand& command) {
   const MeshInput input = read_any_mesh(command.mesh);
   const CheckOptions options = rules_for(command, input);
@@ -83,6 +105,7 @@ Status run(const CheckCommand& command) {
                 input.living ? "native: the design and the options in the file" : "topology");
   report.figure("valid", "valid", result.valid);
   add_violations(report, result.violations);
+  warn_of_result(command, input, options, result);
   report.figure("triangles", "triangles", result.triangles);
   report.figure("vertices", "vertices", result.vertices);
   report.data("unused_points", result.unused_points);
@@ -90,6 +113,8 @@ Status run(const CheckCommand& command) {
     report.line("left out", std::to_string(result.unused_points) + " points of no triangle");
   report.figure("min_angle_deg", "smallest angle", result.min_angle_deg, "degrees");
   add_exemption_figures(report, result.exempt_triangles, result.min_held_angle_deg);
+  report.data("beyond_bounds", result.beyond_bounds);
+  report.data("touching_points", result.touching_points);
   add_gradation(report, result, input);
   report.figure("delaunay", "Delaunay", result.delaunay);
   add_boundary_figures(report, result.boundary);

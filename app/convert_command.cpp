@@ -10,6 +10,7 @@
 #include "outputs.h"
 #include "remodel/field.h"
 #include "remodel/io.h"
+#include "warnings.h"
 
 namespace remodel::app {
 namespace {
@@ -34,6 +35,14 @@ void add_field_names(Report& report, const std::string& key, const std::string& 
   report.line(label, text);
 }
 
+void warn_of_fields(const MeshOutputs& outputs, std::size_t fields) {
+  for (const std::string& file : outputs.files())
+    if (const MeshFormat format = mesh_format(file);
+        fields > 0 && (format == MeshFormat::su2 || format == MeshFormat::foam))
+      warn(file + ": " + std::to_string(fields) + (fields == 1 ? " field" : " fields") +
+           " left out, for which the format has no place");
+}
+
 Status run(const ConvertCommand& command) {
   command.outputs.require_possible();
   const MeshInput input = read_any_mesh(command.mesh);
@@ -42,11 +51,8 @@ Status run(const ConvertCommand& command) {
   const auto left_out = std::stable_partition(fields.begin(), fields.end(), is_finite);
   const auto kept = std::span(fields.begin(), left_out);
   // A native copy of a native mesh keeps its state.
-  if (input.living) {
-    command.outputs.write(*input.living, kept);
-  } else {
-    command.outputs.write(input.frozen, kept);
-  }
+  write_with_fields(command.outputs.with_boxes(input.su2_boxes), input, kept);
+  warn_of_fields(command.outputs, kept.size());
   Report report;
   report.figure("mesh", "mesh", command.mesh);
   report.figure("triangles", "triangles", input.frozen.triangles.size());

@@ -10,6 +10,7 @@
 #include "remodel/error.h"
 #include "remodel/io.h"
 #include "remodel/shape_files.h"
+#include "warnings.h"
 
 namespace remodel::app {
 namespace {
@@ -127,6 +128,11 @@ void add_domain_input(CLI::App& app, DomainInputOptions& options) {
              {"insert", "refuse"}, [&](std::size_t choice) {
                options.crossings = choice == 0 ? Crossings::insert : Crossings::refuse;
              });
+  add_real(app,
+           {"--join", "T", "1e-11",
+            "Places of a .poly or domain file that are nearer than T, a share of its size or of its largest "
+            "coordinate, differ by rounding: they are joined, and that is said; 1e-15 to 0.01, or 0: none"},
+           {.low = 0.0, .high = 0.01}, [&](double value) { options.join = value; });
 }
 
 bool is_single_airfoil(const DomainInputOptions& options) {
@@ -141,13 +147,19 @@ DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOp
     if (holds_graph(shape)) {
       require_alone(options, shape);
       input.findings.emplace();
-      input.domain = planar_domain(read_poly(shape), shape, options.crossings, &*input.findings);
+      const PlanarGraph graph = read_poly(shape);
+      input.domain = planar_domain(graph, shape, options.crossings, &*input.findings, options.join);
+      warn_of(input.findings->joins, shape);
+      for (const std::string& sentence : graph.left_out) warn(sentence);
+      for (const std::string& sentence : input.findings->left_out) warn(shape + ": " + sentence);
       validate(input.domain, shape);
       return input;
     }
     if (is_domain_file(shape)) {
       require_alone(options, shape);
-      input.domain = load_domain(shape);
+      Joins joins;
+      input.domain = load_domain(shape, options.join, &joins);
+      warn_of(joins, shape);
       return input;
     }
   }
@@ -193,6 +205,9 @@ void add_findings(Report& report, const DomainInput& input) {
   if (!input.findings) return;
   const PlanarFindings& found = *input.findings;
   report.data("input", {{"duplicate_points", found.duplicate_points},
+                        {"joined", found.joins.count},
+                        {"joined_distance", found.joins.largest},
+                        {"join_tolerance", found.joins.tolerance},
                         {"points_on_segments", found.points_on_segments},
                         {"crossings", found.crossings},
                         {"overlaps", found.overlaps},

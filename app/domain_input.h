@@ -9,6 +9,7 @@
 
 #include "remodel/domain.h"
 #include "remodel/generate.h"
+#include "remodel/join.h"
 #include "remodel/planar.h"
 #include "report.h"
 #include "shape_input.h"
@@ -24,10 +25,11 @@ struct DomainInputOptions {
   std::vector<std::string> places;  // "CHORD,DEGREES,X,Y", in the order of the shapes
   std::vector<std::string> names;   // of the airfoils' markers, likewise
   Crossings crossings = Crossings::insert;
+  double join = default_join;
   std::optional<OutlineCurve> as_given;  // no fit: a curve through the points of coordinate files
 };
 
-// SHAPE..., --place, --name, --crossings, --as-given.
+// SHAPE..., --place, --name, --crossings, --join, --as-given.
 void add_domain_input(CLI::App& app, DomainInputOptions& options);
 
 // True if the input is one airfoil without a place and a name, as opposed to a domain or an outline as given.
@@ -47,7 +49,8 @@ struct DomainInput {
   std::vector<ShapeOutline> outlines = {};                // of those that are not fitted
   bool in_farfield = false;                               // airfoils in the farfield of the options
 };
-// Throws Error as the readers do, and for more places or names than shapes.
+// Warns of what was joined and left out. Throws Error as the readers do, and for more places or names than
+// shapes.
 DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOptions& discretisation,
                         const FitOptions& fit);
 

@@ -21,6 +21,7 @@
 #include "remodel/error.h"
 #include "remodel/io.h"
 #include "remodel/version.h"
+#include "warnings.h"
 #ifdef REMODEL_STUDY
 #include "study/app/study_ranks.h"
 #endif
@@ -135,7 +136,9 @@ int run(const Words& words) {
   }
   try {
     program.parse(Words(words.rbegin(), words.rend()));
-    return static_cast<int>(action());
+    const Status status = action();
+    print_warnings();
+    return static_cast<int>(status);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return program.exit(error);
     return fail(Status::bad_input, "error: " + one_line(explain(error, program, words)));

@@ -11,6 +11,7 @@
 #include "meshing_options.h"
 #include "outputs.h"
 #include "timing.h"
+#include "warnings.h"
 
 namespace remodel::app {
 namespace {
@@ -51,6 +52,7 @@ Status run(const MeshCommand& command) {
   report.figure("seconds", command.repeat > 1 ? "generation, median" : "generation", median(seconds),
                 "seconds");
   report.figure("stopped", "stopped", name_of(result.stopped));
+  warn_of_limit(result.stopped, result.mesh);
   add_output_figures(report, command.outputs.files());
   report.print(command.json);
   return result.stopped == Stopped::done ? Status::done : Status::limit;

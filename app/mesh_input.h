@@ -16,10 +16,11 @@ namespace remodel::app {
 struct MeshInput {
   std::optional<Mesh> living;  // of a native file with state
   FrozenMesh frozen;
+  std::string su2_boxes = {};  // ReadNotes::su2_boxes
 };
 
-// Throws Error as the readers of io.h do. A native file whose state is damaged is refused, not taken for one
-// without state.
+// Warns of what the reader left out. Throws Error as the readers of io.h do. A native file whose state is
+// damaged is refused, not taken for one without state.
 MeshInput read_any_mesh(const std::filesystem::path& file);
 
 // Writes the living mesh where there is one, so that native outputs keep its state.

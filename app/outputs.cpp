@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <type_traits>
 
 #include "arguments.h"
 #include "remodel/error.h"
+#include "warnings.h"
 
 namespace remodel::app {
 
@@ -53,16 +53,14 @@ namespace {
 
 // What is missing in a file is said: whoever needs it there asks for it.
 void say_left_out(const std::vector<std::string>& curves, const std::string& file, const std::string& why) {
-  for (const std::string& name : curves)
-    std::fprintf(stderr, "remodel: %s: inner curve '%s' left out, %s\n", one_line(file).c_str(),
-                 one_line(name).c_str(), why.c_str());
+  for (const std::string& name : curves) warn(file + ": inner curve '" + name + "' left out, " + why);
 }
 
 // .su2 and .foam have no place for regions; where curves divide them, these are spoken of.
 void warn_of_regions(const FrozenMesh& mesh, const std::string& file) {
   if (mesh.region_names.size() > 1 && inner_curves(mesh).empty())
-    std::fprintf(stderr, "remodel: %s: %zu regions left out, for which the format has no place\n",
-                 one_line(file).c_str(), mesh.region_names.size());
+    warn(file + ": " + std::to_string(mesh.region_names.size()) +
+         " regions left out, for which the format has no place");
 }
 
 }  // namespace
@@ -97,7 +95,7 @@ void MeshOutputs::require_possible() const {
 
 template <class AnyMesh>
 void MeshOutputs::write_each(const AnyMesh& mesh, std::span<const Field> fields) const {
-  const auto warn = [&](const FrozenMesh& frozen, const std::string& file, MeshFormat format) {
+  const auto warn_of_losses = [&](const FrozenMesh& frozen, const std::string& file, MeshFormat format) {
     if (format == MeshFormat::foam)
       say_left_out(inner_curves(frozen), file, "as OpenFOAM has no patches inside a mesh");
     else if (!inner_markers_)
@@ -108,14 +106,22 @@ void MeshOutputs::write_each(const AnyMesh& mesh, std::span<const Field> fields)
     WriteOptions options = options_;
     if (inner_markers_) options.inner = InnerCurves::markers;
     const MeshFormat format = mesh_format(file);
+    if (!options.su2_boxes.empty() && format != MeshFormat::su2 && format != MeshFormat::vtkhdf)
+      warn(file + ": FFD boxes are left out, for which the format has no place");
     if (format != MeshFormat::su2 && format != MeshFormat::foam)
       options.fields = fields;
     else if constexpr (std::is_same_v<AnyMesh, Mesh>)
-      warn(mesh.freeze(), file, format);
+      warn_of_losses(mesh.freeze(), file, format);
     else
-      warn(mesh, file, format);
+      warn_of_losses(mesh, file, format);
     write_mesh(mesh, file, options);
   }
+}
+
+MeshOutputs MeshOutputs::with_boxes(const std::string& su2_boxes) const {
+  MeshOutputs result = *this;
+  result.options_.su2_boxes = su2_boxes;
+  return result;
 }
 
 void MeshOutputs::write(const Mesh& mesh) const {

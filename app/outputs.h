@@ -27,6 +27,8 @@ class MeshOutputs {
   // With fields, of which .su2 files have none.
   void write(const Mesh& mesh, std::span<const Field> fields) const;
   void write(const FrozenMesh& mesh, std::span<const Field> fields) const;
+  // Writes SU2's FFD boxes too (ReadNotes::su2_boxes), and warns of files that have no place for them.
+  MeshOutputs with_boxes(const std::string& su2_boxes) const;
   const std::vector<std::string>& files() const { return files_; }
 
  private:

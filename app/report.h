@@ -20,7 +20,7 @@ class Report {
   void data(const std::string& key, Json value);
   void line(const std::string& label, const std::string& text);
 
-  // The JSON object as text, with a final newline.
+  // The JSON object as text, with a final newline; "warnings" has those of warnings.h.
   std::string json_text() const;
   // Throws Error (file) if writing to standard output fails.
   void print_json() const;

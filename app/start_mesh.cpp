@@ -7,6 +7,7 @@
 #include "number_text.h"
 #include "remodel/error.h"
 #include "remodel/io.h"
+#include "warnings.h"
 
 namespace remodel::app {
 namespace {
@@ -20,6 +21,17 @@ std::optional<Mesh> read_native(const std::string& file) {
     if (error.code() != ErrorCode::argument) throw;
     return std::nullopt;
   }
+}
+
+// A remodelled mesh has other points.
+std::string boxes_alone(const std::string& su2_boxes, const std::string& file) {
+  std::size_t surface_points = 0;
+  std::string boxes = without_surface_points(su2_boxes, surface_points);
+  if (surface_points > 0)
+    warn(file + ": " + std::to_string(surface_points) +
+         " surface points of FFD boxes, which name points of this mesh, are left out: SU2_DEF with DV_KIND= "
+         "FFD_SETTING finds them anew");
+  return boxes;
 }
 
 void refuse_for_native(bool given, const char* option, const std::string& file) {
@@ -84,18 +96,28 @@ void add_start_mesh_options(CLI::App& app, StartMeshOptions& options) {
 }
 
 StartMesh read_start_mesh(const std::string& file, const StartMeshOptions& options) {
+  const KeptPipes once;
   if (std::optional<Mesh> native = read_native(file)) {
     refuse_for_native(options.refine_angle_deg.has_value(), "--refine-angle", file);
     refuse_for_native(options.gradation.has_value(), "--gradation", file);
     refuse_for_native(options.non_delaunay.has_value(), "--non-delaunay", file);
-    return {.mesh = std::move(*native), .source = file, .imported = std::nullopt};
+    return {.mesh = std::move(*native),
+            .source = file,
+            .imported = std::nullopt,
+            .su2_boxes = boxes_alone(read_su2_boxes(file), file)};
   }
   ImportOptions import;
   import.refine_angle_deg = options.refine_angle_deg.value_or(import.refine_angle_deg);
   import.gradation = options.gradation.value_or(import.gradation);
   import.non_delaunay = options.non_delaunay.value_or(import.non_delaunay);
-  ImportResult imported = import_mesh(read_frozen_mesh(file), file, import);
-  StartMesh start{.mesh = std::move(imported.mesh), .source = file, .imported = std::nullopt};
+  ReadNotes notes;
+  ImportResult imported = import_mesh(read_frozen_mesh(file, &notes), file, import);
+  warn_of(notes);
+  imported.duplicate_triangles += notes.repeated_triangles;
+  StartMesh start{.mesh = std::move(imported.mesh),
+                  .source = file,
+                  .imported = std::nullopt,
+                  .su2_boxes = boxes_alone(notes.su2_boxes, file)};
   imported.mesh = Mesh();
   start.imported = std::move(imported);
   return start;

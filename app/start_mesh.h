@@ -31,10 +31,11 @@ struct StartMesh {
   Mesh mesh;
   std::string source;                    // the file, for messages
   std::optional<ImportResult> imported;  // the result of the import, without its mesh
+  std::string su2_boxes = {};            // of the file, without points of its surface
 };
 
-// Reads any readable format. Throws Error as the readers and import_mesh() do, and for options that a native
-// mesh already has.
+// Reads any readable format, and warns of what is left out. Throws Error as the readers and import_mesh() do,
+// and for options that a native mesh already has.
 StartMesh read_start_mesh(const std::string& file, const StartMeshOptions& options);
 
 // The loop that is changed. Throws Error as find_airfoil() does, and if no boundary is named and the mesh has

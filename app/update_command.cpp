@@ -26,6 +26,7 @@
 #include "remodel_options.h"
 #include "start_mesh.h"
 #include "timing.h"
+#include "warnings.h"
 
 namespace remodel::app {
 namespace {
@@ -241,7 +242,7 @@ Status run(const UpdateCommand& command) {
   if (!command.reference.empty()) count_against_mesh(result, origin, after);
   if (!given_up) {
     cargo.carry(command.reference.empty() ? origin.before : origin.file, after);
-    command.outputs.write(mesh, cargo.fields());
+    command.outputs.with_boxes(start.su2_boxes).write(mesh, cargo.fields());
     cargo.write_state(after);
   }
   warn_of_losses(command, start, origin.file, after, result);
@@ -260,6 +261,7 @@ Status run(const UpdateCommand& command) {
   report.figure("seconds", command.repeat > 1 ? "remodelling, median" : "remodelling", median(seconds),
                 "seconds");
   report.figure("stopped", "stopped", name_of(result.stopped));
+  warn_of_limit(result.stopped, mesh);
   cargo.add_figures(report);
   if (!given_up) add_output_figures(report, command.outputs.files());
   report.print(command.json);

@@ -18,7 +18,8 @@
 //   delaunay       no inner edge without a name has the point across inside the triangle's circle (exact), or
 //                  the angles opposite to it sum up to at most 180 degrees and
 //                  CheckOptions::delaunay_slack_deg
-//   manifold       the triangles of a point form one fan
+//   manifold       the triangles of a point form one fan; or several, each between two boundary edges, where
+//                  loops of the boundary touch: in a mesh of a design where the design's chains are joined
 //   euler          V - E + F = 2 components - boundary loops
 //   overlap        boundary edges do not cross or touch, and no place is covered twice (exact)
 //   region         in a mesh of a design, named curves lie between two regions
@@ -46,6 +47,7 @@ struct CheckOptions {
                                // radius-edge ratio (rounding of the ratio itself, 1e-15, with a margin)
   double max_gradation = 0.0;  // H; 0: not tested; needs length_scale
   bool delaunay = true;        // false: report in the result only
+  bool bounds = true;  // false: what is beyond the two above is counted in the result, and no violation
   double delaunay_slack_deg =
       0.0;                     // Mesh::delaunay_slack_deg(); 0 to 60. CheckResult::delaunay knows of none
   bool unused_points = false;  // true: points of no triangle are counted, not refused: other programs leave
@@ -71,6 +73,8 @@ struct CheckResult {
   std::size_t exempt_triangles = 0;
   // r / (H mean LS), H = sqrt(1/2) unless given, but for exempt triangles; NaN without length scales.
   double max_gradation = std::numeric_limits<double>::quiet_NaN();
+  std::size_t beyond_bounds = 0;                // triangles beyond a bound, but for exempt ones
+  std::size_t touching_points = 0;              // points where boundary loops touch
   bool delaunay = false;                        // false too where orientation or adjacency is broken
   std::map<std::string, std::size_t> boundary;  // edges per name
   std::map<std::string, std::size_t> regions;   // triangles per region; empty where there is but one

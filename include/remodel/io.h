@@ -35,6 +35,9 @@ struct WriteOptions {
   // .su2 file has no place for fields. Gmsh knows no fields of two components: a third, 0, is added. Throws
   // Error (argument) unless they fit, see require_fit().
   std::span<const Field> fields = {};
+  // The boxes for free-form deformation of .su2 files, see ReadNotes: for .su2 and .vtkhdf files. Others have
+  // no place for them.
+  std::string su2_boxes = {};
 };
 // The names that have such edges, in the order of the mesh's boundaries.
 std::vector<std::string> inner_curves(const FrozenMesh& mesh);
@@ -44,9 +47,26 @@ void write_mesh(const FrozenMesh& mesh, const std::filesystem::path& file, const
 // vtkhdf with the full state, otherwise the frozen view.
 void write_mesh(const Mesh& mesh, const std::filesystem::path& file, const WriteOptions& options = {});
 
+// What is said of a file beside its mesh, and what goes along with it.
+struct ReadNotes {
+  // Sentences on what the file holds and the view has no place for, and on what was taken in another way than
+  // it stands there (a mesh in another plane).
+  std::vector<std::string> warnings;
+  // SU2's boxes for free-form deformation, its lines as they are (FFD_NBOX= and what follows); no part of a
+  // mesh.
+  std::string su2_boxes;
+  // Triangles that Gmsh's version 2 lists once for each of their physical groups: taken once, in the first
+  // one.
+  std::size_t repeated_triangles = 0;
+};
 // Reads the frozen view of any format (triangles only; boundary by marker or physical name). What comes
 // through a pipe without an extension is known by how it begins.
-FrozenMesh read_frozen_mesh(const std::filesystem::path& file);
+FrozenMesh read_frozen_mesh(const std::filesystem::path& file, ReadNotes* notes = nullptr);
+// The boxes in a .su2 or .vtkhdf file, and those of a mesh whose points are no longer the file's:
+// FFD_SURFACE_POINTS= name these by their numbers, and are left out (0; SU2_DEF sets them anew).
+// surface_points: their number.
+std::string read_su2_boxes(const std::filesystem::path& file);
+std::string without_surface_points(const std::string& su2_boxes, std::size_t& surface_points);
 // The fields of reals in a file, on the vertices and triangles of read_frozen_mesh(): those on vertices
 // first, in alphabetical order, without what belongs to the mesh itself (length_scale, parameter, ...). Left
 // out are fields of more than three components, of integers or text, and in .msh files those that say nothing
@@ -90,8 +110,8 @@ class KeptPipes {
 std::string read_text(const std::filesystem::path& file, std::size_t limit = std::size_t{1} << 32);
 
 // Triangle's .poly file (https://www.cs.cmu.edu/~quake/triangle.poly.html): vertices, segments, holes,
-// regional attributes (which are ignored); attributes and markers may be there or not, numbering starts at 0
-// or 1, comments begin with #. A file without vertices has them in the .node file of the same name. At most
+// regions, whose attributes are their names; attributes and markers may be there or not, numbering starts at
+// 0 or 1, comments begin with #. A file without vertices has them in the .node file of the same name. At most
 // 256 MiB. Throws Error (file, format) naming file and line.
 PlanarGraph read_poly(const std::filesystem::path& file);
 // Whether the file is one: it is called .poly, or is a pipe without an extension that begins with the first

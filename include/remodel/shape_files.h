@@ -9,6 +9,7 @@
 
 #include "remodel/airfoil.h"
 #include "remodel/domain.h"
+#include "remodel/join.h"
 
 namespace remodel {
 
@@ -22,8 +23,9 @@ CstAirfoil load_airfoil(const std::string& shape, int degree,
                         TrailingEdge trailing_edge = TrailingEdge::kept);
 
 // domain_from_json() of a file, where airfoils may be named as load_airfoil() takes them; their files are
-// looked for in the file's own directory first; validated, so that its errors name the file.
-Domain load_domain(const std::filesystem::path& file);
+// looked for in the file's own directory first. Then join_ends(): what was joined goes to `joins`;
+// and validate(), so that its errors name the file.
+Domain load_domain(const std::filesystem::path& file, double join = default_join, Joins* joins = nullptr);
 // holds_domain() of the text of a JSON file: one called .json, or a pipe whose text begins with '{'.
 bool holds_domain(const std::filesystem::path& file);
 

@@ -49,6 +49,16 @@ std::vector<std::uint32_t> name_edges(const FrozenMesh& mesh, const Topology& to
   return names;
 }
 
+std::vector<bool> points_of_several_loops(const Topology& topology, const FrozenMesh& mesh) {
+  std::vector<bool> once(mesh.points.size()), several(mesh.points.size());
+  for (const Edge& edge : topology.edges()) {
+    if (!edge.is_boundary()) continue;
+    several[edge.from] = several[edge.from] || once[edge.from];
+    once[edge.from] = true;
+  }
+  return several;
+}
+
 void check_names_are_complete(const Subject& subject, Report& report) {
   const std::vector<std::uint32_t> edges = boundary_edges(subject.topology);
   if (subject.mesh.boundaries.empty() && !edges.empty()) {
@@ -70,6 +80,23 @@ struct Place {
   std::uint32_t loop = none;
   std::uint32_t position = 0;
 };
+
+// Loops that pass points where several touch are cut there: which piece comes after which is a matter of
+// taste.
+std::vector<std::vector<std::uint32_t>> loops_cut_at_joints(const Subject& subject) {
+  std::vector<std::vector<std::uint32_t>> pieces;
+  const auto& edges = subject.topology.edges();
+  for (std::vector<std::uint32_t>& loop : subject.topology.loops()) {
+    const auto at_joint = [&](std::uint32_t e) { return subject.is_joint(edges[e].from); };
+    const auto first = std::find_if(loop.begin(), loop.end(), at_joint);
+    if (first != loop.end()) std::rotate(loop.begin(), first, loop.end());
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      if (i == 0 || at_joint(loop[i])) pieces.emplace_back();
+      pieces.back().push_back(loop[i]);
+    }
+  }
+  return pieces;
+}
 
 std::vector<Place> places_on_loops(const Topology& topology,
                                    const std::vector<std::vector<std::uint32_t>>& loops) {
@@ -96,7 +123,7 @@ bool follow_the_loop(const std::vector<std::uint32_t>& positions) {
 }  // namespace
 
 void check_order_of_names(const Subject& subject, Report& report) {
-  const auto loops = subject.topology.loops();
+  const auto loops = loops_cut_at_joints(subject);
   const std::vector<Place> places = places_on_loops(subject.topology, loops);
   for (const FrozenBoundary& boundary : subject.mesh.boundaries) {
     std::vector<std::vector<std::uint32_t>> positions(loops.size());

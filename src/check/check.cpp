@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
 
@@ -154,9 +155,54 @@ std::size_t fan_size(const Subject& subject, std::uint32_t v, std::uint32_t star
   return size;
 }
 
+// An open fan at a vertex, counter-clockwise from the edge that leaves it to the one that arrives.
+struct Wedge {
+  std::uint32_t from = none, to = none;  // the points across
+};
+
+Wedge wedge_of(const Subject& subject, const Edge& leaving) {
+  const std::uint32_t v = leaving.from;
+  std::uint32_t last = leaving.left;
+  for (auto t = last; t != none; t = turned(subject, v, t, Turn::counter_clockwise)) last = t;
+  const auto& corners = subject.mesh.triangles[last];
+  const auto at = static_cast<std::size_t>(std::find(corners.begin(), corners.end(), v) - corners.begin());
+  return {leaving.to, corners[(at + 2) % 3]};
+}
+
+// Whether the direction from v to p lies inside the wedge, or along its first side.
+bool holds(const Subject& subject, std::uint32_t v, const Wedge& wedge, std::uint32_t p) {
+  const auto left_of = [&](std::uint32_t a, std::uint32_t b) { return subject.exact.orientation(v, a, b); };
+  const auto along = [&](std::uint32_t a, std::uint32_t b) {
+    return left_of(a, b) == 0 && subject.exact.dot(v, a, b) > 0;
+  };
+  if (along(wedge.from, p)) return true;
+  if (along(wedge.to, p)) return false;
+  const bool convex = left_of(wedge.from, wedge.to) > 0;
+  return convex ? left_of(wedge.from, p) > 0 && left_of(p, wedge.to) > 0
+                : !(left_of(wedge.to, p) >= 0 && left_of(p, wedge.from) >= 0);
+}
+
+// Where loops touch, their fans lie side by side. (Edges that share a point are not asked whether they
+// cross.)
+void check_fans_are_apart(const Subject& subject, Report& report) {
+  std::map<std::uint32_t, std::vector<Wedge>> wedges;
+  for (const Edge& edge : subject.topology.edges())
+    if (edge.is_boundary() && subject.is_joint(edge.from))
+      wedges[edge.from].push_back(wedge_of(subject, edge));
+  for (const auto& [v, around] : wedges)
+    for (std::size_t i = 0; i < around.size(); ++i)
+      for (std::size_t k = 0; k < around.size(); ++k)
+        if (i != k && holds(subject, v, around[i], around[k].from)) {
+          report.add("overlap", {v}, sentence("triangles of point ", v, ", where loops touch, overlap"));
+          return;
+        }
+}
+
 // A vertex's triangles form one fan: they are all reached by turning around it. Two fans touch like a bow
-// tie, which only a design may ask for, where its chains are joined. Returns the fans of all vertices.
-std::size_t check_fans(const Subject& subject, Report& report) {
+// tie, where loops of the boundary do: in a mesh of a design only where its chains are joined. Without a
+// design nobody says where that may be, and the file's format must not decide it. Returns the fans of all
+// vertices.
+std::size_t check_fans(const Subject& subject, CheckResult& result, Report& report) {
   const std::vector<std::uint32_t> expected = triangles_per_point(subject.mesh);
   std::vector<std::size_t> fans(subject.mesh.points.size(), 0), reached(subject.mesh.points.size(), 0);
   for (const Edge& edge : subject.topology.edges()) {  // an open fan begins at a boundary edge
@@ -170,9 +216,11 @@ std::size_t check_fans(const Subject& subject, Report& report) {
       fans[v] = 1;
       reached[v] = fan_size(subject, v, t);
     }
-  for (std::uint32_t v = 0; v < fans.size(); ++v)
+  for (std::uint32_t v = 0; v < fans.size(); ++v) {
+    result.touching_points += fans[v] > 1 ? 1 : 0;
     if (reached[v] != expected[v] || (fans[v] > 1 && !subject.is_joint(v)))
       report.add("manifold", {v}, sentence("the triangles of point ", v, " do not form one fan"));
+  }
   return std::accumulate(fans.begin(), fans.end(), std::size_t{0});
 }
 
@@ -318,12 +366,17 @@ double check_gradation(const FrozenMesh& mesh, const Exemption* exemption, doubl
 
 void check_quality(const FrozenMesh& mesh, const Exemption* exemption, const CheckOptions& options,
                    CheckResult& result, Report& report) {
-  check_angles(mesh, exemption, options.min_angle_deg, result, report);
+  Report unwanted(0);
+  Report& bounds = options.bounds ? report : unwanted;
+  const std::size_t before = bounds.found();
+  check_angles(mesh, exemption, options.min_angle_deg, result, bounds);
   if (!mesh.length_scale.empty()) {
-    result.max_gradation = check_gradation(mesh, exemption, options.max_gradation, report);
+    result.max_gradation = check_gradation(mesh, exemption, options.max_gradation, bounds);
   } else if (options.max_gradation > 0.0) {
     report.add("gradation", {}, "the mesh has no length scales to test the gradation with");
+    return;
   }
+  result.beyond_bounds = bounds.found() - before;
 }
 
 // ---- Driver ----
@@ -350,10 +403,11 @@ void check_structure(const Subject& subject, bool oriented, const CheckOptions& 
         check_delaunay(subject, options.delaunay_slack_deg, options.delaunay ? report : unwanted);
   }
   const std::size_t before_fans = report.found();
-  const std::size_t fans = check_fans(subject, report);
+  const std::size_t fans = check_fans(subject, result, report);
   if (report.found() != before_fans) return;
   check_euler(subject, fans, report);
   check_order_of_names(subject, report);
+  if (oriented) check_fans_are_apart(subject, report);
   if (oriented) check_overlap(subject, report);
 }
 
@@ -371,7 +425,8 @@ void check_readable(const FrozenMesh& mesh, const CheckOptions& options, CheckRe
   const Topology topology(mesh, report);
   if (report.found() != before_adjacency) return check_quality(mesh, nullptr, options, result, report);
   Subject subject{mesh, topology, *exact, name_edges(mesh, topology, report), {}};
-  if (options.design != nullptr) subject.joints = joints_of(mesh, *options.design);
+  subject.joints =
+      options.design != nullptr ? joints_of(mesh, *options.design) : points_of_several_loops(topology, mesh);
   const Exemption exemption(mesh, topology, subject.name_of_edge);
   check_quality(mesh, &exemption, options, result, report);
   check_names_are_complete(subject, report);

@@ -33,8 +33,8 @@ std::vector<std::uint32_t> name_edges(const FrozenMesh& mesh, const Topology& to
 // Rule "boundary", second part: every edge with a triangle on one side only is named.
 void check_names_are_complete(const Subject& subject, Report& report);
 
-// Rule "boundary", third part: under each name, the edges of one loop are in the order of the loop. Needs
-// every vertex to have one fan.
+// Rule "boundary", third part: under each name, the edges of one loop are in the order of the loop; where
+// loops touch, those between two such points. Needs the fans of every vertex to be as they should.
 void check_order_of_names(const Subject& subject, Report& report);
 
 // Rule "area": the triangles' areas sum up to that of the named polygons, exactly.
@@ -45,6 +45,9 @@ void check_area(const Subject& subject, Report& report);
 // that triangles do not overlap: the number of triangles over a place is the sum of the loops' winding
 // numbers around it, which changes across loops only.
 void check_overlap(const Subject& subject, Report& report);
+
+// The points where several edges of the boundary begin: there its loops touch.
+std::vector<bool> points_of_several_loops(const Topology& topology, const FrozenMesh& mesh);
 
 // The points where several loops and chains of the design have a station.
 std::vector<bool> joints_of(const FrozenMesh& mesh, const Domain& design);

@@ -64,10 +64,10 @@ void write_mesh(const FrozenMesh& mesh, const std::filesystem::path& file, const
   const std::string name = file.string();
   switch (mesh_format(file)) {
     case MeshFormat::vtkhdf:
-      return io::write_vtkhdf(file, mesh, nullptr, options.fields);
+      return io::write_vtkhdf(file, mesh, nullptr, options);
     case MeshFormat::su2:
       refuse_fields(options, name, ".su2");
-      return write_text_atomically(file, io::su2_text(mesh, name, options.inner));
+      return write_text_atomically(file, io::su2_text(mesh, name, options.inner, options.su2_boxes));
     case MeshFormat::msh:
       return write_text_atomically(file, io::msh_text(mesh, options.msh_version, name, options.fields));
     case MeshFormat::vtu:
@@ -78,7 +78,7 @@ void write_mesh(const FrozenMesh& mesh, const std::filesystem::path& file, const
   }
 }
 
-FrozenMesh read_frozen_mesh(const std::filesystem::path& file) {
+FrozenMesh read_frozen_mesh(const std::filesystem::path& file, ReadNotes* notes) {
   const std::string name = file.string();
   const KeptPipes once;
   switch (io::format_to_read(file)) {
@@ -86,13 +86,13 @@ FrozenMesh read_frozen_mesh(const std::filesystem::path& file) {
     case MeshFormat::foam:
       break;
     case MeshFormat::su2:
-      return io::parse_su2(read_text(file), name);
+      return io::parse_su2(read_text(file), name, notes);
     case MeshFormat::msh:
-      return io::parse_msh(read_text(file), name);
+      return io::parse_msh(read_text(file), name, notes);
     case MeshFormat::vtu:
-      return io::parse_vtu(read_text(file), name);
+      return io::parse_vtu(read_text(file), name, notes);
   }
-  return io::read_vtkhdf_frozen(file);
+  return io::read_vtkhdf_frozen(file, notes);
 }
 
 std::vector<Field> read_fields(const std::filesystem::path& file) {

@@ -10,7 +10,7 @@ namespace remodel {
 
 void write_mesh(const Mesh& mesh, const std::filesystem::path& file, const WriteOptions& options) {
   if (mesh_format(file) != MeshFormat::vtkhdf) return write_mesh(mesh.freeze(), file, options);
-  io::write_vtkhdf(file, mesh, options.fields);
+  io::write_vtkhdf(file, mesh, options);
 }
 
 Mesh read_mesh(const std::filesystem::path& file) {

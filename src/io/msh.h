@@ -8,6 +8,7 @@ namespace remodel::io {
 
 inline constexpr int msh_line = 1;
 inline constexpr int msh_triangle = 2;
+inline constexpr int msh_quadrilateral = 3;
 inline constexpr int msh_point = 15;
 inline constexpr std::string_view vertex_keys_name = "vertex_key";  // of the nodes' data that holds them
 inline constexpr std::string_view domain_name = "domain";           // physical name of the triangles

@@ -2,6 +2,8 @@
 // https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format. Sections that say nothing about triangles and
 // boundary edges are skipped.
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -9,6 +11,7 @@
 #include <utility>
 
 #include "io/assemble.h"
+#include "io/foreign.h"
 #include "io/formats.h"
 #include "io/msh.h"
 #include "io/msh_fields.h"
@@ -21,16 +24,27 @@ namespace remodel::io {
 
 namespace {
 
+using Nodes = std::array<std::uint32_t, 3>;  // of an element, ascending
+
+struct HashOfNodes {
+  std::size_t operator()(const Nodes& nodes) const {
+    std::uint64_t hash = 0;
+    for (const std::uint32_t node : nodes) hash = (hash ^ node) * 0x9e3779b97f4a7c15U;
+    return static_cast<std::size_t>(hash ^ (hash >> 32));
+  }
+};
+
 class MshReader {
  public:
-  MshReader(std::string_view text, const std::string& file)
-      : scan_(text, file), numbers_(scan_), fields_(scan_, numbers_), file_(file) {}
+  MshReader(std::string_view text, const std::string& file, const Warnings& warnings)
+      : scan_(text, file), numbers_(scan_), fields_(scan_, numbers_), file_(file), warnings_(warnings) {}
 
   FrozenMesh read() {
     read_format();
     while (!scan_.at_end()) read_section();
     if (!nodes_seen_) scan_.fail_found("", "$Nodes");
     if (!elements_seen_) scan_.fail_found("", "$Elements");
+    say_what_is_left_out();
     RegionNames::finish(mesh_);
     adopt_conventions(mesh_, file_);
     return std::move(mesh_);
@@ -43,6 +57,25 @@ class MshReader {
   }
 
  private:
+  void say_what_is_left_out() const {
+    const auto say = [&](const std::vector<std::string>& names, const char* what) {
+      if (!names.empty()) warnings_.add(what + listed(names));
+    };
+    say(sections_left_out_, "sections without a place in a mesh are left out: ");
+    std::vector<std::string> without_elements = other_names_;
+    for (const auto& [group, name] : curve_names_)
+      if (!groups_used_.contains({1, group}) && !second_groups_.contains({1, group}))
+        without_elements.push_back(name);
+    for (const auto& [group, name] : surface_names_)
+      if (!groups_used_.contains({2, group}) && !second_groups_.contains({2, group}))
+        without_elements.push_back(name);
+    say(without_elements, "physical groups without lines and triangles are left out: ");
+    std::vector<std::string> second;
+    for (const auto& [dimension, group] : second_groups_)
+      second.push_back(name_in(dimension == 1 ? curve_names_ : surface_names_, group, "", 0));
+    say(second, "what is in several physical groups has the first one's name; left out there: ");
+  }
+
   void expect(std::string_view expected) {
     if (const auto found = scan_.word(expected); found != expected) scan_.fail_found(found, expected);
   }
@@ -94,14 +127,24 @@ class MshReader {
       name == "$NodeData"
           ? fields_.read(FieldPlace::vertices, binary_, node_indices_, mesh_.points.size())
           : fields_.read(FieldPlace::triangles, binary_, triangle_indices_, mesh_.triangles.size());
-    } else if (binary_) {
-      return scan_.skip_past(end);
     } else {
-      while (scan_.word(end) != end) {
-      }
+      skip_section(name, end);
       return;
     }
     expect(end);
+  }
+
+  void skip_section(std::string_view name, const std::string& end) {
+    const bool is_field = name == "$NodeData" || name == "$ElementData" || name == "$Comments";
+    if (!is_field &&
+        std::find(sections_left_out_.begin(), sections_left_out_.end(), name) == sections_left_out_.end())
+      sections_left_out_.emplace_back(name);
+    if (binary_) {
+      scan_.skip_past(end);
+    } else {
+      while (scan_.word(end) != end) {
+      }
+    }
   }
 
   void read_physical_names() {
@@ -114,6 +157,7 @@ class MshReader {
       }
       const std::string text(name.substr(1, name.size() - 2));
       if (dimension == 2) surface_names_[tag] = text;
+      if (dimension == 0 || dimension == 3) other_names_.push_back(text);
       if (dimension != 1) continue;
       if (!known_curves_.insert(text).second)
         scan_.fail("a second physical curve " + in_quotes(text) + " found, each name once expected");
@@ -130,19 +174,24 @@ class MshReader {
     const std::size_t volumes = scan_.count("a number of volumes");
     scan_.skip_line();
     for (std::size_t i = 0; i < points; ++i) scan_.integer("a point"), scan_.skip_line();
-    for (std::size_t i = 0; i < curves; ++i) read_entity("a curve", curve_groups_);
-    for (std::size_t i = 0; i < surfaces; ++i) read_entity("a surface", surface_groups_);
+    for (std::size_t i = 0; i < curves; ++i) read_entity("a curve", 1, curve_groups_);
+    for (std::size_t i = 0; i < surfaces; ++i) read_entity("a surface", 2, surface_groups_);
     for (std::size_t i = 0; i < volumes; ++i) scan_.integer("a volume"), scan_.skip_line();
   }
 
   // The first physical group counts.
-  void read_entity(const char* what, std::map<std::int64_t, std::int64_t>& groups) {
+  void read_entity(const char* what, int dimension, std::map<std::int64_t, std::int64_t>& groups) {
     const auto tag = scan_.integer(what);
     for (int k = 0; k < 6; ++k) scan_.real("a bounding box");
-    if (scan_.count("a number of physical tags") > 0) {
-      groups[tag] = std::abs(scan_.integer("a physical tag"));
-    }
+    for (auto left = scan_.count("a number of physical tags"); left > 0; --left)
+      add_group(dimension, tag, scan_.integer("a physical tag"), groups);
     scan_.skip_line();
+  }
+
+  void add_group(int dimension, std::int64_t entity, std::int64_t group,
+                 std::map<std::int64_t, std::int64_t>& groups) {
+    const auto [entry, is_first] = groups.try_emplace(entity, std::abs(group));
+    if (!is_first && entry->second != std::abs(group)) second_groups_.insert({dimension, std::abs(group)});
   }
 
   void read_binary_entities() {
@@ -160,8 +209,8 @@ class MshReader {
     const std::size_t groups = numbers_.count("a number of physical tags");
     for (std::size_t k = 0; k < groups; ++k) {
       const auto group = numbers_.integer("a physical tag");
-      if (dimension == 1) curve_groups_.try_emplace(tag, std::abs(group));
-      if (dimension == 2) surface_groups_.try_emplace(tag, std::abs(group));
+      if (dimension == 1) add_group(1, tag, group, curve_groups_);
+      if (dimension == 2) add_group(2, tag, group, surface_groups_);
     }
     if (dimension == 0) return;
     for (auto left = numbers_.count("a number of bounding entities"); left > 0; --left)
@@ -182,17 +231,12 @@ class MshReader {
   }
 
   void add_point() {
-    const double x = numbers_.coordinate();
-    const double y = numbers_.coordinate();
-    const double z = numbers_.coordinate();
-    if (mesh_.points.empty()) plane_z_ = z;
-    // A program that turned the mesh into the plane leaves rounding errors behind, no more.
-    constexpr double rounding = 1e-9;
-    if (std::abs(z - plane_z_) > rounding * (1.0 + std::abs(x) + std::abs(y))) {
-      scan_.fail("z = " + std::to_string(z) + " found, a mesh in a plane z = " + std::to_string(plane_z_) +
-                 " expected");
-    }
-    mesh_.points.push_back({x, y});
+    for (int axis = 0; axis < 3; ++axis) coordinates_.push_back(numbers_.coordinate());
+  }
+
+  void finish_points() {
+    mesh_.points = in_their_plane(coordinates_, file_, warnings_);
+    coordinates_ = {};
   }
 
   // A block's entity: version 4.0 has its tag first.
@@ -223,7 +267,8 @@ class MshReader {
         for (auto k = parametric ? dimension : 0; k > 0; --k) numbers_.real("a parameter");
       }
     }
-    expect_total(mesh_.points.size(), count, "nodes");
+    expect_total(node_indices_.size(), count, "nodes");
+    finish_points();
   }
 
   // The smallest and the largest tag, from version 4.1 on.
@@ -242,10 +287,11 @@ class MshReader {
       add_node_tag();
       add_point();
     }
+    finish_points();
   }
 
   void reserve_nodes(std::size_t count) {
-    mesh_.points.reserve(count);
+    coordinates_.reserve(3 * count);
     node_indices_.reserve(count);
   }
 
@@ -269,23 +315,37 @@ class MshReader {
   // curve.
   void add_element(std::int64_t type, std::int64_t group, std::int64_t entity) {
     if (type == msh_triangle) {
+      const std::uint32_t a = read_node(), b = read_node(), c = read_node();
+      if (is_listed_again(2, group, {a, b, c})) return;
       if (fields_wanted_)
         triangle_indices_[element_tag_] = static_cast<std::uint32_t>(mesh_.triangles.size());
+      groups_used_.insert({2, group});
       add_region(group);
-      auto& [a, b, c] = mesh_.triangles.emplace_back();
-      a = read_node();
-      b = read_node();
-      c = read_node();
+      mesh_.triangles.push_back({a, b, c});
     } else if (type == msh_line) {
-      auto& [a, b] = boundary_of(group, entity).edges.emplace_back();
-      a = read_node();
-      b = read_node();
+      const std::uint32_t a = read_node(), b = read_node();
+      if (is_listed_again(1, group, {a, b, a})) return;
+      groups_used_.insert({1, group});
+      boundary_of(group, entity).edges.push_back({a, b});
     } else if (type == msh_point) {
       read_node();
     } else {
-      scan_.fail("element of type " + std::to_string(type) +
-                 " found, only triangles (type 2) and lines (type 1) expected");
+      scan_.fail(
+          "element of type " + std::to_string(type) +
+          " found, only triangles (type 2) and lines (type 1) expected" +
+          std::string(advice_on(type == msh_quadrilateral ? CellKind::quadrilateral : CellKind::other)));
     }
+  }
+
+  // Version 2 lists what is in several physical groups once for each.
+  bool is_listed_again(int dimension, std::int64_t group, Nodes nodes) {
+    if (version_4_) return false;
+    std::sort(nodes.begin(), nodes.end());
+    const auto [entry, is_new] = group_of_.try_emplace(nodes, group);
+    if (is_new || entry->second == group) return false;
+    second_groups_.insert({dimension, group});
+    if (dimension == 2) warnings_.count_repeated_triangle();
+    return true;
   }
 
   static std::string name_in(const std::map<std::int64_t, std::string>& names, std::int64_t group,
@@ -373,13 +433,19 @@ class MshReader {
   MshNumbers numbers_;
   MshFields fields_;
   std::string file_;
+  Warnings warnings_;
   FrozenMesh mesh_;
   bool version_4_ = false;
   bool early_4_ = false;  // 4.0
   bool binary_ = false;
   bool nodes_seen_ = false;
   bool elements_seen_ = false;
-  double plane_z_ = 0.0;
+  std::vector<double> coordinates_;  // of the nodes, until they are points
+  std::vector<std::string> sections_left_out_;
+  std::vector<std::string> other_names_;                  // of physical points and volumes
+  std::set<std::pair<int, std::int64_t>> groups_used_;    // by dimension and physical tag
+  std::set<std::pair<int, std::int64_t>> second_groups_;  // that elements would have besides their first
+  std::unordered_map<Nodes, std::int64_t, HashOfNodes> group_of_;  // of version 2's elements
   bool fields_wanted_ = false;
   std::int64_t element_tag_ = 0;  // of the element that is being read
   std::unordered_map<std::int64_t, std::uint32_t> node_indices_;
@@ -397,11 +463,12 @@ class MshReader {
 
 }  // namespace
 
-FrozenMesh parse_msh(std::string_view text, const std::string& file) {
-  FrozenMesh mesh = MshReader(text, file).read();
+FrozenMesh parse_msh(std::string_view text, const std::string& file, ReadNotes* notes) {
+  const Warnings unheard(nullptr, file);
+  FrozenMesh mesh = MshReader(text, file, Warnings(notes, file)).read();
   take_steiner_notes(text, mesh);
   if (text.find(vertex_keys_name) == std::string_view::npos) return mesh;
-  const std::vector<Field> fields = MshReader(text, file).read_fields();
+  const std::vector<Field> fields = MshReader(text, file, unheard).read_fields();
   const Field* keys = find_field(fields, std::string(vertex_keys_name));
   if (keys == nullptr || keys->values.size() != mesh.points.size()) return mesh;
   for (const double key : keys->values)
@@ -411,7 +478,7 @@ FrozenMesh parse_msh(std::string_view text, const std::string& file) {
 }
 
 std::vector<Field> parse_msh_fields(std::string_view text, const std::string& file) {
-  std::vector<Field> fields = MshReader(text, file).read_fields();
+  std::vector<Field> fields = MshReader(text, file, Warnings(nullptr, file)).read_fields();
   std::erase_if(fields, [](const Field& field) {
     return field.name == vertex_keys_name && field.place == FieldPlace::vertices;
   });

@@ -5,6 +5,7 @@
 #include <optional>
 #include <sstream>
 
+#include "geometry/place_text.h"
 #include "io/scanner.h"
 #include "remodel/error.h"
 #include "remodel/io.h"
@@ -56,16 +57,21 @@ class PolyReader {
  public:
   PolyReader(std::string_view poly, const std::string& source, std::string_view node,
              const std::string& node_source)
-      : lines_(poly, source), node_(node), node_source_(node_source) {}
+      : lines_(poly, source), source_(source), node_(node), node_source_(node_source) {}
 
   PlanarGraph read() {
     read_vertices(lines_);
     if (graph_.points.empty()) {
+      if (node_.data() == nullptr)
+        throw Error(ErrorCode::file, node_source_.empty() ? source_ : node_source_,
+                    "is missing: " + source_ + " has no vertices of its own, which are expected there");
       Lines node(node_, node_source_);
       read_vertices(node);
     }
     read_segments();
     read_holes();
+    read_regions();
+    if (point_data_) graph_.left_out.push_back(source_ + ": attributes and markers of points are left out");
     return std::move(graph_);
   }
 
@@ -88,6 +94,7 @@ class PolyReader {
       }
       const double x = line.coordinate();
       graph_.points.push_back({x, line.coordinate()});
+      if (!line.at_end()) point_data_ = point_data_ || attributes > 0 || line.word("a marker") != "0";
     }
   }
 
@@ -121,7 +128,7 @@ class PolyReader {
     return static_cast<int>(marker);
   }
 
-  // The section may be missing. What follows it, regional attributes, is not read.
+  // The section may be missing.
   void read_holes() {
     std::optional<io::Scanner> header = lines_.next();
     if (!header) return;
@@ -134,7 +141,33 @@ class PolyReader {
     }
   }
 
+  // It may be missing too. A line has a number, a place, an attribute, which is the region's name, and an
+  // area that its triangles should not exceed; without the last one, or where it is not positive, there is no
+  // such bound.
+  void read_regions() {
+    std::optional<io::Scanner> header = lines_.next();
+    if (!header) return;
+    const std::size_t count = lines_.count(*header, "a number of regions");
+    std::size_t bounds = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      io::Scanner line = lines_.require("a region");
+      line.integer("a region number");
+      const double x = line.coordinate();
+      PlanarGraph::Region region{.at = {x, line.coordinate()}, .name = ""};
+      if (!line.at_end()) region.name = exact_text(line.real("a region's attribute"));
+      if (!line.at_end()) region.max_area = std::max(line.real("a region's largest area"), 0.0);
+      bounds += region.max_area > 0.0 ? 1 : 0;
+      graph_.regions.push_back(std::move(region));
+    }
+    if (bounds > 0)
+      graph_.left_out.push_back(source_ + ": the area bounds of " + std::to_string(bounds) +
+                                (bounds == 1 ? " region" : " regions") +
+                                " are left out: sizes follow from the distances of the boundary's points");
+  }
+
   Lines lines_;
+  std::string source_;
+  bool point_data_ = false;  // there is some that a graph has no place for
   std::string_view node_;
   std::string node_source_;
   PlanarGraph graph_;
@@ -165,9 +198,8 @@ PlanarGraph read_poly(const std::filesystem::path& file) {
   std::filesystem::path node = file;
   node.replace_extension(".node");
   std::error_code ignored;
-  const bool beside = std::filesystem::is_regular_file(node, ignored);
-  return parse_poly(poly, file.string(), beside ? read_text(node, largest_file) : std::string(),
-                    node.string());
+  if (!std::filesystem::exists(node, ignored)) return parse_poly(poly, file.string(), {}, node.string());
+  return parse_poly(poly, file.string(), read_text(node, largest_file), node.string());
 }
 
 }  // namespace remodel

@@ -46,6 +46,11 @@ class Scanner {
   std::string_view bytes(std::size_t count, std::string_view expected);
   // Everything up to the end of the next place where `end` stands.
   void skip_past(std::string_view end);
+  // What has been read since, as it stands; comments too.
+  std::size_t position() const { return position_; }
+  std::string_view text_from(std::size_t position) const {
+    return text_.substr(position, position_ - position);
+  }
   std::size_t bytes_left() const { return text_.size() - position_; }
 
   std::size_t line() const { return line_; }  // of the last word

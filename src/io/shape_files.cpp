@@ -38,7 +38,7 @@ CstAirfoil load_airfoil(const std::string& shape, int degree, TrailingEdge trail
   return fit_cst_apart(read_airfoil(file), degree, trailing_edge).airfoil;
 }
 
-Domain load_domain(const std::filesystem::path& file) {
+Domain load_domain(const std::filesystem::path& file, double join, Joins* joins) {
   const auto resolve = [directory = file.parent_path()](const std::string& name, int degree,
                                                         TrailingEdge trailing_edge) {
     const std::filesystem::path beside = directory / name;
@@ -47,6 +47,8 @@ Domain load_domain(const std::filesystem::path& file) {
                         trailing_edge);
   };
   Domain domain = domain_from_json(read_text(file, largest_airfoil_file), file.string(), resolve);
+  const Joins found = join_ends(domain, file.string(), join);
+  if (joins != nullptr) *joins = found;
   validate(domain, file.string());
   return domain;
 }

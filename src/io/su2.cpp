@@ -4,10 +4,12 @@
 #include <utility>
 
 #include "io/assemble.h"
+#include "io/foreign.h"
 #include "io/formats.h"
 #include "io/scanner.h"
 #include "io/steiner_note.h"
 #include "io/text_writer.h"
+#include "io/vtkhdf.h"
 #include "remodel/error.h"
 
 namespace remodel::io {
@@ -23,6 +25,7 @@ struct LargestIndex {
 // Element types are VTK's cell types.
 constexpr int su2_line = 3;
 constexpr int su2_triangle = 5;
+constexpr int su2_quadrilateral = 9;
 
 void check_marker(const std::string& name, const std::string& file) {
   const auto bad = [](char c) { return static_cast<unsigned char>(c) <= ' ' || c == '%'; };
@@ -34,7 +37,8 @@ void check_marker(const std::string& name, const std::string& file) {
 
 class Su2Reader {
  public:
-  Su2Reader(std::string_view text, const std::string& file) : scan_(text, file, '%'), file_(file) {}
+  Su2Reader(std::string_view text, const std::string& file, const Warnings& warnings)
+      : scan_(text, file, '%'), file_(file), warnings_(warnings) {}
 
   FrozenMesh read() {
     while (!scan_.at_end()) read_section();
@@ -51,9 +55,13 @@ class Su2Reader {
                   "point " + std::to_string(largest_.value) +
                       " found, an index below NPOIN= " + std::to_string(mesh_.points.size()) + " expected");
     }
+    if (!left_out_.empty())
+      warnings_.add("sections without a place in a mesh are left out: " + listed(left_out_));
     adopt_conventions(mesh_, file_);
     return std::move(mesh_);
   }
+
+  std::string take_boxes() { return std::move(boxes_); }
 
  private:
   void read_section() {
@@ -74,17 +82,29 @@ class Su2Reader {
       if (const auto zones = scan_.integer("NZONE= 1"); zones != 1) {
         scan_.fail_found("NZONE= " + std::to_string(zones), "NZONE= 1");
       }
+    } else if (keyword.starts_with("FFD_")) {
+      boxes_ += std::string(keyword) + "=" + without_notes(skip_section(keyword)) + "\n";
     } else {
       skip_section(keyword);
+      if (keyword != "IZONE" && std::find(left_out_.begin(), left_out_.end(), keyword) == left_out_.end())
+        left_out_.emplace_back(keyword);
     }
   }
 
-  // Free-form deformation boxes and the like: their data lines start with digits.
-  void skip_section(std::string_view keyword) {
+  // Our own comments at the end of the file are no part of the last section.
+  static std::string without_notes(std::string_view section) {
+    return std::string(section.substr(0, section.find("\n% remodel: ")));
+  }
+
+  // Its data lines start with digits or signs. What follows the '=', without the blanks at its end.
+  std::string_view skip_section(std::string_view keyword) {
     const auto is_letter = [](char c) { return (c >= 'A' && c <= 'Z') || c == '_'; };
     if (keyword.empty() || !is_letter(keyword.front())) scan_.fail_found(keyword, "a keyword and '='");
+    const std::size_t begin = scan_.position();
     do scan_.skip_line();
     while (!scan_.at_end() && !is_letter(scan_.peek()));
+    const std::string_view section = scan_.text_from(begin);
+    return section.substr(0, section.find_last_not_of(" \t\r\n") + 1);
   }
 
   void expect_once(bool& seen, const char* keyword) {
@@ -112,7 +132,9 @@ class Su2Reader {
     for (std::size_t i = 0; i < count; ++i) {
       const auto type = scan_.integer("an element");
       if (type != su2_triangle) {
-        scan_.fail("element of type " + std::to_string(type) + " found, only triangles (type 5) expected");
+        scan_.fail(
+            "element of type " + std::to_string(type) + " found, only triangles (type 5) expected" +
+            std::string(advice_on(type == su2_quadrilateral ? CellKind::quadrilateral : CellKind::other)));
       }
       auto& [a, b, c] = mesh_.triangles.emplace_back();
       a = read_index();
@@ -159,7 +181,10 @@ class Su2Reader {
 
   Scanner scan_;
   std::string file_;
+  Warnings warnings_;
   FrozenMesh mesh_;
+  std::vector<std::string> left_out_;
+  std::string boxes_;
   LargestIndex largest_;
   BoundaryNames names_;
   bool dimension_seen_ = false;
@@ -171,7 +196,8 @@ class Su2Reader {
 
 }  // namespace
 
-std::string su2_text(const FrozenMesh& whole, const std::string& file, InnerCurves inner) {
+std::string su2_text(const FrozenMesh& whole, const std::string& file, InnerCurves inner,
+                     const std::string& boxes) {
   const FrozenMesh mesh = inner == InnerCurves::left_out ? without_inner_edges(whole) : whole;
   TextWriter out;
   out << "NDIME= 2\nNELEM= " << mesh.triangles.size() << '\n';
@@ -189,14 +215,56 @@ std::string su2_text(const FrozenMesh& whole, const std::string& file, InnerCurv
     out << "MARKER_TAG= " << boundary.name << "\nMARKER_ELEMS= " << boundary.edges.size() << '\n';
     for (const auto& [from, to] : boundary.edges) out << su2_line << ' ' << from << ' ' << to << '\n';
   }
-  out << steiner_note(mesh, "% ");
+  out << boxes << steiner_note(mesh, "% ");
   return out.take();
 }
 
-FrozenMesh parse_su2(std::string_view text, const std::string& file) {
-  FrozenMesh mesh = Su2Reader(text, file).read();
+FrozenMesh parse_su2(std::string_view text, const std::string& file, ReadNotes* notes) {
+  Su2Reader reader(text, file, Warnings(notes, file));
+  FrozenMesh mesh = reader.read();
+  if (notes != nullptr) notes->su2_boxes = reader.take_boxes();
   take_steiner_notes(text, mesh);
   return mesh;
 }
 
 }  // namespace remodel::io
+
+namespace remodel {
+
+std::string read_su2_boxes(const std::filesystem::path& file) {
+  const KeptPipes once;
+  switch (io::format_to_read(file)) {
+    case MeshFormat::su2: {
+      ReadNotes notes;
+      read_frozen_mesh(file, &notes);
+      return notes.su2_boxes;
+    }
+    case MeshFormat::vtkhdf:
+      return io::read_vtkhdf_boxes(file);
+    default:
+      return {};
+  }
+}
+
+// https://su2code.github.io/docs_v7/Mesh-File/ has the layout: the lines of points follow their number.
+std::string without_surface_points(const std::string& boxes, std::size_t& surface_points) {
+  constexpr std::string_view keyword = "FFD_SURFACE_POINTS";
+  std::string result;
+  bool among_points = false;
+  for (std::size_t begin = 0; begin < boxes.size();) {
+    const std::size_t end = std::min(boxes.find('\n', begin), boxes.size() - 1) + 1;
+    const std::string_view line = std::string_view(boxes).substr(begin, end - begin);
+    begin = end;
+    const bool has_keyword = line.find('=') != line.npos;
+    among_points = has_keyword ? line.starts_with(keyword) : among_points;
+    if (has_keyword && among_points)
+      result += std::string(keyword) + "= 0\n";
+    else if (among_points)
+      surface_points += line.find_first_not_of(" \t\r\n") != line.npos ? 1 : 0;
+    else
+      result += line;
+  }
+  return result;
+}
+
+}  // namespace remodel

@@ -14,6 +14,8 @@ namespace {
 constexpr std::uint8_t vtk_vertex = 1;
 constexpr std::uint8_t vtk_line = 3;
 constexpr std::uint8_t vtk_triangle = 5;
+constexpr std::uint8_t vtk_pixel = 8;
+constexpr std::uint8_t vtk_quadrilateral = 9;
 
 template <class Indices>
 void add_cell(VtkGrid& grid, const Indices& indices, std::uint8_t type, std::int32_t boundary) {
@@ -25,8 +27,8 @@ void add_cell(VtkGrid& grid, const Indices& indices, std::uint8_t type, std::int
 
 class GridReader {
  public:
-  GridReader(const VtkGrid& grid, const std::string& file, const ArrayPlace& place)
-      : grid_(grid), file_(file), place_(place) {}
+  GridReader(const VtkGrid& grid, const std::string& file, const ArrayPlace& place, const Warnings& warnings)
+      : grid_(grid), file_(file), place_(place), warnings_(warnings) {}
 
   FrozenMesh read() {
     check_sizes();
@@ -37,6 +39,10 @@ class GridReader {
       }
     }
     for (std::size_t cell = 0; cell < grid_.types.size(); ++cell) read_cell(cell);
+    if (single_points_ > 0)
+      warnings_.add(single_points_ == 1
+                        ? "a cell of one point (type 1) is left out"
+                        : std::to_string(single_points_) + " cells of one point (type 1) are left out");
     mesh_.length_scale = grid_.length_scale;
     mesh_.vertex_ids = grid_.vertex_id;
     mesh_.vertex_keys = grid_.vertex_key;
@@ -83,8 +89,8 @@ class GridReader {
                              ", a finite coordinate, at most 1e60 in size, expected");
         }
       }
-      mesh_.points.push_back({grid_.points[i], grid_.points[i + 1]});
     }
+    mesh_.points = in_their_plane(grid_.points, place_("Points"), warnings_);
   }
 
   std::uint32_t vertex(std::size_t cell, std::size_t corner) const {
@@ -119,9 +125,13 @@ class GridReader {
     } else if (type == vtk_line) {
       check_extent(cell, 2);
       boundary_of(cell).edges.push_back({vertex(cell, 0), vertex(cell, 1)});
-    } else if (type != vtk_vertex) {
+    } else if (type == vtk_vertex) {
+      ++single_points_;
+    } else {
+      const bool quadrilateral = type == vtk_quadrilateral || type == vtk_pixel;
       fail("Types", "cell " + std::to_string(cell) + " of type " + std::to_string(type) +
-                        " found, only triangles (type 5) and lines (type 3) expected");
+                        " found, only triangles (type 5) and lines (type 3) expected" +
+                        std::string(advice_on(quadrilateral ? CellKind::quadrilateral : CellKind::other)));
     }
   }
 
@@ -140,6 +150,8 @@ class GridReader {
   }
 
   FrozenBoundary& boundary_of(std::size_t cell) {
+    if (grid_.boundary.empty() && grid_.foreign_region && grid_.region[cell] != 0)
+      return boundary_named("boundary_" + std::to_string(grid_.region[cell]));
     if (grid_.boundary.empty()) return boundary_named("boundary");
     const std::int32_t index = grid_.boundary[cell];
     if (grid_.boundary_names.empty()) return boundary_named("boundary_" + std::to_string(index));
@@ -153,8 +165,10 @@ class GridReader {
   const VtkGrid& grid_;
   const std::string& file_;
   const ArrayPlace& place_;
+  const Warnings& warnings_;
   FrozenMesh mesh_;
   BoundaryNames names_;
+  std::size_t single_points_ = 0;
   RegionNames regions_;
 };
 
@@ -238,8 +252,9 @@ std::optional<Field> to_field(VtkArray array, FieldPlace place, std::span<const 
   return field;
 }
 
-FrozenMesh from_vtk_grid(const VtkGrid& grid, const std::string& file, const ArrayPlace& place) {
-  return GridReader(grid, file, place).read();
+FrozenMesh from_vtk_grid(const VtkGrid& grid, const std::string& file, const ArrayPlace& place,
+                         const Warnings& warnings) {
+  return GridReader(grid, file, place, warnings).read();
 }
 
 }  // namespace remodel::io

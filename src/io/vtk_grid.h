@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/foreign.h"
 #include "remodel/field.h"
 #include "remodel/frozen_mesh.h"
 
@@ -29,6 +30,7 @@ struct VtkGrid {
   std::vector<std::int64_t> offsets;  // one more than cells, from 0
   std::vector<std::uint8_t> types;
   std::vector<std::string> boundary_names, region_names;
+  bool foreign_region = false;        // region is another program's array, which lines have too
   std::uint32_t last_generation = 0;  // of vertex_key
 
   // Per cell. boundary: index into boundary_names, -1 for triangles. The others are empty or hold 0 for
@@ -82,6 +84,7 @@ std::optional<Field> to_field(VtkArray array, FieldPlace place, std::span<const 
 using ArrayPlace = std::function<std::string(std::string_view array)>;
 
 // Checks sizes and indices, takes triangles and lines, and brings them into our conventions.
-FrozenMesh from_vtk_grid(const VtkGrid& grid, const std::string& file, const ArrayPlace& place);
+FrozenMesh from_vtk_grid(const VtkGrid& grid, const std::string& file, const ArrayPlace& place,
+                         const Warnings& warnings);
 
 }  // namespace remodel::io

@@ -15,6 +15,7 @@ namespace {
 constexpr std::int64_t state_version = 6;
 const std::string grid_group = "/VTKHDF/";
 const std::string state_group = "/remodel";
+const std::string boxes_path = "/VTKHDF/FieldData/su2_boxes";
 const std::string markers_path = state_group + "/imported_markers";
 
 // ------------------------------------------------------------------------------------- names of the state
@@ -83,7 +84,7 @@ void write_fields(Hdf5Writer& out, const std::string& group, const std::vector<V
 
 // https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format/vtkhdf_specifications.html, one
 // partition
-void write_grid(Hdf5Writer& out, const VtkGrid& grid) {
+void write_grid(Hdf5Writer& out, const VtkGrid& grid, const std::string& boxes) {
   out.group("/VTKHDF");
   out.attribute("/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
   out.attribute("/VTKHDF", "Type", "UnstructuredGrid");
@@ -114,6 +115,7 @@ void write_grid(Hdf5Writer& out, const VtkGrid& grid) {
   if (!grid.region_names.empty()) {
     out.texts("/VTKHDF/FieldData/" + std::string(region_names_array), grid.region_names);
   }
+  if (!boxes.empty()) out.texts(boxes_path, {boxes});
   if (!grid.vertex_key.empty()) {
     out.array("/VTKHDF/FieldData/" + std::string(last_generation_array), std::vector{grid.last_generation});
   }
@@ -194,7 +196,10 @@ VtkGrid read_grid(const Hdf5Reader& in) {
     read_optional(in, "/VTKHDF/CellData/" + name, values);
   });
   for (const char* name : foreign_region_arrays)
-    if (grid.region.empty()) read_optional(in, std::string("/VTKHDF/CellData/") + name, grid.region);
+    if (grid.region.empty()) {
+      read_optional(in, std::string("/VTKHDF/CellData/") + name, grid.region);
+      grid.foreign_region = !grid.region.empty();
+    }
   const std::string names = "/VTKHDF/FieldData/" + std::string(boundary_names_array);
   if (in.exists(names)) grid.boundary_names = in.texts(names);
   const std::string regions = "/VTKHDF/FieldData/" + std::string(region_names_array);
@@ -219,6 +224,15 @@ void add_fields(std::vector<Field>& fields, const Hdf5Reader& in, FieldPlace pla
     }
     if (auto field = to_field(std::move(array), place, types)) fields.push_back(std::move(*field));
   }
+}
+
+// A text that is none of SU2's boxes would spoil the file that it is written to.
+std::string boxes_in(const Hdf5Reader& in) {
+  if (!in.exists(boxes_path)) return {};
+  const std::vector<std::string> texts = in.texts(boxes_path);
+  if (texts.size() != 1 || !texts.front().starts_with("FFD_"))
+    in.fail(boxes_path, "another text found, SU2's lines that begin with FFD_ expected");
+  return texts.front();
 }
 
 std::string place_of(const Hdf5Reader& in, std::string_view array) {
@@ -250,29 +264,35 @@ std::uint64_t checksum_of(const MeshState& state, const std::string& domain_text
 }
 
 void write_vtkhdf(const std::filesystem::path& file, const FrozenMesh& mesh, const MeshState* state,
-                  std::span<const Field> fields) {
+                  const WriteOptions& options) {
   Hdf5Writer out(file.string());
-  write_grid(out, to_vtk_grid(mesh, fields));
+  write_grid(out, to_vtk_grid(mesh, options.fields), options.su2_boxes);
   if (state != nullptr) write_state(out, *state);
   write_text_atomically(file, out.sealed());
 }
 
 // One view after the other: each is as large as the mesh.
-void write_vtkhdf(const std::filesystem::path& file, const Mesh& mesh, std::span<const Field> fields) {
+void write_vtkhdf(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options) {
   Hdf5Writer out(file.string());
   {
-    const VtkGrid grid = to_vtk_grid(mesh.freeze(), fields);
-    write_grid(out, grid);
+    const VtkGrid grid = to_vtk_grid(mesh.freeze(), options.fields);
+    write_grid(out, grid, options.su2_boxes);
   }
   write_state(out, mesh.state());
   write_text_atomically(file, out.sealed());
 }
 
-FrozenMesh read_vtkhdf_frozen(const std::filesystem::path& file) {
+FrozenMesh read_vtkhdf_frozen(const std::filesystem::path& file, ReadNotes* notes) {
   const Hdf5Reader in(file);
   check_header(in);
-  return from_vtk_grid(read_grid(in), file.string(),
-                       [&](std::string_view array) { return place_of(in, array); });
+  if (notes != nullptr) notes->su2_boxes = boxes_in(in);
+  return from_vtk_grid(
+      read_grid(in), file.string(), [&](std::string_view array) { return place_of(in, array); },
+      Warnings(notes, file.string()));
+}
+
+std::string read_vtkhdf_boxes(const std::filesystem::path& file) {
+  return boxes_in(Hdf5Reader(file));
 }
 
 std::vector<Field> read_vtkhdf_fields(const std::filesystem::path& file) {

@@ -7,11 +7,12 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <span>
+#include <string>
 #include <vector>
 
 #include "remodel/field.h"
 #include "remodel/frozen_mesh.h"
+#include "remodel/io.h"
 #include "remodel/mesh.h"
 #include "remodel/mesh_state.h"
 
@@ -19,11 +20,12 @@ namespace remodel::io {
 
 // state may be null. Written atomically.
 void write_vtkhdf(const std::filesystem::path& file, const FrozenMesh& mesh, const MeshState* state,
-                  std::span<const Field> fields = {});
+                  const WriteOptions& options = {});
 // With its state.
-void write_vtkhdf(const std::filesystem::path& file, const Mesh& mesh, std::span<const Field> fields = {});
+void write_vtkhdf(const std::filesystem::path& file, const Mesh& mesh, const WriteOptions& options = {});
 
-FrozenMesh read_vtkhdf_frozen(const std::filesystem::path& file);
+FrozenMesh read_vtkhdf_frozen(const std::filesystem::path& file, ReadNotes* notes = nullptr);
+std::string read_vtkhdf_boxes(const std::filesystem::path& file);  // ReadNotes::su2_boxes
 std::vector<Field> read_vtkhdf_fields(const std::filesystem::path& file);
 // Throws Error (format) where the file has no state, or one that its checksum does not confirm.
 MeshState read_vtkhdf_state(const std::filesystem::path& file);

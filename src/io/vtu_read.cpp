@@ -34,7 +34,8 @@ struct DataArray {
 
 class VtuReader {
  public:
-  VtuReader(std::string_view text, const std::string& file) : text_(text), file_(file) {
+  VtuReader(std::string_view text, const std::string& file, const Warnings& warnings)
+      : text_(text), file_(file), warnings_(warnings) {
     allowance_ += largest_growth * text.size();
   }
 
@@ -58,8 +59,13 @@ class VtuReader {
     for_each_cell_array(grid,
                         [this](const char* name, auto& array) { read_optional("CellData/", name, array); });
     for (const char* name : foreign_region_arrays)
-      if (grid.region.empty()) read_optional("CellData/", name, grid.region);
-    return from_vtk_grid(grid, file_, [this](std::string_view name) { return place_of(name); });
+      if (grid.region.empty()) {
+        read_optional("CellData/", name, grid.region);
+        grid.foreign_region = !grid.region.empty();
+      }
+    warn_of_arrays();
+    return from_vtk_grid(
+        grid, file_, [this](std::string_view name) { return place_of(name); }, warnings_);
   }
 
   std::vector<Field> read_fields() {
@@ -73,6 +79,30 @@ class VtuReader {
   }
 
  private:
+  // Those that are neither the mesh's nor fields of reals, which read_fields() finds.
+  void warn_of_arrays() const {
+    std::vector<std::string> left_out;
+    const VtkGrid none;
+    for (const auto& [key, array] : arrays_) {
+      const std::string name = key.substr(key.find('/') + 1);
+      bool known = false;
+      const auto compare = [&](const char* other, const auto&) { known = known || name == other; };
+      if (key.starts_with("PointData/"))
+        for_each_point_array(none, compare);
+      else if (key.starts_with("CellData/"))
+        for_each_cell_array(none, compare);
+      else if (!key.starts_with("FieldData/") || name == boundary_names_array || name == region_names_array ||
+               name == last_generation_array)
+        continue;
+      for (const char* region : foreign_region_arrays) known = known || name == region;
+      const bool is_field = !key.starts_with("FieldData/") && array.type().starts_with("Float") &&
+                            array.tag.attribute("NumberOfComponents").as_int(1) <= 3;
+      if (!known && !is_field) left_out.push_back(name);
+    }
+    if (!left_out.empty())
+      warnings_.add("arrays that are no fields of one to three reals are left out: " + listed(left_out));
+  }
+
   void add_fields(std::vector<Field>& fields, FieldPlace place, std::size_t places,
                   std::span<const std::uint8_t> types) {
     const std::string section = place == FieldPlace::vertices ? "PointData/" : "CellData/";
@@ -395,6 +425,7 @@ class VtuReader {
   std::string file_;
   mutable std::vector<std::size_t> line_ends_;
   mutable bool lines_known_ = false;
+  Warnings warnings_;
   std::string copy_;  // of all but appended data; the document's texts lie in it
   pugi::xml_document document_;
   std::map<std::string, DataArray> arrays_;  // "PointData/length_scale"; "Points/"
@@ -409,12 +440,12 @@ class VtuReader {
 
 }  // namespace
 
-FrozenMesh parse_vtu(std::string_view text, const std::string& file) {
-  return VtuReader(text, file).read();
+FrozenMesh parse_vtu(std::string_view text, const std::string& file, ReadNotes* notes) {
+  return VtuReader(text, file, Warnings(notes, file)).read();
 }
 
 std::vector<Field> parse_vtu_fields(std::string_view text, const std::string& file) {
-  return VtuReader(text, file).read_fields();
+  return VtuReader(text, file, Warnings(nullptr, file)).read_fields();
 }
 
 }  // namespace remodel::io

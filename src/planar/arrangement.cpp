@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
-#include <sstream>
 
+#include "geometry/place_text.h"
+#include "planar/join_points.h"
 #include "remodel/error.h"
 #include "remodel/predicates.h"
 #include "triangulation/coarse_to_fine.h"
@@ -16,25 +17,18 @@ using Rational = boost::multiprecision::cpp_rational;
 
 // A crossing takes its place in memory: what crosses everywhere is refused in order.
 constexpr std::size_t most_vertices = 10'000'000;
-// Crossings nearer than this to another point are that point; a share of the graph's size or of its largest
-// coordinate. The shortest edge that refinement splits is a tenth of it.
-constexpr double snapping = 1e-11;
 
 [[noreturn]] void refuse(const std::string& source, const std::string& problem) {
   throw Error(ErrorCode::geometry, source, problem);
 }
 
-std::string text_of(Point p) {
-  std::ostringstream text;
-  text.precision(10);
-  text << "(" << p.x << ", " << p.y << ")";
-  return text.str();
-}
-
 }  // namespace
 
-Arrangement::Arrangement(const PlanarGraph& graph, std::string source, Crossings crossings)
+Arrangement::Arrangement(const PlanarGraph& graph, std::string source, Crossings crossings, double join)
     : graph_(graph), source_(std::move(source)), policy_(crossings) {
+  const double extent = extent_of(graph.points);
+  findings.joins.tolerance = join * extent;
+  snap_ = std::max(join, default_join) * extent;
   insert_points();
   for (std::size_t i = 0; i < graph.segments.size(); ++i) {
     const PlanarGraph::Segment& segment = graph.segments[i];
@@ -47,14 +41,15 @@ Arrangement::Arrangement(const PlanarGraph& graph, std::string source, Crossings
       insert_segment({a, b, segment.marker, i});
   }
   mark_outside();
+  mark_regions();
 }
 
 void Arrangement::insert_points() {
-  const std::vector<Point>& points = graph_.points;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (!safe_for_predicates(points[i]))
-      refuse(source_, "point " + std::to_string(i) + " is " + text_of(points[i]) +
+  for (std::size_t i = 0; i < graph_.points.size(); ++i)
+    if (!safe_for_predicates(graph_.points[i]))
+      refuse(source_, "point " + std::to_string(i) + " is " + exact_text(graph_.points[i]) +
                           ", expected coordinates that are 0 or of magnitude 1e-60 to 1e60");
+  const std::vector<Point> points = joined_places(graph_.points, findings.joins);
   const auto second = std::find_if(points.begin(), points.end(), [&](Point p) { return !(p == points[0]); });
   const auto third =
       std::find_if(second, points.end(), [&](Point p) { return orient2d(points[0], *second, p) != 0; });
@@ -69,14 +64,8 @@ void Arrangement::insert_points() {
     last = vertices_[i] = triangulation_.insert(points[i], triangulation_.star(last).triangle).vertex;
     ++inserted;
   }
-  findings.duplicate_points = inserted - 3 - triangulation_.vertex_count();
-  Point low = points[0], high = points[0];
-  for (const Point p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  const double largest = std::max({std::abs(low.x), std::abs(low.y), std::abs(high.x), std::abs(high.y)});
-  snap_ = snapping * std::max(std::sqrt(squared_distance(low, high)), largest);
+  findings.duplicate_points = inserted - 3 - triangulation_.vertex_count() - findings.joins.count;
+  first_crossing_ = triangulation_.vertex_slots();
 }
 
 void Arrangement::insert_segment(Piece segment) {
@@ -86,6 +75,7 @@ void Arrangement::insert_segment(Piece segment) {
     todo_.pop_back();
     if (piece.from == piece.to) continue;  // a crossing that was rounded to an end
     if (const VertexId near = vertex_near(piece); near) {
+      count_as_joined(piece, near);
       route(piece, near);
       continue;
     }
@@ -108,6 +98,19 @@ void Arrangement::route(const Piece& piece, VertexId through) {
   ++findings.points_on_segments;
   todo_.push_back({through, piece.to, piece.marker, piece.segment});
   todo_.push_back({piece.from, through, piece.marker, piece.segment});
+}
+
+// A segment that misses a point of the graph by rounding, and is led through it. (Beside crossings it is
+// their own rounding.)
+void Arrangement::count_as_joined(const Piece& piece, VertexId through) {
+  if (through.index >= first_crossing_) return;
+  const Point a = point(piece.from), along = point(piece.to) - a;
+  const double distance = std::abs(remodel::cross(along, point(through) - a)) / std::sqrt(dot(along, along));
+  Joins& joins = findings.joins;
+  if (joins.count++ == 0)
+    joins.first =
+        name_of_segment(piece.segment) + " with the point at " + exact_text(point(through)) + " beside it";
+  joins.largest = std::max(joins.largest, distance);
 }
 
 // Whether v is so near to the open segment that no mesh could go between. The detour is so flat that both of
@@ -164,7 +167,7 @@ void Arrangement::cross(const Piece& piece, VertexId first, VertexId second) {
   const Point p = crossing_of(piece, first, second);
   if (policy_ == Crossings::refuse)
     refuse(source_, name_of_segment(piece.segment) + " and " + name_of_segment(segment) + " cross at " +
-                        text_of(p) + ", expected segments that meet at their ends only");
+                        exact_text(p) + ", expected segments that meet at their ends only");
   if (triangulation_.vertex_count() >= most_vertices)
     refuse(source_, "more than 10 million points and crossings found");
   ++findings.crossings;
@@ -243,24 +246,68 @@ std::string Arrangement::name_of_segment(std::size_t segment) const {
   return "segment " + std::to_string(segment);
 }
 
-// From outside of the hull and from the points in holes, over everything but segments.
-void Arrangement::mark_outside() {
-  outside_.assign(triangulation_.triangle_slots(), false);
+// Over everything but segments, as far as enter(triangle) is true.
+template <class Enter>
+void Arrangement::spread_from(TriangleId start, Enter&& enter) const {
   std::vector<TriangleId> todo;
-  const auto mark = [&](TriangleId t) {
-    if (outside_[t.index]) return;
-    outside_[t.index] = true;
-    todo.push_back(t);
-  };
-  mark(triangulation_.star(infinite_vertex).triangle);
-  for (const Point hole : graph_.holes)
-    mark(triangulation_.locate(hole, triangulation_.star(infinite_vertex).triangle).triangle);
+  if (enter(start)) todo.push_back(start);
   while (!todo.empty()) {
     const TriangleId t = todo.back();
     todo.pop_back();
     for (const Link link : triangulation_[t].link)
-      if (!link.constrained()) mark(link.triangle());
+      if (!link.constrained() && enter(link.triangle())) todo.push_back(link.triangle());
   }
+}
+
+TriangleId Arrangement::triangle_at(Point p) const {
+  return triangulation_.locate(p, triangulation_.star(infinite_vertex).triangle).triangle;
+}
+
+// From outside of the hull and from the points in holes.
+void Arrangement::mark_outside() {
+  outside_.assign(triangulation_.triangle_slots(), false);
+  const auto mark = [&](TriangleId t) {
+    const bool is_new = !outside_[t.index];
+    outside_[t.index] = true;
+    return is_new;
+  };
+  spread_from(triangulation_.star(infinite_vertex).triangle, mark);
+  const std::vector<bool> around = outside_;
+  for (const Point hole : graph_.holes) {
+    if (around[triangle_at(hole).index])
+      findings.left_out.push_back("the hole at " + exact_text(hole) +
+                                  " lies outside of all outlines: left out");
+    spread_from(triangle_at(hole), mark);
+  }
+}
+
+void Arrangement::mark_regions() {
+  region_.assign(triangulation_.triangle_slots(), 0);
+  for (const PlanarGraph::Region& region : graph_.regions) {
+    const auto say = [&](const std::string& what) {
+      findings.left_out.push_back("region '" + region.name + "' at " + exact_text(region.at) + what);
+    };
+    const TriangleId start = triangle_at(region.at);
+    if (outside_[start.index]) {
+      say(" lies outside of the domain: left out");
+      continue;
+    }
+    if (const std::string& other = region_names_[region_[start.index]]; !other.empty()) {
+      if (other != region.name) say(" lies in one part with region '" + other + "', whose name is taken");
+      continue;
+    }
+    const auto index = static_cast<std::uint32_t>(region_names_.size());
+    region_names_.push_back(region.name);
+    spread_from(start, [&](TriangleId t) {
+      const bool is_new = region_[t.index] == 0;
+      region_[t.index] = index;
+      return is_new;
+    });
+  }
+}
+
+const std::string& Arrangement::region_on_left(VertexId from, VertexId to) const {
+  return region_names_[region_[triangulation_.find_edge(from, to)->triangle.index]];
 }
 
 bool Arrangement::domain_on_left(VertexId from, VertexId to) const {

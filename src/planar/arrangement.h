@@ -16,7 +16,7 @@ namespace remodel {
 class Arrangement {
  public:
   // Throws Error as planar_domain() does.
-  Arrangement(const PlanarGraph& graph, std::string source, Crossings crossings);
+  Arrangement(const PlanarGraph& graph, std::string source, Crossings crossings, double join);
 
   // The pieces of the segments, by their two vertices, the smaller first: the marker of the first segment
   // there that has one.
@@ -29,6 +29,9 @@ class Arrangement {
   // is enclosed, and in no hole.
   bool domain_on_left(VertexId from, VertexId to) const;
   bool domain_around(VertexId v) const { return !outside_[triangulation_.star(v).triangle.index]; }
+
+  // The name of the part of the domain beside the directed edge; empty where it has none.
+  const std::string& region_on_left(VertexId from, VertexId to) const;
 
   PlanarFindings findings;
 
@@ -49,6 +52,11 @@ class Arrangement {
   VertexId vertex_at(Point p, VertexId near);
   void split_edge_at(VertexId v);
   void mark_outside();
+  void mark_regions();
+  template <class Enter>
+  void spread_from(TriangleId start, Enter&& enter) const;
+  TriangleId triangle_at(Point p) const;
+  void count_as_joined(const Piece& piece, VertexId through);
   Point crossing_of(const Piece& piece, VertexId first, VertexId second) const;
   std::string name_of_segment(std::size_t segment) const;
 
@@ -61,7 +69,10 @@ class Arrangement {
   std::map<Key, std::size_t> segment_of_;
   std::vector<Piece> todo_;
   double snap_ = 0.0;
-  std::vector<bool> outside_;  // per triangle slot
+  std::size_t first_crossing_ = 0;     // vertices from here on are crossings
+  std::vector<bool> outside_;          // per triangle slot
+  std::vector<std::uint32_t> region_;  // per triangle slot: index in region_names_
+  std::vector<std::string> region_names_{""};
 };
 
 }  // namespace remodel

@@ -1,6 +1,10 @@
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
 #include <set>
 
+#include "geometry/place_text.h"
 #include "planar/arrangement.h"
 #include "planar/chains.h"
 #include "remodel/error.h"
@@ -40,6 +44,10 @@ Loop loop_of(const Arrangement& arrangement, Chain& chain) {
                                          : LoopRole::internal,
             .curves = {},
             .open = !chain.closed()};
+  const VertexId first = chain.vertices[0], second = chain.vertices[1];
+  loop.region = chain.domain_left ? arrangement.region_on_left(first, second)
+                                  : arrangement.region_on_left(second, first);
+  if (loop.role == LoopRole::internal) loop.right_region = arrangement.region_on_left(second, first);
   for (std::size_t begin = 0, end = 0; begin < chain.markers.size(); begin = end) {
     while (end < chain.markers.size() && chain.markers[end] == chain.markers[begin]) ++end;
     std::vector<Point> points;
@@ -66,15 +74,40 @@ void add_single_points(const PlanarGraph& graph, Arrangement& arrangement, Domai
   }
 }
 
+// The first end of the outline that is open, and the nearest vertex that it might have met. Empty if there is
+// none.
+std::string open_end(const Arrangement& arrangement) {
+  std::map<VertexId, std::vector<VertexId>> neighbours;
+  for (const auto& [key, marker] : arrangement.edges()) {
+    neighbours[key.first].push_back(key.second);
+    neighbours[key.second].push_back(key.first);
+  }
+  for (const auto& [end, along] : neighbours) {
+    if (along.size() != 1) continue;
+    const Point p = arrangement.point(end);
+    std::string text = ": the outline is open at " + exact_text(p);
+    double nearest = std::numeric_limits<double>::infinity();
+    Point other;
+    for (const auto& [v, unused] : neighbours)
+      if (v != end && v != along.front() && squared_distance(arrangement.point(v), p) < nearest)
+        other = arrangement.point(v), nearest = squared_distance(other, p);
+    if (std::isfinite(nearest))
+      text += ", " + rough_text(std::sqrt(nearest)) + " away from the point at " + exact_text(other);
+    return text;
+  }
+  return {};
+}
+
 }  // namespace
 
 Domain planar_domain(const PlanarGraph& graph, const std::string& source, Crossings crossings,
-                     PlanarFindings* findings) {
+                     PlanarFindings* findings, double join) {
+  require_join(join);
   if (graph.points.size() < 3 || graph.segments.size() < 3)
     throw Error(ErrorCode::geometry, source,
                 "found " + std::to_string(graph.points.size()) + " points and " +
                     std::to_string(graph.segments.size()) + " segments, expected at least 3 of both");
-  Arrangement arrangement(graph, source, crossings);
+  Arrangement arrangement(graph, source, crossings, join);
   Domain domain;
   bool encloses = false;
   for (Chain& chain : link_chains(arrangement)) {
@@ -84,7 +117,7 @@ Domain planar_domain(const PlanarGraph& graph, const std::string& source, Crossi
   if (!encloses)
     throw Error(ErrorCode::geometry, source,
                 std::string("the segments enclose nothing") + (graph.holes.empty() ? "" : " but holes") +
-                    ", expected a closed outline around the area to mesh");
+                    open_end(arrangement) + ", expected a closed outline around the area to mesh");
   add_single_points(graph, arrangement, domain);
   if (findings != nullptr) *findings = arrangement.findings;
   return domain;

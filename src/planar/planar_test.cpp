@@ -192,6 +192,68 @@ TEST(Planar, OutlinesThatDoNotCloseAreRefused) {
   EXPECT_THROW(planar_domain(nan, "graph"), Error);
 }
 
+// Houses in a row at the coordinates of a map, each with corners of its own that differ by rounding: the
+// domain is that of houses that share theirs.
+TEST(Planar, WallsThatDifferByRoundingAreOne) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    const Point base{411960.25, 5711970.5};
+    const auto houses = [&](double error) {
+      std::vector<std::vector<Point>> all{square(base.x, base.y, 100)};
+      std::vector<Point> holes;
+      const auto off = [&] { return error * (static_cast<double>(random() >> 11) * 0x1p-52 - 1.0); };
+      for (int i = 0; i < 5; ++i) {
+        all.push_back(square(base.x + 8 * i, base.y, 4));
+        for (Point& p : all.back()) p = {p.x + off(), p.y + off()};
+        holes.push_back({base.x + 8 * i, base.y});
+      }
+      return polygons(all, holes);
+    };
+    PlanarFindings findings;
+    const Domain exact = planar_domain(houses(0.0), "graph");
+    const Domain domain = planar_domain(houses(4e-9), "graph", Crossings::insert, &findings);
+    EXPECT_EQ(findings.crossings, 0U);
+    EXPECT_GT(findings.joins.count, 4U);
+    EXPECT_LT(findings.joins.largest, 1.2e-8);
+    EXPECT_EQ(domain.loops.size(), exact.loops.size());
+    EXPECT_NEAR(area(domain), area(exact), 1e-5);
+    meshed(domain);
+  }
+}
+
+TEST(Planar, AToleranceOfNothingLeavesPointsApart) {
+  PlanarGraph graph = polygons({square(0, 0, 2)});
+  graph.points.push_back({-2.0 - 1e-15, -2.0});
+  graph.segments.back().to = 4;
+  EXPECT_NO_THROW(planar_domain(graph, "graph"));
+  try {
+    planar_domain(graph, "graph", Crossings::insert, nullptr, 0.0);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("open at (-2, -2), "), std::string::npos) << message;
+    EXPECT_NE(message.find("8.88e-16 away"), std::string::npos) << message;
+  }
+}
+
+TEST(Planar, RegionsNameThePartsThatTheirPointsLieIn) {
+  PlanarGraph graph = polygons({square(0, 0, 2), square(0, 0, 1), square(0, 0, 0.25)}, {{0, 0}});
+  graph.regions = {{{0.5, 0.5}, "inner"}, {{-0.5, 0.5}, "again"}, {{0, 0}, "hole"}, {{9, 9}, "outside"}};
+  PlanarFindings findings;
+  const Domain domain = planar_domain(graph, "graph", Crossings::insert, &findings);
+  EXPECT_EQ(findings.left_out.size(), 3U);
+  const FrozenMesh frozen = meshed(domain).freeze();
+  double inner = 0.0;
+  for (std::size_t t = 0; t < frozen.triangles.size(); ++t) {
+    const auto [a, b, c] = frozen.triangles[t];
+    if (frozen.region_names.at(frozen.region[t]) == "inner")
+      inner += 0.5 * cross(frozen.points[b] - frozen.points[a], frozen.points[c] - frozen.points[a]);
+  }
+  EXPECT_NEAR(inner, 4.0 - 0.25, 1e-12);
+  EXPECT_EQ(frozen.region_names.size(), 2U);
+}
+
 // Random segments in a box: whatever crosses and overlaps, the result is a valid domain of the box's area,
 // and what it is made of does not cross any more.
 TEST(Planar, RandomCrossingSegmentsGiveAValidDomain) {

@@ -182,7 +182,7 @@ MUTATIONS = [
      "  todo_.push_back({first, v, marker, segment});\n  todo_.push_back({v, second, marker, segment});\n", ""),
     ("segments not led through near points", P + "arrangement.cpp",
      "if (const VertexId near = vertex_near(piece); near) {", "if (const VertexId near{}; near) {"),
-    ("holes not left out", P + "arrangement.cpp", "  for (const Point hole : graph_.holes)\n", "  for (const Point hole : std::vector<Point>{})\n"),
+    ("holes not left out", P + "arrangement.cpp", "spread_from(triangle_at(hole), mark);", ""),
     ("chains run on through joints", P + "chains.cpp", "if (next.size() != 2 || to == start) break;", "if (next.size() < 2 || to == start) break;"),
     ("vertices on a boundary edge not seen", T + "triangulation.cpp",
      "return link({c.triangle, next3(c.index)}).constrained();", "return false;"),

@@ -1,0 +1,87 @@
+#include "io/foreign.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "io/scanner.h"
+#include "io/text_writer.h"
+#include "remodel/error.h"
+
+namespace remodel::io {
+
+namespace {
+
+constexpr const char* axis_names[] = {"x", "y", "z"};
+
+struct Range {
+  double low = 0.0, high = 0.0;
+};
+
+std::array<Range, 3> ranges_of(std::span<const double> coordinates) {
+  std::array<Range, 3> ranges;
+  for (std::size_t axis = 0; axis < 3 && axis < coordinates.size(); ++axis)
+    ranges[axis] = {coordinates[axis], coordinates[axis]};
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    Range& range = ranges[i % 3];
+    range = {std::min(range.low, coordinates[i]), std::max(range.high, coordinates[i])};
+  }
+  return ranges;
+}
+
+std::string number(double value) {
+  TextWriter out;
+  out << value;
+  return out.take();
+}
+
+}  // namespace
+
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 6;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + in_quotes(names[i]);
+  return names.size() > most ? text + " and " + std::to_string(names.size() - most) + " more" : text;
+}
+
+std::string_view advice_on(CellKind kind) {
+  if (kind == CellKind::other) return "";
+  return ": quadrilaterals will be read by a later version; until then split each a b c d into the triangles "
+         "a b c "
+         "and a c d (ParaView's filter Triangulate does; Gmsh makes none without Recombine)";
+}
+
+// A program that turned a mesh into its plane leaves rounding errors behind, no more: a share of its size.
+std::vector<Point> in_their_plane(std::span<const double> coordinates, const std::string& place,
+                                  const Warnings& warnings) {
+  constexpr double rounding = 1e-9;
+  const std::array<Range, 3> ranges = ranges_of(coordinates);
+  double size = 0.0;
+  for (const Range& range : ranges) size = std::max({size, std::abs(range.low), std::abs(range.high)});
+  const auto flat = [&](std::size_t axis) { return ranges[axis].high - ranges[axis].low <= rounding * size; };
+  std::size_t across = 2;
+  while (across > 0 && !flat(across)) --across;
+  if (!flat(across)) {
+    std::size_t i = 2;
+    while (std::abs(coordinates[i] - coordinates[2]) <= rounding * size) i += 3;
+    throw Error(ErrorCode::format, place,
+                "z = " + number(coordinates[i]) + " found at point " + std::to_string(i / 3) +
+                    ", z = " + number(coordinates[2]) + " as at point 0 expected: a mesh in one plane");
+  }
+  const std::size_t first = across == 0 ? 1 : 0, second = across == 2 ? 1 : 2;
+  const std::string plane =
+      std::string(axis_names[across]) + " = " + number(coordinates.empty() ? 0.0 : coordinates[across]);
+  if (across != 2)
+    warnings.add("the mesh lies in the plane " + plane + ": its " + axis_names[first] + " and " +
+                 axis_names[second] + " are taken for x and y");
+  else if (std::abs(ranges[2].low) > rounding * size)
+    warnings.add("the mesh lies in the plane " + plane + ", which is left out");
+  std::vector<Point> points;
+  points.reserve(coordinates.size() / 3);
+  for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3)
+    points.push_back({coordinates[i + first], coordinates[i + second]});
+  return points;
+}
+
+}  // namespace remodel::io

@@ -1,0 +1,45 @@
+#pragma once
+
+// What formats of other programs hold and a plane mesh of triangles does not: said in sentences, or taken as
+// it is meant.
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "remodel/io.h"
+#include "remodel/point.h"
+
+namespace remodel::io {
+
+// Sentences for people, each with the name of its file; nobody listens where there are no notes.
+class Warnings {
+ public:
+  Warnings(ReadNotes* notes, std::string file) : notes_(notes), file_(std::move(file)) {}
+  void count_repeated_triangle() const {
+    if (notes_ != nullptr) ++notes_->repeated_triangles;
+  }
+  void add(const std::string& sentence) const {
+    if (notes_ != nullptr) notes_->warnings.push_back(file_ + ": " + sentence);
+  }
+
+ private:
+  ReadNotes* notes_;
+  std::string file_;
+};
+
+// "'a', 'b' and 3 more"; names in quotes, control characters escaped.
+std::string listed(const std::vector<std::string>& names);
+
+// What to do about cells of this kind, as the end of a sentence: empty, or ": quadrilaterals ...".
+enum class CellKind { quadrilateral, other };
+std::string_view advice_on(CellKind kind);
+
+// Points in space (3 numbers each, finite) of a mesh that lies in a plane, as points of that plane: x and y
+// where z is the same everywhere but for rounding, else x and z, or y and z. Warns unless it is z = 0. Throws
+// Error (format) naming a point that leaves the plane.
+std::vector<Point> in_their_plane(std::span<const double> coordinates, const std::string& place,
+                                  const Warnings& warnings);
+
+}  // namespace remodel::io
