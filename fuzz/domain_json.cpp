@@ -3,6 +3,7 @@
 #include "fuzz.h"
 #include "mesh/mesh_data.h"
 #include "remodel/generate.h"
+#include "remodel/join.h"
 
 using namespace remodel;
 
@@ -10,6 +11,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     const Domain domain = domain_from_json(fuzz::text_of(data, size), "input");
     fuzz::require(domain_from_json(domain_to_json(domain), "again") == domain, "JSON is not exact");
+    try {
+      Domain joined = domain;
+      join_ends(joined, "input");
+    } catch (const Error&) {
+      ++fuzz::refusals;
+    }
     validate(domain);
     const GenerateResult result = generate(domain, {.max_vertices = 3000});
     fuzz::require_empty(result.mesh.data().triangulation.check());

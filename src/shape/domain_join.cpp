@@ -230,6 +230,7 @@ double extent_of(const Domain& domain) {
   Point low{INFINITY, INFINITY}, high{-INFINITY, -INFINITY};
   for (std::size_t loop = 0; loop < domain.loops.size(); ++loop)
     for (const Point p : domain.points(loop)) {
+      if (!std::isfinite(p.x) || !std::isfinite(p.y)) return INFINITY;
       low = {std::min(low.x, p.x), std::min(low.y, p.y)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y)};
     }
