@@ -7,8 +7,7 @@
 #include "design_elements.h"
 #include "design_json.h"
 #include "design_keys.h"
-#include "gradient_designer.h"
-#include "sqp_designer.h"
+#include "remodel/sqp.h"
 
 namespace remodel::app {
 
@@ -383,7 +382,7 @@ void require_keys_of_designer(const Keys& keys, const DesignProblemFile& problem
 void read_designer(const Json& json, const std::string& file, DesignProblemFile& problem) {
   const Json object = object_of(json, "designer");
   const Keys keys(object, file + ", designer", {"name", "evaluations", "bounds", "trust", "sigma", "seed"});
-  problem.designer = keys.word("name", "sqp", {"sqp", "slsqp", "mma", "cmaes"});
+  problem.designer = keys.word("name", "sqp", {"sqp", "cmaes"});
   problem.evaluations = keys.whole<std::size_t>("evaluations", 100, 1, 1000000);
   problem.bounds = keys.number("bounds", 0.1, 1e-9, 10);
   problem.trust = keys.number("trust", 0.02, 1e-6, 10);
@@ -453,13 +452,10 @@ std::unique_ptr<Designer> make_designer(const DesignProblemFile& problem, const 
   if (problem.designer == "cmaes")
     return std::make_unique<CmaesDesigner>(start, CmaesOptions{.sigma = problem.sigma, .seed = problem.seed});
   DesignBounds bounds = space.bounds(problem.bounds);
-  GradientOptions options{.method = problem.designer,
-                          .trust = problem.trust,
-                          .low = std::move(bounds.low),
-                          .high = std::move(bounds.high),
-                          .metric = space.metric()};
-  if (problem.designer == "sqp") return std::make_unique<SqpDesigner>(start, options);
-  return std::make_unique<GradientDesigner>(start, options);
+  return std::make_unique<SqpDesigner>(start, SqpOptions{.trust = problem.trust,
+                                                         .low = std::move(bounds.low),
+                                                         .high = std::move(bounds.high),
+                                                         .metric = space.metric()});
 }
 
 }  // namespace remodel::app

@@ -34,7 +34,7 @@ class FlowSpace : public DesignSpace {
   // `coefficients`: how far a coefficient of a section may go from the start.
   virtual DesignBounds bounds(double coefficients) const = 0;
 
-  // What second derivatives by the design may be like (GradientOptions::metric); empty: nothing is known.
+  // What second derivatives by the design may be like (SqpOptions::metric); empty: nothing is known.
   virtual std::vector<double> metric() const { return {}; }
 
   // Sections in their own chords, and where they lie.

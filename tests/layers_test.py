@@ -28,7 +28,7 @@ LAYERS = [
         "name": "design",
         "headers": [
             "optimise.h", "designer.h", "evaluation.h", "evaluator.h", "design_space.h", "living_mesh.h", "figures.h",
-            "replay.h", "batch.h", "noise.h", "directory_lock.h", "cmaes.h", "history.h", "soak.h",
+            "replay.h", "batch.h", "noise.h", "directory_lock.h", "cmaes.h", "sqp.h", "history.h", "soak.h",
         ],
     },
     {"name": "python", "headers": []},

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace remodel::app {
+namespace remodel {
 
 // x' H x / 2 + g' x is to be small where A x <= b and low <= x <= high.
 struct QuadraticProgram {
@@ -20,4 +20,4 @@ struct QuadraticProgram {
 // all constraints; otherwise what is returned is between the bounds and nothing more.
 std::vector<double> solved(const QuadraticProgram& program);
 
-}  // namespace remodel::app
+}  // namespace remodel

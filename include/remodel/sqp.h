@@ -8,9 +8,18 @@
 #include <string>
 #include <vector>
 
-#include "gradient_designer.h"
+#include "remodel/designer.h"
 
-namespace remodel::app {
+namespace remodel {
+
+struct SqpOptions {
+  double trust = 0.02;        // first half-width of the trust box, in the design's numbers; > 0
+  double least_trust = 1e-5;  // the search ends below
+  // The lowest and highest value of each number of the design.
+  std::vector<double> low{}, high{};
+  // Initial shape of the second derivatives, a symmetric positive matrix row by row; empty: the identity.
+  std::vector<double> metric{};
+};
 
 // Each step makes a model of the objective small, a quadratic one whose second derivatives are gathered from
 // the gradients of all steps, within a box around the best design and under the constraints, linear ones. The
@@ -23,7 +32,8 @@ namespace remodel::app {
 // are compared once more.
 class SqpDesigner final : public Designer {
  public:
-  SqpDesigner(std::vector<double> start, GradientOptions options);
+  // Throws Error (argument) unless there are bounds for each number of the design.
+  SqpDesigner(std::vector<double> start, SqpOptions options);
 
   std::size_t population() const override { return 1; }
   Proposal ask() override { return {.design = pending_, .gradient = true, .from = best_.design}; }
@@ -38,24 +48,28 @@ class SqpDesigner final : public Designer {
   std::string description() const override;
 
  private:
+  struct Known {
+    std::vector<double> design;
+    Evaluation evaluation;
+  };
   double merit(const Evaluation& evaluation) const;
   double model(const std::vector<double>& step) const;  // less what it is without a step
-  bool comparable(const KnownDesign& trial) const;
+  bool comparable(const Known& trial) const;
   void propose();
   void begin_model();
-  void judge(const KnownDesign& trial, bool failed);
-  void learn(const KnownDesign& trial);
+  void judge(const Known& trial, bool failed);
+  void learn(const Known& trial);
 
-  GradientOptions options_;
+  SqpOptions options_;
   std::vector<double> pending_;
-  KnownDesign best_;
-  std::optional<KnownDesign> waiting_;  // for the best design's evaluation on the present mesh
-  std::vector<double> curvature_;       // symmetric, row by row
-  bool learnt_ = false;                 // from a step
+  Known best_;
+  std::optional<Known> waiting_;   // for the best design's evaluation on the present mesh
+  std::vector<double> curvature_;  // symmetric, row by row
+  bool learnt_ = false;            // from a step
   double scale_ = 1.0, trust_ = 0.0, penalty_ = 0.0, promised_ = 0.0, shift_ = 0.0;
   double begun_at_ = 0.0;  // merit where the model began
   std::uint64_t steps_ = 0;
   bool started_ = false, finished_ = false;
 };
 
-}  // namespace remodel::app
+}  // namespace remodel

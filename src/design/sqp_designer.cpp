@@ -1,18 +1,46 @@
-#include "sqp_designer.h"
+#include "remodel/sqp.h"
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "quadratic_program.h"
+#include "design/quadratic_program.h"
 #include "remodel/error.h"
 
-namespace remodel::app {
+namespace remodel {
 
 namespace {
 
-using DesignJson = nlohmann::ordered_json;
+using SqpJson = nlohmann::ordered_json;
+
+// The output "connectivity": the number of the mesh's connectivity, another one after each change; 0 where
+// there is none.
+double connectivity_of(const Evaluation& evaluation) {
+  const auto found = evaluation.outputs.find("connectivity");
+  return found == evaluation.outputs.end() ? 0.0 : found->second;
+}
+
+// Without other outputs.
+SqpJson known_json(const std::vector<double>& design, const Evaluation& e) {
+  return SqpJson{{"design", design},
+                 {"objective", std::isfinite(e.objective) ? SqpJson(e.objective) : SqpJson()},
+                 {"constraints", e.constraints},
+                 {"gradient", e.gradient},
+                 {"constraint_gradients", e.constraint_gradients},
+                 {"connectivity", connectivity_of(e)}};
+}
+
+// Throws nlohmann's exceptions.
+Evaluation known_evaluation(const SqpJson& json) {
+  Evaluation result;
+  if (!json.at("objective").is_null()) result.objective = json.at("objective").get<double>();
+  json.at("constraints").get_to(result.constraints);
+  json.at("gradient").get_to(result.gradient);
+  json.at("constraint_gradients").get_to(result.constraint_gradients);
+  result.outputs["connectivity"] = json.at("connectivity").get<double>();
+  return result;
+}
 
 // Of the worst violation, beside the objective over its first value: at first, and the most that it grows to.
 constexpr double first_penalty = 1000.0, most_penalty = 1e5;
@@ -22,7 +50,7 @@ constexpr double least_promise = 1e-6;  // likewise: a model that promises less 
 // Constraints are kept by this much more than they ask for, so that rounding does not violate them.
 constexpr double margin = 1e-9;
 
-double dot(const double* a, const std::vector<double>& b) {
+double product(const double* a, const std::vector<double>& b) {
   return std::inner_product(b.begin(), b.end(), a, 0.0);
 }
 
@@ -30,7 +58,7 @@ double dot(const double* a, const std::vector<double>& b) {
 double worst_after(const Evaluation& at, const std::vector<double>& step) {
   double worst = 0.0;
   for (std::size_t i = 0; i < at.constraints.size(); ++i)
-    worst = std::max(worst, at.constraints[i] + margin + dot(step.data(), at.constraint_gradients[i]));
+    worst = std::max(worst, at.constraints[i] + margin + product(step.data(), at.constraint_gradients[i]));
   return worst;
 }
 
@@ -40,7 +68,7 @@ double quadratic_value(const Evaluation& at, const std::vector<double>& curvatur
   const std::size_t n = x.size();
   double sum = 0.0;
   for (std::size_t i = 0; i < n; ++i)
-    sum += x[i] * (at.gradient[i] / scale + 0.5 * dot(curvature.data() + i * n, x));
+    sum += x[i] * (at.gradient[i] / scale + 0.5 * product(curvature.data() + i * n, x));
   return sum;
 }
 
@@ -78,7 +106,7 @@ std::vector<double> small_step(const Model& model, const std::vector<double>& lo
 
 }  // namespace
 
-SqpDesigner::SqpDesigner(std::vector<double> start, GradientOptions options)
+SqpDesigner::SqpDesigner(std::vector<double> start, SqpOptions options)
     : options_(std::move(options)),
       pending_(std::move(start)),
       trust_(options_.trust),
@@ -126,7 +154,7 @@ void SqpDesigner::propose() {
 }
 
 // Damped, so that the model's second derivatives stay positive. The first step says how large they are.
-void SqpDesigner::learn(const KnownDesign& trial) {
+void SqpDesigner::learn(const Known& trial) {
   const std::size_t n = best_.design.size();
   std::vector<double> s(n), y(n), bend(n, 0.0);
   double ss = 0.0, sy = 0.0, sbs = 0.0;
@@ -138,7 +166,7 @@ void SqpDesigner::learn(const KnownDesign& trial) {
   if (ss == 0.0) return;
   if (!learnt_ && sy > 0.0) {
     double sms = 0.0;
-    for (std::size_t i = 0; i < n; ++i) sms += s[i] * dot(options_.metric.data() + i * n, s);
+    for (std::size_t i = 0; i < n; ++i) sms += s[i] * product(options_.metric.data() + i * n, s);
     for (std::size_t k = 0; k < n * n; ++k) curvature_[k] = sy / sms * options_.metric[k];
   }
   learnt_ = learnt_ || sy > 0.0;
@@ -155,13 +183,13 @@ void SqpDesigner::learn(const KnownDesign& trial) {
 }
 
 // Whether the trial is on the best design's connectivity, or better by more than connectivities differ.
-bool SqpDesigner::comparable(const KnownDesign& trial) const {
+bool SqpDesigner::comparable(const Known& trial) const {
   return connectivity_of(trial.evaluation) == connectivity_of(best_.evaluation) ||
          merit(best_.evaluation) - merit(trial.evaluation) > shift_;
 }
 
 // Takes the trial or leaves it, and says where to look next.
-void SqpDesigner::judge(const KnownDesign& trial, bool failed) {
+void SqpDesigner::judge(const Known& trial, bool failed) {
   double farthest = 0.0;
   for (std::size_t i = 0; i < best_.design.size(); ++i)
     farthest = std::max(farthest, std::fabs(trial.design[i] - best_.design[i]));
@@ -210,7 +238,7 @@ void SqpDesigner::tell(const Proposal& proposal, const Evaluation& evaluation) {
   if (finished_) return;
   const std::size_t n = proposal.design.size();
   const bool failed = !std::isfinite(evaluation.objective) || evaluation.gradient.size() != n;
-  const KnownDesign known{proposal.design, evaluation};
+  const Known known{proposal.design, evaluation};
   if (!started_) {
     started_ = true;
     finished_ = failed;  // the start failed: there is nothing to go on from
@@ -220,7 +248,7 @@ void SqpDesigner::tell(const Proposal& proposal, const Evaluation& evaluation) {
     return begin_model();
   }
   if (waiting_) {
-    const KnownDesign trial = *waiting_;
+    const Known trial = *waiting_;
     waiting_.reset();
     constexpr double forgetting = 0.5;
     if (!failed) {
@@ -238,27 +266,27 @@ void SqpDesigner::tell(const Proposal& proposal, const Evaluation& evaluation) {
 }
 
 std::string SqpDesigner::state() const {
-  DesignJson json = {{"pending", pending_},
-                     {"curvature", curvature_},
-                     {"learnt", learnt_},
-                     {"scale", scale_},
-                     {"trust", trust_},
-                     {"promised", promised_},
-                     {"penalty", penalty_},
-                     {"shift", shift_},
-                     {"begun_at", begun_at_},
-                     {"steps", steps_},
-                     {"started", started_},
-                     {"finished", finished_},
-                     {"best", DesignJson::parse(json_of(best_))},
-                     {"waiting", nullptr}};
-  if (waiting_) json["waiting"] = DesignJson::parse(json_of(*waiting_));
+  SqpJson json = {{"pending", pending_},
+                  {"curvature", curvature_},
+                  {"learnt", learnt_},
+                  {"scale", scale_},
+                  {"trust", trust_},
+                  {"promised", promised_},
+                  {"penalty", penalty_},
+                  {"shift", shift_},
+                  {"begun_at", begun_at_},
+                  {"steps", steps_},
+                  {"started", started_},
+                  {"finished", finished_},
+                  {"best", known_json(best_.design, best_.evaluation)},
+                  {"waiting", nullptr}};
+  if (waiting_) json["waiting"] = known_json(waiting_->design, waiting_->evaluation);
   return json.dump();
 }
 
 void SqpDesigner::restore(const std::string& state, const std::string& source) {
   try {
-    const DesignJson json = DesignJson::parse(state);
+    const SqpJson json = SqpJson::parse(state);
     if (json.at("pending").size() != pending_.size())
       throw Error(ErrorCode::format, source, "found another number of variables");
     json.at("pending").get_to(pending_), json.at("curvature").get_to(curvature_);
@@ -268,16 +296,24 @@ void SqpDesigner::restore(const std::string& state, const std::string& source) {
         json.at("begun_at").get_to(begun_at_);
     json.at("steps").get_to(steps_), json.at("started").get_to(started_);
     json.at("finished").get_to(finished_);
-    best_ = known_design(json.at("best").dump());
+    const auto known = [](const SqpJson& of) {
+      return Known{of.at("design").get<std::vector<double>>(), known_evaluation(of)};
+    };
+    best_ = known(json.at("best"));
     waiting_.reset();
-    if (!json.at("waiting").is_null()) waiting_ = known_design(json.at("waiting").dump());
-  } catch (const DesignJson::exception&) {
+    if (!json.at("waiting").is_null()) waiting_ = known(json.at("waiting"));
+  } catch (const SqpJson::exception&) {
     throw Error(ErrorCode::format, source, "found no state of a search by gradients");
   }
 }
 
 std::string SqpDesigner::description() const {
-  return description_of("sqp", options_);
+  return SqpJson{{"designer", "sqp"},
+                 {"trust", options_.trust},
+                 {"least_trust", options_.least_trust},
+                 {"low", options_.low},
+                 {"high", options_.high}}
+      .dump();
 }
 
-}  // namespace remodel::app
+}  // namespace remodel

@@ -1,10 +1,10 @@
-#include "quadratic_program.h"
+#include "design/quadratic_program.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
-namespace remodel::app {
+namespace remodel {
 
 namespace {
 
@@ -93,4 +93,4 @@ std::vector<double> solved(const QuadraticProgram& program) {
   return result;
 }
 
-}  // namespace remodel::app
+}  // namespace remodel
