@@ -5,9 +5,11 @@
 
 #include <optional>
 
-#include "flow_space.h"
+#include "aero/place.h"
+#include "remodel/design_problem.h"
+#include "remodel/flow_space.h"
 
-namespace remodel::app {
+namespace remodel {
 
 // A number of the domain that a design has, divided by `scale`: steps of a search are of one size in all
 // numbers of a design. Bounds are in the number's own unit; a coefficient has none of its own.
@@ -30,9 +32,6 @@ class ElementSpace final : public FlowSpace {
  public:
   // `start`: as airfoils_domain() makes it, the farfield the last loop.
   ElementSpace(Domain start, std::vector<ElementVariable> variables);
-
-  std::optional<std::size_t> find(const std::string& name) const;  // a section
-  bool has_coefficients(std::size_t index) const;                  // whether some are variables
 
   // What description() has. Throws Json's exceptions and Error (format).
   static ElementSpace from_description(const std::string& text, const std::string& source);
@@ -60,4 +59,7 @@ class ElementSpace final : public FlowSpace {
   std::vector<double> numbers_;  // of the start
 };
 
-}  // namespace remodel::app
+// Of the problem's elements. Throws as validate() does.
+ElementSpace space_of_elements(const DesignProblem& problem, const Place& place);
+
+}  // namespace remodel

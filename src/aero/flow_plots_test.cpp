@@ -1,10 +1,10 @@
-#include "flow_plots.h"
+#include "remodel/flow_plots.h"
 
 #include <gtest/gtest.h>
 
 #include "remodel/error.h"
 
-namespace remodel::app {
+namespace remodel {
 namespace {
 
 FrozenMesh six_points() {
@@ -42,4 +42,4 @@ TEST(CpPlot, SaysWhatItShows) {
 }
 
 }  // namespace
-}  // namespace remodel::app
+}  // namespace remodel

@@ -1,11 +1,10 @@
-#include "section_space.h"
+#include "aero/section_space.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "report.h"
-
-namespace remodel::app {
+namespace remodel {
 
 namespace {
 
@@ -116,7 +115,25 @@ std::vector<double> SectionSpace::start() const {
 }
 
 std::string SectionSpace::description() const {
-  return Json{{"half", options_.half}, {"space", Json::parse(space_.description())}}.dump();
+  return nlohmann::ordered_json{{"half", options_.half},
+                                {"space", nlohmann::ordered_json::parse(space_.description())}}
+      .dump();
+}
+
+CstAirfoil symmetric_start(CstAirfoil airfoil, const Place& place) {
+  constexpr double rounding = 1e-4;  // of files with four decimals, in chords
+  constexpr int stations = 40;
+  double worst = std::fabs(airfoil.te_upper + airfoil.te_lower);
+  for (int i = 1; i < stations; ++i) {
+    const double t = 0.5 * i / stations;
+    worst = std::max(worst, std::fabs(airfoil.at(t).y + airfoil.at(1.0 - t).y));
+  }
+  if (worst > rounding)
+    place.fail("found an airfoil as 'airfoil' whose surfaces differ by " + shown(worst) +
+               " chords, expected a symmetric one for 'symmetric'");
+  airfoil.te_lower = -airfoil.te_upper;
+  for (std::size_t i = 0; i < airfoil.upper.size(); ++i) airfoil.lower[i] = -airfoil.upper[i];
+  return airfoil;
 }
 
 FrozenMesh mirrored(const FrozenMesh& half) {
@@ -150,4 +167,4 @@ std::vector<double> mirrored(const FrozenMesh& half, const std::vector<double>& 
   return whole;
 }
 
-}  // namespace remodel::app
+}  // namespace remodel

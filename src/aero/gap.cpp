@@ -1,13 +1,14 @@
-#include "gap.h"
+#include "aero/gap.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "aero/kinds.h"
 #include "remodel/frozen_mesh.h"
 #include "remodel/mesh_derivative.h"
 
-namespace remodel::app {
+namespace remodel {
 
 namespace {
 
@@ -32,7 +33,35 @@ Nearest nearest(const std::vector<Point>& corners, const std::vector<Point>& sid
   return best;
 }
 
+class GapConstraint final : public DomainConstraint {
+ public:
+  GapConstraint(std::size_t loop, std::size_t other, double at_least)
+      : loop_(loop), other_(other), at_least_(at_least) {}
+  std::size_t count() const override { return 1; }
+  std::vector<DesignValue> at(const DesignView& of) const override {
+    Gap gap = gap_between(of.domain, loop_, other_);
+    for (double& x : gap.by_numbers) x = -x;
+    return {{at_least_ - gap.distance, of.space.gradient_of_domain(gap.by_numbers)}};
+  }
+
+ private:
+  std::size_t loop_, other_;
+  double at_least_;
+};
+
+DomainConstraintPtr gap_at_least(const DomainRequest& request) {
+  if (request.problem.elements.empty()) request.place.fail("found 'gap', expected it with 'elements' alone");
+  const std::vector<std::string>& names = request.place.given(request.given.between, "between");
+  if (names.size() != 2 || names[0] == names[1])
+    request.place.fail("found " + shown(names) + " as 'between', expected the names of two elements");
+  return std::make_shared<GapConstraint>(request.element(names[0]), request.element(names[1]),
+                                         request.least({1e-6, 10.0}, 0.0));
+}
+
 }  // namespace
+
+extern constinit const DomainKind gap_kind = {
+    .name = "gap", .of_section = false, .takes_start = false, .takes_between = true, .make = gap_at_least};
 
 Gap gap_between(const Domain& domain, std::size_t loop, std::size_t other) {
   const std::vector<Point> first = domain.points(loop), second = domain.points(other);
@@ -56,4 +85,4 @@ Gap gap_between(const Domain& domain, std::size_t loop, std::size_t other) {
   return {best.distance, MeshDerivative(three, domain).vjp(by_points)};
 }
 
-}  // namespace remodel::app
+}  // namespace remodel

@@ -1,16 +1,18 @@
-#include "design_run.h"
+#include "remodel/design_run.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "design_constraints.h"
-#include "element_space.h"
-#include "number_text.h"
+#include "aero/element_space.h"
+#include "aero/section_space.h"
 #include "remodel/error.h"
 #include "remodel/evaluation.h"
-#include "section_space.h"
 
-namespace remodel::app {
+namespace remodel {
+
+using RunJson = nlohmann::ordered_json;
 
 double DesignRun::sum(const char* output) const {
   double total = 0.0;
@@ -25,32 +27,46 @@ std::optional<double> DesignRun::start_objective() const {
   return first.objective;
 }
 
-Json DesignRun::violations() const {
-  return app::violations(constraint_names, constraint_tolerance, rows[best].constraints);
+std::vector<NamedNumber> violations_of(const std::vector<std::string>& names, double tolerance,
+                                       const std::vector<double>& constraints) {
+  std::vector<NamedNumber> result;
+  for (std::size_t i = 0; i < std::min(names.size(), constraints.size()); ++i) {
+    auto found = std::find_if(result.begin(), result.end(),
+                              [&](const NamedNumber& known) { return known.name == names[i]; });
+    if (found == result.end()) found = result.insert(result.end(), {names[i], 0.0});
+    found->value = std::max(found->value, constraints[i] > tolerance ? constraints[i] : 0.0);
+  }
+  return result;
+}
+
+std::vector<NamedNumber> DesignRun::violations() const {
+  return violations_of(constraint_names, constraint_tolerance, rows[best].constraints);
 }
 
 std::string DesignRun::why_no_design() const {
   if (!has_flow) return "no flow was found for any design";
-  const Json by = violations();
-  const auto worst = std::max_element(by.begin(), by.end());
+  const std::vector<NamedNumber> by = violations();
+  const auto worst = std::max_element(
+      by.begin(), by.end(), [](const NamedNumber& a, const NamedNumber& b) { return a.value < b.value; });
+  char amount[32];
+  std::snprintf(amount, sizeof amount, "%.6g", worst->value);
   return "no design is within all constraints: the least violated one, design " +
-         std::to_string(rows[best].evaluation) + ", violates '" + worst.key() + "' most, by " +
-         short_text(worst->get<double>());
+         std::to_string(rows[best].evaluation) + ", violates '" + worst->name + "' most, by " + amount;
 }
 
 bool holds_design_run(const std::filesystem::path& directory) {
   const auto run = History::open(directory / "history.sqlite").run();
   const auto options = run.find("options");
-  return options != run.end() && Json::accept(options->second) &&
-         Json::parse(options->second).contains("problem");
+  return options != run.end() && RunJson::accept(options->second) &&
+         RunJson::parse(options->second).contains("problem");
 }
 
 namespace {
 
-std::unique_ptr<const FlowSpace> space_of(const Json& options, const std::string& file) {
+std::unique_ptr<const FlowSpace> space_of(const RunJson& options, const std::string& file) {
   if (options.contains("elements"))
     return std::make_unique<ElementSpace>(ElementSpace::from_description(options.dump(), file));
-  const Json& space = options.at("space");
+  const RunJson& space = options.at("space");
   return std::make_unique<SectionSpace>(
       airfoil_from_json(space.at("from").dump(), file),
       SectionSpaceOptions{.symmetric = options.at("problem").value("symmetric", false),
@@ -79,19 +95,21 @@ DesignRun read_design_run(const std::filesystem::path& directory) {
   const History history = History::open(file);
   DesignRun run;
   try {
-    run.options = Json::parse(history.run().at("options"));
-    const Json& problem = run.options.at("problem");
-    run.space = space_of(run.options, file.string());
-    run.options.at("constraint_names").get_to(run.constraint_names);
-    run.constraint_tolerance = run.options.value("constraint_tolerance", 0.0);
-    for (const Json& entry : problem.at("flow")) {
+    const RunJson options = RunJson::parse(history.run().at("options"));
+    const RunJson& problem = options.at("problem");
+    run.problem = problem.dump();
+    problem.at("objective").get_to(run.objective);
+    run.space = space_of(options, file.string());
+    options.at("constraint_names").get_to(run.constraint_names);
+    run.constraint_tolerance = options.value("constraint_tolerance", 0.0);
+    for (const RunJson& entry : problem.at("flow")) {
       FlowConditions& at = run.conditions.emplace_back();
       at.mach = entry.at("mach"), at.alpha_deg = entry.value("alpha_deg", 0.0);
       if (entry.contains("cl")) at.cl = entry.at("cl").get<double>();
     }
   } catch (const std::out_of_range&) {
     throw Error(ErrorCode::format, file.string(), "found no run of `remodel design`");
-  } catch (const Json::exception&) {
+  } catch (const RunJson::exception&) {
     throw Error(ErrorCode::format, file.string(), "found no run of `remodel design`");
   }
   run.rows = history.records();
@@ -137,4 +155,4 @@ std::array<double, 4> window_of(const DesignRun& run, const std::array<double, 4
   return {box[0] - beside * width, box[1] - above * width, box[2] + beside * width, box[3] + above * width};
 }
 
-}  // namespace remodel::app
+}  // namespace remodel

@@ -1,10 +1,9 @@
 #pragma once
 
-// What the evaluator of `remodel design` keeps from design to design of a living mesh.
+// What the evaluator of a design problem keeps from design to design of a living mesh.
 
 #include <algorithm>
 #include <cstdint>
-#include <map>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -13,8 +12,9 @@
 
 #include "remodel/evaluator.h"
 #include "remodel/flow.h"
+#include "remodel/flow_function.h"
 
-namespace remodel::app {
+namespace remodel {
 
 // Asks the observer of the evaluation under way: flows outlive it. They may ask from several threads.
 class LatestObserver final : public StepObserver {
@@ -74,10 +74,10 @@ struct FlowMemory final : EvaluatorState {
   std::uint64_t connectivity = 0;
   // Of inverse design: the target's pressures at stations, on a copy of the mesh that followed to it.
   std::vector<LivingFlow> target_flows;
-  std::vector<std::map<double, double>> target;
+  std::vector<StationPressures> target;
   std::optional<std::uint64_t> aimed_at = {};  // the connectivity that the copy was made of
   bool is_like = false;                        // and has itself
   std::string bytes() const override { return std::to_string(connectivity); }
 };
 
-}  // namespace remodel::app
+}  // namespace remodel

@@ -9,10 +9,10 @@
 // and Delaunay (no circle over an edge of the axis holds a point), the flow has no lift, and costs half as
 // much.
 
-#include "flow_space.h"
-#include "remodel/frozen_mesh.h"
+#include "aero/place.h"
+#include "remodel/flow_space.h"
 
-namespace remodel::app {
+namespace remodel {
 
 struct SectionSpaceOptions {
   bool symmetric = false;  // the lower surface is the upper one's mirror image
@@ -67,8 +67,8 @@ class SectionSpace final : public FlowSpace {
   std::vector<std::vector<double>> rows_;  // half: of each point of the polyline, y by the coefficients
 };
 
-// A mesh above the x axis with its mirror image; values at its points likewise, `sign` times as much below.
-FrozenMesh mirrored(const FrozenMesh& half);
-std::vector<double> mirrored(const FrozenMesh& half, const std::vector<double>& values, double sign = 1.0);
+// The airfoil with the upper surface's mirror image as its lower one. Throws where these differ by more than
+// the rounding of coordinates.
+CstAirfoil symmetric_start(CstAirfoil airfoil, const Place& place);
 
-}  // namespace remodel::app
+}  // namespace remodel

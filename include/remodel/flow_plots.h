@@ -8,7 +8,7 @@
 #include "remodel/frozen_mesh.h"
 #include "remodel/plot.h"
 
-namespace remodel::app {
+namespace remodel {
 
 // "M 0.8, α = 1.25°, CL = 0.3543"
 std::string flow_caption(double mach, double alpha_deg, double cl);
@@ -25,4 +25,4 @@ Plot cp_plot(const FrozenMesh& mesh, const std::string& farfield, std::span<cons
 // Residuals over steps: a table (.csv) or a plot (.svg, .png), by the file's extension.
 void write_residuals(std::span<const double> residuals, const std::string& caption, const std::string& file);
 
-}  // namespace remodel::app
+}  // namespace remodel

@@ -1,27 +1,29 @@
-#include "design_report.h"
+#include "remodel/design_run.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
-#include "base64_text.h"
-#include "design_problem.h"
-#include "design_run.h"
-#include "flow_plots.h"
+#include "aero/base64_text.h"
 #include "remodel/draw.h"
 #include "remodel/error.h"
+#include "remodel/flow_plots.h"
 #include "remodel/io.h"
 #include "remodel/plot.h"
 #include "remodel/remodel.h"
 
-namespace remodel::app {
+// The page of a run.
+
+namespace remodel {
 
 namespace {
 
 namespace fs = std::filesystem;
+using PageJson = nlohmann::ordered_json;
 
 std::string number(double value, const char* format = "%.4g") {
   char text[64];
@@ -77,13 +79,13 @@ struct Shown {
   std::vector<std::vector<double>> mach, cp;
 };
 
-Shown shown(const std::string& name, const std::vector<double>& design, const Mesh& mesh,
-            const DesignRun& run) {
+Shown shown_of(const std::string& name, const std::vector<double>& design, const Mesh& mesh,
+               const DesignRun& run) {
   const FrozenMesh frozen = mesh.freeze();
   const bool half = run.space->half();
   Shown result{name, design, half ? mirrored(frozen) : frozen, {}, {}, {}};
   for (const FlowConditions& conditions : run.conditions) {
-    FlowResult flow = solve_section(mesh, conditions, half);
+    FlowResult flow = solve_design_flow(mesh, conditions, half);
     result.mach.push_back(mach_numbers(flow)), result.cp.push_back(pressure_coefficients(flow));
     if (half) {
       result.mach.back() = mirrored(frozen, result.mach.back());
@@ -189,12 +191,14 @@ std::string convergence(const Scratch& scratch, const DesignRun& run) {
   return scratch.picture(".svg", [&](const fs::path& file) { draw_plot(plot, file); });
 }
 
-Json or_null(const std::optional<double>& value) {
-  return value ? Json(*value) : Json();
+PageJson or_null(const std::optional<double>& value) {
+  return value ? PageJson(*value) : PageJson();
 }
 
 // What the run cost, and what a cold solve of every flow would have.
-Json cost(const DesignRun& run, const Shown& first, const Shown& last) {
+PageJson cost_of(const DesignRun& run, const Shown& first, const Shown& last) {
+  PageJson violations = PageJson::object();
+  for (const auto& [name, violation] : run.violations()) violations[name] = violation;
   std::size_t kept = 0;
   double connected = 0.0;
   std::optional<double> shift;
@@ -225,15 +229,15 @@ Json cost(const DesignRun& run, const Shown& first, const Shown& last) {
           {"cold_equivalents", (flow_seconds + gradient_seconds) / cold},
           {"largest_shift", or_null(shift)},
           {"start_objective", or_null(run.start_objective())},
-          {"objective", run.has_best() ? Json(run.rows[run.best].objective) : Json()},
-          {"constraints", run.violations()}};
+          {"objective", run.has_best() ? PageJson(run.rows[run.best].objective) : PageJson()},
+          {"constraints", std::move(violations)}};
 }
 
 std::string row(const std::string& name, const std::string& value) {
   return "<tr><th>" + name + "</th><td>" + value + "</td></tr>\n";
 }
 
-std::string cost_table(const Json& cost) {
+std::string cost_table(const PageJson& cost) {
   const auto at = [&](const char* key, const char* format = "%.4g") {
     return number(cost.at(key).get<double>(), format);
   };
@@ -275,7 +279,7 @@ std::string points_table(const Shown& first, const Shown& last) {
 }
 
 // By how much the best design, or the one shown in its place, violates constraints.
-std::string constraints_table(const Json& by) {
+std::string constraints_table(const PageJson& by) {
   if (by.empty()) return {};
   std::string table = "<table>\n<tr><th>constraint</th><th>violated by</th></tr>\n";
   for (const auto& [name, violation] : by.items())
@@ -286,13 +290,13 @@ std::string constraints_table(const Json& by) {
 // The best design on fresh meshes, as the command left it: nothing where the file is that of another design.
 std::string fresh_table(const fs::path& directory, const DesignRun& run) {
   const fs::path file = directory / "fresh.json";
-  const Json fresh = fs::exists(file) ? Json::parse(read_text(file), nullptr, false) : Json();
-  if (!run.has_best() || !fresh.is_object() || fresh.at("design") != Json(run.best_design())) return {};
+  const PageJson fresh = fs::exists(file) ? PageJson::parse(read_text(file), nullptr, false) : PageJson();
+  if (!run.has_best() || !fresh.is_object() || fresh.at("design") != PageJson(run.best_design())) return {};
   std::string table =
       "<h2>On fresh meshes</h2>\n<p>The best section on meshes that the search has not seen, flows found "
       "cold.</p>\n<table>\n<tr><th>points</th><th>vertices</th><th>Mach</th><th>CL</th><th>CD, counts</th>"
       "<th>CM</th><th>constraints violated</th><th>seconds</th></tr>\n";
-  for (const Json& entry : fresh.at("verified")) {
+  for (const PageJson& entry : fresh.at("verified")) {
     table += "<tr><td>" + entry.at("points").dump() + "</td><td>" + entry.at("vertices").dump() +
              "</td><td>" + number(entry.at("mach")) + "</td>";
     if (entry.at("converged") != true) {
@@ -325,10 +329,10 @@ constexpr const char* style =
     "grid-template-columns:1fr}}";
 
 // What the search has come to, in words.
-std::string outcome(const DesignRun& run, const Json& cost) {
-  const std::string objective = escaped(run.options["problem"]["objective"].get<std::string>());
+std::string outcome(const DesignRun& run, const PageJson& cost) {
+  const std::string objective = escaped(run.objective);
   if (!run.has_best()) return "Objective: " + objective + ". No best design: " + escaped(run.why_no_design());
-  const Json& start = cost["start_objective"];
+  const PageJson& start = cost["start_objective"];
   return "Objective (" + objective +
          "): " + (start.is_null() ? "" : "from " + number(start.get<double>(), "%.6g") + " to ") + "<b>" +
          number(cost["objective"].get<double>(), "%.6g") + "</b>";
@@ -349,7 +353,7 @@ const char* name_of_best(const DesignRun& run) {
 }
 
 std::string page_of(const fs::path& directory, const DesignRun& run, const Shown& first, const Shown& last,
-                    const Json& cost) {
+                    const PageJson& cost) {
   const Scratch scratch;
   std::string page =
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
@@ -387,19 +391,19 @@ std::string page_of(const fs::path& directory, const DesignRun& run, const Shown
             .width = 1000,
             .caption = of->name + ": " + std::to_string(of->mesh.triangles.size()) + " triangles"});
     });
-  return page + "<h2>Problem</h2>\n<pre>" + escaped(run.options["problem"].dump(1)) +
+  return page + "<h2>Problem</h2>\n<pre>" + escaped(PageJson::parse(run.problem).dump(1)) +
          "</pre>\n</body></html>\n";
 }
 
 }  // namespace
 
-Json write_design_report(const fs::path& directory, const fs::path& page) {
+std::string write_design_page(const fs::path& directory, const fs::path& page) {
   const DesignRun run = read_design_run(directory);
-  const Shown first = shown("first", run.space->start(), read_mesh(directory / "first.vtkhdf"), run);
-  const Shown last = shown(name_of_best(run), run.best_design(), mesh_of_best(directory, run), run);
-  const Json figures = cost(run, first, last);
+  const Shown first = shown_of("first", run.space->start(), read_mesh(directory / "first.vtkhdf"), run);
+  const Shown last = shown_of(name_of_best(run), run.best_design(), mesh_of_best(directory, run), run);
+  const PageJson figures = cost_of(run, first, last);
   write_text_atomically(page, page_of(directory, run, first, last, figures));
-  return figures;
+  return figures.dump();
 }
 
-}  // namespace remodel::app
+}  // namespace remodel

@@ -1,8 +1,6 @@
-#include "gradient_names.h"
-
 #include "remodel/mesh_derivative.h"
 
-namespace remodel::app {
+namespace remodel {
 namespace {
 
 // Numbers of a curve alone, without a placement.
@@ -53,4 +51,4 @@ bool is_of_section(const std::string& name) {
   return name.find(".upper[") != std::string::npos || name.find(".lower[") != std::string::npos;
 }
 
-}  // namespace remodel::app
+}  // namespace remodel

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace remodel::app {
+namespace remodel {
 
 // RFC 4648, section 4.
 inline std::string base64_text(std::string_view bytes) {
@@ -20,4 +20,4 @@ inline std::string base64_text(std::string_view bytes) {
   return text;
 }
 
-}  // namespace remodel::app
+}  // namespace remodel

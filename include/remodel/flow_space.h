@@ -1,7 +1,7 @@
 #pragma once
 
-// What `remodel design` asks of a design space beyond DesignSpace: sections, how far numbers may go, and
-// derivatives by the design.
+// What a design problem asks of a design space beyond DesignSpace: sections, how far numbers may go, and
+// derivatives by the design. design_space() of remodel/design_problem.h makes one.
 
 #include <cstddef>
 #include <span>
@@ -11,8 +11,9 @@
 #include "remodel/airfoil.h"
 #include "remodel/design_space.h"
 #include "remodel/domain.h"
+#include "remodel/frozen_mesh.h"
 
-namespace remodel::app {
+namespace remodel {
 
 // The lowest and the highest value of each number of a design.
 struct DesignBounds {
@@ -34,7 +35,7 @@ class FlowSpace : public DesignSpace {
   // `coefficients`: how far a coefficient of a section may go from the start.
   virtual DesignBounds bounds(double coefficients) const = 0;
 
-  // What second derivatives by the design may be like (SqpOptions::metric); empty: nothing is known.
+  // SqpOptions::metric; empty: nothing is known.
   virtual std::vector<double> metric() const { return {}; }
 
   // Sections in their own chords, and where they lie.
@@ -56,4 +57,8 @@ class FlowSpace : public DesignSpace {
                                                   std::span<const double> by_coefficients) const = 0;
 };
 
-}  // namespace remodel::app
+// A mesh above the x axis with its mirror image; values at its points likewise, `sign` times as much below.
+FrozenMesh mirrored(const FrozenMesh& half);
+std::vector<double> mirrored(const FrozenMesh& half, const std::vector<double>& values, double sign = 1.0);
+
+}  // namespace remodel

@@ -1,13 +1,16 @@
-#include "element_space.h"
+#include "aero/element_space.h"
 
 #include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "remodel/mesh_derivative.h"
-#include "report.h"
 
-namespace remodel::app {
+namespace remodel {
 
 namespace {
+
+using SpaceJson = nlohmann::ordered_json;
 
 constexpr std::size_t placement_numbers = 4;
 
@@ -25,20 +28,6 @@ LoopNumbers numbers_of_loop(const Domain& domain, std::size_t loop) {
 
 ElementSpace::ElementSpace(Domain start, std::vector<ElementVariable> variables)
     : start_(std::move(start)), variables_(std::move(variables)), numbers_(coefficients_of(start_)) {}
-
-std::optional<std::size_t> ElementSpace::find(const std::string& name) const {
-  for (std::size_t i = 0; i < sections(); ++i)
-    if (start_.loops[i].curves[0].name == name) return i;
-  return std::nullopt;
-}
-
-bool ElementSpace::has_coefficients(std::size_t index) const {
-  const LoopNumbers numbers = numbers_of_loop(start_, index);
-  return std::any_of(variables_.begin(), variables_.end(), [&](const ElementVariable& variable) {
-    return variable.is_coefficient && variable.number >= numbers.curves &&
-           variable.number < numbers.placement;
-  });
-}
 
 std::vector<double> ElementSpace::start() const {
   std::vector<double> design;
@@ -120,7 +109,7 @@ std::string ElementSpace::text(std::span<const double> design) const {
 }
 
 std::string ElementSpace::description() const {
-  Json variables = Json::array();
+  SpaceJson variables = SpaceJson::array();
   for (const ElementVariable& variable : variables_)
     variables.push_back({{"name", variable.name},
                          {"number", variable.number},
@@ -128,16 +117,17 @@ std::string ElementSpace::description() const {
                          {"coefficient", variable.is_coefficient},
                          {"low", variable.low},
                          {"high", variable.high}});
-  return Json{{"elements", {{"domain", Json::parse(domain_to_json(start_))}, {"variables", variables}}}}
+  return SpaceJson{
+      {"elements", {{"domain", SpaceJson::parse(domain_to_json(start_))}, {"variables", variables}}}}
       .dump();
 }
 
 ElementSpace ElementSpace::from_description(const std::string& text, const std::string& source) {
-  const Json elements = Json::parse(text).at("elements");
+  const SpaceJson elements = SpaceJson::parse(text).at("elements");
   Domain start = domain_from_json(elements.at("domain").dump(), source);
   const std::size_t numbers = coefficients_of(start).size();
   std::vector<ElementVariable> variables;
-  for (const Json& entry : elements.at("variables")) {
+  for (const SpaceJson& entry : elements.at("variables")) {
     variables.push_back({.name = entry.at("name"),
                          .number = entry.at("number"),
                          .scale = entry.at("scale"),
@@ -150,4 +140,4 @@ ElementSpace ElementSpace::from_description(const std::string& text, const std::
   return {std::move(start), std::move(variables)};
 }
 
-}  // namespace remodel::app
+}  // namespace remodel

@@ -7,7 +7,7 @@
 
 #include "remodel/domain.h"
 
-namespace remodel::app {
+namespace remodel {
 
 // The least distance between the polygons of two loops that lie apart, and its derivatives by the numbers of
 // the domain (coefficients_of(Domain)), at fixed parameters: those of the two places that are nearest to each
@@ -18,4 +18,4 @@ struct Gap {
 };
 Gap gap_between(const Domain& domain, std::size_t loop, std::size_t other);
 
-}  // namespace remodel::app
+}  // namespace remodel

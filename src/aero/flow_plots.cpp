@@ -1,4 +1,4 @@
-#include "flow_plots.h"
+#include "remodel/flow_plots.h"
 
 #include <cmath>
 #include <cstdio>
@@ -9,7 +9,7 @@
 #include "remodel/error.h"
 #include "remodel/io.h"
 
-namespace remodel::app {
+namespace remodel {
 
 std::string flow_caption(double mach, double alpha_deg, double cl) {
   char caption[100];
@@ -82,4 +82,4 @@ void write_residuals(std::span<const double> residuals, const std::string& capti
   draw_plot(plot, file);
 }
 
-}  // namespace remodel::app
+}  // namespace remodel

@@ -1,54 +1,45 @@
-// The constraints and the half domain of `remodel design`, against values that come from elsewhere: the curve
-// itself, formulas of sections, differences of whole flows.
+// Constraints, functions of flows and the half domain of design problems, against values that come from
+// elsewhere: the curve itself, formulas of sections, differences of whole flows.
 
-#include "design_problem.h"
+#include "remodel/design_problem.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <array>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <functional>
 
-#include "design_constraints.h"
-#include "gap.h"
+#include "aero/element_space.h"
+#include "aero/gap.h"
+#include "aero/resolved_problem.h"
+#include "remodel/design_run.h"
 #include "remodel/generate.h"
 #include "remodel/mesh_derivative.h"
 
-namespace remodel::app {
+namespace remodel {
 namespace {
 
-// A file of this test's own: tests run side by side.
-std::string written(const std::string& name, const std::string& text) {
-  const std::string file = testing::TempDir() + std::to_string(getpid()) + "_" + name;
-  std::ofstream(file) << text;
-  return file;
+CstAirfoil section(const std::string& name, int degree = 5) {
+  return raise_degree(named_airfoil(name, degree), degree);
 }
 
-DesignProblemFile problem_of(const Json& changes) {
-  Json json = {{"airfoil", "naca0012"},
-               {"degree", 5},
-               {"mesh", {{"points", 40}}},
-               {"flow", {{{"mach", 0.3}, {"alpha_deg", 1}}}},
-               {"objective", "drag"}};
-  if (changes.contains("elements")) json.erase("airfoil");
-  json.update(changes);
-  const std::string file = written("problem.json", json.dump());
-  DesignProblemFile problem = read_design_problem(file);
-  std::filesystem::remove(file);
+// A section at M 0.3 and 1 degree, on a coarse mesh.
+DesignProblem problem_of(const CstAirfoil& airfoil, std::vector<DesignConstraint> constraints = {}) {
+  DesignProblem problem{.airfoil = airfoil};
+  problem.domain.points = 40;
+  problem.points = {{.conditions = {.mach = 0.3, .alpha_deg = 1.0}}};
+  problem.constraints = std::move(constraints);
   return problem;
 }
 
 // What the constraints are worth: violated above 0.
-std::vector<double> values_of(const DesignProblemFile& problem, const CstAirfoil& airfoil) {
-  std::vector<double> a = airfoil.upper, values;
-  a.insert(a.end(), airfoil.lower.begin(), airfoil.lower.end());
-  for (const SectionConstraint& constraint : problem.section) {
-    values.push_back(constraint.bound);
-    for (std::size_t i = 0; i < a.size(); ++i) values.back() -= constraint.row.at(i) * a[i];
-  }
+std::vector<double> values_of(const DesignProblem& problem, const CstAirfoil& airfoil) {
+  const ResolvedProblem parts = resolved(problem, "problem");
+  std::vector<double> design = airfoil.upper, values;
+  if (!problem.symmetric) design.insert(design.end(), airfoil.lower.begin(), airfoil.lower.end());
+  for (const auto& limit : parts.domain)
+    for (const DesignValue& value : limit.constraint->at({*parts.space, design, {}}))
+      values.push_back(value.value);
   return values;
 }
 
@@ -86,12 +77,8 @@ TEST(EdgeConstraints, AngleIsThatOfTheCurve) {
     const double angle = degrees(2.0 * std::atan(0.5 * (lower - upper)));
     EXPECT_LE(degrees(std::atan(lower) - std::atan(upper)), angle + 1e-6) << entry.name;
     const auto value = [&](double at_least) {
-      const DesignProblemFile problem =
-          problem_of({{"airfoil", entry.name},
-                      {"degree", entry.degree},
-                      {"constraints", {{{"kind", "trailing_edge_angle"}, {"at_least", at_least}}}}});
-      EXPECT_EQ(problem.start, airfoil) << entry.name;
-      return values_of(problem, airfoil).at(0);
+      return values_of(problem_of(airfoil, {{.kind = "trailing_edge_angle", .at_least = at_least}}), airfoil)
+          .at(0);
     };
     EXPECT_LT(value(angle - 1e-5), 0.0) << entry.name;
     EXPECT_GT(value(angle + 1e-5), 0.0) << entry.name;
@@ -101,14 +88,9 @@ TEST(EdgeConstraints, AngleIsThatOfTheCurve) {
 TEST(EdgeConstraints, AngleOfAnOpenTrailingEdge) {
   CstAirfoil open = named_airfoil("rae2822", 5);
   open.te_upper = 0.004, open.te_lower = -0.002;
-  const std::string file = written("open.json", airfoil_to_json(open));
   const double opening = trailing_slope(open, false) - trailing_slope(open, true);
-  const DesignProblemFile problem = problem_of(
-      {{"airfoil", file},
-       {"degree", open.degree()},
-       {"constraints",
-        {{{"kind", "trailing_edge_angle"}, {"at_least", degrees(2.0 * std::atan(0.5 * opening))}}}}});
-  std::filesystem::remove(file);
+  const DesignProblem problem = problem_of(
+      open, {{.kind = "trailing_edge_angle", .at_least = degrees(2.0 * std::atan(0.5 * opening))}});
   EXPECT_NEAR(values_of(problem, open).at(0), 0.0, 1e-7);
 }
 
@@ -120,10 +102,8 @@ TEST(EdgeConstraints, RadiusIsThatOfTheCurve) {
       const double radius = nose_radius(airfoil, upper);
       EXPECT_NEAR(radius, 0.5 * std::pow((upper ? airfoil.upper : airfoil.lower)[0], 2), 1e-8);
       for (const double factor : {1.0 - 1e-5, 1.0 + 1e-5}) {
-        const DesignProblemFile problem =
-            problem_of({{"airfoil", entry.name},
-                        {"degree", entry.degree},
-                        {"constraints", {{{"kind", "leading_edge_radius"}, {"at_least", factor * radius}}}}});
+        const DesignProblem problem =
+            problem_of(airfoil, {{.kind = "leading_edge_radius", .at_least = factor * radius}});
         EXPECT_EQ(values_of(problem, airfoil).at(upper ? 0 : 1) > 0.0, factor > 1.0)
             << entry.name << (upper ? " upper " : " lower ") << radius;
       }
@@ -138,47 +118,49 @@ TEST(EdgeConstraints, RadiusOfFourDigitSections) {
     const std::string name = "naca:00" + std::string(percent < 10 ? "0" : "") + std::to_string(percent);
     const double radius = 1.1019 * std::pow(percent / 100.0, 2);
     for (const double factor : {0.92, 1.0}) {
-      const DesignProblemFile problem =
-          problem_of({{"airfoil", name},
-                      {"constraints", {{{"kind", "leading_edge_radius"}, {"at_least", factor * radius}}}}});
-      ASSERT_EQ(problem.section.size(), 2u);
-      for (const double value : values_of(problem, problem.start))
-        EXPECT_EQ(value > 0.0, factor == 1.0) << name << " " << factor;
+      const DesignProblem problem =
+          problem_of(section(name), {{.kind = "leading_edge_radius", .at_least = factor * radius}});
+      const std::vector<double> values = values_of(problem, problem.airfoil);
+      ASSERT_EQ(values.size(), 2u);
+      for (const double value : values) EXPECT_EQ(value > 0.0, factor == 1.0) << name << " " << factor;
     }
   }
 }
 
 TEST(EdgeConstraints, SymmetricSectionsHaveOneRadius) {
-  const DesignProblemFile problem = problem_of(
-      {{"symmetric", true}, {"constraints", {{{"kind", "leading_edge_radius"}, {"of_start", 1}}}}});
-  EXPECT_EQ(problem.section.size(), 1u);
+  DesignProblem problem = problem_of(section("naca0012"), {{.kind = "leading_edge_radius", .of_start = 1.0}});
+  problem.symmetric = true;
+  EXPECT_EQ(constraint_names(problem).size(), 1u);
 }
 
 TEST(EdgeConstraints, OfStartIsAPartOfTheStartsOwn) {
-  const Json constraints = {{{"kind", "trailing_edge_angle"}, {"of_start", 0.5}},
-                            {{"kind", "leading_edge_radius"}, {"of_start", 0.5}}};
-  const DesignProblemFile problem = problem_of({{"constraints", constraints}});
-  ASSERT_EQ(problem.section.size(), 3u);
+  const DesignProblem problem = problem_of(
+      section("naca0012"),
+      {{.kind = "trailing_edge_angle", .of_start = 0.5}, {.kind = "leading_edge_radius", .of_start = 0.5}});
   // Half the angle by the last coefficients, half the radius by the first.
-  CstAirfoil half = problem.start;
+  CstAirfoil half = problem.airfoil;
   const double slope = std::tan(0.5 * std::atan(0.5 * (half.upper.back() - half.lower.back())));
   half.upper.back() = slope, half.lower.back() = -slope;
   half.upper.front() *= std::sqrt(0.5), half.lower.front() *= std::sqrt(0.5);
-  for (const double value : values_of(problem, half)) EXPECT_NEAR(value, 0.0, 1e-12);
-  EXPECT_NEAR(nose_radius(half, true), 0.5 * nose_radius(problem.start, true), 1e-8);
-  EXPECT_NEAR(std::atan(trailing_slope(half, false)), 0.5 * std::atan(trailing_slope(problem.start, false)),
+  const std::vector<double> values = values_of(problem, half);
+  ASSERT_EQ(values.size(), 3u);
+  for (const double value : values) EXPECT_NEAR(value, 0.0, 1e-12);
+  EXPECT_NEAR(nose_radius(half, true), 0.5 * nose_radius(problem.airfoil, true), 1e-8);
+  EXPECT_NEAR(std::atan(trailing_slope(half, false)), 0.5 * std::atan(trailing_slope(problem.airfoil, false)),
               1e-8);
 }
 
 // One evaluation of a design, on a mesh of its own.
 class Case {
  public:
-  explicit Case(const Json& changes)
-      : problem_(problem_of(changes)),
-        space_(problem_.space()),
-        mesh_(generate(space_->domain(space_->start()), {.gradation = problem_.gradation}).mesh) {}
+  explicit Case(const DesignProblem& problem)
+      : problem_(problem),
+        space_(design_space(problem)),
+        mesh_(generate(space_->domain(space_->start()),
+                       {.gradation = problem.gradation.value_or(problem.domain.points / 50.0)})
+                  .mesh) {}
 
-  const DesignProblemFile& problem() const { return problem_; }
+  const DesignProblem& problem() const { return problem_; }
   const FlowSpace& space() const { return *space_; }
   const Mesh& mesh() const { return mesh_; }
   Mesh mesh_of(const std::vector<double>& design) const { return mesh_at(mesh_, space_->domain(design)); }
@@ -186,7 +168,7 @@ class Case {
     StepObserver observer;
     const Mesh mesh = mesh_of(design);
     std::unique_ptr<EvaluatorState> state;
-    return make_flow_evaluator(problem_, *space_, threads)
+    return flow_evaluator(problem_, *space_, threads)
         ->evaluate({.design = design,
                     .mesh = mesh,
                     .step = {},
@@ -211,7 +193,7 @@ class Case {
   }
 
  private:
-  DesignProblemFile problem_;
+  DesignProblem problem_;
   std::unique_ptr<FlowSpace> space_;
   Mesh mesh_;
 };
@@ -226,10 +208,10 @@ double relative(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 TEST(EdgeConstraints, GradientsAreThoseOfTheCurve) {
-  const Json constraints = {{{"kind", "trailing_edge_angle"}, {"of_start", 1}},
-                            {{"kind", "leading_edge_radius"}, {"of_start", 1}}};
+  const std::vector<DesignConstraint> constraints = {{.kind = "trailing_edge_angle", .of_start = 1.0},
+                                                     {.kind = "leading_edge_radius", .of_start = 1.0}};
   for (const char* name : {"naca0012", "naca2412", "rae2822"}) {
-    const Case task({{"airfoil", name}, {"constraints", constraints}});
+    const Case task(problem_of(section(name), constraints));
     const Evaluation evaluation = task.evaluate(task.space().start());
     ASSERT_EQ(evaluation.constraint_gradients.size(), 3u);
     for (const double value : evaluation.constraints) EXPECT_NEAR(value, 0.0, 1e-12) << name;
@@ -248,7 +230,12 @@ TEST(EdgeConstraints, GradientsAreThoseOfTheCurve) {
   }
 }
 
-const Json symmetric_flow = {{"symmetric", true}, {"flow", {{{"mach", 0.8}, {"alpha_deg", 0}}}}};
+DesignProblem symmetric_flow(double alpha_deg = 0.0) {
+  DesignProblem problem = problem_of(section("naca0012"));
+  problem.symmetric = true;
+  problem.points = {{.conditions = {.mach = 0.8, .alpha_deg = alpha_deg}}};
+  return problem;
+}
 
 // Flows of a case's designs, one after the other, with the mesh's connectivity.
 class Flows {
@@ -263,7 +250,7 @@ class Flows {
 
  private:
   static FlowOptions accurate(const Case& task) {
-    FlowOptions options = flow_options(task.space().half());
+    FlowOptions options = design_flow_options(task.space().half());
     options.tolerance = 1e-12;
     return options;
   }
@@ -273,7 +260,7 @@ class Flows {
 };
 
 TEST(HalfDomain, GradientsAreThoseOfWholeFlows) {
-  const Case task(symmetric_flow);
+  const Case task(symmetric_flow());
   ASSERT_TRUE(task.space().half());
   ASSERT_EQ(task.space().start().size(), 6u);
   Flows flow(task);
@@ -293,9 +280,9 @@ TEST(HalfDomain, GradientsAreThoseOfWholeFlows) {
 
 // At an angle of attack the domain is whole, the section still symmetric.
 TEST(SymmetricSections, GradientsOfDragAndLiftAreThoseOfWholeFlows) {
-  const Json constraints = {{{"kind", "lift"}, {"at_least", 0.1}}};
-  const Case task(
-      {{"symmetric", true}, {"flow", {{{"mach", 0.8}, {"alpha_deg", 1.25}}}}, {"constraints", constraints}});
+  DesignProblem problem = symmetric_flow(1.25);
+  problem.constraints = {{.kind = "lift", .at_least = 0.1}};
+  const Case task(problem);
   ASSERT_FALSE(task.space().half());
   ASSERT_EQ(task.space().start().size(), 6u);
   Flows flow(task);
@@ -307,13 +294,11 @@ TEST(SymmetricSections, GradientsOfDragAndLiftAreThoseOfWholeFlows) {
 }
 
 TEST(SeveralPoints, AreWorthTheSameOnAnyNumberOfThreads) {
-  const Case task({{"flow",
-                    {{{"mach", 0.3}, {"alpha_deg", 1}},
-                     {{"mach", 0.7}, {"cl", 0.2}, {"weight", 2}},
-                     {{"mach", 0.5}, {"alpha_deg", 2}}}},
-                   {"constraints",
-                    {{{"kind", "suction"}, {"point", 2}, {"at_most", 3}},
-                     {{"kind", "moment"}, {"point", 1}, {"at_least", -1}}}}});
+  DesignProblem problem = problem_of(section("naca0012"), {{.kind = "suction", .at_most = 3.0, .point = 2},
+                                                           {.kind = "moment", .at_least = -1.0, .point = 1}});
+  problem.points.push_back({.conditions = {.mach = 0.7, .cl = 0.2}, .weight = 2.0});
+  problem.points.push_back({.conditions = {.mach = 0.5, .alpha_deg = 2.0}});
+  const Case task(problem);
   Evaluation one = task.evaluate(task.space().start(), 1);
   for (const std::size_t threads : {2, 8}) {
     Evaluation several = task.evaluate(task.space().start(), threads);
@@ -328,7 +313,7 @@ TEST(SeveralPoints, AreWorthTheSameOnAnyNumberOfThreads) {
 }
 
 TEST(HalfDomain, ItsMirrorImageIsSymmetricAndWhole) {
-  const Case task(symmetric_flow);
+  const Case task(symmetric_flow());
   const FrozenMesh half = task.mesh().freeze(), both = mirrored(half);
   EXPECT_EQ(both.triangles.size(), 2 * half.triangles.size());
   const auto area = [](const FrozenMesh& mesh) {
@@ -362,13 +347,13 @@ TEST(HalfDomain, ItsMirrorImageIsSymmetricAndWhole) {
 TEST(HalfDomain, DragTendsToHalfOfTheMirroredMeshs) {
   std::vector<double> differences;
   for (const int points : {40, 80}) {
-    Json changes = symmetric_flow;
-    changes["mesh"] = {{"points", points}};
-    const Case task(changes);
+    DesignProblem problem = symmetric_flow();
+    problem.domain.points = points;
+    const Case task(problem);
     const Mesh mesh = task.mesh();
     const FrozenMesh half = mesh.freeze();
     const FlowConditions conditions = task.problem().points[0].conditions;
-    const FlowResult upper = solve_section(mesh, conditions, true),
+    const FlowResult upper = solve_design_flow(mesh, conditions, true),
                      both = solve_flow(mirrored(half), conditions);
     ASSERT_TRUE(upper.converged() && both.converged());
     differences.push_back(std::fabs(upper.cd - both.cd) / both.cd);
@@ -378,34 +363,32 @@ TEST(HalfDomain, DragTendsToHalfOfTheMirroredMeshs) {
 }
 
 // A slat, a main section and a flap: of the main section the shape, of the others their places.
-Json three_elements() {
-  return {{"elements",
-           {{{"name", "slat"},
-             {"airfoil", "naca:2415"},
-             {"placement", {{"chord", 0.2}, {"rotation_deg", 35}, {"position", {-0.18, -0.09}}}},
-             {"variables",
-              {{"chord", {{"bounds", {0.1, 0.3}}}},
-               {"rotation_deg", {{"bounds", {15, 50}}}},
-               {"x", {{"bounds", {-0.22, -0.14}}}},
-               {"y", {{"bounds", {-0.14, -0.04}}}}}}},
-            {{"name", "main"}, {"airfoil", "naca:4412"}, {"variables", {{"coefficients", true}}}},
-            {{"name", "flap"},
-             {"airfoil", "naca:4415"},
-             {"placement", {{"chord", 0.3}, {"rotation_deg", -8}, {"position", {0.99, -0.035}}}},
-             {"variables",
-              {{"rotation_deg", {{"bounds", {-45, -5}}, {"scale", 10}}},
-               {"x", {{"bounds", {0.94, 1.04}}}},
-               {"y", {{"bounds", {-0.1, 0}}, {"scale", 0.1}}}}}}}},
-          {"degree", 3},
-          {"mesh", {{"points", 48}, {"gradation", 2}}},
-          {"flow", {{{"mach", 0.3}, {"alpha_deg", 4}}}},
-          {"objective", "lift"},
-          {"constraints",
-           {{{"kind", "suction"}, {"element", "slat"}, {"at_most", 8}},
-            {{"kind", "suction"}, {"at_most", 8}},
-            {{"kind", "gap"}, {"between", {"slat", "main"}}, {"at_least", 0.01}},
-            {{"kind", "gap"}, {"between", {"main", "flap"}}, {"at_least", 0.01}},
-            {{"kind", "thickness"}, {"element", "main"}, {"x", {0.3}}, {"of_start", 1}}}}};
+DesignProblem three_elements() {
+  const DesignElement slat{.name = "slat",
+                           .airfoil = section("naca:2415", 3),
+                           .placement = {.chord = 0.2, .rotation_deg = 35, .position = {-0.18, -0.09}},
+                           .chord = {{0.1, 0.3}},
+                           .rotation_deg = {{15, 50}},
+                           .x = {{-0.22, -0.14}},
+                           .y = {{-0.14, -0.04}}};
+  const DesignElement main{.name = "main", .airfoil = section("naca:4412", 3), .coefficients = true};
+  const DesignElement flap{.name = "flap",
+                           .airfoil = section("naca:4415", 3),
+                           .placement = {.chord = 0.3, .rotation_deg = -8, .position = {0.99, -0.035}},
+                           .rotation_deg = {{-45, -5, 10}},
+                           .x = {{0.94, 1.04}},
+                           .y = {{-0.1, 0, 0.1}}};
+  using Names = std::vector<std::string>;
+  DesignProblem problem{.elements = {slat, main, flap}, .gradation = 2.0};
+  problem.domain.points = 48;
+  problem.points = {{.conditions = {.mach = 0.3, .alpha_deg = 4.0}}};
+  problem.objective = "lift";
+  problem.constraints = {{.kind = "suction", .at_most = 8.0, .element = "slat"},
+                         {.kind = "suction", .at_most = 8.0},
+                         {.kind = "gap", .at_least = 0.01, .between = Names{"slat", "main"}},
+                         {.kind = "gap", .at_least = 0.01, .between = Names{"main", "flap"}},
+                         {.kind = "thickness", .of_start = 1.0, .x = {{0.3}}, .element = "main"}};
+  return problem;
 }
 
 TEST(Elements, GradientsAreThoseOfWholeFlows) {
@@ -422,9 +405,10 @@ TEST(Elements, GradientsAreThoseOfWholeFlows) {
   for (const std::size_t i : {0u, 1u}) {
     const auto peak = [&](const auto& design) {
       const Mesh mesh = task.mesh_of(design);
-      double value = 0.0;
-      suction_peak(mesh, mesh.freeze(), flow(design), task.problem().flow.at(i).section, value);
-      return value / 8.0 - 1.0;
+      const FrozenMesh frozen = mesh.freeze();
+      const FlowResult result = flow(design);
+      const std::optional<std::size_t> loop = i == 0 ? std::optional<std::size_t>(0) : std::nullopt;
+      return find_flow_kind("suction")->make(loop)->at({mesh, frozen, result}).value / 8.0 - 1.0;
     };
     EXPECT_NEAR(evaluation.constraints[i + 3], peak(start), 1e-7);
     EXPECT_LT(relative(evaluation.constraint_gradients[i + 3], task.differences(peak, h)), 1e-5);
@@ -459,44 +443,117 @@ TEST(Elements, GapsAreDistancesOfOutlines) {
 TEST(Elements, AreFeasibleAtTheirBoundWhateverTheScale) {
   for (const double scale : {1e-6, 1e-4, 0.1, 7.0})
     for (const double x : {1.751, -0.333, 0.0007}) {
-      const Case task({{"elements",
-                        {{{"name", "section"},
-                          {"airfoil", "naca:0012"},
-                          {"placement", {{"position", {x, 0}}}},
-                          {"variables", {{"x", {{"bounds", {x, x + 0.1}}, {"scale", scale}}}}}}}},
-                       {"mesh", {{"points", 20}}},
-                       {"flow", {{{"mach", 0.3}, {"alpha_deg", 1}}}},
-                       {"objective", "lift"}});
+      DesignProblem problem = three_elements();
+      problem.elements = {{.name = "section",
+                           .airfoil = section("naca:0012"),
+                           .placement = {.position = {x, 0}},
+                           .x = {{x, x + 0.1, scale}}}};
+      problem.constraints.clear();
+      problem.domain.points = 20;
+      problem.gradation = {};
+      const Case task(problem);
       EXPECT_TRUE(task.space().feasible(task.space().start())) << x << " by a scale of " << scale;
     }
 }
 
 TEST(Constraints, HaveANameForEachFunction) {
   for (const bool symmetric : {false, true}) {
-    const Json constraints = {{{"kind", "lift"}, {"at_least", 0.1}},
-                              {{"kind", "thickness"}, {"x", {0.2, 0.4, 0.8}}, {"of_start", 1}},
-                              {{"kind", "contains"}, {"airfoil", "naca:0006"}},
-                              {{"kind", "leading_edge_radius"}, {"of_start", 0.5}},
-                              {{"kind", "trailing_edge_angle"}, {"of_start", 0.5}},
-                              {{"kind", "area"}, {"of_start", 1}},
-                              {{"kind", "lift"}, {"at_most", 0.3}},
-                              {{"kind", "suction"}, {"at_most", 3}}};
-    const DesignProblemFile problem = problem_of({{"symmetric", symmetric}, {"constraints", constraints}});
-    const std::vector<std::string> names = problem.constraint_names();
-    ASSERT_EQ(names.size(), problem.section.size() + problem.flow.size());
+    DesignProblem problem =
+        problem_of(section("naca0012"), {{.kind = "lift", .at_least = 0.1},
+                                         {.kind = "thickness", .of_start = 1.0, .x = {{0.2, 0.4, 0.8}}},
+                                         {.kind = "contains", .airfoil = section("naca:0006")},
+                                         {.kind = "leading_edge_radius", .of_start = 0.5},
+                                         {.kind = "trailing_edge_angle", .of_start = 0.5},
+                                         {.kind = "area", .of_start = 1.0},
+                                         {.kind = "lift", .at_most = 0.3},
+                                         {.kind = "suction", .at_most = 3.0}});
+    problem.symmetric = symmetric;
+    const std::vector<std::string> names = constraint_names(problem);
+    ASSERT_EQ(names.size(), 3u + (symmetric ? 39u + 1u : 78u + 2u) + 1u + 1u + 3u);
     EXPECT_EQ(names.front(), "thickness");
     EXPECT_EQ(names[3], "contains");
-    EXPECT_EQ(names[problem.section.size() - 1], "area");
-    EXPECT_EQ(names[problem.section.size()], "lift (constraint 1)");
-    EXPECT_EQ(names[problem.section.size() + 1], "lift (constraint 7)");
+    EXPECT_EQ(names[names.size() - 4], "area");
+    EXPECT_EQ(names[names.size() - 3], "lift (constraint 1)");
+    EXPECT_EQ(names[names.size() - 2], "lift (constraint 7)");
     std::vector<double> values(names.size(), -1.0);
     values[1] = 0.25, values[2] = 0.125, values.back() = 1e-9;
-    const Json by = violations(names, problem.constraint_tolerance, values);
-    EXPECT_EQ(by.size(), constraints.size());
+    std::map<std::string, double> by;
+    for (const auto& [name, value] : violations_of(names, problem.constraint_tolerance, values))
+      by[name] = value;
+    EXPECT_EQ(by.size(), problem.constraints.size());
     EXPECT_EQ(by.at("thickness"), 0.25);
     EXPECT_EQ(by.at("area"), 0.0);
     EXPECT_EQ(by.at("suction"), 0.0);  // within the tolerance
   }
+}
+
+// A user's own functions: cl squared, and the fourth number of the design.
+TEST(OwnFunctions, AreWorthWhatTheySayWithTheirGradients) {
+  DesignProblem problem = problem_of(section("naca2412"));
+  problem.objective = "lift squared";
+  problem.own_objective = [](const FlowView& of) {
+    return FlowValue{.value = of.flow.cl * of.flow.cl, .by_lift = 2.0 * of.flow.cl};
+  };
+  problem.constraints = {
+      {.at_most = 0.05,
+       .own_flow =
+           [](const FlowView& of) {
+             return FlowValue{.value = of.flow.cd * of.flow.cl, .by_drag = of.flow.cl, .by_lift = of.flow.cd};
+           },
+       .name = "drag times lift"},
+      {.own_design = [](const DesignView& of) {
+        DesignValue value{.value = of.design[3], .by_design = std::vector<double>(of.design.size(), 0.0)};
+        value.by_design[3] = 1.0;
+        return std::vector<DesignValue>{value};
+      }}};
+  EXPECT_EQ(constraint_names(problem), (std::vector<std::string>{"own (constraint 2)", "drag times lift"}));
+  const Case task(problem);
+  ASSERT_FALSE(task.space().half());
+  Flows flow(task);
+  const std::vector<double> start = task.space().start();
+  const Evaluation evaluation = task.evaluate(start);
+  const auto square = [&](const auto& design) { return std::pow(flow(design).cl, 2); };
+  const auto product = [&](const auto& design) {
+    const FlowResult result = flow(design);
+    return result.cd * result.cl;
+  };
+  EXPECT_NEAR(evaluation.objective, square(start), 1e-8);
+  EXPECT_LT(relative(evaluation.gradient, task.differences(square, 1e-6)), 1e-6);
+  EXPECT_EQ(evaluation.constraints.at(0), start[3]);
+  EXPECT_EQ(evaluation.constraint_gradients.at(0).at(3), 1.0);
+  EXPECT_NEAR(evaluation.constraints.at(1), product(start) - 0.05, 1e-8);
+  EXPECT_LT(relative(evaluation.constraint_gradients.at(1), task.differences(product, 1e-6)), 1e-6);
+}
+
+TEST(Problems, ThatMakeNoSenseAreRefusedWithTheirPlace) {
+  const auto refused = [](const std::function<void(DesignProblem&)>& change) -> std::string {
+    DesignProblem problem = problem_of(section("naca0012"), {{.kind = "area", .of_start = 1.0}});
+    change(problem);
+    try {
+      validate(problem, "it");
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "nothing";
+  };
+  EXPECT_EQ(refused([](DesignProblem&) {}), "nothing");
+  EXPECT_EQ(refused([](DesignProblem& p) { p.points.clear(); }), "it: expected at least one point of 'flow'");
+  EXPECT_EQ(refused([](DesignProblem& p) { p.points[0].conditions.mach = std::nan(""); }),
+            "it, flow 1: found null as 'mach', expected 0.01 to 3.0");
+  EXPECT_EQ(refused([](DesignProblem& p) { p.objective = "beauty"; }),
+            "it: found 'beauty' as 'objective', expected drag, lift, lift_over_drag, moment, inverse");
+  EXPECT_EQ(refused([](DesignProblem& p) { p.objective = "inverse"; }), "it: the key 'target' is missing");
+  EXPECT_EQ(refused([](DesignProblem& p) { p.designer = "mma"; }),
+            "it, designer: found 'mma' as 'name', expected sqp, cmaes");
+  EXPECT_EQ(refused([](DesignProblem& p) { p.airfoil = {}; }),
+            "it: expected one of 'airfoil' and 'elements'");
+  EXPECT_EQ(refused([](DesignProblem& p) { p.constraints.push_back({.kind = "area"}); }),
+            "it, constraint 2: expected one of at_least and of_start");
+  EXPECT_EQ(refused([](DesignProblem& p) { p.constraints[0].at_most = 1.0; }),
+            "it, constraint 1: found the key 'at_most', which 'area' has not");
+  EXPECT_EQ(
+      refused([](DesignProblem& p) { p.constraints[0] = {.kind = "lift", .at_most = 1.0, .point = 1}; }),
+      "it, constraint 1: found 1 as 'point', expected a whole number from 0 to 0");
 }
 
 TEST(Elements, ThatTouchOrLeaveTheirBoundsAreInfeasible) {
@@ -521,4 +578,4 @@ TEST(Elements, ThatTouchOrLeaveTheirBoundsAreInfeasible) {
 }
 
 }  // namespace
-}  // namespace remodel::app
+}  // namespace remodel
