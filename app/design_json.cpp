@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <set>
 #include <sstream>
 #include <string_view>
 #include <vector>
 
+#include "base/strict_json.h"
 #include "remodel/error.h"
 #include "remodel/io.h"
 
@@ -44,26 +44,28 @@ std::size_t begin_of_quoted(const std::string& text, std::size_t end) {
   return at;
 }
 
+struct Watch {
+  [[noreturn]] void too_deep() const {
+    fail_at(file, text, read_of(stream, text) - 1, "found more than 64 brackets inside each other", "fewer");
+  }
+  [[noreturn]] void repeated(const std::string& key) const {
+    fail_at(file, text, begin_of_quoted(text, read_of(stream, text)),
+            "found the key " + Json(key).dump() + " a second time in one object", "each key once");
+  }
+  const std::string &file, &text;
+  std::istringstream& stream;
+};
+
 }  // namespace
 
 Json read_design_json(const std::string& file) {
   constexpr std::size_t most_bytes = std::size_t{16} << 20;
   const std::string text = read_text(file, most_bytes);
-  std::istringstream stream(text);
-  std::vector<std::set<std::string>> open;  // the keys of objects that are not read to their ends
-  const auto watch = [&](int depth, Json::parse_event_t event, const Json& parsed) {
-    if (depth > 64)
-      fail_at(file, text, read_of(stream, text) - 1, "found more than 64 brackets inside each other",
-              "fewer");
-    if (event == Json::parse_event_t::object_start) open.emplace_back();
-    if (event == Json::parse_event_t::object_end) open.pop_back();
-    if (event == Json::parse_event_t::key && !open.back().insert(parsed.get<std::string>()).second)
-      fail_at(file, text, begin_of_quoted(text, read_of(stream, text)),
-              "found the key " + parsed.dump() + " a second time in one object", "each key once");
-    return true;
-  };
+  std::istringstream watched(text), stream(text);
+  StrictJson<Json, Watch> strict(Watch{file, text, watched});
+  Json::sax_parse(watched, &strict);
   try {
-    return Json::parse(stream, watch);
+    return Json::parse(stream);
   } catch (const Json::parse_error& error) {
     fail_at(file, text, std::max<std::size_t>(error.byte, 1) - 1, "found no JSON", "a design problem");
   } catch (const Json::out_of_range&) {

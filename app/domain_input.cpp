@@ -142,6 +142,7 @@ DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOp
       require_alone(options, shape);
       input.findings.emplace();
       input.domain = planar_domain(read_poly(shape), shape, options.crossings, &*input.findings);
+      validate(input.domain, shape);
       return input;
     }
     if (is_domain_file(shape)) {
@@ -170,6 +171,20 @@ DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOp
   input.domain = airfoils_domain(airfoils, discretisation);
   input.in_farfield = true;
   return input;
+}
+
+void validate_input(const DomainInputOptions& options, const Domain& domain) {
+  validate(domain, options.shapes.size() == 1 ? options.shapes[0] : nameless_domain);
+}
+
+GenerateResult generate_input(const DomainInputOptions& options, const Domain& domain,
+                              const QualityOptions& quality, StepObserver* observer) {
+  try {
+    return generate(domain, quality, observer);
+  } catch (const Error& error) {
+    if (options.shapes.size() != 1) throw;
+    throw from_file(error, options.shapes[0]);
+  }
 }
 
 void add_findings(Report& report, const DomainInput& input) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "remodel/domain.h"
+#include "remodel/generate.h"
 #include "remodel/planar.h"
 #include "report.h"
 #include "shape_input.h"
@@ -49,6 +50,12 @@ struct DomainInput {
 // Throws Error as the readers do, and for more places or names than shapes.
 DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOptions& discretisation,
                         const FitOptions& fit);
+
+// Validates the domain of a single SHAPE, whose file errors name. Of several it is known as a "domain".
+void validate_input(const DomainInputOptions& options, const Domain& domain);
+// generate(), whose errors name the file of a single SHAPE.
+GenerateResult generate_input(const DomainInputOptions& options, const Domain& domain,
+                              const QualityOptions& quality, StepObserver* observer = nullptr);
 
 // Reports under input{...} the defects of a planar graph that were found and resolved, under fits[] how well
 // coordinate files were fitted, and under outlines[] those that were taken as given.

@@ -1,5 +1,7 @@
 #include "figures.h"
 
+#include <cmath>
+
 #include "arguments.h"
 
 namespace remodel::app {
@@ -48,6 +50,11 @@ void add_mesh_figures(Report& report, const FrozenMesh& mesh, const MeshStatisti
 }
 
 void add_gradation_error(Report& report, const GradationError& error) {
+  if (std::isnan(error.bias)) {  // there was no time for it
+    report.data("gradation_bias", nullptr);
+    report.data("gradation_deviation", nullptr);
+    return;
+  }
   report.figure("gradation_bias", "gradation error, bias", error.bias);
   report.figure("gradation_deviation", "gradation error, deviation", error.deviation);
 }

@@ -109,12 +109,12 @@ Status run(const FilmCommand& command) {
     replay(command.run, *design->space, command.worker, visit);
   else
     replay(command.run, command.worker, visit);
-  film.write(command.output);
+  const std::size_t bytes = film.write(command.output);
 
   Report report;
   report.figure("run", "run", command.run.string());
   report.figure("frames", "frames", film.frames());
-  report.figure("bytes", "size", std::filesystem::file_size(command.output), "bytes");
+  report.figure("bytes", "size", bytes, "bytes");
   add_output_figures(report, {command.output});
   report.print(command.json);
   return Status::done;

@@ -67,7 +67,7 @@ std::optional<std::string> mesh_file(const FlowCommand& command) {
 MeshInput read_input(const FlowCommand& command) {
   if (const auto file = mesh_file(command)) return read_any_mesh(*file);
   const DomainInput domain = read_domain(command.input, command.meshing.discretisation, command.meshing.fit);
-  GenerateResult result = generate(domain.domain, command.meshing.resolved_quality());
+  GenerateResult result = generate_input(command.input, domain.domain, command.meshing.resolved_quality());
   if (result.stopped != Stopped::done)
     throw Error(
         ErrorCode::argument, command.input.shapes.front(),

@@ -28,13 +28,38 @@ std::vector<std::string> lines_of(const std::string& text, std::size_t width) {
   return lines;
 }
 
+struct Example {
+  const char* command;
+  const char* what;
+};
+constexpr Example examples[] = {
+    {"remodel mesh naca:2412 -o a.vtkhdf",
+     "a mesh around an airfoil, in the format that remembers all of it"},
+    {"remodel update a.vtkhdf rae2822 -o b.vtkhdf", "the same mesh around another airfoil"},
+    {"remodel flow rae2822 --mach 0.7 --alpha 2 --cp-plot cp.svg", "lift, drag and the pressures, as a plot"},
+    {"remodel optimise --from naca:0012 --to rae2822 --evaluations 500 -o run",
+     "one airfoil becomes another, on one living mesh"}};
+
 class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_option(const CLI::Option* option, bool positional) const override {
     return entry(make_option_name(option, positional) + make_option_opts(option), make_option_desc(option));
   }
+  // One line: what it says of its details, after a semicolon or a colon, is in its own help.
   std::string make_subcommand(const CLI::App* subcommand) const override {
-    return entry(subcommand->get_display_name(true), subcommand->get_description());
+    const std::string text = subcommand->get_description();
+    std::string name = "  " + subcommand->get_display_name(true);
+    constexpr std::size_t column = 12;
+    name.resize(std::max(column, name.size() + 1), ' ');
+    return name + text.substr(0, text.find_first_of(";:")) + "\n";
+  }
+  std::string make_usage(const CLI::App* app, std::string name) const override {
+    std::string text = CLI::Formatter::make_usage(app, std::move(name));
+    if (app->get_parent() != nullptr) return text;
+    text += "\nExamples:\n";
+    for (const Example& example : examples)
+      text += std::string("  ") + example.command + "\n      " + example.what + "\n";
+    return text;
   }
   std::string make_description(const CLI::App* app) const override {
     return paragraph(CLI::Formatter::make_description(app));

@@ -12,6 +12,7 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 bool on_terminal = false;
+bool outlives_terminal = false;  // started by nohup
 
 void write_error(std::string_view text) {
   static_cast<void>(!write(STDERR_FILENO, text.data(), text.size()));
@@ -34,22 +35,30 @@ void end(int) {
   _exit(static_cast<int>(Status::limit));
 }
 
+void at_hang_up(void (*handler)(int)) {
+  if (!outlives_terminal) std::signal(SIGHUP, handler);
+}
+
 }  // namespace
 
 void end_at_interrupt() {
   on_terminal = isatty(STDERR_FILENO) != 0;
+  outlives_terminal = std::signal(SIGHUP, SIG_IGN) == SIG_IGN;
   std::signal(SIGINT, end);
+  at_hang_up(end);
 }
 
 InterruptFlag::InterruptFlag() {
   interrupted = 0;
   std::signal(SIGINT, note);
   std::signal(SIGTERM, note);
+  at_hang_up(note);
 }
 
 InterruptFlag::~InterruptFlag() {
   std::signal(SIGINT, end);
   std::signal(SIGTERM, SIG_DFL);
+  at_hang_up(end);
 }
 
 bool InterruptFlag::raised() const {

@@ -41,11 +41,6 @@ bool is_heard(Status status) {
 int fail(Status status, std::string message) {
   if (!is_heard(status)) return static_cast<int>(status);
   if (launched_rank() > 0) message = "rank " + std::to_string(launched_rank()) + ": " + message;
-  // File names and foreign content may hold anything; the message stays one line.
-  for (char& c : message) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7f) c = ' ';
-  }
   std::fprintf(stderr, "remodel: %s\n", message.c_str());
   return static_cast<int>(status);
 }
@@ -136,24 +131,24 @@ int run(const Words& words) {
   if (!words.empty() && !words[0].starts_with('-')) {
     const Words names = subcommands_of(program);
     if (std::find(names.begin(), names.end(), words[0]) == names.end())
-      return fail(Status::bad_input, "error: " + explain_word(words, program));
+      return fail(Status::bad_input, "error: " + one_line(explain_word(words, program)));
   }
   try {
     program.parse(Words(words.rbegin(), words.rend()));
     return static_cast<int>(action());
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return program.exit(error);
-    return fail(Status::bad_input, "error: " + explain(error, program, words));
+    return fail(Status::bad_input, "error: " + one_line(explain(error, program, words)));
   } catch (const Interrupted&) {
     return fail(Status::limit, "interrupted");
   } catch (const Error& error) {
     return fail(Status::bad_input, std::string("error: ") + error.what());
   } catch (const std::filesystem::filesystem_error& error) {
-    return fail(Status::bad_input, std::string("error: ") + error.what());
+    return fail(Status::bad_input, std::string("error: ") + file_error(error).what());
   } catch (const std::bad_alloc&) {
-    return fail(Status::limit, "error: out of memory, expected enough for the mesh");
+    return fail(Status::limit, "error: out of memory, expected enough for what was asked");
   } catch (const std::exception& error) {
-    return fail(Status::internal_error, std::string("internal error: ") + error.what());
+    return fail(Status::internal_error, "internal error: " + one_line(error.what()));
   } catch (...) {
     return fail(Status::internal_error, "internal error: unknown exception");
   }

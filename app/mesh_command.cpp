@@ -10,7 +10,6 @@
 #include "interrupt.h"
 #include "meshing_options.h"
 #include "outputs.h"
-#include "remodel/generate.h"
 #include "timing.h"
 
 namespace remodel::app {
@@ -34,7 +33,7 @@ Status run(const MeshCommand& command) {
   std::vector<double> seconds;
   for (int i = 0; i < command.repeat && result.stopped != Stopped::interrupted; ++i) {
     const Stopwatch watch;
-    GenerateResult generated = generate(input.domain, quality, &observer);
+    GenerateResult generated = generate_input(command.shapes, input.domain, quality, &observer);
     seconds.push_back(watch.seconds());
     result = std::move(generated);
   }
@@ -48,7 +47,7 @@ Status run(const MeshCommand& command) {
   describe(report, command.meshing, input.in_farfield, input.outlines.empty());
   add_mesh_figures(report, result.mesh.freeze(), result.mesh.statistics());
   report.figure("small_angles", "input angles below 60 degrees", result.small_angles);
-  add_gradation_error(report, result.mesh.gradation_error());
+  add_gradation_error(report, result.mesh.gradation_error(&observer));
   report.figure("seconds", command.repeat > 1 ? "generation, median" : "generation", median(seconds),
                 "seconds");
   report.figure("stopped", "stopped", name_of(result.stopped));

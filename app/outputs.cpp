@@ -14,17 +14,16 @@
 namespace remodel::app {
 
 void require_writable(const std::filesystem::path& given) {
-  const std::filesystem::path file = written_place(given);
+  const WrittenPlace place = written_place(given);
+  if (place.in_place) return;
+  const std::filesystem::path directory =
+      place.path.has_parent_path() ? place.path.parent_path() : std::filesystem::path(".");
   std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) {
-    throw Error(ErrorCode::file, file.string(), "is a directory, expected a file to write");
-  }
-  const std::filesystem::path directory = file.has_parent_path() ? file.parent_path() : ".";
   if (!std::filesystem::is_directory(directory, ignored)) {
-    throw Error(ErrorCode::file, file.string(), "directory '" + directory.string() + "' does not exist");
+    throw Error(ErrorCode::file, given.string(), "directory '" + directory.string() + "' does not exist");
   }
   if (access(directory.c_str(), W_OK | X_OK) != 0) {
-    throw Error(ErrorCode::file, file.string(),
+    throw Error(ErrorCode::file, given.string(),
                 "directory '" + directory.string() + "' is not writable: " + std::strerror(errno));
   }
 }
@@ -55,15 +54,15 @@ namespace {
 // What is missing in a file is said: whoever needs it there asks for it.
 void say_left_out(const std::vector<std::string>& curves, const std::string& file, const std::string& why) {
   for (const std::string& name : curves)
-    std::fprintf(stderr, "remodel: %s: inner curve '%s' left out, %s\n", file.c_str(), name.c_str(),
-                 why.c_str());
+    std::fprintf(stderr, "remodel: %s: inner curve '%s' left out, %s\n", one_line(file).c_str(),
+                 one_line(name).c_str(), why.c_str());
 }
 
 // .su2 and .foam have no place for regions; where curves divide them, these are spoken of.
 void warn_of_regions(const FrozenMesh& mesh, const std::string& file) {
   if (mesh.region_names.size() > 1 && inner_curves(mesh).empty())
     std::fprintf(stderr, "remodel: %s: %zu regions left out, for which the format has no place\n",
-                 file.c_str(), mesh.region_names.size());
+                 one_line(file).c_str(), mesh.region_names.size());
 }
 
 }  // namespace

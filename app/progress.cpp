@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "remodel/error.h"
 #include "terminal.h"
 
 namespace remodel::app {
@@ -30,7 +31,7 @@ void Progress::evaluated(const EvaluationRecord& record) {
   if (first_ == 0) {
     // Nothing is printed before the first evaluation: a refusal may still come, and it has to be the only
     // line.
-    std::fprintf(stderr, "%s\n", heading_.c_str());
+    std::fprintf(stderr, "%s\n", one_line(heading_).c_str());
     first_ = record.evaluation;
   }
   preserved_sum_ += record.preserved_percent;

@@ -131,6 +131,7 @@ DomainInput new_domain(const StartMesh& start, const UpdateCommand& command) {
     DomainInput input;
     const CstFit fit = fit_shape(shape, command.fit, input.fits);
     input.domain = with_new_airfoil(start, command.start, fit.airfoil);
+    validate_input(command.shapes, input.domain);
     return input;
   }
   if (!command.start.boundary.empty())
@@ -139,7 +140,9 @@ DomainInput new_domain(const StartMesh& start, const UpdateCommand& command) {
                 "expected one airfoil to put there");
   AirfoilDomainOptions discretisation = discretisation_of(start.mesh.domain());
   if (command.start.points) discretisation.points = *command.start.points;
-  return read_domain(command.shapes, discretisation, command.fit);
+  DomainInput input = read_domain(command.shapes, discretisation, command.fit);
+  validate_input(command.shapes, input.domain);
+  return input;
 }
 
 // What the step starts from, and what it is compared with.

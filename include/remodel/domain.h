@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "remodel/airfoil.h"
+#include "remodel/error.h"
 #include "remodel/point.h"
 
 namespace remodel {
@@ -177,6 +178,12 @@ struct Domain {
 // of chains (left, right), it is generate() that finds sides that contradict each other. Loops may run either
 // way round. About n log n: 0.2 ms for 700 airfoil points.
 void validate(const Domain& domain);
+// The same; errors begin with the file that the domain is from.
+void validate(const Domain& domain, const std::string& source);
+
+// What errors of a domain name where it is from no file; and such an error with its file instead.
+inline constexpr const char* nameless_domain = "domain";
+Error from_file(const Error& error, const std::string& source);
 
 // Signed area of the discretised loop, positive for counter-clockwise.
 double signed_area(const Domain& domain, std::size_t loop);

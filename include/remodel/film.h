@@ -26,13 +26,14 @@ class Film {
   Film(Film&&) noexcept;
   Film& operator=(Film&&) noexcept;
 
-  // Throws as draw() does where the mesh lacks what the colouring shows. caption: a line under the legend.
+  // Throws as draw() does where the mesh lacks what the colouring shows, and Error (argument) where pictures
+  // are more than 16,383 pixels high, which WebP has no place for. caption: a line under the legend.
   void add(const FrozenMesh& mesh, const std::string& caption = {});
   std::size_t frames() const;
 
-  // Writes a .webp file atomically and ends the film. Error (argument) for another extension or a film
-  // without frames.
-  void write(const std::filesystem::path& file);
+  // Writes a .webp file atomically, ends the film and returns its size in bytes. Error (argument) for another
+  // extension or a film without frames.
+  std::size_t write(const std::filesystem::path& file);
 
  private:
   struct Encoder;

@@ -55,13 +55,23 @@ std::vector<Field> read_fields(const std::filesystem::path& file);
 // Reads a native mesh. A .vtkhdf without state, or another format, is an Error that says what was expected.
 Mesh read_mesh(const std::filesystem::path& file);
 
-// Where writing to `file` puts its bytes: what a symbolic link leads to, so that the link stays.
-std::filesystem::path written_place(const std::filesystem::path& file);
-// Calls write with a temporary path in the same directory, flushes it to disk and renames it to file; removes
-// it if write throws. Error (file) names the file and the system's reason. For every file this project makes.
-void write_atomically(const std::filesystem::path& file,
-                      const std::function<void(const std::filesystem::path& temporary)>& write);
+// Where writing to `file` puts its bytes.
+struct WrittenPlace {
+  std::filesystem::path path;  // what symbolic links lead to, so that they stay
+  bool in_place = false;       // a device, a FIFO or a stream of this process: is written to as it stands
+};
+// Only regular files are replaced. Throws Error (file) for a directory, a socket, a regular file that may not
+// be written, and a symbolic link to anything but a regular file (or none yet); /dev/stdout, /dev/stderr,
+// /dev/fd/N and /proc/self/fd/N are streams of this process. Opens nothing.
+WrittenPlace written_place(const std::filesystem::path& file);
+// Every file that this project makes appears whole or not at all: the text is written beside it, flushed to
+// the disk and renamed to it, with the mode and, where possible, the owner of the file that it replaces.
+// Other hard links keep the old content, as with sed -i. What is written in place is written as by any
+// program: a FIFO waits for its reader. Error (file) names the file and the system's reason.
 void write_text_atomically(const std::filesystem::path& file, std::string_view text);
+
+// What the file system refused as an Error (file): the path and the system's reason.
+Error file_error(const std::filesystem::filesystem_error& error);
 
 // Standard input, a FIFO, or whatever else can be read but once.
 bool is_pipe(const std::filesystem::path& file);

@@ -104,7 +104,7 @@ class Mesh {
   // Whether freeze() may show triangles that are not the living mesh's, which need not be Delaunay.
   bool shows_file_triangles() const;
   MeshStatistics statistics() const;
-  GradationError gradation_error() const;
+  GradationError gradation_error(StepObserver* observer = nullptr) const;  // not a number where cancelled
   // e of each triangle of a frozen view of this mesh, for FrozenMesh::gradation_error.
   std::vector<double> gradation_errors(const FrozenMesh& frozen) const;
   MeshState state() const;

@@ -22,7 +22,7 @@ CstAirfoil load_airfoil(const std::string& shape, int degree,
                         TrailingEdge trailing_edge = TrailingEdge::kept);
 
 // domain_from_json() of a file, where airfoils may be named as load_airfoil() takes them; their files are
-// looked for in the file's own directory first.
+// looked for in the file's own directory first; validated, so that its errors name the file.
 Domain load_domain(const std::filesystem::path& file);
 // holds_domain() of the text of a JSON file: one called .json, or a pipe whose text begins with '{'.
 bool holds_domain(const std::filesystem::path& file);

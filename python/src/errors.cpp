@@ -2,6 +2,7 @@
 
 #include "bindings.h"
 #include "interrupts.h"
+#include "remodel/io.h"
 #include "remodel/mesh_derivative.h"
 
 namespace remodel::python {
@@ -65,6 +66,8 @@ void add_errors(py::module_&) {
       raise(error, "TopologyChanged");
     } catch (const Error& error) {
       raise(error, exception_of(error.code()));
+    } catch (const std::filesystem::filesystem_error& error) {
+      raise(file_error(error), "FileError");
     } catch (const py::cast_error&) {
       PyErr_SetString(PyExc_TypeError, "found an object of another type, expected one that help() names");
     }

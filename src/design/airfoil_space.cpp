@@ -5,8 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
+#include "base/checked_json.h"
 #include "base/checksum.h"
 #include "remodel/error.h"
 
@@ -75,14 +77,18 @@ std::string place_to_json(const AirfoilPlace& place) {
 AirfoilPlace place_from_json(const std::string& text) {
   const auto json = nlohmann::json::parse(text);
   const auto point = [&](const char* key) { return Point{json.at(key).at(0), json.at(key).at(1)}; };
-  return {.loop = json.at("loop"),
-          .leading = point("leading"),
-          .trailing = point("trailing"),
-          .parameters = json.at("parameters").get<std::vector<double>>(),
-          .base = json.at("base").get<std::vector<double>>(),
-          .names = json.at("names").get<std::vector<std::string>>(),
-          .first = json.at("first"),
-          .backwards = json.at("backwards")};
+  AirfoilPlace place{.loop = count_at(json, "loop"),
+                     .leading = point("leading"),
+                     .trailing = point("trailing"),
+                     .parameters = json.at("parameters").get<std::vector<double>>(),
+                     .base = json.at("base").get<std::vector<double>>(),
+                     .names = json.at("names").get<std::vector<std::string>>(),
+                     .first = count_at(json, "first"),
+                     .backwards = json.at("backwards")};
+  const std::size_t stations = place.parameters.size() + place.base.size();
+  if (place.names.empty() || place.names.size() != stations || place.first >= stations)
+    throw std::invalid_argument("place: its names, stations and first station do not fit each other");
+  return place;
 }
 
 CachedStation::CachedStation(double t, const CstAirfoil& like) : row_(like.upper.size()) {

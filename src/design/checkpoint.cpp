@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "base/checked_json.h"
 #include "base/checksum.h"
 #include "design/finished_design.h"
 #include "remodel/error.h"
@@ -64,13 +65,13 @@ Json to_json(const WorkersState& state) {
 
 WorkersState workers_from(const Json& json) {
   WorkersState state;
-  json.at("last").get_to(state.last);
+  state.last = count_at(json, "last");
   for (const Json& each : json.at("each")) {
     WorkerState& worker = state.workers.emplace_back();
     each.at("design").get_to(worker.design);
-    each.at("evaluated").get_to(worker.evaluated);
-    each.at("full_adjustments").get_to(worker.full_adjustments);
-    each.at("row").get_to(worker.row);
+    worker.evaluated = count_at(each, "evaluated");
+    worker.full_adjustments = count_at(each, "full_adjustments");
+    worker.row = count_at(each, "row");
     each.at("checked").get_to(worker.checked);
   }
   require(state.last < state.workers.size(), "it names a worker that there is not");
@@ -102,10 +103,10 @@ Stored parse(const std::string& text) {
           "it is of another version");
   Stored stored;
   content.at("settings").get_to(stored.checkpoint.settings);
-  content.at("evaluation").get_to(stored.checkpoint.evaluation);
-  content.at("refused").get_to(stored.checkpoint.refused);
+  stored.checkpoint.evaluation = count_at(content, "evaluation");
+  stored.checkpoint.refused = count_at(content, "refused");
   content.at("finished").get_to(stored.checkpoint.finished);
-  content.at("seconds").get_to(stored.checkpoint.seconds);
+  stored.checkpoint.seconds = number_at(content, "seconds", 0.0, most_seconds);
   content.at("designer").get_to(stored.checkpoint.designer);
   content.at("history_checksum").get_to(stored.checkpoint.history_checksum);
   stored.checkpoint.workers = workers_from(content.at("workers"));

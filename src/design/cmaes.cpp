@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "base/checked_json.h"
 #include "design/portable_math.h"
 #include "remodel/error.h"
 
@@ -284,13 +285,12 @@ Cmaes Cmaes::restore(std::string_view text, const std::string& source) {
     require(json.at("format") == "remodel-cmaes" && json.at("version") == 1,
             "not a CMA-ES state of version 1");
     const std::size_t n = json.at("mean").size();
-    const auto population = json.at("population").get<std::int64_t>();
     require(n >= 1 && n <= max_dimension, "\"mean\" has not 1 to 1000 values");
-    require(population >= 4 && population <= 1'000'000, "\"population\" is not 4 to 1000000");
+    const std::uint64_t population = count_at(json, "population", 4, 1'000'000);
     auto s = std::make_unique<State>(static_cast<int>(n), static_cast<int>(population), 0);
-    json.at("generation").get_to(s->generation);
-    json.at("sigma").get_to(s->sigma);
-    json.at("least_deviation").get_to(s->least_deviation);
+    s->generation = count_at(json, "generation");
+    s->sigma = number_at(json, "sigma", 0.0, 1e100);
+    s->least_deviation = number_at(json, "least_deviation", 0.0, 1e100);
     from_json(json, "mean", s->mean);
     from_json(json, "path_sigma", s->path_sigma);
     from_json(json, "path_c", s->path_c);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "design/figure_columns.h"
+#include "design/record_ranges.h"
 #include "design/sqlite.h"
 #include "remodel/error.h"
 
@@ -143,6 +144,7 @@ void History::each(const std::function<void(const EvaluationRecord&)>& visit) co
     } catch (const std::invalid_argument& problem) {
       refuse(problem.what());
     }
+    if (const std::string problem = out_of_range(record); !problem.empty()) refuse(problem);
     visit(record);
   }
   for (const EvaluationRecord& record : database_->pending) visit(record);

@@ -1,11 +1,15 @@
 #include "remodel/replay.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
+#include "base/checked_json.h"
 #include "design/airfoil_space.h"
 #include "design/design_search.h"
 #include "design/hub.h"
@@ -41,11 +45,11 @@ void require_this_version(const Json& json, const fs::path& directory) {
 OptimiseOptions options_of(const Json& json) {
   OptimiseOptions options;
   options.remodel = {
-      .distance = json.at("distance"),
+      .distance = number_at(json, "distance", 0.0, std::numeric_limits<double>::max()),
       .method = named(json.at("method"), {Method::automatic, Method::specialised, Method::general}),
-      .keep = json.at("keep")};
+      .keep = number_at(json, "keep", 0.0, 1e6)};
   options.strategy = mesh_strategy(json.at("strategy"));
-  options.workers = json.at("workers");
+  options.workers = count_at(json, "workers", 1, 1000);
   return options;
 }
 
@@ -167,13 +171,19 @@ void replay_run(const fs::path& directory, const DesignSpace& space, std::option
 std::unique_ptr<AirfoilSpace> airfoil_space(const std::map<std::string, std::string>& run,
                                             const Json& options, const fs::path& directory) {
   const CstAirfoil from = airfoil_from_json(run.at("from"), (directory / "history.sqlite").string());
-  if (options.contains("start_mesh"))
-    return std::make_unique<AirfoilSpace>(from, read_mesh(directory / "first.vtkhdf").domain(),
-                                          place_from_json(run.at("place")));
+  if (options.contains("start_mesh")) {
+    const Domain domain = read_mesh(directory / "first.vtkhdf").domain();
+    const AirfoilPlace place = place_from_json(run.at("place"));
+    if (place.loop >= domain.loops.size())
+      throw std::invalid_argument("place: found loop " + std::to_string(place.loop) + " of " +
+                                  std::to_string(domain.loops.size()));
+    return std::make_unique<AirfoilSpace>(from, domain, place);
+  }
   return std::make_unique<AirfoilSpace>(
-      from, AirfoilDomainOptions{.points = options.at("points"),
-                                 .farfield_radius = options.at("farfield_radius"),
-                                 .farfield_points = options.at("farfield_points")});
+      from, AirfoilDomainOptions{
+                .points = static_cast<int>(count_at(options, "points", 8, 100000)),
+                .farfield_radius = number_at(options, "farfield_radius", 1.0, 1e6),
+                .farfield_points = static_cast<int>(count_at(options, "farfield_points", 8, 100000))});
 }
 
 }  // namespace
@@ -187,7 +197,8 @@ void replay(const fs::path& directory, std::uint64_t worker, const ReplayVisit& 
   };
   const Searched run = read_options(file, History::open(file), [&](const auto& facts, const Json& json) {
     require_this_version(json, directory);
-    return Searched{airfoil_space(facts, json, directory), json.at("sigma"), json.at("seed")};
+    return Searched{airfoil_space(facts, json, directory), number_at(json, "sigma", 0.0, 1e100),
+                    count_at(json, "seed", 0, UINT64_MAX)};
   });
   replay_run(directory, *run.space, interpolation_designer(run.space->start(), run.sigma, run.seed), worker,
              visit);

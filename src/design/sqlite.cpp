@@ -36,6 +36,11 @@ bool has_log(const std::filesystem::path& file) {
 
 Sqlite::Sqlite(std::filesystem::path file, std::string what, Open how)
     : file_(std::move(file)), what_(std::move(what)) {
+  // A FIFO would be waited for without end, and nothing but a file can hold a database.
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(file_, ignored);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw Error(ErrorCode::file, file_.string(), "is no regular file, expected " + what_);
   if (how == Open::to_read && !has_log(file_)) {
     open(immutable_uri(file_), SQLITE_OPEN_READONLY | SQLITE_OPEN_URI);
   } else {

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <stdexcept>
 
+#include "base/checked_json.h"
 #include "design/quadratic_program.h"
 #include "remodel/error.h"
 
@@ -31,7 +34,7 @@ SqpJson known_json(const std::vector<double>& design, const Evaluation& e) {
                  {"connectivity", connectivity_of(e)}};
 }
 
-// Throws nlohmann's exceptions.
+// Throws nlohmann's exceptions, and std::invalid_argument where sizes do not fit.
 Evaluation known_evaluation(const SqpJson& json) {
   Evaluation result;
   if (!json.at("objective").is_null()) result.objective = json.at("objective").get<double>();
@@ -39,6 +42,13 @@ Evaluation known_evaluation(const SqpJson& json) {
   json.at("gradient").get_to(result.gradient);
   json.at("constraint_gradients").get_to(result.constraint_gradients);
   result.outputs["connectivity"] = json.at("connectivity").get<double>();
+  const auto fits = [n = json.at("design").size()](const std::vector<double>& gradient) {
+    return gradient.empty() || gradient.size() == n;
+  };
+  const auto& rows = result.constraint_gradients;
+  if (!fits(result.gradient) || !std::all_of(rows.begin(), rows.end(), fits) ||
+      (!rows.empty() && rows.size() != result.constraints.size()))
+    throw std::invalid_argument("found gradients of another number of variables or constraints");
   return result;
 }
 
@@ -287,14 +297,17 @@ std::string SqpDesigner::state() const {
 void SqpDesigner::restore(const std::string& state, const std::string& source) {
   try {
     const SqpJson json = SqpJson::parse(state);
-    if (json.at("pending").size() != pending_.size())
+    const std::size_t n = pending_.size();
+    if (json.at("pending").size() != n || json.at("best").at("design").size() != n)
       throw Error(ErrorCode::format, source, "found another number of variables");
     json.at("pending").get_to(pending_), json.at("curvature").get_to(curvature_);
-    json.at("learnt").get_to(learnt_), json.at("scale").get_to(scale_), json.at("trust").get_to(trust_);
-    json.at("penalty").get_to(penalty_);
+    json.at("learnt").get_to(learnt_);
+    constexpr double least = std::numeric_limits<double>::min(), most = std::numeric_limits<double>::max();
+    scale_ = number_at(json, "scale", least, most), trust_ = number_at(json, "trust", 0.0, most);
+    penalty_ = number_at(json, "penalty", 0.0, most);
     json.at("promised").get_to(promised_), json.at("shift").get_to(shift_),
         json.at("begun_at").get_to(begun_at_);
-    json.at("steps").get_to(steps_), json.at("started").get_to(started_);
+    steps_ = count_at(json, "steps"), json.at("started").get_to(started_);
     json.at("finished").get_to(finished_);
     const auto known = [](const SqpJson& of) {
       return Known{of.at("design").get<std::vector<double>>(), known_evaluation(of)};
@@ -302,8 +315,15 @@ void SqpDesigner::restore(const std::string& state, const std::string& source) {
     best_ = known(json.at("best"));
     waiting_.reset();
     if (!json.at("waiting").is_null()) waiting_ = known(json.at("waiting"));
-  } catch (const SqpJson::exception&) {
-    throw Error(ErrorCode::format, source, "found no state of a search by gradients");
+    const bool goes_on = started_ && !finished_;
+    if ((waiting_ && (waiting_->design.size() != n || waiting_->evaluation.gradient.size() != n)) ||
+        (goes_on && (curvature_.size() != n * n || best_.evaluation.gradient.size() != n)))
+      throw std::invalid_argument("found a model of another number of variables");
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& problem) {
+    throw Error(ErrorCode::format, source,
+                std::string("found no state of a search by gradients: ") + problem.what());
   }
 }
 

@@ -1,5 +1,7 @@
 #include "draw/bitmap.h"
 
+#include <new>
+
 #include "remodel/error.h"
 
 namespace remodel::draw_detail {
@@ -41,6 +43,7 @@ Context context_of(const Surface& surface) {
 
 void check(cairo_status_t status, const std::filesystem::path& file) {
   if (status == CAIRO_STATUS_SUCCESS) return;
+  if (status == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
   throw Error(ErrorCode::file, file.string(),
               std::string("cannot be drawn: ") + cairo_status_to_string(status));
 }

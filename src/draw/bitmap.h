@@ -17,7 +17,7 @@ using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy
 using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
 Surface own(cairo_surface_t* surface);
 Context context_of(const Surface& surface);
-// Throws Error (file) that says why the file cannot be drawn.
+// Throws Error (file) that says why the file cannot be drawn, std::bad_alloc where memory is what is missing.
 void check(cairo_status_t status, const std::filesystem::path& file);
 
 // The page, the fills, the lines over them and the legend.

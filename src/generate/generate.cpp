@@ -5,7 +5,7 @@
 #include "generate/discretise.h"
 #include "generate/recovery_error.h"
 #include "generate/refine.h"
-#include "generate/require_option.h"
+#include "mesh/option_ranges.h"
 #include "mesh/small_angles.h"
 #include "remodel/error.h"
 
@@ -14,17 +14,8 @@ namespace remodel {
 namespace {
 
 void validate(const QualityOptions& options) {
-  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
-  require_option(options.min_angle_deg >= 0.0 && options.min_angle_deg <= 34.0, "min_angle_deg",
-                 options.min_angle_deg, "0 to 34 degrees");
-  require_option(options.refine_angle_deg >= 0.0 && options.refine_angle_deg <= 34.0, "refine_angle_deg",
-                 options.refine_angle_deg, "0 to 34 degrees");
-  require_option(positive(options.max_gradation), "max_gradation", options.max_gradation,
-                 "a positive number");
-  require_option(positive(options.gradation), "gradation", options.gradation, "a positive number");
-  require_option(positive(options.resolution), "resolution", options.resolution, "a positive number");
-  require_option(std::isfinite(options.min_edge) && options.min_edge >= 0.0, "min_edge", options.min_edge,
-                 "0 or more chords");
+  if (const auto found = out_of_range(options))
+    throw Error(ErrorCode::argument, found->option, found->problem);
 }
 
 // About how many triangles there will be. Around a boundary whose n vertices are a length scale h apart,
@@ -56,7 +47,7 @@ GenerateResult generate(const Domain& domain, const QualityOptions& options, Ste
     require_points_in_domain(mesh);  // a split of a curved boundary may have passed one
     result.small_angles = refiner.small_angles();
   } catch (const RecoveryError& error) {
-    throw Error(ErrorCode::geometry, "domain", error.what());
+    throw Error(ErrorCode::geometry, nameless_domain, error.what());
   }
   mesh.stopped = result.stopped;
   mesh.domain_triangles = mesh.count_domain_triangles();

@@ -140,11 +140,10 @@ FrozenMesh without_inner_edges(const FrozenMesh& mesh) {
   return result;
 }
 
-FrozenBoundary& boundary_named(FrozenMesh& mesh, const std::string& name) {
-  const auto found = std::find_if(mesh.boundaries.begin(), mesh.boundaries.end(),
-                                  [&](const FrozenBoundary& boundary) { return boundary.name == name; });
-  if (found != mesh.boundaries.end()) return *found;
-  return mesh.boundaries.emplace_back(FrozenBoundary{name, {}});
+std::pair<std::size_t, bool> BoundaryNames::add(FrozenMesh& mesh, const std::string& name) {
+  const auto [entry, added] = indices_.try_emplace(name, mesh.boundaries.size());
+  if (added) mesh.boundaries.push_back({name, {}});
+  return {entry->second, added};
 }
 
 std::vector<std::size_t> triangles_at_boundaries(const FrozenMesh& mesh) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "remodel/frozen_mesh.h"
@@ -32,8 +33,15 @@ class RegionNames {
   std::map<std::string, std::uint32_t> indices_;
 };
 
-// The boundary of that name, made if it is new.
-FrozenBoundary& boundary_named(FrozenMesh& mesh, const std::string& name);
+// The boundaries of a mesh that is being read, found by name: a file may have very many.
+class BoundaryNames {
+ public:
+  // The boundary of that name, made if it is new, and whether it is.
+  std::pair<std::size_t, bool> add(FrozenMesh& mesh, const std::string& name);
+
+ private:
+  std::map<std::string, std::size_t> indices_;
+};
 
 // The triangle at each boundary edge, in the order of the boundaries' edges; the first one where there is
 // none.

@@ -1,6 +1,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -28,33 +29,22 @@ TEST(WriteAtomically, PutsTheTextInPlaceAndLeavesNothingElse) {
   EXPECT_EQ(entries(scratch.path()), 1U);
 }
 
-TEST(WriteAtomically, WritesTheTemporaryInTheSameDirectory) {
-  const Scratch scratch;
-  write_atomically(scratch / "a.txt", [&](const fs::path& temporary) {
-    EXPECT_EQ(temporary.parent_path(), scratch.path());
-    EXPECT_NE(temporary, scratch / "a.txt");
-    std::ofstream(temporary) << "text";
-  });
-  EXPECT_EQ(read_text(scratch / "a.txt"), "text");
-}
-
-TEST(WriteAtomically, AFailingWriterLeavesTheOldFileAndNoTemporary) {
+TEST(WriteAtomically, KeepsTheModeOfWhatItReplaces) {
   const Scratch scratch;
   write_text_atomically(scratch / "a.txt", "old");
-  EXPECT_THROW(write_atomically(scratch / "a.txt",
-                                [](const fs::path& temporary) {
-                                  std::ofstream(temporary) << "half";
-                                  throw std::runtime_error("no more");
-                                }),
-               std::runtime_error);
-  EXPECT_EQ(read_text(scratch / "a.txt"), "old");
-  EXPECT_EQ(entries(scratch.path()), 1U);
+  fs::permissions(scratch / "a.txt", fs::perms{0640});
+  write_text_atomically(scratch / "a.txt", "new");
+  EXPECT_EQ(fs::status(scratch / "a.txt").permissions(), fs::perms{0640});
+  EXPECT_EQ(read_text(scratch / "a.txt"), "new");
 }
 
-TEST(WriteAtomically, AWriterThatWritesNothingIsAnError) {
+TEST(WriteAtomically, LeavesOtherHardLinksAsTheyAre) {
   const Scratch scratch;
-  EXPECT_NE(error_of([&] { write_atomically(scratch / "a.txt", [](const fs::path&) {}); }), "");
-  EXPECT_EQ(entries(scratch.path()), 0U);
+  write_text_atomically(scratch / "a.txt", "old");
+  fs::create_hard_link(scratch / "a.txt", scratch / "b.txt");
+  write_text_atomically(scratch / "a.txt", "new");
+  EXPECT_EQ(read_text(scratch / "a.txt"), "new");
+  EXPECT_EQ(read_text(scratch / "b.txt"), "old");
 }
 
 TEST(WriteAtomically, NamesTheFileAndTheReasonWhereTheDirectoryIsMissing) {
@@ -67,7 +57,7 @@ TEST(WriteAtomically, NamesTheFileAndTheReasonWhereTheDirectoryIsMissing) {
 TEST(WriteAtomically, RefusesADirectoryAsItsTarget) {
   const Scratch scratch;
   EXPECT_EQ(error_of([&] { write_text_atomically(scratch.path(), "text"); }),
-            scratch.path().string() + ": cannot be written: Is a directory");
+            scratch.path().string() + ": is a directory, expected a file to write");
 }
 
 TEST(WriteAtomically, ADiskThatTakesNoMoreLeavesTheOldFileAndSaysWhy) {
@@ -114,6 +104,56 @@ TEST(WriteAtomically, RefusesLinksThatLeadNowhere) {
   EXPECT_EQ(error_of([&] { write_text_atomically(scratch / "a", "text"); }),
             (scratch / "a").string() + ": cannot be written: Too many levels of symbolic links");
   EXPECT_NE(error_of([&] { write_text_atomically(scratch / "c", "text"); }), "");
+}
+
+// What is at its other end is read here once it is written, so it has to fit into the pipe.
+std::string written_to(const fs::path& fifo, std::string_view text) {
+  const int reader = ::open(fifo.c_str(), O_RDONLY | O_NONBLOCK);
+  write_text_atomically(fifo, text);
+  std::string read(text.size() + 1, ' ');
+  const auto got = ::read(reader, read.data(), read.size());
+  ::close(reader);
+  return read.substr(0, got < 0 ? 0 : static_cast<std::size_t>(got));
+}
+
+TEST(WriteAtomically, WritesAFifoInPlace) {
+  const Scratch scratch;
+  ASSERT_EQ(::mkfifo((scratch / "fifo").c_str(), 0600), 0);
+  EXPECT_EQ(written_to(scratch / "fifo", "text"), "text");
+  EXPECT_TRUE(fs::is_fifo(scratch / "fifo"));
+  EXPECT_EQ(entries(scratch.path()), 1U);
+}
+
+TEST(WriteAtomically, RefusesLinksToWhatIsNoFileAndLeavesTheTarget) {
+  const Scratch scratch;
+  ASSERT_EQ(::mkfifo((scratch / "fifo").c_str(), 0600), 0);
+  fs::create_directory(scratch / "directory");
+  fs::create_symlink("fifo", scratch / "one");
+  fs::create_symlink("one", scratch / "two");
+  fs::create_symlink("directory", scratch / "three");
+  const auto refusal = [&](const char* link) {
+    return error_of([&] { write_text_atomically(scratch / link, "text"); });
+  };
+  const auto expected = [&](const char* link, const char* kind) {
+    return (scratch / link).string() + ": is a link to something that is " + kind +
+           ", expected a file to write";
+  };
+  EXPECT_EQ(refusal("one"), expected("one", "a FIFO"));
+  EXPECT_EQ(refusal("two"), expected("two", "a FIFO"));
+  EXPECT_EQ(refusal("three"), expected("three", "a directory"));
+  EXPECT_TRUE(fs::is_fifo(scratch / "fifo"));
+  EXPECT_EQ(entries(scratch.path()), 5U);
+}
+
+TEST(WriteAtomically, WritesStreamsOfThisProcessWhereTheyAre) {
+  const Scratch scratch;
+  const int stream = ::open((scratch / "a.txt").c_str(), O_WRONLY | O_CREAT, 0600);
+  ASSERT_EQ(::write(stream, "before ", 7), 7);
+  for (const char* directory : {"/dev/fd/", "/proc/self/fd/"})
+    write_text_atomically(directory + std::to_string(stream), "text ");
+  ::close(stream);
+  EXPECT_EQ(read_text(scratch / "a.txt"), "before text text ");
+  EXPECT_NE(error_of([&] { write_text_atomically("/dev/fd/" + std::to_string(stream), "text"); }), "");
 }
 
 TEST(WriteAtomically, TakesNamesAsLongAsTheFileSystemDoes) {

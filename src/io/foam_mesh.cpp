@@ -184,6 +184,8 @@ void write_foam_mesh(const FrozenMesh& mesh, const fs::path& file) {
     if (problem) throw Error(ErrorCode::file, place.string(), std::string(what) + problem.message());
   };
   std::error_code problem;
+  if (fs::is_symlink(place, problem))
+    throw Error(ErrorCode::file, place.string(), "is a link, expected a directory to replace or none");
   fs::remove_all(fresh, problem);
   fs::create_directories(fresh, problem);
   require(problem, "cannot make the directory: ");

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "io/test_meshes.h"
+#include "io/vtkhdf.h"
 #include "remodel/generate.h"
 #include "remodel/io.h"
 #include "remodel/mesh_state.h"
@@ -19,6 +20,25 @@ Mesh square_mesh() {
                    {{"wall", Polyline{{{0, 0}, {1, 0}, {1, 1}}}, {0, 0.25, 0.5, 0.75}},
                     {"lid", Polyline{{{1, 1}, {0, 1}, {0, 0}}}, {0, 0.25, 0.5, 0.75}}}}};
   return generate(domain).mesh;
+}
+
+// The checksum is right: whoever forges a number can compute it.
+TEST(LivingMesh, ASealedStateOutOfRangeIsRefusedWithItsFile) {
+  const Scratch scratch;
+  const auto file = scratch / "m.vtkhdf";
+  const Mesh mesh = square_mesh();
+  const auto refusal = [&](void (*change)(MeshState&)) {
+    MeshState state = mesh.state();
+    change(state);
+    io::write_vtkhdf(file, mesh.freeze(), &state);
+    return error_of([&] { read_mesh(file).step(); });
+  };
+  EXPECT_EQ(refusal([](MeshState&) {}), "");
+  const std::string begin = file.string() + ": not the state of a mesh: ";
+  EXPECT_EQ(refusal([](MeshState& s) { s.options.resolution = 0.0; }),
+            begin + "resolution: found 0.000000, expected a number above 0 up to 1e6");
+  EXPECT_EQ(refusal([](MeshState& s) { s.options.min_angle_deg = 5e20; }),
+            begin + "min_angle_deg: found 500000000000000000000.000000, expected 0 to 34 degrees");
 }
 
 TEST(LivingMesh, ComesBackFromItsFileWithTheSameStateAndTheSameBytes) {

@@ -47,12 +47,10 @@ void MshFields::read(FieldPlace place, bool binary,
       std::copy_n(entry.begin(), components,
                   values.begin() + static_cast<std::ptrdiff_t>(components * found->second));
   }
-  const bool known = std::any_of(fields_.begin(), fields_.end(), [&](const Field& other) {
-    return other.place == place && other.name == name;
-  });
-  if (!wanted || known || name.empty() ||
+  if (!wanted || name.empty() || known_.contains({place, name}) ||
       !std::all_of(given.begin(), given.end(), [](bool is) { return is; }))
     return;
+  known_.emplace(place, name);
   fields_.push_back({name, place, static_cast<int>(components), std::move(values)});
 }
 

@@ -4,8 +4,10 @@
 // https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "io/msh_numbers.h"
@@ -33,6 +35,7 @@ class MshFields {
   Scanner& scan_;
   MshNumbers& numbers_;
   std::vector<Field> fields_;
+  std::set<std::pair<FieldPlace, std::string>> known_;  // of fields_
 };
 
 }  // namespace remodel::io

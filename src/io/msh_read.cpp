@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -114,10 +115,8 @@ class MshReader {
       const std::string text(name.substr(1, name.size() - 2));
       if (dimension == 2) surface_names_[tag] = text;
       if (dimension != 1) continue;
-      for (const auto& [other, known] : curve_names_) {
-        if (known == text)
-          scan_.fail("a second physical curve " + in_quotes(text) + " found, each name once expected");
-      }
+      if (!known_curves_.insert(text).second)
+        scan_.fail("a second physical curve " + in_quotes(text) + " found, each name once expected");
       curve_names_[tag] = text;
     }
   }
@@ -306,7 +305,7 @@ class MshReader {
     const auto [entry, added] = boundaries_.try_emplace({group, curve}, 0);
     if (added) {
       const std::string name = name_in(curve_names_, group, "curve_", curve);
-      entry->second = static_cast<std::size_t>(&boundary_named(mesh_, name) - mesh_.boundaries.data());
+      entry->second = names_.add(mesh_, name).first;
     }
     return mesh_.boundaries[entry->second];
   }
@@ -386,11 +385,13 @@ class MshReader {
   std::unordered_map<std::int64_t, std::uint32_t> node_indices_;
   std::unordered_map<std::int64_t, std::uint32_t> triangle_indices_;  // where fields are wanted
   std::map<std::int64_t, std::string> curve_names_;                   // by physical tag
+  std::set<std::string> known_curves_;
   std::map<std::int64_t, std::string> surface_names_;
   std::map<std::int64_t, std::int64_t> curve_groups_;  // physical tag by curve
   std::map<std::int64_t, std::int64_t> surface_groups_;
   std::map<std::int64_t, std::string> region_of_;  // by physical tag
   RegionNames regions_;
+  BoundaryNames names_;
   std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> boundaries_;
 };
 

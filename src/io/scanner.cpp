@@ -23,17 +23,7 @@ std::string_view without_plus(std::string_view word) {
 
 std::string in_quotes(std::string_view word) {
   constexpr std::size_t longest = 40;
-  constexpr char hex[] = "0123456789abcdef";
-  std::string result = "'";
-  for (const char c : word.substr(0, longest)) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte >= 0x7f) {
-      result += {'\\', 'x', hex[byte >> 4], hex[byte & 15]};
-    } else {
-      result += c;
-    }
-  }
-  return result + (word.size() > longest ? "...'" : "'");
+  return "'" + one_line(word.substr(0, longest)) + (word.size() > longest ? "...'" : "'");
 }
 
 void Scanner::skip_blanks() {

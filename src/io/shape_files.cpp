@@ -46,7 +46,9 @@ Domain load_domain(const std::filesystem::path& file) {
     return load_airfoil(std::filesystem::is_regular_file(beside, ignored) ? beside.string() : name, degree,
                         trailing_edge);
   };
-  return domain_from_json(read_text(file, largest_airfoil_file), file.string(), resolve);
+  Domain domain = domain_from_json(read_text(file, largest_airfoil_file), file.string(), resolve);
+  validate(domain, file.string());
+  return domain;
 }
 
 bool holds_domain(const std::filesystem::path& file) {

@@ -138,13 +138,12 @@ class Su2Reader {
   void read_marker() {
     const std::string name(scan_.rest_of_line());
     if (name.empty()) scan_.fail("MARKER_TAG= without a name found");
-    const bool known = std::any_of(mesh_.boundaries.begin(), mesh_.boundaries.end(),
-                                   [&](const FrozenBoundary& boundary) { return boundary.name == name; });
-    if (known) scan_.fail("a second marker " + in_quotes(name) + " found, each name once expected");
+    if (!names_.add(mesh_, name).second)
+      scan_.fail("a second marker " + in_quotes(name) + " found, each name once expected");
     if (const auto next = scan_.keyword(); next != "MARKER_ELEMS") scan_.fail_found(next, "MARKER_ELEMS=");
     const std::size_t count = scan_.count("a number of marker elements");
     scan_.skip_line();
-    auto& edges = mesh_.boundaries.emplace_back(FrozenBoundary{name, {}}).edges;
+    auto& edges = mesh_.boundaries.back().edges;
     edges.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
       const auto type = scan_.integer("a marker element");
@@ -162,6 +161,7 @@ class Su2Reader {
   std::string file_;
   FrozenMesh mesh_;
   LargestIndex largest_;
+  BoundaryNames names_;
   bool dimension_seen_ = false;
   bool triangles_seen_ = false;
   bool points_seen_ = false;

@@ -32,9 +32,7 @@ class GridReader {
     check_sizes();
     read_points();
     for (const auto& name : grid_.boundary_names) {
-      const std::size_t before = mesh_.boundaries.size();
-      boundary_named(mesh_, name);
-      if (mesh_.boundaries.size() == before) {
+      if (!names_.add(mesh_, name).second) {
         fail(boundary_names_array, in_quotes(name) + " found a second time, each name once expected");
       }
     }
@@ -137,10 +135,14 @@ class GridReader {
     return grid_.region_names[static_cast<std::size_t>(index)];
   }
 
+  FrozenBoundary& boundary_named(const std::string& name) {
+    return mesh_.boundaries[names_.add(mesh_, name).first];
+  }
+
   FrozenBoundary& boundary_of(std::size_t cell) {
-    if (grid_.boundary.empty()) return boundary_named(mesh_, "boundary");
+    if (grid_.boundary.empty()) return boundary_named("boundary");
     const std::int32_t index = grid_.boundary[cell];
-    if (grid_.boundary_names.empty()) return boundary_named(mesh_, "boundary_" + std::to_string(index));
+    if (grid_.boundary_names.empty()) return boundary_named("boundary_" + std::to_string(index));
     if (index < 0 || static_cast<std::size_t>(index) >= mesh_.boundaries.size()) {
       fail("boundary", std::to_string(index) + " found for cell " + std::to_string(cell) +
                            ", an index below " + std::to_string(mesh_.boundaries.size()) + " expected");
@@ -152,6 +154,7 @@ class GridReader {
   const std::string& file_;
   const ArrayPlace& place_;
   FrozenMesh mesh_;
+  BoundaryNames names_;
   RegionNames regions_;
 };
 

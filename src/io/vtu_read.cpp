@@ -88,9 +88,14 @@ class VtuReader {
     }
   }
 
+  // The places of line ends are looked for once: every array begins with the question for its line.
   std::size_t line_of(std::size_t position) const {
-    const auto end = text_.begin() + static_cast<std::ptrdiff_t>(std::min(position, text_.size()));
-    return 1 + static_cast<std::size_t>(std::count(text_.begin(), end, '\n'));
+    if (!lines_known_)
+      for (std::size_t at = text_.find('\n'); at != text_.npos; at = text_.find('\n', at + 1))
+        line_ends_.push_back(at);
+    lines_known_ = true;
+    const auto before = std::lower_bound(line_ends_.begin(), line_ends_.end(), position);
+    return 1 + static_cast<std::size_t>(before - line_ends_.begin());
   }
   std::size_t line_of(const pugi::xml_node& tag) const {
     return line_of(static_cast<std::size_t>(std::max<std::ptrdiff_t>(tag.offset_debug(), 0)));
@@ -388,6 +393,8 @@ class VtuReader {
 
   std::string_view text_;
   std::string file_;
+  mutable std::vector<std::size_t> line_ends_;
+  mutable bool lines_known_ = false;
   std::string copy_;  // of all but appended data; the document's texts lie in it
   pugi::xml_document document_;
   std::map<std::string, DataArray> arrays_;  // "PointData/length_scale"; "Points/"

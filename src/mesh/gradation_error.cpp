@@ -25,10 +25,16 @@ class DesignScales {
     while (levels_.back().size() > 1) levels_.push_back(joined_in_pairs(levels_.back()));
   }
 
-  double at(Point p) const {
-    double least = infinity;
+  // `most`: the value here is at most that. It only saves search.
+  double at(Point p, double most = infinity) const {
+    double least = most;
     if (!sources_.empty()) search(levels_.size() - 1, 0, p, least);
     return least;
+  }
+  // What the value at a neighbour says of the one here: values differ by distance / G at most. A little more,
+  // so that rounding does not exclude the value itself.
+  double bound_from(double value, double distance) const {
+    return (value + distance * inverse_gradation_) * (1.0 + 1e-9);
   }
 
  private:
@@ -98,15 +104,29 @@ class DesignScales {
 
 }  // namespace
 
-GradationError Mesh::gradation_error() const {
+GradationError Mesh::gradation_error(StepObserver* observer) const {
+  constexpr std::uint32_t triangles_between_questions = 10'000;
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const Triangulation& triangulation = data().triangulation;
   const DesignScales design(data());
   std::vector<double> scales(triangulation.vertex_slots(), 0.0);  // 0: not yet asked for
   double sum = 0.0, squares = 0.0, count = 0.0;
-  triangulation.for_each_domain_triangle([&](TriangleId, const Triangle& t) {
+  bool cancelled = false;
+  const auto scale_of = [&](const Triangle& t, VertexId v) {
+    const Point p = triangulation.point(v);
+    double most = infinity;
+    for (const VertexId u : t.vertex)
+      if (const double known = scales[u.index]; known != 0.0)
+        most =
+            std::min(most, design.bound_from(known, std::sqrt(squared_distance(p, triangulation.point(u)))));
+    return design.at(p, most);
+  };
+  triangulation.for_each_domain_triangle([&](TriangleId id, const Triangle& t) {
+    if (cancelled) return;
+    if (observer != nullptr && id.index % triangles_between_questions == 0) cancelled = observer->cancelled();
     double mean = 0.0;
     for (const VertexId v : t.vertex) {
-      if (scales[v.index] == 0.0) scales[v.index] = design.at(triangulation.point(v));
+      if (scales[v.index] == 0.0) scales[v.index] = scale_of(t, v);
       mean += scales[v.index] / 3.0;
     }
     const double e =
@@ -115,6 +135,7 @@ GradationError Mesh::gradation_error() const {
     squares += e * e;
     count += 1.0;
   });
+  if (cancelled) return {.bias = none, .deviation = none};
   if (count == 0.0) return {};
   const double bias = sum / count;
   return {.bias = bias, .deviation = std::sqrt(std::max(0.0, squares / count - bias * bias))};

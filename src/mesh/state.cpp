@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mesh/mesh_data.h"
+#include "mesh/option_ranges.h"
 #include "mesh/renew_policy.h"
 #include "remodel/error.h"
 #include "triangulation/state.h"
@@ -203,6 +204,18 @@ bool all_below(const std::vector<std::uint32_t>& values, std::size_t end) {
   return std::all_of(values.begin(), values.end(), [end](std::uint32_t i) { return i < end; });
 }
 
+void require_domain(const Domain& domain, const std::string& source) {
+  try {
+    validate(domain);
+  } catch (const Error& error) {
+    refuse(source, error.what());
+  }
+}
+
+// Beyond these numbers a count would begin anew, or has no meaning.
+constexpr std::uint32_t last_step = 4'000'000'000;
+constexpr double largest_count_factor = 1e12;
+
 void require_in_range(const MeshState& state, const std::string& source) {
   const std::size_t slots = state.triangle_regions.size(), vertices = state.vertex_stars.size();
   const ImportRecord& record = state.imported;
@@ -210,12 +223,24 @@ void require_in_range(const MeshState& state, const std::string& source) {
       !all_below(record.slots, slots) || !all_below(record.triangles, vertices) ||
       !std::is_sorted(record.faces.begin(), record.faces.end()))
     refuse(source, "what it remembers of the imported file does not fit the mesh");
-  if (!(std::isfinite(state.keep) && state.keep >= 1.0))
-    refuse(source, "keep is " + std::to_string(state.keep) + ", expected 1 or more");
+  for (const auto& found : {out_of_range(state.options), keep_out_of_range(state.keep)})
+    if (found) refuse(source, std::string(found->option) + ": " + found->problem);
+  if (state.step > last_step)
+    refuse(source, "step " + std::to_string(state.step) + ", expected at most " + std::to_string(last_step));
+  for (std::size_t i = 0; i < slots; ++i)
+    if (state.triangle_births[i] > state.step && state.triangle_vertices[3 * i] != no_index)
+      refuse(source, "triangle " + std::to_string(i) + " of step " +
+                         std::to_string(state.triangle_births[i]) + " in a mesh of step " +
+                         std::to_string(state.step));
+  for (const std::uint32_t generation : state.vertex_generations)
+    if (generation > last_step)
+      refuse(source, "a vertex of generation " + std::to_string(generation) + ", expected at most " +
+                         std::to_string(last_step));
   if (state.stopped > static_cast<std::uint32_t>(Stopped::minimum_edge))
     refuse(source, "refinement ended for reason " + std::to_string(state.stopped) + ", expected 0 to 2");
   const RenewalState& renewal = state.renewal;
-  if (!std::isfinite(renewal.count_factor) || renewal.count_factor < 0.0 ||
+  if (!(renewal.count_factor >= 0.0 && renewal.count_factor <= largest_count_factor) ||
+      renewal.until_shed > RenewPolicy::replacements_that_shed ||
       renewal.until_renewal > RenewPolicy::replacements_between_renewals)
     refuse(source, "what it remembers of its triangle count and of the next renewal is out of range");
   const auto& pending = renewal.pending_loops;
@@ -230,13 +255,13 @@ void require_reference_in_range(const MeshState& state, const std::string& sourc
   if (state.reference_coordinates.size() != state.coordinates.size() ||
       state.reference_length_scales.size() != state.length_scales.size())
     refuse(source, "its reference's vertices and its own differ in number");
-  if (!(state.delaunay_slack_deg >= 0.0 && state.delaunay_slack_deg <= 60.0))
-    refuse(source, "the slack of its opposite angles is " + std::to_string(state.delaunay_slack_deg) +
-                       " degrees, expected 0 to 60");
+  if (const auto found = slack_out_of_range(state.delaunay_slack_deg))
+    refuse(source, std::string(found->option) + ": " + found->problem);
   const std::vector<Loop>&loops = state.domain.loops, &reference = state.reference_domain.loops;
   bool same = loops.size() == reference.size();
   for (std::size_t i = 0; same && i < loops.size(); ++i) same = one_to_one(reference[i], loops[i]);
   if (!same) refuse(source, "its reference is of another domain");
+  require_domain(state.domain, source);
 }
 
 // The mesh is its reference: puts its vertices to their places on the design.
@@ -255,7 +280,8 @@ void put_held(MeshData& mesh, const MeshState& state, const std::string& source)
   for (std::uint32_t i = 1; i < triangulation.vertex_slots(); ++i) {
     const Point p{state.coordinates[2 * i], state.coordinates[2 * i + 1]};
     if (!triangulation[VertexId{i}].alive()) continue;
-    if (!std::isfinite(p.x) || !std::isfinite(p.y)) refuse(source, "a coordinate is not finite");
+    if (!(std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate))
+      refuse(source, "a coordinate is not finite, or beyond 1e60");
     triangulation.move(VertexId{i}, p, state.length_scales[i]);
   }
   for (std::uint32_t i = 0; i < triangulation.triangle_slots(); ++i) {
@@ -281,16 +307,17 @@ Mesh Mesh::restore(const MeshState& state, const std::string& source) {
   }
   Mesh mesh;
   MeshData& data = *mesh.data_;
+  require_domain(state.domain, source);
   data.domain = state.domain;
   data.options = state.options;
   data.step = state.step;
   data.keep = state.keep;
   data.stopped = static_cast<Stopped>(state.stopped);
   data.renewal = state.renewal;
+  const TriangulationState triangulation = unpack(state, source);  // the arrays fit each other
   require_in_range(state, source);
   data.imported = state.imported;
-  if (std::string broken = unpack(state, source).restore(data.triangulation); !broken.empty())
-    refuse(source, broken);
+  if (std::string broken = triangulation.restore(data.triangulation); !broken.empty()) refuse(source, broken);
   require_length_scales(data.triangulation, source);
   data.index_curves();
   BoundaryRestorer(data, state, source).run();

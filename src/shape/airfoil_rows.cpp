@@ -17,14 +17,10 @@ constexpr double largest_coordinate = 1e6;
   throw Error(ErrorCode::format, source + ":" + std::to_string(line), problem);
 }
 
-// What was found, short and printable.
+// What was found, short; tabs, which separate columns too, as tabs.
 std::string quoted(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text.substr(0, 40)) {
-    const unsigned char byte = static_cast<unsigned char>(c);
-    result += byte < 0x20 || byte >= 0x7f ? '?' : c;
-  }
-  return result + (text.size() > 40 ? "...\"" : "\"");
+  constexpr std::size_t longest = 40;
+  return "\"" + one_line(text.substr(0, longest)) + (text.size() > longest ? "...\"" : "\"");
 }
 
 bool is_separator(char c) {

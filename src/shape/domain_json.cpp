@@ -206,7 +206,11 @@ class DomainReader {
   CstAirfoil named_airfoil(const JsonReader& reader, const char* key, TrailingEdge trailing_edge) const {
     if (!resolve_) reader[key].refuse("airfoils by name or file belong into a domain file");
     const int degree = reader.has("cst_degree") ? whole_number(reader, "cst_degree", 2, 12) : 5;
-    return resolve_(reader[key].text(), degree, trailing_edge);
+    try {
+      return resolve_(reader[key].text(), degree, trailing_edge);
+    } catch (const Error& error) {
+      reader[key].refuse(error.what());
+    }
   }
 
   const AirfoilResolver& resolve_;

@@ -23,7 +23,7 @@ template <typename... Parts>
   std::ostringstream problem;
   problem.precision(10);
   (problem << ... << parts);
-  throw Error(ErrorCode::geometry, "domain", problem.str());
+  throw Error(ErrorCode::geometry, nameless_domain, problem.str());
 }
 
 std::string place_of(const Domain& domain, std::size_t curve_index) {
@@ -220,6 +220,20 @@ void validate(const Domain& domain) {
            place_of_side(domain, polygons, pair->second), " touch or cross");
   }
   check_nesting(domain, polygons);
+}
+
+Error from_file(const Error& error, const std::string& source) {
+  const std::string_view text = error.what(), name = nameless_domain;
+  if (!text.starts_with(name) || !text.substr(name.size()).starts_with(": ")) return error;
+  return {error.code(), source, std::string(text.substr(name.size() + 2))};
+}
+
+void validate(const Domain& domain, const std::string& source) {
+  try {
+    validate(domain);
+  } catch (const Error& error) {
+    throw from_file(error, source);
+  }
 }
 
 }  // namespace remodel

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
+#include "base/strict_json.h"
 #include "remodel/error.h"
 
 namespace remodel {
@@ -11,44 +11,30 @@ namespace {
 
 using nlohmann::json;
 
-// Without the library's own prefix in brackets, and on one line.
+// Without the library's own prefix in brackets.
 std::string message_of(const json::exception& e) {
   std::string message = e.what();
   if (const std::size_t end = message.find("] "); end != std::string::npos) message.erase(0, end + 2);
-  for (char& c : message) {
-    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-  }
   return message;
 }
 
-constexpr int deepest_nesting = 64;  // printing and copying of values recurse
-
-// Watches the parser: remembers the keys of the objects that are open.
-class Strictness {
- public:
-  explicit Strictness(const std::string& source) : source_(source) {}
-  bool operator()(int depth, json::parse_event_t event, const json& parsed) {
-    if (depth > deepest_nesting) {
-      throw Error(ErrorCode::format, source_, "found more than 64 brackets inside each other");
-    }
-    if (event == json::parse_event_t::object_start) open_.emplace_back();
-    if (event == json::parse_event_t::object_end) open_.pop_back();
-    if (event == json::parse_event_t::key && !open_.back().insert(parsed.get<std::string>()).second) {
-      throw Error(ErrorCode::format, source_, "found key " + parsed.dump() + " twice in one object");
-    }
-    return true;
+struct Watch {
+  [[noreturn]] void too_deep() const {
+    throw Error(ErrorCode::format, source, "found more than 64 brackets inside each other");
   }
-
- private:
-  const std::string& source_;
-  std::vector<std::set<std::string>> open_;
+  [[noreturn]] void repeated(const std::string& key) const {
+    throw Error(ErrorCode::format, source, "found key " + json(key).dump() + " twice in one object");
+  }
+  const std::string& source;
 };
 
 }  // namespace
 
 json parse_json(std::string_view text, const std::string& source) {
   try {
-    return json::parse(text, Strictness(source));
+    StrictJson<json, Watch> strict(Watch{source});
+    json::sax_parse(text, &strict);
+    return json::parse(text);
   } catch (const json::exception& e) {
     throw Error(ErrorCode::format, source, message_of(e));
   }

@@ -9,6 +9,7 @@
 #include "generate/recovery_error.h"
 #include "generate/refine.h"
 #include "generate/require_option.h"
+#include "mesh/option_ranges.h"
 #include "mesh/renew_policy.h"
 #include "remodel/error.h"
 #include "step/coarsen.h"
@@ -145,10 +146,10 @@ void Step::keep() {
 void Step::require_possible() const {
   require_option(std::isfinite(options_.distance) && options_.distance >= 0.0, "distance", options_.distance,
                  "0 or more");
-  require_option(options_.delaunay_slack_deg >= 0.0 && options_.delaunay_slack_deg <= 60.0,
-                 "delaunay_slack_deg", options_.delaunay_slack_deg, "0 to 60");
-  require_option(options_.keep == 0.0 || (std::isfinite(options_.keep) && options_.keep >= 1.0), "keep",
-                 options_.keep, "1 or more, or 0 for the usual");
+  for (const auto& found :
+       {slack_out_of_range(options_.delaunay_slack_deg),
+        options_.keep == 0.0 ? std::nullopt : keep_out_of_range(options_.keep)})  // 0: the usual
+    if (found) throw Error(ErrorCode::argument, found->option, found->problem);
   if (options_.designs_a_step == 0)
     throw Error(ErrorCode::argument, "designs_a_step", "found 0, expected 1 or more");
   if (options_.method == Method::specialised && !moving_)

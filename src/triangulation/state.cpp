@@ -27,8 +27,9 @@ std::string TriangulationState::check_ranges() const {
     }
     if (vertices[i].star.triangle().index >= triangles.size() || vertices[i].star.corner() > 2)
       return "vertex " + std::to_string(i) + ": star out of range";
-    if (!std::isfinite(vertices[i].point.x) || !std::isfinite(vertices[i].point.y))
-      return "vertex " + std::to_string(i) + ": coordinate is not finite";
+    const Point p = vertices[i].point;
+    if (!(std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate))
+      return "vertex " + std::to_string(i) + ": coordinate is not finite, or beyond 1e60";
   }
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     if (!triangles[i].alive()) {

@@ -8,6 +8,8 @@
 
 namespace remodel {
 
+inline constexpr double largest_coordinate = 1e60;  // of predicates.h: beyond it determinants overflow
+
 struct TriangulationState {
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t> generations;

@@ -1,11 +1,16 @@
 """`remodel design`: a design falls in drag and keeps its constraints, on fresh meshes too; refusals. `flow --gradient`."""
 
+import base64
+import html
 import json
 import math
+import re
 import signal
 import sqlite3
 import subprocess
 import time
+from html.parser import HTMLParser
+from xml.etree import ElementTree
 
 import harness
 from harness import SOURCE, ProgramTest
@@ -218,6 +223,27 @@ class Designs(ProgramTest):
         resumed = self.limited("design", self.elements(), "-o", "run", "--resume")
         self.assertEqual(resumed["best"], figures["best"])
 
+    def test_names_of_elements_are_text_in_pages_and_pictures(self):
+        nasty = "</script><script>alert(1)</script><img src=x onerror=alert(2)> & \"'`"
+        text = self.path(self.elements(evaluations=1, verify=[])).read_text()
+        self.write("nasty.json", text.replace('"flap"', json.dumps(nasty)))
+        self.succeed("design", "nasty.json", "-o", "run", "--quiet", status=3)
+        self.succeed("design", "report", "run")
+        tags, words = [], []
+        parser = HTMLParser()
+        parser.handle_starttag = lambda tag, attributes: tags.append(tag)
+        parser.handle_data = words.append
+        page = self.path("run/report.html").read_text()
+        parser.feed(page)
+        self.assertNotIn("script", tags)
+        self.assertEqual(page.count("<img"), page.count('<img alt="" src="data:image/'))
+        self.assertIn(nasty + ".rotation_deg", words)
+        pictures = re.findall(r"data:image/svg\+xml;base64,([^\"]+)", page)
+        self.assertGreater(len(pictures), 2)
+        for picture in pictures:
+            tree = ElementTree.fromstring(base64.b64decode(picture))
+            self.assertEqual([e.tag for e in tree.iter() if e.tag.endswith("script")], [])
+
     def test_lists_are_bounded(self):
         """Each is refused at once, whatever its length."""
         many = 100_000
@@ -409,7 +435,7 @@ class Designs(ProgramTest):
         self.assertIn("violates 'drag' most", self.succeed("design", problem, "-o", "run", "--overwrite", status=3).stdout)
         self.succeed("design", "report", "run")
         page = self.path("run/report.html").read_text()
-        self.assertIn("violates 'drag' most", page)
+        self.assertTrue("violates 'drag' most" in html.unescape(page))
         self.assertIn("least violated", page)
 
     def test_figures_name_constraints_and_count_in_whole_numbers(self):

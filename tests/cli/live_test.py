@@ -300,6 +300,22 @@ class Input(PageTest):
             self.assertAlmostEqual(ours, theirs, delta=0.01)
         self.assertSound()
 
+    def test_names_of_files_are_text(self):
+        """Those of files that are shown and of files that are refused, and what a refusal quotes of a file."""
+        self.succeed("fit", "naca:4415", "-o", "shape.json")
+        nasty = "<script>window.broken=1<\u2215script><img src=x onerror=window.broken=2>\"'&"
+        for name, content in (
+            (nasty + ".json", self.path("shape.json").read_text()),
+            (nasty + ".dat", "outline\n1 0\n<img src=x onerror=window.broken=3> 0.5\n"),
+            (nasty + ".su2", "NDIME= 2\n<script>window.broken=4</script>\n"),
+        ):  # fmt: skip
+            self.value(f"takeFile(new File([{json.dumps(content)}], {json.dumps(name)}))")
+            self.settled()
+            self.assertIn("<img src=x", self.status())
+        self.assertEqual(self.value("document.querySelectorAll('img[src=x], #status *').length"), 0)
+        self.assertIsNone(self.value("window.broken"))
+        self.assertSound()
+
     @staticmethod
     def outline(su2):
         """Selig's order of the points of an airfoil's marker as `remodel mesh` writes it."""

@@ -44,3 +44,19 @@ class Program(harness.ProgramTest):
         self.assertEqual(len(process.stderr.splitlines()), 1)
         self.assertIn("study: found 2 MPI ranks, expected one: this program was built without MPI", process.stderr)
         self.assertEqual(self.files(), {})
+
+    def test_help_begins_with_examples_that_work_and_fits_a_screen(self):
+        text = self.succeed("--help").stdout
+        self.assertLess(text.index("Examples:"), text.index("Options:"))
+        self.assertLess(text.index("Examples:"), text.index("Subcommands:"))
+        self.assertLessEqual(len(text.splitlines()), 50)
+        examples = re.findall(r"^  remodel (.+)$", text, re.MULTILINE)
+        self.assertEqual(len(examples), 4)
+        for example in examples:
+            self.succeed(*example.split())
+        for name in ("b.vtkhdf", "cp.svg", "run/best.json"):
+            self.assertTrue(self.path(name).exists(), name)
+        listed = text[text.index("Subcommands:") : text.index("Exit status")].strip().splitlines()[1:]
+        self.assertGreater(len(listed), 10)
+        for line in listed:
+            self.assertRegex(line, r"^  [a-z]+ +[A-Z]")  # a name and what it does, each in one line
