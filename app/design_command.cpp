@@ -103,11 +103,9 @@ Status run(const DesignCommand& command) {
   report.figure("seconds", "wall time", result.search.seconds, "seconds");
   report.figure("stopped", "stopped", result.stopped);
   report.figure("converged", "converged", result.converged);
-  if (result.stopped != name_of(Stopped::interrupted)) {
-    for (const FreshFlow& fresh : result.verified)
-      report.line("fresh mesh, I = " + std::to_string(fresh.points), text_of(fresh));
-    report.data("verified", Json::parse(fresh_json(result.verified)));
-  }
+  for (const FreshFlow& fresh : result.verified)
+    report.line("fresh mesh, I = " + std::to_string(fresh.points), text_of(fresh));
+  report.data("verified", Json::parse(fresh_json(result.verified)));
   report.data("best", Json::parse(result.best));
   report.figure("directory", "run directory", command.run.directory.string());
   report.print(command.json);

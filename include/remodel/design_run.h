@@ -59,7 +59,8 @@ struct DesignResult {
   // Seconds of flows and gradients over those of the start's flows, which were found cold.
   std::optional<double> cold_equivalents;
 
-  std::vector<FreshFlow> verified;  // for each number in DesignProblem::verify, of each point
+  // For each number in DesignProblem::verify, of each point; empty where the verification was interrupted.
+  std::vector<FreshFlow> verified;
 };
 
 // Searches, with the meshes following by Strategy::morph, and evaluates the best design on fresh meshes at

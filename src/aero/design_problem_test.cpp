@@ -547,6 +547,18 @@ TEST(Problems, ThatMakeNoSenseAreRefusedWithTheirPlace) {
             "it, designer: found 'mma' as 'name', expected sqp, cmaes");
   EXPECT_EQ(refused([](DesignProblem& p) { p.airfoil = {}; }),
             "it: expected one of 'airfoil' and 'elements'");
+  EXPECT_EQ(
+      refused([](DesignProblem& p) { p.airfoil.lower.pop_back(); }),
+      "it: found 6 and 5 coefficients of the surfaces of 'airfoil', expected as many of both, 2 or more");
+  EXPECT_EQ(refused([](DesignProblem& p) { p.text = "drag"; }), "it: found a 'text' that is no JSON object");
+  const auto flow = [](const FlowView&) { return FlowValue{}; };
+  const auto design = [](const DesignView&) { return std::vector<DesignValue>{}; };
+  EXPECT_EQ(
+      refused([&](DesignProblem& p) { p.constraints.push_back({.own_flow = flow, .own_design = design}); }),
+      "it, constraint 2: found own_flow and own_design, expected one of them");
+  EXPECT_EQ(
+      refused([&](DesignProblem& p) { p.constraints.push_back({.at_most = 1.0, .own_design = design}); }),
+      "it, constraint 2: found the key 'at_most', which 'own' has not");
   EXPECT_EQ(refused([](DesignProblem& p) { p.constraints.push_back({.kind = "area"}); }),
             "it, constraint 2: expected one of at_least and of_start");
   EXPECT_EQ(refused([](DesignProblem& p) { p.constraints[0].at_most = 1.0; }),

@@ -78,7 +78,8 @@ Members members_of(const DomainKind& kind, bool has_elements) {
 void require_members(const DesignConstraint& of, const Members& may, const Place& place) {
   const auto refuse = [&](bool given, bool useful, const char* key) {
     if (given && !useful)
-      place.fail("found the key '" + std::string(key) + "', which '" + of.kind + "' has not");
+      place.fail("found the key '" + std::string(key) + "', which '" + (of.kind.empty() ? "own" : of.kind) +
+                 "' has not");
   };
   refuse(of.x.has_value(), may.x, "x");
   refuse(of.airfoil.has_value(), may.airfoil, "airfoil");
@@ -88,6 +89,12 @@ void require_members(const DesignConstraint& of, const Members& may, const Place
   refuse(of.of_start.has_value(), may.of_start, "of_start");
   refuse(of.at_least.has_value(), may.at_least, "at_least");
   refuse(of.element.has_value(), may.element, "element");
+}
+
+void require_surfaces(const CstAirfoil& airfoil, const Place& place, const char* key) {
+  if (airfoil.upper.size() != airfoil.lower.size() || airfoil.upper.size() < 2)
+    place.fail("found " + shown(airfoil.upper.size()) + " and " + shown(airfoil.lower.size()) +
+               " coefficients of the surfaces of '" + key + "', expected as many of both, 2 or more");
 }
 
 class Resolver {
@@ -121,8 +128,14 @@ class Resolver {
   }
 
   void require_sections() const {
-    if (problem_.elements.empty() == problem_.airfoil.upper.empty())
+    if (problem_.elements.empty() == (problem_.airfoil.upper.empty() && problem_.airfoil.lower.empty()))
       place_.fail("expected one of 'airfoil' and 'elements'");
+    if (problem_.elements.empty()) require_surfaces(problem_.airfoil, place_, "airfoil");
+    for (std::size_t i = 0; i < problem_.elements.size(); ++i)
+      require_surfaces(problem_.elements[i].airfoil, place_of("element", i), "airfoil");
+    if (problem_.target) require_surfaces(*problem_.target, place_, "target");
+    if (!problem_.text.empty() && !nlohmann::json::parse(problem_.text, nullptr, false).is_object())
+      place_.fail("found a 'text' that is no JSON object");
     if (!problem_.elements.empty() && problem_.symmetric)
       place_.fail("found 'symmetric' with 'elements', expected 'airfoil'");
     if (problem_.gradation)
@@ -191,7 +204,10 @@ class Resolver {
     const DesignConstraint& constraint = problem_.constraints[index];
     const Place place = place_of("constraint", index);
     const bool has_elements = !problem_.elements.empty();
-    if (constraint.own_design) return;
+    if (constraint.airfoil) require_surfaces(*constraint.airfoil, place, "airfoil");
+    if (constraint.own_flow && constraint.own_design)
+      place.fail("found own_flow and own_design, expected one of them");
+    if (constraint.own_design) return require_members(constraint, {}, place);
     if (!constraint.own_flow) {
       place.require_word(constraint.kind, "kind", constraint_kinds());
       if (const DomainKind* kind = find_domain_kind(constraint.kind))

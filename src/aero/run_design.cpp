@@ -149,7 +149,8 @@ DesignResult run_design(const DesignProblem& problem, const DesignRunOptions& op
   Stopped fresh = Stopped::done;
   if (result.search.stopped == OptimiseStopped::done && is_found) {
     fresh = verify(problem, parts, result.search.best_design, asking, result.verified);
-    if (fresh != Stopped::interrupted && !result.verified.empty()) write_fresh(result, options.directory);
+    if (fresh == Stopped::interrupted) result.verified.clear();
+    if (!result.verified.empty()) write_fresh(result, options.directory);
   }
   result.stopped = result.search.stopped != OptimiseStopped::done ? name_of(result.search.stopped)
                    : fresh != Stopped::done                       ? name_of(fresh)

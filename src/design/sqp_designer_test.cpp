@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <string>
 #include <vector>
 
 #include "design/quadratic_program.h"
+#include "remodel/error.h"
 #include "remodel/sqp.h"
 
 namespace remodel {
@@ -77,6 +79,42 @@ TEST(Sqp, WhoseStartIsRefusedHasFinished) {
   EXPECT_TRUE(designer.finished());
   designer.refuse(start);
   EXPECT_TRUE(designer.finished());
+}
+
+// f = (x - 1)^2 + 2 y^2 with x <= 0.5.
+Evaluation bowl(const std::vector<double>& x) {
+  return {.objective = (x[0] - 1) * (x[0] - 1) + 2 * x[1] * x[1],
+          .constraints = {x[0] - 0.5},
+          .gradient = {2 * (x[0] - 1), 4 * x[1]},
+          .constraint_gradients = {{1, 0}}};
+}
+
+TEST(Sqp, GoesOnFromItsStateToTheSameBits) {
+  const SqpOptions options{.trust = 0.2, .low = {-2, -2}, .high = {2, 2}};
+  SqpDesigner designer({-1.0, 1.0}, options);
+  for (int i = 0; i < 40 && !designer.finished(); ++i) {
+    SqpDesigner again({-1.0, 1.0}, options);
+    again.restore(designer.state(), "state");
+    const Proposal proposal = designer.ask();
+    EXPECT_EQ(again.ask().design, proposal.design);
+    EXPECT_EQ(again.ask().from, proposal.from);
+    EXPECT_EQ(again.state(), designer.state());
+    designer.tell(proposal, bowl(proposal.design));
+  }
+  EXPECT_TRUE(designer.finished());
+  EXPECT_NEAR(designer.centre()[0], 0.5, 1e-6);
+  EXPECT_NEAR(designer.centre()[1], 0.0, 1e-3);
+}
+
+TEST(Sqp, RefusesStatesOfAnotherNumberOfVariables) {
+  SqpDesigner two({0.0, 0.0}, {.low = {-1, -1}, .high = {1, 1}});
+  two.tell(two.ask(), bowl({0.0, 0.0}));
+  SqpDesigner three({0.0, 0.0, 0.0}, {.low = {-1, -1, -1}, .high = {1, 1, 1}});
+  for (const std::string& state : {two.state(), std::string("{}"), std::string("[")})
+    EXPECT_THROW(three.restore(state, "checkpoint.json"), Error);
+  std::string cut = two.state();
+  cut.replace(cut.find("\"curvature\":["), 13, "\"curvature\":[1,");
+  EXPECT_THROW(two.restore(cut, "checkpoint.json"), Error);
 }
 
 }  // namespace
