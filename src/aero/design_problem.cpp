@@ -63,7 +63,7 @@ std::vector<std::string> designer_names() {
 std::unique_ptr<Designer> make_designer(const DesignProblem& problem, const FlowSpace& space) {
   for (const DesignerKind& kind : designer_kinds)
     if (problem.designer == kind.name) return kind.make(problem, space);
-  Place("designer").require_word(problem.designer, "name", designer_names());
+  ProblemPlace("designer").require_word(problem.designer, "name", designer_names());
   return nullptr;
 }
 

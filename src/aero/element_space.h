@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "aero/place.h"
+#include "aero/problem_place.h"
 #include "remodel/design_problem.h"
 #include "remodel/flow_space.h"
 
@@ -60,6 +60,6 @@ class ElementSpace final : public FlowSpace {
 };
 
 // Of the problem's elements. Throws as validate() does.
-ElementSpace space_of_elements(const DesignProblem& problem, const Place& place);
+ElementSpace space_of_elements(const DesignProblem& problem, const ProblemPlace& place);
 
 }  // namespace remodel

@@ -30,13 +30,14 @@ void add_coefficients(const DesignElement& element, std::size_t first,
          .is_coefficient = true});
 }
 
-void add_variables(const DesignElement& element, const Place& element_place, const LoopNumbers& numbers,
-                   std::span<const double> start, std::vector<ElementVariable>& variables) {
+void add_variables(const DesignElement& element, const ProblemPlace& element_place,
+                   const LoopNumbers& numbers, std::span<const double> start,
+                   std::vector<ElementVariable>& variables) {
   if (element.coefficients) add_coefficients(element, numbers.curves, variables);
   for (const PlacementKey& of : placement_keys) {
     const std::optional<PlacementRange>& range = element.*of.range;
     if (!range) continue;
-    const Place place = element_place.inner("variables").inner(of.key);
+    const ProblemPlace place = element_place.inner("variables").inner(of.key);
     const double at = start[numbers.placement + of.number];
     if (!(range->low <= range->high))
       place.fail("found " + shown(std::vector{range->low, range->high}) +
@@ -55,14 +56,14 @@ void add_variables(const DesignElement& element, const Place& element_place, con
 }
 
 // As a section of the domain. Throws where there is one of its name, or it lies where none may.
-PlacedAirfoil placed_of(const DesignElement& element, const Place& all, const Place& place,
+PlacedAirfoil placed_of(const DesignElement& element, const ProblemPlace& all, const ProblemPlace& place,
                         const std::vector<PlacedAirfoil>& others) {
   const std::string& name = element.name;
   if (name.empty() || name == "farfield" || name == "symmetry")
     all.fail("found '" + name + "' as the name of an element");
   for (const PlacedAirfoil& other : others)
     if (other.name == name) all.fail("found two elements of the name '" + name + "'");
-  const Place at = place.inner("placement");
+  const ProblemPlace at = place.inner("placement");
   at.require_number(element.placement.chord, "chord", {1e-3, 1e3});
   at.require_number(element.placement.rotation_deg, "rotation_deg", {-180.0, 180.0});
   return {.name = name, .airfoil = element.airfoil, .placement = element.placement};
@@ -70,12 +71,12 @@ PlacedAirfoil placed_of(const DesignElement& element, const Place& all, const Pl
 
 }  // namespace
 
-ElementSpace space_of_elements(const DesignProblem& problem, const Place& place) {
+ElementSpace space_of_elements(const DesignProblem& problem, const ProblemPlace& place) {
   constexpr std::size_t most = 20;
   if (problem.elements.size() > most)
     place.fail("found " + std::to_string(problem.elements.size()) +
                " entries in 'elements', expected at most " + std::to_string(most));
-  std::vector<Place> places;
+  std::vector<ProblemPlace> places;
   std::vector<PlacedAirfoil> placed;
   for (const DesignElement& element : problem.elements) {
     places.push_back(place.inner("element " + std::to_string(places.size() + 1)));

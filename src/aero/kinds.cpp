@@ -66,7 +66,7 @@ std::vector<std::string> constraint_kinds() {
   return names;
 }
 
-std::size_t element_index(const DesignProblem& problem, const std::string& name, const Place& place) {
+std::size_t element_index(const DesignProblem& problem, const std::string& name, const ProblemPlace& place) {
   for (std::size_t i = 0; i < problem.elements.size(); ++i)
     if (problem.elements[i].name == name) return i;
   place.fail("found '" + name + "', expected the name of an element");

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "aero/place.h"
+#include "aero/problem_place.h"
 #include "remodel/design_problem.h"
 
 namespace remodel {
@@ -61,7 +61,7 @@ using DomainConstraintPtr = std::shared_ptr<const DomainConstraint>;
 struct DomainRequest {
   const DesignConstraint& given;
   const DesignProblem& problem;
-  Place place;
+  ProblemPlace place;
   std::size_t section = 0;  // of a constraint of a section
   CstAirfoil start = {};    // that section, as it is at the start
   bool symmetric = false;
@@ -84,6 +84,6 @@ std::span<const DomainKind* const> domain_kinds();
 const FlowKind* find_flow_kind(const std::string& name);  // null where there is none
 const DomainKind* find_domain_kind(const std::string& name);
 
-std::size_t element_index(const DesignProblem& problem, const std::string& name, const Place& place);
+std::size_t element_index(const DesignProblem& problem, const std::string& name, const ProblemPlace& place);
 
 }  // namespace remodel

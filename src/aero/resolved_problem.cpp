@@ -75,7 +75,7 @@ Members members_of(const DomainKind& kind, bool has_elements) {
 }
 
 // Throws for members that a constraint of this kind has no use for.
-void require_members(const DesignConstraint& of, const Members& may, const Place& place) {
+void require_members(const DesignConstraint& of, const Members& may, const ProblemPlace& place) {
   const auto refuse = [&](bool given, bool useful, const char* key) {
     if (given && !useful)
       place.fail("found the key '" + std::string(key) + "', which '" + (of.kind.empty() ? "own" : of.kind) +
@@ -91,7 +91,7 @@ void require_members(const DesignConstraint& of, const Members& may, const Place
   refuse(of.element.has_value(), may.element, "element");
 }
 
-void require_surfaces(const CstAirfoil& airfoil, const Place& place, const char* key) {
+void require_surfaces(const CstAirfoil& airfoil, const ProblemPlace& place, const char* key) {
   if (airfoil.upper.size() != airfoil.lower.size() || airfoil.upper.size() < 2)
     place.fail("found " + shown(airfoil.upper.size()) + " and " + shown(airfoil.lower.size()) +
                " coefficients of the surfaces of '" + key + "', expected as many of both, 2 or more");
@@ -123,7 +123,7 @@ class Resolver {
   }
 
  private:
-  Place place_of(const char* what, std::size_t index) const {
+  ProblemPlace place_of(const char* what, std::size_t index) const {
     return place_.inner(std::string(what) + " " + std::to_string(index + 1));
   }
 
@@ -147,7 +147,7 @@ class Resolver {
     if (problem_.points.empty()) place_.fail("expected at least one point of 'flow'");
     for (std::size_t i = 0; i < problem_.points.size(); ++i) {
       const auto& [conditions, weight] = problem_.points[i];
-      const Place place = place_of("flow", i);
+      const ProblemPlace place = place_of("flow", i);
       place.require_number(conditions.mach, "mach", {0.01, 3.0});
       place.require_number(conditions.alpha_deg, "alpha_deg", {-90.0, 90.0});
       if (conditions.cl) place.require_number(*conditions.cl, "cl", {-10.0, 10.0});
@@ -202,7 +202,7 @@ class Resolver {
   // Also says of every other constraint whether its kind is known and its members of use.
   void resolve_flow_limit(std::size_t index) {
     const DesignConstraint& constraint = problem_.constraints[index];
-    const Place place = place_of("constraint", index);
+    const ProblemPlace place = place_of("constraint", index);
     const bool has_elements = !problem_.elements.empty();
     if (constraint.airfoil) require_surfaces(*constraint.airfoil, place, "airfoil");
     if (constraint.own_flow && constraint.own_design)
@@ -272,7 +272,7 @@ class Resolver {
   void resolve_domain_limit(std::size_t index) {
     const DesignConstraint& constraint = problem_.constraints[index];
     if (constraint.own_flow) return;
-    const Place place = place_of("constraint", index);
+    const ProblemPlace place = place_of("constraint", index);
     DomainConstraintPtr made;
     if (constraint.own_design) {
       made = std::make_shared<OwnDomainConstraint>(constraint.own_design, *resolved_.space);
@@ -290,7 +290,7 @@ class Resolver {
   }
 
   DomainRequest request_of(const DesignConstraint& constraint, const DomainKind& kind,
-                           const Place& place) const {
+                           const ProblemPlace& place) const {
     DomainRequest request{
         .given = constraint, .problem = problem_, .place = place, .symmetric = problem_.symmetric};
     if (kind.of_section) {
@@ -326,7 +326,7 @@ class Resolver {
   }
 
   void require_designer() const {
-    const Place place = place_.inner("designer");
+    const ProblemPlace place = place_.inner("designer");
     place.require_word(problem_.designer, "name", designer_names());
     place.require_number(static_cast<double>(problem_.evaluations), "evaluations", {1.0, 1e6});
     place.require_number(problem_.bounds, "bounds", {1e-9, 10.0});
@@ -346,7 +346,7 @@ class Resolver {
   };
 
   const DesignProblem& problem_;
-  Place place_;
+  ProblemPlace place_;
   ResolvedProblem resolved_;
   std::vector<Known> known_;
   std::size_t functions_ = 0;

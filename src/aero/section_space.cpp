@@ -120,7 +120,7 @@ std::string SectionSpace::description() const {
       .dump();
 }
 
-CstAirfoil symmetric_start(CstAirfoil airfoil, const Place& place) {
+CstAirfoil symmetric_start(CstAirfoil airfoil, const ProblemPlace& place) {
   constexpr double rounding = 1e-4;  // of files with four decimals, in chords
   constexpr int stations = 40;
   double worst = std::fabs(airfoil.te_upper + airfoil.te_lower);

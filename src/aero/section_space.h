@@ -9,7 +9,7 @@
 // and Delaunay (no circle over an edge of the axis holds a point), the flow has no lift, and costs half as
 // much.
 
-#include "aero/place.h"
+#include "aero/problem_place.h"
 #include "remodel/flow_space.h"
 
 namespace remodel {
@@ -69,6 +69,6 @@ class SectionSpace final : public FlowSpace {
 
 // The airfoil with the upper surface's mirror image as its lower one. Throws where these differ by more than
 // the rounding of coordinates.
-CstAirfoil symmetric_start(CstAirfoil airfoil, const Place& place);
+CstAirfoil symmetric_start(CstAirfoil airfoil, const ProblemPlace& place);
 
 }  // namespace remodel

@@ -21,10 +21,10 @@ std::string shown(const T& value) {
   return nlohmann::json(value).dump();
 }
 
-class Place {
+class ProblemPlace {
  public:
-  explicit Place(std::string where) : where_(std::move(where)) {}
-  Place inner(const std::string& name) const { return Place(where_ + ", " + name); }
+  explicit ProblemPlace(std::string where) : where_(std::move(where)) {}
+  ProblemPlace inner(const std::string& name) const { return ProblemPlace(where_ + ", " + name); }
 
   [[noreturn]] void fail(const std::string& problem) const {
     throw Error(ErrorCode::argument, where_, problem);
