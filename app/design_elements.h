@@ -2,13 +2,15 @@
 
 // The elements of a design problem (docs/design.md).
 
+#include <string>
+#include <vector>
+
 #include "design_keys.h"
-#include "element_space.h"
+#include "remodel/design_problem.h"
 
 namespace remodel::app {
 
 // The array `elements` of the problem. Throws Error (format) naming the file and the key.
-ElementSpace read_elements(const Keys& problem, const std::string& file, int degree,
-                           const AirfoilDomainOptions& options);
+std::vector<DesignElement> read_elements(const Keys& problem, const std::string& file, int degree);
 
 }  // namespace remodel::app

@@ -58,12 +58,10 @@ class Keys {
       fail("found " + object_.at(key).dump() + " as '" + key + "', expected " + kind_of<T>());
     }
   }
-  double number(const char* key, std::optional<double> fallback, double low, double high) const {
-    const double value = get<double>(key, fallback);
-    if (!(value >= low && value <= high))
-      fail("found " + Json(value).dump() + " as '" + key + "', expected " + Json(low).dump() + " to " +
-           Json(high).dump());
-    return value;
+  // None where there is no such key.
+  template <class T>
+  std::optional<T> find(const char* key) const {
+    return has(key) ? std::optional<T>(get<T>(key)) : std::nullopt;
   }
   // A whole number, 0 or more.
   template <class T>
@@ -80,27 +78,14 @@ class Keys {
            std::to_string(low) + " to " + std::to_string(high));
     return value.get<T>();
   }
-  std::string word(const char* key, std::optional<std::string> fallback,
-                   std::initializer_list<const char*> words) const {
-    const std::string value = get<std::string>(key, fallback);
-    if (std::find(words.begin(), words.end(), value) == words.end()) {
-      std::string names;
-      for (const char* name : words) names += (names.empty() ? "" : ", ") + std::string(name);
-      fail("found '" + value + "' as '" + key + "', expected " + names);
-    }
-    return value;
-  }
   // At most so many entries: a search with more of them would not end.
   Json list(const char* key, std::size_t most) const {
     if (!has(key)) return Json::array();
     if (!object_.at(key).is_array()) fail("expected an array as '" + std::string(key) + "'");
-    require_at_most(object_.at(key).size(), key, most);
-    return object_.at(key);
-  }
-  void require_at_most(std::size_t found, const char* key, std::size_t most) const {
-    if (found > most)
+    if (const std::size_t found = object_.at(key).size(); found > most)
       fail("found " + std::to_string(found) + " entries in '" + key + "', expected at most " +
            std::to_string(most));
+    return object_.at(key);
   }
   // Two numbers, the second one not below the first one.
   std::array<double, 2> pair(const char* key) const {

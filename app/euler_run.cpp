@@ -6,11 +6,11 @@
 #include "arguments.h"
 #include "figures.h"
 #include "flow_files.h"
-#include "flow_plots.h"
 #include "flow_progress.h"
 #include "flow_report.h"
 #include "interrupt.h"
 #include "remodel/error.h"
+#include "remodel/flow_plots.h"
 
 namespace remodel::app {
 

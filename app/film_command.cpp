@@ -13,15 +13,14 @@
 
 #include "arguments.h"
 #include "command.h"
-#include "design_run.h"
 #include "figures.h"
 #include "outputs.h"
 #include "picture_options.h"
+#include "remodel/design_run.h"
 #include "remodel/error.h"
 #include "remodel/history.h"
 #include "remodel/io.h"
 #include "remodel/replay.h"
-#include "section_space.h"
 
 namespace remodel::app {
 namespace {

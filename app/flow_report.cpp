@@ -1,6 +1,5 @@
 #include "flow_report.h"
 
-#include "gradient_names.h"
 #include "remodel/mesh_derivative.h"
 
 namespace remodel::app {

@@ -1,5 +1,5 @@
-// The program remodel-mpi has no `live`, `flow`, `design` and `noise`: the sequential MUMPS brings a stand-in
-// for MPI that must not meet the real one.
+// The program remodel-mpi has no `live`, `flow`, `design`, `film` and `noise`: the sequential MUMPS brings a
+// stand-in for MPI that must not meet the real one.
 
 #include "command.h"
 
@@ -8,6 +8,7 @@ namespace remodel::app {
 void add_flow_command(CLI::App&, Action&) {}
 void add_noise_command(CLI::App&, Action&) {}
 void add_design_command(CLI::App&, Action&) {}
+void add_film_command(CLI::App&, Action&) {}
 void add_live_command(CLI::App&, Action&) {}
 
 }  // namespace remodel::app

@@ -4,7 +4,7 @@
 
 #include "figures.h"
 #include "flow_files.h"
-#include "flow_plots.h"
+#include "remodel/flow_plots.h"
 #include "remodel/plot.h"
 #include "report.h"
 #include "timing.h"

@@ -1,5 +1,5 @@
 # Installation: the libraries with their headers and a package for find_package(remodel [COMPONENTS core flow io draw
-# design]), and the programs. Each install component is a Debian package of its own (RemodelPackages.cmake).
+# design aero]), and the programs. Each install component is a Debian package of its own (RemodelPackages.cmake).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(REMODEL_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/remodel)

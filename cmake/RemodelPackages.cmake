@@ -49,7 +49,7 @@ if(TARGET remodel_python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, python3-scipy")
 endif()
 debian_package(development libremodel-dev libdevel
-               "Static libraries, headers and the CMake package remodel with its components core, flow, io, draw and design.")
+               "Static libraries, headers and the CMake package remodel with its components core, flow, io, draw, design and aero.")
 
 # The static libraries are linked with these by whoever uses them; core needs none.
 set(used_by_flow "")

@@ -146,6 +146,7 @@ struct Loop {
   std::string right_region = {};
   friend bool operator==(const Loop&, const Loop&) = default;
 };
+bool is_single_point(const Loop& loop);  // one chain of one Line of no length
 
 // One vertex of the discretised boundary.
 struct BoundaryStation {

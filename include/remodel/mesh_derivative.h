@@ -7,6 +7,7 @@
 //   std::vector<double> gradient = derivative.vjp(flow.gradients().cd.points);   // by coefficients_of()
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "remodel/domain.h"
@@ -20,6 +21,10 @@ namespace remodel {
 // te_lower. Of a line: from.x, from.y, to.x, to.y. Of a polyline or spline: x and y of each point, of a
 // closed one without the last, which is the first. Of an arc: centre.x, centre.y, radius, start, sweep.
 std::vector<double> coefficients_of(const Domain& domain);
+// Their names: "airfoil.upper[0]", "flap.x".
+std::vector<std::string> coefficient_names(const Domain& domain);
+// Whether that is the name of a coefficient of a section's surface, upper or lower.
+bool is_of_section(const std::string& name);
 // The same domain with other numbers. A closed spline's knots follow. Throws Error (argument) for another
 // count than that of coefficients_of(), and as spline_through() does.
 Domain with_coefficients(const Domain& domain, std::span<const double> coefficients);

@@ -63,7 +63,7 @@ struct Progress {
 
 class Run {
  public:
-  Run(Progress progress, const DesignProblem& problem, const OptimiseOptions& options)
+  Run(Progress progress, const LoopParts& problem, const OptimiseOptions& options)
       : progress_(std::move(progress)),
         problem_(problem),
         options_(options),
@@ -101,7 +101,7 @@ class Run {
   Stopwatch watch_;
   Stopwatch since_checkpoint_;
   Progress progress_;
-  const DesignProblem& problem_;
+  const LoopParts& problem_;
   const OptimiseOptions& options_;
   std::size_t population_;
   Feasible feasible_;
@@ -367,7 +367,7 @@ void refuse_other_run(const OptimiseOptions& options) {
 }
 
 // The start of a run, complete on the disk before it replaces what the directory holds.
-Progress begin(const DesignProblem& problem, const Evaluating& evaluating, RunDirectory directory,
+Progress begin(const LoopParts& problem, const Evaluating& evaluating, RunDirectory directory,
                const Mesh& mesh) {
   const OptimiseOptions& options = evaluating.options;
   Workers workers(evaluating, mesh);
@@ -402,7 +402,7 @@ Progress begin(const DesignProblem& problem, const Evaluating& evaluating, RunDi
 
 // The first rows of the history as the checkpoint knows them. Whatever a damaged file may hold, it is refused
 // before it is written to.
-Summary replay(const fs::path& file, const Checkpoint& checkpoint, const DesignProblem& problem,
+Summary replay(const fs::path& file, const Checkpoint& checkpoint, const LoopParts& problem,
                const OptimiseOptions& options, Checksum& written) {
   const History history = History::open(file);
   const std::map<std::string, std::string> run = history.run();
@@ -447,7 +447,7 @@ std::map<std::uint64_t, FinishedDesign> by_evaluation(const std::vector<Finished
   return result;
 }
 
-Progress go_on(const DesignProblem& problem, const Evaluating& evaluating) {
+Progress go_on(const LoopParts& problem, const Evaluating& evaluating) {
   const OptimiseOptions& options = evaluating.options;
   if (!has_checkpoint(options.directory)) read_checkpoint(options.directory);  // says that it is missing
   RunDirectory directory(options.directory);
@@ -471,7 +471,7 @@ Progress go_on(const DesignProblem& problem, const Evaluating& evaluating) {
           .earlier_seconds = checkpoint.seconds};
 }
 
-OptimiseResult without_start(const DesignProblem& problem, const OptimiseOptions& options, Stopped stopped) {
+OptimiseResult without_start(const LoopParts& problem, const OptimiseOptions& options, Stopped stopped) {
   OptimiseResult result;
   result.stopped =
       stopped == Stopped::interrupted ? OptimiseStopped::interrupted : OptimiseStopped::mesh_limit;
@@ -483,7 +483,7 @@ OptimiseResult without_start(const DesignProblem& problem, const OptimiseOptions
 
 }  // namespace
 
-OptimiseResult run_design_loop(const DesignProblem& problem, const OptimiseOptions& options,
+OptimiseResult run_design_loop(const LoopParts& problem, const OptimiseOptions& options,
                                OptimiseObserver* observer) {
   require_good(options);
   OptimiseObserver silent;

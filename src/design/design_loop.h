@@ -12,7 +12,7 @@
 
 namespace remodel {
 
-struct DesignProblem {
+struct LoopParts {
   const DesignSpace& space;
   Designer& designer;
   Evaluator& evaluator;
@@ -22,7 +22,7 @@ struct DesignProblem {
   std::function<void(OptimiseResult&)> complete{};  // says more of the result's best design
 };
 
-OptimiseResult run_design_loop(const DesignProblem& problem, const OptimiseOptions& options,
+OptimiseResult run_design_loop(const LoopParts& problem, const OptimiseOptions& options,
                                OptimiseObserver* observer);
 
 }  // namespace remodel

@@ -31,7 +31,7 @@ OptimiseResult optimise_airfoil(const CstAirfoil& from, const CstAirfoil* target
   CmaesDesigner designer = interpolation_designer(space.start(), options.sigma, options.seed,
                                                   options.tolerance == 0.0 ? go_on : end);
   std::optional<InterpolationObjective> distance;
-  DesignProblem problem{.space = space, .designer = designer, .evaluator = evaluator};
+  LoopParts problem{.space = space, .designer = designer, .evaluator = evaluator};
   problem.facts = {{"seed", std::to_string(options.seed)}, {"from", airfoil_to_json(from)}};
   if (options.start) problem.facts["place"] = place_to_json(options.start->place);
   if (target) {

@@ -177,13 +177,13 @@ Point Domain::at(BoundaryStation station) const {
   return Frame(loop.placement)(point_at(curve(station.curve).shape, station.t));
 }
 
-namespace {
-
 bool is_single_point(const Loop& loop) {
   if (!loop.open || loop.curves.size() != 1) return false;
   const Line* line = std::get_if<Line>(&loop.curves.front().shape);
   return line != nullptr && line->from == line->to;
 }
+
+namespace {
 
 template <class Visit>
 void for_each_station(const Loop& loop, Visit visit) {

@@ -23,12 +23,6 @@ struct Station {
   bool end;  // of a chain
 };
 
-bool is_single_point(const Loop& loop) {
-  if (!loop.open || loop.curves.size() != 1) return false;
-  const Line* line = std::get_if<Line>(&loop.curves.front().shape);
-  return line != nullptr && line->from == line->to;
-}
-
 // Of what validate() will refuse nothing is joined.
 bool can_be_read(const Loop& loop) {
   return !loop.curves.empty() && std::all_of(loop.curves.begin(), loop.curves.end(), [](const Curve& curve) {

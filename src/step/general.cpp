@@ -163,8 +163,8 @@ class LoopReplacement {
   }
   static double squared_rounding(Point p) {
     constexpr double spacings = 0x1p-40;
-    const double tolerance = spacings * std::max(std::abs(p.x), std::abs(p.y));
-    return tolerance * tolerance;
+    const double near = spacings * std::max(std::abs(p.x), std::abs(p.y));
+    return near * near;
   }
   Point on_new_curve(std::size_t loop, double t, std::size_t station) const {
     return Frame(domain_.loops[loop].placement)(

@@ -23,8 +23,8 @@ bool list_offsets(const MeshData& mesh, std::size_t loop, List<Offset>& offsets)
   mesh.walk(mesh.loop_heads[loop], [&](std::uint32_t k) {
     const Point p = mesh.on_curve(mesh.at(k).curve, mesh.at(k).t), here = mesh.point(k);
     if (here == p) return;
-    const double tolerance = spacings * std::max(std::abs(p.x), std::abs(p.y));
-    rests &= mesh.at(k).steiner && squared_distance(here, p) <= tolerance * tolerance;
+    const double near = spacings * std::max(std::abs(p.x), std::abs(p.y));
+    rests &= mesh.at(k).steiner && squared_distance(here, p) <= near * near;
     offsets.push_back({mesh.at(k).vertex, p});
   });
   return rests;

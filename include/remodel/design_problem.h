@@ -1,0 +1,158 @@
+#pragma once
+
+// A design problem: sections in a stream, what is to be made small, and what is to hold. A plain struct, that
+// a program fills in, or a problem file does (docs/design.md; `remodel design`). run_design() of
+// remodel/design_run.h solves it; the parts that it uses, a space, an evaluator and a designer, are made here
+// for other loops.
+//
+//   DesignProblem problem{.airfoil = load_airfoil("naca:0012", 4), .symmetric = true};
+//   problem.points = {{.conditions = {.mach = 0.8}}};
+//   problem.constraints = {{.kind = "area", .of_start = 1.0}};
+//
+// Lengths are in chords of one section, of several in units of the domain.
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "remodel/airfoil.h"
+#include "remodel/designer.h"
+#include "remodel/domain.h"
+#include "remodel/evaluator.h"
+#include "remodel/flow.h"
+#include "remodel/flow_function.h"
+#include "remodel/flow_space.h"
+
+namespace remodel {
+
+struct DesignPoint {
+  FlowConditions conditions;  // mach 0.01 to 3; cl below Mach 1 only
+  double weight = 1.0;        // of the objective; 0: the point is there for its constraints alone
+};
+
+// A number of an element's placement that the search may change.
+struct PlacementRange {
+  double low = 0.0, high = 0.0;  // the start lies between them
+  // The design has the number over this: steps of a search are of one size in all numbers. None: 1, of an
+  // angle 50 degrees.
+  std::optional<double> scale = {};
+};
+
+// One of several sections in one far field.
+struct DesignElement {
+  std::string name;  // of its boundary; neither "farfield" nor "symmetry"
+  CstAirfoil airfoil;
+  Placement placement = {};
+  bool coefficients = false;  // whether the section's shape may change, as DesignProblem::bounds says
+  std::optional<PlacementRange> chord = {}, rotation_deg = {}, x = {}, y = {};
+};
+
+// Functions of a design by its user, each of which is to be at most 0.
+struct DesignView {
+  const FlowSpace& space;
+  std::span<const double> design;
+  const Domain& domain;  // of the design
+};
+struct DesignValue {
+  double value = 0.0;
+  std::vector<double> by_design;  // derivatives: one for each number of the design
+};
+using DesignFunctionOf = std::function<std::vector<DesignValue>(const DesignView&)>;
+
+// What is to hold. `kind` is a name of constraint_kinds(), or empty where one of the own functions is given.
+// What a kind has no use for is not given.
+//   lift, drag, moment   a coefficient of the flow of `point`, at_least or at_most
+//   suction              the peak of -Cp of `point`, of all walls or of one `element`, at_most
+//   area, thickness      of a section, thickness at each of `x`: at_least, or of_start, a part of the start's
+//   trailing_edge_angle  of a section, in degrees: at_least or of_start
+//   leading_edge_radius  of each surface of a section, likewise
+//   contains             the section contains `airfoil`, at 39 stations of each surface
+//   gap                  the least distance `between` two elements, at_least
+struct DesignConstraint {
+  std::string kind = {};
+  std::optional<double> at_least = {}, at_most = {}, of_start = {};
+  std::optional<std::size_t> point = {};      // of DesignProblem::points; none: the first
+  std::optional<std::vector<double>> x = {};  // above 0 and below 1
+  std::optional<CstAirfoil> airfoil = {};     // in the section's own chord
+  std::optional<std::string> element = {};    // its name; given of a section among several
+  std::optional<std::vector<std::string>> between = {};
+  FlowFunctionOf own_flow = {};      // of the flow of `point`, at_least or at_most
+  DesignFunctionOf own_design = {};  // of the design; the same number of values for each
+  std::string name = {};  // in results; empty: the kind, with its number where there are several of it
+};
+
+// A design is within a constraint that it violates by so much at most, in the measure of the history's column
+// `constraints`: what linearised constraints leave at the end of a search, and far above rounding.
+inline constexpr double default_constraint_tolerance = 1e-5;
+
+struct DesignProblem {
+  CstAirfoil airfoil = {};                   // the start, of one section
+  std::vector<DesignElement> elements = {};  // in its place: several sections
+  // The lower surface is the upper one's mirror image, as it is of the start but for 1e-4 chords. Where all
+  // flows are their own mirror images then, half of each is computed (FlowSpace::half()).
+  bool symmetric = false;
+  AirfoilDomainOptions domain = {.points = 100};
+  std::optional<double> gradation = {};  // of the mesh; none: points / 50
+  std::vector<DesignPoint> points = {};  // of flow: one or more
+  // A name of objective_names(): the sum over points, by their weights, of drag, lift (made large),
+  // lift_over_drag (made large), moment (made large) or inverse, half the mean square difference of pressure
+  // coefficients to those of `target` at stations. With own_objective any text: that function, made small.
+  std::string objective = "drag";
+  FlowFunctionOf own_objective = {};
+  std::optional<CstAirfoil> target = {};  // of inverse design
+  std::vector<DesignConstraint> constraints = {};
+  double constraint_tolerance = default_constraint_tolerance;  // 0 to 1
+
+  std::string designer = "sqp";   // a name of designer_names()
+  std::size_t evaluations = 100;  // designs, at most
+  double bounds = 0.1;            // sqp: how far a coefficient may go from the start
+  double trust = 0.02;            // sqp: how far a number may go in the first step
+  double sigma = 0.01;            // cmaes: the first standard deviation
+  std::uint64_t seed = 1;         // cmaes
+  // Points on each section of fresh meshes, even: on each the best design is evaluated at the end.
+  std::vector<int> verify = {};
+
+  // A JSON object as which the run's settings, its history and its page have the problem; empty: they have
+  // design_problem_json(). A reader of problem files keeps the file's here.
+  std::string text = {};
+};
+
+std::vector<std::string> objective_names();
+std::vector<std::string> constraint_kinds();
+std::vector<std::string> designer_names();
+
+// Throws Error (argument) naming the place in the problem, what was found and what was expected. `source`
+// names the problem.
+void validate(const DesignProblem& problem, const std::string& source = "design problem");
+
+// The problem's own text, or one made of its members; own functions are named in it, no more.
+std::string design_problem_json(const DesignProblem& problem);
+
+// What the numbers of a design mean. Throws as validate() does.
+std::unique_ptr<FlowSpace> design_space(const DesignProblem& problem);
+// For each function that an evaluation has, in their order, the name of the constraint that it is of: of
+// sections and domains first, gaps behind them, then of flows.
+std::vector<std::string> constraint_names(const DesignProblem& problem);
+// Flows of all points on the living mesh, and their gradients by the design: exact ones of the discrete flow
+// on a mesh whose interior is still. Outputs: cl, cd, cm, alpha_deg (of the second point cl_2 ...),
+// connectivity, factorisations, flow_seconds, gradient_seconds. The space must outlive it. The flows of the
+// points are found on so many threads at most; times alone depend on it.
+std::unique_ptr<Evaluator> flow_evaluator(const DesignProblem& problem, const FlowSpace& space,
+                                          std::size_t threads = 1);
+std::unique_ptr<Designer> make_designer(const DesignProblem& problem, const FlowSpace& space);
+
+// Options of all flows of a problem. Half of a flow has a lift of its own, but the whole has none, and no
+// vortex far away.
+FlowOptions design_flow_options(bool half, StepObserver* observer = nullptr);
+// The coefficients of the whole of a flow of which half was found.
+FlowResult whole_of(FlowResult half);
+// A flow found cold with these options, with the coefficients of the whole.
+FlowResult solve_design_flow(const Mesh& mesh, const FlowConditions& conditions, bool half,
+                             StepObserver* observer = nullptr);
+
+}  // namespace remodel

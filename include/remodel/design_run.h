@@ -1,0 +1,123 @@
+#pragma once
+
+// Runs of design problems (remodel/design_problem.h): the search itself, what its directory tells afterwards,
+// and its page.
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "remodel/design_problem.h"
+#include "remodel/flow_space.h"
+#include "remodel/history.h"
+#include "remodel/optimise.h"
+
+namespace remodel {
+
+struct DesignRunOptions {
+  std::filesystem::path directory{};  // of the run's files (optimise()); made if missing
+  bool resume = false;                // go on from the directory's checkpoint
+  bool overwrite = false;             // replace the run that the directory holds; not with resume
+  std::size_t threads = 0;  // flows of points at the same time; times alone depend on it; 0: as many as cores
+};
+
+// The best design's flow at one point, on a fresh mesh, which no search has seen.
+struct FreshFlow {
+  int points = 0;  // on each section
+  std::size_t vertices = 0;
+  double mach = 0.0, alpha_deg = 0.0, cl = 0.0, cd = 0.0, cm = 0.0;
+  bool converged = false;
+  std::vector<NamedNumber> violated;  // constraints of flows, by how much; within the tolerance they are not
+  double seconds = 0.0;
+};
+
+struct DesignResult {
+  OptimiseResult search;  // best_design, objective, outputs ...; its detail is of meshes and evaluations
+  // "done" where the search has ended by itself; otherwise what stopped it or the verification:
+  // "evaluations", "interrupted", "infeasible", or a mesh's limit.
+  std::string stopped;
+  bool converged = false;  // ended by itself, at a best design
+  std::string detail;      // why there is no best design, and the search's own; or empty
+
+  // By how much the best design violates each constraint, 0 where that is within the tolerance, by name; of
+  // the least violated design where none is within all constraints.
+  std::vector<NamedNumber> constraints;
+  std::vector<NamedNumber> named;  // numbers of the best design that have names, in their own units
+  std::string best;                // the best design as best.json has it
+
+  // Absent where the search has not evaluated the start, as CMA-ES does not.
+  std::optional<double> start_objective;
+  std::size_t flows = 0, gradients = 0;  // that were found
+  std::size_t replacements = 0;          // designs for which triangles were replaced
+  // Seconds of flows and gradients over those of the start's flows, which were found cold.
+  std::optional<double> cold_equivalents;
+
+  // For each number in DesignProblem::verify, of each point; empty where the verification was interrupted.
+  std::vector<FreshFlow> verified;
+};
+
+// Searches, with the meshes following by Strategy::morph, and evaluates the best design on fresh meshes at
+// the end. The directory has what optimise() leaves there, and fresh.json (fresh_json()). A result is the
+// same for the same problem, but for times. The observer is asked by flows and meshes too, between their
+// steps, from several threads. Throws Error as validate() and optimise() do.
+DesignResult run_design(const DesignProblem& problem, const DesignRunOptions& options,
+                        OptimiseObserver* observer = nullptr);
+
+// A JSON array of objects.
+std::string fresh_json(const std::vector<FreshFlow>& flows);
+
+// A run as its history has it.
+struct DesignRun {
+  std::string problem;    // JSON: design_problem_json(), but for designer and verification
+  std::string objective;  // its name
+  std::vector<std::string> constraint_names;  // of each function that an evaluation has
+  double constraint_tolerance = 0.0;
+  std::vector<EvaluationRecord> rows;
+  std::size_t best = 0;   // row; without a best design the least violated one's, or the first
+  bool has_flow = false;  // of that row; otherwise none of any design was found
+  std::vector<FlowConditions> conditions;  // of the points
+  std::unique_ptr<const FlowSpace> space;
+
+  const std::vector<double>& best_design() const { return rows[best].coefficients; }
+  bool has_best() const { return std::isfinite(rows[best].best_objective); }
+  // Of the start, where the search evaluated it and found its flows.
+  std::optional<double> start_objective() const;
+  bool with_gradients() const { return rows.front().outputs.contains("gradient_seconds"); }
+  double sum(const char* output) const;  // over all rows that have it
+  // By how much the design of `best` violates each constraint at its worst, by name.
+  std::vector<NamedNumber> violations() const;
+  // Without a best design: which constraint is violated most at the least violated design, or that no flow
+  // was found.
+  std::string why_no_design() const;
+};
+
+// Whether the directory holds a run of a design problem, rather than another one of optimise().
+bool holds_design_run(const std::filesystem::path& directory);
+// Throws Error (file, format) for a directory that holds no such run.
+DesignRun read_design_run(const std::filesystem::path& directory);
+
+// By how much constraints are violated at their worst, 0 where that is within the tolerance, by name, in the
+// order of the names. `names`: of each function, as constraint_names() has them.
+std::vector<NamedNumber> violations_of(const std::vector<std::string>& names, double tolerance,
+                                       const std::vector<double>& constraints);
+
+// Closed polygons of the sections of a design, where they lie.
+std::vector<std::vector<Point>> outlines(const FlowSpace& space, std::span<const double> design);
+// x0, y0, x1, y1 of what is worth seeing around the sections of the start and of the best design: `beside`
+// and `above` parts of their common width more on each side. What is given for one section.
+std::array<double, 4> window_of(const DesignRun& run, const std::array<double, 4>& of_one, double beside,
+                                double above);
+
+// Reads the run, finds the flows around its first and its best design once more, and writes one page (HTML)
+// with everything in it: sections, pressures, Mach numbers, convergence, cost. Returns its figures as a JSON
+// object. Throws Error (file, format) for a directory that holds no such run.
+std::string write_design_page(const std::filesystem::path& run, const std::filesystem::path& page);
+
+}  // namespace remodel

@@ -1,0 +1,28 @@
+#pragma once
+
+// Flows as plots.
+
+#include <span>
+#include <string>
+
+#include "remodel/frozen_mesh.h"
+#include "remodel/plot.h"
+
+namespace remodel {
+
+// "M 0.8, α = 1.25°, CL = 0.3543"
+std::string flow_caption(double mach, double alpha_deg, double cl);
+
+// "M 0.3": no lift and no angle belong to a duct.
+std::string duct_caption(double mach);
+
+// The pressure coefficients of vertices along every boundary but the far field, smaller ones above, over x: a
+// curve for each body, or each piece of a wall, by the boundary's name and a number where there are several.
+// Throws Error (argument) naming `option` where there is no other boundary.
+Plot cp_plot(const FrozenMesh& mesh, const std::string& farfield, std::span<const double> cp,
+             const std::string& caption, const std::string& option);
+
+// Residuals over steps: a table (.csv) or a plot (.svg, .png), by the file's extension.
+void write_residuals(std::span<const double> residuals, const std::string& caption, const std::string& file);
+
+}  // namespace remodel

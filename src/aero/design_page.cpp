@@ -1,0 +1,409 @@
+#include "remodel/design_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "aero/base64_text.h"
+#include "remodel/draw.h"
+#include "remodel/error.h"
+#include "remodel/flow_plots.h"
+#include "remodel/io.h"
+#include "remodel/plot.h"
+#include "remodel/remodel.h"
+
+// The page of a run.
+
+namespace remodel {
+
+namespace {
+
+namespace fs = std::filesystem;
+using PageJson = nlohmann::ordered_json;
+
+std::string number(double value, const char* format = "%.4g") {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text)
+    result += c == '<'    ? "&lt;"
+              : c == '>'  ? "&gt;"
+              : c == '&'  ? "&amp;"
+              : c == '"'  ? "&quot;"
+              : c == '\'' ? "&#39;"
+                          : std::string(1, c);
+  return result;
+}
+
+// A directory that is gone with everything in it when this is.
+class Scratch {
+ public:
+  Scratch() {
+    std::string name = (fs::temp_directory_path() / "remodel-report-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr)
+      throw Error(ErrorCode::file, name, "cannot make a temporary directory");
+    path_ = name;
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  ~Scratch() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  // What `write` makes of a file of this extension, as the source of an image.
+  std::string picture(const char* extension, const std::function<void(const fs::path&)>& write) const {
+    const fs::path file = path_ / (std::string("picture") + extension);
+    write(file);
+    const std::string kind = extension == std::string(".svg") ? "svg+xml" : "png";
+    return "<img alt=\"\" src=\"data:image/" + kind + ";base64," + base64_text(read_text(file)) + "\">\n";
+  }
+
+ private:
+  fs::path path_;
+};
+
+// One design: its mesh and the flows through it, whole.
+struct Shown {
+  std::string name;
+  std::vector<double> design;
+  FrozenMesh mesh;
+  std::vector<FlowResult> flows;
+  std::vector<std::vector<double>> mach, cp;
+};
+
+Shown shown_of(const std::string& name, const std::vector<double>& design, const Mesh& mesh,
+               const DesignRun& run) {
+  const FrozenMesh frozen = mesh.freeze();
+  const bool half = run.space->half();
+  Shown result{name, design, half ? mirrored(frozen) : frozen, {}, {}, {}};
+  for (const FlowConditions& conditions : run.conditions) {
+    FlowResult flow = solve_design_flow(mesh, conditions, half);
+    result.mach.push_back(mach_numbers(flow)), result.cp.push_back(pressure_coefficients(flow));
+    if (half) {
+      result.mach.back() = mirrored(frozen, result.mach.back());
+      result.cp.back() = mirrored(frozen, result.cp.back());
+    }
+    result.flows.push_back(std::move(flow));
+  }
+  return result;
+}
+
+// Outlines of both designs.
+std::string both_outlines(const Shown& first, const Shown& last, const DesignRun& run) {
+  const auto [x0, y0, x1, y1] = window_of(run, {-0.02, -0.21, 1.02, 0.21}, 0.02, 0.02);
+  std::string svg = "<svg class=\"outlines\" viewBox=\"";
+  for (const double corner : {x0, -y1, x1 - x0, y1 - y0}) svg += number(1000.0 * corner, "%.0f") + " ";
+  svg += "\" role=\"img\" aria-label=\"first and best design\">";
+  for (const Shown* of : {&first, &last})
+    for (const std::vector<Point>& outline : outlines(*run.space, of->design)) {
+      svg += std::string("<polygon class=\"") + (of == &first ? "first" : "last") + "\" points=\"";
+      for (const Point p : outline)
+        svg += number(1000.0 * p.x, "%.2f") + "," + number(-1000.0 * p.y, "%.2f") + " ";
+      svg += "\"/>";
+    }
+  return svg + "</svg>\n";
+}
+
+// The numbers of both designs that have names.
+std::string numbers_table(const Shown& first, const Shown& last, const FlowSpace& space) {
+  const std::vector<NamedNumber> from = space.named(first.design), to = space.named(last.design);
+  if (from.empty()) return {};
+  std::string table = "<table>\n<tr><th></th><th>" + first.name + "</th><th>" + last.name + "</th></tr>\n";
+  for (std::size_t i = 0; i < from.size(); ++i)
+    table += "<tr><th>" + escaped(from[i].name) + "</th><td>" + number(from[i].value, "%.5g") + "</td><td>" +
+             number(to[i].value, "%.5g") + "</td></tr>\n";
+  return table + "</table>\n";
+}
+
+std::string not_found(const Shown& of, std::size_t point) {
+  return "<p>" + of.name + ", point " + std::to_string(point + 1) + ": no flow was found.</p>\n";
+}
+
+std::string pressures(const Scratch& scratch, const Shown& first, const Shown& last, std::size_t sections,
+                      std::size_t point) {
+  Plot plot;
+  std::string missing;
+  for (const Shown* of : {&first, &last}) {
+    const FlowResult& flow = of->flows[point];
+    if (!flow.converged()) {
+      missing += not_found(*of, point);
+      continue;
+    }
+    Plot one = cp_plot(of->mesh, "farfield", of->cp[point], flow_caption(flow.mach, flow.alpha_deg, flow.cl),
+                       "report");
+    if (plot.curves.empty()) plot.x = one.x, plot.y = one.y, plot.caption = one.caption;
+    for (std::size_t i = 0; i < one.curves.size(); ++i) {
+      PlotCurve& curve = one.curves[i];
+      // The boundary of one section may be several rows of edges. Of several sections each has a curve.
+      if (sections == 1 && i != 0) {
+        std::vector<Point>& points = plot.curves.back().points;
+        points.insert(points.end(), curve.points.begin(), curve.points.end());
+        continue;
+      }
+      curve.name = sections == 1 ? of->name : of->name + ", " + curve.name;
+      plot.curves.push_back(std::move(curve));
+    }
+  }
+  if (plot.curves.empty()) return missing;
+  return scratch.picture(".svg", [&](const fs::path& file) { draw_plot(plot, file); }) + missing;
+}
+
+// Mach numbers of one point around a section, in colours of one range.
+std::string mach_field(const Scratch& scratch, const DesignRun& run, const Shown& of, std::size_t point,
+                       double most) {
+  const FlowResult& flow = of.flows[point];
+  if (!flow.converged()) return not_found(of, point);
+  DrawField field;
+  field.field.name = "mach";
+  field.field.values = of.mach[point];
+  field.label = "Mach";
+  field.range = {0.0, most};
+  field.iso_lines = 24;
+  DrawOptions options{
+      .window = window_of(run, {-0.35, -0.55, 1.35, 0.65}, 0.15, 0.25), .width = 1000, .line = 1.8};
+  options.field = std::move(field);
+  options.caption = of.name + ": " + flow_caption(flow.mach, flow.alpha_deg, flow.cl) + ", " +
+                    number(1e4 * flow.cd, "%.1f") + " counts of drag";
+  return scratch.picture(".png", [&](const fs::path& file) { draw(of.mesh, file, options); });
+}
+
+std::string convergence(const Scratch& scratch, const DesignRun& run) {
+  PlotCurve each{"each design", {}}, best{"best so far", {}};
+  bool positive = true;
+  for (const EvaluationRecord& row : run.rows) {
+    const double at = static_cast<double>(row.evaluation);
+    if (std::isfinite(row.objective)) each.points.push_back({at, row.objective});
+    if (std::isfinite(row.best_objective)) best.points.push_back({at, row.best_objective});
+    positive = positive && row.objective > 0.0 && (row.best_objective > 0.0);
+  }
+  if (each.points.empty()) return "<p>No design had a flow.</p>\n";
+  Plot plot{.x = {.label = "design", .whole = true}, .y = {.label = "objective", .logarithmic = positive}};
+  plot.curves.push_back(std::move(each));
+  if (!best.points.empty()) plot.curves.push_back(std::move(best));
+  return scratch.picture(".svg", [&](const fs::path& file) { draw_plot(plot, file); });
+}
+
+PageJson or_null(const std::optional<double>& value) {
+  return value ? PageJson(*value) : PageJson();
+}
+
+// What the run cost, and what a cold solve of every flow would have.
+PageJson cost_of(const DesignRun& run, const Shown& first, const Shown& last) {
+  PageJson violations = PageJson::object();
+  for (const auto& [name, violation] : run.violations()) violations[name] = violation;
+  std::size_t kept = 0;
+  double connected = 0.0;
+  std::optional<double> shift;
+  for (std::size_t i = 0; i < run.rows.size(); ++i) {
+    const EvaluationRecord& row = run.rows[i];
+    kept += row.changed() == 0 ? 1 : 0;
+    connected += row.connectivity_percent / static_cast<double>(run.rows.size());
+    // The same design on two connectivities.
+    for (std::size_t j = 0; j < i; ++j)
+      if (run.rows[j].coefficients == row.coefficients && std::isfinite(row.objective) &&
+          std::isfinite(run.rows[j].objective))
+        shift = std::max(shift.value_or(0.0), std::fabs(row.objective - run.rows[j].objective));
+  }
+  double cold = 0.0;
+  for (const Shown* of : {&first, &last})
+    for (const FlowResult& flow : of->flows) cold += 0.5 * flow.seconds;
+  const double flow_seconds = run.sum("flow_seconds"), gradient_seconds = run.sum("gradient_seconds");
+  const double designs = static_cast<double>(run.rows.size());
+  return {{"designs", run.rows.size()},
+          {"flows", run.rows.size() * run.conditions.size()},
+          {"connectivity_kept", kept},
+          {"connectivity_percent", connected},
+          {"factorisations", static_cast<std::uint64_t>(run.sum("factorisations"))},
+          {"flow_seconds", flow_seconds},
+          {"gradient_seconds", gradient_seconds},
+          {"cold_seconds_a_design", cold},
+          {"cold_seconds", cold * designs},
+          {"cold_equivalents", (flow_seconds + gradient_seconds) / cold},
+          {"largest_shift", or_null(shift)},
+          {"start_objective", or_null(run.start_objective())},
+          {"objective", run.has_best() ? PageJson(run.rows[run.best].objective) : PageJson()},
+          {"constraints", std::move(violations)}};
+}
+
+std::string row(const std::string& name, const std::string& value) {
+  return "<tr><th>" + name + "</th><td>" + value + "</td></tr>\n";
+}
+
+std::string cost_table(const PageJson& cost) {
+  const auto at = [&](const char* key, const char* format = "%.4g") {
+    return number(cost.at(key).get<double>(), format);
+  };
+  return "<table>\n" + row("designs, each with its gradients", at("designs", "%.0f")) +
+         row("flows", at("flows", "%.0f")) +
+         row("meshes with the connectivity of the design before", at("connectivity_kept", "%.0f")) +
+         row("triangles joined as they were from design to design, mean",
+             at("connectivity_percent", "%.1f") + " %") +
+         row("factorisations", at("factorisations", "%.0f")) +
+         row("flows, seconds", at("flow_seconds", "%.1f")) +
+         row("gradients, seconds", at("gradient_seconds", "%.1f")) +
+         row("one design's flows found cold, seconds (mean of the first and the best)",
+             at("cold_seconds_a_design", "%.2f")) +
+         row("all flows found cold would have taken, seconds", at("cold_seconds", "%.0f")) +
+         row("the whole search, in cold solves of a design", at("cold_equivalents", "%.1f")) +
+         row("largest shift of the objective by a change of connectivity, same design",
+             cost.at("largest_shift").is_null() ? "not measured" : at("largest_shift", "%.2g")) +
+         "</table>\n";
+}
+
+std::string points_table(const Shown& first, const Shown& last) {
+  std::string table =
+      "<table>\n<tr><th></th><th>Mach</th><th>α</th><th>CL</th><th>CD, counts</th><th>CM</th></tr>\n";
+  for (std::size_t i = 0; i < first.flows.size(); ++i)
+    for (const Shown* of : {&first, &last}) {
+      const FlowResult& flow = of->flows[i];
+      table += "<tr><th>" + of->name + "</th>";
+      table += "<td>" + number(flow.mach) + "</td>";
+      if (!flow.converged()) {
+        table += "<td colspan=\"4\">no flow was found</td></tr>\n";
+        continue;
+      }
+      for (const std::string& cell : {number(flow.alpha_deg, "%.3f") + "°", number(flow.cl, "%.4f"),
+                                      number(1e4 * flow.cd, "%.2f"), number(flow.cm, "%.4f")})
+        table += "<td>" + cell + "</td>";
+      table += "</tr>\n";
+    }
+  return table + "</table>\n";
+}
+
+// By how much the best design, or the one shown in its place, violates constraints.
+std::string constraints_table(const PageJson& by) {
+  if (by.empty()) return {};
+  std::string table = "<table>\n<tr><th>constraint</th><th>violated by</th></tr>\n";
+  for (const auto& [name, violation] : by.items())
+    table += row(escaped(name), violation == 0.0 ? "kept" : number(violation.get<double>()));
+  return table + "</table>\n";
+}
+
+// The best design on fresh meshes, as the command left it: nothing where the file is that of another design.
+std::string fresh_table(const fs::path& directory, const DesignRun& run) {
+  const fs::path file = directory / "fresh.json";
+  const PageJson fresh = fs::exists(file) ? PageJson::parse(read_text(file), nullptr, false) : PageJson();
+  if (!run.has_best() || !fresh.is_object() || fresh.at("design") != PageJson(run.best_design())) return {};
+  std::string table =
+      "<h2>On fresh meshes</h2>\n<p>The best section on meshes that the search has not seen, flows found "
+      "cold.</p>\n<table>\n<tr><th>points</th><th>vertices</th><th>Mach</th><th>CL</th><th>CD, counts</th>"
+      "<th>CM</th><th>constraints violated</th><th>seconds</th></tr>\n";
+  for (const PageJson& entry : fresh.at("verified")) {
+    table += "<tr><td>" + entry.at("points").dump() + "</td><td>" + entry.at("vertices").dump() +
+             "</td><td>" + number(entry.at("mach")) + "</td>";
+    if (entry.at("converged") != true) {
+      table += "<td colspan=\"5\">no flow was found</td></tr>\n";
+      continue;
+    }
+    std::string violated;
+    for (const auto& [name, excess] : entry.at("violated").items())
+      violated += (violated.empty() ? "" : ", ") + escaped(name) + " by " + number(excess.get<double>());
+    for (const std::string& cell :
+         {number(entry.at("cl"), "%.4f"), number(1e4 * entry.at("cd").get<double>(), "%.2f"),
+          number(entry.at("cm"), "%.4f"), violated.empty() ? "none" : violated,
+          number(entry.at("seconds"), "%.1f")})
+      table += "<td>" + cell + "</td>";
+    table += "</tr>\n";
+  }
+  return table + "</table>\n";
+}
+
+constexpr const char* style =
+    ":root{color-scheme:light}body{margin:0 auto;max-width:1100px;padding:20px;font:15px/1.5 "
+    "system-ui,'DejaVu "
+    "Sans',sans-serif;color:#1d2329;background:#fcfcfa}h1{font-size:26px}h2{font-size:19px;margin-top:36px;"
+    "border-top:1px solid #d9dcdf;padding-top:12px}table{border-collapse:collapse;font-variant-numeric:"
+    "tabular-nums}th,td{padding:3px 10px;border-bottom:1px solid #d9dcdf;text-align:right}th{text-align:left;"
+    "font-weight:500;color:#4b545c}img{max-width:100%;display:block;margin:10px 0}.pair{display:grid;"
+    "grid-template-columns:1fr 1fr;gap:10px}.outlines{width:100%}.outlines polygon{fill:none;stroke-width:3}"
+    ".first{stroke:#1f5aa6;color:#1f5aa6}.last{stroke:#cc4026;color:#cc4026}.note{color:#667079}"
+    "pre{overflow-x:auto;background:#f0f1f0;padding:10px;font-size:12px}@media(max-width:700px){.pair{"
+    "grid-template-columns:1fr}}";
+
+// What the search has come to, in words.
+std::string outcome(const DesignRun& run, const PageJson& cost) {
+  const std::string objective = escaped(run.objective);
+  if (!run.has_best()) return "Objective: " + objective + ". No best design: " + escaped(run.why_no_design());
+  const PageJson& start = cost["start_objective"];
+  return "Objective (" + objective +
+         "): " + (start.is_null() ? "" : "from " + number(start.get<double>(), "%.6g") + " to ") + "<b>" +
+         number(cost["objective"].get<double>(), "%.6g") + "</b>";
+}
+
+// The mesh that the last design left, led to the best one. A run that has not finished may have left none:
+// then that of the start is.
+Mesh mesh_of_best(const fs::path& directory, const DesignRun& run) {
+  const fs::path last = directory / "last.vtkhdf";
+  Mesh mesh = read_mesh(fs::exists(last) ? last : directory / "first.vtkhdf");
+  remodel(mesh, run.space->domain(run.best_design()));
+  return mesh;
+}
+
+const char* name_of_best(const DesignRun& run) {
+  if (run.has_best()) return "best";
+  return run.has_flow ? "least violated" : "first tried";
+}
+
+std::string page_of(const fs::path& directory, const DesignRun& run, const Shown& first, const Shown& last,
+                    const PageJson& cost) {
+  const Scratch scratch;
+  std::string page =
+      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "content=\"width=device-width\"><title>Remodel: a design</title><style>" +
+      std::string(style) + "</style></head><body>\n<h1>A design on one mesh</h1>\n";
+  page += "<p>" + outcome(run, cost) + "; " + std::to_string(run.rows.size()) +
+          (run.rows.size() == 1 ? " design" : " designs") + " on a mesh of " +
+          std::to_string(first.mesh.triangles.size()) + " triangles" +
+          (run.space->half() ? ", computed in the upper half and mirrored" : "") + ".</p>\n";
+  page += "<h2>Sections</h2>\n<p><span class=\"first\">first</span>, <span class=\"last\">" + last.name +
+          "</span></p>\n" + both_outlines(first, last, run) + numbers_table(first, last, *run.space) +
+          points_table(first, last) + "<p class=\"note\">The run's own mesh; CD in counts (10⁻⁴).</p>\n" +
+          constraints_table(cost.at("constraints"));
+  page += fresh_table(directory, run);
+  page += "<h2>Pressure</h2>\n";
+  for (std::size_t i = 0; i < run.conditions.size(); ++i)
+    page += pressures(scratch, first, last, run.space->sections(), i);
+  page += "<h2>Mach number</h2>\n";
+  for (std::size_t i = 0; i < run.conditions.size(); ++i) {
+    const double most = std::max(*std::max_element(first.mach[i].begin(), first.mach[i].end()),
+                                 *std::max_element(last.mach[i].begin(), last.mach[i].end()));
+    page += "<div class=\"pair\">" + mach_field(scratch, run, first, i, most) +
+            mach_field(scratch, run, last, i, most) + "</div>\n";
+  }
+  page += "<h2>Convergence</h2>\n" + convergence(scratch, run);
+  page +=
+      "<h2>What it cost</h2>\n" + cost_table(cost) +
+      "<p class=\"note\">Seconds are wall time on the machine of the run; cold solves were timed when this "
+      "page was made.</p>\n";
+  page += "<h2>Mesh</h2>\n";
+  for (const Shown* of : {&first, &last})
+    page += scratch.picture(".svg", [&](const fs::path& file) {
+      draw(of->mesh, file,
+           {.window = window_of(run, {-0.15, -0.25, 1.15, 0.25}, 0.08, 0.08),
+            .width = 1000,
+            .caption = of->name + ": " + std::to_string(of->mesh.triangles.size()) + " triangles"});
+    });
+  return page + "<h2>Problem</h2>\n<pre>" + escaped(PageJson::parse(run.problem).dump(1)) +
+         "</pre>\n</body></html>\n";
+}
+
+}  // namespace
+
+std::string write_design_page(const fs::path& directory, const fs::path& page) {
+  const DesignRun run = read_design_run(directory);
+  const Shown first = shown_of("first", run.space->start(), read_mesh(directory / "first.vtkhdf"), run);
+  const Shown last = shown_of(name_of_best(run), run.best_design(), mesh_of_best(directory, run), run);
+  const PageJson figures = cost_of(run, first, last);
+  write_text_atomically(page, page_of(directory, run, first, last, figures));
+  return figures.dump();
+}
+
+}  // namespace remodel

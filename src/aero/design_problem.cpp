@@ -1,0 +1,112 @@
+#include "remodel/design_problem.h"
+
+#include <nlohmann/json.hpp>
+
+#include "aero/resolved_problem.h"
+#include "remodel/sqp.h"
+
+namespace remodel {
+namespace {
+
+using ProblemJson = nlohmann::ordered_json;
+
+ProblemJson points_json(const DesignProblem& problem) {
+  ProblemJson points = ProblemJson::array();
+  for (const auto& [conditions, weight] : problem.points) {
+    points.push_back({{"mach", conditions.mach}, {"alpha_deg", conditions.alpha_deg}});
+    if (conditions.cl) points.back()["cl"] = *conditions.cl;
+    points.back()["weight"] = weight;
+  }
+  return points;
+}
+
+ProblemJson constraint_json(const DesignConstraint& constraint) {
+  ProblemJson json = {{"kind", constraint.kind.empty() ? "own" : constraint.kind}};
+  const auto add = [&](const char* key, const auto& value) {
+    if (value) json[key] = *value;
+  };
+  add("at_least", constraint.at_least), add("at_most", constraint.at_most);
+  add("of_start", constraint.of_start), add("point", constraint.point), add("x", constraint.x);
+  if (constraint.airfoil) json["airfoil"] = ProblemJson::parse(airfoil_to_json(*constraint.airfoil));
+  add("element", constraint.element), add("between", constraint.between);
+  if (!constraint.name.empty()) json["name"] = constraint.name;
+  return json;
+}
+
+std::unique_ptr<Designer> make_cmaes(const DesignProblem& problem, const FlowSpace& space) {
+  return std::make_unique<CmaesDesigner>(space.start(),
+                                         CmaesOptions{.sigma = problem.sigma, .seed = problem.seed});
+}
+
+std::unique_ptr<Designer> make_sqp(const DesignProblem& problem, const FlowSpace& space) {
+  DesignBounds bounds = space.bounds(problem.bounds);
+  return std::make_unique<SqpDesigner>(space.start(), SqpOptions{.trust = problem.trust,
+                                                                 .low = std::move(bounds.low),
+                                                                 .high = std::move(bounds.high),
+                                                                 .metric = space.metric()});
+}
+
+struct DesignerKind {
+  const char* name;
+  std::unique_ptr<Designer> (*make)(const DesignProblem& problem, const FlowSpace& space);
+};
+constexpr DesignerKind designer_kinds[] = {{"sqp", make_sqp}, {"cmaes", make_cmaes}};
+
+}  // namespace
+
+std::vector<std::string> designer_names() {
+  std::vector<std::string> names;
+  for (const DesignerKind& kind : designer_kinds) names.emplace_back(kind.name);
+  return names;
+}
+
+std::unique_ptr<Designer> make_designer(const DesignProblem& problem, const FlowSpace& space) {
+  for (const DesignerKind& kind : designer_kinds)
+    if (problem.designer == kind.name) return kind.make(problem, space);
+  ProblemPlace("designer").require_word(problem.designer, "name", designer_names());
+  return nullptr;
+}
+
+void validate(const DesignProblem& problem, const std::string& source) {
+  resolved(problem, source);
+}
+
+std::unique_ptr<FlowSpace> design_space(const DesignProblem& problem) {
+  return std::move(resolved(problem, "design problem").space);
+}
+
+std::vector<std::string> constraint_names(const DesignProblem& problem) {
+  return resolved(problem, "design problem").names();
+}
+
+std::string design_problem_json(const DesignProblem& problem) {
+  if (!problem.text.empty()) return problem.text;
+  // What the space and the designer are says the run's settings beside it.
+  ProblemJson json = {{"symmetric", problem.symmetric},
+                      {"flow", points_json(problem)},
+                      {"objective", problem.objective},
+                      {"constraints", ProblemJson::array()},
+                      {"constraint_tolerance", problem.constraint_tolerance}};
+  if (problem.target) json["target"] = ProblemJson::parse(airfoil_to_json(*problem.target));
+  for (const DesignConstraint& constraint : problem.constraints)
+    json["constraints"].push_back(constraint_json(constraint));
+  return json.dump();
+}
+
+FlowOptions design_flow_options(bool half, StepObserver* observer) {
+  return {.vortex = !half, .observer = observer};
+}
+
+FlowResult whole_of(FlowResult half) {
+  half.cd *= 2.0;
+  half.cl = half.cm = 0.0;
+  return half;
+}
+
+FlowResult solve_design_flow(const Mesh& mesh, const FlowConditions& conditions, bool half,
+                             StepObserver* observer) {
+  FlowResult flow = solve_flow(mesh, conditions, design_flow_options(half, observer));
+  return half ? whole_of(std::move(flow)) : flow;
+}
+
+}  // namespace remodel

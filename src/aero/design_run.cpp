@@ -1,0 +1,158 @@
+#include "remodel/design_run.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "aero/element_space.h"
+#include "aero/section_space.h"
+#include "remodel/error.h"
+#include "remodel/evaluation.h"
+
+namespace remodel {
+
+using RunJson = nlohmann::ordered_json;
+
+double DesignRun::sum(const char* output) const {
+  double total = 0.0;
+  for (const EvaluationRecord& row : rows)
+    if (const auto found = row.outputs.find(output); found != row.outputs.end()) total += found->second;
+  return total;
+}
+
+std::optional<double> DesignRun::start_objective() const {
+  const EvaluationRecord& first = rows.front();
+  if (first.coefficients != space->start() || !std::isfinite(first.objective)) return std::nullopt;
+  return first.objective;
+}
+
+std::vector<NamedNumber> violations_of(const std::vector<std::string>& names, double tolerance,
+                                       const std::vector<double>& constraints) {
+  std::vector<NamedNumber> result;
+  for (std::size_t i = 0; i < std::min(names.size(), constraints.size()); ++i) {
+    auto found = std::find_if(result.begin(), result.end(),
+                              [&](const NamedNumber& known) { return known.name == names[i]; });
+    if (found == result.end()) found = result.insert(result.end(), {names[i], 0.0});
+    found->value = std::max(found->value, constraints[i] > tolerance ? constraints[i] : 0.0);
+  }
+  return result;
+}
+
+std::vector<NamedNumber> DesignRun::violations() const {
+  return violations_of(constraint_names, constraint_tolerance, rows[best].constraints);
+}
+
+std::string DesignRun::why_no_design() const {
+  if (!has_flow) return "no flow was found for any design";
+  const std::vector<NamedNumber> by = violations();
+  const auto worst = std::max_element(
+      by.begin(), by.end(), [](const NamedNumber& a, const NamedNumber& b) { return a.value < b.value; });
+  char amount[32];
+  std::snprintf(amount, sizeof amount, "%.6g", worst->value);
+  return "no design is within all constraints: the least violated one, design " +
+         std::to_string(rows[best].evaluation) + ", violates '" + worst->name + "' most, by " + amount;
+}
+
+bool holds_design_run(const std::filesystem::path& directory) {
+  const auto run = History::open(directory / "history.sqlite").run();
+  const auto options = run.find("options");
+  return options != run.end() && RunJson::accept(options->second) &&
+         RunJson::parse(options->second).contains("problem");
+}
+
+namespace {
+
+std::unique_ptr<const FlowSpace> space_of(const RunJson& options, const std::string& file) {
+  if (options.contains("elements"))
+    return std::make_unique<ElementSpace>(ElementSpace::from_description(options.dump(), file));
+  const RunJson& space = options.at("space");
+  return std::make_unique<SectionSpace>(
+      airfoil_from_json(space.at("from").dump(), file),
+      SectionSpaceOptions{.symmetric = options.at("problem").value("symmetric", false),
+                          .half = options.at("half"),
+                          .domain = {.points = space.at("points"),
+                                     .farfield_radius = space.at("farfield_radius"),
+                                     .farfield_points = space.at("farfield_points")}});
+}
+
+// Of the designs whose flows were found, the row of the one that violates its worst constraint least, of
+// several the first; without a flow the first row.
+std::size_t least_violated(const std::vector<EvaluationRecord>& rows) {
+  std::size_t least = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    if (std::isfinite(rows[i].objective) &&
+        (!std::isfinite(rows[least].objective) ||
+         violation_of(rows[i].constraints) < violation_of(rows[least].constraints)))
+      least = i;
+  return least;
+}
+
+}  // namespace
+
+DesignRun read_design_run(const std::filesystem::path& directory) {
+  const std::filesystem::path file = directory / "history.sqlite";
+  const History history = History::open(file);
+  DesignRun run;
+  try {
+    const RunJson options = RunJson::parse(history.run().at("options"));
+    const RunJson& problem = options.at("problem");
+    run.problem = problem.dump();
+    problem.at("objective").get_to(run.objective);
+    run.space = space_of(options, file.string());
+    options.at("constraint_names").get_to(run.constraint_names);
+    run.constraint_tolerance = options.value("constraint_tolerance", 0.0);
+    for (const RunJson& entry : problem.at("flow")) {
+      FlowConditions& at = run.conditions.emplace_back();
+      at.mach = entry.at("mach"), at.alpha_deg = entry.value("alpha_deg", 0.0);
+      if (entry.contains("cl")) at.cl = entry.at("cl").get<double>();
+    }
+  } catch (const std::out_of_range&) {
+    throw Error(ErrorCode::format, file.string(), "found no run of `remodel design`");
+  } catch (const RunJson::exception&) {
+    throw Error(ErrorCode::format, file.string(), "found no run of `remodel design`");
+  }
+  run.rows = history.records();
+  if (run.rows.empty())
+    throw Error(ErrorCode::format, file.string(), "found no design, expected one or more");
+  const std::size_t numbers = run.space->start().size();
+  for (const EvaluationRecord& row : run.rows)
+    if (row.coefficients.size() != numbers)
+      throw Error(ErrorCode::format, file.string(),
+                  "evaluation " + std::to_string(row.evaluation) + ": found a design of " +
+                      std::to_string(row.coefficients.size()) + " numbers, expected " +
+                      std::to_string(numbers));
+  for (std::size_t i = 1; i < run.rows.size(); ++i)
+    if (run.rows[i].best_objective < run.rows[run.best].best_objective) run.best = i;
+  if (!run.has_best()) run.best = least_violated(run.rows);
+  run.has_flow = std::isfinite(run.rows[run.best].objective);
+  return run;
+}
+
+std::vector<std::vector<Point>> outlines(const FlowSpace& space, std::span<const double> design) {
+  constexpr int pieces = 400;
+  std::vector<std::vector<Point>> result;
+  for (std::size_t index = 0; index < space.sections(); ++index) {
+    const CstAirfoil section = space.section(design, index);
+    const Frame frame(space.placement(design, index));
+    result.emplace_back();
+    for (int i = 0; i < pieces; ++i)
+      result.back().push_back(frame(section.at(static_cast<double>(i) / pieces)));
+  }
+  return result;
+}
+
+std::array<double, 4> window_of(const DesignRun& run, const std::array<double, 4>& of_one, double beside,
+                                double above) {
+  if (run.space->sections() == 1) return of_one;
+  constexpr double far = 1e9;
+  std::array<double, 4> box = {far, far, -far, -far};
+  for (const std::vector<double>& design : {run.space->start(), run.best_design()})
+    for (const std::vector<Point>& outline : outlines(*run.space, design))
+      for (const Point p : outline)
+        box = {std::min(box[0], p.x), std::min(box[1], p.y), std::max(box[2], p.x), std::max(box[3], p.y)};
+  const double width = box[2] - box[0];
+  return {box[0] - beside * width, box[1] - above * width, box[2] + beside * width, box[3] + above * width};
+}
+
+}  // namespace remodel

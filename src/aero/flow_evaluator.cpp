@@ -1,0 +1,228 @@
+// The evaluator of a design problem: the flows of all points on the living mesh, and their gradients.
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "aero/flow_memory.h"
+#include "aero/resolved_problem.h"
+#include "base/threads.h"
+#include "remodel/error.h"
+#include "remodel/mesh_derivative.h"
+#include "remodel/remodel.h"
+
+namespace remodel {
+namespace {
+
+// A value and its derivatives by the design, of one flow.
+struct Slope {
+  double value = 0.0;
+  std::vector<double> by;
+};
+
+void add(std::vector<double>& to, double factor, const std::vector<double>& from) {
+  to.resize(from.size(), 0.0);
+  for (std::size_t i = 0; i < from.size(); ++i) to[i] += factor * from[i];
+}
+
+class FlowEvaluator final : public Evaluator {
+ public:
+  FlowEvaluator(const DesignProblem& problem, const FlowSpace& space, std::size_t threads)
+      : problem_(problem), parts_(resolved(problem, "design problem")), space_(space), threads_(threads) {
+    for (std::size_t i = 0; i < problem_.points.size(); ++i) {
+      std::vector<std::size_t>& asked = asked_.emplace_back(1, 0);  // the objective is of each point
+      for (const ResolvedProblem::FlowLimit& limit : parts_.flow)
+        if (limit.point == i && std::find(asked.begin(), asked.end(), limit.function) == asked.end())
+          asked.push_back(limit.function);
+    }
+  }
+
+  Evaluation evaluate(const EvaluationTask& task, std::unique_ptr<EvaluatorState>& state) override {
+    const bool is_first = !state;
+    if (is_first) state = std::make_unique<FlowMemory>();
+    auto& memory = static_cast<FlowMemory&>(*state);
+    memory.observer.ask(task.observer);
+    while (memory.flows.size() < problem_.points.size())
+      memory.flows.emplace_back(design_flow_options(space_.half(), &memory.observer));
+    if (is_first || task.step.changed() != 0) memory.connectivity = 2 * task.evaluation;
+    if (parts_.target) aim(task, memory);
+    memory.known.go_on_from(task.from, memory.flows);
+    const Shared shared{task, MeshDerivative(task.mesh), task.mesh.freeze()};
+    std::vector<PointFlow> points(problem_.points.size());
+    ThreadTeam(std::min(points.size(), threads_)).run(points.size(), [&](std::size_t i) {
+      points[i] = point_of(shared, i, memory);
+    });
+    Evaluation result{.objective = 0.0};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      note(points[i], i, task.gradient, result.outputs);
+      const double factor = problem_.points[i].weight * parts_.sense;
+      result.objective += factor * points[i].slopes[0].value;
+      if (task.gradient) add(result.gradient, factor, points[i].slopes[0].by);
+    }
+    memory.known.note(task.design, task.from, memory.flows);
+    add_constraints(task, points, result);
+    result.outputs["connectivity"] = static_cast<double>(memory.connectivity);
+    return result;
+  }
+
+  std::unique_ptr<EvaluatorState> restore(const std::string& bytes, const Mesh&,
+                                          const std::string& source) override {
+    auto memory = std::make_unique<FlowMemory>();
+    try {
+      memory->connectivity = std::stoull(bytes);
+    } catch (const std::exception&) {
+      throw Error(ErrorCode::format, source, "found no state of a design's flows");
+    }
+    return memory;
+  }
+  // What the search may take, and what is done with its last design, are no part of what a design is worth.
+  std::string description() const override {
+    nlohmann::ordered_json problem = nlohmann::ordered_json::parse(design_problem_json(problem_));
+    problem.erase("verify");
+    problem.erase("designer");
+    return nlohmann::ordered_json{
+        {"evaluator", "flow"}, {"problem", problem}, {"constraint_names", parts_.names()}}
+        .dump();
+  }
+
+ private:
+  // What the points of a design have in common.
+  struct Shared {
+    const EvaluationTask& task;
+    MeshDerivative derivative;
+    FrozenMesh frozen;
+  };
+  // What came of a point.
+  struct PointFlow {
+    FlowResult flow;
+    std::map<std::size_t, Slope> slopes;  // of the functions that are asked for
+    double gradient_seconds = 0.0;
+  };
+
+  // Called from several threads: of the memory it changes this point's flow alone.
+  PointFlow point_of(const Shared& shared, std::size_t index, FlowMemory& memory) const {
+    PointFlow point{.flow = memory.flows[index].solve(shared.task.mesh, problem_.points[index].conditions),
+                    .slopes = {}};
+    if (space_.half()) point.flow = whole_of(std::move(point.flow));
+    if (!point.flow.converged()) throw std::runtime_error("no flow was found: " + point.flow.reason);
+    const FlowView view{shared.task.mesh, shared.frozen, point.flow,
+                        parts_.target ? &memory.target[index] : nullptr};
+    std::vector<FlowValue> values;
+    for (const std::size_t function : asked_[index]) {
+      values.push_back(parts_.functions[function]->at(view));
+      point.slopes[function].value = values.back().value;
+    }
+    if (shared.task.gradient) add_derivatives(shared, index, memory, values, point);
+    return point;
+  }
+
+  // Derivatives of the functions of a point by the design: those of coefficients and of pressures together.
+  void add_derivatives(const Shared& shared, std::size_t index, FlowMemory& memory,
+                       std::vector<FlowValue>& values, PointFlow& point) const {
+    WantedGradients wanted{.lift = false, .drag = false, .moment = false, .angle = false};
+    std::vector<FlowFunctional> functionals;
+    for (FlowValue& value : values) {
+      wanted.lift = wanted.lift || value.by_lift != 0.0;
+      wanted.drag = wanted.drag || value.by_drag != 0.0;
+      wanted.moment = wanted.moment || value.by_moment != 0.0;
+      if (value.by_flow) functionals.push_back(std::move(*value.by_flow));
+    }
+    const FlowGradients gradients = memory.flows[index].gradients(functionals, wanted);
+    if (gradients.interrupted) throw std::runtime_error("interrupted");
+    const auto by_design = [&](bool is_wanted, const FlowGradient& gradient) {
+      return is_wanted ? space_.gradient_of_domain(shared.derivative.vjp(gradient.points))
+                       : std::vector<double>();
+    };
+    const std::vector<double> lift = by_design(wanted.lift, gradients.cl),
+                              moment = by_design(wanted.moment, gradients.cm);
+    std::vector<double> drag = by_design(wanted.drag, gradients.cd);
+    if (space_.half())
+      for (double& x : drag) x *= 2.0;
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const FlowValue& value = values[i];
+      std::vector<double> by(space_.start().size(), 0.0);
+      if (value.by_drag != 0.0) add(by, value.by_drag, drag);
+      if (value.by_lift != 0.0) add(by, value.by_lift, lift);
+      if (value.by_moment != 0.0) add(by, value.by_moment, moment);
+      if (value.by_flow) add(by, 1.0, by_design(true, gradients.functions.at(next++)));
+      point.slopes[asked_[index][i]].by = std::move(by);
+    }
+    point.gradient_seconds = gradients.seconds;
+  }
+
+  // Values at the stations of the section, in their order, by parameter.
+  static StationPressures at_stations(const FrozenMesh& mesh, const std::vector<double>& values) {
+    StationPressures result;
+    for (std::size_t p = 0; p < values.size(); ++p)
+      if (mesh.curve[p] == 0 && mesh.steiner[p] == 0) result[mesh.parameter[p]] = values[p];
+    return result;
+  }
+
+  // The target's pressures on the connectivity that the design has, as soon as the mesh can follow to it:
+  // they have the same errors as the design's then, and the objective is 0 at the target. That shifts the
+  // objective, as a change of connectivity does.
+  void aim(const EvaluationTask& task, FlowMemory& memory) const {
+    const bool is_aimed = memory.aimed_at == memory.connectivity;
+    if (is_aimed && memory.is_like) return;
+    Mesh mesh = task.mesh;
+    const RemodelResult step = remodel(mesh, *parts_.target, {.strategy = Strategy::morph});
+    const bool is_like = step.born() == 0 && step.gone() == 0;
+    if (is_aimed && !is_like) return;
+    if (is_aimed) ++memory.connectivity;
+    memory.target.clear();
+    for (std::size_t i = 0; i < problem_.points.size(); ++i) {
+      if (memory.target_flows.size() == i)
+        memory.target_flows.emplace_back(design_flow_options(space_.half(), &memory.observer));
+      const FlowResult flow = memory.target_flows[i].solve(mesh, problem_.points[i].conditions);
+      if (!flow.converged()) throw std::runtime_error("no flow was found around the target: " + flow.reason);
+      memory.target.push_back(at_stations(mesh.freeze(), pressure_coefficients(flow)));
+    }
+    memory.aimed_at = memory.connectivity;
+    memory.is_like = is_like;
+  }
+
+  static void note(const PointFlow& point, std::size_t index, bool with_gradients,
+                   std::map<std::string, double>& outputs) {
+    const FlowResult& flow = point.flow;
+    const std::string suffix = index == 0 ? "" : "_" + std::to_string(index + 1);
+    outputs["cl" + suffix] = flow.cl, outputs["cd" + suffix] = flow.cd, outputs["cm" + suffix] = flow.cm;
+    outputs["alpha_deg" + suffix] = flow.alpha_deg;
+    outputs["flow_seconds"] += flow.seconds;
+    outputs["factorisations"] += flow.factorisations;
+    if (with_gradients) outputs["gradient_seconds"] += point.gradient_seconds;
+  }
+
+  void add_constraints(const EvaluationTask& task, std::vector<PointFlow>& points, Evaluation& result) const {
+    const auto add_one = [&](double value, std::vector<double> by) {
+      result.constraints.push_back(value);
+      if (task.gradient) result.constraint_gradients.push_back(std::move(by));
+    };
+    const DesignView view{space_, task.design, task.mesh.domain()};
+    for (const ResolvedProblem::DomainLimit& limit : parts_.domain)
+      for (DesignValue& value : limit.constraint->at(view)) add_one(value.value, std::move(value.by_design));
+    for (const ResolvedProblem::FlowLimit& limit : parts_.flow) {
+      const Slope& slope = points[limit.point].slopes[limit.function];
+      std::vector<double> row = slope.by;
+      for (double& x : row) x *= limit.factor;
+      add_one(limit.factor * (slope.value - limit.limit), std::move(row));
+    }
+  }
+
+  DesignProblem problem_;
+  ResolvedProblem parts_;
+  const FlowSpace& space_;
+  std::size_t threads_;
+  std::vector<std::vector<std::size_t>> asked_;  // of each point: functions
+};
+
+}  // namespace
+
+std::unique_ptr<Evaluator> flow_evaluator(const DesignProblem& problem, const FlowSpace& space,
+                                          std::size_t threads) {
+  return std::make_unique<FlowEvaluator>(problem, space, threads);
+}
+
+}  // namespace remodel

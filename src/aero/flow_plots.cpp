@@ -1,0 +1,85 @@
+#include "remodel/flow_plots.h"
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "remodel/error.h"
+#include "remodel/io.h"
+
+namespace remodel {
+
+std::string flow_caption(double mach, double alpha_deg, double cl) {
+  char caption[100];
+  std::snprintf(caption, sizeof caption, "M %.4g, \u03b1 = %.4g\u00b0, CL = %.4f", mach, alpha_deg, cl);
+  return caption;
+}
+
+std::string duct_caption(double mach) {
+  char caption[40];
+  std::snprintf(caption, sizeof caption, "M %.4g", mach);
+  return caption;
+}
+
+namespace {
+
+// The vertices along a boundary, piece by piece, whatever the order of its edges is.
+std::vector<std::vector<std::uint32_t>> pieces_of(const FrozenBoundary& boundary) {
+  std::map<std::uint32_t, std::uint32_t> next;
+  std::set<std::uint32_t> within;
+  for (const auto& [from, to] : boundary.edges) next[from] = to, within.insert(to);
+  std::vector<std::vector<std::uint32_t>> pieces;
+  const auto follow = [&](std::uint32_t v) {
+    if (!next.contains(v)) return;
+    pieces.push_back({v});
+    for (auto at = next.find(v); at != next.end(); at = next.find(pieces.back().back())) {
+      pieces.back().push_back(at->second);
+      next.erase(at);
+    }
+  };
+  for (const auto& [from, to] : boundary.edges)
+    if (!within.contains(from)) follow(from);  // where an open piece begins
+  for (const auto& [from, to] : boundary.edges) follow(from);
+  return pieces;
+}
+
+}  // namespace
+
+Plot cp_plot(const FrozenMesh& mesh, const std::string& farfield, std::span<const double> cp,
+             const std::string& caption, const std::string& option) {
+  Plot plot{.x = {"x"}, .y = {.label = "Cp", .reversed = true}, .caption = caption};
+  const auto point_of = [&](std::uint32_t v) { return Point{mesh.points[v].x, cp[v]}; };
+  for (const FrozenBoundary& boundary : mesh.boundaries) {
+    if (boundary.name == farfield || boundary.edges.empty()) continue;
+    const auto pieces = pieces_of(boundary);
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      PlotCurve& curve = plot.curves.emplace_back();
+      curve.name = pieces.size() == 1 ? boundary.name : boundary.name + " " + std::to_string(i + 1);
+      for (const std::uint32_t v : pieces[i]) curve.points.push_back(point_of(v));
+    }
+  }
+  if (plot.curves.empty()) throw Error(ErrorCode::argument, option, "found no body, expected one");
+  return plot;
+}
+
+void write_residuals(std::span<const double> residuals, const std::string& caption, const std::string& file) {
+  if (std::filesystem::path(file).extension() == ".csv") {
+    std::string table = "step,residual\n";
+    for (std::size_t i = 0; i < residuals.size(); ++i) {
+      char line[64];
+      std::snprintf(line, sizeof line, "%zu,%.17g\n", i, residuals[i]);
+      table += line;
+    }
+    write_text_atomically(file, table);
+    return;
+  }
+  Plot plot{.x = {"step"}, .y = {.label = "residual", .logarithmic = true}, .caption = caption};
+  plot.curves.push_back({});
+  for (std::size_t i = 0; i < residuals.size(); ++i)
+    plot.curves.back().points.push_back({static_cast<double>(i), std::fmax(residuals[i], 1e-16)});
+  draw_plot(plot, file);
+}
+
+}  // namespace remodel

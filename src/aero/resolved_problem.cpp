@@ -1,0 +1,368 @@
+#include "aero/resolved_problem.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "aero/element_space.h"
+#include "aero/section_space.h"
+
+namespace remodel {
+namespace {
+
+constexpr std::size_t most_functions = 10000;  // of all constraints together: with more a search does not end
+
+// A function of the problem's user.
+class OwnFlowFunction final : public FlowFunction {
+ public:
+  explicit OwnFlowFunction(FlowFunctionOf function) : function_(std::move(function)) {}
+  FlowValue at(const FlowView& of) const override { return function_(of); }
+
+ private:
+  FlowFunctionOf function_;
+};
+
+class OwnDomainConstraint final : public DomainConstraint {
+ public:
+  OwnDomainConstraint(DesignFunctionOf function, const FlowSpace& space)
+      : function_(std::move(function)), numbers_(space.start().size()) {
+    const std::vector<double> start = space.start();
+    count_ = function_({space, start, space.domain(start)}).size();
+  }
+  std::size_t count() const override { return count_; }
+  std::vector<DesignValue> at(const DesignView& of) const override {
+    std::vector<DesignValue> values = function_(of);
+    if (values.size() != count_)
+      throw Error(ErrorCode::argument, "own_design",
+                  "found " + std::to_string(values.size()) + " values, expected " + std::to_string(count_) +
+                      " as of the start");
+    for (const DesignValue& value : values)
+      if (value.by_design.size() != numbers_)
+        throw Error(ErrorCode::argument, "own_design",
+                    "found " + std::to_string(value.by_design.size()) + " derivatives, expected " +
+                        std::to_string(numbers_));
+    return values;
+  }
+
+ private:
+  DesignFunctionOf function_;
+  std::size_t numbers_, count_ = 0;
+};
+
+bool is_own(const DesignConstraint& constraint) {
+  return constraint.own_flow || constraint.own_design;
+}
+
+// Which members a constraint may have.
+struct Members {
+  bool x = false, airfoil = false, between = false, point = false, at_most = false, of_start = false,
+       at_least = false, element = false;
+};
+
+Members members_of(const FlowKind& kind, bool has_elements) {
+  return {.point = true,
+          .at_most = kind.at_most.has_value(),
+          .at_least = kind.at_least.has_value(),
+          .element = has_elements && kind.of_element};
+}
+
+Members members_of(const DomainKind& kind, bool has_elements) {
+  return {.x = kind.takes_x,
+          .airfoil = kind.takes_airfoil,
+          .between = kind.takes_between,
+          .of_start = kind.takes_start,
+          .at_least = kind.takes_least,
+          .element = has_elements && kind.of_section};
+}
+
+// Throws for members that a constraint of this kind has no use for.
+void require_members(const DesignConstraint& of, const Members& may, const ProblemPlace& place) {
+  const auto refuse = [&](bool given, bool useful, const char* key) {
+    if (given && !useful)
+      place.fail("found the key '" + std::string(key) + "', which '" + (of.kind.empty() ? "own" : of.kind) +
+                 "' has not");
+  };
+  refuse(of.x.has_value(), may.x, "x");
+  refuse(of.airfoil.has_value(), may.airfoil, "airfoil");
+  refuse(of.between.has_value(), may.between, "between");
+  refuse(of.point.has_value(), may.point, "point");
+  refuse(of.at_most.has_value(), may.at_most, "at_most");
+  refuse(of.of_start.has_value(), may.of_start, "of_start");
+  refuse(of.at_least.has_value(), may.at_least, "at_least");
+  refuse(of.element.has_value(), may.element, "element");
+}
+
+void require_surfaces(const CstAirfoil& airfoil, const ProblemPlace& place, const char* key) {
+  if (airfoil.upper.size() != airfoil.lower.size() || airfoil.upper.size() < 2)
+    place.fail("found " + shown(airfoil.upper.size()) + " and " + shown(airfoil.lower.size()) +
+               " coefficients of the surfaces of '" + key + "', expected as many of both, 2 or more");
+}
+
+class Resolver {
+ public:
+  Resolver(const DesignProblem& problem, const std::string& source) : problem_(problem), place_(source) {}
+
+  ResolvedProblem result() {
+    require_sections();
+    require_points();
+    resolve_objective();
+    for (std::size_t i = 0; i < problem_.constraints.size(); ++i) resolve_flow_limit(i);
+    make_space();
+    std::vector<std::size_t> of_domain;  // behind those of sections
+    for (std::size_t i = 0; i < problem_.constraints.size(); ++i) {
+      const DomainKind* kind = find_domain_kind(problem_.constraints[i].kind);
+      if (!is_own(problem_.constraints[i]) && kind != nullptr && kind->of_section)
+        resolve_domain_limit(i);
+      else
+        of_domain.push_back(i);
+    }
+    for (const std::size_t i : of_domain) resolve_domain_limit(i);
+    place_.require_number(problem_.constraint_tolerance, "constraint_tolerance", {0.0, 1.0});
+    require_weights();
+    require_designer();
+    return std::move(resolved_);
+  }
+
+ private:
+  ProblemPlace place_of(const char* what, std::size_t index) const {
+    return place_.inner(std::string(what) + " " + std::to_string(index + 1));
+  }
+
+  void require_sections() const {
+    if (problem_.elements.empty() == (problem_.airfoil.upper.empty() && problem_.airfoil.lower.empty()))
+      place_.fail("expected one of 'airfoil' and 'elements'");
+    if (problem_.elements.empty()) require_surfaces(problem_.airfoil, place_, "airfoil");
+    for (std::size_t i = 0; i < problem_.elements.size(); ++i)
+      require_surfaces(problem_.elements[i].airfoil, place_of("element", i), "airfoil");
+    if (problem_.target) require_surfaces(*problem_.target, place_, "target");
+    if (!problem_.text.empty() && !nlohmann::json::parse(problem_.text, nullptr, false).is_object())
+      place_.fail("found a 'text' that is no JSON object");
+    if (!problem_.elements.empty() && problem_.symmetric)
+      place_.fail("found 'symmetric' with 'elements', expected 'airfoil'");
+    if (problem_.gradation)
+      place_.inner("mesh").require_number(*problem_.gradation, "gradation", {0.1, 1000.0});
+    place_.inner("mesh").require_number(problem_.domain.farfield_radius, "farfield_radius", {2.0, 1e6});
+  }
+
+  void require_points() const {
+    if (problem_.points.empty()) place_.fail("expected at least one point of 'flow'");
+    for (std::size_t i = 0; i < problem_.points.size(); ++i) {
+      const auto& [conditions, weight] = problem_.points[i];
+      const ProblemPlace place = place_of("flow", i);
+      place.require_number(conditions.mach, "mach", {0.01, 3.0});
+      place.require_number(conditions.alpha_deg, "alpha_deg", {-90.0, 90.0});
+      if (conditions.cl) place.require_number(*conditions.cl, "cl", {-10.0, 10.0});
+      if (conditions.cl && conditions.mach > 1.0)
+        place.fail(
+            "found 'cl' with a 'mach' above 1, expected 'alpha_deg': lift is given below the speed of sound");
+      place.require_number(weight, "weight", {0.0, 1e6});
+    }
+  }
+
+  // Each function once: constraints of one kind share what it takes.
+  std::size_t index_of(const FlowKind& kind, std::optional<std::size_t> section) {
+    const auto same = [&](const auto& known) { return known.kind == &kind && known.section == section; };
+    const auto found = std::find_if(known_.begin(), known_.end(), same);
+    if (found != known_.end()) return found->index;
+    resolved_.functions.push_back(kind.make(section));
+    known_.push_back({&kind, section, resolved_.functions.size() - 1});
+    return known_.back().index;
+  }
+
+  void resolve_objective() {
+    if (problem_.own_objective) {
+      resolved_.functions.push_back(std::make_shared<OwnFlowFunction>(problem_.own_objective));
+    } else {
+      place_.require_word(problem_.objective, "objective", objective_names());
+      const FlowKind& kind = *find_flow_kind(problem_.objective);
+      resolved_.sense = kind.objective;
+      index_of(kind, std::nullopt);
+    }
+    const FlowFunction& objective = *resolved_.functions.front();
+    for (const DesignPoint& point : problem_.points)
+      if (objective.is_given(point.conditions))
+        place_.fail("found the objective '" + problem_.objective + "' with 'cl', expected 'alpha_deg' alone");
+    if (objective.needs_target() && !problem_.elements.empty())
+      place_.fail("found the objective '" + problem_.objective + "' with 'elements', expected 'airfoil'");
+    if (objective.needs_target()) place_.given(problem_.target, "target");
+    if (!objective.needs_target() && !problem_.own_objective && problem_.target)
+      place_.fail("found 'target' with the objective '" + problem_.objective + "', expected 'inverse'");
+    if (problem_.target && !problem_.elements.empty())
+      place_.fail("found 'target' with 'elements', expected 'airfoil'");
+  }
+
+  std::string name_of(std::size_t index) const {
+    const DesignConstraint& constraint = problem_.constraints[index];
+    if (!constraint.name.empty()) return constraint.name;
+    const std::string& kind = is_own(constraint) && constraint.kind.empty() ? "own" : constraint.kind;
+    const bool is_only = std::count_if(problem_.constraints.begin(), problem_.constraints.end(),
+                                       [&](const auto& other) { return other.kind == constraint.kind; }) == 1;
+    return is_only ? kind : kind + " (constraint " + std::to_string(index + 1) + ")";
+  }
+
+  // Also says of every other constraint whether its kind is known and its members of use.
+  void resolve_flow_limit(std::size_t index) {
+    const DesignConstraint& constraint = problem_.constraints[index];
+    const ProblemPlace place = place_of("constraint", index);
+    const bool has_elements = !problem_.elements.empty();
+    if (constraint.airfoil) require_surfaces(*constraint.airfoil, place, "airfoil");
+    if (constraint.own_flow && constraint.own_design)
+      place.fail("found own_flow and own_design, expected one of them");
+    if (constraint.own_design) return require_members(constraint, {}, place);
+    if (!constraint.own_flow) {
+      place.require_word(constraint.kind, "kind", constraint_kinds());
+      if (const DomainKind* kind = find_domain_kind(constraint.kind))
+        return require_members(constraint, members_of(*kind, has_elements), place);
+    }
+    constexpr Limits any = {-1e300, 1e300};
+    const FlowKind own = {.name = "own", .at_least = any, .at_most = any};
+    const FlowKind& kind = constraint.own_flow ? own : *find_flow_kind(constraint.kind);
+    require_members(constraint, members_of(kind, has_elements), place);
+    if (kind.at_least && kind.at_most && constraint.at_least.has_value() == constraint.at_most.has_value())
+      place.fail("expected one of at_least and at_most");
+    ResolvedProblem::FlowLimit limit{.point = constraint.point.value_or(0), .name = name_of(index)};
+    if (limit.point >= problem_.points.size())
+      place.fail("found " + shown(limit.point) + " as 'point', expected a whole number from 0 to " +
+                 shown(problem_.points.size() - 1));
+    const bool is_upper = !constraint.at_least;
+    limit.limit = is_upper ? place.given(constraint.at_most, "at_most") : *constraint.at_least;
+    place.require_number(limit.limit, is_upper ? "at_most" : "at_least",
+                         is_upper ? *kind.at_most : *kind.at_least);
+    std::optional<std::size_t> section;
+    if (constraint.element) section = element_index(problem_, *constraint.element, place);
+    if (constraint.own_flow) {
+      limit.function = resolved_.functions.size();
+      resolved_.functions.push_back(std::make_shared<OwnFlowFunction>(constraint.own_flow));
+    } else {
+      limit.function = index_of(kind, section);
+    }
+    const FlowFunction& function = *resolved_.functions[limit.function];
+    if (function.is_given(problem_.points[limit.point].conditions))
+      place.fail("found '" + constraint.kind +
+                 "' of a point whose 'cl' is given, expected 'alpha_deg' alone there");
+    limit.factor = (is_upper ? 1.0 : -1.0) / function.unit(limit.limit);
+    resolved_.flow.push_back(std::move(limit));
+  }
+
+  // Whether all flows are their own mirror images, so that half of each says all: a symmetric section closed
+  // behind, along the x axis, and no word of lift, moment or suction.
+  bool is_half() const {
+    const auto along_axis = [](const DesignPoint& point) {
+      return point.conditions.alpha_deg == 0.0 && !point.conditions.cl;
+    };
+    const auto is_even = [](const FlowFunctionPtr& function) { return function->is_even(); };
+    return problem_.symmetric && problem_.airfoil.te_upper == 0.0 &&
+           std::all_of(problem_.points.begin(), problem_.points.end(), along_axis) &&
+           std::all_of(resolved_.functions.begin(), resolved_.functions.end(), is_even);
+  }
+
+  void make_space() {
+    if (!problem_.elements.empty()) {
+      resolved_.space = std::make_unique<ElementSpace>(space_of_elements(problem_, place_));
+      return;
+    }
+    const CstAirfoil start =
+        problem_.symmetric ? symmetric_start(problem_.airfoil, place_) : problem_.airfoil;
+    auto space = std::make_unique<SectionSpace>(
+        start,
+        SectionSpaceOptions{.symmetric = problem_.symmetric, .half = is_half(), .domain = problem_.domain});
+    if (problem_.target) resolved_.target = space->domain_of(*problem_.target, problem_.domain.points);
+    resolved_.space = std::move(space);
+  }
+
+  void resolve_domain_limit(std::size_t index) {
+    const DesignConstraint& constraint = problem_.constraints[index];
+    if (constraint.own_flow) return;
+    const ProblemPlace place = place_of("constraint", index);
+    DomainConstraintPtr made;
+    if (constraint.own_design) {
+      made = std::make_shared<OwnDomainConstraint>(constraint.own_design, *resolved_.space);
+    } else if (const DomainKind* kind = find_domain_kind(constraint.kind)) {
+      made = kind->make(request_of(constraint, *kind, place));
+    } else {
+      return;
+    }
+    functions_ += made->count();
+    if (functions_ + resolved_.flow.size() > most_functions)
+      place_.fail("found " + std::to_string(functions_ + resolved_.flow.size()) +
+                  " entries in 'constraints, counting stations', expected at most " +
+                  std::to_string(most_functions));
+    resolved_.domain.push_back({std::move(made), name_of(index)});
+  }
+
+  DomainRequest request_of(const DesignConstraint& constraint, const DomainKind& kind,
+                           const ProblemPlace& place) const {
+    DomainRequest request{
+        .given = constraint, .problem = problem_, .place = place, .symmetric = problem_.symmetric};
+    if (kind.of_section) {
+      if (!problem_.elements.empty()) {
+        const std::string& name = place.given(constraint.element, "element");
+        request.section = request.element(name);
+        if (!problem_.elements[request.section].coefficients)
+          place.fail("found '" + name + "' as 'element', whose coefficients are no variables");
+      }
+      request.start = resolved_.space->section(resolved_.space->start(), request.section);
+    }
+    if (kind.takes_least && kind.takes_start) {
+      if (constraint.at_least.has_value() == constraint.of_start.has_value())
+        place.fail("expected one of at_least and of_start");
+    } else if (kind.takes_least) {
+      place.given(constraint.at_least, "at_least");
+    }
+    return request;
+  }
+
+  // A point without a weight is looked at for its constraints alone.
+  void require_weights() const {
+    bool any = false;
+    for (std::size_t i = 0; i < problem_.points.size(); ++i) {
+      any = any || problem_.points[i].weight > 0.0;
+      const bool is_constrained = std::any_of(resolved_.flow.begin(), resolved_.flow.end(),
+                                              [&](const auto& limit) { return limit.point == i; });
+      if (problem_.points[i].weight == 0.0 && !is_constrained)
+        place_of("flow", i).fail(
+            "found 0 as 'weight' of a point that no constraint names, expected a number above 0");
+    }
+    if (!any) place_.fail("found 0 as 'weight' of each point of 'flow', expected a number above 0 of one");
+  }
+
+  void require_designer() const {
+    const ProblemPlace place = place_.inner("designer");
+    place.require_word(problem_.designer, "name", designer_names());
+    place.require_number(static_cast<double>(problem_.evaluations), "evaluations", {1.0, 1e6});
+    place.require_number(problem_.bounds, "bounds", {1e-9, 10.0});
+    place.require_number(problem_.trust, "trust", {1e-6, 10.0});
+    place.require_number(problem_.sigma, "sigma", {1e-9, 10.0});
+    for (const int points : problem_.verify) {
+      if (points < 8 || points > 100000)
+        place_.fail("found " + shown(points) + " as 'verify', expected a whole number from 8 to 100000");
+      if (points % 2 != 0) place_.fail("found " + shown(points) + " in 'verify', expected even numbers");
+    }
+  }
+
+  struct Known {
+    const FlowKind* kind;
+    std::optional<std::size_t> section;
+    std::size_t index;
+  };
+
+  const DesignProblem& problem_;
+  ProblemPlace place_;
+  ResolvedProblem resolved_;
+  std::vector<Known> known_;
+  std::size_t functions_ = 0;
+};
+
+}  // namespace
+
+ResolvedProblem resolved(const DesignProblem& problem, const std::string& source) {
+  return Resolver(problem, source).result();
+}
+
+std::vector<std::string> ResolvedProblem::names() const {
+  std::vector<std::string> names;
+  for (const DomainLimit& limit : domain) names.insert(names.end(), limit.constraint->count(), limit.name);
+  for (const FlowLimit& limit : flow) names.push_back(limit.name);
+  return names;
+}
+
+}  // namespace remodel

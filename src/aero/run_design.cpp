@@ -1,0 +1,167 @@
+// The search of a design problem, from its start to fresh meshes of its best design.
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "aero/resolved_problem.h"
+#include "remodel/design_run.h"
+#include "remodel/generate.h"
+#include "remodel/io.h"
+
+namespace remodel {
+namespace {
+
+// Asks a run's observer between the steps of meshes and flows.
+class AskingObserver final : public StepObserver {
+ public:
+  explicit AskingObserver(OptimiseObserver* observer) : observer_(observer) {}
+  bool cancelled() override { return observer_ != nullptr && observer_->cancelled(); }
+
+ private:
+  OptimiseObserver* observer_;
+};
+
+double gradation_of(const DesignProblem& problem) {
+  return problem.gradation.value_or(problem.domain.points / 50.0);
+}
+
+OptimiseOptions options_of(const DesignProblem& problem, const DesignRunOptions& options,
+                           StepObserver& observer) {
+  OptimiseOptions result;
+  result.domain = problem.domain;
+  result.quality.gradation = gradation_of(problem);
+  result.remodel.observer = &observer;
+  result.strategy = MeshStrategy::morph;
+  result.evaluations = problem.evaluations;
+  result.constraint_tolerance = problem.constraint_tolerance;
+  result.workers = 1;
+  result.checkpoint_every = 5;
+  result.keep_finished = true;
+  result.resume = options.resume, result.overwrite = options.overwrite;
+  result.directory = options.directory;
+  return result;
+}
+
+// The constraints of a point that its flow on a fresh mesh violates.
+std::vector<NamedNumber> violated_by(const ResolvedProblem& problem, double tolerance, std::size_t point,
+                                     const Mesh& mesh, const FlowResult& flow) {
+  std::vector<NamedNumber> result;
+  if (!flow.converged()) return result;
+  const FrozenMesh frozen = mesh.freeze();
+  for (const ResolvedProblem::FlowLimit& limit : problem.flow) {
+    if (limit.point != point) continue;
+    const double value = problem.functions[limit.function]->at({mesh, frozen, flow}).value;
+    const double excess = limit.factor * (value - limit.limit);
+    if (excess > tolerance) result.push_back({limit.name, excess});
+  }
+  return result;
+}
+
+// What kept one of the meshes or flows from being finished, or done.
+Stopped verify(const DesignProblem& problem, const ResolvedProblem& parts, std::span<const double> design,
+               StepObserver& observer, std::vector<FreshFlow>& verified) {
+  for (const int points : problem.verify) {
+    const double gradation = gradation_of(problem) * points / problem.domain.points;
+    const GenerateResult made =
+        generate(parts.space->domain_with(design, points), {.gradation = gradation}, &observer);
+    if (made.stopped != Stopped::done) return made.stopped;
+    for (std::size_t i = 0; i < problem.points.size(); ++i) {
+      const FlowResult flow =
+          solve_design_flow(made.mesh, problem.points[i].conditions, parts.space->half(), &observer);
+      if (flow.status == FlowStatus::interrupted) return Stopped::interrupted;
+      verified.push_back({.points = points,
+                          .vertices = made.mesh.freeze().points.size(),
+                          .mach = flow.mach,
+                          .alpha_deg = flow.alpha_deg,
+                          .cl = flow.cl,
+                          .cd = flow.cd,
+                          .cm = flow.cm,
+                          .converged = flow.converged(),
+                          .violated = violated_by(parts, problem.constraint_tolerance, i, made.mesh, flow),
+                          .seconds = flow.seconds});
+    }
+  }
+  return Stopped::done;
+}
+
+// What the search took: the first design's flows were found cold.
+void add_cost(const DesignRun& run, DesignResult& result) {
+  result.start_objective = run.start_objective();
+  result.flows = run.rows.size() * run.conditions.size();
+  result.gradients = run.with_gradients() ? result.flows : 0;
+  result.replacements = static_cast<std::size_t>(std::count_if(
+      run.rows.begin(), run.rows.end(), [](const EvaluationRecord& row) { return row.changed() != 0; }));
+  const auto first = run.rows.front().outputs.find("flow_seconds");
+  if (first != run.rows.front().outputs.end())
+    result.cold_equivalents = (run.sum("flow_seconds") + run.sum("gradient_seconds")) / first->second;
+}
+
+void add_run(const DesignRun& run, DesignResult& result) {
+  result.constraints = run.violations();
+  add_cost(run, result);
+  if (!run.has_best())
+    result.detail = run.why_no_design() + "; best.json is the start" +
+                    (result.detail.empty() ? "" : "; " + result.detail);
+}
+
+// The file says of which design it is: a search that goes on may find a better one.
+void write_fresh(const DesignResult& result, const std::filesystem::path& directory) {
+  const nlohmann::ordered_json file = {
+      {"design", result.search.best_design},
+      {"verified", nlohmann::ordered_json::parse(fresh_json(result.verified))}};
+  write_text_atomically(directory / "fresh.json", file.dump() + "\n");
+}
+
+}  // namespace
+
+std::string fresh_json(const std::vector<FreshFlow>& flows) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const FreshFlow& flow : flows) {
+    nlohmann::ordered_json violated = nlohmann::ordered_json::object();
+    for (const auto& [name, excess] : flow.violated) violated[name] = excess;
+    list.push_back({{"points", flow.points},
+                    {"vertices", flow.vertices},
+                    {"mach", flow.mach},
+                    {"alpha_deg", flow.alpha_deg},
+                    {"cl", flow.cl},
+                    {"cd", flow.cd},
+                    {"cm", flow.cm},
+                    {"converged", flow.converged},
+                    {"violated", std::move(violated)},
+                    {"seconds", flow.seconds}});
+  }
+  return list.dump();
+}
+
+DesignResult run_design(const DesignProblem& problem, const DesignRunOptions& options,
+                        OptimiseObserver* observer) {
+  const ResolvedProblem parts = resolved(problem, "design problem");
+  const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
+  const std::unique_ptr<Evaluator> evaluator =
+      flow_evaluator(problem, *parts.space, options.threads != 0 ? options.threads : cores);
+  const std::unique_ptr<Designer> designer = make_designer(problem, *parts.space);
+  AskingObserver asking(observer);
+  DesignResult result;
+  result.search =
+      optimise(*parts.space, *designer, *evaluator, options_of(problem, options, asking), observer);
+  const bool is_found = std::isfinite(result.search.objective);
+  Stopped fresh = Stopped::done;
+  if (result.search.stopped == OptimiseStopped::done && is_found) {
+    fresh = verify(problem, parts, result.search.best_design, asking, result.verified);
+    if (fresh == Stopped::interrupted) result.verified.clear();
+    if (!result.verified.empty()) write_fresh(result, options.directory);
+  }
+  result.stopped = result.search.stopped != OptimiseStopped::done ? name_of(result.search.stopped)
+                   : fresh != Stopped::done                       ? name_of(fresh)
+                   : designer->finished()                         ? "done"
+                                                                  : "evaluations";
+  result.converged = is_found && designer->finished();
+  result.detail = result.search.detail;
+  result.named = parts.space->named(result.search.best_design);
+  result.best = parts.space->text(result.search.best_design);
+  if (result.search.evaluations != 0) add_run(read_design_run(options.directory), result);
+  return result;
+}
+
+}  // namespace remodel

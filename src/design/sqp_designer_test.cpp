@@ -1,0 +1,121 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "design/quadratic_program.h"
+#include "remodel/error.h"
+#include "remodel/sqp.h"
+
+namespace remodel {
+namespace {
+
+// J. Nocedal and S. J. Wright, "Numerical Optimization", 2nd ed. (2006), example 16.4.
+TEST(QuadraticPrograms, OfABookHaveItsSolution) {
+  const std::vector<double> x = solved({.h = {2, 0, 0, 2},
+                                        .g = {-2, -5},
+                                        .a = {{-1, 2}, {1, 2}, {1, -2}},
+                                        .b = {2, 6, 2},
+                                        .low = {0, 0},
+                                        .high = {1e3, 1e3}});
+  EXPECT_NEAR(x.at(0), 1.4, 1e-7);
+  EXPECT_NEAR(x.at(1), 1.7, 1e-7);
+}
+
+TEST(QuadraticPrograms, WithoutCurvatureEndInACorner) {
+  const std::vector<double> x = solved({.h = std::vector<double>(9, 0.0),
+                                        .g = {1e-6, -1e-6, 1e-9},
+                                        .a = {{0, 1, 1}},
+                                        .b = {1e-4},
+                                        .low = {-1e-3, -1e-3, -1e-3},
+                                        .high = {1e-3, 1e-3, 1e-3}});
+  EXPECT_NEAR(x.at(0), -1e-3, 1e-12);
+  EXPECT_NEAR(x.at(1), 1e-3, 1e-12);
+  EXPECT_NEAR(x.at(2), -1e-3, 1e-10);
+}
+
+// A long bent valley beside a constraint: f = 100 (y - x^2)^2 + (1 - x)^2 with x + y <= 1.
+TEST(Sqp, FollowsAValleyToTheConstraintFromTheBestDesign) {
+  SqpDesigner designer({-1.0, 1.0}, {.trust = 0.2, .low = {-2, -2}, .high = {2, 2}});
+  std::vector<double> best = {-1.0, 1.0};
+  double least = 1e9;
+  for (int i = 0; i < 60 && !designer.finished(); ++i) {
+    const Proposal proposal = designer.ask();
+    EXPECT_EQ(proposal.from, best) << i;
+    const double x = proposal.design.at(0), y = proposal.design.at(1), off = y - x * x;
+    const Evaluation evaluation{.objective = 100 * off * off + (1 - x) * (1 - x),
+                                .constraints = {x + y - 1},
+                                .gradient = {-400 * x * off - 2 * (1 - x), 200 * off},
+                                .constraint_gradients = {{1, 1}}};
+    designer.tell(proposal, evaluation);
+    if (evaluation.objective < least) least = evaluation.objective, best = proposal.design;
+  }
+  // On the constraint: where 100 (1 - x - x^2)^2 + (1 - x)^2 is least, by a search along it.
+  EXPECT_NEAR(best.at(0), 0.6188, 2e-4);
+  EXPECT_NEAR(best.at(0) + best.at(1), 1.0, 1e-6);
+}
+
+// f = -5000 x under x <= 0.1, over its first value of 1: more than the first penalty would hold.
+TEST(Sqp, KeepsConstraintsWhoseViolationWouldPay) {
+  SqpDesigner designer({0.0}, {.trust = 0.5, .low = {-2}, .high = {2}});
+  double last = 0.0;
+  for (int i = 0; i < 20 && !designer.finished(); ++i) {
+    const Proposal proposal = designer.ask();
+    last = proposal.design.at(0);
+    designer.tell(proposal, {.objective = 1.0 - 5000.0 * last,
+                             .constraints = {last - 0.1},
+                             .gradient = {-5000.0},
+                             .constraint_gradients = {{1.0}}});
+  }
+  EXPECT_NEAR(last, 0.1, 1e-6);
+}
+
+TEST(Sqp, WhoseStartIsRefusedHasFinished) {
+  SqpOptions options;
+  options.low = {0.0, 0.0}, options.high = {1.0, 1.0};
+  SqpDesigner designer({0.1, 0.2}, options);
+  const Proposal start = designer.ask();
+  designer.refuse(start);
+  EXPECT_TRUE(designer.finished());
+  designer.refuse(start);
+  EXPECT_TRUE(designer.finished());
+}
+
+// f = (x - 1)^2 + 2 y^2 with x <= 0.5.
+Evaluation bowl(const std::vector<double>& x) {
+  return {.objective = (x[0] - 1) * (x[0] - 1) + 2 * x[1] * x[1],
+          .constraints = {x[0] - 0.5},
+          .gradient = {2 * (x[0] - 1), 4 * x[1]},
+          .constraint_gradients = {{1, 0}}};
+}
+
+TEST(Sqp, GoesOnFromItsStateToTheSameBits) {
+  const SqpOptions options{.trust = 0.2, .low = {-2, -2}, .high = {2, 2}};
+  SqpDesigner designer({-1.0, 1.0}, options);
+  for (int i = 0; i < 40 && !designer.finished(); ++i) {
+    SqpDesigner again({-1.0, 1.0}, options);
+    again.restore(designer.state(), "state");
+    const Proposal proposal = designer.ask();
+    EXPECT_EQ(again.ask().design, proposal.design);
+    EXPECT_EQ(again.ask().from, proposal.from);
+    EXPECT_EQ(again.state(), designer.state());
+    designer.tell(proposal, bowl(proposal.design));
+  }
+  EXPECT_TRUE(designer.finished());
+  EXPECT_NEAR(designer.centre()[0], 0.5, 1e-6);
+  EXPECT_NEAR(designer.centre()[1], 0.0, 1e-3);
+}
+
+TEST(Sqp, RefusesStatesOfAnotherNumberOfVariables) {
+  SqpDesigner two({0.0, 0.0}, {.low = {-1, -1}, .high = {1, 1}});
+  two.tell(two.ask(), bowl({0.0, 0.0}));
+  SqpDesigner three({0.0, 0.0, 0.0}, {.low = {-1, -1, -1}, .high = {1, 1, 1}});
+  for (const std::string& state : {two.state(), std::string("{}"), std::string("[")})
+    EXPECT_THROW(three.restore(state, "checkpoint.json"), Error);
+  std::string cut = two.state();
+  cut.replace(cut.find("\"curvature\":["), 13, "\"curvature\":[1,");
+  EXPECT_THROW(two.restore(cut, "checkpoint.json"), Error);
+}
+
+}  // namespace
+}  // namespace remodel
