@@ -5,7 +5,7 @@
 #include <functional>
 #include <random>
 
-#include "flow/newton.h"
+#include "flow/search/newton_search.h"
 #include "flow/test_flows.h"
 #include "remodel/error.h"
 #include "support.h"
@@ -142,23 +142,23 @@ TEST(Duct, TheJacobianOfInletsAndOutletsIsExact) {
   const FrozenMesh mesh = duct_mesh(4, 8, 2.0, [](double x) { return 1.0 + 0.1 * x; });
   const std::vector<std::string> names = {"in", "out"};
   const flow::FlowMesh dual(mesh, "farfield", "duct", names);
-  const flow::Euler euler(
+  const flow::FlowSystem system(
       dual, {.mach = 0.4,
              .openings = {{.name = "in", .is_inlet = true, .total_pressure = 0.9, .total_sound_square = 1.1},
                           {.name = "out", .is_inlet = false, .pressure = 0.6}}});
-  flow::State state = euler.uniform();
+  flow::State state = system.uniform();
   for (auto& q : state.q)
     for (double& value : q) value += test::uniform(random, -0.05, 0.05);
-  flow::BlockRows matrix = euler.pattern();
-  euler.jacobian(state, matrix);
+  flow::BlockRows matrix = system.pattern();
+  system.jacobian(state, matrix);
   flow::Increment step;
   step.q.resize(dual.size());
   for (auto& block : step.q)
     for (double& value : block) value = test::uniform(random, -1, 1);
   constexpr double length = 1e-6;
   flow::Vector plus, less;
-  euler.residual(flow::moved(state, step, length), plus);
-  euler.residual(flow::moved(state, step, -length), less);
+  system.residual(flow::moved(state, step, length), plus);
+  system.residual(flow::moved(state, step, -length), less);
   for (std::size_t r = 0; r < matrix.rows.size(); ++r)
     for (std::size_t j = 0; j < 4; ++j) {
       double product = 0.0;

@@ -8,7 +8,7 @@
 #include <nanoflann.hpp>
 
 #include "base/stopwatch.h"
-#include "flow/coarse_start.h"
+#include "flow/search/coarse_start.h"
 #include "flow/solution.h"
 #include "remodel/error.h"
 
@@ -221,23 +221,23 @@ Stream stream_of(const FlowConditions& conditions, const FlowOptions& options, c
           .openings = std::move(openings)};
 }
 
-FlowResult result_of(const Euler& euler, const State& state, const Search& search, FlowStart start) {
+FlowResult result_of(const FlowSystem& system, const State& state, const Search& search, FlowStart start) {
   FlowResult result;
   result.status = search.status;
   result.reason = search.reason;
-  result.mach = euler.stream().mach;
-  result.alpha_deg = state.border[1] / degree;
-  const double scale = reported_length(euler.stream());
-  const Coefficients sum = euler.coefficients(state);
+  result.mach = system.stream().mach;
+  result.alpha_deg = state.augmented[1] / degree;
+  const double scale = reported_length(system.stream());
+  const Coefficients sum = system.coefficients(state);
   result.cl = scale * sum.lift, result.cd = scale * sum.drag, result.cm = scale * scale * sum.moment;
-  for (std::size_t i = 0; i < euler.mesh().bodies().size(); ++i) {
-    const Coefficients part = euler.coefficients(state, static_cast<std::int32_t>(i));
+  for (std::size_t i = 0; i < system.mesh().bodies().size(); ++i) {
+    const Coefficients part = system.coefficients(state, static_cast<std::int32_t>(i));
     result.bodies.push_back(
-        {euler.mesh().bodies()[i], scale * part.lift, scale * part.drag, scale * scale * part.moment});
+        {system.mesh().bodies()[i], scale * part.lift, scale * part.drag, scale * scale * part.moment});
   }
-  const std::vector<double> mass_flows = euler.mass_flows(state);
+  const std::vector<double> mass_flows = system.mass_flows(state);
   for (std::size_t i = 0; i < mass_flows.size(); ++i)
-    result.openings.push_back({euler.stream().openings[i].name, mass_flows[i]});
+    result.openings.push_back({system.stream().openings[i].name, mass_flows[i]});
   result.start = start;
   result.residual = search.residual;
   result.history = search.history;
@@ -247,7 +247,7 @@ FlowResult result_of(const Euler& euler, const State& state, const Search& searc
   result.solver = search.whole_factors ? FlowSolver::lu : FlowSolver::gmres;
   result.gmres_iterations = search.gmres_iterations;
   result.memory_mb = search.memory_mb;
-  for (const Primitive<double>& q : state.q) {
+  for (const Unknowns<double>& q : state.q) {
     result.density.push_back(q[0]);
     result.velocity_x.push_back(q[1]);
     result.velocity_y.push_back(q[2]);
@@ -256,8 +256,8 @@ FlowResult result_of(const Euler& euler, const State& state, const Search& searc
   return result;
 }
 
-std::vector<Primitive<double>> interpolated(const FlowMesh& mesh, const std::vector<Primitive<double>>& state,
-                                            std::span<const Point> at) {
+std::vector<Unknowns<double>> interpolated(const FlowMesh& mesh, const std::vector<Unknowns<double>>& state,
+                                           std::span<const Point> at) {
   std::vector<std::uint32_t> start(mesh.size() + 1, 0);
   for (const auto& corners : mesh.triangles())
     for (const std::uint32_t v : corners) ++start[v + 1];
@@ -267,7 +267,7 @@ std::vector<Primitive<double>> interpolated(const FlowMesh& mesh, const std::vec
     for (const std::uint32_t v : mesh.triangles()[t]) around[fill[v]++] = t;
 
   const Points points(mesh.points());
-  std::vector<Primitive<double>> result;
+  std::vector<Unknowns<double>> result;
   for (const Point p : at) {
     const std::size_t near = points.nearest(p);
     // The triangle that p lies in is mostly one around the nearest vertex, or next to one of these.
@@ -281,7 +281,7 @@ std::vector<Primitive<double>> interpolated(const FlowMesh& mesh, const std::vec
     }
     double total = 0.0;
     for (double& w : weights) w = std::clamp(w, 0.0, 1.0), total += w;
-    Primitive<double> value = {};
+    Unknowns<double> value = {};
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t k = 0; k < 4; ++k)
         value[k] += weights[i] / total * state[mesh.triangles()[best_triangle][i]][k];
@@ -300,18 +300,18 @@ FlowResult cold_flow(const FrozenMesh& mesh, const Mesh* living, const FlowCondi
   const Stopwatch watch;
   flow::require_possible(conditions, options);
   const flow::FlowMesh dual = flow::dual_of(mesh, conditions, options, source);
-  const flow::Euler euler(dual, flow::stream_of(conditions, options, dual));
-  const flow::Measure measure(euler);
+  const flow::FlowSystem system(dual, flow::stream_of(conditions, options, dual));
+  const flow::Measure measure(system);
   flow::State state;
-  flow::BlockRows matrix = euler.pattern();
+  flow::BlockRows matrix = system.pattern();
   flow::Factors factors;
   flow::Search search, spent;
   if (living != nullptr)
-    flow::find_flow_by_meshes(living->domain(), living->options(), euler, measure, conditions, options,
+    flow::find_flow_by_meshes(living->domain(), living->options(), system, measure, conditions, options,
                               matrix, factors, state, search, spent);
   else
-    flow::find_flow_cold(euler, measure, options, matrix, factors, state, search);
-  FlowResult result = flow::result_of(euler, state, search, FlowStart::cold);
+    flow::find_flow_cold(system, measure, options, matrix, factors, state, search);
+  FlowResult result = flow::result_of(system, state, search, FlowStart::cold);
   flow::add_coarse(spent, result);
   result.seconds = watch.seconds();
   return result;

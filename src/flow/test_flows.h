@@ -7,8 +7,8 @@
 #include <cmath>
 #include <functional>
 
-#include "flow/euler.h"
-#include "flow/newton.h"
+#include "flow/scheme/flow_system.h"
+#include "flow/search/newton_search.h"
 #include "remodel/generate.h"
 
 namespace remodel::test {
@@ -21,7 +21,7 @@ inline Mesh airfoil_mesh(const std::string& name, int points) {
 // The supersonic vortex: flow in circles between the radii 1 and 1.384, Mach 2.25 at the inner one. Source:
 // M. Aftosmis, D. Gaitonde and T. S. Tavares, AIAA J. 33 (1995).
 inline constexpr double inner_radius = 1.0, outer_radius = 1.384, inner_mach = 2.25;
-inline flow::Primitive<double> supersonic_vortex(Point p) {
+inline flow::Unknowns<double> supersonic_vortex(Point p) {
   const double r = std::sqrt(dot(p, p));
   const double ratio = inner_radius / r;
   const double c2 = 1.0 + 0.2 * inner_mach * inner_mach * (1.0 - ratio * ratio);
@@ -64,14 +64,14 @@ inline FrozenMesh ring_mesh(std::uint32_t n) {
 }
 
 // The flow that is found from this one.
-inline flow::State found_from(const flow::Euler& euler,
-                              const std::function<flow::Primitive<double>(Point)>& exact_at) {
-  flow::State state = euler.uniform();
-  for (std::size_t v = 0; v < state.q.size(); ++v) state.q[v] = exact_at(euler.mesh().points()[v]);
-  flow::BlockRows matrix = euler.pattern();
+inline flow::State found_from(const flow::FlowSystem& system,
+                              const std::function<flow::Unknowns<double>(Point)>& exact_at) {
+  flow::State state = system.uniform();
+  for (std::size_t v = 0; v < state.q.size(); ++v) state.q[v] = exact_at(system.mesh().points()[v]);
+  flow::BlockRows matrix = system.pattern();
   flow::Factors factors;
   flow::Search search;
-  flow::find_flow(euler, flow::Measure(euler), {.cfl = 1e3}, {.tolerance = 1e-11}, matrix, factors, state,
+  flow::find_flow(system, flow::Measure(system), {.cfl = 1e3}, {.tolerance = 1e-11}, matrix, factors, state,
                   search);
   EXPECT_EQ(search.status, FlowStatus::converged) << search.reason;
   return state;
@@ -79,10 +79,10 @@ inline flow::State found_from(const flow::Euler& euler,
 
 // The errors of density and of p / rho^gamma in the mean square over the area, of the flow found from the
 // exact one.
-inline std::array<double, 2> errors_of(const flow::Euler& euler,
-                                       const std::function<flow::Primitive<double>(Point)>& exact_at) {
-  const flow::FlowMesh& dual = euler.mesh();
-  const flow::State state = found_from(euler, exact_at);
+inline std::array<double, 2> errors_of(const flow::FlowSystem& system,
+                                       const std::function<flow::Unknowns<double>(Point)>& exact_at) {
+  const flow::FlowMesh& dual = system.mesh();
+  const flow::State state = found_from(system, exact_at);
   double density = 0.0, entropy = 0.0, area = 0.0;
   for (std::size_t v = 0; v < dual.size(); ++v) {
     const double e = state.q[v][0] - exact_at(dual.points()[v])[0];

@@ -1,0 +1,255 @@
+#include "flow/scheme/flow_mesh.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/disjoint_sets.h"
+#include "flow/scheme/wall_extent.h"
+#include "remodel/error.h"
+
+namespace remodel::flow {
+
+namespace {
+
+struct NamedEdge {
+  std::uint32_t a, b;
+  std::size_t boundary;
+  friend bool operator<(const NamedEdge& x, const NamedEdge& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; }
+};
+
+std::vector<NamedEdge> named_edges(const FrozenMesh& mesh) {
+  std::vector<NamedEdge> named;
+  for (std::size_t i = 0; i < mesh.boundaries.size(); ++i)
+    for (const auto& edge : mesh.boundaries[i].edges) {
+      named.push_back({edge[0], edge[1], i});
+      named.push_back({edge[1], edge[0], i});
+    }
+  std::sort(named.begin(), named.end());
+  return named;
+}
+
+std::string list_of_names(const FrozenMesh& mesh) {
+  std::string names;
+  for (const FrozenBoundary& boundary : mesh.boundaries) {
+    if (boundary.edges.empty()) continue;
+    if (!names.empty()) names += ", ";
+    names += "'" + boundary.name + "'";
+  }
+  return names.empty() ? "no boundary" : names;
+}
+
+}  // namespace
+
+FlowMesh::FlowMesh(const FrozenMesh& mesh, const std::string& farfield, const std::string& source,
+                   std::span<const std::string> openings)
+    : points_(mesh.points), triangles_(mesh.triangles) {
+  require_triangles(source);
+  make_edges();
+  for (std::size_t v = 0; v < size(); ++v)
+    if (ring(v).empty())
+      throw Error(ErrorCode::argument, source,
+                  "point " + std::to_string(v) + " is of no triangle, expected every point to be of one");
+  make_boundary(mesh, farfield, source, openings);
+  link_walls();
+  measure();
+}
+
+void FlowMesh::move(std::span<const Point> points) {
+  points_.assign(points.begin(), points.end());
+  measure();
+}
+
+// Edges are numbered by their ends, whatever the order of the triangles.
+void FlowMesh::make_edges() {
+  struct Side {
+    std::uint32_t a, b, triangle, corner;
+  };
+  std::vector<Side> sides;
+  sides.reserve(3 * triangles_.size());
+  for (std::uint32_t t = 0; t < triangles_.size(); ++t)
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const std::uint32_t p = triangles_[t][i], q = triangles_[t][(i + 1) % 3];
+      sides.push_back({std::min(p, q), std::max(p, q), t, i});
+    }
+  std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
+    if (x.a != y.a) return x.a < y.a;
+    if (x.b != y.b) return x.b < y.b;
+    return x.triangle < y.triangle;
+  });
+  triangle_edges_.resize(triangles_.size());
+  edges_.clear();
+  for (const Side& side : sides) {
+    if (edges_.empty() || edges_.back().a != side.a || edges_.back().b != side.b)
+      edges_.push_back({side.a, side.b, {}});
+    triangle_edges_[side.triangle][side.corner] = static_cast<std::uint32_t>(edges_.size() - 1);
+  }
+
+  ring_start_.assign(size() + 1, 0);
+  for (const DualEdge& edge : edges_) ++ring_start_[edge.a + 1], ++ring_start_[edge.b + 1];
+  for (std::size_t v = 0; v < size(); ++v) ring_start_[v + 1] += ring_start_[v];
+  ring_.resize(2 * edges_.size());
+  std::vector<std::uint32_t> fill(ring_start_.begin(), ring_start_.end() - 1);
+  // In the order of edges the smaller neighbours of a vertex come before the larger ones, and both ascend.
+  for (std::uint32_t e = 0; e < edges_.size(); ++e) ring_[fill[edges_[e].b]++] = {edges_[e].a, e, {}};
+  for (std::uint32_t e = 0; e < edges_.size(); ++e) ring_[fill[edges_[e].a]++] = {edges_[e].b, e, {}};
+}
+
+void FlowMesh::make_boundary(const FrozenMesh& mesh, const std::string& farfield, const std::string& source,
+                             std::span<const std::string> openings) {
+  const std::vector<NamedEdge> named = named_edges(mesh);
+  std::vector<std::uint32_t> uses(edges_.size(), 0);
+  for (const auto& of : triangle_edges_)
+    for (const std::uint32_t e : of) ++uses[e];
+  constexpr std::int32_t unseen = std::numeric_limits<std::int32_t>::min();
+  std::vector<std::int32_t> body_of(mesh.boundaries.size(), unseen);
+  std::vector<bool> found_opening(openings.size(), false);
+  const auto body_of_name = [&](const std::string& name) -> std::int32_t {
+    if (name == farfield) return -1;
+    for (std::size_t i = 0; i < openings.size(); ++i)
+      if (name == openings[i]) {
+        found_opening[i] = true;
+        return -2 - static_cast<std::int32_t>(i);
+      }
+    bodies_.push_back(name);
+    return static_cast<std::int32_t>(bodies_.size()) - 1;
+  };
+  for (std::size_t t = 0; t < triangles_.size(); ++t)
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      if (uses[triangle_edges_[t][i]] != 1) continue;
+      const std::uint32_t a = triangles_[t][i], b = triangles_[t][(i + 1) % 3];
+      const auto found = std::lower_bound(named.begin(), named.end(), NamedEdge{a, b, 0});
+      if (found == named.end() || found->a != a || found->b != b)
+        throw Error(ErrorCode::argument, source,
+                    "the edge from point " + std::to_string(a) + " to " + std::to_string(b) +
+                        " bounds the domain and has no name, expected a named boundary");
+      std::int32_t& body = body_of[found->boundary];
+      if (body == unseen) body = body_of_name(mesh.boundaries[found->boundary].name);
+      has_farfield_ = has_farfield_ || body == -1;
+      boundary_.push_back({a, b, {}, body});
+    }
+  for (std::size_t i = 0; i < openings.size(); ++i)
+    if (!found_opening[i])
+      throw Error(ErrorCode::argument, source,
+                  "found boundaries " + list_of_names(mesh) + ", expected an inlet or outlet of the name '" +
+                      openings[i] + "'");
+  if (!has_farfield_ && openings.empty())
+    throw Error(
+        ErrorCode::argument, source,
+        "found boundaries " + list_of_names(mesh) + ", expected a far field of the name '" + farfield + "'");
+}
+
+void FlowMesh::require_walls(const std::string& source) const {
+  if (bodies_.empty())
+    throw Error(ErrorCode::argument, source, "found no boundary but the far field, expected a wall");
+}
+
+void FlowMesh::require_triangles(const std::string& source) const {
+  constexpr double least_area = 1e-14;  // as a part of the longest side's square: less is rounding
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const auto& corners = triangles_[t];
+    const Point u = points_[corners[1]] - points_[corners[0]], v = points_[corners[2]] - points_[corners[0]];
+    const double area = 0.5 * cross(u, v), side = std::max({dot(u, u), dot(v, v), dot(v - u, v - u)});
+    if (area > least_area * side) continue;
+    throw Error(ErrorCode::argument, source,
+                "triangle " + std::to_string(t) + " (points " + std::to_string(corners[0]) + ", " +
+                    std::to_string(corners[1]) + ", " + std::to_string(corners[2]) + ") " +
+                    (area < -least_area * side ? "is clockwise" : "has no area") +
+                    ", expected every triangle to be counter-clockwise");
+  }
+}
+
+// Boundaries have the domain on their left: those around it turn counter-clockwise, those of holes clockwise.
+void FlowMesh::require_farfield_around(const std::string& source) const {
+  DisjointSets loops(size());
+  for (const BoundaryEdge& edge : boundary_) loops.join(edge.a, edge.b);
+  std::vector<double> area(size(), 0.0);
+  for (const BoundaryEdge& edge : boundary_) {
+    const std::uint32_t loop = loops.root(edge.a);
+    area[loop] += 0.5 * cross(points_[edge.a] - points_[loop], points_[edge.b] - points_[loop]);
+  }
+  for (const BoundaryEdge& edge : boundary_)
+    if (edge.body == -1 && area[loops.root(edge.a)] < 0.0)
+      throw Error(ErrorCode::argument, source,
+                  "the far field bounds a hole of the domain, expected it to lie around the walls");
+}
+
+void FlowMesh::link_walls() {
+  on_wall_.assign(size(), false);
+  links_.assign(boundary_.size(), {});
+  // The wall's vertex before and after each; none where walls touch.
+  std::vector<std::uint32_t> before(size(), no_index), after(size(), no_index);
+  std::vector<bool> touching(size(), false);
+  for (const BoundaryEdge& edge : boundary_) {
+    if (edge.body < 0) continue;
+    on_wall_[edge.a] = on_wall_[edge.b] = true;
+    if (after[edge.a] != no_index) touching[edge.a] = true;
+    if (before[edge.b] != no_index) touching[edge.b] = true;
+    after[edge.a] = edge.b, before[edge.b] = edge.a;
+  }
+  for (std::size_t i = 0; i < boundary_.size(); ++i) {
+    const BoundaryEdge& edge = boundary_[i];
+    if (edge.body < 0) continue;
+    WallLink& link = links_[i];
+    if (!touching[edge.a]) link.before = before[edge.a];
+    if (!touching[edge.b]) link.after = after[edge.b];
+    for (const RingEntry& entry : ring(edge.a))
+      if (entry.vertex == edge.b) link.edge = entry.edge;
+  }
+}
+
+// Halves of boundary edges; where they meet beside the edge the dual face follows.
+void FlowMesh::bend_walls() {
+  for (std::size_t i = 0; i < boundary_.size(); ++i) {
+    BoundaryEdge& edge = boundary_[i];
+    const Point d = points_[edge.b] - points_[edge.a];
+    edge.normal = {d.y, -d.x};
+    edge.half[0] = edge.half[1] = 0.5 * edge.normal;
+    if (edge.body < 0) continue;
+    const Point turn = bulge<double>(i) * d;
+    edge.half[0] = edge.half[0] - turn, edge.half[1] = edge.half[1] + turn;
+    DualEdge& dual = edges_[links_[i].edge];
+    dual.normal = edge.a == dual.a ? dual.normal + turn : dual.normal - turn;
+  }
+}
+
+void FlowMesh::measure() {
+  std::vector<double> around(size(), 0.0);  // areas of the triangles around each vertex
+  for (DualEdge& edge : edges_) edge.normal = {};
+  for (RingEntry& entry : ring_) entry.weight = {};
+  const auto entry_of = [&](std::uint32_t v, std::uint32_t edge) -> RingEntry& {
+    std::uint32_t i = ring_start_[v];
+    while (ring_[i].edge != edge) ++i;
+    return ring_[i];
+  };
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const auto& corners = triangles_[t];
+    const Point p[3] = {points_[corners[0]], points_[corners[1]], points_[corners[2]]};
+    const double area = 0.5 * cross(p[1] - p[0], p[2] - p[0]);
+    const Point centre = (1.0 / 3.0) * (p[0] + p[1] + p[2]);
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      const std::uint32_t e = triangle_edges_[t][static_cast<std::size_t>(i)];
+      const Point d = centre - 0.5 * (p[i] + p[j]);
+      const double sign = corners[static_cast<std::size_t>(i)] == edges_[e].a ? 1.0 : -1.0;
+      edges_[e].normal = edges_[e].normal + sign * Point{d.y, -d.x};
+      around[corners[static_cast<std::size_t>(i)]] += area;
+      // The hat function of corner j rises along the inner normal of the opposite side, k to i; that of i
+      // likewise.
+      const Point side_j = p[i] - p[k], side_i = p[k] - p[j];
+      RingEntry& at_i = entry_of(corners[static_cast<std::size_t>(i)], e);
+      at_i.weight = at_i.weight + 0.5 * Point{-side_j.y, side_j.x};
+      RingEntry& at_j = entry_of(corners[static_cast<std::size_t>(j)], e);
+      at_j.weight = at_j.weight + 0.5 * Point{-side_i.y, side_i.x};
+    }
+  }
+  areas_.resize(size());
+  for (std::size_t v = 0; v < size(); ++v) {
+    areas_[v] = around[v] / 3.0;
+    for (std::uint32_t i = ring_start_[v]; i < ring_start_[v + 1]; ++i)
+      ring_[i].weight = (1.0 / around[v]) * ring_[i].weight;
+  }
+  bend_walls();
+  extent_ = wall_extent(points_, boundary_);
+}
+
+}  // namespace remodel::flow

@@ -1,0 +1,137 @@
+#pragma once
+
+// A mesh as the flow solver sees it: edges with the normals of the median dual, rings with gradient weights,
+// boundary edges with what they are. Source: T. J. Barth and D. C. Jespersen, "The design and application of
+// upwind schemes on unstructured meshes", AIAA paper 89-0366, 1989.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "flow/scheme/wall_bulge.h"
+#include "remodel/frozen_mesh.h"
+#include "remodel/ids.h"
+
+namespace remodel::flow {
+
+struct DualEdge {
+  std::uint32_t a, b;  // a < b
+  Point normal;        // of the dual face between them, from a to b; its length is the face's
+};
+
+// One neighbour of a vertex.
+struct RingEntry {
+  std::uint32_t vertex;
+  std::uint32_t edge;
+  Point weight;  // the gradient at the vertex is the sum of weight * (value there - value here)
+};
+
+struct BoundaryEdge {
+  std::uint32_t a, b;  // the domain on the left
+  Point normal;        // outwards; its length is the edge's
+  std::int32_t body;   // index of the wall it belongs to, -1: far field, -2 - i: opening i
+  // Outer normals of the halves at a and at b, which meet in the edge's middle or, on walls, beside it: see
+  // wall_bulge.h.
+  Point half[2] = {};
+};
+
+// The largest distance between two vertices of a set, and which these are.
+struct Extent {
+  double length = 0.0;
+  std::uint32_t a = no_index, b = no_index;
+};
+
+class FlowMesh {
+ public:
+  // Every boundary edge of the mesh belongs to a named boundary; the one called `farfield` is the far field,
+  // those called like one of `openings` are inlets or outlets, all others are walls. Edges with the domain on
+  // both sides are no boundary. Throws Error (argument) naming `source` where there is no far field (and no
+  // opening), no boundary of an opening's name, an edge without a name, a point of no triangle, or a triangle
+  // that is not counter-clockwise.
+  FlowMesh(const FrozenMesh& mesh, const std::string& farfield, const std::string& source,
+           std::span<const std::string> openings = {});
+  // Throws Error (argument) where the far field is the only boundary.
+  void require_walls(const std::string& source) const;
+  // Throws Error (argument) where the far field, or a part of it, bounds a hole of the domain.
+  void require_farfield_around(const std::string& source) const;
+  // Throws Error (argument) where a triangle is clockwise or has next to no area.
+  void require_triangles(const std::string& source) const;
+  // The same triangles with vertices elsewhere.
+  void move(std::span<const Point> points);
+
+  bool has_farfield() const { return has_farfield_; }
+  std::size_t size() const { return points_.size(); }
+  const std::vector<Point>& points() const { return points_; }
+  const std::vector<double>& areas() const { return areas_; }  // of dual cells
+  const std::vector<DualEdge>& edges() const { return edges_; }
+  // Adds to `points` the derivatives by the coordinates of a function whose derivatives by the normals of
+  // dual faces (edges()), by gradient weights (ring(), one vertex after the other) and by the normals of the
+  // halves of boundary edges (boundary(), two each) are these.
+  void add_slopes(std::span<const Point> by_normal, std::span<const Point> by_weight,
+                  std::span<const Point> by_half, std::vector<Point>& points) const;
+  // Of a function of the halves of boundary edges and, where not empty, of the dual faces beside walls.
+  void add_half_slopes(std::span<const Point> by_normal, std::span<const Point> by_half,
+                       std::vector<Point>& points) const;
+  // Where a vertex's neighbours begin in by_weight.
+  std::size_t ring_begin(std::size_t v) const { return ring_start_[v]; }
+  // Neighbours of a vertex, ascending.
+  std::span<const RingEntry> ring(std::size_t v) const {
+    return {ring_.data() + ring_start_[v], ring_start_[v + 1] - ring_start_[v]};
+  }
+  const std::vector<BoundaryEdge>& boundary() const { return boundary_; }
+  const std::vector<std::string>& bodies() const { return bodies_; }  // names of walls
+  bool on_wall(std::size_t v) const { return on_wall_[v]; }
+  const Extent& extent() const { return extent_; }  // of the walls: see wall_extent.h
+  const std::vector<std::array<std::uint32_t, 3>>& triangles() const { return triangles_; }
+
+ private:
+  void make_edges();
+  void make_boundary(const FrozenMesh& mesh, const std::string& farfield, const std::string& source,
+                     std::span<const std::string> openings);
+  void link_walls();
+  void measure();
+  void bend_walls();
+  // Of boundary edge i.
+  template <class T>
+  T bulge(std::size_t i) const;
+
+  std::vector<Point> points_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
+  std::vector<std::array<std::uint32_t, 3>> triangle_edges_;  // edge i joins corners i and i + 1
+  std::vector<DualEdge> edges_;
+  std::vector<std::uint32_t> ring_start_;
+  std::vector<RingEntry> ring_;
+  std::vector<double> areas_;
+  std::vector<BoundaryEdge> boundary_;
+  // Per boundary edge: the wall's vertices before a and after b (no_index: none, or the edge is of no wall),
+  // and the edge of edges_ that it is.
+  struct WallLink {
+    std::uint32_t before = no_index, after = no_index, edge = no_index;
+  };
+  std::vector<WallLink> links_;
+  std::vector<bool> on_wall_;
+  std::vector<std::string> bodies_;
+  bool has_farfield_ = false;
+  Extent extent_;
+};
+
+template <class T>
+T FlowMesh::bulge(std::size_t i) const {
+  const std::uint32_t corners[4] = {links_[i].before, boundary_[i].a, boundary_[i].b, links_[i].after};
+  std::array<T, 8> p = {};
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (corners[k] == no_index) continue;
+    const Point at = points_[corners[k]];
+    if constexpr (std::is_same_v<T, double>) {
+      p[2 * k] = at.x, p[2 * k + 1] = at.y;
+    } else {
+      p[2 * k] = T::variable(at.x, 2 * k), p[2 * k + 1] = T::variable(at.y, 2 * k + 1);
+    }
+  }
+  return wall_bulge<T>(p, corners[0] != no_index, corners[3] != no_index);
+}
+
+}  // namespace remodel::flow
