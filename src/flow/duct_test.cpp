@@ -140,12 +140,11 @@ TEST(Duct, TheJacobianOfInletsAndOutletsIsExact) {
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937_64 random(seed);
   const FrozenMesh mesh = duct_mesh(4, 8, 2.0, [](double x) { return 1.0 + 0.1 * x; });
-  const std::vector<std::string> names = {"in", "out"};
-  const flow::FlowMesh dual(mesh, "farfield", "duct", names);
-  const flow::FlowSystem system(
-      dual, {.mach = 0.4,
-             .openings = {{.name = "in", .is_inlet = true, .total_pressure = 0.9, .total_sound_square = 1.1},
-                          {.name = "out", .is_inlet = false, .pressure = 0.6}}});
+  const std::vector<flow::Patch> patches = {
+      {"in", flow::Inlet{.total_pressure = 1.14, .total_temperature = 1.07}},
+      {"out", flow::Outlet{.given = 0.84}}};
+  const flow::FlowMesh dual(mesh, patches, "duct");
+  const flow::FlowSystem system(dual, {.mach = 0.4});
   flow::State state = system.uniform();
   for (auto& q : state.q)
     for (double& value : q) value += test::uniform(random, -0.05, 0.05);

@@ -199,19 +199,17 @@ TEST(Flow, AFlowThatStallsIsFoundInStages) {
   const flow::FlowMesh dual(mesh, "farfield", "e376");
   const flow::FlowSystem system(dual, {.mach = 0.823, .alpha = -0.57 * M_PI / 180.0});
   const flow::Measure measure(system);
-  flow::BlockRows matrix = system.pattern();
+  flow::WholeMatrix matrix;
   flow::Factors factors;
   flow::State state = system.uniform();
-  flow::Search straight, search;
-  flow::find_flow(system, measure, {.cfl = flow::cold_cfl, .patience = flow::usual_patience}, options, matrix,
-                  factors, state, straight);
+  flow::SearchRecord straight, record;
+  flow::NewtonSearch(options, matrix, factors, straight)
+      .run(measure, {.cfl = flow::SearchPolicy::cold_cfl}, state);
   EXPECT_EQ(straight.status, FlowStatus::stalled);
   EXPECT_NE(straight.reason.find("has not halved in 30 Newton steps"), std::string::npos) << straight.reason;
-  flow::find_flow_cold(system, measure, options, matrix, factors, state, search);
-  EXPECT_EQ(search.status, FlowStatus::converged) << search.reason;
-  flow::Vector residual;
-  flow::Augmented augmented;
-  EXPECT_LE(measure(state, residual, augmented), options.tolerance);  // of the whole scheme, not of a stage
+  flow::NewtonSearch(options, matrix, factors, record).from_undisturbed_flow(measure, state);
+  EXPECT_EQ(record.status, FlowStatus::converged) << record.reason;
+  EXPECT_LE(measure(state).size, options.tolerance);  // of the whole scheme, not of a stage
 }
 
 }  // namespace

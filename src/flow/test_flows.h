@@ -68,12 +68,12 @@ inline flow::State found_from(const flow::FlowSystem& system,
                               const std::function<flow::Unknowns<double>(Point)>& exact_at) {
   flow::State state = system.uniform();
   for (std::size_t v = 0; v < state.q.size(); ++v) state.q[v] = exact_at(system.mesh().points()[v]);
-  flow::BlockRows matrix = system.pattern();
+  const FlowOptions options = {.tolerance = 1e-11};
+  flow::WholeMatrix matrix;
   flow::Factors factors;
-  flow::Search search;
-  flow::find_flow(system, flow::Measure(system), {.cfl = 1e3}, {.tolerance = 1e-11}, matrix, factors, state,
-                  search);
-  EXPECT_EQ(search.status, FlowStatus::converged) << search.reason;
+  flow::SearchRecord record;
+  flow::NewtonSearch(options, matrix, factors, record).run(flow::Measure(system), {.cfl = 1e3}, state);
+  EXPECT_EQ(record.status, FlowStatus::converged) << record.reason;
   return state;
 }
 
@@ -85,8 +85,10 @@ inline std::array<double, 2> errors_of(const flow::FlowSystem& system,
   const flow::State state = found_from(system, exact_at);
   double density = 0.0, entropy = 0.0, area = 0.0;
   for (std::size_t v = 0; v < dual.size(); ++v) {
-    const double e = state.q[v][0] - exact_at(dual.points()[v])[0];
-    const double s = flow::gas_gamma * state.q[v][3] / std::pow(state.q[v][0], flow::gas_gamma) - 1.0;
+    const double e = flow::density(state.q[v]) - flow::density(exact_at(dual.points()[v]));
+    const double s =
+        flow::gas_gamma * flow::pressure(state.q[v]) / std::pow(flow::density(state.q[v]), flow::gas_gamma) -
+        1.0;
     density += dual.areas()[v] * e * e, entropy += dual.areas()[v] * s * s, area += dual.areas()[v];
   }
   return {std::sqrt(density / area), std::sqrt(entropy / area)};

@@ -1,23 +1,27 @@
 #pragma once
 
-// Solves the augmented linear system [A B; D E] [x; z] = [r; g] with something that solves for A alone: z has
-// two unknowns (State::augmented), B is dense and D sparse.
+// Vectors and matrices of a flow's unknowns: blocks of vertices, and two unknowns beside them. The augmented
+// system [A B; D E] [x; z] = [r; g] has B dense and D sparse, and is solved by what solves for A alone.
 
 #include <array>
-#include <functional>
 #include <span>
 #include <vector>
 
-#include "flow/scheme/flow_system.h"
+#include "flow/linear/block_matrix.h"
+#include "flow/physics/state.h"
 
 namespace remodel::flow {
 
-using Vector = std::vector<std::array<double, 4>>;  // one block a vertex
-using Augmented = std::array<double, 2>;
+using Vector = BlockVector<unknown_count>;
+using Block = SquareBlock<unknown_count>;
+using BlockRows = BlockMatrix<unknown_count>;
+
+inline constexpr std::size_t augmented_count = 2;
+using Augmented = std::array<double, augmented_count>;
 
 struct Increment {
   Vector q;
-  Augmented augmented = {0, 0};
+  Augmented augmented = {};
 };
 
 Increment zero(std::size_t vertices);
@@ -25,31 +29,38 @@ double inner(const Vector& a, const Vector& b);
 double inner(const Increment& a, const Increment& b);
 double norm(const Increment& a);
 void add_times(Increment& to, double factor, const Increment& what);
-// to += factor times the matrix times x, the r-th of `to` for its r-th row.
-void add_product(const BlockRows& matrix, double factor, const Vector& x, Vector& to);
 
-// x and the solutions y of A y = B for both columns. Not finite where the small system is singular.
-Increment close_augmented(Vector x, const std::array<Vector, 2>& y, const FlowSystem::AugmentedRows& rows,
-                          const Augmented& right);
+// D and E. The second equation has augmented unknowns alone.
+struct AugmentedRows {
+  struct Entry {
+    std::uint32_t vertex;
+    Unknowns<double> by;
+  };
+  std::vector<Entry> first;  // a vertex may have several
+  std::array<Augmented, augmented_count> corner;
 
-// state + length * increment, where no density or pressure falls to less than a fifth by it.
-State moved(const State& state, const Increment& increment, double length);
+  double times(const Vector& x) const;                   // the first row of D
+  void add_transposed(double factor, Vector& to) const;  // of it
+};
 
-// The largest part of density or pressure that an increment changes anywhere; of what is nearly a vacuum, as
-// a part of 0.05.
-double largest_change(const State& state, const Increment& increment);
-
-// The size of residuals: of the flow's relative to undisturbed flow through the same mesh, and of the
-// augmented's.
-class Measure {
+// The whole matrix.
+class AugmentedMatrix {
  public:
-  explicit Measure(const FlowSystem& system);
-  // The residuals of a state; infinite where it is no state of a gas.
-  double operator()(const State& state, Vector& residual, Augmented& augmented) const;
+  AugmentedMatrix(const BlockRows& matrix, std::array<Vector, augmented_count> columns, AugmentedRows rows)
+      : matrix_(matrix), columns_(std::move(columns)), rows_(std::move(rows)) {}
+  const BlockRows& blocks() const { return matrix_; }
+  const AugmentedRows& rows() const { return rows_; }
+  Increment times(const Increment& x) const;
+  Increment transposed_times(const Increment& x) const;
 
  private:
-  const FlowSystem& system_;
-  double scale_;
+  const BlockRows& matrix_;
+  std::array<Vector, augmented_count> columns_;
+  AugmentedRows rows_;
 };
+
+// x and the solutions y of A y = B for both columns. Not finite where the small system is singular.
+Increment close_augmented(Vector x, const std::array<Vector, augmented_count>& y, const AugmentedRows& rows,
+                          const Augmented& right);
 
 }  // namespace remodel::flow

@@ -38,7 +38,8 @@ constexpr double bytes_of_entry = sizeof(float);
 
 }  // namespace
 
-struct DirectSolver::Impl {
+template <std::size_t N>
+struct DirectSolver<N>::Impl {
   SMUMPS_STRUC_C id = {};
   std::vector<std::uint32_t> start, column;  // of the pattern that was analysed
   std::vector<int> row_number, column_number;
@@ -58,10 +59,10 @@ struct DirectSolver::Impl {
     // Ordering by PORD. MUMPS's own choice for large matrices is METIS, whose orderings, and with them the
     // last digits of a flow, differ from one process to the next.
     control(id, 7) = 4;
-    control(id, 10) = 0;   // no iterative refinement
-    control(id, 14) = 30;  // percent of memory above the estimate
-    control(id, 15) = -4;  // the graph is of blocks of four
-    control(id, 16) = 1;   // threads
+    control(id, 10) = 0;                     // no iterative refinement
+    control(id, 14) = 30;                    // percent of memory above the estimate
+    control(id, 15) = -static_cast<int>(N);  // the graph is of blocks
+    control(id, 16) = 1;                     // threads
   }
   ~Impl() {
     const std::scoped_lock lock(turn());
@@ -73,10 +74,11 @@ struct DirectSolver::Impl {
     smumps_c(&id);
     return id.infog[0];
   }
-  void fill(const BlockRows& matrix, bool pattern);
+  void fill(const BlockMatrix<N>& matrix, bool pattern);
 };
 
-void DirectSolver::Impl::fill(const BlockRows& matrix, bool pattern) {
+template <std::size_t N>
+void DirectSolver<N>::Impl::fill(const BlockMatrix<N>& matrix, bool pattern) {
   std::uint32_t highest = 0;
   for (const std::uint32_t row : matrix.rows) highest = std::max(highest, row);
   std::vector<int> position(highest + 1, -1);
@@ -89,29 +91,37 @@ void DirectSolver::Impl::fill(const BlockRows& matrix, bool pattern) {
       if (c > highest || position[c] < 0) continue;
       for (const double x : matrix.block[i]) values.push_back(static_cast<float>(x));
       if (!pattern) continue;
-      for (int j = 0; j < 16; ++j) {
-        row_number.push_back(4 * static_cast<int>(r) + j / 4 + 1);
-        column_number.push_back(4 * position[c] + j % 4 + 1);
+      constexpr int n = N;
+      for (int j = 0; j < n * n; ++j) {
+        row_number.push_back(n * static_cast<int>(r) + j / n + 1);
+        column_number.push_back(n * position[c] + j % n + 1);
       }
     }
 }
 
-DirectSolver::DirectSolver() = default;
-DirectSolver::~DirectSolver() = default;
-DirectSolver::DirectSolver(DirectSolver&&) noexcept = default;
-DirectSolver& DirectSolver::operator=(DirectSolver&&) noexcept = default;
+template <std::size_t N>
+DirectSolver<N>::DirectSolver() = default;
+template <std::size_t N>
+DirectSolver<N>::~DirectSolver() = default;
+template <std::size_t N>
+DirectSolver<N>::DirectSolver(DirectSolver&&) noexcept = default;
+template <std::size_t N>
+DirectSolver<N>& DirectSolver<N>::operator=(DirectSolver&&) noexcept = default;
 
-bool DirectSolver::ready() const {
+template <std::size_t N>
+bool DirectSolver<N>::ready() const {
   return impl_ && impl_->factored;
 }
 
-void DirectSolver::forget() {
+template <std::size_t N>
+void DirectSolver<N>::forget() {
   impl_.reset();
 }
 
-Factored DirectSolver::factor(const BlockRows& matrix, double memory_mb) {
+template <std::size_t N>
+Factored DirectSolver<N>::factor(const BlockMatrix<N>& matrix, double memory_mb) {
   // The factors hold the matrix at least: often there is no need to ask.
-  if (1e-6 * bytes_of_entry * 16.0 * static_cast<double>(matrix.column.size()) > memory_mb) {
+  if (1e-6 * bytes_of_entry * double{N * N} * static_cast<double>(matrix.column.size()) > memory_mb) {
     impl_.reset();
     return Factored::out_of_memory;
   }
@@ -122,7 +132,7 @@ Factored DirectSolver::factor(const BlockRows& matrix, double memory_mb) {
   impl_->fill(matrix, !same);
   const std::scoped_lock lock(turn());
   SMUMPS_STRUC_C& id = impl_->id;
-  id.n = 4 * static_cast<int>(matrix.rows.size());
+  id.n = static_cast<int>(N * matrix.rows.size());
   id.nnz = static_cast<MUMPS_INT8>(impl_->values.size());
   id.irn = impl_->row_number.data();
   id.jcn = impl_->column_number.data();
@@ -154,7 +164,8 @@ Factored DirectSolver::factor(const BlockRows& matrix, double memory_mb) {
   return Factored::out_of_memory;
 }
 
-void DirectSolver::solve(std::span<std::array<double, 4>> right, std::size_t count) {
+template <std::size_t N>
+void DirectSolver<N>::solve(std::span<std::array<double, N>> right, std::size_t count) {
   std::vector<float>& rounded = impl_->right;
   rounded.clear();
   for (const auto& block : right)
@@ -166,28 +177,35 @@ void DirectSolver::solve(std::span<std::array<double, 4>> right, std::size_t cou
   id.rhs = rounded.data();
   impl_->run(solve_factored);
   for (std::size_t v = 0; v < right.size(); ++v)
-    for (std::size_t k = 0; k < 4; ++k) right[v][k] = double{rounded[4 * v + k]};
+    for (std::size_t k = 0; k < N; ++k) right[v][k] = double{rounded[N * v + k]};
 }
 
-void DirectSolver::solve_transposed(std::span<std::array<double, 4>> right, std::size_t count) {
+template <std::size_t N>
+void DirectSolver<N>::solve_transposed(std::span<std::array<double, N>> right, std::size_t count) {
   control(impl_->id, 9) = 0;
   solve(right, count);
   control(impl_->id, 9) = 1;
 }
 
-double DirectSolver::memory_mb() const {
+template <std::size_t N>
+double DirectSolver<N>::memory_mb() const {
   return impl_ ? impl_->id.infog[21] : 0.0;  // INFOG(22): megabytes used
 }
 
-double DirectSolver::solve_work() const {
+template <std::size_t N>
+double DirectSolver<N>::solve_work() const {
   if (!impl_) return 0.0;
   const int entries = impl_->id.infog[28];  // INFOG(29): entries in the factors, negative: millions
   return entries >= 0 ? entries : -1e6 * entries;
 }
 
 // A dense operation takes about a sixth of one that waits for memory; assembly and Jacobian come on top.
-double DirectSolver::factor_work() const {
+template <std::size_t N>
+double DirectSolver<N>::factor_work() const {
   return impl_ ? impl_->id.rinfog[2] / 6.0 + 12.0 * static_cast<double>(impl_->values.size()) : 0.0;
 }
+
+template class DirectSolver<4>;
+template class DirectSolver<5>;
 
 }  // namespace remodel::flow

@@ -21,7 +21,8 @@ constexpr double bytes_of_entry = sizeof(float) + sizeof(int);
 
 }  // namespace
 
-struct DirectSolver::Impl {
+template <std::size_t N>
+struct DirectSolver<N>::Impl {
   std::vector<std::uint32_t> start, column;  // of the pattern that was analysed
   std::vector<std::uint32_t> row_at;  // per row of the factors the matrix's row; and the other way round
   std::vector<int> place;
@@ -32,11 +33,11 @@ struct DirectSolver::Impl {
   double estimate = 0.0;  // of the factors' entries
   bool factored = false;
 
-  void order(const BlockRows& given);
-  void fill(const BlockRows& given);
+  void order(const BlockMatrix<N>& given);
+  void fill(const BlockMatrix<N>& given);
   double operations();
   template <class Solve>
-  void solve(std::span<std::array<double, 4>> right_sides, std::size_t count, const Solve& solve_one);
+  void solve(std::span<std::array<double, N>> right_sides, std::size_t count, const Solve& solve_one);
 };
 
 namespace {
@@ -62,7 +63,8 @@ double blocks_of_cholesky(const Columns& graph) {
 }
 
 // Per vertex its row, -1 where it has none.
-std::vector<int> positions(const BlockRows& matrix) {
+template <std::size_t N>
+std::vector<int> positions(const BlockMatrix<N>& matrix) {
   std::uint32_t highest = 0;
   for (const std::uint32_t row : matrix.rows) highest = std::max(highest, row);
   for (const std::uint32_t column : matrix.column) highest = std::max(highest, column);
@@ -74,7 +76,8 @@ std::vector<int> positions(const BlockRows& matrix) {
 }  // namespace
 
 // Orders the graph of vertices, whose unknowns stay together.
-void DirectSolver::Impl::order(const BlockRows& given) {
+template <std::size_t N>
+void DirectSolver<N>::Impl::order(const BlockMatrix<N>& given) {
   const std::vector<int> position = positions(given);
   const int size = static_cast<int>(given.rows.size());
   std::vector<Eigen::Triplet<float>> edges;
@@ -94,14 +97,16 @@ void DirectSolver::Impl::order(const BlockRows& given) {
   }
   Columns ordered(size, size);
   ordered = graph.twistedBy(Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>(found.transpose()));
-  estimate = 16.0 * 2.0 * blocks_of_cholesky(ordered);
+  estimate = double{N * N} * 2.0 * blocks_of_cholesky(ordered);
 }
 
-void DirectSolver::Impl::fill(const BlockRows& given) {
+template <std::size_t N>
+void DirectSolver<N>::Impl::fill(const BlockMatrix<N>& given) {
   const std::vector<int> position = positions(given);
   const int size = static_cast<int>(given.rows.size());
-  rows.resize(4 * size, 4 * size);
-  rows.reserve(static_cast<Eigen::Index>(16 * given.column.size()));
+  constexpr int n = N;
+  rows.resize(n * size, n * size);
+  rows.reserve(static_cast<Eigen::Index>(N * N * given.column.size()));
   std::vector<std::pair<int, std::uint32_t>> entries;  // column of the factors, block
   for (int k = 0; k < size; ++k) {
     entries.clear();
@@ -109,12 +114,12 @@ void DirectSolver::Impl::fill(const BlockRows& given) {
     for (std::uint32_t i = given.start[r]; i < given.start[r + 1]; ++i)
       if (const int c = position[given.column[i]]; c >= 0) entries.emplace_back(place[c], i);
     std::sort(entries.begin(), entries.end());
-    for (int equation = 0; equation < 4; ++equation) {
-      rows.startVec(4 * k + equation);
+    for (int equation = 0; equation < n; ++equation) {
+      rows.startVec(n * k + equation);
       for (const auto& [c, block] : entries)
-        for (int unknown = 0; unknown < 4; ++unknown)
-          rows.insertBack(4 * k + equation, 4 * c + unknown) =
-              static_cast<float>(given.block[block][4 * equation + unknown]);
+        for (int unknown = 0; unknown < n; ++unknown)
+          rows.insertBack(n * k + equation, n * c + unknown) =
+              static_cast<float>(given.block[block][n * equation + unknown]);
     }
   }
   rows.finalize();
@@ -123,7 +128,8 @@ void DirectSolver::Impl::fill(const BlockRows& given) {
 
 // Two for each pair of an entry of a column of L and one of the row of U, which is as long: of the last
 // factors.
-double DirectSolver::Impl::operations() {
+template <std::size_t N>
+double DirectSolver<N>::Impl::operations() {
   const auto& l = lu.matrixL().m_mapL;
   double sum = 0.0;
   for (Eigen::Index s = 0; s <= l.nsuper(); ++s) {
@@ -137,20 +143,27 @@ double DirectSolver::Impl::operations() {
   return sum;
 }
 
-DirectSolver::DirectSolver() = default;
-DirectSolver::~DirectSolver() = default;
-DirectSolver::DirectSolver(DirectSolver&&) noexcept = default;
-DirectSolver& DirectSolver::operator=(DirectSolver&&) noexcept = default;
+template <std::size_t N>
+DirectSolver<N>::DirectSolver() = default;
+template <std::size_t N>
+DirectSolver<N>::~DirectSolver() = default;
+template <std::size_t N>
+DirectSolver<N>::DirectSolver(DirectSolver&&) noexcept = default;
+template <std::size_t N>
+DirectSolver<N>& DirectSolver<N>::operator=(DirectSolver&&) noexcept = default;
 
-bool DirectSolver::ready() const {
+template <std::size_t N>
+bool DirectSolver<N>::ready() const {
   return impl_ && impl_->factored;
 }
 
-void DirectSolver::forget() {
+template <std::size_t N>
+void DirectSolver<N>::forget() {
   impl_.reset();
 }
 
-Factored DirectSolver::factor(const BlockRows& matrix, double memory_mb) {
+template <std::size_t N>
+Factored DirectSolver<N>::factor(const BlockMatrix<N>& matrix, double memory_mb) {
   if (!impl_) impl_ = std::make_unique<Impl>();
   const bool same = impl_->start == matrix.start && impl_->column == matrix.column;
   if (!same && !impl_->start.empty()) impl_ = std::make_unique<Impl>();
@@ -179,44 +192,53 @@ Factored DirectSolver::factor(const BlockRows& matrix, double memory_mb) {
   return Factored::done;
 }
 
+template <std::size_t N>
 template <class Solve>
-void DirectSolver::Impl::solve(std::span<std::array<double, 4>> right_sides, std::size_t count,
-                               const Solve& solve_one) {
+void DirectSolver<N>::Impl::solve(std::span<std::array<double, N>> right_sides, std::size_t count,
+                                  const Solve& solve_one) {
   const std::size_t size = row_at.size();
-  right.resize(static_cast<Eigen::Index>(4 * size));
+  right.resize(static_cast<Eigen::Index>(N * size));
   for (std::size_t n = 0; n < count; ++n) {
     const auto one = right_sides.subspan(n * size, size);
     for (std::size_t k = 0; k < size; ++k)
-      for (std::size_t i = 0; i < 4; ++i)
-        right[static_cast<Eigen::Index>(4 * k + i)] = static_cast<float>(one[row_at[k]][i]);
+      for (std::size_t i = 0; i < N; ++i)
+        right[static_cast<Eigen::Index>(N * k + i)] = static_cast<float>(one[row_at[k]][i]);
     const Eigen::VectorXf solution = solve_one(right);
     for (std::size_t k = 0; k < size; ++k)
-      for (std::size_t i = 0; i < 4; ++i)
-        one[row_at[k]][i] = double{solution[static_cast<Eigen::Index>(4 * k + i)]};
+      for (std::size_t i = 0; i < N; ++i)
+        one[row_at[k]][i] = double{solution[static_cast<Eigen::Index>(N * k + i)]};
   }
 }
 
-void DirectSolver::solve(std::span<std::array<double, 4>> right, std::size_t count) {
+template <std::size_t N>
+void DirectSolver<N>::solve(std::span<std::array<double, N>> right, std::size_t count) {
   impl_->solve(right, count, [this](const auto& b) -> Eigen::VectorXf { return impl_->lu.solve(b); });
 }
 
-void DirectSolver::solve_transposed(std::span<std::array<double, 4>> right, std::size_t count) {
+template <std::size_t N>
+void DirectSolver<N>::solve_transposed(std::span<std::array<double, N>> right, std::size_t count) {
   impl_->solve(right, count,
                [this](const auto& b) -> Eigen::VectorXf { return impl_->lu.transpose().solve(b); });
 }
 
-double DirectSolver::memory_mb() const {
+template <std::size_t N>
+double DirectSolver<N>::memory_mb() const {
   return impl_ ? bytes_of_entry * 1e-6 * static_cast<double>(impl_->lu.nnzL() + impl_->lu.nnzU()) : 0.0;
 }
 
-double DirectSolver::solve_work() const {
+template <std::size_t N>
+double DirectSolver<N>::solve_work() const {
   return impl_ ? static_cast<double>(impl_->lu.nnzL() + impl_->lu.nnzU()) : 0.0;
 }
 
 // As MUMPS's: six dense operations take as long as one that waits for memory; assembly and Jacobian come on
 // top.
-double DirectSolver::factor_work() const {
+template <std::size_t N>
+double DirectSolver<N>::factor_work() const {
   return impl_ ? impl_->operations() / 6.0 + 12.0 * static_cast<double>(impl_->rows.nonZeros()) : 0.0;
 }
+
+template class DirectSolver<4>;
+template class DirectSolver<5>;
 
 }  // namespace remodel::flow

@@ -14,8 +14,8 @@ constexpr int highest_level = 2, longest_restart = 60, shortest_restart = 20;
 
 }  // namespace
 
-Factored Factors::factor(const BlockRows& matrix, std::array<Vector, 2> augmented, FactorKind kind,
-                         double memory_mb) {
+Factored Factors::factor(const BlockRows& matrix, std::array<Vector, augmented_count> augmented,
+                         FactorKind kind, double memory_mb) {
   Factored outcome = Factored::out_of_memory;
   if (kind == FactorKind::whole && !too_large(matrix.rows.size())) {
     incomplete_.forget();
@@ -72,7 +72,8 @@ double Factors::factor_work() const {
 }
 
 double Factors::solve_work() const {
-  return whole() ? lu_.solve_work() : 16.0 * static_cast<double>(incomplete_.blocks());
+  return whole() ? lu_.solve_work()
+                 : double{unknown_count * unknown_count} * static_cast<double>(incomplete_.blocks());
 }
 
 }  // namespace remodel::flow

@@ -19,7 +19,7 @@ class Factors {
   // Whole factors if memory_mb, the same in all calls, has room for them; otherwise, or if they are asked
   // for, incomplete ones of the highest level of fill, 2 at most, that leaves room for the vectors of GMRES.
   // `augmented`: the two columns beside the matrix, which are solved for.
-  Factored factor(const BlockRows& matrix, std::array<Vector, 2> augmented, FactorKind kind,
+  Factored factor(const BlockRows& matrix, std::array<Vector, augmented_count> augmented, FactorKind kind,
                   double memory_mb);
   // Whether whole factors of so many vertices are known to need more memory.
   bool too_large(std::size_t vertices) const { return vertices >= too_large_; }
@@ -30,7 +30,7 @@ class Factors {
   // about that.
   void solve(Vector& right);
   void solve_transposed(Vector& right);
-  const std::array<Vector, 2>& columns() const { return columns_; }  // of the augmented, solved
+  const std::array<Vector, augmented_count>& columns() const { return columns_; }  // of the augmented, solved
 
   int restart() const { return restart_; }  // of GMRES: what there is room for
   double memory_mb() const;                 // of the factors and, where they are incomplete, GMRES's vectors
@@ -41,12 +41,12 @@ class Factors {
  private:
   Factored factor_incompletely(const BlockRows& matrix, double memory_mb);
 
-  DirectSolver lu_;
-  IncompleteLu incomplete_;
+  DirectSolver<unknown_count> lu_;
+  IncompleteLu<unknown_count> incomplete_;
   // Meshes of so many vertices and more have been found to need more memory.
   std::size_t too_large_ = std::numeric_limits<std::size_t>::max();
   int restart_ = 0;
-  std::array<Vector, 2> columns_;
+  std::array<Vector, augmented_count> columns_;
 };
 
 }  // namespace remodel::flow

@@ -33,6 +33,6 @@ GmresEnd gmres(const std::function<Increment(const Increment&)>& times,
                const GmresLimits& limits, Increment& x);
 
 // What each step before a new beginning takes, for each vertex.
-inline constexpr double gmres_bytes = 2.0 * sizeof(std::array<double, 4>);
+inline constexpr double gmres_bytes = 2.0 * sizeof(Unknowns<double>);
 
 }  // namespace remodel::flow

@@ -10,67 +10,74 @@ namespace remodel::flow {
 namespace {
 
 // All blocks here are by columns, unlike the matrix's, so that four equations are computed side by side.
-Block by_columns(const Block& a) {
-  Block result;
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t k = 0; k < 4; ++k) result[4 * k + i] = a[4 * i + k];
+template <std::size_t N>
+SquareBlock<N> by_columns(const SquareBlock<N>& a) {
+  SquareBlock<N> result;
+  for (std::size_t i = 0; i < N; ++i)
+    for (std::size_t k = 0; k < N; ++k) result[N * k + i] = a[N * i + k];
   return result;
 }
 
 // a -= b c.
-inline void subtract_product(Block& a, const Block& b, const std::array<float, 16>& c) {
-  for (std::size_t j = 0; j < 4; ++j)
-    for (std::size_t k = 0; k < 4; ++k)
-      for (std::size_t i = 0; i < 4; ++i) a[4 * j + i] -= b[4 * k + i] * double{c[4 * j + k]};
+template <std::size_t N>
+void subtract_product(SquareBlock<N>& a, const SquareBlock<N>& b, const std::array<float, N * N>& c) {
+  for (std::size_t j = 0; j < N; ++j)
+    for (std::size_t k = 0; k < N; ++k)
+      for (std::size_t i = 0; i < N; ++i) a[N * j + i] -= b[N * k + i] * double{c[N * j + k]};
 }
 
 // By Gauss and Jordan with pivots from columns; not finite where the block is singular.
-Block inverse(Block a) {
-  Block b = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-  for (std::size_t k = 0; k < 4; ++k) {
+template <std::size_t N>
+SquareBlock<N> inverse(SquareBlock<N> a) {
+  SquareBlock<N> b = {};
+  for (std::size_t k = 0; k < N; ++k) b[(N + 1) * k] = 1.0;
+  for (std::size_t k = 0; k < N; ++k) {
     std::size_t pivot = k;
-    for (std::size_t i = k + 1; i < 4; ++i)
-      if (std::fabs(a[4 * i + k]) > std::fabs(a[4 * pivot + k])) pivot = i;
-    const double factor = 1.0 / a[4 * pivot + k];
-    for (std::size_t j = 0; j < 4; ++j) {
-      std::swap(a[4 * k + j], a[4 * pivot + j]), std::swap(b[4 * k + j], b[4 * pivot + j]);
-      a[4 * k + j] *= factor, b[4 * k + j] *= factor;
+    for (std::size_t i = k + 1; i < N; ++i)
+      if (std::fabs(a[N * i + k]) > std::fabs(a[N * pivot + k])) pivot = i;
+    const double factor = 1.0 / a[N * pivot + k];
+    for (std::size_t j = 0; j < N; ++j) {
+      std::swap(a[N * k + j], a[N * pivot + j]), std::swap(b[N * k + j], b[N * pivot + j]);
+      a[N * k + j] *= factor, b[N * k + j] *= factor;
     }
-    for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t i = 0; i < N; ++i) {
       if (i == k) continue;
-      const double times = a[4 * i + k];
-      for (std::size_t j = 0; j < 4; ++j)
-        a[4 * i + j] -= times * a[4 * k + j], b[4 * i + j] -= times * b[4 * k + j];
+      const double times = a[N * i + k];
+      for (std::size_t j = 0; j < N; ++j)
+        a[N * i + j] -= times * a[N * k + j], b[N * i + j] -= times * b[N * k + j];
     }
   }
   return b;
 }
 
-std::array<float, 16> rounded(const Block& a) {
-  std::array<float, 16> result;
-  for (std::size_t i = 0; i < 16; ++i) result[i] = static_cast<float>(a[i]);
+template <std::size_t N>
+std::array<float, N * N> rounded(const SquareBlock<N>& a) {
+  std::array<float, N * N> result;
+  for (std::size_t i = 0; i < N * N; ++i) result[i] = static_cast<float>(a[i]);
   return result;
 }
 
 // y -= a x.
-inline void subtract(std::array<double, 4>& y, const std::array<float, 16>& a,
-                     const std::array<double, 4>& x) {
-  for (std::size_t k = 0; k < 4; ++k)
-    for (std::size_t i = 0; i < 4; ++i) y[i] -= double{a[4 * k + i]} * x[k];
+template <std::size_t N>
+void subtract(std::array<double, N>& y, const std::array<float, N * N>& a, const std::array<double, N>& x) {
+  for (std::size_t k = 0; k < N; ++k)
+    for (std::size_t i = 0; i < N; ++i) y[i] -= double{a[N * k + i]} * x[k];
 }
 
 // y -= the transposed a times x.
-inline void subtract_transposed(std::array<double, 4>& y, const std::array<float, 16>& a,
-                                const std::array<double, 4>& x) {
-  for (std::size_t k = 0; k < 4; ++k)
-    for (std::size_t i = 0; i < 4; ++i) y[k] -= double{a[4 * k + i]} * x[i];
+template <std::size_t N>
+void subtract_transposed(std::array<double, N>& y, const std::array<float, N * N>& a,
+                         const std::array<double, N>& x) {
+  for (std::size_t k = 0; k < N; ++k)
+    for (std::size_t i = 0; i < N; ++i) y[k] -= double{a[N * k + i]} * x[i];
 }
 
 }  // namespace
 
 // Reverse Cuthill-McKee: by breadth, neighbours of few neighbours first, from a vertex that is far from
 // another.
-void IncompleteLu::order(const BlockRows& matrix) {
+template <std::size_t N>
+void IncompleteLu<N>::order(const BlockMatrix<N>& matrix) {
   const auto size = static_cast<std::uint32_t>(matrix.rows.size());
   const auto degree = [&](std::uint32_t v) { return matrix.start[v + 1] - matrix.start[v]; };
   std::vector<std::uint32_t> seen(size, 0), next;
@@ -106,7 +113,8 @@ void IncompleteLu::order(const BlockRows& matrix) {
 
 // Row by row: the level of what row k adds at j is that of (i, k) and of (k, j) and 1 more. `next` links the
 // columns of the row in order, from `size` and back to it.
-void IncompleteLu::fill_pattern(const BlockRows& matrix, int level) {
+template <std::size_t N>
+void IncompleteLu<N>::fill_pattern(const BlockMatrix<N>& matrix, int level) {
   const auto size = static_cast<std::uint32_t>(matrix.rows.size());
   std::vector<std::uint32_t> next(size + 1), own;
   std::vector<int> level_of(size, level + 1), levels;
@@ -141,7 +149,8 @@ void IncompleteLu::fill_pattern(const BlockRows& matrix, int level) {
   }
 }
 
-double IncompleteLu::analysed_mb(const BlockRows& matrix, int level) {
+template <std::size_t N>
+double IncompleteLu<N>::analysed_mb(const BlockMatrix<N>& matrix, int level) {
   if (level_ != level || !is_of(matrix)) {
     forget();
     order(matrix);
@@ -151,75 +160,82 @@ double IncompleteLu::analysed_mb(const BlockRows& matrix, int level) {
   return memory_mb();
 }
 
-REMODEL_VECTOR_CLONES bool IncompleteLu::factor(const BlockRows& matrix) {
+template <std::size_t N>
+REMODEL_VECTOR_CLONES bool IncompleteLu<N>::factor(const BlockMatrix<N>& matrix) {
   ready_ = false;
   block_.resize(column_.size());
   const auto size = static_cast<std::uint32_t>(row_at_.size());
-  std::vector<Block> row(size);  // by place; of the row under way alone
+  std::vector<SquareBlock<N>> row(size);  // by place; of the row under way alone
   std::vector<std::uint32_t> holds(size, size);
   for (std::uint32_t i = 0; i < size; ++i) {
     for (std::uint32_t at = start_[i]; at < start_[i + 1]; ++at)
       row[column_[at]] = {}, holds[column_[at]] = i;
     const std::uint32_t r = row_at_[i];
     for (std::uint32_t j = matrix.start[r]; j < matrix.start[r + 1]; ++j)
-      row[place_of_[matrix.column[j]]] = by_columns(matrix.block[j]);
+      row[place_of_[matrix.column[j]]] = by_columns<N>(matrix.block[j]);
     for (std::uint32_t at = start_[i]; at < diagonal_[i]; ++at) {
       const std::uint32_t k = column_[at];
-      Block factor = {};
-      subtract_product(factor, row[k], block_[diagonal_[k]]);
+      SquareBlock<N> factor = {};
+      subtract_product<N>(factor, row[k], block_[diagonal_[k]]);
       for (double& value : factor) value = -value;
-      block_[at] = rounded(factor);
+      block_[at] = rounded<N>(factor);
       for (std::uint32_t u = diagonal_[k] + 1; u < start_[k + 1]; ++u)
-        if (const std::uint32_t j = column_[u]; holds[j] == i) subtract_product(row[j], factor, block_[u]);
+        if (const std::uint32_t j = column_[u]; holds[j] == i) subtract_product<N>(row[j], factor, block_[u]);
     }
-    block_[diagonal_[i]] = rounded(inverse(row[i]));
+    block_[diagonal_[i]] = rounded<N>(inverse<N>(row[i]));
     for (std::uint32_t at = diagonal_[i] + 1; at < start_[i + 1]; ++at)
-      block_[at] = rounded(row[column_[at]]);
+      block_[at] = rounded<N>(row[column_[at]]);
     for (const float x : block_[diagonal_[i]])
       if (!std::isfinite(x)) return false;
   }
   return ready_ = true;
 }
 
-REMODEL_VECTOR_CLONES void IncompleteLu::solve(std::span<std::array<double, 4>> x) const {
+template <std::size_t N>
+REMODEL_VECTOR_CLONES void IncompleteLu<N>::solve(std::span<std::array<double, N>> x) const {
   const std::size_t size = row_at_.size();
-  std::vector<std::array<double, 4>> y(size);
+  std::vector<std::array<double, N>> y(size);
   for (std::size_t i = 0; i < size; ++i) {
-    std::array<double, 4> sum = x[row_at_[i]];
-    for (std::uint32_t at = start_[i]; at < diagonal_[i]; ++at) subtract(sum, block_[at], y[column_[at]]);
+    std::array<double, N> sum = x[row_at_[i]];
+    for (std::uint32_t at = start_[i]; at < diagonal_[i]; ++at) subtract<N>(sum, block_[at], y[column_[at]]);
     y[i] = sum;
   }
   for (std::size_t i = size; i-- > 0;) {
-    std::array<double, 4> sum = y[i], result = {};
+    std::array<double, N> sum = y[i], result = {};
     for (std::uint32_t at = diagonal_[i] + 1; at < start_[i + 1]; ++at)
-      subtract(sum, block_[at], y[column_[at]]);
+      subtract<N>(sum, block_[at], y[column_[at]]);
     for (double& value : sum) value = -value;
-    subtract(result, block_[diagonal_[i]], sum);
+    subtract<N>(result, block_[diagonal_[i]], sum);
     x[row_at_[i]] = y[i] = result;
   }
 }
 
-void IncompleteLu::solve_transposed(std::span<std::array<double, 4>> x) const {
+template <std::size_t N>
+void IncompleteLu<N>::solve_transposed(std::span<std::array<double, N>> x) const {
   const std::size_t size = row_at_.size();
-  std::vector<std::array<double, 4>> y(size);
+  std::vector<std::array<double, N>> y(size);
   for (std::size_t i = 0; i < size; ++i) y[i] = x[row_at_[i]];
   for (std::size_t i = 0; i < size; ++i) {
-    std::array<double, 4> minus = y[i], result = {};
+    std::array<double, N> minus = y[i], result = {};
     for (double& value : minus) value = -value;
-    subtract_transposed(result, block_[diagonal_[i]], minus);
+    subtract_transposed<N>(result, block_[diagonal_[i]], minus);
     y[i] = result;
     for (std::uint32_t at = diagonal_[i] + 1; at < start_[i + 1]; ++at)
-      subtract_transposed(y[column_[at]], block_[at], result);
+      subtract_transposed<N>(y[column_[at]], block_[at], result);
   }
   for (std::size_t i = size; i-- > 0;) {
     for (std::uint32_t at = start_[i]; at < diagonal_[i]; ++at)
-      subtract_transposed(y[column_[at]], block_[at], y[i]);
+      subtract_transposed<N>(y[column_[at]], block_[at], y[i]);
     x[row_at_[i]] = y[i];
   }
 }
 
-double IncompleteLu::memory_mb() const {
+template <std::size_t N>
+double IncompleteLu<N>::memory_mb() const {
   return 1e-6 * static_cast<double>(column_.size() * (sizeof(SmallBlock) + sizeof(std::uint32_t)));
 }
+
+template class IncompleteLu<4>;
+template class IncompleteLu<5>;
 
 }  // namespace remodel::flow

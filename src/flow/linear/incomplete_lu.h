@@ -6,40 +6,39 @@
 // National Conference (1969). The factors are in single precision: they are off by far more than its
 // rounding.
 
-#include <array>
-#include <cstdint>
 #include <span>
-#include <vector>
 
-#include "flow/scheme/flow_system.h"
+#include "flow/linear/block_matrix.h"
 
 namespace remodel::flow {
 
+// Compiled for blocks of N = 4 and 5.
+template <std::size_t N>
 class IncompleteLu {
  public:
   // What factors of this level are going to take, of a square matrix whose rows are all vertices, in order.
   // Their pattern is kept from the last call where the matrix's and the level are the same.
-  double analysed_mb(const BlockRows& matrix, int level);
+  double analysed_mb(const BlockMatrix<N>& matrix, int level);
   // Of a matrix of the pattern that was analysed. False where a pivot is singular.
-  bool factor(const BlockRows& matrix);
+  bool factor(const BlockMatrix<N>& matrix);
   bool ready() const { return ready_; }
-  bool is_of(const BlockRows& matrix) const {  // of its pattern
+  bool is_of(const BlockMatrix<N>& matrix) const {  // of its pattern
     return level_ >= 0 && matrix_start_ == matrix.start && matrix_column_ == matrix.column;
   }
   int level() const { return level_; }
   void forget() { *this = {}; }
 
   // In place, about the matrix's inverse, or the inverse's transpose, times a vector.
-  void solve(std::span<std::array<double, 4>> x) const;
-  void solve_transposed(std::span<std::array<double, 4>> x) const;
+  void solve(std::span<std::array<double, N>> x) const;
+  void solve_transposed(std::span<std::array<double, N>> x) const;
 
   double memory_mb() const;
   std::size_t blocks() const { return column_.size(); }
 
  private:
-  using SmallBlock = std::array<float, 16>;
-  void order(const BlockRows& matrix);
-  void fill_pattern(const BlockRows& matrix, int level);
+  using SmallBlock = std::array<float, N * N>;
+  void order(const BlockMatrix<N>& matrix);
+  void fill_pattern(const BlockMatrix<N>& matrix, int level);
 
   std::vector<std::uint32_t> matrix_start_, matrix_column_;  // of the pattern that was analysed
   int level_ = -1;

@@ -14,18 +14,19 @@ namespace {
 
 // Of a strip of vertices, each joined with those at most two places on: its elimination fills nothing in, so
 // that incomplete factors are whole ones. `bridge`: the first and the last are joined too.
-BlockRows strip_matrix(std::uint32_t size, bool bridge, std::mt19937& random) {
+template <std::size_t N>
+BlockMatrix<N> strip_matrix(std::uint32_t size, bool bridge, std::mt19937& random) {
   std::uniform_real_distribution<double> entry(-1.0, 1.0);
-  BlockRows matrix{.rows = {}, .start = {0}, .column = {}, .block = {}};
+  BlockMatrix<N> matrix{.rows = {}, .start = {0}, .column = {}, .block = {}};
   for (std::uint32_t row = 0; row < size; ++row) {
     matrix.rows.push_back(row);
     for (std::uint32_t other = 0; other < size; ++other) {
       const std::uint32_t distance = row > other ? row - other : other - row;
       if (distance > 2 && !(bridge && distance == size - 1)) continue;
-      Block block;
+      SquareBlock<N> block;
       for (double& value : block) value = entry(random);
       if (distance == 0)
-        for (std::size_t k = 0; k < 4; ++k) block[5 * k] += 9.0;
+        for (std::size_t k = 0; k < N; ++k) block[(N + 1) * k] += 2.25 * N;
       matrix.column.push_back(other);
       matrix.block.push_back(block);
     }
@@ -35,38 +36,49 @@ BlockRows strip_matrix(std::uint32_t size, bool bridge, std::mt19937& random) {
 }
 
 // The larger error of a solution by these factors alone, transposed or not.
-double error_of(const BlockRows& matrix, int level, std::mt19937& random) {
-  IncompleteLu factors;
+template <std::size_t N>
+double error_of(const BlockMatrix<N>& matrix, int level, std::mt19937& random) {
+  IncompleteLu<N> factors;
   const double expected_mb = factors.analysed_mb(matrix, level);
   EXPECT_FALSE(factors.ready());
   EXPECT_TRUE(factors.factor(matrix));
   EXPECT_TRUE(factors.ready() && factors.is_of(matrix));
   EXPECT_EQ(factors.memory_mb(), expected_mb);
-  const Vector x = random_vector(matrix.rows.size(), random);
-  Vector plain = product(matrix, x, false), transposed = product(matrix, x, true);
+  const BlockVector<N> x = random_vector<N>(matrix.rows.size(), random);
+  BlockVector<N> plain = product(matrix, x, false), transposed = product(matrix, x, true);
   factors.solve(plain), factors.solve_transposed(transposed);
   return std::max(distance(plain, x), distance(transposed, x));
 }
 
-TEST(IncompleteLu, IsTheWholeLuWhereNothingIsFilledIn) {
+// Blocks of four and of five.
+template <class Size>
+class IncompleteLus : public ::testing::Test {};
+using Sizes =
+    ::testing::Types<std::integral_constant<std::size_t, 4>, std::integral_constant<std::size_t, 5>>;
+TYPED_TEST_SUITE(IncompleteLus, Sizes);
+
+TYPED_TEST(IncompleteLus, IsTheWholeLuWhereNothingIsFilledIn) {
+  constexpr std::size_t N = TypeParam::value;
   std::mt19937 random(1);
-  EXPECT_LT(error_of(strip_matrix(50, false, random), 0, random), 1e-5);  // single precision
+  EXPECT_LT(error_of(strip_matrix<N>(50, false, random), 0, random), 1e-5);  // single precision
 }
 
-TEST(IncompleteLu, ComesCloserByLevels) {
+TYPED_TEST(IncompleteLus, ComesCloserByLevels) {
+  constexpr std::size_t N = TypeParam::value;
   std::mt19937 random(2);
-  const BlockRows matrix = strip_matrix(50, true, random);
+  const BlockMatrix<N> matrix = strip_matrix<N>(50, true, random);
   const double rough = error_of(matrix, 0, random), whole = error_of(matrix, 50, random);
   EXPECT_GT(rough, 1e-3);
   EXPECT_LT(rough, 1.0);
   EXPECT_LT(whole, 1e-5);
 }
 
-TEST(IncompleteLu, SaysThatAMatrixIsSingular) {
+TYPED_TEST(IncompleteLus, SaysThatAMatrixIsSingular) {
+  constexpr std::size_t N = TypeParam::value;
   std::mt19937 random(3);
-  BlockRows matrix = strip_matrix(20, false, random);
+  BlockMatrix<N> matrix = strip_matrix<N>(20, false, random);
   for (std::uint32_t i = matrix.start[5]; i < matrix.start[6]; ++i) matrix.block[i] = {};
-  IncompleteLu factors;
+  IncompleteLu<N> factors;
   factors.analysed_mb(matrix, 1);
   EXPECT_FALSE(factors.factor(matrix));
   EXPECT_FALSE(factors.ready());
@@ -74,13 +86,13 @@ TEST(IncompleteLu, SaysThatAMatrixIsSingular) {
 
 TEST(Gmres, SolvesWithIncompleteFactorsAndEndsInTime) {
   std::mt19937 random(4);
-  const BlockRows matrix = strip_matrix(60, true, random);
-  IncompleteLu factors;
+  const BlockRows matrix = strip_matrix<unknown_count>(60, true, random);
+  IncompleteLu<unknown_count> factors;
   factors.analysed_mb(matrix, 0);
   ASSERT_TRUE(factors.factor(matrix));
   const auto times = [&](const Increment& x) { return Increment{product(matrix, x.q, false), x.augmented}; };
   const auto precondition = [&](Increment& x) { factors.solve(x.q); };
-  const Vector exact = random_vector(60, random);
+  const Vector exact = random_vector<unknown_count>(60, random);
   const Increment right{product(matrix, exact, false), {1.0, 2.0}};
   Increment x;
   const GmresEnd end = gmres(times, precondition, right, {.wanted = 1e-12, .restart = 8, .rounds = 20}, x);

@@ -6,37 +6,40 @@
 #include <cmath>
 #include <random>
 
-#include "flow/linear/augmented.h"
+#include "flow/linear/block_matrix.h"
 
 namespace remodel::flow {
 
 // The matrix, or its transpose, times x; columns outside the rows are left out.
-inline Vector product(const BlockRows& matrix, const Vector& x, bool transposed) {
-  Vector y(x.size(), {0, 0, 0, 0});
+template <std::size_t N>
+BlockVector<N> product(const BlockMatrix<N>& matrix, const BlockVector<N>& x, bool transposed) {
+  BlockVector<N> y(x.size());
   for (std::size_t r = 0; r < matrix.rows.size(); ++r)
     for (std::uint32_t i = matrix.start[r]; i < matrix.start[r + 1]; ++i) {
       const auto at = std::find(matrix.rows.begin(), matrix.rows.end(), matrix.column[i]);
       if (at == matrix.rows.end()) continue;
       const auto c = static_cast<std::size_t>(at - matrix.rows.begin());
-      for (std::size_t j = 0; j < 4; ++j)
-        for (std::size_t k = 0; k < 4; ++k)
-          (transposed ? y[c][k] : y[r][j]) += matrix.block[i][4 * j + k] * (transposed ? x[r][j] : x[c][k]);
+      for (std::size_t j = 0; j < N; ++j)
+        for (std::size_t k = 0; k < N; ++k)
+          (transposed ? y[c][k] : y[r][j]) += matrix.block[i][N * j + k] * (transposed ? x[r][j] : x[c][k]);
     }
   return y;
 }
 
-inline Vector random_vector(std::size_t size, std::mt19937& random) {
+template <std::size_t N>
+BlockVector<N> random_vector(std::size_t size, std::mt19937& random) {
   std::normal_distribution<double> entry;
-  Vector x(size);
+  BlockVector<N> x(size);
   for (auto& values : x)
     for (double& value : values) value = entry(random);
   return x;
 }
 
-inline double distance(const Vector& a, const Vector& b) {
+template <std::size_t N>
+double distance(const BlockVector<N>& a, const BlockVector<N>& b) {
   double largest = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i)
-    for (std::size_t k = 0; k < 4; ++k) largest = std::max(largest, std::fabs(a[i][k] - b[i][k]));
+    for (std::size_t k = 0; k < N; ++k) largest = std::max(largest, std::fabs(a[i][k] - b[i][k]));
   return largest;
 }
 

@@ -40,16 +40,15 @@ std::string list_of_names(const FrozenMesh& mesh) {
 
 }  // namespace
 
-FlowMesh::FlowMesh(const FrozenMesh& mesh, const std::string& farfield, const std::string& source,
-                   std::span<const std::string> openings)
-    : points_(mesh.points), triangles_(mesh.triangles) {
+FlowMesh::FlowMesh(const FrozenMesh& mesh, std::vector<Patch> patches, const std::string& source)
+    : points_(mesh.points), triangles_(mesh.triangles), patches_(std::move(patches)) {
   require_triangles(source);
   make_edges();
   for (std::size_t v = 0; v < size(); ++v)
     if (ring(v).empty())
       throw Error(ErrorCode::argument, source,
                   "point " + std::to_string(v) + " is of no triangle, expected every point to be of one");
-  make_boundary(mesh, farfield, source, openings);
+  make_boundary(mesh, source);
   link_walls();
   measure();
 }
@@ -94,24 +93,25 @@ void FlowMesh::make_edges() {
   for (std::uint32_t e = 0; e < edges_.size(); ++e) ring_[fill[edges_[e].a]++] = {edges_[e].b, e, {}};
 }
 
-void FlowMesh::make_boundary(const FrozenMesh& mesh, const std::string& farfield, const std::string& source,
-                             std::span<const std::string> openings) {
+void FlowMesh::make_boundary(const FrozenMesh& mesh, const std::string& source) {
   const std::vector<NamedEdge> named = named_edges(mesh);
   std::vector<std::uint32_t> uses(edges_.size(), 0);
   for (const auto& of : triangle_edges_)
     for (const std::uint32_t e : of) ++uses[e];
-  constexpr std::int32_t unseen = std::numeric_limits<std::int32_t>::min();
-  std::vector<std::int32_t> body_of(mesh.boundaries.size(), unseen);
-  std::vector<bool> found_opening(openings.size(), false);
-  const auto body_of_name = [&](const std::string& name) -> std::int32_t {
-    if (name == farfield) return -1;
-    for (std::size_t i = 0; i < openings.size(); ++i)
-      if (name == openings[i]) {
-        found_opening[i] = true;
-        return -2 - static_cast<std::int32_t>(i);
-      }
-    bodies_.push_back(name);
-    return static_cast<std::int32_t>(bodies_.size()) - 1;
+  const std::size_t given = patches_.size();
+  std::vector<bool> found_patch(given, false);
+  std::vector<std::uint32_t> patch_of(mesh.boundaries.size(), no_index);
+  const auto patch_of_name = [&](const std::string& name) {
+    std::size_t i = 0;
+    while (i < given && patches_[i].name != name) ++i;
+    if (i < given) {
+      found_patch[i] = true;
+      has_farfield_ = has_farfield_ || patches_[i].is_farfield();
+    } else {
+      i = patches_.size();
+      patches_.push_back({name, SlipWall{}});
+    }
+    return static_cast<std::uint32_t>(i);
   };
   for (std::size_t t = 0; t < triangles_.size(); ++t)
     for (std::uint32_t i = 0; i < 3; ++i) {
@@ -122,24 +122,23 @@ void FlowMesh::make_boundary(const FrozenMesh& mesh, const std::string& farfield
         throw Error(ErrorCode::argument, source,
                     "the edge from point " + std::to_string(a) + " to " + std::to_string(b) +
                         " bounds the domain and has no name, expected a named boundary");
-      std::int32_t& body = body_of[found->boundary];
-      if (body == unseen) body = body_of_name(mesh.boundaries[found->boundary].name);
-      has_farfield_ = has_farfield_ || body == -1;
-      boundary_.push_back({a, b, {}, body});
+      std::uint32_t& patch = patch_of[found->boundary];
+      if (patch == no_index) patch = patch_of_name(mesh.boundaries[found->boundary].name);
+      boundary_.push_back({a, b, {}, patch});
     }
-  for (std::size_t i = 0; i < openings.size(); ++i)
-    if (!found_opening[i])
+  // Ducts need no far field.
+  for (std::size_t i = 0; i < given; ++i)
+    if (!found_patch[i] && (!patches_[i].is_farfield() || given == 1)) {
+      const std::string kind = patches_[i].kind();
       throw Error(ErrorCode::argument, source,
-                  "found boundaries " + list_of_names(mesh) + ", expected an inlet or outlet of the name '" +
-                      openings[i] + "'");
-  if (!has_farfield_ && openings.empty())
-    throw Error(
-        ErrorCode::argument, source,
-        "found boundaries " + list_of_names(mesh) + ", expected a far field of the name '" + farfield + "'");
+                  "found boundaries " + list_of_names(mesh) + ", expected " +
+                      (kind.find_first_of("aeiou") == 0 ? "an " : "a ") + kind + " of the name '" +
+                      patches_[i].name + "'");
+    }
 }
 
 void FlowMesh::require_walls(const std::string& source) const {
-  if (bodies_.empty())
+  if (std::none_of(patches_.begin(), patches_.end(), [](const Patch& patch) { return patch.solid(); }))
     throw Error(ErrorCode::argument, source, "found no boundary but the far field, expected a wall");
 }
 
@@ -168,7 +167,7 @@ void FlowMesh::require_farfield_around(const std::string& source) const {
     area[loop] += 0.5 * cross(points_[edge.a] - points_[loop], points_[edge.b] - points_[loop]);
   }
   for (const BoundaryEdge& edge : boundary_)
-    if (edge.body == -1 && area[loops.root(edge.a)] < 0.0)
+    if (patch(edge).is_farfield() && area[loops.root(edge.a)] < 0.0)
       throw Error(ErrorCode::argument, source,
                   "the far field bounds a hole of the domain, expected it to lie around the walls");
 }
@@ -180,7 +179,7 @@ void FlowMesh::link_walls() {
   std::vector<std::uint32_t> before(size(), no_index), after(size(), no_index);
   std::vector<bool> touching(size(), false);
   for (const BoundaryEdge& edge : boundary_) {
-    if (edge.body < 0) continue;
+    if (!patch(edge).solid()) continue;
     on_wall_[edge.a] = on_wall_[edge.b] = true;
     if (after[edge.a] != no_index) touching[edge.a] = true;
     if (before[edge.b] != no_index) touching[edge.b] = true;
@@ -188,7 +187,7 @@ void FlowMesh::link_walls() {
   }
   for (std::size_t i = 0; i < boundary_.size(); ++i) {
     const BoundaryEdge& edge = boundary_[i];
-    if (edge.body < 0) continue;
+    if (!patch(edge).solid()) continue;
     WallLink& link = links_[i];
     if (!touching[edge.a]) link.before = before[edge.a];
     if (!touching[edge.b]) link.after = after[edge.b];
@@ -204,7 +203,7 @@ void FlowMesh::bend_walls() {
     const Point d = points_[edge.b] - points_[edge.a];
     edge.normal = {d.y, -d.x};
     edge.half[0] = edge.half[1] = 0.5 * edge.normal;
-    if (edge.body < 0) continue;
+    if (!patch(edge).solid()) continue;
     const Point turn = bulge<double>(i) * d;
     edge.half[0] = edge.half[0] - turn, edge.half[1] = edge.half[1] + turn;
     DualEdge& dual = edges_[links_[i].edge];
@@ -249,7 +248,10 @@ void FlowMesh::measure() {
       ring_[i].weight = (1.0 / around[v]) * ring_[i].weight;
   }
   bend_walls();
-  extent_ = wall_extent(points_, boundary_);
+  std::vector<BoundaryEdge> walls;
+  for (const BoundaryEdge& edge : boundary_)
+    if (patch(edge).solid()) walls.push_back(edge);
+  extent_ = wall_extent(points_, walls);
 }
 
 }  // namespace remodel::flow

@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "flow/physics/boundary/patch.h"
 #include "flow/scheme/wall_bulge.h"
 #include "remodel/frozen_mesh.h"
 #include "remodel/ids.h"
@@ -30,9 +31,9 @@ struct RingEntry {
 };
 
 struct BoundaryEdge {
-  std::uint32_t a, b;  // the domain on the left
-  Point normal;        // outwards; its length is the edge's
-  std::int32_t body;   // index of the wall it belongs to, -1: far field, -2 - i: opening i
+  std::uint32_t a, b;   // the domain on the left
+  Point normal;         // outwards; its length is the edge's
+  std::uint32_t patch;  // index in FlowMesh::patches()
   // Outer normals of the halves at a and at b, which meet in the edge's middle or, on walls, beside it: see
   // wall_bulge.h.
   Point half[2] = {};
@@ -46,13 +47,13 @@ struct Extent {
 
 class FlowMesh {
  public:
-  // Every boundary edge of the mesh belongs to a named boundary; the one called `farfield` is the far field,
-  // those called like one of `openings` are inlets or outlets, all others are walls. Edges with the domain on
-  // both sides are no boundary. Throws Error (argument) naming `source` where there is no far field (and no
-  // opening), no boundary of an opening's name, an edge without a name, a point of no triangle, or a triangle
-  // that is not counter-clockwise.
-  FlowMesh(const FrozenMesh& mesh, const std::string& farfield, const std::string& source,
-           std::span<const std::string> openings = {});
+  // Every boundary edge of the mesh belongs to a named boundary: to one of `patches`, or else to a wall that
+  // the flow slips along. Edges with the domain on both sides are no boundary. Throws Error (argument) naming
+  // `source` where the mesh lacks the boundary of a patch (it may do without a far field if there are other
+  // patches), an edge has no name, a point is of no triangle, or a triangle is not counter-clockwise.
+  FlowMesh(const FrozenMesh& mesh, std::vector<Patch> patches, const std::string& source);
+  FlowMesh(const FrozenMesh& mesh, const std::string& farfield, const std::string& source)
+      : FlowMesh(mesh, std::vector<Patch>{{farfield, FarField{}}}, source) {}
   // Throws Error (argument) where the far field is the only boundary.
   void require_walls(const std::string& source) const;
   // Throws Error (argument) where the far field, or a part of it, bounds a hole of the domain.
@@ -67,14 +68,19 @@ class FlowMesh {
   const std::vector<Point>& points() const { return points_; }
   const std::vector<double>& areas() const { return areas_; }  // of dual cells
   const std::vector<DualEdge>& edges() const { return edges_; }
-  // Adds to `points` the derivatives by the coordinates of a function whose derivatives by the normals of
-  // dual faces (edges()), by gradient weights (ring(), one vertex after the other) and by the normals of the
-  // halves of boundary edges (boundary(), two each) are these.
-  void add_slopes(std::span<const Point> by_normal, std::span<const Point> by_weight,
-                  std::span<const Point> by_half, std::vector<Point>& points) const;
-  // Of a function of the halves of boundary edges and, where not empty, of the dual faces beside walls.
-  void add_half_slopes(std::span<const Point> by_normal, std::span<const Point> by_half,
-                       std::vector<Point>& points) const;
+  // A function's derivatives by what this class makes of places.
+  struct Slopes {
+    std::vector<Point> normal;  // by dual faces, one each of edges()
+    std::vector<Point> weight;  // by gradient weights, of ring(), one vertex after the other
+    // By boundary edges, one each of boundary(): normals of both halves and of the edge.
+    struct OfBoundary {
+      Point half[2] = {}, normal = {};
+    };
+    std::vector<OfBoundary> boundary;
+  };
+  // Adds the function's derivatives by the coordinates; where `slopes` lacks dual faces and gradient weights,
+  // the function has none.
+  void add_slopes(const Slopes& slopes, std::vector<Point>& points) const;
   // Where a vertex's neighbours begin in by_weight.
   std::size_t ring_begin(std::size_t v) const { return ring_start_[v]; }
   // Neighbours of a vertex, ascending.
@@ -82,18 +88,21 @@ class FlowMesh {
     return {ring_.data() + ring_start_[v], ring_start_[v + 1] - ring_start_[v]};
   }
   const std::vector<BoundaryEdge>& boundary() const { return boundary_; }
-  const std::vector<std::string>& bodies() const { return bodies_; }  // names of walls
+  // Those that were given, in their order, then walls.
+  const std::vector<Patch>& patches() const { return patches_; }
+  const Patch& patch(const BoundaryEdge& edge) const { return patches_[edge.patch]; }
   bool on_wall(std::size_t v) const { return on_wall_[v]; }
   const Extent& extent() const { return extent_; }  // of the walls: see wall_extent.h
   const std::vector<std::array<std::uint32_t, 3>>& triangles() const { return triangles_; }
 
  private:
   void make_edges();
-  void make_boundary(const FrozenMesh& mesh, const std::string& farfield, const std::string& source,
-                     std::span<const std::string> openings);
+  void make_boundary(const FrozenMesh& mesh, const std::string& source);
   void link_walls();
   void measure();
   void bend_walls();
+  void add_boundary_slopes(const Slopes& slopes, std::vector<Point>& points) const;
+  void add_inner_slopes(const Slopes& slopes, std::vector<Point>& points) const;
   // Of boundary edge i.
   template <class T>
   T bulge(std::size_t i) const;
@@ -113,7 +122,7 @@ class FlowMesh {
   };
   std::vector<WallLink> links_;
   std::vector<bool> on_wall_;
-  std::vector<std::string> bodies_;
+  std::vector<Patch> patches_;
   bool has_farfield_ = false;
   Extent extent_;
 };

@@ -141,15 +141,15 @@ std::array<double, 4> source_at(const Written& flow, Point p) {
 // dual cell are the vertex's own source times the area (A. Katz and V. Sankaran, J. Comput. Phys. 230
 // (2011)). The area between a wall and its chord, which the halves' turn bounds with it, belongs to both
 // ends.
-std::vector<std::array<double, 4>> sources_on(const FlowMesh& dual, const Written& flow) {
+Vector sources_on(const FlowMesh& dual, const Written& flow) {
   std::vector<double> areas = dual.areas();
   for (const BoundaryEdge& edge : dual.boundary()) {
-    if (edge.body < 0) continue;
+    if (!dual.patch(edge).solid()) continue;
     const Point d = dual.points()[edge.b] - dual.points()[edge.a];
     const double between = 0.25 * dot(edge.half[1] - edge.half[0], d);
     areas[edge.a] += 0.5 * between, areas[edge.b] += 0.5 * between;
   }
-  std::vector<std::array<double, 4>> sources(dual.size());
+  Vector sources(dual.size());
   for (std::size_t v = 0; v < dual.size(); ++v) {
     sources[v] = source_at(flow, dual.points()[v]);
     for (double& source : sources[v]) source *= areas[v];

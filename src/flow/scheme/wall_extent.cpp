@@ -17,12 +17,11 @@ bool turns(Point in, Point out) {
 }
 
 // Vertices of walls, or those at which they turn or touch, ascending.
-std::vector<std::uint32_t> wall_vertices(std::span<const Point> points,
-                                         std::span<const BoundaryEdge> boundary, bool bends_alone) {
+std::vector<std::uint32_t> wall_vertices(std::span<const Point> points, std::span<const BoundaryEdge> edges,
+                                         bool bends_alone) {
   std::vector<std::uint32_t> before(points.size(), no_index), after(points.size(), no_index), found;
   std::vector<bool> touching(points.size(), false);
-  for (const BoundaryEdge& edge : boundary) {
-    if (edge.body < 0) continue;
+  for (const BoundaryEdge& edge : edges) {
     touching[edge.a] = touching[edge.a] || after[edge.a] != no_index;
     touching[edge.b] = touching[edge.b] || before[edge.b] != no_index;
     after[edge.a] = edge.b, before[edge.b] = edge.a;
@@ -81,12 +80,11 @@ Extent largest_extent(std::span<const Point> points, DisjointSets& walls,
 
 }  // namespace
 
-Extent wall_extent(std::span<const Point> points, std::span<const BoundaryEdge> boundary) {
+Extent wall_extent(std::span<const Point> points, std::span<const BoundaryEdge> edges) {
   DisjointSets walls(points.size());  // vertices that walls join to each other
-  for (const BoundaryEdge& edge : boundary)
-    if (edge.body >= 0) walls.join(edge.a, edge.b);
-  const Extent bends = largest_extent(points, walls, wall_vertices(points, boundary, true));
-  return bends.length > 0.0 ? bends : largest_extent(points, walls, wall_vertices(points, boundary, false));
+  for (const BoundaryEdge& edge : edges) walls.join(edge.a, edge.b);
+  const Extent bends = largest_extent(points, walls, wall_vertices(points, edges, true));
+  return bends.length > 0.0 ? bends : largest_extent(points, walls, wall_vertices(points, edges, false));
 }
 
 }  // namespace remodel::flow

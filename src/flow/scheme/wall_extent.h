@@ -12,6 +12,6 @@ namespace remodel::flow {
 // goes on straight beside it (half a section on a line of symmetry), and that of the largest one where there
 // are several. Where no wall bends (a straight duct), that between two points of one. It turns and grows
 // with the mesh. Without a wall: 0.
-Extent wall_extent(std::span<const Point> points, std::span<const BoundaryEdge> boundary);
+Extent wall_extent(std::span<const Point> points, std::span<const BoundaryEdge> edges);
 
 }  // namespace remodel::flow

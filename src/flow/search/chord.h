@@ -9,11 +9,12 @@
 #include <deque>
 #include <optional>
 
+#include "flow/linear/overlap.h"
 #include "flow/search/newton_search.h"
 
 namespace remodel::flow {
 
-// Anderson acceleration of x -> x + f(x), the last `depth` steps kept.
+// Anderson acceleration of x -> x + f(x), some of the last steps kept.
 class Anderson {
  public:
   // The step that is to be taken instead of f.
@@ -22,7 +23,6 @@ class Anderson {
   void scale_last(double taken);
 
  private:
-  static constexpr std::size_t depth = 12;
   struct Difference {
     Increment f, x;  // of f, and of the state, between two steps
   };
@@ -38,14 +38,12 @@ class Anderson {
 // that both have serve, and where the meshes differ an exact solve with the present matrix follows.
 class Preconditioner {
  public:
-  // row_of: per vertex of the present mesh its row in the factors, no_index if it has none; rows: of the
-  // factors. Vertices of `zone`, ascending, are corrected by the Jacobian at `state`.
-  Preconditioner(const FlowSystem& system, const State& state, Factors& factors,
-                 std::vector<std::uint32_t> row_of, std::size_t rows, const std::vector<std::uint32_t>& zone,
-                 const FlowOptions& options);
+  // Vertices of the overlap's zone are corrected by the Jacobian at `state`.
+  Preconditioner(const FlowSystem& system, const State& state, Factors& factors, Overlap overlap,
+                 double memory_mb);
   bool ready() const { return ready_; }
-  // About minus the Newton step's opposite: what makes the residuals zero, if the factors are right.
-  Increment apply(const State& state, const Vector& residual, const Augmented& augmented);
+  // Approximate Newton step: minus the inverse times the residuals.
+  Increment apply(const State& state, const Residuals& residuals);
   double zone_work() const { return zone_lu_.factor_work(); }
 
  private:
@@ -53,11 +51,10 @@ class Preconditioner {
 
   const FlowSystem& system_;
   Factors& factors_;
-  std::vector<std::uint32_t> row_of_;
-  std::size_t rows_;
+  Overlap overlap_;
   BlockRows zone_;
-  DirectSolver zone_lu_;
-  std::array<Vector, 2> columns_;
+  DirectSolver<unknown_count> zone_lu_;
+  std::array<Vector, augmented_count> columns_;
   bool ready_ = true;
 };
 
@@ -67,14 +64,12 @@ enum class ChordEnd {
   interrupted,
 };
 
-// Steps until the flow is found or the factors no longer pay: where what is left would cost more with them
-// than new ones do. `state` is the best one seen.
-ChordEnd chord_steps(const Measure& measure, Preconditioner& inverse, const Factors& factors,
-                     const FlowOptions& options, State& state, Search& search);
+// Steps until the flow is found or the search's factors no longer pay: where what is left would cost more
+// with them than new ones do. `state` is the best one seen.
+ChordEnd chord_steps(const Measure& measure, Preconditioner& inverse, NewtonSearch& search, State& state);
 
 // New factors at the state as it is and steps with them, again while that leads on; from a residual within
 // Newton's reach only. The factors are of this mesh then.
-ChordEnd steps_with_own_factors(const FlowSystem& system, const Measure& measure, const FlowOptions& options,
-                                BlockRows& matrix, Factors& factors, State& state, Search& search);
+ChordEnd steps_with_own_factors(const Measure& measure, NewtonSearch& search, State& state);
 
 }  // namespace remodel::flow

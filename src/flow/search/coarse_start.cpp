@@ -11,22 +11,10 @@ namespace remodel::flow {
 
 namespace {
 
-// How far a coarse flow is followed: the fine mesh's is another one, off by more than this.
-constexpr double coarse_tolerance = 1e-5;
-// How an interpolated flow is gone on from: by shorter time steps where the residual rises, unless it has to
-// rise because the angle is looked for too.
+// Unless the residual has to rise because the angle is looked for too.
 Pace pace_from_coarser(const Stream& stream) {
-  constexpr double with_lift = 50.0, at_angle = 20.0;
-  if (stream.lift) return {.cfl = with_lift, .patience = usual_patience};
-  return {.cfl = at_angle, .patience = usual_patience, .most = at_angle};
-}
-
-// Meshes of at least this many vertices begin on a coarser one. Shocks are what that is for: without them it
-// gains little, and around several elements it may lead to another flow, of less lift.
-std::size_t least_vertices(double mach) {
-  constexpr double mach_of_shocks = 0.6;
-  constexpr std::size_t with_shocks = 1500, without = 4000;
-  return mach < mach_of_shocks ? without : with_shocks;
+  if (stream.lift) return {.cfl = SearchPolicy::interpolated_cfl_with_lift};
+  return {.cfl = SearchPolicy::interpolated_cfl, .most = SearchPolicy::interpolated_cfl};
 }
 
 // Every second station of every curve. Nothing where chains may end on a station that would be gone.
@@ -59,7 +47,7 @@ std::optional<FlowMesh> coarse_mesh(const Domain& domain, const QualityOptions& 
 
 // To those of another search, or of a result.
 template <class Counted>
-void add_cost(const Search& of, Counted& to) {
+void add_cost(const SearchRecord& of, Counted& to) {
   to.newton_steps += of.newton_steps;
   to.factorisations += of.factorisations;
   to.gmres_iterations += of.gmres_iterations;
@@ -68,8 +56,8 @@ void add_cost(const Search& of, Counted& to) {
 
 std::optional<State> start_from_coarser(const Domain& domain, const QualityOptions& quality,
                                         const FlowMesh& fine, const FlowConditions& conditions,
-                                        const FlowOptions& options, Search& spent) {
-  if (fine.size() < least_vertices(conditions.mach)) return std::nullopt;
+                                        const FlowOptions& options, SearchRecord& spent) {
+  if (fine.size() < SearchPolicy::least_vertices(conditions.mach)) return std::nullopt;
   const std::optional<Domain> coarse = coarsened(domain);
   if (!coarse) return std::nullopt;
   QualityOptions half = quality;
@@ -77,17 +65,16 @@ std::optional<State> start_from_coarser(const Domain& domain, const QualityOptio
   const std::optional<FlowMesh> dual = coarse_mesh(*coarse, half, fine.size(), conditions, options);
   if (!dual) return std::nullopt;
   const FlowSystem system(*dual, stream_of(conditions, options, *dual));
-  const Measure measure(system);
   FlowOptions rough = options;
-  rough.tolerance = std::max(options.tolerance, coarse_tolerance);
+  rough.tolerance = std::max(options.tolerance, SearchPolicy::coarse_tolerance);
   State state;
-  Search search;
-  BlockRows matrix = system.pattern();
+  SearchRecord record;
+  WholeMatrix matrix;
   Factors factors;
-  find_flow_by_meshes(*coarse, half, system, measure, conditions, rough, matrix, factors, state, search,
-                      spent);
-  add_cost(search, spent);
-  if (search.status != FlowStatus::converged) return std::nullopt;
+  NewtonSearch search(rough, matrix, factors, record);
+  search_by_meshes(*coarse, half, Measure(system), conditions, search, state, spent);
+  add_cost(record, spent);
+  if (record.status != FlowStatus::converged) return std::nullopt;
   state.q = interpolated(*dual, state.q, fine.points());
   state.augmented[0] *= dual->extent().length / fine.extent().length;
   return state;
@@ -95,21 +82,23 @@ std::optional<State> start_from_coarser(const Domain& domain, const QualityOptio
 
 }  // namespace
 
-void find_flow_by_meshes(const Domain& domain, const QualityOptions& quality, const FlowSystem& system,
-                         const Measure& measure, const FlowConditions& conditions, const FlowOptions& options,
-                         BlockRows& matrix, Factors& factors, State& state, Search& search, Search& spent) {
-  if (auto coarse = start_from_coarser(domain, quality, system.mesh(), conditions, options, spent)) {
+void search_by_meshes(const Domain& domain, const QualityOptions& quality, const Measure& measure,
+                      const FlowConditions& conditions, NewtonSearch& search, State& state,
+                      SearchRecord& spent) {
+  const FlowSystem& system = measure.system();
+  if (auto coarse = start_from_coarser(domain, quality, system.mesh(), conditions, search.options(), spent)) {
     state = std::move(*coarse);
-    search.newton_steps = 0;
-    find_flow(system, measure, pace_from_coarser(system.stream()), options, matrix, factors, state, search);
-    find_flow_beside(system, measure, options, matrix, factors, state, search);
-    if (search.status != FlowStatus::stalled && search.status != FlowStatus::step_limit) return;
-    spent.newton_steps += search.newton_steps;  // in vain; find_flow_cold() counts anew
+    SearchRecord& record = search.record();
+    record.newton_steps = 0;
+    search.run(measure, pace_from_coarser(system.stream()), state);
+    search.beside(measure, state);
+    if (record.status != FlowStatus::stalled && record.status != FlowStatus::step_limit) return;
+    spent.newton_steps += record.newton_steps;  // in vain; from_undisturbed_flow() counts anew
   }
-  find_flow_cold(system, measure, options, matrix, factors, state, search);
+  search.from_undisturbed_flow(measure, state);
 }
 
-void add_coarse(const Search& spent, FlowResult& result) {
+void add_coarse(const SearchRecord& spent, FlowResult& result) {
   result.coarse_steps = spent.newton_steps;
   add_cost(spent, result);
 }

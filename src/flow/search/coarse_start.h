@@ -9,13 +9,13 @@
 
 namespace remodel::flow {
 
-// find_flow_cold(), but from the flow through a coarser mesh where the mesh is fine, its domain has one and
-// that leads on; otherwise from undisturbed flow. `spent` gets what coarser meshes took.
-void find_flow_by_meshes(const Domain& domain, const QualityOptions& quality, const FlowSystem& system,
-                         const Measure& measure, const FlowConditions& conditions, const FlowOptions& options,
-                         BlockRows& matrix, Factors& factors, State& state, Search& search, Search& spent);
+// NewtonSearch::from_undisturbed_flow(), but from the flow through a coarser mesh where the mesh is fine, its
+// domain has one and that leads on. `spent` gets what coarser meshes took.
+void search_by_meshes(const Domain& domain, const QualityOptions& quality, const Measure& measure,
+                      const FlowConditions& conditions, NewtonSearch& search, State& state,
+                      SearchRecord& spent);
 
 // Counts what coarser meshes took in the result.
-void add_coarse(const Search& spent, FlowResult& result);
+void add_coarse(const SearchRecord& spent, FlowResult& result);
 
 }  // namespace remodel::flow

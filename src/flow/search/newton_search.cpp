@@ -6,30 +6,26 @@
 #include <optional>
 #include <utility>
 
+#include "flow/scheme/forces.h"
 #include "flow/search/linear_step.h"
 
 namespace remodel::flow {
 
 namespace {
 
-constexpr double full_cfl = 1e12;  // more is no pseudo-time at all
+using Policy = SearchPolicy;
 
+// Adds to the diagonal the derivatives of what is conserved, over a time step of this CFL number.
 void add_pseudo_time(const FlowSystem& system, const State& state, double cfl, BlockRows& matrix) {
+  constexpr std::size_t n = unknown_count;
   const std::vector<double> speeds = system.wave_speeds(state);
   for (std::size_t r = 0; r < matrix.rows.size(); ++r) {
     const std::uint32_t v = matrix.rows[r];
-    const auto first = matrix.column.begin() + matrix.start[r],
-               last = matrix.column.begin() + matrix.start[r + 1];
-    Block& at =
-        matrix.block[static_cast<std::size_t>(std::lower_bound(first, last, v) - matrix.column.begin())];
-    const double s = speeds[v] / cfl;
-    const auto [rho, u, w, p] = state.q[v];
-    // Derivatives of density, momentum and energy by the unknowns.
-    at[0] += s;
-    at[4] += s * u, at[5] += s * rho;
-    at[8] += s * w, at[10] += s * rho;
-    at[12] += 0.5 * s * (u * u + w * w), at[13] += s * rho * u, at[14] += s * rho * w;
-    at[15] += s / (gas_gamma - 1.0);
+    Unknowns<Dual<n>> q;
+    for (std::size_t k = 0; k < n; ++k) q[k] = Dual<n>::variable(state.q[v][k], k);
+    const auto by_unknowns = conserved(q);
+    Block& block = matrix.at(r, v);
+    for (std::size_t z = 0; z < n * n; ++z) block[z] += speeds[v] / cfl * by_unknowns[z / n].slope[z % n];
   }
 }
 
@@ -39,285 +35,260 @@ std::string text_of(double value) {
   return text;
 }
 
-// How far a step may go: the residual may rise 2.5 times a step, and to 6 times the least there was.
-struct LineSearch {
-  static constexpr double step_rise = 2.5, whole_rise = 6.0, largest_part = 0.4;
-  static constexpr int halvings = 4;
-};
-
-// A state with its residuals.
-struct Place {
-  State state = {};
-  Vector residual = {};
-  Augmented augmented = {};
-  double size = 0.0;
-};
-
-// A place along the step that may be gone to, and the part of the step it lies at.
-std::optional<std::pair<Place, double>> place_along(const Increment& step, const Measure& measure,
-                                                    const State& state, double size, double least) {
-  double length = std::min(1.0, LineSearch::largest_part / largest_change(state, step));
-  for (int i = 0; i <= LineSearch::halvings; ++i) {
-    if (i > 0) length *= 0.5;
-    Place next{.state = moved(state, step, length)};
-    next.size = measure(next.state, next.residual, next.augmented);
-    if (next.size <= LineSearch::step_rise * size && next.size <= LineSearch::whole_rise * least)
-      return std::pair{std::move(next), length};
-  }
-  return std::nullopt;
-}
-
-// Whether the search has to end before its next step.
-bool is_over(const Pace& pace, const FlowOptions& options, int last_halved, Search& search) {
-  if (options.observer != nullptr && options.observer->cancelled()) {
-    search.status = FlowStatus::interrupted, search.reason = "interrupted";
-    return true;
-  }
-  if (search.newton_steps >= options.max_steps) {
-    search.status = FlowStatus::step_limit;
-    search.reason = "residual " + text_of(search.residual) + " after " + std::to_string(search.newton_steps) +
-                    " Newton steps, expected " + text_of(options.tolerance);
-    return true;
-  }
-  if (search.newton_steps - last_halved >= pace.patience) {
-    search.status = FlowStatus::stalled;
-    search.reason = "the residual, " + text_of(search.residual) + ", has not halved in " +
-                    std::to_string(pace.patience) + " Newton steps, expected " + text_of(options.tolerance);
-    return true;
-  }
-  return false;
-}
-
 // The part of the linear residual that GMRES may leave: less and less, so that Newton's method converges
 // faster than linearly, but no less than the flow's tolerance needs.
 double forcing(double residual, double target) {
-  constexpr double least = 1e-3, most = 1e-2, needed = 0.3;
-  return std::clamp(std::max(residual, needed * target / residual), least, most);
-}
-// Where GMRES leaves more than this, its step is not tried.
-constexpr double most_left = 0.5;
-
-void end_without_step(double left, const FlowOptions& options, Search& search) {
-  search.status = FlowStatus::stalled;
-  if (left > most_left)
-    search.reason = "GMRES leaves " + text_of(left) + " of the linear residual at a residual of " +
-                    text_of(search.residual) + ", expected " + text_of(most_left) +
-                    ": the factors would have to be better ones, with more memory";
-  else
-    search.reason = "no step leads on from a residual of " + text_of(search.residual) + ", expected " +
-                    text_of(options.tolerance) + ": there may be no steady flow";
+  return std::clamp(std::max(residual, Policy::forcing_needed * target / residual), Policy::least_forcing,
+                    Policy::most_forcing);
 }
 
 }  // namespace
+
+BlockRows& WholeMatrix::of(const FlowSystem& system) {
+  if (triangles_ != system.mesh().triangles()) {
+    matrix_ = system.pattern();
+    triangles_ = system.mesh().triangles();
+  }
+  return matrix_;
+}
 
 FactorKind lasting_kind(const FlowOptions& options) {
   return options.solver == FlowSolver::gmres ? FactorKind::incomplete : FactorKind::whole;
 }
 
-namespace {
-
-void jacobian_at(const FlowSystem& system, const State& state, double cfl, BlockRows& matrix) {
-  system.jacobian(state, matrix);
-  if (cfl < full_cfl) add_pseudo_time(system, state, cfl, matrix);
+void SearchRecord::end_without_factors(Factored outcome, double memory_mb_given) {
+  if (outcome == Factored::out_of_memory) {
+    status = FlowStatus::memory;
+    reason =
+        "even incomplete factors need more than the " + text_of(memory_mb_given) + " MB that they may take";
+  } else {
+    status = FlowStatus::stalled;
+    reason = "the Jacobian, or its incomplete LU, is singular at a residual of " + text_of(residual);
+  }
 }
 
-void note_step(const FlowSystem& system, const State& state, double size, const FlowOptions& options,
-               Search& search) {
-  search.residual = size;
-  search.history.push_back(size);
-  if (options.on_step)
-    options.on_step(
-        {search.newton_steps, size, system.coefficients(state).lift * reported_length(system.stream())});
+// Where a run is.
+struct NewtonSearch::Progress {
+  const Measure& measure;
+  const Pace& pace;
+  Residuals residuals;
+  double target, first, least, halved;  // residuals: to end at, the first one, the least, the last half
+  double cfl;
+  int last_halved, end_of_constant_cfl;  // Newton steps
+  FactorKind kind;
+  bool may_be_whole = false;
+  // Of incomplete factors: whether new ones are due, and GMRES's steps with the matrix of their own.
+  bool worn = true;
+  int with_own = 0;
+};
+
+bool NewtonSearch::may_go_on(const Progress& at) {
+  const std::string expected = ", expected " + text_of(options_.tolerance);
+  if (options_.observer != nullptr && options_.observer->cancelled()) {
+    record_.interrupt();
+    return false;
+  }
+  if (record_.newton_steps >= options_.max_steps) {
+    record_.status = FlowStatus::step_limit;
+    record_.reason = "residual " + text_of(record_.residual) + " after " +
+                     std::to_string(record_.newton_steps) + " Newton steps" + expected;
+    return false;
+  }
+  if (record_.newton_steps - at.last_halved >= at.pace.patience) {
+    record_.status = FlowStatus::stalled;
+    record_.reason = "the residual, " + text_of(record_.residual) + ", has not halved in " +
+                     std::to_string(at.pace.patience) + " Newton steps" + expected;
+    return false;
+  }
+  return true;
 }
 
-Factored factor(const FlowSystem& system, const State& state, FactorKind kind, const FlowOptions& options,
-                const BlockRows& matrix, Factors& factors, Search& search) {
-  const Factored outcome = factors.factor(matrix, system.augmented_columns(state), kind, options.memory_mb);
-  ++search.factorisations;
+Factored NewtonSearch::factor(const FlowSystem& system, const State& state, const BlockRows& matrix,
+                              FactorKind kind) {
+  const Factored outcome = factors_.factor(matrix, system.augmented_columns(state), kind, options_.memory_mb);
+  ++record_.factorisations;
   if (outcome != Factored::done) return outcome;
-  search.memory_mb = std::max(search.memory_mb, factors.memory_mb());
-  search.whole_factors = factors.whole();
+  record_.memory_mb = std::max(record_.memory_mb, factors_.memory_mb());
+  record_.whole_factors = factors_.whole();
   return outcome;
 }
 
-}  // namespace
-
-Factored factor_at(const FlowSystem& system, const State& state, double cfl, FactorKind kind,
-                   const FlowOptions& options, BlockRows& matrix, Factors& factors, Search& search) {
-  jacobian_at(system, state, cfl, matrix);
-  return factor(system, state, kind, options, matrix, factors, search);
+Factored NewtonSearch::factor_at(const FlowSystem& system, const State& state, FactorKind kind) {
+  BlockRows& matrix = matrix_.of(system);
+  system.jacobian(state, matrix);
+  return factor(system, state, matrix, kind);
 }
 
-void end_without_factors(Factored outcome, const FlowOptions& options, Search& search) {
-  if (outcome == Factored::out_of_memory) {
-    search.status = FlowStatus::memory;
-    search.reason =
-        "even incomplete factors need more than the " + text_of(options.memory_mb) + " MB that they may take";
-  } else {
-    search.status = FlowStatus::stalled;
-    search.reason =
-        "the Jacobian, or its incomplete LU, is singular at a residual of " + text_of(search.residual);
+void NewtonSearch::run(const Measure& measure, const Pace& pace, State& state) {
+  Residuals residuals = measure(state);
+  const double size = residuals.size;
+  record_.residual = size;
+  record_.history.push_back(size);
+  const bool by_lu = options_.solver == FlowSolver::lu;
+  Progress at = {.measure = measure,
+                 .pace = pace,
+                 .residuals = std::move(residuals),
+                 .target = std::max(options_.tolerance, pace.rough),
+                 .first = size,
+                 .least = size,
+                 .halved = size,
+                 .cfl = pace.cfl,
+                 .last_halved = record_.newton_steps,
+                 .end_of_constant_cfl = record_.newton_steps + pace.constant_cfl_steps,
+                 .kind = by_lu ? FactorKind::whole : FactorKind::incomplete};
+  while (record_.residual > at.target)
+    if (!may_go_on(at) || !step(at, state)) return;
+  record_.status = FlowStatus::converged;
+  record_.reason.clear();
+}
+
+// One step, or the same once more with better factors or a shorter time step.
+bool NewtonSearch::step(Progress& at, State& state) {
+  const FlowSystem& system = at.measure.system();
+  if (record_.newton_steps < at.end_of_constant_cfl) {
+    at.cfl = at.pace.cfl;
+    at.least = at.halved = record_.residual, at.last_halved = record_.newton_steps;
   }
-}
-
-void find_flow(const FlowSystem& system, const Measure& measure, const Pace& pace, const FlowOptions& options,
-               BlockRows& matrix, Factors& factors, State& state, Search& search) {
-  Vector residual;
-  Augmented augmented;
-  search.residual = measure(state, residual, augmented);
-  search.history.push_back(search.residual);
-  const double first = search.residual, target = std::max(options.tolerance, pace.rough);
-  double least = first, halved = first, cfl = pace.cfl;
-  int last_halved = search.newton_steps;
-  int end_of_march = search.newton_steps + pace.march;
-  constexpr double smallest_cfl = 1e-2;
-  FactorKind kind = options.solver == FlowSolver::lu ? FactorKind::whole : FactorKind::incomplete;
-  // Incomplete factors serve the matrices of the next steps too, until GMRES takes this many steps more with
-  // them than it took with the matrix of their own: new ones take about as long.
-  constexpr int steps_of_factors = 8;
-  bool worn = true;
-  int with_own = 0;
-  while (search.residual > target) {
-    if (is_over(pace, options, last_halved, search)) return;
-    const bool marching = search.newton_steps < end_of_march;
-    if (marching) cfl = pace.cfl, least = halved = search.residual, last_halved = search.newton_steps;
-    jacobian_at(system, state, cfl, matrix);
-    const bool older = !worn && kind == FactorKind::incomplete;
-    const Factored outcome =
-        older ? Factored::done : factor(system, state, kind, options, matrix, factors, search);
-    const bool may_be_whole = kind != lasting_kind(options) && !factors.too_large(state.q.size());
-    if (outcome == Factored::singular && may_be_whole) {
-      kind = FactorKind::whole;
-      continue;
-    }
-    if (outcome != Factored::done) return end_without_factors(outcome, options, search);
-    ++search.newton_steps;
-    const LinearStep linear = linear_step(system, state, matrix, factors, residual, augmented,
-                                          forcing(search.residual, target), options.observer);
-    search.gmres_iterations += linear.iterations;
-    if (!older) with_own = linear.iterations;
-    worn = linear.iterations > with_own + steps_of_factors;
-    if (older && !linear.solved) {
-      worn = true;  // the same step once more, with factors of its own
-      continue;
-    }
-    if (!(linear.left <= most_left) && may_be_whole) {
-      kind = FactorKind::whole;  // the same step once more, and all to come
-      continue;
-    }
-    if (linear.left <= most_left)
-      if (auto found = place_along(linear.step, measure, state, search.residual, least)) {
-        auto& [next, length] = *found;
-        if (length == 1.0 && linear.solved)
-          cfl = std::min(full_cfl, cfl * 2.0 * std::max(1.0, search.residual / next.size));
-        if (length < 0.25) cfl *= 0.5;
-        cfl = std::min(cfl, pace.most * first / next.size);
-        state = std::move(next.state), residual = std::move(next.residual), augmented = next.augmented;
-        note_step(system, state, next.size, options, search);
-        least = std::min(least, next.size);
-        if (least <= 0.5 * halved) halved = least, last_halved = search.newton_steps;
-        continue;
-      }
-    end_of_march = search.newton_steps;
-    cfl = std::min(cfl, 1e4) * 0.1;
-    if (!(cfl >= smallest_cfl)) return end_without_step(linear.left, options, search);
+  BlockRows& matrix = matrix_.of(system);
+  system.jacobian(state, matrix);
+  if (at.cfl < Policy::full_cfl) add_pseudo_time(system, state, at.cfl, matrix);
+  const bool older = !at.worn && at.kind == FactorKind::incomplete;
+  const Factored outcome = older ? Factored::done : factor(system, state, matrix, at.kind);
+  at.may_be_whole = at.kind != lasting_kind(options_) && !factors_.too_large(state.q.size());
+  if (outcome == Factored::singular && at.may_be_whole) {
+    at.kind = FactorKind::whole;
+    return true;
   }
-  search.status = FlowStatus::converged;
-  search.reason.clear();
-}
-
-void find_flow_beside(const FlowSystem& system, const Measure& measure, const FlowOptions& options,
-                      BlockRows& matrix, Factors& factors, State& state, Search& search) {
-  constexpr double beside = 1e-3, short_cfl = 20.0;
-  if (search.status != FlowStatus::stalled || !(search.residual < beside)) return;
-  find_flow(system, measure, {.cfl = short_cfl, .patience = last_patience, .most = short_cfl}, options,
-            matrix, factors, state, search);
-}
-
-void find_flow_near(const FlowSystem& system, const Measure& measure, const FlowOptions& options,
-                    BlockRows& matrix, Factors& factors, State& state, Search& search) {
-  constexpr double near = 0.02, carried_cfl = 50.0;
-  constexpr int patience = 5;  // what is near enough is found at once
-  Vector residual;
-  Augmented augmented;
-  if (measure(state, residual, augmented) < near) {
-    find_flow(system, measure, {.cfl = no_pseudo_time, .patience = patience}, options, matrix, factors, state,
-              search);
-    if (search.status != FlowStatus::stalled) return;
+  if (outcome != Factored::done) {
+    record_.end_without_factors(outcome, options_.memory_mb);
+    return false;
   }
-  find_flow(system, measure, {.cfl = carried_cfl, .patience = usual_patience}, options, matrix, factors,
-            state, search);
+  ++record_.newton_steps;
+  const LinearStep linear = linear_step(system, state, matrix, factors_, at.residuals.negated(),
+                                        forcing(record_.residual, at.target), options_.observer);
+  record_.gmres_iterations += linear.iterations;
+  if (!older) at.with_own = linear.iterations;
+  at.worn = linear.iterations > at.with_own + Policy::steps_of_factors;
+  if (older && !linear.solved) {
+    at.worn = true;
+    return true;
+  }
+  const bool useful = linear.left <= Policy::most_left;
+  if (!useful && at.may_be_whole) {
+    at.kind = FactorKind::whole;  // of all steps to come
+    return true;
+  }
+  if (useful && take(at, state, linear.step, linear.solved)) return true;
+  return shorten(at, linear.left);
 }
 
-namespace {
+// Goes as far along the step as the residual allows; false where it allows nothing.
+bool NewtonSearch::take(Progress& at, State& state, const Increment& step, bool solved) {
+  double length = std::min(1.0, Policy::largest_part / largest_change(state, step));
+  State next;
+  Residuals residuals;
+  for (int i = 0;; ++i) {
+    if (i > Policy::halvings) return false;
+    if (i > 0) length *= 0.5;
+    next = moved(state, step, length);
+    residuals = at.measure(next);
+    if (residuals.size <= Policy::step_rise * record_.residual &&
+        residuals.size <= Policy::whole_rise * at.least)
+      break;
+  }
+  const double size = residuals.size;
+  if (length == 1.0 && solved)
+    at.cfl = std::min(Policy::full_cfl, at.cfl * 2.0 * std::max(1.0, record_.residual / size));
+  if (length < Policy::short_step) at.cfl *= 0.5;
+  at.cfl = std::min(at.cfl, at.pace.most * at.first / size);
+  state = std::move(next), at.residuals = std::move(residuals);
+  record_.residual = size;
+  record_.history.push_back(size);
+  const FlowSystem& system = at.measure.system();
+  if (options_.on_step)
+    options_.on_step(
+        {record_.newton_steps, size, coefficients(system, state).lift * reported_length(system.stream())});
+  at.least = std::min(at.least, size);
+  if (at.least <= 0.5 * at.halved) at.halved = at.least, at.last_halved = record_.newton_steps;
+  return true;
+}
 
-// By way of the scheme of first order, whose flow is found from anywhere, and of more and more of the steps
-// of the reconstruction: a homotopy in dissipation. Of each stage but the last only the neighbourhood of its
-// flow is needed.
-void find_flow_in_stages(const FlowSystem& system, const Measure& measure, double rough,
-                         const FlowOptions& options, BlockRows& matrix, Factors& factors, State& state,
-                         Search& search) {
-  constexpr double stages[] = {0.0, 0.5, 0.75, 0.9, 0.95, 0.975, 0.99}, stage_cfl = 20.0,
-                   stage_tolerance = 1e-2;
+// A shorter time step for the same step; false where the shortest one leads nowhere.
+bool NewtonSearch::shorten(Progress& at, double left) {
+  at.end_of_constant_cfl = record_.newton_steps;
+  at.cfl = std::min(at.cfl, Policy::retried_cfl) * 0.1;
+  if (at.cfl >= Policy::smallest_cfl) return true;
+  record_.status = FlowStatus::stalled;
+  if (left > Policy::most_left)
+    record_.reason = "GMRES leaves " + text_of(left) + " of the linear residual at a residual of " +
+                     text_of(record_.residual) + ", expected " + text_of(Policy::most_left) +
+                     ": the factors would have to be better ones, with more memory";
+  else
+    record_.reason = "no step leads on from a residual of " + text_of(record_.residual) + ", expected " +
+                     text_of(options_.tolerance) + ": there may be no steady flow";
+  return false;
+}
+
+void NewtonSearch::beside(const Measure& measure, State& state) {
+  if (record_.status != FlowStatus::stalled || !(record_.residual < Policy::nearly_found)) return;
+  run(measure, {.cfl = Policy::short_cfl, .patience = Policy::last_patience, .most = Policy::short_cfl},
+      state);
+}
+
+void NewtonSearch::near(const Measure& measure, State& state) {
+  if (measure(state).size < Policy::near) {
+    run(measure, {.cfl = no_pseudo_time, .patience = Policy::near_patience}, state);
+    if (record_.status != FlowStatus::stalled) return;
+  }
+  run(measure, {.cfl = Policy::carried_cfl}, state);
+}
+
+// Of each stage but the last only the neighbourhood of its flow is needed.
+void NewtonSearch::in_stages(const Measure& measure, double rough, State& state) {
+  const FlowSystem& system = measure.system();
   state = system.uniform();
-  Pace pace = {.cfl = cold_cfl,
-               .patience = usual_patience,
-               .most = cold_cfl,
-               .rough = std::max(rough, stage_tolerance)};
-  for (const double slopes : stages) {
+  Pace pace = {
+      .cfl = Policy::cold_cfl, .most = Policy::cold_cfl, .rough = std::max(rough, Policy::stage_tolerance)};
+  for (const double slopes : Policy::stages) {
     Stream stream = system.stream();
     stream.slopes = slopes;
     const FlowSystem stage(system.mesh(), stream);
-    find_flow(stage, Measure(stage), pace, options, matrix, factors, state, search);
-    if (search.status != FlowStatus::converged && search.status != FlowStatus::stalled) return;
-    pace.cfl = pace.most = stage_cfl;
+    run(Measure(stage), pace, state);
+    if (record_.status != FlowStatus::converged && record_.status != FlowStatus::stalled) return;
+    pace.cfl = pace.most = Policy::stage_cfl;
   }
-  pace.patience = last_patience, pace.rough = rough;
-  find_flow(system, measure, pace, options, matrix, factors, state, search);
+  pace.patience = Policy::last_patience, pace.rough = rough;
+  run(measure, pace, state);
 }
 
-// Straight from undisturbed flow; where that leads nowhere, in stages; where these end near a state that is
-// nearly steady but no flow (a fold of the equations, at which Newton's method stays for ever), away from it
-// in pseudo-time, along which it is unstable. rough: see Pace.
-void find_flow_at_angle(const FlowSystem& system, const Measure& measure, double rough,
-                        const FlowOptions& options, BlockRows& matrix, Factors& factors, State& state,
-                        Search& search) {
-  constexpr int marches = 3, steps_of_march = 15;
-  constexpr double cfl_of_march = 20.0;
-  state = system.uniform();
-  find_flow(system, measure, {.cfl = cold_cfl, .patience = usual_patience, .rough = rough}, options, matrix,
-            factors, state, search);
-  find_flow_beside(system, measure, options, matrix, factors, state, search);
-  if (search.status == FlowStatus::stalled)
-    find_flow_in_stages(system, measure, rough, options, matrix, factors, state, search);
-  const Pace march = {
-      .cfl = cfl_of_march, .patience = usual_patience, .march = steps_of_march, .rough = rough};
-  for (int i = 0; i < marches && search.status == FlowStatus::stalled; ++i)
-    find_flow(system, measure, march, options, matrix, factors, state, search);
+// Where stages end near a state that is nearly steady but no flow (a fold of the equations, at which Newton's
+// method stays for ever), pseudo-time, along which it is unstable, leads away from it.
+void NewtonSearch::at_given_angle(const Measure& measure, double rough, State& state) {
+  state = measure.system().uniform();
+  run(measure, {.cfl = Policy::cold_cfl, .rough = rough}, state);
+  beside(measure, state);
+  if (record_.status == FlowStatus::stalled) in_stages(measure, rough, state);
+  for (int i = 0; i < Policy::escapes && record_.status == FlowStatus::stalled; ++i)
+    run(measure, {.cfl = Policy::escape_cfl, .constant_cfl_steps = Policy::steps_of_escape, .rough = rough},
+        state);
 }
 
-}  // namespace
-
-// A lift that is asked for is looked for from the flow at the first guess of the angle: undisturbed flow is
-// too far from it for the angle to follow.
-void find_flow_cold(const FlowSystem& system, const Measure& measure, const FlowOptions& options,
-                    BlockRows& matrix, Factors& factors, State& state, Search& search) {
-  constexpr double rough_tolerance = 1e-4, late_cfl = 1e6, cautious_cfl = 20.0;
-  search.newton_steps = 0;
-  if (!system.stream().lift)
-    return find_flow_at_angle(system, measure, 0.0, options, matrix, factors, state, search);
+void NewtonSearch::from_undisturbed_flow(const Measure& measure, State& state) {
+  const FlowSystem& system = measure.system();
+  record_.newton_steps = 0;
+  if (!system.stream().lift) return at_given_angle(measure, 0.0, state);
+  // Undisturbed flow is too far from a flow of this lift for the angle to follow.
   Stream at_angle = system.stream();
   at_angle.lift.reset();
   const FlowSystem first(system.mesh(), at_angle);
-  find_flow_at_angle(first, Measure(first), rough_tolerance, options, matrix, factors, state, search);
-  if (search.status != FlowStatus::converged) return;
+  at_given_angle(Measure(first), Policy::first_angle_tolerance, state);
+  if (record_.status != FlowStatus::converged) return;
   const State at_first_angle = state;
-  find_flow(system, measure, {.cfl = late_cfl, .patience = usual_patience}, options, matrix, factors, state,
-            search);
-  if (search.status != FlowStatus::stalled) return;
+  run(measure, {.cfl = Policy::with_angle_cfl}, state);
+  if (record_.status != FlowStatus::stalled) return;
   state = at_first_angle;
-  find_flow(system, measure, {.cfl = cautious_cfl, .patience = last_patience, .most = cautious_cfl}, options,
-            matrix, factors, state, search);
+  run(measure, {.cfl = Policy::cautious_cfl, .patience = Policy::last_patience, .most = Policy::cautious_cfl},
+      state);
 }
 
 }  // namespace remodel::flow
