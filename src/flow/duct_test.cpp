@@ -28,13 +28,7 @@ FrozenMesh duct_mesh(std::uint32_t n, std::uint32_t cells_along, double length,
   for (std::uint32_t j = 0; j < m; ++j)
     for (std::uint32_t i = 0; i < n; ++i) {
       const std::uint32_t a = at(i, j), b = at(i, j + 1), c = at(i + 1, j + 1), d = at(i + 1, j);
-      if ((i < n / 2) == (j % 2 == 0)) {
-        mesh.triangles.push_back({a, b, c});
-        mesh.triangles.push_back({a, c, d});
-      } else {
-        mesh.triangles.push_back({a, b, d});
-        mesh.triangles.push_back({b, c, d});
-      }
+      test::add_cell(mesh, a, b, c, d, (i < n / 2) == (j % 2 == 0));
     }
   mesh.boundaries = {{"lower", {}}, {"upper", {}}, {"in", {}}, {"out", {}}};
   for (std::uint32_t j = 0; j < m; ++j) {

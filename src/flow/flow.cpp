@@ -246,13 +246,14 @@ FlowResult result_of(const FlowSystem& system, const State& state, const SearchR
 }
 
 Vector interpolated(const FlowMesh& mesh, const Vector& state, std::span<const Point> at) {
+  const std::vector<std::array<std::uint32_t, 3>> triangles = mesh.triangles();
   std::vector<std::uint32_t> start(mesh.size() + 1, 0);
-  for (const auto& corners : mesh.triangles())
+  for (const auto& corners : triangles)
     for (const std::uint32_t v : corners) ++start[v + 1];
   for (std::size_t v = 0; v < mesh.size(); ++v) start[v + 1] += start[v];
   std::vector<std::uint32_t> around(start.back()), fill(start.begin(), start.end() - 1);
-  for (std::uint32_t t = 0; t < mesh.triangles().size(); ++t)
-    for (const std::uint32_t v : mesh.triangles()[t]) around[fill[v]++] = t;
+  for (std::uint32_t t = 0; t < triangles.size(); ++t)
+    for (const std::uint32_t v : triangles[t]) around[fill[v]++] = t;
 
   const Points points(mesh.points());
   Vector result;
@@ -263,7 +264,7 @@ Vector interpolated(const FlowMesh& mesh, const Vector& state, std::span<const P
     std::array<double, 3> weights = {1.0, 0.0, 0.0};
     std::uint32_t best_triangle = around[start[near]];
     for (std::uint32_t i = start[near]; i < start[near + 1]; ++i) {
-      const std::array<double, 3> w = weights_at(mesh, mesh.triangles()[around[i]], p);
+      const std::array<double, 3> w = weights_at(mesh, triangles[around[i]], p);
       const double least = std::min({w[0], w[1], w[2]});
       if (least > best) best = least, weights = w, best_triangle = around[i];
     }
@@ -272,7 +273,7 @@ Vector interpolated(const FlowMesh& mesh, const Vector& state, std::span<const P
     Unknowns<double> value = {};
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t k = 0; k < unknown_count; ++k)
-        value[k] += weights[i] / total * state[mesh.triangles()[best_triangle][i]][k];
+        value[k] += weights[i] / total * state[triangles[best_triangle][i]][k];
     result.push_back(value);
   }
   return result;

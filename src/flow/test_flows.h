@@ -18,6 +18,31 @@ inline Mesh airfoil_mesh(const std::string& name, int points) {
       .mesh;
 }
 
+// Adds the cell of these corners, cut along a and c or along b and d.
+inline void add_cell(FrozenMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d,
+                     bool along_ac) {
+  mesh.triangles.push_back(along_ac ? std::array{a, b, c} : std::array{a, b, d});
+  mesh.triangles.push_back(along_ac ? std::array{a, c, d} : std::array{b, c, d});
+}
+
+// A mesh of such cells with every cell uncut, or every `stride`-th left as it is.
+inline flow::FlowMesh uncut(const FrozenMesh& mesh, std::vector<flow::Patch> patches,
+                            std::size_t stride = 0) {
+  std::vector<flow::Cell> cells;
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 2) {
+    const auto &first = mesh.triangles[t], &second = mesh.triangles[t + 1];
+    if (stride > 0 && (t / 2) % stride == 0) {
+      cells.push_back({{first[0], first[1], first[2], no_index}});
+      cells.push_back({{second[0], second[1], second[2], no_index}});
+    } else if (first[0] == second[0]) {
+      cells.push_back({{first[0], first[1], first[2], second[2]}});
+    } else {
+      cells.push_back({{first[0], second[0], second[1], second[2]}});
+    }
+  }
+  return {mesh.points, std::move(cells), mesh.boundaries, std::move(patches), "cells"};
+}
+
 // The supersonic vortex: flow in circles between the radii 1 and 1.384, Mach 2.25 at the inner one. Source:
 // M. Aftosmis, D. Gaitonde and T. S. Tavares, AIAA J. 33 (1995).
 inline constexpr double inner_radius = 1.0, outer_radius = 1.384, inner_mach = 2.25;
@@ -43,13 +68,7 @@ inline FrozenMesh ring_mesh(std::uint32_t n) {
   for (std::uint32_t j = 0; j < m; ++j)
     for (std::uint32_t i = 0; i < n; ++i) {
       const std::uint32_t a = at(i, j), b = at(i + 1, j), c = at(i + 1, j + 1), d = at(i, j + 1);
-      if ((i + j) % 2 == 0) {
-        mesh.triangles.push_back({a, b, c});
-        mesh.triangles.push_back({a, c, d});
-      } else {
-        mesh.triangles.push_back({a, b, d});
-        mesh.triangles.push_back({b, c, d});
-      }
+      add_cell(mesh, a, b, c, d, (i + j) % 2 == 0);
     }
   mesh.boundaries = {{"inner", {}}, {"outer", {}}, {"farfield", {}}};
   for (std::uint32_t j = 0; j < m; ++j) {

@@ -1,8 +1,8 @@
 #pragma once
 
-// A mesh as the flow solver sees it: edges with the normals of the median dual, rings with gradient weights,
-// boundary edges with what they are. Source: T. J. Barth and D. C. Jespersen, "The design and application of
-// upwind schemes on unstructured meshes", AIAA paper 89-0366, 1989.
+// A mesh as the flow solver sees it, of triangles and convex quadrilaterals: edges with the normals of the
+// median dual, rings with gradient weights, boundary edges with what they are. Source: T. J. Barth and D. C.
+// Jespersen, "The design and application of upwind schemes on unstructured meshes", AIAA paper 89-0366, 1989.
 
 #include <array>
 #include <cstdint>
@@ -31,9 +31,10 @@ struct RingEntry {
 };
 
 struct BoundaryEdge {
-  std::uint32_t a, b;   // the domain on the left
-  Point normal;         // outwards; its length is the edge's
-  std::uint32_t patch;  // index in FlowMesh::patches()
+  std::uint32_t a, b;       // the domain on the left
+  Point normal;             // outwards; its length is the edge's
+  std::uint32_t patch;      // index in FlowMesh::patches()
+  bool of_triangle = true;  // or of a quadrilateral
   // Outer normals of the halves at a and at b, which meet in the edge's middle or, on walls, beside it: see
   // wall_bulge.h.
   Point half[2] = {};
@@ -45,22 +46,30 @@ struct Extent {
   std::uint32_t a = no_index, b = no_index;
 };
 
+// Three or four corners, counter-clockwise; the fourth of a triangle is no_index.
+struct Cell : std::array<std::uint32_t, 4> {
+  std::uint32_t corners() const { return back() == no_index ? 3 : 4; }
+};
+
 class FlowMesh {
  public:
   // Every boundary edge of the mesh belongs to a named boundary: to one of `patches`, or else to a wall that
   // the flow slips along. Edges with the domain on both sides are no boundary. Throws Error (argument) naming
   // `source` where the mesh lacks the boundary of a patch (it may do without a far field if there are other
-  // patches), an edge has no name, a point is of no triangle, or a triangle is not counter-clockwise.
-  FlowMesh(const FrozenMesh& mesh, std::vector<Patch> patches, const std::string& source);
+  // patches), an edge has no name, a point is of no cell, or a cell is not counter-clockwise and convex.
+  FlowMesh(std::vector<Point> points, std::vector<Cell> cells, const std::vector<FrozenBoundary>& boundaries,
+           std::vector<Patch> patches, const std::string& source);
+  FlowMesh(const FrozenMesh& mesh, std::vector<Patch> patches, const std::string& source)
+      : FlowMesh(mesh.points, cells_of(mesh.triangles), mesh.boundaries, std::move(patches), source) {}
   FlowMesh(const FrozenMesh& mesh, const std::string& farfield, const std::string& source)
       : FlowMesh(mesh, std::vector<Patch>{{farfield, FarField{}}}, source) {}
   // Throws Error (argument) where the far field is the only boundary.
   void require_walls(const std::string& source) const;
   // Throws Error (argument) where the far field, or a part of it, bounds a hole of the domain.
   void require_farfield_around(const std::string& source) const;
-  // Throws Error (argument) where a triangle is clockwise or has next to no area.
-  void require_triangles(const std::string& source) const;
-  // The same triangles with vertices elsewhere.
+  // Throws Error (argument) where a cell is clockwise, not convex or has next to no area.
+  void require_cells(const std::string& source) const;
+  // The same cells with vertices elsewhere.
   void move(std::span<const Point> points);
 
   bool has_farfield() const { return has_farfield_; }
@@ -91,15 +100,19 @@ class FlowMesh {
   // Those that were given, in their order, then walls.
   const std::vector<Patch>& patches() const { return patches_; }
   const Patch& patch(const BoundaryEdge& edge) const { return patches_[edge.patch]; }
-  bool on_wall(std::size_t v) const { return on_wall_[v]; }
-  const Extent& extent() const { return extent_; }  // of the walls: see wall_extent.h
-  const std::vector<std::array<std::uint32_t, 3>>& triangles() const { return triangles_; }
+  bool one_sided(std::size_t v) const { return one_sided_[v]; }  // whether a patch of it is
+  const Extent& extent() const { return extent_; }               // of the walls: see wall_extent.h
+  const std::vector<Cell>& cells() const { return cells_; }
+  static std::vector<Cell> cells_of(std::span<const std::array<std::uint32_t, 3>> triangles);
+  std::vector<std::array<std::uint32_t, 3>> triangles() const;  // quadrilaterals in halves
 
  private:
   void make_edges();
-  void make_boundary(const FrozenMesh& mesh, const std::string& source);
+  void make_boundary(const std::vector<FrozenBoundary>& boundaries, const std::string& source);
   void link_walls();
   void measure();
+  double corner_area(const Cell& cell, std::uint32_t corner) const;
+  std::uint32_t ring_entry(std::uint32_t v, std::uint32_t edge) const;
   void bend_walls();
   void add_boundary_slopes(const Slopes& slopes, std::vector<Point>& points) const;
   void add_inner_slopes(const Slopes& slopes, std::vector<Point>& points) const;
@@ -108,12 +121,13 @@ class FlowMesh {
   T bulge(std::size_t i) const;
 
   std::vector<Point> points_;
-  std::vector<std::array<std::uint32_t, 3>> triangles_;
-  std::vector<std::array<std::uint32_t, 3>> triangle_edges_;  // edge i joins corners i and i + 1
+  std::vector<Cell> cells_;
+  std::vector<std::array<std::uint32_t, 4>> cell_edges_;  // edge i joins corner i and the next one
   std::vector<DualEdge> edges_;
   std::vector<std::uint32_t> ring_start_;
   std::vector<RingEntry> ring_;
   std::vector<double> areas_;
+  std::vector<double> around_;  // areas of the triangles of corners and their neighbours, around each vertex
   std::vector<BoundaryEdge> boundary_;
   // Per boundary edge: the wall's vertices before a and after b (no_index: none, or the edge is of no wall),
   // and the edge of edges_ that it is.
@@ -121,7 +135,7 @@ class FlowMesh {
     std::uint32_t before = no_index, after = no_index, edge = no_index;
   };
   std::vector<WallLink> links_;
-  std::vector<bool> on_wall_;
+  std::vector<bool> one_sided_;
   std::vector<Patch> patches_;
   bool has_farfield_ = false;
   Extent extent_;
@@ -140,7 +154,8 @@ T FlowMesh::bulge(std::size_t i) const {
       p[2 * k] = T::variable(at.x, 2 * k), p[2 * k + 1] = T::variable(at.y, 2 * k + 1);
     }
   }
-  return wall_bulge<T>(p, corners[0] != no_index, corners[3] != no_index);
+  return bulge_factor(boundary_[i].of_triangle) *
+         wall_bulge<T>(p, corners[0] != no_index, corners[3] != no_index);
 }
 
 }  // namespace remodel::flow

@@ -47,38 +47,35 @@ void FlowMesh::add_boundary_slopes(const Slopes& slopes, std::vector<Point>& poi
 void FlowMesh::add_inner_slopes(const Slopes& slopes, std::vector<Point>& points) const {
   std::vector<double> by_around(size(), 0.0);
   std::vector<Point> by_sum = slopes.weight;  // by the sum before it is divided
-  for (std::size_t v = 0; v < size(); ++v) {
-    const double around = 3.0 * areas_[v];
+  for (std::size_t v = 0; v < size(); ++v)
     for (std::uint32_t i = ring_start_[v]; i < ring_start_[v + 1]; ++i) {
-      by_around[v] -= dot(slopes.weight[i], ring_[i].weight) / around;
-      by_sum[i] = (1.0 / around) * slopes.weight[i];
+      by_around[v] -= dot(slopes.weight[i], ring_[i].weight) / around_[v];
+      by_sum[i] = (1.0 / around_[v]) * slopes.weight[i];
     }
-  }
-  const auto entry_of = [&](std::uint32_t v, std::uint32_t edge) {
-    std::uint32_t i = ring_start_[v];
-    while (ring_[i].edge != edge) ++i;
-    return i;
-  };
-  for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    const auto& corners = triangles_[t];
-    const Point p[3] = {points_[corners[0]], points_[corners[1]], points_[corners[2]]};
-    const double by_area = by_around[corners[0]] + by_around[corners[1]] + by_around[corners[2]];
-    Point by[3] = {};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-      by[i] = by[i] + (0.5 * by_area) * Point{p[j].y - p[k].y, p[k].x - p[j].x};
-      const std::uint32_t e = triangle_edges_[t][i];
-      const double sign = corners[i] == edges_[e].a ? 1.0 : -1.0;
+  for (std::size_t t = 0; t < cells_.size(); ++t) {
+    const Cell& cell = cells_[t];
+    const std::uint32_t n = cell.corners();
+    Point p[4], by[4] = {};
+    for (std::uint32_t i = 0; i < n; ++i) p[i] = points_[cell[i]];
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const std::uint32_t j = (i + 1) % n, before = (i + n - 1) % n, after = (j + 1) % n;
+      // The area of the triangle before, i, j.
+      const double by_area = 0.5 * by_around[cell[i]];
+      const auto turned = [&](Point d) { return by_area * Point{d.y, -d.x}; };
+      by[i] = by[i] + turned(p[j] - p[before]), by[j] = by[j] + turned(p[before] - p[i]);
+      by[before] = by[before] + turned(p[i] - p[j]);
+      const std::uint32_t e = cell_edges_[t][i];
+      const double sign = cell[i] == edges_[e].a ? 1.0 : -1.0;
       const Point by_d = sign * turned_back(slopes.normal[e]);
-      for (Point& corner : by) corner = corner + (1.0 / 3.0) * by_d;
+      for (std::uint32_t k = 0; k < n; ++k) by[k] = by[k] + (1.0 / n) * by_d;
       by[i] = by[i] - 0.5 * by_d, by[j] = by[j] - 0.5 * by_d;
       // weights are half of {-side.y, side.x}
-      const Point at_i = by_sum[entry_of(corners[i], e)], at_j = by_sum[entry_of(corners[j], e)];
+      const Point at_i = by_sum[ring_entry(cell[i], e)], at_j = by_sum[ring_entry(cell[j], e)];
       const Point by_side_j = {0.5 * at_i.y, -0.5 * at_i.x}, by_side_i = {0.5 * at_j.y, -0.5 * at_j.x};
-      by[i] = by[i] + by_side_j, by[k] = by[k] - by_side_j;
-      by[k] = by[k] + by_side_i, by[j] = by[j] - by_side_i;
+      by[i] = by[i] + by_side_j, by[before] = by[before] - by_side_j;
+      by[after] = by[after] + by_side_i, by[j] = by[j] - by_side_i;
     }
-    for (std::size_t i = 0; i < 3; ++i) points[corners[i]] = points[corners[i]] + by[i];
+    for (std::uint32_t i = 0; i < n; ++i) points[cell[i]] = points[cell[i]] + by[i];
   }
 }
 

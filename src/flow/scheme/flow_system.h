@@ -93,7 +93,9 @@ BoundaryInputs<T> FlowSystem::boundary_inputs(const State& state, const Boundary
           .place_there = mesh_.points()[there],
           .mach = T(stream_.mach),
           .alpha = T(state.augmented[1]),
-          .lift = T(state.augmented[0])};
+          .lift = T(state.augmented[0]),
+          .near = edge.of_triangle ? 5.0 / 6.0 : 1.0,
+          .far = edge.of_triangle ? 1.0 / 6.0 : 0.0};
 }
 
 }  // namespace remodel::flow

@@ -29,8 +29,8 @@ inline constexpr double kappa = 1.0 / 3.0;
 // loses more by the clipped suction peak than it gains.
 enum class EdgeEnd { inner, wall, beside_wall };
 inline EdgeEnd end_of(const FlowMesh& mesh, std::uint32_t here, std::uint32_t there) {
-  if (mesh.on_wall(here) == mesh.on_wall(there)) return EdgeEnd::inner;
-  return mesh.on_wall(here) ? EdgeEnd::wall : EdgeEnd::beside_wall;
+  if (mesh.one_sided(here) == mesh.one_sided(there)) return EdgeEnd::inner;
+  return mesh.one_sided(here) ? EdgeEnd::wall : EdgeEnd::beside_wall;
 }
 // The vertices whose gradients the upwind differences at both ends are of.
 inline std::array<std::uint32_t, 2> gradient_sources(const FlowMesh& mesh, const DualEdge& edge) {

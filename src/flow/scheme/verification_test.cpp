@@ -64,13 +64,7 @@ FrozenMesh ringleb_mesh(std::uint32_t n, double inner) {
   for (std::uint32_t j = 0; j < m; ++j)
     for (std::uint32_t i = 0; i < n; ++i) {
       const std::uint32_t a = at(i, j), b = at(i + 1, j), c = at(i + 1, j + 1), d = at(i, j + 1);
-      if ((i + j) % 2 == 0) {
-        mesh.triangles.push_back({a, b, c});
-        mesh.triangles.push_back({a, c, d});
-      } else {
-        mesh.triangles.push_back({a, b, d});
-        mesh.triangles.push_back({b, c, d});
-      }
+      test::add_cell(mesh, a, b, c, d, (i + j) % 2 == 0);
     }
   mesh.boundaries = {{"wall", {}}, {"farfield", {}}};
   for (std::uint32_t j = 0; j < m; ++j) {
@@ -194,13 +188,7 @@ FrozenMesh uneven_square(std::uint32_t n) {
   for (std::uint32_t j = 0; j < n; ++j)
     for (std::uint32_t i = 0; i < n; ++i) {
       const std::uint32_t a = at(i, j), b = at(i + 1, j), c = at(i + 1, j + 1), d = at(i, j + 1);
-      if (random() % 2 == 0) {
-        mesh.triangles.push_back({a, b, c});
-        mesh.triangles.push_back({a, c, d});
-      } else {
-        mesh.triangles.push_back({a, b, d});
-        mesh.triangles.push_back({b, c, d});
-      }
+      test::add_cell(mesh, a, b, c, d, random() % 2 == 0);
     }
   mesh.boundaries = {{"farfield", {}}};
   for (std::uint32_t i = 0; i < n; ++i) {
@@ -261,13 +249,7 @@ FrozenMesh cylinder_mesh(std::uint32_t n, bool tilt) {
   for (std::uint32_t i = 0; i < n; ++i) {
     for (std::uint32_t j = 0; j < m; ++j) {
       const std::uint32_t a = at(i, j), b = at(i, j + 1), c = at(i + 1, j + 1), d = at(i + 1, j);
-      if (tilt || (i < n / 2) == (j % 2 == 0)) {
-        mesh.triangles.push_back({a, b, c});
-        mesh.triangles.push_back({a, c, d});
-      } else {
-        mesh.triangles.push_back({a, b, d});
-        mesh.triangles.push_back({b, c, d});
-      }
+      test::add_cell(mesh, a, b, c, d, tilt || (i < n / 2) == (j % 2 == 0));
     }
     mesh.boundaries[0].edges.push_back({at(i + 1, 0), at(i, 0)});
     mesh.boundaries[1].edges.push_back({at(i, m), at(i + 1, m)});

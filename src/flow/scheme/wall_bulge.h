@@ -2,7 +2,8 @@
 
 // How far walls bulge beyond the chords of their edges. Fluxes through the halves of a chord, at weights 5/6
 // and 1/6 of its ends, are those of an exact linear scheme where its middle is moved by h^2 / 6R (not by the
-// h^2 / 8R that a circle is away): docs/notebook/flow_walls.md.
+// h^2 / 8R that a circle is away): docs/notebook/flow_walls.md. At the weights 1 and 0 of quadrilaterals it
+// is h^2 / 4R.
 
 #include <array>
 #include <cmath>
@@ -10,6 +11,10 @@
 #include "flow/physics/dual.h"
 
 namespace remodel::flow {
+
+inline double bulge_factor(bool of_triangle) {
+  return of_triangle ? 1.0 : 1.5;
+}
 
 // The outward move of the middle of the edge from a to b over the edge's length, h / 6R: `p` has the
 // coordinates of the wall's vertices before a, a, b and after b, the domain on the left. 1 / R is the mean of

@@ -45,9 +45,9 @@ double forcing(double residual, double target) {
 }  // namespace
 
 BlockRows& WholeMatrix::of(const FlowSystem& system) {
-  if (triangles_ != system.mesh().triangles()) {
+  if (cells_ != system.mesh().cells()) {
     matrix_ = system.pattern();
-    triangles_ = system.mesh().triangles();
+    cells_ = system.mesh().cells();
   }
   return matrix_;
 }

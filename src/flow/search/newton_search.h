@@ -63,14 +63,14 @@ struct SearchRecord {
 // The kind of factors that serve for several solves.
 FactorKind lasting_kind(const FlowOptions& options);
 
-// The whole matrix, whose pattern is kept while a mesh has the same triangles.
+// The whole matrix, whose pattern is kept while a mesh has the same cells.
 class WholeMatrix {
  public:
   BlockRows& of(const FlowSystem& system);
 
  private:
   BlockRows matrix_;
-  std::vector<std::array<std::uint32_t, 3>> triangles_;
+  std::vector<Cell> cells_;
 };
 
 // Searches on one mesh, with factors that are kept from one to the next.

@@ -16,8 +16,8 @@ struct BoundaryInputs {
   PlaneVector<T> place_here, place_there;  // of both vertices
   T mach, alpha;                           // of the stream, radians
   T lift;                                  // coefficient of the far field's vortex
-  // Weights of both in the state of the half. On triangles 5/6 and 1/6 keep fluxes that are linear exact: H.
-  // Nishikawa, J. Comput. Phys. 281 (2015), section 3.
+  // Weights of both in the state of the half, by which fluxes that are linear are exact: 5/6 and 1/6 on
+  // triangles, 1 and 0 on quadrilaterals. H. Nishikawa, J. Comput. Phys. 281 (2015), section 3.
   double near = 5.0 / 6.0, far = 1.0 / 6.0;
 
   Unknowns<T> mean() const {

@@ -13,8 +13,9 @@
 namespace remodel::flow {
 
 // Each has `kind`, what it is called in messages; `solid`, whether it is the wall of a body, whose edges the
-// mesh bends, whose pressures are forces and beside which gradients are one-sided; `open`, whether the gas
-// that passes it is reported; and `flux`, out of the domain through the half of an edge.
+// mesh bends and whose pressures are forces; `one_sided`, whether gradients at it are too one-sided to
+// reconstruct with; `open`, whether the gas that passes it is reported; and `flux`, out of the domain through
+// the half of an edge.
 using BoundaryCondition = std::variant<SlipWall, FarField, Inlet, Outlet>;
 
 struct Patch {
@@ -23,6 +24,9 @@ struct Patch {
 
   bool solid() const {
     return std::visit([](const auto& of) { return of.solid; }, condition);
+  }
+  bool one_sided() const {
+    return std::visit([](const auto& of) { return of.one_sided; }, condition);
   }
   bool open() const {
     return std::visit([](const auto& of) { return of.open; }, condition);
