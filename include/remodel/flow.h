@@ -206,11 +206,13 @@ struct FlowGradient {
   double cl = 0.0;         // by the lift that is given; 0 where the angle is
 };
 
-// A function of the flow, by its derivatives at fixed flow: of walls' pressures, points and the Mach number.
+// A function of the flow, by its derivatives at fixed flow: of pressures, points and the Mach number, and of
+// densities and velocities where these are not empty.
 struct FlowFunctional {
   std::vector<double> pressure;  // per point of the frozen mesh, in the units of FlowResult::pressure
   std::vector<Point> points;     // likewise
   double mach = 0.0;
+  std::vector<double> density = {}, velocity_x = {}, velocity_y = {};  // as pressure, or empty
 };
 
 // Which derivatives are wanted. Each takes a row of solves of its own.

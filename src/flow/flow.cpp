@@ -8,8 +8,10 @@
 #include <nanoflann.hpp>
 
 #include "base/stopwatch.h"
-#include "flow/coarse_start.h"
 #include "flow/flow_warnings.h"
+#include "flow/scheme/forces.h"
+#include "flow/search/chord.h"
+#include "flow/search/coarse_start.h"
 #include "flow/solution.h"
 #include "remodel/error.h"
 
@@ -75,13 +77,6 @@ void require(bool holds, const char* what, double found, const char* expected) {
 
 constexpr double degree = M_PI / 180.0;
 
-std::vector<std::string> names_of_openings(const FlowOptions& options) {
-  std::vector<std::string> names;
-  for (const FlowInlet& inlet : options.inlets) names.push_back(inlet.name);
-  for (const FlowOutlet& outlet : options.outlets) names.push_back(outlet.name);
-  return names;
-}
-
 class Points {
  public:
   explicit Points(const std::vector<Point>& points) : points_(points), tree_(2, *this) {}
@@ -116,8 +111,9 @@ std::array<double, 3> weights_at(const FlowMesh& mesh, const std::array<std::uin
 }
 
 void require_openings(const FlowConditions& conditions, const FlowOptions& options) {
-  std::vector<std::string> names = names_of_openings(options);
-  names.push_back(options.farfield);
+  std::vector<std::string> names = {options.farfield};
+  for (const FlowInlet& inlet : options.inlets) names.push_back(inlet.name);
+  for (const FlowOutlet& outlet : options.outlets) names.push_back(outlet.name);
   std::sort(names.begin(), names.end());
   const auto twice = std::adjacent_find(names.begin(), names.end());
   if (twice != names.end())
@@ -158,7 +154,11 @@ void require_possible(const FlowConditions& conditions, const FlowOptions& optio
 
 FlowMesh dual_of(const FrozenMesh& mesh, const FlowConditions& conditions, const FlowOptions& options,
                  const std::string& source) {
-  FlowMesh dual(mesh, options.farfield, source, names_of_openings(options));
+  std::vector<Patch> patches = {{options.farfield, FarField{}}};
+  for (const FlowInlet& inlet : options.inlets)
+    patches.push_back({inlet.name, Inlet{inlet.total_pressure, inlet.total_temperature}});
+  for (const FlowOutlet& outlet : options.outlets) patches.push_back({outlet.name, Outlet{outlet.pressure}});
+  FlowMesh dual(mesh, std::move(patches), source);
   dual.require_walls(source);
   dual.require_farfield_around(source);
   require_ways(dual, conditions, options, source);
@@ -172,8 +172,7 @@ void require_lower_pressures(bool has_farfield, const FlowConditions& conditions
                              const FlowOptions& options) {
   double total = has_farfield ? 1.0 : 0.0;
   for (const FlowInlet& inlet : options.inlets) total = std::max(total, inlet.total_pressure);
-  total *= std::pow(1.0 + 0.5 * (gas_gamma - 1.0) * conditions.mach * conditions.mach,
-                    gas_gamma / (gas_gamma - 1.0));
+  total *= gas_gamma * total_state(conditions.mach).pressure;
   char least[32];
   std::snprintf(least, sizeof least, "%.6g", total);
   for (const FlowOutlet& outlet : options.outlets)
@@ -200,16 +199,6 @@ void require_ways(const FlowMesh& dual, const FlowConditions& conditions, const 
 
 Stream stream_of(const FlowConditions& conditions, const FlowOptions& options, const FlowMesh& dual) {
   const double extent = dual.extent().length;
-  const double factor = 1.0 + 0.5 * (gas_gamma - 1.0) * conditions.mach * conditions.mach;
-  const double total_pressure = std::pow(factor, gas_gamma / (gas_gamma - 1.0)) / gas_gamma;
-  std::vector<Opening> openings;
-  for (const FlowInlet& inlet : options.inlets)
-    openings.push_back({.name = inlet.name,
-                        .is_inlet = true,
-                        .total_pressure = inlet.total_pressure * total_pressure,
-                        .total_sound_square = inlet.total_temperature * factor});
-  for (const FlowOutlet& outlet : options.outlets)
-    openings.push_back({.name = outlet.name, .is_inlet = false, .pressure = outlet.pressure / gas_gamma});
   return {.mach = conditions.mach,
           .alpha = conditions.alpha_deg * degree,
           .lift = conditions.cl ? std::optional(*conditions.cl * conditions.reference_length / extent)
@@ -218,60 +207,60 @@ Stream stream_of(const FlowConditions& conditions, const FlowOptions& options, c
           .length = extent,
           .reference_length = conditions.reference_length,
           .vortex = options.vortex,
-          .limiter = options.limiter,
-          .openings = std::move(openings)};
+          .limiter = options.limiter};
 }
 
-FlowResult result_of(const Euler& euler, const State& state, const Search& search, FlowStart start) {
+FlowResult result_of(const FlowSystem& system, const State& state, const SearchRecord& record,
+                     FlowStart start) {
   FlowResult result;
-  result.status = search.status;
-  result.reason = search.reason;
-  result.mach = euler.stream().mach;
-  result.alpha_deg = state.border[1] / degree;
-  const double scale = reported_length(euler.stream());
-  const Coefficients sum = euler.coefficients(state);
+  result.status = record.status;
+  result.reason = record.reason;
+  result.mach = system.stream().mach;
+  result.alpha_deg = state.augmented[1] / degree;
+  const double scale = reported_length(system.stream());
+  const Coefficients sum = coefficients(system, state);
   result.cl = scale * sum.lift, result.cd = scale * sum.drag, result.cm = scale * scale * sum.moment;
-  for (std::size_t i = 0; i < euler.mesh().bodies().size(); ++i) {
-    const Coefficients part = euler.coefficients(state, static_cast<std::int32_t>(i));
-    result.bodies.push_back(
-        {euler.mesh().bodies()[i], scale * part.lift, scale * part.drag, scale * scale * part.moment});
+  const std::vector<double> mass_flows = system.mass_flows(state);
+  for (std::uint32_t i = 0; i < mass_flows.size(); ++i) {
+    const Patch& patch = system.mesh().patches()[i];
+    if (patch.open()) result.openings.push_back({patch.name, mass_flows[i]});
+    if (!patch.solid()) continue;
+    const Coefficients part = coefficients(system, state, i);
+    result.bodies.push_back({patch.name, scale * part.lift, scale * part.drag, scale * scale * part.moment});
   }
-  const std::vector<double> mass_flows = euler.mass_flows(state);
-  for (std::size_t i = 0; i < mass_flows.size(); ++i)
-    result.openings.push_back({euler.stream().openings[i].name, mass_flows[i]});
-  Warnings warnings = warnings_of(euler.mesh(), result.mach, result.alpha_deg);
+  Warnings warnings = warnings_of(system.mesh(), result.mach, result.alpha_deg);
   result.warnings = std::move(warnings.sentences);
   result.lift_determined = warnings.lift_determined;
   result.start = start;
-  result.residual = search.residual;
-  result.history = search.history;
-  result.newton_steps = search.newton_steps;
-  result.factorisations = search.factorisations;
-  result.krylov_iterations = search.iterations;
-  result.solver = search.whole_factors ? FlowSolver::lu : FlowSolver::gmres;
-  result.gmres_iterations = search.gmres_iterations;
-  result.memory_mb = search.memory_mb;
-  for (const Primitive<double>& q : state.q) {
-    result.density.push_back(q[0]);
-    result.velocity_x.push_back(q[1]);
-    result.velocity_y.push_back(q[2]);
-    result.pressure.push_back(q[3]);
+  result.residual = record.residual;
+  result.history = record.history;
+  result.newton_steps = record.newton_steps;
+  result.factorisations = record.factorisations;
+  result.krylov_iterations = record.iterations;
+  result.solver = record.whole_factors ? FlowSolver::lu : FlowSolver::gmres;
+  result.gmres_iterations = record.gmres_iterations;
+  result.memory_mb = record.memory_mb;
+  for (const Unknowns<double>& q : state.q) {
+    result.density.push_back(density(q));
+    result.velocity_x.push_back(velocity_x(q));
+    result.velocity_y.push_back(velocity_y(q));
+    result.pressure.push_back(pressure(q));
   }
   return result;
 }
 
-std::vector<Primitive<double>> interpolated(const FlowMesh& mesh, const std::vector<Primitive<double>>& state,
-                                            std::span<const Point> at) {
+Vector interpolated(const FlowMesh& mesh, const Vector& state, std::span<const Point> at) {
+  const std::vector<std::array<std::uint32_t, 3>> triangles = mesh.triangles();
   std::vector<std::uint32_t> start(mesh.size() + 1, 0);
-  for (const auto& corners : mesh.triangles())
+  for (const auto& corners : triangles)
     for (const std::uint32_t v : corners) ++start[v + 1];
   for (std::size_t v = 0; v < mesh.size(); ++v) start[v + 1] += start[v];
   std::vector<std::uint32_t> around(start.back()), fill(start.begin(), start.end() - 1);
-  for (std::uint32_t t = 0; t < mesh.triangles().size(); ++t)
-    for (const std::uint32_t v : mesh.triangles()[t]) around[fill[v]++] = t;
+  for (std::uint32_t t = 0; t < triangles.size(); ++t)
+    for (const std::uint32_t v : triangles[t]) around[fill[v]++] = t;
 
   const Points points(mesh.points());
-  std::vector<Primitive<double>> result;
+  Vector result;
   for (const Point p : at) {
     const std::size_t near = points.nearest(p);
     // The triangle that p lies in is mostly one around the nearest vertex, or next to one of these.
@@ -279,16 +268,16 @@ std::vector<Primitive<double>> interpolated(const FlowMesh& mesh, const std::vec
     std::array<double, 3> weights = {1.0, 0.0, 0.0};
     std::uint32_t best_triangle = around[start[near]];
     for (std::uint32_t i = start[near]; i < start[near + 1]; ++i) {
-      const std::array<double, 3> w = weights_at(mesh, mesh.triangles()[around[i]], p);
+      const std::array<double, 3> w = weights_at(mesh, triangles[around[i]], p);
       const double least = std::min({w[0], w[1], w[2]});
       if (least > best) best = least, weights = w, best_triangle = around[i];
     }
     double total = 0.0;
     for (double& w : weights) w = std::clamp(w, 0.0, 1.0), total += w;
-    Primitive<double> value = {};
+    Unknowns<double> value = {};
     for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t k = 0; k < 4; ++k)
-        value[k] += weights[i] / total * state[mesh.triangles()[best_triangle][i]][k];
+      for (std::size_t k = 0; k < unknown_count; ++k)
+        value[k] += weights[i] / total * state[triangles[best_triangle][i]][k];
     result.push_back(value);
   }
   return result;
@@ -304,18 +293,18 @@ FlowResult cold_flow(const FrozenMesh& mesh, const Mesh* living, const FlowCondi
   const Stopwatch watch;
   flow::require_possible(conditions, options);
   const flow::FlowMesh dual = flow::dual_of(mesh, conditions, options, source);
-  const flow::Euler euler(dual, flow::stream_of(conditions, options, dual));
-  const flow::Measure measure(euler);
+  const flow::FlowSystem system(dual, flow::stream_of(conditions, options, dual));
+  const flow::Measure measure(system);
   flow::State state;
-  flow::BlockRows matrix = euler.pattern();
+  flow::WholeMatrix matrix;
   flow::Factors factors;
-  flow::Search search, spent;
+  flow::SearchRecord record, spent;
+  flow::NewtonSearch search(options, matrix, factors, record);
   if (living != nullptr)
-    flow::find_flow_by_meshes(living->domain(), living->options(), euler, measure, conditions, options,
-                              matrix, factors, state, search, spent);
+    flow::search_by_meshes(living->domain(), living->options(), measure, conditions, search, state, spent);
   else
-    flow::find_flow_cold(euler, measure, options, matrix, factors, state, search);
-  FlowResult result = flow::result_of(euler, state, search, FlowStart::cold);
+    search.from_undisturbed_flow(measure, state);
+  FlowResult result = flow::result_of(system, state, record, FlowStart::cold);
   flow::add_coarse(spent, result);
   result.seconds = watch.seconds();
   return result;
@@ -331,6 +320,44 @@ FlowResult solve_flow(const FrozenMesh& mesh, const FlowConditions& conditions, 
 FlowResult solve_flow(const Mesh& mesh, const FlowConditions& conditions, const FlowOptions& options,
                       const std::string& source) {
   return cold_flow(mesh.freeze(), &mesh, conditions, options, source);
+}
+
+FlowResult solve_flow_from(const FrozenMesh& before, const FlowResult& known, const FrozenMesh& mesh,
+                           const FlowConditions& conditions, const FlowOptions& options,
+                           const std::string& source) {
+  const Stopwatch watch;
+  flow::require_possible(conditions, options);
+  const flow::FlowMesh old = flow::dual_of(before, conditions, options, source);
+  const flow::FlowMesh dual = flow::dual_of(mesh, conditions, options, source);
+  if (known.density.size() != old.size())
+    throw Error(ErrorCode::argument, source,
+                "found a flow at " + std::to_string(known.density.size()) + " points, expected one at the " +
+                    std::to_string(old.size()) + " of its mesh");
+  const flow::FlowSystem system(dual, flow::stream_of(conditions, options, dual));
+  const flow::Measure measure(system);
+  flow::Vector q(old.size());
+  for (std::size_t v = 0; v < q.size(); ++v)
+    q[v] = {known.density[v], known.velocity_x[v], known.velocity_y[v], known.pressure[v]};
+  flow::State state;
+  state.q = flow::interpolated(old, q, dual.points());
+  state.augmented = {known.cl / flow::reported_length(system.stream()),
+                     conditions.cl ? known.alpha_deg * M_PI / 180.0 : system.stream().alpha};
+
+  flow::WholeMatrix matrix;
+  flow::Factors factors;
+  flow::SearchRecord record;
+  flow::NewtonSearch search(options, matrix, factors, record);
+  FlowStart start = FlowStart::refactored;
+  if (options.solver != FlowSolver::lu ||
+      flow::steps_with_own_factors(measure, search, state) == flow::ChordEnd::slow)
+    search.near(measure, state);
+  if (record.status == FlowStatus::stalled || record.status == FlowStatus::step_limit) {
+    start = FlowStart::cold;
+    search.from_undisturbed_flow(measure, state);
+  }
+  FlowResult result = flow::result_of(system, state, record, start);
+  result.seconds = watch.seconds();
+  return result;
 }
 
 namespace {

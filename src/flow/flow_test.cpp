@@ -197,21 +197,19 @@ TEST(Flow, AFlowThatStallsIsFoundInStages) {
   const FrozenMesh mesh = test::airfoil_mesh("e376", 50).freeze();
   const FlowOptions options = {.tolerance = 1e-10};
   const flow::FlowMesh dual(mesh, "farfield", "e376");
-  const flow::Euler euler(dual, {.mach = 0.823, .alpha = -0.57 * M_PI / 180.0});
-  const flow::Measure measure(euler);
-  flow::BlockRows matrix = euler.pattern();
+  const flow::FlowSystem system(dual, {.mach = 0.823, .alpha = -0.57 * M_PI / 180.0});
+  const flow::Measure measure(system);
+  flow::WholeMatrix matrix;
   flow::Factors factors;
-  flow::State state = euler.uniform();
-  flow::Search straight, search;
-  flow::find_flow(euler, measure, {.cfl = flow::cold_cfl, .patience = flow::usual_patience}, options, matrix,
-                  factors, state, straight);
+  flow::State state = system.uniform();
+  flow::SearchRecord straight, record;
+  flow::NewtonSearch(options, matrix, factors, straight)
+      .run(measure, {.cfl = flow::SearchPolicy::cold_cfl}, state);
   EXPECT_EQ(straight.status, FlowStatus::stalled);
   EXPECT_NE(straight.reason.find("has not halved in 30 Newton steps"), std::string::npos) << straight.reason;
-  flow::find_flow_cold(euler, measure, options, matrix, factors, state, search);
-  EXPECT_EQ(search.status, FlowStatus::converged) << search.reason;
-  flow::Vector residual;
-  flow::Border border;
-  EXPECT_LE(measure(state, residual, border), options.tolerance);  // of the whole scheme, not of a stage
+  flow::NewtonSearch(options, matrix, factors, record).from_undisturbed_flow(measure, state);
+  EXPECT_EQ(record.status, FlowStatus::converged) << record.reason;
+  EXPECT_LE(measure(state).size, options.tolerance);  // of the whole scheme, not of a stage
 }
 
 }  // namespace

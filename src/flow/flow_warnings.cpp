@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "flow/trailing_edge.h"
+#include "flow/potential/trailing_edge.h"
 
 namespace remodel::flow {
 
@@ -46,19 +46,20 @@ std::vector<Outline> bodies_of(const FlowMesh& mesh) {
   std::vector<Outline> bodies;
   for (std::size_t first = 0; first < seen.size(); ++first) {
     Outline body;
-    std::vector<std::int32_t> names;
+    std::vector<std::uint32_t> patches;
     bool is_wall = !seen[first];
     std::size_t i = first;
     for (; i != none && !seen[i]; i = from[mesh.boundary()[i].b]) {
       const BoundaryEdge& edge = mesh.boundary()[i];
       seen[i] = true;
-      is_wall = is_wall && edge.body >= 0;
+      is_wall = is_wall && mesh.patch(edge).solid();
       body.points.push_back(mesh.points()[edge.a]);
-      if (std::find(names.begin(), names.end(), edge.body) == names.end()) names.push_back(edge.body);
+      if (std::find(patches.begin(), patches.end(), edge.patch) == patches.end())
+        patches.push_back(edge.patch);
     }
     if (!is_wall || i != first || doubled_area(body.points) >= 0.0) continue;
-    for (const std::int32_t k : names)
-      body.name += (body.name.empty() ? "" : "+") + mesh.bodies()[static_cast<std::size_t>(k)];
+    for (const std::uint32_t k : patches)
+      body.name += (body.name.empty() ? "" : "+") + mesh.patches()[k].name;
     bodies.push_back(std::move(body));
   }
   return bodies;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "flow/flow_mesh.h"
+#include "flow/scheme/flow_mesh.h"
 #include "remodel/potential_flow.h"
 
 namespace remodel::flow {

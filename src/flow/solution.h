@@ -2,7 +2,7 @@
 
 // From the solver's terms to the public ones, and back.
 
-#include "flow/newton.h"
+#include "flow/search/newton_search.h"
 #include "remodel/flow.h"
 
 namespace remodel::flow {
@@ -17,12 +17,12 @@ FlowMesh dual_of(const FrozenMesh& mesh, const FlowConditions& conditions, const
 void require_ways(const FlowMesh& dual, const FlowConditions& conditions, const FlowOptions& options,
                   const std::string& source);
 Stream stream_of(const FlowConditions& conditions, const FlowOptions& options, const FlowMesh& dual);
-FlowResult result_of(const Euler& euler, const State& state, const Search& search, FlowStart start);
+FlowResult result_of(const FlowSystem& system, const State& state, const SearchRecord& record,
+                     FlowStart start);
 
 // The state of another mesh at these points, interpolated linearly; beyond it that of its nearest triangle.
 // Transfer (remodel/transfer.h) does not serve here: it goes by keys of vertices, and the meshes of
-// find_flow_by_meshes() and solve_flow_from() have no history in common.
-std::vector<Primitive<double>> interpolated(const FlowMesh& mesh, const std::vector<Primitive<double>>& state,
-                                            std::span<const Point> at);
+// search_by_meshes() and solve_flow_from() have no history in common.
+Vector interpolated(const FlowMesh& mesh, const Vector& state, std::span<const Point> at);
 
 }  // namespace remodel::flow

@@ -1,0 +1,79 @@
+#include "flow/linear/factors.h"
+
+#include <algorithm>
+
+#include "flow/linear/gmres.h"
+
+namespace remodel::flow {
+
+namespace {
+
+// Level 2 takes the least time (docs/flow.md, "Memory"). GMRES converges in less than 60 steps with it, and
+// is slow where it begins anew after less than 20.
+constexpr int highest_level = 2, longest_restart = 60, shortest_restart = 20;
+
+}  // namespace
+
+Factored Factors::factor(const BlockRows& matrix, std::array<Vector, augmented_count> augmented,
+                         FactorKind kind, double memory_mb) {
+  Factored outcome = Factored::out_of_memory;
+  if (kind == FactorKind::whole && !too_large(matrix.rows.size())) {
+    incomplete_.forget();
+    outcome = lu_.factor(matrix, memory_mb);
+    if (outcome == Factored::out_of_memory) too_large_ = matrix.rows.size();
+  }
+  if (outcome == Factored::out_of_memory) {
+    lu_.forget();
+    outcome = factor_incompletely(matrix, memory_mb);
+  }
+  if (outcome != Factored::done) return outcome;
+  columns_ = std::move(augmented);
+  for (Vector& column : columns_) solve(column);
+  return outcome;
+}
+
+Factored Factors::factor_incompletely(const BlockRows& matrix, double memory_mb) {
+  const double vector_mb = 1e-6 * gmres_bytes * static_cast<double>(matrix.rows.size());
+  // A level that served this pattern before serves again.
+  int level = incomplete_.is_of(matrix) ? incomplete_.level() : highest_level;
+  for (; level >= 0; --level) {
+    const double room = (memory_mb - incomplete_.analysed_mb(matrix, level)) / vector_mb;
+    const int shortest = level > 0 ? longest_restart / 2 : shortest_restart;
+    if (room < shortest) continue;
+    restart_ = static_cast<int>(std::min(room, double{longest_restart}));
+    return incomplete_.factor(matrix) ? Factored::done : Factored::singular;
+  }
+  incomplete_.forget();
+  return Factored::out_of_memory;
+}
+
+void Factors::solve(Vector& right) {
+  if (whole())
+    lu_.solve(right, 1);
+  else
+    incomplete_.solve(right);
+}
+
+void Factors::solve_transposed(Vector& right) {
+  if (whole())
+    lu_.solve_transposed(right, 1);
+  else
+    incomplete_.solve_transposed(right);
+}
+
+double Factors::memory_mb() const {
+  if (whole() || !incomplete_.ready()) return lu_.memory_mb();
+  return incomplete_.memory_mb() + 1e-6 * gmres_bytes * restart_ * static_cast<double>(columns_[0].size());
+}
+
+// Incomplete factors are made in the time of about ten solves.
+double Factors::factor_work() const {
+  return whole() ? lu_.factor_work() : 10.0 * solve_work();
+}
+
+double Factors::solve_work() const {
+  return whole() ? lu_.solve_work()
+                 : double{unknown_count * unknown_count} * static_cast<double>(incomplete_.blocks());
+}
+
+}  // namespace remodel::flow

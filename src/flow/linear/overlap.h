@@ -1,0 +1,30 @@
+#pragma once
+
+// Where a mesh differs from the one that factors belong to.
+
+#include "flow/linear/augmented.h"
+#include "remodel/ids.h"
+
+namespace remodel::flow {
+
+struct Overlap {
+  std::vector<std::uint32_t> row_of;  // per vertex its row in the factors, no_index if it has none
+  std::size_t rows = 0;               // of the factors
+  std::vector<std::uint32_t> zone;    // vertices with other neighbours and two rings around them, ascending
+
+  // By vertex to by row, and back; 0 where there is no counterpart.
+  Vector to_rows(const Vector& x) const {
+    Vector result(rows);
+    for (std::size_t v = 0; v < x.size(); ++v)
+      if (row_of[v] != no_index) result[row_of[v]] = x[v];
+    return result;
+  }
+  Vector to_vertices(const Vector& x) const {
+    Vector result(row_of.size());
+    for (std::size_t v = 0; v < result.size(); ++v)
+      if (row_of[v] != no_index) result[v] = x[row_of[v]];
+    return result;
+  }
+};
+
+}  // namespace remodel::flow

@@ -1,0 +1,52 @@
+#include "flow/living_flow/last_flow.h"
+
+#include "flow/solution.h"
+#include "remodel/error.h"
+
+namespace remodel::flow {
+
+Keys keys_of(const FrozenMesh& frozen) {
+  if (frozen.vertex_keys.size() != frozen.points.size())
+    throw Error(ErrorCode::argument, "mesh",
+                "found " + std::to_string(frozen.vertex_keys.size()) +
+                    " keys of vertices, expected one for each of " + std::to_string(frozen.points.size()) +
+                    " points");
+  Keys keys;
+  keys.reserve(frozen.vertex_keys.size());
+  for (const std::uint64_t key : frozen.vertex_keys) keys.push_back(VertexKey::of(key));
+  return keys;
+}
+
+KeyTable::KeyTable(const Keys& keys) {
+  for (std::uint32_t i = 0; i < keys.size(); ++i) {
+    const std::uint32_t id = keys[i].id.index;
+    if (id >= at_.size()) at_.resize(id + 1, {no_index, 0});
+    at_[id] = {i, keys[i].generation};
+  }
+}
+
+State LastFlow::carried(const FlowMesh& now, const Keys& now_keys, const Stream& now_stream) const {
+  State carried;
+  carried.augmented = state.augmented;
+  carried.augmented[0] *= stream.length / now_stream.length;
+  if (!now_stream.lift) carried.augmented[1] = now_stream.alpha;
+  const KeyTable table(keys);
+  std::vector<std::uint32_t> fresh;
+  std::vector<Point> places;
+  carried.q.resize(now.size());
+  for (std::uint32_t v = 0; v < now.size(); ++v) {
+    const std::uint32_t old = table.find(now_keys[v]);
+    if (old != no_index) {
+      carried.q[v] = state.q[old];
+    } else {
+      fresh.push_back(v);
+      places.push_back(now.points()[v]);
+    }
+  }
+  if (fresh.empty()) return carried;
+  const Vector values = interpolated(*mesh, state.q, places);
+  for (std::size_t i = 0; i < fresh.size(); ++i) carried.q[fresh[i]] = values[i];
+  return carried;
+}
+
+}  // namespace remodel::flow

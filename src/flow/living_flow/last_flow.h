@@ -1,0 +1,48 @@
+#pragma once
+
+// The last flow that was found, by the keys of vertices, and what another mesh takes over of it.
+
+#include <memory>
+
+#include "flow/scheme/flow_system.h"
+#include "remodel/frozen_mesh.h"
+#include "remodel/ids.h"
+
+namespace remodel::flow {
+
+using Keys = std::vector<VertexKey>;
+
+// Throws Error (argument) where points have no keys.
+Keys keys_of(const FrozenMesh& frozen);
+
+// Vertices found by their keys.
+class KeyTable {
+ public:
+  KeyTable() = default;
+  explicit KeyTable(const Keys& keys);
+  // The position among the keys; no_index if it is none of them.
+  std::uint32_t find(VertexKey key) const {
+    if (key.id.index >= at_.size() || at_[key.id.index].generation != key.generation) return no_index;
+    return at_[key.id.index].position;
+  }
+
+ private:
+  struct Place {
+    std::uint32_t position, generation;
+  };
+  std::vector<Place> at_;
+};
+
+struct LastFlow {
+  std::shared_ptr<const FlowMesh> mesh;  // none: no flow was found yet
+  Keys keys;
+  State state;
+  Stream stream;
+
+  bool found() const { return mesh != nullptr; }
+  // The state on another mesh: values at vertices that are there still are kept, those at new ones
+  // interpolated.
+  State carried(const FlowMesh& now, const Keys& now_keys, const Stream& now_stream) const;
+};
+
+}  // namespace remodel::flow

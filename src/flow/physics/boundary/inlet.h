@@ -1,0 +1,44 @@
+#pragma once
+
+// Gas enters along the normal with a given total pressure and total temperature. Source: J.-R. Carlson,
+// "Inflow/outflow boundary conditions with application to FUN3D", NASA TM-2011-217181.
+
+#include "flow/physics/boundary/inputs.h"
+
+namespace remodel::flow {
+
+struct Inlet {
+  static constexpr const char* kind = "inlet or outlet";
+  static constexpr bool solid = false, one_sided = false, open = true;
+  double total_pressure = 1.0, total_temperature = 1.0;  // parts of the stream's
+
+  template <class T>
+  Fluxes<T> flux(const BoundaryInputs<T>& in, const Stream&) const {
+    const Unknowns<T> at = state(in);
+    return roe_flux<T>(at, at, in.half);  // of one state: its own flux
+  }
+
+ private:
+  // The wave that leaves the domain is the inner state's.
+  template <class T>
+  Unknowns<T> state(const BoundaryInputs<T>& in) const {
+    using std::pow, std::sqrt;
+    constexpr double g = gas_gamma - 1.0, a = 1.0 + 2.0 / g;
+    const Unknowns<T> inside = in.mean();
+    const TotalState<T> total = total_state(in.mach);
+    const T whole_pressure = total_pressure * total.pressure;
+    const T sound_square = total_temperature * total.sound_square;
+    const auto [nx, ny] = in.unit_normal();
+    const T wave = velocity_x(inside) * nx + velocity_y(inside) * ny +
+                   (2.0 / g) * sqrt(gas_gamma * pressure(inside) / density(inside));
+    // c^2 + g/2 v^2 = sound_square where -v + 2 c / g = wave.
+    T root = a * sound_square - 0.5 * g * (wave * wave);
+    if (!(value_of(root) > 0.0)) root = 1e-12 * sound_square;
+    const T c = (wave + sqrt(root)) / a;
+    const T speed = (2.0 / g) * c - wave;
+    const T p = whole_pressure * pow(c * c / sound_square, gas_gamma / g);
+    return {gas_gamma * p / (c * c), -nx * speed, -ny * speed, p};
+  }
+};
+
+}  // namespace remodel::flow

@@ -1,0 +1,44 @@
+#pragma once
+
+// The patches of a boundary. A condition is one file beside this one and a row in the variant.
+
+#include <string>
+#include <variant>
+
+#include "flow/physics/boundary/far_field.h"
+#include "flow/physics/boundary/inlet.h"
+#include "flow/physics/boundary/outlet.h"
+#include "flow/physics/boundary/slip_wall.h"
+
+namespace remodel::flow {
+
+// Each has `kind`, what it is called in messages; `solid`, whether it is the wall of a body, whose edges the
+// mesh bends and whose pressures are forces; `one_sided`, whether gradients at it are too one-sided to
+// reconstruct with; `open`, whether the gas that passes it is reported; and `flux`, out of the domain through
+// the half of an edge.
+using BoundaryCondition = std::variant<SlipWall, FarField, Inlet, Outlet>;
+
+struct Patch {
+  std::string name;
+  BoundaryCondition condition;
+
+  bool solid() const {
+    return std::visit([](const auto& of) { return of.solid; }, condition);
+  }
+  bool one_sided() const {
+    return std::visit([](const auto& of) { return of.one_sided; }, condition);
+  }
+  bool open() const {
+    return std::visit([](const auto& of) { return of.open; }, condition);
+  }
+  const char* kind() const {
+    return std::visit([](const auto& of) { return of.kind; }, condition);
+  }
+  bool is_farfield() const { return std::holds_alternative<FarField>(condition); }
+  template <class T>
+  Fluxes<T> flux(const BoundaryInputs<T>& in, const Stream& stream) const {
+    return std::visit([&](const auto& of) { return of.flux(in, stream); }, condition);
+  }
+};
+
+}  // namespace remodel::flow

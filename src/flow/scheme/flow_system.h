@@ -1,0 +1,101 @@
+#pragma once
+
+// A steady flow on a median dual, as equations: residual, exact Jacobian, derivatives by the shape. Unknowns
+// are those of physics/state.h at each vertex and two augmented ones, the lift coefficient that the vortex in
+// the far field belongs to and the angle of attack.
+//
+// The scheme: the terms (terms.h) of faces between dual cells, from states and gradients at both ends, where
+// the gradient at a vertex is the area-weighted mean of those of the cells around it; boundary conditions
+// (physics/boundary/patch.h), weakly, at each half of a boundary edge.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "flow/linear/augmented.h"
+#include "flow/scheme/flow_mesh.h"
+#include "flow/scheme/terms.h"
+
+namespace remodel::flow {
+
+struct State {
+  Vector q;                  // per vertex
+  Augmented augmented = {};  // lift coefficient of the vortex; angle of attack, radians
+};
+
+// Derivatives by the vertices' coordinates and by the Mach number of the stream.
+struct ShapeSlope {
+  std::vector<Point> points;
+  double mach = 0.0;
+  double length = 0.0;  // of residuals, by the stream's, which the limiter has
+};
+
+class FlowSystem {
+ public:
+  FlowSystem(const FlowMesh& mesh, const Stream& stream)
+      : mesh_(mesh), stream_(stream), terms_(terms_of(stream)) {}
+
+  const FlowMesh& mesh() const { return mesh_; }
+  const Stream& stream() const { return stream_; }
+  State uniform() const;
+
+  // The flux out of each dual cell. It is not finite where a state is none.
+  void residual(const State& state, Vector& out) const;
+  // Lift of the state minus that of the vortex; alpha, or lift, minus the given one.
+  Augmented augmented_residual(const State& state) const;
+
+  // All vertices, or some, ascending; each with the vertices of its two rings and itself.
+  BlockRows pattern() const;
+  BlockRows pattern(std::vector<std::uint32_t> rows) const;
+  // Derivatives of the residuals of these rows by the unknowns of vertices.
+  void jacobian(const State& state, BlockRows& matrix) const;
+  // Derivatives of all residuals by the augmented unknowns, and of the augmented equations.
+  std::array<Vector, augmented_count> augmented_columns(const State& state) const;
+  AugmentedRows augmented_rows(const State& state) const;
+
+  // The derivative, at this state, of the sum over vertices of weight times residual, for each row of
+  // weights: fluxes are differentiated once.
+  std::vector<ShapeSlope> residual_slopes(const State& state, std::span<const Vector> weights) const;
+
+  // Sum over dual faces of the speed of waves times length: what a time step is bounded by.
+  std::vector<double> wave_speeds(const State& state) const;
+  // Into the domain, through each patch; 0 where it is solid.
+  std::vector<double> mass_flows(const State& state) const;
+
+  // What a term sees of the half of a boundary edge at its first (0) or second end.
+  template <class T>
+  BoundaryInputs<T> boundary_inputs(const State& state, const BoundaryEdge& edge, std::size_t half) const;
+
+ private:
+  std::vector<Unknowns<Point>> gradients(const State& state) const;
+  // gradients: of all vertices, or empty; then they are summed up for this edge alone.
+  FaceInputs<double, double> face_inputs(const State& state, const DualEdge& edge,
+                                         std::span<const Unknowns<Point>> gradients = {}) const;
+  void add_boundary_blocks(const State& state, BlockRows& matrix,
+                           std::span<const std::uint32_t> row_of) const;
+  void add_boundary_slopes(const State& state, const Vector& weight, FlowMesh::Slopes& slopes,
+                           ShapeSlope& result) const;
+
+  const FlowMesh& mesh_;
+  Stream stream_;
+  FaceTerms terms_;
+};
+
+template <class T>
+BoundaryInputs<T> FlowSystem::boundary_inputs(const State& state, const BoundaryEdge& edge,
+                                              std::size_t half) const {
+  const std::uint32_t here = half == 0 ? edge.a : edge.b, there = half == 0 ? edge.b : edge.a;
+  return {.here = unknowns_of<T>(state.q[here]),
+          .there = unknowns_of<T>(state.q[there]),
+          .half = edge.half[half],
+          .normal = edge.normal,
+          .place_here = mesh_.points()[here],
+          .place_there = mesh_.points()[there],
+          .mach = T(stream_.mach),
+          .alpha = T(state.augmented[1]),
+          .lift = T(state.augmented[0]),
+          .near = edge.of_triangle ? 5.0 / 6.0 : 1.0,
+          .far = edge.of_triangle ? 1.0 / 6.0 : 0.0};
+}
+
+}  // namespace remodel::flow

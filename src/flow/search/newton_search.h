@@ -1,0 +1,119 @@
+#pragma once
+
+// Newton's method, globalised by pseudo-transient continuation.
+//
+// One step solves (V / dt + J) dq = -R with the exact Jacobian J and local time steps dt of one CFL number
+// for all vertices (C. T. Kelley and D. E. Keyes, "Convergence analysis of pseudo-transient continuation",
+// SIAM J. Numer. Anal. 35 (1998)). The step is shortened until no density or pressure changes by too much and
+// the residual does not rise beyond bounds; it may rise for a while, as it must while a shock moves (L.
+// Grippo, F. Lampariello and S. Lucidi, SIAM J. Numer. Anal. 23 (1986)). Whole steps let the CFL number grow
+// until there is no pseudo-time any more: then convergence is quadratic, or as fast as GMRES solves.
+//
+// run() is that. What it does not find from undisturbed flow, from_undisturbed_flow() finds by fallbacks:
+// beside(), by short time steps where little is left; in stages, which follow the flow from the scheme of
+// first order to the whole one (homotopy in dissipation: D. A. Brown and D. W. Zingg, J. Comput. Appl. Math.,
+// 2018, doi 10.1016/j.cam.2018.06.036, and references there); and by steps at constant CFL away from states
+// that are nearly steady but none.
+//
+// Linear systems take incomplete factors and GMRES, or whole factors where those fail or options say so. All
+// numbers are in policy.h.
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "flow/linear/factors.h"
+#include "flow/search/measure.h"
+#include "flow/search/policy.h"
+#include "remodel/flow.h"
+
+namespace remodel::flow {
+
+// How pseudo-time goes on.
+struct Pace {
+  double cfl;  // of the first step; doubled and more after each whole step
+  // Newton steps without halving the residual after which the search is stalled.
+  int patience = SearchPolicy::usual_patience;
+  // Switched evolution relaxation (W. A. Mulder and B. van Leer, J. Comput. Phys. 59 (1985)): the CFL number
+  // is at most this times what the residual has fallen by since the start, so that time steps become short
+  // again where it rises. A shock cannot be thrown to and fro for ever.
+  double most = std::numeric_limits<double>::infinity();
+  // Number of initial steps at constant `cfl`, however the residual grows.
+  int constant_cfl_steps = 0;
+  // The search ends at this residual where it is more than the tolerance that was asked for, which is the one
+  // that messages name.
+  double rough = 0.0;
+};
+inline constexpr double no_pseudo_time = std::numeric_limits<double>::infinity();  // as a CFL number
+
+// What a search for a flow has done so far.
+struct SearchRecord {
+  FlowStatus status = FlowStatus::stalled;
+  std::string reason;
+  double residual = 0.0;
+  std::vector<double> history;
+  int newton_steps = 0, factorisations = 0, iterations = 0, gmres_iterations = 0;
+  double memory_mb = 0.0;
+  bool whole_factors = true;
+
+  void interrupt() { status = FlowStatus::interrupted, reason = "interrupted"; }
+  void end_without_factors(Factored outcome, double memory_mb_given);
+};
+
+// The kind of factors that serve for several solves.
+FactorKind lasting_kind(const FlowOptions& options);
+
+// The whole matrix, whose pattern is kept while a mesh has the same cells.
+class WholeMatrix {
+ public:
+  BlockRows& of(const FlowSystem& system);
+
+ private:
+  BlockRows matrix_;
+  std::vector<Cell> cells_;
+};
+
+// Searches on one mesh, with factors that are kept from one to the next.
+class NewtonSearch {
+ public:
+  // What a search leaves in `factors` belongs to its last step.
+  NewtonSearch(const FlowOptions& options, WholeMatrix& matrix, Factors& factors, SearchRecord& record)
+      : options_(options), matrix_(matrix), factors_(factors), record_(record) {}
+
+  const FlowOptions& options() const { return options_; }
+  SearchRecord& record() { return record_; }
+  Factors& factors() { return factors_; }
+
+  // Goes on from `state` to the flow, or to where it ends; the record's status and reason say which.
+  void run(const Measure& measure, const Pace& pace, State& state);
+  // Where the last search has stalled with little residual left: goes on from there, by short time steps
+  // again. All but a stagnation point may be steady by then, and what is gained there is lost by the next
+  // long step.
+  void beside(const Measure& measure, State& state);
+  // From a flow that is near: without pseudo-time where it is very near and that does not stall.
+  void near(const Measure& measure, State& state);
+  // From undisturbed flow, with all fallbacks. A given lift is looked for from the flow at a guess of the
+  // angle, and where that stalls by shorter steps.
+  void from_undisturbed_flow(const Measure& measure, State& state);
+
+  // Jacobian and factors at a state, without pseudo-time; counted in the record.
+  Factored factor_at(const FlowSystem& system, const State& state, FactorKind kind);
+
+ private:
+  struct Progress;
+  // False where the search has to end, or has ended.
+  bool may_go_on(const Progress& at);
+  bool step(Progress& at, State& state);
+  bool take(Progress& at, State& state, const Increment& step, bool solved);
+  bool shorten(Progress& at, double left);
+  Factored factor(const FlowSystem& system, const State& state, const BlockRows& matrix, FactorKind kind);
+  void in_stages(const Measure& measure, double rough, State& state);
+  void at_given_angle(const Measure& measure, double rough, State& state);
+
+  const FlowOptions& options_;
+  WholeMatrix& matrix_;
+  Factors& factors_;
+  SearchRecord& record_;
+};
+
+}  // namespace remodel::flow
