@@ -1,4 +1,4 @@
-// Inlets, outlets and the residual's history: options of `remodel flow`.
+// Inlets, outlets, symmetry planes and the residual's history: options of `remodel flow`.
 
 #include "arguments.h"
 #include "euler_run.h"
@@ -21,6 +21,12 @@ void add_duct_options(CLI::App& app, EulerRun& run) {
             Presence::optional, run.outlets);
   add_real(app, {"--pressure", "PART", "1", "Pressure at outlets, as a part of the stream's: above 0"},
            {.low = 0.0, .above_low = true}, [&](double value) { run.outlet.pressure = value; });
+  add_texts(
+      app,
+      {"--symmetry", "NAME", "",
+       "Straight boundary along the stream with the flow's mirror image beyond it; may be given several "
+       "times"},
+      Presence::optional, run.options.symmetry);
   add_text(app,
            {"--history", "FILE", "",
             "Residual at each step, also of a flow that is not found: .csv, .svg or .png"},

@@ -34,7 +34,7 @@ struct EulerRun {
 // --gradient.
 void add_euler_options(CLI::App& app, EulerRun& run);
 
-// --inlet, --total-pressure, --total-temperature, --outlet, --pressure, --history.
+// --inlet, --total-pressure, --total-temperature, --outlet, --pressure, --symmetry, --history.
 void add_duct_options(CLI::App& app, EulerRun& run);
 // The solver's options with the inlets and outlets of the command line. Throws Error (argument) for pressures
 // that no inlet or outlet has.

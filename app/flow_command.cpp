@@ -109,7 +109,7 @@ Status run(const FlowCommand& command) {
     refuse(command,
            {"--tolerance", "--max-steps", "--memory", "--solver", "--limiter", "--series", "--gradient",
             "--compare", "--inlet", "--total-pressure", "--total-temperature", "--outlet", "--pressure",
-            "--history"},
+            "--symmetry", "--history"},
            "given with --model potential, expected --model euler");
     return run_potential_flow(command, read_input(command));
   }

@@ -17,7 +17,8 @@
 // positive nose up.
 //
 // Boundaries: the one called `farfield` is open to the stream, those named as inlets and outlets are open too
-// (FlowOptions), all others are walls that the flow slips along. Ducts need no far field: the stream is then
+// (FlowOptions), those named as symmetry planes have the flow's mirror image on their other side, all others
+// are walls that the flow slips along. Ducts need no far field: the stream is then
 // what pressures and temperatures are measured in, and where the search for the flow begins. The stream far
 // away has a vortex of the sum of all walls' lift, at the reference point (J. L. Thomas and M. D. Salas, AIAA
 // J. 24, 1986), so that 25 chords are far enough.
@@ -28,8 +29,8 @@
 // incomplete factors, and by sparse LU where its factors last. docs/flow.md has equations, sources and
 // verification.
 //
-// Errors: Error (argument) for conditions and options out of range, and for a mesh without a far field or
-// another way in and out, without a wall, with unnamed boundary edges, with triangles that are clockwise or
+// Errors: Error (argument) for conditions and options out of range, for symmetry planes that are not straight or
+// not along the stream, and for a mesh without a far field or another way in and out, without a wall, with unnamed boundary edges, with triangles that are clockwise or
 // have no area, or with a far field that is the boundary of a hole. A flow that is not found is no error:
 // FlowResult::status and reason say so, and no coefficient of it should be used.
 
@@ -104,6 +105,10 @@ struct FlowOptions {
   StepObserver* observer = nullptr;                       // asked at every step
   std::vector<FlowInlet> inlets = {};                     // without a far field: at least one of each
   std::vector<FlowOutlet> outlets = {};                   // their names are not `farfield`, and not one twice
+  // Boundaries beyond which the flow is its own mirror image: straight, along the stream, and no part of
+  // forces, which are those of the bodies in the mesh. No lift can be asked for, and the far field has no
+  // vortex. Names as those of outlets.
+  std::vector<std::string> symmetry = {};
   std::function<void(const FlowProgress&)> on_step = {};  // called after each Newton step
 };
 

@@ -114,11 +114,13 @@ void require_openings(const FlowConditions& conditions, const FlowOptions& optio
   std::vector<std::string> names = {options.farfield};
   for (const FlowInlet& inlet : options.inlets) names.push_back(inlet.name);
   for (const FlowOutlet& outlet : options.outlets) names.push_back(outlet.name);
+  names.insert(names.end(), options.symmetry.begin(), options.symmetry.end());
   std::sort(names.begin(), names.end());
   const auto twice = std::adjacent_find(names.begin(), names.end());
   if (twice != names.end())
     throw Error(ErrorCode::argument, "boundary '" + *twice + "'",
-                "named twice, expected it to be far field, inlet or outlet");
+                "named twice, expected it to be far field, inlet or outlet" +
+                    std::string(options.symmetry.empty() ? "" : ", or symmetry plane"));
   for (const FlowInlet& inlet : options.inlets) {
     require(inlet.total_pressure > 0.0 && std::isfinite(inlet.total_pressure), "total pressure",
             inlet.total_pressure, "more than 0");
@@ -158,6 +160,7 @@ FlowMesh dual_of(const FrozenMesh& mesh, const FlowConditions& conditions, const
   for (const FlowInlet& inlet : options.inlets)
     patches.push_back({inlet.name, Inlet{inlet.total_pressure, inlet.total_temperature}});
   for (const FlowOutlet& outlet : options.outlets) patches.push_back({outlet.name, Outlet{outlet.pressure}});
+  for (const std::string& name : options.symmetry) patches.push_back({name, Symmetry{}});
   FlowMesh dual(mesh, std::move(patches), source);
   dual.require_walls(source);
   dual.require_farfield_around(source);
@@ -182,10 +185,37 @@ void require_lower_pressures(bool has_farfield, const FlowConditions& conditions
                 .c_str());
 }
 
+// The mirror image of the stream is the stream.
+void require_symmetry(const FlowMesh& dual, const FlowConditions& conditions, const FlowOptions& options,
+                      const std::string& source) {
+  constexpr double least_turn = 1e-4;  // radians: less is a straight line, as files write it
+  if (!options.symmetry.empty() && conditions.cl)
+    throw Error(ErrorCode::argument, "cl",
+                "given for a mesh with a symmetry plane, expected an angle of attack");
+  const Point stream = {std::cos(conditions.alpha_deg * degree), std::sin(conditions.alpha_deg * degree)};
+  std::vector<Point> first(dual.patches().size());
+  for (const BoundaryEdge& edge : dual.boundary()) {
+    const Patch& patch = dual.patch(edge);
+    if (!std::holds_alternative<Symmetry>(patch.condition)) continue;
+    const double length = std::sqrt(dot(edge.normal, edge.normal));
+    if (first[edge.patch] == Point{}) first[edge.patch] = edge.normal;
+    const double turn = std::fabs(cross(first[edge.patch], edge.normal)) /
+                        (length * std::sqrt(dot(first[edge.patch], first[edge.patch])));
+    const bool is_straight = turn <= least_turn;
+    if (is_straight && std::fabs(dot(edge.normal, stream)) <= least_turn * length) continue;
+    throw Error(
+        ErrorCode::argument, source,
+        "the symmetry plane '" + patch.name + "' is not " + (is_straight ? "along the stream" : "straight") +
+            " between points " + std::to_string(edge.a) + " and " + std::to_string(edge.b) +
+            ", expected a straight line along the stream of angle " + shortest_text(conditions.alpha_deg));
+  }
+}
+
 }  // namespace
 
 void require_ways(const FlowMesh& dual, const FlowConditions& conditions, const FlowOptions& options,
                   const std::string& source) {
+  require_symmetry(dual, conditions, options, source);
   require_lower_pressures(dual.has_farfield(), conditions, options);
   if (dual.has_farfield()) return;
   if (options.inlets.empty() || options.outlets.empty())
@@ -206,7 +236,7 @@ Stream stream_of(const FlowConditions& conditions, const FlowOptions& options, c
           .reference = conditions.reference,
           .length = extent,
           .reference_length = conditions.reference_length,
-          .vortex = options.vortex,
+          .vortex = options.vortex && options.symmetry.empty(),
           .limiter = options.limiter};
 }
 

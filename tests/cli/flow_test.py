@@ -182,6 +182,12 @@ class Ducts(ProgramTest):
         self.assertAlmostEqual(flow["openings"][1]["mass_flow"], -0.3, delta=1e-8)
         self.assertEqual(sorted(body["name"] for body in flow["bodies"]), ["floor", "roof"])
 
+    def test_a_symmetry_plane_is_no_body(self):
+        flow = self.figures("flow", self.duct(), "--mach", 0.3, "--inlet", "in", "--outlet", "out", "--symmetry", "roof")
+        self.assertTrue(flow["converged"])
+        self.assertAlmostEqual(flow["openings"][0]["mass_flow"], 0.3, delta=1e-8)
+        self.assertEqual([body["name"] for body in flow["bodies"]], ["floor"])
+
     def test_the_history_is_a_table_or_a_plot(self):
         duct = self.duct()
         flow = self.figures("flow", duct, "--mach", 0.3, "--inlet", "in", "--outlet", "out", "--total-pressure", 1.02,
@@ -198,6 +204,11 @@ class Ducts(ProgramTest):
         self.refused("flow", duct, "--mach", 0.3, "--inlet", "in", names="duct.su2")
         self.refused("flow", duct, "--mach", 0.3, "--inlet", "in", "--outlet", "exit", names="duct.su2")
         self.refused("flow", duct, "--mach", 0.3, "--inlet", "in", "--outlet", "in", names="in")
+        self.refused("flow", duct, "--mach", 0.3, "--inlet", "in", "--outlet", "out", "--symmetry", "mirror",
+                     names="mirror")
+        self.refused("flow", duct, "--mach", 0.3, "--inlet", "in", "--outlet", "out", "--symmetry", "roof",
+                     "--alpha", 2, names="roof")
+        self.refused("flow", duct, "--model", "potential", "--symmetry", "roof", names="--symmetry")
         self.refused("flow", duct, "--mach", 0.3, "--total-pressure", 2, names="--total-pressure")
         self.refused("flow", duct, "--mach", 0.3, "--pressure", 2, names="--pressure")
         self.refused("flow", duct, "--model", "potential", "--inlet", "in", names="--inlet")

@@ -9,6 +9,7 @@
 #include "flow/physics/boundary/inlet.h"
 #include "flow/physics/boundary/outlet.h"
 #include "flow/physics/boundary/slip_wall.h"
+#include "flow/physics/boundary/symmetry.h"
 
 namespace remodel::flow {
 
@@ -16,7 +17,7 @@ namespace remodel::flow {
 // mesh bends and whose pressures are forces; `one_sided`, whether gradients at it are too one-sided to
 // reconstruct with; `open`, whether the gas that passes it is reported; and `flux`, out of the domain through
 // the half of an edge.
-using BoundaryCondition = std::variant<SlipWall, FarField, Inlet, Outlet>;
+using BoundaryCondition = std::variant<SlipWall, FarField, Inlet, Outlet, Symmetry>;
 
 struct Patch {
   std::string name;
