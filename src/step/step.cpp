@@ -162,9 +162,10 @@ void Step::require_options() const {
 
 void Step::require_method() const {
   if (options_.method != Method::specialised || moving_ || differs_in_parts_) return;
-  throw Error(ErrorCode::argument, "method",
-              "specialised needs two domains whose loops correspond, station to station but for some, and no "
-              "chain that joins what moves");
+  throw Error(
+      ErrorCode::argument, "method",
+      "specialised needs two domains that correspond one to one, but for a few stations, and no chain that "
+      "joins what moves");
 }
 
 RemodelResult Step::run() {
