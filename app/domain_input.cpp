@@ -6,6 +6,7 @@
 
 #include "arguments.h"
 #include "figures.h"
+#include "number_text.h"
 #include "remodel/error.h"
 #include "remodel/io.h"
 #include "remodel/shape_files.h"
