@@ -8,6 +8,7 @@
 
 #include "number_text.h"
 #include "remodel/error.h"
+#include "warnings.h"
 
 namespace remodel::app {
 namespace {
@@ -45,7 +46,12 @@ void Report::line(const std::string& label, const std::string& text) {
 
 // Names in a foreign file may be invalid UTF-8; a replacement character is better than no figures at all.
 std::string Report::json_text() const {
-  return object_.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  Json object = object_;
+  Json& all = object["warnings"];
+  if (!all.is_array()) all = Json::array();
+  for (const std::string& sentence : warnings())
+    if (std::find(all.begin(), all.end(), sentence) == all.end()) all.push_back(sentence);
+  return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 void Report::print_json() const {

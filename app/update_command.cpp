@@ -139,7 +139,9 @@ DomainInput new_domain(const StartMesh& start, const UpdateCommand& command) {
                 "expected one airfoil to put there");
   AirfoilDomainOptions discretisation = discretisation_of(start.mesh.domain());
   if (command.start.points) discretisation.points = *command.start.points;
-  return read_domain(command.shapes, discretisation, command.fit);
+  DomainInputOptions shapes = command.shapes;
+  shapes.farfield_stays = true;
+  return read_domain(shapes, discretisation, command.fit);
 }
 
 // What the step starts from, and what it is compared with.

@@ -12,14 +12,20 @@
 
 namespace remodel {
 
-// parse_airfoil() of a file.
+// parse_airfoil() and parse_outlines() of a file.
 AirfoilCoordinates read_airfoil(const std::filesystem::path& file);
+AirfoilOutlines read_outlines(const std::filesystem::path& file);
 
 // SHAPE of the command line: a coordinate file, a .json file of CST coefficients, or what named_airfoil()
 // takes. What exists as a file, contains '/' or '.', or is '-' (standard input) is a file. degree and
 // trailing_edge are used for coordinate files, as fit_cst_apart() takes them; degree for named sections too.
 CstAirfoil load_airfoil(const std::string& shape, int degree,
                         TrailingEdge trailing_edge = TrailingEdge::kept);
+// The same with what is known of the fit: its errors, the frame of a coordinate file, and warnings, which
+// begin with the file's name. Errors are those of the catalogue's table for its names, and 0 for a .json file.
+CstFit load_fit(const std::string& shape, int degree, TrailingEdge trailing_edge = TrailingEdge::kept);
+// Whether a SHAPE is a coordinate file, by its name and what exists; opens nothing.
+bool is_coordinate_file(const std::string& shape);
 
 // domain_from_json() of a file, where airfoils may be named as load_airfoil() takes them; their files are
 // looked for in the file's own directory first.

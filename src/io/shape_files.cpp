@@ -9,6 +9,8 @@ namespace {
 // Larger files are no airfoils and no designs.
 constexpr std::size_t largest_airfoil_file = std::size_t{16} << 20;
 
+constexpr std::string_view naca_prefix = "naca:";
+
 // By extension, or what comes through a pipe without one by its content.
 bool is_json(const std::filesystem::path& file) {
   if (file.has_extension() || !is_pipe(file)) return file.extension() == ".json";
@@ -30,12 +32,33 @@ AirfoilCoordinates read_airfoil(const std::filesystem::path& file) {
   return parse_airfoil(read_text(file, largest_airfoil_file), file.string());
 }
 
-CstAirfoil load_airfoil(const std::string& shape, int degree, TrailingEdge trailing_edge) {
-  if (shape.starts_with("naca:") || !names_a_file(shape)) return named_airfoil(shape, degree);
+AirfoilOutlines read_outlines(const std::filesystem::path& file) {
+  return parse_outlines(read_text(file, largest_airfoil_file), file.string());
+}
+
+bool is_coordinate_file(const std::string& shape) {
+  return !shape.starts_with(naca_prefix) && std::filesystem::path(shape).extension() != ".json" &&
+         names_a_file(shape);
+}
+
+CstFit load_fit(const std::string& shape, int degree, TrailingEdge trailing_edge) {
+  if (shape.starts_with(naca_prefix)) return fit_cst(naca_airfoil(shape.substr(naca_prefix.size())), degree);
+  if (!names_a_file(shape)) {
+    CstFit fit{.airfoil = named_airfoil(shape, degree)};
+    for (const CatalogueEntry& entry : airfoil_catalogue())
+      if (entry.name == shape) fit.max_error = entry.fit_max_error, fit.rms_error = entry.fit_rms_error;
+    return fit;
+  }
   const std::filesystem::path file(shape);
   const KeptPipes once;
-  if (is_json(file)) return airfoil_from_json(read_text(file, largest_airfoil_file), shape);
-  return fit_cst_apart(read_airfoil(file), degree, trailing_edge).airfoil;
+  if (is_json(file)) return {.airfoil = airfoil_from_json(read_text(file, largest_airfoil_file), shape)};
+  AirfoilCoordinates coordinates = read_airfoil(file);
+  coordinates.name = shape;  // for messages
+  return fit_cst_apart(coordinates, degree, trailing_edge);
+}
+
+CstAirfoil load_airfoil(const std::string& shape, int degree, TrailingEdge trailing_edge) {
+  return load_fit(shape, degree, trailing_edge).airfoil;
 }
 
 Domain load_domain(const std::filesystem::path& file) {

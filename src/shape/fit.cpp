@@ -88,6 +88,8 @@ CstFit fit_cst(const AirfoilCoordinates& coordinates, int degree, TrailingEdge t
   const double upper_end = coordinates.upper.back().y, lower_end = coordinates.lower.back().y;
   CstFit fit;
   fit.gap = upper_end - lower_end;
+  fit.frame = coordinates.frame;
+  fit.warnings = coordinates.warnings;
   if (trailing_edge == TrailingEdge::kept && fit.gap >= least_gap) {
     fit.airfoil.te_upper = upper_end;
     fit.airfoil.te_lower = lower_end;
@@ -110,7 +112,11 @@ CstFit fit_cst_apart(const AirfoilCoordinates& coordinates, int degree, Trailing
   for (const int other : others) {
     try {
       CstFit fit = fit_cst(coordinates, other, trailing_edge);
-      if (surfaces_apart(fit.airfoil)) return fit;
+      if (!surfaces_apart(fit.airfoil)) continue;
+      fit.warnings.push_back((coordinates.name.empty() ? "airfoil" : coordinates.name) + ": the fit of degree " +
+                             std::to_string(degree) + " crosses itself, that of degree " +
+                             std::to_string(other) + " is taken");
+      return fit;
     } catch (const Error&) {
       continue;  // too few points for so many coefficients
     }
