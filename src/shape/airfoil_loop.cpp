@@ -18,6 +18,8 @@ constexpr double same_point = 1e-7, same_edge = 1e-5;
 constexpr double across = 0.1;
 // The base of a trailing edge is a small part of the chord.
 constexpr double largest_base = 0.2;
+// Ends farther apart are no base and no side: a surface is missing.
+constexpr double largest_gap = 0.75;
 constexpr double end_tolerance = 0.02;
 
 template <typename... Parts>
@@ -170,6 +172,9 @@ AirfoilLoop loop_of_element(const AirfoilElement& element, const std::string& so
   Point& lower = loop.rows.back().point;
   loop.gap = distance(upper, lower);
   if (cross(ends.nose - upper, lower - upper) < 0.0) loop.gap = -loop.gap;
+  if (std::abs(loop.gap) > largest_gap * extent)
+    refuse(source, &loop.rows.back(), "found an outline whose ends are ", std::abs(loop.gap) / extent,
+           " of its length apart, expected a closed one: the file seems to be cut off");
   if (loop.gap != 0.0 && std::abs(loop.gap) <= same_edge * extent) {
     upper = lower = 0.5 * (upper + lower);
     loop.closed = true;
