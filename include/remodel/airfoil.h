@@ -141,8 +141,8 @@ CstFit fit_cst_apart(const AirfoilCoordinates& coordinates, int degree,
                      TrailingEdge trailing_edge = TrailingEdge::kept);
 
 // NACA sections that exist in closed form, as dense points: 4-digit ("2412") and 5-digit ("23012", reflexed
-// "23112" too), both also modified ("0012-64"), with the closed trailing edge coefficient (-0.1036); 6- and
-// 6A-series ("63-206", "65(1)-412", "64A010", "63-206 a=.8") by Ladson's approximation, which is within 5e-4
+// "23112" too) with the closed trailing edge coefficient (-0.1036); both also modified ("0012-64"), whose
+// trailing edge is open by a fiftieth of the thickness; 6- and 6A-series ("63-206", "65(1)-412", "64A010", "63-206 a=.8") by Ladson's approximation, which is within 5e-4
 // chords of the tabulated ordinates. Throws Error (argument) for other designations. Sources: naca.cpp.
 AirfoilCoordinates naca_airfoil(std::string_view digits);
 

@@ -16,8 +16,12 @@ namespace {
 constexpr double same_point = 1e-7, same_edge = 1e-5;
 // A base is drawn across the chord: within six degrees.
 constexpr double across = 0.1;
+// The line from the last point to the first where a file leaves it out: within 53 degrees.
+constexpr double slanted = 0.8;
 // The base of a trailing edge is a small part of the chord.
 constexpr double largest_base = 0.2;
+// The last side before a sharp trailing edge, where a file may leave it out.
+constexpr double largest_side = 0.06;
 // Ends farther apart are no base and no side: a surface is missing.
 constexpr double largest_gap = 0.75;
 constexpr double end_tolerance = 0.02;
@@ -105,27 +109,47 @@ double twice_area_of(const AirfoilRowList& rows) {
 }
 
 // Whether a side lies across the chord, the two ends of which are given, and is short.
-bool is_base(Point from, Point to, Point nose, Point tail) {
+bool is_base(Point from, Point to, Point nose, Point tail, double slant = across) {
   const Point chord = tail - nose, side = to - from;
   const double length = distance(from, to), extent = distance(nose, tail);
-  return length < largest_base * extent && std::abs(dot(side, chord)) < across * length * extent;
+  return length < largest_base * extent && std::abs(dot(side, chord)) < slant * length * extent;
 }
 
-// The trailing edge is the first point, or where the outline reaches farthest back: none where it is the first.
+// The two ends of the chord, roughly: an outline begins at its trailing edge, or anywhere.
 struct Ends {
   Point nose;
   std::size_t tail = 0;
   bool first_is_tail = false;
 };
+
+// Whether an outline begins at the end that lies at `tail`: there, or on the base beside it.
+bool begins_at(const AirfoilRowList& rows, Point nose, Point tail) {
+  const Point first = rows.front().point, last = rows.back().point;
+  if (first == tail || last == tail) return true;
+  if (distance(first, nose) < 0.9 * distance(tail, nose)) return false;
+  return is_base(first, last, nose, tail, slanted) || is_base(first, rows[1].point, nose, tail) ||
+         is_base(rows[rows.size() - 2].point, last, nose, tail);
+}
+
+// Whether the last side is missing, from the last point back to a sharp trailing edge: it would lie along the
+// surface, and not be longer than others there.
+bool leaves_its_end_out(const AirfoilRowList& rows, Point nose) {
+  const Point first = rows.front().point, last = rows.back().point;
+  const Point before = rows[rows.size() - 2].point;
+  const double gap = distance(first, last), extent = distance(first, nose);
+  return gap > same_edge * extent && gap < largest_side * extent &&
+         !is_base(first, last, nose, first, slanted) && gap <= 2.0 * distance(last, before) &&
+         dot(first - last, last - before) > 0.0;
+}
+
 Ends ends_of(const AirfoilRowList& rows) {
   const Point first = rows.front().point;
   const std::size_t a = farthest_from(rows, first), b = farthest_from(rows, rows[a].point);
-  const Point far = rows[a].point;
-  const double extent = distance(far, rows[b].point);
-  const bool at_end = distance(first, far) >= 0.95 * extent;
-  if (at_end && first.x - far.x > -0.2 * extent) return {far, 0, true};
-  if (rows[a].point.x >= rows[b].point.x) return {rows[b].point, a, false};
-  return {rows[a].point, b, false};
+  const double extent = distance(rows[a].point, rows[b].point);
+  if (begins_at(rows, rows[a].point, rows[b].point) && first.x - rows[a].point.x > -0.2 * extent)
+    return {rows[a].point, 0, true};
+  const std::size_t tail = rows[a].point.x >= rows[b].point.x ? a : b;
+  return {rows[tail == a ? b : a].point, tail, false};
 }
 
 // The same outline from another of its points on; where that ends a base, from the base's upper end.
@@ -167,6 +191,7 @@ AirfoilLoop loop_of_element(const AirfoilElement& element, const std::string& so
     ends = ends_of(rows);
     if (!ends.first_is_tail) rows = from_tail(std::move(rows), ends, extent);
   }
+  if (leaves_its_end_out(rows, ends.nose)) rows.push_back(rows.front());
   AirfoilLoop loop{.rows = std::move(rows)};
   Point& upper = loop.rows.front().point;
   Point& lower = loop.rows.back().point;

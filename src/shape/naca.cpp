@@ -1,7 +1,7 @@
 // NACA 4- and 5-digit sections, modified ones too. Source: E. N. Jacobs, K. E. Ward, R. M. Pinkerton, NACA report 460, 1933;
 // E. N. Jacobs, R. M. Pinkerton, NACA report 537, 1935 (the 5-digit mean lines); C. L. Ladson, C. W. Brooks,
-// NASA TM X-3284, 1975 (the table of constants; the modified thickness, the trailing edge of which is closed
-// here: with d0 = 0, where the report has 0.002, a hundredth of the thickness at the trailing edge).
+// NASA TM X-3284, 1975 (the table of constants; the modified thickness, whose trailing edge is open by a
+// fiftieth of the largest).
 
 #include <algorithm>
 #include <cmath>
@@ -88,28 +88,30 @@ class ModifiedThickness {
   explicit ModifiedThickness(Modification m) : place_(0.1 * m.place) {
     // The slope at the trailing edge, by the place of the largest thickness.
     constexpr double slopes[] = {1.000, 1.170, 1.575, 2.325, 3.500};
-    constexpr double half = 0.1;  // the largest, of a section of 20 %
+    constexpr double edge = 0.002, half = 0.1 - edge;  // at the trailing edge, and the largest over that, of 20 %
     const double t = place_, u = 1.0 - t, d1 = 0.2 * slopes[m.place - 2];
     const double bend = (6.0 * half - 2.0 * d1 * u) / (u * u);
-    rear_[0] = d1;
-    rear_[1] = (3.0 * half - 2.0 * d1 * u) / (u * u);
-    rear_[2] = (-2.0 * half + d1 * u) / (u * u * u);
+    rear_[0] = edge;
+    rear_[1] = d1;
+    rear_[2] = (3.0 * half - 2.0 * d1 * u) / (u * u);
+    rear_[3] = (-2.0 * half + d1 * u) / (u * u * u);
     // 9 stands for three times the ordinary radius.
     front_[0] = 0.2969 * (m.radius == 9 ? std::sqrt(3.0) : m.radius / 6.0);
     const double root = std::sqrt(t);
-    front_[1] = 3.0 * half / t - 15.0 / 8.0 * front_[0] / root - 0.5 * bend * t;
-    front_[2] = -3.0 * half / (t * t) + 1.25 * front_[0] / (t * root) + bend;
-    front_[3] = half / (t * t * t) - 0.375 * front_[0] / (t * t * root) - 0.5 * bend / t;
+    constexpr double top = 0.1;
+    front_[1] = 3.0 * top / t - 15.0 / 8.0 * front_[0] / root - 0.5 * bend * t;
+    front_[2] = -3.0 * top / (t * t) + 1.25 * front_[0] / (t * root) + bend;
+    front_[3] = top / (t * t * t) - 0.375 * front_[0] / (t * t * root) - 0.5 * bend / t;
   }
   double operator()(double x, double thickness) const {
     const double e = 1.0 - x;
-    const double sum = x > place_ ? e * (rear_[0] + e * (rear_[1] + e * rear_[2]))
+    const double sum = x > place_ ? rear_[0] + e * (rear_[1] + e * (rear_[2] + e * rear_[3]))
                                   : front_[0] * std::sqrt(x) + x * (front_[1] + x * (front_[2] + x * front_[3]));
     return 5.0 * thickness * sum;
   }
 
  private:
-  double place_, front_[4], rear_[3];
+  double place_, front_[4], rear_[4];
 };
 
 bool all_digits(std::string_view text) {
