@@ -98,7 +98,7 @@ TEST(AirfoilFrame, IsTheSameWhateverPointAnOutlineBeginsWith) {
     std::rotate(other.begin(), other.begin() + static_cast<int>(random() % ring.size()), other.end());
     if (random() % 2 == 0) other.push_back(other.front());
     if (random() % 2 == 0) std::reverse(other.begin(), other.end());
-    other = turned(other, 0.0, 0.01 * (1 + random() % 10000), {random() % 7 - 3.0, 2.0});
+    other = turned(other, 0.0, 0.01 * static_cast<double>(1 + random() % 10000), {static_cast<double>(random() % 7) - 3.0, 2.0});
     const AirfoilCoordinates found = parse_airfoil(text_of(other, 17), "a.dat");
     ASSERT_EQ(found.upper.size(), wanted.upper.size()) << "seed 7, trial " << trial;
     for (std::size_t i = 0; i < wanted.upper.size(); ++i)
