@@ -112,9 +112,10 @@ class AirfoilInput {
       else
         add_named(i);
     }
-    if (options_.keep_coordinates && extent_.size() > 0.0 && std::abs(extent_.size() - 1.0) > near_one)
-      warn("the coordinates of the files are kept: what reaches over " + short_text(extent_.size()) +
-           " has a farfield of that unit, and coefficients of the reference length that is given, or 1");
+    if (keeps_ && std::abs(longest_ - 1.0) > near_one)
+      warn("the longest chord is " + short_text(longest_) +
+           " in the coordinates of the files, which are kept: coefficients of a flow are of the reference length "
+           "that is given, or of 1");
   }
 
   const Airfoils& airfoils() const { return airfoils_; }
@@ -161,7 +162,7 @@ class AirfoilInput {
     for (const AirfoilOutline& outline : file.elements) {
       const bool keep = options_.keep_coordinates || elements_ > 1;
       keeps_ = keeps_ || keep;
-      if (keep) extent_.add(outline.frame);
+      if (keep) extent_.add(outline.frame), longest_ = std::max(longest_, outline.frame.chord);
       PlacedAirfoil placed = options_.as_given ? as_given(i, outline, keep, place) : fitted(i, outline, keep);
       if (place) placed.placement = placement_of(options_.places[i]);
       airfoils_.push_back(std::move(placed));
@@ -218,6 +219,7 @@ class AirfoilInput {
   Airfoils airfoils_;
   Extent extent_;
   std::size_t elements_ = 1;  // of the file that is read
+  double longest_ = 0.0;      // chord that is kept
   bool keeps_ = false;
 };
 
@@ -302,7 +304,9 @@ DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOp
     }
     if (is_domain_file(shape)) {
       require_alone(options, shape);
-      input.domain = load_domain(shape);
+      std::vector<std::string> warnings;
+      input.domain = load_domain(shape, &warnings);
+      warn(warnings);
       return input;
     }
   }

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "remodel/airfoil.h"
 #include "remodel/domain.h"
@@ -28,8 +29,8 @@ CstFit load_fit(const std::string& shape, int degree, TrailingEdge trailing_edge
 bool is_coordinate_file(const std::string& shape);
 
 // domain_from_json() of a file, where airfoils may be named as load_airfoil() takes them; their files are
-// looked for in the file's own directory first.
-Domain load_domain(const std::filesystem::path& file);
+// looked for in the file's own directory first. Their warnings are added to those given.
+Domain load_domain(const std::filesystem::path& file, std::vector<std::string>* warnings = nullptr);
 // holds_domain() of the text of a JSON file: one called .json, or a pipe whose text begins with '{'.
 bool holds_domain(const std::filesystem::path& file);
 

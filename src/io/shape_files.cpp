@@ -61,13 +61,15 @@ CstAirfoil load_airfoil(const std::string& shape, int degree, TrailingEdge trail
   return load_fit(shape, degree, trailing_edge).airfoil;
 }
 
-Domain load_domain(const std::filesystem::path& file) {
-  const auto resolve = [directory = file.parent_path()](const std::string& name, int degree,
-                                                        TrailingEdge trailing_edge) {
+Domain load_domain(const std::filesystem::path& file, std::vector<std::string>* warnings) {
+  const auto resolve = [warnings, directory = file.parent_path()](const std::string& name, int degree,
+                                                                  TrailingEdge trailing_edge) {
     const std::filesystem::path beside = directory / name;
     std::error_code ignored;
-    return load_airfoil(std::filesystem::is_regular_file(beside, ignored) ? beside.string() : name, degree,
-                        trailing_edge);
+    const CstFit fit = load_fit(std::filesystem::is_regular_file(beside, ignored) ? beside.string() : name,
+                                degree, trailing_edge);
+    if (warnings != nullptr) warnings->insert(warnings->end(), fit.warnings.begin(), fit.warnings.end());
+    return fit.airfoil;
   };
   return domain_from_json(read_text(file, largest_airfoil_file), file.string(), resolve);
 }
