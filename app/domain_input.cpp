@@ -65,8 +65,8 @@ void require_at_most_one_each(const char* option, std::size_t found, std::size_t
                     std::to_string(airfoils) + " airfoils");
 }
 
-// As an outline is given it stays where it is, unless that is not about the chord of 1 from the origin on that
-// everything else assumes.
+// As an outline is given it stays where it is, unless that is not about the chord of 1 from the origin on
+// that everything else assumes.
 constexpr double near_origin = 0.1, near_one = 0.25;
 // Below, an incidence is what digits and the choice of a nose leave of none.
 constexpr double least_incidence_deg = 0.1;
@@ -79,7 +79,8 @@ bool in_chords(const AirfoilFrame& frame) {
 // In chords from the nose, neither turned nor sheared.
 std::vector<Point> moved_to_origin(const AirfoilOutline& outline) {
   std::vector<Point> points;
-  for (const Point p : outline.points) points.push_back((1.0 / outline.frame.chord) * (p - outline.frame.nose));
+  for (const Point p : outline.points)
+    points.push_back((1.0 / outline.frame.chord) * (p - outline.frame.nose));
   return points;
 }
 
@@ -114,7 +115,8 @@ class AirfoilInput {
     }
     if (keeps_ && std::abs(longest_ - 1.0) > near_one)
       warn("the longest chord is " + short_text(longest_) +
-           " in the coordinates of the files, which are kept: coefficients of a flow are of the reference length "
+           " in the coordinates of the files, which are kept: coefficients of a flow are of the reference "
+           "length "
            "that is given, or of 1");
   }
 
@@ -183,9 +185,9 @@ class AirfoilInput {
                                .kept = stays,
                                .frame = outline.frame});
     if (!stays && !place)
-      warn(shape + ": its chord of " + short_text(outline.frame.chord) + " is scaled to 1 and its nose moved from " +
-           short_text(outline.frame.nose.x) + "," + short_text(outline.frame.nose.y) +
-           " to the origin; --keep-coordinates leaves them");
+      warn(shape + ": its chord of " + short_text(outline.frame.chord) +
+           " is scaled to 1 and its nose moved from " + short_text(outline.frame.nose.x) + "," +
+           short_text(outline.frame.nose.y) + " to the origin; --keep-coordinates leaves them");
     return placed;
   }
 
@@ -226,12 +228,11 @@ class AirfoilInput {
 void add_outline_figures(Report& report, const std::vector<ShapeOutline>& outlines) {
   Json list = Json::array();
   for (const ShapeOutline& outline : outlines) {
-    list.push_back(
-        {{"shape", outline.shape},
-         {"points", outline.points},
-         {"trailing_edge_gap", outline.gap},
-         {"kept", outline.kept},
-         {"frame", frame_json(outline.frame)}});
+    list.push_back({{"shape", outline.shape},
+                    {"points", outline.points},
+                    {"trailing_edge_gap", outline.gap},
+                    {"kept", outline.kept},
+                    {"frame", frame_json(outline.frame)}});
     std::string text = std::to_string(outline.points) + " points as given, " +
                        (outline.kept ? "where the file has them" : "in chords from the leading edge");
     if (outline.gap != 0.0)
@@ -288,8 +289,7 @@ void add_domain_input(CLI::App& app, DomainInputOptions& options) {
 
 bool is_single_airfoil(const DomainInputOptions& options) {
   return options.shapes.size() == 1 && options.places.empty() && options.names.empty() && !options.as_given &&
-         !options.keep_coordinates &&
-         !holds_graph(options.shapes[0]) && !is_domain_file(options.shapes[0]);
+         !options.keep_coordinates && !holds_graph(options.shapes[0]) && !is_domain_file(options.shapes[0]);
 }
 
 DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOptions& discretisation,

@@ -18,7 +18,8 @@ class App;
 namespace remodel::app {
 
 inline constexpr const char* shape_help =
-    "Airfoil coordinate file (Selig, Lednicer and others, by content), naca:2412 (also 0012-64, 23112, 63-206), a "
+    "Airfoil coordinate file (Selig, Lednicer and others, by content), naca:2412 (also 0012-64, 23112, "
+    "63-206), a "
     "name that `remodel shapes` lists, or a .json file of CST coefficients";
 
 void add_json_flag(CLI::App& app, bool& json);

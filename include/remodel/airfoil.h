@@ -70,7 +70,8 @@ struct AirfoilFrame {
   // y per x that was taken off besides: of sections that are drawn straight, their digits' rounding; of NACA
   // sections, whose foremost point is not where their mean line begins, up to 0.01.
   double shear = 0.0;
-  double closed = 0.0;  // the gap of the trailing edge, in chords, that was closed as rounding; crossed: below 0
+  double closed =
+      0.0;  // the gap of the trailing edge, in chords, that was closed as rounding; crossed: below 0
 
   double incidence_deg() const;  // at which the section is drawn, nose up; to 1e-9 degrees
 };
@@ -78,10 +79,10 @@ struct AirfoilFrame {
 // A coordinate file as read: surfaces from leading edge to trailing edge, in the frame of its chord.
 //
 // CST is y over x with a vertical tangent at the nose, so the nose is the point farthest from the trailing
-// edge on a smooth curve through the points (the middle one of a flat nose), whether one of them lies there or
-// not; both surfaces begin with it. Where the trailing edge lies straight behind the foremost point, up to 1e-5
-// chords, that is the nose. Nothing is distorted. x is in [0,1], but for a trailing edge that is cut at an
-// angle, which may reach beyond 1.
+// edge on a smooth curve through the points (the middle one of a flat nose), whether one of them lies there
+// or not; both surfaces begin with it. Where the trailing edge lies straight behind the foremost point, up to
+// 1e-5 chords, that is the nose. Nothing is distorted. x is in [0,1], but for a trailing edge that is cut at
+// an angle, which may reach beyond 1.
 struct AirfoilCoordinates {
   std::string name;
   std::vector<Point> upper;
@@ -95,10 +96,10 @@ struct AirfoilCoordinates {
 // marks, blank lines, comment lines (#, !, %), spaces, tabs, commas and semicolons between numbers, decimal
 // commas, three columns of which one is the same everywhere, numbers such as -.0228, open and closed trailing
 // edges, outlines that begin anywhere and run either way, and lines of text before and after the coordinates:
-// the first line is the name. A point that is there twice in a row counts once, ends that are closer than 1e-5
-// chords are one. At most 16 MiB. Throws Error (file, format) naming file and line, also for files of another
-// kind, which it names, for several elements, fewer than 3 points a surface, x that turns back, surfaces that
-// cross, ends that do not meet in x. read_airfoil() of remodel/shape_files.h reads a file.
+// the first line is the name. A point that is there twice in a row counts once, ends that are closer than
+// 1e-5 chords are one. At most 16 MiB. Throws Error (file, format) naming file and line, also for files of
+// another kind, which it names, for several elements, fewer than 3 points a surface, x that turns back,
+// surfaces that cross, ends that do not meet in x. read_airfoil() of remodel/shape_files.h reads a file.
 AirfoilCoordinates parse_airfoil(std::string_view text, const std::string& source);
 
 // The same files as closed outlines of any shape, one for each element, in the coordinates of the file:
@@ -127,7 +128,7 @@ struct CstFit {
   CstAirfoil airfoil;
   double max_error = 0.0;  // largest and root-mean-square distance in y at the file's points, in chords
   double rms_error = 0.0;
-  double gap = 0.0;  // the file's own: of its upper end over its lower one, in chords
+  double gap = 0.0;                        // the file's own: of its upper end over its lower one, in chords
   AirfoilFrame frame = {};                 // of the coordinates
   std::vector<std::string> warnings = {};  // of the coordinates, and of another degree than the one asked for
 };
@@ -142,8 +143,9 @@ CstFit fit_cst_apart(const AirfoilCoordinates& coordinates, int degree,
 
 // NACA sections that exist in closed form, as dense points: 4-digit ("2412") and 5-digit ("23012", reflexed
 // "23112" too) with the closed trailing edge coefficient (-0.1036); both also modified ("0012-64"), whose
-// trailing edge is open by a fiftieth of the thickness; 6- and 6A-series ("63-206", "65(1)-412", "64A010", "63-206 a=.8") by Ladson's approximation, which is within 5e-4
-// chords of the tabulated ordinates. Throws Error (argument) for other designations. Sources: naca.cpp.
+// trailing edge is open by a fiftieth of the thickness; 6- and 6A-series ("63-206", "65(1)-412", "64A010",
+// "63-206 a=.8") by Ladson's approximation (docs/guide.md has how near that is). Throws Error (argument) for
+// other designations. Sources: naca.cpp.
 AirfoilCoordinates naca_airfoil(std::string_view digits);
 
 // The built-in catalogue: the paper's ten airfoils as fitted coefficients.

@@ -188,10 +188,10 @@ bool one_to_one(const Domain& a, const Domain& b);
 bool one_to_one(const Loop& a, const Loop& b);
 
 // The paper's case: an airfoil of `points` vertices, x = (1 + cos 2 pi t)/2 at t = i/points, in a circle
-// about (0.5, 0), or elsewhere. Loop 0 is the airfoil, loop 1 the farfield, both counter-clockwise. Names: "airfoil",
-// "farfield". An open trailing edge adds a line of the name "airfoil" to loop 0, from the lower to the upper
-// end. Throws Error (argument) for options out of range and for a farfield that does not contain the airfoil;
-// does not validate().
+// about (0.5, 0), or elsewhere. Loop 0 is the airfoil, loop 1 the farfield, both counter-clockwise. Names:
+// "airfoil", "farfield". An open trailing edge adds a line of the name "airfoil" to loop 0, from the lower to
+// the upper end. Throws Error (argument) for options out of range and for a farfield that does not contain
+// the airfoil; does not validate().
 struct AirfoilDomainOptions {
   int points = 200;             // I: even, 8 to 100000
   double farfield_radius = 25;  // chords, more than 1

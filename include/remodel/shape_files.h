@@ -23,7 +23,8 @@ AirfoilOutlines read_outlines(const std::filesystem::path& file);
 CstAirfoil load_airfoil(const std::string& shape, int degree,
                         TrailingEdge trailing_edge = TrailingEdge::kept);
 // The same with what is known of the fit: its errors, the frame of a coordinate file, and warnings, which
-// begin with the file's name. Errors are those of the catalogue's table for its names, and 0 for a .json file.
+// begin with the file's name. Errors are those of the catalogue's table for its names, and 0 for a .json
+// file.
 CstFit load_fit(const std::string& shape, int degree, TrailingEdge trailing_edge = TrailingEdge::kept);
 // Whether a SHAPE is a coordinate file, by its name and what exists; opens nothing.
 bool is_coordinate_file(const std::string& shape);

@@ -45,9 +45,10 @@ void check_order(const Rows& surface, const std::string& source) {
     const double x = surface[i].point.x;
     if (x > surface[i - 1].point.x || x == nose) continue;
     if (i == 1 && x > -1e-5) continue;  // the arc's own depth
-    refuse_file(place(source, surface[i]), "found x = ", x, " behind x = ", surface[i - 1].point.x,
-                " in chords from the nose, expected x to grow from the leading to the trailing edge, as a fit of "
-                "y over x needs it: an outline that goes back and forth has none and is taken as given alone");
+    refuse_file(
+        place(source, surface[i]), "found x = ", x, " behind x = ", surface[i - 1].point.x,
+        " in chords from the nose, expected x to grow from the leading to the trailing edge, as a fit of "
+        "y over x needs it: an outline that goes back and forth has none and is taken as given alone");
   }
 }
 
@@ -86,7 +87,7 @@ Rows surface_of(const Rows& run, const AirfoilNose& nose) {
 }
 
 AirfoilCoordinates split_at_nose(std::string name, const Rows& rows, const AirfoilNose& nose,
-                               const std::string& source) {
+                                 const std::string& source) {
   Rows back(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(nose.before) + 1);
   std::reverse(back.begin(), back.end());
   const Rows ahead(rows.begin() + static_cast<std::ptrdiff_t>(nose.after), rows.end());
@@ -95,7 +96,8 @@ AirfoilCoordinates split_at_nose(std::string name, const Rows& rows, const Airfo
   check_order(lower, source);
   if (std::abs(upper.back().point.x - lower.back().point.x) > end_tolerance)
     refuse_file(source, "found surfaces that end at x = ", upper.back().point.x,
-                " and x = ", lower.back().point.x, " in chords from the nose, expected both at the trailing edge");
+                " and x = ", lower.back().point.x,
+                " in chords from the nose, expected both at the trailing edge");
   check_above(upper, lower, 1.0, source);
   check_above(lower, upper, -1.0, source);
   return {.name = std::move(name), .upper = points_of(upper), .lower = points_of(lower), .frame = nose.frame};

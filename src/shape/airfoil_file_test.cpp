@@ -134,7 +134,8 @@ TEST(AirfoilFile, AcceptsNumbersOfEveryStyle) {
 
 // The wedge by the map p -> nose + size * turned(p).
 std::string mapped_wedge(Point nose, double size, double degrees) {
-  const double c = std::cos(degrees * std::numbers::pi / 180.0), d = std::sin(degrees * std::numbers::pi / 180.0);
+  const double c = std::cos(degrees * std::numbers::pi / 180.0),
+               d = std::sin(degrees * std::numbers::pi / 180.0);
   std::ostringstream text;
   text.precision(12);
   text << "mapped\n";

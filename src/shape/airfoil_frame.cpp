@@ -71,7 +71,8 @@ class NoseArc {
   double at(double t) const { return distance(point(t), tail_); }
   double step_at(double t) const {
     const auto next = std::upper_bound(spline_.knots.begin() + 1, spline_.knots.end() - 1, t);
-    return std::max(*next - *(next - 1), next == spline_.knots.begin() + 1 ? 0.0 : *(next - 1) - *(next - 2)) /
+    return std::max(*next - *(next - 1),
+                    next == spline_.knots.begin() + 1 ? 0.0 : *(next - 1) - *(next - 2)) /
            samples;
   }
   // Of the largest sample, the largest value beside it.

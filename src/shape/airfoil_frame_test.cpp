@@ -16,7 +16,8 @@ double half_thickness(double x) {
   return 0.6 * (0.2969 * std::sqrt(x) + x * (-0.1260 + x * (-0.3516 + x * (0.2843 - 0.1036 * x))));
 }
 
-// A symmetric section, `half` points a side; `shift` of a spacing off the nose, 0 on it, 0.5 between two points.
+// A symmetric section, `half` points a side; `shift` of a spacing off the nose, 0 on it, 0.5 between two
+// points.
 std::vector<Point> symmetric_section(int half, double shift) {
   std::vector<Point> points{{1.0, 0.0}};
   for (int i = -half; i <= half; ++i) {
@@ -39,7 +40,8 @@ std::string text_of(const std::vector<Point>& points, int digits = 15) {
 }
 
 std::vector<Point> turned(std::vector<Point> points, double degrees, double size = 1.0, Point to = {}) {
-  const double c = std::cos(degrees * std::numbers::pi / 180.0), s = std::sin(degrees * std::numbers::pi / 180.0);
+  const double c = std::cos(degrees * std::numbers::pi / 180.0),
+               s = std::sin(degrees * std::numbers::pi / 180.0);
   for (Point& p : points) p = to + size * Point{c * p.x - s * p.y, s * p.x + c * p.y};
   return points;
 }
@@ -57,7 +59,8 @@ TEST(AirfoilFrame, FitsOfSymmetricFilesAreSymmetricWithAndWithoutAPointOnTheNose
     for (const double shift : {0.0, 0.5}) {
       EXPECT_LT(camber_of(text_of(symmetric_section(half, shift))), 1e-6) << half << " " << shift;
       for (const double degrees : {8.0, -25.0, 60.0})
-        EXPECT_LT(camber_of(text_of(turned(symmetric_section(half, shift), degrees))), 1e-6) << half << degrees;
+        EXPECT_LT(camber_of(text_of(turned(symmetric_section(half, shift), degrees))), 1e-6)
+            << half << degrees;
     }
 }
 
@@ -98,7 +101,8 @@ TEST(AirfoilFrame, IsTheSameWhateverPointAnOutlineBeginsWith) {
     std::rotate(other.begin(), other.begin() + static_cast<int>(random() % ring.size()), other.end());
     if (random() % 2 == 0) other.push_back(other.front());
     if (random() % 2 == 0) std::reverse(other.begin(), other.end());
-    other = turned(other, 0.0, 0.01 * static_cast<double>(1 + random() % 10000), {static_cast<double>(random() % 7) - 3.0, 2.0});
+    other = turned(other, 0.0, 0.01 * static_cast<double>(1 + random() % 10000),
+                   {static_cast<double>(random() % 7) - 3.0, 2.0});
     const AirfoilCoordinates found = parse_airfoil(text_of(other, 17), "a.dat");
     ASSERT_EQ(found.upper.size(), wanted.upper.size()) << "seed 7, trial " << trial;
     for (std::size_t i = 0; i < wanted.upper.size(); ++i)

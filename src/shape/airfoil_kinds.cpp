@@ -32,10 +32,12 @@ constexpr Kind kinds[] = {
     {"ndime=", "a mesh of SU2"},
     {"foamfile", "a file of OpenFOAM"},
     {"bezier airfoil", "control points of OpenVSP's Bezier airfoil, which do not lie on its outline"},
-    {"airfoilinfo", "an AirfoilInfo file of OpenFAST's AeroDyn, with a table of lift and drag; its line NumCoords "
-                    "names the file of the coordinates"},
-    {"numaftabs", "an AirfoilInfo file of OpenFAST's AeroDyn, with a table of lift and drag; its line NumCoords "
-                  "names the file of the coordinates"},
+    {"airfoilinfo",
+     "an AirfoilInfo file of OpenFAST's AeroDyn, with a table of lift and drag; its line NumCoords "
+     "names the file of the coordinates"},
+    {"numaftabs",
+     "an AirfoilInfo file of OpenFAST's AeroDyn, with a table of lift and drag; its line NumCoords "
+     "names the file of the coordinates"},
     {"calculated polar for", "a polar of XFOIL"},
     {"alpha    cl", "a polar of XFOIL"},
     {"xflr5", "a file of results of XFLR5"},

@@ -71,10 +71,10 @@ TEST(AirfoilKinds, ReadsSemicolonsAndDecimalCommas) {
   expect_wedge(parse_airfoil("x;y\n" + rows(selig(), semicolon), "file.txt"));
   expect_wedge(parse_airfoil("x;y\n" + with_commas(rows(selig(), semicolon)), "file.txt"));
   expect_wedge(parse_airfoil("wedge\r\n" + with_commas(rows(selig())), "file.txt"));
-  expect_wedge(parse_airfoil("wedge\n" + with_commas(rows(selig(), [](Point p) {
-                               return " " + number(p.x) + "\t" + number(p.y) + " ;";
-                             })),
-                             "file.txt"));
+  expect_wedge(parse_airfoil(
+      "wedge\n" +
+          with_commas(rows(selig(), [](Point p) { return " " + number(p.x) + "\t" + number(p.y) + " ;"; })),
+      "file.txt"));
 }
 
 TEST(AirfoilKinds, TakesThePlaneOfThreeColumnsAndSaysSo) {
@@ -95,7 +95,8 @@ TEST(AirfoilKinds, TakesThePlaneOfThreeColumnsAndSaysSo) {
 
 TEST(AirfoilKinds, ReadsFilesOfOpenFast) {
   const std::string head =
-      "        10   NumCoords         ! The number of coordinates in the airfoil shape file (including an extra "
+      "        10   NumCoords         ! The number of coordinates in the airfoil shape file (including an "
+      "extra "
       "coordinate for airfoil reference).\n"
       "! ......... x-y coordinates are next if NumCoords > 0 .............\n"
       "! x-y coordinate of airfoil reference\n!  x/c        y/c\n0.25       0\n"
@@ -113,7 +114,8 @@ TEST(AirfoilKinds, ReadsFilesOfOpenVsp) {
                                  rows(upper) + "\n" + rows(lower),
                              "wedge.af"));
   const AirfoilCoordinates symmetric = parse_airfoil(
-      head + "1\tSym Flag (0 - No, 1 - Yes)\n5\tNum Pnts Upper\n5\tNum Pnts Lower\n" + rows(upper), "wedge.af");
+      head + "1\tSym Flag (0 - No, 1 - Yes)\n5\tNum Pnts Upper\n5\tNum Pnts Lower\n" + rows(upper),
+      "wedge.af");
   EXPECT_EQ(symmetric.lower[2].y, -symmetric.upper[2].y);
   EXPECT_TRUE(says(refusal("# BEZIER AIRFOIL\n# wedge\n0 0\n0 .1\n1 .1\n1 0\n"), "control points"));
 }
@@ -126,7 +128,8 @@ TEST(AirfoilKinds, ReadsTwoSurfacesWithoutTheirCounts) {
 TEST(AirfoilKinds, PassesOverDatesAndAddressesBehindTheCoordinates) {
   for (const std::string footer :
        {"\n26/10/2001 http://www.example.org/forum?t=1\n", "\nhttp://example.org/main.htm\n25/09/2007",
-        "\n9%_1.4%_CM0=0.015 http://example.org\n28/12/2005    1.000733  -->1.0\n", "\n(15%)\n Posted by: J. D.\n",
+        "\n9%_1.4%_CM0=0.015 http://example.org\n28/12/2005    1.000733  -->1.0\n",
+        "\n(15%)\n Posted by: J. D.\n",
         "\n*modification 0.999975->1.000000    0.002500 / 1.000025\n\n===========\n"})
     expect_wedge(parse_airfoil("wedge\n" + rows(selig()) + footer, "file.txt"));
 }
@@ -135,7 +138,8 @@ TEST(AirfoilKinds, PassesOverDatesAndAddressesBehindTheCoordinates) {
 TEST(AirfoilKinds, TellsTheElementsOfAFileApart) {
   std::vector<Point> flap = selig();
   for (Point& p : flap) p = Point{1.02, -0.03} + 0.3 * p;
-  for (const std::string between : {"999. 999.\n", " 999.0  999.0\n\n", "\n", "FLAP\n", "\n# flap\nFlap 2\n"}) {
+  for (const std::string between :
+       {"999. 999.\n", " 999.0  999.0\n\n", "\n", "FLAP\n", "\n# flap\nFlap 2\n"}) {
     const std::string text = "MAIN\n" + rows(selig()) + between + rows(flap);
     const AirfoilOutlines file = parse_outlines(text, "file.txt");
     ASSERT_EQ(file.elements.size(), 2u) << between;
@@ -154,8 +158,10 @@ TEST(AirfoilKinds, NamesFilesOfOtherKinds) {
   EXPECT_TRUE(says(refusal("  0\nSECTION\n  2\nHEADER\n"), "DXF"));
   EXPECT_TRUE(says(refusal("ISO-10303-21;\nHEADER;\n"), "STEP"));
   EXPECT_TRUE(says(refusal("{\"degree\": 5}\n"), "JSON"));
-  EXPECT_TRUE(says(refusal(" XFOIL  Version 6.99\n Calculated polar for: NACA 0012\n 0.0 0.0 0.005\n"), "polar"));
-  EXPECT_TRUE(says(refusal("0.0 0.0 0.005 0.1\n1.0 0.11 0.006 0.1\n2.0 0.2 0.006 0.1\n"), "rows of 4 numbers"));
+  EXPECT_TRUE(
+      says(refusal(" XFOIL  Version 6.99\n Calculated polar for: NACA 0012\n 0.0 0.0 0.005\n"), "polar"));
+  EXPECT_TRUE(
+      says(refusal("0.0 0.0 0.005 0.1\n1.0 0.11 0.006 0.1\n2.0 0.2 0.006 0.1\n"), "rows of 4 numbers"));
 }
 
 TEST(AirfoilKinds, RefusesAnOutlineThatWasCutOff) {

@@ -32,7 +32,8 @@ template <typename... Parts>
   problem.precision(10);
   (problem << ... << parts);
   throw Error(ErrorCode::format,
-              row != nullptr && row->line > 0 ? source + ":" + std::to_string(row->line) : source, problem.str());
+              row != nullptr && row->line > 0 ? source + ":" + std::to_string(row->line) : source,
+              problem.str());
 }
 
 double distance(Point a, Point b) {

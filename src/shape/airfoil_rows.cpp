@@ -66,9 +66,10 @@ Style style_of(const std::vector<TextLine>& lines, const std::string& source) {
   const auto most = std::max_element(count.begin() + 2, count.end());
   style.columns = *most > count[2] ? static_cast<std::size_t>(most - count.begin()) : 2;
   if (style.columns > 3)
-    refuse(source, 0,
-           "found rows of " + std::to_string(style.columns) +
-               " numbers, as a table or a polar has them, expected coordinates of an airfoil: lines of x and y");
+    refuse(
+        source, 0,
+        "found rows of " + std::to_string(style.columns) +
+            " numbers, as a table or a polar has them, expected coordinates of an airfoil: lines of x and y");
   return style;
 }
 
@@ -101,7 +102,8 @@ struct Header {
 };
 
 bool has_words(std::string_view line, std::initializer_list<std::string_view> words) {
-  return std::all_of(words.begin(), words.end(), [&](std::string_view w) { return line.find(w) != line.npos; });
+  return std::all_of(words.begin(), words.end(),
+                     [&](std::string_view w) { return line.find(w) != line.npos; });
 }
 
 void read_header_line(std::string_view line, Header& header) {
@@ -201,7 +203,8 @@ class Reader {
   bool said_anything_ = false, quiet_ = false;
 };
 
-// Of three columns, the two of the plane of the section: not numbers of rows, not what is the same everywhere.
+// Of three columns, the two of the plane of the section: not numbers of rows, not what is the same
+// everywhere.
 std::array<std::size_t, 2> plane_of(const std::vector<Block>& blocks, std::vector<std::string>& notes,
                                     const std::string& source) {
   constexpr const char* names[] = {"first", "second", "third"};
@@ -224,7 +227,8 @@ std::array<std::size_t, 2> plane_of(const std::vector<Block>& blocks, std::vecto
                     " is left out, the section lies in the plane of the others");
     return others[i];
   }
-  refuse(source, 0, "found three columns, none of which is the same everywhere, expected a section in a plane");
+  refuse(source, 0,
+         "found three columns, none of which is the same everywhere, expected a section in a plane");
 }
 
 AirfoilRowList rows_of(const Block& block, std::array<std::size_t, 2> plane) {
@@ -272,8 +276,9 @@ std::vector<AirfoilElement> elements_of(const std::vector<Block>& blocks, std::a
   }
   // Two surfaces, an empty line between them, without their counts.
   const bool two = blocks.size() == 2 && !marked && elements.size() == 1;
-  if (two && distance(rows[0].front().point, rows[1].front().point) <
-                 0.1 * distance(rows[0].front().point, rows[0].back().point) &&
+  if (two &&
+      distance(rows[0].front().point, rows[1].front().point) <
+          0.1 * distance(rows[0].front().point, rows[0].back().point) &&
       distance(rows[0].back().point, rows[1].back().point) <
           0.1 * distance(rows[0].front().point, rows[0].back().point))
     elements[0].first_surface = rows[0].size();
@@ -284,8 +289,9 @@ std::vector<AirfoilElement> elements_of(const std::vector<Block>& blocks, std::a
 void apply_openfast(const Header& header, AirfoilText& result, const std::string& source) {
   AirfoilRowList& rows = result.elements.front().rows;
   if (rows.size() != *header.all)
-    refuse(source, 0,
-           "found " + std::to_string(rows.size()) + " rows, but NumCoords says " + std::to_string(*header.all));
+    refuse(
+        source, 0,
+        "found " + std::to_string(rows.size()) + " rows, but NumCoords says " + std::to_string(*header.all));
   rows.erase(rows.begin());
   result.elements.front().first_surface = 0;
   result.name.clear();
@@ -319,8 +325,7 @@ AirfoilText read_airfoil_rows(std::string_view text, const std::string& source) 
   reader.read();
   AirfoilText result;
   const std::vector<Block>& blocks = reader.blocks();
-  if (blocks.empty())
-    refuse(source, 0, "found no coordinates, expected lines of two numbers, x and y");
+  if (blocks.empty()) refuse(source, 0, "found no coordinates, expected lines of two numbers, x and y");
   std::array<std::size_t, 2> plane{0, 1};
   if (reader.columns() == 3) plane = plane_of(blocks, result.notes, source);
   const Header& header = reader.header();

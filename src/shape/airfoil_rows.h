@@ -1,7 +1,7 @@
 #pragma once
 
-// A coordinate file as rows of numbers, an element after the other, and what became of them: the steps between
-// text and surfaces.
+// A coordinate file as rows of numbers, an element after the other, and what became of them: the steps
+// between text and surfaces.
 
 #include <cstddef>
 #include <string>
@@ -38,18 +38,19 @@ inline constexpr std::size_t airfoil_text_limit = std::size_t{16} << 20;
 // what is a file of another kind, which it names.
 AirfoilText read_airfoil_rows(std::string_view text, const std::string& source);
 
-// Throws Error (format) where a text is of another kind, by how such files begin: a document, a mesh, a polar.
+// Throws Error (format) where a text is of another kind, by how such files begin: a document, a mesh, a
+// polar.
 void refuse_other_kinds(std::string_view text, const std::string& source);
 
-// A closed outline, counter-clockwise, without repetitions: from the upper end of the trailing edge around the
-// leading edge to its lower end, which is the first point again where the edge is closed.
+// A closed outline, counter-clockwise, without repetitions: from the upper end of the trailing edge around
+// the leading edge to its lower end, which is the first point again where the edge is closed.
 struct AirfoilLoop {
   AirfoilRowList rows;
   double gap = 0.0;     // between the ends as the file has them, negative where they are crossed
   bool closed = false;  // by us: a gap of rounding
 };
-// Whatever point the file begins with, and whichever way it runs. Throws Error (format) for fewer than 3 points
-// and for what encloses nothing.
+// Whatever point the file begins with, and whichever way it runs. Throws Error (format) for fewer than 3
+// points and for what encloses nothing.
 AirfoilLoop loop_of_element(const AirfoilElement& element, const std::string& source);
 // Without the points that draw the base of a blunt trailing edge, from which the surfaces of a fit begin.
 AirfoilLoop without_base(AirfoilLoop loop);

@@ -92,7 +92,8 @@ TEST(Catalogue, IsTheFileUpToTheNoseWhereThatLiesBetweenPoints) {
   for (const char* name : {"e376", "e545"}) {
     REMODEL_SHARED_FILE(file, "airfoils/" + std::string(name) + ".dat");
     const CstAirfoil fitted = fit_cst(read_airfoil(file), 5).airfoil, entry = find(name)->airfoil();
-    for (double t = 0.0; t <= 1.0; t += 0.01) EXPECT_NEAR(fitted.at(t).y, entry.at(t).y, 1.5e-3) << name << " " << t;
+    for (double t = 0.0; t <= 1.0; t += 0.01)
+      EXPECT_NEAR(fitted.at(t).y, entry.at(t).y, 1.5e-3) << name << " " << t;
   }
 }
 

@@ -79,8 +79,8 @@ void check_options(const AirfoilDomainOptions& options) {
          options.farfield_radius, "more than 1 and at most 1e6 chords");
 }
 
-// No point of the airfoil is farther from the farfield's centre: x / chord is in [0, 1], and where the exponents are not
-// negative, neither the class function nor a Bernstein polynomial exceeds one.
+// No point of the airfoil is farther from the farfield's centre: x / chord is in [0, 1], and where the
+// exponents are not negative, neither the class function nor a Bernstein polynomial exceeds one.
 double reach_bound(const PlacedAirfoil& placed, Point centre) {
   const CstAirfoil& airfoil = placed.airfoil;
   if (!placed.outline.empty()) return std::numeric_limits<double>::infinity();

@@ -142,8 +142,15 @@ TEST(AirfoilDomain, NamesACoefficientThatIsNoNumber) {
 }
 
 std::vector<Point> wedge(double gap) {
-  return {{1.0, 0.25 + 0.5 * gap}, {0.7, 0.235}, {0.3, 0.165}, {0.1, 0.075}, {0.0, 0.0},
-          {0.1, 0.005},            {0.3, 0.045}, {0.7, 0.165}, {1.0, 0.25 - 0.5 * gap}};
+  return {{1.0, 0.25 + 0.5 * gap},
+          {0.7, 0.235},
+          {0.3, 0.165},
+          {0.1, 0.075},
+          {0.0, 0.0},
+          {0.1, 0.005},
+          {0.3, 0.045},
+          {0.7, 0.165},
+          {1.0, 0.25 - 0.5 * gap}};
 }
 
 Domain domain_around(const std::vector<Curve>& outline) {
@@ -198,7 +205,8 @@ TEST(OutlineAsGiven, KeepsTheCornersOfAGurneyFlap) {
 TEST(OutlineAsGiven, IsSmoothAllAroundARoundBody) {
   std::vector<Point> file;
   for (int i = 0; i < 40; ++i)
-    file.push_back({0.5 + 0.5 * std::cos(i * std::numbers::pi / 20), 0.2 * std::sin(i * std::numbers::pi / 20)});
+    file.push_back(
+        {0.5 + 0.5 * std::cos(i * std::numbers::pi / 20), 0.2 * std::sin(i * std::numbers::pi / 20)});
   const std::vector<Curve> curves = outline_of(file, OutlineCurve::spline, "body");
   ASSERT_EQ(curves.size(), 1u);
   EXPECT_FALSE(std::get<Spline>(curves[0].shape).corner);

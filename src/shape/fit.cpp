@@ -122,9 +122,8 @@ CstFit first_apart(const AirfoilCoordinates& coordinates, int degree, TrailingEd
     try {
       CstFit fit = fit_cst(coordinates, other, trailing_edge);
       if (!surfaces_apart(fit.airfoil)) continue;
-      fit.warnings.push_back(name_of(coordinates) + ": the fit of degree " +
-                             std::to_string(degree) + " crosses itself, that of degree " +
-                             std::to_string(other) + " is taken");
+      fit.warnings.push_back(name_of(coordinates) + ": the fit of degree " + std::to_string(degree) +
+                             " crosses itself, that of degree " + std::to_string(other) + " is taken");
       return fit;
     } catch (const Error&) {
       continue;  // too few points for so many coefficients

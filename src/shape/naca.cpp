@@ -1,7 +1,7 @@
-// NACA 4- and 5-digit sections, modified ones too. Source: E. N. Jacobs, K. E. Ward, R. M. Pinkerton, NACA report 460, 1933;
-// E. N. Jacobs, R. M. Pinkerton, NACA report 537, 1935 (the 5-digit mean lines); C. L. Ladson, C. W. Brooks,
-// NASA TM X-3284, 1975 (the table of constants; the modified thickness, whose trailing edge is open by a
-// fiftieth of the largest).
+// NACA 4- and 5-digit sections, modified ones too. Source: E. N. Jacobs, K. E. Ward, R. M. Pinkerton, NACA
+// report 460, 1933; E. N. Jacobs, R. M. Pinkerton, NACA report 537, 1935 (the 5-digit mean lines); C. L.
+// Ladson, C. W. Brooks, NASA TM X-3284, 1975 (the table of constants; the modified thickness, whose trailing
+// edge is open by a fiftieth of the largest).
 
 #include <algorithm>
 #include <cmath>
@@ -88,7 +88,8 @@ class ModifiedThickness {
   explicit ModifiedThickness(Modification m) : place_(0.1 * m.place) {
     // The slope at the trailing edge, by the place of the largest thickness.
     constexpr double slopes[] = {1.000, 1.170, 1.575, 2.325, 3.500};
-    constexpr double edge = 0.002, half = 0.1 - edge;  // at the trailing edge, and the largest over that, of 20 %
+    constexpr double edge = 0.002,
+                     half = 0.1 - edge;  // at the trailing edge, and the largest over that, of 20 %
     const double t = place_, u = 1.0 - t, d1 = 0.2 * slopes[m.place - 2];
     const double bend = (6.0 * half - 2.0 * d1 * u) / (u * u);
     rear_[0] = edge;
@@ -105,8 +106,9 @@ class ModifiedThickness {
   }
   double operator()(double x, double thickness) const {
     const double e = 1.0 - x;
-    const double sum = x > place_ ? rear_[0] + e * (rear_[1] + e * (rear_[2] + e * rear_[3]))
-                                  : front_[0] * std::sqrt(x) + x * (front_[1] + x * (front_[2] + x * front_[3]));
+    const double sum = x > place_
+                           ? rear_[0] + e * (rear_[1] + e * (rear_[2] + e * rear_[3]))
+                           : front_[0] * std::sqrt(x) + x * (front_[1] + x * (front_[2] + x * front_[3]));
     return 5.0 * thickness * sum;
   }
 
@@ -123,7 +125,8 @@ std::optional<Modification> modification_of(std::string_view designation, std::s
   const Modification result{.radius = suffix[0] - '0', .place = suffix[1] - '0'};
   if (result.place < 2 || result.place > 6)
     refuse_naca(designation, "a modification with the largest thickness at 2 to 6 tenths of the chord");
-  if (result.radius == 0) refuse_naca(designation, "a modification with a round nose: 1 to 9 behind the dash");
+  if (result.radius == 0)
+    refuse_naca(designation, "a modification with a round nose: 1 to 9 behind the dash");
   return result;
 }
 
@@ -160,9 +163,10 @@ AirfoilCoordinates naca_airfoil(std::string_view designation) {
   std::optional<NacaParts> parts = digit_section(designation);
   if (!parts) parts = six_series_section(designation);
   if (!parts)
-    refuse_naca(designation,
-                "4 digits such as 2412 or 5 digits such as 23012 or 23112, modified ones such as 0012-64, or the "
-                "6-series such as 63-206, 65(1)-412, 64A010 or 63-206 a=.8");
+    refuse_naca(
+        designation,
+        "4 digits such as 2412 or 5 digits such as 23012 or 23112, modified ones such as 0012-64, or the "
+        "6-series such as 63-206, 65(1)-412, 64A010 or 63-206 a=.8");
   std::vector<AirfoilRow> outline;
   const auto add = [&](Point p, double sign) {
     const MeanLine line = parts->mean_line(p.x);

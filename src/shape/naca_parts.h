@@ -24,8 +24,8 @@ struct NacaParts {
   MeanLineFunction mean_line;
 };
 
-// "0012", "23012", "0012-64", "23012-34": none for what is no such designation. Refuses by name what is one and
-// has no closed form here.
+// "0012", "23012", "0012-64", "23012-34": none for what is no such designation. Refuses by name what is one
+// and has no closed form here.
 std::optional<NacaParts> digit_section(std::string_view designation);
 // "63-206", "65(1)-412", "64A010", "63-206 a=.8" likewise.
 std::optional<NacaParts> six_series_section(std::string_view designation);

@@ -1,7 +1,7 @@
 // NACA 6- and 6A-series sections. Sources: C. L. Ladson, C. W. Brooks, A. S. Hill, D. W. Sproles, "Computer
-// Program To Obtain Ordinates for NACA Airfoils", NASA TM 4741, 1996 (a profile of any thickness by scaling the
-// functions of its family); I. H. Abbott, A. E. von Doenhoff, "Theory of Wing Sections", 1959, eq. 4-26 (mean
-// lines); L. K. Loftin, NACA report 903, 1948 (the mean line of the 6A-series).
+// Program To Obtain Ordinates for NACA Airfoils", NASA TM 4741, 1996 (a profile of any thickness by scaling
+// the functions of its family); I. H. Abbott, A. E. von Doenhoff, "Theory of Wing Sections", 1959, eq. 4-26
+// (mean lines); L. K. Loftin, NACA report 903, 1948 (the mean line of the 6A-series).
 
 #include <algorithm>
 #include <cmath>

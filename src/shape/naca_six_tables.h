@@ -1,10 +1,10 @@
 #pragma once
 
 // The profiles of the NACA 6- and 6A-series as conformal maps of a circle: psi = sum of psi[n] cos(n phi) and
-// epsilon = sum of epsilon[n] sin((n + 1) phi). Source: the tables of C. L. Ladson, C. W. Brooks, NASA TM X-3069,
-// 1974 (C. L. Ladson, C. W. Brooks, A. S. Hill, D. W. Sproles, NASA TM 4741, 1996), 201 values of each function a
-// family, by least squares; the ordinates of profiles that these series give differ from those of the tables by
-// at most 2e-4 chords.
+// epsilon = sum of epsilon[n] sin((n + 1) phi). Source: the tables of C. L. Ladson, C. W. Brooks, NASA TM
+// X-3069, 1974 (C. L. Ladson, C. W. Brooks, A. S. Hill, D. W. Sproles, NASA TM 4741, 1996), 201 values of
+// each function a family, by least squares; the ordinates of profiles that these series give differ from
+// those of the tables by at most 2e-4 chords.
 
 namespace remodel {
 

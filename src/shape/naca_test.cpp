@@ -91,8 +91,20 @@ double height_at(const std::vector<Point>& surface, double x) {
 // Ordinates of the upper side in chords, from the lists of NACA report 492 (0012-64).
 TEST(Naca, ModifiedSectionsHaveTheirPublishedOrdinates) {
   const AirfoilCoordinates section = naca_airfoil("0012-64");
-  for (const Point p : {Point{0.0125, 0.01813}, {0.025, 0.02453}, {0.05, 0.03267}, {0.1, 0.0424}, {0.2, 0.05293},
-                        {0.3, 0.05827}, {0.4, 0.06}, {0.5, 0.05827}, {0.6, 0.0532}, {0.7, 0.0448}, {0.8, 0.0332}, {0.9, 0.01867}, {0.95, 0.01027}, {1.0, 0.0012}}) {
+  for (const Point p : {Point{0.0125, 0.01813},
+                        {0.025, 0.02453},
+                        {0.05, 0.03267},
+                        {0.1, 0.0424},
+                        {0.2, 0.05293},
+                        {0.3, 0.05827},
+                        {0.4, 0.06},
+                        {0.5, 0.05827},
+                        {0.6, 0.0532},
+                        {0.7, 0.0448},
+                        {0.8, 0.0332},
+                        {0.9, 0.01867},
+                        {0.95, 0.01027},
+                        {1.0, 0.0012}}) {
     EXPECT_NEAR(height_at(section.upper, p.x), p.y, 7e-5) << p.x;
     EXPECT_NEAR(height_at(section.lower, p.x), -p.y, 7e-5) << p.x;
   }
@@ -101,8 +113,15 @@ TEST(Naca, ModifiedSectionsHaveTheirPublishedOrdinates) {
 // From NACA report 824 and, for the 6A-series, report 903.
 TEST(Naca, SixSeriesSectionsHaveTheirPublishedOrdinates) {
   const AirfoilCoordinates a = naca_airfoil("64A010");
-  for (const Point p : {Point{0.006, 0.008859}, {0.01, 0.011167}, {0.05, 0.02331}, {0.1, 0.032014}, {0.2, 0.042737},
-                        {0.4, 0.049954}, {0.6, 0.04021}, {0.8, 0.021023}, {0.95, 0.005404}})
+  for (const Point p : {Point{0.006, 0.008859},
+                        {0.01, 0.011167},
+                        {0.05, 0.02331},
+                        {0.1, 0.032014},
+                        {0.2, 0.042737},
+                        {0.4, 0.049954},
+                        {0.6, 0.04021},
+                        {0.8, 0.021023},
+                        {0.95, 0.005404}})
     EXPECT_NEAR(height_at(a.upper, p.x), p.y, 1e-4) << p.x;
   const AirfoilCoordinates b = naca_airfoil("64(2)-015");
   for (const Point p : {Point{0.95, 0.00346}, {0.9, 0.0095}, {0.8, 0.02472}, {0.7, 0.04113}, {0.5, 0.0681}})
@@ -124,7 +143,8 @@ TEST(Naca, SixSeriesSectionsHaveTheirMeanLines) {
 }
 
 TEST(Naca, SixSeriesSectionsHaveTheThicknessOfTheirDigits) {
-  for (const char* designation : {"63-006", "64-012", "65-018", "66-021", "67-015", "63A008", "64A010", "65A012"}) {
+  for (const char* designation :
+       {"63-006", "64-012", "65-018", "66-021", "67-015", "63A008", "64A010", "65A012"}) {
     const std::string name = designation;
     const double wanted = 0.01 * std::stoi(name.substr(name.size() - 2));
     double largest = 0.0;
@@ -134,8 +154,8 @@ TEST(Naca, SixSeriesSectionsHaveTheThicknessOfTheirDigits) {
 }
 
 TEST(Naca, RefusesByNameWhatHasNoClosedForm) {
-  for (const char* designation : {"0012-07", "0012-61", "0012-04", "66A010", "63-200", "64A210 a=.5", "63-206 a=2",
-                                  "63-206 a=x", "747A315", "16-212", "63-20", "62-206"}) {
+  for (const char* designation : {"0012-07", "0012-61", "0012-04", "66A010", "63-200", "64A210 a=.5",
+                                  "63-206 a=2", "63-206 a=x", "747A315", "16-212", "63-20", "62-206"}) {
     try {
       naca_airfoil(designation);
       ADD_FAILURE() << designation;

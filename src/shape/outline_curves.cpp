@@ -75,7 +75,8 @@ bool is_simple(const std::vector<Curve>& curves) {
     for (std::size_t i = 0; i < curve.parameters.size(); ++i) {
       const double from = curve.parameters[i];
       const double to = i + 1 < curve.parameters.size() ? curve.parameters[i + 1] : 1.0;
-      for (int k = 0; k < samples; ++k) points.push_back(point_at(curve.shape, from + (to - from) * k / samples));
+      for (int k = 0; k < samples; ++k)
+        points.push_back(point_at(curve.shape, from + (to - from) * k / samples));
     }
   }
   points.push_back(points.front());
