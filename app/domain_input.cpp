@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 
 #include "arguments.h"
@@ -64,24 +65,176 @@ void require_at_most_one_each(const char* option, std::size_t found, std::size_t
                     std::to_string(airfoils) + " airfoils");
 }
 
-std::vector<Curve> outline_of_file(const std::string& shape, OutlineCurve curve, const std::string& name,
-                                   std::vector<ShapeOutline>& outlines) {
-  if (!is_coordinate_file(shape))
-    throw Error(ErrorCode::argument, "--as-given",
-                "given for '" + shape + "', expected for coordinate files");
-  const AirfoilCoordinates coordinates = read_airfoil(shape);
-  outlines.push_back({.shape = shape,
-                      .points = coordinates.upper.size() + coordinates.lower.size() - 1,
-                      .gap = coordinates.upper.back().y - coordinates.lower.back().y});
-  return outline_of(coordinates, curve, name);
+// As an outline is given it stays where it is, unless that is not about the chord of 1 from the origin on
+// that everything else assumes.
+constexpr double near_origin = 0.1, near_one = 0.25;
+// Below, an incidence is what digits and the choice of a nose leave of none.
+constexpr double least_incidence_deg = 0.1;
+
+bool in_chords(const AirfoilFrame& frame) {
+  return std::abs(frame.chord - 1.0) <= near_one && std::abs(frame.nose.x) <= near_origin &&
+         std::abs(frame.nose.y) <= near_origin;
 }
+
+// In chords from the nose, neither turned nor sheared.
+std::vector<Point> moved_to_origin(const AirfoilOutline& outline) {
+  std::vector<Point> points;
+  for (const Point p : outline.points)
+    points.push_back((1.0 / outline.frame.chord) * (p - outline.frame.nose));
+  return points;
+}
+
+// The box of all noses and trailing edges, which a farfield goes around.
+struct Extent {
+  Point least{HUGE_VAL, HUGE_VAL}, largest{-HUGE_VAL, -HUGE_VAL};
+  void add(Point p) {
+    least = {std::min(least.x, p.x), std::min(least.y, p.y)};
+    largest = {std::max(largest.x, p.x), std::max(largest.y, p.y)};
+  }
+  void add(const AirfoilFrame& frame) {
+    add(frame.nose);
+    add(frame.nose + frame.chord * frame.axis);
+  }
+  Point centre() const { return 0.5 * (least + largest); }
+  double size() const { return std::max(largest.x - least.x, largest.y - least.y); }
+};
+
+// Reads what is given as airfoils, and says what became of their files.
+class AirfoilInput {
+ public:
+  AirfoilInput(const DomainInputOptions& options, const FitOptions& fit, DomainInput& input)
+      : options_(options), fit_(fit), input_(input) {}
+
+  void read() {
+    for (std::size_t i = 0; i < options_.shapes.size(); ++i) {
+      const KeptPipes once;
+      if (is_coordinate_file(options_.shapes[i]))
+        read_file(i);
+      else
+        add_named(i);
+    }
+    if (keeps_ && std::abs(longest_ - 1.0) > near_one)
+      warn("the longest chord is " + short_text(longest_) +
+           " in the coordinates of the files, which are kept: coefficients of a flow are of the reference "
+           "length "
+           "that is given, or of 1");
+  }
+
+  const Airfoils& airfoils() const { return airfoils_; }
+  // The farfield around what stays in the coordinates of its files.
+  AirfoilDomainOptions farfield(AirfoilDomainOptions discretisation) const {
+    if (!keeps_ || options_.farfield_stays) return discretisation;
+    discretisation.farfield_radius *= extent_.size();
+    discretisation.farfield_centre = extent_.centre();
+    return discretisation;
+  }
+
+ private:
+  std::string name_for(std::size_t i) const {
+    const bool alone = options_.shapes.size() == 1 && options_.names.empty() && elements_ < 2;
+    return alone ? "airfoil" : name_of(options_, i, airfoils_);
+  }
+
+  void add_named(std::size_t i) {
+    const std::string& shape = options_.shapes[i];
+    if (options_.as_given)
+      throw Error(ErrorCode::argument, "--as-given",
+                  "given for '" + shape + "', expected for coordinate files");
+    if (options_.keep_coordinates)
+      throw Error(ErrorCode::argument, "--keep-coordinates",
+                  "given for '" + shape + "', expected for coordinate files");
+    elements_ = 1;
+    PlacedAirfoil placed{.name = name_for(i), .airfoil = fit_shape(shape, fit_, input_.fits).airfoil};
+    if (i < options_.places.size()) placed.placement = placement_of(options_.places[i]);
+    airfoils_.push_back(std::move(placed));
+  }
+
+  void read_file(std::size_t i) {
+    const std::string& shape = options_.shapes[i];
+    const AirfoilOutlines file = read_outlines(shape);
+    elements_ = file.elements.size();
+    const bool place = i < options_.places.size();
+    if (place && elements_ > 1)
+      throw Error(ErrorCode::argument, "--place",
+                  "given for '" + shape + "', which has " + std::to_string(elements_) +
+                      " elements in common coordinates, expected for a file of one");
+    if (elements_ > 1)
+      warn(shape + ": has " + std::to_string(elements_) + " elements, whose common coordinates are kept");
+    if (options_.as_given || elements_ > 1) warn(file.warnings);
+    for (const AirfoilOutline& outline : file.elements) {
+      const bool keep = options_.keep_coordinates || elements_ > 1;
+      keeps_ = keeps_ || keep;
+      if (keep) extent_.add(outline.frame), longest_ = std::max(longest_, outline.frame.chord);
+      PlacedAirfoil placed = options_.as_given ? as_given(i, outline, keep, place) : fitted(i, outline, keep);
+      if (place) placed.placement = placement_of(options_.places[i]);
+      airfoils_.push_back(std::move(placed));
+    }
+  }
+
+  PlacedAirfoil as_given(std::size_t i, const AirfoilOutline& outline, bool keep, bool place) {
+    const std::string& shape = options_.shapes[i];
+    const bool stays = keep || (!place && in_chords(outline.frame));
+    PlacedAirfoil placed;
+    placed.name = name_for(i);
+    placed.outline =
+        outline_of(stays ? outline.points : moved_to_origin(outline), *options_.as_given, placed.name);
+    const bool closed = outline.points.front() == outline.points.back();
+    input_.outlines.push_back({.shape = shape,
+                               .points = outline.points.size() - (closed ? 1 : 0),
+                               .gap = outline.gap,
+                               .kept = stays,
+                               .frame = outline.frame});
+    if (!stays && !place)
+      warn(shape + ": its chord of " + short_text(outline.frame.chord) +
+           " is scaled to 1 and its nose moved from " + short_text(outline.frame.nose.x) + "," +
+           short_text(outline.frame.nose.y) + " to the origin; --keep-coordinates leaves them");
+    return placed;
+  }
+
+  // Several elements of a file are fitted one by one; a file of one by itself, with what is said of it.
+  CstFit fit_of(std::size_t i, const AirfoilOutline& outline, bool keep) {
+    const std::string& shape = options_.shapes[i];
+    if (elements_ == 1 && !keep) return fit_shape(shape, fit_, input_.fits);
+    const CstFit fit = fit_cst_apart(surfaces_of(outline, shape), fit_.degree, fit_.trailing_edge());
+    warn(fit.warnings);
+    input_.fits.push_back({shape, fit});
+    return fit;
+  }
+
+  PlacedAirfoil fitted(std::size_t i, const AirfoilOutline& outline, bool keep) {
+    const CstFit fit = fit_of(i, outline, keep);
+    PlacedAirfoil placed{.name = name_for(i), .airfoil = fit.airfoil};
+    const AirfoilFrame& frame = fit.frame;
+    const double incidence = frame.incidence_deg();
+    if (keep) {
+      placed.placement = {.chord = frame.chord, .rotation_deg = -incidence, .position = frame.nose};
+    } else if (std::abs(incidence) >= least_incidence_deg && i >= options_.places.size()) {
+      placed.placement.rotation_deg = -incidence;
+      warn(options_.shapes[i] + ": the section is placed at the incidence that it is drawn at");
+    }
+    return placed;
+  }
+
+  const DomainInputOptions& options_;
+  const FitOptions& fit_;
+  DomainInput& input_;
+  Airfoils airfoils_;
+  Extent extent_;
+  std::size_t elements_ = 1;  // of the file that is read
+  double longest_ = 0.0;      // chord that is kept
+  bool keeps_ = false;
+};
 
 void add_outline_figures(Report& report, const std::vector<ShapeOutline>& outlines) {
   Json list = Json::array();
   for (const ShapeOutline& outline : outlines) {
-    list.push_back(
-        {{"shape", outline.shape}, {"points", outline.points}, {"trailing_edge_gap", outline.gap}});
-    std::string text = std::to_string(outline.points) + " points as given, in chords from the leading edge";
+    list.push_back({{"shape", outline.shape},
+                    {"points", outline.points},
+                    {"trailing_edge_gap", outline.gap},
+                    {"kept", outline.kept},
+                    {"frame", frame_json(outline.frame)}});
+    std::string text = std::to_string(outline.points) + " points as given, " +
+                       (outline.kept ? "where the file has them" : "in chords from the leading edge");
     if (outline.gap != 0.0)
       text += "; its trailing edge is open by " + short_text(outline.gap) + " chords, kept";
     report.line("outline of " + outline.shape, text);
@@ -122,6 +275,10 @@ void add_domain_input(CLI::App& app, DomainInputOptions& options) {
               "The outline of a coordinate file as it is, without a fit: a spline or a polyline through its "
               "points, which are the vertices"},
              {"spline", "polyline"}, [&](std::size_t choice) { options.as_given = outlines[choice]; });
+  add_flag(app, "--keep-coordinates",
+           "Coordinate files stay where they are: in their own place, incidence and units, with the farfield "
+           "around all of them",
+           options.keep_coordinates);
   add_choice(app,
              {"--crossings", "WHAT", "insert",
               "Segments of a .poly file that cross: insert the crossing, or refuse the file"},
@@ -137,7 +294,7 @@ void add_domain_input(CLI::App& app, DomainInputOptions& options) {
 
 bool is_single_airfoil(const DomainInputOptions& options) {
   return options.shapes.size() == 1 && options.places.empty() && options.names.empty() && !options.as_given &&
-         !holds_graph(options.shapes[0]) && !is_domain_file(options.shapes[0]);
+         !options.keep_coordinates && !holds_graph(options.shapes[0]) && !is_domain_file(options.shapes[0]);
 }
 
 DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOptions& discretisation,
@@ -158,8 +315,10 @@ DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOp
     if (is_domain_file(shape)) {
       require_alone(options, shape);
       Joins joins;
-      input.domain = load_domain(shape, options.join, &joins);
+      std::vector<std::string> warnings;
+      input.domain = load_domain(shape, options.join, &joins, &warnings);
       warn_of(joins, shape);
+      warn(warnings);
       return input;
     }
   }
@@ -168,19 +327,12 @@ DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOp
   if (options.as_given && fit.close_trailing_edge)
     throw Error(ErrorCode::argument, "--close-trailing-edge",
                 "given with --as-given, which leaves the outline as it is, expected one of them");
-  Airfoils airfoils;
-  for (std::size_t i = 0; i < options.shapes.size(); ++i) {
-    const std::string& shape = options.shapes[i];
-    PlacedAirfoil placed;
-    if (options.shapes.size() > 1 || !options.names.empty()) placed.name = name_of(options, i, airfoils);
-    if (options.as_given)
-      placed.outline = outline_of_file(shape, *options.as_given, placed.name, input.outlines);
-    else
-      placed.airfoil = fit_shape(shape, fit, input.fits).airfoil;
-    if (i < options.places.size()) placed.placement = placement_of(options.places[i]);
-    airfoils.push_back(std::move(placed));
-  }
-  input.domain = airfoils_domain(airfoils, discretisation);
+  if (options.keep_coordinates && !options.places.empty())
+    throw Error(ErrorCode::argument, "--place",
+                "given with --keep-coordinates, which leaves airfoils where they are, expected one of them");
+  AirfoilInput airfoils(options, fit, input);
+  airfoils.read();
+  input.domain = airfoils_domain(airfoils.airfoils(), airfoils.farfield(discretisation));
   input.in_farfield = true;
   return input;
 }

@@ -27,19 +27,23 @@ struct DomainInputOptions {
   Crossings crossings = Crossings::insert;
   double join = default_join;
   std::optional<OutlineCurve> as_given;  // no fit: a curve through the points of coordinate files
+  bool keep_coordinates = false;         // of coordinate files: their place, incidence and units
+  bool farfield_stays = false;           // where it is, with coordinates that are kept, too
 };
 
-// SHAPE..., --place, --name, --crossings, --join, --as-given.
+// SHAPE..., --place, --name, --crossings, --join, --as-given, --keep-coordinates.
 void add_domain_input(CLI::App& app, DomainInputOptions& options);
 
 // True if the input is one airfoil without a place and a name, as opposed to a domain or an outline as given.
 bool is_single_airfoil(const DomainInputOptions& options);
 
-// The points of a coordinate file as given.
+// The points of a coordinate file as given, or of one of its elements.
 struct ShapeOutline {
   std::string shape;
   std::size_t points = 0;
   double gap = 0.0;  // of the trailing edge, in chords
+  bool kept = true;  // in the coordinates of the file, and not moved to the origin and scaled to a chord of 1
+  AirfoilFrame frame = {};
 };
 
 struct DomainInput {

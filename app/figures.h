@@ -18,8 +18,9 @@ class App;
 namespace remodel::app {
 
 inline constexpr const char* shape_help =
-    "Airfoil coordinate file (Selig or Lednicer), naca:2412, a name that `remodel shapes` lists, or a .json "
-    "file of CST coefficients";
+    "Airfoil coordinate file (Selig, Lednicer and others, by content), naca:2412 (also 0012-64, 23112, "
+    "63-206), a "
+    "name that `remodel shapes` lists, or a .json file of CST coefficients";
 
 void add_json_flag(CLI::App& app, bool& json);
 void add_shape_argument(CLI::App& app, std::string& shape);

@@ -33,6 +33,13 @@ void add_extreme(Report& report, const std::string& key, const Extreme& extreme)
   report.line("largest " + key, Json(extreme.value).dump() + " chords at x = " + Json(extreme.at).dump());
 }
 
+// Where the file has the section: --place puts it there again.
+void add_frame_line(Report& report, const AirfoilFrame& frame) {
+  const auto text = [](double value) { return Json(value + 0.0).dump(); };
+  report.line("place in the file", text(frame.chord) + "," + text(-frame.incidence_deg()) + "," +
+                                       text(frame.nose.x) + "," + text(frame.nose.y));
+}
+
 Status run(const FitCommand& command) {
   require_possible(command.output);
   const CstFit fit = fit_shape(command.shape, command.fit);
@@ -48,6 +55,8 @@ Status run(const FitCommand& command) {
   report.figure("te_upper", "trailing edge of the upper surface", fit.airfoil.te_upper, "chords");
   report.figure("te_lower", "trailing edge of the lower surface", fit.airfoil.te_lower, "chords");
   report.figure("trailing_edge_gap", "gap of the file's trailing edge", fit.gap, "chords");
+  report.data("frame", frame_json(fit.frame));
+  add_frame_line(report, fit.frame);
   report.figure("max_error", "largest fit error", fit.max_error, "chords");
   report.figure("rms_error", "RMS fit error", fit.rms_error, "chords");
   add_extreme(report, "thickness", max_thickness(fit.airfoil));

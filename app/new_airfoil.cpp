@@ -51,6 +51,7 @@ AirfoilDomainOptions discretisation_of(const Domain& domain) {
     if (std::holds_alternative<CstAirfoil>(curve.shape)) options.points = points;
     if (const auto* circle = std::get_if<Arc>(&curve.shape)) {
       options.farfield_radius = circle->radius;
+      options.farfield_centre = circle->centre;
       options.farfield_points = points;
     }
   }

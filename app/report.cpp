@@ -49,7 +49,8 @@ std::string Report::json_text() const {
   Json object = object_;
   Json said = warnings();
   if (object.contains("warnings"))
-    for (const Json& sentence : object["warnings"]) said.push_back(sentence);
+    for (const Json& sentence : object["warnings"])
+      if (std::find(said.begin(), said.end(), sentence) == said.end()) said.push_back(sentence);
   object["warnings"] = std::move(said);
   return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -1,40 +1,25 @@
 #include "shape_input.h"
 
-#include <cstdio>
-#include <filesystem>
-
 #include "number_text.h"
 #include "remodel/shape_files.h"
+#include "warnings.h"
 
 namespace remodel::app {
-namespace {
 
-constexpr std::string_view naca = "naca:";
-
-CstFit fit_file(const std::string& file, const FitOptions& options) {
-  const CstFit fit = fit_cst_apart(read_airfoil(file), options.degree, options.trailing_edge());
-  if (fit.airfoil.degree() != options.degree)
-    std::fprintf(stderr, "remodel: %s: the fit of degree %d crosses itself, that of degree %d is taken\n",
-                 file.c_str(), options.degree, fit.airfoil.degree());
+CstFit fit_shape(const std::string& shape, const FitOptions& options) {
+  const CstFit fit = load_fit(shape, options.degree, options.trailing_edge());
+  warn(fit.warnings);
   return fit;
 }
 
-}  // namespace
-
-bool is_coordinate_file(const std::string& shape) {
-  if (shape.starts_with(naca) || std::filesystem::path(shape).extension() == ".json") return false;
-  std::error_code ignored;
-  return shape.find_first_of("/.") != std::string::npos ||
-         (std::filesystem::exists(shape, ignored) && !std::filesystem::is_directory(shape, ignored));
-}
-
-CstFit fit_shape(const std::string& shape, const FitOptions& options) {
-  if (is_coordinate_file(shape)) return fit_file(shape, options);
-  if (shape.starts_with(naca)) return fit_cst(naca_airfoil(shape.substr(naca.size())), options.degree);
-  const CstAirfoil airfoil = load_airfoil(shape, options.degree);
-  for (const CatalogueEntry& entry : airfoil_catalogue())
-    if (entry.name == shape) return {airfoil, entry.fit_max_error, entry.fit_rms_error};
-  return {.airfoil = airfoil};
+Json frame_json(const AirfoilFrame& frame) {
+  const Point moved = -1.0 * frame.nose;
+  return {{"turned_deg", frame.incidence_deg()},
+          {"sheared", frame.shear},
+          {"scaled", 1.0 / frame.chord},
+          {"moved", {moved.x + 0.0, moved.y + 0.0}},
+          {"closed", frame.closed},
+          {"place", {frame.chord, -frame.incidence_deg() + 0.0, frame.nose.x, frame.nose.y}}};
 }
 
 CstFit fit_shape(const std::string& shape, const FitOptions& options, std::vector<ShapeFit>& fits) {
@@ -53,7 +38,8 @@ void add_fit_figures(Report& report, const std::vector<ShapeFit>& fits) {
                     {"rms_error", fit.rms_error},
                     {"trailing_edge_gap", fit.gap},
                     {"te_upper", fit.airfoil.te_upper},
-                    {"te_lower", fit.airfoil.te_lower}});
+                    {"te_lower", fit.airfoil.te_lower},
+                    {"frame", frame_json(fit.frame)}});
     std::string text = "degree " + std::to_string(fit.airfoil.degree()) + ", largest error " +
                        short_text(fit.max_error) + ", rms " + short_text(fit.rms_error) + " chords";
     if (fit.gap != 0.0)

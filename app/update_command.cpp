@@ -141,8 +141,10 @@ DomainInput new_domain(const StartMesh& start, const UpdateCommand& command) {
                 "expected one airfoil to put there");
   AirfoilDomainOptions discretisation = discretisation_of(start.mesh.domain());
   if (command.start.points) discretisation.points = *command.start.points;
-  DomainInput input = read_domain(command.shapes, discretisation, command.fit);
-  validate_input(command.shapes, input.domain);
+  DomainInputOptions shapes = command.shapes;
+  shapes.farfield_stays = true;
+  DomainInput input = read_domain(shapes, discretisation, command.fit);
+  validate_input(shapes, input.domain);
   return input;
 }
 

@@ -20,6 +20,10 @@ void warn(const std::string& sentence) {
   if (std::find(list().begin(), list().end(), sentence) == list().end()) list().push_back(sentence);
 }
 
+void warn(const std::vector<std::string>& sentences) {
+  for (const std::string& sentence : sentences) warn(sentence);
+}
+
 // File names and foreign content may hold anything; a sentence stays one line.
 void print_warnings() {
   for (std::string sentence : list()) {

@@ -13,6 +13,7 @@
 namespace remodel::app {
 
 void warn(const std::string& sentence);  // once
+void warn(const std::vector<std::string>& sentences);
 // All so far, in their order: of this run of the program.
 const std::vector<std::string>& warnings();
 void print_warnings();

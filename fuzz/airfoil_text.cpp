@@ -1,4 +1,4 @@
-// Coordinate files: Selig and Lednicer order.
+// Coordinate files of every kind, as surfaces and as outlines.
 
 #include "fuzz.h"
 #include "remodel/airfoil.h"
@@ -6,6 +6,12 @@
 using namespace remodel;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    for (const AirfoilOutline& outline : parse_outlines(fuzz::text_of(data, size), "input").elements)
+      fuzz::require(outline.points.size() >= 4 && outline.frame.chord > 0.0, "no outline accepted");
+  } catch (const Error&) {
+    ++fuzz::refusals;
+  }
   try {
     const AirfoilCoordinates coordinates = parse_airfoil(fuzz::text_of(data, size), "input");
     fuzz::require(coordinates.upper.size() >= 3 && coordinates.lower.size() >= 3,

@@ -60,27 +60,63 @@ Extreme max_camber(const CstAirfoil& airfoil);
 // bounds of the sum. False also for coefficients that are not finite.
 bool surfaces_apart(const CstAirfoil& airfoil);
 
-// A coordinate file as read: surfaces from leading edge to trailing edge, chord scaled to 1, leading edge at
-// the origin, trailing edge (midpoint of the two end points) at (1, 0).
+// Where the chord of a section lies in the coordinates of its file, and so what became of them: the nose was
+// moved to the origin, the section turned about it until its trailing edge (midpoint of the two ends) lay on
+// the x axis, and scaled to a chord of 1.
+struct AirfoilFrame {
+  Point nose = {};
+  double chord = 1.0;
+  Point axis = {1.0, 0.0};  // of length 1, from the nose to the trailing edge
+  // y per x that was taken off besides: of sections that are drawn straight, their digits' rounding; of NACA
+  // sections, whose foremost point is not where their mean line begins, up to 0.01.
+  double shear = 0.0;
+  double closed =
+      0.0;  // the gap of the trailing edge, in chords, that was closed as rounding; crossed: below 0
+
+  double incidence_deg() const;  // at which the section is drawn, nose up; to 1e-9 degrees
+};
+
+// A coordinate file as read: surfaces from leading edge to trailing edge, in the frame of its chord.
 //
-// CST is y over x, so the leading edge is the point of smallest x (the middle one of a flat nose), also where
-// the file's author meant another: on a thick cambered section with its thickness perpendicular to the mean
-// line the foremost point lies a little above the mean line's beginning. x is scaled and y sheared linearly
-// in x; nothing is rotated. x is in [0,1], but for a trailing edge that is cut at an angle, which may reach
-// beyond 1.
+// CST is y over x with a vertical tangent at the nose, so the nose is the point farthest from the trailing
+// edge on a smooth curve through the points (the middle one of a flat nose), whether one of them lies there
+// or not; both surfaces begin with it. Where the trailing edge lies straight behind the foremost point, up to
+// 1e-5 chords, that is the nose. Nothing is distorted. x is in [0,1], but for a trailing edge that is cut at
+// an angle, which may reach beyond 1.
 struct AirfoilCoordinates {
   std::string name;
   std::vector<Point> upper;
   std::vector<Point> lower;
-  double incline = 0.0;  // what the shear took off: y as the file has it, in its chord, is y + incline * x
+  AirfoilFrame frame = {};
+  // Sentences on what was done beyond rounding: turned by 0.1 degrees or more, scaled or moved by 1 % of the
+  // chord, a column left out, a crossed trailing edge; each begins with the file's name.
+  std::vector<std::string> warnings = {};
 };
-// Reads Selig or Lednicer order, found by content. Accepts CRLF, blank lines, comment lines (#, !, %), tabs
-// and commas, numbers such as -.0228, open and closed trailing edges, leading edges that are not the
-// minimum-x point, either surface first, and lines of text before and after the coordinates: the first line
-// is the name. At most 16 MiB. Throws Error (file, format) naming file and line,
-// also for fewer than 3 points a surface, x out of order, surfaces that cross, ends that do not meet in x. A
-// point that is there twice in a row counts once. read_airfoil() of remodel/shape_files.h reads a file.
+// Reads Selig, Lednicer, MSES, OpenFAST and OpenVSP (.af) files, found by content. Accepts CRLF, byte order
+// marks, blank lines, comment lines (#, !, %), spaces, tabs, commas and semicolons between numbers, decimal
+// commas, three columns of which one is the same everywhere, numbers such as -.0228, open and closed trailing
+// edges, outlines that begin anywhere and run either way, and lines of text before and after the coordinates:
+// the first line is the name. A point that is there twice in a row counts once, ends that are closer than
+// 1e-5 chords are one. At most 16 MiB. Throws Error (file, format) naming file and line, also for files of
+// another kind, which it names, for several elements, fewer than 3 points a surface, x that turns back,
+// surfaces that cross, ends that do not meet in x. read_airfoil() of remodel/shape_files.h reads a file.
 AirfoilCoordinates parse_airfoil(std::string_view text, const std::string& source);
+
+// The same files as closed outlines of any shape, one for each element, in the coordinates of the file:
+// counter-clockwise from the upper end of the trailing edge, which is the last point too where it is closed.
+struct AirfoilOutline {
+  std::string name;
+  std::vector<Point> points;
+  AirfoilFrame frame = {};
+  double gap = 0.0;  // between the first and the last point, in chords
+};
+struct AirfoilOutlines {
+  std::vector<AirfoilOutline> elements;
+  std::vector<std::string> warnings;  // as above
+};
+AirfoilOutlines parse_outlines(std::string_view text, const std::string& source);
+// The surfaces of one of them. Throws Error (format) as parse_airfoil() does.
+AirfoilCoordinates surfaces_of(const AirfoilOutline& outline, const std::string& source);
 
 // What a fit does with a trailing edge that is open: te_upper and te_lower are the file's, or 0. A gap of
 // less than 1e-5 chords, or a crossed one, is the rounding of the file's digits: that is closed in any case.
@@ -92,7 +128,9 @@ struct CstFit {
   CstAirfoil airfoil;
   double max_error = 0.0;  // largest and root-mean-square distance in y at the file's points, in chords
   double rms_error = 0.0;
-  double gap = 0.0;  // the file's own: of its upper end over its lower one, in chords
+  double gap = 0.0;                        // the file's own: of its upper end over its lower one, in chords
+  AirfoilFrame frame = {};                 // of the coordinates
+  std::vector<std::string> warnings = {};  // of the coordinates, and of another degree than the one asked for
 };
 // degree: 2 to 12. Throws Error (argument), also where a surface has fewer points between its edges than
 // coefficients.
@@ -103,8 +141,11 @@ CstFit fit_cst(const AirfoilCoordinates& coordinates, int degree,
 CstFit fit_cst_apart(const AirfoilCoordinates& coordinates, int degree,
                      TrailingEdge trailing_edge = TrailingEdge::kept);
 
-// NACA 4-digit ("2412") and 5-digit ("23012", reflexed "23112" too) sections with the closed trailing edge
-// coefficient (-0.1036), as dense points. Throws Error (argument) for other designations.
+// NACA sections that exist in closed form, as dense points: 4-digit ("2412") and 5-digit ("23012", reflexed
+// "23112" too) with the closed trailing edge coefficient (-0.1036); both also modified ("0012-64"), whose
+// trailing edge is open by a fiftieth of the thickness; 6- and 6A-series ("63-206", "65(1)-412", "64A010",
+// "63-206 a=.8") by Ladson's approximation (docs/guide.md has how near that is). Throws Error (argument) for
+// other designations. Sources: naca.cpp.
 AirfoilCoordinates naca_airfoil(std::string_view digits);
 
 // The built-in catalogue: the paper's ten airfoils as fitted coefficients.

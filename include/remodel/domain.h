@@ -196,14 +196,15 @@ bool one_to_one(const Domain& a, const Domain& b);
 bool one_to_one(const Loop& a, const Loop& b);
 
 // The paper's case: an airfoil of `points` vertices, x = (1 + cos 2 pi t)/2 at t = i/points, in a circle
-// about (0.5, 0). Loop 0 is the airfoil, loop 1 the farfield, both counter-clockwise. Names: "airfoil",
-// "farfield". An open trailing edge adds a line of the name "airfoil" to loop 0, from the lower to the upper
-// end. Throws Error (argument) for options out of range and for a farfield that does not contain the airfoil;
-// does not validate().
+// about (0.5, 0), or elsewhere. Loop 0 is the airfoil, loop 1 the farfield, both counter-clockwise. Names:
+// "airfoil", "farfield". An open trailing edge adds a line of the name "airfoil" to loop 0, from the lower to
+// the upper end. Throws Error (argument) for options out of range and for a farfield that does not contain
+// the airfoil; does not validate().
 struct AirfoilDomainOptions {
   int points = 200;             // I: even, 8 to 100000
   double farfield_radius = 25;  // chords, more than 1
   int farfield_points = 50;     // 8 to 100000
+  Point farfield_centre = {0.5, 0.0};
 };
 Domain airfoil_domain(const CstAirfoil& airfoil, const AirfoilDomainOptions& options = {});
 
@@ -215,12 +216,11 @@ struct PlacedAirfoil {
   Placement placement = {};
   std::vector<Curve> outline = {};  // where there is one, in place of the airfoil: see outline_of()
 };
-// The outline of a coordinate file as it is given, without a fit: a curve through its points, which are its
-// stations, from the upper end of the trailing edge around the leading edge, and a line over an open trailing
-// edge. In its own chord, the leading edge at the origin; neither sheared nor turned.
+// An outline as it is given, without a fit: curves through its points, which are its stations; the first one
+// may be there again as the last, otherwise a line closes the outline. Splines have corners where the outline
+// bends by more than 40 degrees, but for the nose, which few points may draw. 4 points or more.
 enum class OutlineCurve { spline, polyline };
-std::vector<Curve> outline_of(const AirfoilCoordinates& coordinates, OutlineCurve curve,
-                              const std::string& name);
+std::vector<Curve> outline_of(const std::vector<Point>& points, OutlineCurve curve, const std::string& name);
 Domain airfoils_domain(const std::vector<PlacedAirfoil>& airfoils, const AirfoilDomainOptions& options = {});
 
 // Finds the airfoil that a name in a domain's JSON text stands for, fitted with the degree and the trailing

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "remodel/airfoil.h"
 #include "remodel/domain.h"
@@ -13,19 +14,27 @@
 
 namespace remodel {
 
-// parse_airfoil() of a file.
+// parse_airfoil() and parse_outlines() of a file.
 AirfoilCoordinates read_airfoil(const std::filesystem::path& file);
+AirfoilOutlines read_outlines(const std::filesystem::path& file);
 
 // SHAPE of the command line: a coordinate file, a .json file of CST coefficients, or what named_airfoil()
 // takes. What exists as a file, contains '/' or '.', or is '-' (standard input) is a file. degree and
 // trailing_edge are used for coordinate files, as fit_cst_apart() takes them; degree for named sections too.
 CstAirfoil load_airfoil(const std::string& shape, int degree,
                         TrailingEdge trailing_edge = TrailingEdge::kept);
+// The same with what is known of the fit: its errors, the frame of a coordinate file, and warnings, which
+// begin with the file's name. Errors are those of the catalogue's table for its names, and 0 for a .json
+// file.
+CstFit load_fit(const std::string& shape, int degree, TrailingEdge trailing_edge = TrailingEdge::kept);
+// Whether a SHAPE is a coordinate file, by its name and what exists; opens nothing.
+bool is_coordinate_file(const std::string& shape);
 
 // domain_from_json() of a file, where airfoils may be named as load_airfoil() takes them; their files are
-// looked for in the file's own directory first. Then join_ends(): what was joined goes to `joins`;
-// and validate(), so that its errors name the file.
-Domain load_domain(const std::filesystem::path& file, double join = default_join, Joins* joins = nullptr);
+// looked for in the file's own directory first, and their warnings are added to those given. Then
+// join_ends(): what was joined goes to `joins`; and validate(), so that its errors name the file.
+Domain load_domain(const std::filesystem::path& file, double join = default_join, Joins* joins = nullptr,
+                   std::vector<std::string>* warnings = nullptr);
 // holds_domain() of the text of a JSON file: one called .json, or a pipe whose text begins with '{'.
 bool holds_domain(const std::filesystem::path& file);
 

@@ -49,8 +49,11 @@ CstAirfoil new_airfoil(const std::optional<std::filesystem::path>& shape, int de
                 "expected a name or a file, or else the coefficients upper and lower");
   if (shape && *shape == standard_input)
     throw Error(ErrorCode::argument, "Airfoil", "found '-', expected a name or a file");
-  return shape ? load_airfoil(shape->string(), degree)
-               : cst_airfoil(*upper, *lower, e1, e2, te_upper, te_lower);
+  if (!shape) return cst_airfoil(*upper, *lower, e1, e2, te_upper, te_lower);
+  const CstFit fit = load_fit(shape->string(), degree);
+  for (const std::string& warning : fit.warnings)
+    if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) < 0) throw py::error_already_set();
+  return fit.airfoil;
 }
 
 py::array_t<double> coordinates(const CstAirfoil& airfoil, int count) {
@@ -78,8 +81,8 @@ void add_airfoil(py::module_& module) {
 
 Airfoil("naca:2412"), Airfoil("rae2822"), Airfoil("section.dat", degree=6), Airfoil("design.json") or
 Airfoil(upper=[...], lower=[...]): y(x) = x**e1 * (1 - x)**e2 * sum(c[i] * Bernstein[i](x)) + x * te.
-Coordinate files and NACA sections are fitted with `degree`, 2 to 12. Raises FileError, FormatError,
-ArgumentError.)");
+Coordinate files and NACA sections are fitted with `degree`, 2 to 12. A file is moved, turned and scaled to its
+chord: a UserWarning says so where that is more than rounding. Raises FileError, FormatError, ArgumentError.)");
   airfoil.def(py::init(&new_airfoil), "shape"_a = py::none(), "degree"_a = 5, py::kw_only(),
               "upper"_a = py::none(), "lower"_a = py::none(), "e1"_a = 0.5, "e2"_a = 1.0, "te_upper"_a = 0.0,
               "te_lower"_a = 0.0);

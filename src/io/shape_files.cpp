@@ -9,6 +9,8 @@ namespace {
 // Larger files are no airfoils and no designs.
 constexpr std::size_t largest_airfoil_file = std::size_t{16} << 20;
 
+constexpr std::string_view naca_prefix = "naca:";
+
 // By extension, or what comes through a pipe without one by its content.
 bool is_json(const std::filesystem::path& file) {
   if (file.has_extension() || !is_pipe(file)) return file.extension() == ".json";
@@ -30,21 +32,45 @@ AirfoilCoordinates read_airfoil(const std::filesystem::path& file) {
   return parse_airfoil(read_text(file, largest_airfoil_file), file.string());
 }
 
-CstAirfoil load_airfoil(const std::string& shape, int degree, TrailingEdge trailing_edge) {
-  if (shape.starts_with("naca:") || !names_a_file(shape)) return named_airfoil(shape, degree);
-  const std::filesystem::path file(shape);
-  const KeptPipes once;
-  if (is_json(file)) return airfoil_from_json(read_text(file, largest_airfoil_file), shape);
-  return fit_cst_apart(read_airfoil(file), degree, trailing_edge).airfoil;
+AirfoilOutlines read_outlines(const std::filesystem::path& file) {
+  return parse_outlines(read_text(file, largest_airfoil_file), file.string());
 }
 
-Domain load_domain(const std::filesystem::path& file, double join, Joins* joins) {
-  const auto resolve = [directory = file.parent_path()](const std::string& name, int degree,
-                                                        TrailingEdge trailing_edge) {
+bool is_coordinate_file(const std::string& shape) {
+  return !shape.starts_with(naca_prefix) && std::filesystem::path(shape).extension() != ".json" &&
+         names_a_file(shape);
+}
+
+CstFit load_fit(const std::string& shape, int degree, TrailingEdge trailing_edge) {
+  if (shape.starts_with(naca_prefix)) return fit_cst(naca_airfoil(shape.substr(naca_prefix.size())), degree);
+  if (!names_a_file(shape)) {
+    CstFit fit{.airfoil = named_airfoil(shape, degree)};
+    for (const CatalogueEntry& entry : airfoil_catalogue())
+      if (entry.name == shape) fit.max_error = entry.fit_max_error, fit.rms_error = entry.fit_rms_error;
+    return fit;
+  }
+  const std::filesystem::path file(shape);
+  const KeptPipes once;
+  if (is_json(file)) return {.airfoil = airfoil_from_json(read_text(file, largest_airfoil_file), shape)};
+  AirfoilCoordinates coordinates = read_airfoil(file);
+  coordinates.name = shape;  // for messages
+  return fit_cst_apart(coordinates, degree, trailing_edge);
+}
+
+CstAirfoil load_airfoil(const std::string& shape, int degree, TrailingEdge trailing_edge) {
+  return load_fit(shape, degree, trailing_edge).airfoil;
+}
+
+Domain load_domain(const std::filesystem::path& file, double join, Joins* joins,
+                   std::vector<std::string>* warnings) {
+  const auto resolve = [warnings, directory = file.parent_path()](const std::string& name, int degree,
+                                                                  TrailingEdge trailing_edge) {
     const std::filesystem::path beside = directory / name;
     std::error_code ignored;
-    return load_airfoil(std::filesystem::is_regular_file(beside, ignored) ? beside.string() : name, degree,
-                        trailing_edge);
+    const CstFit fit = load_fit(std::filesystem::is_regular_file(beside, ignored) ? beside.string() : name,
+                                degree, trailing_edge);
+    if (warnings != nullptr) warnings->insert(warnings->end(), fit.warnings.begin(), fit.warnings.end());
+    return fit.airfoil;
   };
   Domain domain = domain_from_json(read_text(file, largest_airfoil_file), file.string(), resolve);
   const Joins found = join_ends(domain, file.string(), join);

@@ -1,8 +1,4 @@
-// Coordinate files of airfoils, as rows of numbers, become an upper and a lower surface.
-//
-//   Selig order:     trailing edge - upper surface - leading edge - lower surface - trailing edge
-//   Lednicer order:  a line with the number of points of each surface, then the upper and the lower surface,
-//                    both from the leading to the trailing edge
+// Coordinate files of airfoils become outlines, and an upper and a lower surface.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +10,7 @@
 namespace remodel {
 namespace {
 
-using Rows = std::vector<AirfoilRow>;
+using Rows = AirfoilRowList;
 
 // The two surfaces may end this far apart in x: trailing edges cut at an angle. More is a file that was cut
 // off.
@@ -23,6 +19,8 @@ constexpr double end_tolerance = 0.02;
 // by up to this near a sparse nose. What crosses by more is no airfoil; what crosses by less, the fit
 // decides.
 constexpr double crossing_tolerance = 2e-3;
+// What is said: more than the digits of files and the scaling of a chord of about 1.
+constexpr double notable_degrees = 0.1, notable_length = 0.01, notable_gap = 1e-5;
 
 template <typename... Parts>
 [[noreturn]] void refuse_file(const std::string& where, const Parts&... parts) {
@@ -36,76 +34,6 @@ std::string place(const std::string& source, const AirfoilRow& row) {
   return row.line > 0 ? source + ":" + std::to_string(row.line) : source;
 }
 
-bool is_count(double value) {
-  return value >= 2.0 && value == std::floor(value);
-}
-
-// A first row such as "61. 61.". A Selig file of a chord of 100 may begin with whole numbers too, but its
-// first x is where its points end.
-bool begins_with_counts(const Rows& rows) {
-  const Point first = rows.front().point;
-  if (!is_count(first.x) || !is_count(first.y)) return false;
-  if (first.x + first.y == static_cast<double>(rows.size() - 1)) return true;
-  double least = HUGE_VAL;
-  double largest = -HUGE_VAL;
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    least = std::min(least, rows[i].point.x);
-    largest = std::max(largest, rows[i].point.x);
-  }
-  return rows.size() == 1 || std::abs(first.x - largest) > end_tolerance * (largest - least);
-}
-
-Rows outline_of_lednicer(const Rows& rows, const std::string& source) {
-  const Point counts = rows.front().point;
-  if (counts.x + counts.y != static_cast<double>(rows.size() - 1)) {
-    refuse_file(place(source, rows.front()), "found counts of ", counts.x, " and ", counts.y, " points, but ",
-                rows.size() - 1, " points follow");
-  }
-  const auto middle = rows.begin() + 1 + static_cast<std::ptrdiff_t>(counts.x);
-  const Rows upper(rows.begin() + 1, middle);
-  Rows lower(middle, rows.end());
-  for (const Rows* surface : {&upper, static_cast<const Rows*>(&lower)}) {
-    if (!(surface->front().point.x < surface->back().point.x)) {
-      refuse_file(place(source, surface->front()), "found a surface from x = ", surface->front().point.x,
-                  " to x = ", surface->back().point.x, ", expected it from the leading to the trailing edge");
-    }
-  }
-  if (lower.front().point == upper.front().point) lower.erase(lower.begin());
-  Rows outline(upper.rbegin(), upper.rend());
-  outline.insert(outline.end(), lower.begin(), lower.end());
-  return outline;
-}
-
-void drop_repetitions(Rows& outline) {
-  const auto same = [](const AirfoilRow& a, const AirfoilRow& b) { return a.point == b.point; };
-  outline.erase(std::unique(outline.begin(), outline.end(), same), outline.end());
-}
-
-// The parametrisation is y over x, so the leading edge is where x is smallest, whatever point the file's
-// author had in mind; the middle one of a flat nose.
-std::size_t leading_edge(const Rows& outline) {
-  const auto by_x = [](const AirfoilRow& a, const AirfoilRow& b) { return a.point.x < b.point.x; };
-  const auto first = std::min_element(outline.begin(), outline.end(), by_x);
-  auto last = first;
-  while (last + 1 != outline.end() && (last + 1)->point.x == first->point.x) ++last;
-  return static_cast<std::size_t>((first - outline.begin() + (last - outline.begin())) / 2);
-}
-
-double area_of(const Rows& outline) {
-  double twice = 0.0;
-  const Point origin = outline.front().point;
-  for (std::size_t i = 2; i < outline.size(); ++i) {
-    twice += cross(outline[i - 1].point - origin, outline[i].point - origin);
-  }
-  return 0.5 * twice;
-}
-
-// A blunt trailing edge may be drawn, as points below each other: the outermost of them ends the surface.
-void drop_trailing_edge_base(Rows& surface) {
-  while (surface.size() > 3 && surface[surface.size() - 2].point.x == surface.back().point.x)
-    surface.pop_back();
-}
-
 void check_order(const Rows& surface, const std::string& source) {
   if (surface.size() < 3) {
     refuse_file(
@@ -116,30 +44,12 @@ void check_order(const Rows& surface, const std::string& source) {
   for (std::size_t i = 1; i < surface.size(); ++i) {
     const double x = surface[i].point.x;
     if (x > surface[i - 1].point.x || x == nose) continue;
-    refuse_file(place(source, surface[i]), "found x = ", x, " beside x = ", surface[i - 1].point.x,
-                ", expected x to grow from the leading to the trailing edge");
+    if (i == 1 && x > -1e-5) continue;  // the arc's own depth
+    refuse_file(
+        place(source, surface[i]), "found x = ", x, " behind x = ", surface[i - 1].point.x,
+        " in chords from the nose, expected x to grow from the leading to the trailing edge, as a fit of "
+        "y over x needs it: an outline that goes back and forth has none and is taken as given alone");
   }
-}
-
-// Chord 1, leading edge at the origin, trailing edge at (1, 0): no rotation, which would break the premise
-// that opposite vertices share x, but a shear, linear in x, which for a leading edge a little off is the
-// same. Returns the shear.
-double normalise(Rows& upper, Rows& lower, const std::string& source) {
-  const Point nose = upper.front().point;
-  const Point tail = 0.5 * (upper.back().point + lower.back().point);
-  const double chord = tail.x - nose.x;
-  if (std::abs(upper.back().point.x - lower.back().point.x) > end_tolerance * chord) {
-    refuse_file(source, "found surfaces that end at x = ", upper.back().point.x,
-                " and x = ", lower.back().point.x, ", expected both at the trailing edge");
-  }
-  if (!(chord >= 1e-6)) refuse_file(source, "found a chord of ", chord, ", expected at least 1e-6");
-  for (Rows* surface : {&upper, &lower}) {
-    for (AirfoilRow& row : *surface) {
-      const double x = (row.point.x - nose.x) / chord;
-      row.point = {x, (row.point.y - nose.y) / chord - x * ((tail.y - nose.y) / chord)};
-    }
-  }
-  return (tail.y - nose.y) / chord;
 }
 
 double interpolated(const Rows& surface, double x) {
@@ -168,30 +78,138 @@ std::vector<Point> points_of(const Rows& rows) {
   return points;
 }
 
+// From the nose on, in its frame.
+Rows surface_of(const Rows& run, const AirfoilNose& nose) {
+  Rows surface;
+  if (nose.before != nose.after) surface.push_back({.point = {}, .line = run.front().line});
+  for (const AirfoilRow& row : run) surface.push_back({in_frame(nose.frame, row.point), row.line});
+  return surface;
+}
+
+AirfoilCoordinates split_at_nose(std::string name, const Rows& rows, const AirfoilNose& nose,
+                                 const std::string& source) {
+  Rows back(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(nose.before) + 1);
+  std::reverse(back.begin(), back.end());
+  const Rows ahead(rows.begin() + static_cast<std::ptrdiff_t>(nose.after), rows.end());
+  const Rows upper = surface_of(back, nose), lower = surface_of(ahead, nose);
+  check_order(upper, source);
+  check_order(lower, source);
+  if (std::abs(upper.back().point.x - lower.back().point.x) > end_tolerance)
+    refuse_file(source, "found surfaces that end at x = ", upper.back().point.x,
+                " and x = ", lower.back().point.x,
+                " in chords from the nose, expected both at the trailing edge");
+  check_above(upper, lower, 1.0, source);
+  check_above(lower, upper, -1.0, source);
+  return {.name = std::move(name), .upper = points_of(upper), .lower = points_of(lower), .frame = nose.frame};
+}
+
+void drop_repetitions(Rows& outline) {
+  const auto same = [](const AirfoilRow& a, const AirfoilRow& b) { return a.point == b.point; };
+  outline.erase(std::unique(outline.begin(), outline.end(), same), outline.end());
+}
+
+double twice_area_of(const Rows& outline) {
+  double twice = 0.0;
+  const Point origin = outline.front().point;
+  for (std::size_t i = 2; i < outline.size(); ++i)
+    twice += cross(outline[i - 1].point - origin, outline[i].point - origin);
+  return twice;
+}
+
+// A number as people say it.
+std::string said(double value, int digits) {
+  std::ostringstream text;
+  text.precision(digits);
+  text << value;
+  return text.str();
+}
+
+std::string with_decimal(double degrees) {
+  std::ostringstream text;
+  text.setf(std::ios::fixed);
+  text.precision(1);
+  text << degrees;
+  return text.str();
+}
+
+void note_turn(const AirfoilFrame& frame, std::vector<std::string>& notes) {
+  const double degrees = frame.incidence_deg();
+  if (std::abs(degrees) < notable_degrees) return;
+  notes.push_back("its chord is drawn nose " + std::string(degrees > 0.0 ? "up" : "down") + " by " +
+                  with_decimal(std::abs(degrees)) + " degrees, and the fit is turned by that to its chord");
+}
+
+void note_size(const AirfoilFrame& frame, std::vector<std::string>& notes) {
+  const bool scaled = std::abs(frame.chord - 1.0) > notable_length;
+  const bool moved = std::sqrt(squared_distance(frame.nose, {})) > notable_length * frame.chord;
+  const auto rounded = [&](double value) {  // to what matters of a chord
+    return said(std::round(value / frame.chord * 1e4) * 1e-4 * frame.chord + 0.0, 6);
+  };
+  const std::string nose = rounded(frame.nose.x) + "," + rounded(frame.nose.y);
+  if (scaled)
+    notes.push_back("its chord of " + said(frame.chord, 6) + " is scaled to 1" +
+                    (moved ? " and its nose moved from " + nose + " to the origin" : ""));
+  else if (moved)
+    notes.push_back("its nose is moved from " + nose + " to the origin");
+}
+
+void note_gap(double gap, std::vector<std::string>& notes) {
+  if (gap >= -notable_gap) return;
+  notes.push_back("its trailing edge is crossed by " + said(-gap, 3) + " chords, and the fit closes it");
+}
+
+std::vector<std::string> with_source(std::vector<std::string> notes, const std::string& source) {
+  for (std::string& note : notes) note.insert(0, source + ": ");
+  return notes;
+}
+
 }  // namespace
 
 AirfoilCoordinates surfaces_of_outline(std::string name, Rows outline, const std::string& source) {
   drop_repetitions(outline);
-  const auto nose = outline.begin() + static_cast<std::ptrdiff_t>(leading_edge(outline));
-  Rows upper(outline.begin(), nose + 1);
-  std::reverse(upper.begin(), upper.end());
-  Rows lower(nose, outline.end());
-  if (area_of(outline) < 0.0) std::swap(upper, lower);  // the lower surface came first
-  for (Rows* surface : {&upper, &lower}) {
-    drop_trailing_edge_base(*surface);
-    check_order(*surface, source);
-  }
-  const double incline = normalise(upper, lower, source);
-  check_above(upper, lower, 1.0, source);
-  check_above(lower, upper, -1.0, source);
-  return {.name = std::move(name), .upper = points_of(upper), .lower = points_of(lower), .incline = incline};
+  if (twice_area_of(outline) < 0.0) std::reverse(outline.begin(), outline.end());
+  return split_at_nose(std::move(name), outline, foremost_nose(outline), source);
+}
+
+AirfoilCoordinates surfaces_of(const AirfoilOutline& outline, const std::string& source) {
+  AirfoilLoop loop;
+  for (const Point p : outline.points) loop.rows.push_back({p, 0});
+  const Rows rows = without_base(std::move(loop)).rows;
+  return split_at_nose(outline.name, rows, nose_of(rows), source);
 }
 
 AirfoilCoordinates parse_airfoil(std::string_view text, const std::string& source) {
-  AirfoilRows file = read_airfoil_rows(text, source);
-  if (file.rows.empty()) refuse_file(source, "found no coordinates, expected lines of two numbers, x and y");
-  const Rows outline = begins_with_counts(file.rows) ? outline_of_lednicer(file.rows, source) : file.rows;
-  return surfaces_of_outline(std::move(file.name), outline, source);
+  AirfoilText file = read_airfoil_rows(text, source);
+  if (file.elements.size() > 1)
+    refuse_file(source, "found ", file.elements.size(), " elements, the second from line ",
+                file.elements[1].rows.front().line,
+                " on, expected one airfoil: several are taken as a domain is, by mesh, flow and update");
+  const AirfoilLoop loop = loop_of_element(file.elements.front(), source);
+  const Rows rows = without_base(loop).rows;
+  const AirfoilNose nose = nose_of(rows);
+  AirfoilCoordinates result = split_at_nose(std::move(file.name), rows, nose, source);
+  result.frame.closed = loop.closed ? loop.gap / nose.frame.chord : 0.0;
+  std::vector<std::string> notes = std::move(file.notes);
+  note_turn(nose.frame, notes);
+  note_size(nose.frame, notes);
+  note_gap(result.upper.back().y - result.lower.back().y, notes);
+  result.warnings = with_source(std::move(notes), source);
+  return result;
+}
+
+AirfoilOutlines parse_outlines(std::string_view text, const std::string& source) {
+  AirfoilText file = read_airfoil_rows(text, source);
+  AirfoilOutlines result;
+  for (const AirfoilElement& element : file.elements) {
+    const AirfoilLoop loop = loop_of_element(element, source);
+    AirfoilOutline outline{.name = file.name, .points = points_of(loop.rows)};
+    outline.frame = nose_of(without_base(loop).rows).frame;
+    outline.frame.closed = loop.closed ? loop.gap / outline.frame.chord : 0.0;
+    outline.gap = loop.closed ? 0.0 : loop.gap / outline.frame.chord;
+    result.elements.push_back(std::move(outline));
+  }
+  result.warnings = with_source(std::move(file.notes), source);
+  return result;
 }
 
 }  // namespace remodel

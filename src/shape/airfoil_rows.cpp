@@ -1,155 +1,33 @@
 #include "airfoil_rows.h"
 
 #include <algorithm>
-#include <charconv>
+#include <array>
 #include <cmath>
 #include <optional>
 
+#include "airfoil_lines.h"
 #include "remodel/error.h"
 
 namespace remodel {
 namespace {
 
-// Chords in millimetres are fine; beyond this it is no airfoil.
-constexpr double largest_coordinate = 1e6;
-
 [[noreturn]] void refuse(const std::string& source, int line, const std::string& problem) {
-  throw Error(ErrorCode::format, source + ":" + std::to_string(line), problem);
+  throw Error(ErrorCode::format, line > 0 ? source + ":" + std::to_string(line) : source, problem);
 }
 
-// What was found, short; tabs, which separate columns too, as tabs.
-std::string quoted(std::string_view text) {
-  constexpr std::size_t longest = 40;
-  return "\"" + one_line(text.substr(0, longest)) + (text.size() > longest ? "...\"" : "\"");
-}
-
-bool is_separator(char c) {
-  return c == ' ' || c == '\t' || c == ',' || c == '\f' || c == '\v';
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_separator(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_separator(text.back())) text.remove_suffix(1);
-  return text;
-}
-
-std::string_view without_comment(std::string_view text) {
-  return text.substr(0, text.find_first_of("#!%"));
-}
-
-std::vector<std::string_view> tokens_of(std::string_view text) {
-  std::vector<std::string_view> tokens;
-  for (text = trimmed(text); !text.empty(); text = trimmed(text)) {
-    std::size_t length = 0;
-    while (length < text.size() && !is_separator(text[length])) ++length;
-    tokens.push_back(text.substr(0, length));
-    text.remove_prefix(length);
-  }
-  return tokens;
-}
-
-// -.0228, 1., +0.5, 1.2D-3 (Fortran). NaN and infinity are numbers here: they are refused by name later. What
-// is too large for a double comes back as infinity.
-std::optional<double> number_of(std::string_view token) {
-  std::string text(token);
-  for (std::size_t i = 1; i < text.size(); ++i) {
-    const bool after_mantissa = (text[i - 1] >= '0' && text[i - 1] <= '9') || text[i - 1] == '.';
-    if ((text[i] == 'D' || text[i] == 'd') && after_mantissa) text[i] = 'e';
-  }
-  std::size_t sign = text.starts_with('+') ? 1 : 0;
-  if (sign == 1 && text.starts_with("+-")) return std::nullopt;
-  double value = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data() + sign, end, value);
-  if (stop != end || error == std::errc::invalid_argument) return std::nullopt;
-  if (error == std::errc::result_out_of_range) return text.find("e-") == std::string::npos ? HUGE_VAL : 0.0;
-  return value;
-}
-
-// A line of text without its end; \n, \r\n and \r all end lines.
-std::string_view next_line(std::string_view& text) {
-  const std::size_t length = std::min(text.find_first_of("\r\n"), text.size());
-  const std::string_view line = text.substr(0, length);
-  text.remove_prefix(length);
-  if (text.starts_with("\r\n")) text.remove_prefix(1);
-  if (!text.empty()) text.remove_prefix(1);
-  return line;
-}
+struct TextLine {
+  std::string_view content;  // trimmed
+  int number = 0;
+  bool empty() const { return trimmed(without_comment(content)).empty(); }
+};
 
 void check_printable(std::string_view line, const std::string& source, int number) {
   for (const char c : line) {
     const unsigned char byte = static_cast<unsigned char>(c);
-    if ((byte < 0x20 && !is_separator(c)) || byte == 0x7f) {
+    const bool space = c == '\t' || c == '\f' || c == '\v';
+    if ((byte < 0x20 && !space) || byte == 0x7f)
       refuse(source, number, "found byte " + std::to_string(byte) + ", expected text");
-    }
   }
-}
-
-Point point_of(std::string_view line, const std::string& source, int number) {
-  const std::vector<std::string_view> tokens = tokens_of(without_comment(line));
-  if (tokens.size() != 2) {
-    refuse(source, number, "found " + quoted(trimmed(line)) + ", expected two numbers, x and y");
-  }
-  double values[2];
-  for (std::size_t i = 0; i < 2; ++i) {
-    const std::optional<double> value = number_of(tokens[i]);
-    if (!value) refuse(source, number, "found " + quoted(tokens[i]) + ", expected a number");
-    if (!(std::abs(*value) <= largest_coordinate)) {
-      refuse(source, number, "found " + quoted(tokens[i]) + ", expected a finite coordinate of at most 1e6");
-    }
-    values[i] = *value;
-  }
-  return {values[0], values[1]};
-}
-
-bool is_two_numbers(std::string_view line) {
-  const std::vector<std::string_view> tokens = tokens_of(without_comment(line));
-  return tokens.size() == 2 && number_of(tokens[0]) && number_of(tokens[1]);
-}
-
-// A line of its own before the coordinates: "129".
-bool is_count(std::string_view line) {
-  return line.size() > 1 &&
-         std::all_of(line.begin(), line.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
-
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
-bool begins_with_letter(std::string_view word) {
-  return (word[0] >= 'a' && word[0] <= 'z') || (word[0] >= 'A' && word[0] <= 'Z');
-}
-
-// Text is what cannot be a damaged coordinate: more than two words that are not all numbers, a count and a
-// word
-// ("61 points"), or a first word that begins with a letter or has no digit, and is no name of a number (nan).
-bool is_remark(std::string_view line) {
-  const std::vector<std::string_view> tokens = tokens_of(without_comment(line));
-  const auto is_word = [](std::string_view token) { return !number_of(token); };
-  if (tokens.size() > 2) return std::any_of(tokens.begin(), tokens.end(), is_word);
-  const std::string_view first = tokens.front();
-  if (is_word(first)) return begins_with_letter(first) || std::none_of(first.begin(), first.end(), is_digit);
-  const bool count = first.size() > 1 && std::all_of(first.begin(), first.end(), is_digit);
-  return count && tokens.size() == 2 && is_word(tokens[1]) && begins_with_letter(tokens[1]);
-}
-
-// MSES' second line, the grid's box: left, right, lower, upper.
-bool is_box_of_mses(std::string_view line) {
-  const std::vector<std::string_view> tokens = tokens_of(without_comment(line));
-  if (tokens.size() != 4) return false;
-  double values[4];
-  for (std::size_t i = 0; i < 4; ++i) {
-    const std::optional<double> value = number_of(tokens[i]);
-    if (!value || !std::isfinite(*value)) return false;
-    values[i] = *value;
-  }
-  return values[0] < values[1] && values[2] < values[3];
-}
-
-// The row that MSES has between two elements.
-bool is_end_of_element(Point p) {
-  return p == Point{999.0, 999.0};
 }
 
 // DOS ends a text with this byte.
@@ -158,40 +36,307 @@ std::string_view without_end_of_file(std::string_view text) {
   return text;
 }
 
+std::vector<TextLine> lines_of(std::string_view text, const std::string& source) {
+  std::vector<TextLine> lines;
+  for (int number = 1; !text.empty(); ++number) {
+    const std::string_view line = next_line(text);
+    check_printable(line, source, number);
+    lines.push_back({trimmed(line), number});
+  }
+  return lines;
+}
+
+// How the numbers of a file are written: by all its lines, so that one damaged line changes nothing.
+struct Style {
+  DecimalSign sign = DecimalSign::point;
+  std::size_t columns = 2;
+};
+
+Style style_of(const std::vector<TextLine>& lines, const std::string& source) {
+  std::size_t points = 0, commas = 0;
+  for (const TextLine& line : lines) {
+    if (has_decimal_commas(line.content)) ++commas;
+    const std::string_view text = without_comment(line.content);
+    if (text.find('.') != text.npos && numbers_of(text).size() >= 2) ++points;
+  }
+  Style style{.sign = commas > points ? DecimalSign::comma : DecimalSign::point};
+  std::array<std::size_t, 32> count{};
+  for (const TextLine& line : lines)
+    ++count[std::min(numbers_of(line.content, style.sign).size(), count.size() - 1)];
+  const auto most = std::max_element(count.begin() + 2, count.end());
+  style.columns = *most > count[2] ? static_cast<std::size_t>(most - count.begin()) : 2;
+  if (style.columns > 3)
+    refuse(
+        source, 0,
+        "found rows of " + std::to_string(style.columns) +
+            " numbers, as a table or a polar has them, expected coordinates of an airfoil: lines of x and y");
+  return style;
+}
+
+// MSES' second line, the grid's box: left, right, lower, upper.
+bool is_box_of_mses(const TextLine& line, const Style& style) {
+  const std::vector<double> v = numbers_of(line.content, style.sign);
+  return v.size() == 4 && v[0] < v[1] && v[2] < v[3] &&
+         std::all_of(v.begin(), v.end(), [](double value) { return std::isfinite(value); });
+}
+
+// The row that MSES has between two elements.
+bool is_end_of_element(const std::vector<double>& row) {
+  return row[0] == 999.0 && row[1] == 999.0;
+}
+
+// Rows that follow each other, and what stands before them.
+enum class Before { nothing, empty_line, text, end_of_element };
+struct Block {
+  Before before = Before::nothing;
+  TextLine text = {};  // where there is one
+  std::vector<std::vector<double>> values = {};
+  std::vector<int> lines = {};
+};
+
+// What lines before the coordinates say of them.
+struct Header {
+  std::string name;
+  std::optional<std::size_t> all, upper, lower;  // counts of OpenFAST; of OpenVSP
+  bool symmetric = false;
+};
+
+bool has_words(std::string_view line, std::initializer_list<std::string_view> words) {
+  return std::all_of(words.begin(), words.end(),
+                     [&](std::string_view w) { return line.find(w) != line.npos; });
+}
+
+void read_header_line(std::string_view line, Header& header) {
+  const std::vector<std::string_view> words = words_of(line);
+  if (words.size() < 2 || !is_whole_number(words[0]) || words[0].size() > 7) return;
+  const std::size_t value = std::stoul(std::string(words[0]));
+  if (words[1] == "NumCoords") header.all = value;
+  if (has_words(line, {"Num", "Pnts", "Upper"})) header.upper = value;
+  if (has_words(line, {"Num", "Pnts", "Lower"})) header.lower = value;
+  if (has_words(line, {"Sym", "Flag"})) header.symmetric = value == 1;
+}
+
+class Reader {
+ public:
+  Reader(std::string_view text, const std::string& source)
+      : source_(source), lines_(lines_of(text, source)), style_(style_of(lines_, source)) {}
+
+  void read() {
+    for (const TextLine& line : lines_) {
+      if (line.empty()) {
+        quiet_ = true;
+        if (before_ == Before::nothing && !blocks_.empty()) before_ = Before::empty_line;
+      } else if (blocks_.empty() && takes_for_header(line)) {
+        said_anything_ = true;
+      } else if (is_text(line)) {
+        if (!blocks_.empty() && before_ != Before::text) before_ = Before::text, text_ = line;
+        quiet_ = said_anything_ = true;
+      } else {
+        add_row(line);
+        said_anything_ = true;
+        quiet_ = false;
+      }
+    }
+  }
+
+  const std::vector<Block>& blocks() const { return blocks_; }
+  Header& header() { return header_; }
+  std::size_t columns() const { return style_.columns; }
+
+ private:
+  // Only the first line that says anything may be a name: "2412" or "63-206 modified" as well.
+  bool takes_for_header(const TextLine& line) {
+    const bool box = is_box_of_mses(line, style_);
+    const bool row = numbers_of(line.content, style_.sign).size() == style_.columns;
+    read_header_line(line.content, header_);
+    if (!said_anything_ && !box && !row) {
+      header_.name = line.content;
+      return true;
+    }
+    return box || (is_whole_number(line.content) && line.content.size() > 1);
+  }
+
+  // Behind an empty line or text a footer may begin, which nothing follows.
+  bool is_text(const TextLine& line) const {
+    if (numbers_of(line.content, style_.sign).size() == style_.columns) return false;
+    return is_remark(line.content) ||
+           (!blocks_.empty() && quiet_ && (before_ == Before::text || is_footer(line.content)));
+  }
+
+  std::vector<double> values_of(const TextLine& line) const {
+    const std::vector<std::string_view> words = words_of(without_comment(line.content), style_.sign);
+    if (words.size() != style_.columns)
+      refuse(source_, line.number,
+             "found " + quoted(line.content) + ", expected " +
+                 (style_.columns == 2 ? "two numbers, x and y" : "three numbers, as in most lines"));
+    std::vector<double> values;
+    for (const std::string_view word : words) {
+      const std::optional<double> value = number_of(word, style_.sign);
+      if (!value) refuse(source_, line.number, "found " + quoted(word) + ", expected a number");
+      if (!(std::abs(*value) <= largest_coordinate))
+        refuse(source_, line.number,
+               "found " + quoted(word) + ", expected a finite coordinate of at most 1e6");
+      values.push_back(*value);
+    }
+    return values;
+  }
+
+  void add_row(const TextLine& line) {
+    std::vector<double> values = values_of(line);
+    if (is_end_of_element(values)) {
+      before_ = Before::end_of_element;
+      return;
+    }
+    if (blocks_.empty() || before_ != Before::nothing) blocks_.push_back({.before = before_, .text = text_});
+    before_ = Before::nothing;
+    blocks_.back().values.push_back(std::move(values));
+    blocks_.back().lines.push_back(line.number);
+  }
+
+  const std::string& source_;
+  std::vector<TextLine> lines_;
+  Style style_;
+  Header header_;
+  std::vector<Block> blocks_;
+  Before before_ = Before::nothing;  // since the last row
+  TextLine text_;
+  bool said_anything_ = false, quiet_ = false;
+};
+
+// Of three columns, the two of the plane of the section: not numbers of rows, not what is the same
+// everywhere.
+std::array<std::size_t, 2> plane_of(const std::vector<Block>& blocks, std::vector<std::string>& notes,
+                                    const std::string& source) {
+  constexpr const char* names[] = {"first", "second", "third"};
+  constexpr std::array<std::size_t, 2> others[] = {{1, 2}, {0, 2}, {0, 1}};
+  std::array<bool, 3> constant{true, true, true};
+  const std::vector<double>& first = blocks.front().values.front();
+  bool numbered = true;
+  double next = first[0];
+  for (const Block& block : blocks) {
+    for (const std::vector<double>& row : block.values) {
+      for (std::size_t i = 0; i < 3; ++i) constant[i] = constant[i] && row[i] == first[i];
+      numbered = numbered && row[0] == next;
+      next += 1.0;
+    }
+  }
+  for (const std::size_t i : {2u, 1u, 0u}) {
+    if (!constant[i] && !(i == 0 && numbered)) continue;
+    notes.push_back("three columns: the " + std::string(names[i]) +
+                    (constant[i] ? ", the same everywhere," : ", the numbers of the rows,") +
+                    " is left out, the section lies in the plane of the others");
+    return others[i];
+  }
+  refuse(source, 0,
+         "found three columns, none of which is the same everywhere, expected a section in a plane");
+}
+
+AirfoilRowList rows_of(const Block& block, std::array<std::size_t, 2> plane) {
+  AirfoilRowList rows;
+  for (std::size_t i = 0; i < block.values.size(); ++i)
+    rows.push_back({{block.values[i][plane[0]], block.values[i][plane[1]]}, block.lines[i]});
+  return rows;
+}
+
+double distance(Point a, Point b) {
+  return std::sqrt(squared_distance(a, b));
+}
+
+// The whole outline of an element ends where it begins, up to a blunt trailing edge.
+bool is_outline(const AirfoilRowList& rows) {
+  double extent = 0.0;
+  for (const AirfoilRow& row : rows) extent = std::max(extent, distance(row.point, rows.front().point));
+  return rows.size() >= 5 && distance(rows.front().point, rows.back().point) <= 0.1 * extent;
+}
+
+void append(AirfoilRowList& rows, const AirfoilRowList& more) {
+  rows.insert(rows.end(), more.begin(), more.end());
+}
+
+// Blocks make elements where they are set apart as elements; otherwise they are one.
+std::vector<AirfoilElement> elements_of(const std::vector<Block>& blocks, std::array<std::size_t, 2> plane,
+                                        const std::string& source) {
+  std::vector<AirfoilRowList> rows;
+  bool marked = false, all_outlines = true;
+  const Block* text = nullptr;
+  for (const Block& block : blocks) {
+    rows.push_back(rows_of(block, plane));
+    all_outlines = all_outlines && is_outline(rows.back());
+    marked = marked || block.before == Before::end_of_element;
+    if (block.before == Before::text && text == nullptr) text = &block;
+  }
+  if (text != nullptr && !(all_outlines && blocks.size() > 1))
+    refuse(source, text->text.number,
+           "found " + quoted(text->text.content) + " between rows, expected two numbers, x and y");
+  std::vector<AirfoilElement> elements(1);
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const bool apart = marked ? blocks[i].before == Before::end_of_element : i > 0 && all_outlines;
+    if (apart && !elements.back().rows.empty()) elements.emplace_back();
+    append(elements.back().rows, rows[i]);
+  }
+  // Two surfaces, an empty line between them, without their counts.
+  const bool two = blocks.size() == 2 && !marked && elements.size() == 1;
+  if (two &&
+      distance(rows[0].front().point, rows[1].front().point) <
+          0.1 * distance(rows[0].front().point, rows[0].back().point) &&
+      distance(rows[0].back().point, rows[1].back().point) <
+          0.1 * distance(rows[0].front().point, rows[0].back().point))
+    elements[0].first_surface = rows[0].size();
+  return elements;
+}
+
+// OpenFAST counts a point of reference along with the coordinates, and has it first.
+void apply_openfast(const Header& header, AirfoilText& result, const std::string& source) {
+  AirfoilRowList& rows = result.elements.front().rows;
+  if (rows.size() != *header.all)
+    refuse(
+        source, 0,
+        "found " + std::to_string(rows.size()) + " rows, but NumCoords says " + std::to_string(*header.all));
+  rows.erase(rows.begin());
+  result.elements.front().first_surface = 0;
+  result.name.clear();
+}
+
+void apply_openvsp(const Header& header, AirfoilText& result, const std::string& source) {
+  AirfoilElement& element = result.elements.front();
+  AirfoilRowList& rows = element.rows;
+  const std::size_t lower = header.lower.value_or(0);
+  if (header.symmetric && rows.size() == *header.upper) {
+    const AirfoilRowList upper = rows;
+    for (const AirfoilRow& row : upper) rows.push_back({{row.point.x, -row.point.y}, row.line});
+  } else if (rows.size() != *header.upper + lower) {
+    refuse(source, 0,
+           "found counts of " + std::to_string(*header.upper) + " and " + std::to_string(lower) +
+               " points, but " + std::to_string(rows.size()) + " points follow");
+  }
+  element.first_surface = *header.upper;
+}
+
 }  // namespace
 
-// Lines of text stand before the first row, after the last one, and nowhere else.
-AirfoilRows read_airfoil_rows(std::string_view text, const std::string& source) {
+// Lines of text stand before the first row, after the last one, and between whole outlines.
+AirfoilText read_airfoil_rows(std::string_view text, const std::string& source) {
   if (text.size() > airfoil_text_limit)
     throw Error(ErrorCode::format, source, "more than 16 MiB, expected a small text file");
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // UTF-8 byte order mark
   text = without_end_of_file(text);
-  std::string remark;  // the first one behind a row
-  int remark_line = 0;
-  AirfoilRows result;
-  bool first = true, ended = false;  // a first line that says something; the end of an element of MSES
-  for (int number = 1; !text.empty(); ++number) {
-    const std::string_view line = next_line(text);
-    check_printable(line, source, number);
-    const std::string_view content = trimmed(line);
-    if (content.empty() || trimmed(without_comment(content)).empty()) continue;
-    // Only the first line that says anything may be a name: "2412" or "63-206 modified" as well.
-    const bool box = result.rows.empty() && is_box_of_mses(content);
-    if (first && !box && !is_two_numbers(content)) {
-      result.name = content;
-    } else if (box || (result.rows.empty() && is_count(content))) {
-      // It says nothing of the airfoil.
-    } else if (is_remark(content)) {
-      if (remark.empty() && !result.rows.empty()) remark = content, remark_line = number;
-    } else {
-      if (!remark.empty()) point_of(remark, source, remark_line);  // says what it is
-      const Point point = point_of(content, source, number);
-      if (ended)
-        refuse(source, number, "found another element of a file of MSES, expected one airfoil in a file");
-      ended = is_end_of_element(point);
-      if (!ended) result.rows.push_back({point, number});
-    }
-    first = false;
+  refuse_other_kinds(text, source);
+  Reader reader(text, source);
+  reader.read();
+  AirfoilText result;
+  const std::vector<Block>& blocks = reader.blocks();
+  if (blocks.empty()) refuse(source, 0, "found no coordinates, expected lines of two numbers, x and y");
+  std::array<std::size_t, 2> plane{0, 1};
+  if (reader.columns() == 3) plane = plane_of(blocks, result.notes, source);
+  const Header& header = reader.header();
+  result.name = header.name;
+  if (header.all || header.upper) {
+    AirfoilElement whole;
+    for (const Block& block : blocks) append(whole.rows, rows_of(block, plane));
+    result.elements.push_back(std::move(whole));
+    header.all ? apply_openfast(header, result, source) : apply_openvsp(header, result, source);
+  } else {
+    result.elements = elements_of(blocks, plane, source);
   }
   return result;
 }

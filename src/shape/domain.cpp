@@ -79,9 +79,9 @@ void check_options(const AirfoilDomainOptions& options) {
          options.farfield_radius, "more than 1 and at most 1e6 chords");
 }
 
-// No point of the airfoil is farther from (0.5, 0): x / chord is in [0, 1], and where the exponents are not
-// negative, neither the class function nor a Bernstein polynomial exceeds one.
-double reach_bound(const PlacedAirfoil& placed) {
+// No point of the airfoil is farther from the farfield's centre: x / chord is in [0, 1], and where the
+// exponents are not negative, neither the class function nor a Bernstein polynomial exceeds one.
+double reach_bound(const PlacedAirfoil& placed, Point centre) {
   const CstAirfoil& airfoil = placed.airfoil;
   if (!placed.outline.empty()) return std::numeric_limits<double>::infinity();
   if (!(airfoil.e1 >= 0.0 && airfoil.e2 >= 0.0)) return std::numeric_limits<double>::infinity();
@@ -89,21 +89,22 @@ double reach_bound(const PlacedAirfoil& placed) {
   for (const auto* surface : {&airfoil.upper, &airfoil.lower})
     for (const double coefficient : *surface) height += std::abs(coefficient);
   const Placement& at = placed.placement;
-  return std::abs(at.position.x - 0.5) + std::abs(at.position.y) + at.chord * (1.0 + height);
+  return std::abs(at.position.x - centre.x) + std::abs(at.position.y - centre.y) + at.chord * (1.0 + height);
 }
 
 // The farfield is a polygon: what it surely contains is its inscribed circle.
 void check_farfield_contains(const Domain& domain, std::size_t loop, const PlacedAirfoil& airfoil,
                              const AirfoilDomainOptions& options) {
   const double inside = options.farfield_radius * std::cos(std::numbers::pi / options.farfield_points);
-  if (reach_bound(airfoil) < inside * (1.0 - 1e-9)) return;
+  const Point centre = options.farfield_centre;
+  if (reach_bound(airfoil, centre) < inside * (1.0 - 1e-9)) return;
   for (const Point p : domain.points(loop)) {
-    const double distance = std::hypot(p.x - 0.5, p.y);
+    const double distance = std::hypot(p.x - centre.x, p.y - centre.y);
     if (distance < inside) continue;
     std::ostringstream problem;
     problem << "found " << options.farfield_radius
             << ", expected a farfield that contains the airfoil, which reaches " << distance
-            << " chords from (0.5, 0)";
+            << " chords from (" << centre.x << ", " << centre.y << ")";
     throw Error(ErrorCode::argument, "farfield radius", problem.str());
   }
 }
@@ -252,34 +253,11 @@ Frame::Frame(const Placement& placement)
       origin_(placement.position),
       identity_(placement == Placement{}) {}
 
-std::vector<Curve> outline_of(const AirfoilCoordinates& coordinates, OutlineCurve curve,
-                              const std::string& name) {
-  const auto in_file = [&](Point p) { return Point{p.x, p.y + coordinates.incline * p.x}; };
-  std::vector<Point> points;
-  for (auto p = coordinates.upper.rbegin(); p != coordinates.upper.rend(); ++p) points.push_back(in_file(*p));
-  for (auto p = coordinates.lower.begin(); p != coordinates.lower.end(); ++p)
-    if (points.empty() || !(in_file(*p) == points.back())) points.push_back(in_file(*p));
-  const Point upper_end = points.front(), lower_end = points.back();
-  Curve around{.name = name, .shape = Line{}, .parameters = {}};
-  if (curve == OutlineCurve::spline) {
-    const Spline spline = spline_through(std::move(points), SplineEnds::corner);
-    around.parameters = std::vector<double>(spline.knots.begin(), spline.knots.end() - 1);
-    around.shape = spline;
-  } else {
-    around.parameters = Parameters::uniform(points.size() - 1);
-    around.shape = Polyline{std::move(points)};
-  }
-  std::vector<Curve> curves{std::move(around)};
-  if (!(upper_end == lower_end))
-    curves.push_back({.name = name, .shape = Line{lower_end, upper_end}, .parameters = {0.0}});
-  return curves;
-}
-
 Domain airfoils_domain(const std::vector<PlacedAirfoil>& airfoils, const AirfoilDomainOptions& options) {
   check_options(options);
   Domain domain;
   for (const PlacedAirfoil& airfoil : airfoils) domain.loops.push_back(airfoil_loop(airfoil, options.points));
-  const Arc circle{.centre = {0.5, 0.0}, .radius = options.farfield_radius};
+  const Arc circle{.centre = options.farfield_centre, .radius = options.farfield_radius};
   domain.loops.push_back({.role = LoopRole::outer,
                           .curves = {{.name = "farfield",
                                       .shape = circle,

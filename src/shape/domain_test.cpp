@@ -141,30 +141,40 @@ TEST(AirfoilDomain, NamesACoefficientThatIsNoNumber) {
   }
 }
 
-AirfoilCoordinates wedge(double gap) {
-  return {.name = "wedge",
-          .upper = {{0.0, 0.0}, {0.1, 0.05}, {0.3, 0.09}, {0.7, 0.06}, {1.0, 0.5 * gap}},
-          .lower = {{0.0, 0.0}, {0.1, -0.02}, {0.3, -0.03}, {0.7, -0.01}, {1.0, -0.5 * gap}},
-          .incline = 0.25};
+std::vector<Point> wedge(double gap) {
+  return {{1.0, 0.25 + 0.5 * gap},
+          {0.7, 0.235},
+          {0.3, 0.165},
+          {0.1, 0.075},
+          {0.0, 0.0},
+          {0.1, 0.005},
+          {0.3, 0.045},
+          {0.7, 0.165},
+          {1.0, 0.25 - 0.5 * gap}};
+}
+
+Domain domain_around(const std::vector<Curve>& outline) {
+  return airfoils_domain({{.name = "wedge", .airfoil = {}, .outline = outline}}, {.farfield_radius = 5});
+}
+
+void expect_stations(const Domain& domain, const std::vector<Point>& wanted) {
+  EXPECT_NO_THROW(validate(domain));
+  const std::vector<Point> points = domain.points(0);
+  EXPECT_EQ(points.size(), wanted.size());
+  for (const Point p : wanted)
+    EXPECT_NE(std::find(points.begin(), points.end(), p), points.end()) << p.x << " " << p.y;
 }
 
 // Every point of the file is a station, at its place in the file; the trailing edge is as open as there.
 TEST(OutlineAsGiven, GoesThroughThePointsOfTheFile) {
   for (const double gap : {0.0, 0.02})
     for (const OutlineCurve curve : {OutlineCurve::spline, OutlineCurve::polyline}) {
-      const AirfoilCoordinates file = wedge(gap);
-      const Domain domain =
-          airfoils_domain({{.name = "wedge", .airfoil = {}, .outline = outline_of(file, curve, "wedge")}},
-                          {.farfield_radius = 5});
-      EXPECT_NO_THROW(validate(domain));
+      std::vector<Point> file = wedge(gap);
+      const Domain domain = domain_around(outline_of(file, curve, "wedge"));
       EXPECT_EQ(domain.loops[0].curves.size(), gap > 0.0 ? 2u : 1u);
       EXPECT_GT(signed_area(domain, 0), 0.0);
-      const std::vector<Point> points = domain.points(0);
-      ASSERT_EQ(points.size(), gap > 0.0 ? 9u : 8u);
-      for (const std::vector<Point>* surface : {&file.upper, &file.lower})
-        for (const Point p : *surface)
-          EXPECT_NE(std::find(points.begin(), points.end(), Point{p.x, p.y + 0.25 * p.x}), points.end())
-              << p.x << " " << p.y;
+      if (gap == 0.0) file.pop_back();
+      expect_stations(domain, file);
       EXPECT_EQ(domain_from_json(domain_to_json(domain), "memory"), domain);
     }
 }
@@ -177,6 +187,30 @@ TEST(OutlineAsGiven, HasACornerAtASharpTrailingEdge) {
   EXPECT_EQ(spline.second.front(), (Point{}));
   EXPECT_EQ(spline.second.back(), (Point{}));
   EXPECT_NE(spline, spline_through(spline.points));
+}
+
+// A Gurney flap of the length of 0.03 on the lower side: its four corners stay corners.
+TEST(OutlineAsGiven, KeepsTheCornersOfAGurneyFlap) {
+  std::vector<Point> file = wedge(0.0);
+  file.pop_back();
+  for (const Point p : {Point{0.99, 0.2475}, Point{0.99, 0.2175}, Point{1.0, 0.2175}}) file.push_back(p);
+  const std::vector<Curve> curves = outline_of(file, OutlineCurve::spline, "wedge");
+  ASSERT_EQ(curves.size(), 4u);
+  EXPECT_TRUE(std::holds_alternative<Spline>(curves[0].shape));
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_TRUE(std::holds_alternative<Line>(curves[i].shape)) << i;
+  expect_stations(domain_around(curves), file);
+}
+
+// No corner where there is none: an ellipse.
+TEST(OutlineAsGiven, IsSmoothAllAroundARoundBody) {
+  std::vector<Point> file;
+  for (int i = 0; i < 40; ++i)
+    file.push_back(
+        {0.5 + 0.5 * std::cos(i * std::numbers::pi / 20), 0.2 * std::sin(i * std::numbers::pi / 20)});
+  const std::vector<Curve> curves = outline_of(file, OutlineCurve::spline, "body");
+  ASSERT_EQ(curves.size(), 1u);
+  EXPECT_FALSE(std::get<Spline>(curves[0].shape).corner);
+  expect_stations(domain_around(curves), file);
 }
 
 TEST(AirfoilDomain, RefusesAFarfieldThatDoesNotContainTheAirfoil) {

@@ -16,6 +16,12 @@ namespace {
 constexpr int lowest_degree = 2, highest_degree = 12;
 // Files have five or six digits.
 constexpr double least_gap = 1e-5;
+// In chords: what a user should know of a fit. Of 2,172 files of the UIUC, 23 fits are farther off.
+constexpr double poor_fit = 5e-3;
+
+std::string name_of(const AirfoilCoordinates& coordinates) {
+  return coordinates.name.empty() ? "airfoil" : coordinates.name;
+}
 
 // One surface's points as equations: row i of basis times the coefficients is height i.
 struct Equations {
@@ -82,12 +88,14 @@ CstFit fit_cst(const AirfoilCoordinates& coordinates, int degree, TrailingEdge t
   if (degree < lowest_degree || degree > highest_degree) {
     throw Error(ErrorCode::argument, "CST degree", "found " + std::to_string(degree) + ", expected 2 to 12");
   }
-  const std::string where = coordinates.name.empty() ? "airfoil" : coordinates.name;
+  const std::string where = name_of(coordinates);
   check_points(coordinates.upper, where);
   check_points(coordinates.lower, where);
   const double upper_end = coordinates.upper.back().y, lower_end = coordinates.lower.back().y;
   CstFit fit;
   fit.gap = upper_end - lower_end;
+  fit.frame = coordinates.frame;
+  fit.warnings = coordinates.warnings;
   if (trailing_edge == TrailingEdge::kept && fit.gap >= least_gap) {
     fit.airfoil.te_upper = upper_end;
     fit.airfoil.te_lower = lower_end;
@@ -101,7 +109,10 @@ CstFit fit_cst(const AirfoilCoordinates& coordinates, int degree, TrailingEdge t
   return fit;
 }
 
-CstFit fit_cst_apart(const AirfoilCoordinates& coordinates, int degree, TrailingEdge trailing_edge) {
+namespace {
+
+// Of the degree, those above and those below: the first whose surfaces are apart.
+CstFit first_apart(const AirfoilCoordinates& coordinates, int degree, TrailingEdge trailing_edge) {
   CstFit wanted = fit_cst(coordinates, degree, trailing_edge);
   if (surfaces_apart(wanted.airfoil)) return wanted;
   std::vector<int> others;
@@ -110,12 +121,29 @@ CstFit fit_cst_apart(const AirfoilCoordinates& coordinates, int degree, Trailing
   for (const int other : others) {
     try {
       CstFit fit = fit_cst(coordinates, other, trailing_edge);
-      if (surfaces_apart(fit.airfoil)) return fit;
+      if (!surfaces_apart(fit.airfoil)) continue;
+      fit.warnings.push_back(name_of(coordinates) + ": the fit of degree " + std::to_string(degree) +
+                             " crosses itself, that of degree " + std::to_string(other) + " is taken");
+      return fit;
     } catch (const Error&) {
       continue;  // too few points for so many coefficients
     }
   }
   return wanted;
+}
+
+}  // namespace
+
+CstFit fit_cst_apart(const AirfoilCoordinates& coordinates, int degree, TrailingEdge trailing_edge) {
+  CstFit fit = first_apart(coordinates, degree, trailing_edge);
+  if (fit.max_error > poor_fit) {
+    std::ostringstream sentence;
+    sentence.precision(2);
+    sentence << name_of(coordinates) << ": the fit is off by up to " << fit.max_error
+             << " chords: coefficients of degree " << fit.airfoil.degree() << " do not have this shape";
+    fit.warnings.push_back(sentence.str());
+  }
+  return fit;
 }
 
 }  // namespace remodel

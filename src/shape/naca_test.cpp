@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <utility>
 
 #include "remodel/airfoil.h"
@@ -75,6 +77,90 @@ TEST(Naca, MeanLinesAreSmoothWhereTheirTwoPartsMeet) {
       const Point c = section.lower[i + 1];
       const double turn = (c.y - b.y) / (c.x - b.x) - (b.y - a.y) / (b.x - a.x);
       ASSERT_LT(std::abs(turn), 0.03) << digits << " at " << b.x;
+    }
+  }
+}
+
+double height_at(const std::vector<Point>& surface, double x) {
+  std::size_t i = 1;
+  while (i + 1 < surface.size() && surface[i].x < x) ++i;
+  const Point a = surface[i - 1], b = surface[i];
+  return a.y + (x - a.x) / (b.x - a.x) * (b.y - a.y);
+}
+
+// Ordinates of the upper side in chords, from the lists of NACA report 492 (0012-64).
+TEST(Naca, ModifiedSectionsHaveTheirPublishedOrdinates) {
+  const AirfoilCoordinates section = naca_airfoil("0012-64");
+  for (const Point p : {Point{0.0125, 0.01813},
+                        {0.025, 0.02453},
+                        {0.05, 0.03267},
+                        {0.1, 0.0424},
+                        {0.2, 0.05293},
+                        {0.3, 0.05827},
+                        {0.4, 0.06},
+                        {0.5, 0.05827},
+                        {0.6, 0.0532},
+                        {0.7, 0.0448},
+                        {0.8, 0.0332},
+                        {0.9, 0.01867},
+                        {0.95, 0.01027},
+                        {1.0, 0.0012}}) {
+    EXPECT_NEAR(height_at(section.upper, p.x), p.y, 7e-5) << p.x;
+    EXPECT_NEAR(height_at(section.lower, p.x), -p.y, 7e-5) << p.x;
+  }
+}
+
+// From NACA report 824 and, for the 6A-series, report 903.
+TEST(Naca, SixSeriesSectionsHaveTheirPublishedOrdinates) {
+  const AirfoilCoordinates a = naca_airfoil("64A010");
+  for (const Point p : {Point{0.006, 0.008859},
+                        {0.01, 0.011167},
+                        {0.05, 0.02331},
+                        {0.1, 0.032014},
+                        {0.2, 0.042737},
+                        {0.4, 0.049954},
+                        {0.6, 0.04021},
+                        {0.8, 0.021023},
+                        {0.95, 0.005404}})
+    EXPECT_NEAR(height_at(a.upper, p.x), p.y, 1e-4) << p.x;
+  const AirfoilCoordinates b = naca_airfoil("64(2)-015");
+  for (const Point p : {Point{0.95, 0.00346}, {0.9, 0.0095}, {0.8, 0.02472}, {0.7, 0.04113}, {0.5, 0.0681}})
+    EXPECT_NEAR(height_at(b.upper, p.x), p.y, 2e-4) << p.x;
+}
+
+// Of a thin section the mean of both sides is the mean line: that of a = 1 is 0.0552 cl high in the middle.
+TEST(Naca, SixSeriesSectionsHaveTheirMeanLines) {
+  const auto middle = [](const char* designation, double x) {
+    const AirfoilCoordinates s = naca_airfoil(designation);
+    return 0.5 * (height_at(s.upper, x) + height_at(s.lower, x)) + s.frame.shear * x;
+  };
+  EXPECT_NEAR(middle("63-203", 0.5), 0.2 * 0.055159, 1e-4);
+  EXPECT_NEAR(middle("63-403", 0.5), 0.4 * 0.055159, 4e-4);
+  EXPECT_NEAR(middle("65-203 a=.5", 0.5), 0.2 * std::log(2.0) / (3.0 * std::numbers::pi), 1e-4);
+  EXPECT_EQ(naca_airfoil("63-206").upper, naca_airfoil("63-206 a=1").upper);
+  EXPECT_NE(naca_airfoil("63-206").upper, naca_airfoil("63-206 a=.8").upper);
+  EXPECT_EQ(naca_airfoil("65(1)-412").upper, naca_airfoil("651-412").upper);
+}
+
+TEST(Naca, SixSeriesSectionsHaveTheThicknessOfTheirDigits) {
+  for (const char* designation :
+       {"63-006", "64-012", "65-018", "66-021", "67-015", "63A008", "64A010", "65A012"}) {
+    const std::string name = designation;
+    const double wanted = 0.01 * std::stoi(name.substr(name.size() - 2));
+    double largest = 0.0;
+    for (const Point p : naca_airfoil(designation).upper) largest = std::max(largest, 2.0 * p.y);
+    EXPECT_NEAR(largest, wanted, 1e-6) << designation;
+  }
+}
+
+TEST(Naca, RefusesByNameWhatHasNoClosedForm) {
+  for (const char* designation : {"0012-07", "0012-61", "0012-04", "66A010", "63-200", "64A210 a=.5",
+                                  "63-206 a=2", "63-206 a=x", "747A315", "16-212", "63-20", "62-206"}) {
+    try {
+      naca_airfoil(designation);
+      ADD_FAILURE() << designation;
+    } catch (const Error& e) {
+      EXPECT_NE(std::string(e.what()).find(designation), std::string::npos) << e.what();
     }
   }
 }

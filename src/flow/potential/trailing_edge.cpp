@@ -44,14 +44,14 @@ double integral_falling(double from, double to, double power) {
 }
 
 // A side of the body, walked from its corner at the trailing edge.
-struct Side {
+struct EdgeSide {
   std::vector<std::size_t> vertices;  // the corner first
   std::vector<double> s;              // how far each is ahead of the middle of the base, along the side
 };
 
-Side side_of(std::span<const Point> body, std::size_t base, bool clockwise, Point middle, Point along) {
+EdgeSide side_of(std::span<const Point> body, std::size_t base, bool clockwise, Point middle, Point along) {
   const std::size_t n = body.size(), corner = clockwise ? base - 1 : 0;
-  Side side{{corner}, {dot(body[corner] - middle, along)}};
+  EdgeSide side{{corner}, {dot(body[corner] - middle, along)}};
   for (std::size_t k = 1; k <= n - base; ++k) {
     side.vertices.push_back(clockwise ? (corner + k) % n : n - k);
     side.s.push_back(side.s.back() + distance(body[side.vertices[k - 1]], body[side.vertices[k]]));
@@ -119,7 +119,7 @@ KuttaCondition kutta_condition(std::span<const Point> body, std::size_t base) {
   for (std::size_t i = 0; i < base; ++i) condition.terms.push_back({i, 1.0});
   double rest = 0.0, speeds = 0.0;
   for (const double sign : {-1.0, 1.0}) {  // clockwise is away from the edge below it and towards it above
-    const Side side = side_of(body, base, sign < 0.0, middle, along);
+    const EdgeSide side = side_of(body, base, sign < 0.0, middle, along);
     const std::size_t most = std::max<std::size_t>(1, (n - base) / 2);
     std::size_t k = 1;
     for (; k < most && side.s[k] < widths * distance(lower, upper); ++k)
