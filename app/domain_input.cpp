@@ -107,7 +107,6 @@ class AirfoilInput {
 
   void read() {
     for (std::size_t i = 0; i < options_.shapes.size(); ++i) {
-      const KeptPipes once;
       if (is_coordinate_file(options_.shapes[i]))
         read_file(i);
       else

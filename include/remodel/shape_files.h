@@ -27,7 +27,7 @@ CstAirfoil load_airfoil(const std::string& shape, int degree,
 // begin with the file's name. Errors are those of the catalogue's table for its names, and 0 for a .json
 // file.
 CstFit load_fit(const std::string& shape, int degree, TrailingEdge trailing_edge = TrailingEdge::kept);
-// Whether a SHAPE is a coordinate file, by its name and what exists; opens nothing.
+// Whether a SHAPE is a coordinate file: by its name, or what comes through a pipe by its content.
 bool is_coordinate_file(const std::string& shape);
 
 // domain_from_json() of a file, where airfoils may be named as load_airfoil() takes them; their files are

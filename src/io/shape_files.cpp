@@ -37,8 +37,7 @@ AirfoilOutlines read_outlines(const std::filesystem::path& file) {
 }
 
 bool is_coordinate_file(const std::string& shape) {
-  return !shape.starts_with(naca_prefix) && std::filesystem::path(shape).extension() != ".json" &&
-         names_a_file(shape);
+  return !shape.starts_with(naca_prefix) && names_a_file(shape) && !is_json(shape);
 }
 
 CstFit load_fit(const std::string& shape, int degree, TrailingEdge trailing_edge) {

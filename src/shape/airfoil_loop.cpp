@@ -213,16 +213,12 @@ AirfoilLoop without_base(AirfoilLoop loop) {
   const Point tail = 0.5 * (rows.front().point + rows.back().point);
   const Point nose = rows[farthest_from(rows, tail)].point;
   const bool drawn = rows.front().point == rows.back().point;
-  const auto drop = [&](bool front) {
-    while (rows.size() > 5) {
-      const Point end = front ? rows[0].point : rows[rows.size() - 1].point;
-      const Point next = front ? rows[1].point : rows[rows.size() - 2].point;
-      if (!is_base(end, next, nose, tail)) return;
-      rows.erase(front ? rows.begin() : rows.end() - 1);
-    }
-  };
-  drop(true);
-  drop(false);
+  std::size_t first = 0, last = rows.size() - 1;
+  const auto more = [&] { return last - first + 1 > 5; };
+  while (more() && is_base(rows[first].point, rows[first + 1].point, nose, tail)) ++first;
+  while (more() && is_base(rows[last].point, rows[last - 1].point, nose, tail)) --last;
+  rows = AirfoilRowList(rows.begin() + static_cast<std::ptrdiff_t>(first),
+                        rows.begin() + static_cast<std::ptrdiff_t>(last) + 1);
   if (drawn && !(rows.front().point == rows.back().point)) {
     const Point upper = rows.front().point, lower = rows.back().point;
     loop.gap = distance(upper, lower);

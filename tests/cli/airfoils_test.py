@@ -70,6 +70,13 @@ class Airfoils(ProgramTest):
         turned = self.run_program("update", "x.vtkhdf", file, "-o", "x.vtkhdf", "--json")
         self.assertEqual(turned.json()["preserved_percent"], 100.0)
 
+    def test_a_section_at_an_incidence_stays_there_when_its_edge_opens(self):
+        self.succeed("mesh", FILES / "drawn_at_8_degrees.dat", "-o", "x.vtkhdf")
+        self.succeed("update", "x.vtkhdf", self.write("blunt.dat", shapes.text_of(blunt(0.01))), "-o", "x.vtkhdf")
+        c, s = math.cos(math.radians(8.0027)), math.sin(math.radians(8.0027))
+        ends = [(c + 0.005 * s, -s + 0.005 * c), (c - 0.005 * s, -s - 0.005 * c)]
+        self.assert_points("x.vtkhdf", ends, within=1e-4)
+
     def test_an_edge_that_rounding_opens_or_crosses_is_closed(self):
         for name in ("te_crossed_by_rounding.dat", "te_open_by_rounding.dat"):
             for curve in ("spline", "polyline"):
