@@ -60,11 +60,6 @@ std::set<std::string> names_of(const Loop& loop) {
   return names;
 }
 
-bool has_airfoil(const Loop& loop) {
-  return std::any_of(loop.curves.begin(), loop.curves.end(),
-                     [](const Curve& curve) { return std::holds_alternative<CstAirfoil>(curve.shape); });
-}
-
 // Centres of boxes, as nanoflann asks for them.
 struct Centres {
   std::vector<Point> points;

@@ -135,11 +135,6 @@ Seed best_seed(const Outline& from, const Outline& to) {
 // same parameters.
 using CurveKey = std::tuple<std::size_t, std::size_t, std::string>;
 
-bool has_airfoil(const Loop& loop) {
-  return std::any_of(loop.curves.begin(), loop.curves.end(),
-                     [](const Curve& curve) { return std::holds_alternative<CstAirfoil>(curve.shape); });
-}
-
 bool begins_somewhere(const Loop& loop, std::size_t c) {
   const Shape& shape = loop.curves[c].shape;
   if (std::holds_alternative<CstAirfoil>(shape)) return true;
@@ -343,6 +338,11 @@ std::optional<bool> keep_one_order(const Outline& from, std::vector<std::size_t>
 }
 
 }  // namespace
+
+bool has_airfoil(const Loop& loop) {
+  return std::any_of(loop.curves.begin(), loop.curves.end(),
+                     [](const Curve& curve) { return std::holds_alternative<CstAirfoil>(curve.shape); });
+}
 
 double Outline::diagonal() const {
   return length(high - low);
