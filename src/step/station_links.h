@@ -28,6 +28,8 @@ struct Outline {
 Outline outline_of_loop(const Domain& domain, std::size_t loop);
 bool has_airfoil(const Loop& loop);
 
+bool has_airfoil(const Loop& loop);
+
 // A point of a segment, at this fraction of its parameters.
 Point on_segment(const Outline& outline, std::size_t segment, double fraction);
 
