@@ -18,6 +18,7 @@ Json to_json(const FlowResult& flow) {
             {"mach", flow.mach},
             {"converged", flow.converged()},
             {"status", name_of(flow.status)}};
+  if (flow.entropy_drag) json["entropy_drag"] = *flow.entropy_drag;
   if (!flow.reason.empty()) json["reason"] = flow.reason;
   json["residual"] = flow.residual;
   json["newton_steps"] = flow.newton_steps;
@@ -70,6 +71,7 @@ void add_flow_figures(Report& report, const FlowResult& flow) {
   }
   const std::string mark = flow.converged() ? "" : not_converged + 1;  // behind the space of units
   figure("cl", "CL", mark), figure("cd", "CD", mark), figure("cm", "CM", mark);
+  figure("entropy_drag", "CD by entropy", mark);
   figure("alpha_deg", "angle of attack", "degrees");
   figure("mach", "Mach number");
   if (flow.converged()) add_end();
