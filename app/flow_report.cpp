@@ -23,6 +23,7 @@ Json to_json(const FlowResult& flow) {
             {"mach", flow.mach},
             {"converged", flow.converged()},
             {"status", name_of(flow.status)}};
+  if (flow.entropy_drag) json["entropy_drag"] = *flow.entropy_drag;
   if (!flow.reason.empty()) json["reason"] = flow.reason;
   json["residual"] = flow.residual;
   json["newton_steps"] = flow.newton_steps;
@@ -78,6 +79,7 @@ void add_flow_figures(Report& report, const FlowResult& flow) {
   const std::string mark = flow.converged() ? "" : not_converged + 1;  // behind the space of units
   const std::string lift_mark = mark.empty() && !flow.lift_determined ? not_determined + 1 : mark;
   figure("cl", "CL", lift_mark), figure("cd", "CD", mark), figure("cm", "CM", lift_mark);
+  figure("entropy_drag", "CD by entropy", mark);
   figure("alpha_deg", "angle of attack", "degrees");
   figure("mach", "Mach number");
   if (flow.converged()) add_end();

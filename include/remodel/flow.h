@@ -150,6 +150,9 @@ struct FlowResult {
   double mach = 0.0, alpha_deg = 0.0;
   double cl = 0.0, cd = 0.0, cm = 0.0;
   std::vector<FlowBody> bodies;  // the parts of each wall, which the sums are of
+  // The drag coefficient by what entropy leaves through the far field; none without one. D. Destarac and J. van
+  // der Vooren, Aerosp. Sci. Technol. 8 (2004).
+  std::optional<double> entropy_drag = {};
 
   std::vector<FlowOpening> openings;  // inlets, then outlets
 
@@ -224,6 +227,7 @@ struct FlowFunctional {
 struct WantedGradients {
   bool lift = true, drag = true, moment = true;
   bool angle = true;  // of the angle of attack, where lift is given
+  bool entropy_drag = false;
 };
 
 // Of the last flow that was found. Where lift is given the angle of attack follows too: cl has no derivative
@@ -231,6 +235,7 @@ struct WantedGradients {
 struct FlowGradients {
   FlowGradient cl, cd, cm;              // empty if they were not wanted
   FlowGradient alpha_deg;               // of the angle, in degrees: 0 but by itself where it is given
+  FlowGradient entropy_drag;            // empty if it was not wanted
   std::vector<FlowGradient> functions;  // that were asked for
   bool interrupted = false;             // by the observer: then there are none
   int factorisations = 0;               // 1 where the factors that there were did not serve

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 namespace remodel {
 
 // A point of the plane. Airfoil coordinates are in chords: the chord has length 1.
@@ -27,6 +29,9 @@ inline double cross(Point a, Point b) {
 }
 inline double squared_distance(Point a, Point b) {
   return dot(b - a, b - a);
+}
+inline double distance(Point a, Point b) {
+  return std::sqrt(squared_distance(a, b));
 }
 
 }  // namespace remodel

@@ -9,6 +9,7 @@
 
 #include "base/stopwatch.h"
 #include "flow/flow_warnings.h"
+#include "flow/scheme/entropy_drag.h"
 #include "flow/scheme/forces.h"
 #include "flow/search/chord.h"
 #include "flow/search/coarse_start.h"
@@ -250,6 +251,7 @@ FlowResult result_of(const FlowSystem& system, const State& state, const SearchR
   const double scale = reported_length(system.stream());
   const Coefficients sum = coefficients(system, state);
   result.cl = scale * sum.lift, result.cd = scale * sum.drag, result.cm = scale * scale * sum.moment;
+  if (system.mesh().has_farfield()) result.entropy_drag = scale * value(system, state, EntropyDrag{});
   const std::vector<double> mass_flows = system.mass_flows(state);
   for (std::uint32_t i = 0; i < mass_flows.size(); ++i) {
     const Patch& patch = system.mesh().patches()[i];

@@ -54,10 +54,6 @@ Domain domain_of(const Drawn& drawn) {
   return domain;
 }
 
-double distance(Point a, Point b) {
-  return std::sqrt(squared_distance(a, b));
-}
-
 TEST(AirfoilPlace, TheChordIsFoundWhereverTheAirfoilLies) {
   for (const double angle : {0.0, 0.3, -1.2, 2.9}) {
     for (const bool clockwise : {false, true}) {

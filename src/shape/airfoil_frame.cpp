@@ -25,10 +25,6 @@ std::size_t foremost(const AirfoilRowList& rows) {
   return static_cast<std::size_t>((first - rows.begin() + (last - rows.begin())) / 2);
 }
 
-double distance(Point a, Point b) {
-  return std::sqrt(squared_distance(a, b));
-}
-
 // The distance from the trailing edge along a smooth curve through the points.
 class NoseArc {
  public:

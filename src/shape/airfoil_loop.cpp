@@ -36,10 +36,6 @@ template <typename... Parts>
               problem.str());
 }
 
-double distance(Point a, Point b) {
-  return std::sqrt(squared_distance(a, b));
-}
-
 bool is_count(double value) {
   return value >= 2.0 && value == std::floor(value);
 }

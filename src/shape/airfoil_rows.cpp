@@ -238,10 +238,6 @@ AirfoilRowList rows_of(const Block& block, std::array<std::size_t, 2> plane) {
   return rows;
 }
 
-double distance(Point a, Point b) {
-  return std::sqrt(squared_distance(a, b));
-}
-
 // The whole outline of an element ends where it begins, up to a blunt trailing edge.
 bool is_outline(const AirfoilRowList& rows) {
   double extent = 0.0;

@@ -22,6 +22,7 @@ class Flows(ProgramTest):
         self.assertLessEqual(figures["residual"], 1e-10)
         self.assertAlmostEqual(figures["cl"], 0.18, delta=0.03)
         self.assertEqual(len(figures["bodies"]), 1)
+        self.assertAlmostEqual(figures["entropy_drag"], figures["cd"], delta=1e-4)  # there is no other
 
     def test_potential_flow_knows_the_mach_number(self):
         shape = ("flow", "naca:0012", "--points", 60, "--alpha", 1.25)
@@ -181,6 +182,7 @@ class Ducts(ProgramTest):
         self.assertAlmostEqual(flow["openings"][0]["mass_flow"], 0.3, delta=1e-8)
         self.assertAlmostEqual(flow["openings"][1]["mass_flow"], -0.3, delta=1e-8)
         self.assertEqual(sorted(body["name"] for body in flow["bodies"]), ["floor", "roof"])
+        self.assertNotIn("entropy_drag", flow)
 
     def test_a_symmetry_plane_is_no_body(self):
         flow = self.figures("flow", self.duct(), "--mach", 0.3, "--inlet", "in", "--outlet", "out", "--symmetry", "roof")

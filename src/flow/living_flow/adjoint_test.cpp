@@ -239,6 +239,52 @@ TEST(Adjoint, OldFactorsServeUntilTheyDoNot) {
   EXPECT_LT(task.error(task.gradients(), 1e-6), 1e-6);
 }
 
+// Of all unknowns at the far field, which moves here too.
+TEST(Adjoint, EntropyDragFollowsTheMeshTheMachNumberAndTheAngle) {
+  const Mesh mesh = generate(section("naca:2412", 60), {.gradation = 1.2}).mesh;
+  const FlowConditions conditions = {.mach = 0.75, .alpha_deg = 1.25};
+  const FlowOptions options = {.tolerance = 1e-12};
+  LivingFlow living(options);
+  const FlowResult flow = living.solve(mesh, conditions);
+  ASSERT_TRUE(flow.converged()) << flow.reason;
+  EXPECT_NEAR(flow.entropy_drag.value(), flow.cd, 5e-3 * flow.cd);
+  WantedGradients wanted;
+  wanted.entropy_drag = true;
+  const FlowGradients gradients = living.gradients({}, wanted);
+  EXPECT_TRUE(living.gradients().entropy_drag.points.empty());
+  FrozenMesh frozen = mesh.freeze();
+  const auto slope = [&](double h, const std::function<FlowResult(double)>& at) {
+    const double a = *at(-2 * h).entropy_drag, b = *at(-h).entropy_drag, c = *at(h).entropy_drag,
+                 d = *at(2 * h).entropy_drag;
+    return (a - 8 * b + 8 * c - d) / (12 * h);
+  };
+  const double by_mach = slope(1e-5, [&](double s) {
+    return solve_flow(frozen, {.mach = conditions.mach + s, .alpha_deg = conditions.alpha_deg}, options);
+  });
+  const double by_angle = slope(1e-4, [&](double s) {
+    return solve_flow(frozen, {.mach = conditions.mach, .alpha_deg = conditions.alpha_deg + s}, options);
+  });
+  EXPECT_NEAR(gradients.entropy_drag.mach, by_mach, 1e-6 * std::fabs(by_mach));
+  EXPECT_NEAR(gradients.entropy_drag.alpha_deg, by_angle, 1e-6 * std::fabs(by_angle));
+  std::size_t wall = 0, far = 0;  // a point of the upper surface, and the farthest one downstream
+  for (std::size_t v = 0; v < frozen.points.size(); ++v) {
+    const Point crest = {0.4, 0.1};
+    if (squared_distance(frozen.points[v], crest) < squared_distance(frozen.points[wall], crest)) wall = v;
+    if (frozen.points[v].x > frozen.points[far].x) far = v;
+  }
+  for (const std::size_t v : {wall, far}) {
+    const double y = frozen.points[v].y, h = v == wall ? 1e-6 : 1e-2;
+    const double by_y = slope(h, [&](double s) {
+      frozen.points[v].y = y + s;
+      return solve_flow(frozen, conditions, options);
+    });
+    frozen.points[v].y = y;
+    // What a far point does is little beside the flows' residuals.
+    const double part = v == wall ? 1e-5 : 1e-4;
+    EXPECT_NEAR(gradients.entropy_drag.points[v].y, by_y, part * std::fabs(by_y)) << v;
+  }
+}
+
 TEST(Adjoint, FunctionsOfPressureAndBadCalls) {
   Case task(section("naca:2412", 60), {.mach = 0.5, .alpha_deg = 1.25}, {.gradation = 1.2});
   EXPECT_THROW(task.living().gradients(), Error);

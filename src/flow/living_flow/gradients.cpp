@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/stopwatch.h"
+#include "flow/scheme/entropy_drag.h"
 #include "flow/scheme/forces.h"
 #include "remodel/error.h"
 
@@ -112,6 +113,7 @@ FlowGradients Gradients::of(const LastFlow& last, const std::vector<FlowFunction
   if (wanted.drag) add(force({.drag = 1.0}), result.cd, scale);
   if (wanted.moment) add(force({.moment = 1.0}), result.cm, scale * scale);
   if (wanted.angle) add(angle(last.mesh->size()), result.alpha_deg);
+  if (wanted.entropy_drag) add(slope_of(system, last.state, EntropyDrag{}), result.entropy_drag, scale);
   for (std::size_t i = 0; i < functions.size(); ++i)
     add(slope_of(functions[i], last.mesh->size()), result.functions[i]);
 

@@ -9,10 +9,6 @@ namespace remodel::flow {
 
 namespace {
 
-double distance(Point a, Point b) {
-  return std::hypot(b.x - a.x, b.y - a.y);
-}
-
 // From a to b, of length 1.
 Point direction(Point a, Point b) {
   return (1.0 / distance(a, b)) * (b - a);

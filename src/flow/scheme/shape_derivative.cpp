@@ -59,7 +59,8 @@ std::vector<ShapeSlope> FlowSystem::residual_slopes(const State& state,
       for (std::size_t side = 0; side < 2; ++side)
         for (std::size_t k = 0; k < unknown_count; ++k) {
           double by_along = 0.0;
-          for (std::size_t i = 0; i < unknown_count; ++i) by_along += w[i] * by_unknowns.by_along[side][unknown_count * i + k];
+          for (std::size_t i = 0; i < unknown_count; ++i)
+            by_along += w[i] * by_unknowns.by_along[side][unknown_count * i + k];
           Point& sum = by_gradient[j][source[side]][k];
           sum = sum + by_along * d;
           by_d = by_d + by_along * gradient[source[side]][k];
