@@ -56,9 +56,9 @@ std::optional<std::string> mesh_file(const FlowCommand& command) {
   if (names.size() > 1 || !command.input.places.empty())
     throw Error(ErrorCode::argument, *file, "holds a mesh, expected it alone and without --place");
   refuse(command,
-         {"--name", "--as-given", "--keep-coordinates", "--crossings", "--join", "--points", "--farfield-radius",
-          "--farfield-points", "--gradation", "--resolution", "--min-angle", "--max-gradation", "--min-edge",
-          "--max-vertices", "--cst-degree", "--close-trailing-edge"},
+         {"--name", "--as-given", "--keep-coordinates", "--crossings", "--join", "--points",
+          "--farfield-radius", "--farfield-points", "--gradation", "--resolution", "--min-angle",
+          "--max-gradation", "--min-edge", "--max-vertices", "--cst-degree", "--close-trailing-edge"},
          "given with a mesh, which has its own, expected with a shape");
   return *file;
 }

@@ -29,10 +29,11 @@
 // incomplete factors, and by sparse LU where its factors last. docs/flow.md has equations, sources and
 // verification.
 //
-// Errors: Error (argument) for conditions and options out of range, for symmetry planes that are not straight or
-// not along the stream, and for a mesh without a far field or another way in and out, without a wall, with unnamed boundary edges, with triangles that are clockwise or
-// have no area, or with a far field that is the boundary of a hole. A flow that is not found is no error:
-// FlowResult::status and reason say so, and no coefficient of it should be used.
+// Errors: Error (argument) for conditions and options out of range, for symmetry planes that are not straight
+// or not along the stream, and for a mesh without a far field or another way in and out, without a wall, with
+// unnamed boundary edges, with triangles that are clockwise or have no area, or with a far field that is the
+// boundary of a hole. A flow that is not found is no error: FlowResult::status and reason say so, and no
+// coefficient of it should be used.
 
 #include <functional>
 #include <memory>
@@ -102,9 +103,9 @@ struct FlowOptions {
   // How linear systems are solved. None: by GMRES far from a flow, where a matrix is solved with but once,
   // and by LU where its factors serve for several steps or designs, if GMRES fails, too.
   std::optional<FlowSolver> solver = {};
-  StepObserver* observer = nullptr;                       // asked at every step
-  std::vector<FlowInlet> inlets = {};                     // without a far field: at least one of each
-  std::vector<FlowOutlet> outlets = {};                   // their names are not `farfield`, and not one twice
+  StepObserver* observer = nullptr;      // asked at every step
+  std::vector<FlowInlet> inlets = {};    // without a far field: at least one of each
+  std::vector<FlowOutlet> outlets = {};  // their names are not `farfield`, and not one twice
   // Boundaries beyond which the flow is its own mirror image: straight, along the stream, and no part of
   // forces, which are those of the bodies in the mesh. No lift can be asked for, and the far field has no
   // vortex. Names as those of outlets.
@@ -150,8 +151,8 @@ struct FlowResult {
   double mach = 0.0, alpha_deg = 0.0;
   double cl = 0.0, cd = 0.0, cm = 0.0;
   std::vector<FlowBody> bodies;  // the parts of each wall, which the sums are of
-  // The drag coefficient by what entropy leaves through the far field; none without one. D. Destarac and J. van
-  // der Vooren, Aerosp. Sci. Technol. 8 (2004).
+  // The drag coefficient by what entropy leaves through the far field; none without one. D. Destarac and J.
+  // van der Vooren, Aerosp. Sci. Technol. 8 (2004).
   std::optional<double> entropy_drag = {};
 
   std::vector<FlowOpening> openings;  // inlets, then outlets

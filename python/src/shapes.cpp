@@ -290,7 +290,9 @@ touch, with the loop and the place.)");
       "coefficients"_a, "The same domain with other numbers, in the order of `coefficients`.");
   domain.def("airfoil", &airfoil_of, "boundary"_a = "",
              "The airfoil by coefficients of that name, or the only one there is. Raises ArgumentError.");
-  domain.def("validate", &validate, "Raises GeometryError unless the domain can be meshed.");
+  domain.def(
+      "validate", [](const Domain& d) { validate(d); },
+      "Raises GeometryError unless the domain can be meshed.");
   domain.def_property_readonly("loops", &loop_points,
                                "The stations of each loop, of shape (n, 2), by the name of its first curve.");
   domain.def(py::self == py::self);

@@ -76,8 +76,6 @@ void require(bool holds, const char* what, double found, const char* expected) {
   throw Error(ErrorCode::argument, what, "found " + shortest_text(found) + ", expected " + expected);
 }
 
-constexpr double degree = M_PI / 180.0;
-
 class Points {
  public:
   explicit Points(const std::vector<Point>& points) : points_(points), tree_(2, *this) {}

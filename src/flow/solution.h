@@ -2,10 +2,14 @@
 
 // From the solver's terms to the public ones, and back.
 
+#include <cmath>
+
 #include "flow/search/newton_search.h"
 #include "remodel/flow.h"
 
 namespace remodel::flow {
+
+inline constexpr double degree = M_PI / 180.0;  // in radians
 
 // Throws Error (argument) for what is out of range.
 void require_possible(const FlowConditions& conditions, const FlowOptions& options);

@@ -108,14 +108,6 @@ void drop_repetitions(Rows& outline) {
   outline.erase(std::unique(outline.begin(), outline.end(), same), outline.end());
 }
 
-double twice_area_of(const Rows& outline) {
-  double twice = 0.0;
-  const Point origin = outline.front().point;
-  for (std::size_t i = 2; i < outline.size(); ++i)
-    twice += cross(outline[i - 1].point - origin, outline[i].point - origin);
-  return twice;
-}
-
 // A number as people say it.
 std::string said(double value, int digits) {
   std::ostringstream text;

@@ -11,10 +11,10 @@ namespace remodel {
 namespace {
 
 // The trailing edge straight behind the foremost point, up to the digits of files, in chords.
-constexpr double straight = 1e-5;
+constexpr double straight_behind = 1e-5;
 // How much nearer to the trailing edge the ends of the nose's arc are, the middle of which is the nose.
 constexpr double arc_depth = 1e-6;
-constexpr int samples = 32;  // a side of the polygon
+constexpr int nose_samples = 32;  // a side of the polygon
 
 // The foremost of all points, the middle one of a flat nose.
 std::size_t foremost(const AirfoilRowList& rows) {
@@ -34,8 +34,8 @@ class NoseArc {
     for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
       const double d = std::max(distance(rows[i].point, tail), distance(rows[i + 1].point, tail));
       if (d < 0.95 * largest) continue;
-      const double from = spline_.knots[i], step = (spline_.knots[i + 1] - from) / samples;
-      for (int k = 0; k <= samples; ++k) parameters_.push_back(from + k * step);
+      const double from = spline_.knots[i], step = (spline_.knots[i + 1] - from) / nose_samples;
+      for (int k = 0; k <= nose_samples; ++k) parameters_.push_back(from + k * step);
     }
   }
 
@@ -69,7 +69,7 @@ class NoseArc {
     const auto next = std::upper_bound(spline_.knots.begin() + 1, spline_.knots.end() - 1, t);
     return std::max(*next - *(next - 1),
                     next == spline_.knots.begin() + 1 ? 0.0 : *(next - 1) - *(next - 2)) /
-           samples;
+           nose_samples;
   }
   // Of the largest sample, the largest value beside it.
   double refined(double t) const {
@@ -116,7 +116,7 @@ AirfoilNose foremost_nose(const AirfoilRowList& rows) {
 
 AirfoilNose nose_of(const AirfoilRowList& rows) {
   AirfoilNose drawn = foremost_nose(rows);
-  if (drawn.frame.chord > 0.0 && std::abs(drawn.frame.shear) <= straight) return drawn;
+  if (drawn.frame.chord > 0.0 && std::abs(drawn.frame.shear) <= straight_behind) return drawn;
   const Point tail = 0.5 * (rows.front().point + rows.back().point);
   const NoseArc arc(rows, tail);
   const double t = arc.nose();

@@ -15,7 +15,7 @@ struct Kind {
   bool at_start = false;
 };
 
-constexpr std::string_view expected = ", expected coordinates of an airfoil: lines of x and y";
+constexpr std::string_view expected_coordinates = ", expected coordinates of an airfoil: lines of x and y";
 
 constexpr Kind kinds[] = {
     {"\xff\xfe", "a text in UTF-16", true},
@@ -59,7 +59,7 @@ void refuse_other_kinds(std::string_view text, const std::string& source) {
     const std::size_t at = begin.find(kind.words);
     if (kind.at_start ? at == 0 : at != begin.npos)
       throw Error(ErrorCode::format, source,
-                  "found what seems to be " + std::string(kind.what) + std::string(expected));
+                  "found what seems to be " + std::string(kind.what) + std::string(expected_coordinates));
   }
 }
 

@@ -24,7 +24,7 @@ constexpr double largest_base = 0.2;
 constexpr double largest_side = 0.06;
 // Ends farther apart are no base and no side: a surface is missing.
 constexpr double largest_gap = 0.75;
-constexpr double end_tolerance = 0.02;
+constexpr double count_tolerance = 0.02;
 
 template <typename... Parts>
 [[noreturn]] void refuse(const std::string& source, const AirfoilRow* row, const Parts&... parts) {
@@ -51,7 +51,7 @@ bool begins_with_counts(const AirfoilRowList& rows) {
     least = std::min(least, rows[i].point.x);
     largest = std::max(largest, rows[i].point.x);
   }
-  return rows.size() == 1 || std::abs(first.x - largest) > end_tolerance * (largest - least);
+  return rows.size() == 1 || std::abs(first.x - largest) > count_tolerance * (largest - least);
 }
 
 AirfoilElement without_counts(const AirfoilElement& element, const std::string& source) {
@@ -95,14 +95,6 @@ void drop_repetitions(AirfoilRowList& rows, double extent) {
   const AirfoilRow last = rows.back();
   rows.erase(std::unique(rows.begin(), rows.end(), same), rows.end());
   rows.back() = last;  // an end is kept as it is
-}
-
-double twice_area_of(const AirfoilRowList& rows) {
-  double twice = 0.0;
-  const Point origin = rows.front().point;
-  for (std::size_t i = 2; i < rows.size(); ++i)
-    twice += cross(rows[i - 1].point - origin, rows[i].point - origin);
-  return twice;
 }
 
 // Whether a side lies across the chord, the two ends of which are given, and is short.
@@ -166,6 +158,14 @@ AirfoilRowList from_tail(AirfoilRowList rows, const Ends& ends, double extent) {
 }
 
 }  // namespace
+
+double twice_area_of(const AirfoilRowList& rows) {
+  double twice = 0.0;
+  const Point origin = rows.front().point;
+  for (std::size_t i = 2; i < rows.size(); ++i)
+    twice += cross(rows[i - 1].point - origin, rows[i].point - origin);
+  return twice;
+}
 
 AirfoilLoop loop_of_element(const AirfoilElement& element, const std::string& source) {
   AirfoilRowList rows = run_of(element, source);

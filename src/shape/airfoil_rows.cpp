@@ -11,6 +11,8 @@
 namespace remodel {
 namespace {
 
+constexpr int no_line = 0;  // the file as a whole
+
 [[noreturn]] void refuse(const std::string& source, int line, const std::string& problem) {
   throw Error(ErrorCode::format, line > 0 ? source + ":" + std::to_string(line) : source, problem);
 }
@@ -227,7 +229,7 @@ std::array<std::size_t, 2> plane_of(const std::vector<Block>& blocks, std::vecto
                     " is left out, the section lies in the plane of the others");
     return others[i];
   }
-  refuse(source, 0,
+  refuse(source, no_line,
          "found three columns, none of which is the same everywhere, expected a section in a plane");
 }
 
@@ -301,7 +303,7 @@ void apply_openvsp(const Header& header, AirfoilText& result, const std::string&
     const AirfoilRowList upper = rows;
     for (const AirfoilRow& row : upper) rows.push_back({{row.point.x, -row.point.y}, row.line});
   } else if (rows.size() != *header.upper + lower) {
-    refuse(source, 0,
+    refuse(source, no_line,
            "found counts of " + std::to_string(*header.upper) + " and " + std::to_string(lower) +
                " points, but " + std::to_string(rows.size()) + " points follow");
   }
@@ -321,7 +323,7 @@ AirfoilText read_airfoil_rows(std::string_view text, const std::string& source) 
   reader.read();
   AirfoilText result;
   const std::vector<Block>& blocks = reader.blocks();
-  if (blocks.empty()) refuse(source, 0, "found no coordinates, expected lines of two numbers, x and y");
+  if (blocks.empty()) refuse(source, no_line, "found no coordinates, expected lines of two numbers, x and y");
   std::array<std::size_t, 2> plane{0, 1};
   if (reader.columns() == 3) plane = plane_of(blocks, result.notes, source);
   const Header& header = reader.header();

@@ -42,6 +42,9 @@ AirfoilText read_airfoil_rows(std::string_view text, const std::string& source);
 // polar.
 void refuse_other_kinds(std::string_view text, const std::string& source);
 
+// Twice the area of the polygon, positive where it is counter-clockwise.
+double twice_area_of(const AirfoilRowList& rows);
+
 // A closed outline, counter-clockwise, without repetitions: from the upper end of the trailing edge around
 // the leading edge to its lower end, which is the first point again where the edge is closed.
 struct AirfoilLoop {

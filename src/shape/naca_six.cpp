@@ -15,6 +15,10 @@
 namespace remodel {
 namespace {
 
+bool is_decimal_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
 constexpr int stations = 200;
 
 struct Designation {
@@ -30,10 +34,6 @@ bool take(std::string_view& text, std::string_view word) {
   return true;
 }
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
 // "(1)", "1" before a dash, ",1": the range of lift with little drag, which is no matter of shape here.
 void skip_range(std::string_view& text) {
   if (text.starts_with('(')) {
@@ -42,7 +42,7 @@ void skip_range(std::string_view& text) {
     return;
   }
   if (text.starts_with(',') || text.starts_with('_')) text.remove_prefix(1);
-  if (text.size() > 1 && is_digit(text[0]) && (text[1] == '-' || text[1] == 'A' || text[1] == 'a'))
+  if (text.size() > 1 && is_decimal_digit(text[0]) && (text[1] == '-' || text[1] == 'A' || text[1] == 'a'))
     text.remove_prefix(1);
 }
 
@@ -73,8 +73,8 @@ std::optional<Designation> parsed(std::string_view text) {
   skip_range(text);
   const bool dash = take(text, "-");
   if (!dash && !result.six_a) return std::nullopt;
-  if (text.size() < 3 || !std::all_of(text.begin(), text.begin() + 3, is_digit)) return std::nullopt;
-  if (text.size() > 3 && is_digit(text[3])) return std::nullopt;
+  if (text.size() < 3 || !std::all_of(text.begin(), text.begin() + 3, is_decimal_digit)) return std::nullopt;
+  if (text.size() > 3 && is_decimal_digit(text[3])) return std::nullopt;
   result.lift = 0.1 * (text[0] - '0');
   result.thickness = 0.01 * (10 * (text[1] - '0') + (text[2] - '0'));
   text.remove_prefix(3);

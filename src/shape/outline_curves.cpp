@@ -13,7 +13,7 @@ namespace {
 constexpr double cosine_of_corner = 0.766;
 // Around the nose, where few points bend as much without a corner; in distances from the trailing edge.
 constexpr double nose_part = 0.9;
-constexpr int samples = 6;  // a piece, to see whether a curve crosses itself
+constexpr int crossing_samples = 6;  // a piece, to see whether a curve crosses itself
 
 // Points, each once.
 using Polygon = std::vector<Point>;
@@ -75,8 +75,8 @@ bool is_simple(const std::vector<Curve>& curves) {
     for (std::size_t i = 0; i < curve.parameters.size(); ++i) {
       const double from = curve.parameters[i];
       const double to = i + 1 < curve.parameters.size() ? curve.parameters[i + 1] : 1.0;
-      for (int k = 0; k < samples; ++k)
-        points.push_back(point_at(curve.shape, from + (to - from) * k / samples));
+      for (int k = 0; k < crossing_samples; ++k)
+        points.push_back(point_at(curve.shape, from + (to - from) * k / crossing_samples));
     }
   }
   points.push_back(points.front());

@@ -8,13 +8,12 @@
 #include "base/stopwatch.h"
 #include "flow/scheme/entropy_drag.h"
 #include "flow/scheme/forces.h"
+#include "flow/solution.h"
 #include "remodel/error.h"
 
 namespace remodel::flow {
 
 namespace {
-
-constexpr double degree = M_PI / 180.0;
 
 // scale: the function that is reported, over the one that these are of.
 FlowGradient gradient_of(Total total, double scale, const Stream& stream) {
