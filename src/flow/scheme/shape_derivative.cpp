@@ -7,9 +7,7 @@ namespace remodel::flow {
 
 namespace {
 
-constexpr std::size_t n = unknown_count;
-
-// By the normal of the face, the edge and the limiter's length.
+// Its variables are the normal of the face, the edge and the limiter's length.
 using OfFace = Dual<5>;
 
 Fluxes<OfFace> face_flux(const FaceTerms& terms, const FaceInputs<double, double>& face) {
@@ -27,15 +25,15 @@ Fluxes<OfFace> face_flux(const FaceTerms& terms, const FaceInputs<double, double
 template <std::size_t V>
 std::array<double, V> weighted(const Fluxes<double>& weight, const Fluxes<Dual<V>>& flux) {
   std::array<double, V> by = {};
-  for (std::size_t i = 0; i < n; ++i)
+  for (std::size_t i = 0; i < unknown_count; ++i)
     for (std::size_t z = 0; z < V; ++z) by[z] += weight[i] * flux[i].slope[z];
   return by;
 }
 
 }  // namespace
 
-std::vector<ShapeSlope> FlowSystem::residual_slopes(const State& state,
-                                                    std::span<const Vector> weights) const {
+std::vector<ShapeSlope> FlowSystem::residual_slopes(const State& state, std::span<const Vector> weights,
+                                                    std::span<const FaceDerivative> faces) const {
   const std::vector<Unknowns<Point>> gradient = gradients(state);
   const std::size_t size = mesh_.size(), edges = mesh_.edges().size();
   std::vector<ShapeSlope> results(weights.size(), {.points = std::vector<Point>(size)});
@@ -49,19 +47,21 @@ std::vector<ShapeSlope> FlowSystem::residual_slopes(const State& state,
     const FaceInputs<double, double> in = face_inputs(state, edge, gradient);
     const Point d = {in.edge.x, in.edge.y};
     const Fluxes<OfFace> flux = face_flux(terms_, in);
-    const FaceDerivative by_unknowns = derivative_of(terms_, in);  // products with gradients among them
+    // Products with gradients are among the unknowns.
+    const FaceDerivative by_unknowns = faces.empty() ? derivative_of(terms_, in) : faces[e];
     const std::array<std::uint32_t, 2> source = gradient_sources(mesh_, edge);
     for (std::size_t j = 0; j < weights.size(); ++j) {
       Fluxes<double> w;
-      for (std::size_t k = 0; k < n; ++k) w[k] = weights[j][edge.a][k] - weights[j][edge.b][k];
+      for (std::size_t k = 0; k < unknown_count; ++k) w[k] = weights[j][edge.a][k] - weights[j][edge.b][k];
       const auto by = weighted(w, flux);
       slopes[j].normal[e] = {by[0], by[1]};
       Point by_d = {by[2], by[3]};
       results[j].length += by[4];
       for (std::size_t side = 0; side < 2; ++side)
-        for (std::size_t k = 0; k < n; ++k) {
+        for (std::size_t k = 0; k < unknown_count; ++k) {
           double by_along = 0.0;
-          for (std::size_t i = 0; i < n; ++i) by_along += w[i] * by_unknowns.by_along[side][n * i + k];
+          for (std::size_t i = 0; i < unknown_count; ++i)
+            by_along += w[i] * by_unknowns.by_along[side][unknown_count * i + k];
           Point& sum = by_gradient[j][source[side]][k];
           sum = sum + by_along * d;
           by_d = by_d + by_along * gradient[source[side]][k];
@@ -75,7 +75,7 @@ std::vector<ShapeSlope> FlowSystem::residual_slopes(const State& state,
       std::size_t i = mesh_.ring_begin(v);
       for (const RingEntry& entry : mesh_.ring(v)) {
         Point& by_weight = slopes[j].weight[i++];
-        for (std::size_t k = 0; k < n; ++k)
+        for (std::size_t k = 0; k < unknown_count; ++k)
           by_weight = by_weight + (state.q[entry.vertex][k] - state.q[v][k]) * by_gradient[j][v][k];
       }
     }
@@ -85,7 +85,7 @@ std::vector<ShapeSlope> FlowSystem::residual_slopes(const State& state,
   return results;
 }
 
-// Of fluxes through the boundary.
+// Adds the derivatives of fluxes through the boundary.
 void FlowSystem::add_boundary_slopes(const State& state, const Vector& weight, FlowMesh::Slopes& slopes,
                                      ShapeSlope& result) const {
   using Nine = Dual<9>;
