@@ -19,41 +19,18 @@
 namespace remodel {
 
 const char* name_of(FlowStatus status) {
-  switch (status) {
-    case FlowStatus::converged:
-      return "converged";
-    case FlowStatus::step_limit:
-      return "step-limit";
-    case FlowStatus::stalled:
-      return "stalled";
-    case FlowStatus::memory:
-      return "memory";
-    case FlowStatus::interrupted:
-      return "interrupted";
-  }
-  return "unknown";
+  constexpr const char* names[] = {"converged", "step-limit", "stalled", "memory", "interrupted"};
+  return names[static_cast<std::size_t>(status)];
 }
 
 const char* name_of(FlowStart start) {
-  switch (start) {
-    case FlowStart::cold:
-      return "cold";
-    case FlowStart::carried:
-      return "carried";
-    case FlowStart::refactored:
-      return "refactored";
-  }
-  return "unknown";
+  constexpr const char* names[] = {"cold", "carried", "refactored"};
+  return names[static_cast<std::size_t>(start)];
 }
 
 const char* name_of(FlowSolver solver) {
-  switch (solver) {
-    case FlowSolver::lu:
-      return "lu";
-    case FlowSolver::gmres:
-      return "gmres";
-  }
-  return "unknown";
+  constexpr const char* names[] = {"lu", "gmres"};
+  return names[static_cast<std::size_t>(solver)];
 }
 
 namespace flow {
@@ -191,7 +168,8 @@ void require_symmetry(const FlowMesh& dual, const FlowConditions& conditions, co
   if (!options.symmetry.empty() && conditions.cl)
     throw Error(ErrorCode::argument, "cl",
                 "given for a mesh with a symmetry plane, expected an angle of attack");
-  const Point stream = {std::cos(conditions.alpha_deg * degree), std::sin(conditions.alpha_deg * degree)};
+  const Point stream = {std::cos(conditions.alpha_deg * one_degree),
+                        std::sin(conditions.alpha_deg * one_degree)};
   std::vector<Point> first(dual.patches().size());
   for (const BoundaryEdge& edge : dual.boundary()) {
     const Patch& patch = dual.patch(edge);
@@ -229,7 +207,7 @@ void require_ways(const FlowMesh& dual, const FlowConditions& conditions, const 
 Stream stream_of(const FlowConditions& conditions, const FlowOptions& options, const FlowMesh& dual) {
   const double extent = dual.extent().length;
   return {.mach = conditions.mach,
-          .alpha = conditions.alpha_deg * degree,
+          .alpha = conditions.alpha_deg * one_degree,
           .lift = conditions.cl ? std::optional(*conditions.cl * conditions.reference_length / extent)
                                 : std::nullopt,
           .reference = conditions.reference,
@@ -245,7 +223,7 @@ FlowResult result_of(const FlowSystem& system, const State& state, const SearchR
   result.status = record.status;
   result.reason = record.reason;
   result.mach = system.stream().mach;
-  result.alpha_deg = state.augmented[1] / degree;
+  result.alpha_deg = state.augmented[1] / one_degree;
   const double scale = reported_length(system.stream());
   const Coefficients sum = coefficients(system, state);
   result.cl = scale * sum.lift, result.cd = scale * sum.drag, result.cm = scale * scale * sum.moment;
@@ -317,7 +295,7 @@ Vector interpolated(const FlowMesh& mesh, const Vector& state, std::span<const P
 
 namespace {
 
-// From undisturbed flow, or, where the mesh's domain is known, as find_flow_by_meshes() begins.
+// A flow from undisturbed flow, or, if the mesh's domain is known, as search_by_meshes() starts.
 FlowResult cold_flow(const FrozenMesh& mesh, const Mesh* living, const FlowConditions& conditions,
                      const FlowOptions& options, const std::string& source) {
   const Stopwatch watch;
@@ -371,7 +349,7 @@ FlowResult solve_flow_from(const FrozenMesh& before, const FlowResult& known, co
   flow::State state;
   state.q = flow::interpolated(old, q, dual.points());
   state.augmented = {known.cl / flow::reported_length(system.stream()),
-                     conditions.cl ? known.alpha_deg * M_PI / 180.0 : system.stream().alpha};
+                     conditions.cl ? known.alpha_deg * flow::one_degree : system.stream().alpha};
 
   flow::WholeMatrix matrix;
   flow::Factors factors;

@@ -8,7 +8,7 @@ Increment zero(std::size_t vertices) {
   return {.q = Vector(vertices), .augmented = {}};
 }
 
-// As many sums side by side as a vertex has unknowns.
+// It keeps as many sums side by side as a vertex has unknowns.
 double inner(const Vector& a, const Vector& b) {
   Unknowns<double> sum = {};
   for (std::size_t v = 0; v < a.size(); ++v)

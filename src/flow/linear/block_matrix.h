@@ -2,6 +2,7 @@
 
 // Vectors and matrices of blocks: N numbers a vertex, and N x N where two vertices meet.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -24,13 +25,10 @@ struct BlockMatrix {
   std::vector<SquareBlock<N>> block;
 
   // The block at this place, which the row has.
-  SquareBlock<N>& at(std::size_t row, std::uint32_t col) {
-    std::uint32_t first = start[row], last = start[row + 1];
-    while (first < last) {
-      const std::uint32_t middle = first + (last - first) / 2;
-      (column[middle] < col ? first : last) = column[middle] < col ? middle + 1 : middle;
-    }
-    return block[first];
+  SquareBlock<N>& at(std::size_t row, std::uint32_t of) {
+    const auto begin = column.begin();
+    const auto found = std::lower_bound(begin + start[row], begin + start[row + 1], of);
+    return block[static_cast<std::size_t>(found - begin)];
   }
 };
 

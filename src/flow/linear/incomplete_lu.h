@@ -19,7 +19,7 @@ class IncompleteLu {
   // What factors of this level are going to take, of a square matrix whose rows are all vertices, in order.
   // Their pattern is kept from the last call where the matrix's and the level are the same.
   double analysed_mb(const BlockMatrix<N>& matrix, int level);
-  // Of a matrix of the pattern that was analysed. False where a pivot is singular.
+  // Requires a matrix of the pattern that was analysed. False: a pivot is singular.
   bool factor(const BlockMatrix<N>& matrix);
   bool ready() const { return ready_; }
   bool is_of(const BlockMatrix<N>& matrix) const {  // of its pattern

@@ -1,6 +1,6 @@
 #pragma once
 
-// Where a mesh differs from the one that factors belong to.
+// The difference between a mesh and the one that factors belong to.
 
 #include "flow/linear/augmented.h"
 #include "remodel/ids.h"
@@ -12,7 +12,7 @@ struct Overlap {
   std::size_t rows = 0;               // of the factors
   std::vector<std::uint32_t> zone;    // vertices with other neighbours and two rings around them, ascending
 
-  // By vertex to by row, and back; 0 where there is no counterpart.
+  // These reorder values from vertices to rows, and back; 0 without a counterpart.
   Vector to_rows(const Vector& x) const {
     Vector result(rows);
     for (std::size_t v = 0; v < x.size(); ++v)

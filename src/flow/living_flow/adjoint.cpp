@@ -8,11 +8,13 @@
 
 namespace remodel::flow {
 
-Adjoint::Adjoint(const FlowSystem& system, const State& state, const BlockRows& matrix, Factors& factors,
-                 const Overlap& overlap, const FlowOptions& options)
+Adjoint::Adjoint(const FlowSystem& system, const State& state, const BlockRows& matrix,
+                 std::span<const FaceDerivative> faces, Factors& factors, const Overlap& overlap,
+                 const FlowOptions& options)
     : system_(system),
       state_(state),
       matrix_(matrix, system.augmented_columns(state), system.augmented_rows(state)),
+      faces_(faces),
       factors_(factors),
       overlap_(overlap),
       options_(options) {
@@ -82,7 +84,7 @@ std::optional<std::vector<Total>> Adjoint::totals(std::span<const FunctionalSlop
     most_solves -= iterations - before;
     weights.push_back(multipliers[i].q);
   }
-  const std::vector<ShapeSlope> by_residual = system_.residual_slopes(state_, weights);
+  const std::vector<ShapeSlope> by_residual = system_.residual_slopes(state_, weights, faces_);
   const FunctionalSlope lift = slope_of(system_, state_, WallForce{.weight = {.lift = 1.0}});
   std::vector<Total> result;
   for (std::size_t i = 0; i < functions.size(); ++i) {

@@ -27,9 +27,10 @@ struct Total {
 
 class Adjoint {
  public:
-  // `matrix`: the Jacobian at the state, without pseudo-time.
-  Adjoint(const FlowSystem& system, const State& state, const BlockRows& matrix, Factors& factors,
-          const Overlap& overlap, const FlowOptions& options);
+  // `matrix`: the Jacobian at the state, without pseudo-time, and what it was made of.
+  Adjoint(const FlowSystem& system, const State& state, const BlockRows& matrix,
+          std::span<const FaceDerivative> faces, Factors& factors, const Overlap& overlap,
+          const FlowOptions& options);
   // The derivatives of these functions. None where the factors do not serve, or where that takes more than
   // `most_solves` with them, for all functions together. multipliers: a guess for each function, or one that
   // is empty; the solutions come to lie there.
@@ -45,6 +46,7 @@ class Adjoint {
   const FlowSystem& system_;
   const State& state_;
   AugmentedMatrix matrix_;
+  std::span<const FaceDerivative> faces_;
   Factors& factors_;
   const Overlap& overlap_;
   const FlowOptions& options_;

@@ -21,7 +21,7 @@ FlowGradient gradient_of(Total total, double scale, const Stream& stream) {
   const double by_condition = scale * total.condition;
   return {.points = std::move(total.shape.points),
           .mach = scale * total.shape.mach,
-          .alpha_deg = stream.lift ? 0.0 : by_condition * degree,
+          .alpha_deg = stream.lift ? 0.0 : by_condition * one_degree,
           .cl = stream.lift ? by_condition / reported_length(stream) : 0.0};
 }
 
@@ -53,7 +53,7 @@ FunctionalSlope angle(std::size_t size) {
   FunctionalSlope result;
   result.shape.points.resize(size);
   result.state.resize(size);
-  result.augmented[1] = 1.0 / degree;
+  result.augmented[1] = 1.0 / one_degree;
   return result;
 }
 
@@ -74,6 +74,7 @@ void Gradients::guess_multipliers(const Keys& keys, std::size_t functions) {
 }
 
 std::optional<std::vector<Total>> Gradients::by_kept_factors(const LastFlow& last, const FlowSystem& system,
+                                                             std::span<const FaceDerivative> faces,
                                                              std::span<const FunctionalSlope> functions,
                                                              int& iterations) {
   if (!kept_.ready()) return std::nullopt;
@@ -84,7 +85,7 @@ std::optional<std::vector<Total>> Gradients::by_kept_factors(const LastFlow& las
   const double most_solves =
       are_own ? std::numeric_limits<double>::infinity() : std::max(0.0, kept_.solves_left());
   const int before = iterations;
-  Adjoint adjoint(system, last.state, matrix_.of(system), kept_.factors, overlap, options_);
+  Adjoint adjoint(system, last.state, matrix_.of(system), faces, kept_.factors, overlap, options_);
   auto totals = adjoint.totals(functions, multipliers_, most_solves, iterations);
   kept_.charge(iterations - before, SearchPolicy::own_solves * static_cast<int>(functions.size()), 0.0);
   return totals;
@@ -116,12 +117,13 @@ FlowGradients Gradients::of(const LastFlow& last, const std::vector<FlowFunction
   for (std::size_t i = 0; i < functions.size(); ++i)
     add(slope_of(functions[i], last.mesh->size()), result.functions[i]);
 
-  system.jacobian(last.state, matrix_.of(system));
+  std::vector<FaceDerivative> faces;
+  system.jacobian(last.state, matrix_.of(system), &faces);
   const auto told_to_end = [&] {
     result.interrupted = options_.observer != nullptr && options_.observer->cancelled();
     return result.interrupted;
   };
-  auto totals = by_kept_factors(last, system, slopes, result.krylov_iterations);
+  auto totals = by_kept_factors(last, system, faces, slopes, result.krylov_iterations);
   if (told_to_end()) return result;
   if (!totals) {
     SearchRecord made;
@@ -131,7 +133,7 @@ FlowGradients Gradients::of(const LastFlow& last, const std::vector<FlowFunction
     kept_.belong(*last.mesh, last.keys);
     if (outcome == Factored::done) {
       result.factorisations = 1;
-      totals = by_kept_factors(last, system, slopes, result.krylov_iterations);
+      totals = by_kept_factors(last, system, faces, slopes, result.krylov_iterations);
     }
     if (told_to_end()) return result;
     if (!totals)

@@ -19,6 +19,7 @@ class Gradients {
  private:
   // None where the factors that there are do not serve.
   std::optional<std::vector<Total>> by_kept_factors(const LastFlow& last, const FlowSystem& system,
+                                                    std::span<const FaceDerivative> faces,
                                                     std::span<const FunctionalSlope> functions,
                                                     int& iterations);
   void guess_multipliers(const Keys& keys, std::size_t functions);

@@ -9,8 +9,8 @@
 
 namespace remodel::flow {
 
-// Whether new factors are worth their time: those made before have served other flows than their own. Where
-// they have not, flows go by without, more each time (1, 3, 7, ...), before it is tried again.
+// Decides whether new factors are worth their time: they are if those made before have served other flows
+// than their own. If not, flows go by without, more each time (1, 3, 7, ...), before it is tried again.
 class Worth {
  public:
   bool pays();
@@ -36,7 +36,7 @@ class KeptFactors {
   // Makes room for others, without judging these.
   void replace() { ready_ = false; }
 
-  // Where the mesh is another; nothing where too much of it is.
+  // The difference between this mesh and the one they belong to, and whether it is worth a correction.
   Overlap overlap(const FlowMesh& mesh, const Keys& keys) const;
   static bool is_small(const Overlap& overlap);
 

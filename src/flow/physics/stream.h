@@ -10,6 +10,8 @@
 
 namespace remodel::flow {
 
+inline constexpr double one_degree = M_PI / 180.0;
+
 struct Stream {
   double mach = 0.0;
   double alpha = 0.0;               // radians; the first guess where lift is given

@@ -4,44 +4,33 @@ namespace remodel::flow {
 
 namespace {
 
-constexpr std::size_t n = unknown_count;
+// Its variables are both ends' values of one unknown and the product with the side's gradient.
+using Three = Dual<3>;
 
-// One side's reconstructed values, with their derivatives by the upwind difference, by the central one and by
-// the vertex's own value.
+// One side's reconstructed values, and how much further linear extrapolation goes.
 struct Side {
-  Unknowns<double> value, by_upwind, by_central, by_own;
-  Unknowns<double> further, further_by_upwind, further_by_central;
+  Unknowns<Three> value, further;
 };
 
 Side reconstructed(const FaceInputs<double, double>& in, std::size_t side, double epsilon, double slopes) {
-  using Two = Dual<2>;
   const double direction = side == 0 ? slopes : -slopes;
   Side result;
-  for (std::size_t k = 0; k < n; ++k) {
-    const double central = in.q[1][k] - in.q[0][k];
-    const ReconstructionStep<Two> to =
-        reconstruction_step<Two, Two>(in.end[side], Two::variable(2.0 * in.along[side][k] - central, 0),
-                                      Two::variable(central, 1), epsilon);
-    result.value[k] = in.q[side][k] + direction * to.step.value;
-    result.by_upwind[k] = direction * to.step.slope[0], result.by_central[k] = direction * to.step.slope[1];
-    result.by_own[k] = 1.0;
-    result.further[k] = direction * to.further.value;
-    result.further_by_upwind[k] = direction * to.further.slope[0];
-    result.further_by_central[k] = direction * to.further.slope[1];
+  for (std::size_t k = 0; k < unknown_count; ++k) {
+    const Three q[2] = {Three::variable(in.q[0][k], 0), Three::variable(in.q[1][k], 1)};
+    const Three central = q[1] - q[0];
+    const auto [step, further] = reconstruction_step<Three, Three>(
+        in.end[side], 2.0 * Three::variable(in.along[side][k], 2) - central, central, epsilon);
+    result.value[k] = q[side] + direction * step, result.further[k] = direction * further;
   }
-  for (const std::size_t k : positive_unknowns) {
-    const Two limited =
-        positivity_limited(Two::variable(result.value[k], 0), Two::variable(in.q[side][k], 1));
-    result.value[k] = limited.value;
-    result.by_upwind[k] *= limited.slope[0], result.by_central[k] *= limited.slope[0];
-    result.by_own[k] = limited.slope[0] + limited.slope[1];
-  }
+  for (const std::size_t k : positive_unknowns)
+    result.value[k] = positivity_limited(result.value[k], Three::variable(in.q[side][k], side));
   return result;
 }
 
 }  // namespace
 
 FaceDerivative ConvectiveFlux::derivative(const FaceInputs<double, double>& in) const {
+  constexpr std::size_t n = unknown_count;
   using Both = Dual<2 * n>;
   using One = Dual<1>;
   const double h = limiter * std::sqrt(in.edge.x * in.edge.x + in.edge.y * in.edge.y) / in.length,
@@ -53,7 +42,7 @@ FaceDerivative ConvectiveFlux::derivative(const FaceInputs<double, double>& in) 
   Unknowns<Both> value[2], q[2];
   for (std::size_t side = 0; side < 2; ++side)
     for (std::size_t k = 0; k < n; ++k) {
-      value[side][k] = Both::variable(sides[side].value[k], k + n * side);
+      value[side][k] = Both::variable(sides[side].value[k].value, k + n * side);
       q[side][k] = Both::variable(in.q[side][k], k + n * side);
     }
   const Fluxes<Both> flux = roe_flux<Both>(value[0], value[1], in.normal);
@@ -63,15 +52,15 @@ FaceDerivative ConvectiveFlux::derivative(const FaceInputs<double, double>& in) 
   for (std::size_t side = 0; side < 2; ++side) {
     const double weight = correction_weight(in.end[side]);
     if (weight == 0.0) continue;
-    const Fluxes<double> above =
-        extrapolation_correction<double>(in.q[side], sides[side].value, sides[side].further, in.normal);
+    Unknowns<double> plain, further;
     Unknowns<One> along;  // the whole step that the flux is linear in
     for (std::size_t k = 0; k < n; ++k) {
-      along[k].value = in.q[side][k];
-      along[k].slope[0] = sides[side].value[k] - in.q[side][k] + sides[side].further[k];
+      plain[k] = sides[side].value[k].value, further[k] = sides[side].further[k].value;
+      along[k].value = in.q[side][k], along[k].slope[0] = plain[k] - in.q[side][k] + further[k];
     }
-    const std::array<One, n* n> at_vertex = flux_derivative<One>(along, normal);
-    const Block at_value = flux_derivative<double>(sides[side].value, normal);
+    const auto above = extrapolation_correction<double>(in.q[side], plain, further, in.normal);
+    const auto at_vertex = flux_derivative<One>(along, normal);
+    const Block at_value = flux_derivative<double>(plain, normal);
     for (std::size_t z = 0; z < n * n; ++z) {
       result.by_state[side][z] += weight * part.value * at_vertex[z].slope[0];
       by_value[side][z] += weight * part.value * (at_vertex[z].value - at_value[z]);
@@ -80,17 +69,13 @@ FaceDerivative ConvectiveFlux::derivative(const FaceInputs<double, double>& in) 
         result.by_state[end][z] += weight * above[z / n] * part.slope[z % n + n * end];
     }
   }
-  // The upwind difference is twice the product with the gradient less the central one, b's value less a's.
   for (std::size_t side = 0; side < 2; ++side)
     for (std::size_t z = 0; z < n * n; ++z) {
-      const std::size_t k = z % n;
-      const Side& of = sides[side];
-      const double up = by_value[side][z] * of.by_upwind[k] + by_further[side][z] * of.further_by_upwind[k];
-      const double central =
-          by_value[side][z] * of.by_central[k] + by_further[side][z] * of.further_by_central[k] - up;
-      result.by_along[side][z] = 2.0 * up;
-      result.by_state[0][z] -= central, result.by_state[1][z] += central;
-      result.by_state[side][z] += by_value[side][z] * of.by_own[k];
+      const Three &value_of_side = sides[side].value[z % n], &further = sides[side].further[z % n];
+      std::array<double, 3> by;
+      for (std::size_t i = 0; i < 3; ++i)
+        by[i] = by_value[side][z] * value_of_side.slope[i] + by_further[side][z] * further.slope[i];
+      result.by_state[0][z] += by[0], result.by_state[1][z] += by[1], result.by_along[side][z] = by[2];
     }
   return result;
 }

@@ -40,7 +40,7 @@ struct ConvectiveFlux {
     return result;
   }
 
-  // By hand: general_derivative() gives the same, in more time than a warm flow has (docs/flow.md).
+  // Written by hand: general_derivative() gives the same in two to three times the time (docs/flow.md).
   FaceDerivative derivative(const FaceInputs<double, double>& in) const;
 };
 

@@ -21,12 +21,12 @@ struct FaceInputs {
   G length;               // what the limiter compares edges with
 };
 
-// By the states at both ends, and by both products of gradients.
+// The variables are the states at both ends and both products of gradients.
 struct FaceDerivative {
   Block by_state[2] = {{}, {}}, by_along[2] = {{}, {}};
 };
 
-// Of any term, by dual numbers over all local unknowns.
+// Differentiates any term, by dual numbers over all local unknowns.
 template <class Term>
 FaceDerivative general_derivative(const Term& term, const FaceInputs<double, double>& face) {
   constexpr std::size_t n = unknown_count;

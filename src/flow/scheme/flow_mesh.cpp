@@ -182,7 +182,7 @@ void FlowMesh::require_cells(const std::string& source) const {
   }
 }
 
-// Of the triangle of a corner and its neighbours.
+// The area of the triangle of a corner and its neighbours.
 double FlowMesh::corner_area(const Cell& cell, std::uint32_t corner) const {
   const std::uint32_t n = cell.corners(), i = n == 3 ? 0 : corner;  // a triangle has one area, to the bit
   const Point at = points_[cell[i]];

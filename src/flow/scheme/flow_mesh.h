@@ -116,7 +116,7 @@ class FlowMesh {
   void bend_walls();
   void add_boundary_slopes(const Slopes& slopes, std::vector<Point>& points) const;
   void add_inner_slopes(const Slopes& slopes, std::vector<Point>& points) const;
-  // Of boundary edge i.
+  // The outward move of the middle of boundary edge i, over its length.
   template <class T>
   T bulge(std::size_t i) const;
 

@@ -18,7 +18,7 @@ void FlowMesh::add_slopes(const Slopes& slopes, std::vector<Point>& points) cons
   if (!slopes.weight.empty()) add_inner_slopes(slopes, points);
 }
 
-// Of the halves of boundary edges and of the dual faces that follow where these meet.
+// Halves of boundary edges, and dual faces that follow where these meet.
 void FlowMesh::add_boundary_slopes(const Slopes& slopes, std::vector<Point>& points) const {
   using Eight = Dual<8>;
   for (std::size_t i = 0; i < boundary_.size(); ++i) {

@@ -47,15 +47,17 @@ class FlowSystem {
   // All vertices, or some, ascending; each with the vertices of its two rings and itself.
   BlockRows pattern() const;
   BlockRows pattern(std::vector<std::uint32_t> rows) const;
-  // Derivatives of the residuals of these rows by the unknowns of vertices.
-  void jacobian(const State& state, BlockRows& matrix) const;
+  // Derivatives of the residuals of these rows by the unknowns of vertices. `faces` gets those of all fluxes
+  // that it takes, by edge.
+  void jacobian(const State& state, BlockRows& matrix, std::vector<FaceDerivative>* faces = nullptr) const;
   // Derivatives of all residuals by the augmented unknowns, and of the augmented equations.
   std::array<Vector, augmented_count> augmented_columns(const State& state) const;
   AugmentedRows augmented_rows(const State& state) const;
 
   // The derivative, at this state, of the sum over vertices of weight times residual, for each row of
-  // weights: fluxes are differentiated once.
-  std::vector<ShapeSlope> residual_slopes(const State& state, std::span<const Vector> weights) const;
+  // weights: fluxes are differentiated once. faces: of the whole Jacobian at this state, or empty.
+  std::vector<ShapeSlope> residual_slopes(const State& state, std::span<const Vector> weights,
+                                          std::span<const FaceDerivative> faces = {}) const;
 
   // Sum over dual faces of the speed of waves times length: what a time step is bounded by.
   std::vector<double> wave_speeds(const State& state) const;

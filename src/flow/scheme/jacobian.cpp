@@ -41,15 +41,17 @@ BlockRows FlowSystem::pattern(std::vector<std::uint32_t> rows) const {
 
 // A row's flux depends, by the chain rule, on the states and gradients at both ends of each of its edges, and
 // gradients on the rings of these.
-void FlowSystem::jacobian(const State& state, BlockRows& matrix) const {
+void FlowSystem::jacobian(const State& state, BlockRows& matrix, std::vector<FaceDerivative>* faces) const {
   std::fill(matrix.block.begin(), matrix.block.end(), Block{});
-  std::vector<FaceDerivative> derivatives;
-  if (matrix.rows.size() == mesh_.size()) derivatives.reserve(mesh_.edges().size());
+  std::vector<FaceDerivative> own, &derivatives = faces != nullptr ? *faces : own;
+  derivatives.reserve(matrix.rows.size() == mesh_.size() ? mesh_.edges().size() : 0);
+  if (faces != nullptr) faces->resize(mesh_.edges().size());
   std::vector<std::uint32_t> derivative_at(mesh_.edges().size(), no_index);
   const auto derivative = [&](std::uint32_t e) -> const FaceDerivative& {
     if (derivative_at[e] != no_index) return derivatives[derivative_at[e]];
-    derivative_at[e] = static_cast<std::uint32_t>(derivatives.size());
-    return derivatives.emplace_back(derivative_of(terms_, face_inputs(state, mesh_.edges()[e])));
+    derivative_at[e] = faces != nullptr ? e : static_cast<std::uint32_t>(derivatives.size());
+    if (faces == nullptr) derivatives.emplace_back();
+    return derivatives[derivative_at[e]] = derivative_of(terms_, face_inputs(state, mesh_.edges()[e]));
   };
   const auto add = [](Block& to, double factor, const Block& what) {
     for (std::size_t z = 0; z < what.size(); ++z) to[z] += factor * what[z];

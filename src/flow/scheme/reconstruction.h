@@ -1,6 +1,6 @@
 #pragma once
 
-// From the values and gradients at an edge's ends to the values in its middle.
+// Reconstruction makes values in the middle of an edge from values and gradients at its ends.
 //
 // Sources: G. D. van Albada, B. van Leer and W. W. Roberts, "A comparative study of computational methods in
 // cosmic gas dynamics", Astron. Astrophys. 108 (1982).

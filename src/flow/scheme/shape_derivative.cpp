@@ -7,7 +7,7 @@ namespace remodel::flow {
 
 namespace {
 
-// By the normal of the face, the edge and the limiter's length.
+// Its variables are the normal of the face, the edge and the limiter's length.
 using OfFace = Dual<5>;
 
 Fluxes<OfFace> face_flux(const FaceTerms& terms, const FaceInputs<double, double>& face) {
@@ -32,8 +32,8 @@ std::array<double, V> weighted(const Fluxes<double>& weight, const Fluxes<Dual<V
 
 }  // namespace
 
-std::vector<ShapeSlope> FlowSystem::residual_slopes(const State& state,
-                                                    std::span<const Vector> weights) const {
+std::vector<ShapeSlope> FlowSystem::residual_slopes(const State& state, std::span<const Vector> weights,
+                                                    std::span<const FaceDerivative> faces) const {
   const std::vector<Unknowns<Point>> gradient = gradients(state);
   const std::size_t size = mesh_.size(), edges = mesh_.edges().size();
   std::vector<ShapeSlope> results(weights.size(), {.points = std::vector<Point>(size)});
@@ -47,7 +47,8 @@ std::vector<ShapeSlope> FlowSystem::residual_slopes(const State& state,
     const FaceInputs<double, double> in = face_inputs(state, edge, gradient);
     const Point d = {in.edge.x, in.edge.y};
     const Fluxes<OfFace> flux = face_flux(terms_, in);
-    const FaceDerivative by_unknowns = derivative_of(terms_, in);  // products with gradients among them
+    // Products with gradients are among the unknowns.
+    const FaceDerivative by_unknowns = faces.empty() ? derivative_of(terms_, in) : faces[e];
     const std::array<std::uint32_t, 2> source = gradient_sources(mesh_, edge);
     for (std::size_t j = 0; j < weights.size(); ++j) {
       Fluxes<double> w;
@@ -84,7 +85,7 @@ std::vector<ShapeSlope> FlowSystem::residual_slopes(const State& state,
   return results;
 }
 
-// Of fluxes through the boundary.
+// Adds the derivatives of fluxes through the boundary.
 void FlowSystem::add_boundary_slopes(const State& state, const Vector& weight, FlowMesh::Slopes& slopes,
                                      ShapeSlope& result) const {
   using Nine = Dual<9>;

@@ -11,7 +11,7 @@ namespace remodel::flow {
 
 namespace {
 
-// Unless the residual has to rise because the angle is looked for too.
+// The CFL number is bounded unless the residual has to rise because the angle is looked for too.
 Pace pace_from_coarser(const Stream& stream) {
   if (stream.lift) return {.cfl = SearchPolicy::interpolated_cfl_with_lift};
   return {.cfl = SearchPolicy::interpolated_cfl, .most = SearchPolicy::interpolated_cfl};
@@ -45,7 +45,7 @@ std::optional<FlowMesh> coarse_mesh(const Domain& domain, const QualityOptions& 
   }
 }
 
-// To those of another search, or of a result.
+// Adds the cost to that of another search, or of a result.
 template <class Counted>
 void add_cost(const SearchRecord& of, Counted& to) {
   to.newton_steps += of.newton_steps;

@@ -67,7 +67,7 @@ void SearchRecord::end_without_factors(Factored outcome, double memory_mb_given)
   }
 }
 
-// Where a run is.
+// The progress of one run.
 struct NewtonSearch::Progress {
   const Measure& measure;
   const Pace& pace;
@@ -77,7 +77,7 @@ struct NewtonSearch::Progress {
   int last_halved, end_of_constant_cfl;  // Newton steps
   FactorKind kind;
   bool may_be_whole = false;
-  // Of incomplete factors: whether new ones are due, and GMRES's steps with the matrix of their own.
+  // Incomplete factors: whether new ones are due, and how many steps GMRES took with their own matrix.
   bool worn = true;
   int with_own = 0;
 };
@@ -243,7 +243,7 @@ void NewtonSearch::near(const Measure& measure, State& state) {
   run(measure, {.cfl = Policy::carried_cfl}, state);
 }
 
-// Of each stage but the last only the neighbourhood of its flow is needed.
+// Each stage but the last needs only the neighbourhood of its flow.
 void NewtonSearch::in_stages(const Measure& measure, double rough, State& state) {
   const FlowSystem& system = measure.system();
   state = system.uniform();

@@ -86,14 +86,13 @@ class NewtonSearch {
 
   // Goes on from `state` to the flow, or to where it ends; the record's status and reason say which.
   void run(const Measure& measure, const Pace& pace, State& state);
-  // Where the last search has stalled with little residual left: goes on from there, by short time steps
-  // again. All but a stagnation point may be steady by then, and what is gained there is lost by the next
-  // long step.
+  // Goes on by short time steps where the last search has stalled with little residual left; otherwise does
+  // nothing. All but a stagnation point may be steady by then, and long steps lose what it has gained.
   void beside(const Measure& measure, State& state);
-  // From a flow that is near: without pseudo-time where it is very near and that does not stall.
+  // Starts from a flow that is near: without pseudo-time where it is very near and that does not stall.
   void near(const Measure& measure, State& state);
-  // From undisturbed flow, with all fallbacks. A given lift is looked for from the flow at a guess of the
-  // angle, and where that stalls by shorter steps.
+  // Starts from undisturbed flow, with all fallbacks. It looks for a given lift from the flow at a guess of
+  // the angle, and by shorter steps where that stalls.
   void from_undisturbed_flow(const Measure& measure, State& state);
 
   // Jacobian and factors at a state, without pseudo-time; counted in the record.
