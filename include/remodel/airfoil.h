@@ -34,8 +34,9 @@ struct CstAirfoil {
   friend bool operator==(const CstAirfoil&, const CstAirfoil&) = default;
 };
 
-// Where parameter t lies, and the row that gives y as a dot product. The row depends on t, the degree and the
-// class exponents only, so a boundary vertex that is evaluated for thousands of designs keeps it.
+// A station says where parameter t lies, and holds the row that gives y as a dot product. The row depends on
+// t, the degree and the class exponents only, so a boundary vertex that is evaluated for thousands of designs
+// keeps it.
 struct CstStation {
   double x = 0.0;
   bool upper = true;
@@ -60,9 +61,9 @@ Extreme max_camber(const CstAirfoil& airfoil);
 // bounds of the sum. False also for coefficients that are not finite.
 bool surfaces_apart(const CstAirfoil& airfoil);
 
-// Where the chord of a section lies in the coordinates of its file, and so what became of them: the nose was
-// moved to the origin, the section turned about it until its trailing edge (midpoint of the two ends) lay on
-// the x axis, and scaled to a chord of 1.
+// A frame says where the chord of a section lies in the coordinates of its file, and so what became of them.
+// The nose was moved to the origin, the section was turned about it until its trailing edge (midpoint of the
+// two ends) lay on the x axis, and it was scaled to a chord of 1.
 struct AirfoilFrame {
   Point nose = {};
   double chord = 1.0;
@@ -102,8 +103,9 @@ struct AirfoilCoordinates {
 // surfaces that cross, ends that do not meet in x. read_airfoil() of remodel/shape_files.h reads a file.
 AirfoilCoordinates parse_airfoil(std::string_view text, const std::string& source);
 
-// The same files as closed outlines of any shape, one for each element, in the coordinates of the file:
-// counter-clockwise from the upper end of the trailing edge, which is the last point too where it is closed.
+// parse_outlines() reads the same files as closed outlines of any shape, one for each element, in the
+// coordinates of the file. They run counter-clockwise from the upper end of the trailing edge, which is the
+// last point too where it is closed.
 struct AirfoilOutline {
   std::string name;
   std::vector<Point> points;
@@ -118,8 +120,9 @@ AirfoilOutlines parse_outlines(std::string_view text, const std::string& source)
 // The surfaces of one of them. Throws Error (format) as parse_airfoil() does.
 AirfoilCoordinates surfaces_of(const AirfoilOutline& outline, const std::string& source);
 
-// What a fit does with a trailing edge that is open: te_upper and te_lower are the file's, or 0. A gap of
-// less than 1e-5 chords, or a crossed one, is the rounding of the file's digits: that is closed in any case.
+// This says what a fit does with a trailing edge that is open: te_upper and te_lower are the file's, or 0. A
+// gap of less than 1e-5 chords, or a crossed one, is the rounding of the file's digits: that is closed in any
+// case.
 enum class TrailingEdge { kept, closed };
 
 // Least squares at the file's points, both surfaces apart; the coefficients are of what the gap, removed
@@ -136,8 +139,8 @@ struct CstFit {
 // coefficients.
 CstFit fit_cst(const AirfoilCoordinates& coordinates, int degree,
                TrailingEdge trailing_edge = TrailingEdge::kept);
-// The same for the first degree whose surfaces are apart: the given one, those above it, those below it.
-// Where there is none, the fit of the given one, whose surfaces cross.
+// This is fit_cst() with the first degree whose surfaces are apart: the given one, those above it, those
+// below it. Where there is none, it is the fit of the given one, whose surfaces cross.
 CstFit fit_cst_apart(const AirfoilCoordinates& coordinates, int degree,
                      TrailingEdge trailing_edge = TrailingEdge::kept);
 

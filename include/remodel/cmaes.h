@@ -44,11 +44,10 @@ class Cmaes {
   // Throws Error (argument) for a sample of another dimension or with a coordinate that is not finite.
   bool tell(std::span<const double> sample, double value);
 
-  // What keeps a long run in order, applied with each update:
+  // Each update applies what keeps a long run in order:
   //  (1) eigenvalues of the covariance below 1e-14 of the largest are raised to that,
   //  (2) the largest standard deviation stays at or above 4 epsilon times the largest magnitude in the mean
-  //  (and
-  //      1e-150), so that samples of a converged run still differ from the mean,
+  //      (and 1e-150), so that samples of a converged run still differ from the mean,
   //  (3) it stays at or below 1e50,
   //  (4) the covariance is rescaled against sigma where its largest eigenvalue leaves [1e-20, 1e20].
 

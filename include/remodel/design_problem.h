@@ -64,8 +64,8 @@ struct DesignValue {
 };
 using DesignFunctionOf = std::function<std::vector<DesignValue>(const DesignView&)>;
 
-// What is to hold. `kind` is a name of constraint_kinds(), or empty where one of the own functions is given.
-// What a kind has no use for is not given.
+// A constraint says what is to hold. `kind` is a name of constraint_kinds(), or empty where one of the own
+// functions is given. What a kind has no use for is not given.
 //   lift, drag, moment   a coefficient of the flow of `point`, at_least or at_most
 //   suction              the peak of -Cp of `point`, of all walls or of one `element`, at_most
 //   area, thickness      of a section, thickness at each of `x`: at_least, or of_start, a part of the start's
@@ -133,10 +133,10 @@ void validate(const DesignProblem& problem, const std::string& source = "design 
 // The problem's own text, or one made of its members; own functions are named in it, no more.
 std::string design_problem_json(const DesignProblem& problem);
 
-// What the numbers of a design mean. Throws as validate() does.
+// The space says what the numbers of a design mean. Throws as validate() does.
 std::unique_ptr<FlowSpace> design_space(const DesignProblem& problem);
-// For each function that an evaluation has, in their order, the name of the constraint that it is of: of
-// sections and domains first, gaps behind them, then of flows.
+// The names are those of the constraints that the functions of an evaluation are of, one for each function,
+// in their order: of sections and domains first, gaps behind them, then of flows.
 std::vector<std::string> constraint_names(const DesignProblem& problem);
 // Flows of all points on the living mesh, and their gradients by the design: exact ones of the discrete flow
 // on a mesh whose interior is still. Outputs: cl, cd, cm, alpha_deg (of the second point cl_2 ...),

@@ -46,8 +46,8 @@ struct DesignResult {
   bool converged = false;  // ended by itself, at a best design
   std::string detail;      // why there is no best design, and the search's own; or empty
 
-  // By how much the best design violates each constraint, 0 where that is within the tolerance, by name; of
-  // the least violated design where none is within all constraints.
+  // Each says by how much the best design violates a constraint, 0 where that is within the tolerance, by
+  // name. Where no design is within all constraints, they are those of the least violated one.
   std::vector<NamedNumber> constraints;
   std::vector<NamedNumber> named;  // numbers of the best design that have names, in their own units
   std::string best;                // the best design as best.json has it
@@ -59,7 +59,8 @@ struct DesignResult {
   // Seconds of flows and gradients over those of the start's flows, which were found cold.
   std::optional<double> cold_equivalents;
 
-  // For each number in DesignProblem::verify, of each point; empty where the verification was interrupted.
+  // There is one for each number in DesignProblem::verify, of each point; none where the verification was
+  // interrupted.
   std::vector<FreshFlow> verified;
 };
 
@@ -87,24 +88,24 @@ struct DesignRun {
 
   const std::vector<double>& best_design() const { return rows[best].coefficients; }
   bool has_best() const { return std::isfinite(rows[best].best_objective); }
-  // Of the start, where the search evaluated it and found its flows.
+  // This is the objective of the start, where the search evaluated it and found its flows.
   std::optional<double> start_objective() const;
   bool with_gradients() const { return rows.front().outputs.contains("gradient_seconds"); }
   double sum(const char* output) const;  // over all rows that have it
-  // By how much the design of `best` violates each constraint at its worst, by name.
+  // Each says by how much the design of `best` violates a constraint at its worst, by name.
   std::vector<NamedNumber> violations() const;
-  // Without a best design: which constraint is violated most at the least violated design, or that no flow
-  // was found.
+  // The text says why there is no best design: which constraint is violated most at the least violated
+  // design, or that no flow was found.
   std::string why_no_design() const;
 };
 
-// Whether the directory holds a run of a design problem, rather than another one of optimise().
+// True if the directory holds a run of a design problem, rather than another one of optimise().
 bool holds_design_run(const std::filesystem::path& directory);
 // Throws Error (file, format) for a directory that holds no such run.
 DesignRun read_design_run(const std::filesystem::path& directory);
 
-// By how much constraints are violated at their worst, 0 where that is within the tolerance, by name, in the
-// order of the names. `names`: of each function, as constraint_names() has them.
+// Each says by how much a constraint is violated at its worst, 0 where that is within the tolerance, by name,
+// in the order of the names. `names`: of each function, as constraint_names() has them.
 std::vector<NamedNumber> violations_of(const std::vector<std::string>& names, double tolerance,
                                        const std::vector<double>& constraints);
 

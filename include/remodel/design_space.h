@@ -21,14 +21,14 @@ class DesignSpace {
 
   virtual std::vector<double> start() const = 0;  // the design whose mesh a run begins with
   virtual Domain domain(std::span<const double> design) const = 0;
-  // Whether the design can be meshed: unless it says more, whether its domain passes validate().
+  // True if the design can be meshed. By default: its domain passes validate().
   virtual bool feasible(std::span<const double> design) const;
   // Vertices that move with the design, as many for each: how far apart two designs are for a mesh is told by
   // these. Unless it says less, all stations of the domain.
   virtual std::vector<Point> outline(std::span<const double> design) const;
   // A design as a run writes it (best.json): unless it says more, a JSON array.
   virtual std::string text(std::span<const double> design) const;
-  // What all of these depend on, as a JSON object: a run can be resumed with the same alone.
+  // A JSON object says what all of these depend on: a run can be resumed with the same alone.
   virtual std::string description() const = 0;
 };
 
@@ -40,8 +40,8 @@ class AirfoilSpace final : public DesignSpace {
   // lie above the lower ones, and it stays inside the farfield. Throws Error (argument) as airfoil_domain()
   // does.
   explicit AirfoilSpace(const CstAirfoil& start, const AirfoilDomainOptions& options = {});
-  // In the place of an airfoil in another domain. A design is feasible where its surfaces are apart and the
-  // domain is valid with it. Designs are in chords, the domain is in its own coordinates.
+  // The airfoil stands in the place of one in another domain. A design is feasible where its surfaces are
+  // apart and the domain is valid with it. Designs are in chords, the domain is in its own coordinates.
   AirfoilSpace(const CstAirfoil& start, const Domain& others, const AirfoilPlace& place);
   ~AirfoilSpace() override;
 
@@ -60,7 +60,7 @@ class AirfoilSpace final : public DesignSpace {
   std::unique_ptr<const Impl> impl_;
 };
 
-// The same airfoil with shape functions of a higher degree: exact but for rounding.
+// The result is the same airfoil with shape functions of a higher degree: exact but for rounding.
 CstAirfoil raise_degree(const CstAirfoil& airfoil, int degree);
 
 }  // namespace remodel

@@ -54,7 +54,7 @@ class Designer {
   // Throws Error (format) naming `source` for a text that is no such state.
   virtual std::string state() const = 0;
   virtual void restore(const std::string& state, const std::string& source) = 0;
-  // What the proposals depend on, as a JSON object: a run can be resumed with the same alone.
+  // A JSON object says what the proposals depend on: a run can be resumed with the same alone.
   virtual std::string description() const = 0;
 };
 
@@ -66,8 +66,8 @@ class Designer {
 // is ever violated, the search is that of the objective alone, to the bit.
 class CmaesDesigner final : public Designer {
  public:
-  // Whether the search ends where it has converged: where designs hardly differ any more, the largest
-  // standard deviation within ten times CmaesOptions::least_deviation, above which it wavers.
+  // This says whether the search ends where it has converged. It has where designs hardly differ any more:
+  // the largest standard deviation is within ten times CmaesOptions::least_deviation, above which it wavers.
   enum class AtConvergence { go_on, end };
   // Throws Error (argument) as Cmaes does.
   CmaesDesigner(std::vector<double> start, const CmaesOptions& options,

@@ -109,8 +109,8 @@ enum class LoopRole {
 };
 const char* name_of(LoopRole role);  // "outer", "hole", "internal", "left", "right"
 
-// Where the curves of a loop lie: scaled by chord, turned counter-clockwise about their origin (an airfoil's
-// leading edge), which comes to lie at position. As it stands it changes no bit.
+// A placement says where the curves of a loop lie: scaled by chord, turned counter-clockwise about their
+// origin (an airfoil's leading edge), which comes to lie at position. As it stands it changes no bit.
 struct Placement {
   double chord = 1.0;
   double rotation_deg = 0.0;
@@ -179,10 +179,10 @@ struct Domain {
 // of chains (left, right), it is generate() that finds sides that contradict each other. Loops may run either
 // way round. About n log n: 0.2 ms for 700 airfoil points.
 void validate(const Domain& domain);
-// The same; errors begin with the file that the domain is from.
+// This is validate(domain), but its errors begin with the file that the domain is from.
 void validate(const Domain& domain, const std::string& source);
 
-// What errors of a domain name where it is from no file; and such an error with its file instead.
+// Errors name this where a domain is from no file. from_file() is such an error with its file instead.
 inline constexpr const char* nameless_domain = "domain";
 Error from_file(const Error& error, const std::string& source);
 
@@ -234,7 +234,7 @@ using AirfoilResolver =
 std::string domain_to_json(const Domain& domain);
 Domain domain_from_json(std::string_view text, const std::string& source,
                         const AirfoilResolver& resolve = nullptr);
-// Whether a JSON text is meant to be a domain, rather than an airfoil: it has the key "loops". Throws Error
+// True if a JSON text is meant to be a domain, rather than an airfoil: it has the key "loops". Throws Error
 // (format) where it is no JSON.
 bool holds_domain(std::string_view text, const std::string& source);
 

@@ -15,14 +15,14 @@ struct Evaluation {
 
   double objective = failed;
   std::vector<double> constraints{};  // the same number for every design
-  // By the design's parameters: of the objective, then a row for each constraint. Empty where none was asked
-  // for or none is to be had.
+  // These are derivatives by the design's parameters: of the objective, then a row for each constraint. They
+  // are empty where none was asked for or none is to be had.
   std::vector<double> gradient{};
   std::vector<std::vector<double>> constraint_gradients{};
   std::map<std::string, double> outputs{};  // whatever else the history is to keep, by name
 };
 
-// By how much the worst constraint is violated; 0 where all are satisfied. NaN counts as infinity.
+// This is how much the worst constraint is violated by; 0 where all are satisfied. NaN counts as infinity.
 double violation_of(const std::vector<double>& constraints);
 
 }  // namespace remodel

@@ -60,14 +60,14 @@ class Evaluator {
   // message, the run goes on.
   virtual Evaluation evaluate(const EvaluationTask& task, std::unique_ptr<EvaluatorState>& state) = 0;
 
-  // From what EvaluatorState::bytes() gave; the mesh as it was then. Throws Error (format) naming `source`
-  // where the bytes are damaged.
+  // The state is made again from what EvaluatorState::bytes() gave; `mesh` is the mesh as it was then. Throws
+  // Error (format) naming `source` where the bytes are damaged.
   virtual std::unique_ptr<EvaluatorState> restore(const std::string& bytes, const Mesh& mesh,
                                                   const std::string& source) {
     static_cast<void>(bytes), static_cast<void>(mesh), static_cast<void>(source);
     return nullptr;
   }
-  // What evaluations depend on, as a JSON object: a run can be resumed with the same alone.
+  // A JSON object says what evaluations depend on: a run can be resumed with the same alone.
   virtual std::string description() const = 0;
 };
 
@@ -120,7 +120,7 @@ struct CommandOptions {
 // others are the shell's.
 std::unique_ptr<Evaluator> command_evaluator(std::vector<std::string> command, CommandOptions options = {});
 
-// Where a text names one of these files.
+// A place is where a text names one of these files.
 struct CommandPlace {
   std::size_t at, size;
   std::string file;  // in the directory of an evaluation; empty: that directory

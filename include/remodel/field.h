@@ -25,7 +25,7 @@ struct Field {
 // Throws Error (argument) naming the field unless its name, its number of components and its number of values
 // fit the mesh and all values are finite.
 void require_fit(const Field& field, const FrozenMesh& mesh);
-// The same for each of them, and no two of one place with one name.
+// Throws likewise unless each of them fits, and no two of one place have one name.
 void require_fit(std::span<const Field> fields, const FrozenMesh& mesh);
 
 // True if no value is infinite or NaN.

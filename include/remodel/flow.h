@@ -97,8 +97,8 @@ struct FlowOptions {
   // they lie, and of half a section its own, without the line of symmetry), the curved part of a duct's
   // wall. Where no wall bends it is the longest wall's.
   double limiter = 30.0;
-  // What factors may take. Where those of a sparse LU are estimated to take more, GMRES with incomplete
-  // factors takes its place.
+  // Factors may take this much memory. Where those of a sparse LU are estimated to take more, GMRES with
+  // incomplete factors takes its place.
   double memory_mb = 4096;
   // How linear systems are solved. None: by GMRES far from a flow, where a matrix is solved with but once,
   // and by LU where its factors serve for several steps or designs, if GMRES fails, too.
@@ -123,7 +123,7 @@ enum class FlowStatus {
 };
 const char* name_of(FlowStatus status);  // "converged", "step-limit", "stalled", "memory", "interrupted"
 
-// What a flow was found from.
+// A start is what a flow was found from.
 enum class FlowStart {
   cold,        // undisturbed flow, or that through a coarser mesh of the same domain, found from it
   carried,     // the last flow, with the factors of an earlier one
@@ -136,8 +136,8 @@ struct FlowBody {
   double cl = 0.0, cd = 0.0, cm = 0.0;
 };
 
-// What enters through an inlet or outlet, in density times speed of sound of the stream times length (of the
-// mesh): negative where gas leaves.
+// An opening says what enters through an inlet or outlet, in density times speed of sound of the stream times
+// length (of the mesh): negative where gas leaves.
 struct FlowOpening {
   std::string name;
   double mass_flow = 0.0;
@@ -157,8 +157,9 @@ struct FlowResult {
 
   std::vector<FlowOpening> openings;  // inlets, then outlets
 
-  // What has to be known before a coefficient is used, a sentence each: bodies whose lift is not determined
-  // because they have no edge that the flow leaves from (below Mach 1), streams too slow for the scheme.
+  // Each is a sentence on what has to be known before a coefficient is used: bodies whose lift is not
+  // determined because they have no edge that the flow leaves from (below Mach 1), streams too slow for the
+  // scheme.
   std::vector<std::string> warnings;
   bool lift_determined = true;  // no warning is of a body without an edge
 
@@ -175,12 +176,12 @@ struct FlowResult {
   double memory_mb = 0.0;              // of the factors and of GMRES's vectors, the most
   double seconds = 0.0;
 
-  // Per point of the frozen mesh.
+  // Each has one value for each point of the frozen mesh.
   std::vector<double> density, velocity_x, velocity_y, pressure;
 };
 
-// Per point: local Mach number; pressure coefficient; p / rho^gamma over the stream's, minus 1, which is 0
-// where nothing is lost.
+// Each has one value for each point: the local Mach number; the pressure coefficient; p / rho^gamma over the
+// stream's, minus 1, which is 0 where nothing is lost.
 std::vector<double> mach_numbers(const FlowResult& flow);
 std::vector<double> pressure_coefficients(const FlowResult& flow);
 std::vector<double> entropy_errors(const FlowResult& flow);
@@ -191,15 +192,15 @@ std::vector<Field> fields_of(const FlowResult& flow);
 FlowResult solve_flow(const FrozenMesh& mesh, const FlowConditions& conditions,
                       const FlowOptions& options = {}, const std::string& source = "mesh");
 
-// The same on Mesh::freeze(). Fine meshes (of 4,000 vertices and more, from Mach 0.6 on of 1,500) begin with
-// the flow through a coarser mesh of the same domain, generated with every second station and half the
-// gradation's G, which begins likewise; where the domain has open chains or that does not lead on, with
-// undisturbed flow. Steps, factorisations, memory and seconds count coarser meshes too.
+// This is the flow through Mesh::freeze(). Fine meshes (of 4,000 vertices and more, from Mach 0.6 on of
+// 1,500) begin with the flow through a coarser mesh of the same domain, generated with every second station
+// and half the gradation's G, which begins likewise. Where the domain has open chains or that does not lead
+// on, they begin with undisturbed flow. Steps, factorisations, memory and seconds count coarser meshes too.
 FlowResult solve_flow(const Mesh& mesh, const FlowConditions& conditions, const FlowOptions& options = {},
                       const std::string& source = "mesh");
 
-// The same, but beginning with the flow through another mesh, interpolated, one factorisation and its use
-// until the flow is found: the best that can be done where meshes are generated afresh.
+// This begins with the flow through another mesh, interpolated. It makes one factorisation and uses it until
+// the flow is found: the best that can be done where meshes are generated afresh.
 FlowResult solve_flow_from(const FrozenMesh& before, const FlowResult& flow, const FrozenMesh& mesh,
                            const FlowConditions& conditions, const FlowOptions& options = {},
                            const std::string& source = "mesh");
@@ -207,8 +208,8 @@ FlowResult solve_flow_from(const FrozenMesh& before, const FlowResult& flow, con
 // Derivatives of a function of the flow, where the flow follows: exact ones of the discrete equations, found
 // by their adjoint.
 struct FlowGradient {
-  // By the coordinates of each point of the frozen mesh, at fixed connectivity; MeshDerivative::vjp()
-  // (remodel/mesh_derivative.h) makes derivatives by the design of them.
+  // These are derivatives by the coordinates of each point of the frozen mesh, at fixed connectivity.
+  // MeshDerivative::vjp() (remodel/mesh_derivative.h) makes derivatives by the design of them.
   std::vector<Point> points;
   double mach = 0.0;
   double alpha_deg = 0.0;  // a degree; 0 where lift is given
@@ -231,8 +232,8 @@ struct WantedGradients {
   bool entropy_drag = false;
 };
 
-// Of the last flow that was found. Where lift is given the angle of attack follows too: cl has no derivative
-// but that by itself, and alpha_deg says how the angle follows.
+// The gradients are those of the last flow that was found. Where lift is given the angle of attack follows
+// too: cl has no derivative but that by itself, and alpha_deg says how the angle follows.
 struct FlowGradients {
   FlowGradient cl, cd, cm;              // empty if they were not wanted
   FlowGradient alpha_deg;               // of the angle, in degrees: 0 but by itself where it is given
@@ -273,7 +274,7 @@ class LivingFlow {
 
   // Cold flows begin as those of solve_flow() of a Mesh do.
   FlowResult solve(const Mesh& mesh, const FlowConditions& conditions);
-  // The same on Mesh::freeze(), cold flows always from undisturbed flow. Throws Error (argument) where
+  // This takes Mesh::freeze(); cold flows always begin with undisturbed flow. Throws Error (argument) where
   // vertices have no keys.
   FlowResult solve(const FrozenMesh& mesh, const FlowConditions& conditions);
   // Gradients of the last flow that was found. They take the factors that there are, transposed, where these

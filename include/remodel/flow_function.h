@@ -27,7 +27,8 @@ struct FlowView {
   const Mesh& mesh;
   const FrozenMesh& frozen;  // mesh.freeze(): its points are those of the flow's fields
   const FlowResult& flow;    // converged. Coefficients are of the whole, also where half of it was found
-  // Of the section DesignProblem::target, at the same conditions; null where there is none.
+  // These are pressures of the section DesignProblem::target, at the same conditions; null where there is
+  // none.
   const StationPressures* target = nullptr;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// What a design problem asks of a design space beyond DesignSpace: sections, how far numbers may go, and
-// derivatives by the design. design_space() of remodel/design_problem.h makes one.
+// A flow space has what a design problem asks of a design space beyond DesignSpace: sections, how far numbers
+// may go, and derivatives by the design. design_space() of remodel/design_problem.h makes one.
 
 #include <cstddef>
 #include <span>
@@ -28,7 +28,7 @@ struct NamedNumber {
 
 class FlowSpace : public DesignSpace {
  public:
-  // Whether the domain is the upper half of one whose flows are their own mirror images.
+  // True if the domain is the upper half of one whose flows are their own mirror images.
   virtual bool half() const { return false; }
   // The domain of a design with this number of points on each section.
   virtual Domain domain_with(std::span<const double> design, int points) const = 0;
@@ -52,7 +52,8 @@ class FlowSpace : public DesignSpace {
 
   // Derivatives by the design of a function of the domain, of those by its numbers (coefficients_of(Domain)).
   virtual std::vector<double> gradient_of_domain(std::span<const double> by_numbers) const = 0;
-  // The same of a function of a section, of those by its coefficients, upper surface first.
+  // These are derivatives by the design of a function of a section, of those by its coefficients, upper
+  // surface first.
   virtual std::vector<double> gradient_of_section(std::size_t index,
                                                   std::span<const double> by_coefficients) const = 0;
 };

@@ -37,13 +37,13 @@ struct FrozenMesh {
   std::vector<std::uint32_t> birth;         // per triangle: the remodelling step that made it, 0 = generation
   std::vector<std::int32_t> curve;          // per point: index of its curve in the design, -1 in the interior
   std::vector<double> parameter;            // per point: t on that curve, 0 in the interior
-  // Per point: VertexKey::value(), which is never given out again in the life of a mesh, over regenerations
-  // and files too. Points ascend by vertex id.
+  // Each point has its VertexKey::value(), which is never given out again in the life of a mesh, over
+  // regenerations and files too. Points ascend by vertex id.
   std::vector<std::uint64_t> vertex_keys{};
   // The highest generation of a key so far, of a vertex that is there or is not: import_mesh() goes on above
   // it.
   std::uint32_t last_generation = 0;
-  // Per point: 1 on a boundary where refinement put it, 0 if it is the design's (or an imported file's).
+  // Each point has 1 on a boundary where refinement put it, 0 if it is the design's (or an imported file's).
   // Every format keeps it, so that an imported mesh has the design's own points.
   std::vector<std::uint8_t> steiner{};
   // Parts of the domain with names of their own (materials, fluids): per triangle an index into region_names.
@@ -51,11 +51,11 @@ struct FrozenMesh {
   // same.
   std::vector<std::uint32_t> region{};
   std::vector<std::string> region_names{};
-  // Per triangle: ln(r / (H mean LS*)), only where it was asked for (Mesh::gradation_errors()).
+  // Each triangle has ln(r / (H mean LS*)), only where it was asked for (Mesh::gradation_errors()).
   std::vector<double> gradation_error{};
-  // Per triangle: since an earlier state, only where it was asked for (fates()).
+  // Each triangle has its fate since an earlier state, only where it was asked for (fates()).
   std::vector<Fate> fate{};
-  // By how much the angles opposite an inner edge may exceed 180 degrees: Mesh::delaunay_slack_deg(), 0 for
+  // The angles opposite an inner edge may exceed 180 degrees by this: Mesh::delaunay_slack_deg(), 0 for
   // meshes that are not held. It is what CheckOptions::delaunay_slack_deg has to be for the mesh to be valid.
   double delaunay_slack_deg = 0.0;
 };
@@ -67,7 +67,8 @@ struct FrozenMesh {
 // without ids or births.
 std::vector<Fate> fates(const FrozenMesh& before, const FrozenMesh& after);
 
-// What two meshes have in common, however either was made; RemodelResult has the same figures of one step.
+// These numbers say what two meshes have in common, however either was made. RemodelResult has the same
+// figures of one step.
 struct InCommon {
   std::size_t preserved = 0;              // triangles whose vertices stand where they stood
   std::size_t connected = 0;              // triangles whose vertices are the same, moved or not

@@ -22,7 +22,7 @@ inline constexpr std::string_view standard_input = "-";
 
 // foam: an OpenFOAM case, by an empty file in its directory (remodel/foam.h); written alone, never read.
 enum class MeshFormat { vtkhdf, su2, msh, vtu, foam };
-// By extension; throws Error (argument) for another, listing those that are known.
+// The extension says the format. Throws Error (argument) for another, listing those that are known.
 MeshFormat mesh_format(const std::filesystem::path& file);
 
 // Named edges with triangles on both sides, in .su2 files: SU2 takes every edge of a marker for a boundary,
@@ -31,9 +31,9 @@ enum class InnerCurves { left_out, markers };
 struct WriteOptions {
   int msh_version = 41;  // 41: Gmsh 4.1, 22: Gmsh 2.2, both ASCII
   InnerCurves inner = InnerCurves::left_out;
-  // What is written beside the mesh to .vtkhdf, .vtu and .msh files, as ParaView, meshio and Gmsh read it; a
-  // .su2 file has no place for fields. Gmsh knows no fields of two components: a third, 0, is added. Throws
-  // Error (argument) unless they fit, see require_fit().
+  // Fields are written beside the mesh to .vtkhdf, .vtu and .msh files, as ParaView, meshio and Gmsh read
+  // them; a .su2 file has no place for fields. Gmsh knows no fields of two components: a third, 0, is added.
+  // Throws Error (argument) unless they fit, see require_fit().
   std::span<const Field> fields = {};
   // The boxes for free-form deformation of .su2 files, see ReadNotes: for .su2 and .vtkhdf files. Others have
   // no place for them.
@@ -47,7 +47,7 @@ void write_mesh(const FrozenMesh& mesh, const std::filesystem::path& file, const
 // vtkhdf with the full state, otherwise the frozen view.
 void write_mesh(const Mesh& mesh, const std::filesystem::path& file, const WriteOptions& options = {});
 
-// What is said of a file beside its mesh, and what goes along with it.
+// Notes are what is said of a file beside its mesh, and what goes along with it.
 struct ReadNotes {
   // Sentences on what the file holds and the view has no place for, and on what was taken in another way than
   // it stands there (a mesh in another plane).
@@ -75,7 +75,7 @@ std::vector<Field> read_fields(const std::filesystem::path& file);
 // Reads a native mesh. A .vtkhdf without state, or another format, is an Error that says what was expected.
 Mesh read_mesh(const std::filesystem::path& file);
 
-// Where writing to `file` puts its bytes.
+// A written place is where writing to `file` puts its bytes.
 struct WrittenPlace {
   std::filesystem::path path;  // what symbolic links lead to, so that they stay
   bool in_place = false;       // a device, a FIFO or a stream of this process: is written to as it stands
@@ -90,7 +90,7 @@ WrittenPlace written_place(const std::filesystem::path& file);
 // program: a FIFO waits for its reader. Error (file) names the file and the system's reason.
 void write_text_atomically(const std::filesystem::path& file, std::string_view text);
 
-// What the file system refused as an Error (file): the path and the system's reason.
+// This is what the file system refused, as an Error (file): the path and the system's reason.
 Error file_error(const std::filesystem::filesystem_error& error);
 
 // Standard input, a FIFO, or whatever else can be read but once.
@@ -114,7 +114,7 @@ std::string read_text(const std::filesystem::path& file, std::size_t limit = std
 // 0 or 1, comments begin with #. A file without vertices has them in the .node file of the same name. At most
 // 256 MiB. Throws Error (file, format) naming file and line.
 PlanarGraph read_poly(const std::filesystem::path& file);
-// Whether the file is one: it is called .poly, or is a pipe without an extension that begins with the first
+// True if the file is one: it is called .poly, or is a pipe without an extension that begins with the first
 // line of one, three or four whole numbers of which the second, the dimension, is 2.
 bool holds_graph(const std::filesystem::path& file);
 PlanarGraph parse_poly(std::string_view poly, const std::string& source, std::string_view node = {},

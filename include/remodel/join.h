@@ -1,6 +1,6 @@
 #pragma once
 
-// What differs by rounding of its coordinates alone, and is meant to be one.
+// These functions join what differs by rounding of its coordinates alone, and is meant to be one.
 
 #include <cstddef>
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace remodel {
 
-// What differs by rounding is joined: what is nearer to each other than this share of a domain's size, or of
-// its largest coordinate, whichever is more. Places that are written with fifteen digits, or computed by a
-// few operations, differ by up to 1.5e-14 of their largest coordinate. Refinement makes no edge shorter than
-// 1e-12 (QualityOptions::min_edge), and between walls that are nearer than ten of these no mesh could go: up
-// to there nothing is lost.
+// Places that differ by rounding are joined: those nearer to each other than this share of a domain's size,
+// or of its largest coordinate, whichever is more. Places that are written with fifteen digits, or computed
+// by a few operations, differ by up to 1.5e-14 of their largest coordinate. Refinement makes no edge shorter
+// than 1e-12 (QualityOptions::min_edge), and between walls that are nearer than ten of these no mesh could
+// go: up to there nothing is lost.
 inline constexpr double default_join = 1e-11;
 
-// What was joined.
+// Joins say what was joined.
 struct Joins {
   std::size_t count = 0;   // points, or ends of chains
   double largest = 0.0;    // distance

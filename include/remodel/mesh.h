@@ -81,7 +81,8 @@ class Mesh {
   Mesh& operator=(const Mesh&);
 
   bool empty() const;  // no domain: there is nothing to remodel
-  // In the order of the last one that it was remodelled to; see remodel() for loops that did not move.
+  // The domain is in the order of the last one that the mesh was remodelled to; see remodel() for loops that
+  // did not move.
   const Domain& domain() const;
   const QualityOptions& options() const;
   // Triangles that steps leave as they are may take this factor of H, new ones H itself: 1, or more once
@@ -92,7 +93,7 @@ class Mesh {
   // Strategy::reference: whether the mesh is the morph of a reference mesh that it remembers, whose
   // connectivity it has. Steps of other strategies start from that reference.
   bool held() const;
-  // By how much the angles opposite an inner edge of a held mesh may exceed 180 degrees. 0: it is Delaunay.
+  // The angles opposite an inner edge of a held mesh may exceed 180 degrees by this. 0: it is Delaunay.
   double delaunay_slack_deg() const;
   std::uint32_t step() const;
   std::size_t triangle_count() const;  // of the domain; O(1)
@@ -100,9 +101,9 @@ class Mesh {
   // The mesh as arrays. Of an imported one: the file's own triangles stand where both they and all that the
   // living mesh has in their place are untouched.
   FrozenMesh freeze() const;
-  // Whether triangles of birth 0 are a file's (remodel/import.h), not generate()'s.
+  // True if triangles of birth 0 are a file's (remodel/import.h), not generate()'s.
   bool imported() const;
-  // Whether freeze() may show triangles that are not the living mesh's, which need not be Delaunay.
+  // True if freeze() may show triangles that are not the living mesh's, which need not be Delaunay.
   bool shows_file_triangles() const;
   MeshStatistics statistics() const;
   GradationError gradation_error(StepObserver* observer = nullptr) const;  // not a number where cancelled

@@ -23,10 +23,10 @@ namespace remodel {
 std::vector<double> coefficients_of(const Domain& domain);
 // Their names: "airfoil.upper[0]", "flap.x".
 std::vector<std::string> coefficient_names(const Domain& domain);
-// Whether that is the name of a coefficient of a section's surface, upper or lower.
+// True if `name` is that of a coefficient of a section's surface, upper or lower.
 bool is_of_section(const std::string& name);
-// The same domain with other numbers. A closed spline's knots follow. Throws Error (argument) for another
-// count than that of coefficients_of(), and as spline_through() does.
+// The result is the same domain with other numbers. A closed spline's knots follow. Throws Error (argument)
+// for another count than that of coefficients_of(), and as spline_through() does.
 Domain with_coefficients(const Domain& domain, std::span<const double> coefficients);
 
 class MeshDerivative {
@@ -34,7 +34,7 @@ class MeshDerivative {
   // At the design that the mesh has: by the coefficients of mesh.domain(), which may write loops that did not
   // move otherwise than the domain that was given (remodel()).
   explicit MeshDerivative(const Mesh& mesh);
-  // The same of a mesh's frozen view and its domain.
+  // This takes a mesh's frozen view and its domain.
   MeshDerivative(const FrozenMesh& frozen, const Domain& domain);
 
   std::size_t coefficients() const { return count_; }  // of coefficients_of()

@@ -66,9 +66,9 @@ struct OptimiseOptions {
   std::size_t full_check_every = 0;
   std::size_t checkpoint_every =
       500;  // evaluations between checkpoints; 0: at the start, the end, an interrupt
-  // Where evaluations are long: a copy of its mesh before each of them, so that an interrupt within one loses
-  // none that was finished. Where several workers are interrupted, rows end before the first design that was
-  // not finished; those behind it that were are in the checkpoint, and are not evaluated again.
+  // True for long evaluations: a copy of its mesh is kept before each of them, so that an interrupt within
+  // one loses none that was finished. Where several workers are interrupted, rows end before the first design
+  // that was not finished; those behind it that were are in the checkpoint, and are not evaluated again.
   bool keep_finished = false;
   std::size_t max_refused = 10000;    // infeasible samples in a row that end the run; at least 1
   bool resume = false;                // go on from the directory's checkpoint
@@ -95,7 +95,7 @@ struct OptimiseResult {
   std::uint64_t failed_evaluations = 0;
   std::uint64_t full_adjustments = 0;
   double objective = none;  // of the best design; by interpolation: mean square distance in y, square chords
-  // By interpolation, of the best design: largest distance in y at the interpolated points, chords.
+  // Interpolation gives the best design's largest distance in y at the interpolated points, in chords.
   double max_error = none;
   double preserved_percent = none;         // mean over all evaluations
   double lost_mean = none;                 // triangles not preserved: mean over all evaluations
@@ -210,7 +210,7 @@ OptimiseResult optimise(const DesignSpace& space, Designer& designer, Evaluator&
 OptimiseResult optimise(const CstAirfoil& from, const CstAirfoil& to, const OptimiseOptions& options,
                         OptimiseObserver* observer = nullptr);
 
-// The same with an evaluator of one's own.
+// This runs with an evaluator of one's own.
 OptimiseResult optimise(const CstAirfoil& from, Evaluator& evaluator, const OptimiseOptions& options,
                         OptimiseObserver* observer = nullptr);
 

@@ -71,8 +71,9 @@ struct PotentialFlow {
   std::vector<BodyFlow> bodies;
   std::vector<double> stream_function;  // per vertex
   std::vector<Point> velocity;          // per vertex
-  // What has to be known before a coefficient is used, a sentence each: bodies whose lift is not determined
-  // because they have no edge that the flow leaves from, meshes too coarse, rules that do not hold.
+  // Each is a sentence on what has to be known before a coefficient is used: bodies whose lift is not
+  // determined because they have no edge that the flow leaves from, meshes too coarse, rules that do not
+  // hold.
   std::vector<std::string> warnings;
   bool lift_determined = true;  // no warning is of a body without an edge
 
@@ -91,9 +92,9 @@ class PotentialSolver {
   PotentialSolver(PotentialSolver&&) noexcept;
   PotentialSolver& operator=(PotentialSolver&&) noexcept;
 
-  // The same triangles with their vertices at other points, as after a full adjustment of the mesh: faster
-  // than a new solver, because the order of elimination is kept, and to the same bits. Throws Error
-  // (argument) for another number of points and inverted triangles; nothing has changed then.
+  // This takes the same triangles with their vertices at other points, as after a full adjustment of the
+  // mesh. It is faster than a new solver, because the order of elimination is kept, and gives the same bits.
+  // Throws Error (argument) for another number of points and inverted triangles; nothing has changed then.
   void move(const std::vector<Point>& points);
 
   // Throws Error (argument) unless |alpha| is at most 90 degrees, and mach at least 0 and less than 1.

@@ -14,7 +14,7 @@
 
 namespace remodel {
 
-// Whether both coordinates are in the range that is safe: not for infinities and NaN.
+// True if both coordinates are in the range that is safe: not for infinities and NaN.
 inline bool safe_for_predicates(Point p) {
   const auto safe = [](double v) { return v == 0.0 || (std::abs(v) <= 1e60 && std::abs(v) >= 1e-60); };
   return safe(p.x) && safe(p.y);

@@ -29,7 +29,7 @@ enum class Strategy {
   // adjustments in a row a mesh whose count is off is generated afresh. The angle bound never
   // relaxes. Imported meshes, whose length scales are measured, are remodelled as by chain.
   renew,
-  // As renew, but where not all boundary vertices can be moved in place with the interior still, single
+  // This is renew, but where not all boundary vertices can be moved in place with the interior still, single
   // vertices beside them move too, and where that is not enough the whole interior moves along
   // (remodel/displacement.h): almost all triangles go on joining the same vertices. Vertices around what
   // misses a bound then are moved until it is met; edges that are not Delaunay after that are flipped, and
@@ -63,8 +63,8 @@ struct RemodelOptions {
   std::uint32_t designs_a_step = 1;
   // reference: how far beyond 180 degrees the angles opposite an inner edge may sum up; 0 to 60.
   double delaunay_slack_deg = 20.0;
-  // Whether a step that cannot be completed ends with a mesh that is generated afresh. If not, the mesh stays
-  // as it was, and the result is abandoned.
+  // A step that cannot be completed ends with a mesh that is generated afresh if this is true. If not, the
+  // mesh stays as it was, and the result is abandoned.
   bool regenerate = true;
   StepObserver* observer = nullptr;  // if cancelled, the mesh stays as it was and the result says interrupted
 };

@@ -24,8 +24,8 @@ using ReplayVisit = std::function<void(const EvaluationRecord& record, const Mes
 // Throws Error (file, format) for a directory that holds no run, and where history and mesh do not belong
 // together. Error (argument) for a run by another version and for a worker that the run does not have.
 void replay(const std::filesystem::path& directory, std::uint64_t worker, const ReplayVisit& visit);
-// The same of a run in any design space, which has to be the run's. Its strategy cannot be MeshStrategy::hub,
-// whose mesh follows the designer as well: Error (argument).
+// This replays a run in any design space, which has to be the run's. Its strategy cannot be
+// MeshStrategy::hub, whose mesh follows the designer as well: Error (argument).
 void replay(const std::filesystem::path& directory, const DesignSpace& space, std::uint64_t worker,
             const ReplayVisit& visit);
 

@@ -23,11 +23,11 @@ AirfoilOutlines read_outlines(const std::filesystem::path& file);
 // trailing_edge are used for coordinate files, as fit_cst_apart() takes them; degree for named sections too.
 CstAirfoil load_airfoil(const std::string& shape, int degree,
                         TrailingEdge trailing_edge = TrailingEdge::kept);
-// The same with what is known of the fit: its errors, the frame of a coordinate file, and warnings, which
-// begin with the file's name. Errors are those of the catalogue's table for its names, and 0 for a .json
-// file.
+// This is load_airfoil() with what is known of the fit: its errors, the frame of a coordinate file, and
+// warnings, which begin with the file's name. Errors are those of the catalogue's table for its names, and 0
+// for a .json file.
 CstFit load_fit(const std::string& shape, int degree, TrailingEdge trailing_edge = TrailingEdge::kept);
-// Whether a SHAPE is a coordinate file: by its name, or what comes through a pipe by its content.
+// True if a SHAPE is a coordinate file: by its name, or what comes through a pipe by its content.
 bool is_coordinate_file(const std::string& shape);
 
 // domain_from_json() of a file, where airfoils may be named as load_airfoil() takes them; their files are

@@ -54,12 +54,12 @@ class Snapshots {
   // ids or by position. Throws Error (argument) for another number of parameters or values than those kept,
   // and for values that are not finite.
   void add(Mesh& mesh, std::span<const double> design, std::vector<double> values);
-  // Of the designs kept: the nearest one is the base, and the coefficients of the differences to all others
-  // are found by least squares. Nothing where none is left. Throws Error (argument) for another number of
-  // parameters.
+  // The start is made of the designs kept: the nearest one is the base, and the coefficients of the
+  // differences to all others are found by least squares. It is nothing where none is left. Throws Error
+  // (argument) for another number of parameters.
   std::optional<SnapshotStart> start(const Mesh& mesh, std::span<const double> design);
 
-  // The same for a caller who compares connectivities himself, between frozen meshes for example, and calls
+  // These serve a caller who compares connectivities himself, between frozen meshes for example, and calls
   // clear() when one ends.
   void add(std::span<const double> design, std::vector<double> values);
   std::optional<SnapshotStart> start(std::span<const double> design) const;

@@ -28,9 +28,9 @@ struct Su2Restart {
 // ASCII or binary by content. Throws Error (file, format) naming file and place: for a table that ends early,
 // numbers of points other than their row's, or values that are not finite.
 Su2Restart read_su2_restart(const std::filesystem::path& file);
-// The same from memory; `source` is for messages.
+// This reads from memory; `source` is for messages.
 Su2Restart parse_su2_restart(std::string_view bytes, const std::string& source);
-// In binary.
+// The bytes are those of a binary file.
 std::string su2_restart_bytes(const Su2Restart& restart);
 // .csv in ASCII, numbers with 17 digits; .dat in binary. Throws Error (argument) for another extension, and
 // for names that such a file cannot hold.

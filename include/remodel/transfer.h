@@ -40,8 +40,8 @@ struct ValueMap {
     double weight;
   };
   std::size_t size_before = 0, size_after = 0;  // how many numbers there are, those of empty slots too
-  // Where numbers are positions in frozen meshes: of each number after, the one before whose value it keeps,
-  // or no_index where a row says its value. Empty where numbers are ids, which stay.
+  // Each number after has here the one before whose value it keeps, or no_index where a row says its value,
+  // if numbers are positions in frozen meshes. Empty where numbers are ids, which stay.
   std::vector<std::uint32_t> same;
   std::vector<std::uint32_t> rows;    // the new numbers, ascending
   std::vector<std::uint32_t> starts;  // row i has parts starts[i] to starts[i + 1]; one more than rows
@@ -82,9 +82,9 @@ struct RemapOptions {
   std::optional<std::array<int, 4>> conserved = {};
 };
 
-// What became of the integrals of values over the part of the domain that has changed, per component:
-// after = before + gained - lost, but for rounding. Of values at vertices the integral is that of the
-// function that is linear on triangles.
+// A balance says what became of the integrals of values over the part of the domain that has changed, per
+// component: after = before + gained - lost, but for rounding. The integral of values at vertices is that of
+// the function that is linear on triangles.
 struct Balance {
   double area_gained = 0.0,
          area_lost = 0.0;  // that moving boundaries left and swept; rounding where they rest
@@ -93,21 +93,21 @@ struct Balance {
   std::size_t limited = 0;           // triangles where bounds or positivity took effect
 };
 
-// The same as Transfer(mesh, mark).vertices(), alone and much sooner: all that a ride of values at vertices
+// This is Transfer(mesh, mark).vertices(), alone and much sooner: all that a ride of values at vertices
 // needs.
 ValueMap vertex_provenance(const Mesh& mesh, const Mark& mark, const TransferOptions& options = {});
 
 class Transfer {
  public:
-  // From a moment of a mesh's life to now, in time proportional to what has changed since. Values are
-  // numbered by ids: those of vertex v at number v.index, triangle t's at t.index (FrozenMesh::vertex_ids and
-  // triangle_ids say whose these are), for all slots, used or not. Of an imported mesh the triangles are
+  // This goes from a moment of a mesh's life to now, in time proportional to what has changed since. Values
+  // are numbered by ids: those of vertex v at number v.index, triangle t's at t.index (FrozenMesh::vertex_ids
+  // and triangle_ids say whose these are), for all slots, used or not. The triangles of an imported mesh are
   // those of the living mesh. Throws Error (argument) as Mesh::changes_since() does.
   Transfer(const Mesh& mesh, const Mark& mark, const TransferOptions& options = {});
-  // From one frozen mesh to another, in time proportional to both: steps, regenerations, imports and files
-  // between them. Values are numbered by position. Vertices are the same if they have the same key, and
-  // either lie in the interior at the same coordinates or on a boundary, with the same parameter where both
-  // meshes know it; without keys, if they have the same coordinates.
+  // This goes from one frozen mesh to another, in time proportional to both. Steps, regenerations, imports
+  // and files may lie between them. Values are numbered by position. Vertices are the same if they have the
+  // same key, and either lie in the interior at the same coordinates or on a boundary, with the same
+  // parameter where both meshes know it; without keys, if they have the same coordinates.
   Transfer(const FrozenMesh& before, const FrozenMesh& after, const TransferOptions& options = {});
   ~Transfer();
   Transfer(Transfer&&) noexcept;
