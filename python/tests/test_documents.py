@@ -7,11 +7,33 @@ from pathlib import Path
 SOURCE = Path(os.environ.get("REMODEL_PYTHON_TEST_SOURCE", Path(__file__).resolve().parents[2]))
 
 
-def test_the_lines_of_the_readme(tmp_path, monkeypatch, capsys):
+def blocks_of_readme():
     blocks = re.findall(r"^```python\n(.*?)^```", (SOURCE / "README.md").read_text(), re.MULTILINE | re.DOTALL)
-    assert len(blocks) == 1
+    assert len(blocks) == 2
+    return blocks
+
+
+def test_the_first_lines_of_the_readme_end_in_a_drag_and_its_gradient(capsys):
+    names = {}
+    exec(compile(blocks_of_readme()[0], "README.md", "exec"), names)
+    printed = capsys.readouterr().out
+    assert float(re.search(r"drag: (\S+) counts", printed)[1]) > 0.0
+    # The gradient is that of whole flows along one coefficient, whose mesh moves its walls alone.
+    remodel, mesh, flow = names["remodel"], names["mesh"], names["flow"]
+    gradient = mesh.vjp(flow.gradients()["cd"]["points"])
+    airfoil, step, drags = remodel.Airfoil("rae2822"), 1e-5, []
+    for sign in (-1, 1):
+        design = airfoil.design.copy()
+        design[3] += sign * step
+        moved = mesh.copy()
+        assert moved.update(airfoil.with_design(design)).full_adjustment
+        drags.append(flow.solve(moved, mach=0.75, alpha=1.0).cd)
+    assert abs((drags[1] - drags[0]) / (2 * step) / gradient[3] - 1) < 1e-3
+
+
+def test_the_lines_of_the_readme(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    exec(compile(blocks[0], "README.md", "exec"), {})
+    exec(compile(blocks_of_readme()[1], "README.md", "exec"), {})
     printed = capsys.readouterr().out
     assert "design 10:" in printed and "tried:" in printed
     kept = [float(percent) for percent in re.findall(r"([\d.]+) % kept", printed)]
