@@ -100,7 +100,10 @@ Hdf5Writer::Hdf5Writer(std::string name) : name_(std::move(name)) {
                                            same_image_owner, keep_image_owner, &image_};
   H5Pset_file_image_callbacks(access.get(), &callbacks);
   const Hdf5Handle creation = without_times(H5P_FILE_CREATE);
-  file_ = Hdf5Handle(H5Fcreate(name_.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose);
+  // HDF5 opens a file of this name, if there is one, although nothing is written to it: a FIFO's reader would
+  // see its end. So the name is one that cannot be opened.
+  const std::string no_file = name_ + "/in-memory";
+  file_ = Hdf5Handle(H5Fcreate(no_file.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose);
   if (!file_) fail("/");
 }
 

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "remodel/error.h"
+
 namespace remodel {
 namespace {
 

@@ -106,7 +106,7 @@ class Meshes(ProgramTest):
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
         outcome = self.run_program(*command)
         self.assertIn(outcome.status, (0, 1), outcome)
-        self.assertLess(resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before, 10)
+        self.assertLess(resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before, 150)  # sanitizers take 50; before, minutes without them
 
     def test_markers_of_su2(self):
         markers = "".join(f"MARKER_TAG= m{i}\nMARKER_ELEMS= 0\n" for i in range(self.MANY))
