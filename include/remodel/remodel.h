@@ -38,16 +38,13 @@ enum class Strategy {
   // meshes move too; their length scales are not renewed.
   morph,
   // The mesh of a design is the morph of one reference mesh, whatever designs came in between: the same
-  // design
-  // has the same mesh, to the last bit, and what is computed on meshes is a smooth function of designs. The
-  // first reference is the mesh itself. All vertices move by the field of remodel/displacement.h, at the
-  // reference's places. Connectivity is held as long as no triangle turns over or misses its angle or the
-  // kept
-  // gradation bound, although edges are no longer Delaunay: the angles opposite to them sum up to at most 180
-  // degrees and RemodelOptions::delaunay_slack_deg. Where that is not possible the reference is morphed to
-  // the
-  // design, and the mesh is the new reference. Meshes with slack in their angles are held longer
-  // (QualityOptions::refine_angle_deg).
+  // design has the same mesh, to the last bit, and what is computed on meshes is a smooth function of
+  // designs. The first reference is the mesh itself. All vertices move by the field of
+  // remodel/displacement.h, at the reference's places. Connectivity is held as long as no triangle turns
+  // over or misses its angle or the kept gradation bound, although edges are no longer Delaunay: the angles
+  // opposite to them sum up to at most 180 degrees and RemodelOptions::delaunay_slack_deg. Where that is
+  // not possible the reference is morphed to the design, and the mesh is the new reference. Meshes with
+  // slack in their angles are held longer (QualityOptions::refine_angle_deg).
   reference,
 };
 const char* name_of(Strategy strategy);  // "chain", "renew", "morph", "reference"
