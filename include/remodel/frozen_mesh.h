@@ -58,6 +58,9 @@ struct FrozenMesh {
   // The angles opposite an inner edge may exceed 180 degrees by this: Mesh::delaunay_slack_deg(), 0 for
   // meshes that are not held. It is what CheckOptions::delaunay_slack_deg has to be for the mesh to be valid.
   double delaunay_slack_deg = 0.0;
+  // Quadrilaterals of the domain, counter-clockwise and strictly convex: the cells of layers on walls. Cells are
+  // numbered triangles first. Edges of quadrilaterals are no Delaunay edges, and their angles have no bound.
+  std::vector<std::array<std::uint32_t, 4>> quads{};
 };
 
 // The fate of each triangle of `after`, since `before`: two states of one living mesh, in the order of time.

@@ -26,7 +26,10 @@ struct Station {
 // Of what validate() will refuse nothing is joined.
 bool can_be_read(const Loop& loop) {
   return !loop.curves.empty() && std::all_of(loop.curves.begin(), loop.curves.end(), [](const Curve& curve) {
-    return !curve.parameters.empty() && curve.parameters.front() == 0.0;
+    const auto not_increasing = [](double a, double b) { return !(a < b); };
+    const auto& t = curve.parameters;
+    return !t.empty() && t.front() == 0.0 && t.back() < 1.0 &&
+           std::adjacent_find(t.begin(), t.end(), not_increasing) == t.end();
   });
 }
 

@@ -109,6 +109,15 @@ TEST(JoinEnds, LoopsThatComeAsNearAsRoundingAreRefused) {
   EXPECT_EQ(refusal({{box(), hole(0.5, 0.5), hole(0.76, 0.5)}}), "");
 }
 
+TEST(JoinEnds, LeavesToValidationWhatItWillRefuse) {
+  for (const std::vector<double>& t : {std::vector<double>{0, 3e299}, {0, 1}, {0, 0.5, 0.25}, {0, 0, 0.5}}) {
+    Domain domain{{box(), chain(Polyline{{{0.5, 0.5}, {1, 0.5}, {1.2, 0.7}}})}};
+    domain.loops[1].curves[0].parameters = t;
+    EXPECT_EQ(join_ends(domain, "file").count, 0U);
+    EXPECT_THROW(validate(domain), Error);
+  }
+}
+
 TEST(JoinEnds, RefusesATolerance) {
   Domain domain{{box()}};
   for (const double join : {-1.0, 1e-16, 0.1, std::numeric_limits<double>::quiet_NaN()})
