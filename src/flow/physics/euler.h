@@ -4,7 +4,8 @@
 // doubles and for dual numbers alike, so that derivatives are exact.
 //
 // Sources: P. L. Roe, "Approximate Riemann solvers, parameter vectors, and difference schemes", J. Comput.
-// Phys. 43 (1981).
+// Phys. 43 (1981); F. Rieper, "A low-Mach number fix for Roe's approximate Riemann solver", J. Comput. Phys.
+// 230 (2011), with the function of X.-S. Li and C.-W. Gu, J. Comput. Phys. 227 (2008), eq. (21), for its factor.
 
 #include <array>
 #include <cmath>
@@ -41,14 +42,33 @@ Fluxes<T> conserved(const Unknowns<T>& q) {
   return {rho, rho * u, rho * v, pressure(q) / (gas_gamma - 1.0) + 0.5 * (rho * (u * u + v * v))};
 }
 
+template <class T>
+T mach_squared(const Unknowns<T>& q) {
+  const T &u = velocity_x(q), &v = velocity_y(q);
+  return (u * u + v * v) * density(q) / (gas_gamma * pressure(q));
+}
+
+// What the jump of normal velocity in Roe's acoustic waves is multiplied by, given the Mach number's square: 1
+// from Mach 1 on, with a continuous derivative, and as the Mach number itself in slow flow, whose
+// dissipation would otherwise grow with the speed of sound.
+template <class T>
+T slow_flow_factor(const T& mach_squared) {
+  using std::sqrt;
+  constexpr double least = 1e-6;  // of the square: the root has a derivative at rest
+  const T below = 1.0 - mach_squared;
+  if (value_of(below) <= 0.0) return T(1.0);
+  const T square = below * below;
+  return sqrt((mach_squared + least * square) * (4.0 + square)) / (1.0 + mach_squared);
+}
+
 // The largest speed of a wave through a face, times its length.
 inline double wave_speed(const Unknowns<double>& q, Point normal) {
   return std::fabs(velocity_x(q) * normal.x + velocity_y(q) * normal.y) +
          std::sqrt(gas_gamma * pressure(q) / density(q) * dot(normal, normal));
 }
 
-// Roe's flux through a face of this normal (whose length is the face's), from left to right. Entropy fix: 0.1
-// c for the acoustic waves, 0.02 c for the linear ones.
+// Roe's flux through a face of this normal (whose length is the face's), from left to right, for all speeds.
+// Entropy fix: 0.1 c for the acoustic waves, 0.02 c for the linear ones.
 template <class T, class G>
 Fluxes<T> roe_flux(const Unknowns<T>& l, const Unknowns<T>& r, const PlaneVector<G>& normal) {
   using std::sqrt;
@@ -74,9 +94,10 @@ Fluxes<T> roe_flux(const Unknowns<T>& l, const Unknowns<T>& r, const PlaneVector
   const T slow = rounded_abs<T>(vn - c, 0.1 * c), fast = rounded_abs<T>(vn + c, 0.1 * c);
   const T linear = rounded_abs<T>(vn, 0.02 * c);
   const T drho = rho_r - rho_l, dp = p_r - p_l, dvn = through_r - through_l;
-  const T a1 = slow * (dp - rho * c * dvn) / (2.0 * c2);
+  const T acoustic = rho * c * slow_flow_factor<T>(2.0 * square / c2) * dvn;
+  const T a1 = slow * (dp - acoustic) / (2.0 * c2);
   const T a2 = linear * (drho - dp / c2);
-  const T a3 = fast * (dp + rho * c * dvn) / (2.0 * c2);
+  const T a3 = fast * (dp + acoustic) / (2.0 * c2);
   const T shear = linear * rho;
   const T du = u_r - u_l - nx * dvn, dv = v_r - v_l - ny * dvn;
 
