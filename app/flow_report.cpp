@@ -36,6 +36,7 @@ Json to_json(const FlowResult& flow) {
   json["memory_mb"] = flow.memory_mb;
   json["seconds"] = flow.seconds;
   json["warm"] = name_of(flow.start);
+  json["origin"] = name_of(flow.origin);
   json["lift_determined"] = flow.lift_determined;
   json["warnings"] = flow.warnings;
   return json;
@@ -84,6 +85,7 @@ void add_flow_figures(Report& report, const FlowResult& flow) {
   figure("mach", "Mach number");
   if (flow.converged()) add_end();
   figure("residual", "residual, of undisturbed flow's");
+  figure("origin", "found from");
   figure("newton_steps", "Newton steps");
   figure("factorisations", "factorisations");
   figure("krylov_iterations", "steps with older factors");

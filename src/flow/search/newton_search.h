@@ -9,7 +9,8 @@
 // Grippo, F. Lampariello and S. Lucidi, SIAM J. Numer. Anal. 23 (1986)). Whole steps let the CFL number grow
 // until there is no pseudo-time any more: then convergence is quadratic, or as fast as GMRES solves.
 //
-// run() is that. What it does not find from undisturbed flow, from_undisturbed_flow() finds by fallbacks:
+// run() is that. cold() begins with potential flow, where there is one, and then with undisturbed flow. What run()
+// does not find from there, from_undisturbed_flow() finds by fallbacks:
 // beside(), by short time steps where little is left; in stages, which follow the flow from the scheme of
 // first order to the whole one (homotopy in dissipation: D. A. Brown and D. W. Zingg, J. Comput. Appl. Math.,
 // 2018, doi 10.1016/j.cam.2018.06.036, and references there); and by steps at constant CFL away from states
@@ -53,6 +54,8 @@ struct SearchRecord {
   double residual = 0.0;
   std::vector<double> history;
   int newton_steps = 0, factorisations = 0, iterations = 0, gmres_iterations = 0;
+  int in_vain = 0;  // Newton steps from potential flow that led nowhere; newton_steps is without them
+  FlowOrigin origin = FlowOrigin::last_flow;
   double memory_mb = 0.0;
   bool whole_factors = true;
 
@@ -91,6 +94,12 @@ class NewtonSearch {
   void beside(const Measure& measure, State& state);
   // Starts from a flow that is near: without pseudo-time where it is very near and that does not stall.
   void near(const Measure& measure, State& state);
+  // Starts from potential flow; false where that leads to no flow and something else is to be tried.
+  bool from_potential_flow(const Measure& measure, State& state);
+  // From potential flow or else from undisturbed flow.
+  void cold(const Measure& measure, State& state) {
+    if (!from_potential_flow(measure, state)) from_undisturbed_flow(measure, state);
+  }
   // Starts from undisturbed flow, with all fallbacks. It looks for a given lift from the flow at a guess of
   // the angle, and by shorter steps where that stalls.
   void from_undisturbed_flow(const Measure& measure, State& state);
