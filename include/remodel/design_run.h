@@ -32,6 +32,7 @@ struct DesignRunOptions {
 struct FreshFlow {
   int points = 0;  // on each section
   std::size_t vertices = 0;
+  // cl and cm are not numbers where the flow's lift is not determined (FlowResult::lift_determined).
   double mach = 0.0, alpha_deg = 0.0, cl = 0.0, cd = 0.0, cm = 0.0;
   bool converged = false;
   std::vector<NamedNumber> violated;  // constraints of flows, by how much; within the tolerance they are not

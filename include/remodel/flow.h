@@ -161,7 +161,9 @@ struct FlowResult {
   // determined because they have no edge that the flow leaves from (below Mach 1), streams too slow for the
   // scheme.
   std::vector<std::string> warnings;
-  bool lift_determined = true;  // no warning is of a body without an edge
+  // No warning is of a body without an edge. Where one is, lift and moment are those of one of many flows and
+  // mean nothing.
+  bool lift_determined = true;
 
   FlowStart start = FlowStart::cold;
   double residual = 0.0;               // as FlowOptions::tolerance counts it
