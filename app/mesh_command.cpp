@@ -46,9 +46,10 @@ Status run(const MeshCommand& command) {
                                                          : Json(command.shapes.shapes));
   add_findings(report, input);
   describe(report, command.meshing, input.in_farfield, input.outlines.empty());
-  add_mesh_figures(report, result.mesh.freeze(), result.mesh.statistics());
+  const bool interrupted = result.stopped == Stopped::interrupted;
+  interrupted ? add_mesh_counts(report, result.mesh) : add_mesh_figures(report, result.mesh);
   report.figure("small_angles", "input angles below 60 degrees", result.small_angles);
-  add_gradation_error(report, result.mesh.gradation_error(&observer));
+  add_gradation_error(report, interrupted ? no_gradation_error : result.mesh.gradation_error(&observer));
   report.figure("seconds", command.repeat > 1 ? "generation, median" : "generation", median(seconds),
                 "seconds");
   report.figure("stopped", "stopped", name_of(result.stopped));

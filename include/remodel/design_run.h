@@ -28,11 +28,10 @@ struct DesignRunOptions {
   std::size_t threads = 0;  // flows of points at the same time; times alone depend on it; 0: as many as cores
 };
 
-// The best design's flow at one point, on a fresh mesh, which no search has seen.
+// The best design's flow at one point, on a fresh mesh, which no search has seen. cl, cm: nan if undetermined.
 struct FreshFlow {
   int points = 0;  // on each section
   std::size_t vertices = 0;
-  // cl and cm are not numbers where the flow's lift is not determined (FlowResult::lift_determined).
   double mach = 0.0, alpha_deg = 0.0, cl = 0.0, cd = 0.0, cm = 0.0;
   bool converged = false;
   std::vector<NamedNumber> violated;  // constraints of flows, by how much; within the tolerance they are not

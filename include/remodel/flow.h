@@ -161,9 +161,7 @@ struct FlowResult {
   // determined because they have no edge that the flow leaves from (below Mach 1), streams too slow for the
   // scheme.
   std::vector<std::string> warnings;
-  // No warning is of a body without an edge. Where one is, lift and moment are those of one of many flows and
-  // mean nothing.
-  bool lift_determined = true;
+  bool lift_determined = true;  // false: a body has no edge; lift and moment mean nothing then
 
   FlowStart start = FlowStart::cold;
   double residual = 0.0;               // as FlowOptions::tolerance counts it
