@@ -106,8 +106,7 @@ class Keys {
 
 // The airfoil that a design problem in this directory calls by this name: a path leads on from the directory,
 // whatever the program's own is.
-inline CstFit airfoil_beside(const std::filesystem::path& directory, const std::string& name,
-                                 int degree) {
+inline CstFit airfoil_beside(const std::filesystem::path& directory, const std::string& name, int degree) {
   if (name.starts_with("naca:") || name == standard_input) return load_fit(name, degree);
   const std::filesystem::path file = directory / name;
   std::error_code ignored;
@@ -117,7 +116,8 @@ inline CstFit airfoil_beside(const std::filesystem::path& directory, const std::
   return load_fit(file.has_parent_path() ? file.string() : "./" + file.string(), degree);
 }
 
-// The section that a key names; what its file lost is said. Fits are of degree 8 at most; what is beyond is raised, exactly.
+// The section that a key names; what its file lost is said. Fits are of degree 8 at most; what is beyond is
+// raised, exactly.
 inline CstAirfoil section_named(const Keys& keys, const char* key, int degree,
                                 const std::filesystem::path& directory) {
   const std::string name = keys.get<std::string>(key);

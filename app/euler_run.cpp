@@ -160,7 +160,8 @@ Status run_euler(const EulerRun& run, const MeshInput& input, const std::string&
     const FlowProgressLine progress(options);
     LivingFlow living(options);
     flow = solve(run, input, source, living, options);
-    if (run.gradient && flow.converged()) gradients = gradients_json(living, *input.living, flow, run.conditions);
+    if (run.gradient && flow.converged())
+      gradients = gradients_json(living, *input.living, flow, run.conditions);
   }
   const std::vector<std::string> files = write_files(run, input, source, outputs, options, flow);
   print_warnings(source, flow.warnings);

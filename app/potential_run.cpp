@@ -15,9 +15,7 @@ namespace remodel::app {
 namespace {
 
 void add_flow_figures(Report& report, const PotentialFlow& flow) {
-  const auto if_determined = [&](double value) {
-    return flow.lift_determined ? Json(value) : Json(nullptr);
-  };
+  const auto if_determined = [&](double value) { return flow.lift_determined ? Json(value) : Json(nullptr); };
   const auto figure = [&](const char* key, const char* label, double value) {
     if (flow.lift_determined) return report.figure(key, label, value);
     report.data(key, nullptr);

@@ -47,8 +47,7 @@ py::dict bodies_of(const PotentialFlow& flow) {
     }
     result[py::str(body.name)] = py::dict("points"_a = points, "vertices"_a = vertices, "cp"_a = cp,
                                           "speed"_a = speed, "lift"_a = if_determined(flow, body.lift),
-                                          "drag"_a = body.drag,
-                                          "moment"_a = if_determined(flow, body.moment),
+                                          "drag"_a = body.drag, "moment"_a = if_determined(flow, body.moment),
                                           "circulation"_a = if_determined(flow, body.circulation));
   }
   return result;
@@ -84,8 +83,7 @@ void add_potential_flows(py::module_& module) {
       .def_property_readonly("lift_by_pressure",
                              [](const PotentialFlow& f) { return if_determined(f, f.lift_by_pressure); })
       .def_readonly("drag_by_pressure", &PotentialFlow::drag_by_pressure, "An error of the mesh.")
-      .def_property_readonly("moment",
-                             [](const PotentialFlow& f) { return if_determined(f, f.moment); })
+      .def_property_readonly("moment", [](const PotentialFlow& f) { return if_determined(f, f.moment); })
       .def_readonly("warnings", &PotentialFlow::warnings,
                     "What has to be known before a coefficient is used: a list of sentences.")
       .def_readonly("lift_determined", &PotentialFlow::lift_determined,

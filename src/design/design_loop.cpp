@@ -188,8 +188,8 @@ OptimiseStopped Run::evaluate_some(OptimiseObserver& observer) {
     progress_.refused += options_.max_refused;
     return OptimiseStopped::infeasible;
   }
-  if (is_middle()) write_mesh(progress_.workers.last_mesh(), options_.directory / "middle.vtkhdf",
-               boxes_of(options_));
+  if (is_middle())
+    write_mesh(progress_.workers.last_mesh(), options_.directory / "middle.vtkhdf", boxes_of(options_));
   if (checkpoint_due()) checkpoint();
   return OptimiseStopped::done;
 }

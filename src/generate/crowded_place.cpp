@@ -69,11 +69,9 @@ MeshCounts counts_of(const Mesh& whole) {
   for (std::size_t curve = 0; curve < mesh.domain.curve_count(); ++curve)
     counts.boundary[mesh.domain.curve(curve).name] = 0;
   for (const std::uint32_t head : mesh.loop_heads) {
-    mesh.walk_edges(head, [&](std::uint32_t k, std::uint32_t) {
-      ++counts.boundary[mesh.curve(mesh.at(k).curve).name];
-    });
-    mesh.walk(head,
-              [&](std::uint32_t k) { counts.steiner_boundary_vertices += mesh.at(k).steiner ? 1 : 0; });
+    mesh.walk_edges(
+        head, [&](std::uint32_t k, std::uint32_t) { ++counts.boundary[mesh.curve(mesh.at(k).curve).name]; });
+    mesh.walk(head, [&](std::uint32_t k) { counts.steiner_boundary_vertices += mesh.at(k).steiner ? 1 : 0; });
   }
   return counts;
 }

@@ -39,7 +39,8 @@ Refiner::Refiner(MeshData& mesh, StepObserver* observer)
   promised_.squared_gradation = mesh.promised_bounds().squared_gradation;
 }
 
-// In the order of memory: to take them one by one in theirs takes a large mesh that was interrupted far longer.
+// In the order of memory: to take them one by one in theirs takes a large mesh that was interrupted far
+// longer.
 Refiner::~Refiner() {
   if (!waiting_) return;
   for (std::uint32_t i = 0; i < triangulation_.triangle_slots(); ++i)

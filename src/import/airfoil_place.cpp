@@ -18,7 +18,7 @@ namespace {
 constexpr double sharp_turn = 120.0 * std::numbers::pi / 180.0;
 constexpr double blunt_turn = 45.0 * std::numbers::pi / 180.0;
 constexpr double nose_turn = 75.0 * std::numbers::pi / 180.0;  // less is a nose's, more a corner's
-constexpr double longest_base = 0.1;  // of the outline's extent
+constexpr double longest_base = 0.1;                           // of the outline's extent
 constexpr std::size_t polyline_pieces = 8;
 
 // Counter-clockwise, closed: the last point is not the first one again.

@@ -159,9 +159,9 @@ LoopsOfMesh loops_of(const SoundMesh& mesh) {
   }
   // With the domain on the left, outlines run counter-clockwise and holes clockwise.
   for (std::size_t i = 0; i < result.domain.loops.size(); ++i)
-    result.domain.loops[i].role = result.domain.loops[i].open            ? LoopRole::left
+    result.domain.loops[i].role = result.domain.loops[i].open           ? LoopRole::left
                                   : signed_area(result.domain, i) > 0.0 ? LoopRole::outer
-                                                                         : LoopRole::hole;
+                                                                        : LoopRole::hole;
   name_regions(mesh, result);
   result.joint = boundary.joint();
   for (const InnerChain& chain : inner_chains(mesh)) add_inner_chain(mesh, chain, result);
