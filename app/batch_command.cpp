@@ -27,6 +27,7 @@
 #include "shape_input.h"
 #include "start_mesh.h"
 #include "timing.h"
+#include "warnings.h"
 
 namespace remodel::app {
 namespace {
@@ -309,7 +310,7 @@ Status run(const BatchCommand& command) {
   if (!start.su2_boxes.empty())
     for (const std::string& extension : command.meshes)
       if (extension != "su2" && extension != "vtkhdf")
-        warn_of_boxes((command.directory / ("*." + extension)).string());
+        warn((command.directory / ("*." + extension)).string() + boxes_left_out);
   const InterruptFlag interrupt;
   Batch batch(command, start);
   bool finished = true;

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "arguments.h"
-#include "remodel/limits.h"
 
 namespace remodel::app {
 
@@ -36,24 +35,18 @@ void add_exemption_figures(Report& report, std::size_t exempt, double min_held_a
   report.figure("exempt_triangles", "exempt triangles", exempt, "(at input angles below 60 degrees)");
 }
 
-void add_mesh_figures(Report& report, const Mesh& mesh) {
-  add_mesh_counts(report, mesh);
-  const MeshStatistics statistics = mesh.statistics();
+void add_mesh_figures(Report& report, const FrozenMesh& mesh, const MeshStatistics& statistics) {
+  report.figure("triangles", "triangles", statistics.triangles);
+  report.figure("vertices", "vertices", statistics.vertices);
+  std::map<std::string, std::size_t> boundary;
+  for (const FrozenBoundary& part : mesh.boundaries) boundary[part.name] += part.edges.size();
+  add_boundary_figures(report, boundary);
+  report.figure("steiner_boundary_vertices", "Steiner vertices on the boundary",
+                statistics.steiner_boundary_vertices);
   report.figure("min_angle_deg", "smallest angle", statistics.min_angle_deg, "degrees");
   add_exemption_figures(report, statistics.exempt_triangles, statistics.min_held_angle_deg);
   report.figure("max_radius_edge", "largest radius-edge ratio", statistics.max_radius_edge);
   report.figure("max_gradation", "largest r / (H mean LS)", statistics.max_gradation);
-}
-
-void add_mesh_counts(Report& report, const Mesh& mesh) {
-  const MeshCounts counts = counts_of(mesh);
-  report.figure("triangles", "triangles", counts.triangles);
-  report.figure("vertices", "vertices", counts.vertices);
-  add_boundary_figures(report, counts.boundary);
-  report.figure("steiner_boundary_vertices", "Steiner vertices on the boundary",
-                counts.steiner_boundary_vertices);
-  for (const char* key : {"min_angle_deg", "exempt_triangles", "max_radius_edge", "max_gradation"})
-    report.data(key, nullptr);
 }
 
 void add_gradation_error(Report& report, const GradationError& error) {

@@ -3,7 +3,6 @@
 // Figures and options that several subcommands share.
 
 #include <cstddef>
-#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -29,12 +28,8 @@ void add_mesh_argument(CLI::App& app, std::string& mesh);  // of any format
 
 // triangles, vertices, boundary{name: edges}, steiner_boundary_vertices, min_angle_deg, max_radius_edge,
 // max_gradation.
-void add_mesh_figures(Report& report, const Mesh& mesh);
-// The same of a mesh that was interrupted: counts alone, what is measured is null.
-void add_mesh_counts(Report& report, const Mesh& mesh);
+void add_mesh_figures(Report& report, const FrozenMesh& mesh, const MeshStatistics& statistics);
 void add_gradation_error(Report& report, const GradationError& error);  // gradation_bias, gradation_deviation
-inline constexpr GradationError no_gradation_error{std::numeric_limits<double>::quiet_NaN(),
-                                                   std::numeric_limits<double>::quiet_NaN()};
 // exempt_triangles and, if there are any, min_held_angle_deg of all other triangles.
 void add_exemption_figures(Report& report, std::size_t exempt, double min_held_angle_deg);
 void add_boundary_figures(Report& report, const std::map<std::string, std::size_t>& boundary);

@@ -9,6 +9,7 @@
 
 #include "arguments.h"
 #include "remodel/error.h"
+#include "start_mesh.h"
 #include "warnings.h"
 
 namespace remodel::app {
@@ -69,10 +70,6 @@ void warn_of_inner_curves(const FrozenMesh& mesh, const std::string& file, const
   say_left_out(inner_curves(mesh), file, "which SU2 would take for a wall (" + remedy + ")");
 }
 
-void warn_of_boxes(const std::string& file) {
-  warn(file + ": FFD boxes are left out, for which the format has no place");
-}
-
 void MeshOutputs::add_options(CLI::App& app, Presence presence) {
   add_texts(app,
             {"-o,--output", "MESH", "",
@@ -111,7 +108,7 @@ void MeshOutputs::write_each(const AnyMesh& mesh, std::span<const Field> fields)
     if (inner_markers_) options.inner = InnerCurves::markers;
     const MeshFormat format = mesh_format(file);
     if (!options.su2_boxes.empty() && format != MeshFormat::su2 && format != MeshFormat::vtkhdf)
-      warn_of_boxes(file);
+      warn(file + boxes_left_out);
     if (format != MeshFormat::su2 && format != MeshFormat::foam)
       options.fields = fields;
     else if constexpr (std::is_same_v<AnyMesh, Mesh>)

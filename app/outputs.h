@@ -40,8 +40,6 @@ class MeshOutputs {
   WriteOptions options_;
 };
 
-// Says that a file of such a format has no FFD boxes.
-void warn_of_boxes(const std::string& file);
 // Says on standard error which curves inside the mesh a .su2 file leaves out, and how to have them there.
 void warn_of_inner_curves(const FrozenMesh& mesh, const std::string& file, const std::string& remedy);
 // Throws Error (file) if the file is a directory, or its directory is missing or not writable.
