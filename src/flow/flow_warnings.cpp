@@ -106,7 +106,7 @@ Warnings warnings_of(const FlowMesh& mesh, double mach, double alpha_deg) {
 
 Warnings warnings_of(const std::vector<PotentialOutline>& bodies, const PotentialFlow& flow,
                      const LiftAgain& again) {
-  constexpr double part = 0.04, least = 0.01;
+  constexpr double part = 0.035, least = 0.01;
   Warnings warnings;
   for (const PotentialOutline& body : bodies) {
     const bool no_edge = body.base == 0;
