@@ -133,7 +133,7 @@ std::vector<std::string> write_files(const EulerRun& run, const MeshInput& input
                                      const FlowResult& flow) {
   std::vector<std::string> files;
   const std::string caption = options.inlets.empty() && options.outlets.empty()
-                                  ? flow_caption(flow.mach, flow.alpha_deg, flow.cl)
+                                  ? flow_caption(flow.mach, flow.alpha_deg, determined_lift(flow))
                                   : duct_caption(flow.mach);
   if (flow.converged()) {
     write_with_fields(outputs, input, fields_of(flow));
@@ -171,7 +171,8 @@ Status run_euler(const EulerRun& run, const MeshInput& input, const std::string&
     const FlowProgressLine progress(options);
     LivingFlow living(options);
     flow = solve(run, input, source, living, options);
-    if (run.gradient && flow.converged()) gradients = gradients_json(living, *input.living, run.conditions);
+    if (run.gradient && flow.converged())
+      gradients = gradients_json(living, *input.living, flow, run.conditions);
     if (run.error && flow.converged())
       error = estimate_error(*input.living, flow, run.conditions, options, source);
   }
@@ -182,7 +183,7 @@ Status run_euler(const EulerRun& run, const MeshInput& input, const std::string&
   print_warnings(source, flow.warnings);
   Report report;
   add_flow_mesh(report, source, "euler", input.frozen);
-  add_flow_figures(report, flow);
+  add_flow_figures(report, flow, run.conditions);
   if (!gradients.is_null()) add_gradients(report, gradients);
   if (error) add_error(report, *error);
   if (flow.converged() || !files.empty()) add_output_figures(report, files);

@@ -1,6 +1,6 @@
 // remodel mesh SHAPE... [-o MESH]...: a fresh quality mesh.
 
-#include <map>
+#include <limits>
 #include <memory>
 
 #include "arguments.h"
@@ -10,6 +10,7 @@
 #include "interrupt.h"
 #include "meshing_options.h"
 #include "outputs.h"
+#include "remodel/limits.h"
 #include "timing.h"
 #include "warnings.h"
 
@@ -23,6 +24,19 @@ struct MeshCommand {
   int repeat = 1;
   bool json = false;
 };
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+// Of a mesh that was interrupted: there was no time to measure it.
+void add_counts(Report& report, const MeshCounts& counts) {
+  report.figure("triangles", "triangles", counts.triangles);
+  report.figure("vertices", "vertices", counts.vertices);
+  add_boundary_figures(report, counts.boundary);
+  report.figure("steiner_boundary_vertices", "Steiner vertices on the boundary",
+                counts.steiner_boundary_vertices);
+  for (const char* key : {"min_angle_deg", "exempt_triangles", "max_radius_edge", "max_gradation"})
+    report.data(key, nullptr);
+}
 
 Status run(const MeshCommand& command) {
   command.outputs.require_possible();
@@ -46,9 +60,14 @@ Status run(const MeshCommand& command) {
                                                          : Json(command.shapes.shapes));
   add_findings(report, input);
   describe(report, command.meshing, input.in_farfield, input.outlines.empty());
-  add_mesh_figures(report, result.mesh.freeze(), result.mesh.statistics());
+  const bool interrupted = result.stopped == Stopped::interrupted;
+  if (interrupted)
+    add_counts(report, counts_of(result.mesh));
+  else
+    add_mesh_figures(report, result.mesh.freeze(), result.mesh.statistics());
   report.figure("small_angles", "input angles below 60 degrees", result.small_angles);
-  add_gradation_error(report, result.mesh.gradation_error(&observer));
+  add_gradation_error(report,
+                      interrupted ? GradationError{none, none} : result.mesh.gradation_error(&observer));
   report.figure("seconds", command.repeat > 1 ? "generation, median" : "generation", median(seconds),
                 "seconds");
   report.figure("stopped", "stopped", name_of(result.stopped));

@@ -70,8 +70,10 @@ Objective flow_objective(const NoiseCommand& command, StepObserver& observer, bo
           [=, conditions = command.conditions](const Mesh& mesh, std::span<const double>) -> Values {
             if (!carry) solver->forget();
             const FlowResult flow = solver->solve(mesh, conditions);
-            if (flow.converged()) return std::vector{flow.cl, flow.cd};
-            failures->push_back(flow.reason);
+            if (flow.converged() && flow.lift_determined) return std::vector{flow.cl, flow.cd};
+            failures->push_back(
+                flow.converged() ? "the lift is not determined: a body has no edge that the flow leaves from"
+                                 : flow.reason);
             return std::nullopt;
           },
           [=](const Mesh& mesh, std::span<const double> direction) {

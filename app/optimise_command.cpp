@@ -112,6 +112,7 @@ std::function<OptimiseResult()> once(const OptimiseCommand& command, OptimiseSta
   if (!command.evaluate.command.empty()) {
     EvaluateOptions options = command.evaluate;
     options.run.directory = command.run.directory / "evaluations";
+    if (command.run.start) options.run.su2_boxes = command.run.start->su2_boxes;
     std::shared_ptr<Evaluator> evaluator = shell_evaluator(options);
     return [&, evaluator] { return optimise(start.from, *evaluator, command.run, &progress); };
   }

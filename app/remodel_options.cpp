@@ -16,7 +16,7 @@ void add_remodel_options(CLI::App& app, RemodelOptions& options) {
   for (const Method method : methods) words.emplace_back(name_of(method));
   add_choice(app,
              {"--method", "METHOD", "auto",
-              "auto, specialised (vertices correspond one to one) or general (any loops)"},
+              "auto, specialised (domains that correspond but for a few stations) or general (any loops)"},
              words, [&](std::size_t choice) { options.method = methods[choice]; });
   add_real(app,
            {"--keep", "FACTOR", "1.1 for G up to 1, 1.2 up to 2, otherwise 1.25",

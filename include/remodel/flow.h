@@ -170,7 +170,7 @@ struct FlowResult {
   // determined because they have no edge that the flow leaves from (below Mach 1), drag of more than ten counts
   // where nothing is faster than sound, which mesh and scheme make.
   std::vector<std::string> warnings;
-  bool lift_determined = true;  // no warning is of a body without an edge
+  bool lift_determined = true;  // false: a body has no edge; lift and moment mean nothing then
 
   FlowStart start = FlowStart::cold;
   FlowOrigin origin = FlowOrigin::undisturbed;

@@ -30,9 +30,7 @@ class Refiner {
   // the mesh's arena: within a scope of it.
   explicit Refiner(MeshData& mesh, StepObserver* observer = nullptr);
   // A limit or an exception leaves no marks behind.
-  ~Refiner() {
-    while (next_bad()) continue;
-  }
+  ~Refiner();
   Refiner(const Refiner&) = delete;
   Refiner& operator=(const Refiner&) = delete;
 
@@ -113,6 +111,7 @@ class Refiner {
   std::size_t vertex_limit_;
   StepObserver* observer_;
   std::uint32_t polls_ = 0;
+  bool waiting_ = false;  // something may be marked
   bool refused_ = false;  // a segment or a triangle was too small to be split
   bool labelled_ = true;  // false while boundaries are being recovered: the caller labels afterwards
 };

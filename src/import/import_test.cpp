@@ -301,7 +301,7 @@ TEST(Import, WhatIsNoMeshIsRefusedByName) {
 }
 
 // Two triangles that share a point only.
-TEST(Import, BoundariesThatTouchAreRefused) {
+TEST(Import, BoundariesThatTouchAreChainsThatAreJoined) {
   const FrozenMesh mesh{.points = {{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}},
                         .triangles = {{0, 1, 2}, {0, 3, 4}},
                         .boundaries = {},
@@ -311,7 +311,53 @@ TEST(Import, BoundariesThatTouchAreRefused) {
                         .birth = {},
                         .curve = {},
                         .parameter = {}};
-  EXPECT_EQ(problem(mesh), "file.su2: point 0: boundaries touch here, loops without a common point expected");
+  const Mesh mesh_of_it = imported(mesh).mesh;
+  EXPECT_EQ(mesh_of_it.quick_check(), "");
+  ASSERT_EQ(mesh_of_it.domain().loops.size(), 4U);
+  for (const Loop& loop : mesh_of_it.domain().loops) {
+    EXPECT_TRUE(loop.open);
+    EXPECT_EQ(loop.role, LoopRole::left);
+  }
+  EXPECT_EQ(mesh_of_it.freeze().triangles, mesh.triangles);
+  EXPECT_EQ(check(mesh_of_it.freeze()).touching_points, 1U);
+}
+
+// Two islands that touch in a point, each of two chains, and a hole by itself, which moves.
+TEST(Import, AMeshWhoseHolesTouchIsRemodelled) {
+  Domain domain = test::with_holes({test::square_hole(0.75, 0.7, 0.1)});
+  const auto add = [&](std::vector<Point> points) {
+    Loop loop = test::loop(LoopRole::left, "island", Polyline{points}, points.size() - 1);
+    loop.open = true;
+    domain.loops.push_back(loop);
+  };
+  const Point touch{0.3, 0.3};
+  for (const double side : {-0.15, 0.15}) {  // clockwise
+    add({touch, touch + Point{0, side}, touch + Point{side, side}});
+    add({touch + Point{side, side}, touch + Point{side, 0}, touch});
+  }
+  const FrozenMesh file = test::foreign(domain);
+  ASSERT_EQ(check(file).touching_points, 1U);
+  const Mesh start = imported(file).mesh;
+  EXPECT_EQ(start.quick_check(), "");
+  EXPECT_EQ(all_corners(start.freeze()), all_corners(file));
+  Domain moved = start.domain();
+  std::size_t closed = 0;
+  for (Loop& loop : moved.loops)
+    if (!loop.open && loop.role == LoopRole::hole) {
+      loop.placement.position = {0.02, 0.01};
+      ++closed;
+    }
+  ASSERT_EQ(closed, 1U);
+  for (const Strategy strategy : {Strategy::chain, Strategy::morph}) {
+    Mesh mesh = start;
+    const RemodelResult result = remodel(mesh, moved, {.strategy = strategy});
+    EXPECT_FALSE(result.regenerated) << result.reason;
+    EXPECT_GT(result.connectivity_percent(), 60.0);
+    EXPECT_EQ(mesh.quick_check(), "");
+    const CheckResult checked = check(mesh.freeze(), {.design = &mesh.domain()});
+    EXPECT_TRUE(checked.valid);
+    EXPECT_EQ(checked.touching_points, 1U);
+  }
 }
 
 // Each triangle is fine, each edge has one on either side, and the plane is covered twice.

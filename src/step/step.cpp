@@ -510,7 +510,10 @@ std::optional<List<VertexId>> Step::change_structure(const ReplaceOptions& optio
   replace_loops(mesh, *correspondence_, places_, options);
   List<VertexId> moved(&mesh.arena);
   const LoopIndices moving = settle(mesh, moved);
-  if (moving.empty()) return moved;
+  if (moving.empty()) {
+    morphing_.reset();  // nothing moves: all that there is to do is to fill what loops have left
+    return moved;
+  }
   if (joined(mesh, moving)) throw RecoveryError("chains are joined to what moves");
   cache_ = &adjust_cache(mesh, moving);
   std::optional<List<VertexId>> others(&mesh.arena);
