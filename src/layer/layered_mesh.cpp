@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 #include "generate/require_option.h"
@@ -9,6 +8,7 @@
 #include "remodel/error.h"
 #include "remodel/generate.h"
 #include "step/correspondence.h"
+#include "step/outcome.h"
 
 namespace remodel {
 
@@ -130,17 +130,45 @@ LayeredRemodelResult of_the_whole(const RemodelResult& outer, const LayerCounts&
   return result;
 }
 
+// A fresh outer mesh takes the place of the one before, with keys that were never given out.
+RemodelResult regenerate_outside(Mesh& outer, const Domain& outside, const RemodelOptions& options,
+                                 const char* reason) {
+  RemodelResult as_it_was = unchanged(outer.data());
+  as_it_was.reason = reason;
+  as_it_was.abandoned = !options.regenerate;
+  if (as_it_was.abandoned) return as_it_was;
+  GenerateResult fresh = generate(outside, outer.options(), options.observer);
+  if (fresh.stopped == Stopped::interrupted) return interrupted(outer.data());
+  MeshData& made = fresh.mesh.data();
+  made.keep = outer.keep();
+  made.step = outer.step() + 1;
+  for (std::uint32_t i = 0; i < made.triangulation.triangle_slots(); ++i)
+    made.triangulation.set_birth(TriangleId{i}, made.step);
+  made.triangulation.begin_generations_after(outer.data().triangulation);
+  RemodelResult result = count_exchange(outer, fresh.mesh);
+  result.stopped = fresh.stopped;
+  result.regenerated = true;
+  result.reason = reason;
+  outer = std::move(fresh.mesh);
+  return result;
+}
+
 // The step of the outer mesh. Where it follows by index it takes the tops as they are. Where it has to find out
-// what is what, it could keep an old loop whose places are the tops' to the last rounding: that is no step of ours.
+// what is what, it may keep an old loop whose places are those of the tops to the last rounding, although the wall
+// below is another one, or is written otherwise. Then the tops are not the columns'.
 RemodelResult step_outside(Mesh& outer, const Domain& outside, const LayerColumns& columns,
                            const RemodelOptions& options) {
   if (follows_by_index(outer.domain(), outside)) return remodel(outer, outside, options);
-  Trial trial(outer, outside, options);
-  const RemodelResult result = trial.result();
-  if (!result.abandoned && result.stopped != Stopped::interrupted && !same_tops(outer.domain(), outside, columns))
-    throw std::logic_error("the outer mesh has other tops than the layer");
-  trial.keep();
-  return result;
+  {
+    Trial trial(outer, outside, options);
+    const RemodelResult result = trial.result();
+    const bool as_it_was = result.abandoned || result.stopped == Stopped::interrupted;
+    if (as_it_was || same_tops(outer.domain(), outside, columns)) {
+      trial.keep();
+      return result;
+    }
+  }
+  return regenerate_outside(outer, outside, options, "the wall is the same place, described in another way");
 }
 
 }  // namespace
