@@ -83,6 +83,12 @@ void add_gradation(Report& report, const CheckResult& result, const MeshInput& i
                 result.max_gradation);
 }
 
+void add_corner_angles(Report& report, const CheckResult& result) {
+  if (result.quadrilaterals == 0) return;
+  report.figure("corner_min_deg", "smallest corner of quadrilaterals", result.least_corner_deg, "degrees");
+  report.figure("corner_max_deg", "largest corner of quadrilaterals", result.largest_corner_deg, "degrees");
+}
+
 void warn_of_result(const CheckCommand& command, const MeshInput& input, const CheckOptions& options,
                     const CheckResult& result) {
   if (result.touching_points > 0)
@@ -106,12 +112,18 @@ Status run(const CheckCommand& command) {
   report.figure("valid", "valid", result.valid);
   add_violations(report, result.violations);
   warn_of_result(command, input, options, result);
-  report.figure("triangles", "triangles", result.triangles);
+  add_cell_counts(report, result.triangles, result.quadrilaterals);
+  add_corner_angles(report, result);
   report.figure("vertices", "vertices", result.vertices);
   report.data("unused_points", result.unused_points);
   if (result.unused_points > 0)
-    report.line("left out", std::to_string(result.unused_points) + " points of no triangle");
-  report.figure("min_angle_deg", "smallest angle", result.min_angle_deg, "degrees");
+    report.line("left out",
+                std::to_string(result.unused_points) +
+                    (result.quadrilaterals > 0 ? " points of no cell" : " points of no triangle"));
+  if (std::isnan(result.min_angle_deg))
+    report.data("min_angle_deg", nullptr);
+  else
+    report.figure("min_angle_deg", "smallest angle", result.min_angle_deg, "degrees");
   add_exemption_figures(report, result.exempt_triangles, result.min_held_angle_deg);
   report.data("beyond_bounds", result.beyond_bounds);
   report.data("touching_points", result.touching_points);
@@ -121,7 +133,8 @@ Status run(const CheckCommand& command) {
   Json regions = Json::object();
   for (const auto& [name, count] : result.regions) {
     regions[name] = count;
-    report.line("region " + name, std::to_string(count) + " triangles");
+    report.line("region " + name,
+                std::to_string(count) + (result.quadrilaterals > 0 ? " cells" : " triangles"));
   }
   report.data("regions", regions);
   report.figure("area", "area", result.area, "square chords");

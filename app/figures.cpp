@@ -35,6 +35,13 @@ void add_exemption_figures(Report& report, std::size_t exempt, double min_held_a
   report.figure("exempt_triangles", "exempt triangles", exempt, "(at input angles below 60 degrees)");
 }
 
+void add_cell_counts(Report& report, std::size_t triangles, std::size_t quadrilaterals) {
+  report.figure("triangles", "triangles", triangles);
+  report.data("quadrilaterals", quadrilaterals);
+  if (quadrilaterals > 0) report.line("quadrilaterals", std::to_string(quadrilaterals));
+  report.data("cells", triangles + quadrilaterals);
+}
+
 void add_mesh_figures(Report& report, const FrozenMesh& mesh, const MeshStatistics& statistics) {
   report.figure("triangles", "triangles", statistics.triangles);
   report.figure("vertices", "vertices", statistics.vertices);
@@ -67,7 +74,7 @@ void add_output_figures(Report& report, const std::vector<std::string>& files) {
 void add_flow_mesh(Report& report, const std::string& source, const char* model, const FrozenMesh& mesh) {
   report.figure("mesh", "mesh", source);
   report.data("model", model);
-  report.figure("triangles", "triangles", mesh.triangles.size());
+  add_cell_counts(report, mesh.triangles.size(), mesh.quads.size());
   report.figure("vertices", "vertices", mesh.points.size());
 }
 

@@ -26,6 +26,8 @@ void add_json_flag(CLI::App& app, bool& json);
 void add_shape_argument(CLI::App& app, std::string& shape);
 void add_mesh_argument(CLI::App& app, std::string& mesh);  // of any format
 
+// triangles, quadrilaterals and cells, which are both.
+void add_cell_counts(Report& report, std::size_t triangles, std::size_t quadrilaterals);
 // triangles, vertices, boundary{name: edges}, steiner_boundary_vertices, min_angle_deg, max_radius_edge,
 // max_gradation.
 void add_mesh_figures(Report& report, const FrozenMesh& mesh, const MeshStatistics& statistics);

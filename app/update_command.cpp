@@ -64,7 +64,7 @@ std::size_t triangles_in_common(const FrozenMesh& file, const FrozenMesh& after)
     std::sort(triangles.begin(), triangles.end());
     return triangles;
   };
-  const auto of_file = sorted_triangles(file), now = sorted_triangles(after);
+  const auto of_file = sorted_triangles(with_split_quads(file)), now = sorted_triangles(after);
   std::size_t common = 0;
   for (const auto& triangle : of_file) common += std::binary_search(now.begin(), now.end(), triangle);
   return common;
@@ -92,9 +92,9 @@ void warn_of_losses(const UpdateCommand& command, const StartMesh& start, const 
                          " join the same vertices as before");
   if (!start.imported || start.imported->flipped_edges == 0) return;
   const std::size_t common = triangles_in_common(file, after);
-  if (2 * common < file.triangles.size())
-    say(of(file.triangles.size() - common, file.triangles.size()) +
-        " triangles of the file are not in the new mesh: " +
+  const std::size_t all = file.triangles.size() + 2 * file.quads.size();
+  if (2 * common < all)
+    say(of(all - common, all) + " triangles of the file are not in the new mesh: " +
         std::to_string(start.imported->non_delaunay_edges) +
         " of its edges are not Delaunay, and Delaunay triangles took their places");
 }
