@@ -12,6 +12,7 @@
 
 #include "remodel/field.h"
 #include "remodel/frozen_mesh.h"
+#include "remodel/layers.h"
 #include "remodel/mesh.h"
 #include "remodel/planar.h"
 
@@ -72,8 +73,19 @@ std::string without_surface_points(const std::string& su2_boxes, std::size_t& su
 // out are fields of more than three components, of integers or text, and in .msh files those that say nothing
 // of some vertex or cell. A .su2 file has none.
 std::vector<Field> read_fields(const std::filesystem::path& file);
-// Reads a native mesh. A .vtkhdf without state, or another format, is an Error that says what was expected.
+// Reads a native mesh. A .vtkhdf without state, or another format, is an Error that says what was expected; so is
+// (format) a mesh with layers, for which there are the calls below.
 Mesh read_mesh(const std::filesystem::path& file);
+
+// A layered mesh in any format, as freeze(cells) has it. A .vtkhdf file holds the outer mesh's state, the walls and
+// the options of the layer too, and the rest is computed from these to the bit. Of that file read_frozen_mesh()
+// has the whole view.
+void write_mesh(const LayeredMesh& mesh, const std::filesystem::path& file, const WriteOptions& options = {},
+                LayerCells cells = LayerCells::quadrilaterals);
+// True for a .vtkhdf file of a layered mesh with its state.
+bool holds_layers(const std::filesystem::path& file);
+// Throws Error as read_mesh() does, and for a native mesh without layers.
+LayeredMesh read_layered_mesh(const std::filesystem::path& file);
 
 // A written place is where writing to `file` puts its bytes.
 struct WrittenPlace {

@@ -67,6 +67,7 @@ class LayerView {
       for (std::size_t c = 0; c < ring.size(); ++c, ++column) {
         const auto add = [&](Point p, std::uint32_t level, std::int32_t curve, double t) {
           mesh_.points.push_back(p);
+          mesh_.length_scale.push_back(ring.spacing[c]);
           const VertexKey key{{column * (levels_ + 1) + level}, layer_generation | epoch};
           mesh_.vertex_keys.push_back(key.value());
           mesh_.curve.push_back(curve);
@@ -108,6 +109,7 @@ class LayerView {
       for (std::size_t c = 0; c < tops_[r].top.size(); ++c, ++column) {
         const std::size_t p = position(tops_[r].top[c]);
         point_of_[p] = topology_.point(column, levels_);
+        mesh_.length_scale[point_of_[p]] = outside_.length_scale[p];
         on_top_[p] = r;
         for (const RingTops::Split& split : tops_[r].splits[c]) {
           const std::size_t s = position(split.key.id);
@@ -121,6 +123,7 @@ class LayerView {
       point_of_[p] = static_cast<std::uint32_t>(mesh_.points.size());
       const std::int32_t curve = outside_.curve[p] < 0 ? -1 : curves[static_cast<std::size_t>(outside_.curve[p])];
       mesh_.points.push_back(outside_.points[p]);
+      mesh_.length_scale.push_back(outside_.length_scale[p]);
       mesh_.vertex_keys.push_back(outside_.vertex_keys[p]);
       mesh_.curve.push_back(curve);
       mesh_.parameter.push_back(curve < 0 ? 0.0 : outside_.parameter[p]);
@@ -185,6 +188,7 @@ class LayerView {
 
   void add_outer_cells() {
     const std::size_t of_layer = mesh_.triangles.size();
+    mesh_.layer_triangles = static_cast<std::uint32_t>(of_layer);
     for (const auto& triangle : outside_.triangles)
       mesh_.triangles.push_back({point_of_[triangle[0]], point_of_[triangle[1]], point_of_[triangle[2]]});
     if (outside_.region_names.empty()) return;
