@@ -11,10 +11,10 @@
 #include <optional>
 #include <utility>
 
+#include "geometry/filters.h"
 #include "layer/ball.h"
 #include "layer/heights.h"
 #include "remodel/error.h"
-#include "remodel/predicates.h"
 #include "shape/segments.h"
 
 namespace remodel {
@@ -84,16 +84,16 @@ struct Box {
 };
 
 // The stations of all loops, and points between those that lie far apart where a layer may come near.
-std::vector<Point> boundary_samples(const Domain& walls, const std::vector<ColumnRing>& rings, double thickness) {
+std::vector<Point> boundary_samples(const Walls& walls, const std::vector<ColumnRing>& rings, double thickness) {
   Box near;
   for (const ColumnRing& ring : rings)
     for (const Point p : ring.foot) near.take(p, 5.0 * thickness);
   std::vector<Point> samples;
-  for (std::size_t l = 0; l < walls.loops.size(); ++l) {
-    const std::vector<Point> points = walls.points(l);
+  for (std::size_t l = 0; l < walls.points.size(); ++l) {
+    const std::vector<Point>& points = walls.points[l];
     for (std::size_t i = 0; i < points.size(); ++i) {
       samples.push_back(points[i]);
-      if (i + 1 == points.size() && walls.loops[l].open) break;
+      if (i + 1 == points.size() && walls.domain.loops[l].open) break;
       const Point a = points[i], b = points[i + 1 == points.size() ? 0 : i + 1];
       if (!near.meets(a, b)) continue;
       const double pieces = std::min(std::floor(2.0 * distance(a, b) / thickness), 1000.0);
@@ -116,7 +116,7 @@ void limit_slope(ColumnRing& ring) {
   }
 }
 
-void set_room(std::vector<ColumnRing>& rings, const Domain& walls, double wanted) {
+void set_room(std::vector<ColumnRing>& rings, const Walls& walls, double wanted) {
   const WallBalls balls(boundary_samples(walls, rings, wanted));
   for (ColumnRing& ring : rings) {
     ring.thickness.assign(ring.size(), wanted);
@@ -211,17 +211,40 @@ void mark_pair(ColumnSet& marked, const std::vector<ColumnRing>& rings, std::siz
   marked[ring][rings[ring].after(column)] = true;
 }
 
+// Strictly convex and counter-clockwise.
+bool is_convex_quadrilateral(Point a, Point b, Point c, Point d) {
+  using geometry::orient2d_filtered;
+  return orient2d_filtered(a, b, c) > 0 && orient2d_filtered(b, c, d) > 0 && orient2d_filtered(c, d, a) > 0 &&
+         orient2d_filtered(d, a, b) > 0;
+}
+
+// Whether all cells between a column and the next one are convex.
+bool stand_well(const ColumnRing& ring, std::size_t column, std::uint32_t levels) {
+  const std::size_t other = ring.after(column);
+  const std::size_t a = ring.left ? column : other, b = ring.left ? other : column;
+  Point low_a = ring.foot[a], low_b = ring.foot[b];
+  const Point *high_a = &ring.points[a * levels], *high_b = &ring.points[b * levels];
+  std::uint32_t level = 0;
+  if (ring.station[a] == ring.station[b]) {
+    if (geometry::orient2d_filtered(low_a, *high_b, *high_a) <= 0) return false;
+    low_a = *high_a++, low_b = *high_b++, ++level;
+  }
+  for (; level < levels; ++level) {
+    if (!is_convex_quadrilateral(low_a, low_b, *high_b, *high_a)) return false;
+    low_a = *high_a++, low_b = *high_b++;
+  }
+  return true;
+}
+
 // The columns beside cells that are not convex.
 bool mark_folded(const std::vector<ColumnRing>& rings, std::uint32_t levels, ColumnSet& marked) {
   bool found = false;
   for (std::size_t r = 0; r < rings.size(); ++r)
-    for (std::size_t c = 0; c < rings[r].size(); ++c)
-      for (std::uint32_t level = 0; level < levels; ++level) {
-        if (is_convex(layer_cell(rings[r], c, level, levels))) continue;
-        mark_pair(marked, rings, r, c);
-        found = true;
-        break;
-      }
+    for (std::size_t c = 0; c < rings[r].size(); ++c) {
+      if (stand_well(rings[r], c, levels)) continue;
+      mark_pair(marked, rings, r, c);
+      found = true;
+    }
   return found;
 }
 
@@ -231,7 +254,7 @@ struct Owner {
 };
 
 // The columns of tops that meet others, or a loop without a layer: one pair of sides at a time.
-bool mark_meeting(const Domain& walls, const std::vector<ColumnRing>& rings, std::uint32_t levels, ColumnSet& marked) {
+bool mark_meeting(const Walls& walls, const std::vector<ColumnRing>& rings, std::uint32_t levels, ColumnSet& marked) {
   std::vector<Side> sides;
   std::vector<Owner> owners;
   const auto add = [&](const std::vector<Point>& points, bool open, std::size_t ring) {
@@ -243,11 +266,12 @@ bool mark_meeting(const Domain& walls, const std::vector<ColumnRing>& rings, std
       owners.push_back({ring, i});
     }
   };
-  std::vector<std::size_t> ring_of(walls.loops.size(), no_side);
+  const std::vector<Loop>& loops = walls.domain.loops;
+  std::vector<std::size_t> ring_of(loops.size(), no_side);
   for (std::size_t r = 0; r < rings.size(); ++r) ring_of[rings[r].loop] = r;
-  for (std::size_t l = 0; l < walls.loops.size(); ++l) {
+  for (std::size_t l = 0; l < loops.size(); ++l) {
     if (ring_of[l] == no_side) {
-      if (!is_single_point(walls.loops[l])) add(walls.points(l), walls.loops[l].open, no_side);
+      if (!is_single_point(loops[l])) add(walls.points[l], loops[l].open, no_side);
       continue;
     }
     const ColumnRing& ring = rings[ring_of[l]];
@@ -286,12 +310,11 @@ CellPoints layer_cell(const ColumnRing& ring, std::size_t column, std::uint32_t 
 
 bool is_convex(const CellPoints& cell) {
   const auto& p = cell.corner;
-  if (cell.triangle) return orient2d(p[1], p[2], p[3]) > 0;
-  return orient2d(p[0], p[1], p[2]) > 0 && orient2d(p[1], p[2], p[3]) > 0 && orient2d(p[2], p[3], p[0]) > 0 &&
-         orient2d(p[3], p[0], p[1]) > 0;
+  if (cell.triangle) return geometry::orient2d_filtered(p[1], p[2], p[3]) > 0;
+  return is_convex_quadrilateral(p[0], p[1], p[2], p[3]);
 }
 
-LayerColumns columns_of(const Domain& walls, const std::vector<std::size_t>& loops, const FanSectors& sectors,
+LayerColumns columns_of(const Walls& walls, const std::vector<std::size_t>& loops, const FanSectors& sectors,
                         const LayerOptions& options, std::uint32_t levels) {
   LayerColumns columns{rings_of(walls, loops, sectors), 0};
   std::vector<ColumnRing>& rings = columns.rings;
@@ -319,7 +342,7 @@ LayerColumns columns_of(const Domain& walls, const std::vector<std::size_t>& loo
       limit_slope(rings[r]);
     }
   }
-  refuse_layer(walls, rings, marked);
+  refuse_layer(walls.domain, rings, marked);
 }
 
 Domain outside_of(const Domain& walls, const LayerColumns& columns, std::uint32_t levels) {

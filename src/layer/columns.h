@@ -18,7 +18,7 @@ struct LayerColumns {
 
 // The columns of these walls: a function of its arguments alone. Throws Error (geometry), with the place, where
 // they cannot be made valid.
-LayerColumns columns_of(const Domain& walls, const std::vector<std::size_t>& loops, const FanSectors& sectors,
+LayerColumns columns_of(const Walls& walls, const std::vector<std::size_t>& loops, const FanSectors& sectors,
                         const LayerOptions& options, std::uint32_t levels);
 
 // The domain beyond the layer: the walls' own, where polylines of tops have taken the places of layered loops.

@@ -64,33 +64,38 @@ struct LayerCounts {
   std::size_t moved = 0, inserted = 0, removed = 0;  // vertices below the tops
 };
 
-bool stays(const ColumnRing& was, const ColumnRing& is, std::size_t column, std::uint32_t level, std::uint32_t levels) {
-  const CellPoints a = layer_cell(was, column, level, levels), b = layer_cell(is, column, level, levels);
-  return std::equal(a.corner, a.corner + 4, b.corner);
+// Per column and level from the wall to the top: whether the point stands where it stood.
+std::vector<bool> points_that_stay(const ColumnRing& was, const ColumnRing& is, std::uint32_t levels) {
+  std::vector<bool> stays;
+  stays.reserve(is.size() * (levels + 1));
+  for (std::size_t c = 0; c < is.size(); ++c) {
+    stays.push_back(was.foot[c] == is.foot[c]);
+    for (std::size_t i = c * levels; i < (c + 1) * levels; ++i) stays.push_back(was.points[i] == is.points[i]);
+  }
+  return stays;
 }
 
 void count_ring(const ColumnRing& was, const RingTops& tops_before, const ColumnRing& is, const RingTops& tops_now,
                 std::uint32_t levels, LayerCounts& counts) {
+  const std::vector<bool> stays = points_that_stay(was, is, levels);
   for (std::size_t c = 0; c < is.size(); ++c) {
     const auto &split_before = tops_before.splits[c], &split = tops_now.splits[c];
-    for (std::uint32_t level = 0; level < levels; ++level) {
-      const bool top = level + 1 == levels;
-      const bool stands = stays(was, is, c, level, levels);
-      if (!top || (split.empty() && split_before.empty())) {
-        ++counts.connected;
-        counts.preserved += stands;
-        continue;
-      }
-      const auto same_key = [](const RingTops::Split& a, const RingTops::Split& b) { return a.key == b.key; };
-      if (!std::equal(split.begin(), split.end(), split_before.begin(), split_before.end(), same_key)) continue;
+    const std::size_t here = c * (levels + 1), there = is.after(c) * (levels + 1);
+    const auto stands = [&](std::uint32_t level) {
+      return stays[here + level] && stays[here + level + 1] && stays[there + level] && stays[there + level + 1];
+    };
+    const bool whole = split.empty() && split_before.empty();
+    const std::uint32_t plain = whole ? levels : levels - 1;
+    counts.connected += plain;
+    for (std::uint32_t level = 0; level < plain; ++level) counts.preserved += stands(level);
+    const auto same_key = [](const RingTops::Split& a, const RingTops::Split& b) { return a.key == b.key; };
+    if (!whole && std::equal(split.begin(), split.end(), split_before.begin(), split_before.end(), same_key)) {
       const std::size_t parts = parts_of_split(is, c, split.size(), levels);
       counts.connected += parts;
-      if (stands && split == split_before) counts.preserved += parts;
+      if (stands(levels - 1) && split == split_before) counts.preserved += parts;
     }
     const bool shares_foot = c > 0 && is.station[c] == is.station[c - 1];
-    if (!shares_foot) counts.moved += was.foot[c] != is.foot[c];
-    for (std::uint32_t j = 0; j + 1 < levels; ++j)
-      counts.moved += was.points[c * levels + j] != is.points[c * levels + j];
+    for (std::uint32_t level = shares_foot ? 1 : 0; level < levels; ++level) counts.moved += !stays[here + level];
   }
 }
 
@@ -261,8 +266,9 @@ LayeredGenerateResult generate_layered(const Domain& domain, const LayerOptions&
   LayeredMesh::Columns& columns = *mesh.columns_;
   columns.loops = layered_loops(domain, layers);
   columns.levels = levels_of(layers);
-  columns.fans = fans_of(domain, columns.loops, layers, nullptr).sectors;
-  static_cast<LayerColumns&>(columns) = columns_of(domain, columns.loops, columns.fans, layers, columns.levels);
+  const Walls walls(domain);
+  columns.fans = fans_of(walls, columns.loops, layers, nullptr).sectors;
+  static_cast<LayerColumns&>(columns) = columns_of(walls, columns.loops, columns.fans, layers, columns.levels);
   GenerateResult outer = generate(outside_of(domain, columns, columns.levels), quality, observer);
   mesh.outer_ = std::move(outer.mesh);
   mesh.walls_ = domain;
@@ -278,13 +284,14 @@ LayeredRemodelResult remodel(LayeredMesh& mesh, const Domain& domain, const Remo
     throw Error(ErrorCode::argument, "mesh", "found an empty one, expected one that was generated or read");
   validate(domain);
   const LayeredMesh::Columns& own = *mesh.columns_;
-  Domain walls = in_own_terms(mesh.walls_, domain);
+  Domain wanted = in_own_terms(mesh.walls_, domain);
+  const Walls walls(wanted);
 
   auto columns = std::make_unique<LayeredMesh::Columns>();
-  columns->loops = layered_loops(walls, mesh.options_);
+  columns->loops = layered_loops(wanted, mesh.options_);
   columns->levels = own.levels;
   // Fans are kept station for station. Loops in another order have the same stations only if they are one to one.
-  const bool same_stations = columns->loops == own.loops && one_to_one(mesh.walls_, walls);
+  const bool same_stations = columns->loops == own.loops && one_to_one(mesh.walls_, wanted);
   Fans fans = fans_of(walls, columns->loops, mesh.options_, same_stations ? &own.fans : nullptr);
   const bool same_columns = same_stations && (!fans.changed || fans.sectors == own.fans);
   columns->fans = std::move(fans.sectors);
@@ -293,7 +300,7 @@ LayeredRemodelResult remodel(LayeredMesh& mesh, const Domain& domain, const Remo
       columns_of(walls, columns->loops, columns->fans, mesh.options_, columns->levels);
 
   const std::vector<RingTops> tops_before = tops_of(mesh.outer_, own);
-  const RemodelResult outer = step_outside(mesh.outer_, outside_of(walls, *columns, columns->levels), *columns, options);
+  const RemodelResult outer = step_outside(mesh.outer_, outside_of(wanted, *columns, columns->levels), *columns, options);
   const bool as_it_was = outer.abandoned || outer.stopped == Stopped::interrupted;
   const LayeredMesh::Columns& now = as_it_was ? own : *columns;
   const LayerCounts counts =
@@ -302,7 +309,7 @@ LayeredRemodelResult remodel(LayeredMesh& mesh, const Domain& domain, const Remo
   result.shrunk = now.shrunk;
   result.same_columns = as_it_was || same_columns;
   if (as_it_was) return result;
-  mesh.walls_ = std::move(walls);
+  mesh.walls_ = std::move(wanted);
   mesh.columns_ = std::move(columns);
   return result;
 }
@@ -331,7 +338,7 @@ LayeredMesh LayeredMesh::restore(const LayeredState& state, const std::string& s
     columns.epoch = state.epoch;
     columns.fans = state.fans;
     static_cast<LayerColumns&>(columns) =
-        columns_of(state.walls, columns.loops, columns.fans, state.options, columns.levels);
+        columns_of(Walls(state.walls), columns.loops, columns.fans, state.options, columns.levels);
   } catch (const Error& error) {
     if (error.code() == ErrorCode::format) throw;
     refuse(std::string("found a layer that cannot be: ") + error.what());

@@ -43,16 +43,29 @@ double turns_between(Point a, Point b) {
 
 struct WallCorner {
   Point before, after;  // the normals of the edges that meet there, into the domain
-  double turns = 0.0;   // from one to the other; positive where the corner is convex, seen from the domain
+  // From one to the other, positive where the corner is convex, seen from the domain; 0 for small ones without a fan.
+  double turns = 0.0;
 };
 
-bool domain_on_left(const Domain& domain, std::size_t loop) {
-  const LoopRole role = domain.loops[loop].role;
-  if (role == LoopRole::left || role == LoopRole::right) return role == LoopRole::left;
-  return (role == LoopRole::outer) == (signed_area(domain, loop) > 0.0);
+double signed_area_of(const std::vector<Point>& polygon) {
+  double twice = 0.0;
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
+    twice += cross(polygon[i] - polygon[0], polygon[i + 1] - polygon[0]);
+  return 0.5 * twice;
 }
 
-std::vector<WallCorner> corners_of_wall(const std::vector<Point>& points, bool left) {
+bool domain_on_left(const Walls& walls, std::size_t loop) {
+  const LoopRole role = walls.domain.loops[loop].role;
+  if (role == LoopRole::left || role == LoopRole::right) return role == LoopRole::left;
+  return (role == LoopRole::outer) == (signed_area_of(walls.points[loop]) > 0.0);
+}
+
+// Turns of stations without a fan are only compared with angles far larger than this: they need no exact ones.
+constexpr double cosine_of_small_turn = 0.98;
+
+// `sectors`: of fans at these stations, where there are any.
+std::vector<WallCorner> corners_of_wall(const std::vector<Point>& points, bool left,
+                                        const std::vector<std::uint32_t>* sectors) {
   const std::size_t n = points.size();
   std::vector<Point> normals(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -62,7 +75,10 @@ std::vector<WallCorner> corners_of_wall(const std::vector<Point>& points, bool l
   std::vector<WallCorner> corners(n);
   for (std::size_t i = 0; i < n; ++i) {
     corners[i] = {normals[i == 0 ? n - 1 : i - 1], normals[i], 0.0};
-    const double turns = turns_between(corners[i].before, corners[i].after);
+    const Point before = corners[i].before, after = corners[i].after;
+    const bool fan = sectors != nullptr && (*sectors)[i] > 0;
+    if (!fan && dot(before, after) > cosine_of_small_turn) continue;
+    const double turns = turns_between(before, after);
     corners[i].turns = left ? -turns : turns;
   }
   return corners;
@@ -135,6 +151,10 @@ void require_no_chains(const Domain& domain, const std::vector<std::size_t>& loo
 
 }  // namespace
 
+Walls::Walls(const Domain& of) : domain(of) {
+  for (std::size_t l = 0; l < domain.loops.size(); ++l) points.push_back(domain.points(l));
+}
+
 std::vector<std::size_t> layered_loops(const Domain& domain, const LayerOptions& options) {
   require_known_names(domain, options.walls);
   std::vector<std::size_t> loops;
@@ -148,13 +168,14 @@ std::vector<std::size_t> layered_loops(const Domain& domain, const LayerOptions&
   return loops;
 }
 
-Fans fans_of(const Domain& domain, const std::vector<std::size_t>& loops, const LayerOptions& options,
+Fans fans_of(const Walls& walls, const std::vector<std::size_t>& loops, const LayerOptions& options,
              const FanSectors* kept) {
   Fans fans;
   bool fits = kept != nullptr && kept->size() == loops.size();
   for (std::size_t r = 0; r < loops.size(); ++r) {
-    const auto corners = corners_of_wall(domain.points(loops[r]), domain_on_left(domain, loops[r]));
-    fits = fits && (*kept)[r].size() == corners.size();
+    const std::vector<Point>& points = walls.points[loops[r]];
+    fits = fits && (*kept)[r].size() == points.size();
+    const auto corners = corners_of_wall(points, domain_on_left(walls, loops[r]), fits ? &(*kept)[r] : nullptr);
     auto& sectors = fans.sectors.emplace_back(corners.size());
     for (std::size_t i = 0; i < corners.size(); ++i) {
       sectors[i] = sectors_for(corners[i].turns, options);
@@ -165,15 +186,15 @@ Fans fans_of(const Domain& domain, const std::vector<std::size_t>& loops, const 
   return {*kept, false};
 }
 
-std::vector<ColumnRing> rings_of(const Domain& domain, const std::vector<std::size_t>& loops,
+std::vector<ColumnRing> rings_of(const Walls& walls, const std::vector<std::size_t>& loops,
                                  const FanSectors& sectors) {
   std::vector<ColumnRing> rings;
   for (std::size_t r = 0; r < loops.size(); ++r) {
     ColumnRing& ring = rings.emplace_back();
     ring.loop = loops[r];
-    ring.left = domain_on_left(domain, loops[r]);
-    const std::vector<Point> points = domain.points(loops[r]);
-    const auto corners = corners_of_wall(points, ring.left);
+    ring.left = domain_on_left(walls, loops[r]);
+    const std::vector<Point>& points = walls.points[loops[r]];
+    const auto corners = corners_of_wall(points, ring.left, &sectors[r]);
     const std::size_t n = points.size();
     for (std::size_t i = 0; i < n; ++i) {
       const double to_next = distance(points[i], points[i + 1 == n ? 0 : i + 1]);

@@ -15,6 +15,13 @@
 
 namespace remodel {
 
+// A domain and the points of its loops, which are evaluated once.
+struct Walls {
+  explicit Walls(const Domain& of);
+  const Domain& domain;
+  std::vector<std::vector<Point>> points;  // per loop
+};
+
 using FanSectors = std::vector<std::vector<std::uint32_t>>;  // per ring and station: sectors, 0 where there is no fan
 
 struct ColumnRing {
@@ -44,11 +51,11 @@ struct Fans {
   FanSectors sectors;
   bool changed = true;
 };
-Fans fans_of(const Domain& domain, const std::vector<std::size_t>& loops, const LayerOptions& options,
+Fans fans_of(const Walls& walls, const std::vector<std::size_t>& loops, const LayerOptions& options,
              const FanSectors* kept);
 
 // Columns with their feet and normals. The sides of loops are those of a domain that validate() has accepted.
-std::vector<ColumnRing> rings_of(const Domain& domain, const std::vector<std::size_t>& loops,
+std::vector<ColumnRing> rings_of(const Walls& walls, const std::vector<std::size_t>& loops,
                                  const FanSectors& sectors);
 
 // Where a column stands, for messages.
