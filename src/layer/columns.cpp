@@ -316,7 +316,7 @@ bool is_convex(const CellPoints& cell) {
 
 LayerColumns columns_of(const Walls& walls, const std::vector<std::size_t>& loops, const FanSectors& sectors,
                         const LayerOptions& options, std::uint32_t levels) {
-  LayerColumns columns{rings_of(walls, loops, sectors), 0};
+  LayerColumns columns{rings_of(walls, loops, sectors, options), 0};
   std::vector<ColumnRing>& rings = columns.rings;
   set_room(rings, walls, options.thickness);
   std::vector<std::vector<double>> room;

@@ -56,7 +56,7 @@ Fans fans_of(const Walls& walls, const std::vector<std::size_t>& loops, const La
 
 // Columns with their feet and normals. The sides of loops are those of a domain that validate() has accepted.
 std::vector<ColumnRing> rings_of(const Walls& walls, const std::vector<std::size_t>& loops,
-                                 const FanSectors& sectors);
+                                 const FanSectors& sectors, const LayerOptions& options);
 
 // Where a column stands, for messages.
 std::string column_place(const Domain& domain, const ColumnRing& ring, std::size_t column);
