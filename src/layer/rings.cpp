@@ -13,8 +13,8 @@ namespace remodel {
 namespace {
 
 constexpr double full_turn_deg = 360.0;
-// A smooth station that turns by this much has become a corner, whatever fans are kept.
-constexpr double corner_from_deg = 40.0;
+// A station without a fan that turns by this much has become a corner.
+constexpr double corner_from_deg = 60.0;
 
 Point left_of(Point v) {
   return {-v.y, v.x};
@@ -118,7 +118,7 @@ std::uint32_t sectors_for(double turns, const LayerOptions& options) {
 
 // Whether a corner may keep the sectors that it has.
 bool still_fits(double turns, std::uint32_t sectors, const LayerOptions& options) {
-  if (sectors == 0) return turns * full_turn_deg <= std::max(corner_from_deg, options.fan_from_deg + 10.0);
+  if (sectors == 0) return turns * full_turn_deg <= std::max(corner_from_deg, options.fan_from_deg);
   if (turns <= 0.0) return false;
   const double wanted = std::clamp(turns / sector_turns(options), 2.0, 64.0);
   return std::abs(wanted - static_cast<double>(sectors)) <= 2.5;
@@ -189,23 +189,20 @@ std::vector<std::size_t> layered_loops(const Domain& domain, const LayerOptions&
   return loops;
 }
 
-Fans fans_of(const Walls& walls, const std::vector<std::size_t>& loops, const LayerOptions& options,
-             const FanSectors* kept) {
-  Fans fans;
-  bool fits = kept != nullptr && kept->size() == loops.size();
+FanSectors fans_of(const Walls& walls, const std::vector<std::size_t>& loops, const LayerOptions& options,
+                   const std::vector<const std::vector<std::uint32_t>*>& kept) {
+  FanSectors fans;
   for (std::size_t r = 0; r < loops.size(); ++r) {
     const std::vector<Point>& points = walls.points[loops[r]];
-    fits = fits && (*kept)[r].size() == points.size();
-    const std::vector<std::uint32_t>* own = fits ? &(*kept)[r] : nullptr;
+    const std::vector<std::uint32_t>* own = kept[r] != nullptr && kept[r]->size() == points.size() ? kept[r] : nullptr;
     const auto corners = corners_of_wall(points, domain_on_left(walls, loops[r]), options, own);
-    auto& sectors = fans.sectors.emplace_back(corners.size());
+    std::vector<std::uint32_t>& sectors = fans.emplace_back(corners.size());
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      sectors[i] = sectors_for(corners[i].turns, options);
-      fits = fits && still_fits(corners[i].turns, (*kept)[r][i], options);
+      const bool fits = own != nullptr && still_fits(corners[i].turns, (*own)[i], options);
+      sectors[i] = fits ? (*own)[i] : sectors_for(corners[i].turns, options);
     }
   }
-  if (!fits) return fans;
-  return {*kept, false};
+  return fans;
 }
 
 std::vector<ColumnRing> rings_of(const Walls& walls, const std::vector<std::size_t>& loops,
