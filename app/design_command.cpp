@@ -6,7 +6,6 @@
 
 #include "arguments.h"
 #include "command.h"
-#include "design_problem.h"
 #include "figures.h"
 #include "number_text.h"
 #include "optimise_start.h"

@@ -130,6 +130,9 @@ std::vector<std::string> designer_names();
 // names the problem.
 void validate(const DesignProblem& problem, const std::string& source = "design problem");
 
+// Reads the file of a problem: docs/design.md describes it. Paths in it lead on from its directory. Throws
+// Error naming the file and the place in it.
+DesignProblem read_design_problem(const std::string& file);
 // The problem's own text, or one made of its members; own functions are named in it, no more.
 std::string design_problem_json(const DesignProblem& problem);
 

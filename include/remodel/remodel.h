@@ -66,7 +66,7 @@ std::span<const StrategyInfo> strategies();  // in the order of the enumeration
 const char* name_of(Strategy strategy);
 // Throws Error (argument) listing the names.
 Strategy strategy_named(const std::string& name);
-// Of every step about which nothing else is said, and of the meshes that a flow follows: `design`,
+// The strategy of steps about which nothing else is said, and that of meshes that a flow follows: `design`,
 // `flow --series`, `noise`.
 inline constexpr Strategy default_strategy = Strategy::renew, strategy_with_flows = Strategy::morph;
 

@@ -1,12 +1,12 @@
-#include "design_problem.h"
+#include "remodel/design_problem.h"
 
 #include <algorithm>
 
-#include "design_elements.h"
-#include "design_json.h"
-#include "design_keys.h"
+#include "aero/problem_elements.h"
+#include "aero/problem_json.h"
+#include "aero/problem_keys.h"
 
-namespace remodel::app {
+namespace remodel {
 
 namespace {
 
@@ -133,4 +133,4 @@ DesignProblem read_design_problem(const std::string& file) {
   return problem;
 }
 
-}  // namespace remodel::app
+}  // namespace remodel

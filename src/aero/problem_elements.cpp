@@ -1,6 +1,6 @@
-#include "design_elements.h"
+#include "aero/problem_elements.h"
 
-namespace remodel::app {
+namespace remodel {
 
 namespace {
 
@@ -52,4 +52,4 @@ std::vector<DesignElement> read_elements(const Keys& problem, const std::string&
   return elements;
 }
 
-}  // namespace remodel::app
+}  // namespace remodel

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "design_keys.h"
+#include "aero/problem_keys.h"
 #include "remodel/design_problem.h"
 
-namespace remodel::app {
+namespace remodel {
 
 // The array `elements` of the problem. Throws Error (format) naming the file and the key.
 std::vector<DesignElement> read_elements(const Keys& problem, const std::string& file, int degree);
 
-}  // namespace remodel::app
+}  // namespace remodel

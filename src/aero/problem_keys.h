@@ -12,14 +12,14 @@
 #include <type_traits>
 #include <vector>
 
+#include "aero/problem_json.h"
 #include "remodel/airfoil.h"
 #include "remodel/design_space.h"
 #include "remodel/error.h"
 #include "remodel/io.h"
 #include "remodel/shape_files.h"
-#include "report.h"
 
-namespace remodel::app {
+namespace remodel {
 
 // What a value of a type is called in messages.
 template <class T>
@@ -127,4 +127,4 @@ inline CstAirfoil section_named(const Keys& keys, const char* key, int degree,
   }
 }
 
-}  // namespace remodel::app
+}  // namespace remodel
