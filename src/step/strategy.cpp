@@ -14,7 +14,7 @@ namespace remodel {
 
 namespace {
 
-constexpr std::array<StrategyInfo, 4> infos{{
+constexpr std::array<StrategyInfo, 4> strategy_infos{{
     {Strategy::chain, "chain", "the paper's method to the letter, and all that imported meshes have"},
     {Strategy::renew, "renew", "length scales are renewed, what is too dense is coarsened"},
     {Strategy::morph, "morph", "renew, but the interior moves along with the boundary where it can"},
@@ -37,16 +37,16 @@ void note_touched(MeshData& mesh) {
 }  // namespace
 
 std::span<const StrategyInfo> strategies() {
-  return infos;
+  return strategy_infos;
 }
 
 const char* name_of(Strategy strategy) {
-  return infos[static_cast<std::size_t>(strategy)].name;
+  return strategy_infos[static_cast<std::size_t>(strategy)].name;
 }
 
 Strategy strategy_named(const std::string& name) {
   std::string expected;
-  for (const StrategyInfo& info : infos) {
+  for (const StrategyInfo& info : strategy_infos) {
     if (info.name == name) return info.strategy;
     expected += (expected.empty() ? "" : ", ") + std::string(info.name);
   }
