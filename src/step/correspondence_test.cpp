@@ -213,7 +213,8 @@ std::string fault_of(const Mesh& mesh) {
                                    : result.violations[0].rule + ": " + result.violations[0].detail;
 }
 
-constexpr Strategy every_strategy[] = {Strategy::chain, Strategy::renew, Strategy::morph, Strategy::reference};
+constexpr Strategy every_strategy[] = {Strategy::chain, Strategy::renew, Strategy::morph,
+                                       Strategy::reference};
 
 std::multiset<std::string> names_and_regions(const Domain& domain) {
   std::multiset<std::string> result;
@@ -515,10 +516,12 @@ TEST(Correspondence, AStepThatEndsEarlyLeavesNamesAndOrderAsTheyWere) {
   std::swap(domain.loops[1], domain.loops[2]);
   std::get<Arc>(domain.loops[1].curves[0].shape).centre.x = 0.6;
   Cancelling observer;
-  EXPECT_EQ(remodel(mesh, domain, {.observer = &observer}).stopped, Stopped::interrupted);
+  EXPECT_EQ(remodel(mesh, domain, {.strategy = Strategy::chain, .observer = &observer}).stopped,
+            Stopped::interrupted);
   EXPECT_TRUE(mesh.state() == before);
   domain.loops.pop_back();
-  EXPECT_EQ(remodel(mesh, domain, {.observer = &observer}).stopped, Stopped::interrupted);
+  EXPECT_EQ(remodel(mesh, domain, {.strategy = Strategy::chain, .observer = &observer}).stopped,
+            Stopped::interrupted);
   EXPECT_TRUE(mesh.state() == before);
 }
 
