@@ -338,15 +338,14 @@ Status run(const BatchCommand& command) {
 
 void add_batch_command(CLI::App& program, Action& action) {
   auto command = std::make_shared<BatchCommand>();
-  CLI::App& app =
-      add_subcommand(program, "batch", "Remodels a mesh to one airfoil after the other, nearest first",
-                     [command, &action] { action = [command] { return run(*command); }; });
+  CLI::App& app = add_command(
+      program, "batch", "Remodels a mesh to one airfoil after the other, nearest first", command, action);
   add_text(app, {"mesh", "MESH", "", "Mesh: a native one (.vtkhdf), or .su2, .msh, .vtu with --boundary"},
            Presence::required, command->mesh);
   add_texts(app, {"shapes", "SHAPE", "", shape_help}, Presence::required, command->shapes);
   add_start_mesh_options(app, command->start);
   add_text(app, {"-o,--output", "DIR", "", "Directory for report.json and the meshes, made if it is missing"},
-           Presence::required, [command](const std::string& text) { command->directory = text; });
+           Presence::required, command->directory);
   add_choice(
       app,
       {"--order", "ORDER", "nearest",

@@ -152,7 +152,7 @@ Status run_series(const EulerRun& run, StartMesh start) {
     RemodelResult step;
     try {
       domain = with_new_airfoil(start, {}, airfoil);
-      step = remodel(start.mesh, *domain, {.strategy = Strategy::morph, .observer = &observer});
+      step = remodel(start.mesh, *domain, {.strategy = strategy_with_flows, .observer = &observer});
     } catch (const Error& error) {
       if (error.code() != ErrorCode::geometry) throw;
       row.add_refused(error.what());

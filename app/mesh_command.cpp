@@ -147,9 +147,8 @@ Status run(const MeshCommand& command) {
 
 void add_mesh_command(CLI::App& program, Action& action) {
   auto command = std::make_shared<MeshCommand>();
-  CLI::App& app =
-      add_subcommand(program, "mesh", "Generates a quality mesh around airfoils, or of any domain",
-                     [command, &action] { action = [command] { return run(*command); }; });
+  CLI::App& app = add_command(program, "mesh", "Generates a quality mesh around airfoils, or of any domain",
+                              command, action);
   add_domain_input(app, command->shapes);
   command->outputs.add_options(app, Presence::optional);
   add_meshing_options(app, command->meshing);
@@ -160,8 +159,7 @@ void add_mesh_command(CLI::App& program, Action& action) {
       {"--refine-angle", "DEGREES", "the angle of --min-angle",
        "Angle in degrees that refinement works to, 0 to 34, where it is more than the one promised: 32 for a "
        "mesh that `update --strategy reference` is to hold"},
-      {.low = 0.0, .high = 34.0},
-      [command](double value) { command->meshing.quality.refine_angle_deg = value; });
+      {.low = 0.0, .high = 34.0}, command->meshing.quality.refine_angle_deg);
   add_repeat(app, command->repeat);
   add_json_flag(app, command->json);
 }

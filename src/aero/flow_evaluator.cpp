@@ -170,7 +170,7 @@ class FlowEvaluator final : public Evaluator {
     const bool is_aimed = memory.aimed_at == memory.connectivity;
     if (is_aimed && memory.is_like) return;
     Mesh mesh = task.mesh;
-    const RemodelResult step = remodel(mesh, *parts_.target, {.strategy = Strategy::morph});
+    const RemodelResult step = remodel(mesh, *parts_.target, {.strategy = strategy_with_flows});
     const bool is_like = step.born() == 0 && step.gone() == 0;
     if (is_aimed && !is_like) return;
     if (is_aimed) ++memory.connectivity;

@@ -150,7 +150,8 @@ TEST(Import, WhatIsKeptStaysUntilSomethingTouchesIt) {
   ASSERT_GT(result.non_delaunay_edges, 10U);
   const std::set<test::Corners> before = all_corners(mesh);
   const AirfoilPlace place = find_airfoil(result.mesh.domain(), "airfoil", "file.su2");
-  remodel(result.mesh, with_airfoil(result.mesh.domain(), place, airfoil_catalogue()[3].airfoil()));
+  remodel(result.mesh, with_airfoil(result.mesh.domain(), place, airfoil_catalogue()[3].airfoil()),
+          {.strategy = Strategy::chain});
   const FrozenMesh after = result.mesh.freeze();
   const CheckResult checked = check(after, {.delaunay = false, .design = &result.mesh.domain()});
   EXPECT_TRUE(checked.valid) << checked.violations.front().detail;
@@ -177,7 +178,8 @@ TEST(Import, TrianglesAwayFromAChangeStayToTheLastBit) {
     ImportResult result = imported(mesh);
     const AirfoilPlace place = find_airfoil(result.mesh.domain(), "airfoil", "file.su2");
     const RemodelResult step = remodel(
-        result.mesh, with_airfoil(result.mesh.domain(), place, airfoil_catalogue()[airfoil].airfoil()));
+        result.mesh, with_airfoil(result.mesh.domain(), place, airfoil_catalogue()[airfoil].airfoil()),
+        {.strategy = Strategy::chain});
     ASSERT_EQ(step.stopped, Stopped::done);
     ASSERT_FALSE(step.regenerated) << step.reason;
     const FrozenMesh after = result.mesh.freeze();
@@ -203,7 +205,7 @@ TEST(Import, OtherBodiesStay) {
   ImportResult result = imported(mesh);
   const AirfoilPlace place = find_airfoil(result.mesh.domain(), "hole", "file.su2");
   const Domain next = with_airfoil(result.mesh.domain(), place, airfoil_catalogue()[0].airfoil());
-  ASSERT_FALSE(remodel(result.mesh, next).regenerated);
+  ASSERT_FALSE(remodel(result.mesh, next, {.strategy = Strategy::chain}).regenerated);
   EXPECT_EQ(result.mesh.quick_check(), "");
   const FrozenMesh after = result.mesh.freeze();
   const auto places = [](const FrozenMesh& m, const std::string& name) {
@@ -230,7 +232,7 @@ TEST(Import, RefinedTrianglesAreBetterThanTheFiles) {
   EXPECT_EQ(result.mesh.options().refine_angle_deg, 30.0);
   const AirfoilPlace place = find_airfoil(result.mesh.domain(), "airfoil", "file.su2");
   remodel(result.mesh, with_airfoil(result.mesh.domain(), place, airfoil_catalogue()[2].airfoil()),
-          {.method = Method::general});
+          {.method = Method::general, .strategy = Strategy::chain});
   const MeshParts parts = parts_of(result.mesh.freeze());
   EXPECT_GT(parts.changed.triangles, 100U);
   EXPECT_GE(parts.changed.min_angle_deg, 30.0 * (1.0 - 1e-8));
@@ -248,8 +250,8 @@ TEST(Import, AnImportedMeshGoesOnFromItsNativeFile) {
   EXPECT_EQ(restored.freeze().triangles, mesh.triangles);
   const AirfoilPlace place = find_airfoil(restored.domain(), "airfoil", "file.su2");
   const Domain next = with_airfoil(restored.domain(), place, airfoil_catalogue()[5].airfoil());
-  remodel(result.mesh, next);
-  remodel(restored, next);
+  remodel(result.mesh, next, {.strategy = Strategy::chain});
+  remodel(restored, next, {.strategy = Strategy::chain});
   EXPECT_EQ(restored.state(), result.mesh.state());
   EXPECT_EQ(restored.freeze().triangles, result.mesh.freeze().triangles);
 }
@@ -434,7 +436,8 @@ void check_promises(const Mesh& mesh) {
 void remodel_to_any(Mesh& mesh, std::mt19937_64& random) {
   const AirfoilPlace place = find_airfoil(mesh.domain(), "airfoil", "file.su2");
   const CstAirfoil airfoil = airfoil_catalogue()[random() % airfoil_catalogue().size()].airfoil();
-  const RemodelResult step = remodel(mesh, with_airfoil(mesh.domain(), place, airfoil));
+  const RemodelResult step =
+      remodel(mesh, with_airfoil(mesh.domain(), place, airfoil), {.strategy = Strategy::chain});
   if (step.stopped == Stopped::done && !step.regenerated) {
     ASSERT_EQ(mesh.quick_check(), "");
   }

@@ -12,15 +12,14 @@
 #include <type_traits>
 #include <vector>
 
+#include "aero/problem_json.h"
 #include "remodel/airfoil.h"
 #include "remodel/design_space.h"
 #include "remodel/error.h"
 #include "remodel/io.h"
 #include "remodel/shape_files.h"
-#include "report.h"
-#include "warnings.h"
 
-namespace remodel::app {
+namespace remodel {
 
 // What a value of a type is called in messages.
 template <class T>
@@ -116,18 +115,18 @@ inline CstFit airfoil_beside(const std::filesystem::path& directory, const std::
   return load_fit(file.has_parent_path() ? file.string() : "./" + file.string(), degree);
 }
 
-// The section that a key names; what its file lost is said. Fits are of degree 8 at most; what is beyond is
+// The section that a key names; `warnings` gets what its file lost. Fits are of degree 8 at most; what is beyond is
 // raised, exactly.
 inline CstAirfoil section_named(const Keys& keys, const char* key, int degree,
-                                const std::filesystem::path& directory) {
+                                const std::filesystem::path& directory, std::vector<std::string>& warnings) {
   const std::string name = keys.get<std::string>(key);
   try {
     const CstFit fit = airfoil_beside(directory, name, std::min(degree, 8));
-    warn(fit.warnings);
+    warnings.insert(warnings.end(), fit.warnings.begin(), fit.warnings.end());
     return raise_degree(fit.airfoil, degree);
   } catch (const Error& error) {
     keys.fail("as '" + std::string(key) + "', " + error.what());
   }
 }
 
-}  // namespace remodel::app
+}  // namespace remodel
