@@ -428,7 +428,7 @@ std::optional<List<VertexId>> Step::change_structure(const ReplaceOptions& optio
   List<VertexId> moved(&mesh.arena);
   const LoopIndices moving = settle(mesh, moved);
   if (moving.empty()) {
-    morphing_.reset();  // nothing moves: all that there is to do is to fill what loops have left
+    attempt_.interior.reset();  // nothing moves: all that there is to do is to fill what loops have left
     return moved;
   }
   if (joined(mesh, moving)) throw RecoveryError("chains are joined to what moves");
