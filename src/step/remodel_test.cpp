@@ -102,8 +102,9 @@ std::string unkept(const MeshData& data) {
   return boundary + inner == t.vertex_count() ? "" : "there are other vertices";
 }
 
-// Remodels, and checks all that must hold after any step.
-RemodelResult step(Mesh& mesh, const Domain& domain, const RemodelOptions& options = {}) {
+// Remodels by the paper's method, and checks all that must hold after any step.
+RemodelResult step(Mesh& mesh, const Domain& domain, RemodelOptions options = {}) {
+  options.strategy = Strategy::chain;
   const FrozenMesh before = mesh.freeze();
   const std::uint32_t steps = mesh.step();
   const RemodelResult result = remodel(mesh, domain, options);
