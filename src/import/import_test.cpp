@@ -362,6 +362,31 @@ TEST(Import, AMeshWhoseHolesTouchIsRemodelled) {
   }
 }
 
+// Without some of its triangles a mesh falls into pieces that touch in points.
+TEST(Import, MeshesWithMissingTrianglesAreRemodelled) {
+  std::mt19937_64 random(test::seed(45));
+  std::size_t touching = 0;
+  for (int i = 0; i < 40; ++i) {
+    SCOPED_TRACE(i);
+    FrozenMesh mesh = i % 2 == 0 ? test::grid(8, random) : test::foreign_holes();
+    mesh.boundaries.clear();
+    std::erase_if(mesh.triangles, [&](const auto&) { return random() % 12 == 0; });
+    Mesh living = imported(mesh, {.refine_angle_deg = 25.0, .max_vertices = 20000}).mesh;
+    const auto fault = [&] {
+      const CheckResult checked = check(living.freeze(), {.delaunay = false, .design = &living.domain()});
+      touching += checked.touching_points > 0;
+      return living.quick_check() + (checked.valid ? "" : checked.violations[0].detail);
+    };
+    EXPECT_EQ(fault(), "");
+    Domain moved = living.domain();
+    for (Loop& loop : moved.loops)
+      if (!loop.open && loop.role == LoopRole::hole) loop.placement.position = {1e-3, 5e-4};
+    EXPECT_FALSE(remodel(living, moved, {.strategy = Strategy::chain}).regenerated);
+    EXPECT_EQ(fault(), "");
+  }
+  EXPECT_GT(touching, 30U);
+}
+
 // Each triangle is fine, each edge has one on either side, and the plane is covered twice.
 TEST(Import, AMeshThatWindsOverItselfIsRefused) {
   FrozenMesh mesh = test::foreign_holes();
