@@ -25,7 +25,7 @@ auto members(T& f) {
                   f.residual, f.history, f.newton_steps, f.factorisations, f.coarse_steps,
                   f.krylov_iterations, f.corrected_vertices, f.solver, f.gmres_iterations, f.memory_mb,
                   f.seconds, f.density, f.velocity_x, f.velocity_y, f.pressure, f.warnings,
-                  f.lift_determined);
+                  f.lift_determined, f.origin, f.entropy_drag);
 }
 
 }  // namespace remodel
@@ -195,12 +195,17 @@ void add_figures(py::class_<FlowResult, FlowPointer>& type) {
   type.def_property_readonly(
       "start", [](const FlowResult& f) { return name_of(f.start); },
       "'cold', 'carried' or 'refactored': what the flow was found from.");
+  type.def_property_readonly(
+      "origin", [](const FlowResult& f) { return name_of(f.origin); },
+      "'potential', 'coarser-mesh', 'undisturbed' or 'last-flow': the state that the search began with.");
   type.def_readonly("mach", &FlowResult::mach);
   type.def_readonly("alpha", &FlowResult::alpha_deg, "The angle of attack, in degrees.");
   type.def_property_readonly(
       "cl", [](const FlowResult& f) { return if_determined(f, f.cl); },
       "The lift coefficient of all bodies; nan where lift_determined is false.");
   type.def_readonly("cd", &FlowResult::cd, "The drag coefficient of all bodies.");
+  type.def_readonly("entropy_drag", &FlowResult::entropy_drag,
+                    "The drag coefficient by what entropy leaves through the far field; None without one.");
   type.def_property_readonly(
       "cm", [](const FlowResult& f) { return if_determined(f, f.cm); },
       "The moment coefficient, positive nose up; nan where lift_determined is false.");
@@ -233,6 +238,7 @@ std::pair<FlowPointer, py::dict> flow_of(const py::tuple& state) {
                      flow->pressure.size() == points && flow->status >= FlowStatus::converged &&
                      flow->status <= FlowStatus::interrupted && flow->start >= FlowStart::cold &&
                      flow->start <= FlowStart::refactored && flow->solver >= FlowSolver::lu &&
+                     flow->origin >= FlowOrigin::last_flow && flow->origin <= FlowOrigin::undisturbed &&
                      flow->solver <= FlowSolver::gmres,
                  "a flow");
   return {std::move(flow), state[1].cast<py::dict>()};
