@@ -47,10 +47,15 @@ inline double wave_speed(const Unknowns<double>& q, Point normal) {
          std::sqrt(gas_gamma * pressure(q) / density(q) * dot(normal, normal));
 }
 
-// Roe's flux through a face of this normal (whose length is the face's), from left to right. Entropy fix: 0.1
-// c for the acoustic waves, 0.02 c for the linear ones.
+// Half-widths of the parabolas of Roe's flux, in speeds of sound: of acoustic and of linear waves.
+struct EntropyFix {
+  double acoustic = 0.1, linear = 0.02;
+};
+
+// Roe's flux through a face of this normal (whose length is the face's), from left to right.
 template <class T, class G>
-Fluxes<T> roe_flux(const Unknowns<T>& l, const Unknowns<T>& r, const PlaneVector<G>& normal) {
+Fluxes<T> roe_flux(const Unknowns<T>& l, const Unknowns<T>& r, const PlaneVector<G>& normal,
+                   const EntropyFix& fix = {}) {
   using std::sqrt;
   const G area = sqrt(normal.x * normal.x + normal.y * normal.y);
   if (value_of(area) == 0.0) return {};
@@ -71,8 +76,8 @@ Fluxes<T> roe_flux(const Unknowns<T>& l, const Unknowns<T>& r, const PlaneVector
   const T c = sqrt(c2);
   const T vn = u * nx + v * ny;
 
-  const T slow = rounded_abs<T>(vn - c, 0.1 * c), fast = rounded_abs<T>(vn + c, 0.1 * c);
-  const T linear = rounded_abs<T>(vn, 0.02 * c);
+  const T slow = rounded_abs<T>(vn - c, fix.acoustic * c), fast = rounded_abs<T>(vn + c, fix.acoustic * c);
+  const T linear = rounded_abs<T>(vn, fix.linear * c);
   const T drho = rho_r - rho_l, dp = p_r - p_l, dvn = through_r - through_l;
   const T a1 = slow * (dp - rho * c * dvn) / (2.0 * c2);
   const T a2 = linear * (drho - dp / c2);

@@ -235,7 +235,7 @@ void FlowMesh::bend_walls() {
     const Point d = points_[edge.b] - points_[edge.a];
     edge.normal = {d.y, -d.x};
     edge.half[0] = edge.half[1] = 0.5 * edge.normal;
-    if (!patch(edge).solid()) continue;
+    if (!patch(edge).bent()) continue;
     const Point turn = bulge<double>(i) * d;
     edge.half[0] = edge.half[0] - turn, edge.half[1] = edge.half[1] + turn;
     DualEdge& dual = edges_[links_[i].edge];
