@@ -107,12 +107,8 @@ void IncompleteLu<N>::order(const BlockMatrix<N>& matrix) {
     for (std::size_t i = from; i < row_at_.size(); ++i) placed[row_at_[i]] = true;
   }
   std::reverse(row_at_.begin(), row_at_.end());
-}
-
-template <std::size_t N>
-void IncompleteLu<N>::place_rows() {
-  place_of_.resize(row_at_.size());
-  for (std::uint32_t p = 0; p < row_at_.size(); ++p) place_of_[row_at_[p]] = p;
+  place_of_.resize(size);
+  for (std::uint32_t p = 0; p < size; ++p) place_of_[row_at_[p]] = p;
 }
 
 // Row by row: the level of what row k adds at j is that of (i, k) and of (k, j) and 1 more. `next` links the
@@ -154,15 +150,10 @@ void IncompleteLu<N>::fill_pattern(const BlockMatrix<N>& matrix, int level) {
 }
 
 template <std::size_t N>
-double IncompleteLu<N>::analysed_mb(const BlockMatrix<N>& matrix, int level,
-                                    std::span<const std::uint32_t> given) {
+double IncompleteLu<N>::analysed_mb(const BlockMatrix<N>& matrix, int level) {
   if (level_ != level || !is_of(matrix)) {
     forget();
-    if (given.empty())
-      order(matrix);
-    else
-      row_at_.assign(given.begin(), given.end());
-    place_rows();
+    order(matrix);
     fill_pattern(matrix, level);
     matrix_start_ = matrix.start, matrix_column_ = matrix.column, level_ = level;
   }

@@ -17,9 +17,8 @@ template <std::size_t N>
 class IncompleteLu {
  public:
   // What factors of this level are going to take, of a square matrix whose rows are all vertices, in order.
-  // Their pattern is kept from the last call where the matrix's and the level are the same. `order`: the rows in
-  // the order of elimination; empty: Cuthill and McKee's, reversed.
-  double analysed_mb(const BlockMatrix<N>& matrix, int level, std::span<const std::uint32_t> order = {});
+  // Their pattern is kept from the last call where the matrix's and the level are the same.
+  double analysed_mb(const BlockMatrix<N>& matrix, int level);
   // Requires a matrix of the pattern that was analysed. False: a pivot is singular.
   bool factor(const BlockMatrix<N>& matrix);
   bool ready() const { return ready_; }
@@ -39,7 +38,6 @@ class IncompleteLu {
  private:
   using SmallBlock = std::array<float, N * N>;
   void order(const BlockMatrix<N>& matrix);
-  void place_rows();
   void fill_pattern(const BlockMatrix<N>& matrix, int level);
 
   std::vector<std::uint32_t> matrix_start_, matrix_column_;  // of the pattern that was analysed

@@ -50,6 +50,9 @@ inline double wave_speed(const Unknowns<double>& q, Point normal) {
 // Half-widths of the parabolas of Roe's flux, in speeds of sound: of acoustic and of linear waves.
 struct EntropyFix {
   double acoustic = 0.1, linear = 0.02;
+  // Least part of jumps of the normal velocity that acoustic waves are made of; they are taken by the local Mach
+  // number below 1. F. Rieper, J. Comput. Phys. 230 (2011). 1: Roe's flux.
+  double slow_part = 1.0;
 };
 
 // Roe's flux through a face of this normal (whose length is the face's), from left to right.
@@ -79,9 +82,14 @@ Fluxes<T> roe_flux(const Unknowns<T>& l, const Unknowns<T>& r, const PlaneVector
   const T slow = rounded_abs<T>(vn - c, fix.acoustic * c), fast = rounded_abs<T>(vn + c, fix.acoustic * c);
   const T linear = rounded_abs<T>(vn, fix.linear * c);
   const T drho = rho_r - rho_l, dp = p_r - p_l, dvn = through_r - through_l;
-  const T a1 = slow * (dp - rho * c * dvn) / (2.0 * c2);
+  T of_waves = dvn;
+  if (fix.slow_part < 1.0) {
+    const T local = sqrt(2.0 * square / c2 + fix.slow_part * fix.slow_part);
+    if (value_of(local) < 1.0) of_waves = local * dvn;
+  }
+  const T a1 = slow * (dp - rho * c * of_waves) / (2.0 * c2);
   const T a2 = linear * (drho - dp / c2);
-  const T a3 = fast * (dp + rho * c * dvn) / (2.0 * c2);
+  const T a3 = fast * (dp + rho * c * of_waves) / (2.0 * c2);
   const T shear = linear * rho;
   const T du = u_r - u_l - nx * dvn, dv = v_r - v_l - ny * dvn;
 

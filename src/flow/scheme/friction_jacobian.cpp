@@ -44,14 +44,17 @@ BlockMatrix<N> FrictionSystem<N>::pattern(Order order) const {
 }
 
 template <std::size_t N>
-void FrictionSystem<N>::jacobian(const FrictionState<N>& state, Order order, BlockMatrix<N>& matrix,
-                                 BlockAugmentedRows<N>* rows) const {
-  std::fill(matrix.block.begin(), matrix.block.end(), SquareBlock<N>{});
-  add_face_blocks(state, order, matrix);
-  add_triangle_blocks(state, matrix);
-  add_boundary_blocks(state, matrix);
-  if (rows != nullptr) *rows = augmented_rows(state, matrix);
-  make_walls_strong(matrix);
+void FrictionSystem<N>::jacobian(const FrictionState<N>& state, Jacobian& result) const {
+  if (result.whole.rows.size() != dual_.size())
+    result.whole = pattern(Order::whole), result.first = pattern(Order::first);
+  for (BlockMatrix<N>* matrix : {&result.whole, &result.first})
+    std::fill(matrix->block.begin(), matrix->block.end(), SquareBlock<N>{});
+  add_face_blocks(state, Order::whole, result.whole);
+  add_face_blocks(state, Order::first, result.first);
+  add_triangle_blocks(state, result);
+  add_boundary_blocks(state, result);
+  result.rows = augmented_rows(state, result.whole);
+  make_walls_strong(result.whole), make_walls_strong(result.first);
 }
 
 // Reconstructed values depend on the unknown itself alone: its values at both ends and the upwind difference.
@@ -104,7 +107,7 @@ void FrictionSystem<N>::add_face_blocks(const FrictionState<N>& state, Order ord
 }
 
 template <std::size_t N>
-void FrictionSystem<N>::add_triangle_blocks(const FrictionState<N>& state, BlockMatrix<N>& matrix) const {
+void FrictionSystem<N>::add_triangle_blocks(const FrictionState<N>& state, Jacobian& result) const {
   using All = Dual<3 * N>;
   for (const CornerTriangle& triangle : mesh_.triangles()) {
     std::array<std::array<All, N>, 3> q;
@@ -113,14 +116,18 @@ void FrictionSystem<N>::add_triangle_blocks(const FrictionState<N>& state, Block
     const auto flux = terms_.template triangle<All, N>(q, triangle, triangle_distances(triangle));
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) {
-        SquareBlock<N>& block = matrix.at(triangle.corner[i], triangle.corner[j]);
-        for (std::size_t z = 0; z < N * N; ++z) block[z] += flux[i][z / N].slope[N * j + z % N];
+        SquareBlock<N>&whole = result.whole.at(triangle.corner[i], triangle.corner[j]),
+        &first = result.first.at(triangle.corner[i], triangle.corner[j]);
+        for (std::size_t z = 0; z < N * N; ++z) {
+          const double slope = flux[i][z / N].slope[N * j + z % N];
+          whole[z] += slope, first[z] += slope;
+        }
       }
   }
 }
 
 template <std::size_t N>
-void FrictionSystem<N>::add_boundary_blocks(const FrictionState<N>& state, BlockMatrix<N>& matrix) const {
+void FrictionSystem<N>::add_boundary_blocks(const FrictionState<N>& state, Jacobian& result) const {
   constexpr std::size_t n = unknown_count;
   using Both = Dual<N + n>;
   for (const BoundaryEdge& edge : dual_.boundary()) {
@@ -132,10 +139,12 @@ void FrictionSystem<N>::add_boundary_blocks(const FrictionState<N>& state, Block
       for (std::size_t k = 0; k < n; ++k) in.here[k].slope[k] = 1.0, in.there[k].slope[N + k] = 1.0;
       const std::array<Both, N> flux =
           terms_.template boundary_flux<Both, N>(dual_.patch(edge), in, here, stream_);
-      SquareBlock<N>&own = matrix.at(end[i], end[i]), &other = matrix.at(end[i], end[1 - i]);
-      for (std::size_t row = 0; row < N; ++row) {
-        for (std::size_t k = 0; k < N; ++k) own[N * row + k] += flux[row].slope[k];
-        for (std::size_t k = 0; k < n; ++k) other[N * row + k] += flux[row].slope[N + k];
+      for (BlockMatrix<N>* matrix : {&result.whole, &result.first}) {
+        SquareBlock<N>&own = matrix->at(end[i], end[i]), &other = matrix->at(end[i], end[1 - i]);
+        for (std::size_t row = 0; row < N; ++row) {
+          for (std::size_t k = 0; k < N; ++k) own[N * row + k] += flux[row].slope[k];
+          for (std::size_t k = 0; k < n; ++k) other[N * row + k] += flux[row].slope[N + k];
+        }
       }
     }
   }
@@ -210,12 +219,8 @@ std::array<BlockVector<N>, augmented_count> FrictionSystem<N>::augmented_columns
   return columns;
 }
 
-template void FrictionSystem<4>::jacobian(const FrictionState<4>&, Order, BlockMatrix<4>&,
-                                          BlockAugmentedRows<4>*) const;
-template void FrictionSystem<5>::jacobian(const FrictionState<5>&, Order, BlockMatrix<5>&,
-                                          BlockAugmentedRows<5>*) const;
-template BlockMatrix<4> FrictionSystem<4>::pattern(Order) const;
-template BlockMatrix<5> FrictionSystem<5>::pattern(Order) const;
+template void FrictionSystem<4>::jacobian(const FrictionState<4>&, Jacobian&) const;
+template void FrictionSystem<5>::jacobian(const FrictionState<5>&, Jacobian&) const;
 template std::array<BlockVector<4>, augmented_count> FrictionSystem<4>::augmented_columns(
     const FrictionState<4>&) const;
 template std::array<BlockVector<5>, augmented_count> FrictionSystem<5>::augmented_columns(

@@ -24,7 +24,6 @@ FrictionMesh::FrictionMesh(const FlowMesh& mesh) : mesh_(mesh) {
   make_upwind();
   make_triangles();
   measure_distances();
-  order_columns();
 }
 
 void FrictionMesh::count_cells() {
@@ -133,34 +132,6 @@ void FrictionMesh::measure_distances() {
       distance_[v] = std::min(distance_[v], squared_distance_to_segment(mesh_.points()[v], a, b));
   }
   for (std::size_t v = 0; v < mesh_.size(); ++v) distance_[v] = sticks_[v] ? 0.0 : std::sqrt(distance_[v]);
-}
-
-// A column goes on from a wall's vertex by the edge that two quadrilaterals share, then straight on.
-void FrictionMesh::order_columns() {
-  std::vector<bool> placed(mesh_.size(), false);
-  const auto place = [&](std::uint32_t v) {
-    if (placed[v]) return false;
-    placed[v] = true;
-    order_.push_back(v);
-    return true;
-  };
-  for (const BoundaryEdge& boundary : mesh_.boundary()) {
-    if (!mesh_.patch(boundary).sticks() || !place(boundary.a)) continue;
-    for (const RingEntry& first : mesh_.ring(boundary.a)) {
-      if (quads_of_edge_[first.edge] != 2) continue;
-      std::uint32_t v = first.vertex, edge = first.edge;
-      while (place(v)) {
-        const std::uint32_t next = opposite(v, edge);
-        if (next == no_index) break;
-        for (const RingEntry& entry : mesh_.ring(v))
-          if (entry.vertex == next) edge = entry.edge;
-        v = next;
-      }
-    }
-  }
-  for (std::size_t i = 0; i < order_.size(); ++i)
-    for (const RingEntry& entry : mesh_.ring(order_[i])) place(entry.vertex);
-  for (std::uint32_t v = 0; v < mesh_.size(); ++v) place(v);
 }
 
 }  // namespace remodel::flow

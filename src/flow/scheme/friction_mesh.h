@@ -1,7 +1,7 @@
 #pragma once
 
 // What flows with friction need of a mesh beside its dual: upwind differences that go straight on along layers of
-// quadrilaterals, triangles that gradients are constant on, distances from walls, columns.
+// quadrilaterals, triangles that gradients are constant on, distances from walls.
 //
 // Upwind differences by gradients of vertices fail on curved layers, whose edges are longer than their cells are
 // high by orders of magnitude: off by (du/dn) s^2 / 2R there, many cells' jumps. The *opposite neighbour* of a
@@ -50,8 +50,6 @@ class FrictionMesh {
   const std::vector<CornerTriangle>& triangles() const { return triangles_; }
   const std::vector<double>& distances() const { return distance_; }  // from walls that gas sticks to
   bool sticks(std::size_t v) const { return sticks_[v]; }
-  // All vertices: column after column from the walls outwards, then the others, by breadth from there.
-  const std::vector<std::uint32_t>& column_order() const { return order_; }
 
  private:
   struct Around {
@@ -63,7 +61,6 @@ class FrictionMesh {
   void make_upwind();
   void make_triangles();
   void measure_distances();
-  void order_columns();
 
   const FlowMesh& mesh_;
   std::vector<Around> around_;               // each vertex
@@ -74,7 +71,6 @@ class FrictionMesh {
   std::vector<CornerTriangle> triangles_;
   std::vector<double> distance_;
   std::vector<bool> sticks_;
-  std::vector<std::uint32_t> order_;
 };
 
 }  // namespace remodel::flow

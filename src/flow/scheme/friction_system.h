@@ -36,6 +36,7 @@ class FrictionSystem {
   const FrictionMesh& mesh() const { return mesh_; }
   const Stream& stream() const { return stream_; }
   const FrictionTerms& terms() const { return terms_; }
+  FrictionTerms& terms() { return terms_; }
 
   // Undisturbed flow that slows down towards walls within `thickness`, at constant total enthalpy.
   FrictionState<N> start(double thickness) const;
@@ -49,10 +50,12 @@ class FrictionSystem {
   // The vertices that a row depends on: all of them, or those of the first-order scheme, one ring.
   enum class Order { first, whole };
   BlockMatrix<N> pattern(Order order) const;
-  // Derivatives by the unknowns; `rows` gets those of the augmented equations, which belong to the whole
-  // scheme.
-  void jacobian(const FrictionState<N>& state, Order order, BlockMatrix<N>& matrix,
-                BlockAugmentedRows<N>* rows) const;
+  // Derivatives of all rows by the unknowns: of the whole scheme, and of that of first order.
+  struct Jacobian {
+    BlockMatrix<N> whole, first;
+    BlockAugmentedRows<N> rows;  // of the augmented equations of the whole scheme
+  };
+  void jacobian(const FrictionState<N>& state, Jacobian& result) const;
   std::array<BlockVector<N>, augmented_count> augmented_columns(const FrictionState<N>& state) const;
 
   // As FlowSystem's.
@@ -80,8 +83,8 @@ class FrictionSystem {
   template <class Visit>
   void for_each_dependence(Order order, Visit visit) const;
   void add_face_blocks(const FrictionState<N>& state, Order order, BlockMatrix<N>& matrix) const;
-  void add_triangle_blocks(const FrictionState<N>& state, BlockMatrix<N>& matrix) const;
-  void add_boundary_blocks(const FrictionState<N>& state, BlockMatrix<N>& matrix) const;
+  void add_triangle_blocks(const FrictionState<N>& state, Jacobian& result) const;
+  void add_boundary_blocks(const FrictionState<N>& state, Jacobian& result) const;
   void make_walls_strong(BlockMatrix<N>& matrix) const;
   BlockAugmentedRows<N> augmented_rows(const FrictionState<N>& state, const BlockMatrix<N>& raw) const;
   std::array<Row, 3> triangle_states(const BlockVector<N>& q, const CornerTriangle& triangle) const {

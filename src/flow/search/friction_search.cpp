@@ -80,7 +80,7 @@ template <std::size_t N>
 bool FrictionSearch<N>::factor() {
   ++record_.factorisations;
   if (by_lu_ || (options_.solver && *options_.solver == FlowSolver::lu)) {
-    if (lu_.factor(near_, options_.memory_mb) == Factored::done) {
+    if (lu_.factor(jacobian_.first, options_.memory_mb) == Factored::done) {
       record_.memory_mb = std::max(record_.memory_mb, lu_.memory_mb());
       return record_.whole_factors = true;
     }
@@ -88,9 +88,9 @@ bool FrictionSearch<N>::factor() {
   }
   record_.whole_factors = false;
   constexpr int level = 1;
-  incomplete_.analysed_mb(near_, level, system_.mesh().column_order());
+  incomplete_.analysed_mb(jacobian_.first, level);
   record_.memory_mb = std::max(record_.memory_mb, incomplete_.memory_mb());
-  return incomplete_.factor(near_);
+  return incomplete_.factor(jacobian_.first);
 }
 
 template <std::size_t N>
@@ -104,12 +104,10 @@ void FrictionSearch<N>::precondition(BlockVector<N>& x) {
 template <std::size_t N>
 bool FrictionSearch<N>::solve(const FrictionState<N>& state, const std::vector<double>& by_time, const At& now,
                               BlockIncrement<N>& step) {
-  using Order = typename FrictionSystem<N>::Order;
-  system_.jacobian(state, Order::whole, exact_, &rows_);
-  system_.jacobian(state, Order::first, near_, nullptr);
+  system_.jacobian(state, jacobian_);
   for (std::uint32_t v = 0; v < by_time.size(); ++v) {
     const SquareBlock<N> slope = FrictionSystem<N>::conserved_slope(state.q[v]);
-    for (BlockMatrix<N>* matrix : {&exact_, &near_}) {
+    for (BlockMatrix<N>* matrix : {&jacobian_.whole, &jacobian_.first}) {
       SquareBlock<N>& block = matrix->at(v, v);
       for (std::size_t z = 0; z < N * N; ++z)
         if (!system_.is_replaced(v, z / N)) block[z] += by_time[v] * slope[z];
@@ -118,7 +116,7 @@ bool FrictionSearch<N>::solve(const FrictionState<N>& state, const std::vector<d
   if (!factor()) return false;
   auto columns = system_.augmented_columns(state), solved = columns;
   for (BlockVector<N>& column : solved) precondition(column);
-  const BlockAugmentedMatrix<N> matrix(exact_, std::move(columns), rows_);
+  const BlockAugmentedMatrix<N> matrix(jacobian_.whole, std::move(columns), jacobian_.rows);
   // Augmented equations count as much as all others.
   const auto weighed = [&](BlockIncrement<N>& x, double by) {
     for (double& z : x.augmented) z *= by;
@@ -139,14 +137,16 @@ bool FrictionSearch<N>::solve(const FrictionState<N>& state, const std::vector<d
       [&](BlockIncrement<N>& x) {
         weighed(x, 1.0 / scale_);
         precondition(x.q);
-        x = close_augmented(std::move(x.q), solved, rows_, x.augmented);
+        x = close_augmented(std::move(x.q), solved, jacobian_.rows, x.augmented);
       },
       right,
       {.wanted = part * size, .restart = Policy::restart, .rounds = Policy::rounds, .observer = options_.observer},
       step);
   last_iterations_ = end.iterations;
   record_.gmres_iterations += end.iterations;
-  if (end.residual > 2.0 * part * size && !record_.whole_factors) by_lu_ = true;  // from the next step on
+  // Where even short time steps take too many, incomplete factors do no longer.
+  by_lu_ = by_lu_ || (end.residual > 2.0 * part * size && !record_.whole_factors && failed_before_);
+  failed_before_ = end.residual > 2.0 * part * size;
   return end.residual < 0.9 * size;
 }
 
@@ -167,8 +167,6 @@ double FrictionSearch<N>::line_search(const BlockIncrement<N>& step, const std::
 
 template <std::size_t N>
 void FrictionSearch<N>::run(FrictionState<N>& state, double cfl) {
-  using Order = typename FrictionSystem<N>::Order;
-  exact_ = system_.pattern(Order::whole), near_ = system_.pattern(Order::first);
   scale_ = 1.0;
   At now = at(state);
   scale_ = std::max(size_of(now.residual, {}), 1e-3 * system_.stream().length / gas_gamma);

@@ -82,11 +82,10 @@ class FrictionSearch {
   const FlowOptions& options_;
   FrictionRecord& record_;
   double scale_ = 1.0;  // of residuals: those of the state that the search began with
-  BlockMatrix<N> exact_, near_;
-  BlockAugmentedRows<N> rows_;
+  typename FrictionSystem<N>::Jacobian jacobian_;
   IncompleteLu<N> incomplete_;
   DirectSolver<N> lu_;
-  bool by_lu_ = false;
+  bool by_lu_ = false, failed_before_ = false;
   int last_iterations_ = 0;
 };
 
