@@ -9,6 +9,7 @@
 #include "arguments.h"
 #include "command.h"
 #include "figures.h"
+#include "layer_options.h"
 #include "mesh_input.h"
 #include "number_text.h"
 #include "remodel/mesh_state.h"
@@ -25,6 +26,12 @@ struct CheckCommand {
   bool json = false;
 };
 
+// The mesh of triangles of a native file, which with layers is what lies beyond them; null for others.
+const Mesh* triangles_of(const MeshInput& input) {
+  if (input.layered) return &input.layered->outer();
+  return input.living ? &*input.living : nullptr;
+}
+
 // Why refinement of the whole mesh ended.
 Stopped ended(const Mesh& mesh) {
   return static_cast<Stopped>(mesh.state().stopped);
@@ -35,18 +42,20 @@ Stopped ended(const Mesh& mesh) {
 // rules of every triangulation and the options of the command line.
 CheckOptions rules_for(const CheckCommand& command, const MeshInput& input) {
   CheckOptions options;
-  if (input.living) {
-    options.design = &input.living->domain();
-    options.min_angle_deg = input.living->options().min_angle_deg;
-    options.max_gradation = input.living->promised_gradation();
-    options.delaunay = !input.living->shows_file_triangles();
-    options.delaunay_slack_deg = input.living->delaunay_slack_deg();
+  const Mesh* triangles = triangles_of(input);
+  if (input.layered) options.design = &input.layered->domain();
+  if (input.living) options.design = &input.living->domain();
+  if (triangles != nullptr) {
+    options.min_angle_deg = triangles->options().min_angle_deg;
+    options.max_gradation = triangles->promised_gradation();
+    options.delaunay = !triangles->shows_file_triangles();
+    options.delaunay_slack_deg = triangles->delaunay_slack_deg();
   } else {
     options.delaunay = false;
     options.unused_points = true;
   }
   options.bounds =
-      !input.living || ended(*input.living) == Stopped::done || command.min_angle || command.max_gradation;
+      triangles == nullptr || ended(*triangles) == Stopped::done || command.min_angle || command.max_gradation;
   options.delaunay_slack_deg = command.delaunay_slack.value_or(options.delaunay_slack_deg);
   options.min_angle_deg = command.min_angle.value_or(options.min_angle_deg);
   options.max_gradation = command.max_gradation.value_or(options.max_gradation);
@@ -75,12 +84,19 @@ void add_violations(Report& report, const std::vector<Violation>& violations) {
 // None without length scales, which only meshes of ours have.
 void add_gradation(Report& report, const CheckResult& result, const MeshInput& input) {
   if (std::isnan(result.max_gradation)) return report.data("max_gradation", nullptr);
-  const double keep = input.living ? input.living->keep() : 1.0;
+  const Mesh* triangles = triangles_of(input);
+  const double keep = triangles != nullptr ? triangles->keep() : 1.0;
   report.figure("max_gradation",
                 keep > 1.0     ? "largest r / (keep H mean LS)"
-                : input.living ? "largest r / (H mean LS)"
+                : triangles    ? "largest r / (H mean LS)"
                                : "largest r / (H mean LS), H = sqrt(1/2) or as given",
                 result.max_gradation);
+}
+
+void add_corner_angles(Report& report, const CheckResult& result) {
+  if (result.quadrilaterals == 0) return;
+  report.figure("corner_min_deg", "smallest corner of quadrilaterals", result.least_corner_deg, "degrees");
+  report.figure("corner_max_deg", "largest corner of quadrilaterals", result.largest_corner_deg, "degrees");
 }
 
 void warn_of_result(const CheckCommand& command, const MeshInput& input, const CheckOptions& options,
@@ -89,7 +105,7 @@ void warn_of_result(const CheckCommand& command, const MeshInput& input, const C
     warn(command.mesh + ": loops of the boundary touch in " + std::to_string(result.touching_points) +
          (result.touching_points == 1 ? " point" : " points"));
   if (!options.bounds)
-    warn(command.mesh + ": refinement ended at a limit (" + name_of(ended(*input.living)) +
+    warn(command.mesh + ": refinement ended at a limit (" + name_of(ended(*triangles_of(input))) +
          "): the mesh is valid but below its quality, " + std::to_string(result.beyond_bounds) +
          " times beyond its bounds of " + short_text(options.min_angle_deg) + " degrees and of H");
 }
@@ -102,16 +118,22 @@ Status run(const CheckCommand& command) {
   Report report;
   report.line("mesh", command.mesh);
   report.figure("rules", "rules",
-                input.living ? "native: the design and the options in the file" : "topology");
+                triangles_of(input) != nullptr ? "native: the design and the options in the file" : "topology");
   report.figure("valid", "valid", result.valid);
   add_violations(report, result.violations);
   warn_of_result(command, input, options, result);
-  report.figure("triangles", "triangles", result.triangles);
+  add_cell_counts(report, result.triangles, result.quadrilaterals);
+  add_corner_angles(report, result);
   report.figure("vertices", "vertices", result.vertices);
   report.data("unused_points", result.unused_points);
   if (result.unused_points > 0)
-    report.line("left out", std::to_string(result.unused_points) + " points of no triangle");
-  report.figure("min_angle_deg", "smallest angle", result.min_angle_deg, "degrees");
+    report.line("left out",
+                std::to_string(result.unused_points) +
+                    (result.quadrilaterals > 0 ? " points of no cell" : " points of no triangle"));
+  if (std::isnan(result.min_angle_deg))
+    report.data("min_angle_deg", nullptr);
+  else
+    report.figure("min_angle_deg", "smallest angle", result.min_angle_deg, "degrees");
   add_exemption_figures(report, result.exempt_triangles, result.min_held_angle_deg);
   report.data("beyond_bounds", result.beyond_bounds);
   report.data("touching_points", result.touching_points);
@@ -121,9 +143,11 @@ Status run(const CheckCommand& command) {
   Json regions = Json::object();
   for (const auto& [name, count] : result.regions) {
     regions[name] = count;
-    report.line("region " + name, std::to_string(count) + " triangles");
+    report.line("region " + name,
+                std::to_string(count) + (result.quadrilaterals > 0 ? " cells" : " triangles"));
   }
   report.data("regions", regions);
+  if (input.layered) add_layer_figures(report, *input.layered);
   report.figure("area", "area", result.area, "square chords");
   report.print(command.json);
   return result.valid ? Status::done : Status::answer_is_no;

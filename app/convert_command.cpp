@@ -55,7 +55,7 @@ Status run(const ConvertCommand& command) {
   warn_of_fields(command.outputs, kept.size());
   Report report;
   report.figure("mesh", "mesh", command.mesh);
-  report.figure("triangles", "triangles", input.frozen.triangles.size());
+  add_cell_counts(report, input.frozen.triangles.size(), input.frozen.quads.size());
   report.figure("vertices", "vertices", input.frozen.points.size());
   add_field_names(report, "fields", "fields", kept);
   add_field_names(report, "fields_left_out", "not finite, left out", std::span(left_out, fields.end()));

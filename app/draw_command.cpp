@@ -112,7 +112,7 @@ Status run(const DrawCommand& command) {
   draw(mesh, command.output, options);
   Report report;
   report.figure("mesh", "mesh", command.mesh);
-  report.figure("triangles", "triangles", mesh.triangles.size());
+  add_cell_counts(report, mesh.triangles.size(), mesh.quads.size());
   if (!field.empty()) report.figure("field", "field", field);
   add_output_figures(report, {command.output});
   report.print(command.json);

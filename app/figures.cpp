@@ -35,6 +35,13 @@ void add_exemption_figures(Report& report, std::size_t exempt, double min_held_a
   report.figure("exempt_triangles", "exempt triangles", exempt, "(at input angles below 60 degrees)");
 }
 
+void add_cell_counts(Report& report, std::size_t triangles, std::size_t quadrilaterals) {
+  report.figure("triangles", "triangles", triangles);
+  report.data("quadrilaterals", quadrilaterals);
+  if (quadrilaterals > 0) report.line("quadrilaterals", std::to_string(quadrilaterals));
+  report.data("cells", triangles + quadrilaterals);
+}
+
 void add_mesh_figures(Report& report, const FrozenMesh& mesh, const MeshStatistics& statistics) {
   report.figure("triangles", "triangles", statistics.triangles);
   report.figure("vertices", "vertices", statistics.vertices);
@@ -59,6 +66,32 @@ void add_gradation_error(Report& report, const GradationError& error) {
   report.figure("gradation_deviation", "gradation error, deviation", error.deviation);
 }
 
+void add_step_figures(Report& report, const RemodelResult& result, const std::string& cells) {
+  report.figure(cells + "_before", cells + " before", result.triangles_before);
+  report.figure(cells, cells, result.triangles);
+  report.figure("preserved", "preserved", result.preserved, cells);
+  report.figure("preserved_percent", "preserved, share", result.preserved_percent(), "%");
+  report.figure("connected", "joined as before", result.connected, cells);
+  report.figure("connectivity_percent", "joined as before, share", result.connectivity_percent(), "%");
+  report.figure("born", "born", result.born(), cells);
+  report.figure("gone", "gone", result.gone(), cells);
+  report.figure("flipped", "flipped", result.flipped, "edges");
+  report.figure("moved", "moved", result.moved, result.morphed ? "vertices" : "boundary vertices");
+  report.figure("inserted", "inserted", result.inserted, "vertices");
+  report.figure("removed", "removed", result.removed, "vertices");
+  report.figure("full_adjustment", "full adjustment", result.full_adjustment);
+  report.figure("morphed", "morphed", result.morphed);
+  report.figure("held", "a morph of its reference", result.held);
+  report.figure("method", "method", name_of(result.method));
+  report.figure("refreshed", "generated afresh by the strategy", result.refreshed);
+  report.figure("regenerated", "generated afresh", result.regenerated);
+  if (result.abandoned) report.figure("abandoned", "given up, the mesh is as it was", result.abandoned);
+  if (result.reason.empty())
+    report.data("reason", result.reason);
+  else
+    report.figure("reason", "because", result.reason);
+}
+
 void add_output_figures(Report& report, const std::vector<std::string>& files) {
   report.data("written", files);
   for (const std::string& file : files) report.line("written", file);
@@ -67,7 +100,7 @@ void add_output_figures(Report& report, const std::vector<std::string>& files) {
 void add_flow_mesh(Report& report, const std::string& source, const char* model, const FrozenMesh& mesh) {
   report.figure("mesh", "mesh", source);
   report.data("model", model);
-  report.figure("triangles", "triangles", mesh.triangles.size());
+  add_cell_counts(report, mesh.triangles.size(), mesh.quads.size());
   report.figure("vertices", "vertices", mesh.points.size());
 }
 

@@ -74,7 +74,7 @@ std::string caption(const EvaluationRecord& record, const FrozenMesh& mesh, bool
   std::snprintf(text, sizeof text, "design %llu: %s; %zu triangles, %.1f %% kept since the last frame",
                 static_cast<unsigned long long>(record.evaluation), objective_text(record, is_design).c_str(),
                 mesh.triangles.size(),
-                100.0 * static_cast<double>(kept) / static_cast<double>(mesh.triangles.size()));
+                100.0 * static_cast<double>(kept) / static_cast<double>(mesh.cell_count()));
   return text;
 }
 
@@ -92,7 +92,7 @@ Status run(const FilmCommand& command) {
     options.picture.window = design ? window_of(*design, one_section, 0.08, 0.08) : one_section;
   Film film(options);
   FrozenMesh last = read_frozen_mesh(command.run / "first.vtkhdf");
-  last.fate.assign(last.triangles.size(), Fate::kept);
+  last.fate.assign(last.cell_count(), Fate::kept);
   const FrozenMesh first = shown(last);
   film.add(first, "the start: " + std::to_string(first.triangles.size()) + " triangles");
   auto next = chosen.begin();

@@ -1,5 +1,6 @@
 // remodel mesh SHAPE... [-o MESH]...: a fresh quality mesh.
 
+#include <functional>
 #include <map>
 #include <memory>
 
@@ -8,8 +9,10 @@
 #include "domain_input.h"
 #include "figures.h"
 #include "interrupt.h"
+#include "layer_options.h"
 #include "meshing_options.h"
 #include "outputs.h"
+#include "remodel/error.h"
 #include "timing.h"
 #include "warnings.h"
 
@@ -19,13 +22,78 @@ namespace {
 struct MeshCommand {
   DomainInputOptions shapes;
   MeshingOptions meshing;
+  LayerChoice layers;
   MeshOutputs outputs;
   int repeat = 1;
   bool json = false;
+  std::function<bool(const std::string&)> given;  // on the command line
 };
+
+void report_input(Report& report, const MeshCommand& command, const DomainInput& input) {
+  for (const std::string& shape : command.shapes.shapes) report.line("shape", shape);
+  report.data("shape", command.shapes.shapes.size() == 1 ? Json(command.shapes.shapes[0])
+                                                         : Json(command.shapes.shapes));
+  add_findings(report, input);
+}
+
+// The stations of airfoils are those of the layer's spacings; a domain file has its own, unless spacings are given.
+void space_input(const MeshCommand& command, DomainInput& input) {
+  if (command.given("--points"))
+    throw Error(ErrorCode::argument, "--points",
+                "given with --layers, expected --wall-spacing, --te-spacing and --max-spacing, which set the stations");
+  if (!input.in_farfield && !command.layers.spacing_given) return;
+  validate_input(command.shapes, input.domain);
+  space_walls(input.domain, command.layers.spacing);
+}
+
+// Coarser away from the tops than a mesh without a layer is from its walls.
+constexpr double gradation_with_layers = 8.0;
+
+Status run_layers(const MeshCommand& command) {
+  const LayerOptions layers = resolved(command.layers);
+  MeshingOptions meshing = command.meshing;
+  meshing.gradation = meshing.gradation.value_or(gradation_with_layers);
+  DomainInput input = read_domain(command.shapes, meshing.discretisation, meshing.fit);
+  space_input(command, input);
+
+  InterruptObserver observer;
+  LayeredGenerateResult result;
+  std::vector<double> seconds;
+  for (int i = 0; i < command.repeat && result.stopped != Stopped::interrupted; ++i) {
+    const Stopwatch watch;
+    LayeredGenerateResult generated = generate_layered(input.domain, layers, meshing.resolved_quality(), &observer);
+    seconds.push_back(watch.seconds());
+    result = std::move(generated);
+  }
+  const LayeredMesh& mesh = result.mesh;
+  command.outputs.write(mesh, command.layers.cells);
+
+  Report report;
+  report_input(report, command, input);
+  describe(report, meshing, input.in_farfield, false);
+  const FrozenMesh view = mesh.freeze(command.layers.cells);
+  add_cell_counts(report, view.triangles.size(), view.quads.size());
+  report.figure("vertices", "vertices", view.points.size());
+  std::map<std::string, std::size_t> boundary;
+  for (const FrozenBoundary& part : view.boundaries) boundary[part.name] += part.edges.size();
+  add_boundary_figures(report, boundary);
+  add_layer_figures(report, mesh);
+  const MeshStatistics outside = mesh.outer().statistics();
+  report.figure("min_angle_deg", "smallest angle outside the layer", outside.min_angle_deg, "degrees");
+  add_exemption_figures(report, outside.exempt_triangles, outside.min_held_angle_deg);
+  report.figure("max_gradation", "largest r / (H mean LS) outside", outside.max_gradation);
+  report.figure("seconds", command.repeat > 1 ? "generation, median" : "generation", median(seconds), "seconds");
+  report.figure("stopped", "stopped", name_of(result.stopped));
+  warn_of_limit(result.stopped, mesh.outer());
+  add_output_figures(report, command.outputs.files());
+  report.print(command.json);
+  return result.stopped == Stopped::done ? Status::done : Status::limit;
+}
 
 Status run(const MeshCommand& command) {
   command.outputs.require_possible();
+  require_consistent(command.layers);
+  if (command.layers.layers) return run_layers(command);
   const DomainInput input = read_domain(command.shapes, command.meshing.discretisation, command.meshing.fit);
   const QualityOptions quality = command.meshing.resolved_quality();
 
@@ -41,10 +109,7 @@ Status run(const MeshCommand& command) {
   command.outputs.write(result.mesh);
 
   Report report;
-  for (const std::string& shape : command.shapes.shapes) report.line("shape", shape);
-  report.data("shape", command.shapes.shapes.size() == 1 ? Json(command.shapes.shapes[0])
-                                                         : Json(command.shapes.shapes));
-  add_findings(report, input);
+  report_input(report, command, input);
   describe(report, command.meshing, input.in_farfield, input.outlines.empty());
   add_mesh_figures(report, result.mesh.freeze(), result.mesh.statistics());
   report.figure("small_angles", "input angles below 60 degrees", result.small_angles);
@@ -68,6 +133,8 @@ void add_mesh_command(CLI::App& program, Action& action) {
   add_domain_input(app, command->shapes);
   command->outputs.add_options(app, Presence::optional);
   add_meshing_options(app, command->meshing);
+  add_layer_options(app, command->layers);
+  command->given = [&app](const std::string& name) { return given(app, name); };
   add_real(
       app,
       {"--refine-angle", "DEGREES", "the angle of --min-angle",

@@ -9,6 +9,14 @@ namespace remodel::app {
 MeshInput read_any_mesh(const std::filesystem::path& file) {
   MeshInput input;
   const KeptPipes once;
+  if (holds_layers(file)) {
+    input.layered = read_layered_mesh(file);
+    // As it was written: all cells may be triangles.
+    input.frozen = input.layered->freeze();
+    if (read_frozen_mesh(file).quads.empty()) input.frozen = input.layered->freeze(LayerCells::triangles);
+    input.su2_boxes = read_su2_boxes(file);
+    return input;
+  }
   try {
     input.living = read_mesh(file);
     input.frozen = input.living->freeze();
@@ -25,7 +33,10 @@ MeshInput read_any_mesh(const std::filesystem::path& file) {
 }
 
 void write_with_fields(const MeshOutputs& outputs, const MeshInput& input, std::span<const Field> fields) {
-  if (input.living) {
+  if (input.layered) {
+    const bool triangles = input.frozen.quads.empty();
+    outputs.write(*input.layered, triangles ? LayerCells::triangles : LayerCells::quadrilaterals, fields);
+  } else if (input.living) {
     outputs.write(*input.living, fields);
   } else {
     outputs.write(input.frozen, fields);

@@ -9,12 +9,14 @@
 #include "outputs.h"
 #include "remodel/field.h"
 #include "remodel/frozen_mesh.h"
+#include "remodel/layers.h"
 #include "remodel/mesh.h"
 
 namespace remodel::app {
 
 struct MeshInput {
-  std::optional<Mesh> living;  // of a native file with state
+  std::optional<Mesh> living;           // of a native file with state
+  std::optional<LayeredMesh> layered;  // of one with layers
   FrozenMesh frozen;
   std::string su2_boxes = {};  // ReadNotes::su2_boxes
 };

@@ -23,7 +23,7 @@ void add_discretisation(CLI::App& app, AirfoilDomainOptions& options) {
 void add_quality(CLI::App& app, MeshingOptions& options) {
   QualityOptions& quality = options.quality;
   add_real(app,
-           {"--gradation", "G", "I/50",
+           {"--gradation", "G", "I/50, or 8 with --layers",
             "Triangle size grows by distance/G away from the boundary: above 0 up to 1e6, no unit"},
            {.low = 0.0, .high = 1e6, .above_low = true}, [&](double value) { options.gradation = value; });
   add_real(app,

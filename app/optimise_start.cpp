@@ -20,7 +20,7 @@ void require_one_start(const OptimiseStartOptions& options) {
   if (!options.from.empty() && !options.mesh.empty())
     throw Error(ErrorCode::argument, "--mesh", "given with --from, one of them expected");
   if (options.mesh.empty())
-    refuse(options, {"--boundary", "--refine-angle", "--non-delaunay"},
+    refuse(options, {"--boundary", "--refine-angle", "--non-delaunay", "--dissolve-layers"},
            "given without --mesh, expected with it");
   else
     refuse(options,

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <type_traits>
 
 #include "arguments.h"
 #include "remodel/error.h"
@@ -93,8 +92,8 @@ void MeshOutputs::require_possible() const {
   }
 }
 
-template <class AnyMesh>
-void MeshOutputs::write_each(const AnyMesh& mesh, std::span<const Field> fields) const {
+template <class Freeze, class Write>
+void MeshOutputs::write_each(std::span<const Field> fields, Freeze freeze, Write write_file) const {
   const auto warn_of_losses = [&](const FrozenMesh& frozen, const std::string& file, MeshFormat format) {
     if (format == MeshFormat::foam)
       say_left_out(inner_curves(frozen), file, "as OpenFOAM has no patches inside a mesh");
@@ -110,11 +109,9 @@ void MeshOutputs::write_each(const AnyMesh& mesh, std::span<const Field> fields)
       warn(file + ": FFD boxes are left out, for which the format has no place");
     if (format != MeshFormat::su2 && format != MeshFormat::foam)
       options.fields = fields;
-    else if constexpr (std::is_same_v<AnyMesh, Mesh>)
-      warn_of_losses(mesh.freeze(), file, format);
     else
-      warn_of_losses(mesh, file, format);
-    write_mesh(mesh, file, options);
+      warn_of_losses(freeze(), file, format);
+    write_file(file, options);
   }
 }
 
@@ -124,17 +121,23 @@ MeshOutputs MeshOutputs::with_boxes(const std::string& su2_boxes) const {
   return result;
 }
 
-void MeshOutputs::write(const Mesh& mesh) const {
-  write_each(mesh, {});
-}
-void MeshOutputs::write(const FrozenMesh& mesh) const {
-  write_each(mesh, {});
-}
 void MeshOutputs::write(const Mesh& mesh, std::span<const Field> fields) const {
-  write_each(mesh, fields);
+  write_each(fields, [&] { return mesh.freeze(); },
+             [&](const std::string& file, const WriteOptions& options) { write_mesh(mesh, file, options); });
 }
 void MeshOutputs::write(const FrozenMesh& mesh, std::span<const Field> fields) const {
-  write_each(mesh, fields);
+  write_each(fields, [&]() -> const FrozenMesh& { return mesh; },
+             [&](const std::string& file, const WriteOptions& options) { write_mesh(mesh, file, options); });
+}
+void MeshOutputs::write(const LayeredMesh& mesh, LayerCells cells, std::span<const Field> fields) const {
+  write_each(fields, [&] { return mesh.freeze(cells); },
+             [&](const std::string& file, const WriteOptions& options) { write_mesh(mesh, file, options, cells); });
+}
+void MeshOutputs::write(const Mesh& mesh) const {
+  write(mesh, {});
+}
+void MeshOutputs::write(const FrozenMesh& mesh) const {
+  write(mesh, {});
 }
 
 }  // namespace remodel::app

@@ -12,6 +12,7 @@
 #include "remodel/field.h"
 #include "remodel/frozen_mesh.h"
 #include "remodel/io.h"
+#include "remodel/layers.h"
 #include "remodel/mesh.h"
 
 namespace remodel::app {
@@ -27,13 +28,15 @@ class MeshOutputs {
   // With fields, of which .su2 files have none.
   void write(const Mesh& mesh, std::span<const Field> fields) const;
   void write(const FrozenMesh& mesh, std::span<const Field> fields) const;
+  void write(const LayeredMesh& mesh, LayerCells cells, std::span<const Field> fields = {}) const;
   // Writes SU2's FFD boxes too (ReadNotes::su2_boxes), and warns of files that have no place for them.
   MeshOutputs with_boxes(const std::string& su2_boxes) const;
   const std::vector<std::string>& files() const { return files_; }
 
  private:
-  template <class AnyMesh>
-  void write_each(const AnyMesh& mesh, std::span<const Field> fields) const;
+  // freeze() gives the frozen view, write(file, options) writes a file.
+  template <class Freeze, class Write>
+  void write_each(std::span<const Field> fields, Freeze freeze, Write write) const;
 
   std::vector<std::string> files_;
   bool inner_markers_ = false;

@@ -93,6 +93,10 @@ void add_start_mesh_options(CLI::App& app, StartMeshOptions& options) {
       {"--non-delaunay", "WHAT", "flip",
        "Triangles of an imported mesh that are not Delaunay: flip them, or keep them where nothing changes"},
       {"flip", "keep"}, [&](std::size_t choice) { options.non_delaunay = choices[choice]; });
+  add_flag(app, "--dissolve-layers",
+           "Take an imported mesh with quadrilaterals, or with triangles flatter than 20 to 1 on a wall: "
+           "quadrilaterals are split, and remodelling dissolves its layers",
+           options.dissolve_layers);
 }
 
 StartMesh read_start_mesh(const std::string& file, const StartMeshOptions& options) {
@@ -101,6 +105,7 @@ StartMesh read_start_mesh(const std::string& file, const StartMeshOptions& optio
     refuse_for_native(options.refine_angle_deg.has_value(), "--refine-angle", file);
     refuse_for_native(options.gradation.has_value(), "--gradation", file);
     refuse_for_native(options.non_delaunay.has_value(), "--non-delaunay", file);
+    refuse_for_native(options.dissolve_layers, "--dissolve-layers", file);
     return {.mesh = std::move(*native),
             .source = file,
             .imported = std::nullopt,
@@ -110,6 +115,7 @@ StartMesh read_start_mesh(const std::string& file, const StartMeshOptions& optio
   import.refine_angle_deg = options.refine_angle_deg.value_or(import.refine_angle_deg);
   import.gradation = options.gradation.value_or(import.gradation);
   import.non_delaunay = options.non_delaunay.value_or(import.non_delaunay);
+  import.layers = options.dissolve_layers ? FlatLayers::dissolve : FlatLayers::refuse;
   ReadNotes notes;
   ImportResult imported = import_mesh(read_frozen_mesh(file, &notes), file, import);
   warn_of(notes);

@@ -22,9 +22,10 @@ struct StartMeshOptions {
   std::optional<double> refine_angle_deg;
   std::optional<double> gradation;
   std::optional<NonDelaunay> non_delaunay;
+  bool dissolve_layers = false;
 };
 
-// --boundary, --refine-angle, --non-delaunay.
+// --boundary, --refine-angle, --non-delaunay, --dissolve-layers.
 void add_start_mesh_options(CLI::App& app, StartMeshOptions& options);
 
 struct StartMesh {

@@ -16,6 +16,8 @@
 #include "domain_input.h"
 #include "figures.h"
 #include "interrupt.h"
+#include "layer_options.h"
+#include "layered_update.h"
 #include "mesh_input.h"
 #include "meshing_options.h"
 #include "new_airfoil.h"
@@ -40,6 +42,7 @@ struct UpdateCommand {
   RemodelOptions remodelling;
   MeshOutputs outputs;
   CarryOptions carry;
+  LayerCells cells = LayerCells::quadrilaterals;
   int repeat = 1;
   bool no_regenerate = false;
   bool json = false;
@@ -64,7 +67,7 @@ std::size_t triangles_in_common(const FrozenMesh& file, const FrozenMesh& after)
     std::sort(triangles.begin(), triangles.end());
     return triangles;
   };
-  const auto of_file = sorted_triangles(file), now = sorted_triangles(after);
+  const auto of_file = sorted_triangles(with_split_quads(file)), now = sorted_triangles(after);
   std::size_t common = 0;
   for (const auto& triangle : of_file) common += std::binary_search(now.begin(), now.end(), triangle);
   return common;
@@ -92,37 +95,11 @@ void warn_of_losses(const UpdateCommand& command, const StartMesh& start, const 
                          " join the same vertices as before");
   if (!start.imported || start.imported->flipped_edges == 0) return;
   const std::size_t common = triangles_in_common(file, after);
-  if (2 * common < file.triangles.size())
-    say(of(file.triangles.size() - common, file.triangles.size()) +
-        " triangles of the file are not in the new mesh: " +
+  const std::size_t all = file.triangles.size() + 2 * file.quads.size();
+  if (2 * common < all)
+    say(of(all - common, all) + " triangles of the file are not in the new mesh: " +
         std::to_string(start.imported->non_delaunay_edges) +
         " of its edges are not Delaunay, and Delaunay triangles took their places");
-}
-
-void add_figures(Report& report, const RemodelResult& result) {
-  report.figure("triangles_before", "triangles before", result.triangles_before);
-  report.figure("triangles", "triangles", result.triangles);
-  report.figure("preserved", "preserved", result.preserved, "triangles");
-  report.figure("preserved_percent", "preserved, share", result.preserved_percent(), "%");
-  report.figure("connected", "joined as before", result.connected, "triangles");
-  report.figure("connectivity_percent", "joined as before, share", result.connectivity_percent(), "%");
-  report.figure("born", "born", result.born(), "triangles");
-  report.figure("gone", "gone", result.gone(), "triangles");
-  report.figure("flipped", "flipped", result.flipped, "edges");
-  report.figure("moved", "moved", result.moved, result.morphed ? "vertices" : "boundary vertices");
-  report.figure("inserted", "inserted", result.inserted, "vertices");
-  report.figure("removed", "removed", result.removed, "vertices");
-  report.figure("full_adjustment", "full adjustment", result.full_adjustment);
-  report.figure("morphed", "morphed", result.morphed);
-  report.figure("held", "a morph of its reference", result.held);
-  report.figure("method", "method", name_of(result.method));
-  report.figure("refreshed", "generated afresh by the strategy", result.refreshed);
-  report.figure("regenerated", "generated afresh", result.regenerated);
-  if (result.abandoned) report.figure("abandoned", "given up, the mesh is as it was", result.abandoned);
-  if (result.reason.empty())
-    report.data("reason", result.reason);
-  else
-    report.figure("reason", "because", result.reason);
 }
 
 // A single airfoil replaces the mesh's own; several airfoils, or a domain, replace the whole domain.
@@ -228,8 +205,30 @@ void add_settings(Report& report, const UpdateCommand& command, const DomainInpu
   report.line("removal distance D", Json(command.remodelling.distance).dump());
 }
 
+// What a mesh with layers has no use for, or is not there for it.
+void require_for_layers(const UpdateCommand& command) {
+  for (const char* option : {"--reference", "--boundary", "--points", "--refine-angle", "--non-delaunay"})
+    if (command.given(option))
+      throw Error(ErrorCode::argument, option,
+                  "given for '" + command.mesh + "', a mesh with layers, expected a mesh without");
+}
+
+LayeredUpdate layered(const UpdateCommand& command) {
+  require_for_layers(command);
+  LayeredUpdate update{command.mesh,    command.shapes, command.fit,    command.remodelling, command.outputs,
+                       command.carry, command.cells,  command.repeat, command.json};
+  update.remodelling.regenerate = !command.no_regenerate;
+  if (!command.given("--strategy")) update.remodelling.strategy = Strategy::morph;
+  return update;
+}
+
 Status run(const UpdateCommand& command) {
   command.outputs.require_possible();
+  const KeptPipes once;
+  if (holds_layers(command.mesh)) return run_layered_update(layered(command));
+  if (command.given("--layer-cells"))
+    throw Error(ErrorCode::argument, "--layer-cells",
+                "given for '" + command.mesh + "', expected a native mesh with layers");
   require_reference_kept(command);
   const Origin origin = read_origin(command);
   const StartMesh& start = origin.start;
@@ -252,7 +251,7 @@ Status run(const UpdateCommand& command) {
   Report report;
   add_settings(report, command, input);
   add_import_figures(report, start);
-  add_figures(report, result);
+  add_step_figures(report, result);
   add_part_figures(report, mesh);
   const MeshStatistics statistics = mesh.statistics();
   report.figure("min_angle_deg", "smallest angle", smallest_angle(mesh), "degrees");
@@ -305,6 +304,7 @@ void add_update_command(CLI::App& program, Action& action) {
               {.low = 8, .high = 100000, .even = true},
               [command](std::int64_t value) { command->start.points = static_cast<int>(value); });
   command->outputs.add_options(app, Presence::optional);
+  add_layer_cells(app, command->cells);
   add_carry_options(app, command->carry);
   add_fit_options(app, command->fit);
   add_remodel_options(app, command->remodelling);

@@ -34,6 +34,19 @@ Domain square_with_arc() {
            {LoopRole::hole, {{"hole", Arc{{2, 2}, 1, 0, 6.283185307179586}, {0, 0.25, 0.5, 0.75}}}}}};
 }
 
+// A square around a square hole: quadrilaterals on two sides of it, triangles on the others, each a region.
+FrozenMesh mixed_mesh() {
+  FrozenMesh mesh;
+  mesh.points = {{0, 0}, {3, 0}, {3, 3}, {0, 3}, {1, 1}, {2, 1}, {2, 2}, {1, 2}};
+  mesh.triangles = {{2, 3, 6}, {3, 7, 6}, {3, 0, 7}, {0, 4, 7}};
+  mesh.quads = {{0, 1, 5, 4}, {1, 2, 6, 5}};
+  mesh.boundaries = {{"outer", {{0, 1}, {1, 2}, {2, 3}, {3, 0}}},
+                     {"airfoil", {{4, 7}, {7, 6}, {6, 5}, {5, 4}}}};
+  mesh.region_names = {"outside", "layer"};
+  mesh.region = {0, 0, 0, 0, 1, 1};
+  return mesh;
+}
+
 // Graphs with features beyond closed loops: cracks, joints, inner loops, single points, small angles,
 // crossings and holes.
 struct NamedGraph {
@@ -115,6 +128,13 @@ int main(int argc, char** argv) {
   for (std::uint32_t i = 0; i < parts.triangles.size(); ++i) parts.region.push_back(i % 5 % 2);
   for (const char* extension : {"msh", "vtu", "vtkhdf"})
     write_mesh(parts, root / extension / (std::string("regions.") + extension));
+  const FrozenMesh mixed = mixed_mesh();
+  const Field speed{"speed", FieldPlace::triangles, 1, {1, 2, 3, 4, 5, 6}};
+  write_mesh(mixed, root / "import" / "mixed.su2");
+  write_mesh(mixed, root / "su2" / "mixed.su2");
+  write_mesh(mixed, root / "msh" / "mixed22.msh", {.msh_version = 22});
+  for (const char* extension : {"msh", "vtu", "vtkhdf"})
+    write_mesh(mixed, root / extension / (std::string("mixed.") + extension), {.fields = {&speed, 1}});
   for (unsigned i = 0; i < 8; ++i) {
     std::string bytes;
     for (unsigned k = 0; k < 120; ++k) bytes += static_cast<char>((i * 97 + k * k * 31 + k * 7) % 251);

@@ -19,6 +19,7 @@ LAYERS = [
     {"name": "generate", "headers": ["generate.h", "limits.h"]},
     {"name": "import", "headers": ["import.h"]},
     {"name": "step", "headers": ["remodel.h", "mesh_derivative.h", "displacement.h"]},
+    {"name": "layer", "headers": ["layers.h"]},
     {"name": "transfer", "headers": ["transfer.h", "snapshots.h"]},
     {"name": "check", "headers": ["check.h"]},
     {"name": "flow", "headers": ["flow.h", "potential_flow.h"]},

@@ -4,26 +4,29 @@
 // arithmetic on the frozen view. Slow and obvious on purpose.
 //
 // The rules, in the order in which they are tested. A rule is left out where one that it stands on is broken.
-//   index          indices are in range, triangles have three different points, arrays have their sizes
+//   index          indices are in range, cells have three or four different points, arrays have their sizes
 //   finite         coordinates, length scales and parameters are numbers
 //   duplicate      no two points coincide (of those that are used, where others may be)
-//   orphan-vertex  every point is in a triangle
-//   angle          no angle below CheckOptions::min_angle_deg
-//   gradation      r <= H times the mean length scale of the three points
+//   orphan-vertex  every point is in a cell
+//   angle          no angle of a triangle below CheckOptions::min_angle_deg, but in layers
+//   gradation      r <= H times the mean length scale of the three points of a triangle, but in layers
 //   orientation    triangles are counter-clockwise and have an area (exact)
-//   adjacency      an edge is in one triangle, or in two that pass it in opposite directions
-//   boundary       exactly the edges with one triangle are named (inner edges may be: constraints), once, the
+//   convex         quadrilaterals are counter-clockwise and strictly convex (exact)
+//   adjacency      an edge is in one cell, or in two that pass it in opposite directions
+//   boundary       exactly the edges with one cell are named (inner edges may be: constraints), once, the
 //                  domain on their left, and under each name in the order of their loop, either way
-//   area           the triangles' areas sum up to that of the named polygons (exact)
-//   delaunay       no inner edge without a name has the point across inside the triangle's circle (exact), or
-//                  the angles opposite to it sum up to at most 180 degrees and
-//                  CheckOptions::delaunay_slack_deg
-//   manifold       the triangles of a point form one fan; or several, each between two boundary edges, where
+//   area           the cells' areas sum up to that of the named polygons (exact)
+//   delaunay       no inner edge without a name, between two triangles that are in no layer, has the point
+//                  across inside the triangle's circle (exact), or the angles opposite to it sum up to at
+//                  most 180 degrees and CheckOptions::delaunay_slack_deg
+//   manifold       the cells of a point form one fan; or several, each between two boundary edges, where
 //                  loops of the boundary touch: in a mesh of a design where the design's chains are joined
 //   euler          V - E + F = 2 components - boundary loops
 //   overlap        boundary edges do not cross or touch, and no place is covered twice (exact)
 //   region         in a mesh of a design, named curves lie between two regions
 //   design         the boundary is the design's: see CheckOptions::design
+//
+// In a layer are all quadrilaterals, and the first FrozenMesh::layer_triangles triangles.
 
 #include <cstdint>
 #include <limits>
@@ -38,7 +41,7 @@ namespace remodel {
 
 struct Violation {
   std::string rule;                // one of the names above
-  std::vector<std::uint32_t> ids;  // the points or triangles concerned (indices of the frozen view)
+  std::vector<std::uint32_t> ids;  // the points or cells concerned (indices of the frozen view)
   std::string detail;              // one sentence
 };
 
@@ -50,7 +53,7 @@ struct CheckOptions {
   bool bounds = true;  // false: what is beyond the two above is counted in the result, and no violation
   double delaunay_slack_deg =
       0.0;                     // Mesh::delaunay_slack_deg(); 0 to 60. CheckResult::delaunay knows of none
-  bool unused_points = false;  // true: points of no triangle are counted, not refused: other programs leave
+  bool unused_points = false;  // true: points of no cell are counted, not refused: other programs leave
                                // the centres of circles in their files, say
   // If given, every boundary point must be the design's at its curve and parameter, to the last bit, every
   // station of the design must be there, and boundary edges must join consecutive parameters under the name
@@ -64,9 +67,13 @@ struct CheckResult {
   bool valid = false;
   std::vector<Violation> violations;
   std::size_t triangles = 0;
-  std::size_t vertices = 0;         // points of triangles
-  std::size_t unused_points = 0;    // points of no triangle
-  double min_angle_deg = 0.0;       // of all triangles
+  std::size_t quadrilaterals = 0;
+  std::size_t vertices = 0;       // points of cells
+  std::size_t unused_points = 0;  // points of no cell
+  double min_angle_deg = 0.0;     // of all triangles but those of layers; NaN if there are none
+  // The least and the largest angle at a corner of a quadrilateral; NaN if there are none.
+  double least_corner_deg = std::numeric_limits<double>::quiet_NaN();
+  double largest_corner_deg = std::numeric_limits<double>::quiet_NaN();
   double min_held_angle_deg = 0.0;  // of those that are not exempt; NaN if all are
   // Below min_angle_deg, but exempt: the shortest edge joins two boundary points at the same distance from a
   // corner of less than 60 degrees in the domain, on both of its sides (a small input angle).
@@ -75,9 +82,9 @@ struct CheckResult {
   double max_gradation = std::numeric_limits<double>::quiet_NaN();
   std::size_t beyond_bounds = 0;                // triangles beyond a bound, but for exempt ones
   std::size_t touching_points = 0;              // points where boundary loops touch
-  bool delaunay = false;                        // false too where orientation or adjacency is broken
+  bool delaunay = false;                        // false too where orientation, convex or adjacency is broken
   std::map<std::string, std::size_t> boundary;  // edges per name
-  std::map<std::string, std::size_t> regions;   // triangles per region; empty where there is but one
+  std::map<std::string, std::size_t> regions;   // cells per region; empty where there is but one
   double area = 0.0;                            // square chords
 };
 

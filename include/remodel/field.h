@@ -11,13 +11,14 @@
 
 namespace remodel {
 
+// triangles: the cells, the triangles and then the quadrilaterals that a mesh may have.
 enum class FieldPlace : std::uint8_t { vertices, triangles };
 
 struct Field {
   std::string name;  // not empty, without control characters
   FieldPlace place = FieldPlace::vertices;
   int components = 1;  // 1 to 3
-  // The components of the first vertex or triangle, then those of the second, in the order of the frozen
+  // The components of the first vertex or cell, then those of the second, in the order of the frozen
   // mesh. A file may hold infinities and NaN; to be written, values have to be finite.
   std::vector<double> values;
 };

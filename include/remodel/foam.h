@@ -3,9 +3,9 @@
 // OpenFOAM cases: a plane mesh as one that is a cell thick, and the fields of a time directory, carried from
 // one mesh to the next. https://www.openfoam.com/documentation/user-guide/4-mesh-generation-and-conversion
 //
-// Cell i is triangle i of the frozen mesh, from z = 0 to z = 1. A boundary becomes a patch of its name, of
-// type `wall` unless it is called farfield, inlet or outlet; `front` and `back` are of type `empty`. Curves
-// inside the mesh and the names of regions are left out.
+// Cell i is cell i of the frozen mesh, from z = 0 to z = 1: triangles are prisms, quadrilaterals hexahedra. A
+// boundary becomes a patch of its name, of type `wall` unless it is called farfield, inlet or outlet; `front`
+// and `back` are of type `empty`. Curves inside the mesh and the names of regions are left out.
 
 #include <cstddef>
 #include <filesystem>

@@ -3,7 +3,9 @@
 // The compact, frozen view of a mesh: all that files, solvers, pictures and the checker ever see.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,10 +20,10 @@ struct FrozenBoundary {
   std::vector<std::array<std::uint32_t, 2>> edges;
 };
 
-// The fate of a triangle since an earlier state of its mesh.
+// The fate of a cell since an earlier state of its mesh.
 enum class Fate : std::uint8_t {
   kept,   // it was there, and nothing of it has changed since
-  moved,  // the same three vertices were joined, of which some have moved along with the design
+  moved,  // the same vertices were joined, of which some have moved along with the design
   made,   // it is new
 };
 
@@ -46,35 +48,55 @@ struct FrozenMesh {
   // Each point has 1 on a boundary where refinement put it, 0 if it is the design's (or an imported file's).
   // Every format keeps it, so that an imported mesh has the design's own points.
   std::vector<std::uint8_t> steiner{};
-  // Parts of the domain with names of their own (materials, fluids): per triangle an index into region_names.
+  // Parts of the domain with names of their own (materials, fluids): per cell an index into region_names.
   // Empty where there is but one. Edges between two of them that no boundary names are interfaces all the
   // same.
   std::vector<std::uint32_t> region{};
   std::vector<std::string> region_names{};
   // Each triangle has ln(r / (H mean LS*)), only where it was asked for (Mesh::gradation_errors()).
   std::vector<double> gradation_error{};
-  // Each triangle has its fate since an earlier state, only where it was asked for (fates()).
+  // Each cell has its fate since an earlier state, only where it was asked for (fates()).
   std::vector<Fate> fate{};
   // The angles opposite an inner edge may exceed 180 degrees by this: Mesh::delaunay_slack_deg(), 0 for
   // meshes that are not held. It is what CheckOptions::delaunay_slack_deg has to be for the mesh to be valid.
   double delaunay_slack_deg = 0.0;
-  // Quadrilaterals of the domain, counter-clockwise and strictly convex: the cells of layers on walls. Cells are
-  // numbered triangles first. Edges of quadrilaterals are no Delaunay edges, and their angles have no bound.
+  // Quadrilaterals of the domain, counter-clockwise and strictly convex: the cells of layers on walls, and
+  // whatever another program's file has. The cells of a mesh are its triangles, then its quadrilaterals, in
+  // that order: what is said of cells (region, fate, fields) has one value for each triangle and then one for
+  // each quadrilateral. Ids, births and gradation errors are of triangles alone.
   std::vector<std::array<std::uint32_t, 4>> quads{};
+  // The first so many triangles are cells of a layer, like all quadrilaterals: those that its last cells are
+  // split into where the outer mesh has a vertex on their edge. They are flat on purpose: no bound on angles
+  // or gradation holds for them, and their edges are no Delaunay edges. No file has this number.
+  std::uint32_t layer_triangles = 0;
+
+  std::size_t cell_count() const { return triangles.size() + quads.size(); }
+  // The three or four corners of a cell.
+  std::span<const std::uint32_t> cell(std::size_t i) const {
+    if (i < triangles.size()) return triangles[i];
+    return quads[i - triangles.size()];
+  }
 };
 
-// The fate of each triangle of `after`, since `before`: two states of one living mesh, in the order of time.
+// The mesh with each quadrilateral a b c d as two triangles, in the order of the quadrilaterals and behind
+// the triangles that it has: a b c and a c d, or b c d and b d a where one of those would not be
+// counter-clockwise. What is said of a cell is said of both. Ids, births and gradation errors of triangles
+// are left out, unless there is no quadrilateral: nothing changes then. Indices must be in range.
+FrozenMesh with_split_quads(const FrozenMesh& mesh);
+
+// The fate of each cell of `after`, since `before`: two states of one living mesh, in the order of time.
 // Exact between consecutive steps. Over many of them a vertex's id may have been given out again: it counts
 // as the same vertex in the interior if it has the same key (without keys, if it stands at the same point),
-// on a boundary if it has the same curve and parameter. O(triangles). Throws Error (argument) for a mesh
-// without ids or births.
+// on a boundary if it has the same curve and parameter. Quadrilaterals, and the triangles of layers, have no
+// ids that would tell: they are kept where their vertices are the same and rest. O(cells). Throws Error
+// (argument) for a mesh without ids or births.
 std::vector<Fate> fates(const FrozenMesh& before, const FrozenMesh& after);
 
 // These numbers say what two meshes have in common, however either was made. RemodelResult has the same
 // figures of one step.
 struct InCommon {
-  std::size_t preserved = 0;              // triangles whose vertices stand where they stood
-  std::size_t connected = 0;              // triangles whose vertices are the same, moved or not
+  std::size_t preserved = 0;              // cells whose vertices stand where they stood
+  std::size_t connected = 0;              // cells whose vertices are the same, moved or not
   std::size_t moved = 0;                  // vertices that are the same at another place
   std::size_t inserted = 0, removed = 0;  // vertices of `after` alone and of `before` alone
 };

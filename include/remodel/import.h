@@ -32,6 +32,14 @@ enum class NonDelaunay {
   keep,  // it is the file's, as long as nothing near is touched
 };
 
+// The treatment of a mesh with layers of flat cells on a wall, which a remodelling would dissolve: a mesh
+// with quadrilaterals, or one where on eight edges of a boundary, and on more than a tenth of them, stand
+// triangles flatter than 20 to 1 (edge over height).
+enum class FlatLayers {
+  refuse,    // Error (geometry) that says what is lost
+  dissolve,  // quadrilaterals are split, and all triangles are triangles
+};
+
 struct ImportOptions {
   NonDelaunay non_delaunay = NonDelaunay::flip;
   // The smallest angle of new triangles, 1 to 33 degrees. Above 30 degrees refinement spreads, and hundreds
@@ -43,6 +51,7 @@ struct ImportOptions {
   double resolution = 1.0;                     // R
   std::uint32_t max_vertices = 10'000'000;
   std::string unnamed = "boundary";  // name of boundary edges without one
+  FlatLayers layers = FlatLayers::refuse;
 };
 
 struct ImportResult {

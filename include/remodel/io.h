@@ -12,6 +12,7 @@
 
 #include "remodel/field.h"
 #include "remodel/frozen_mesh.h"
+#include "remodel/layers.h"
 #include "remodel/mesh.h"
 #include "remodel/planar.h"
 
@@ -25,7 +26,7 @@ enum class MeshFormat { vtkhdf, su2, msh, vtu, foam };
 // The extension says the format. Throws Error (argument) for another, listing those that are known.
 MeshFormat mesh_format(const std::filesystem::path& file);
 
-// Named edges with triangles on both sides, in .su2 files: SU2 takes every edge of a marker for a boundary,
+// Named edges with cells on both sides, in .su2 files: SU2 takes every edge of a marker for a boundary,
 // and computes the flow around a wall that is none.
 enum class InnerCurves { left_out, markers };
 struct WriteOptions {
@@ -59,21 +60,32 @@ struct ReadNotes {
   // one.
   std::size_t repeated_triangles = 0;
 };
-// Reads the frozen view of any format (triangles only; boundary by marker or physical name). What comes
-// through a pipe without an extension is known by how it begins.
+// Reads the frozen view of any format: triangles and quadrilaterals of first order, boundary by marker or
+// physical name. What comes through a pipe without an extension is known by how it begins.
 FrozenMesh read_frozen_mesh(const std::filesystem::path& file, ReadNotes* notes = nullptr);
 // The boxes in a .su2 or .vtkhdf file, and those of a mesh whose points are no longer the file's:
 // FFD_SURFACE_POINTS= name these by their numbers, and are left out (0; SU2_DEF sets them anew).
 // surface_points: their number.
 std::string read_su2_boxes(const std::filesystem::path& file);
 std::string without_surface_points(const std::string& su2_boxes, std::size_t& surface_points);
-// The fields of reals in a file, on the vertices and triangles of read_frozen_mesh(): those on vertices
+// The fields of reals in a file, on the vertices and cells of read_frozen_mesh(): those on vertices
 // first, in alphabetical order, without what belongs to the mesh itself (length_scale, parameter, ...). Left
 // out are fields of more than three components, of integers or text, and in .msh files those that say nothing
-// of some vertex or triangle. A .su2 file has none.
+// of some vertex or cell. A .su2 file has none.
 std::vector<Field> read_fields(const std::filesystem::path& file);
-// Reads a native mesh. A .vtkhdf without state, or another format, is an Error that says what was expected.
+// Reads a native mesh. A .vtkhdf without state, or another format, is an Error that says what was expected; so is
+// (format) a mesh with layers, for which there are the calls below.
 Mesh read_mesh(const std::filesystem::path& file);
+
+// A layered mesh in any format, as freeze(cells) has it. A .vtkhdf file holds the outer mesh's state, the walls and
+// the options of the layer too, and the rest is computed from these to the bit. Of that file read_frozen_mesh()
+// has the whole view.
+void write_mesh(const LayeredMesh& mesh, const std::filesystem::path& file, const WriteOptions& options = {},
+                LayerCells cells = LayerCells::quadrilaterals);
+// True for a .vtkhdf file of a layered mesh with its state.
+bool holds_layers(const std::filesystem::path& file);
+// Throws Error as read_mesh() does, and for a native mesh without layers.
+LayeredMesh read_layered_mesh(const std::filesystem::path& file);
 
 // A written place is where writing to `file` puts its bytes.
 struct WrittenPlace {

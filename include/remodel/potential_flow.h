@@ -9,11 +9,11 @@
 // the reference length; lift is across the free stream, the moment raises the nose (is clockwise) where it is
 // positive.
 //
-// Method: the stream function, linear on triangles, constant on each body, on the far field that of the free
-// stream with a vortex in each body. A body with a trailing edge, sharp or blunt, has the circulation with
-// which the flow leaves it smoothly (Kutta); others have none. Circulations and speeds on walls come from
-// consistent fluxes. P. M. Gresho and R. L. Sani, "Incompressible Flow and the Finite Element Method", 1998,
-// sec. 3.13 (fluxes).
+// Method: the stream function, linear on triangles (quadrilaterals are split), constant on each body, on the
+// far field that of the free stream with a vortex in each body. A body with a trailing edge, sharp or blunt,
+// has the circulation with which the flow leaves it smoothly (Kutta); others have none. Circulations and
+// speeds on walls come from consistent fluxes. P. M. Gresho and R. L. Sani, "Incompressible Flow and the
+// Finite Element Method", 1998, sec. 3.13 (fluxes).
 //
 // With a Mach number, pressures are those of the incompressible flow by the rule of T. von Karman and H.-S.
 // Tsien (J. Aeronaut. Sci. 6, 1939, p. 399), forces by pressure their sums, and the lift by circulation

@@ -11,6 +11,10 @@
 // has moved, and new ones are interpolated. remap() takes values as a function of space: it conserves their
 // integral, is of second order, and makes no new extremum. Both leave alone what nothing has changed around.
 //
+// Values on triangles are values on cells where frozen meshes have quadrilaterals too: those of the
+// triangles, then theirs. A quadrilateral is two triangles of its value, as with_split_quads() makes them,
+// and gets the mean of its two, by areas.
+//
 // Sources: P. E. Farrell and J. R. Maddison, "Conservative interpolation between volume meshes by local
 // Galerkin projection", Comput. Methods Appl. Mech. Eng. 200, 2011 (integrals over the intersections of old
 // and new elements); F. Alauzet and M. Mehrenberger, "P1-conservative solution interpolation on unstructured

@@ -9,7 +9,7 @@ from ._errors import ArgumentError, ArgumentTypeError
 _PHYSICAL = "gmsh:physical"
 _BOUNDARY = "boundary:"  # then the name: pairs of points among PyVista's field data
 _REGION, _REGION_NAMES = "region", "region_names"
-_VTK_LINE, _VTK_TRIANGLE = 3, 5
+_VTK_LINE, _VTK_TRIANGLE, _VTK_QUAD = 3, 5, 9
 
 
 def _placed(mesh, fields):
@@ -18,8 +18,9 @@ def _placed(mesh, fields):
     for name, values in (fields or {}).items():
         values = np.asarray(values)
         on_points = len(values) == len(mesh.points)
-        if not on_points and len(values) != len(mesh.triangles):
-            raise ArgumentError(f"{name}: found {len(values)} values, expected one a point or one a triangle")
+        if not on_points and len(values) != len(mesh.triangles) + len(mesh.quads):
+            cell = "cell" if len(mesh.quads) else "triangle"
+            raise ArgumentError(f"{name}: found {len(values)} values, expected one a point or one a {cell}")
         result[name] = on_points, values
     return result
 
@@ -33,22 +34,25 @@ def _flat(points, what):
 
 
 def to_meshio(mesh, fields=None):
-    """The mesh as a meshio.Mesh: triangles, a block for each region, then the boundary as lines, a block for each name.
+    """The mesh as a meshio.Mesh: triangles, a block for each region, quadrilaterals likewise, then the boundary as lines,
+    a block for each name.
 
     Names are cell sets, and physical groups as Gmsh has them, which meshio writes to .msh (file_format='gmsh22'). fields:
-    values on points or triangles, by name.
+    values on points or cells, by name.
     """
     import meshio
 
     points = np.column_stack([mesh.points, np.zeros(len(mesh.points))])
-    triangles = mesh.triangles.astype(np.int64)
-    if len(mesh.region):
-        rows = [(name, np.flatnonzero(mesh.region == number)) for number, name in enumerate(mesh.region_names)]
-    else:
-        rows = [(None, np.arange(len(triangles)))]
-    blocks = [("triangle", name, triangles[row], row) for name, row in rows if len(row)]
+    blocks = []
+    for kind, cells, first in (("triangle", mesh.triangles, 0), ("quad", mesh.quads, len(mesh.triangles))):
+        if len(mesh.region):
+            region = mesh.region[first : first + len(cells)]
+            rows = [(name, np.flatnonzero(region == number)) for number, name in enumerate(mesh.region_names)]
+        else:
+            rows = [(None, np.arange(len(cells)))]
+        blocks += [(kind, name, cells[row].astype(np.int64), first + row) for name, row in rows if len(row)]
     blocks += [("line", name, edges.astype(np.int64), None) for name, edges in mesh.boundaries.items()]
-    names = [(2 if kind == "triangle" else 1, name) for kind, name, _, _ in blocks if name is not None]
+    names = [(1 if kind == "line" else 2, name) for kind, name, _, _ in blocks if name is not None]
     tags = {key: number + 1 for number, key in enumerate(dict.fromkeys(names))}
 
     sets = {}
@@ -57,7 +61,7 @@ def to_meshio(mesh, fields=None):
             sets.setdefault(name, [np.arange(0)] * len(blocks))[index] = np.arange(len(cells))
     cell_data = {}
     if tags:
-        of_block = lambda kind, name: tags.get((2 if kind == "triangle" else 1, name), 0)
+        of_block = lambda kind, name: tags.get((1 if kind == "line" else 2, name), 0)
         cell_data[_PHYSICAL] = [np.full(len(cells), of_block(kind, name), dtype=np.int32) for kind, name, cells, _ in blocks]
         cell_data["gmsh:geometrical"] = [column.copy() for column in cell_data[_PHYSICAL]]
     result = meshio.Mesh(
@@ -78,48 +82,52 @@ def _split(cells):
 
 
 def from_meshio(mesh, *, split_quadrilaterals=False):
-    """The triangles of a meshio.Mesh as a FrozenMesh, with boundaries and regions by cell set or physical name.
+    """The triangles and quadrilaterals of a meshio.Mesh as a FrozenMesh, with boundaries and regions by cell set or
+    physical name.
 
-    split_quadrilaterals: each becomes two triangles; otherwise they are refused, as other cells than triangles, lines
-    and vertices are. Lines of no set are left out; import_mesh() names boundary edges that have no name. Raises
+    split_quadrilaterals: each quadrilateral becomes two triangles. Other cells than these, lines and vertices are
+    refused. Lines of no set are left out; import_mesh() names boundary edges that have no name. Raises
     ArgumentError.
     """
     if not hasattr(mesh, "cells") or not hasattr(mesh, "cell_sets"):
         raise ArgumentTypeError(f"mesh: found an object of type {type(mesh).__name__}, expected a meshio.Mesh")
-    triangles, lines, rows = [], [], 0
+    triangles, quads, lines = [], [], []
     for index, block in enumerate(mesh.cells):
         data = np.asarray(block.data)
-        if block.type == "triangle" or block.type == "quad" and split_quadrilaterals:
-            copies = 1 if block.type == "triangle" else 2
-            triangles.append((index, data if copies == 1 else _split(data), copies, rows))
-            rows += copies * len(data)
+        if block.type == "triangle":
+            triangles.append((index, data, 1))
+        elif block.type == "quad" and split_quadrilaterals:
+            triangles.append((index, _split(data), 2))
+        elif block.type == "quad":
+            quads.append((index, data, 1))
         elif block.type == "line":
             lines.append((index, data))
         elif block.type != "vertex":
-            hint = " (split_quadrilaterals=True makes two triangles of each)" if block.type == "quad" else ""
-            raise ArgumentError(f"mesh: found {len(data)} cells of type {block.type}, expected triangles and lines{hint}")
-    if not triangles:
+            raise ArgumentError(f"mesh: found {len(data)} cells of type {block.type}, expected triangles, quadrilaterals and lines")
+    if not triangles and not quads:
         raise ArgumentError("mesh: found no triangles, expected some")
 
     boundaries = {}
     for index, data in lines:
         for name, cells in _named(mesh, index, 1):
             boundaries.setdefault(name, []).append(data[cells])
-    region, names = np.full(rows, -1, dtype=np.int64), []
-    for index, _, copies, first in triangles:
+    region, names, first = np.full(sum(len(cells) for _, cells, _ in triangles + quads), -1, dtype=np.int64), [], 0
+    for index, _, copies in triangles + quads:
         count = len(mesh.cells[index].data)
         for name, cells in _named(mesh, index, 2):
             if name not in names:
                 names.append(name)
             for copy in range(copies):
                 region[first + copy * count + np.asarray(cells)] = names.index(name)
+        first += copies * count
     if len(names) == 1 and region.min() == 0:
         names = []  # one region is none
     if names and region.min() < 0:
         region[region < 0], names = len(names), [*names, ""]
     regions = {"region": region, "region_names": names} if names else {}
     joined = {name: np.concatenate(parts) for name, parts in boundaries.items()}
-    return FrozenMesh(_flat(mesh.points, "mesh"), np.concatenate([cells for _, cells, _, _ in triangles]), joined, **regions)
+    joined_cells = lambda parts, corners: np.concatenate([np.empty((0, corners), dtype=np.int64), *(cells for _, cells, _ in parts)])
+    return FrozenMesh(_flat(mesh.points, "mesh"), joined_cells(triangles, 3), joined, quads=joined_cells(quads, 4), **regions)
 
 
 def _named(mesh, index, dimension):
@@ -158,7 +166,7 @@ def _names_of_tags(mesh, key, dimension):
 
 
 def to_pyvista(mesh, fields=None):
-    """The mesh as a pyvista.UnstructuredGrid of triangles, with fields by name.
+    """The mesh as a pyvista.UnstructuredGrid of triangles, then quadrilaterals, with fields by name.
 
     Boundaries are pairs of points among its field data, `boundary:` and their name; regions the cells' numbers `region`
     and the field data `region_names`. from_pyvista() reads them.
@@ -166,8 +174,9 @@ def to_pyvista(mesh, fields=None):
     import pyvista
 
     points = np.column_stack([mesh.points, np.zeros(len(mesh.points))])
-    cells = np.column_stack([np.full(len(mesh.triangles), 3), mesh.triangles]).ravel()
-    grid = pyvista.UnstructuredGrid(cells, np.full(len(mesh.triangles), _VTK_TRIANGLE), points)
+    counted = [np.column_stack([np.full(len(cells), cells.shape[1]), cells]).ravel() for cells in (mesh.triangles, mesh.quads)]
+    kinds = np.repeat([_VTK_TRIANGLE, _VTK_QUAD], [len(mesh.triangles), len(mesh.quads)])
+    grid = pyvista.UnstructuredGrid(np.concatenate(counted), kinds, points)
     for name, edges in mesh.boundaries.items():
         grid.field_data[_BOUNDARY + name] = edges.astype(np.int64)
     if len(mesh.region):
@@ -179,27 +188,28 @@ def to_pyvista(mesh, fields=None):
 
 
 def from_pyvista(grid, *, split_quadrilaterals=False):
-    """The triangles of a pyvista.UnstructuredGrid as a FrozenMesh, with the boundaries and regions of to_pyvista().
+    """The triangles and quadrilaterals of a pyvista.UnstructuredGrid as a FrozenMesh, with the boundaries and regions of
+    to_pyvista().
 
-    Quadrilaterals and other cells as in from_meshio(). Raises ArgumentError.
+    split_quadrilaterals and other cells as in from_meshio(). Raises ArgumentError.
     """
     if not hasattr(grid, "cells_dict"):
         raise ArgumentTypeError(f"grid: found an object of type {type(grid).__name__}, expected a pyvista.UnstructuredGrid")
     blocks = {int(kind): np.asarray(cells) for kind, cells in grid.cells_dict.items()}
-    triangles = [blocks[_VTK_TRIANGLE]] if _VTK_TRIANGLE in blocks else []
-    quadrilaterals = blocks.get(9)
-    if quadrilaterals is not None and split_quadrilaterals:
-        triangles.append(_split(quadrilaterals))
+    triangles = blocks.get(_VTK_TRIANGLE, np.empty((0, 3), dtype=np.int64))
+    quads = blocks.get(_VTK_QUAD, np.empty((0, 4), dtype=np.int64))
+    copies = 1
+    if split_quadrilaterals:
+        triangles, quads, copies = np.concatenate([triangles, _split(quads)]), quads[:0], 2
     for kind, cells in blocks.items():
-        if kind not in (1, _VTK_LINE, _VTK_TRIANGLE) and not (kind == 9 and split_quadrilaterals):
-            hint = " (split_quadrilaterals=True makes two triangles of each)" if kind == 9 else ""
-            raise ArgumentError(f"grid: found {len(cells)} cells of VTK's type {kind}, expected triangles and lines{hint}")
-    if not triangles:
+        if kind not in (1, _VTK_LINE, _VTK_TRIANGLE, _VTK_QUAD):
+            raise ArgumentError(f"grid: found {len(cells)} cells of VTK's type {kind}, expected triangles, quadrilaterals and lines")
+    if len(triangles) + len(quads) == 0:
         raise ArgumentError("grid: found no triangles, expected some")
     boundaries = {name[len(_BOUNDARY) :]: np.asarray(grid.field_data[name]) for name in grid.field_data if name.startswith(_BOUNDARY)}
     regions = {}
     if _REGION_NAMES in grid.field_data and _REGION in grid.cell_data:
         kinds, region = np.asarray(grid.celltypes), np.asarray(grid.cell_data[_REGION])
-        rows = [region[kinds == _VTK_TRIANGLE]] + [np.tile(region[kinds == 9], 2)] * (quadrilaterals is not None)
+        rows = [region[kinds == _VTK_TRIANGLE], np.tile(region[kinds == _VTK_QUAD], copies)]
         regions = {"region": np.concatenate(rows).astype(np.int64), "region_names": [str(name) for name in grid.field_data[_REGION_NAMES]]}
-    return FrozenMesh(_flat(grid.points, "grid"), np.concatenate(triangles), boundaries, **regions)
+    return FrozenMesh(_flat(grid.points, "grid"), triangles, boundaries, quads=quads, **regions)

@@ -12,6 +12,7 @@ from ._errors import ArgumentError
 _ARRAYS = {
     "points": "Coordinates of shape (n, 2), in chords: a read-only view.",
     "triangles": "Point indices of shape (m, 3), counter-clockwise: a read-only view.",
+    "quads": "Quadrilaterals: point indices of shape (q, 4), counter-clockwise; a read-only view.",
     "boundaries": "By name: pairs of point indices of shape (k, 2), the domain on their left.",
     "vertex_ids": "Per point: the vertex's id, stable while it lives.",
     "vertex_keys": "Per point: a number that is never given to another vertex of this mesh.",
@@ -20,7 +21,7 @@ _ARRAYS = {
     "length_scale": "Per point: the length scale, in chords.",
     "curve": "Per point: the index of its curve, -1 in the interior.",
     "parameter": "Per point: t on that curve.",
-    "region": "Per triangle: an index into region_names; empty where there is one region.",
+    "region": "Per cell, triangles first: an index into region_names; empty where there is one region.",
     "region_names": "The names of regions.",
 }
 
@@ -37,7 +38,7 @@ def _draw(mesh, file, *, window=None, width=1600):
 def _svg(mesh):
     """What notebooks show: the mesh around its bodies."""
     frozen = mesh.freeze() if isinstance(mesh, Mesh) else mesh
-    if len(frozen.triangles) == 0:
+    if len(frozen.triangles) + len(frozen.quads) == 0:
         return None
     with tempfile.TemporaryDirectory() as directory:
         file = os.path.join(directory, "mesh.svg")

@@ -33,18 +33,28 @@ def _axes(ax, mesh, window):
     return ax
 
 
+def _halves(mesh):
+    """Triangles to draw, quadrilaterals as two of them, and which cell each of them is of."""
+    quads, count = mesh.quads, len(mesh.triangles)
+    of_quads = count + np.arange(len(quads))
+    return np.concatenate([mesh.triangles, quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]), np.concatenate([np.arange(count), of_quads, of_quads])
+
+
 def _seen(mesh, ax):
-    """The triangles that are in the window: the others would only take time."""
-    corners = mesh.points[mesh.triangles]
+    """The triangles (_halves) that are in the window: the others would only take time."""
+    corners = mesh.points[_halves(mesh)[0]]
     low, high = corners.min(axis=1), corners.max(axis=1)
     (x0, x1), (y0, y1) = ax.get_xlim(), ax.get_ylim()
     return (high[:, 0] >= x0) & (low[:, 0] <= x1) & (high[:, 1] >= y0) & (low[:, 1] <= y1)
 
 
 def _edges(mesh, seen):
-    """Each edge of these triangles once, as points of shape (k, 2, 2)."""
-    triangles = mesh.triangles[seen].astype(np.int64)
-    pairs = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+    """Each edge of the cells of these triangles once, as points of shape (k, 2, 2)."""
+    cells = np.unique(_halves(mesh)[1][seen])
+    triangles = mesh.triangles[cells[cells < len(mesh.triangles)]].astype(np.int64)
+    quads = mesh.quads[cells[cells >= len(mesh.triangles)] - len(mesh.triangles)].astype(np.int64)
+    sides = [part[:, [k, (k + 1) % part.shape[1]]] for part in (triangles, quads) for k in range(part.shape[1])]
+    pairs = np.sort(np.concatenate(sides), axis=1)
     codes = np.unique(pairs[:, 0] * len(mesh.points) + pairs[:, 1])
     return mesh.points[np.column_stack([codes // len(mesh.points), codes % len(mesh.points)])]
 
@@ -62,18 +72,19 @@ def _add_boundaries(ax, mesh, **style):
 
 def _add_colors(ax, mesh, color, seen, cmap):
     values = np.asarray(color, dtype=float)
-    if len(values) not in (len(mesh.points), len(mesh.triangles)) or values.ndim != 1:
+    triangles, cells = _halves(mesh)
+    if len(values) not in (len(mesh.points), len(mesh.triangles) + len(mesh.quads)) or values.ndim != 1:
         raise ArgumentError(f"color: found shape {values.shape}, expected one value a point or one a triangle")
     x, y = mesh.points.T
     if len(values) == len(mesh.points):
-        return ax.tripcolor(x, y, mesh.triangles[seen], values, shading="gouraud", cmap=cmap)
-    return ax.tripcolor(x, y, mesh.triangles[seen], facecolors=values[seen], cmap=cmap)
+        return ax.tripcolor(x, y, triangles[seen], values, shading="gouraud", cmap=cmap)
+    return ax.tripcolor(x, y, triangles[seen], facecolors=values[cells[seen]], cmap=cmap)
 
 
 def plot_mesh(mesh, color=None, ax=None, *, window=None, cmap="viridis", label=None, edges=None):
     """Draws the mesh with matplotlib and returns the axes.
 
-    color: values of shape (n,) at points, smooth, or of shape (m,) on triangles; or 'age', 'length_scale'.
+    color: values of shape (n,) at points, smooth, or of shape (m,) on cells; or 'age', 'length_scale'.
     window: x0, y0, x1, y1; unless given, where the bodies are. label: of the colour bar, drawn if there is one.
     edges: whether triangles have edges; unless given, where there is no color.
     """
@@ -103,7 +114,8 @@ def plot_step(step, ax=None, *, window=None):
     ax = _axes(ax, mesh, window)
     seen = _seen(mesh, ax)
     x, y = mesh.points.T
-    ax.tripcolor(x, y, mesh.triangles[seen], facecolors=fates[seen].astype(float), cmap=ListedColormap(FATES), vmin=0, vmax=2)
+    triangles, cells = _halves(mesh)
+    ax.tripcolor(x, y, triangles[seen], facecolors=fates[cells[seen]].astype(float), cmap=ListedColormap(FATES), vmin=0, vmax=2)
     _add_lines(ax, _edges(mesh, seen), colors="#8d99a6", linewidths=0.3)
     _add_boundaries(ax, mesh)
     counts = np.bincount(fates, minlength=3)

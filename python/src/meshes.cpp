@@ -48,9 +48,12 @@ LivingMeshPointer made_alive(const Snapshot& foreign, const std::string& source,
 }
 
 LivingMeshPointer imported(const py::object& mesh, double refine_angle, double gradation,
-                           const std::string& unnamed) {
+                           const std::string& unnamed, bool dissolve_layers) {
   return made_alive(snapshot_of(mesh), "mesh",
-                    {.refine_angle_deg = refine_angle, .gradation = gradation, .unnamed = unnamed});
+                    {.refine_angle_deg = refine_angle,
+                     .gradation = gradation,
+                     .unnamed = unnamed,
+                     .layers = dissolve_layers ? FlatLayers::dissolve : FlatLayers::refuse});
 }
 
 LivingMeshPointer loaded(const std::filesystem::path& file) {
@@ -195,9 +198,10 @@ than min_angle let update(strategy='reference') hold the connectivity longer. Me
 reached (max_vertices). Sources: J. Ruppert, 1995; J. R. Shewchuk, 2002. Raises ArgumentError and GeometryError;
 Ctrl-C ends it.)");
   module.def("import_mesh", &imported, "mesh"_a, py::kw_only(), "refine_angle"_a = 30.0, "gradation"_a = 0.0,
-             "unnamed"_a = "boundary",
+             "unnamed"_a = "boundary", "dissolve_layers"_a = false,
              "Another program's mesh (FrozenMesh) as a living one; its triangles stay until a step comes "
-             "near them. Raises GeometryError.");
+             "near them. dissolve_layers: take one with quadrilaterals, which are split, or with triangles "
+             "flatter than 20 to 1 on a wall; steps dissolve such layers. Raises GeometryError.");
 }
 
 }  // namespace remodel::python

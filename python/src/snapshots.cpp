@@ -18,7 +18,7 @@ template <python::Is<CheckResult> T>
 auto members(T& r) {
   return std::tie(r.valid, r.violations, r.triangles, r.vertices, r.unused_points, r.min_angle_deg,
                   r.min_held_angle_deg, r.exempt_triangles, r.max_gradation, r.delaunay, r.boundary,
-                  r.regions, r.area);
+                  r.regions, r.area, r.quadrilaterals, r.least_corner_deg, r.largest_corner_deg);
 }
 
 }  // namespace remodel
@@ -77,7 +77,7 @@ std::vector<Field> fields_from(const py::dict& fields, const FrozenMesh& mesh) {
                 .components = values.ndim() == 2 ? static_cast<int>(values.shape(1)) : 1,
                 .values = {}};
     const auto count = static_cast<std::size_t>(values.shape(0));
-    if (count != mesh.points.size() && count == mesh.triangles.size()) field.place = FieldPlace::triangles;
+    if (count != mesh.points.size() && count == mesh.cell_count()) field.place = FieldPlace::triangles;
     field.values.assign(values.data(), values.data() + values.size());
     result.push_back(std::move(field));
   }
@@ -111,7 +111,7 @@ std::vector<std::vector<std::uint32_t>> indices(const py::object& values, py::ss
   return result;
 }
 
-// The names and the numbers of the triangles' regions.
+// The names and the numbers of the cells' regions.
 void set_regions(FrozenMesh& mesh, const py::object& regions, const std::vector<std::string>& names) {
   if (regions.is_none() && names.empty()) return;
   if (regions.is_none() || names.empty())
@@ -119,19 +119,23 @@ void set_regions(FrozenMesh& mesh, const py::object& regions, const std::vector<
   const py::object column = py::module_::import("numpy").attr("reshape")(regions, py::make_tuple(-1, 1));
   mesh.region_names = names;
   for (const auto& row : indices(column, 1, "region", names.size())) mesh.region.push_back(row[0]);
-  if (mesh.region.size() != mesh.triangles.size())
+  if (mesh.region.size() != mesh.cell_count())
     throw Error(ErrorCode::argument, "region",
-                "found " + std::to_string(mesh.region.size()) + " values, expected one a triangle, " +
-                    std::to_string(mesh.triangles.size()));
+                "found " + std::to_string(mesh.region.size()) + " values, expected one a " +
+                    (mesh.quads.empty() ? "triangle, " : "cell, ") + std::to_string(mesh.cell_count()));
 }
 
 FrozenPointer from_arrays(const Reals& coordinates, const py::object& triangles, const py::dict& named,
-                          const py::object& regions, const std::vector<std::string>& region_names) {
+                          const py::object& quads, const py::object& regions,
+                          const std::vector<std::string>& region_names) {
   auto mesh = std::make_shared<FrozenMesh>();
   mesh->points = points(coordinates, "points");
   const std::size_t count = mesh->points.size();
   for (const auto& row : indices(triangles, 3, "triangles", count))
     mesh->triangles.push_back({row[0], row[1], row[2]});
+  if (!quads.is_none())
+    for (const auto& row : indices(quads, 4, "quads", count))
+      mesh->quads.push_back({row[0], row[1], row[2], row[3]});
   for (const auto& [name, value] : named) {
     if (!py::isinstance<py::str>(name))
       throw py::type_error("boundaries: found " + type_of(name) + ", expected names of boundaries");
@@ -155,7 +159,7 @@ FrozenPointer with_points(const FrozenPointer& mesh, const Reals& coordinates) {
 }
 
 void add_check(py::module_& module) {
-  py::class_<Violation>(module, "Violation", "A broken rule, with the points or triangles concerned.")
+  py::class_<Violation>(module, "Violation", "A broken rule, with the points or cells concerned.")
       .def_readonly("rule", &Violation::rule)
       .def_readonly("ids", &Violation::ids)
       .def_readonly("detail", &Violation::detail)
@@ -166,6 +170,7 @@ void add_check(py::module_& module) {
       .def_readonly("valid", &CheckResult::valid)
       .def_readonly("violations", &CheckResult::violations)
       .def_readonly("triangles", &CheckResult::triangles)
+      .def_readonly("quadrilaterals", &CheckResult::quadrilaterals)
       .def_readonly("vertices", &CheckResult::vertices)
       .def_readonly("min_angle_deg", &CheckResult::min_angle_deg)
       .def_readonly("max_gradation", &CheckResult::max_gradation)
@@ -206,9 +211,10 @@ void add_snapshots(py::module_& module) {
 copied, and they stay valid whatever happens to the living mesh.
 
 FrozenMesh(points, triangles, boundaries) takes the arrays of another program: boundaries are pairs of points by name;
-region says of each triangle which of region_names it lies in. import_mesh() brings it to life.)");
+quads are quadrilaterals. The cells of a mesh are its triangles, then its quadrilaterals: region says of each which of
+region_names it lies in, and fields on cells have their values in that order. import_mesh() brings it to life.)");
   type.def(py::init(&from_arrays), "points"_a, "triangles"_a, "boundaries"_a = py::dict(), py::kw_only(),
-           "region"_a = py::none(), "region_names"_a = std::vector<std::string>());
+           "quads"_a = py::none(), "region"_a = py::none(), "region_names"_a = std::vector<std::string>());
   type.def_property_readonly(
       "points",
       [](const FrozenPointer& m) {
@@ -223,6 +229,13 @@ region says of each triangle which of region_names it lies in. import_mesh() bri
                     {static_cast<py::ssize_t>(m->triangles.size()), 3});
       },
       "Point indices of shape (m, 3), counter-clockwise.");
+  type.def_property_readonly(
+      "quads",
+      [](const FrozenPointer& m) {
+        return view(m, m->quads.empty() ? nullptr : m->quads.front().data(),
+                    {static_cast<py::ssize_t>(m->quads.size()), 4});
+      },
+      "Quadrilaterals: point indices of shape (q, 4), counter-clockwise.");
   type.def_property_readonly(
       "boundaries", [](const FrozenPointer& m) { return boundaries(m); },
       "By name: pairs of point indices of shape (k, 2), the domain on their left.");

@@ -96,7 +96,7 @@ void add_transfers(py::module_& module) {
   py::class_<Carrier> type(
       module, "Transfer",
       R"(Values carried over from one mesh to what steps made of it: Transfer(before, after), each a Mesh
-or FrozenMesh; Step.transfer is one. Values are in the order of points (place='vertices') or triangles, of
+or FrozenMesh; Step.transfer is one. Values are in the order of points (place='vertices') or cells (place='triangles'), of
 shape (n,) or (n, components).
 
 outside: the value of a new vertex beyond the old domain: 'nearest', 'extrapolate' or 'refuse'. Sources:

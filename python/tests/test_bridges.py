@@ -1,3 +1,4 @@
+import pickle
 import sys
 import types
 
@@ -65,13 +66,50 @@ def test_names_pass_through_files_of_either_program(mesh, tmp_path, kind):
         assert named(remodel.from_meshio(meshio.read(tmp_path / name))) == named(frozen), name
 
 
+def mixed_mesh():
+    """A square of two triangles beside one of a quadrilateral, which is another region."""
+    points = [[0.0, 0], [1, 0], [2, 0], [2, 1], [1, 1], [0, 1]]
+    boundaries = {"wall": [[0, 1], [1, 2], [2, 3], [3, 4], [4, 5], [5, 0]]}
+    return remodel.FrozenMesh(
+        points, [[0, 1, 4], [0, 4, 5]], boundaries, quads=[[1, 2, 3, 4]], region=[0, 0, 1], region_names=["air", "layer"])
+
+
+def test_quadrilaterals_there_and_back(pyvista, tmp_path):
+    mesh = mixed_mesh()
+    assert mesh.quads.shape == (1, 4) and not mesh.quads.flags.writeable
+    assert mesh.check().valid and mesh.check().quadrilaterals == 1 and mesh.check().area == 2.0
+    backs = [remodel.from_pyvista(mesh.to_pyvista({"number": np.arange(3.0)})), pickle.loads(pickle.dumps(mesh))]
+    for name in ("m.vtu", "m.msh", "m.vtkhdf"):
+        mesh.save(tmp_path / name)
+        backs.append(remodel.read_frozen(tmp_path / name))
+    try:
+        backs.append(remodel.from_meshio(mesh.to_meshio({"number": np.arange(3.0)})))
+    except ImportError:
+        pass
+    for back in backs:
+        assert np.array_equal(back.quads, mesh.quads) and np.array_equal(back.triangles, mesh.triangles)
+        assert np.array_equal(back.region, mesh.region) and back.region_names == mesh.region_names
+    with pytest.raises(remodel.ArgumentError, match="^number: found 2 values, expected one a point or one a cell"):
+        mesh.to_pyvista({"number": [1.0, 2.0]})
+    with pytest.raises(remodel.ArgumentError, match="^quads: row 0: found 9"):
+        remodel.FrozenMesh(mesh.points, np.empty((0, 3), dtype=int), quads=[[0, 1, 2, 9]])
+
+
+def test_quadrilaterals_do_not_live_on_unless_asked_for():
+    with pytest.raises(remodel.GeometryError, match="1 quadrilateral found, which a remodelling would dissolve"):
+        remodel.import_mesh(mixed_mesh())
+    living = remodel.import_mesh(mixed_mesh(), dissolve_layers=True)
+    assert len(living.triangles) == 4 and len(living.quads) == 0 and living.check().valid
+
+
 def test_other_cells_are_refused_or_split():
     meshio = pytest.importorskip("meshio")
     points = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0, 0], [2, 1, 0]])
     cells = [("quad", [[0, 1, 2, 3]]), ("triangle", [[1, 4, 5], [1, 5, 2]]), ("vertex", [[0]])]
     mixed = meshio.Mesh(points, cells, cell_sets={"left": [np.array([0]), np.arange(0), np.arange(0)], "right": [np.arange(0), np.array([0, 1]), np.arange(0)]})
-    with pytest.raises(remodel.ArgumentError, match="found 1 cells of type quad.*split_quadrilaterals"):
-        remodel.from_meshio(mixed)
+    kept = remodel.from_meshio(mixed)
+    assert kept.quads.tolist() == [[0, 1, 2, 3]] and kept.triangles.tolist() == [[1, 4, 5], [1, 5, 2]]
+    assert [kept.region_names[i] for i in kept.region] == ["right", "right", "left"]
     split = remodel.from_meshio(mixed, split_quadrilaterals=True)
     assert split.check().area == 2.0 and split.region_names == ["left", "right"] and np.bincount(split.region).tolist() == [2, 2]
     with pytest.raises(remodel.ArgumentError, match="type tetra"):
@@ -114,8 +152,7 @@ def test_pyvista_keeps_names_and_regions(mesh, pyvista):
         assert named(remodel.from_pyvista(frozen.to_pyvista())) == named(frozen)
     cells = np.array([4, 0, 1, 4, 5, 3, 1, 2, 3, 3, 1, 3, 4])
     grid = UnstructuredGrid(cells, np.array([9, 5, 5]), np.column_stack([two_regions().points, np.zeros(6)]))
-    with pytest.raises(remodel.ArgumentError, match="VTK's type 9.*split_quadrilaterals"):
-        remodel.from_pyvista(grid)
+    assert remodel.from_pyvista(grid).quads.tolist() == [[0, 1, 4, 5]]
     assert remodel.from_pyvista(grid, split_quadrilaterals=True).check().area == 2.0
     with pytest.raises(remodel.ArgumentError, match="VTK's type 10"):
         remodel.from_pyvista(UnstructuredGrid(np.array([4, 0, 1, 2, 3, 3, 0, 1, 2]), np.array([10, 5]), grid.points))

@@ -141,11 +141,18 @@ void check_order_of_names(const Subject& subject, Report& report) {
 
 // ---- Area ----
 
-// Magnitudes are summed, so that a triangle turned over does not hide another one.
+ExactPoints::Integer twice_area(const ExactPoints& exact, Corners cell) {
+  ExactPoints::Integer sum = exact.twice_area(cell[0], cell[1], cell[2]);
+  if (cell.size() == 4) sum += exact.twice_area(cell[0], cell[2], cell[3]);
+  return sum;
+}
+
+// Magnitudes are summed, so that a cell turned over does not hide another one.
 void check_area(const Subject& subject, Report& report) {
   if (subject.mesh.boundaries.empty()) return;
-  ExactPoints::Integer triangles = 0;
-  for (const auto& [a, b, c] : subject.mesh.triangles) triangles += abs(subject.exact.twice_area(a, b, c));
+  ExactPoints::Integer cells = 0;
+  for (std::size_t i = 0; i < subject.mesh.cell_count(); ++i)
+    cells += abs(twice_area(subject.exact, subject.mesh.cell(i)));
   ExactPoints::Integer polygons = 0;
   for (const FrozenBoundary& boundary : subject.mesh.boundaries) {
     for (const auto& [a, b] : boundary.edges) {
@@ -154,10 +161,11 @@ void check_area(const Subject& subject, Report& report) {
       if (!internal) polygons += subject.exact.cross(a, b);
     }
   }
-  if (triangles == polygons) return;
+  if (cells == polygons) return;
   report.add("area", {},
-             sentence("the triangles' area is ", subject.exact.half_in_mesh_units(triangles),
-                      ", that of the named boundaries ", subject.exact.half_in_mesh_units(polygons)));
+             sentence(subject.mesh.quads.empty() ? "the triangles' area is " : "the cells' area is ",
+                      subject.exact.half_in_mesh_units(cells), ", that of the named boundaries ",
+                      subject.exact.half_in_mesh_units(polygons)));
 }
 
 // ---- Overlap ----

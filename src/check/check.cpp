@@ -1,4 +1,4 @@
-// The driver, and the rules on indices, numbers, single triangles, edges and vertices. A rule runs only where
+// The driver, and the rules on indices, numbers, single cells, edges and vertices. A rule runs only where
 // those that it stands on held: one mistake is one kind of violation.
 
 #include "remodel/check.h"
@@ -32,8 +32,11 @@ void check_size(const char* field, std::size_t found, std::size_t expected, Repo
 void check_sizes(const FrozenMesh& mesh, Report& report) {
   const std::size_t points = mesh.points.size();
   const std::size_t triangles = mesh.triangles.size();
-  if (triangles == 0) report.add("index", {}, "the mesh has no triangles");
-  if (std::max(points, 3 * triangles) >= none)
+  if (mesh.cell_count() == 0) report.add("index", {}, "the mesh has no triangles");
+  if (mesh.layer_triangles > triangles)
+    report.add("index", {},
+               sentence("layer_triangles is ", mesh.layer_triangles, " of ", triangles, " triangles"));
+  if (std::max(points, 4 * mesh.cell_count()) >= none)
     report.add("index", {}, "the mesh is too large for 32-bit indices");
   check_size("length_scale", mesh.length_scale.size(), points, report);
   check_size("vertex_ids", mesh.vertex_ids.size(), points, report);
@@ -42,24 +45,37 @@ void check_sizes(const FrozenMesh& mesh, Report& report) {
   check_size("steiner", mesh.steiner.size(), points, report);
   check_size("triangle_ids", mesh.triangle_ids.size(), triangles, report);
   check_size("birth", mesh.birth.size(), triangles, report);
-  check_size("region", mesh.region.size(), triangles, report);
+  check_size("region", mesh.region.size(), mesh.cell_count(), report);
+}
+
+// "triangle 7"; a quadrilateral by its number among all cells, as in the ids.
+std::string name_of_cell(const FrozenMesh& mesh, std::uint32_t i) {
+  return sentence(mesh.cell(i).size() == 3 ? "triangle " : "quadrilateral ", i);
+}
+
+bool has_a_point_twice(Corners cell) {
+  for (std::size_t i = 1; i < cell.size(); ++i)
+    if (std::find(cell.begin(), cell.begin() + static_cast<std::ptrdiff_t>(i), cell[i]) !=
+        cell.begin() + static_cast<std::ptrdiff_t>(i))
+      return true;
+  return false;
 }
 
 void check_indices(const FrozenMesh& mesh, Report& report) {
   const std::size_t count = mesh.points.size();
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto [a, b, c] = mesh.triangles[t];
-    if (std::max({a, b, c}) >= count) {
-      report.add("index", {t}, sentence("triangle ", t, " has a point index of ", count, " or more"));
-    } else if (a == b || b == c || c == a) {
-      report.add("index", {t}, sentence("triangle ", t, " has the same point twice"));
+  for (std::uint32_t i = 0; i < mesh.cell_count(); ++i) {
+    const Corners corners = mesh.cell(i);
+    if (*std::max_element(corners.begin(), corners.end()) >= count) {
+      report.add("index", {i}, sentence(name_of_cell(mesh, i), " has a point index of ", count, " or more"));
+    } else if (has_a_point_twice(corners)) {
+      report.add("index", {i}, sentence(name_of_cell(mesh, i), " has the same point twice"));
     }
   }
   for (std::uint32_t t = 0; t < mesh.region.size(); ++t) {
     if (mesh.region[t] >= mesh.region_names.size())
-      report.add(
-          "index", {t},
-          sentence("triangle ", t, " is in region ", mesh.region[t], " of ", mesh.region_names.size()));
+      report.add("index", {t},
+                 sentence(name_of_cell(mesh, t), " is in region ", mesh.region[t], " of ",
+                          mesh.region_names.size()));
   }
   for (const FrozenBoundary& boundary : mesh.boundaries) {
     for (const auto& [a, b] : boundary.edges) {
@@ -89,16 +105,16 @@ void check_numbers(const FrozenMesh& mesh, Report& report) {
 
 // ---- Points ----
 
-std::vector<std::uint32_t> triangles_per_point(const FrozenMesh& mesh) {
+std::vector<std::uint32_t> cells_per_point(const FrozenMesh& mesh) {
   std::vector<std::uint32_t> count(mesh.points.size(), 0);
-  for (const auto& triangle : mesh.triangles) {
-    for (const std::uint32_t v : triangle) ++count[v];
+  for (std::size_t i = 0; i < mesh.cell_count(); ++i) {
+    for (const std::uint32_t v : mesh.cell(i)) ++count[v];
   }
   return count;
 }
 
 void check_points(const FrozenMesh& mesh, bool unused_allowed, CheckResult& result, Report& report) {
-  const std::vector<std::uint32_t> count = triangles_per_point(mesh);
+  const std::vector<std::uint32_t> count = cells_per_point(mesh);
   std::vector<std::uint32_t> order;
   for (std::uint32_t v = 0; v < count.size(); ++v) {
     if (count[v] > 0 || !unused_allowed) order.push_back(v);
@@ -117,7 +133,8 @@ void check_points(const FrozenMesh& mesh, bool unused_allowed, CheckResult& resu
   }
   for (std::uint32_t v = 0; v < count.size(); ++v) {
     if (count[v] == 0 && !unused_allowed)
-      report.add("orphan-vertex", {v}, sentence("point ", v, " is in no triangle"));
+      report.add("orphan-vertex", {v},
+                 sentence("point ", v, mesh.quads.empty() ? " is in no triangle" : " is in no cell"));
   }
 }
 
@@ -132,19 +149,34 @@ void check_orientation(const FrozenMesh& mesh, const ExactPoints& exact, Report&
   }
 }
 
+// Four left turns; they go around once, because a polygon of four corners that turns left four times and goes
+// around twice does not exist: its turns of less than 180 degrees would have to sum up to 720.
+void check_convexity(const FrozenMesh& mesh, const ExactPoints& exact, Report& report) {
+  for (auto i = static_cast<std::uint32_t>(mesh.triangles.size()); i < mesh.cell_count(); ++i) {
+    const Corners corners = mesh.cell(i);
+    int turns[4];
+    for (std::size_t k = 0; k < 4; ++k)
+      turns[k] = exact.orientation(corners[k], next_corner(corners, k), corners[(k + 2) % 4]);
+    if (std::all_of(turns, turns + 4, [](int turn) { return turn > 0; })) continue;
+    const bool clockwise = std::all_of(turns, turns + 4, [](int turn) { return turn < 0; });
+    report.add("convex", {i},
+               sentence(name_of_cell(mesh, i), clockwise ? " is clockwise" : " is not strictly convex"));
+  }
+}
+
 // ---- Vertices ----
 
 enum class Turn { clockwise, counter_clockwise };
 
-// The triangle after t when turning around its corner v: across the edge that leaves v, or the one that
+// The cell after t when turning around its corner v: across the edge that leaves v, or the one that
 // arrives.
 std::uint32_t turned(const Subject& subject, std::uint32_t v, std::uint32_t t, Turn turn) {
-  const auto& corners = subject.mesh.triangles[t];
-  const auto at = static_cast<std::size_t>(std::find(corners.begin(), corners.end(), v) - corners.begin());
-  return subject.topology.neighbour(t, turn == Turn::clockwise ? at : (at + 2) % 3);
+  const Corners corners = subject.mesh.cell(t);
+  const std::size_t at = corner_of(corners, v), before = at + corners.size() - 1;
+  return subject.topology.neighbour(t, turn == Turn::clockwise ? at : before % corners.size());
 }
 
-// How many triangles are reached from `start` by turning around v.
+// How many cells are reached from `start` by turning around v.
 std::size_t fan_size(const Subject& subject, std::uint32_t v, std::uint32_t start) {
   std::size_t size = 1;
   const auto next = [&](std::uint32_t t, Turn turn) { return turned(subject, v, t, turn); };
@@ -164,9 +196,8 @@ Wedge wedge_of(const Subject& subject, const Edge& leaving) {
   const std::uint32_t v = leaving.from;
   std::uint32_t last = leaving.left;
   for (auto t = last; t != none; t = turned(subject, v, t, Turn::counter_clockwise)) last = t;
-  const auto& corners = subject.mesh.triangles[last];
-  const auto at = static_cast<std::size_t>(std::find(corners.begin(), corners.end(), v) - corners.begin());
-  return {leaving.to, corners[(at + 2) % 3]};
+  const Corners corners = subject.mesh.cell(last);
+  return {leaving.to, corners[(corner_of(corners, v) + corners.size() - 1) % corners.size()]};
 }
 
 // Whether the direction from v to p lies inside the wedge, or along its first side.
@@ -193,33 +224,35 @@ void check_fans_are_apart(const Subject& subject, Report& report) {
     for (std::size_t i = 0; i < around.size(); ++i)
       for (std::size_t k = 0; k < around.size(); ++k)
         if (i != k && holds(subject, v, around[i], around[k].from)) {
-          report.add("overlap", {v}, sentence("triangles of point ", v, ", where loops touch, overlap"));
+          report.add("overlap", {v},
+                     sentence(subject.cells_name(), " of point ", v, ", where loops touch, overlap"));
           return;
         }
 }
 
-// A vertex's triangles form one fan: they are all reached by turning around it. Two fans touch like a bow
+// A vertex's cells form one fan: they are all reached by turning around it. Two fans touch like a bow
 // tie, where loops of the boundary do: in a mesh of a design only where its chains are joined. Without a
 // design nobody says where that may be, and the file's format must not decide it. Returns the fans of all
 // vertices.
 std::size_t check_fans(const Subject& subject, CheckResult& result, Report& report) {
-  const std::vector<std::uint32_t> expected = triangles_per_point(subject.mesh);
+  const std::vector<std::uint32_t> expected = cells_per_point(subject.mesh);
   std::vector<std::size_t> fans(subject.mesh.points.size(), 0), reached(subject.mesh.points.size(), 0);
   for (const Edge& edge : subject.topology.edges()) {  // an open fan begins at a boundary edge
     if (!edge.is_boundary()) continue;
     ++fans[edge.from];
     reached[edge.from] += fan_size(subject, edge.from, edge.left);
   }
-  for (std::uint32_t t = 0; t < subject.mesh.triangles.size(); ++t)
-    for (const std::uint32_t v : subject.mesh.triangles[t]) {
+  for (std::uint32_t i = 0; i < subject.mesh.cell_count(); ++i)
+    for (const std::uint32_t v : subject.mesh.cell(i)) {
       if (fans[v] > 0) continue;
       fans[v] = 1;
-      reached[v] = fan_size(subject, v, t);
+      reached[v] = fan_size(subject, v, i);
     }
   for (std::uint32_t v = 0; v < fans.size(); ++v) {
     result.touching_points += fans[v] > 1 ? 1 : 0;
     if (reached[v] != expected[v] || (fans[v] > 1 && !subject.is_joint(v)))
-      report.add("manifold", {v}, sentence("the triangles of point ", v, " do not form one fan"));
+      report.add("manifold", {v},
+                 sentence("the ", subject.cells_name(), " of point ", v, " do not form one fan"));
   }
   return std::accumulate(fans.begin(), fans.end(), std::size_t{0});
 }
@@ -229,13 +262,13 @@ std::size_t check_fans(const Subject& subject, CheckResult& result, Report& repo
 void check_euler(const Subject& subject, std::size_t fans, Report& report) {
   const auto vertices = static_cast<long long>(fans);
   const auto edges = static_cast<long long>(subject.topology.edges().size());
-  const auto faces = static_cast<long long>(subject.mesh.triangles.size());
+  const auto faces = static_cast<long long>(subject.mesh.cell_count());
   const auto components = static_cast<long long>(subject.topology.component_count());
   const auto loops = static_cast<long long>(subject.topology.loops().size());
   if (vertices - edges + faces == 2 * components - loops) return;
   report.add("euler", {},
-             sentence(vertices, " vertices - ", edges, " edges + ", faces, " triangles is not 2 x ",
-                      components, " components - ", loops, " boundary loops"));
+             sentence(vertices, " vertices - ", edges, " edges + ", faces, " ", subject.cells_name(),
+                      " is not 2 x ", components, " components - ", loops, " boundary loops"));
 }
 
 // ---- Regions ----
@@ -276,14 +309,23 @@ bool within_slack(const ExactPoints& exact, const Edge& edge, std::uint32_t apex
   return y >= 0 || (x < 0 && (-y << bits) <= -x * tangent);
 }
 
-// Every unconstrained inner edge: the point across is not inside the circle, or the slack allows it. Returns
-// whether none is.
+// Triangles of layers have no empty circles, and quadrilaterals none at all.
+bool is_between_free_triangles(const FrozenMesh& mesh, const Edge& edge) {
+  const auto is_free = [&](std::uint32_t cell) {
+    return cell >= mesh.layer_triangles && cell < mesh.triangles.size();
+  };
+  return is_free(edge.left) && is_free(edge.right);
+}
+
+// Every unconstrained inner edge of two triangles: the point across is not inside the circle, or the slack
+// allows it. Returns whether none is.
 bool check_delaunay(const Subject& subject, double slack_deg, Report& report) {
   bool all = true;
   const auto& edges = subject.topology.edges();
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const Edge& edge = edges[e];
     if (edge.is_boundary() || subject.name_of_edge[e] != none || is_interface(subject.mesh, edge)) continue;
+    if (!is_between_free_triangles(subject.mesh, edge)) continue;
     const std::uint32_t apex = subject.topology.opposite(edge, edge.left);
     const std::uint32_t across = subject.topology.opposite(edge, edge.right);
     if (subject.exact.in_circle(edge.from, edge.to, apex, across) <= 0) continue;
@@ -326,7 +368,7 @@ void check_angles(const FrozenMesh& mesh, const Exemption* exemption, double bou
                   Report& report) {
   double smallest_sine = 1.0, smallest_held = std::nan("");
   const double largest_ratio = 0.5 / std::sin(bound_deg / degrees);
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+  for (std::uint32_t t = mesh.layer_triangles; t < mesh.triangles.size(); ++t) {
     const Circle circle = circumscribed(mesh, t);
     const double sine = circle.shortest_edge / (2.0 * circle.radius);
     smallest_sine = std::isnan(sine) ? 0.0 : std::min(smallest_sine, sine);
@@ -341,15 +383,29 @@ void check_angles(const FrozenMesh& mesh, const Exemption* exemption, double bou
                sentence("triangle ", t, " has radius-edge ratio ", circle.radius / circle.shortest_edge,
                         ", above ", largest_ratio, " of ", bound_deg, " degrees"));
   }
-  result.min_angle_deg = std::asin(smallest_sine) * degrees;
+  const bool any = mesh.layer_triangles < mesh.triangles.size();
+  result.min_angle_deg = any ? std::asin(smallest_sine) * degrees : std::nan("");
   result.min_held_angle_deg = std::asin(smallest_held) * degrees;
+}
+
+// No bound holds for them: figures alone.
+void measure_corners(const FrozenMesh& mesh, CheckResult& result) {
+  for (const auto& quad : mesh.quads)
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Point corner = mesh.points[quad[k]];
+      const Point next = mesh.points[quad[(k + 1) % 4]] - corner,
+                  before = mesh.points[quad[(k + 3) % 4]] - corner;
+      const double angle = std::atan2(cross(next, before), next.x * before.x + next.y * before.y) * degrees;
+      result.least_corner_deg = std::fmin(result.least_corner_deg, angle);
+      result.largest_corner_deg = std::fmax(result.largest_corner_deg, angle);
+    }
 }
 
 // Returns the largest r / (H mean LS) but for exempt triangles.
 double check_gradation(const FrozenMesh& mesh, const Exemption* exemption, double bound, Report& report) {
   const double scale = bound > 0.0 ? bound : std::numbers::sqrt2 / 2.0;
   double largest = 0.0;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+  for (std::uint32_t t = mesh.layer_triangles; t < mesh.triangles.size(); ++t) {
     const auto [a, b, c] = mesh.triangles[t];
     const double mean = (mesh.length_scale[a] + mesh.length_scale[b] + mesh.length_scale[c]) / 3.0;
     const double ratio = mean > 0.0 ? circumscribed(mesh, t).radius / (scale * mean) : std::nan("");
@@ -370,6 +426,7 @@ void check_quality(const FrozenMesh& mesh, const Exemption* exemption, const Che
   Report& bounds = options.bounds ? report : unwanted;
   const std::size_t before = bounds.found();
   check_angles(mesh, exemption, options.min_angle_deg, result, bounds);
+  measure_corners(mesh, result);
   if (!mesh.length_scale.empty()) {
     result.max_gradation = check_gradation(mesh, exemption, options.max_gradation, bounds);
   } else if (options.max_gradation > 0.0) {
@@ -390,11 +447,11 @@ bool is_readable(const FrozenMesh& mesh, Report& report) {
 
 double total_area(const FrozenMesh& mesh, const ExactPoints& exact) {
   ExactPoints::Integer sum = 0;
-  for (const auto& [a, b, c] : mesh.triangles) sum += exact.twice_area(a, b, c);
+  for (std::size_t i = 0; i < mesh.cell_count(); ++i) sum += twice_area(exact, mesh.cell(i));
   return exact.half_in_mesh_units(sum);
 }
 
-// The rules that need every edge to have its one or two triangles.
+// The rules that need every edge to have its one or two cells.
 void check_structure(const Subject& subject, bool oriented, const CheckOptions& options, CheckResult& result,
                      Report& report) {
   if (oriented) {
@@ -419,6 +476,7 @@ void check_readable(const FrozenMesh& mesh, const CheckOptions& options, CheckRe
   result.area = total_area(mesh, *exact);
   const std::size_t before_orientation = report.found();
   check_orientation(mesh, *exact, report);
+  check_convexity(mesh, *exact, report);
   const bool oriented = report.found() == before_orientation;
 
   const std::size_t before_adjacency = report.found();
@@ -442,6 +500,7 @@ void check_readable(const FrozenMesh& mesh, const CheckOptions& options, CheckRe
 CheckResult check(const FrozenMesh& mesh, const CheckOptions& options) {
   CheckResult result;
   result.triangles = mesh.triangles.size();
+  result.quadrilaterals = mesh.quads.size();
   result.vertices = mesh.points.size();
   for (const FrozenBoundary& boundary : mesh.boundaries)
     result.boundary[boundary.name] += boundary.edges.size();

@@ -23,26 +23,30 @@ struct Subject {
   std::vector<bool> joints;  // per point: whether chains of the design are joined there; may be empty
 
   bool is_joint(std::uint32_t v) const { return !joints.empty() && joints[v]; }
+  const char* cells_name() const { return mesh.quads.empty() ? "triangles" : "cells"; }
 };
 
+// Twice the area of a cell, with its sign.
+ExactPoints::Integer twice_area(const ExactPoints& exact, Corners cell);
+
 // Rule "boundary", first part: every named edge is an edge of the mesh, named once, with the domain on its
-// left. Edges with a triangle on both sides may be named: internal constraints. Returns
+// left. Edges with a cell on both sides may be named: internal constraints. Returns
 // Subject::name_of_edge.
 std::vector<std::uint32_t> name_edges(const FrozenMesh& mesh, const Topology& topology, Report& report);
 
-// Rule "boundary", second part: every edge with a triangle on one side only is named.
+// Rule "boundary", second part: every edge with a cell on one side only is named.
 void check_names_are_complete(const Subject& subject, Report& report);
 
 // Rule "boundary", third part: under each name, the edges of one loop are in the order of the loop; where
 // loops touch, those between two such points. Needs the fans of every vertex to be as they should.
 void check_order_of_names(const Subject& subject, Report& report);
 
-// Rule "area": the triangles' areas sum up to that of the named polygons, exactly.
+// Rule "area": the cells' areas sum up to that of the named polygons, exactly.
 void check_area(const Subject& subject, Report& report);
 
 // Rule "overlap": no two boundary edges meet except at a common vertex, and on the left of every loop the
-// domain is covered once. Where all triangles are counter-clockwise and every vertex has one fan, this proves
-// that triangles do not overlap: the number of triangles over a place is the sum of the loops' winding
+// domain is covered once. Where all cells are convex and counter-clockwise and every vertex has one fan, this
+// proves that cells do not overlap: the number of cells over a place is the sum of the loops' winding
 // numbers around it, which changes across loops only.
 void check_overlap(const Subject& subject, Report& report);
 

@@ -13,16 +13,20 @@ std::pair<std::uint32_t, std::uint32_t> sorted_ends(std::uint32_t a, std::uint32
 
 }  // namespace
 
+std::size_t corner_of(Corners cell, std::uint32_t point) {
+  return static_cast<std::size_t>(std::find(cell.begin(), cell.end(), point) - cell.begin());
+}
+
 struct Topology::HalfEdge {
   std::uint32_t from, to;
-  std::uint32_t triangle;
+  std::uint32_t cell;
   std::uint32_t corner;
 
-  auto key() const { return std::pair(sorted_ends(from, to), triangle); }
+  auto key() const { return std::pair(sorted_ends(from, to), cell); }
 };
 
 Topology::Topology(const FrozenMesh& mesh, Report& report)
-    : mesh_(mesh), neighbours_(mesh.triangles.size(), {none, none, none}) {
+    : mesh_(mesh), neighbours_(mesh.cell_count(), {none, none, none, none}) {
   const std::vector<HalfEdge> halves = sorted_half_edges();
   const HalfEdge* const end = halves.data() + halves.size();
   for (const HalfEdge* first = halves.data(); first != end;) {
@@ -36,10 +40,11 @@ Topology::Topology(const FrozenMesh& mesh, Report& report)
 
 std::vector<Topology::HalfEdge> Topology::sorted_half_edges() const {
   std::vector<HalfEdge> halves;
-  halves.reserve(3 * mesh_.triangles.size());
-  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    const auto& corners = mesh_.triangles[t];
-    for (std::uint32_t k = 0; k < 3; ++k) halves.push_back({corners[k], corners[(k + 1) % 3], t, k});
+  halves.reserve(3 * mesh_.triangles.size() + 4 * mesh_.quads.size());
+  for (std::uint32_t i = 0; i < mesh_.cell_count(); ++i) {
+    const Corners corners = mesh_.cell(i);
+    for (std::uint32_t k = 0; k < corners.size(); ++k)
+      halves.push_back({corners[k], next_corner(corners, k), i, k});
   }
   std::sort(halves.begin(), halves.end(),
             [](const HalfEdge& a, const HalfEdge& b) { return a.key() < b.key(); });
@@ -49,27 +54,28 @@ std::vector<Topology::HalfEdge> Topology::sorted_half_edges() const {
 void Topology::add_edge(const HalfEdge* first, const HalfEdge* last, Report& report) {
   const auto count = last - first;
   if (count == 1) {
-    edges_.push_back({first->from, first->to, first->triangle, none});
+    edges_.push_back({first->from, first->to, first->cell, none});
     return;
   }
   if (count > 2) {
-    std::vector<std::uint32_t> triangles;
-    for (const HalfEdge* h = first; h != last; ++h) triangles.push_back(h->triangle);
-    report.add(
-        "adjacency", std::move(triangles),
-        sentence("the edge of points ", first->from, " and ", first->to, " is in ", count, " triangles"));
+    std::vector<std::uint32_t> cells;
+    for (const HalfEdge* h = first; h != last; ++h) cells.push_back(h->cell);
+    report.add("adjacency", std::move(cells),
+               sentence("the edge of points ", first->from, " and ", first->to, " is in ", count,
+                        mesh_.quads.empty() ? " triangles" : " cells"));
     return;
   }
   const HalfEdge& second = first[1];
   if (first->from == second.from) {
-    report.add("adjacency", {first->triangle, second.triangle},
-               sentence("triangles ", first->triangle, " and ", second.triangle, " pass the edge of points ",
-                        first->from, " and ", first->to, " in the same direction"));
+    report.add(
+        "adjacency", {first->cell, second.cell},
+        sentence(mesh_.quads.empty() ? "triangles " : "cells ", first->cell, " and ", second.cell,
+                 " pass the edge of points ", first->from, " and ", first->to, " in the same direction"));
     return;
   }
-  edges_.push_back({first->from, first->to, first->triangle, second.triangle});
-  neighbours_[first->triangle][first->corner] = second.triangle;
-  neighbours_[second.triangle][second.corner] = first->triangle;
+  edges_.push_back({first->from, first->to, first->cell, second.cell});
+  neighbours_[first->cell][first->corner] = second.cell;
+  neighbours_[second.cell][second.corner] = first->cell;
 }
 
 std::uint32_t Topology::find(std::uint32_t a, std::uint32_t b) const {
@@ -90,10 +96,10 @@ std::uint32_t Topology::opposite(const Edge& edge, std::uint32_t triangle) const
 std::size_t Topology::component_count() const {
   std::vector<bool> seen(neighbours_.size(), false);
   std::vector<std::uint32_t> stack;
-  const auto visit = [&](std::uint32_t triangle) {
-    if (triangle == none || seen[triangle]) return;
-    seen[triangle] = true;
-    stack.push_back(triangle);
+  const auto visit = [&](std::uint32_t cell) {
+    if (cell == none || seen[cell]) return;
+    seen[cell] = true;
+    stack.push_back(cell);
   };
   std::size_t components = 0;
   for (std::uint32_t start = 0; start < neighbours_.size(); ++start) {
@@ -101,9 +107,9 @@ std::size_t Topology::component_count() const {
     ++components;
     visit(start);
     while (!stack.empty()) {
-      const std::uint32_t triangle = stack.back();
+      const std::uint32_t cell = stack.back();
       stack.pop_back();
-      for (const std::uint32_t next : neighbours_[triangle]) visit(next);
+      for (const std::uint32_t next : neighbours_[cell]) visit(next);
     }
   }
   return components;
@@ -112,9 +118,9 @@ std::size_t Topology::component_count() const {
 std::uint32_t Topology::next_on_boundary(std::uint32_t e) const {
   const std::uint32_t v = edges_[e].to;
   for (std::uint32_t t = edges_[e].left;;) {
-    const auto& corners = mesh_.triangles[t];
-    const auto k = static_cast<std::size_t>(std::find(corners.begin(), corners.end(), v) - corners.begin());
-    if (neighbours_[t][k] == none) return find(v, corners[(k + 1) % 3]);
+    const Corners corners = mesh_.cell(t);
+    const std::size_t k = corner_of(corners, v);
+    if (neighbours_[t][k] == none) return find(v, next_corner(corners, k));
     t = neighbours_[t][k];
   }
 }

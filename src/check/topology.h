@@ -1,10 +1,11 @@
 #pragma once
 
-// Edges, neighbours, components and boundary loops, derived from the triangles alone.
+// Edges, neighbours, components and boundary loops, derived from the cells alone.
 
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "check/report.h"
@@ -14,26 +15,33 @@ namespace remodel::checker {
 
 inline constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
+// Cells are numbered triangles first. Which corner of one a point is.
+using Corners = std::span<const std::uint32_t>;
+std::size_t corner_of(Corners cell, std::uint32_t point);
+inline std::uint32_t next_corner(Corners cell, std::size_t k) {
+  return cell[(k + 1) % cell.size()];
+}
+
 struct Edge {
-  std::uint32_t from = none, to = none;  // counter-clockwise in the triangle on the left
-  std::uint32_t left = none;             // a triangle
-  std::uint32_t right = none;            // a triangle, or none on the boundary
+  std::uint32_t from = none, to = none;  // counter-clockwise in the cell on the left
+  std::uint32_t left = none;             // a cell
+  std::uint32_t right = none;            // a cell, or none on the boundary
 
   bool is_boundary() const { return right == none; }
 };
 
 class Topology {
  public:
-  // Rule "adjacency": every edge is in one triangle, or in two that pass it in opposite directions. Edges
+  // Rule "adjacency": every edge is in one cell, or in two that pass it in opposite directions. Edges
   // that break it are left out.
   Topology(const FrozenMesh& mesh, Report& report);
 
   const std::vector<Edge>& edges() const { return edges_; }
   // Index of the edge between a and b in either direction, or none.
   std::uint32_t find(std::uint32_t a, std::uint32_t b) const;
-  // The triangle across the edge from corner k to corner k + 1, or none.
-  std::uint32_t neighbour(std::uint32_t triangle, std::size_t k) const { return neighbours_[triangle][k]; }
-  // The corner of the triangle opposite to the edge.
+  // The cell across the edge from corner k to the next one, or none.
+  std::uint32_t neighbour(std::uint32_t cell, std::size_t k) const { return neighbours_[cell][k]; }
+  // The corner of a triangle opposite to the edge.
   std::uint32_t opposite(const Edge& edge, std::uint32_t triangle) const;
 
   // Parts of the mesh connected by edges.
@@ -49,7 +57,7 @@ class Topology {
 
   const FrozenMesh& mesh_;
   std::vector<Edge> edges_;  // in increasing order of their (smaller, larger) point
-  std::vector<std::array<std::uint32_t, 3>> neighbours_;
+  std::vector<std::array<std::uint32_t, 4>> neighbours_;
 };
 
 }  // namespace remodel::checker

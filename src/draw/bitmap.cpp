@@ -22,7 +22,7 @@ void paint_fills(cairo_t* cairo, const Picture& picture, const Layout& layout) {
   paint_page(fine_cairo.get());
   cairo_scale(fine_cairo.get(), 2, 2);
   cairo_set_antialias(fine_cairo.get(), CAIRO_ANTIALIAS_NONE);
-  picture.fill_triangles(fine_cairo.get(), Seams::leave);
+  picture.fill_cells(fine_cairo.get(), Seams::leave);
   cairo_save(cairo);
   cairo_scale(cairo, 0.5, 0.5);
   cairo_set_source_surface(cairo, fine.get(), 0, 0);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <span>
 
 #include "remodel/error.h"
 
@@ -12,35 +13,38 @@ namespace remodel::draw_detail {
 
 namespace {
 
-double min_angle_deg(Point a, Point b, Point c) {
-  const auto angle = [](Point at, Point p, Point q) {
-    return std::atan2(std::abs(cross(p - at, q - at)), dot(p - at, q - at));
-  };
-  return std::min({angle(a, b, c), angle(b, c, a), angle(c, a, b)}) * 180.0 / std::numbers::pi;
+double min_angle_deg(const FrozenMesh& mesh, std::span<const std::uint32_t> corners) {
+  const std::size_t n = corners.size();
+  double least = std::numbers::pi;
+  for (std::size_t k = 0; k < n; ++k) {
+    const Point at = mesh.points[corners[k]];
+    const Point p = mesh.points[corners[(k + 1) % n]] - at, q = mesh.points[corners[(k + n - 1) % n]] - at;
+    least = std::min(least, std::atan2(std::abs(cross(p, q)), dot(p, q)));
+  }
+  return least * 180.0 / std::numbers::pi;
 }
 
-ColorScale quality_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& triangles) {
+ColorScale quality_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& cells) {
   constexpr double worst = 20.0;
   constexpr double best = 60.0;
   ColorScale scale{"Minimum angle", "20\u00b0", "60\u00b0", {}};
-  for (const auto triangle : triangles) {
-    const auto& [a, b, c] = mesh.triangles[triangle];
-    const double angle = min_angle_deg(mesh.points[a], mesh.points[b], mesh.points[c]);
+  for (const auto cell : cells) {
+    const double angle = min_angle_deg(mesh, mesh.cell(cell));
     scale.positions.push_back(std::clamp((angle - worst) / (best - worst), 0.0, 1.0));
   }
   return scale;
 }
 
-ColorScale length_scale_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& triangles) {
+ColorScale length_scale_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& cells) {
   if (mesh.length_scale.empty()) {
     throw Error(ErrorCode::argument, "color length-scale",
                 "a mesh without length scales found, one with them expected");
   }
   std::vector<double> logarithms;
-  for (const auto triangle : triangles) {
+  for (const auto cell : cells) {
     double sum = 0.0;
-    for (const auto vertex : mesh.triangles[triangle]) sum += mesh.length_scale[vertex];
-    logarithms.push_back(std::log(std::max(sum / 3.0, 1e-300)));
+    for (const auto vertex : mesh.cell(cell)) sum += mesh.length_scale[vertex];
+    logarithms.push_back(std::log(std::max(sum / static_cast<double>(mesh.cell(cell).size()), 1e-300)));
   }
   if (logarithms.empty()) return {"Length scale (logarithmic)", "", "", {}};
   const auto [low, high] = std::minmax_element(logarithms.begin(), logarithms.end());
@@ -50,43 +54,46 @@ ColorScale length_scale_scale(const FrozenMesh& mesh, const std::vector<std::uin
   return scale;
 }
 
-ColorScale age_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& triangles) {
+ColorScale age_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& cells) {
   if (mesh.birth.empty()) {
     throw Error(ErrorCode::argument, "color age", "a mesh without birth steps found, one with them expected");
   }
   const auto [oldest, newest] = std::minmax_element(mesh.birth.begin(), mesh.birth.end());
   const double range = std::max(1.0, static_cast<double>(*newest - *oldest));
   ColorScale scale{"Age in remodelling steps", std::to_string(*newest - *oldest), "0", {}};
-  for (const auto triangle : triangles) {
-    scale.positions.push_back(1.0 - static_cast<double>(*newest - mesh.birth[triangle]) / range);
+  for (const auto cell : cells) {
+    // Cells of layers have no births: they are there from the beginning.
+    const std::uint32_t birth = cell < mesh.birth.size() ? mesh.birth[cell] : *oldest;
+    scale.positions.push_back(1.0 - static_cast<double>(*newest - birth) / range);
   }
   return scale;
 }
 
 // From half of the size that the design allows to twice that: what is beyond has the colour of the end.
-ColorScale gradation_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& triangles) {
+ColorScale gradation_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& cells) {
   if (mesh.gradation_error.empty()) {
     throw Error(ErrorCode::argument, "color gradation",
                 "a mesh without gradation errors found, one with them expected");
   }
   constexpr double most = std::numbers::ln2;
   ColorScale scale{"ln(r / (H mean LS*))", "\u2212ln 2: half", "ln 2: twice", {}, ColorMap::diverging};
-  for (const auto triangle : triangles)
-    scale.positions.push_back(std::clamp(0.5 + 0.5 * mesh.gradation_error[triangle] / most, 0.0, 1.0));
+  for (const auto cell : cells)
+    scale.positions.push_back(cell < mesh.gradation_error.size()
+                                  ? std::clamp(0.5 + 0.5 * mesh.gradation_error[cell] / most, 0.0, 1.0)
+                                  : 0.5);
   return scale;
 }
 
-ColorScale fate_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& triangles) {
+ColorScale fate_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& cells) {
   if (mesh.fate.empty()) {
     throw Error(ErrorCode::argument, "color fate", "a mesh without fates found, one with them expected");
   }
   ColorScale scale{"Kept, moved, new:", "", "", {}, ColorMap::embers, 3};
-  for (const auto triangle : triangles)
-    scale.positions.push_back(0.5 * static_cast<double>(mesh.fate[triangle]));
+  for (const auto cell : cells) scale.positions.push_back(0.5 * static_cast<double>(mesh.fate[cell]));
   return scale;
 }
 
-ColorScale region_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& triangles) {
+ColorScale region_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& cells) {
   if (mesh.region.empty())
     throw Error(ErrorCode::argument, "color region", "a mesh of one region found, one with several expected");
   const auto last = static_cast<double>(std::max<std::size_t>(mesh.region_names.size(), 2) - 1);
@@ -94,7 +101,7 @@ ColorScale region_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>
   for (std::size_t i = 0; i < mesh.region_names.size(); ++i)
     scale.title += (i == 0 ? " " : ", ") + mesh.region_names[i];
   scale.title += ":";
-  for (const auto triangle : triangles) scale.positions.push_back(mesh.region[triangle] / last);
+  for (const auto cell : cells) scale.positions.push_back(mesh.region[cell] / last);
   return scale;
 }
 
@@ -166,22 +173,22 @@ double dark_end(ColorMap map) {
   return map == ColorMap::sequential ? 0.2 : 0.0;
 }
 
-ColorScale color_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& triangles, DrawColor color) {
+ColorScale color_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& cells, DrawColor color) {
   switch (color) {
     case DrawColor::quality:
       break;
     case DrawColor::length_scale:
-      return length_scale_scale(mesh, triangles);
+      return length_scale_scale(mesh, cells);
     case DrawColor::age:
-      return age_scale(mesh, triangles);
+      return age_scale(mesh, cells);
     case DrawColor::fate:
-      return fate_scale(mesh, triangles);
+      return fate_scale(mesh, cells);
     case DrawColor::region:
-      return region_scale(mesh, triangles);
+      return region_scale(mesh, cells);
     case DrawColor::gradation:
-      return gradation_scale(mesh, triangles);
+      return gradation_scale(mesh, cells);
   }
-  return quality_scale(mesh, triangles);
+  return quality_scale(mesh, cells);
 }
 
 std::string label_of(double value) {

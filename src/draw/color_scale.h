@@ -1,6 +1,6 @@
 #pragma once
 
-// The meaning of a triangle's colour, and the colours themselves.
+// The meaning of a cell's colour, and the colours themselves.
 
 #include <cstdint>
 #include <string>
@@ -24,7 +24,7 @@ Color color_at(ColorMap map, double t);
 // Below this position dark lines cannot be seen.
 double dark_end(ColorMap map);
 
-// The scale of a picture: one position in [0, 1] for each of the given triangles.
+// The scale of a picture: one position in [0, 1] for each of the given cells.
 struct ColorScale {
   std::string title;
   std::string low, high;  // labels of its ends
@@ -34,7 +34,7 @@ struct ColorScale {
 };
 
 // Throws Error (argument) if the mesh does not carry what the colouring shows.
-ColorScale color_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& triangles, DrawColor color);
+ColorScale color_scale(const FrozenMesh& mesh, const std::vector<std::uint32_t>& cells, DrawColor color);
 
 // A number for a label: four digits are enough to read.
 std::string label_of(double value);

@@ -21,7 +21,7 @@ void draw(const FrozenMesh& mesh, const std::filesystem::path& file, const DrawO
   }
   const auto paint = [&](cairo_t* cairo) {
     draw_detail::paint(cairo, picture, layout, options.caption,
-                       [&] { picture.fill_triangles(cairo, draw_detail::Seams::fill); });
+                       [&] { picture.fill_cells(cairo, draw_detail::Seams::fill); });
   };
   write_text_atomically(file, draw_detail::svg_bytes(file, layout.width, layout.height, paint));
 }

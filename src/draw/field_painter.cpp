@@ -77,7 +77,7 @@ std::vector<double> ticks_within(double low, double high) {
 }
 
 FieldPainter::FieldPainter(const FrozenMesh& mesh, const Layout& layout, const Box& seen,
-                           std::span<const std::uint32_t> triangles, const DrawField& options)
+                           std::span<const std::uint32_t> cells, const DrawField& options)
     : mesh_(mesh),
       layout_(layout),
       seen_(seen),
@@ -100,18 +100,18 @@ FieldPainter::FieldPainter(const FrozenMesh& mesh, const Layout& layout, const B
       throw Error(ErrorCode::argument, "range",
                   label_of(low_) + ":" + label_of(high_) + " found, two numbers A:B with A < B expected");
     }
-  } else if (!triangles.empty()) {
+  } else if (!cells.empty()) {
     low_ = std::numeric_limits<double>::infinity();
     high_ = -low_;
     const auto take = [&](double value) {
       low_ = std::min(low_, value);
       high_ = std::max(high_, value);
     };
-    for (const std::uint32_t triangle : triangles) {
+    for (const std::uint32_t cell : cells) {
       if (place_ == FieldPlace::triangles)
-        take(values_[triangle]);
+        take(values_[cell]);
       else
-        for (const std::uint32_t vertex : mesh.triangles[triangle]) take(values_[vertex]);
+        for (const std::uint32_t vertex : mesh.cell(cell)) take(values_[vertex]);
     }
     const auto [low, high] = opened(low_, high_);
     low_ = low;
@@ -119,31 +119,31 @@ FieldPainter::FieldPainter(const FrozenMesh& mesh, const Layout& layout, const B
   }
 }
 
-std::array<double, 3> FieldPainter::positions(std::uint32_t triangle) const {
-  std::array<double, 3> result;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t at = place_ == FieldPlace::triangles ? triangle : mesh_.triangles[triangle][k];
-    result[k] = (values_[at] - low_) / (high_ - low_);
+std::vector<ValuedPoint> FieldPainter::corners(std::uint32_t cell) const {
+  std::vector<ValuedPoint> result;
+  for (const std::uint32_t v : mesh_.cell(cell)) {
+    const double value = values_[place_ == FieldPlace::triangles ? cell : v];
+    result.push_back({mesh_.points[v], (value - low_) / (high_ - low_)});
   }
   return result;
 }
 
-std::vector<ValuedPoint> FieldPainter::polygon(std::uint32_t triangle) const {
-  const auto at = positions(triangle);
-  std::vector<ValuedPoint> corners;
-  for (std::size_t k = 0; k < 3; ++k) corners.push_back({mesh_.points[mesh_.triangles[triangle][k]], at[k]});
-  return corners;
+std::vector<std::vector<ValuedPoint>> FieldPainter::polygons(std::uint32_t cell) const {
+  const std::vector<ValuedPoint> all = corners(cell);
+  if (all.size() == 3 || place_ == FieldPlace::triangles) return {all};
+  return {{all[0], all[1], all[2]}, {all[0], all[2], all[3]}};
 }
 
-void FieldPainter::fill(cairo_t* cairo, std::span<const std::uint32_t> triangles, Seams seams) const {
+void FieldPainter::fill(cairo_t* cairo, std::span<const std::uint32_t> cells, Seams seams) const {
   const auto band_of = [](double position) {
     return static_cast<std::size_t>(std::clamp(position * bands, 0.0, bands - 1.0));
   };
   std::array<std::vector<std::uint32_t>, bands> members;
-  for (const std::uint32_t triangle : triangles) {
-    const auto at = positions(triangle);
-    const auto [low, high] = std::minmax_element(at.begin(), at.end());
-    for (std::size_t band = band_of(*low); band <= band_of(*high); ++band) members[band].push_back(triangle);
+  for (const std::uint32_t cell : cells) {
+    const auto at = corners(cell);
+    const auto [low, high] = std::ranges::minmax_element(at, {}, &ValuedPoint::value);
+    for (std::size_t band = band_of(low->value); band <= band_of(high->value); ++band)
+      members[band].push_back(cell);
   }
   constexpr double everything = std::numeric_limits<double>::infinity();
   cairo_set_line_width(cairo, 0.5 * layout_.unit);
@@ -151,31 +151,31 @@ void FieldPainter::fill(cairo_t* cairo, std::span<const std::uint32_t> triangles
   for (std::size_t band = 0; band < bands; ++band) {
     const double low = band == 0 ? -everything : static_cast<double>(band) / bands;
     const double high = band == bands - 1 ? everything : static_cast<double>(band + 1) / bands;
-    for (const std::uint32_t triangle : members[band]) {
-      std::vector<Point> part;
-      for (const ValuedPoint& corner : between_values(polygon(triangle), low, high))
-        part.push_back(corner.point);
-      add_polygon(cairo, layout_, clip_polygon(std::move(part), seen_));
-    }
+    for (const std::uint32_t cell : members[band])
+      for (const std::vector<ValuedPoint>& polygon : polygons(cell)) {
+        std::vector<Point> part;
+        for (const ValuedPoint& corner : between_values(polygon, low, high)) part.push_back(corner.point);
+        add_polygon(cairo, layout_, clip_polygon(std::move(part), seen_));
+      }
     set_color(cairo, color_at(ColorMap::sequential, static_cast<double>(band) / (bands - 1)));
     fill_path(cairo, seams);
   }
 }
 
-void FieldPainter::stroke_iso_lines(cairo_t* cairo, std::span<const std::uint32_t> triangles) const {
+void FieldPainter::stroke_iso_lines(cairo_t* cairo, std::span<const std::uint32_t> cells) const {
   cairo_set_line_width(cairo, 0.9 * layout_.unit);
   cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
   for (int line = 1; line <= iso_lines_; ++line) {
     const double value = static_cast<double>(line) / (iso_lines_ + 1);
-    for (const std::uint32_t triangle : triangles) {
-      const auto corners = polygon(triangle);
-      std::vector<Point> ends;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const ValuedPoint &a = corners[k], &b = corners[(k + 1) % 3];
-        if ((a.value < value) != (b.value < value)) ends.push_back(crossing(a, b, value).point);
+    for (const std::uint32_t cell : cells)
+      for (const std::vector<ValuedPoint>& triangle : polygons(cell)) {
+        std::vector<Point> ends;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const ValuedPoint &a = triangle[k], &b = triangle[(k + 1) % 3];
+          if ((a.value < value) != (b.value < value)) ends.push_back(crossing(a, b, value).point);
+        }
+        if (ends.size() == 2) add_segment(cairo, layout_, ends[0], ends[1], seen_);
       }
-      if (ends.size() == 2) add_segment(cairo, layout_, ends[0], ends[1], seen_);
-    }
     if (value < dark_end(ColorMap::sequential) + 0.2) {
       set_color(cairo, {0.95, 0.95, 1.0}, 0.55);
     } else {

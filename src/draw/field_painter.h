@@ -1,6 +1,7 @@
 #pragma once
 
-// A field in colours: bands of equal colours cut out of each triangle, where the field is linear.
+// A field in colours: bands of equal colours cut out of each triangle, where the field is linear. A
+// quadrilateral is two triangles, or one where the field is constant.
 
 #include <cairo.h>
 
@@ -29,19 +30,19 @@ std::vector<double> ticks_within(double low, double high);
 
 class FieldPainter {
  public:
-  // mesh must outlive the painter; triangles: those that are seen. Throws Error (argument) as draw() does.
+  // mesh must outlive the painter; cells: those that are seen. Throws Error (argument) as draw() does.
   FieldPainter(const FrozenMesh& mesh, const Layout& layout, const Box& seen,
-               std::span<const std::uint32_t> triangles, const DrawField& options);
+               std::span<const std::uint32_t> cells, const DrawField& options);
 
-  void fill(cairo_t* cairo, std::span<const std::uint32_t> triangles, Seams seams) const;
-  void stroke_iso_lines(cairo_t* cairo, std::span<const std::uint32_t> triangles) const;
+  void fill(cairo_t* cairo, std::span<const std::uint32_t> cells, Seams seams) const;
+  void stroke_iso_lines(cairo_t* cairo, std::span<const std::uint32_t> cells) const;
   void color_bar(cairo_t* cairo, double left, double baseline) const;
   std::string iso_lines_in_words() const;  // empty if there are none
 
  private:
-  // At the corners of a triangle: 0 at the low end of the range, 1 at its high end.
-  std::array<double, 3> positions(std::uint32_t triangle) const;
-  std::vector<ValuedPoint> polygon(std::uint32_t triangle) const;
+  // At the corners of a cell: 0 at the low end of the range, 1 at its high end.
+  std::vector<ValuedPoint> corners(std::uint32_t cell) const;
+  std::vector<std::vector<ValuedPoint>> polygons(std::uint32_t cell) const;
 
   const FrozenMesh& mesh_;
   Layout layout_;

@@ -23,7 +23,7 @@ const Color& boundary_color(std::size_t k) {
   return boundary_colors[k % boundary_colors.size()];
 }
 
-// Edges between large triangles are lines, those between triangles of a few pixels fade away: drawn in full,
+// Edges between large cells are lines, those between cells of a few pixels fade away: drawn in full,
 // they would leave nothing of the colours.
 double edge_strength(double side) {
   constexpr double vanish = 3.0;
@@ -37,57 +37,61 @@ Picture::Picture(const FrozenMesh& mesh, const Layout& layout, const DrawOptions
     : mesh_(mesh), layout_(layout) {
   const double margin = 8.0 * layout.unit / layout.scale;
   seen_ = {layout.window.low - Point{margin, margin}, layout.window.high + Point{margin, margin}};
-  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    const auto& [a, b, c] = mesh.triangles[i];
-    const std::vector<Point> corners = {mesh.points[a], mesh.points[b], mesh.points[c]};
+  for (std::uint32_t i = 0; i < mesh.cell_count(); ++i) {
+    const std::vector<Point> corners = corners_of(i);
     if (!box_of(corners).meets(layout.window)) continue;
-    if (clip_polygon(corners, layout.window).size() >= 3) triangles_.push_back(i);
+    if (clip_polygon(corners, layout.window).size() >= 3) cells_.push_back(i);
   }
   if (options.field) {
-    field_.emplace(mesh, layout, seen_, triangles_, *options.field);
+    field_.emplace(mesh, layout, seen_, cells_, *options.field);
   } else {
-    scale_ = color_scale(mesh, triangles_, options.color);
+    scale_ = color_scale(mesh, cells_, options.color);
   }
 }
 
-void Picture::fill_triangles(cairo_t* cairo, Seams seams) const {
-  if (field_) return field_->fill(cairo, triangles_, seams);
+std::vector<Point> Picture::corners_of(std::uint32_t cell) const {
+  std::vector<Point> corners;
+  for (const std::uint32_t v : mesh_.cell(cell)) corners.push_back(mesh_.points[v]);
+  return corners;
+}
+
+void Picture::fill_cells(cairo_t* cairo, Seams seams) const {
+  if (field_) return field_->fill(cairo, cells_, seams);
   std::array<std::vector<std::uint32_t>, color_levels> levels;
-  for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    levels[static_cast<std::size_t>(scale_.positions[i] * (color_levels - 1) + 0.5)].push_back(triangles_[i]);
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    levels[static_cast<std::size_t>(scale_.positions[i] * (color_levels - 1) + 0.5)].push_back(cells_[i]);
   }
   cairo_set_line_width(cairo, 0.5 * layout_.unit);
   cairo_set_line_join(cairo, CAIRO_LINE_JOIN_BEVEL);
   for (std::size_t level = 0; level < color_levels; ++level) {
     if (levels[level].empty()) continue;
-    for (const auto triangle : levels[level]) {
-      const auto& [a, b, c] = mesh_.triangles[triangle];
-      add_polygon(cairo, layout_, clip_polygon({mesh_.points[a], mesh_.points[b], mesh_.points[c]}, seen_));
-    }
+    for (const auto cell : levels[level]) add_polygon(cairo, layout_, clip_polygon(corners_of(cell), seen_));
     set_color(cairo, color_at(scale_.map, static_cast<double>(level) / (color_levels - 1)));
     fill_path(cairo, seams);
   }
 }
 
-// The side of the equilateral triangle with the same area.
-double Picture::side_in_pixels(std::uint32_t triangle) const {
-  const auto& [a, b, c] = mesh_.triangles[triangle];
-  const double twice = std::abs(cross(mesh_.points[b] - mesh_.points[a], mesh_.points[c] - mesh_.points[a]));
+// The side of the equilateral triangle with the same area; a quadrilateral's area is half the product of its
+// diagonals.
+double Picture::side_in_pixels(std::uint32_t cell) const {
+  const std::vector<Point> p = corners_of(cell);
+  const double twice =
+      std::abs(p.size() == 4 ? cross(p[2] - p[0], p[3] - p[1]) : cross(p[1] - p[0], p[2] - p[0]));
   return layout_.scale * std::sqrt(2.0 / std::numbers::sqrt3 * twice);
 }
 
 void Picture::stroke_edges(cairo_t* cairo) const {
-  if (field_) return field_->stroke_iso_lines(cairo, triangles_);
+  if (field_) return field_->stroke_iso_lines(cairo, cells_);
   constexpr std::size_t strengths = 16;  // one path for each, on dark and on bright colours
   const double dark = dark_end(scale_.map);
   std::array<std::array<EdgeList, strengths>, 2> edges;
-  for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    const double strength = edge_strength(side_in_pixels(triangles_[i]) / layout_.unit);
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const double strength = edge_strength(side_in_pixels(cells_[i]) / layout_.unit);
     const auto level = static_cast<std::size_t>(strength * (strengths - 1) + 0.5);
-    const auto& corners = mesh_.triangles[triangles_[i]];
-    for (std::size_t k = 0; level > 0 && k < 3; ++k) {
-      const std::array<std::uint32_t, 2> edge = {corners[k], corners[(k + 1) % 3]};
-      // Once from each inner edge's two triangles; boundary edges are drawn over anyway.
+    const auto corners = mesh_.cell(cells_[i]);
+    for (std::size_t k = 0; level > 0 && k < corners.size(); ++k) {
+      const std::array<std::uint32_t, 2> edge = {corners[k], corners[(k + 1) % corners.size()]};
+      // Once from each inner edge's two cells; boundary edges are drawn over anyway.
       if (edge[0] < edge[1]) edges[scale_.positions[i] < dark ? 1 : 0][level].push_back(edge);
     }
   }
@@ -154,9 +158,10 @@ void Picture::boundary_names(cairo_t* cairo, double left, double baseline) const
 std::string Picture::what_is_seen() const {
   const Box& window = layout_.window;
   const std::string lines = field_ ? field_->iso_lines_in_words() : "";
-  return std::to_string(triangles_.size()) + " of " + std::to_string(mesh_.triangles.size()) +
-         " triangles; x from " + label_of(window.low.x) + " to " + label_of(window.high.x) + ", y from " +
-         label_of(window.low.y) + " to " + label_of(window.high.y) + lines;
+  return std::to_string(cells_.size()) + " of " + std::to_string(mesh_.cell_count()) +
+         (mesh_.quads.empty() ? " triangles; x from " : " cells; x from ") + label_of(window.low.x) + " to " +
+         label_of(window.high.x) + ", y from " + label_of(window.low.y) + " to " + label_of(window.high.y) +
+         lines;
 }
 
 void Picture::legend(cairo_t* cairo, const std::string& caption) const {

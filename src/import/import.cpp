@@ -6,6 +6,7 @@
 
 #include "generate/recovery_error.h"
 #include "generate/require_option.h"
+#include "import/flat_layers.h"
 #include "import/graft.h"
 #include "import/loops.h"
 #include "import/scales.h"
@@ -104,7 +105,9 @@ void build(const SoundMesh& sound, const ImportOptions& options, const std::stri
 
 ImportResult import_mesh(const FrozenMesh& mesh, const std::string& source, const ImportOptions& options) {
   validate(options);
-  const SoundMesh sound = make_sound(mesh, source, options.unnamed);
+  if (options.layers == FlatLayers::refuse) refuse_flat_layers(mesh, source);
+  const SoundMesh sound =
+      make_sound(mesh.quads.empty() ? mesh : without_quads(mesh, source), source, options.unnamed);
   ImportResult result;
   result.turned_triangles = sound.turned;
   result.duplicate_triangles = sound.duplicates;

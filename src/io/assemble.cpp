@@ -16,31 +16,36 @@ namespace {
 
 using Edge = std::array<std::uint32_t, 2>;
 
-// Beyond any doubt that rounding leaves. The bound is that of the orientation predicate's filter, (3 + 16
-// eps) eps of the permanent (Shewchuk 1997): a sliver whose sign is open stays as it is.
-bool surely_clockwise(Point a, Point b, Point c) {
-  const double left = (a.x - c.x) * (b.y - c.y);
-  const double right = (a.y - c.y) * (b.x - c.x);
+// By the area that the vectors from c to a and from d to b span: twice that of the triangle a b c where d is
+// c, twice that of the quadrilateral a b c d otherwise. Beyond any doubt that rounding leaves. The bound is
+// that of the orientation predicate's filter, (3 + 16 eps) eps of the permanent (Shewchuk 1997): a sliver
+// whose sign is open stays as it is.
+bool surely_clockwise(Point a, Point b, Point c, Point d) {
+  const double left = (a.x - c.x) * (b.y - d.y);
+  const double right = (a.y - c.y) * (b.x - d.x);
   return left - right < -3.3306690738754716e-16 * (std::abs(left) + std::abs(right));
 }
 
-// A program may write all its triangles clockwise: then they are all turned. One among others that are not is
-// a fault of the mesh, which a reader must not hide from the checker.
-void turn_triangles(FrozenMesh& mesh) {
+// A program may write all its cells clockwise: then they are all turned. One among others that are not is a
+// fault of the mesh, which a reader must not hide from the checker.
+void turn_cells(FrozenMesh& mesh) {
   std::size_t clockwise = 0;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    if (surely_clockwise(mesh.points[a], mesh.points[b], mesh.points[c])) ++clockwise;
+  for (std::size_t i = 0; i < mesh.cell_count(); ++i) {
+    const auto corners = mesh.cell(i);
+    const auto point = [&](std::size_t k) { return mesh.points[corners[k]]; };
+    if (surely_clockwise(point(0), point(1), point(2), point(corners.size() - 1))) ++clockwise;
   }
-  if (2 * clockwise <= mesh.triangles.size()) return;
+  if (2 * clockwise <= mesh.cell_count()) return;
   for (auto& [a, b, c] : mesh.triangles) std::swap(b, c);
+  for (auto& [a, b, c, d] : mesh.quads) std::swap(b, d);
 }
 
 std::uint64_t key_of(std::uint32_t from, std::uint32_t to) {
   return std::uint64_t{from} << 32 | to;
 }
 
-// For every boundary edge, in both directions: does a triangle have it in that direction?
-std::unordered_map<std::uint64_t, bool> directions_in_triangles(const FrozenMesh& mesh) {
+// For every boundary edge, in both directions: does a cell have it in that direction?
+std::unordered_map<std::uint64_t, bool> directions_in_cells(const FrozenMesh& mesh) {
   std::unordered_map<std::uint64_t, bool> found;
   std::vector<bool> on_boundary(mesh.points.size());
   for (const auto& boundary : mesh.boundaries) {
@@ -49,10 +54,11 @@ std::unordered_map<std::uint64_t, bool> directions_in_triangles(const FrozenMesh
       on_boundary[a] = on_boundary[b] = true;
     }
   }
-  for (const auto& triangle : mesh.triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto from = triangle[i];
-      const auto to = triangle[(i + 1) % 3];
+  for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
+    const auto corners = mesh.cell(cell);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const auto from = corners[i];
+      const auto to = corners[(i + 1) % corners.size()];
       if (!on_boundary[from] || !on_boundary[to]) continue;
       if (const auto entry = found.find(key_of(from, to)); entry != found.end()) entry->second = true;
     }
@@ -61,7 +67,7 @@ std::unordered_map<std::uint64_t, bool> directions_in_triangles(const FrozenMesh
 }
 
 void turn_boundary_edges(FrozenMesh& mesh) {
-  const auto found = directions_in_triangles(mesh);
+  const auto found = directions_in_cells(mesh);
   for (auto& boundary : mesh.boundaries) {
     for (auto& [a, b] : boundary.edges) {
       if (!found.at(key_of(a, b)) && found.at(key_of(b, a))) std::swap(a, b);
@@ -108,21 +114,22 @@ class ChainWalker {
 }  // namespace
 
 void adopt_conventions(FrozenMesh& mesh, const std::string& file) {
-  if (mesh.triangles.empty())
+  if (mesh.cell_count() == 0)
     throw Error(ErrorCode::format, file, "no triangle found, at least one expected");
-  turn_triangles(mesh);
+  turn_cells(mesh);
   turn_boundary_edges(mesh);
   for (auto& boundary : mesh.boundaries) boundary.edges = ChainWalker(boundary.edges).ordered();
 }
 
-void RegionNames::add(FrozenMesh& mesh, const std::string& name) {
+void RegionNames::add(FrozenMesh& mesh, Cell cell, const std::string& name) {
   const auto [entry, added] =
       indices_.try_emplace(name, static_cast<std::uint32_t>(mesh.region_names.size()));
   if (added) mesh.region_names.push_back(name);
-  mesh.region.push_back(entry->second);
+  (cell == Cell::triangle ? mesh.region : of_quads_).push_back(entry->second);
 }
 
 void RegionNames::finish(FrozenMesh& mesh) {
+  mesh.region.insert(mesh.region.end(), of_quads_.begin(), of_quads_.end());
   if (mesh.region_names.size() > 1) return;
   mesh.region.clear();
   mesh.region_names.clear();
@@ -130,7 +137,7 @@ void RegionNames::finish(FrozenMesh& mesh) {
 
 FrozenMesh without_inner_edges(const FrozenMesh& mesh) {
   FrozenMesh result = mesh;
-  const auto found = directions_in_triangles(mesh);
+  const auto found = directions_in_cells(mesh);
   std::erase_if(result.boundaries, [&](FrozenBoundary& boundary) {
     const auto inner = [&](const Edge& e) {
       return found.at(key_of(e[0], e[1])) && found.at(key_of(e[1], e[0]));
@@ -146,16 +153,16 @@ std::pair<std::size_t, bool> BoundaryNames::add(FrozenMesh& mesh, const std::str
   return {entry->second, added};
 }
 
-std::vector<std::size_t> triangles_at_boundaries(const FrozenMesh& mesh) {
+std::vector<std::size_t> cells_at_boundaries(const FrozenMesh& mesh) {
   const auto key = [](std::uint32_t a, std::uint32_t b) { return std::uint64_t{a} << 32 | b; };
   std::unordered_map<std::uint64_t, std::size_t> found;
   for (const auto& boundary : mesh.boundaries)
     for (const auto& [a, b] : boundary.edges) found[key(a, b)] = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& corners = mesh.triangles[t];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto edge = found.find(key(corners[k], corners[(k + 1) % 3]));
-      if (edge != found.end()) edge->second = t;
+  for (std::size_t i = 0; i < mesh.cell_count(); ++i) {
+    const auto corners = mesh.cell(i);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const auto edge = found.find(key(corners[k], corners[(k + 1) % corners.size()]));
+      if (edge != found.end()) edge->second = i;
     }
   }
   std::vector<std::size_t> result;
@@ -169,7 +176,7 @@ std::vector<std::size_t> triangles_at_boundaries(const FrozenMesh& mesh) {
 namespace remodel {
 
 std::vector<std::string> inner_curves(const FrozenMesh& mesh) {
-  const auto found = io::directions_in_triangles(mesh);
+  const auto found = io::directions_in_cells(mesh);
   std::vector<std::string> names;
   for (const FrozenBoundary& boundary : mesh.boundaries) {
     const auto inner = [&](const auto& e) {

@@ -12,24 +12,27 @@
 
 namespace remodel::io {
 
-// Turns clockwise triangles, turns boundary edges so that the domain is on their left, and orders the edges
+// Turns clockwise cells, turns boundary edges so that the domain is on their left, and orders the edges
 // of each boundary along its loops or chains, each starting at the edge that came first. Changes nothing in a
-// mesh of ours. An edge without a triangle, or between two, keeps its direction: judging the mesh is for
-// check(). Indices must be in range. Throws Error (format) if there is no triangle.
+// mesh of ours. An edge without a cell, or between two, keeps its direction: judging the mesh is for
+// check(). Indices must be in range. Throws Error (format) if there is no cell.
 void adopt_conventions(FrozenMesh& mesh, const std::string& file);
 
-// The mesh without named edges that have a triangle on both sides, and without boundaries that have no
+// The mesh without named edges that have a cell on both sides, and without boundaries that have no
 // others.
 FrozenMesh without_inner_edges(const FrozenMesh& mesh);
 
-// Gives triangles their regions by name, as they are read one after the other.
+// Gives cells their regions by name, as they are read one after the other, triangles and quadrilaterals in
+// any order.
 class RegionNames {
  public:
-  void add(FrozenMesh& mesh, const std::string& name);  // of the last triangle
-  // One region alone says nothing.
-  static void finish(FrozenMesh& mesh);
+  enum class Cell { triangle, quadrilateral };
+  void add(FrozenMesh& mesh, Cell cell, const std::string& name);  // of the last one that was read
+  // Triangles first. One region alone says nothing.
+  void finish(FrozenMesh& mesh);
 
  private:
+  std::vector<std::uint32_t> of_quads_;
   std::map<std::string, std::uint32_t> indices_;
 };
 
@@ -43,8 +46,7 @@ class BoundaryNames {
   std::map<std::string, std::size_t> indices_;
 };
 
-// The triangle at each boundary edge, in the order of the boundaries' edges; the first one where there is
-// none.
-std::vector<std::size_t> triangles_at_boundaries(const FrozenMesh& mesh);
+// The cell at each boundary edge, in the order of the boundaries' edges; the first one where there is none.
+std::vector<std::size_t> cells_at_boundaries(const FrozenMesh& mesh);
 
 }  // namespace remodel::io

@@ -35,10 +35,9 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 // ---------------------------------------------------------------------------------------- all text formats
 
-const std::string splitting_advice =
-    ": quadrilaterals will be read by a later version; until then split each a b c d into the triangles a b "
-    "c and a "
-    "c d (ParaView's filter Triangulate does; Gmsh makes none without Recombine)";
+const std::string order_advice =
+    ": cells of second order have points in the middle of edges; write the mesh with cells of first order "
+    "(Gmsh: SetOrder 1)";
 
 struct TextFormat {
   const char* name;
@@ -119,8 +118,10 @@ std::string su2_problem(const std::string& from, const std::string& to) {
 TEST(BadSu2Files, EachProblemNamesItsLineAndWhatWasExpected) {
   EXPECT_EQ(problem(io::parse_su2, su2), "read");
   EXPECT_EQ(su2_problem("NDIME= 2", "NDIME= 3"), ":1: 'NDIME= 3' found, NDIME= 2 expected");
-  EXPECT_EQ(su2_problem("5 0 1 2 0", "9 0 1 2 2"),
-            ":3: element of type 9 found, only triangles (type 5) expected" + splitting_advice);
+  EXPECT_EQ(su2_problem("5 0 1 2 0", "12 0 1 2 2"),
+            ":3: element of type 12 found, only triangles (type 5) and quadrilaterals (type 9) expected");
+  EXPECT_EQ(su2_problem("5 0 1 2 0", "9 0 1 2 7"), ":3: point 7 found, an index below NPOIN= 3 expected");
+  EXPECT_EQ(su2_problem("5 0 1 2 0", "9 0 1 2"), ":4: 'NPOIN=' found, the index of a point expected");
   EXPECT_EQ(su2_problem("3 0 1", "1 0"), ":11: marker element of type 1 found, only lines (type 3) expected");
   EXPECT_EQ(su2_problem("5 0 1 2", "5 0 1 7"), ":3: point 7 found, an index below NPOIN= 3 expected");
   EXPECT_EQ(su2_problem("3 0 1", "3 0 3"), ":11: point 3 found, an index below NPOIN= 3 expected");
@@ -166,9 +167,12 @@ TEST(BadMshFiles, VersionsThatAreNotReadAreNamed) {
 }
 
 TEST(BadMshFiles, EachProblemNamesItsLineAndWhatWasExpected) {
-  EXPECT_EQ(
-      msh_problem(22, "\n9 2 2", "\n9 3 2"),
-      ":31: element of type 3 found, only triangles (type 2) and lines (type 1) expected" + splitting_advice);
+  const std::string expected =
+      " found, only triangles (type 2), quadrilaterals (type 3) and lines (type 1) expected";
+  EXPECT_EQ(msh_problem(22, "\n9 2 2", "\n9 9 2"), ":31: element of type 9" + expected + order_advice);
+  EXPECT_EQ(msh_problem(22, "\n9 2 2", "\n9 4 2"), ":31: element of type 4" + expected);
+  EXPECT_EQ(msh_problem(22, "\n9 2 2 3 1 1 2 5", "\n9 3 2 3 1 1 2 5 99"),
+            ":31: node 99 found, the tag of one of the 8 nodes expected");
   EXPECT_EQ(msh_problem(22, "\n9 2 2 3 1 1 2 5", "\n9 2 2 3 1 1 2 99"),
             ":31: node 99 found, the tag of one of the 8 nodes expected");
   EXPECT_EQ(msh_problem(22, "\n2 3 0 0\n", "\n1 3 0 0\n"),
@@ -217,9 +221,12 @@ TEST(BadVtuFiles, EachProblemNamesItsLineAndWhatWasExpected) {
             ": point 44 found in cell 0, an index below 8 expected");
   EXPECT_EQ(vtu_problem("\n0 1 4\n", "\n0 1 -4\n").substr(4),
             ": point -4 found in cell 0, an index below 8 expected");
-  EXPECT_EQ(
-      vtu_problem("\n5\n5\n5\n", "\n5\n9\n5\n").substr(4),
-      ": cell 1 of type 9 found, only triangles (type 5) and lines (type 3) expected" + splitting_advice);
+  const std::string expected =
+      " found, only triangles (type 5), quadrilaterals (type 9) and lines (type 3) expected";
+  EXPECT_EQ(vtu_problem("\n5\n5\n5\n", "\n5\n22\n5\n").substr(4),
+            ": cell 1 of type 22" + expected + order_advice);
+  EXPECT_EQ(vtu_problem("\n5\n5\n5\n", "\n5\n9\n5\n").substr(4),
+            ": 3 to 6 found for cell 1, 4 values of connectivity expected");
   EXPECT_EQ(vtu_problem("\n3\n6\n9\n", "\n3\n-6\n9\n").substr(4),
             ": 3 to -6 found for cell 1, 3 values of connectivity expected");
   EXPECT_EQ(vtu_problem("format=\"ascii\"", "format=\"morse\"").substr(0, 32),

@@ -36,8 +36,7 @@ std::vector<Field> fields_on(const FrozenMesh& mesh) {
                                {"cell speed", FieldPlace::triangles, 3, {}},
                                {"shock", FieldPlace::triangles, 1, {}}};
   for (Field& field : fields) {
-    const std::size_t places =
-        field.place == FieldPlace::vertices ? mesh.points.size() : mesh.triangles.size();
+    const std::size_t places = field.place == FieldPlace::vertices ? mesh.points.size() : mesh.cell_count();
     for (std::size_t i = 0; i < places * static_cast<std::size_t>(field.components); ++i)
       field.values.push_back(std::uniform_real_distribution(-2.0, 2.0)(random));
   }
@@ -53,16 +52,17 @@ struct Target {
 const Target targets[] = {{"m.vtu"}, {"m.vtkhdf"}, {"m.msh"}, {"m.msh", 22}};
 
 TEST(FieldFiles, GiveBackEveryValueExactlyAndTheMeshUnchanged) {
-  const FrozenMesh mesh = test::graded_ring(24, 6);
-  const std::vector<Field> fields = fields_on(mesh);
-  for (const auto& [name, version] : targets) {
-    SCOPED_TRACE(name);
-    const Scratch scratch;
-    write_mesh(mesh, scratch / name, {.msh_version = version, .fields = fields});
-    EXPECT_EQ(read_fields(scratch / name), fields);
-    EXPECT_EQ(read_frozen_mesh(scratch / name).triangles, mesh.triangles);
-    EXPECT_EQ(read_frozen_mesh(scratch / name).points, mesh.points);
-  }
+  for (const FrozenMesh& mesh : {test::graded_ring(24, 6), test::mixed_ring()})
+    for (const auto& [name, version] : targets) {
+      SCOPED_TRACE(name);
+      const std::vector<Field> fields = fields_on(mesh);
+      const Scratch scratch;
+      write_mesh(mesh, scratch / name, {.msh_version = version, .fields = fields});
+      EXPECT_EQ(read_fields(scratch / name), fields);
+      EXPECT_EQ(read_frozen_mesh(scratch / name).triangles, mesh.triangles);
+      EXPECT_EQ(read_frozen_mesh(scratch / name).quads, mesh.quads);
+      EXPECT_EQ(read_frozen_mesh(scratch / name).points, mesh.points);
+    }
 }
 
 TEST(FieldFiles, AFileWithoutFieldsHasNoneAndTheSameBytesAsBefore) {

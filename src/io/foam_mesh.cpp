@@ -30,9 +30,9 @@ std::vector<InnerFace> inner_faces(const std::vector<FoamEdge>& edges) {
   std::vector<InnerFace> faces;
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
     if (edges[i].ends() != edges[i + 1].ends()) continue;
-    const bool first = edges[i].triangle < edges[i + 1].triangle;
+    const bool first = edges[i].cell < edges[i + 1].cell;
     const FoamEdge &owner = edges[first ? i : i + 1], &other = edges[first ? i + 1 : i];
-    faces.push_back({owner.triangle, other.triangle, owner});
+    faces.push_back({owner.cell, other.cell, owner});
     ++i;
   }
   std::sort(faces.begin(), faces.end(), [](const InnerFace& a, const InnerFace& b) {
@@ -62,7 +62,7 @@ std::string points_text(const FrozenMesh& mesh) {
 std::string faces_text(const FrozenMesh& mesh, const std::vector<InnerFace>& inner,
                        const std::vector<FoamPatch>& patches) {
   const auto above = static_cast<std::uint32_t>(mesh.points.size());
-  std::size_t count = inner.size() + 2 * mesh.triangles.size();
+  std::size_t count = inner.size() + 2 * mesh.cell_count();
   for (const FoamPatch& patch : patches) count += patch.edges.size();
   TextWriter out = begin_file("faceList", "faces");
   const auto upright = [&](const FoamEdge& edge) {
@@ -72,9 +72,18 @@ std::string faces_text(const FrozenMesh& mesh, const std::vector<InnerFace>& inn
   for (const InnerFace& face : inner) upright(face.edge);
   for (const FoamPatch& patch : patches)
     for (const FoamEdge& edge : patch.edges) upright(edge);
-  for (const auto& [a, b, c] : mesh.triangles) out << "3(" << a << ' ' << c << ' ' << b << ")\n";
-  for (const auto& [a, b, c] : mesh.triangles)
-    out << "3(" << a + above << ' ' << b + above << ' ' << c + above << ")\n";
+  for (std::size_t i = 0; i < mesh.cell_count(); ++i) {
+    const auto corners = mesh.cell(i);
+    out << corners.size() << '(' << corners[0];
+    for (std::size_t k = corners.size() - 1; k > 0; --k) out << ' ' << corners[k];
+    out << ")\n";
+  }
+  for (std::size_t i = 0; i < mesh.cell_count(); ++i) {
+    const auto corners = mesh.cell(i);
+    out << corners.size() << '(' << corners[0] + above;
+    for (const std::uint32_t corner : corners.subspan(1)) out << ' ' << corner + above;
+    out << ")\n";
+  }
   out << ")\n";
   return out.take();
 }
@@ -84,10 +93,10 @@ std::string owners_text(const FrozenMesh& mesh, const std::vector<InnerFace>& in
   std::vector<std::uint32_t> owners;
   for (const InnerFace& face : inner) owners.push_back(face.owner);
   for (const FoamPatch& patch : patches)
-    for (const FoamEdge& edge : patch.edges) owners.push_back(edge.triangle);
+    for (const FoamEdge& edge : patch.edges) owners.push_back(edge.cell);
   for (const int side : {0, 1}) {
     static_cast<void>(side);
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) owners.push_back(t);
+    for (std::uint32_t t = 0; t < mesh.cell_count(); ++t) owners.push_back(t);
   }
   TextWriter out = begin_file("labelList", "owner", note);
   out << owners.size() << "\n(\n";
@@ -117,8 +126,8 @@ std::string boundary_text(const FrozenMesh& mesh, std::size_t inner, const std::
     const bool open = patch.name == "farfield" || patch.name == "inlet" || patch.name == "outlet";
     entry(patch.name, open ? "patch" : "wall", patch.edges.size());
   }
-  entry("front", "empty", mesh.triangles.size());
-  entry("back", "empty", mesh.triangles.size());
+  entry("front", "empty", mesh.cell_count());
+  entry("back", "empty", mesh.cell_count());
   out << ")\n";
   return out.take();
 }
@@ -168,16 +177,15 @@ std::vector<FoamPatch> io::foam_patches(const FrozenMesh& mesh, const std::vecto
 }
 
 void write_foam_mesh(const FrozenMesh& mesh, const fs::path& file) {
-  const std::vector<FoamEdge> edges = io::edges_of_triangles(mesh);
+  const std::vector<FoamEdge> edges = io::edges_of_cells(mesh);
   const std::vector<FoamPatch> patches = io::foam_patches(mesh, edges);
   require_names(patches, file.string());
   const std::vector<InnerFace> inner = inner_faces(edges);
-  std::size_t faces = inner.size() + 2 * mesh.triangles.size();
+  std::size_t faces = inner.size() + 2 * mesh.cell_count();
   for (const FoamPatch& patch : patches) faces += patch.edges.size();
-  const std::string note = "nPoints: " + std::to_string(2 * mesh.points.size()) +
-                           " nCells: " + std::to_string(mesh.triangles.size()) +
-                           " nFaces: " + std::to_string(faces) +
-                           " nInternalFaces: " + std::to_string(inner.size());
+  const std::string note =
+      "nPoints: " + std::to_string(2 * mesh.points.size()) + " nCells: " + std::to_string(mesh.cell_count()) +
+      " nFaces: " + std::to_string(faces) + " nInternalFaces: " + std::to_string(inner.size());
   const fs::path constant = file.parent_path() / "constant", place = constant / "polyMesh",
                  fresh = constant / ".polyMesh.remodel";
   const auto require = [&](const std::error_code& problem, const char* what) {

@@ -227,7 +227,7 @@ void require_size(const FoamList& list, const FrozenMesh& mesh, const std::vecto
                 "found values of the patch " + io::in_quotes(list.patch) + ", which the mesh does not have");
   }
   const std::size_t found = list.values.size() / static_cast<std::size_t>(list.components),
-                    expected = patch ? patch->edges.size() : mesh.triangles.size();
+                    expected = patch ? patch->edges.size() : mesh.cell_count();
   if (found != expected)
     throw Error(ErrorCode::format, source,
                 "found " + std::to_string(found) + " values of " +
@@ -246,7 +246,7 @@ FoamField parsed(std::string name, std::string text, const std::string& source, 
 }
 
 std::vector<FoamPatch> patches_of(const FrozenMesh& mesh) {
-  return io::foam_patches(mesh, io::edges_of_triangles(mesh));
+  return io::foam_patches(mesh, io::edges_of_cells(mesh));
 }
 
 }  // namespace

@@ -47,9 +47,9 @@ std::string listed(const std::vector<std::string>& names) {
 
 std::string_view advice_on(CellKind kind) {
   if (kind == CellKind::other) return "";
-  return ": quadrilaterals will be read by a later version; until then split each a b c d into the triangles "
-         "a b c "
-         "and a c d (ParaView's filter Triangulate does; Gmsh makes none without Recombine)";
+  return ": cells of second order have points in the middle of edges; write the mesh with cells of first "
+         "order "
+         "(Gmsh: SetOrder 1)";
 }
 
 // A program that turned a mesh into its plane leaves rounding errors behind, no more: a share of its size.

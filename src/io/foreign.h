@@ -32,8 +32,8 @@ class Warnings {
 // "'a', 'b' and 3 more"; names in quotes, control characters escaped.
 std::string listed(const std::vector<std::string>& names);
 
-// What to do about cells of this kind, as the end of a sentence: empty, or ": quadrilaterals ...".
-enum class CellKind { quadrilateral, other };
+// What to do about cells of this kind, as the end of a sentence: empty, or ": cells of second order ...".
+enum class CellKind { second_order, other };
 std::string_view advice_on(CellKind kind);
 
 // Points in space (3 numbers each, finite) of a mesh that lies in a plane, as points of that plane: x and y

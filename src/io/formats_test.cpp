@@ -18,6 +18,7 @@ using test::Scratch;
 void expect_same_view(const FrozenMesh& a, const FrozenMesh& b) {
   EXPECT_EQ(a.points, b.points);
   EXPECT_EQ(a.triangles, b.triangles);
+  EXPECT_EQ(a.quads, b.quads);
   ASSERT_EQ(a.boundaries.size(), b.boundaries.size());
   for (std::size_t k = 0; k < a.boundaries.size(); ++k) {
     EXPECT_EQ(a.boundaries[k].name, b.boundaries[k].name);
@@ -41,8 +42,8 @@ struct Target {
 const Target targets[] = {
     {"m.su2", {}}, {"m.msh", {}}, {"m.msh", {.msh_version = 22}}, {"m.vtu", {}}, {"m.vtkhdf", {}}};
 
-TEST(MeshFiles, EveryFormatGivesBackThePointsTrianglesAndBoundariesExactly) {
-  for (const auto& mesh : {test::square_ring(), test::graded_ring(40, 12)}) {
+TEST(MeshFiles, EveryFormatGivesBackThePointsCellsAndBoundariesExactly) {
+  for (const auto& mesh : {test::square_ring(), test::graded_ring(40, 12), test::mixed_ring()}) {
     for (const auto& target : targets) {
       SCOPED_TRACE(target.name);
       const Scratch scratch;
@@ -99,6 +100,43 @@ TEST(ForeignMeshes, WrittenClockwiseAreTurnedAndEdgesPutDomainLeftInLoopOrder) {
   const FrozenMesh back = io::parse_su2(io::su2_text(mesh, "m.su2"), "m.su2");
   EXPECT_EQ(back.triangles, test::square_ring().triangles);
   EXPECT_EQ(back.boundaries[1].edges, test::square_ring().boundaries[1].edges);
+}
+
+TEST(ForeignMeshes, WrittenClockwiseWithQuadrilateralsAreTurned) {
+  FrozenMesh mesh = test::mixed_ring();
+  for (auto& [a, b, c] : mesh.triangles) std::swap(b, c);
+  for (auto& [a, b, c, d] : mesh.quads) std::swap(b, d);
+  expect_same_view(io::parse_su2(io::su2_text(mesh, "m.su2"), "m.su2"), test::mixed_ring());
+}
+
+TEST(ForeignMeshes, MayHaveCellsInAnyOrder) {
+  const std::string su2 =
+      "NDIME= 2\nNELEM= 3\n9 0 1 2 3\n5 1 4 2\n9 3 2 4 5\nNPOIN= 6\n0 0\n1 0\n1 1\n0 1\n2 0\n1 3\n"
+      "NMARK= 0\n";
+  const FrozenMesh mesh = io::parse_su2(su2, "m.su2");
+  EXPECT_EQ(mesh.triangles, (std::vector<std::array<std::uint32_t, 3>>{{1, 4, 2}}));
+  EXPECT_EQ(mesh.quads, (std::vector<std::array<std::uint32_t, 4>>{{0, 1, 2, 3}, {3, 2, 4, 5}}));
+  const std::string msh =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"a\"\n2 2 \"b\"\n$EndPhysicalNames\n"
+      "$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 2 0 0\n6 1 3 0\n$EndNodes\n"
+      "$Elements\n3\n7 3 2 2 1 1 2 3 4\n8 2 2 1 1 2 5 3\n9 3 2 1 1 4 3 5 6\n$EndElements\n"
+      "$ElementData\n1\n\"t\"\n1\n0\n3\n0\n1\n3\n7 70\n8 80\n9 90\n$EndElementData\n";
+  const FrozenMesh same = io::parse_msh(msh, "m.msh");
+  EXPECT_EQ(same.quads, mesh.quads);
+  const auto name_of = [&](std::size_t cell) { return same.region_names[same.region[cell]]; };
+  EXPECT_EQ(name_of(0) + name_of(1) + name_of(2), "aba");
+  EXPECT_EQ(io::parse_msh_fields(msh, "m.msh").at(0).values, (std::vector<double>{80, 70, 90}));
+}
+
+TEST(ForeignMeshes, PixelsOfVtkAreQuadrilaterals) {
+  std::string text = io::vtu_text(test::mixed_ring());
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    ASSERT_NE(text.find(from), text.npos);
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("\n0 1 5\n4 1 2\n6 5 ", "\n0 1 4\n5 1 2\n5 6 ");
+  replace("9\n9\n", "8\n8\n");
+  expect_same_view(io::parse_vtu(text, "m.vtu"), test::mixed_ring());
 }
 
 TEST(ForeignMeshes, KeepAnInvertedTriangleForTheCheckerToFind) {
@@ -212,6 +250,14 @@ FrozenMesh ring_of_regions() {
 }
 
 TEST(MeshFiles, EveryFormatButSu2KeepsRegions) {
+  const FrozenMesh quads = test::mixed_ring();
+  for (const auto& target : targets) {
+    if (mesh_format(target.name) == MeshFormat::su2) continue;
+    const Scratch scratch;
+    write_mesh(quads, scratch / target.name, target.options);
+    EXPECT_EQ(read_frozen_mesh(scratch / target.name).region, quads.region);
+    EXPECT_EQ(read_frozen_mesh(scratch / target.name).region_names, quads.region_names);
+  }
   FrozenMesh mesh = ring_of_regions();
   for (const bool mixed : {false, true}) {
     for (std::uint32_t i = 0; i < mesh.region.size() && mixed; ++i) mesh.region[i] = i % 7 % 3;

@@ -23,4 +23,24 @@ Mesh read_mesh(const std::filesystem::path& file) {
   return Mesh::restore(io::read_vtkhdf_state(file), file.string());
 }
 
+void write_mesh(const LayeredMesh& mesh, const std::filesystem::path& file, const WriteOptions& options,
+                LayerCells cells) {
+  if (mesh_format(file) != MeshFormat::vtkhdf) return write_mesh(mesh.freeze(cells), file, options);
+  io::write_vtkhdf(file, mesh, options, cells);
+}
+
+bool holds_layers(const std::filesystem::path& file) {
+  return io::format_to_read(file) == MeshFormat::vtkhdf && io::holds_vtkhdf_layers(file);
+}
+
+LayeredMesh read_layered_mesh(const std::filesystem::path& file) {
+  const KeptPipes once;
+  if (io::format_to_read(file) != MeshFormat::vtkhdf) {
+    throw Error(ErrorCode::argument, file.string(),
+                "another format found, a native mesh (.vtkhdf) with layers expected, as `remodel mesh --layers` "
+                "makes it");
+  }
+  return LayeredMesh::restore(io::read_vtkhdf_layers(file), file.string());
+}
+
 }  // namespace remodel

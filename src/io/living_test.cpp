@@ -4,8 +4,10 @@
 
 #include "io/test_meshes.h"
 #include "io/vtkhdf.h"
+#include "remodel/airfoil.h"
 #include "remodel/generate.h"
 #include "remodel/io.h"
+#include "remodel/layers.h"
 #include "remodel/mesh_state.h"
 
 namespace remodel {
@@ -50,6 +52,57 @@ TEST(LivingMesh, ComesBackFromItsFileWithTheSameStateAndTheSameBytes) {
   EXPECT_EQ(back.quick_check(), "");
   write_mesh(back, scratch / "b.vtkhdf");
   EXPECT_EQ(read_text(scratch / "a.vtkhdf"), read_text(scratch / "b.vtkhdf"));
+}
+
+LayeredMesh layered_mesh() {
+  Domain domain = airfoil_domain(named_airfoil("naca:2412", 8));
+  space_walls(domain, {.most = 0.03});
+  LayeredMesh mesh = generate_layered(domain, {.first_height = 1e-4, .walls = {"airfoil"}}, {.gradation = 4.0}).mesh;
+  Domain next = domain;
+  next.loops[0].placement.rotation_deg = -1.0;
+  remodel::remodel(mesh, next, {.strategy = Strategy::reference});
+  return mesh;
+}
+
+TEST(LayeredMesh, ComesBackFromItsFileWithTheSameStateAndTheSameBytes) {
+  const Scratch scratch;
+  const LayeredMesh mesh = layered_mesh();
+  for (const LayerCells cells : {LayerCells::quadrilaterals, LayerCells::triangles}) {
+    write_mesh(mesh, scratch / "a.vtkhdf", {}, cells);
+    ASSERT_TRUE(holds_layers(scratch / "a.vtkhdf"));
+    const LayeredMesh back = read_layered_mesh(scratch / "a.vtkhdf");
+    EXPECT_EQ(back.state(), mesh.state());
+    EXPECT_EQ(back.quick_check(), "");
+    write_mesh(back, scratch / "b.vtkhdf", {}, cells);
+    EXPECT_EQ(read_text(scratch / "a.vtkhdf"), read_text(scratch / "b.vtkhdf"));
+  }
+}
+
+TEST(LayeredMesh, ItsFrozenViewIsTheSameInEveryFormat) {
+  const Scratch scratch;
+  const LayeredMesh mesh = layered_mesh();
+  const FrozenMesh frozen = mesh.freeze();
+  for (const char* name : {"m.vtkhdf", "m.vtu", "m.su2", "m.msh"}) {
+    write_mesh(mesh, scratch / name);
+    const FrozenMesh back = read_frozen_mesh(scratch / name);
+    EXPECT_EQ(back.points, frozen.points) << name;
+    EXPECT_EQ(back.triangles, frozen.triangles) << name;
+    EXPECT_EQ(back.quads, frozen.quads) << name;
+    EXPECT_EQ(back.boundaries.size(), frozen.boundaries.size()) << name;
+  }
+}
+
+TEST(LayeredMesh, IsNotTakenForOneWithoutLayersNorTheOtherWayRound) {
+  const Scratch scratch;
+  write_mesh(layered_mesh(), scratch / "layers.vtkhdf");
+  write_mesh(square_mesh(), scratch / "square.vtkhdf");
+  EXPECT_FALSE(holds_layers(scratch / "square.vtkhdf"));
+  const std::string begin = (scratch / "layers.vtkhdf").string() + ":/remodel/layers: a mesh with layers found";
+  EXPECT_TRUE(error_of([&] { read_mesh(scratch / "layers.vtkhdf").step(); }).starts_with(begin));
+  EXPECT_NE(error_of([&] { read_layered_mesh(scratch / "square.vtkhdf").levels(); }).find("/remodel/layers: not found"),
+            std::string::npos);
+  EXPECT_NE(error_of([&] { read_layered_mesh(scratch / "m.su2").levels(); }).find("another format found"),
+            std::string::npos);
 }
 
 TEST(LivingMesh, ItsFrozenViewIsTheSameInEveryFormat) {

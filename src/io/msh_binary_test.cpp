@@ -64,13 +64,18 @@ std::string version_41(const FrozenMesh& mesh) {
   out.text("$Nodes\n").sizes({1, points, 1, points}).ints({2, 1, 0}).sizes({points});
   for (std::uint64_t i = 1; i <= points; ++i) out.sizes({i});
   for (const Point p : mesh.points) out.add(p.x).add(p.y).add(0.0);
-  std::uint64_t elements = mesh.triangles.size(), tag = 0;
+  std::uint64_t elements = mesh.cell_count(), tag = 0;
   for (const FrozenBoundary& boundary : mesh.boundaries) elements += boundary.edges.size();
-  out.text("\n$EndNodes\n$Elements\n").sizes({mesh.boundaries.size() + 1, elements, 1, elements});
+  out.text("\n$EndNodes\n$Elements\n").sizes({mesh.boundaries.size() + 2, elements, 1, elements});
   for (std::size_t k = 0; k < mesh.boundaries.size(); ++k) {
     out.ints({1, static_cast<std::int32_t>(k) + 1, 1}).sizes({mesh.boundaries[k].edges.size()});
     for (const auto& [a, b] : mesh.boundaries[k].edges)
       out.sizes({++tag, a + std::uint64_t{1}, b + std::uint64_t{1}});
+  }
+  out.ints({2, 1, 3}).sizes({mesh.quads.size()});  // first, as any order may come
+  for (const auto& quad : mesh.quads) {
+    out.sizes({++tag});
+    for (const std::uint32_t v : quad) out.sizes({v + std::uint64_t{1}});
   }
   out.ints({2, 1, 2}).sizes({mesh.triangles.size()});
   for (const auto& [a, b, c] : mesh.triangles)
@@ -84,7 +89,7 @@ std::string version_22(const FrozenMesh& mesh) {
   out.text("$Nodes\n" + std::to_string(mesh.points.size()) + "\n");
   std::int32_t number = 0;
   for (const Point p : mesh.points) out.ints({++number}).add(p.x).add(p.y).add(0.0);
-  std::size_t elements = mesh.triangles.size();
+  std::size_t elements = mesh.cell_count();
   for (const FrozenBoundary& boundary : mesh.boundaries) elements += boundary.edges.size();
   out.text("\n$EndNodes\n$Elements\n" + std::to_string(elements) + "\n");
   const auto node = [](std::uint32_t index) { return static_cast<std::int32_t>(index) + 1; };
@@ -94,21 +99,25 @@ std::string version_22(const FrozenMesh& mesh) {
       out.ints({1, 1, 2, ++number, k + 11, k + 1, node(a), node(b)});  // a block of one
   out.ints({2, static_cast<std::int32_t>(mesh.triangles.size()), 2});
   for (const auto& [a, b, c] : mesh.triangles) out.ints({++number, 1, 1, node(a), node(b), node(c)});
+  if (!mesh.quads.empty()) out.ints({3, static_cast<std::int32_t>(mesh.quads.size()), 2});
+  for (const auto& [a, b, c, d] : mesh.quads)
+    out.ints({++number, 1, 1, node(a), node(b), node(c), node(d)});
   return out.text("\n$EndElements\n").get();
 }
 
 TEST(BinaryMsh, BothVersionsAreReadExactly) {
-  const FrozenMesh mesh = test::graded_ring(24, 6);
-  for (const std::string& bytes : {version_41(mesh), version_22(mesh)}) {
-    const FrozenMesh read = io::parse_msh(bytes, "m.msh");
-    EXPECT_EQ(read.points, mesh.points);
-    EXPECT_EQ(read.triangles, mesh.triangles);
-    ASSERT_EQ(read.boundaries.size(), mesh.boundaries.size());
-    for (std::size_t k = 0; k < mesh.boundaries.size(); ++k) {
-      EXPECT_EQ(read.boundaries[k].name, mesh.boundaries[k].name);
-      EXPECT_EQ(read.boundaries[k].edges.size(), mesh.boundaries[k].edges.size());
+  for (const FrozenMesh& mesh : {test::graded_ring(24, 6), test::mixed_ring()})
+    for (const std::string& bytes : {version_41(mesh), version_22(mesh)}) {
+      const FrozenMesh read = io::parse_msh(bytes, "m.msh");
+      EXPECT_EQ(read.points, mesh.points);
+      EXPECT_EQ(read.triangles, mesh.triangles);
+      EXPECT_EQ(read.quads, mesh.quads);
+      ASSERT_EQ(read.boundaries.size(), mesh.boundaries.size());
+      for (std::size_t k = 0; k < mesh.boundaries.size(); ++k) {
+        EXPECT_EQ(read.boundaries[k].name, mesh.boundaries[k].name);
+        EXPECT_EQ(read.boundaries[k].edges.size(), mesh.boundaries[k].edges.size());
+      }
     }
-  }
 }
 
 TEST(BinaryMsh, WhatIsCutOffOrDamagedIsRefusedOrReadAsSomethingElse) {

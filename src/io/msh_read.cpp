@@ -1,5 +1,5 @@
 // Gmsh's mesh format, versions 4.1, 4.0, 2.2 and their likes, ASCII and binary:
-// https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format. Sections that say nothing about triangles and
+// https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format. Sections that say nothing about cells and
 // boundary edges are skipped.
 
 #include <algorithm>
@@ -24,7 +24,8 @@ namespace remodel::io {
 
 namespace {
 
-using Nodes = std::array<std::uint32_t, 3>;  // of an element, ascending
+using Nodes = std::array<std::uint32_t, 4>;  // of an element, ascending, no_node where it has less
+constexpr std::uint32_t no_node = 0xffffffff;
 
 struct HashOfNodes {
   std::size_t operator()(const Nodes& nodes) const {
@@ -45,7 +46,7 @@ class MshReader {
     if (!nodes_seen_) scan_.fail_found("", "$Nodes");
     if (!elements_seen_) scan_.fail_found("", "$Elements");
     say_what_is_left_out();
-    RegionNames::finish(mesh_);
+    regions_.finish(mesh_);
     adopt_conventions(mesh_, file_);
     return std::move(mesh_);
   }
@@ -122,11 +123,11 @@ class MshReader {
       if (!nodes_seen_) scan_.fail_found(name, "$Nodes first");
       if (std::exchange(elements_seen_, true)) scan_.fail("a second $Elements found, one expected");
       version_4_ ? read_elements_4() : read_elements_22();
+      number_quads();
     } else if (fields_wanted_ && (name == "$NodeData" || name == "$ElementData")) {
       if (!elements_seen_) scan_.fail_found(name, "$Elements first");
-      name == "$NodeData"
-          ? fields_.read(FieldPlace::vertices, binary_, node_indices_, mesh_.points.size())
-          : fields_.read(FieldPlace::triangles, binary_, triangle_indices_, mesh_.triangles.size());
+      name == "$NodeData" ? fields_.read(FieldPlace::vertices, binary_, node_indices_, mesh_.points.size())
+                          : fields_.read(FieldPlace::triangles, binary_, cell_indices_, mesh_.cell_count());
     } else {
       skip_section(name, end);
       return;
@@ -316,25 +317,35 @@ class MshReader {
   void add_element(std::int64_t type, std::int64_t group, std::int64_t entity) {
     if (type == msh_triangle) {
       const std::uint32_t a = read_node(), b = read_node(), c = read_node();
-      if (is_listed_again(2, group, {a, b, c})) return;
-      if (fields_wanted_)
-        triangle_indices_[element_tag_] = static_cast<std::uint32_t>(mesh_.triangles.size());
-      groups_used_.insert({2, group});
-      add_region(group);
+      if (is_listed_again(2, group, {a, b, c, no_node})) return;
+      if (fields_wanted_) cell_indices_[element_tag_] = static_cast<std::uint32_t>(mesh_.triangles.size());
+      add_region(RegionNames::Cell::triangle, group);
       mesh_.triangles.push_back({a, b, c});
+    } else if (type == msh_quadrilateral) {
+      const std::uint32_t a = read_node(), b = read_node(), c = read_node(), d = read_node();
+      if (is_listed_again(2, group, {a, b, c, d})) return;
+      if (fields_wanted_) quad_tags_.push_back(element_tag_);
+      add_region(RegionNames::Cell::quadrilateral, group);
+      mesh_.quads.push_back({a, b, c, d});
     } else if (type == msh_line) {
       const std::uint32_t a = read_node(), b = read_node();
-      if (is_listed_again(1, group, {a, b, a})) return;
+      if (is_listed_again(1, group, {a, b, no_node, no_node})) return;
       groups_used_.insert({1, group});
       boundary_of(group, entity).edges.push_back({a, b});
     } else if (type == msh_point) {
       read_node();
     } else {
-      scan_.fail(
-          "element of type " + std::to_string(type) +
-          " found, only triangles (type 2) and lines (type 1) expected" +
-          std::string(advice_on(type == msh_quadrilateral ? CellKind::quadrilateral : CellKind::other)));
+      const bool second = std::ranges::find(msh_second_order, type) != std::end(msh_second_order);
+      scan_.fail("element of type " + std::to_string(type) +
+                 " found, only triangles (type 2), quadrilaterals (type 3) and lines (type 1) expected" +
+                 std::string(advice_on(second ? CellKind::second_order : CellKind::other)));
     }
+  }
+
+  // They come after the triangles, wherever the file has them.
+  void number_quads() {
+    for (std::size_t i = 0; i < quad_tags_.size(); ++i)
+      cell_indices_[quad_tags_[i]] = static_cast<std::uint32_t>(mesh_.triangles.size() + i);
   }
 
   // Version 2 lists what is in several physical groups once for each.
@@ -354,11 +365,12 @@ class MshReader {
     return group != 0 ? "physical_" + std::to_string(group) : kind + std::to_string(entity);
   }
 
-  // The region of the triangle that begins, by its physical group: surfaces alone are pieces of a drawing.
-  void add_region(std::int64_t group) {
+  // The region of the cell that begins, by its physical group: surfaces alone are pieces of a drawing.
+  void add_region(RegionNames::Cell cell, std::int64_t group) {
+    groups_used_.insert({2, group});
     auto& name = region_of_[group];
     if (name.empty()) name = group == 0 ? domain_name : name_in(surface_names_, group, "", 0);
-    regions_.add(mesh_, name);
+    regions_.add(mesh_, cell, name);
   }
 
   FrozenBoundary& boundary_of(std::int64_t group, std::int64_t curve) {
@@ -380,7 +392,8 @@ class MshReader {
       const auto entity = read_block_entity().tag;
       const auto type = numbers_.integer("the type of an element");
       const std::size_t elements = numbers_.count("a number of elements in the block");
-      const auto& groups = type == msh_triangle ? surface_groups_ : curve_groups_;
+      const bool flat = type == msh_triangle || type == msh_quadrilateral;
+      const auto& groups = flat ? surface_groups_ : curve_groups_;
       const auto found = groups.find(entity);
       const std::int64_t group = found != groups.end() ? found->second : 0;
       for (std::size_t i = 0; i < elements; ++i) {
@@ -449,8 +462,9 @@ class MshReader {
   bool fields_wanted_ = false;
   std::int64_t element_tag_ = 0;  // of the element that is being read
   std::unordered_map<std::int64_t, std::uint32_t> node_indices_;
-  std::unordered_map<std::int64_t, std::uint32_t> triangle_indices_;  // where fields are wanted
-  std::map<std::int64_t, std::string> curve_names_;                   // by physical tag
+  std::unordered_map<std::int64_t, std::uint32_t> cell_indices_;  // where fields are wanted
+  std::vector<std::int64_t> quad_tags_;                           // likewise
+  std::map<std::int64_t, std::string> curve_names_;               // by physical tag
   std::set<std::string> known_curves_;
   std::map<std::int64_t, std::string> surface_names_;
   std::map<std::int64_t, std::int64_t> curve_groups_;  // physical tag by curve

@@ -16,7 +16,8 @@ namespace {
 
 // Boundary k is curve and physical group k + 1; region k is surface k + 1, and the physical groups of regions
 // come after the boundaries'. A mesh without regions has one, "domain". Nodes and elements are numbered from
-// 1 in our order, boundary edges first; a block of version 4.1 is a run of triangles of one region.
+// 1 in our order, boundary edges first; a block of version 4.1 is a run of triangles or quadrilaterals of one
+// region.
 class MshWriter {
  public:
   MshWriter(const FrozenMesh& mesh, const std::string& file, std::span<const Field> fields)
@@ -87,11 +88,17 @@ class MshWriter {
   std::size_t group_of(std::size_t region) const { return mesh_.boundaries.size() + 1 + region; }
   std::size_t end_of_run(std::size_t begin) const {
     std::size_t end = begin + 1;
-    while (end < mesh_.triangles.size() && region_of(end) == region_of(begin)) ++end;
+    while (end < mesh_.cell_count() && type_of(end) == type_of(begin) && region_of(end) == region_of(begin))
+      ++end;
     return end;
   }
-  std::size_t region_of(std::size_t triangle) const {
-    return mesh_.region.empty() ? 0 : mesh_.region[triangle];
+  std::size_t region_of(std::size_t cell) const { return mesh_.region.empty() ? 0 : mesh_.region[cell]; }
+  int type_of(std::size_t cell) const {
+    return mesh_.cell(cell).size() == 3 ? msh_triangle : msh_quadrilateral;
+  }
+  void nodes_of(std::size_t cell) {
+    for (const std::uint32_t node : mesh_.cell(cell)) out_ << ' ' << node + 1;
+    out_ << '\n';
   }
 
   void bounding_box() {
@@ -131,9 +138,9 @@ class MshWriter {
   }
 
   void elements_41() {
-    const std::size_t count = edge_count_ + mesh_.triangles.size();
+    const std::size_t count = edge_count_ + mesh_.cell_count();
     std::size_t runs = 0;
-    for (std::size_t begin = 0; begin < mesh_.triangles.size(); begin = end_of_run(begin)) ++runs;
+    for (std::size_t begin = 0; begin < mesh_.cell_count(); begin = end_of_run(begin)) ++runs;
     out_ << "$Elements\n" << mesh_.boundaries.size() + runs << ' ' << count << " 1 " << count << '\n';
     std::size_t tag = 0;
     for (std::size_t k = 0; k < mesh_.boundaries.size(); ++k) {
@@ -141,12 +148,12 @@ class MshWriter {
       out_ << "1 " << k + 1 << ' ' << msh_line << ' ' << edges.size() << '\n';
       for (const auto& [a, b] : edges) out_ << ++tag << ' ' << a + 1 << ' ' << b + 1 << '\n';
     }
-    for (std::size_t begin = 0; begin < mesh_.triangles.size(); begin = end_of_run(begin)) {
+    for (std::size_t begin = 0; begin < mesh_.cell_count(); begin = end_of_run(begin)) {
       const std::size_t end = end_of_run(begin);
-      out_ << "2 " << region_of(begin) + 1 << ' ' << msh_triangle << ' ' << end - begin << '\n';
+      out_ << "2 " << region_of(begin) + 1 << ' ' << type_of(begin) << ' ' << end - begin << '\n';
       for (std::size_t i = begin; i < end; ++i) {
-        const auto& [a, b, c] = mesh_.triangles[i];
-        out_ << ++tag << ' ' << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
+        out_ << ++tag;
+        nodes_of(i);
       }
     }
     out_ << "$EndElements\n";
@@ -162,7 +169,7 @@ class MshWriter {
 
   // tag, type, two tags: physical group and entity, nodes
   void elements_22() {
-    out_ << "$Elements\n" << edge_count_ + mesh_.triangles.size() << '\n';
+    out_ << "$Elements\n" << edge_count_ + mesh_.cell_count() << '\n';
     std::size_t tag = 0;
     for (std::size_t k = 0; k < mesh_.boundaries.size(); ++k) {
       for (const auto& [a, b] : mesh_.boundaries[k].edges) {
@@ -170,16 +177,15 @@ class MshWriter {
              << '\n';
       }
     }
-    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
-      const auto& [a, b, c] = mesh_.triangles[i];
-      out_ << ++tag << ' ' << msh_triangle << " 2 " << group_of(region_of(i)) << ' ' << region_of(i) + 1
-           << ' ' << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
+    for (std::size_t i = 0; i < mesh_.cell_count(); ++i) {
+      out_ << ++tag << ' ' << type_of(i) << " 2 " << group_of(region_of(i)) << ' ' << region_of(i) + 1;
+      nodes_of(i);
     }
     out_ << "$EndElements\n";
   }
 
   // A view of Gmsh's: time 0, time step 0. Gmsh expects one, three or nine components, and meshio values of
-  // all elements: a boundary edge has that of its triangle.
+  // all elements: a boundary edge has that of its cell.
   void data(const Field& field) {
     if (field.name.find('"') != std::string::npos) {
       throw Error(ErrorCode::argument, file_,
@@ -188,7 +194,7 @@ class MshWriter {
     const bool on_vertices = field.place == FieldPlace::vertices;
     const auto components = static_cast<std::size_t>(field.components);
     std::vector<std::size_t> order;  // of the values, by the numbers of nodes or elements
-    if (!on_vertices) order = triangles_at_boundaries(mesh_);
+    if (!on_vertices) order = cells_at_boundaries(mesh_);
     for (std::size_t i = 0; i < field.values.size() / components; ++i) order.push_back(i);
     out_ << (on_vertices ? "$NodeData" : "$ElementData") << "\n1\n\"" << field.name << "\"\n1\n0\n3\n0\n"
          << (components == 2 ? 3 : components) << '\n'

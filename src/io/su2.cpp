@@ -43,7 +43,7 @@ class Su2Reader {
   FrozenMesh read() {
     while (!scan_.at_end()) read_section();
     if (!dimension_seen_) scan_.fail_found("", "NDIME= 2");
-    if (!triangles_seen_) scan_.fail_found("", "NELEM=");
+    if (!cells_seen_) scan_.fail_found("", "NELEM=");
     if (!points_seen_) scan_.fail_found("", "NPOIN=");
     if (!marker_count_seen_) scan_.fail_found("", "NMARK=");
     if (mesh_.boundaries.size() != marker_count_) {
@@ -69,7 +69,7 @@ class Su2Reader {
     if (keyword == "NDIME") {
       read_dimension();
     } else if (keyword == "NELEM") {
-      read_triangles();
+      read_cells();
     } else if (keyword == "NPOIN") {
       read_points();
     } else if (keyword == "NMARK") {
@@ -124,22 +124,20 @@ class Su2Reader {
   }
 
   // A line of a cell ends with its own index, which is optional and says nothing.
-  void read_triangles() {
-    expect_once(triangles_seen_, "NELEM");
+  void read_cells() {
+    expect_once(cells_seen_, "NELEM");
     const std::size_t count = scan_.count("a number of elements");
     scan_.skip_line();
     mesh_.triangles.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
       const auto type = scan_.integer("an element");
-      if (type != su2_triangle) {
-        scan_.fail(
-            "element of type " + std::to_string(type) + " found, only triangles (type 5) expected" +
-            std::string(advice_on(type == su2_quadrilateral ? CellKind::quadrilateral : CellKind::other)));
-      }
-      auto& [a, b, c] = mesh_.triangles.emplace_back();
-      a = read_index();
-      b = read_index();
-      c = read_index();
+      if (type == su2_triangle)
+        for (std::uint32_t& corner : mesh_.triangles.emplace_back()) corner = read_index();
+      else if (type == su2_quadrilateral)
+        for (std::uint32_t& corner : mesh_.quads.emplace_back()) corner = read_index();
+      else
+        scan_.fail("element of type " + std::to_string(type) +
+                   " found, only triangles (type 5) and quadrilaterals (type 9) expected");
       scan_.skip_line();
     }
   }
@@ -188,7 +186,7 @@ class Su2Reader {
   LargestIndex largest_;
   BoundaryNames names_;
   bool dimension_seen_ = false;
-  bool triangles_seen_ = false;
+  bool cells_seen_ = false;
   bool points_seen_ = false;
   bool marker_count_seen_ = false;
   std::size_t marker_count_ = 0;
@@ -200,10 +198,11 @@ std::string su2_text(const FrozenMesh& whole, const std::string& file, InnerCurv
                      const std::string& boxes) {
   const FrozenMesh mesh = inner == InnerCurves::left_out ? without_inner_edges(whole) : whole;
   TextWriter out;
-  out << "NDIME= 2\nNELEM= " << mesh.triangles.size() << '\n';
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const auto& [a, b, c] = mesh.triangles[i];
-    out << su2_triangle << ' ' << a << ' ' << b << ' ' << c << ' ' << i << '\n';
+  out << "NDIME= 2\nNELEM= " << mesh.cell_count() << '\n';
+  for (std::size_t i = 0; i < mesh.cell_count(); ++i) {
+    out << (mesh.cell(i).size() == 3 ? su2_triangle : su2_quadrilateral);
+    for (const std::uint32_t corner : mesh.cell(i)) out << ' ' << corner;
+    out << ' ' << i << '\n';
   }
   out << "NPOIN= " << mesh.points.size() << '\n';
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {

@@ -23,6 +23,16 @@ inline FrozenMesh square_ring() {
   return mesh;
 }
 
+// The square ring with quadrilaterals in the place of four of its triangles, and a region of their own.
+inline FrozenMesh mixed_ring() {
+  FrozenMesh mesh = square_ring();
+  mesh.triangles.erase(mesh.triangles.begin(), mesh.triangles.begin() + 4);
+  mesh.quads = {{0, 1, 5, 4}, {1, 2, 6, 5}};
+  mesh.region_names = {"outside", "layer"};
+  mesh.region = {0, 0, 0, 0, 1, 1};
+  return mesh;
+}
+
 // The same with everything that only our own meshes carry.
 inline FrozenMesh full_square_ring() {
   FrozenMesh mesh = square_ring();

@@ -16,6 +16,7 @@ constexpr std::uint8_t vtk_line = 3;
 constexpr std::uint8_t vtk_triangle = 5;
 constexpr std::uint8_t vtk_pixel = 8;
 constexpr std::uint8_t vtk_quadrilateral = 9;
+constexpr std::uint8_t vtk_second_order[] = {21, 22, 23, 28};  // a line, a triangle, quadrilaterals
 
 template <class Indices>
 void add_cell(VtkGrid& grid, const Indices& indices, std::uint8_t type, std::int32_t boundary) {
@@ -50,7 +51,7 @@ class GridReader {
     mesh_.curve = grid_.curve;
     mesh_.parameter = grid_.parameter;
     mesh_.steiner = grid_.steiner;
-    RegionNames::finish(mesh_);
+    regions_.finish(mesh_);
     adopt_conventions(mesh_, file_);
     return std::move(mesh_);
   }
@@ -121,17 +122,23 @@ class GridReader {
       mesh_.triangles.push_back({vertex(cell, 0), vertex(cell, 1), vertex(cell, 2)});
       if (!grid_.triangle_id.empty()) mesh_.triangle_ids.push_back(grid_.triangle_id[cell]);
       if (!grid_.birth.empty()) mesh_.birth.push_back(grid_.birth[cell]);
-      if (!grid_.region.empty()) regions_.add(mesh_, region_name(cell));
+      if (!grid_.region.empty()) regions_.add(mesh_, RegionNames::Cell::triangle, region_name(cell));
+    } else if (type == vtk_quadrilateral || type == vtk_pixel) {
+      check_extent(cell, 4);
+      const std::size_t third = type == vtk_pixel ? 3 : 2;  // of a pixel's corners the last two are exchanged
+      mesh_.quads.push_back({vertex(cell, 0), vertex(cell, 1), vertex(cell, third), vertex(cell, 5 - third)});
+      if (!grid_.region.empty()) regions_.add(mesh_, RegionNames::Cell::quadrilateral, region_name(cell));
     } else if (type == vtk_line) {
       check_extent(cell, 2);
       boundary_of(cell).edges.push_back({vertex(cell, 0), vertex(cell, 1)});
     } else if (type == vtk_vertex) {
       ++single_points_;
     } else {
-      const bool quadrilateral = type == vtk_quadrilateral || type == vtk_pixel;
-      fail("Types", "cell " + std::to_string(cell) + " of type " + std::to_string(type) +
-                        " found, only triangles (type 5) and lines (type 3) expected" +
-                        std::string(advice_on(quadrilateral ? CellKind::quadrilateral : CellKind::other)));
+      const bool second = std::ranges::find(vtk_second_order, type) != std::end(vtk_second_order);
+      fail("Types",
+           "cell " + std::to_string(cell) + " of type " + std::to_string(type) +
+               " found, only triangles (type 5), quadrilaterals (type 9) and lines (type 3) expected" +
+               std::string(advice_on(second ? CellKind::second_order : CellKind::other)));
     }
   }
 
@@ -193,12 +200,12 @@ void add_fields(VtkGrid& grid, const FrozenMesh& mesh, std::span<const Field> fi
       grid.point_fields.push_back({field.name, components, field.values});
       continue;
     }
-    if (at_boundaries.empty()) at_boundaries = triangles_at_boundaries(mesh);
+    if (at_boundaries.empty()) at_boundaries = cells_at_boundaries(mesh);
     grid.cell_fields.push_back({field.name, components, field.values});
     auto& values = grid.cell_fields.back().values;
-    for (const std::size_t triangle : at_boundaries) {
+    for (const std::size_t cell : at_boundaries) {
       for (std::size_t k = 0; k < components; ++k)
-        values.push_back(mesh.triangles.empty() ? 0.0 : field.values[components * triangle + k]);
+        values.push_back(mesh.cell_count() == 0 ? 0.0 : field.values[components * cell + k]);
     }
   }
 }
@@ -210,6 +217,7 @@ VtkGrid to_vtk_grid(const FrozenMesh& mesh, std::span<const Field> fields) {
   for (const Point p : mesh.points) grid.points.insert(grid.points.end(), {p.x, p.y, 0.0});
   grid.offsets.push_back(0);
   for (const auto& triangle : mesh.triangles) add_cell(grid, triangle, vtk_triangle, -1);
+  for (const auto& quad : mesh.quads) add_cell(grid, quad, vtk_quadrilateral, -1);
   for (std::size_t k = 0; k < mesh.boundaries.size(); ++k) {
     grid.boundary_names.push_back(mesh.boundaries[k].name);
     for (const auto& edge : mesh.boundaries[k].edges) {
@@ -244,11 +252,15 @@ std::optional<Field> to_field(VtkArray array, FieldPlace place, std::span<const 
     field.values = std::move(array.values);
     return field;
   }
-  for (std::size_t cell = 0; cell < types.size(); ++cell) {
-    if (types[cell] != vtk_triangle) continue;
-    const auto first = array.values.begin() + static_cast<std::ptrdiff_t>(components * cell);
-    field.values.insert(field.values.end(), first, first + static_cast<std::ptrdiff_t>(components));
-  }
+  const auto take = [&](auto&& wanted) {
+    for (std::size_t cell = 0; cell < types.size(); ++cell) {
+      if (!wanted(types[cell])) continue;
+      const auto first = array.values.begin() + static_cast<std::ptrdiff_t>(components * cell);
+      field.values.insert(field.values.end(), first, first + static_cast<std::ptrdiff_t>(components));
+    }
+  };
+  take([](std::uint8_t type) { return type == vtk_triangle; });
+  take([](std::uint8_t type) { return type == vtk_quadrilateral || type == vtk_pixel; });
   return field;
 }
 

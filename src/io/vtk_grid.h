@@ -1,7 +1,8 @@
 #pragma once
 
-// A mesh as VTK's unstructured grid, the model behind both .vtu and .vtkhdf: triangles and boundary edges are
-// cells; arrays on points and cells carry what else a frozen mesh knows.
+// A mesh as VTK's unstructured grid, the model behind both .vtu and .vtkhdf: triangles,
+// quadrilaterals and boundary edges are cells; arrays on points and cells carry what else a frozen mesh
+// knows.
 
 #include <cstdint>
 #include <functional>
@@ -33,8 +34,8 @@ struct VtkGrid {
   bool foreign_region = false;        // region is another program's array, which lines have too
   std::uint32_t last_generation = 0;  // of vertex_key
 
-  // Per cell. boundary: index into boundary_names, -1 for triangles. The others are empty or hold 0 for
-  // edges.
+  // Per cell. boundary: index into boundary_names, -1 for cells of the domain. The others are empty or hold 0
+  // where they say nothing.
   std::vector<std::int32_t> boundary;
   std::vector<std::uint32_t> triangle_id, birth;
   std::vector<std::int32_t> region;  // index into region_names; -1 for edges
@@ -72,18 +73,18 @@ void for_each_cell_array(Grid& grid, Visitor&& visit) {
   visit("region", grid.region);
 }
 
-// A boundary edge's cell has the value of its triangle. Throws Error (argument) for fields that do not fit
-// the mesh or have the name of one of its own arrays.
+// A boundary edge's cell has the value of the domain's cell beside it. Throws Error (argument) for fields
+// that do not fit the mesh or have the name of one of its own arrays.
 VtkGrid to_vtk_grid(const FrozenMesh& mesh, std::span<const Field> fields = {});
 
-// The field of an array in a file, on the vertices or triangles of the frozen mesh that from_vtk_grid()
+// The field of an array in a file, on the vertices or cells of the frozen mesh that from_vtk_grid()
 // makes. Nothing if it is an array of the mesh itself or has more than three components.
 std::optional<Field> to_field(VtkArray array, FieldPlace place, std::span<const std::uint8_t> types);
 
 // place names an array of the file for messages ("FILE:LINE", "FILE:/VTKHDF/Types").
 using ArrayPlace = std::function<std::string(std::string_view array)>;
 
-// Checks sizes and indices, takes triangles and lines, and brings them into our conventions.
+// Checks sizes and indices, takes triangles, quadrilaterals and lines, and brings them into our conventions.
 FrozenMesh from_vtk_grid(const VtkGrid& grid, const std::string& file, const ArrayPlace& place,
                          const Warnings& warnings);
 

@@ -70,6 +70,33 @@ void for_each_reference_array(State& state, Visitor&& visit) {
 }
 const std::string reference_group = state_group + "/reference";
 
+// What a layered mesh has beside its outer mesh.
+const std::string layers_group = state_group + "/layers";
+const std::string layer_walls_path = layers_group + "/walls", layer_names_path = layers_group + "/names";
+const std::string layer_fans_path = layers_group + "/fans";
+
+template <class State, class Visitor>
+void for_each_layer_number(State& state, Visitor&& visit) {
+  visit("first_height", state.options.first_height);
+  visit("growth", state.options.growth);
+  visit("thickness", state.options.thickness);
+  visit("fan_from_deg", state.options.fan_from_deg);
+  visit("levels", state.levels);
+  visit("epoch", state.epoch);
+}
+
+std::uint64_t checksum_of_layers(const LayeredState& state, const std::string& walls_text) {
+  WordChecksum sum;
+  for_each_layer_number(state, [&](const char*, auto value) { sum.add(value); });
+  for (const std::string& name : state.options.walls) sum.add(name);
+  for (const auto& ring : state.fans) {
+    sum.add(std::uint64_t{ring.size()});
+    for (const std::uint32_t sectors : ring) sum.add(sectors);
+  }
+  sum.add(walls_text);
+  return sum.value();
+}
+
 // ------------------------------------------------------------------------------------------------ writing
 
 void write_fields(Hdf5Writer& out, const std::string& group, const std::vector<VtkArray>& arrays) {
@@ -132,6 +159,19 @@ void write_reference(Hdf5Writer& out, const MeshState& state) {
     out.array(reference_group + "/" + name, values, columns);
   });
   out.text(reference_group + "/domain", domain_to_json(state.reference_domain));
+}
+
+void write_layers(Hdf5Writer& out, const LayeredState& state) {
+  const std::string walls = domain_to_json(state.walls);
+  out.group(layers_group);
+  out.attribute(layers_group, "checksum", std::vector<std::uint64_t>{checksum_of_layers(state, walls)});
+  for_each_layer_number(state, [&](const std::string& name, const auto& value) {
+    out.attribute(layers_group, name, std::vector{value});
+  });
+  if (!state.options.walls.empty()) out.texts(layer_names_path, state.options.walls);
+  for (std::size_t r = 0; r < state.fans.size(); ++r)
+    out.array(layer_fans_path + std::to_string(r), state.fans[r]);
+  out.text(layer_walls_path, walls);
 }
 
 void write_state(Hdf5Writer& out, const MeshState& state) {
@@ -282,6 +322,19 @@ void write_vtkhdf(const std::filesystem::path& file, const Mesh& mesh, const Wri
   write_text_atomically(file, out.sealed());
 }
 
+void write_vtkhdf(const std::filesystem::path& file, const LayeredMesh& mesh, const WriteOptions& options,
+                  LayerCells cells) {
+  Hdf5Writer out(file.string());
+  {
+    const VtkGrid grid = to_vtk_grid(mesh.freeze(cells), options.fields);
+    write_grid(out, grid, options.su2_boxes);
+  }
+  const LayeredState state = mesh.state();
+  write_state(out, state.outer);
+  write_layers(out, state);
+  write_text_atomically(file, out.sealed());
+}
+
 FrozenMesh read_vtkhdf_frozen(const std::filesystem::path& file, ReadNotes* notes) {
   const Hdf5Reader in(file);
   check_header(in);
@@ -307,13 +360,17 @@ std::vector<Field> read_vtkhdf_fields(const std::filesystem::path& file) {
   return fields;
 }
 
-MeshState read_vtkhdf_state(const std::filesystem::path& file) {
-  const Hdf5Reader in(file);
+namespace {
+
+void require_state(const Hdf5Reader& in) {
   check_header(in);
   if (!in.exists(state_group)) {
-    throw Error(ErrorCode::argument, file.string() + ":" + state_group,
+    throw Error(ErrorCode::argument, in.place(state_group),
                 "not found, a native mesh with its state expected, as `remodel mesh` makes it");
   }
+}
+
+MeshState read_state(const Hdf5Reader& in) {
   const auto version = in.attribute<std::int64_t>(state_group, "format_version");
   if (version[0] != state_version) {
     in.fail(state_group + "@format_version",
@@ -342,6 +399,41 @@ MeshState read_vtkhdf_state(const std::filesystem::path& file) {
             "another checksum than that of the content found: the file is damaged");
   }
   state.domain = domain_from_json(domain, in.place(state_group + "/domain"));
+  return state;
+}
+
+}  // namespace
+
+MeshState read_vtkhdf_state(const std::filesystem::path& file) {
+  const Hdf5Reader in(file);
+  require_state(in);
+  if (in.exists(layers_group))
+    in.fail(layers_group, "a mesh with layers found, one without expected: `remodel update` goes on from it");
+  return read_state(in);
+}
+
+bool holds_vtkhdf_layers(const std::filesystem::path& file) {
+  return Hdf5Reader(file).exists(layers_group);
+}
+
+LayeredState read_vtkhdf_layers(const std::filesystem::path& file) {
+  const Hdf5Reader in(file);
+  require_state(in);
+  if (!in.exists(layers_group))
+    throw Error(ErrorCode::argument, in.place(layers_group),
+                "not found, a native mesh with layers expected, as `remodel mesh --layers` makes it");
+  LayeredState state;
+  state.outer = read_state(in);
+  for_each_layer_number(state, [&](const std::string& name, auto& value) {
+    value = in.attribute<std::remove_reference_t<decltype(value)>>(layers_group, name).front();
+  });
+  if (in.exists(layer_names_path)) state.options.walls = in.texts(layer_names_path);
+  while (in.exists(layer_fans_path + std::to_string(state.fans.size())))
+    state.fans.push_back(in.array<std::uint32_t>(layer_fans_path + std::to_string(state.fans.size())));
+  const std::string walls = in.text(layer_walls_path);
+  if (in.attribute<std::uint64_t>(layers_group, "checksum").front() != checksum_of_layers(state, walls))
+    in.fail(layers_group + "@checksum", "another checksum than that of the content found: the file is damaged");
+  state.walls = domain_from_json(walls, in.place(layer_walls_path));
   return state;
 }
 

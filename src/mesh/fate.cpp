@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <unordered_map>
 
 #include "remodel/error.h"
 #include "remodel/frozen_mesh.h"
+#include "remodel/ids.h"
 
 namespace remodel {
 namespace {
@@ -16,23 +18,32 @@ void require_names(const FrozenMesh& mesh) {
   throw Error(ErrorCode::argument, "fate", "a mesh without ids and births found, a native one expected");
 }
 
-// The three points of a triangle by number, from the one with the least id on, so that one triangle is
-// written in one way.
-std::array<std::uint32_t, 3> from_least_id(const FrozenMesh& mesh, std::size_t triangle) {
-  std::array<std::uint32_t, 3> corners = mesh.triangles[triangle];
-  const auto least = std::min_element(corners.begin(), corners.end(), [&](std::uint32_t a, std::uint32_t b) {
+// The three or four points of a cell by number, from the one with the least id on, so that one cell is
+// written in one way. The fourth of a triangle is no_index.
+using NamedCorners = std::array<std::uint32_t, 4>;
+NamedCorners from_least_id(const FrozenMesh& mesh, std::size_t cell) {
+  const auto points = mesh.cell(cell);
+  NamedCorners corners{0, 0, 0, no_index};
+  std::copy(points.begin(), points.end(), corners.begin());
+  const auto end = corners.begin() + static_cast<std::ptrdiff_t>(points.size());
+  const auto least = std::min_element(corners.begin(), end, [&](std::uint32_t a, std::uint32_t b) {
     return mesh.vertex_ids[a] < mesh.vertex_ids[b];
   });
-  std::rotate(corners.begin(), least, corners.end());
+  std::rotate(corners.begin(), least, end);
   return corners;
 }
 
-// The state before, by the names of its triangles and of their vertices.
+// Cells of layers have no ids of their own.
+bool has_id(const FrozenMesh& mesh, std::size_t cell) {
+  return cell >= mesh.layer_triangles && cell < mesh.triangles.size();
+}
+
+// The state before, by the names of its cells and of their vertices.
 class Earlier {
  public:
   explicit Earlier(const FrozenMesh& mesh) : mesh_(mesh) {
-    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-      births_.emplace(mesh.triangle_ids[i], mesh.birth[i]);
+    for (std::uint32_t i = 0; i < mesh.cell_count(); ++i) {
+      if (has_id(mesh, i)) births_.emplace(mesh.triangle_ids[i], mesh.birth[i]);
       first_ids_.emplace(mesh.vertex_ids[from_least_id(mesh, i)[0]], i);
     }
   }
@@ -42,14 +53,23 @@ class Earlier {
     return found != births_.end() && found->second == birth;
   }
 
-  bool joins(const FrozenMesh& after, const std::array<std::uint32_t, 3>& corners) const {
+  // Those of the cell that joins the same vertices, nothing if there is none.
+  std::optional<NamedCorners> joined(const FrozenMesh& after, const NamedCorners& corners) const {
     const auto [begin, end] = first_ids_.equal_range(after.vertex_ids[corners[0]]);
-    return std::any_of(begin, end, [&](const auto& entry) {
-      const std::array<std::uint32_t, 3> old = from_least_id(mesh_, entry.second);
-      for (std::size_t k = 0; k < 3; ++k)
-        if (!same_vertex(old[k], after, corners[k])) return false;
-      return true;
-    });
+    for (auto entry = begin; entry != end; ++entry) {
+      const NamedCorners old = from_least_id(mesh_, entry->second);
+      bool same = (old[3] == no_index) == (corners[3] == no_index);
+      for (std::size_t k = 0; same && k < 4 && corners[k] != no_index; ++k)
+        same = same_vertex(old[k], after, corners[k]);
+      if (same) return old;
+    }
+    return std::nullopt;
+  }
+
+  bool rests(const NamedCorners& old, const FrozenMesh& after, const NamedCorners& corners) const {
+    for (std::size_t k = 0; k < 4 && corners[k] != no_index; ++k)
+      if (mesh_.points[old[k]] != after.points[corners[k]]) return false;
+    return true;
   }
 
  private:
@@ -66,7 +86,7 @@ class Earlier {
 
   const FrozenMesh& mesh_;
   std::unordered_map<std::uint32_t, std::uint32_t> births_;          // by triangle id
-  std::unordered_multimap<std::uint32_t, std::uint32_t> first_ids_;  // triangles, by their least vertex id
+  std::unordered_multimap<std::uint32_t, std::uint32_t> first_ids_;  // cells, by their least vertex id
 };
 
 }  // namespace
@@ -76,13 +96,17 @@ std::vector<Fate> fates(const FrozenMesh& before, const FrozenMesh& after) {
   require_names(after);
   const Earlier earlier(before);
   std::vector<Fate> result;
-  result.reserve(after.triangles.size());
-  for (std::size_t i = 0; i < after.triangles.size(); ++i) {
-    if (earlier.has(after.triangle_ids[i], after.birth[i])) {
+  result.reserve(after.cell_count());
+  for (std::size_t i = 0; i < after.cell_count(); ++i) {
+    const bool named = has_id(after, i);
+    if (named && earlier.has(after.triangle_ids[i], after.birth[i])) {
       result.push_back(Fate::kept);
-    } else {
-      result.push_back(earlier.joins(after, from_least_id(after, i)) ? Fate::moved : Fate::made);
+      continue;
     }
+    const NamedCorners corners = from_least_id(after, i);
+    const std::optional<NamedCorners> old = earlier.joined(after, corners);
+    const bool kept = old && !named && earlier.rests(*old, after, corners);
+    result.push_back(kept ? Fate::kept : old ? Fate::moved : Fate::made);
   }
   return result;
 }

@@ -11,8 +11,9 @@ namespace remodel {
 
 namespace {
 
-const char* name_of(FieldPlace place) {
-  return place == FieldPlace::vertices ? "vertices" : "triangles";
+const char* name_of(FieldPlace place, const FrozenMesh& mesh) {
+  if (place == FieldPlace::vertices) return "vertices";
+  return mesh.quads.empty() ? "triangles" : "cells";
 }
 
 bool is_possible_name(const std::string& name) {
@@ -39,18 +40,18 @@ void require_fit(const Field& field, const FrozenMesh& mesh) {
     refuse(field, std::to_string(field.components) + " components found, 1 to 3 expected");
   }
   const auto components = static_cast<std::size_t>(field.components);
-  const std::size_t places = field.place == FieldPlace::vertices ? mesh.points.size() : mesh.triangles.size();
+  const std::size_t places = field.place == FieldPlace::vertices ? mesh.points.size() : mesh.cell_count();
   if (field.values.size() != components * places) {
     refuse(field, std::to_string(field.values.size()) + " values found, " +
                       std::to_string(components * places) + " expected: " + std::to_string(field.components) +
-                      " for each of " + std::to_string(places) + " " + name_of(field.place));
+                      " for each of " + std::to_string(places) + " " + name_of(field.place, mesh));
   }
   if (is_finite(field)) return;
   const auto bad = std::find_if_not(field.values.begin(), field.values.end(),
                                     [](double value) { return std::isfinite(value); });
   const auto index = static_cast<std::size_t>(bad - field.values.begin()) / components;
   refuse(field, std::to_string(*bad) + " found at number " + std::to_string(index) + " of the " +
-                    name_of(field.place) + ", finite values expected");
+                    name_of(field.place, mesh) + ", finite values expected");
 }
 
 void require_fit(std::span<const Field> fields, const FrozenMesh& mesh) {
@@ -58,8 +59,8 @@ void require_fit(std::span<const Field> fields, const FrozenMesh& mesh) {
   for (const Field& field : fields) {
     require_fit(field, mesh);
     if (!names.emplace(field.place, field.name).second) {
-      refuse(field,
-             std::string("a second one on ") + name_of(field.place) + " found, each name once expected");
+      refuse(field, std::string("a second one on ") + name_of(field.place, mesh) +
+                        " found, each name once expected");
     }
   }
 }

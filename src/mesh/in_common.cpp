@@ -12,7 +12,7 @@
 namespace remodel {
 namespace {
 
-using Triple = std::array<std::uint32_t, 3>;
+using CellCorners = std::array<std::uint32_t, 4>;                  // the fourth of a triangle is no_index
 using Numbers = std::unordered_map<std::uint64_t, std::uint32_t>;  // points by key
 
 bool has_keys(const FrozenMesh& mesh) {
@@ -71,8 +71,9 @@ std::vector<std::uint32_t> same_vertices(const FrozenMesh& before, const FrozenM
   return same;
 }
 
-Triple from_least(Triple corners) {
-  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+CellCorners from_least(CellCorners corners) {
+  const auto end = corners.end() - (corners.back() == no_index ? 1 : 0);
+  std::rotate(corners.begin(), std::min_element(corners.begin(), end), end);
   return corners;
 }
 
@@ -90,16 +91,18 @@ InCommon in_common(const FrozenMesh& before, const FrozenMesh& after, const Froz
   result.inserted = after.points.size() - kept;
   result.removed = before.points.size() - kept;
 
-  std::vector<Triple> old;
-  for (const Triple& triangle : before.triangles) old.push_back(from_least(triangle));
+  std::vector<CellCorners> old;
+  for (const auto& [a, b, c] : before.triangles) old.push_back(from_least({a, b, c, no_index}));
+  for (const auto& quad : before.quads) old.push_back(from_least(quad));
   std::sort(old.begin(), old.end());
-  for (const Triple& triangle : after.triangles) {
-    Triple corners;
+  for (std::size_t i = 0; i < after.cell_count(); ++i) {
+    const auto cell = after.cell(i);
+    CellCorners corners{0, 0, 0, no_index};
     bool there = true, rests = true;
-    for (std::size_t k = 0; k < 3; ++k) {
-      corners[k] = same[triangle[k]];
+    for (std::size_t k = 0; k < cell.size(); ++k) {
+      corners[k] = same[cell[k]];
       there = there && corners[k] != no_index;
-      rests = rests && there && before.points[corners[k]] == after.points[triangle[k]];
+      rests = rests && there && before.points[corners[k]] == after.points[cell[k]];
     }
     if (!there || !std::binary_search(old.begin(), old.end(), from_least(corners))) continue;
     ++result.connected;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "remodel/error.h"
+#include "transfer/halves.h"
 #include "transfer/moment.h"
 #include "transfer/remap.h"
 #include "transfer/slopes.h"
@@ -16,14 +17,21 @@ struct Transfer::Impl {
         options(given),
         locator(patches.before, patches.changed),
         vertices(vertex_map_since(moment, given.outside)) {}
-  Impl(Patches&& found, const TransferOptions& given)
-      : patches(std::move(found)), options(given), locator(patches.before, patches.changed) {
+  Impl(const FrozenMesh& before, const FrozenMesh& after, const TransferOptions& given)
+      : halves_before(before, "mesh before"),
+        halves_after(after, "mesh after"),
+        patches(patches_between(halves_before.any() ? halves_before.take() : before,
+                                halves_after.any() ? halves_after.take() : after)),
+        options(given),
+        locator(patches.before, patches.changed) {
     make_vertex_map();
   }
 
   void make_vertex_map();
   ValueMap triangle_map() const;
+  bool has_quads() const { return halves_before.any() || halves_after.any(); }
 
+  Halves halves_before, halves_after;
   Patches patches;
   TransferOptions options;
   Locator locator;
@@ -111,7 +119,7 @@ ValueMap Transfer::Impl::triangle_map() const {
 Transfer::Transfer(const Mesh& mesh, const Mark& mark, const TransferOptions& options)
     : impl_(std::make_unique<Impl>(Moment(mesh, mark), options)) {}
 Transfer::Transfer(const FrozenMesh& before, const FrozenMesh& after, const TransferOptions& options)
-    : impl_(std::make_unique<Impl>(patches_between(before, after), options)) {}
+    : impl_(std::make_unique<Impl>(before, after, options)) {}
 Transfer::~Transfer() = default;
 Transfer::Transfer(Transfer&&) noexcept = default;
 Transfer& Transfer::operator=(Transfer&&) noexcept = default;
@@ -120,7 +128,8 @@ const ValueMap& Transfer::vertices() const {
   return impl_->vertices;
 }
 ValueMap Transfer::triangles() const {
-  return impl_->triangle_map();
+  const ValueMap map = impl_->triangle_map();
+  return impl_->has_quads() ? map_of_cells(map, impl_->halves_before, impl_->halves_after) : map;
 }
 std::size_t Transfer::outside() const {
   return impl_->vertices.outside;
@@ -145,12 +154,21 @@ Balance Transfer::remap(FieldPlace place, int components, std::vector<double>& v
             ErrorCode::argument, "conserved",
             "found component " + std::to_string(k) + ", expected 0 to " + std::to_string(components - 1));
   const RemapInput input{impl_->patches, impl_->locator, impl_->options.outside, options};
-  return place == FieldPlace::vertices ? remap_vertices(input, vertices(), components, values)
-                                       : remap_triangles(input, impl_->triangle_map(), components, values);
+  if (place == FieldPlace::vertices) return remap_vertices(input, vertices(), components, values);
+  values = impl_->halves_before.to_triangles(values, components);
+  const Balance balance = remap_triangles(input, impl_->triangle_map(), components, values);
+  values = impl_->halves_after.to_cells(values, components);
+  return balance;
 }
 
 std::vector<double> integral(const Field& field, const FrozenMesh& mesh) {
   require_fit(field, mesh);
+  if (Halves halves(mesh, "mesh"); halves.any()) {
+    Field on_halves = field;
+    if (field.place == FieldPlace::triangles)
+      on_halves.values = halves.to_triangles(field.values, field.components);
+    return integral(on_halves, halves.take());
+  }
   const auto width = static_cast<std::size_t>(field.components);
   std::vector<double> result(width, 0.0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

@@ -207,6 +207,88 @@ class InnerCurves(ProgramTest):
         self.assertEqual(self.figures("check", "old.msh")["regions"], regions)
 
 
+class Quadrilaterals(ProgramTest):
+    """Meshes with a layer of flat quadrilaterals on the wall."""
+
+    def layered(self, name="q.su2", **options):
+        text, self.triangles, self.quads = shapes.layered(**options)
+        self.write(name, text)
+        return name
+
+    def test_they_go_through_every_format_and_come_back(self):
+        self.succeed("convert", self.layered(), "-o", "first.su2")
+        name = "first.su2"
+        for target, options in (("m.msh", []), ("old.msh", ["--msh-version", "2.2"]), ("m.vtu", []), ("m.vtkhdf", []), ("last.su2", [])):
+            figures = self.figures("convert", name, "-o", target, *options)
+            self.assertEqual((figures["triangles"], figures["quadrilaterals"]), (self.triangles, self.quads))
+            checked = self.figures("check", target)
+            self.assertTrue(checked["valid"], checked["violations"])
+            self.assertEqual(checked["cells"], self.triangles + self.quads)
+            self.assertLess(checked["corner_min_deg"], 90)
+            name = target
+        self.assertEqual(self.path("last.su2").read_bytes(), self.path("first.su2").read_bytes())
+
+    def test_cells_may_come_in_any_order_and_clockwise(self):
+        self.succeed("convert", self.layered(), "-o", "a.su2")
+        area = self.figures("check", "a.su2")["area"]
+        for options in ({"clockwise": True}, {"triangles_first": False}):
+            checked = self.figures("check", self.layered("b.su2", **options))
+            self.assertTrue(checked["valid"], checked["violations"])
+            self.assertEqual((checked["quadrilaterals"], checked["area"]), (self.quads, area))
+
+    def test_they_are_drawn_solved_on_and_carried_to(self):
+        name = self.layered()
+        self.assertEqual(self.figures("draw", name, "-o", "q.png")["quadrilaterals"], self.quads)
+        flow = self.figures("flow", name, "--model", "potential", "--alpha", 2, "-o", "p.vtu")
+        self.assertEqual(flow["quadrilaterals"], self.quads)
+        for field in ("cp", "stream_function"):
+            self.succeed("draw", "p.vtu", "--color", field, "-o", "f.svg")
+        flow = self.figures("flow", name, "--mach", 0.3, "-o", "e.vtkhdf")
+        self.assertEqual((flow["status"], flow["quadrilaterals"]), ("converged", self.quads))
+        # To the same mesh and to one of triangles.
+        self.succeed("transfer", "e.vtkhdf", name, "-o", "same.vtu")
+        self.succeed("transfer", "e.vtkhdf", name, "-o", "same.vtu", "--conservative")
+        self.succeed("mesh", "naca:0020", "--points", 60, "-o", "other.vtkhdf")
+        self.succeed("transfer", "e.vtkhdf", "other.vtkhdf", "-o", "there.vtu")
+        self.succeed("transfer", "there.vtu", name, "-o", "back.vtu", "--conservative")
+
+    def test_layers_are_dissolved_only_where_that_is_wished(self):
+        name = self.layered()
+        update = ("naca:0013", "--boundary", "airfoil", "-o", "n.su2")
+        self.refused("update", name, *update, names=f"{name}: {self.quads} quadrilaterals found, which a remodelling would dissolve")
+        figures = self.figures("update", name, *update, "--dissolve-layers")
+        self.assertTrue(self.figures("check", "n.su2")["valid"])
+        self.assertEqual(figures["triangles_before"], self.triangles + 2 * self.quads)
+        # Split by another program they are layers still.
+        lines = self.path(name).read_text().splitlines()
+        split = []
+        for line in lines:
+            a, b, c, d = line.split()[1:] if line.startswith("9 ") and len(line.split()) == 5 else [None] * 4
+            split += [line] if a is None else [f"5 {a} {b} {c}", f"5 {a} {c} {d}"]
+        text = "\n".join(split).replace(f"NELEM= {self.triangles + self.quads}", f"NELEM= {self.triangles + 2 * self.quads}")
+        self.write("s.su2", text + "\n")
+        self.refused("update", "s.su2", *update, names="triangles flatter than 20 to 1 on")
+        self.succeed("update", "s.su2", *update, "--dissolve-layers")
+        self.succeed("mesh", "naca:0012", "-o", "own.vtkhdf")
+        self.refused("update", "own.vtkhdf", "naca:0013", "--dissolve-layers", "-o", "n.su2", names="--dissolve-layers: given for")
+
+    def test_hostile_ones_are_refused_or_found_invalid(self):
+        text, _, _ = shapes.layered(around=8, layers=1, rings=1)
+        quad = next(line for line in text.splitlines() if line.startswith("9 "))
+        a, b, c, d = quad.split()[1:]
+        for found, replacement in (("an index below", f"9 {a} {b} {c} 999"), ("the index of a point expected", f"9 {a} {b} {c}"),
+                                   ("the index of a point expected", f"9 {a} {b} {c} -1"), ("found, only triangles", f"12 {a} {b} {c} {d}")):
+            self.refused("check", self.write("h.su2", text.replace(quad, replacement)), names=found)
+        for rule, replacement in (("index", f"9 {a} {b} {a} {b}"), ("index", f"9 {a} {a} {a} {a}"), ("convex", f"9 {a} {c} {b} {d}"),
+                                  ("convex", f"9 {d} {c} {b} {a}"), ("boundary", f"5 {a} {b} {c}")):
+            self.write("h.su2", text.replace(quad, replacement))
+            checked = self.figures("check", "h.su2", status=1)
+            self.assertIn(rule, {violation["rule"] for violation in checked["violations"]})
+            for command in (["draw", "h.su2", "-o", "h.png"], ["convert", "h.su2", "-o", "h.msh"], ["flow", "h.su2", "--model", "potential"],
+                            ["flow", "h.su2"], ["update", "h.su2", "naca:0012", "--boundary", "airfoil", "--dissolve-layers", "-o", "x.su2"]):
+                self.assertIn(self.run_program(*command).status, (0, 1, 2), command)
+
+
 class Chains(ProgramTest):
     """Updates of another program's mesh, each of which begins with the file that the one before it wrote."""
 

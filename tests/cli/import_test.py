@@ -190,7 +190,7 @@ class Imports(ProgramTest):
         lines = text.splitlines()
         lines[5] = "9 0 1 2 3 3"
         self.write("quads.su2", "\n".join(lines) + "\n")
-        self.refused("update", "quads.su2", "rae2822", "--boundary", "airfoil", "-o", "b.su2", names="quads.su2:6: element of type 9")
+        self.refused("update", "quads.su2", "rae2822", "--boundary", "airfoil", "-o", "b.su2", names="quads.su2: 1 quadrilateral found, which")
         corners = lines[4].split()
         apex = next(v for v in map(str, range(3, 99)) if v not in corners[1:4])
         lines[5] = " ".join([*corners[:3], apex, "3"])

@@ -37,8 +37,12 @@ $Nodes
 4 0 1 0
 $EndNodes
 $Elements
-1
-1 3 2 1 1 1 2 3 4
+5
+1 1 2 1 1 1 2
+2 1 2 1 1 2 3
+3 1 2 1 1 3 4
+4 1 2 1 1 4 1
+5 3 2 2 1 1 2 3 4
 $EndElements
 """
 
@@ -242,8 +246,10 @@ class Losses(Test):
         self.write("d.vtu", flat.replace("1 0 0\n1 1 0\n0 1 0\n", "1 0 0\n1 1 1\n0 1 0\n"))
         self.refused("check", "d.vtu", names="z = 1 found at point 2")
 
-    def test_quadrilaterals_are_refused_with_what_to_do(self):
-        self.refused("check", self.write("q.msh", QUAD_MSH), names="quadrilaterals will be read by a later version")
+    def test_quadrilaterals_are_read_and_cells_of_second_order_refused_with_what_to_do(self):
+        figures = self.quiet("check", self.write("q.msh", QUAD_MSH))
+        self.assertEqual((figures["triangles"], figures["quadrilaterals"], figures["cells"]), (0, 1, 1))
+        self.refused("check", self.write("r.msh", QUAD_MSH.replace("5 3 ", "5 16 ")), names="(Gmsh: SetOrder 1)")
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ import shutil
 import sqlite3
 import subprocess
 
+import shapes
 from harness import SOURCE, ProgramTest
 
 HEADER = "FoamFile\n{{\n version 2.0;\n format {};\n class {};\n object {};\n}}\n"
@@ -136,6 +137,31 @@ class Files(ProgramTest):
         self.assertLess(max(abs(x) for row in sums for x in row), 1e-9)
         self.assertGreater(min(volume), 0)
         self.assertAlmostEqual(sum(volume), checked["area"], delta=1e-6)
+
+    def test_quadrilaterals_are_hexahedra(self):
+        text, triangles, quads = shapes.layered(around=20, layers=3, rings=3)
+        self.write("q.su2", text)
+        self.path("case").mkdir()
+        self.succeed("convert", "q.su2", "-o", "case/case.foam")
+        mesh = FoamMesh(self.path("case"))
+        self.assertEqual(mesh.cells, triangles + quads)
+        faces = [0] * mesh.cells
+        sums = [[0.0] * 3 for _ in range(mesh.cells)]
+        for f in range(len(mesh.faces)):
+            sides = [(mesh.owner[f], 1)] + ([(mesh.neighbour[f], -1)] if f < len(mesh.neighbour) else [])
+            for cell, sign in sides:
+                faces[cell] += 1
+                for k in range(3):
+                    sums[cell][k] += sign * mesh.area_vector(f)[k]
+        self.assertEqual(faces, [5] * triangles + [6] * quads)
+        self.assertLess(max(abs(x) for row in sums for x in row), 1e-9)
+        # Fields have a value for each.
+        self.path("case/200").mkdir()
+        wall = mesh.patches["airfoil"][1]
+        self.write("case/200/T", field("T", mesh.cells, [float(i) for i in range(mesh.cells)], [1.0] * wall))
+        self.succeed("transfer", "q.su2", "q.su2", "--state", "case/200", "--state-out", "again")
+        values = re.findall(r"List<scalar>\s+\d+\s+\((.*?)\)", self.path("again/T").read_text(), re.S)[0]
+        self.assertEqual(list(map(float, values.split())), [float(i) for i in range(mesh.cells)])
 
     def test_a_time_directory_rides_along(self):
         linear = lambda p: 300 + 0.1 * p[0] - 0.2 * p[1]

@@ -38,3 +38,36 @@ def with_row(row, index=10):
     lines = selig().splitlines()
     lines[index] = row
     return "\n".join(lines) + "\n"
+
+
+def layered(around=48, layers=6, rings=14, first=0.002, clockwise=False, triangles_first=True):
+    """A .su2 mesh around an ellipse with a layer of flat quadrilaterals on its wall, triangles outside, and the numbers
+    of both."""
+    heights = [0.0]
+    for k in range(layers):
+        heights.append(heights[-1] + first * 1.3**k)
+    for k in range(rings):
+        heights.append(heights[-1] + 0.02 * 1.5**k)
+    turn = [2 * math.pi * i / around for i in range(around)]
+    points = [(0.5 + (0.5 + h) * math.cos(t), (0.1 + h) * math.sin(t)) for h in heights for t in turn]
+    at = lambda i, j: j * around + i % around
+    quads, triangles = [], []
+    for j in range(layers + rings):
+        for i in range(around):
+            a, b, c, d = at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)
+            if j < layers:
+                quads.append((a, b, c, d))
+            else:
+                triangles += [(a, b, c), (a, c, d)]
+    if clockwise:
+        quads, triangles = [q[::-1] for q in quads], [t[::-1] for t in triangles]
+    cells = [(5, *t) for t in triangles] + [(9, *q) for q in quads]
+    if not triangles_first:
+        cells.reverse()
+    top = layers + rings
+    walls = {"airfoil": [(at(i + 1, 0), at(i, 0)) for i in range(around)], "farfield": [(at(i, top), at(i + 1, top)) for i in range(around)]}
+    lines = ["NDIME= 2", f"NELEM= {len(cells)}", *(" ".join(map(str, cell)) for cell in cells), f"NPOIN= {len(points)}"]
+    lines += [f"{x!r} {y!r}" for x, y in points] + [f"NMARK= {len(walls)}"]
+    for name, edges in walls.items():
+        lines += [f"MARKER_TAG= {name}", f"MARKER_ELEMS= {len(edges)}", *(f"3 {a} {b}" for a, b in edges)]
+    return "\n".join(lines) + "\n", len(triangles), len(quads)

@@ -20,6 +20,7 @@
 #include "remodel/domain.h"
 #include "remodel/error.h"
 #include "remodel/generate.h"
+#include "remodel/layers.h"
 #include "remodel/mesh_state.h"
 #include "remodel/planar.h"
 #include "remodel/remodel.h"
@@ -169,6 +170,31 @@ int print_domains() {
   return 0;
 }
 
+// Layers on an airfoil with a blunt edge and on a flap below it, which move: all points and the outer mesh.
+int print_layers() {
+  Chance chance(11);
+  CstAirfoil main = airfoil_catalogue()[5].airfoil(), flap = airfoil_catalogue()[0].airfoil();
+  main.te_upper = 0.002, main.te_lower = -0.002;
+  Domain domain = airfoils_domain(
+      {{.name = "main", .airfoil = main},
+       {.name = "flap", .airfoil = flap, .placement = {.chord = 0.3, .position = {0.97, -0.05}}}});
+  space_walls(domain, {});
+  LayeredMesh mesh = generate_layered(domain, {.first_height = first_height(1.0, 6.5e6)}, {.gradation = 8.0}).mesh;
+  for (int i = 0; i <= 8; ++i) {
+    if (i > 0) {
+      Domain next = mesh.domain();
+      std::get<CstAirfoil>(next.loops[0].curves[0].shape) = design_about(main, chance, 0.005);
+      next.loops[1].placement.rotation_deg = -2.0 * i;
+      remodel::remodel(mesh, next, {.strategy = i < 5 ? Strategy::morph : Strategy::reference});
+    }
+    std::uint64_t hash = hash_of(mesh.outer().state());
+    for (const Point p : mesh.freeze().points)
+      for (const double x : {p.x, p.y}) hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x100000001b3U;
+    std::printf("layers %d: %zu cells, %016" PRIx64 "\n", i, mesh.cells(), hash);
+  }
+  return 0;
+}
+
 int compare_threads() {
   const std::vector<Chain> chains = {{1, 60, 60, Method::automatic},
                                      {2, 60, 60, Method::general},
@@ -196,7 +222,7 @@ int compare_threads() {
 
 int main(int argc, char** argv) try {
   return argc > 1 && std::strcmp(argv[1], "threads") == 0 ? compare_threads()
-                                                          : print_chains() + print_domains();
+                                                          : print_chains() + print_domains() + print_layers();
 } catch (const remodel::Error& error) {
   std::fprintf(stderr, "trace: %s\n", error.what());
   return 2;

@@ -71,7 +71,7 @@ void LivingFlow::go_on_from(const KeptFlow& kept) {
 std::shared_ptr<const flow::FlowMesh> LivingFlow::Impl::mesh_of(const FrozenMesh& frozen,
                                                                 const flow::Keys& keys,
                                                                 const FlowConditions& conditions) const {
-  if (!last.found() || last.mesh->cells() != flow::FlowMesh::cells_of(frozen.triangles) || last.keys != keys)
+  if (!last.found() || last.mesh->cells() != flow::FlowMesh::cells_of(frozen) || last.keys != keys)
     return std::make_shared<flow::FlowMesh>(flow::dual_of(frozen, conditions, options, "mesh"));
   auto moved = std::make_shared<flow::FlowMesh>(*last.mesh);
   moved->move(frozen.points);

@@ -101,7 +101,7 @@ Body body_of(const WallLoop& loop, const FrozenMesh& mesh) {
 // Assembles, factors and solves once; keeps what flows at any angle are made of.
 struct PotentialSolver::Solution {
   Solution(const FrozenMesh& frozen, const PotentialOptions& given, const std::string& name)
-      : mesh(frozen), options(given), source(name) {
+      : mesh(with_split_quads(frozen)), options(given), source(name) {
     loops = flow::find_wall_loops(mesh, options.farfield, source);
     if (loops.bodies.empty())
       throw Error(ErrorCode::argument, source, "found no boundary but the far field, expected a body");

@@ -235,6 +235,29 @@ TEST(PotentialFlow, HasFieldsThatFitItsMesh) {
   EXPECT_NEAR(cp->values[value.vertex], value.cp, 1e-12);
 }
 
+TEST(PotentialFlow, SplitsQuadrilaterals) {
+  FrozenMesh mesh = mesh_around({circle(40, 0.5)}, 2.0);
+  const PotentialFlow triangles = PotentialSolver(mesh).at(3.0);
+  // The first two triangles that share an edge and make a convex quadrilateral whose split is these two
+  // again.
+  for (std::size_t t = 1; t < mesh.triangles.size() && mesh.quads.empty(); ++t) {
+    auto first = mesh.triangles[0], other = mesh.triangles[t];
+    for (int i = 0; i < 9 && mesh.quads.empty(); ++i) {
+      if (first[0] == other[0] && first[2] == other[1])
+        mesh.quads.push_back({first[0], first[1], first[2], other[2]});
+      std::rotate(other.begin(), other.begin() + 1, other.end());
+      if (i % 3 == 2) std::rotate(first.begin(), first.begin() + 1, first.end());
+    }
+    if (mesh.quads.empty()) continue;
+    mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(t));
+    mesh.triangles.erase(mesh.triangles.begin());
+  }
+  ASSERT_EQ(mesh.quads.size(), 1U);
+  const PotentialFlow mixed = PotentialSolver(mesh).at(3.0);
+  for (std::size_t i = 0; i < mixed.bodies[0].wall.size(); ++i)
+    EXPECT_NEAR(mixed.bodies[0].wall[i].speed, triangles.bodies[0].wall[i].speed, 1e-9);
+}
+
 TEST(PotentialFlow, RefusesInOneSentenceWhatHasNoFlow) {
   const FrozenMesh mesh = mesh_around({naca("naca:0012", 50)}, 2.0);
   EXPECT_EQ(error_of(mesh), "");

@@ -40,10 +40,11 @@ std::string list_of_names(const std::vector<FrozenBoundary>& boundaries) {
 
 }  // namespace
 
-std::vector<Cell> FlowMesh::cells_of(std::span<const std::array<std::uint32_t, 3>> triangles) {
+std::vector<Cell> FlowMesh::cells_of(const FrozenMesh& mesh) {
   std::vector<Cell> cells;
-  cells.reserve(triangles.size());
-  for (const auto& [a, b, c] : triangles) cells.push_back({{a, b, c, no_index}});
+  cells.reserve(mesh.cell_count());
+  for (const auto& [a, b, c] : mesh.triangles) cells.push_back({{a, b, c, no_index}});
+  for (const auto& corners : mesh.quads) cells.push_back({corners});
   return cells;
 }
 

@@ -60,7 +60,7 @@ class FlowMesh {
   FlowMesh(std::vector<Point> points, std::vector<Cell> cells, const std::vector<FrozenBoundary>& boundaries,
            std::vector<Patch> patches, const std::string& source);
   FlowMesh(const FrozenMesh& mesh, std::vector<Patch> patches, const std::string& source)
-      : FlowMesh(mesh.points, cells_of(mesh.triangles), mesh.boundaries, std::move(patches), source) {}
+      : FlowMesh(mesh.points, cells_of(mesh), mesh.boundaries, std::move(patches), source) {}
   FlowMesh(const FrozenMesh& mesh, const std::string& farfield, const std::string& source)
       : FlowMesh(mesh, std::vector<Patch>{{farfield, FarField{}}}, source) {}
   // Throws Error (argument) where the far field is the only boundary.
@@ -103,7 +103,7 @@ class FlowMesh {
   bool one_sided(std::size_t v) const { return one_sided_[v]; }  // whether a patch of it is
   const Extent& extent() const { return extent_; }               // of the walls: see wall_extent.h
   const std::vector<Cell>& cells() const { return cells_; }
-  static std::vector<Cell> cells_of(std::span<const std::array<std::uint32_t, 3>> triangles);
+  static std::vector<Cell> cells_of(const FrozenMesh& mesh);
   std::vector<std::array<std::uint32_t, 3>> triangles() const;  // quadrilaterals in halves
 
  private:

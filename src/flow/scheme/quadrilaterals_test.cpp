@@ -1,7 +1,8 @@
-// Meshes with quadrilaterals, which FrozenMesh does not have yet.
+// Meshes with quadrilaterals.
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 #include <random>
 
@@ -70,6 +71,29 @@ TEST(Quadrilaterals, UniformFlowHasNoResidualAndLinearGradientsAreExact) {
         whole += 0.5 * cross(dual.points()[b] - dual.points()[a], dual.points()[c] - dual.points()[a]);
       EXPECT_NEAR(area, whole, 1e-13);
     }
+}
+
+// The mesh as a file would have it: every third cell is two triangles, the others are quadrilaterals.
+FrozenMesh with_quads(FrozenMesh mesh) {
+  const FlowMesh cells = test::uncut(mesh, open_ends, 3);
+  mesh.triangles.clear();
+  for (const Cell& cell : cells.cells()) {
+    if (cell.corners() == 3)
+      mesh.triangles.push_back({cell[0], cell[1], cell[2]});
+    else
+      mesh.quads.push_back(cell);
+  }
+  return mesh;
+}
+
+TEST(Quadrilaterals, OfAFrozenMeshAreCells) {
+  const FrozenMesh mesh = with_quads(uneven_square(7));
+  const FlowMesh dual(mesh, open_ends, "m");
+  ASSERT_EQ(dual.cells().size(), mesh.cell_count());
+  EXPECT_EQ(std::ranges::count(dual.cells(), 4U, &Cell::corners), static_cast<long>(mesh.quads.size()));
+  const FlowMesh same = test::uncut(uneven_square(7), open_ends, 3);
+  ASSERT_EQ(dual.edges().size(), same.edges().size());
+  for (std::size_t v = 0; v < dual.size(); ++v) EXPECT_NEAR(dual.areas()[v], same.areas()[v], 1e-16);
 }
 
 TEST(Quadrilaterals, DualFacesOfRectanglesAreRectangles) {

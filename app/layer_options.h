@@ -1,0 +1,40 @@
+#pragma once
+
+// The options of layers on walls, and their figures.
+
+#include <optional>
+
+#include "remodel/layers.h"
+#include "report.h"
+
+namespace CLI {
+class App;
+}
+
+namespace remodel::app {
+
+struct LayerChoice {
+  bool layers = false;
+  std::optional<double> reynolds, y_plus, first_height, thickness;
+  std::optional<int> count;
+  double growth = LayerOptions{}.growth;
+  WallSpacing spacing;
+  bool spacing_given = false;
+  LayerCells cells = LayerCells::quadrilaterals;
+};
+
+// --layers, --reynolds, --y-plus, --first-height, --growth, --layer-thickness, --layer-count, --wall-spacing,
+// --te-spacing, --max-spacing.
+void add_layer_options(CLI::App& app, LayerChoice& choice);
+// --layer-cells.
+void add_layer_cells(CLI::App& app, LayerCells& cells);
+
+// Throws Error (argument) for options that exclude each other, or are given without --layers or what they need.
+void require_consistent(const LayerChoice& choice);
+// Precondition: --layers.
+LayerOptions resolved(const LayerChoice& choice);
+
+// Reports under layers{...} the figures of the layer.
+void add_layer_figures(Report& report, const LayeredMesh& mesh);
+
+}  // namespace remodel::app

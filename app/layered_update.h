@@ -1,0 +1,30 @@
+#pragma once
+
+// `update` of a mesh with layers.
+
+#include <string>
+
+#include "carry.h"
+#include "command.h"
+#include "domain_input.h"
+#include "meshing_options.h"
+#include "outputs.h"
+#include "remodel/layers.h"
+
+namespace remodel::app {
+
+struct LayeredUpdate {
+  std::string mesh;
+  DomainInputOptions shapes;
+  FitOptions fit;
+  RemodelOptions remodelling;
+  MeshOutputs outputs;
+  CarryOptions carry;
+  LayerCells cells = LayerCells::quadrilaterals;
+  int repeat = 1;
+  bool json = false;
+};
+
+Status run_layered_update(const LayeredUpdate& update);
+
+}  // namespace remodel::app

@@ -1,0 +1,64 @@
+#pragma once
+
+// The walls of a layer as rings of columns. Columns are set up here: which loops have them, how many stand on each
+// station, and in which directions they leave the wall.
+//
+// Words: a *ring* is the columns of one loop, in the order of its stations. A *fan* is several columns on the
+// station of a convex corner; it has *sectors* between them.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "remodel/domain.h"
+#include "remodel/layers.h"
+
+namespace remodel {
+
+// A domain and the points of its loops, which are evaluated once.
+struct Walls {
+  explicit Walls(const Domain& of);
+  const Domain& domain;
+  std::vector<std::vector<Point>> points;  // per loop
+};
+
+using FanSectors = std::vector<std::vector<std::uint32_t>>;  // per ring and station: sectors, 0 where there is no fan
+
+struct ColumnRing {
+  std::size_t loop = 0;
+  bool left = false;                  // the domain is on the left of the loop's direction
+  std::vector<std::uint32_t> station;  // per column
+  std::vector<Point> foot;             // per column: on the wall
+  std::vector<Point> normal;           // per column: its direction at the wall, of length 1
+  std::vector<Point> top;              // per column: its direction at the top, of length 1
+  std::vector<double> spacing;         // per column: mean length of the two edges of the wall at its station
+  std::vector<double> step;            // per column: length of the wall up to the next one; 0 inside a fan
+  std::vector<double> thickness;       // per column
+  std::vector<double> growth;          // per column
+  std::vector<Point> points;           // levels 1, 2, ... of column 0, of column 1, ...
+
+  std::size_t size() const { return foot.size(); }
+  std::size_t after(std::size_t c) const { return c + 1 == size() ? 0 : c + 1; }
+  std::size_t before(std::size_t c) const { return c == 0 ? size() - 1 : c - 1; }
+};
+
+// The loops that get a layer, ascending. Throws Error (argument, geometry) as generate_layered() says.
+std::vector<std::size_t> layered_loops(const Domain& domain, const LayerOptions& options);
+
+// The sectors of fans: by the turns of the corners, but those of `kept` where it has the same loops and stations
+// and no corner has turned by more than two sectors from what they were made for. `changed`: is not `kept`.
+struct Fans {
+  FanSectors sectors;
+  bool changed = true;
+};
+Fans fans_of(const Walls& walls, const std::vector<std::size_t>& loops, const LayerOptions& options,
+             const FanSectors* kept);
+
+// Columns with their feet and normals. The sides of loops are those of a domain that validate() has accepted.
+std::vector<ColumnRing> rings_of(const Walls& walls, const std::vector<std::size_t>& loops,
+                                 const FanSectors& sectors);
+
+// Where a column stands, for messages.
+std::string column_place(const Domain& domain, const ColumnRing& ring, std::size_t column);
+
+}  // namespace remodel
