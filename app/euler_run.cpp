@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 
 #include "arguments.h"
 #include "figures.h"
@@ -10,6 +11,7 @@
 #include "flow_report.h"
 #include "interrupt.h"
 #include "remodel/error.h"
+#include "remodel/flow_error.h"
 #include "remodel/flow_plots.h"
 
 namespace remodel::app {
@@ -91,6 +93,10 @@ void add_euler_options(CLI::App& app, EulerRun& run) {
       app, "--gradient",
       "Also derivatives of the coefficients by the shape's numbers, the Mach number and the angle (or lift)",
       run.gradient);
+  add_flag(app, "--error",
+           "Also how far the coefficients are from those of an infinitely fine mesh: an estimate by one more mesh "
+           "with half the edges' length",
+           run.error);
   add_choice(app,
              {"--compare", "WITH", "nothing",
               "With --series: also solve each design on a fresh mesh, cold or (rival) from the flow before"},
@@ -115,6 +121,10 @@ void require_possible(const EulerRun& run, const MeshInput& input) {
     throw Error(ErrorCode::argument, "--gradient",
                 "given with the mesh of another program, expected a shape or a native mesh, whose curves are "
                 "known");
+  if (run.error && !input.living)
+    throw Error(ErrorCode::argument, "--error",
+                "given with the mesh of another program, expected a shape or a native mesh, of which a finer one "
+                "can be made");
 }
 
 // Files of a flow, or of a search that found none, which has residuals alone.
@@ -156,21 +166,29 @@ Status run_euler(const EulerRun& run, const MeshInput& input, const std::string&
   options.observer = &observer;
   FlowResult flow;
   Json gradients;
+  std::optional<FlowError> error;
   {
     const FlowProgressLine progress(options);
     LivingFlow living(options);
     flow = solve(run, input, source, living, options);
     if (run.gradient && flow.converged()) gradients = gradients_json(living, *input.living, run.conditions);
+    if (run.error && flow.converged())
+      error = estimate_error(*input.living, flow, run.conditions, options, source);
   }
   const std::vector<std::string> files = write_files(run, input, source, outputs, options, flow);
+  if (error && !error->finer.converged())
+    flow.warnings.push_back("the errors are not estimated: on the finer mesh no flow was found: " +
+                            error->finer.reason);
   print_warnings(source, flow.warnings);
   Report report;
   add_flow_mesh(report, source, "euler", input.frozen);
   add_flow_figures(report, flow);
   if (!gradients.is_null()) add_gradients(report, gradients);
+  if (error) add_error(report, *error);
   if (flow.converged() || !files.empty()) add_output_figures(report, files);
   report.print(run.json);
-  const bool interrupted = run.gradient && flow.converged() && gradients.is_null();
+  const bool interrupted = flow.converged() && ((run.gradient && gradients.is_null()) ||
+                                                (error && error->finer.status == FlowStatus::interrupted));
   return interrupted ? Status::limit : status_of(flow);
 }
 

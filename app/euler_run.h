@@ -26,12 +26,12 @@ struct EulerRun {
   FlowOutlet outlet;  // likewise
   Compare compare = Compare::none;
   bool gradient = false;  // of the coefficients, by the numbers of the mesh's domain
+  bool error = false;     // estimates of what the coefficients are off by
   bool json = false;
 };
 
 // --mach, --tolerance, --max-steps, --memory, --limiter, --reference, --reference-length, --series,
-// --compare,
-// --gradient.
+// --compare, --gradient, --error.
 void add_euler_options(CLI::App& app, EulerRun& run);
 
 // --inlet, --total-pressure, --total-temperature, --outlet, --pressure, --symmetry, --history.

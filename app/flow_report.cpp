@@ -127,4 +127,29 @@ void add_gradients(Report& report, const Json& gradients) {
     if (gradients.contains(key)) report.line(std::string("gradient of ") + label, gradients[key].dump());
 }
 
+void add_error(Report& report, const FlowError& error) {
+  if (!error.finer.converged()) return report.data("error", nullptr);
+  const FlowResult& finer = error.finer;
+  report.data("error", {{"cl", error.cl},
+                        {"cd", error.cd},
+                        {"cm", error.cm},
+                        {"alpha_deg", error.alpha_deg},
+                        {"order", error.order},
+                        {"finer", {{"vertices", error.vertices},
+                                   {"cl", finer.cl},
+                                   {"cd", finer.cd},
+                                   {"cm", finer.cm},
+                                   {"alpha_deg", finer.alpha_deg},
+                                   {"newton_steps", finer.newton_steps},
+                                   {"seconds", finer.seconds}}}});
+  const auto bar = [&](const char* label, double lacks, double on_finer) {
+    report.line(label, Json(lacks).dump() + " (on " + std::to_string(error.vertices) + " vertices " +
+                           Json(on_finer).dump() + ")");
+  };
+  bar("CL lacks about", error.cl, finer.cl);
+  bar("CD lacks about", error.cd, finer.cd);
+  bar("CM lacks about", error.cm, finer.cm);
+  if (error.alpha_deg != 0.0) bar("the angle lacks about", error.alpha_deg, finer.alpha_deg);
+}
+
 }  // namespace remodel::app

@@ -3,6 +3,7 @@
 // Flows as figures.
 
 #include "remodel/flow.h"
+#include "remodel/flow_error.h"
 #include "remodel/mesh.h"
 #include "report.h"
 
@@ -15,5 +16,7 @@ void add_flow_figures(Report& report, const FlowResult& flow);
 // what is given of angle and lift. Null where they were interrupted.
 Json gradients_json(LivingFlow& living, const Mesh& mesh, const FlowConditions& conditions);
 void add_gradients(Report& report, const Json& gradients);
+// In text as bars around the coefficients; null where the finer mesh has no flow.
+void add_error(Report& report, const FlowError& error);
 
 }  // namespace remodel::app

@@ -158,8 +158,8 @@ struct FlowResult {
   std::vector<FlowOpening> openings;  // inlets, then outlets
 
   // Each is a sentence on what has to be known before a coefficient is used: bodies whose lift is not
-  // determined because they have no edge that the flow leaves from (below Mach 1), streams too slow for the
-  // scheme.
+  // determined because they have no edge that the flow leaves from (below Mach 1), drag of more than ten counts
+  // where nothing is faster than sound, which mesh and scheme make.
   std::vector<std::string> warnings;
   bool lift_determined = true;  // no warning is of a body without an edge
 

@@ -239,6 +239,12 @@ FlowResult result_of(const FlowSystem& system, const State& state, const SearchR
   Warnings warnings = warnings_of(system.mesh(), result.mach, result.alpha_deg);
   result.warnings = std::move(warnings.sentences);
   result.lift_determined = warnings.lift_determined;
+  if (system.mesh().has_farfield() && record.status == FlowStatus::converged) {
+    double most = 0.0;
+    for (const Unknowns<double>& q : state.q) most = std::max(most, mach_squared(q));
+    const std::string spurious = spurious_drag_warning(result.cd, scale, std::sqrt(most));
+    if (!spurious.empty()) result.warnings.push_back(spurious);
+  }
   result.start = start;
   result.residual = record.residual;
   result.history = record.history;

@@ -16,8 +16,11 @@ struct Warnings {
 };
 
 // Of a compressible flow: the lift of bodies without an edge below Mach 1 (closed walls inside the domain,
-// see edge_faces_downstream()), and streams slower than the scheme is accurate in.
+// see edge_faces_downstream()).
 Warnings warnings_of(const FlowMesh& mesh, double mach, double alpha_deg);
+// Drag where there is none: a sentence where it is more than ten counts (by the walls' extent, which is `scale` of
+// the reference length) in an unbounded stream in which nothing is faster than sound; otherwise empty.
+std::string spurious_drag_warning(double drag, double scale, double largest_mach);
 
 // A body of a potential flow: its outline, clockwise, that begins with the `base` vertices of its trailing
 // edge (0: there is none).

@@ -4,7 +4,8 @@
 // doubles and for dual numbers alike, so that derivatives are exact.
 //
 // Sources: P. L. Roe, "Approximate Riemann solvers, parameter vectors, and difference schemes", J. Comput.
-// Phys. 43 (1981).
+// Phys. 43 (1981); F. Rieper, "A low-Mach number fix for Roe's approximate Riemann solver", J. Comput. Phys.
+// 230 (2011), with the function of X.-S. Li and C.-W. Gu, J. Comput. Phys. 227 (2008), eq. (21), for its factor.
 
 #include <array>
 #include <cmath>
@@ -41,24 +42,41 @@ Fluxes<T> conserved(const Unknowns<T>& q) {
   return {rho, rho * u, rho * v, pressure(q) / (gas_gamma - 1.0) + 0.5 * (rho * (u * u + v * v))};
 }
 
+template <class T>
+T mach_squared(const Unknowns<T>& q) {
+  const T &u = velocity_x(q), &v = velocity_y(q);
+  return (u * u + v * v) * density(q) / (gas_gamma * pressure(q));
+}
+
+// What the jump of normal velocity in Roe's acoustic waves is multiplied by, given the Mach number's square: 1
+// from Mach 1 on, with a continuous derivative, and as the Mach number itself in slow flow, whose
+// dissipation would otherwise grow with the speed of sound.
+template <class T>
+T slow_flow_factor(const T& mach_squared) {
+  using std::sqrt;
+  constexpr double least = 1e-6;  // of the square: the root has a derivative at rest
+  const T below = 1.0 - mach_squared;
+  if (value_of(below) <= 0.0) return T(1.0);
+  const T square = below * below;
+  return sqrt((mach_squared + least * square) * (4.0 + square)) / (1.0 + mach_squared);
+}
+
 // The largest speed of a wave through a face, times its length.
 inline double wave_speed(const Unknowns<double>& q, Point normal) {
   return std::fabs(velocity_x(q) * normal.x + velocity_y(q) * normal.y) +
          std::sqrt(gas_gamma * pressure(q) / density(q) * dot(normal, normal));
 }
 
-// Half-widths of the parabolas of Roe's flux, in speeds of sound: of acoustic and of linear waves.
-struct EntropyFix {
-  double acoustic = 0.1, linear = 0.02;
-  // Least part of jumps of the normal velocity that acoustic waves are made of; they are taken by the local Mach
-  // number below 1. F. Rieper, J. Comput. Phys. 230 (2011). 1: Roe's flux.
-  double slow_part = 1.0;
+// How Roe's flux is told to dissipate: half-widths of the parabolas of acoustic and of linear waves, in speeds of
+// sound; and what is added to the square of the Mach number in slow_flow_factor().
+struct Dissipation {
+  double acoustic = 0.1, linear = 0.02, mach_squared = 0.0;
 };
 
-// Roe's flux through a face of this normal (whose length is the face's), from left to right.
+// Roe's flux through a face of this normal (whose length is the face's), from left to right, for all speeds.
 template <class T, class G>
 Fluxes<T> roe_flux(const Unknowns<T>& l, const Unknowns<T>& r, const PlaneVector<G>& normal,
-                   const EntropyFix& fix = {}) {
+                   const Dissipation& fix = {}) {
   using std::sqrt;
   const G area = sqrt(normal.x * normal.x + normal.y * normal.y);
   if (value_of(area) == 0.0) return {};
@@ -82,14 +100,10 @@ Fluxes<T> roe_flux(const Unknowns<T>& l, const Unknowns<T>& r, const PlaneVector
   const T slow = rounded_abs<T>(vn - c, fix.acoustic * c), fast = rounded_abs<T>(vn + c, fix.acoustic * c);
   const T linear = rounded_abs<T>(vn, fix.linear * c);
   const T drho = rho_r - rho_l, dp = p_r - p_l, dvn = through_r - through_l;
-  T of_waves = dvn;
-  if (fix.slow_part < 1.0) {
-    const T local = sqrt(2.0 * square / c2 + fix.slow_part * fix.slow_part);
-    if (value_of(local) < 1.0) of_waves = local * dvn;
-  }
-  const T a1 = slow * (dp - rho * c * of_waves) / (2.0 * c2);
+  const T acoustic = rho * c * slow_flow_factor<T>(2.0 * square / c2 + fix.mach_squared) * dvn;
+  const T a1 = slow * (dp - acoustic) / (2.0 * c2);
   const T a2 = linear * (drho - dp / c2);
-  const T a3 = fast * (dp + rho * c * of_waves) / (2.0 * c2);
+  const T a3 = fast * (dp + acoustic) / (2.0 * c2);
   const T shear = linear * rho;
   const T du = u_r - u_l - nx * dvn, dv = v_r - v_l - ny * dvn;
 

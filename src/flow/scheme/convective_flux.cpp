@@ -4,26 +4,28 @@ namespace remodel::flow {
 
 namespace {
 
-// Its variables are both ends' values of one unknown and the product with the side's gradient.
-using Three = Dual<3>;
+// Its variables are both ends' values of one unknown, the product with the side's gradient and limited_part().
+using Local = Dual<4>;
 
 // One side's reconstructed values, and how much further linear extrapolation goes.
 struct Side {
-  Unknowns<Three> value, further;
+  Unknowns<Local> value, further;
 };
 
-Side reconstructed(const FaceInputs<double, double>& in, std::size_t side, double epsilon, double slopes) {
+Side reconstructed(const FaceInputs<double, double>& in, std::size_t side, double epsilon, double limited,
+                   double slopes) {
   const double direction = side == 0 ? slopes : -slopes;
   Side result;
   for (std::size_t k = 0; k < unknown_count; ++k) {
-    const Three q[2] = {Three::variable(in.q[0][k], 0), Three::variable(in.q[1][k], 1)};
-    const Three central = q[1] - q[0];
-    const auto [step, further] = reconstruction_step<Three, Three>(
-        in.end[side], 2.0 * Three::variable(in.along[side][k], 2) - central, central, epsilon);
+    const Local q[2] = {Local::variable(in.q[0][k], 0), Local::variable(in.q[1][k], 1)};
+    const Local central = q[1] - q[0];
+    const auto [step, further] =
+        reconstruction_step<Local, Local>(in.end[side], 2.0 * Local::variable(in.along[side][k], 2) - central,
+                                          central, epsilon, Local::variable(limited, 3));
     result.value[k] = q[side] + direction * step, result.further[k] = direction * further;
   }
   for (const std::size_t k : positive_unknowns)
-    result.value[k] = positivity_limited(result.value[k], Three::variable(in.q[side][k], side));
+    result.value[k] = positivity_limited(result.value[k], Local::variable(in.q[side][k], side));
   return result;
 }
 
@@ -36,7 +38,9 @@ FaceDerivative ConvectiveFlux::derivative(const FaceInputs<double, double>& in) 
   const double h = limiter * std::sqrt(in.edge.x * in.edge.x + in.edge.y * in.edge.y) / in.length,
                epsilon = h * h * h;
   const Point normal = {in.normal.x, in.normal.y};
-  const Side sides[2] = {reconstructed(in, 0, epsilon, slopes), reconstructed(in, 1, epsilon, slopes)};
+  const double limited = limited_part<double>(in.q[0], in.q[1]);
+  const Side sides[2] = {reconstructed(in, 0, epsilon, limited, slopes),
+                         reconstructed(in, 1, epsilon, limited, slopes)};
   Block by_value[2], by_further[2] = {{}, {}};
   FaceDerivative result;
   Unknowns<Both> value[2], q[2];
@@ -69,14 +73,21 @@ FaceDerivative ConvectiveFlux::derivative(const FaceInputs<double, double>& in) 
         result.by_state[end][z] += weight * above[z / n] * part.slope[z % n + n * end];
     }
   }
+  Fluxes<double> by_limited = {};
   for (std::size_t side = 0; side < 2; ++side)
     for (std::size_t z = 0; z < n * n; ++z) {
-      const Three &value_of_side = sides[side].value[z % n], &further = sides[side].further[z % n];
-      std::array<double, 3> by;
-      for (std::size_t i = 0; i < 3; ++i)
+      const Local &value_of_side = sides[side].value[z % n], &further = sides[side].further[z % n];
+      std::array<double, 4> by;
+      for (std::size_t i = 0; i < 4; ++i)
         by[i] = by_value[side][z] * value_of_side.slope[i] + by_further[side][z] * further.slope[i];
       result.by_state[0][z] += by[0], result.by_state[1][z] += by[1], result.by_along[side][z] = by[2];
+      by_limited[z / n] += by[3];
     }
+  if (limited == 0.0) return result;
+  const Both part_limited = limited_part<Both>(q[0], q[1]);
+  for (std::size_t side = 0; side < 2; ++side)
+    for (std::size_t z = 0; z < n * n; ++z)
+      result.by_state[side][z] += by_limited[z / n] * part_limited.slope[z % n + n * side];
   return result;
 }
 

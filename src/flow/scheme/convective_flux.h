@@ -17,12 +17,13 @@ struct ConvectiveFlux {
     using std::sqrt;
     const G h = limiter * sqrt(in.edge.x * in.edge.x + in.edge.y * in.edge.y) / in.length;
     const G epsilon = h * h * h;
+    const Q limited = limited_part<Q>(in.q[0], in.q[1]);
     Unknowns<T> value[2], further[2];
     for (std::size_t k = 0; k < unknown_count; ++k) {
       const Q central = in.q[1][k] - in.q[0][k];
       for (std::size_t side = 0; side < 2; ++side) {
         const ReconstructionStep<T> to =
-            reconstruction_step<T, Q>(in.end[side], 2.0 * in.along[side][k] - central, central, epsilon);
+            reconstruction_step<T, Q>(in.end[side], 2.0 * in.along[side][k] - central, central, epsilon, limited);
         const double direction = side == 0 ? slopes : -slopes;
         value[side][k] = in.q[side][k] + direction * to.step, further[side][k] = direction * to.further;
       }

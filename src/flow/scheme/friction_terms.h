@@ -22,7 +22,7 @@ struct FrictionTerms {
   double slopes = 1.0;
   // Boundary layers are thin where Roe's linear waves hardly move: what the usual half-width of their parabola adds
   // is far above molecular diffusion.
-  EntropyFix fix = {.acoustic = 0.1, .linear = 1e-3, .slow_part = 1.0};
+  Dissipation fix = {.acoustic = 0.1, .linear = 1e-3};
   // Large enough for the fifth unknown and its equation to be as large as the others.
   static constexpr double working_unit = 100.0;
   static constexpr double stream_working = SpalartAllmaras::stream_ratio / working_unit;

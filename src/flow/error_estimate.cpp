@@ -1,0 +1,64 @@
+#include <algorithm>
+#include <cmath>
+
+#include "remodel/error.h"
+#include "remodel/flow_error.h"
+#include "remodel/generate.h"
+
+namespace remodel {
+
+namespace {
+
+// The same curves with a station in the middle between every two.
+Domain with_twice_the_stations(Domain domain) {
+  for (Loop& loop : domain.loops)
+    for (Curve& curve : loop.curves) {
+      if (is_single_point(loop)) continue;
+      std::vector<double> all;
+      for (std::size_t i = 0; i < curve.parameters.size(); ++i) {
+        const double next = i + 1 < curve.parameters.size() ? curve.parameters[i + 1] : 1.0;
+        all.push_back(curve.parameters[i]);
+        all.push_back(0.5 * (curve.parameters[i] + next));
+      }
+      curve.parameters = std::move(all);
+    }
+  return domain;
+}
+
+bool is_supersonic_somewhere(const FlowResult& flow) {
+  const std::vector<double> mach = mach_numbers(flow);
+  return std::any_of(mach.begin(), mach.end(), [](double m) { return m > 1.0; });
+}
+
+}  // namespace
+
+FlowError estimate_error(const Mesh& mesh, const FlowResult& flow, const FlowConditions& conditions,
+                         const FlowOptions& options, const std::string& source) {
+  if (!flow.converged())
+    throw Error(ErrorCode::argument, source, "the flow was not found, expected one that was, to judge its error");
+  QualityOptions quality = mesh.options();
+  quality.gradation *= 2.0;
+  const GenerateResult made = generate(with_twice_the_stations(mesh.domain()), quality, options.observer);
+  FlowError error;
+  if (made.stopped == Stopped::interrupted) {
+    error.finer.status = FlowStatus::interrupted;
+    return error;
+  }
+  if (made.stopped != Stopped::done)
+    throw Error(ErrorCode::geometry, source,
+                std::string("the finer mesh for the estimate of errors is unfinished (") + name_of(made.stopped) +
+                    "), expected a whole one");
+  const FrozenMesh finer = made.mesh.freeze();
+  error.vertices = finer.points.size();
+  error.finer = solve_flow_from(mesh.freeze(), flow, finer, conditions, options, source);
+  if (!error.finer.converged()) return error;
+  error.order = is_supersonic_somewhere(error.finer) ? 1.0 : 2.0;
+  const double whole = 1.0 / (1.0 - std::pow(2.0, -error.order));
+  error.cl = conditions.cl ? 0.0 : whole * (error.finer.cl - flow.cl);
+  error.cd = whole * (error.finer.cd - flow.cd);
+  error.cm = whole * (error.finer.cm - flow.cm);
+  error.alpha_deg = conditions.cl ? whole * (error.finer.alpha_deg - flow.alpha_deg) : 0.0;
+  return error;
+}
+
+}  // namespace remodel
