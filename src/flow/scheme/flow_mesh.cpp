@@ -70,6 +70,12 @@ FlowMesh::FlowMesh(std::vector<Point> points, std::vector<Cell> cells,
   measure();
 }
 
+void FlowMesh::stick_to_walls() {
+  for (Patch& patch : patches_)
+    if (std::holds_alternative<SlipWall>(patch.condition)) patch.condition = NoSlipWall{};
+  measure();
+}
+
 void FlowMesh::move(std::span<const Point> points) {
   points_.assign(points.begin(), points.end());
   measure();

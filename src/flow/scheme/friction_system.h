@@ -31,12 +31,15 @@ class FrictionSystem {
       : mesh_(mesh),
         dual_(mesh.dual()),
         stream_(stream),
-        terms_{.viscosity = viscosity, .mach = stream.mach, .slopes = stream.slopes} {}
+        terms_{.viscosity = viscosity, .mach = stream.mach, .slopes = stream.slopes} {
+    // At rest on walls the stream's Mach number is the measure: without any dissipation of pressure's waves
+    // searches do not converge.
+    terms_.fix.mach_squared = stream.mach * stream.mach;
+  }
 
   const FrictionMesh& mesh() const { return mesh_; }
   const Stream& stream() const { return stream_; }
   const FrictionTerms& terms() const { return terms_; }
-  FrictionTerms& terms() { return terms_; }
 
   // Undisturbed flow that slows down towards walls within `thickness`, at constant total enthalpy.
   FrictionState<N> start(double thickness) const;
