@@ -18,7 +18,14 @@ FrictionState<N> FrictionSystem<N>::start(double thickness) const {
     Row& q = state.q[v];
     q[0] = 1.0 / warmth, q[3] = 1.0 / gas_gamma;
     q[1] = speed * std::cos(stream_.alpha), q[2] = speed * std::sin(stream_.alpha);
-    if constexpr (N == 5) q[4] = part * FrictionTerms::stream_working;
+    if constexpr (N == 5) {
+      // Some turbulence near walls: from the stream's alone boundary layers separate before it has grown. A twentieth
+      // of what the logarithmic layer has.
+      constexpr double part_of_log_layer = 0.005;
+      const double d = mesh_.distances()[v];
+      q[4] = part * FrictionTerms::stream_working + part_of_log_layer * stream_.mach / terms_.viscosity.stream *
+                                                         d * std::exp(-d / thickness) / FrictionTerms::working_unit;
+    }
   }
   return state;
 }
