@@ -19,7 +19,7 @@ FrictionState<N> FrictionSystem<N>::start(double thickness) const {
     q[0] = 1.0 / warmth, q[3] = 1.0 / gas_gamma;
     q[1] = speed * std::cos(stream_.alpha), q[2] = speed * std::sin(stream_.alpha);
     if constexpr (N == 5) {
-      // Some turbulence near walls: from the stream's alone boundary layers separate before it has grown. A twentieth
+      // Some turbulence near walls: from the stream's alone boundary layers separate before it has grown. A third
       // of what the logarithmic layer has.
       constexpr double part_of_log_layer = 0.005;
       const double d = mesh_.distances()[v];
