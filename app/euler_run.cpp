@@ -144,6 +144,12 @@ std::vector<std::string> write_files(const EulerRun& run, const MeshInput& input
                 run.cp_plot);
       files.push_back(run.cp_plot);
     }
+    if (!run.cf_plot.empty()) {
+      draw_plot(cf_plot(without_openings(input.frozen, options), options.farfield, flow.friction->cf, caption,
+                        "--cf-plot"),
+                run.cf_plot);
+      files.push_back(run.cf_plot);
+    }
   }
   if (!run.history.empty()) {
     write_residuals(flow.history, flow.converged() ? caption : "not converged", run.history);
@@ -181,7 +187,7 @@ Status run_euler(const EulerRun& run, const MeshInput& input, const std::string&
                             error->finer.reason);
   print_warnings(source, flow.warnings);
   Report report;
-  add_flow_mesh(report, source, "euler", input.frozen);
+  add_flow_mesh(report, source, name_of(options.model), input.frozen);
   add_flow_figures(report, flow, run.conditions);
   if (!gradients.is_null()) add_gradients(report, gradients);
   if (error) add_error(report, *error);

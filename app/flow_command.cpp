@@ -20,6 +20,7 @@
 #include "potential_run.h"
 #include "remodel/error.h"
 #include "remodel/generate.h"
+#include "remodel/layers.h"
 
 namespace remodel::app {
 namespace {
@@ -28,6 +29,8 @@ struct FlowCommand {
   DomainInputOptions input;
   MeshingOptions meshing;
   bool is_potential = false;
+  FlowModel model = FlowModel::euler;
+  bool has_friction() const { return model != FlowModel::euler; }
   double alpha_deg = 0.0;
   std::optional<double> lift;
   std::string farfield = "farfield";
@@ -63,9 +66,36 @@ std::optional<std::string> mesh_file(const FlowCommand& command) {
   return *file;
 }
 
+// A fresh mesh with a layer that the Reynolds number asks for, as mesh --layers makes it.
+MeshInput layered_input(const FlowCommand& command) {
+  constexpr double gradation_with_layers = 8.0;
+  constexpr double turbulent_y_plus = 1.0, laminar_y_plus = 0.3;
+  refuse(command, {"--points"}, "given with a model with friction, whose layer sets the stations of walls");
+  MeshingOptions meshing = command.meshing;
+  meshing.gradation = meshing.gradation.value_or(gradation_with_layers);
+  DomainInput domain = read_domain(command.input, meshing.discretisation, meshing.fit);
+  if (domain.in_farfield) space_walls(domain.domain);
+  // Lengths of layers are in chords of 1.
+  const double reynolds = command.euler.conditions.reynolds / command.euler.conditions.reference_length;
+  const LayerOptions layers = {
+      .first_height =
+          first_height(command.model == FlowModel::sa ? turbulent_y_plus : laminar_y_plus, reynolds),
+      .thickness = 1.2 * boundary_layer_thickness(reynolds)};
+  LayeredGenerateResult result = generate_layered(domain.domain, layers, meshing.resolved_quality());
+  if (result.stopped != Stopped::done)
+    throw Error(
+        ErrorCode::argument, command.input.shapes.front(),
+        std::string("the mesh is unfinished (") + name_of(result.stopped) + "), expected a whole one");
+  MeshInput input;
+  input.frozen = result.mesh.freeze();
+  input.layered = std::move(result.mesh);
+  return input;
+}
+
 // A mesh file as it is, or a fresh mesh of a domain.
 MeshInput read_input(const FlowCommand& command) {
   if (const auto file = mesh_file(command)) return read_any_mesh(*file);
+  if (command.has_friction()) return layered_input(command);
   const DomainInput domain = read_domain(command.input, command.meshing.discretisation, command.meshing.fit);
   GenerateResult result = generate_input(command.input, domain.domain, command.meshing.resolved_quality());
   if (result.stopped != Stopped::done)
@@ -99,12 +129,27 @@ StartMesh start_mesh(const FlowCommand& command) {
           .imported = std::nullopt};
 }
 
+// Options that models with friction need, or do not know yet.
+void require_fitting_model(const FlowCommand& command) {
+  if (!command.has_friction())
+    return refuse(command, {"--reynolds", "--cf-plot"}, "given without friction, expected --model laminar or sa");
+  if (!command.given("--reynolds"))
+    throw Error(ErrorCode::argument, "--reynolds",
+                "not given, expected the Reynolds number of the reference length for --model laminar or sa");
+  refuse(command, {"--series", "--gradient", "--compare", "--error", "--limiter"},
+         "given with --model laminar or sa, expected --model euler");
+}
+
 Status run(const FlowCommand& command) {
   command.outputs.require_possible();
+  require_fitting_model(command);
+  if (!command.euler.cf_plot.empty()) require_writable_as(command.euler.cf_plot, {".svg", ".png"});
   if (!command.cp_plot.empty()) require_writable_as(command.cp_plot, {".svg", ".png"});
   if (!command.euler.history.empty()) require_writable_as(command.euler.history, {".csv", ".svg", ".png"});
   require_different_files(command.outputs,
-                          {{"--cp-plot", command.cp_plot}, {"--history", command.euler.history}});
+                          {{"--cp-plot", command.cp_plot},
+                           {"--cf-plot", command.euler.cf_plot},
+                           {"--history", command.euler.history}});
   if (command.is_potential) {
     refuse(command,
            {"--tolerance", "--max-steps", "--memory", "--solver", "--limiter", "--series", "--gradient",
@@ -117,6 +162,7 @@ Status run(const FlowCommand& command) {
   euler.conditions.alpha_deg = command.alpha_deg;
   euler.conditions.cl = command.lift;
   euler.options.farfield = command.farfield;
+  euler.options.model = command.model;
   euler.cp_plot = command.cp_plot;
   euler.json = command.json;
   if (euler.series.empty())
@@ -138,8 +184,17 @@ void add_flow_command(CLI::App& program, Action& action) {
              {"--model", "MODEL", "euler",
               "euler: of a compressible gas without friction; potential: of an incompressible one, with "
               "pressures by "
-              "Karman and Tsien's rule where --mach is given"},
-             {"euler", "potential"}, [command](std::size_t choice) { command->is_potential = choice == 1; });
+              "Karman and Tsien's rule where --mach is given; laminar: of a compressible gas with friction; sa: of "
+              "its turbulent flow, by Spalart's and Allmaras's model"},
+             {"euler", "potential", "laminar", "sa"}, [command](std::size_t choice) {
+               command->is_potential = choice == 1;
+               command->model = choice < 2 ? FlowModel::euler : choice == 2 ? FlowModel::laminar : FlowModel::sa;
+             });
+  add_real(app,
+           {"--reynolds", "RE", "",
+            "Reynolds number by the reference length, of models with friction: 1 to 1e10. A layer of cells on the "
+            "walls follows from it where a shape is given"},
+           {.low = 1.0, .high = 1e10}, [command](double value) { command->euler.conditions.reynolds = value; });
   add_real(app, {"--alpha", "DEG", "0", "Angle of attack in degrees, -90 to 90"}, {.low = -90, .high = 90},
            command->alpha_deg);
   add_real(app, {"--cl", "CL", "", "Lift coefficient that the angle of attack is found for: -10 to 10"},
@@ -149,6 +204,8 @@ void add_flow_command(CLI::App& program, Action& action) {
            Presence::optional, command->farfield);
   add_text(app, {"--cp-plot", "FILE", "", "Plot of the pressure coefficient along every body: .svg or .png"},
            Presence::optional, command->cp_plot);
+  add_text(app, {"--cf-plot", "FILE", "", "Plot of the friction along every body, with friction: .svg or .png"},
+           Presence::optional, command->euler.cf_plot);
   add_euler_options(app, command->euler);
   add_duct_options(app, command->euler);
   command->outputs.add_options(app, Presence::optional);

@@ -28,6 +28,12 @@ Json to_json(const FlowResult& flow, const FlowConditions& conditions) {
             {"converged", flow.converged()},
             {"status", name_of(flow.status)}};
   if (flow.entropy_drag) json["entropy_drag"] = *flow.entropy_drag;
+  if (flow.friction) {
+    json["cd_pressure"] = flow.friction->cd_pressure;
+    json["cd_friction"] = flow.friction->cd_friction;
+    json["y_plus_max"] = flow.friction->y_plus_max;
+    json["reynolds"] = flow.friction->reynolds;
+  }
   if (!flow.reason.empty()) json["reason"] = flow.reason;
   json["residual"] = flow.residual;
   json["newton_steps"] = flow.newton_steps;
@@ -89,6 +95,8 @@ void add_flow_figures(Report& report, const FlowResult& flow, const FlowConditio
   const std::string mark = flow.converged() ? "" : not_converged + 1;  // behind the space of units
   figure("cl", "CL", mark), figure("cd", "CD", mark), figure("cm", "CM", mark);
   figure("entropy_drag", "CD by entropy", mark);
+  figure("cd_pressure", "CD of pressure", mark), figure("cd_friction", "CD of friction", mark);
+  figure("y_plus_max", "largest y+", mark), figure("reynolds", "Reynolds number");
   figure("alpha_deg", "angle of attack", "degrees");
   figure("mach", "Mach number");
   if (flow.converged()) add_end();

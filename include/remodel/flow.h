@@ -29,6 +29,10 @@
 // incomplete factors, and by sparse LU where its factors last. docs/flow.md has equations, sources and
 // verification.
 //
+// Models with friction (FlowOptions::model) share the dual, Roe's flux, the far field and the two augmented unknowns.
+// Upwind differences follow the lines of quadrilaterals, friction is linear on triangles, walls are strong; linear
+// systems are preconditioned by the scheme of first order. docs/viscous.md has scheme and verification.
+//
 // Errors: Error (argument) for conditions and options out of range, for symmetry planes that are not straight
 // or not along the stream, and for a mesh without a far field or another way in and out, without a wall, with
 // unnamed boundary edges, with triangles that are clockwise or have no area, or with a far field that is the
@@ -47,12 +51,23 @@
 
 namespace remodel {
 
+// What the gas is like.
+enum class FlowModel {
+  euler,    // without friction
+  laminar,  // viscous and heat-conducting: the Navier-Stokes equations
+  sa,       // the same in the mean of a turbulent flow, with the model of Spalart and Allmaras in its negative variant
+            // (ICCFD7-1902), fully turbulent: the stream's working variable is 3 times its viscosity
+};
+const char* name_of(FlowModel model);  // "euler", "laminar", "sa"
+
 struct FlowConditions {
   double mach = 0.5;       // of the stream: 0.01 to 3
   double alpha_deg = 0.0;  // its angle to the x axis, -90 to 90; where cl is given, where the search begins
   std::optional<double> cl = {};  // the lift coefficient that the angle is to be found for; not above Mach 1
   Point reference = {0.25, 0.0};
-  double reference_length = 1.0;  // that coefficients are made with, and nothing else: more than 0
+  // That coefficients and the Reynolds number are made with, and nothing else: more than 0.
+  double reference_length = 1.0;
+  double reynolds = 0.0;  // of models with friction, by the reference length: 1 to 1e10
 };
 
 // A boundary through which gas enters at a right angle, with a given total pressure and total temperature:
@@ -111,6 +126,12 @@ struct FlowOptions {
   // vortex. Names as those of outlets.
   std::vector<std::string> symmetry = {};
   std::function<void(const FlowProgress&)> on_step = {};  // called after each Newton step
+  // With friction gas sticks to all walls, through which no heat passes. Meshes should have layers of flat
+  // quadrilaterals there (remodel/layers.h). solve_flow() alone finds such flows.
+  FlowModel model = FlowModel::euler;
+  // Of the stream in Kelvin, for the viscosity by Sutherland's law: more than 0, or 0 for a constant viscosity. Prandtl
+  // numbers are 0.72, and 0.9 of turbulence.
+  double temperature_k = 300.0;
 };
 
 enum class FlowStatus {
@@ -152,6 +173,18 @@ struct FlowOpening {
   double mass_flow = 0.0;
 };
 
+// What friction does.
+struct FlowFriction {
+  double reynolds = 0.0;
+  double cd_pressure = 0.0, cd_friction = 0.0;  // the parts of the drag coefficient
+  double y_plus_max = 0.0;
+  // Each has one value for each point of the frozen mesh. On walls: the friction, over half the stream's density times
+  // speed squared, positive where it acts along the stream; and y+, of the lowest cell there. 0 elsewhere.
+  std::vector<double> cf, y_plus;
+  // Turbulent viscosity over the molecular one there; empty for laminar flow.
+  std::vector<double> viscosity_ratio;
+};
+
 struct FlowResult {
   FlowStatus status = FlowStatus::stalled;
   std::string reason;  // why it did not converge, one sentence; empty if it did
@@ -188,6 +221,9 @@ struct FlowResult {
 
   // Each has one value for each point of the frozen mesh.
   std::vector<double> density, velocity_x, velocity_y, pressure;
+
+  FlowModel model = FlowModel::euler;
+  std::optional<FlowFriction> friction = {};  // of models with it
 };
 
 // Each has one value for each point: the local Mach number; the pressure coefficient; p / rho^gamma over the
@@ -195,7 +231,8 @@ struct FlowResult {
 std::vector<double> mach_numbers(const FlowResult& flow);
 std::vector<double> pressure_coefficients(const FlowResult& flow);
 std::vector<double> entropy_errors(const FlowResult& flow);
-// density, velocity, pressure, mach, cp and entropy, for files and pictures.
+// density, velocity, pressure, mach, cp and entropy, with friction also cf, y_plus and (turbulent) viscosity_ratio, for
+// files and pictures.
 std::vector<Field> fields_of(const FlowResult& flow);
 
 // The flow through a mesh, found from potential flow where there is one, otherwise from undisturbed flow. `source`
@@ -279,6 +316,7 @@ class KeptFlow {
 // same, but later. The same row of calls gives the same bits.
 class LivingFlow {
  public:
+  // Throws Error (argument) for a model with friction.
   explicit LivingFlow(const FlowOptions& options = {});
   ~LivingFlow();
   LivingFlow(LivingFlow&&) noexcept;

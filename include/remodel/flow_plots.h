@@ -22,6 +22,10 @@ std::string duct_caption(double mach);
 Plot cp_plot(const FrozenMesh& mesh, const std::string& farfield, std::span<const double> cp,
              const std::string& caption, const std::string& option);
 
+// Likewise of the friction, FlowFriction::cf, larger values above.
+Plot cf_plot(const FrozenMesh& mesh, const std::string& farfield, std::span<const double> cf,
+             const std::string& caption, const std::string& option);
+
 // Residuals over steps: a table (.csv) or a plot (.svg, .png), by the file's extension.
 void write_residuals(std::span<const double> residuals, const std::string& caption, const std::string& file);
 

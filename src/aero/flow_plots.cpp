@@ -49,12 +49,10 @@ std::vector<std::vector<std::uint32_t>> pieces_of(const FrozenBoundary& boundary
   return pieces;
 }
 
-}  // namespace
-
-Plot cp_plot(const FrozenMesh& mesh, const std::string& farfield, std::span<const double> cp,
-             const std::string& caption, const std::string& option) {
-  Plot plot{.x = {"x"}, .y = {.label = "Cp", .reversed = true}, .caption = caption};
-  const auto point_of = [&](std::uint32_t v) { return Point{mesh.points[v].x, cp[v]}; };
+// Adds a curve of the values along each piece of a boundary but the far field.
+Plot along_bodies(Plot plot, const FrozenMesh& mesh, const std::string& farfield, std::span<const double> values,
+                  const std::string& option) {
+  const auto point_of = [&](std::uint32_t v) { return Point{mesh.points[v].x, values[v]}; };
   for (const FrozenBoundary& boundary : mesh.boundaries) {
     if (boundary.name == farfield || boundary.edges.empty()) continue;
     const auto pieces = pieces_of(boundary);
@@ -66,6 +64,19 @@ Plot cp_plot(const FrozenMesh& mesh, const std::string& farfield, std::span<cons
   }
   if (plot.curves.empty()) throw Error(ErrorCode::argument, option, "found no body, expected one");
   return plot;
+}
+
+}  // namespace
+
+Plot cp_plot(const FrozenMesh& mesh, const std::string& farfield, std::span<const double> cp,
+             const std::string& caption, const std::string& option) {
+  return along_bodies({.x = {"x"}, .y = {.label = "Cp", .reversed = true}, .caption = caption}, mesh, farfield, cp,
+                      option);
+}
+
+Plot cf_plot(const FrozenMesh& mesh, const std::string& farfield, std::span<const double> cf,
+             const std::string& caption, const std::string& option) {
+  return along_bodies({.x = {"x"}, .y = {.label = "Cf"}, .caption = caption}, mesh, farfield, cf, option);
 }
 
 void write_residuals(std::span<const double> residuals, const std::string& caption, const std::string& file) {

@@ -9,6 +9,7 @@
 
 #include "base/stopwatch.h"
 #include "flow/flow_warnings.h"
+#include "flow/friction_flow.h"
 #include "flow/scheme/entropy_drag.h"
 #include "flow/scheme/forces.h"
 #include "flow/search/chord.h"
@@ -31,6 +32,11 @@ const char* name_of(FlowStart start) {
 const char* name_of(FlowOrigin origin) {
   constexpr const char* names[] = {"last-flow", "potential", "coarser-mesh", "undisturbed"};
   return names[static_cast<std::size_t>(origin)];
+}
+
+const char* name_of(FlowModel model) {
+  constexpr const char* names[] = {"euler", "laminar", "sa"};
+  return names[static_cast<std::size_t>(model)];
 }
 
 const char* name_of(FlowSolver solver) {
@@ -133,6 +139,17 @@ void require_possible(const FlowConditions& conditions, const FlowOptions& optio
   require(options.limiter > 0.0 && std::isfinite(options.limiter), "limiter", options.limiter, "more than 0");
   require(options.memory_mb >= 1.0, "memory", options.memory_mb, "1 MB or more");
   require_openings(conditions, options);
+  if (options.model == FlowModel::euler) return;
+  require(conditions.reynolds >= 1.0 && conditions.reynolds <= 1e10, "reynolds", conditions.reynolds,
+          "1 to 1e10 for a model with friction");
+  require(options.temperature_k >= 0.0 && std::isfinite(options.temperature_k), "temperature", options.temperature_k,
+          "Kelvin, or 0");
+}
+
+void require_euler(const FlowOptions& options) {
+  if (options.model == FlowModel::euler) return;
+  throw Error(ErrorCode::argument, "model",
+              std::string("found ") + name_of(options.model) + ", expected euler: flows with friction are found cold");
 }
 
 FlowMesh dual_of(const FrozenMesh& mesh, const FlowConditions& conditions, const FlowOptions& options,
@@ -145,6 +162,7 @@ FlowMesh dual_of(const FrozenMesh& mesh, const FlowConditions& conditions, const
   FlowMesh dual(mesh, std::move(patches), source);
   dual.require_walls(source);
   dual.require_farfield_around(source);
+  if (options.model != FlowModel::euler) dual.stick_to_walls();
   require_ways(dual, conditions, options, source);
   return dual;
 }
@@ -311,6 +329,7 @@ namespace {
 // A flow from undisturbed flow, or, if the mesh's domain is known, as search_by_meshes() starts.
 FlowResult cold_flow(const FrozenMesh& mesh, const Mesh* living, const FlowConditions& conditions,
                      const FlowOptions& options, const std::string& source) {
+  if (options.model != FlowModel::euler) return flow::friction_flow(mesh, conditions, options, source);
   const Stopwatch watch;
   flow::require_possible(conditions, options);
   const flow::FlowMesh dual = flow::dual_of(mesh, conditions, options, source);
@@ -347,6 +366,7 @@ FlowResult solve_flow_from(const FrozenMesh& before, const FlowResult& known, co
                            const FlowConditions& conditions, const FlowOptions& options,
                            const std::string& source) {
   const Stopwatch watch;
+  flow::require_euler(options);
   flow::require_possible(conditions, options);
   const flow::FlowMesh old = flow::dual_of(before, conditions, options, source);
   const flow::FlowMesh dual = flow::dual_of(mesh, conditions, options, source);
@@ -417,12 +437,18 @@ std::vector<Field> fields_of(const FlowResult& flow) {
     velocity.push_back(flow.velocity_x[v]);
     velocity.push_back(flow.velocity_y[v]);
   }
-  return {{.name = "density", .values = flow.density},
-          {.name = "velocity", .components = 2, .values = std::move(velocity)},
-          {.name = "pressure", .values = flow.pressure},
-          {.name = "mach", .values = mach_numbers(flow)},
-          {.name = "cp", .values = pressure_coefficients(flow)},
-          {.name = "entropy", .values = entropy_errors(flow)}};
+  std::vector<Field> fields = {{.name = "density", .values = flow.density},
+                               {.name = "velocity", .components = 2, .values = std::move(velocity)},
+                               {.name = "pressure", .values = flow.pressure},
+                               {.name = "mach", .values = mach_numbers(flow)},
+                               {.name = "cp", .values = pressure_coefficients(flow)},
+                               {.name = "entropy", .values = entropy_errors(flow)}};
+  if (!flow.friction) return fields;
+  fields.push_back({.name = "cf", .values = flow.friction->cf});
+  fields.push_back({.name = "y_plus", .values = flow.friction->y_plus});
+  if (flow.model == FlowModel::sa)
+    fields.push_back({.name = "viscosity_ratio", .values = flow.friction->viscosity_ratio});
+  return fields;
 }
 
 }  // namespace remodel

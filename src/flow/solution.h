@@ -13,6 +13,8 @@ inline constexpr double degree = M_PI / 180.0;  // in radians
 
 // Throws Error (argument) for what is out of range.
 void require_possible(const FlowConditions& conditions, const FlowOptions& options);
+// Throws Error (argument) for a model with friction.
+void require_euler(const FlowOptions& options);
 // The mesh as the solver sees it, with far field, inlets and outlets as the options name them. Throws Error
 // (argument), naming `source`, where it has no wall, or nothing that gas enters or leaves by.
 FlowMesh dual_of(const FrozenMesh& mesh, const FlowConditions& conditions, const FlowOptions& options,

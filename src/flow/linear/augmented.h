@@ -12,55 +12,76 @@
 
 namespace remodel::flow {
 
-using Vector = BlockVector<unknown_count>;
-using Block = SquareBlock<unknown_count>;
-using BlockRows = BlockMatrix<unknown_count>;
-
 inline constexpr std::size_t augmented_count = 2;
 using Augmented = std::array<double, augmented_count>;
 
-struct Increment {
-  Vector q;
+// All that follows is compiled for blocks of N = 4 and 5.
+template <std::size_t N>
+struct BlockIncrement {
+  BlockVector<N> q;
   Augmented augmented = {};
 };
 
-Increment zero(std::size_t vertices);
-double inner(const Vector& a, const Vector& b);
-double inner(const Increment& a, const Increment& b);
-double norm(const Increment& a);
-void add_times(Increment& to, double factor, const Increment& what);
+template <std::size_t N>
+BlockIncrement<N> zero_of(std::size_t vertices) {
+  return {.q = BlockVector<N>(vertices), .augmented = {}};
+}
+template <std::size_t N>
+double inner(const std::vector<std::array<double, N>>& a, const std::vector<std::array<double, N>>& b);
+template <std::size_t N>
+double inner(const BlockIncrement<N>& a, const BlockIncrement<N>& b);
+template <std::size_t N>
+double norm(const BlockIncrement<N>& a);
+template <std::size_t N>
+void add_times(BlockIncrement<N>& to, double factor, const BlockIncrement<N>& what);
 
 // D and E. The second equation has augmented unknowns alone.
-struct AugmentedRows {
+template <std::size_t N>
+struct BlockAugmentedRows {
   struct Entry {
     std::uint32_t vertex;
-    Unknowns<double> by;
+    std::array<double, N> by;
   };
   std::vector<Entry> first;  // a vertex may have several
   std::array<Augmented, augmented_count> corner;
 
-  double times(const Vector& x) const;                   // the first row of D
-  void add_transposed(double factor, Vector& to) const;  // of it
+  double times(const BlockVector<N>& x) const;                   // the first row of D
+  void add_transposed(double factor, BlockVector<N>& to) const;  // of it
 };
 
 // The whole matrix.
-class AugmentedMatrix {
+template <std::size_t N>
+class BlockAugmentedMatrix {
  public:
-  AugmentedMatrix(const BlockRows& matrix, std::array<Vector, augmented_count> columns, AugmentedRows rows)
+  BlockAugmentedMatrix(const BlockMatrix<N>& matrix, std::array<BlockVector<N>, augmented_count> columns,
+                       BlockAugmentedRows<N> rows)
       : matrix_(matrix), columns_(std::move(columns)), rows_(std::move(rows)) {}
-  const BlockRows& blocks() const { return matrix_; }
-  const AugmentedRows& rows() const { return rows_; }
-  Increment times(const Increment& x) const;
-  Increment transposed_times(const Increment& x) const;
+  const BlockMatrix<N>& blocks() const { return matrix_; }
+  const BlockAugmentedRows<N>& rows() const { return rows_; }
+  BlockIncrement<N> times(const BlockIncrement<N>& x) const;
+  BlockIncrement<N> transposed_times(const BlockIncrement<N>& x) const;
 
  private:
-  const BlockRows& matrix_;
-  std::array<Vector, augmented_count> columns_;
-  AugmentedRows rows_;
+  const BlockMatrix<N>& matrix_;
+  std::array<BlockVector<N>, augmented_count> columns_;
+  BlockAugmentedRows<N> rows_;
 };
 
 // x and the solutions y of A y = B for both columns. Not finite where the small system is singular.
-Increment close_augmented(Vector x, const std::array<Vector, augmented_count>& y, const AugmentedRows& rows,
-                          const Augmented& right);
+template <std::size_t N>
+BlockIncrement<N> close_augmented(std::vector<std::array<double, N>> x,
+                                  const std::array<std::vector<std::array<double, N>>, augmented_count>& y,
+                                  const BlockAugmentedRows<N>& rows, const Augmented& right);
+
+// Those of the Euler equations.
+using Vector = BlockVector<unknown_count>;
+using Block = SquareBlock<unknown_count>;
+using BlockRows = BlockMatrix<unknown_count>;
+using Increment = BlockIncrement<unknown_count>;
+using AugmentedRows = BlockAugmentedRows<unknown_count>;
+using AugmentedMatrix = BlockAugmentedMatrix<unknown_count>;
+inline Increment zero(std::size_t vertices) {
+  return zero_of<unknown_count>(vertices);
+}
 
 }  // namespace remodel::flow

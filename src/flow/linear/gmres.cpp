@@ -43,22 +43,24 @@ class Triangle {
 
 }  // namespace
 
-GmresEnd gmres(const std::function<Increment(const Increment&)>& times,
-               const std::function<void(Increment&)>& precondition, const Increment& right,
-               const GmresLimits& limits, Increment& x) {
-  Increment residual = right;
+template <std::size_t N>
+GmresEnd gmres_of(const std::function<BlockIncrement<N>(const BlockIncrement<N>&)>& times,
+                  const std::function<void(BlockIncrement<N>&)>& precondition, const BlockIncrement<N>& right,
+                  const GmresLimits& limits, BlockIncrement<N>& x) {
+  using Step = BlockIncrement<N>;
+  Step residual = right;
   GmresEnd end{.residual = norm(right), .iterations = 0};
   if (x.q.size() == right.q.size()) {
     add_times(residual, -1.0, times(x));
     if (const double size = norm(residual); size < end.residual)
       end.residual = size;
     else
-      residual = right, x = zero(right.q.size());
+      residual = right, x = zero_of<N>(right.q.size());
   } else {
-    x = zero(right.q.size());
+    x = zero_of<N>(right.q.size());
   }
   for (int round = 0; round < limits.rounds && end.residual > limits.wanted; ++round) {
-    std::vector<Increment> basis(1, zero(right.q.size())), solved;
+    std::vector<Step> basis(1, zero_of<N>(right.q.size())), solved;
     add_times(basis[0], 1.0 / end.residual, residual);
     Triangle triangle(end.residual);
     for (int step = 0; step < limits.restart; ++step) {
@@ -70,9 +72,9 @@ GmresEnd gmres(const std::function<Increment(const Increment&)>& times,
       solved.push_back(basis.back());
       precondition(solved.back());
       ++end.iterations;
-      Increment next = times(solved.back());
+      Step next = times(solved.back());
       std::vector<double> column;
-      for (const Increment& b : basis) {
+      for (const Step& b : basis) {
         column.push_back(inner(b, next));
         add_times(next, -column.back(), b);
       }
@@ -80,7 +82,7 @@ GmresEnd gmres(const std::function<Increment(const Increment&)>& times,
       column.push_back(size);
       const double left = triangle.add(std::move(column));
       if (!(left > limits.wanted) || size == 0.0) break;
-      basis.push_back(zero(right.q.size()));
+      basis.push_back(zero_of<N>(right.q.size()));
       add_times(basis.back(), 1.0 / size, next);
     }
     const std::vector<double> y = triangle.solution();
@@ -91,5 +93,12 @@ GmresEnd gmres(const std::function<Increment(const Increment&)>& times,
   }
   return end;
 }
+
+template GmresEnd gmres_of<4>(const std::function<BlockIncrement<4>(const BlockIncrement<4>&)>&,
+                              const std::function<void(BlockIncrement<4>&)>&, const BlockIncrement<4>&,
+                              const GmresLimits&, BlockIncrement<4>&);
+template GmresEnd gmres_of<5>(const std::function<BlockIncrement<5>(const BlockIncrement<5>&)>&,
+                              const std::function<void(BlockIncrement<5>&)>&, const BlockIncrement<5>&,
+                              const GmresLimits&, BlockIncrement<5>&);
 
 }  // namespace remodel::flow

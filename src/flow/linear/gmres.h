@@ -28,11 +28,20 @@ struct GmresEnd {
 
 // From x where that is better than nothing; it becomes the solution. `times` is the system's matrix,
 // `precondition` about its inverse, in place.
-GmresEnd gmres(const std::function<Increment(const Increment&)>& times,
-               const std::function<void(Increment&)>& precondition, const Increment& right,
-               const GmresLimits& limits, Increment& x);
+template <std::size_t N>
+GmresEnd gmres_of(const std::function<BlockIncrement<N>(const BlockIncrement<N>&)>& times,
+                  const std::function<void(BlockIncrement<N>&)>& precondition, const BlockIncrement<N>& right,
+                  const GmresLimits& limits, BlockIncrement<N>& x);
+inline GmresEnd gmres(const std::function<Increment(const Increment&)>& times,
+                      const std::function<void(Increment&)>& precondition, const Increment& right,
+                      const GmresLimits& limits, Increment& x) {
+  return gmres_of<unknown_count>(times, precondition, right, limits, x);
+}
 
-// What each step before a new beginning takes, for each vertex.
-inline constexpr double gmres_bytes = 2.0 * sizeof(Unknowns<double>);
+// What each step before a new beginning takes, for each vertex of so many unknowns.
+inline constexpr double gmres_bytes_of(std::size_t unknowns) {
+  return 2.0 * sizeof(double) * static_cast<double>(unknowns);
+}
+inline constexpr double gmres_bytes = gmres_bytes_of(unknown_count);
 
 }  // namespace remodel::flow

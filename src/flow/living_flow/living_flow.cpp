@@ -64,7 +64,9 @@ struct LivingFlow::Impl {
                                                 const FlowConditions& conditions) const;
 };
 
-LivingFlow::LivingFlow(const FlowOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+LivingFlow::LivingFlow(const FlowOptions& options) : impl_(std::make_unique<Impl>(options)) {
+  flow::require_euler(options);
+}
 LivingFlow::~LivingFlow() = default;
 LivingFlow::LivingFlow(LivingFlow&&) noexcept = default;
 LivingFlow& LivingFlow::operator=(LivingFlow&&) noexcept = default;

@@ -64,6 +64,10 @@ struct Dual {
   }
   friend Dual sin(const Dual& a) { return a.chain(std::sin(a.value), std::cos(a.value)); }
   friend Dual cos(const Dual& a) { return a.chain(std::cos(a.value), -std::sin(a.value)); }
+  friend Dual exp(const Dual& a) {
+    const double power = std::exp(a.value);
+    return a.chain(power, power);
+  }
   friend Dual pow(const Dual& a, double exponent) {
     const double power = std::pow(a.value, exponent);
     return a.chain(power, exponent * power / a.value);

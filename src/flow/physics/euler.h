@@ -67,10 +67,16 @@ inline double wave_speed(const Unknowns<double>& q, Point normal) {
          std::sqrt(gas_gamma * pressure(q) / density(q) * dot(normal, normal));
 }
 
+// How Roe's flux is told to dissipate: half-widths of the parabolas of acoustic and of linear waves, in speeds of
+// sound; and what is added to the square of the Mach number in slow_flow_factor().
+struct Dissipation {
+  double acoustic = 0.1, linear = 0.02, mach_squared = 0.0;
+};
+
 // Roe's flux through a face of this normal (whose length is the face's), from left to right, for all speeds.
-// Entropy fix: 0.1 c for the acoustic waves, 0.02 c for the linear ones.
 template <class T, class G>
-Fluxes<T> roe_flux(const Unknowns<T>& l, const Unknowns<T>& r, const PlaneVector<G>& normal) {
+Fluxes<T> roe_flux(const Unknowns<T>& l, const Unknowns<T>& r, const PlaneVector<G>& normal,
+                   const Dissipation& fix = {}) {
   using std::sqrt;
   const G area = sqrt(normal.x * normal.x + normal.y * normal.y);
   if (value_of(area) == 0.0) return {};
@@ -91,10 +97,10 @@ Fluxes<T> roe_flux(const Unknowns<T>& l, const Unknowns<T>& r, const PlaneVector
   const T c = sqrt(c2);
   const T vn = u * nx + v * ny;
 
-  const T slow = rounded_abs<T>(vn - c, 0.1 * c), fast = rounded_abs<T>(vn + c, 0.1 * c);
-  const T linear = rounded_abs<T>(vn, 0.02 * c);
+  const T slow = rounded_abs<T>(vn - c, fix.acoustic * c), fast = rounded_abs<T>(vn + c, fix.acoustic * c);
+  const T linear = rounded_abs<T>(vn, fix.linear * c);
   const T drho = rho_r - rho_l, dp = p_r - p_l, dvn = through_r - through_l;
-  const T acoustic = rho * c * slow_flow_factor<T>(2.0 * square / c2) * dvn;
+  const T acoustic = rho * c * slow_flow_factor<T>(2.0 * square / c2 + fix.mach_squared) * dvn;
   const T a1 = slow * (dp - acoustic) / (2.0 * c2);
   const T a2 = linear * (drho - dp / c2);
   const T a3 = fast * (dp + acoustic) / (2.0 * c2);

@@ -70,6 +70,12 @@ FlowMesh::FlowMesh(std::vector<Point> points, std::vector<Cell> cells,
   measure();
 }
 
+void FlowMesh::stick_to_walls() {
+  for (Patch& patch : patches_)
+    if (std::holds_alternative<SlipWall>(patch.condition)) patch.condition = NoSlipWall{};
+  measure();
+}
+
 void FlowMesh::move(std::span<const Point> points) {
   points_.assign(points.begin(), points.end());
   measure();
@@ -236,7 +242,7 @@ void FlowMesh::bend_walls() {
     const Point d = points_[edge.b] - points_[edge.a];
     edge.normal = {d.y, -d.x};
     edge.half[0] = edge.half[1] = 0.5 * edge.normal;
-    if (!patch(edge).solid()) continue;
+    if (!patch(edge).bent()) continue;
     const Point turn = bulge<double>(i) * d;
     edge.half[0] = edge.half[0] - turn, edge.half[1] = edge.half[1] + turn;
     DualEdge& dual = edges_[links_[i].edge];

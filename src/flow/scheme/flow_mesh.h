@@ -69,6 +69,8 @@ class FlowMesh {
   void require_farfield_around(const std::string& source) const;
   // Throws Error (argument) where a cell is clockwise, not convex or has next to no area.
   void require_cells(const std::string& source) const;
+  // Walls that the flow slips along become walls that it sticks to.
+  void stick_to_walls();
   // The same cells with vertices elsewhere.
   void move(std::span<const Point> points);
 

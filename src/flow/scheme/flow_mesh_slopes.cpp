@@ -25,7 +25,7 @@ void FlowMesh::add_boundary_slopes(const Slopes& slopes, std::vector<Point>& poi
     const BoundaryEdge& edge = boundary_[i];
     const auto& [by_half, by_edge] = slopes.boundary[i];
     Point by_d = turned_back(0.5 * (by_half[0] + by_half[1]) + by_edge);
-    if (patch(edge).solid()) {
+    if (patch(edge).bent()) {
       Point by_turn = by_half[1] - by_half[0];
       if (!slopes.normal.empty()) {
         const double sign = edge.a == edges_[links_[i].edge].a ? 1.0 : -1.0;

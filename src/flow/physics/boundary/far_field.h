@@ -34,7 +34,7 @@ Unknowns<T> stream_around(const PlaneVector<T>& from, const T& mach, const T& al
 // Roe's flux against the stream with its vortex.
 struct FarField {
   static constexpr const char* kind = "far field";
-  static constexpr bool solid = false, one_sided = false, open = false;
+  static constexpr bool solid = false, bent = false, one_sided = false, open = false;
   template <class T>
   Fluxes<T> flux(const BoundaryInputs<T>& in, const Stream& stream) const {
     return roe_flux<T>(in.mean(), outside(in, stream), in.half);

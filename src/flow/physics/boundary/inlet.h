@@ -9,7 +9,7 @@ namespace remodel::flow {
 
 struct Inlet {
   static constexpr const char* kind = "inlet or outlet";
-  static constexpr bool solid = false, one_sided = false, open = true;
+  static constexpr bool solid = false, bent = false, one_sided = false, open = true;
   double total_pressure = 1.0, total_temperature = 1.0;  // parts of the stream's
 
   template <class T>

@@ -9,7 +9,7 @@ namespace remodel::flow {
 
 struct Outlet {
   static constexpr const char* kind = "inlet or outlet";
-  static constexpr bool solid = false, one_sided = false, open = true;
+  static constexpr bool solid = false, bent = false, one_sided = false, open = true;
   double given = 1.0;  // the pressure, a part of the stream's
 
   template <class T>

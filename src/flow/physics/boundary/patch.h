@@ -7,17 +7,18 @@
 
 #include "flow/physics/boundary/far_field.h"
 #include "flow/physics/boundary/inlet.h"
+#include "flow/physics/boundary/no_slip_wall.h"
 #include "flow/physics/boundary/outlet.h"
 #include "flow/physics/boundary/slip_wall.h"
 #include "flow/physics/boundary/symmetry.h"
 
 namespace remodel::flow {
 
-// Each has `kind`, what it is called in messages; `solid`, whether it is the wall of a body, whose edges the
-// mesh bends and whose pressures are forces; `one_sided`, whether gradients at it are too one-sided to
+// Each has `kind`, what it is called in messages; `solid`, whether it is the wall of a body, whose
+// pressures are forces; `bent`, whether the mesh bends its edges; `one_sided`, whether gradients at it are too one-sided to
 // reconstruct with; `open`, whether the gas that passes it is reported; and `flux`, out of the domain through
 // the half of an edge.
-using BoundaryCondition = std::variant<SlipWall, FarField, Inlet, Outlet, Symmetry>;
+using BoundaryCondition = std::variant<SlipWall, FarField, Inlet, Outlet, Symmetry, NoSlipWall>;
 
 struct Patch {
   std::string name;
@@ -26,6 +27,10 @@ struct Patch {
   bool solid() const {
     return std::visit([](const auto& of) { return of.solid; }, condition);
   }
+  bool bent() const {
+    return std::visit([](const auto& of) { return of.bent; }, condition);
+  }
+  bool sticks() const { return std::holds_alternative<NoSlipWall>(condition); }
   bool one_sided() const {
     return std::visit([](const auto& of) { return of.one_sided; }, condition);
   }

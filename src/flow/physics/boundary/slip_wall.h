@@ -18,7 +18,7 @@ PlaneVector<T> wall_force(const BoundaryInputs<T>& in, const T& here, const T& t
 
 struct SlipWall {
   static constexpr const char* kind = "wall";
-  static constexpr bool solid = true, one_sided = true, open = false;
+  static constexpr bool solid = true, bent = true, one_sided = true, open = false;
   template <class T>
   Fluxes<T> flux(const BoundaryInputs<T>& in, const Stream&) const {
     const PlaneVector<T> force = wall_force(in, pressure(in.here), pressure(in.there));

@@ -9,7 +9,7 @@ namespace remodel::flow {
 
 struct Symmetry {
   static constexpr const char* kind = "symmetry plane";
-  static constexpr bool solid = false, one_sided = true, open = false;
+  static constexpr bool solid = false, bent = false, one_sided = true, open = false;
   template <class T>
   Fluxes<T> flux(const BoundaryInputs<T>& in, const Stream& stream) const {
     return SlipWall{}.flux(in, stream);

@@ -1,0 +1,208 @@
+// Flows with friction: derivatives, orders of errors, and flows whose friction is known.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "flow/search/friction_search.h"
+#include "flow/test_flows.h"
+#include "flow/test_grids.h"
+#include "remodel/error.h"
+#include "remodel/flow.h"
+#include "support.h"
+
+namespace remodel::flow {
+namespace {
+
+// A grid with a wall at the bottom: some quadrilaterals are cut in triangles, and all inner vertices are moved.
+FlowMesh uneven_grid(std::mt19937_64& random) {
+  test::QuadGrid grid = test::plate_grid(
+      {.start = -0.5, .length = 1.0, .height = 1.0, .first = 0.1, .at_edge = 0.1, .before = 3, .along = 5, .up = 5});
+  for (Point& p : grid.points)
+    if (p.y > 0.0 && p.y < 1.0 && p.x > -0.5 && p.x < 1.0)
+      p = p + Point{test::uniform(random, -0.02, 0.02), test::uniform(random, -0.02, 0.02)};
+  std::vector<Cell> cells;
+  for (std::size_t t = 0; t < grid.cells.size(); ++t) {
+    const Cell& c = grid.cells[t];
+    if (t % 3 > 0) {
+      cells.push_back(c);
+      continue;
+    }
+    cells.push_back({{c[0], c[1], c[2], no_index}});
+    cells.push_back({{c[0], c[2], c[3], no_index}});
+  }
+  grid.cells = std::move(cells);
+  return grid.dual({{"farfield", FarField{}}, {"symmetry", Symmetry{}}, {"outlet", Outlet{1.0}}, {"wall", NoSlipWall{}}});
+}
+
+// Jacobian times a step, augmented rows and columns, against differences of residuals.
+template <std::size_t N>
+void expect_exact_jacobian() {
+  const unsigned long long seed = test::seed(46);
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  const FlowMesh dual = uneven_grid(random);
+  const FrictionMesh mesh(dual);
+  const FrictionSystem<N> system(mesh, {.mach = 0.4, .alpha = 0.05}, {.stream = 0.4 / 300.0});
+  FrictionState<N> state = system.start(0.2);
+  BlockIncrement<N> step = zero_of<N>(dual.size());
+  for (std::size_t v = 0; v < dual.size(); ++v)
+    for (std::size_t k = 0; k < N; ++k) {
+      state.q[v][k] += k < 4 ? test::uniform(random, -0.05, 0.05) : test::uniform(random, -0.1, 0.3);
+      step.q[v][k] = test::uniform(random, -1, 1);
+    }
+  step.augmented = {0.7, -0.4};
+  state.augmented = {0.3, 0.06};
+  const auto residual_at = [&](double h) {
+    FrictionState<N> at = state;
+    for (std::size_t v = 0; v < dual.size(); ++v)
+      for (std::size_t k = 0; k < N; ++k) at.q[v][k] += h * step.q[v][k];
+    for (std::size_t z = 0; z < 2; ++z) at.augmented[z] += h * step.augmented[z];
+    BlockIncrement<N> result;
+    BlockVector<N> balance;
+    system.residual(at, result.q), system.unbalanced(at, balance);
+    result.augmented = system.augmented_residual(at, balance);
+    return result;
+  };
+  typename FrictionSystem<N>::Jacobian jacobian;
+  system.jacobian(state, jacobian);
+  const BlockIncrement<N> product =
+      BlockAugmentedMatrix<N>(jacobian.whole, system.augmented_columns(state), jacobian.rows).times(step);
+  constexpr double h = 1e-6;
+  const BlockIncrement<N> plus = residual_at(h), less = residual_at(-h);
+  for (std::size_t v = 0; v < dual.size(); ++v)
+    for (std::size_t k = 0; k < N; ++k)
+      EXPECT_NEAR(product.q[v][k], (plus.q[v][k] - less.q[v][k]) / (2 * h), 2e-7) << v << " " << k;
+  for (std::size_t z = 0; z < 2; ++z)
+    EXPECT_NEAR(product.augmented[z], (plus.augmented[z] - less.augmented[z]) / (2 * h), 1e-6) << z;
+}
+
+TEST(Friction, LaminarJacobianIsThatOfDifferences) {
+  expect_exact_jacobian<4>();
+}
+TEST(Friction, TurbulentJacobianIsThatOfDifferences) {
+  expect_exact_jacobian<5>();
+}
+
+// The viscous terms of linear functions: constant stress, whose sum over an inner dual cell is 0.
+TEST(Friction, ConstantStressLeavesInnerCellsInBalance) {
+  std::mt19937_64 random(7);
+  const FlowMesh dual = uneven_grid(random);
+  const FrictionMesh mesh(dual);
+  const FrictionTerms terms{.viscosity = {.stream = 0.01, .temperature = 0.0}, .mach = 0.5};
+  BlockVector<4> sum(dual.size());
+  double area = 0.0;
+  for (const CornerTriangle& triangle : mesh.triangles()) {
+    std::array<std::array<double, 4>, 3> q;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Point p = dual.points()[triangle.corner[i]];
+      q[i] = {1.0, 0.3 * p.x + 0.5 * p.y, -0.2 * p.x + 0.1 * p.y, 1.0 / gas_gamma};
+    }
+    const auto flux = terms.triangle<double, 4>(q, triangle, {1.0, 1.0, 1.0});
+    for (std::size_t i = 0; i < 3; ++i)
+      for (const std::size_t k : {std::size_t{1}, std::size_t{2}}) sum[triangle.corner[i]][k] += flux[i][k];
+    area += triangle.area;
+  }
+  EXPECT_NEAR(area, 1.5, 1e-12);
+  std::vector<bool> is_inner(dual.size(), true);
+  for (const BoundaryEdge& edge : dual.boundary()) is_inner[edge.a] = is_inner[edge.b] = false;
+  for (std::size_t v = 0; v < dual.size(); ++v)
+    if (is_inner[v]) {
+      EXPECT_NEAR(sum[v][1], 0.0, 1e-16) << v;
+      EXPECT_NEAR(sum[v][2], 0.0, 1e-16) << v;
+    }
+}
+
+// Values of the model by hand: where the working variable is in the logarithmic layer, kappa u d, production and
+// destruction balance what diffusion brings: fw(1) is 1.
+TEST(Friction, TheModelsSourceVanishesWithDiffusionInTheLogarithmicLayer) {
+  using Model = SpalartAllmaras;
+  const double d = 0.3, u = 1.0, w = Model::karman * u * d, vorticity = u / (Model::karman * d);
+  const double made = Model::source<double>(w, 1e-9, vorticity, d);
+  const double slope = Model::karman * u;
+  const double diffused = (1.0 + Model::cb2) / Model::sigma * slope * slope;
+  EXPECT_NEAR(made + diffused, 0.0, 1e-6 * diffused);
+  // Below zero it is driven back to zero, and its diffusion stays positive.
+  EXPECT_GT(Model::source<double>(-w, 1e-9, vorticity, d), 0.0);
+  for (const double chi : {-100.0, -10.0, -1.0, -0.1, 0.0, 5.0}) EXPECT_GT(Model::diffusion_ratio(chi), 0.0) << chi;
+}
+
+FlowOptions plate_options(FlowModel model) {
+  FlowOptions options;
+  options.model = model;
+  options.tolerance = 1e-9;
+  options.symmetry = {"symmetry"};
+  options.outlets = {{.name = "outlet", .pressure = 1.0}};
+  return options;
+}
+
+// H. Blasius, Z. Math. Phys. 56 (1908): cf = 0.664115 / sqrt(Re x).
+TEST(Friction, ThePlatesLaminarFrictionIsThatOfBlasius) {
+  const test::QuadGrid grid = test::plate_grid({.start = -4.0,
+                                                .length = 4.0,
+                                                .height = 10.0,
+                                                .first = 5e-4,
+                                                .at_edge = 2e-3,
+                                                .before = 24,
+                                                .along = 64,
+                                                .up = 48});
+  FlowOptions options = plate_options(FlowModel::laminar);
+  options.temperature_k = 0.0;
+  const FrozenMesh mesh = grid.frozen();
+  const FlowResult flow = solve_flow(mesh, {.mach = 0.2, .reynolds = 1e5}, options, "plate");
+  ASSERT_TRUE(flow.converged()) << flow.reason;
+  EXPECT_LE(flow.newton_steps, 20);
+  int compared = 0;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    const Point p = mesh.points[v];
+    if (p.y != 0.0 || p.x < 0.2 || p.x > 1.0) continue;
+    EXPECT_NEAR(flow.friction->cf[v] / (0.664115 / std::sqrt(1e5 * p.x)), 1.0, 0.005) << p.x;
+    ++compared;
+  }
+  EXPECT_GT(compared, 10);
+  EXPECT_LT(std::fabs(flow.friction->cd_pressure), 1e-12);
+}
+
+// A coarse grid around NACA 0012: what friction and pressure do is near what fine grids give (docs/viscous.md).
+TEST(Friction, LaminarFlowAroundASymmetricSectionHasNoLift) {
+  const test::QuadGrid grid = test::c_grid(
+      {.half = 40, .wake = 20, .up = 32, .first = 3e-3, .at_nose = 5e-3, .at_edge = 5e-3, .radius = 50.0});
+  FlowOptions options;
+  options.model = FlowModel::laminar;
+  options.tolerance = 1e-9;
+  const FlowResult flow = solve_flow(grid.frozen(), {.mach = 0.5, .reynolds = 5000.0}, options, "section");
+  ASSERT_TRUE(flow.converged()) << flow.reason;
+  EXPECT_NEAR(flow.cl, 0.0, 1e-6);
+  EXPECT_NEAR(flow.cd, 0.0553, 0.0025);
+  EXPECT_NEAR(flow.friction->cd_pressure + flow.friction->cd_friction, flow.cd, 1e-14);
+  EXPECT_NEAR(flow.friction->cd_pressure, 0.0226, 0.003);
+}
+
+// Turbulent friction on a plate, Re 5e6 a unit: within a few percent of NASA's Turbulence Modeling Resource on a grid
+// of 2,600 vertices.
+TEST(Friction, ThePlatesTurbulentFrictionIsNearTheReference) {
+  const test::QuadGrid grid = test::plate_grid(
+      {.start = -0.33, .length = 2.0, .height = 1.0, .first = 2e-6, .at_edge = 2e-3, .before = 16, .along = 36, .up = 48});
+  const FrozenMesh mesh = grid.frozen();
+  const FlowResult flow =
+      solve_flow(mesh, {.mach = 0.2, .reynolds = 5e6}, plate_options(FlowModel::sa), "plate");
+  ASSERT_TRUE(flow.converged()) << flow.reason;
+  double nearest = 1.0, cf = 0.0;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    if (mesh.points[v].y == 0.0 && std::fabs(mesh.points[v].x - 0.97) < nearest)
+      nearest = std::fabs(mesh.points[v].x - 0.97), cf = flow.friction->cf[v];
+  EXPECT_NEAR(cf, 0.0027, 0.0002);
+  EXPECT_GT(*std::max_element(flow.friction->viscosity_ratio.begin(), flow.friction->viscosity_ratio.end()), 50.0);
+}
+
+TEST(Friction, ModelsWithFrictionAreRefusedWhereTheyAreNotKnown) {
+  FlowOptions options;
+  options.model = FlowModel::laminar;
+  EXPECT_THROW(LivingFlow{options}, Error);
+  const FrozenMesh mesh = test::c_grid({.half = 8, .wake = 4, .up = 6, .first = 0.02}).frozen();
+  EXPECT_THROW(solve_flow(mesh, {.mach = 0.5}, options), Error);  // without a Reynolds number
+}
+
+}  // namespace
+}  // namespace remodel::flow

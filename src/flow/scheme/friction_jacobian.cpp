@@ -1,0 +1,229 @@
+// Derivatives of flows with friction by their unknowns.
+
+#include <algorithm>
+#include <cmath>
+
+#include "flow/scheme/friction_system.h"
+
+namespace remodel::flow {
+
+// visit(row, column) for all pairs that residuals have, some of them several times.
+template <std::size_t N>
+template <class Visit>
+void FrictionSystem<N>::for_each_dependence(Order order, Visit visit) const {
+  for (std::uint32_t v = 0; v < dual_.size(); ++v) visit(v, v);
+  for (std::size_t e = 0; e < dual_.edges().size(); ++e) {
+    const DualEdge& edge = dual_.edges()[e];
+    visit(edge.a, edge.b), visit(edge.b, edge.a);
+    if (order == Order::first) continue;
+    for (std::size_t side = 0; side < 2; ++side)
+      for (const WeightedVertex& of : mesh_.upwind(e, side)) visit(edge.a, of.vertex), visit(edge.b, of.vertex);
+  }
+  for (const CornerTriangle& triangle : mesh_.triangles())
+    for (const std::uint32_t row : triangle.corner)
+      for (const std::uint32_t column : triangle.corner) visit(row, column);
+}
+
+template <std::size_t N>
+BlockMatrix<N> FrictionSystem<N>::pattern(Order order) const {
+  std::vector<std::vector<std::uint32_t>> columns(dual_.size());
+  for_each_dependence(order, [&](std::uint32_t row, std::uint32_t column) {
+    std::vector<std::uint32_t>& of = columns[row];
+    const auto at = std::lower_bound(of.begin(), of.end(), column);
+    if (at == of.end() || *at != column) of.insert(at, column);
+  });
+  BlockMatrix<N> matrix;
+  matrix.start.assign(1, 0);
+  for (std::uint32_t v = 0; v < dual_.size(); ++v) {
+    matrix.rows.push_back(v);
+    matrix.column.insert(matrix.column.end(), columns[v].begin(), columns[v].end());
+    matrix.start.push_back(static_cast<std::uint32_t>(matrix.column.size()));
+  }
+  matrix.block.resize(matrix.column.size());
+  return matrix;
+}
+
+template <std::size_t N>
+void FrictionSystem<N>::jacobian(const FrictionState<N>& state, Jacobian& result) const {
+  if (result.whole.rows.size() != dual_.size())
+    result.whole = pattern(Order::whole), result.first = pattern(Order::first);
+  for (BlockMatrix<N>* matrix : {&result.whole, &result.first})
+    std::fill(matrix->block.begin(), matrix->block.end(), SquareBlock<N>{});
+  add_face_blocks(state, Order::whole, result.whole);
+  add_face_blocks(state, Order::first, result.first);
+  add_triangle_blocks(state, result);
+  add_boundary_blocks(state, result);
+  result.rows = augmented_rows(state, result.whole);
+  make_walls_strong(result.whole), make_walls_strong(result.first);
+}
+
+// Reconstructed values depend on the unknown itself alone: its values at both ends and the upwind difference.
+template <std::size_t N>
+void FrictionSystem<N>::add_face_blocks(const FrictionState<N>& state, Order order,
+                                        BlockMatrix<N>& matrix) const {
+  using Both = Dual<2 * N>;
+  using Three = Dual<3>;
+  for (std::size_t e = 0; e < dual_.edges().size(); ++e) {
+    const DualEdge& edge = dual_.edges()[e];
+    const std::uint32_t end[2] = {edge.a, edge.b};
+    std::array<Both, N> value[2];
+    std::array<Three, N> reconstructed[2];
+    for (std::size_t side = 0; side < 2; ++side) {
+      Row upwind = {};
+      for (const WeightedVertex& of : mesh_.upwind(e, side))
+        for (std::size_t k = 0; k < unknown_count; ++k) upwind[k] += of.weight * state.q[of.vertex][k];
+      for (std::size_t k = 0; k < N; ++k) {
+        const Three q[2] = {Three::variable(state.q[edge.a][k], 0), Three::variable(state.q[edge.b][k], 1)};
+        Three& at = reconstructed[side][k] = q[side];
+        if (order == Order::whole && k < unknown_count) {
+          const Three to = terms_.step(Three::variable(upwind[k], 2), q[1] - q[0]);
+          at = side == 0 ? q[0] + to : q[1] - to;
+        }
+        if (k == positive_unknowns[0] || k == positive_unknowns[1]) at = positivity_limited(at, q[side]);
+        value[side][k] = Both::variable(at.value, N * side + k);
+      }
+    }
+    const std::array<Both, N> flux = terms_.template face_flux<Both, N>(value[0], value[1], edge.normal);
+    SquareBlock<N> by_end[2] = {{}, {}}, by_upwind[2] = {{}, {}};
+    for (std::size_t z = 0; z < N * N; ++z)
+      for (std::size_t side = 0; side < 2; ++side) {
+        const double slope = flux[z / N].slope[N * side + z % N];
+        const std::array<double, 3>& of = reconstructed[side][z % N].slope;
+        by_end[0][z] += slope * of[0], by_end[1][z] += slope * of[1], by_upwind[side][z] = slope * of[2];
+      }
+    for (std::size_t row = 0; row < 2; ++row) {
+      const double sign = row == 0 ? 1.0 : -1.0;
+      const auto add = [&](std::uint32_t column, double factor, const SquareBlock<N>& block) {
+        SquareBlock<N>& to = matrix.at(end[row], column);
+        for (std::size_t z = 0; z < N * N; ++z) to[z] += factor * block[z];
+      };
+      for (std::size_t side = 0; side < 2; ++side) {
+        add(end[side], sign, by_end[side]);
+        if (order == Order::first) continue;
+        for (const WeightedVertex& of : mesh_.upwind(e, side)) add(of.vertex, sign * of.weight, by_upwind[side]);
+      }
+    }
+  }
+}
+
+template <std::size_t N>
+void FrictionSystem<N>::add_triangle_blocks(const FrictionState<N>& state, Jacobian& result) const {
+  using All = Dual<3 * N>;
+  for (const CornerTriangle& triangle : mesh_.triangles()) {
+    std::array<std::array<All, N>, 3> q;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < N; ++k) q[i][k] = All::variable(state.q[triangle.corner[i]][k], N * i + k);
+    const auto flux = terms_.template triangle<All, N>(q, triangle, triangle_distances(triangle));
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) {
+        SquareBlock<N>&whole = result.whole.at(triangle.corner[i], triangle.corner[j]),
+        &first = result.first.at(triangle.corner[i], triangle.corner[j]);
+        for (std::size_t z = 0; z < N * N; ++z) {
+          const double slope = flux[i][z / N].slope[N * j + z % N];
+          whole[z] += slope, first[z] += slope;
+        }
+      }
+  }
+}
+
+template <std::size_t N>
+void FrictionSystem<N>::add_boundary_blocks(const FrictionState<N>& state, Jacobian& result) const {
+  constexpr std::size_t n = unknown_count;
+  using Both = Dual<N + n>;
+  for (const BoundaryEdge& edge : dual_.boundary()) {
+    const std::uint32_t end[2] = {edge.a, edge.b};
+    for (std::size_t i = 0; i < 2; ++i) {
+      BoundaryInputs<Both> in = boundary_inputs<Both>(state, edge, i);
+      std::array<Both, N> here;
+      for (std::size_t k = 0; k < N; ++k) here[k] = Both::variable(state.q[end[i]][k], k);
+      for (std::size_t k = 0; k < n; ++k) in.here[k].slope[k] = 1.0, in.there[k].slope[N + k] = 1.0;
+      const std::array<Both, N> flux =
+          terms_.template boundary_flux<Both, N>(dual_.patch(edge), in, here, stream_);
+      for (BlockMatrix<N>* matrix : {&result.whole, &result.first}) {
+        SquareBlock<N>&own = matrix->at(end[i], end[i]), &other = matrix->at(end[i], end[1 - i]);
+        for (std::size_t row = 0; row < N; ++row) {
+          for (std::size_t k = 0; k < N; ++k) own[N * row + k] += flux[row].slope[k];
+          for (std::size_t k = 0; k < n; ++k) other[N * row + k] += flux[row].slope[N + k];
+        }
+      }
+    }
+  }
+}
+
+template <std::size_t N>
+void FrictionSystem<N>::make_walls_strong(BlockMatrix<N>& matrix) const {
+  for (std::uint32_t v = 0; v < dual_.size(); ++v) {
+    if (!mesh_.sticks(v)) continue;
+    for (std::uint32_t i = matrix.start[v]; i < matrix.start[v + 1]; ++i)
+      for (std::size_t z = 0; z < N * N; ++z)
+        if (is_strong(z / N)) matrix.block[i][z] = matrix.column[i] == v && z / N == z % N ? 1.0 : 0.0;
+  }
+}
+
+// The lift of all walls: friction by the unbalanced momentum of their vertices, whose rows `raw` still has.
+template <std::size_t N>
+BlockAugmentedRows<N> FrictionSystem<N>::augmented_rows(const FrictionState<N>& state,
+                                                        const BlockMatrix<N>& raw) const {
+  BlockAugmentedRows<N> rows;
+  const double ca = std::cos(state.augmented[1]), sa = std::sin(state.augmented[1]);
+  const double scale = 1.0 / (0.5 * stream_.mach * stream_.mach * stream_.length);
+  std::vector<bool> of_wall(dual_.size(), false);
+  for (const BoundaryEdge& edge : dual_.boundary()) {
+    if (!dual_.patch(edge).solid()) continue;
+    of_wall[edge.a] = of_wall[edge.b] = true;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double by = scale * (edge.half[i].y * ca - edge.half[i].x * sa);
+      Row here = {}, there = {};
+      here[3] = 0.75 * by, there[3] = 0.25 * by;
+      rows.first.push_back({i == 0 ? edge.a : edge.b, here});
+      rows.first.push_back({i == 0 ? edge.b : edge.a, there});
+    }
+  }
+  for (std::uint32_t v = 0; v < dual_.size(); ++v) {
+    if (!of_wall[v] || !mesh_.sticks(v)) continue;
+    for (std::uint32_t i = raw.start[v]; i < raw.start[v + 1]; ++i) {
+      Row by;
+      for (std::size_t k = 0; k < N; ++k)
+        by[k] = -scale * (raw.block[i][2 * N + k] * ca - raw.block[i][N + k] * sa);
+      rows.first.push_back({raw.column[i], by});
+    }
+  }
+  BlockVector<N> balance;
+  unbalanced(state, balance);
+  rows.corner = {Augmented{-1.0, -forces(state, balance).drag},
+                 stream_.lift ? Augmented{1.0, 0.0} : Augmented{0.0, 1.0}};
+  return rows;
+}
+
+// Walls have none: the far field's vortex and angle do not reach their rows.
+template <std::size_t N>
+std::array<BlockVector<N>, augmented_count> FrictionSystem<N>::augmented_columns(
+    const FrictionState<N>& state) const {
+  using Two = Dual<augmented_count>;
+  std::array<BlockVector<N>, augmented_count> columns;
+  for (auto& column : columns) column.assign(dual_.size(), {});
+  for (const BoundaryEdge& edge : dual_.boundary()) {
+    if (dual_.patch(edge).solid()) continue;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::uint32_t v = i == 0 ? edge.a : edge.b;
+      BoundaryInputs<Two> in = boundary_inputs<Two>(state, edge, i);
+      in.lift.slope[0] = 1.0, in.alpha.slope[1] = 1.0;
+      std::array<Two, N> here;
+      for (std::size_t k = 0; k < N; ++k) here[k] = Two(state.q[v][k]);
+      const std::array<Two, N> flux = terms_.template boundary_flux<Two, N>(dual_.patch(edge), in, here, stream_);
+      for (std::size_t k = 0; k < N; ++k)
+        for (std::size_t z = 0; z < augmented_count; ++z)
+          if (!mesh_.sticks(v) || !is_strong(k)) columns[z][v][k] += flux[k].slope[z];
+    }
+  }
+  return columns;
+}
+
+template void FrictionSystem<4>::jacobian(const FrictionState<4>&, Jacobian&) const;
+template void FrictionSystem<5>::jacobian(const FrictionState<5>&, Jacobian&) const;
+template std::array<BlockVector<4>, augmented_count> FrictionSystem<4>::augmented_columns(
+    const FrictionState<4>&) const;
+template std::array<BlockVector<5>, augmented_count> FrictionSystem<5>::augmented_columns(
+    const FrictionState<5>&) const;
+
+}  // namespace remodel::flow

@@ -1,0 +1,127 @@
+#pragma once
+
+// A steady flow with friction, as equations: N = 4 unknowns a vertex for laminar flow, 5 with the turbulence model,
+// and the augmented two of flow_system.h. Walls are strong: the rows of momentum at their vertices say that the
+// gas stands still, and the momentum that they leave unbalanced is the force on the wall.
+
+#include <array>
+#include <vector>
+
+#include "flow/linear/augmented.h"
+#include "flow/scheme/friction_terms.h"
+
+namespace remodel::flow {
+
+template <std::size_t N>
+struct FrictionState {
+  BlockVector<N> q;
+  Augmented augmented = {};  // lift coefficient of the vortex; angle of attack, radians
+};
+
+// Forces on a wall's vertices, as coefficients.
+struct WallForces {
+  double lift = 0.0, drag = 0.0, moment = 0.0;
+  double pressure_drag = 0.0;  // part of drag
+};
+
+template <std::size_t N>
+class FrictionSystem {
+ public:
+  FrictionSystem(const FrictionMesh& mesh, const Stream& stream, const Viscosity& viscosity)
+      : mesh_(mesh),
+        dual_(mesh.dual()),
+        stream_(stream),
+        terms_{.viscosity = viscosity, .mach = stream.mach, .slopes = stream.slopes} {
+    // At rest on walls the stream's Mach number is the measure. Without any dissipation of the waves of pressure
+    // searches do not converge; with a tenth of this they stall at 1e-5 around NACA 0012.
+    terms_.fix.mach_squared = stream.mach * stream.mach;
+  }
+
+  const FrictionMesh& mesh() const { return mesh_; }
+  const Stream& stream() const { return stream_; }
+  const FrictionTerms& terms() const { return terms_; }
+
+  // Undisturbed flow that slows down towards walls within `thickness`, at constant total enthalpy.
+  FrictionState<N> start(double thickness) const;
+
+  // The flux out of each dual cell; at walls what strong rows say.
+  void residual(const FrictionState<N>& state, BlockVector<N>& out) const;
+  // Everywhere the flux out of the dual cell.
+  void unbalanced(const FrictionState<N>& state, BlockVector<N>& out) const;
+  Augmented augmented_residual(const FrictionState<N>& state, const BlockVector<N>& unbalanced) const;
+
+  // The vertices that a row depends on: all of them, or those of the first-order scheme, one ring.
+  enum class Order { first, whole };
+  BlockMatrix<N> pattern(Order order) const;
+  // Derivatives of all rows by the unknowns: of the whole scheme, and of that of first order.
+  struct Jacobian {
+    BlockMatrix<N> whole, first;
+    BlockAugmentedRows<N> rows;  // of the augmented equations of the whole scheme
+  };
+  void jacobian(const FrictionState<N>& state, Jacobian& result) const;
+  std::array<BlockVector<N>, augmented_count> augmented_columns(const FrictionState<N>& state) const;
+
+  // As FlowSystem's.
+  std::vector<double> wave_speeds(const FrictionState<N>& state) const;
+  // Density, momentum, energy and density times the working variable; derivatives by the unknowns.
+  static std::array<double, N> conserved_at(const std::array<double, N>& q);
+  static SquareBlock<N> conserved_slope(const std::array<double, N>& q);
+
+  // patch: of this wall, no_index: of all.
+  WallForces forces(const FrictionState<N>& state, const BlockVector<N>& unbalanced,
+                    std::uint32_t patch = no_index) const;
+  // Whether the row says that the wall stands still.
+  bool is_replaced(std::size_t v, std::size_t k) const { return mesh_.sticks(v) && is_strong(k); }
+  // The force of friction on the vertex, by its unbalanced momentum: what it receives less the pressure.
+  Point friction_force(const BlockVector<N>& unbalanced, std::size_t v) const {
+    return {-unbalanced[v][1], -unbalanced[v][2]};
+  }
+
+ private:
+  using Row = std::array<double, N>;
+  template <class T>
+  BoundaryInputs<T> boundary_inputs(const FrictionState<N>& state, const BoundaryEdge& edge,
+                                    std::size_t half) const;
+  Row step(const BlockVector<N>& q, std::size_t e, std::size_t side, Order order) const;
+  template <class Visit>
+  void for_each_dependence(Order order, Visit visit) const;
+  void add_face_blocks(const FrictionState<N>& state, Order order, BlockMatrix<N>& matrix) const;
+  void add_triangle_blocks(const FrictionState<N>& state, Jacobian& result) const;
+  void add_boundary_blocks(const FrictionState<N>& state, Jacobian& result) const;
+  void make_walls_strong(BlockMatrix<N>& matrix) const;
+  BlockAugmentedRows<N> augmented_rows(const FrictionState<N>& state, const BlockMatrix<N>& raw) const;
+  std::array<Row, 3> triangle_states(const BlockVector<N>& q, const CornerTriangle& triangle) const {
+    return {q[triangle.corner[0]], q[triangle.corner[1]], q[triangle.corner[2]]};
+  }
+  std::array<double, 3> triangle_distances(const CornerTriangle& triangle) const {
+    const std::vector<double>& d = mesh_.distances();
+    return {d[triangle.corner[0]], d[triangle.corner[1]], d[triangle.corner[2]]};
+  }
+  // Whether the k-th row of a wall's vertex is replaced by "this unknown is 0".
+  static bool is_strong(std::size_t k) { return k == 1 || k == 2 || k == 4; }
+
+  const FrictionMesh& mesh_;
+  const FlowMesh& dual_;
+  Stream stream_;
+  FrictionTerms terms_;
+};
+
+template <std::size_t N>
+template <class T>
+BoundaryInputs<T> FrictionSystem<N>::boundary_inputs(const FrictionState<N>& state, const BoundaryEdge& edge,
+                                                     std::size_t half) const {
+  const std::uint32_t here = half == 0 ? edge.a : edge.b, there = half == 0 ? edge.b : edge.a;
+  return {.here = unknowns_of<T>(FrictionTerms::gas(state.q[here])),
+          .there = unknowns_of<T>(FrictionTerms::gas(state.q[there])),
+          .half = edge.half[half],
+          .normal = edge.normal,
+          .place_here = dual_.points()[here],
+          .place_there = dual_.points()[there],
+          .mach = T(stream_.mach),
+          .alpha = T(state.augmented[1]),
+          .lift = T(state.augmented[0]),
+          .near = edge.of_triangle ? 5.0 / 6.0 : 1.0,
+          .far = edge.of_triangle ? 1.0 / 6.0 : 0.0};
+}
+
+}  // namespace remodel::flow

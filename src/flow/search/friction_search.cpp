@@ -1,0 +1,213 @@
+#include "flow/search/friction_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "flow/linear/gmres.h"
+
+namespace remodel::flow {
+
+namespace {
+
+using Policy = FrictionPolicy;
+
+template <std::size_t N>
+FrictionState<N> along(const FrictionState<N>& state, const BlockIncrement<N>& step, double length) {
+  FrictionState<N> result = state;
+  for (std::size_t v = 0; v < result.q.size(); ++v)
+    for (std::size_t k = 0; k < N; ++k) result.q[v][k] += length * step.q[v][k];
+  for (std::size_t z = 0; z < augmented_count; ++z) result.augmented[z] += length * step.augmented[z];
+  return result;
+}
+
+// The part of a step that changes no density and no pressure by too much.
+template <std::size_t N>
+double longest(const FrictionState<N>& state, const BlockIncrement<N>& step) {
+  double largest = 0.0;
+  for (std::size_t v = 0; v < state.q.size(); ++v)
+    for (const std::size_t k : positive_unknowns) {
+      const double part = std::fabs(step.q[v][k]) / state.q[v][k];
+      if (!(part <= largest)) largest = part;  // NaN stays
+    }
+  return std::min(1.0, Policy::largest_part / largest);
+}
+
+}  // namespace
+
+template <std::size_t N>
+double FrictionSearch<N>::size_of(const BlockVector<N>& residual, const Augmented& augmented) const {
+  double square = 0.0;
+  for (const auto& block : residual)
+    for (const double x : block) square += x * x;
+  square /= scale_ * scale_;
+  for (const double x : augmented) square += x * x;
+  const double size = std::sqrt(square);
+  return std::isfinite(size) ? size : std::numeric_limits<double>::infinity();
+}
+
+template <std::size_t N>
+typename FrictionSearch<N>::At FrictionSearch<N>::at(const FrictionState<N>& state) const {
+  At now;
+  now.size = std::numeric_limits<double>::infinity();
+  for (const auto& q : state.q)
+    for (const std::size_t k : positive_unknowns)
+      if (!(q[k] > 0.0)) return now;
+  BlockVector<N> balance;
+  system_.unbalanced(state, balance);
+  now.forces = system_.forces(state, balance);
+  now.augmented = system_.augmented_residual(state, balance);
+  system_.residual(state, now.residual);
+  now.size = size_of(now.residual, now.augmented);
+  return now;
+}
+
+// The residual of the implicit time step from `before`.
+template <std::size_t N>
+double FrictionSearch<N>::unsteady_size(const FrictionState<N>& before, const FrictionState<N>& state,
+                                        const std::vector<double>& by_time, const At& now) const {
+  if (!std::isfinite(now.size)) return now.size;
+  BlockVector<N> whole = now.residual;
+  for (std::size_t v = 0; v < whole.size(); ++v) {
+    const auto u = FrictionSystem<N>::conserved_at(state.q[v]), u0 = FrictionSystem<N>::conserved_at(before.q[v]);
+    for (std::size_t k = 0; k < N; ++k)
+      if (!system_.is_replaced(v, k)) whole[v][k] += by_time[v] * (u[k] - u0[k]);
+  }
+  return size_of(whole, now.augmented);
+}
+
+template <std::size_t N>
+bool FrictionSearch<N>::factor() {
+  ++record_.factorisations;
+  if (by_lu_ || (options_.solver && *options_.solver == FlowSolver::lu)) {
+    if (lu_.factor(jacobian_.first, options_.memory_mb) == Factored::done) {
+      record_.memory_mb = std::max(record_.memory_mb, lu_.memory_mb());
+      return record_.whole_factors = true;
+    }
+    lu_.forget();
+  }
+  record_.whole_factors = false;
+  constexpr int level = 1;
+  incomplete_.analysed_mb(jacobian_.first, level);
+  record_.memory_mb = std::max(record_.memory_mb, incomplete_.memory_mb());
+  return incomplete_.factor(jacobian_.first);
+}
+
+template <std::size_t N>
+void FrictionSearch<N>::precondition(BlockVector<N>& x) {
+  if (record_.whole_factors)
+    lu_.solve(x, 1);
+  else
+    incomplete_.solve(x);
+}
+
+template <std::size_t N>
+bool FrictionSearch<N>::solve(const FrictionState<N>& state, const std::vector<double>& by_time, const At& now,
+                              BlockIncrement<N>& step) {
+  system_.jacobian(state, jacobian_);
+  for (std::uint32_t v = 0; v < by_time.size(); ++v) {
+    const SquareBlock<N> slope = FrictionSystem<N>::conserved_slope(state.q[v]);
+    for (BlockMatrix<N>* matrix : {&jacobian_.whole, &jacobian_.first}) {
+      SquareBlock<N>& block = matrix->at(v, v);
+      for (std::size_t z = 0; z < N * N; ++z)
+        if (!system_.is_replaced(v, z / N)) block[z] += by_time[v] * slope[z];
+    }
+  }
+  if (!factor()) return false;
+  auto columns = system_.augmented_columns(state), solved = columns;
+  for (BlockVector<N>& column : solved) precondition(column);
+  const BlockAugmentedMatrix<N> matrix(jacobian_.whole, std::move(columns), jacobian_.rows);
+  // Augmented equations count as much as all others.
+  const auto weighed = [&](BlockIncrement<N>& x, double by) {
+    for (double& z : x.augmented) z *= by;
+  };
+  BlockIncrement<N> right{.q = now.residual, .augmented = {-now.augmented[0], -now.augmented[1]}};
+  for (auto& block : right.q)
+    for (double& x : block) x = -x;
+  weighed(right, scale_);
+  const double size = norm(right);
+  const double part = std::clamp(now.size, Policy::least_forcing, Policy::most_forcing);
+  step = {};
+  const GmresEnd end = gmres_of<N>(
+      [&](const BlockIncrement<N>& x) {
+        BlockIncrement<N> result = matrix.times(x);
+        weighed(result, scale_);
+        return result;
+      },
+      [&](BlockIncrement<N>& x) {
+        weighed(x, 1.0 / scale_);
+        precondition(x.q);
+        x = close_augmented(std::move(x.q), solved, jacobian_.rows, x.augmented);
+      },
+      right,
+      {.wanted = part * size, .restart = Policy::restart, .rounds = Policy::rounds, .observer = options_.observer},
+      step);
+  last_iterations_ = end.iterations;
+  record_.gmres_iterations += end.iterations;
+  // Where even short time steps take too many, incomplete factors do no longer.
+  by_lu_ = by_lu_ || (end.residual > 2.0 * part * size && !record_.whole_factors && failed_before_);
+  failed_before_ = end.residual > 2.0 * part * size;
+  return end.residual < 0.9 * size;
+}
+
+// The part of the step that was taken; 0: none.
+template <std::size_t N>
+double FrictionSearch<N>::line_search(const BlockIncrement<N>& step, const std::vector<double>& by_time,
+                                      FrictionState<N>& state, At& now) const {
+  double length = longest(state, step);
+  for (int i = 0; i <= Policy::halvings && length > Policy::retried_part; ++i, length *= 0.5) {
+    FrictionState<N> next = along(state, step, length);
+    At there = at(next);
+    if (!(unsteady_size(state, next, by_time, there) < now.size)) continue;
+    state = std::move(next), now = std::move(there);
+    return length;
+  }
+  return 0.0;
+}
+
+template <std::size_t N>
+void FrictionSearch<N>::run(FrictionState<N>& state, double cfl) {
+  scale_ = 1.0;
+  At now = at(state);
+  scale_ = std::max(size_of(now.residual, {}), 1e-3 * system_.stream().length / gas_gamma);
+  now.size = size_of(now.residual, now.augmented);
+  record_.history.push_back(now.size);
+  double least = now.size;
+  int since_least = 0;
+  const auto end = [&](FlowStatus status, const char* reason) {
+    record_.status = status, record_.reason = reason, record_.residual = now.size;
+  };
+  while (!(now.size <= options_.tolerance)) {
+    if (options_.observer != nullptr && options_.observer->cancelled())
+      return end(FlowStatus::interrupted, "interrupted");
+    if (record_.newton_steps >= options_.max_steps)
+      return end(FlowStatus::step_limit, "the number of steps has reached its limit");
+    if (cfl < Policy::least_cfl || since_least > Policy::patience)
+      return end(FlowStatus::stalled, "the residual falls no more");
+    std::vector<double> by_time = system_.wave_speeds(state);
+    for (double& x : by_time) x = cfl < Policy::most_cfl ? x / cfl : 0.0;
+    BlockIncrement<N> step;
+    const bool solved = solve(state, by_time, now, step);
+    ++record_.newton_steps;
+    const double length = solved ? line_search(step, by_time, state, now) : 0.0;
+    if (length == 1.0)
+      cfl *= Policy::full_growth * std::max(1.0, std::min(10.0, record_.history.back() / now.size));
+    else if (length >= Policy::shortest_part)
+      cfl *= 1.0 + Policy::part_growth * length;
+    else if (length == 0.0)
+      cfl = 0.1 * std::min(cfl, 1e6);
+    else
+      cfl *= 0.5;
+    record_.history.push_back(now.size);
+    since_least = now.size < least ? 0 : since_least + (cfl > 1e4 ? 1 : 0);
+    least = std::min(least, now.size);
+    if (on_step)
+      on_step({record_.newton_steps, now.size, cfl, length, now.forces.lift, now.forces.drag, last_iterations_});
+  }
+  end(FlowStatus::converged, "");
+}
+
+template class FrictionSearch<4>;
+template class FrictionSearch<5>;
+
+}  // namespace remodel::flow

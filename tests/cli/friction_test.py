@@ -1,0 +1,37 @@
+"""Flows with friction, by the program."""
+
+import unittest
+
+from harness import ProgramTest
+
+LAYERS = ("--layers", "--reynolds", 5000, "--y-plus", 0.5, "--max-spacing", 0.04, "--wall-spacing", 0.008,
+          "--te-spacing", 0.008)
+
+
+class Friction(ProgramTest):
+    def test_laminar_flow_on_a_mesh_with_a_layer(self):
+        self.succeed("mesh", "naca:0012", *LAYERS, "-o", "a.vtkhdf")
+        flow = self.succeed("flow", "a.vtkhdf", "--model", "laminar", "--mach", 0.5, "--reynolds", 5000,
+                            "--tolerance", 1e-8, "--cf-plot", "cf.svg", "-o", "b.vtkhdf", "--json").json()
+        self.assertTrue(flow["converged"])
+        self.assertEqual(flow["model"], "laminar")
+        self.assertEqual(flow["reynolds"], 5000)
+        self.assertAlmostEqual(flow["cd_pressure"] + flow["cd_friction"], flow["cd"], places=12)
+        self.assertAlmostEqual(flow["cd"], 0.055, delta=0.004)
+        self.assertAlmostEqual(flow["cl"], 0.0, delta=2e-3)
+        self.assertGreater(flow["y_plus_max"], 0)
+        self.assertIn("Cf", self.path("cf.svg").read_text())
+
+    def test_what_does_not_fit_is_refused(self):
+        for words, message in (
+            (("--model", "sa"), "--reynolds: not given"),
+            (("--reynolds", 1e6), "--reynolds: given without friction"),
+            (("--model", "sa", "--reynolds", 1e6, "--gradient"), "--gradient: given with --model laminar or sa"),
+            (("--model", "sa", "--reynolds", 1e6, "--points", 100), "--points: given with a model with friction"),
+        ):
+            with self.subTest(message):
+                self.refused("flow", "naca:0012", "--mach", 0.3, *words, names=message)
+
+
+if __name__ == "__main__":
+    unittest.main()
