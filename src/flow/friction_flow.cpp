@@ -64,7 +64,8 @@ FlowFriction friction_of(const FrictionSystem<N>& system, const FrictionState<N>
 }
 
 // What has to be known about the cells at the wall.
-std::vector<std::string> friction_warnings(const FrictionMesh& mesh, const FlowFriction& friction, FlowModel model) {
+std::vector<std::string> friction_warnings(const FrictionMesh& mesh, const FlowFriction& friction, FlowModel model,
+                                           double largest_mach) {
   constexpr double wanted = 1.0, tolerated = 2.0;
   std::vector<std::string> warnings;
   if (model == FlowModel::sa && friction.y_plus_max > tolerated) {
@@ -77,6 +78,9 @@ std::vector<std::string> friction_warnings(const FrictionMesh& mesh, const FlowF
                   friction.y_plus_max, wanted, height * wanted / friction.y_plus_max);
     warnings.push_back(text);
   }
+  if (largest_mach > 1.0)
+    warnings.push_back(
+        "the flow is faster than sound in places: with friction this scheme has no limiter, and shocks are off");
   const auto is_quad = [](const Cell& cell) { return cell.corners() == 4; };
   if (std::none_of(mesh.dual().cells().begin(), mesh.dual().cells().end(), is_quad))
     warnings.push_back("the mesh has no layer of quadrilaterals on its walls, which friction is not accurate without");
@@ -105,8 +109,6 @@ FlowResult result_of(const FrictionSystem<N>& system, const FrictionState<N>& st
   result.friction = friction_of(system, state, unbalanced, reynolds);
   result.friction->cd_pressure = scale * sum.pressure_drag;
   result.friction->cd_friction = scale * (sum.drag - sum.pressure_drag);
-  if (record.status == FlowStatus::converged)
-    result.warnings = friction_warnings(system.mesh(), *result.friction, model);
   result.residual = record.residual, result.history = record.history;
   result.newton_steps = record.newton_steps, result.factorisations = record.factorisations;
   result.solver = record.whole_factors ? FlowSolver::lu : FlowSolver::gmres;
@@ -115,6 +117,10 @@ FlowResult result_of(const FrictionSystem<N>& system, const FrictionState<N>& st
     result.density.push_back(q[0]);
     result.velocity_x.push_back(q[1]), result.velocity_y.push_back(q[2]);
     result.pressure.push_back(q[3]);
+  }
+  if (record.status == FlowStatus::converged) {
+    const std::vector<double> mach = mach_numbers(result);
+    result.warnings = friction_warnings(system.mesh(), *result.friction, model, *std::max_element(mach.begin(), mach.end()));
   }
   return result;
 }

@@ -10,8 +10,6 @@ namespace remodel::flow {
 
 namespace {
 
-using Policy = FrictionPolicy;
-
 template <std::size_t N>
 FrictionState<N> along(const FrictionState<N>& state, const BlockIncrement<N>& step, double length) {
   FrictionState<N> result = state;
@@ -30,7 +28,7 @@ double longest(const FrictionState<N>& state, const BlockIncrement<N>& step) {
       const double part = std::fabs(step.q[v][k]) / state.q[v][k];
       if (!(part <= largest)) largest = part;  // NaN stays
     }
-  return std::min(1.0, Policy::largest_part / largest);
+  return std::min(1.0, FrictionPolicy::largest_part / largest);
 }
 
 }  // namespace
@@ -126,7 +124,7 @@ bool FrictionSearch<N>::solve(const FrictionState<N>& state, const std::vector<d
     for (double& x : block) x = -x;
   weighed(right, scale_);
   const double size = norm(right);
-  const double part = std::clamp(now.size, Policy::least_forcing, Policy::most_forcing);
+  const double part = std::clamp(now.size, FrictionPolicy::least_forcing, FrictionPolicy::most_forcing);
   step = {};
   const GmresEnd end = gmres_of<N>(
       [&](const BlockIncrement<N>& x) {
@@ -140,7 +138,7 @@ bool FrictionSearch<N>::solve(const FrictionState<N>& state, const std::vector<d
         x = close_augmented(std::move(x.q), solved, jacobian_.rows, x.augmented);
       },
       right,
-      {.wanted = part * size, .restart = Policy::restart, .rounds = Policy::rounds, .observer = options_.observer},
+      {.wanted = part * size, .restart = FrictionPolicy::restart, .rounds = FrictionPolicy::rounds, .observer = options_.observer},
       step);
   last_iterations_ = end.iterations;
   record_.gmres_iterations += end.iterations;
@@ -155,7 +153,7 @@ template <std::size_t N>
 double FrictionSearch<N>::line_search(const BlockIncrement<N>& step, const std::vector<double>& by_time,
                                       FrictionState<N>& state, At& now) const {
   double length = longest(state, step);
-  for (int i = 0; i <= Policy::halvings && length > Policy::retried_part; ++i, length *= 0.5) {
+  for (int i = 0; i <= FrictionPolicy::halvings && length > FrictionPolicy::retried_part; ++i, length *= 0.5) {
     FrictionState<N> next = along(state, step, length);
     At there = at(next);
     if (!(unsteady_size(state, next, by_time, there) < now.size)) continue;
@@ -182,18 +180,18 @@ void FrictionSearch<N>::run(FrictionState<N>& state, double cfl) {
       return end(FlowStatus::interrupted, "interrupted");
     if (record_.newton_steps >= options_.max_steps)
       return end(FlowStatus::step_limit, "the number of steps has reached its limit");
-    if (cfl < Policy::least_cfl || since_least > Policy::patience)
+    if (cfl < FrictionPolicy::least_cfl || since_least > FrictionPolicy::patience)
       return end(FlowStatus::stalled, "the residual falls no more");
     std::vector<double> by_time = system_.wave_speeds(state);
-    for (double& x : by_time) x = cfl < Policy::most_cfl ? x / cfl : 0.0;
+    for (double& x : by_time) x = cfl < FrictionPolicy::most_cfl ? x / cfl : 0.0;
     BlockIncrement<N> step;
     const bool solved = solve(state, by_time, now, step);
     ++record_.newton_steps;
     const double length = solved ? line_search(step, by_time, state, now) : 0.0;
     if (length == 1.0)
-      cfl *= Policy::full_growth * std::max(1.0, std::min(10.0, record_.history.back() / now.size));
-    else if (length >= Policy::shortest_part)
-      cfl *= 1.0 + Policy::part_growth * length;
+      cfl *= FrictionPolicy::full_growth * std::max(1.0, std::min(10.0, record_.history.back() / now.size));
+    else if (length >= FrictionPolicy::shortest_part)
+      cfl *= 1.0 + FrictionPolicy::part_growth * length;
     else if (length == 0.0)
       cfl = 0.1 * std::min(cfl, 1e6);
     else
