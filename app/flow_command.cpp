@@ -74,7 +74,7 @@ MeshInput layered_input(const FlowCommand& command) {
   MeshingOptions meshing = command.meshing;
   meshing.gradation = meshing.gradation.value_or(gradation_with_layers);
   DomainInput domain = read_domain(command.input, meshing.discretisation, meshing.fit);
-  if (domain.in_farfield) space_walls(domain.domain);
+  if (domain.in_farfield) space_walls(domain.domain, WallSpacing{});
   // Lengths of layers are in chords of 1.
   const double reynolds = command.euler.conditions.reynolds / command.euler.conditions.reference_length;
   const LayerOptions layers = {

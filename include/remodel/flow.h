@@ -316,13 +316,12 @@ class KeptFlow {
 // same, but later. The same row of calls gives the same bits.
 class LivingFlow {
  public:
-  // Throws Error (argument) for a model with friction.
   explicit LivingFlow(const FlowOptions& options = {});
   ~LivingFlow();
   LivingFlow(LivingFlow&&) noexcept;
   LivingFlow& operator=(LivingFlow&&) noexcept;
 
-  // Cold flows begin as those of solve_flow() of a Mesh do.
+  // Cold flows begin as those of solve_flow() of a Mesh do. Throws Error (argument) for a model with friction.
   FlowResult solve(const Mesh& mesh, const FlowConditions& conditions);
   // This takes Mesh::freeze(); cold flows begin without coarser meshes. Throws Error (argument) where
   // vertices have no keys.

@@ -64,9 +64,7 @@ struct LivingFlow::Impl {
                                                 const FlowConditions& conditions) const;
 };
 
-LivingFlow::LivingFlow(const FlowOptions& options) : impl_(std::make_unique<Impl>(options)) {
-  flow::require_euler(options);
-}
+LivingFlow::LivingFlow(const FlowOptions& options) : impl_(std::make_unique<Impl>(options)) {}
 LivingFlow::~LivingFlow() = default;
 LivingFlow::LivingFlow(LivingFlow&&) noexcept = default;
 LivingFlow& LivingFlow::operator=(LivingFlow&&) noexcept = default;
@@ -113,6 +111,7 @@ std::shared_ptr<const flow::FlowMesh> LivingFlow::Impl::mesh_of(const FrozenMesh
 
 FlowResult LivingFlow::Impl::solve(const FrozenMesh& frozen, const Mesh* living,
                                    const FlowConditions& conditions) {
+  flow::require_euler(options);
   const Stopwatch watch;
   flow::require_possible(conditions, options);
   flow::Keys keys = flow::keys_of(frozen);
