@@ -11,8 +11,8 @@ WallBalls::WallBalls(std::vector<Point> samples) : samples_(std::move(samples)) 
 
 double WallBalls::radius(Point p, Point n, double most) const {
   const double reach = 2.0 * most;
-  const auto left_of = [](Point q, double x) { return q.x < x; };
-  auto q = std::lower_bound(samples_.begin(), samples_.end(), p.x - reach, left_of);
+  const auto is_before = [](Point q, double x) { return q.x < x; };
+  auto q = std::lower_bound(samples_.begin(), samples_.end(), p.x - reach, is_before);
   double least = most;
   for (; q != samples_.end() && q->x <= p.x + reach; ++q) {
     const double ahead = dot(*q - p, n);

@@ -43,10 +43,11 @@ class Layers(ProgramTest):
                 self.assertEqual(back["layers"]["columns"], step["layers"]["columns"])
 
     def test_by_reference_the_same_design_has_the_same_bytes(self):
-        self.make("--refine-angle", 32, "-o", "a.vtkhdf")
+        self.succeed("mesh", "naca:2412", *LAYERS, "--refine-angle", 32, "-o", "a.vtkhdf")
         reference = ("--strategy", "reference")
-        self.succeed("update", "a.vtkhdf", "naca:2412", *reference, "-o", "there.vtkhdf")
-        self.succeed("update", "there.vtkhdf", "rae2822", *reference, "-o", "back.su2")
+        step = self.succeed("update", "a.vtkhdf", "naca:2413", *reference, "-o", "there.vtkhdf", "--json").json()
+        self.assertTrue(step["held"])
+        self.succeed("update", "there.vtkhdf", "naca:2412", *reference, "-o", "back.su2")
         self.succeed("convert", "a.vtkhdf", "-o", "a.su2")
         self.assertEqual(self.path("back.su2").read_bytes(), self.path("a.su2").read_bytes())
 
@@ -91,7 +92,7 @@ class Layers(ProgramTest):
                 self.refused("mesh", "naca:0012", *options, "-o", "m.su2", names=word)
         self.make("-o", "a.vtkhdf")
         self.refused("update", "a.vtkhdf", "naca:0012", "--points", 100, "-o", "b.su2", names="--points")
-        self.refused("optimise", "--start", "a.vtkhdf", "--target", "naca:0012", "-o", "run", names="a.vtkhdf")
+        self.refused("batch", "a.vtkhdf", "naca:0012", "-o", "run", names="a mesh with layers found")
 
 
 if __name__ == "__main__":
