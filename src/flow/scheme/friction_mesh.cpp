@@ -49,7 +49,8 @@ void FrictionMesh::count_cells() {
     around_[edge.a].boundary = around_[edge.b].boundary = true;
 }
 
-// The other edge at v that has no cell in common with this one, where four cells of a layer meet, or two at its end.
+// The other edge at v that has no cell in common with this one, where four cells of a layer meet, or two at
+// its end.
 std::uint32_t FrictionMesh::opposite(std::uint32_t v, std::uint32_t edge) const {
   const Around& at = around_[v];
   // Also where fans of triangles at a corner of the wall end.
@@ -105,8 +106,8 @@ void FrictionMesh::make_triangles() {
   const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, bool is_cell) {
     const Point p[3] = {mesh_.points()[a], mesh_.points()[b], mesh_.points()[c]};
     const double twice = cross(p[1] - p[0], p[2] - p[0]);
-    CornerTriangle triangle = {.corner = {a, b, c}, .slope = {}, .area = is_cell ? 0.5 * twice : 0.25 * twice,
-                               .share = {}};
+    CornerTriangle triangle = {
+        .corner = {a, b, c}, .slope = {}, .area = is_cell ? 0.5 * twice : 0.25 * twice, .share = {}};
     for (std::size_t i = 0; i < 3; ++i) {
       const Point side = p[(i + 2) % 3] - p[(i + 1) % 3];
       triangle.slope[i] = (1.0 / twice) * Point{-side.y, side.x};

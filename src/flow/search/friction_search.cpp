@@ -10,10 +10,8 @@ namespace remodel::flow {
 
 namespace {
 
-using Policy = FrictionPolicy;
-
 template <std::size_t N>
-FrictionState<N> along(const FrictionState<N>& state, const BlockIncrement<N>& step, double length) {
+FrictionState<N> state_along(const FrictionState<N>& state, const BlockIncrement<N>& step, double length) {
   FrictionState<N> result = state;
   for (std::size_t v = 0; v < result.q.size(); ++v)
     for (std::size_t k = 0; k < N; ++k) result.q[v][k] += length * step.q[v][k];
@@ -23,14 +21,14 @@ FrictionState<N> along(const FrictionState<N>& state, const BlockIncrement<N>& s
 
 // The part of a step that changes no density and no pressure by too much.
 template <std::size_t N>
-double longest(const FrictionState<N>& state, const BlockIncrement<N>& step) {
+double longest_part(const FrictionState<N>& state, const BlockIncrement<N>& step) {
   double largest = 0.0;
   for (std::size_t v = 0; v < state.q.size(); ++v)
     for (const std::size_t k : positive_unknowns) {
       const double part = std::fabs(step.q[v][k]) / state.q[v][k];
       if (!(part <= largest)) largest = part;  // NaN stays
     }
-  return std::min(1.0, Policy::largest_part / largest);
+  return std::min(1.0, FrictionPolicy::largest_part / largest);
 }
 
 }  // namespace
@@ -69,7 +67,8 @@ double FrictionSearch<N>::unsteady_size(const FrictionState<N>& before, const Fr
   if (!std::isfinite(now.size)) return now.size;
   BlockVector<N> whole = now.residual;
   for (std::size_t v = 0; v < whole.size(); ++v) {
-    const auto u = FrictionSystem<N>::conserved_at(state.q[v]), u0 = FrictionSystem<N>::conserved_at(before.q[v]);
+    const auto u = FrictionSystem<N>::conserved_at(state.q[v]),
+               u0 = FrictionSystem<N>::conserved_at(before.q[v]);
     for (std::size_t k = 0; k < N; ++k)
       if (!system_.is_replaced(v, k)) whole[v][k] += by_time[v] * (u[k] - u0[k]);
   }
@@ -102,8 +101,8 @@ void FrictionSearch<N>::precondition(BlockVector<N>& x) {
 }
 
 template <std::size_t N>
-bool FrictionSearch<N>::solve(const FrictionState<N>& state, const std::vector<double>& by_time, const At& now,
-                              BlockIncrement<N>& step) {
+bool FrictionSearch<N>::solve(const FrictionState<N>& state, const std::vector<double>& by_time,
+                              const At& now, BlockIncrement<N>& step) {
   system_.jacobian(state, jacobian_);
   for (std::uint32_t v = 0; v < by_time.size(); ++v) {
     const SquareBlock<N> slope = FrictionSystem<N>::conserved_slope(state.q[v]);
@@ -126,7 +125,7 @@ bool FrictionSearch<N>::solve(const FrictionState<N>& state, const std::vector<d
     for (double& x : block) x = -x;
   weighed(right, scale_);
   const double size = norm(right);
-  const double part = std::clamp(now.size, Policy::least_forcing, Policy::most_forcing);
+  const double part = std::clamp(now.size, FrictionPolicy::least_forcing, FrictionPolicy::most_forcing);
   step = {};
   const GmresEnd end = gmres_of<N>(
       [&](const BlockIncrement<N>& x) {
@@ -140,7 +139,10 @@ bool FrictionSearch<N>::solve(const FrictionState<N>& state, const std::vector<d
         x = close_augmented(std::move(x.q), solved, jacobian_.rows, x.augmented);
       },
       right,
-      {.wanted = part * size, .restart = Policy::restart, .rounds = Policy::rounds, .observer = options_.observer},
+      {.wanted = part * size,
+       .restart = FrictionPolicy::restart,
+       .rounds = FrictionPolicy::rounds,
+       .observer = options_.observer},
       step);
   last_iterations_ = end.iterations;
   record_.gmres_iterations += end.iterations;
@@ -154,9 +156,10 @@ bool FrictionSearch<N>::solve(const FrictionState<N>& state, const std::vector<d
 template <std::size_t N>
 double FrictionSearch<N>::line_search(const BlockIncrement<N>& step, const std::vector<double>& by_time,
                                       FrictionState<N>& state, At& now) const {
-  double length = longest(state, step);
-  for (int i = 0; i <= Policy::halvings && length > Policy::retried_part; ++i, length *= 0.5) {
-    FrictionState<N> next = along(state, step, length);
+  double length = longest_part(state, step);
+  for (int i = 0; i <= FrictionPolicy::halvings && length > FrictionPolicy::retried_part;
+       ++i, length *= 0.5) {
+    FrictionState<N> next = state_along(state, step, length);
     At there = at(next);
     if (!(unsteady_size(state, next, by_time, there) < now.size)) continue;
     state = std::move(next), now = std::move(there);
@@ -182,18 +185,18 @@ void FrictionSearch<N>::run(FrictionState<N>& state, double cfl) {
       return end(FlowStatus::interrupted, "interrupted");
     if (record_.newton_steps >= options_.max_steps)
       return end(FlowStatus::step_limit, "the number of steps has reached its limit");
-    if (cfl < Policy::least_cfl || since_least > Policy::patience)
+    if (cfl < FrictionPolicy::least_cfl || since_least > FrictionPolicy::patience)
       return end(FlowStatus::stalled, "the residual falls no more");
     std::vector<double> by_time = system_.wave_speeds(state);
-    for (double& x : by_time) x = cfl < Policy::most_cfl ? x / cfl : 0.0;
+    for (double& x : by_time) x = cfl < FrictionPolicy::most_cfl ? x / cfl : 0.0;
     BlockIncrement<N> step;
     const bool solved = solve(state, by_time, now, step);
     ++record_.newton_steps;
     const double length = solved ? line_search(step, by_time, state, now) : 0.0;
     if (length == 1.0)
-      cfl *= Policy::full_growth * std::max(1.0, std::min(10.0, record_.history.back() / now.size));
-    else if (length >= Policy::shortest_part)
-      cfl *= 1.0 + Policy::part_growth * length;
+      cfl *= FrictionPolicy::full_growth * std::max(1.0, std::min(10.0, record_.history.back() / now.size));
+    else if (length >= FrictionPolicy::shortest_part)
+      cfl *= 1.0 + FrictionPolicy::part_growth * length;
     else if (length == 0.0)
       cfl = 0.1 * std::min(cfl, 1e6);
     else
@@ -202,7 +205,8 @@ void FrictionSearch<N>::run(FrictionState<N>& state, double cfl) {
     since_least = now.size < least ? 0 : since_least + (cfl > 1e4 ? 1 : 0);
     least = std::min(least, now.size);
     if (on_step)
-      on_step({record_.newton_steps, now.size, cfl, length, now.forces.lift, now.forces.drag, last_iterations_});
+      on_step(
+          {record_.newton_steps, now.size, cfl, length, now.forces.lift, now.forces.drag, last_iterations_});
   }
   end(FlowStatus::converged, "");
 }
