@@ -147,6 +147,10 @@ void add_text(CLI::App& app, const OptionText& text, Presence presence, std::str
   dress(app.add_option(text.name, target, text.description), text, presence);
 }
 
+void add_text(CLI::App& app, const OptionText& text, Presence presence, std::filesystem::path& target) {
+  add_text(app, text, presence, [&target](const std::string& found) { target = found; });
+}
+
 void add_texts(CLI::App& app, const OptionText& text, Presence presence, std::vector<std::string>& target) {
   CLI::Option* option = app.add_option(text.name, target, text.description);
   option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

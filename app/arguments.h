@@ -5,8 +5,10 @@
 // option, what was found and what was expected.
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,12 +47,39 @@ struct OptionText {
 CLI::App& add_subcommand(CLI::App& program, const std::string& name, const std::string& description,
                          std::function<void()> chosen);
 
+template <class Number>
+Number number_in(const Number&);
+template <class Number>
+Number number_in(const std::optional<Number>&);
 void add_integer(CLI::App& app, const OptionText& text, IntegerRange range,
                  std::function<void(std::int64_t)> set);
 void add_real(CLI::App& app, const OptionText& text, RealRange range, std::function<void(double)> set);
+// The same for a number, or an optional one, that outlives the parsing.
+template <class Number>
+void add_integer(CLI::App& app, const OptionText& text, IntegerRange range, Number& target) {
+  add_integer(app, text, range, std::function<void(std::int64_t)>([&target](std::int64_t value) {
+                target = static_cast<decltype(number_in(target))>(value);
+              }));
+}
+template <class Number>
+void add_real(CLI::App& app, const OptionText& text, RealRange range, Number& target) {
+  add_real(app, text, range, std::function<void(double)>([&target](double value) { target = value; }));
+}
 // One of several words; `set` gets its index.
 void add_choice(CLI::App& app, const OptionText& text, std::vector<std::string> words,
                 std::function<void(std::size_t)> set);
+// One of the strategies of a table; the help describes each.
+template <class Infos, class Set>
+void add_strategy_choice(CLI::App& app, const char* usual, const Infos& infos, Set set) {
+  std::vector<std::string> names;
+  std::string help;
+  for (const auto& info : infos) {
+    names.emplace_back(info.name);
+    help += (help.empty() ? "" : "; ") + names.back() + ": " + info.description;
+  }
+  add_choice(app, {"--strategy", "STRATEGY", usual, help}, names,
+             [infos, set](std::size_t choice) { set(infos[choice].strategy); });
+}
 void add_flag(CLI::App& app, const std::string& name, const std::string& description, bool& target);
 
 enum class Presence { optional, required };
@@ -58,6 +87,7 @@ enum class Presence { optional, required };
 void add_text(CLI::App& app, const OptionText& text, Presence presence,
               std::function<void(const std::string&)> set);
 void add_text(CLI::App& app, const OptionText& text, Presence presence, std::string& target);
+void add_text(CLI::App& app, const OptionText& text, Presence presence, std::filesystem::path& target);
 // The same, but may be given several times.
 void add_texts(CLI::App& app, const OptionText& text, Presence presence, std::vector<std::string>& target);
 

@@ -27,6 +27,7 @@
 #include "shape_input.h"
 #include "start_mesh.h"
 #include "timing.h"
+#include "warnings.h"
 
 namespace remodel::app {
 namespace {
@@ -211,8 +212,8 @@ void begin_record(const BatchCommand& command) {
 // Remodels the mesh to one design after the other. Sums are over the designs so far.
 class Batch {
  public:
-  Batch(const BatchCommand& command, Mesh mesh)
-      : command_(command), mesh_(std::move(mesh)), designs_(Json::array()) {
+  Batch(const BatchCommand& command, const StartMesh& start)
+      : command_(command), mesh_(start.mesh), su2_boxes_(start.su2_boxes), designs_(Json::array()) {
     for (std::size_t i = 0; i < command.shapes.size(); ++i) designs_.push_back(nullptr);
   }
 
@@ -251,7 +252,8 @@ class Batch {
     for (const std::string& extension : command_.meshes) {
       const std::string file = file_of(index + 1, extension);
       write_mesh(mesh_, command_.directory / file,
-                 {.inner = command_.inner_markers ? InnerCurves::markers : InnerCurves::left_out});
+                 {.inner = command_.inner_markers ? InnerCurves::markers : InnerCurves::left_out,
+                  .su2_boxes = su2_boxes_});
       if (!entry.contains("mesh")) entry["mesh"] = file;
       entry["meshes"].push_back(file);
       files_.push_back(file);
@@ -285,6 +287,7 @@ class Batch {
  private:
   const BatchCommand& command_;
   Mesh mesh_;
+  const std::string su2_boxes_;
   Json designs_;
   std::vector<std::string> files_;
   std::size_t done_ = 0, full_adjustments_ = 0, invalid_ = 0;
@@ -304,8 +307,12 @@ Status run(const BatchCommand& command) {
   if (std::count(command.meshes.begin(), command.meshes.end(), "su2") != 0 && !command.inner_markers)
     warn_of_inner_curves(start.mesh.freeze(), (command.directory / "*.su2").string(),
                          "--inner-markers writes it");
+  if (!start.su2_boxes.empty())
+    for (const std::string& extension : command.meshes)
+      if (extension != "su2" && extension != "vtkhdf")
+        warn((command.directory / ("*." + extension)).string() + boxes_left_out);
   const InterruptFlag interrupt;
-  Batch batch(command, start.mesh);
+  Batch batch(command, start);
   bool finished = true;
   for (const std::size_t index : order) {
     finished = !interrupt.raised() && batch.evaluate(designs[index], index);
@@ -331,15 +338,14 @@ Status run(const BatchCommand& command) {
 
 void add_batch_command(CLI::App& program, Action& action) {
   auto command = std::make_shared<BatchCommand>();
-  CLI::App& app =
-      add_subcommand(program, "batch", "Remodels a mesh to one airfoil after the other, nearest first",
-                     [command, &action] { action = [command] { return run(*command); }; });
+  CLI::App& app = add_command(
+      program, "batch", "Remodels a mesh to one airfoil after the other, nearest first", command, action);
   add_text(app, {"mesh", "MESH", "", "Mesh: a native one (.vtkhdf), or .su2, .msh, .vtu with --boundary"},
            Presence::required, command->mesh);
   add_texts(app, {"shapes", "SHAPE", "", shape_help}, Presence::required, command->shapes);
   add_start_mesh_options(app, command->start);
   add_text(app, {"-o,--output", "DIR", "", "Directory for report.json and the meshes, made if it is missing"},
-           Presence::required, [command](const std::string& text) { command->directory = text; });
+           Presence::required, command->directory);
   add_choice(
       app,
       {"--order", "ORDER", "nearest",

@@ -157,22 +157,22 @@ Status run(const CheckCommand& command) {
 
 void add_check_command(CLI::App& program, Action& action) {
   auto command = std::make_shared<CheckCommand>();
-  CLI::App& app = add_subcommand(program, "check",
-                                 "Validates a mesh with rational arithmetic; exit status 1 if it is invalid",
-                                 [command, &action] { action = [command] { return run(*command); }; });
+  CLI::App& app = add_command(program, "check",
+                              "Validates a mesh with rational arithmetic; exit status 1 if it is invalid",
+                              command, action);
   add_mesh_argument(app, command->mesh);
   add_real(app,
            {"--min-angle", "DEGREES", "the mesh's own, or not tested",
             "Smallest angle that is valid, in degrees: 0 (not tested) to 60"},
-           {.low = 0.0, .high = 60.0}, [command](double value) { command->min_angle = value; });
+           {.low = 0.0, .high = 60.0}, command->min_angle);
   add_real(app,
            {"--max-gradation", "H", "the mesh's own, or not tested",
             "Largest circumradius over mean length scale, for meshes with length scales: above 0, no unit"},
-           {.low = 0.0, .above_low = true}, [command](double value) { command->max_gradation = value; });
+           {.low = 0.0, .above_low = true}, command->max_gradation);
   add_real(app,
            {"--delaunay-slack", "DEGREES", "the mesh's own, or 0",
             "How far beyond 180 degrees the angles opposite an inner edge may sum up: 0 to 60"},
-           {.low = 0.0, .high = 60.0}, [command](double value) { command->delaunay_slack = value; });
+           {.low = 0.0, .high = 60.0}, command->delaunay_slack);
   add_json_flag(app, command->json);
 }
 

@@ -3,10 +3,10 @@
 // The registration and the exit statuses of all subcommands.
 
 #include <functional>
+#include <memory>
+#include <string>
 
-namespace CLI {
-class App;
-}
+#include "arguments.h"
 
 namespace remodel::app {
 
@@ -21,6 +21,15 @@ enum class Status : int {
 
 // The work of the chosen subcommand: set while the command line is parsed, called afterwards.
 using Action = std::function<Status()>;
+
+// Registers a subcommand whose options fill `command`, a shared one that its options may refer to.
+// run(*command) is its work.
+template <class Command>
+CLI::App& add_command(CLI::App& program, const std::string& name, const std::string& description,
+                      const std::shared_ptr<Command>& command, Action& action) {
+  return add_subcommand(program, name, description,
+                        [command, &action] { action = [command] { return run(*command); }; });
+}
 
 // Each function registers one subcommand, which sets `action` when it is chosen; it is in <name>_command.cpp.
 void add_mesh_command(CLI::App& program, Action& action);

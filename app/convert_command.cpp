@@ -68,8 +68,8 @@ Status run(const ConvertCommand& command) {
 
 void add_convert_command(CLI::App& program, Action& action) {
   auto command = std::make_shared<ConvertCommand>();
-  CLI::App& app = add_subcommand(program, "convert", "Writes a mesh and its fields in other formats",
-                                 [command, &action] { action = [command] { return run(*command); }; });
+  CLI::App& app =
+      add_command(program, "convert", "Writes a mesh and its fields in other formats", command, action);
   add_mesh_argument(app, command->mesh);
   command->outputs.add_options(app, Presence::required);
   add_json_flag(app, command->json);

@@ -6,7 +6,6 @@
 
 #include "arguments.h"
 #include "command.h"
-#include "design_problem.h"
 #include "figures.h"
 #include "number_text.h"
 #include "optimise_start.h"
@@ -14,6 +13,7 @@
 #include "progress.h"
 #include "remodel/design_run.h"
 #include "remodel/error.h"
+#include "warnings.h"
 
 namespace remodel::app {
 namespace {
@@ -88,6 +88,7 @@ std::string text_of(const FreshFlow& fresh) {
 Status run(const DesignCommand& command) {
   require_possible(command);
   const DesignProblem problem = read_design_problem(command.problem);
+  warn(problem.warnings);
   Progress progress(progress_style(command.quiet), problem.evaluations, "problem: " + command.problem);
   const DesignResult result = run_design(problem, command.run, &progress);
   progress.finish();
@@ -133,10 +134,10 @@ Status run(const DesignReportCommand& command) {
 
 void add_design_report_command(CLI::App& design, Action& action) {
   auto command = std::make_shared<DesignReportCommand>();
-  CLI::App& app = add_subcommand(design, "report", "Reports a run on one page, with everything in it",
-                                 [command, &action] { action = [command] { return run(*command); }; });
+  CLI::App& app =
+      add_command(design, "report", "Reports a run on one page, with everything in it", command, action);
   add_text(app, {"DIR", "", "", "Run directory of `remodel design`, finished or not"}, Presence::required,
-           [command](const std::string& text) { command->run = text; });
+           command->run);
   add_text(app, {"-o,--output", "FILE", "DIR/report.html", "Page to write: .html"}, Presence::optional,
            command->output);
   add_json_flag(app, command->json);
@@ -157,7 +158,7 @@ void add_design_command(CLI::App& program, Action& action) {
   add_text(
       app,
       {"-o,--output", "DIR", "", "Run directory: new or empty; that of a run with --resume or --overwrite"},
-      Presence::optional, [command](const std::string& text) { command->run.directory = text; });
+      Presence::optional, command->run.directory);
   add_flag(app, "--resume", "Continue from the checkpoint in the run directory", command->run.resume);
   add_flag(app, "--overwrite", "Replace the run that the run directory holds", command->run.overwrite);
   add_integer(
@@ -165,8 +166,7 @@ void add_design_command(CLI::App& program, Action& action) {
       {"--threads", "T", "as many as cores",
        "Flows of the problem's points that are looked for at the same time. The result does not depend "
        "on it; 1 to 1000"},
-      {.low = 1, .high = 1000},
-      [command](std::int64_t value) { command->run.threads = static_cast<std::size_t>(value); });
+      {.low = 1, .high = 1000}, command->run.threads);
   add_flag(app, "--quiet", "No progress on standard error", command->quiet);
   add_json_flag(app, command->json);
   add_design_report_command(app, action);

@@ -288,7 +288,7 @@ void add_domain_input(CLI::App& app, DomainInputOptions& options) {
            {"--join", "T", "1e-11",
             "Places of a .poly or domain file that are nearer than T, a share of its size or of its largest "
             "coordinate, differ by rounding: they are joined, and that is said; 1e-15 to 0.01, or 0: none"},
-           {.low = 0.0, .high = 0.01}, [&](double value) { options.join = value; });
+           {.low = 0.0, .high = 0.01}, options.join);
 }
 
 bool is_single_airfoil(const DomainInputOptions& options) {

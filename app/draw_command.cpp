@@ -123,8 +123,8 @@ Status run(const DrawCommand& command) {
 
 void add_draw_command(CLI::App& program, Action& action) {
   auto command = std::make_shared<DrawCommand>();
-  CLI::App& app = add_subcommand(program, "draw", "Draws a mesh or a field on it as SVG or PNG",
-                                 [command, &action] { action = [command] { return run(*command); }; });
+  CLI::App& app =
+      add_command(program, "draw", "Draws a mesh or a field on it as SVG or PNG", command, action);
   add_mesh_argument(app, command->mesh);
   add_text(app, {"-o,--output", "FILE", "", "Picture to write, format by extension: .svg or .png"},
            Presence::required, command->output);
@@ -152,13 +152,11 @@ void add_draw_command(CLI::App& program, Action& action) {
            Presence::optional, [command](const std::string& text) { command->range = parse_range(text); });
   add_integer(app,
               {"--iso", "N", "0", "Number of lines of equal values, at equal distances in the range, to 200"},
-              {.low = 0, .high = 200},
-              [command](std::int64_t value) { command->iso_lines = static_cast<int>(value); });
+              {.low = 0, .high = 200}, command->iso_lines);
   add_text(app, {"--since", "MESH", "", "Earlier state of the same mesh, for --color fate"},
            Presence::optional, command->since);
   add_integer(app, {"--width", "PIXELS", "1600", "Width in pixels, 100 to 8000; the height follows"},
-              {.low = 100, .high = 8000},
-              [command](std::int64_t value) { command->options.width = static_cast<int>(value); });
+              {.low = 100, .high = 8000}, command->options.width);
   add_json_flag(app, command->json);
 }
 

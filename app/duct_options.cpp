@@ -12,15 +12,15 @@ void add_duct_options(CLI::App& app, EulerRun& run) {
   add_real(app,
            {"--total-pressure", "PART", "1",
             "Total pressure at inlets, as a part of the stream's of that Mach number: above 0"},
-           {.low = 0.0, .above_low = true}, [&](double value) { run.inlet.total_pressure = value; });
+           {.low = 0.0, .above_low = true}, run.inlet.total_pressure);
   add_real(
       app,
       {"--total-temperature", "PART", "1", "Total temperature at inlets, as a part of the stream's: above 0"},
-      {.low = 0.0, .above_low = true}, [&](double value) { run.inlet.total_temperature = value; });
+      {.low = 0.0, .above_low = true}, run.inlet.total_temperature);
   add_texts(app, {"--outlet", "NAME", "", "Boundary that gas leaves by; may be given several times"},
             Presence::optional, run.outlets);
   add_real(app, {"--pressure", "PART", "1", "Pressure at outlets, as a part of the stream's: above 0"},
-           {.low = 0.0, .above_low = true}, [&](double value) { run.outlet.pressure = value; });
+           {.low = 0.0, .above_low = true}, run.outlet.pressure);
   add_texts(
       app,
       {"--symmetry", "NAME", "",

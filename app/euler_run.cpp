@@ -53,15 +53,14 @@ void add_euler_options(CLI::App& app, EulerRun& run) {
   add_real(app,
            {"--tolerance", "PART", "1e-10",
             "Converged: the residual as a part of undisturbed flow's, 1e-13 to 1e-2"},
-           {.low = 1e-13, .high = 1e-2}, [&](double value) { run.options.tolerance = value; });
+           {.low = 1e-13, .high = 1e-2}, run.options.tolerance);
   add_integer(app, {"--max-steps", "N", "200", "Newton steps of one flow: at least 1"},
-              {.low = 1, .high = 100000},
-              [&](std::int64_t value) { run.options.max_steps = static_cast<int>(value); });
+              {.low = 1, .high = 100000}, run.options.max_steps);
   add_real(app,
            {"--memory", "MB", "4096",
             "What the factors of a matrix may take, megabytes: at least 1; where LU takes more, GMRES with "
             "incomplete factors takes its place"},
-           {.low = 1.0, .high = 1e9}, [&](double value) { run.options.memory_mb = value; });
+           {.low = 1.0, .high = 1e9}, run.options.memory_mb);
   add_choice(
       app,
       {"--solver", "SOLVER", "auto",
@@ -74,7 +73,7 @@ void add_euler_options(CLI::App& app, EulerRun& run) {
            {"--limiter", "K", "30",
             "Differences below (K h)^(3/2) along an edge are not limited, h being its length over the "
             "walls' extent, the chord of a section: above 0, no unit"},
-           {.low = 0.0, .above_low = true}, [&](double value) { run.options.limiter = value; });
+           {.low = 0.0, .above_low = true}, run.options.limiter);
   add_text(app, {"--reference", "X,Y", "0.25,0", "Point of the moment and of the far field's vortex"},
            Presence::optional, [&](const std::string& text) {
              const std::vector<double> point = parse_reals("--reference", text, 2);
@@ -83,7 +82,7 @@ void add_euler_options(CLI::App& app, EulerRun& run) {
   add_real(app,
            {"--reference-length", "LENGTH", "1",
             "Length that coefficients are made with, and nothing else: above 0"},
-           {.low = 0.0, .above_low = true}, [&](double value) { run.conditions.reference_length = value; });
+           {.low = 0.0, .above_low = true}, run.conditions.reference_length);
   add_text(app,
            {"--series", "FILE", "",
             "JSON array of airfoils: the mesh is remodelled to one after the other, each flow found from the "
@@ -133,7 +132,7 @@ std::vector<std::string> write_files(const EulerRun& run, const MeshInput& input
                                      const FlowResult& flow) {
   std::vector<std::string> files;
   const std::string caption = options.inlets.empty() && options.outlets.empty()
-                                  ? flow_caption(flow.mach, flow.alpha_deg, flow.cl)
+                                  ? flow_caption(flow.mach, flow.alpha_deg, determined_lift(flow))
                                   : duct_caption(flow.mach);
   if (flow.converged()) {
     write_with_fields(outputs, input, fields_of(flow));
@@ -177,7 +176,8 @@ Status run_euler(const EulerRun& run, const MeshInput& input, const std::string&
     const FlowProgressLine progress(options);
     LivingFlow living(options);
     flow = solve(run, input, source, living, options);
-    if (run.gradient && flow.converged()) gradients = gradients_json(living, *input.living, run.conditions);
+    if (run.gradient && flow.converged())
+      gradients = gradients_json(living, *input.living, flow, run.conditions);
     if (run.error && flow.converged())
       error = estimate_error(*input.living, flow, run.conditions, options, source);
   }
@@ -188,7 +188,7 @@ Status run_euler(const EulerRun& run, const MeshInput& input, const std::string&
   print_warnings(source, flow.warnings);
   Report report;
   add_flow_mesh(report, source, name_of(options.model), input.frozen);
-  add_flow_figures(report, flow);
+  add_flow_figures(report, flow, run.conditions);
   if (!gradients.is_null()) add_gradients(report, gradients);
   if (error) add_error(report, *error);
   if (flow.converged() || !files.empty()) add_output_figures(report, files);

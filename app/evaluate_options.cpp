@@ -63,7 +63,7 @@ void add_evaluation_options(CLI::App& app, EvaluateOptions& options) {
            {"--time-limit", "SECONDS", "0: none",
             "Time for one evaluation by --evaluate; one that takes longer is ended, and its design counts as "
             "infeasible; at least 0"},
-           {.low = 0.0, .high = 1e9}, [&](double value) { options.run.time_limit = value; });
+           {.low = 0.0, .high = 1e9}, options.run.time_limit);
   add_choice(app,
              {"--keep-evaluations", "WHICH", "failed",
               "Directories of evaluations by --evaluate that stay in DIR/evaluations: none, failed, all"},
@@ -74,8 +74,7 @@ void add_evaluation_options(CLI::App& app, EvaluateOptions& options) {
                "States of earlier designs that are kept with each mesh, the latest: while its connectivity "
                "stays, their combination that reproduces the new design is the state handed to --evaluate; "
                "0 to 1000"},
-              {.low = 0, .high = 1000},
-              [&](std::int64_t value) { options.run.snapshots = static_cast<std::size_t>(value); });
+              {.low = 0, .high = 1000}, options.run.snapshots);
 }
 
 std::unique_ptr<Evaluator> shell_evaluator(const EvaluateOptions& options) {

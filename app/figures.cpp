@@ -21,8 +21,10 @@ void add_mesh_argument(CLI::App& app, std::string& mesh) {
 
 void add_boundary_figures(Report& report, const std::map<std::string, std::size_t>& boundary) {
   Json edges = Json::object();
+  // Behind the others, without a look at them: there may be a hundred thousand.
+  auto& entries = static_cast<Json::object_t::Container&>(edges.get_ref<Json::object_t&>());
   for (const auto& [name, count] : boundary) {
-    edges[name] = count;
+    entries.emplace_back(name, count);
     report.line("boundary " + name, std::to_string(count) + " edges");
   }
   report.data("boundary", edges);

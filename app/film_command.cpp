@@ -125,27 +125,23 @@ Status run(const FilmCommand& command) {
 void add_film_command(CLI::App& program, Action& action) {
   auto command = std::make_shared<FilmCommand>();
   CLI::App& app =
-      add_subcommand(program, "film", "Films the mesh of a run of `optimise` or `design`, as animated WebP",
-                     [command, &action] { action = [command] { return run(*command); }; });
+      add_command(program, "film", "Films the mesh of a run of `optimise` or `design`, as animated WebP",
+                  command, action);
   add_text(app, {"RUN", "", "", "Run directory of `remodel optimise` or of `remodel design`"},
-           Presence::required, [command](const std::string& text) { command->run = text; });
+           Presence::required, command->run);
   add_text(app, {"-o,--output", "FILE", "", "Film to write: .webp"}, Presence::required, command->output);
   add_integer(
       app,
       {"--frames", "N", "80",
        "Pictures: the start, then the best design of each of N - 1 equal parts of the run; 2 to 10000"},
-      {.low = 2, .high = 10000},
-      [command](std::int64_t value) { command->frames = static_cast<std::size_t>(value); });
+      {.low = 2, .high = 10000}, command->frames);
   add_integer(app, {"--frame-ms", "T", "100", "Duration of each picture in milliseconds: 10 to 60000"},
-              {.low = 10, .high = 60000},
-              [command](std::int64_t value) { command->film.frame_ms = static_cast<int>(value); });
+              {.low = 10, .high = 60000}, command->film.frame_ms);
   add_integer(app, {"--worker", "W", "1", "Worker whose mesh is shown, in a run with --workers: from 1"},
-              {.low = 1},
-              [command](std::int64_t value) { command->worker = static_cast<std::uint64_t>(value); });
+              {.low = 1}, command->worker);
   add_window(app, "-0.1,-0.25,1.1,0.25, or around all elements of a design", command->film.picture);
   add_integer(app, {"--width", "PIXELS", "960", "Width in pixels, 100 to 8000; the height follows"},
-              {.low = 100, .high = 8000},
-              [command](std::int64_t value) { command->film.picture.width = static_cast<int>(value); });
+              {.low = 100, .high = 8000}, command->film.picture.width);
   add_json_flag(app, command->json);
 }
 

@@ -71,9 +71,9 @@ Status run(const FitCommand& command) {
 
 void add_fit_command(CLI::App& program, Action& action) {
   auto command = std::make_shared<FitCommand>();
-  CLI::App& app = add_subcommand(
-      program, "fit", "Fits CST coefficients to an airfoil; exit status 1 if the fit crosses itself",
-      [command, &action] { action = [command] { return run(*command); }; });
+  CLI::App& app = add_command(program, "fit",
+                              "Fits CST coefficients to an airfoil; exit status 1 if the fit crosses itself",
+                              command, action);
   add_text(app, {"airfoil", "AIRFOIL", "", shape_help}, Presence::required, command->shape);
   add_text(app, {"-o,--output", "FILE", "", "File to write the coefficients to: .json, a SHAPE itself"},
            Presence::optional, command->output);

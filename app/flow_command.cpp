@@ -177,8 +177,8 @@ Status run(const FlowCommand& command) {
 
 void add_flow_command(CLI::App& program, Action& action) {
   auto command = std::make_shared<FlowCommand>();
-  CLI::App& app = add_subcommand(program, "flow", "The flow around airfoils, or through a mesh of any format",
-                                 [command, &action] { action = [command] { return run(*command); }; });
+  CLI::App& app = add_command(program, "flow", "The flow around airfoils, or through a mesh of any format",
+                              command, action);
   add_domain_input(app, command->input);
   add_choice(app,
              {"--model", "MODEL", "euler",
@@ -196,9 +196,9 @@ void add_flow_command(CLI::App& program, Action& action) {
             "walls follows from it where a shape is given"},
            {.low = 1.0, .high = 1e10}, [command](double value) { command->euler.conditions.reynolds = value; });
   add_real(app, {"--alpha", "DEG", "0", "Angle of attack in degrees, -90 to 90"}, {.low = -90, .high = 90},
-           [command](double value) { command->alpha_deg = value; });
+           command->alpha_deg);
   add_real(app, {"--cl", "CL", "", "Lift coefficient that the angle of attack is found for: -10 to 10"},
-           {.low = -10, .high = 10}, [command](double value) { command->lift = value; });
+           {.low = -10, .high = 10}, command->lift);
   add_text(app,
            {"--farfield", "NAME", "farfield", "Boundary that is open to the stream; all others are walls"},
            Presence::optional, command->farfield);

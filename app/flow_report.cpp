@@ -1,25 +1,29 @@
 #include "flow_report.h"
 
+#include <limits>
+
 #include "remodel/mesh_derivative.h"
 
 namespace remodel::app {
 namespace {
 
 constexpr const char* not_converged = " (not converged)";
-constexpr const char* not_determined = " (not determined)";
 
-const char* mark_of(const FlowResult& flow) {
-  if (!flow.converged()) return not_converged;
-  return flow.lift_determined ? "" : not_determined;
+Json if_determined(const FlowResult& flow, double value) {
+  return flow.lift_determined ? Json(value) : Json(nullptr);
 }
 
 }  // namespace
 
-Json to_json(const FlowResult& flow) {
-  Json json{{"cl", flow.cl},
+double determined_lift(const FlowResult& flow) {
+  return flow.lift_determined ? flow.cl : std::numeric_limits<double>::quiet_NaN();
+}
+
+Json to_json(const FlowResult& flow, const FlowConditions& conditions) {
+  Json json{{"cl", if_determined(flow, flow.cl)},
             {"cd", flow.cd},
-            {"cm", flow.cm},
-            {"alpha_deg", flow.alpha_deg},
+            {"cm", if_determined(flow, flow.cm)},
+            {"alpha_deg", conditions.cl ? if_determined(flow, flow.alpha_deg) : Json(flow.alpha_deg)},
             {"mach", flow.mach},
             {"converged", flow.converged()},
             {"status", name_of(flow.status)}};
@@ -42,6 +46,7 @@ Json to_json(const FlowResult& flow) {
   json["memory_mb"] = flow.memory_mb;
   json["seconds"] = flow.seconds;
   json["warm"] = name_of(flow.start);
+  json["origin"] = name_of(flow.origin);
   json["lift_determined"] = flow.lift_determined;
   json["warnings"] = flow.warnings;
   return json;
@@ -52,10 +57,11 @@ namespace {
 void add_bodies(Report& report, const FlowResult& flow) {
   Json bodies = Json::array();
   for (const FlowBody& body : flow.bodies) {
-    bodies.push_back({{"name", body.name}, {"cl", body.cl}, {"cd", body.cd}, {"cm", body.cm}});
+    const Json cl = if_determined(flow, body.cl), cm = if_determined(flow, body.cm);
+    bodies.push_back({{"name", body.name}, {"cl", cl}, {"cd", body.cd}, {"cm", cm}});
     if (flow.bodies.size() > 1)
-      report.line("body " + body.name,
-                  "CL " + Json(body.cl).dump() + ", CD " + Json(body.cd).dump() + mark_of(flow));
+      report.line("body " + body.name, "CL " + (cl.is_null() ? not_determined : cl.dump()) + ", CD " +
+                                           Json(body.cd).dump() + (flow.converged() ? "" : not_converged));
   }
   report.data("bodies", bodies);
   Json openings = Json::array();
@@ -69,11 +75,15 @@ void add_bodies(Report& report, const FlowResult& flow) {
 
 }  // namespace
 
-void add_flow_figures(Report& report, const FlowResult& flow) {
-  const Json figures = to_json(flow);
+void add_flow_figures(Report& report, const FlowResult& flow, const FlowConditions& conditions) {
+  const Json figures = to_json(flow, conditions);
   for (const auto& [key, value] : figures.items()) report.data(key, value);
   const auto figure = [&](const char* key, const char* label, const std::string& unit = "") {
-    if (figures.contains(key)) report.figure(key, label, figures.at(key), unit);
+    if (!figures.contains(key)) return;
+    if (figures.at(key).is_null())
+      report.line(label, not_determined);
+    else
+      report.figure(key, label, figures.at(key), unit);
   };
   const auto add_end = [&] {
     figure("converged", "converged"), figure("status", "ended"), figure("reason", "because");
@@ -83,8 +93,7 @@ void add_flow_figures(Report& report, const FlowResult& flow) {
     add_end();
   }
   const std::string mark = flow.converged() ? "" : not_converged + 1;  // behind the space of units
-  const std::string lift_mark = mark.empty() && !flow.lift_determined ? not_determined + 1 : mark;
-  figure("cl", "CL", lift_mark), figure("cd", "CD", mark), figure("cm", "CM", lift_mark);
+  figure("cl", "CL", mark), figure("cd", "CD", mark), figure("cm", "CM", mark);
   figure("entropy_drag", "CD by entropy", mark);
   figure("cd_pressure", "CD of pressure", mark), figure("cd_friction", "CD of friction", mark);
   figure("y_plus_max", "largest y+", mark), figure("reynolds", "Reynolds number");
@@ -92,6 +101,7 @@ void add_flow_figures(Report& report, const FlowResult& flow) {
   figure("mach", "Mach number");
   if (flow.converged()) add_end();
   figure("residual", "residual, of undisturbed flow's");
+  figure("origin", "found from");
   figure("newton_steps", "Newton steps");
   figure("factorisations", "factorisations");
   figure("krylov_iterations", "steps with older factors");
@@ -103,7 +113,8 @@ void add_flow_figures(Report& report, const FlowResult& flow) {
   report.data("history", flow.history);
 }
 
-Json gradients_json(LivingFlow& living, const Mesh& mesh, const FlowConditions& conditions) {
+Json gradients_json(LivingFlow& living, const Mesh& mesh, const FlowResult& flow,
+                    const FlowConditions& conditions) {
   const FlowGradients gradients = living.gradients();
   if (gradients.interrupted) return nullptr;
   const MeshDerivative derivative(mesh);
@@ -118,8 +129,12 @@ Json gradients_json(LivingFlow& living, const Mesh& mesh, const FlowConditions& 
     sections[name].push_back(conditions.cl ? gradient.cl : gradient.alpha_deg);
     mach[name] = gradient.mach;
   };
-  note("cl", gradients.cl), note("cd", gradients.cd), note("cm", gradients.cm);
-  if (conditions.cl) note("alpha_deg", gradients.alpha_deg);
+  const auto note_if_determined = [&](const char* name, const FlowGradient& gradient) {
+    if (flow.lift_determined) return note(name, gradient);
+    for (Json* of : {&sections, &others, &mach}) (*of)[name] = nullptr;
+  };
+  note_if_determined("cl", gradients.cl), note("cd", gradients.cd), note_if_determined("cm", gradients.cm);
+  if (conditions.cl) note_if_determined("alpha_deg", gradients.alpha_deg);
   Json json = std::move(sections);
   json["others"] = std::move(others);
   json["mach"] = std::move(mach);
@@ -132,7 +147,8 @@ void add_gradients(Report& report, const Json& gradients) {
   report.line("gradients by", gradients["names"].dump());
   for (const auto& [key, label] : {std::pair{"cl", "CL"}, std::pair{"cd", "CD"}, std::pair{"cm", "CM"},
                                    std::pair{"alpha_deg", "the angle, degrees"}})
-    if (gradients.contains(key)) report.line(std::string("gradient of ") + label, gradients[key].dump());
+    if (gradients.contains(key) && !gradients[key].is_null())
+      report.line(std::string("gradient of ") + label, gradients[key].dump());
 }
 
 void add_error(Report& report, const FlowError& error) {

@@ -9,12 +9,18 @@
 
 namespace remodel::app {
 
-Json to_json(const FlowResult& flow);
+// Lift and moment are null where they are not determined; so is the angle where lift was given.
+Json to_json(const FlowResult& flow, const FlowConditions& conditions);
+inline constexpr const char* not_determined = "not determined";
+// Not a number where it is not determined.
+double determined_lift(const FlowResult& flow);
 // In text a flow that was not found says so first, and its coefficients say it again.
-void add_flow_figures(Report& report, const FlowResult& flow);
+void add_flow_figures(Report& report, const FlowResult& flow, const FlowConditions& conditions);
 // Derivatives by coefficients_of() the mesh's domain, which `names` has the names of, the Mach number and
-// what is given of angle and lift. Null where they were interrupted.
-Json gradients_json(LivingFlow& living, const Mesh& mesh, const FlowConditions& conditions);
+// what is given of angle and lift. Null where they were interrupted; those of lift, moment and, with a lift
+// given, the angle are null where the flow's lift is not determined.
+Json gradients_json(LivingFlow& living, const Mesh& mesh, const FlowResult& flow,
+                    const FlowConditions& conditions);
 void add_gradients(Report& report, const Json& gradients);
 // In text as bars around the coefficients; null where the finer mesh has no flow.
 void add_error(Report& report, const FlowError& error);

@@ -50,7 +50,8 @@ class Comparison {
     FlowResult flow = cold ? solve_flow(fresh, conditions_, options_)
                            : solve_flow_from(mesh_, *flow_, mesh, conditions_, options_);
     entry[kind_ == Compare::cold ? "cold_seconds" : "rival_seconds"] = flow.seconds;
-    entry[kind_ == Compare::cold ? "cold_cl" : "rival_cl"] = flow.cl;
+    entry[kind_ == Compare::cold ? "cold_cl" : "rival_cl"] =
+        flow.lift_determined ? Json(flow.cl) : Json(nullptr);
     if (!flow.converged()) return;
     flow_ = std::move(flow), mesh_ = std::move(mesh);
   }
@@ -119,7 +120,8 @@ class Row {
   static std::string text_of(const Json& design) {
     if (!design.contains("cl"))
       return design["status"].get<std::string>() + ": " + design["detail"].get<std::string>();
-    const std::string figures = "CL " + design["cl"].dump() + ", CD " + design["cd"].dump() + ", " +
+    const std::string cl = design["cl"].is_null() ? not_determined : design["cl"].dump();
+    const std::string figures = "CL " + cl + ", CD " + design["cd"].dump() + ", " +
                                 design["warm"].get<std::string>() + ", " +
                                 design["status"].get<std::string>();
     return design["converged"].get<bool>() ? figures : "not converged: " + figures;
@@ -150,7 +152,7 @@ Status run_series(const EulerRun& run, StartMesh start) {
     RemodelResult step;
     try {
       domain = with_new_airfoil(start, {}, airfoil);
-      step = remodel(start.mesh, *domain, {.strategy = Strategy::morph, .observer = &observer});
+      step = remodel(start.mesh, *domain, {.strategy = strategy_with_flows, .observer = &observer});
     } catch (const Error& error) {
       if (error.code() != ErrorCode::geometry) throw;
       row.add_refused(error.what());
@@ -161,7 +163,7 @@ Status run_series(const EulerRun& run, StartMesh start) {
       break;
     }
     const FlowResult flow = living.solve(start.mesh, run.conditions);
-    Json entry = to_json(flow);
+    Json entry = to_json(flow, run.conditions);
     entry["full_adjustment"] = step.full_adjustment;
     comparison.add(*domain, entry);
     row.add(flow, std::move(entry));

@@ -46,9 +46,8 @@ Status run(const LiveCommand& command) {
 
 void add_live_command(CLI::App& program, Action& action) {
   auto command = std::make_shared<LiveCommand>();
-  CLI::App& app =
-      add_subcommand(program, "live", "Writes a page in which one drags an airfoil and its mesh follows",
-                     [command, &action] { action = [command] { return run(*command); }; });
+  CLI::App& app = add_command(
+      program, "live", "Writes a page in which one drags an airfoil and its mesh follows", command, action);
   add_text(app, {"-o,--output", "FILE", "", "Page to write: .html; it needs no other file and no network"},
            Presence::required, command->output);
   add_flag(app, "--open", "Open the page in the browser", command->open);

@@ -1,6 +1,7 @@
 // remodel mesh SHAPE... [-o MESH]...: a fresh quality mesh.
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 
@@ -13,6 +14,7 @@
 #include "meshing_options.h"
 #include "outputs.h"
 #include "remodel/error.h"
+#include "remodel/limits.h"
 #include "timing.h"
 #include "warnings.h"
 
@@ -28,6 +30,19 @@ struct MeshCommand {
   bool json = false;
   std::function<bool(const std::string&)> given;  // on the command line
 };
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+// Of a mesh that was interrupted: there was no time to measure it.
+void add_counts(Report& report, const MeshCounts& counts) {
+  report.figure("triangles", "triangles", counts.triangles);
+  report.figure("vertices", "vertices", counts.vertices);
+  add_boundary_figures(report, counts.boundary);
+  report.figure("steiner_boundary_vertices", "Steiner vertices on the boundary",
+                counts.steiner_boundary_vertices);
+  for (const char* key : {"min_angle_deg", "exempt_triangles", "max_radius_edge", "max_gradation"})
+    report.data(key, nullptr);
+}
 
 void report_input(Report& report, const MeshCommand& command, const DomainInput& input) {
   for (const std::string& shape : command.shapes.shapes) report.line("shape", shape);
@@ -111,9 +126,14 @@ Status run(const MeshCommand& command) {
   Report report;
   report_input(report, command, input);
   describe(report, command.meshing, input.in_farfield, input.outlines.empty());
-  add_mesh_figures(report, result.mesh.freeze(), result.mesh.statistics());
+  const bool interrupted = result.stopped == Stopped::interrupted;
+  if (interrupted)
+    add_counts(report, counts_of(result.mesh));
+  else
+    add_mesh_figures(report, result.mesh.freeze(), result.mesh.statistics());
   report.figure("small_angles", "input angles below 60 degrees", result.small_angles);
-  add_gradation_error(report, result.mesh.gradation_error(&observer));
+  add_gradation_error(report,
+                      interrupted ? GradationError{none, none} : result.mesh.gradation_error(&observer));
   report.figure("seconds", command.repeat > 1 ? "generation, median" : "generation", median(seconds),
                 "seconds");
   report.figure("stopped", "stopped", name_of(result.stopped));
@@ -127,9 +147,8 @@ Status run(const MeshCommand& command) {
 
 void add_mesh_command(CLI::App& program, Action& action) {
   auto command = std::make_shared<MeshCommand>();
-  CLI::App& app =
-      add_subcommand(program, "mesh", "Generates a quality mesh around airfoils, or of any domain",
-                     [command, &action] { action = [command] { return run(*command); }; });
+  CLI::App& app = add_command(program, "mesh", "Generates a quality mesh around airfoils, or of any domain",
+                              command, action);
   add_domain_input(app, command->shapes);
   command->outputs.add_options(app, Presence::optional);
   add_meshing_options(app, command->meshing);
@@ -140,8 +159,7 @@ void add_mesh_command(CLI::App& program, Action& action) {
       {"--refine-angle", "DEGREES", "the angle of --min-angle",
        "Angle in degrees that refinement works to, 0 to 34, where it is more than the one promised: 32 for a "
        "mesh that `update --strategy reference` is to hold"},
-      {.low = 0.0, .high = 34.0},
-      [command](double value) { command->meshing.quality.refine_angle_deg = value; });
+      {.low = 0.0, .high = 34.0}, command->meshing.quality.refine_angle_deg);
   add_repeat(app, command->repeat);
   add_json_flag(app, command->json);
 }

@@ -8,16 +8,14 @@ namespace {
 
 void add_discretisation(CLI::App& app, AirfoilDomainOptions& options) {
   add_integer(app, {"--points", "I", "200", "Vertices on the airfoil before refinement: even, 8 to 100000"},
-              {.low = 8, .high = 100000, .even = true},
-              [&](std::int64_t value) { options.points = static_cast<int>(value); });
+              {.low = 8, .high = 100000, .even = true}, options.points);
   add_real(
       app,
       {"--farfield-radius", "CHORDS", "25",
        "Radius of the farfield circle in chords of 1, about (0.5, 0) wherever airfoils are placed: above 1"},
-      {.low = 1.0, .high = 1e6, .above_low = true}, [&](double value) { options.farfield_radius = value; });
+      {.low = 1.0, .high = 1e6, .above_low = true}, options.farfield_radius);
   add_integer(app, {"--farfield-points", "N", "50", "Vertices on the farfield circle: 8 to 100000"},
-              {.low = 8, .high = 100000},
-              [&](std::int64_t value) { options.farfield_points = static_cast<int>(value); });
+              {.low = 8, .high = 100000}, options.farfield_points);
 }
 
 void add_quality(CLI::App& app, MeshingOptions& options) {
@@ -25,28 +23,27 @@ void add_quality(CLI::App& app, MeshingOptions& options) {
   add_real(app,
            {"--gradation", "G", "I/50, or 8 with --layers",
             "Triangle size grows by distance/G away from the boundary: above 0 up to 1e6, no unit"},
-           {.low = 0.0, .high = 1e6, .above_low = true}, [&](double value) { options.gradation = value; });
+           {.low = 0.0, .high = 1e6, .above_low = true}, options.gradation);
   add_real(app,
            {"--resolution", "R", "1",
             "Boundary length scale is the distance to the nearest neighbour over R: above 0, no unit"},
-           {.low = 0.0, .high = 1e6, .above_low = true}, [&](double value) { quality.resolution = value; });
+           {.low = 0.0, .high = 1e6, .above_low = true}, quality.resolution);
   add_real(app, {"--min-angle", "DEGREES", "30", "Smallest angle of a triangle in degrees: 0 to 34"},
-           {.low = 0.0, .high = 34.0}, [&](double value) { quality.min_angle_deg = value; });
+           {.low = 0.0, .high = 34.0}, quality.min_angle_deg);
   add_real(app,
            {"--max-gradation", "H", "0.70710678",
             "Largest circumradius over mean length scale of a triangle: above 0, no unit"},
-           {.low = 0.0, .above_low = true}, [&](double value) { quality.max_gradation = value; });
+           {.low = 0.0, .above_low = true}, quality.max_gradation);
   add_real(
       app,
       {"--min-edge", "LENGTH", "1e-12 of the domain's size or of its largest coordinate",
        "No boundary edge shorter than this is split, and no triangle of a smaller circumradius: generation "
        "goes on elsewhere and ends with exit status 3; above 0, in chords"},
-      {.low = 0.0, .above_low = true}, [&](double value) { quality.min_edge = value; });
+      {.low = 0.0, .above_low = true}, quality.min_edge);
   add_integer(app,
               {"--max-vertices", "N", "10000000",
                "Vertex budget: generation stops there with exit status 3; 100 to 1000000000"},
-              {.low = 100, .high = 1'000'000'000},
-              [&](std::int64_t value) { quality.max_vertices = static_cast<std::uint32_t>(value); });
+              {.low = 100, .high = 1'000'000'000}, quality.max_vertices);
 }
 
 }  // namespace
@@ -63,7 +60,7 @@ void add_fit_options(CLI::App& app, FitOptions& options) {
       {"--cst-degree", "N", "5",
        "Bernstein degree of a fit, 2 to 12, or the next one whose surfaces do not cross; catalogue names "
        "and .json files have their own"},
-      {.low = 2, .high = 12}, [&](std::int64_t value) { options.degree = static_cast<int>(value); });
+      {.low = 2, .high = 12}, options.degree);
   add_flag(app, "--close-trailing-edge",
            "Closes the trailing edge of a coordinate file; if not given, an open one is kept as it is",
            options.close_trailing_edge);
@@ -71,7 +68,7 @@ void add_fit_options(CLI::App& app, FitOptions& options) {
 
 void add_repeat(CLI::App& app, int& repeat) {
   add_integer(app, {"--repeat", "N", "1", "Do the work N times and report the median time: at least 1"},
-              {.low = 1, .high = 1'000'000}, [&](std::int64_t value) { repeat = static_cast<int>(value); });
+              {.low = 1, .high = 1'000'000}, repeat);
 }
 
 void add_meshing_options(CLI::App& app, MeshingOptions& options) {

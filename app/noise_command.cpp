@@ -70,8 +70,10 @@ Objective flow_objective(const NoiseCommand& command, StepObserver& observer, bo
           [=, conditions = command.conditions](const Mesh& mesh, std::span<const double>) -> Values {
             if (!carry) solver->forget();
             const FlowResult flow = solver->solve(mesh, conditions);
-            if (flow.converged()) return std::vector{flow.cl, flow.cd};
-            failures->push_back(flow.reason);
+            if (flow.converged() && flow.lift_determined) return std::vector{flow.cl, flow.cd};
+            failures->push_back(
+                flow.converged() ? "the lift is not determined: a body has no edge that the flow leaves from"
+                                 : flow.reason);
             return std::nullopt;
           },
           [=](const Mesh& mesh, std::span<const double> direction) {
@@ -191,10 +193,9 @@ class LineMeshes {
   }
 
  private:
-  // The living mesh follows as that of `remodel design` does.
   Strategy strategy() const {
     if (way_ == Way::reference) return Strategy::reference;
-    return way_ == Way::living ? Strategy::morph : Strategy::renew;
+    return way_ == Way::living ? strategy_with_flows : default_strategy;
   }
 
   Way way_;
@@ -368,11 +369,11 @@ void add_flow_options(CLI::App& app, NoiseCommand& command) {
            {.low = 0.01, .high = 3.0},
            [&](double value) { command.mach = value, command.conditions.mach = value; });
   add_real(app, {"--alpha", "DEG", "0", "Angle of attack in degrees, -90 to 90"}, {.low = -90, .high = 90},
-           [&](double value) { command.conditions.alpha_deg = value; });
+           command.conditions.alpha_deg);
   add_real(
       app,
       {"--tolerance", "PART", "1e-12", "Residual of a flow, as a part of undisturbed flow's: 1e-13 to 1e-2"},
-      {.low = 1e-13, .high = 1e-2}, [&](double value) { command.flow.tolerance = value; });
+      {.low = 1e-13, .high = 1e-2}, command.flow.tolerance);
   add_evaluate_option(
       app,
       "In place of a flow: a shell command for each design, as for `remodel optimise`, whose result is a "
@@ -384,22 +385,20 @@ void add_flow_options(CLI::App& app, NoiseCommand& command) {
 
 void add_noise_command(CLI::App& program, Action& action) {
   auto command = std::make_shared<NoiseCommand>();
-  CLI::App& app = add_subcommand(
+  CLI::App& app = add_command(
       program, "noise", "How smooth an objective is along a line of designs, by the way of making meshes",
-      [command, &action] { action = [command] { return run(*command); }; });
+      command, action);
   add_shape_argument(app, command->shape);
   add_text(app,
            {"--direction", "D1,D2,...", "all of the upper surface",
             "Direction in the space of shape coefficients, upper surface first: of any length but 0"},
            Presence::optional, command->direction);
   add_real(app, {"--spacing", "S", "0.001", "Distance between designs, in shape coefficients: above 0"},
-           {.low = 0.0, .above_low = true}, [command](double value) { command->spacing = value; });
+           {.low = 0.0, .above_low = true}, command->spacing);
   add_integer(app, {"--count", "N", "21", "Designs on the line, the shape in their middle: 4 to 10000"},
-              {.low = 4, .high = 10000},
-              [command](std::int64_t value) { command->count = static_cast<int>(value); });
+              {.low = 4, .high = 10000}, command->count);
   add_integer(app, {"--degree", "N", "3", "Degree of the polynomial that is smooth enough: 1 to 20"},
-              {.low = 1, .high = 20},
-              [command](std::int64_t value) { command->degree = static_cast<int>(value); });
+              {.low = 1, .high = 20}, command->degree);
   add_flow_options(app, *command);
   add_text(app, {"-o,--output", "FILE", "", "Picture of the residuals: .svg or .png"}, Presence::optional,
            command->picture);

@@ -112,6 +112,7 @@ std::function<OptimiseResult()> once(const OptimiseCommand& command, OptimiseSta
   if (!command.evaluate.command.empty()) {
     EvaluateOptions options = command.evaluate;
     options.run.directory = command.run.directory / "evaluations";
+    if (command.run.start) options.run.su2_boxes = command.run.start->su2_boxes;
     std::shared_ptr<Evaluator> evaluator = shell_evaluator(options);
     return [&, evaluator] { return optimise(start.from, *evaluator, command.run, &progress); };
   }
@@ -161,35 +162,27 @@ Status run(OptimiseCommand& command) {
 }
 
 void add_strategy(CLI::App& app, OptimiseOptions& run) {
-  std::vector<std::string> names;
-  std::string help;
-  for (const MeshStrategyInfo& info : mesh_strategies()) {
-    names.emplace_back(info.name);
-    help += (help.empty() ? "" : "; ") + std::string(info.name) + ": " + info.description;
-  }
-  add_choice(app, {"--strategy", "STRATEGY", "renew", help}, names,
-             [&](std::size_t choice) { run.strategy = mesh_strategies()[choice].strategy; });
+  add_strategy_choice(app, name_of(run.strategy), mesh_strategies(),
+                      [&run](MeshStrategy strategy) { run.strategy = strategy; });
   add_integer(
       app,
       {"--workers", "W", "1, pool: as many as samples per generation",
        "Living meshes; a design goes to the worker whose last one is nearest. The result depends on it; "
        "1 to 1000"},
-      {.low = 1, .high = 1000}, [&](std::int64_t value) { run.workers = static_cast<std::size_t>(value); });
+      {.low = 1, .high = 1000}, run.workers);
   add_integer(app,
               {"--threads", "T", "as many as cores, at most one per worker",
                "Workers that evaluate at the same time. The result does not depend on it; 1 to 1000"},
-              {.low = 1, .high = 1000},
-              [&](std::int64_t value) { run.threads = static_cast<std::size_t>(value); });
+              {.low = 1, .high = 1000}, run.threads);
 }
 
 void add_search_options(CLI::App& app, OptimiseOptions& run) {
   add_real(app, {"--sigma", "S", "0.05", "Initial standard deviation of the coefficients: above 0, no unit"},
-           {.low = 0.0, .high = 1e6, .above_low = true}, [&](double value) { run.sigma = value; });
+           {.low = 0.0, .high = 1e6, .above_low = true}, run.sigma);
   add_integer(app, {"--seed", "N", "1", "Seed of the samples: the same seed gives the same run; at least 0"},
-              {.low = 0}, [&](std::int64_t value) { run.seed = static_cast<std::uint64_t>(value); });
+              {.low = 0}, run.seed);
   const auto add_count = [&](const OptionText& text, std::int64_t low, std::size_t& target) {
-    add_integer(app, text, {.low = low, .high = 1'000'000'000},
-                [&target](std::int64_t value) { target = static_cast<std::size_t>(value); });
+    add_integer(app, text, {.low = low, .high = 1'000'000'000}, target);
   };
   add_count({"--evaluations", "N", "9000", "Feasible designs, one remodelling each: at least 1"}, 1,
             run.evaluations);
@@ -198,7 +191,7 @@ void add_search_options(CLI::App& app, OptimiseOptions& run) {
       {"--tolerance", "T", "0: never",
        "Ends after the generation in which the objective is at most T, or the search has converged: square "
        "chords, at least 0"},
-      {.low = 0.0}, [&](double value) { run.tolerance = value; });
+      {.low = 0.0}, run.tolerance);
   add_count({"--compare-every", "K", "0",
              "Every K-th evaluation also generates a fresh mesh of the design; 0: never"},
             0, run.compare_every);
@@ -232,9 +225,9 @@ void require_run_directory(const std::filesystem::path& directory) {
 
 void add_optimise_command(CLI::App& program, Action& action) {
   auto command = std::make_shared<OptimiseCommand>();
-  CLI::App& app = add_subcommand(program, "optimise",
-                                 "Changes one airfoil into another by CMA-ES, remodelling one living mesh",
-                                 [command, &action] { action = [command] { return run(*command); }; });
+  CLI::App& app =
+      add_command(program, "optimise",
+                  "Changes one airfoil into another by CMA-ES, remodelling one living mesh", command, action);
   add_optimise_start_options(app, command->start);
   add_text(app, {"--to", "SHAPE", "", "Airfoil whose points the design is to interpolate; or --evaluate"},
            Presence::optional, command->to);
@@ -249,7 +242,7 @@ void add_optimise_command(CLI::App& program, Action& action) {
   add_text(
       app,
       {"-o,--output", "DIR", "", "Run directory: new or empty; that of a run with --resume or --overwrite"},
-      Presence::required, [command](const std::string& text) { command->run.directory = text; });
+      Presence::required, command->run.directory);
   add_meshing_options(app, command->meshing);
   add_remodel_options(app, command->run.remodel);
   add_strategy(app, command->run);

@@ -35,7 +35,7 @@ OptimiseStart read_mesh_start(const OptimiseStartOptions& options, const Meshing
   if (options.given("--points")) wanted.points = meshing.discretisation.points;
   wanted.gradation = meshing.gradation;
   StartMesh file = read_start_mesh(options.mesh, wanted);
-  MeshStart start{.mesh = file.mesh, .place = place_in(file, wanted)};
+  MeshStart start{.mesh = file.mesh, .place = place_in(file, wanted), .su2_boxes = file.su2_boxes};
   OptimiseStart result;
   result.fit = fit_airfoil(start.mesh.domain(), start.place, meshing.fit.degree);
   result.from = result.fit.airfoil;

@@ -8,6 +8,7 @@
 
 #include "arguments.h"
 #include "remodel/error.h"
+#include "start_mesh.h"
 #include "warnings.h"
 
 namespace remodel::app {
@@ -106,7 +107,7 @@ void MeshOutputs::write_each(std::span<const Field> fields, Freeze freeze, Write
     if (inner_markers_) options.inner = InnerCurves::markers;
     const MeshFormat format = mesh_format(file);
     if (!options.su2_boxes.empty() && format != MeshFormat::su2 && format != MeshFormat::vtkhdf)
-      warn(file + ": FFD boxes are left out, for which the format has no place");
+      warn(file + boxes_left_out);
     if (format != MeshFormat::su2 && format != MeshFormat::foam)
       options.fields = fields;
     else

@@ -1,9 +1,11 @@
 #include "potential_run.h"
 
+#include <cmath>
 #include <optional>
 
 #include "figures.h"
 #include "flow_files.h"
+#include "flow_report.h"
 #include "remodel/flow_plots.h"
 #include "remodel/plot.h"
 #include "report.h"
@@ -13,11 +15,16 @@ namespace remodel::app {
 namespace {
 
 void add_flow_figures(Report& report, const PotentialFlow& flow) {
-  const std::string mark = flow.lift_determined ? "" : "(not determined)";
-  report.figure("cl", "CL", flow.lift, mark);
+  const auto if_determined = [&](double value) { return flow.lift_determined ? Json(value) : Json(nullptr); };
+  const auto figure = [&](const char* key, const char* label, double value) {
+    if (flow.lift_determined) return report.figure(key, label, value);
+    report.data(key, nullptr);
+    report.line(label, not_determined);
+  };
+  figure("cl", "CL", flow.lift);
   report.figure("cd", "CD by pressure, an error", flow.drag_by_pressure);
-  report.figure("cm", "CM", flow.moment, mark);
-  report.figure("cl_by_pressure", "CL by pressure", flow.lift_by_pressure, mark);
+  figure("cm", "CM", flow.moment);
+  figure("cl_by_pressure", "CL by pressure", flow.lift_by_pressure);
   report.figure("alpha_deg", "angle of attack", flow.alpha_deg, "degrees");
   report.figure("mach", "Mach number", flow.mach);
   report.data("supersonic", flow.supersonic);
@@ -28,12 +35,13 @@ void add_flow_figures(Report& report, const PotentialFlow& flow) {
   for (const BodyFlow& body : flow.bodies) {
     bodies.push_back({{"name", body.name},
                       {"trailing_edge", body.trailing_edge},
-                      {"circulation", body.circulation},
-                      {"cl", body.lift},
+                      {"circulation", if_determined(body.circulation)},
+                      {"cl", if_determined(body.lift)},
                       {"cd", body.drag},
-                      {"cm", body.moment}});
+                      {"cm", if_determined(body.moment)}});
     const char* const edge = body.trailing_edge ? "" : "; no trailing edge, so no circulation";
-    report.line("body " + body.name, "CL " + Json(body.lift).dump() + " by pressure" + edge);
+    const std::string cl = flow.lift_determined ? Json(body.lift).dump() + " by pressure" : not_determined;
+    report.line("body " + body.name, "CL " + cl + edge);
   }
   report.data("bodies", bodies);
 }
@@ -51,7 +59,8 @@ void run_potential(const PotentialRun& run, const MeshInput& input, const std::s
   std::optional<Plot> plot;
   if (!run.cp_plot.empty()) {
     plot = cp_plot(input.frozen, run.options.farfield, find_field(fields, "cp")->values,
-                   flow_caption(flow.mach, flow.alpha_deg, flow.lift), "--cp-plot");
+                   flow_caption(flow.mach, flow.alpha_deg, flow.lift_determined ? flow.lift : std::nan("")),
+                   "--cp-plot");
   }
   write_with_fields(outputs, input, fields);
   say_flow_left_out(outputs);

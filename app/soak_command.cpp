@@ -48,23 +48,18 @@ Status run(const SoakCommand& command) {
 
 void add_soak_command(CLI::App& program, Action& action) {
   auto command = std::make_shared<SoakCommand>();
-  CLI::App& app = add_subcommand(program, "soak",
-                                 "Random remodellings, each mesh validated; exit status 1 if one is invalid",
-                                 [command, &action] { action = [command] { return run(*command); }; });
+  CLI::App& app = add_command(program, "soak",
+                              "Random remodellings, each mesh validated; exit status 1 if one is invalid",
+                              command, action);
   add_integer(app, {"--steps", "N", "1000", "Remodellings, refused designs included: at least 1"}, {.low = 1},
-              [command](std::int64_t value) { command->soak.steps = static_cast<std::size_t>(value); });
-  add_integer(app, {"--seed", "N", "1", "Seed of the episodes: 0 or more"}, {.low = 0},
-              [command](std::int64_t value) { command->soak.seed = static_cast<std::uint64_t>(value); });
+              command->soak.steps);
+  add_integer(app, {"--seed", "N", "1", "Seed of the episodes: 0 or more"}, {.low = 0}, command->soak.seed);
   add_integer(app, {"--episode", "N", "1", "The first episode, of 200 steps each: 1 to 1000000"},
-              {.low = 1, .high = 1000000}, [command](std::int64_t value) {
-                command->soak.first_episode = static_cast<std::size_t>(value);
-              });
+              {.low = 1, .high = 1000000}, command->soak.first_episode);
   add_integer(app,
               {"--full-check-every", "K", "200",
                "Every K-th mesh also goes through the independent validator; 0: never"},
-              {.low = 0}, [command](std::int64_t value) {
-                command->soak.full_check_every = static_cast<std::size_t>(value);
-              });
+              {.low = 0}, command->soak.full_check_every);
   add_json_flag(app, command->json);
 }
 

@@ -86,7 +86,7 @@ void add_start_mesh_options(CLI::App& app, StartMeshOptions& options) {
   add_real(app,
            {"--refine-angle", "DEGREES", short_text(ImportOptions{}.refine_angle_deg),
             "Smallest angle of new triangles in an imported mesh, in degrees: 1 to 33"},
-           {.low = 1.0, .high = 33.0}, [&](double value) { options.refine_angle_deg = value; });
+           {.low = 1.0, .high = 33.0}, options.refine_angle_deg);
   static constexpr std::array choices{NonDelaunay::flip, NonDelaunay::keep};
   add_choice(
       app,

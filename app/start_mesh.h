@@ -28,6 +28,9 @@ struct StartMeshOptions {
 // --boundary, --refine-angle, --non-delaunay, --dissolve-layers.
 void add_start_mesh_options(CLI::App& app, StartMeshOptions& options);
 
+// Behind the name of a file whose format has no place for StartMesh::su2_boxes.
+inline constexpr const char* boxes_left_out = ": FFD boxes are left out, for which the format has no place";
+
 struct StartMesh {
   Mesh mesh;
   std::string source;                    // the file, for messages

@@ -47,9 +47,9 @@ Status run(const TransferCommand& command) {
 
 void add_transfer_command(CLI::App& program, Action& action) {
   auto command = std::make_shared<TransferCommand>();
-  CLI::App& app = add_subcommand(
-      program, "transfer", "Carries fields and a solver's state from one mesh to another of its history",
-      [command, &action] { action = [command] { return run(*command); }; });
+  CLI::App& app = add_command(program, "transfer",
+                              "Carries fields and a solver's state from one mesh to another of its history",
+                              command, action);
   add_text(app, {"old", "OLD", "", "Mesh that the values are on, of any format"}, Presence::required,
            command->before);
   add_text(app, {"new", "NEW", "", "Mesh that they are carried to"}, Presence::required, command->after);

@@ -301,8 +301,7 @@ void add_update_command(CLI::App& program, Action& action) {
   add_start_mesh_options(app, command->start);
   add_integer(app,
               {"--points", "I", "as many as in the mesh", "Vertices on the new airfoil: even, 8 to 100000"},
-              {.low = 8, .high = 100000, .even = true},
-              [command](std::int64_t value) { command->start.points = static_cast<int>(value); });
+              {.low = 8, .high = 100000, .even = true}, command->start.points);
   command->outputs.add_options(app, Presence::optional);
   add_layer_cells(app, command->cells);
   add_carry_options(app, command->carry);

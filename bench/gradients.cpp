@@ -113,7 +113,7 @@ void run(const Case& task) {
   for (int i = 0; i < 100 * task.partial_steps && partial < task.partial_steps; ++i) {
     airfoil = start;
     change(airfoil, 1e-2, random);
-    partial += !remodel::remodel(mesh, domain()).full_adjustment;
+    partial += !remodel::remodel(mesh, domain(), {.strategy = Strategy::chain}).full_adjustment;
   }
   LivingFlow exact({.tolerance = 1e-12}), living({.tolerance = 1e-8});
   // Long steps have errors of their own, short ones those of the flows' residuals, and meshes just before a
@@ -134,7 +134,7 @@ void run(const Case& task) {
   of_three.solve(mesh, conditions);
   for (int i = 0; i < designs; ++i) {
     change(airfoil, 1e-3, random);
-    remodel::remodel(mesh, domain());
+    remodel::remodel(mesh, domain(), {.strategy = Strategy::chain});
     warm += seconds_of([&] { living.solve(mesh, conditions); }) / designs;
     FlowGradients gradients;
     gradient += seconds_of([&] { gradients = living.gradients({}, drag_alone); }) / designs;

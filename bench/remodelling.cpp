@@ -23,7 +23,7 @@ double step_seconds(Mesh& mesh, const std::vector<Domain>& designs, int rounds, 
   for (int round = 0; round <= rounds; ++round)
     for (const Domain& domain : designs) {
       const CpuClock clock;
-      const RemodelResult result = remodel(mesh, domain);
+      const RemodelResult result = remodel(mesh, domain, {.strategy = Strategy::chain});
       if (round == 0) continue;
       seconds.push_back(clock.seconds());
       full += result.full_adjustment ? 1 : 0;

@@ -129,10 +129,12 @@ void full_adjustment(benchmark::State& state) {
   const int points = static_cast<int>(state.range(0));
   Mesh mesh = fresh_mesh(points);
   const std::vector<Domain> around = near_designs(points);
-  remodel(mesh, around.back());  // adjustment lists are built in the first step
+  remodel(mesh, around.back(),
+          {.strategy = Strategy::chain});  // adjustment lists are built in the first step
   std::size_t i = 0;
   for (auto _ : state) {
-    if (!remodel(mesh, around[i]).full_adjustment) return state.SkipWithError("not a full adjustment");
+    if (!remodel(mesh, around[i], {.strategy = Strategy::chain}).full_adjustment)
+      return state.SkipWithError("not a full adjustment");
     i = (i + 1) % around.size();
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(boundary_vertices(mesh.data())));
@@ -183,7 +185,7 @@ void trial(benchmark::State& state) {
   const std::vector<Domain> tried = far_designs(points);
   std::size_t i = 0;
   for (auto _ : state) {
-    const Trial attempt(mesh, tried[i]);
+    const Trial attempt(mesh, tried[i], {.strategy = Strategy::chain});
     benchmark::DoNotOptimize(attempt.result().triangles);
     i = (i + 1) % tried.size();
   }

@@ -39,7 +39,7 @@ void measure(Mesh& mesh, const std::vector<Domain>& designs, Costs& costs) {
     std::vector<double> ridden = values_of(mesh), remapped = ridden;
     const Mark mark = mesh.mark();
     const CpuClock step;
-    const RemodelResult result = remodel(mesh, design);
+    const RemodelResult result = remodel(mesh, design, {.strategy = Strategy::chain});
     const double step_seconds = step.seconds();
     if (result.full_adjustment || result.regenerated) continue;
     // The vectors grow at their end, which an owner of values does once: not a cost of the transfer.

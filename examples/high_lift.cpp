@@ -73,13 +73,6 @@ bool valid(const Mesh& mesh) {
                                            .valid;
 }
 
-Strategy strategy_named(const std::string& name) {
-  for (const Strategy strategy : {Strategy::chain, Strategy::renew, Strategy::morph, Strategy::reference})
-    if (name == name_of(strategy)) return strategy;
-  throw Error(ErrorCode::argument, "STRATEGY",
-              "found '" + name + "', expected chain, renew, morph or reference");
-}
-
 int run(int settings, std::uint64_t seed, Strategy strategy, const std::string& prefix) {
   Random random(seed);
   QualityOptions quality{.gradation = 2.4};

@@ -8,19 +8,19 @@
 namespace remodel {
 namespace {
 
-constexpr std::array strategies{MeshStrategy::chain, MeshStrategy::renew};
+constexpr std::array replayed{MeshStrategy::chain, MeshStrategy::renew};
 
 }  // namespace
 
 std::vector<std::string> study_strategies() {
   std::vector<std::string> names;
-  for (const MeshStrategy strategy : strategies) names.emplace_back(name_of(strategy));
+  for (const MeshStrategy strategy : replayed) names.emplace_back(name_of(strategy));
   return names;
 }
 
 void set_strategy(const std::string& name, OptimiseOptions& options) {
   std::string expected;
-  for (const MeshStrategy strategy : strategies) {
+  for (const MeshStrategy strategy : replayed) {
     if (name_of(strategy) == name) {
       options.strategy = strategy;
       return;

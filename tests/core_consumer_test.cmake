@@ -1,7 +1,9 @@
 # Builds and runs a consumer of remodel::core where HDF5, SQLite, cairo, MUMPS, the libraries of tests, MPI, threads and
 # pkg-config cannot be found: from Remodel's sources, and from what that installs, core alone, where not even the
 # header-only libraries are left that core is built with.
-#   cmake -DSOURCE=... -DSCRATCH=... -P core_consumer_test.cmake
+# The core that is built there has no optimisation and no vector clones: its meshes are the bytes of the build's own
+# (tests/determinism), which TRACE prints.
+#   cmake -DSOURCE=... -DSCRATCH=... -DTRACE=... -P core_consumer_test.cmake
 include(${SOURCE}/tests/run.cmake)
 
 file(REMOVE_RECURSE ${SCRATCH})
@@ -34,8 +36,18 @@ function(run_consumer build)
   endif()
 endfunction()
 
-run(${CMAKE_COMMAND} -S ${consumer} -B ${SCRATCH}/sources ${bare} -DREMODEL_SOURCE=${SOURCE} -DREMODEL_INSTALL=ON)
+run(${CMAKE_COMMAND} -S ${consumer} -B ${SCRATCH}/sources ${bare} -DREMODEL_SOURCE=${SOURCE} -DREMODEL_INSTALL=ON
+    -DREMODEL_DISPATCH=OFF)
 run_consumer(${SCRATCH}/sources)
+file(GLOB_RECURSE core ${SCRATCH}/sources/remodel/libremodel_core.a)
+run(c++ -std=c++20 -ffp-contract=off -fno-math-errno -fno-trapping-math -w -I${SOURCE}/include -I${SOURCE}/src
+    ${SOURCE}/tests/determinism/trace.cpp ${core} -pthread -o ${SCRATCH}/trace)
+foreach(program ${TRACE} ${SCRATCH}/trace)
+  string(MD5 name ${program})
+  execute_process(COMMAND ${program} OUTPUT_FILE ${SCRATCH}/${name}.txt COMMAND_ERROR_IS_FATAL ANY)
+  list(APPEND traces ${SCRATCH}/${name}.txt)
+endforeach()
+run(${CMAKE_COMMAND} -E compare_files ${traces})
 file(GLOB_RECURSE others ${SCRATCH}/sources/remodel/*.a)
 list(FILTER others EXCLUDE REGEX "libremodel_core\\.a$")
 if(others)

@@ -120,6 +120,8 @@ struct DesignProblem {
   // A JSON object as which the run's settings, its history and its page have the problem; empty: they have
   // design_problem_json(). A reader of problem files keeps the file's here.
   std::string text = {};
+  // What a reader of its files found that a person has to know: sections that were turned, sheared or closed.
+  std::vector<std::string> warnings = {};
 };
 
 std::vector<std::string> objective_names();
@@ -130,6 +132,9 @@ std::vector<std::string> designer_names();
 // names the problem.
 void validate(const DesignProblem& problem, const std::string& source = "design problem");
 
+// Reads the file of a problem: docs/design.md describes it. Paths in it lead on from its directory. Throws
+// Error naming the file and the place in it.
+DesignProblem read_design_problem(const std::string& file);
 // The problem's own text, or one made of its members; own functions are named in it, no more.
 std::string design_problem_json(const DesignProblem& problem);
 

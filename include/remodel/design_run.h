@@ -28,7 +28,8 @@ struct DesignRunOptions {
   std::size_t threads = 0;  // flows of points at the same time; times alone depend on it; 0: as many as cores
 };
 
-// The best design's flow at one point, on a fresh mesh, which no search has seen.
+// The best design's flow at one point, on a fresh mesh, which no search has seen. cl, cm: nan if
+// undetermined.
 struct FreshFlow {
   int points = 0;  // on each section
   std::size_t vertices = 0;

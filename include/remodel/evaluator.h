@@ -94,6 +94,7 @@ struct CommandOptions {
   // evaluation's outputs then have "state_snapshots", how many were combined (0: there was no state, or the
   // connectivity had changed and the last one was carried over), and "state_misfit". 0: the last state alone.
   std::size_t snapshots = 0;
+  std::string su2_boxes{};  // WriteOptions::su2_boxes of mesh.su2 and mesh.vtkhdf
 };
 
 // A program of the user's, run once for each design. In the words of the command

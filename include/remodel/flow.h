@@ -146,11 +146,20 @@ const char* name_of(FlowStatus status);  // "converged", "step-limit", "stalled"
 
 // A start is what a flow was found from.
 enum class FlowStart {
-  cold,        // undisturbed flow, or that through a coarser mesh of the same domain, found from it
+  cold,        // nothing that was known before: FlowOrigin says from what
   carried,     // the last flow, with the factors of an earlier one
   refactored,  // the last flow, with factors of its own
 };
 const char* name_of(FlowStart start);  // "cold", "carried", "refactored"
+
+// The state that Newton's method began with, and found the flow from.
+enum class FlowOrigin {
+  last_flow,     // or the flow that was given
+  potential,     // potential flow through the same mesh, with the density and pressure of the stream's entropy
+  coarser_mesh,  // the flow through a coarser mesh of the same domain
+  undisturbed,   // the stream
+};
+const char* name_of(FlowOrigin origin);  // "last-flow", "potential", "coarser-mesh", "undisturbed"
 
 struct FlowBody {
   std::string name;  // of the boundary
@@ -194,14 +203,15 @@ struct FlowResult {
   // determined because they have no edge that the flow leaves from (below Mach 1), drag of more than ten counts
   // where nothing is faster than sound, which mesh and scheme make.
   std::vector<std::string> warnings;
-  bool lift_determined = true;  // no warning is of a body without an edge
+  bool lift_determined = true;  // false: a body has no edge; lift and moment mean nothing then
 
   FlowStart start = FlowStart::cold;
+  FlowOrigin origin = FlowOrigin::undisturbed;
   double residual = 0.0;               // as FlowOptions::tolerance counts it
   std::vector<double> history;         // residuals, from the first state on
   int newton_steps = 0;                // steps with a Jacobian of their own
   int factorisations = 0;              // of the whole matrix
-  int coarse_steps = 0;                // of the Newton steps: on coarser meshes, or from their flows in vain
+  int coarse_steps = 0;  // of the Newton steps: on coarser meshes, and from starts that led nowhere
   int krylov_iterations = 0;           // steps with older factors
   std::size_t corrected_vertices = 0;  // where older factors were corrected because the mesh has changed
   FlowSolver solver = FlowSolver::lu;  // of the last step
@@ -225,14 +235,16 @@ std::vector<double> entropy_errors(const FlowResult& flow);
 // files and pictures.
 std::vector<Field> fields_of(const FlowResult& flow);
 
-// The flow through a mesh, from undisturbed flow. `source` names the mesh in messages.
+// The flow through a mesh, found from potential flow where there is one, otherwise from undisturbed flow. `source`
+// names the mesh in messages.
 FlowResult solve_flow(const FrozenMesh& mesh, const FlowConditions& conditions,
                       const FlowOptions& options = {}, const std::string& source = "mesh");
 
-// This is the flow through Mesh::freeze(). Fine meshes (of 4,000 vertices and more, from Mach 0.6 on of
-// 1,500) begin with the flow through a coarser mesh of the same domain, generated with every second station
-// and half the gradation's G, which begins likewise. Where the domain has open chains or that does not lead
-// on, they begin with undisturbed flow. Steps, factorisations, memory and seconds count coarser meshes too.
+// This is the flow through Mesh::freeze(). From Mach 0.6 on, fine meshes (of 1,500 vertices and more) begin with
+// the flow through a coarser mesh of the same domain, generated with every second station and half the
+// gradation's G, which begins likewise; below, those of 4,000 and more do where potential flow does not lead on.
+// Where the domain has open chains or that does not lead on either, they begin as above. Steps, factorisations,
+// memory and seconds count coarser meshes too.
 FlowResult solve_flow(const Mesh& mesh, const FlowConditions& conditions, const FlowOptions& options = {},
                       const std::string& source = "mesh");
 
@@ -311,7 +323,7 @@ class LivingFlow {
 
   // Cold flows begin as those of solve_flow() of a Mesh do. Throws Error (argument) for a model with friction.
   FlowResult solve(const Mesh& mesh, const FlowConditions& conditions);
-  // This takes Mesh::freeze(); cold flows always begin with undisturbed flow. Throws Error (argument) where
+  // This takes Mesh::freeze(); cold flows begin without coarser meshes. Throws Error (argument) where
   // vertices have no keys.
   FlowResult solve(const FrozenMesh& mesh, const FlowConditions& conditions);
   // Gradients of the last flow that was found. They take the factors that there are, transposed, where these

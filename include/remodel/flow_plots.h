@@ -10,7 +10,7 @@
 
 namespace remodel {
 
-// "M 0.8, α = 1.25°, CL = 0.3543"
+// "M 0.8, α = 1.25°, CL = 0.3543"; without CL where that is not a number.
 std::string flow_caption(double mach, double alpha_deg, double cl);
 
 // "M 0.3": no lift and no angle belong to a duct.

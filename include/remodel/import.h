@@ -76,13 +76,15 @@ struct ImportResult {
 //
 // Edges inside that have a name are internal curves, and so are those between two regions
 // (FrozenMesh::region), under the name "interface" where they have none: remodelling keeps them, and no
-// triangle lies on both sides. Each triangle of the living mesh is in the region on its side of them.
+// triangle lies on both sides. Boundary loops that touch in a point become open chains that are joined there
+// (LoopRole::left), as in any domain; the other loops stay closed. Each triangle of the living mesh is in the
+// region on its side of them.
 //
 // Clockwise triangles are turned, and those that are listed twice, with the same points, taken once, in the
 // region that is named first. Throws Error (geometry) naming `source` and the triangle, point or marker
 // (counted from 0) for indices out of range, coordinates out of range, triangles without area, points that
-// coincide, triangles that overlap, an edge of more than two triangles, boundaries that touch at a point,
-// named edges that are none of the mesh's or have two names, triangles too flat to compute with.
+// coincide, triangles that overlap, an edge of more than two triangles, named edges that are none of the
+// mesh's or have two names, triangles too flat to compute with.
 ImportResult import_mesh(const FrozenMesh& mesh, const std::string& source,
                          const ImportOptions& options = {});
 
@@ -99,7 +101,9 @@ MeshParts parts_of(const FrozenMesh& mesh);
 // An airfoil as one closed loop of a domain, whoever drew it. Trailing edge: the corner of the outline that
 // turns by more than 120 degrees, of several the one of largest x; without one, two corners of more than 45
 // degrees each with a base between them of at most a tenth of the outline's extent: it is blunt; without
-// these, the point of largest x. Leading edge: the point farthest from the trailing edge (its middle).
+// these, the point of largest x. Leading edge: as of coordinate files, the point
+// farthest from the trailing edge (its middle) of a smooth curve through the points around the nose, on one
+// of them or between two; where the outline turns by more than 75 degrees there, that corner.
 struct AirfoilPlace {
   std::size_t loop = 0;
   Point leading{}, trailing{};  // the chord, in the mesh's coordinates

@@ -3,6 +3,7 @@
 // Mesh files, by extension. Every writer writes beside the target and renames: a file appears whole or not at
 // all. Every reader throws Error (file, format) naming the file, the place and what was expected.
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <span>
@@ -12,11 +13,13 @@
 
 #include "remodel/field.h"
 #include "remodel/frozen_mesh.h"
-#include "remodel/layers.h"
 #include "remodel/mesh.h"
 #include "remodel/planar.h"
 
 namespace remodel {
+
+class LayeredMesh;  // remodel/layers.h
+enum class LayerCells : std::uint8_t;
 
 // The file to read that is standard input.
 inline constexpr std::string_view standard_input = "-";
@@ -77,11 +80,12 @@ std::vector<Field> read_fields(const std::filesystem::path& file);
 // (format) a mesh with layers, for which there are the calls below.
 Mesh read_mesh(const std::filesystem::path& file);
 
-// A layered mesh in any format, as freeze(cells) has it. A .vtkhdf file holds the outer mesh's state, the walls and
+// A layered mesh in any format, as freeze(cells) has it; quadrilaterals where there is no choice. A .vtkhdf file holds the outer mesh's state, the walls and
 // the options of the layer too, and the rest is computed from these to the bit. Of that file read_frozen_mesh()
 // has the whole view.
-void write_mesh(const LayeredMesh& mesh, const std::filesystem::path& file, const WriteOptions& options = {},
-                LayerCells cells = LayerCells::quadrilaterals);
+void write_mesh(const LayeredMesh& mesh, const std::filesystem::path& file, const WriteOptions& options,
+                LayerCells cells);
+void write_mesh(const LayeredMesh& mesh, const std::filesystem::path& file, const WriteOptions& options = {});
 // True for a .vtkhdf file of a layered mesh with its state.
 bool holds_layers(const std::filesystem::path& file);
 // Throws Error as read_mesh() does, and for a native mesh without layers.

@@ -68,7 +68,7 @@ void space_walls(Domain& domain, const WallSpacing& spacing, const std::vector<s
 
 // The cells of the frozen view: quadrilaterals with triangles where fans meet the wall and where top cells are
 // divided; or all of them triangles, by the diagonal that begins at the wall.
-enum class LayerCells { quadrilaterals, triangles };
+enum class LayerCells : std::uint8_t { quadrilaterals, triangles };
 
 // Where the points of a layer are in the frozen view: before all others, column by column, from the wall upwards.
 // They never change their places as long as columns neither come nor go.
@@ -107,8 +107,11 @@ struct LayeredState {
   Domain walls;
   LayerOptions options;
   std::uint32_t levels = 0;
-  std::uint32_t epoch = 0;                         // how often the columns were set up anew
   std::vector<std::vector<std::uint32_t>> fans{};  // per layered loop and station: the sectors of its fan, or 0
+  // Per layered loop and column: its number, which is never given out again in the life of a mesh. All are below
+  // the last one.
+  std::vector<std::vector<std::uint32_t>> columns{};
+  std::uint32_t next_column = 0;
   friend bool operator==(const LayeredState&, const LayeredState&) = default;
 };
 
@@ -137,7 +140,7 @@ class LayeredMesh {
 
   // Points: those of LayerTopology, then those of the outer mesh that are not tops. Cells: triangles of the layer,
   // triangles of the outer mesh; quadrilaterals column by column, from the wall upwards. Vertices have keys:
-  // those of the layer are of generations from 2^31 on.
+  // those of the layer, by column and level, are of generations from 2^31 on.
   FrozenMesh freeze(LayerCells cells = LayerCells::quadrilaterals) const;
   LayerTopology topology() const;
   LayerStatistics statistics() const;
@@ -150,7 +153,6 @@ class LayeredMesh {
 
  private:
   struct Columns;
-  struct Tops;
   friend LayeredGenerateResult generate_layered(const Domain&, const LayerOptions&, const QualityOptions&,
                                                 StepObserver*);
   friend LayeredRemodelResult remodel(LayeredMesh&, const Domain&, const RemodelOptions&);
@@ -178,7 +180,8 @@ LayeredGenerateResult generate_layered(const Domain& domain, const LayerOptions&
 struct LayeredRemodelResult : RemodelResult {
   std::size_t layer_cells = 0;  // now
   std::size_t shrunk = 0;       // see LayerStatistics
-  bool same_columns = true;     // false: columns have come or gone, as stations have, or fans have other sectors
+  bool same_columns = true;     // false: columns have come or gone, as stations have, or fans have other sectors;
+                                // where stations are the same, all other columns stay
 };
 
 // Remodels a layered mesh, in place: the walls become those of the new domain, with the options that the mesh

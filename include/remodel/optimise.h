@@ -37,6 +37,9 @@ namespace remodel {
 struct MeshStart {
   Mesh mesh;
   AirfoilPlace place;
+  // ReadNotes::su2_boxes of the mesh's file, without_surface_points(): first.vtkhdf, middle.vtkhdf and
+  // last.vtkhdf keep them.
+  std::string su2_boxes = {};
 };
 
 struct OptimiseOptions {

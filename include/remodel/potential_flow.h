@@ -75,7 +75,7 @@ struct PotentialFlow {
   // determined because they have no edge that the flow leaves from, meshes too coarse, rules that do not
   // hold.
   std::vector<std::string> warnings;
-  bool lift_determined = true;  // no warning is of a body without an edge
+  bool lift_determined = true;  // false: a body has no edge; lift and moment mean nothing then
 
   // cp, and of the incompressible flow speed, stream_function and velocity, for files and pictures.
   std::vector<Field> fields() const;

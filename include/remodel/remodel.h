@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "remodel/mesh.h"
@@ -15,19 +16,28 @@ namespace remodel {
 // degrees more than the angle that they promise.
 double angle_with_slack(const QualityOptions& quality);
 
-enum class Method { automatic, specialised, general };
-const char* name_of(Method method);  // "auto", "specialised", "general"
-
-// The treatment of what a long sequence of steps leaves behind.
+// How a mesh follows its domain. It is one choice, by the same names everywhere: remodel() and Trial, the
+// program's `update`, `batch` and `optimise`, Python. docs/strategies.md argues for the default with figures.
+//
+//   strategy    what a step keeps           when to choose it
+//   renew       most triangles, in place    the default: the cheapest steps
+//   morph       connectivity                a flow follows the mesh: its state, its factors
+//   reference   connectivity, and one       gradients, finite differences: meshes are a smooth function
+//               mesh for each design        of designs
+//   chain       as the paper has it         comparisons with the paper
+//
+// Three other words say more of the same choice. Method: which of the paper's two methods a step may use.
+// MeshStrategy (remodel/living_mesh.h): the choice of a run, one of these or one of the paper's improvements.
+// `update --reference MESH`: Strategy::reference, with the reference named.
 enum class Strategy {
   // The paper's method, to the letter. Length scales inside the mesh are never renewed, and nothing is
   // coarsened: triangles accumulate.
   chain,
-  // At every fifteenth replacement length scales are renewed from the boundary; kept triangles need only hold
-  // keep H, and Steiner vertices are removed while the mesh has more triangles than a fresh one would; around
-  // boundary vertices that cannot be moved in place although they hardly move, more is removed; after 25 full
-  // adjustments in a row a mesh whose count is off is generated afresh. The angle bound never
-  // relaxes. Imported meshes, whose length scales are measured, are remodelled as by chain.
+  // At every fifteenth replacement length scales are renewed from the boundary. Kept triangles need only hold
+  // keep H. Steiner vertices are removed while the mesh has more triangles than a fresh one would. Around
+  // boundary vertices that cannot be moved in place although they hardly move, more is removed. After 25 full
+  // adjustments in a row a mesh whose count is off is generated afresh. The angle bound never relaxes.
+  // Imported meshes, whose length scales are measured, are remodelled as by chain.
   renew,
   // This is renew, but where not all boundary vertices can be moved in place with the interior still, single
   // vertices beside them move too, and where that is not enough the whole interior moves along
@@ -47,12 +57,30 @@ enum class Strategy {
   // slack in their angles are held longer (QualityOptions::refine_angle_deg).
   reference,
 };
-const char* name_of(Strategy strategy);  // "chain", "renew", "morph", "reference"
+struct StrategyInfo {
+  Strategy strategy;
+  const char* name;         // "chain", "renew", "morph", "reference"
+  const char* description;  // half a sentence
+};
+std::span<const StrategyInfo> strategies();  // in the order of the enumeration
+const char* name_of(Strategy strategy);
+// Throws Error (argument) listing the names.
+Strategy strategy_named(const std::string& name);
+// The strategy of steps about which nothing else is said, and that of meshes that a flow follows: `design`,
+// `flow --series`, `noise`.
+inline constexpr Strategy default_strategy = Strategy::renew, strategy_with_flows = Strategy::morph;
+
+// Which of the paper's two methods a step may use: the specialised one (section 4.2) moves and replaces
+// single boundary vertices, the general one (section 3) replaces whole loops. `automatic`: specialised where
+// the domains correspond, general otherwise.
+enum class Method { automatic, specialised, general };
+const char* name_of(Method method);            // "auto", "specialised", "general"
+Method method_named(const std::string& name);  // likewise
 
 struct RemodelOptions {
   double distance = 1.0;  // D: removal radius over the distance of a pair of old and new vertices; >= 0
-  Method method = Method::automatic;  // automatic: specialised where the domains correspond
-  Strategy strategy = Strategy::chain;
+  Method method = Method::automatic;
+  Strategy strategy = default_strategy;
   double keep = 0.0;  // renew: QualityOptions::keep of the mesh is at least this from now on; 1 or more, or
                       // 0: 1.1 for gradations up to 1, 1.2 up to 2, otherwise 1.25
   // renew: of how many designs, tried on other meshes too, a step of this mesh is one; 1 or more. Its

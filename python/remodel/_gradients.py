@@ -32,7 +32,7 @@ class PointGradient(np.ndarray):
 def _common_mesh(meshes):
     known = [mesh for mesh in meshes if mesh is not None]
     for other in known[1:]:
-        same = other is known[0] or np.array_equal(other.points, known[0].points) and np.array_equal(other.triangles, known[0].triangles)
+        same = other is known[0] or np.array_equal(other.points, known[0].points) and np.array_equal(other.triangles, known[0].triangles) and np.array_equal(other.quads, known[0].quads)
         if not same:
             raise ArgumentError("gradient: found derivatives by the points of two meshes, expected those of one")
     return known[0] if known else None

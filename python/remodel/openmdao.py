@@ -125,6 +125,8 @@ class FlowComponent(ExplicitComponent):
             raise AnalysisError(str(error) + _RECIPE) from error
         if not flow.converged:
             raise AnalysisError(f"flow: {flow.reason}" + _RECIPE)
+        if not flow.lift_determined:
+            raise AnalysisError("flow: the lift is not determined: a body has no edge that the flow leaves from")
         self._solved = points, conditions, flow
         return flow
 

@@ -101,7 +101,8 @@ void require_of(const py::object& by_points, const FrozenMesh& mesh) {
   const py::object other = py::getattr(by_points, "mesh", py::none());
   if (!py::isinstance<FrozenMesh>(other)) return;
   const auto& theirs = other.cast<const FrozenMesh&>();
-  if (theirs.triangles != mesh.triangles || theirs.points.size() != mesh.points.size())
+  if (theirs.triangles != mesh.triangles || theirs.quads != mesh.quads ||
+      theirs.points.size() != mesh.points.size())
     throw Error(
         ErrorCode::argument, "by_points",
         "is of a flow on a mesh with other triangles, expected derivatives by the points of this mesh "

@@ -24,7 +24,8 @@ auto members(T& f) {
   return std::tie(f.status, f.reason, f.mach, f.alpha_deg, f.cl, f.cd, f.cm, f.bodies, f.openings, f.start,
                   f.residual, f.history, f.newton_steps, f.factorisations, f.coarse_steps,
                   f.krylov_iterations, f.corrected_vertices, f.solver, f.gmres_iterations, f.memory_mb,
-                  f.seconds, f.density, f.velocity_x, f.velocity_y, f.pressure);
+                  f.seconds, f.density, f.velocity_x, f.velocity_y, f.pressure, f.warnings,
+                  f.lift_determined, f.origin, f.entropy_drag);
 }
 
 }  // namespace remodel
@@ -164,10 +165,15 @@ class Flows {
   Snapshot last_;  // the mesh of the last flow that was found
 };
 
+double if_determined(const FlowResult& flow, double value) {
+  return flow.lift_determined ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
 py::dict bodies_of(const FlowResult& flow) {
   py::dict result;
   for (const FlowBody& body : flow.bodies)
-    result[py::str(body.name)] = py::dict("cl"_a = body.cl, "cd"_a = body.cd, "cm"_a = body.cm);
+    result[py::str(body.name)] = py::dict("cl"_a = if_determined(flow, body.cl), "cd"_a = body.cd,
+                                          "cm"_a = if_determined(flow, body.cm));
   return result;
 }
 
@@ -189,11 +195,20 @@ void add_figures(py::class_<FlowResult, FlowPointer>& type) {
   type.def_property_readonly(
       "start", [](const FlowResult& f) { return name_of(f.start); },
       "'cold', 'carried' or 'refactored': what the flow was found from.");
+  type.def_property_readonly(
+      "origin", [](const FlowResult& f) { return name_of(f.origin); },
+      "'potential', 'coarser-mesh', 'undisturbed' or 'last-flow': the state that the search began with.");
   type.def_readonly("mach", &FlowResult::mach);
   type.def_readonly("alpha", &FlowResult::alpha_deg, "The angle of attack, in degrees.");
-  type.def_readonly("cl", &FlowResult::cl, "The lift coefficient of all bodies.");
+  type.def_property_readonly(
+      "cl", [](const FlowResult& f) { return if_determined(f, f.cl); },
+      "The lift coefficient of all bodies; nan where lift_determined is false.");
   type.def_readonly("cd", &FlowResult::cd, "The drag coefficient of all bodies.");
-  type.def_readonly("cm", &FlowResult::cm, "The moment coefficient, positive nose up.");
+  type.def_readonly("entropy_drag", &FlowResult::entropy_drag,
+                    "The drag coefficient by what entropy leaves through the far field; None without one.");
+  type.def_property_readonly(
+      "cm", [](const FlowResult& f) { return if_determined(f, f.cm); },
+      "The moment coefficient, positive nose up; nan where lift_determined is false.");
   type.def_property_readonly("bodies", &bodies_of, "The parts of each wall, by name: cl, cd, cm.");
   type.def_property_readonly("openings", &openings_of,
                              "What enters through each inlet and outlet, by name: density times speed of "
@@ -223,6 +238,7 @@ std::pair<FlowPointer, py::dict> flow_of(const py::tuple& state) {
                      flow->pressure.size() == points && flow->status >= FlowStatus::converged &&
                      flow->status <= FlowStatus::interrupted && flow->start >= FlowStart::cold &&
                      flow->start <= FlowStart::refactored && flow->solver >= FlowSolver::lu &&
+                     flow->origin >= FlowOrigin::last_flow && flow->origin <= FlowOrigin::undisturbed &&
                      flow->solver <= FlowSolver::gmres,
                  "a flow");
   return {std::move(flow), state[1].cast<py::dict>()};
@@ -249,7 +265,7 @@ void add_result(py::module_& module) {
       },
       &flow_of));
   type.def("__repr__", [](const FlowResult& f) {
-    return std::string("FlowResult(") + name_of(f.status) + ", cl=" + std::to_string(f.cl) +
+    return std::string("FlowResult(") + name_of(f.status) + ", cl=" + std::to_string(if_determined(f, f.cl)) +
            ", cd=" + std::to_string(f.cd) + ")";
   });
 }

@@ -19,7 +19,7 @@ auto members(T& b) {
 template <python::Is<PotentialFlow> T>
 auto members(T& f) {
   return std::tie(f.alpha_deg, f.mach, f.supersonic, f.lift, f.lift_by_pressure, f.drag_by_pressure, f.moment,
-                  f.bodies, f.stream_function, f.velocity);
+                  f.bodies, f.stream_function, f.velocity, f.warnings, f.lift_determined);
 }
 
 }  // namespace remodel
@@ -28,6 +28,10 @@ namespace remodel::python {
 namespace {
 
 using PotentialPointer = std::shared_ptr<PotentialFlow>;
+
+double if_determined(const PotentialFlow& flow, double value) {
+  return flow.lift_determined ? value : std::numeric_limits<double>::quiet_NaN();
+}
 
 // Each body's wall: points of shape (k, 2), vertices and pressure coefficients, and its forces.
 py::dict bodies_of(const PotentialFlow& flow) {
@@ -42,8 +46,9 @@ py::dict bodies_of(const PotentialFlow& flow) {
       cp.mutable_at(i) = value.cp, speed.mutable_at(i) = value.speed, vertices.mutable_at(i) = value.vertex;
     }
     result[py::str(body.name)] = py::dict("points"_a = points, "vertices"_a = vertices, "cp"_a = cp,
-                                          "speed"_a = speed, "lift"_a = body.lift, "drag"_a = body.drag,
-                                          "moment"_a = body.moment, "circulation"_a = body.circulation);
+                                          "speed"_a = speed, "lift"_a = if_determined(flow, body.lift),
+                                          "drag"_a = body.drag, "moment"_a = if_determined(flow, body.moment),
+                                          "circulation"_a = if_determined(flow, body.circulation));
   }
   return result;
 }
@@ -72,10 +77,13 @@ void add_potential_flows(py::module_& module) {
       .def_readonly(
           "supersonic", &PotentialFlow::supersonic,
           "Whether some pressure is below that of sonic speed, where the rule for mach does not hold.")
-      .def_readonly("lift", &PotentialFlow::lift, "The lift coefficient of all bodies, by circulation.")
-      .def_readonly("lift_by_pressure", &PotentialFlow::lift_by_pressure)
+      .def_property_readonly(
+          "lift", [](const PotentialFlow& f) { return if_determined(f, f.lift); },
+          "The lift coefficient of all bodies, by circulation; nan where lift_determined is false.")
+      .def_property_readonly("lift_by_pressure",
+                             [](const PotentialFlow& f) { return if_determined(f, f.lift_by_pressure); })
       .def_readonly("drag_by_pressure", &PotentialFlow::drag_by_pressure, "An error of the mesh.")
-      .def_readonly("moment", &PotentialFlow::moment)
+      .def_property_readonly("moment", [](const PotentialFlow& f) { return if_determined(f, f.moment); })
       .def_readonly("warnings", &PotentialFlow::warnings,
                     "What has to be known before a coefficient is used: a list of sentences.")
       .def_readonly("lift_determined", &PotentialFlow::lift_determined,

@@ -303,21 +303,11 @@ Domain next_domain(const LivingMesh& mesh, const py::object& shape, const std::s
 
 RemodelOptions remodel_options(double distance, const std::string& method, const std::string& strategy,
                                bool regenerate, double delaunay_slack) {
-  RemodelOptions options{
-      .distance = distance, .delaunay_slack_deg = delaunay_slack, .regenerate = regenerate};
-  bool known = false;
-  for (const Method candidate : {Method::automatic, Method::specialised, Method::general})
-    if (method == name_of(candidate)) options.method = candidate, known = true;
-  if (!known)
-    throw Error(ErrorCode::argument, "method",
-                "found '" + method + "', expected auto, specialised or general");
-  known = false;
-  for (const Strategy candidate : {Strategy::chain, Strategy::renew, Strategy::morph, Strategy::reference})
-    if (strategy == name_of(candidate)) options.strategy = candidate, known = true;
-  if (!known)
-    throw Error(ErrorCode::argument, "strategy",
-                "found '" + strategy + "', expected chain, renew, morph or reference");
-  return options;
+  return {.distance = distance,
+          .method = method_named(method),
+          .strategy = strategy_named(strategy),
+          .delaunay_slack_deg = delaunay_slack,
+          .regenerate = regenerate};
 }
 
 void add_steps(py::module_& module) {

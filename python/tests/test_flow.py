@@ -1,5 +1,6 @@
 import json
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -40,7 +41,9 @@ def test_a_living_flow_goes_on_over_steps(flowing):
         assert flow.converged and abs(flow.cl - cold.cl) < 1e-7
     assert flow.start != "cold"
     solver.forget()
-    assert solver.solve(mesh, mach=0.5, alpha=1.25).start == "cold"
+    cold = solver.solve(mesh, mach=0.5, alpha=1.25)
+    assert (cold.start, cold.origin) == ("cold", "potential")
+    assert cold.entropy_drag == pytest.approx(cold.cd, abs=1e-4)
 
 
 def test_little_memory_makes_it_gmres(flowing):
@@ -79,6 +82,14 @@ def test_lift_without_an_edge_is_warned_of(flowing):
     for flow in (remodel.LivingFlow().solve(mesh, mach=0.3), remodel.PotentialSolver(mesh).at(0.0)):
         assert not flow.lift_determined
         assert len(flow.warnings) == 1 and "'wheel' is not determined" in flow.warnings[0]
+        again = pickle.loads(pickle.dumps(flow))
+        assert again.warnings == flow.warnings and not again.lift_determined
+        for found in (flow, again):
+            lift = ("cl", "cm") if hasattr(flow, "cl") else ("lift", "lift_by_pressure", "moment")
+            body = found.bodies["wheel"]
+            assert all(np.isnan([getattr(found, name) for name in lift]))
+            assert all(np.isnan([body[name] for name in (("cl", "cm") if hasattr(flow, "cl") else ("lift", "moment"))]))
+        assert abs(flow.cd if hasattr(flow, "cd") else flow.drag_by_pressure) < 0.5
     section = flowing[1]
     for flow in (remodel.LivingFlow().solve(section, mach=0.3), remodel.PotentialSolver(section).at(2.0)):
         assert flow.warnings == [] and flow.lift_determined

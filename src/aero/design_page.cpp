@@ -343,7 +343,7 @@ std::string outcome(const DesignRun& run, const PageJson& cost) {
 Mesh mesh_of_best(const fs::path& directory, const DesignRun& run) {
   const fs::path last = directory / "last.vtkhdf";
   Mesh mesh = read_mesh(fs::exists(last) ? last : directory / "first.vtkhdf");
-  remodel(mesh, run.space->domain(run.best_design()));
+  remodel(mesh, run.space->domain(run.best_design()), {.strategy = strategy_with_flows});
   return mesh;
 }
 

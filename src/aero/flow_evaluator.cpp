@@ -107,6 +107,8 @@ class FlowEvaluator final : public Evaluator {
                     .slopes = {}};
     if (space_.half()) point.flow = whole_of(std::move(point.flow));
     if (!point.flow.converged()) throw std::runtime_error("no flow was found: " + point.flow.reason);
+    if (!point.flow.lift_determined)
+      throw std::runtime_error("the lift is not determined: a section has no edge that the flow leaves from");
     const FlowView view{shared.task.mesh, shared.frozen, point.flow,
                         parts_.target ? &memory.target[index] : nullptr};
     std::vector<FlowValue> values;
@@ -168,7 +170,7 @@ class FlowEvaluator final : public Evaluator {
     const bool is_aimed = memory.aimed_at == memory.connectivity;
     if (is_aimed && memory.is_like) return;
     Mesh mesh = task.mesh;
-    const RemodelResult step = remodel(mesh, *parts_.target, {.strategy = Strategy::morph});
+    const RemodelResult step = remodel(mesh, *parts_.target, {.strategy = strategy_with_flows});
     const bool is_like = step.born() == 0 && step.gone() == 0;
     if (is_aimed && !is_like) return;
     if (is_aimed) ++memory.connectivity;

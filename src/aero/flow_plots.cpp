@@ -13,6 +13,10 @@ namespace remodel {
 
 std::string flow_caption(double mach, double alpha_deg, double cl) {
   char caption[100];
+  if (std::isnan(cl)) {
+    std::snprintf(caption, sizeof caption, "M %.4g, \u03b1 = %.4g\u00b0", mach, alpha_deg);
+    return caption;
+  }
   std::snprintf(caption, sizeof caption, "M %.4g, \u03b1 = %.4g\u00b0, CL = %.4f", mach, alpha_deg, cl);
   return caption;
 }

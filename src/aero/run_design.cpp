@@ -1,6 +1,7 @@
 // The search of a design problem, from its start to fresh meshes of its best design.
 
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -47,7 +48,7 @@ OptimiseOptions options_of(const DesignProblem& problem, const DesignRunOptions&
 std::vector<NamedNumber> violated_by(const ResolvedProblem& problem, double tolerance, std::size_t point,
                                      const Mesh& mesh, const FlowResult& flow) {
   std::vector<NamedNumber> result;
-  if (!flow.converged()) return result;
+  if (!flow.converged() || !flow.lift_determined) return result;
   const FrozenMesh frozen = mesh.freeze();
   for (const ResolvedProblem::FlowLimit& limit : problem.flow) {
     if (limit.point != point) continue;
@@ -61,6 +62,7 @@ std::vector<NamedNumber> violated_by(const ResolvedProblem& problem, double tole
 // What kept one of the meshes or flows from being finished, or done.
 Stopped verify(const DesignProblem& problem, const ResolvedProblem& parts, std::span<const double> design,
                StepObserver& observer, std::vector<FreshFlow>& verified) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   for (const int points : problem.verify) {
     const double gradation = gradation_of(problem) * points / problem.domain.points;
     const GenerateResult made =
@@ -74,9 +76,9 @@ Stopped verify(const DesignProblem& problem, const ResolvedProblem& parts, std::
                           .vertices = made.mesh.freeze().points.size(),
                           .mach = flow.mach,
                           .alpha_deg = flow.alpha_deg,
-                          .cl = flow.cl,
+                          .cl = flow.lift_determined ? flow.cl : none,
                           .cd = flow.cd,
-                          .cm = flow.cm,
+                          .cm = flow.lift_determined ? flow.cm : none,
                           .converged = flow.converged(),
                           .violated = violated_by(parts, problem.constraint_tolerance, i, made.mesh, flow),
                           .seconds = flow.seconds});

@@ -292,7 +292,7 @@ class CommandEvaluator final : public Evaluator {
 Evaluation CommandEvaluator::evaluate_in(const fs::path& directory, const EvaluationTask& task,
                                          std::unique_ptr<EvaluatorState>& state) const {
   for (const std::string& file : files_.names) {
-    if (file.starts_with("mesh.")) write_mesh(task.mesh, directory / file);
+    if (file.starts_with("mesh.")) write_mesh(task.mesh, directory / file, {.su2_boxes = options_.su2_boxes});
     if (file == "case") {
       fs::create_directory(directory / file);
       write_mesh(task.mesh, directory / file / "case.foam");

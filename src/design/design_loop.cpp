@@ -29,6 +29,11 @@ bool every(std::size_t k, std::uint64_t evaluation) {
   return k != 0 && evaluation % k == 0;
 }
 
+// The boxes of the start's file stay with the run's meshes.
+WriteOptions boxes_of(const OptimiseOptions& options) {
+  return {.su2_boxes = options.start ? options.start->su2_boxes : std::string()};
+}
+
 // Who waits for an evaluation asks the run's observer.
 class CancelQuestion final : public StepObserver {
  public:
@@ -183,7 +188,8 @@ OptimiseStopped Run::evaluate_some(OptimiseObserver& observer) {
     progress_.refused += options_.max_refused;
     return OptimiseStopped::infeasible;
   }
-  if (is_middle()) write_mesh(progress_.workers.last_mesh(), options_.directory / "middle.vtkhdf");
+  if (is_middle())
+    write_mesh(progress_.workers.last_mesh(), options_.directory / "middle.vtkhdf", boxes_of(options_));
   if (checkpoint_due()) checkpoint();
   return OptimiseStopped::done;
 }
@@ -321,10 +327,11 @@ void Run::checkpoint() {
 OptimiseResult Run::finish(OptimiseStopped stopped) {
   progress_.history.commit();
   if (mesh_is_of_last_row_) {
-    write_mesh(progress_.workers.last_mesh(), options_.directory / "last.vtkhdf");
+    write_mesh(progress_.workers.last_mesh(), options_.directory / "last.vtkhdf", boxes_of(options_));
     checkpoint();
   } else if (kept_) {
-    write_mesh(*kept_->meshes[kept_->checkpoint.workers.last], options_.directory / "last.vtkhdf");
+    write_mesh(*kept_->meshes[kept_->checkpoint.workers.last], options_.directory / "last.vtkhdf",
+               boxes_of(options_));
     write(kept_->checkpoint, kept_->meshes);
   }
   OptimiseResult result = progress_.summary.result();
@@ -378,7 +385,7 @@ Progress begin(const LoopParts& problem, const Evaluating& evaluating, RunDirect
   add(written, run);
   try {
     const fs::path start = directory.make_start();
-    write_mesh(mesh, start / "first.vtkhdf");
+    write_mesh(mesh, start / "first.vtkhdf", boxes_of(options));
     History::create(start / "history.sqlite", run);
     const std::vector<const Mesh*> everywhere(mesh_count(options, evaluating.population), &mesh);
     write_checkpoint(start,

@@ -18,7 +18,7 @@
 namespace remodel {
 namespace {
 
-constexpr std::array<MeshStrategyInfo, 7> strategies{{
+constexpr std::array<MeshStrategyInfo, 7> mesh_infos{{
     {MeshStrategy::chain, "chain", "the paper's method to the letter, and all that imported meshes have",
      Strategy::chain},
     {MeshStrategy::renew, "renew", "length scales are renewed, what is too dense is coarsened",
@@ -67,16 +67,16 @@ Checked checked_named(const std::string& name) {
 }
 
 std::span<const MeshStrategyInfo> mesh_strategies() {
-  return strategies;
+  return mesh_infos;
 }
 
 const MeshStrategyInfo& info_of(MeshStrategy strategy) {
-  return strategies[static_cast<std::size_t>(strategy)];
+  return mesh_infos[static_cast<std::size_t>(strategy)];
 }
 
 MeshStrategy mesh_strategy(const std::string& name) {
   std::string expected;
-  for (const MeshStrategyInfo& info : strategies) {
+  for (const MeshStrategyInfo& info : mesh_infos) {
     if (info.name == name) return info.strategy;
     expected += (expected.empty() ? "" : ", ") + std::string(info.name);
   }

@@ -150,6 +150,17 @@ TEST(ColorScale, TheNewestTrianglesAreBrightest) {
   EXPECT_EQ(scale.high, "0");
 }
 
+TEST(ColorScale, QuadrilateralsHaveTheirSmallestCorner) {
+  FrozenMesh mesh = test::mixed_ring();
+  const auto scale = draw_detail::color_scale(mesh, {4, 5}, DrawColor::quality);
+  EXPECT_NEAR(scale.positions.at(0), (45.0 - 20.0) / 40.0, 1e-12);  // between the squares' sides and diagonals
+  mesh.birth = {0, 1, 2, 3};
+  EXPECT_EQ(draw_detail::color_scale(mesh, {3, 4}, DrawColor::age).positions, (std::vector<double>{1, 0}));
+  mesh.fate = {Fate::kept, Fate::kept, Fate::kept, Fate::kept, Fate::moved, Fate::made};
+  EXPECT_EQ(draw_detail::color_scale(mesh, {4, 5}, DrawColor::fate).positions, (std::vector<double>{0.5, 1}));
+  EXPECT_EQ(draw_detail::color_scale(mesh, {3, 5}, DrawColor::region).positions, (std::vector<double>{0, 1}));
+}
+
 TEST(ColorScale, FatesHaveAColourEach) {
   FrozenMesh mesh = test::full_square_ring();
   mesh.fate.assign(mesh.triangles.size(), Fate::kept);

@@ -113,6 +113,17 @@ TEST(FieldPicture, ConstantFieldsFieldsOnTrianglesAndVectorsAreDrawn) {
     EXPECT_NE(drawn(mesh, "a.svg", {.field = DrawField{field}}), "") << field.name;
 }
 
+TEST(FieldPicture, QuadrilateralsAreDrawnAsTwoTriangles) {
+  const FrozenMesh mixed = test::mixed_ring(), split = with_split_quads(mixed);
+  const Field field = field_x(mixed);
+  for (const int lines : {0, 5}) {
+    const DrawOptions options{.field = DrawField{.field = field, .iso_lines = lines}, .caption = "x"};
+    EXPECT_EQ(drawn(mixed, "a.svg", options), drawn(split, "a.svg", options));
+  }
+  const Field on_cells{"c", FieldPlace::triangles, 1, {1, 2, 3, 4, 5, 6}};
+  EXPECT_NE(drawn(mixed, "a.svg", {.field = DrawField{.field = on_cells}}).find("</svg>"), std::string::npos);
+}
+
 TEST(FieldPicture, RefusesInOneSentenceWhatItCannotDraw) {
   const FrozenMesh mesh = rectangle();
   const auto refusal = [&](const DrawField& field) {

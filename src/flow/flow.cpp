@@ -29,6 +29,11 @@ const char* name_of(FlowStart start) {
   return names[static_cast<std::size_t>(start)];
 }
 
+const char* name_of(FlowOrigin origin) {
+  constexpr const char* names[] = {"last-flow", "potential", "coarser-mesh", "undisturbed"};
+  return names[static_cast<std::size_t>(origin)];
+}
+
 const char* name_of(FlowModel model) {
   constexpr const char* names[] = {"euler", "laminar", "sa"};
   return names[static_cast<std::size_t>(model)];
@@ -266,7 +271,9 @@ FlowResult result_of(const FlowSystem& system, const State& state, const SearchR
   result.start = start;
   result.residual = record.residual;
   result.history = record.history;
-  result.newton_steps = record.newton_steps;
+  result.origin = record.origin;
+  result.newton_steps = record.newton_steps + record.in_vain;
+  result.coarse_steps = record.in_vain;
   result.factorisations = record.factorisations;
   result.krylov_iterations = record.iterations;
   result.solver = record.whole_factors ? FlowSolver::lu : FlowSolver::gmres;
@@ -336,7 +343,7 @@ FlowResult cold_flow(const FrozenMesh& mesh, const Mesh* living, const FlowCondi
   if (living != nullptr)
     flow::search_by_meshes(living->domain(), living->options(), measure, conditions, search, state, spent);
   else
-    search.from_undisturbed_flow(measure, state);
+    search.cold(measure, state);
   FlowResult result = flow::result_of(system, state, record, FlowStart::cold);
   flow::add_coarse(spent, result);
   result.seconds = watch.seconds();
@@ -387,7 +394,7 @@ FlowResult solve_flow_from(const FrozenMesh& before, const FlowResult& known, co
     search.near(measure, state);
   if (record.status == FlowStatus::stalled || record.status == FlowStatus::step_limit) {
     start = FlowStart::cold;
-    search.from_undisturbed_flow(measure, state);
+    search.cold(measure, state);
   }
   FlowResult result = flow::result_of(system, state, record, start);
   result.seconds = watch.seconds();

@@ -107,8 +107,8 @@ std::string spurious_drag_warning(double drag, double scale, double largest_mach
 }
 
 Warnings warnings_of(const std::vector<PotentialOutline>& bodies, const PotentialFlow& flow,
-                     const PressureForces& by_pressure) {
-  constexpr double part = 0.04, least = 0.01;
+                     const LiftAgain& again) {
+  constexpr double part = 0.035, least = 0.01;
   Warnings warnings;
   for (const PotentialOutline& body : bodies) {
     const bool no_edge = body.base == 0;
@@ -125,12 +125,15 @@ Warnings warnings_of(const std::vector<PotentialOutline>& bodies, const Potentia
   // Behind a blunt base there is drag on any mesh.
   const bool blunt =
       std::any_of(bodies.begin(), bodies.end(), [](const auto& body) { return body.base > 1; });
-  const double error = std::abs(lift - by_pressure.lift) + (blunt ? 0.0 : std::abs(by_pressure.drag));
-  if (error > part * std::abs(lift) + least * largest_extent(bodies) / by_pressure.reference_length)
+  const double error =
+      std::abs(lift - again.lift) + std::abs(lift - again.lift_beside) + (blunt ? 0.0 : std::abs(again.drag));
+  if (error > part * std::abs(lift) + least * largest_extent(bodies) / again.reference_length)
     warnings.sentences.push_back("the mesh is too coarse for this flow: without compressibility CL is " +
-                                 short_text(lift) + " by circulation and " + short_text(by_pressure.lift) +
-                                 " by pressure, expected the same, and CD by pressure is " +
-                                 short_text(by_pressure.drag) + ", expected none");
+                                 short_text(lift) + " by circulation, " + short_text(again.lift) +
+                                 " by pressure and " + short_text(again.lift_beside) +
+                                 " by what leaves the body a little beside its edge, expected the same, and "
+                                 "CD by pressure is " +
+                                 short_text(again.drag) + ", expected none");
   if (flow.supersonic)
     warnings.sentences.push_back(
         "some pressures are below that of sonic speed, where the rule of Karman and Tsien does not hold");

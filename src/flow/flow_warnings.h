@@ -29,15 +29,17 @@ struct PotentialOutline {
   std::vector<Point> points;
   std::size_t base = 0;
 };
-// Sums over all bodies, of the incompressible flow, as coefficients with that length.
-struct PressureForces {
+// Sums over all bodies, of the incompressible flow, as coefficients with that length: by pressure; and by the
+// circulation that Kutta's condition gives a little beside the edges.
+struct LiftAgain {
   double reference_length = 1.0;
   double lift = 0.0, drag = 0.0;
+  double lift_beside = 0.0;
 };
 // Of a potential flow: bodies without an edge, or with one that faces the stream; meshes on which lift by
-// circulation is not that by pressure, or there is drag; pressures that the rule for compressible flow does
-// not hold for.
+// circulation is not that by pressure or by the condition beside the edges, or there is drag; pressures that
+// the rule for compressible flow does not hold for.
 Warnings warnings_of(const std::vector<PotentialOutline>& bodies, const PotentialFlow& flow,
-                     const PressureForces& by_pressure);
+                     const LiftAgain& again);
 
 }  // namespace remodel::flow

@@ -67,7 +67,7 @@ FlowFriction friction_of(const FrictionSystem<N>& system, const FrictionState<N>
 
 // What has to be known about the cells at the wall.
 std::vector<std::string> friction_warnings(const FrictionMesh& mesh, const FlowFriction& friction,
-                                           FlowModel model) {
+                                           FlowModel model, double largest_mach) {
   constexpr double wanted = 1.0, tolerated = 2.0;
   std::vector<std::string> warnings;
   if (model == FlowModel::sa && friction.y_plus_max > tolerated) {
@@ -81,6 +81,10 @@ std::vector<std::string> friction_warnings(const FrictionMesh& mesh, const FlowF
         friction.y_plus_max, wanted, height * wanted / friction.y_plus_max);
     warnings.push_back(text);
   }
+  if (largest_mach > 1.0)
+    warnings.push_back(
+        "the flow is faster than sound in places: with friction this scheme has no limiter, and shocks are "
+        "off");
   const auto is_quad = [](const Cell& cell) { return cell.corners() == 4; };
   if (std::none_of(mesh.dual().cells().begin(), mesh.dual().cells().end(), is_quad))
     warnings.push_back(
@@ -111,8 +115,6 @@ FlowResult result_of(const FrictionSystem<N>& system, const FrictionState<N>& st
   result.friction = friction_of(system, state, unbalanced, reynolds);
   result.friction->cd_pressure = scale * sum.pressure_drag;
   result.friction->cd_friction = scale * (sum.drag - sum.pressure_drag);
-  if (record.status == FlowStatus::converged)
-    result.warnings = friction_warnings(system.mesh(), *result.friction, model);
   result.residual = record.residual, result.history = record.history;
   result.newton_steps = record.newton_steps, result.factorisations = record.factorisations;
   result.solver = record.whole_factors ? FlowSolver::lu : FlowSolver::gmres;
@@ -122,12 +124,17 @@ FlowResult result_of(const FrictionSystem<N>& system, const FrictionState<N>& st
     result.velocity_x.push_back(q[1]), result.velocity_y.push_back(q[2]);
     result.pressure.push_back(q[3]);
   }
+  if (record.status == FlowStatus::converged) {
+    const std::vector<double> mach = mach_numbers(result);
+    result.warnings = friction_warnings(system.mesh(), *result.friction, model,
+                                        *std::max_element(mach.begin(), mach.end()));
+  }
   return result;
 }
 
 template <std::size_t N>
-FlowResult found_flow(const FrictionMesh& mesh, const Stream& stream, const Viscosity& viscosity,
-                      const FlowConditions& conditions, const FlowOptions& options) {
+FlowResult found(const FrictionMesh& mesh, const Stream& stream, const Viscosity& viscosity,
+                 const FlowConditions& conditions, const FlowOptions& options) {
   const FrictionSystem<N> system(mesh, stream, viscosity);
   FrictionRecord record;
   FrictionSearch<N> search(system, options, record);
@@ -153,8 +160,8 @@ FlowResult friction_flow(const FrozenMesh& mesh, const FlowConditions& condition
   const Viscosity viscosity = {.stream = conditions.mach * conditions.reference_length / conditions.reynolds,
                                .temperature = options.temperature_k};
   FlowResult result = options.model == FlowModel::sa
-                          ? found_flow<5>(friction_mesh, stream, viscosity, conditions, options)
-                          : found_flow<4>(friction_mesh, stream, viscosity, conditions, options);
+                          ? found<5>(friction_mesh, stream, viscosity, conditions, options)
+                          : found<4>(friction_mesh, stream, viscosity, conditions, options);
   result.seconds = watch.seconds();
   return result;
 }

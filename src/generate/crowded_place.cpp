@@ -1,4 +1,4 @@
-// A limit ended refinement: the shortest edges say where.
+// A limit ended refinement: the shortest edges say where, and how much there is is counted.
 
 #include "remodel/limits.h"
 
@@ -58,6 +58,22 @@ std::string crowded_place(const Mesh& whole) {
   return "at " + exact_text(mesh.triangulation.point(between.a)) +
          (one == other ? ", where two walls of " + one + " are " + width + " apart"
                        : ", where the walls " + one + " and " + other + " are " + width + " apart");
+}
+
+MeshCounts counts_of(const Mesh& whole) {
+  const MeshData& mesh = whole.data();
+  MeshCounts counts;
+  counts.triangles = mesh.domain_triangles;
+  counts.vertices = mesh.triangulation.vertex_count();
+  for (const std::string& marker : mesh.imported.markers) counts.boundary[marker] = 0;
+  for (std::size_t curve = 0; curve < mesh.domain.curve_count(); ++curve)
+    counts.boundary[mesh.domain.curve(curve).name] = 0;
+  for (const std::uint32_t head : mesh.loop_heads) {
+    mesh.walk_edges(
+        head, [&](std::uint32_t k, std::uint32_t) { ++counts.boundary[mesh.curve(mesh.at(k).curve).name]; });
+    mesh.walk(head, [&](std::uint32_t k) { counts.steiner_boundary_vertices += mesh.at(k).steiner ? 1 : 0; });
+  }
+  return counts;
 }
 
 }  // namespace remodel

@@ -10,6 +10,7 @@
 #include "mesh/small_angles.h"
 #include "remodel/check.h"
 #include "remodel/error.h"
+#include "remodel/limits.h"
 #include "step/test_designs.h"
 
 namespace remodel {
@@ -31,6 +32,13 @@ Mesh valid(const Domain& domain, const QualityOptions& options = {}) {
   EXPECT_EQ(result.mesh.data().triangulation.check(), "");
   EXPECT_EQ(result.mesh.step(), 0U);
   const MeshStatistics statistics = result.mesh.statistics();
+  const MeshCounts counts = counts_of(result.mesh);
+  EXPECT_EQ(counts.triangles, statistics.triangles);
+  EXPECT_EQ(counts.vertices, statistics.vertices);
+  EXPECT_EQ(counts.steiner_boundary_vertices, statistics.steiner_boundary_vertices);
+  std::map<std::string, std::size_t> boundary;
+  for (const FrozenBoundary& part : result.mesh.freeze().boundaries) boundary[part.name] += part.edges.size();
+  EXPECT_EQ(counts.boundary, boundary);
   EXPECT_GE(statistics.min_angle_deg, options.min_angle_deg);
   EXPECT_LE(statistics.max_gradation, 1.0);
   const CheckResult checked = check(result.mesh.freeze(), {.min_angle_deg = options.min_angle_deg,

@@ -39,6 +39,15 @@ Refiner::Refiner(MeshData& mesh, StepObserver* observer)
   promised_.squared_gradation = mesh.promised_bounds().squared_gradation;
 }
 
+// In the order of memory: to take them one by one in theirs takes a large mesh that was interrupted far
+// longer.
+Refiner::~Refiner() {
+  if (!waiting_) return;
+  for (std::uint32_t i = 0; i < triangulation_.triangle_slots(); ++i)
+    if (const TriangleId t{i}; triangulation_[t].badness != 0) triangulation_.set_badness(t, 0);
+  mesh_.bad_triangles = {};
+}
+
 bool Refiner::too_short(Point a, Point b) const {
   return squared_distance(a, b) < squared_min_edge_;
 }
@@ -46,6 +55,7 @@ bool Refiner::too_short(Point a, Point b) const {
 void Refiner::consider(TriangleId t, const QualityBounds& bounds) {
   const Triangle& triangle = triangulation_[t];
   if (!triangle.in_domain()) return;
+  waiting_ = true;
   for (int i = 0; i < 3; ++i) {
     if (!triangle.link[i].constrained()) continue;
     const VertexId a = triangle.vertex[next3(i)], b = triangle.vertex[previous3(i)];
@@ -114,6 +124,7 @@ Stopped Refiner::run() {
     if (!t) break;
     refine(t);
   }
+  waiting_ = false;
   return refused_ ? Stopped::minimum_edge : Stopped::done;
 }
 

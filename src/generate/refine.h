@@ -1,16 +1,46 @@
 #pragma once
 
-// Delaunay refinement of what is bad. Sources: J. Ruppert, "A Delaunay Refinement Algorithm for Quality
-// 2-Dimensional Mesh Generation", 1995; J. R. Shewchuk, "Delaunay refinement algorithms for triangular mesh
-// generation", 2002; the length scales of the paper's section 2.
+// Delaunay refinement: new vertices at circumcentres of bad triangles until none is left. Sources: J.
+// Ruppert, "A Delaunay Refinement Algorithm for Quality 2-Dimensional Mesh Generation", J. Algorithms 18,
+// 1995; J. R. Shewchuk, "Delaunay refinement algorithms for triangular mesh generation", Comput. Geom. 22,
+// 2002; the length scales of the paper's section 2.
 //
 // Words:
-//  - A segment (boundary edge) is *encroached* by a point strictly inside its diametral circle, seen from the
-//    domain's side. The other side of a thin body does not count.
-//  - A triangle of the domain is *bad* if r / e_min > B or r / mean LS > H; the larger of the two ratios over
-//    their bounds is its badness.
+//  - A *segment* is a boundary edge: the chord of a piece of curve. It is *encroached* by a point strictly
+//    inside its diametral circle, seen from the domain's side. The other side of a thin body does not count.
+//  - A triangle of the domain is *bad* if r / e_min > B or r / mean LS > H, with r the circumradius, e_min
+//    the shortest edge, LS the length scales of its corners. Its *badness* is the larger ratio over its
+//    bound.
+//  - The *cavity* of a point is the set of triangles whose circumcircles hold it. Constraints bound it. Its
+//    edges are the *ring*.
 //
-// Order: encroached segments first; then bad triangles by classes of badness (see mesh/bad_triangles.h).
+// The loop (run()):
+//
+//   1. While a segment is queued: split it at the middle of its piece of curve. At a corner with a small
+//      angle the split lies on a shell about the corner instead, so that two segments do not split each other
+//      forever (mesh/small_angles.h).
+//   2. Otherwise take the worst class of bad triangles (mesh/bad_triangles.h sorts them into classes, so that
+//      a queue costs nothing), find the cavity of its circumcentre p, and
+//        a. if p encroaches on a segment of the ring, or lies beyond one: queue that segment, and the
+//           triangle again, instead of p;
+//        b. otherwise fill the cavity by the star of p (picture in triangulation/insert.cpp). p gets the
+//           length scale min over the ring of LS(u) + |up| / G. The new triangles are judged.
+//   3. End when nothing is queued, or at a limit: the number of vertices, or edges shorter than the shortest
+//      that is allowed.
+//
+// Why it ends: no vertex is nearer to a circumcentre than r, so that for B >= sqrt(2) new edges are no
+// shorter than a constant times the local feature size (Ruppert). For smaller B, and at small input angles,
+// that is not proven: triangles at small angles are exempt, and min_edge ends the rest, with
+// Stopped::minimum_edge.
+//
+// Curves make two differences from the papers. The new vertex of a segment lies on the curve, off the chord.
+// Where it lies in one of the two triangles beside the chord the split is local (split()). Where curve and
+// chord are further apart (a blunt leading edge, a cusp) the chord is released, the point inserted where it
+// lies, and both halves recovered, which may split other segments first (split_far(), recover()).
+//
+// Three bounds: new triangles have to meet what refinement works to; kept ones what the mesh promises, which
+// may be less (keep H, the angle without slack); morphed ones the promised angle and the kept gradation. A
+// step says which by consider(), consider_kept(), consider_morphed().
 
 #include <array>
 #include <cstdint>
@@ -30,9 +60,7 @@ class Refiner {
   // the mesh's arena: within a scope of it.
   explicit Refiner(MeshData& mesh, StepObserver* observer = nullptr);
   // A limit or an exception leaves no marks behind.
-  ~Refiner() {
-    while (next_bad()) continue;
-  }
+  ~Refiner();
   Refiner(const Refiner&) = delete;
   Refiner& operator=(const Refiner&) = delete;
 
@@ -113,6 +141,7 @@ class Refiner {
   std::size_t vertex_limit_;
   StepObserver* observer_;
   std::uint32_t polls_ = 0;
+  bool waiting_ = false;  // something may be marked
   bool refused_ = false;  // a segment or a triangle was too small to be split
   bool labelled_ = true;  // false while boundaries are being recovered: the caller labels afterwards
 };

@@ -17,7 +17,8 @@ namespace {
 // What counts as a corner decides where a chord is drawn, nothing else.
 constexpr double sharp_turn = 120.0 * std::numbers::pi / 180.0;
 constexpr double blunt_turn = 45.0 * std::numbers::pi / 180.0;
-constexpr double longest_base = 0.1;  // of the outline's extent
+constexpr double nose_turn = 75.0 * std::numbers::pi / 180.0;  // less is a nose's, more a corner's
+constexpr double longest_base = 0.1;                           // of the outline's extent
 constexpr std::size_t polyline_pieces = 8;
 
 // Counter-clockwise, closed: the last point is not the first one again.
@@ -133,16 +134,41 @@ Outline around(const Outline& outline, const TrailingEdge& edge, const ChordFram
   return result;
 }
 
+// Where the leading edge lies, and the points beside it, which are one where it is on a point.
+struct LeadingEdge {
+  Point place{};
+  std::size_t before = 0, after = 0;
+};
+
+AirfoilRowList rows_of(const Outline& points) {
+  AirfoilRowList rows;
+  for (const Point p : points) rows.push_back({p, 0});
+  return rows;
+}
+
+// Of the points from one end of the trailing edge around to the other. An outline that bends smoothly there
+// has its nose where that of a coordinate file is, on a point or between two; one with a corner, where it is
+// farthest from the trailing edge.
+LeadingEdge leading_edge_of(const Outline& points, Point trailing) {
+  const auto farthest = std::max_element(points.begin(), points.end(), [&](Point a, Point b) {
+    return squared_distance(a, trailing) < squared_distance(b, trailing);
+  });
+  const auto i = static_cast<std::size_t>(farthest - points.begin());
+  const LeadingEdge on_point{*farthest, i, i};
+  if (i < 2 || i + 2 >= points.size() || turn_at(points, i) > nose_turn) return on_point;
+  const AirfoilNose nose = nose_of(rows_of(points));
+  const bool is_there = nose.before <= i && i <= nose.after;
+  return is_there ? LeadingEdge{nose.frame.nose, nose.before, nose.after} : on_point;
+}
+
 // None where x does not fall all the way to the leading edge and rise all the way back.
-std::optional<std::vector<double>> parameters_of(const Outline& points) {
-  std::size_t nose = 0;
-  for (std::size_t i = 1; i < points.size(); ++i)
-    if (points[i].x < points[nose].x) nose = i;
+std::optional<std::vector<double>> parameters_of(const Outline& points, const LeadingEdge& nose) {
   std::vector<double> parameters{0.0};
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
     if (!(points[i].x >= 0.0 && points[i].x < 1.0)) return std::nullopt;
     const double t = std::acos(2.0 * points[i].x - 1.0) / (2.0 * std::numbers::pi);
-    parameters.push_back(i == nose ? 0.5 : i < nose ? t : 1.0 - t);
+    const bool on_nose = i == nose.before && i == nose.after;
+    parameters.push_back(on_nose ? 0.5 : i <= nose.before ? t : 1.0 - t);
   }
   for (std::size_t i = 1; i < parameters.size(); ++i)
     if (!(parameters[i] > parameters[i - 1]) || parameters[i] >= 1.0) return std::nullopt;
@@ -210,14 +236,14 @@ AirfoilPlace place_of_outline(const NamedOutline& named, const std::string& sour
   AirfoilPlace place;
   place.trailing =
       edge.lower == edge.upper ? outline[edge.upper] : 0.5 * (outline[edge.lower] + outline[edge.upper]);
-  place.leading = *std::max_element(outline.begin(), outline.end(), [&](Point a, Point b) {
-    return squared_distance(a, place.trailing) < squared_distance(b, place.trailing);
-  });
+  const ChordFrame own({.leading = {0.0, 0.0}, .trailing = {1.0, 0.0}});  // the outline's coordinates
+  const LeadingEdge nose = leading_edge_of(around(outline, edge, own), place.trailing);
+  place.leading = nose.place;
   place.base = base_of(outline, edge);
   for (std::size_t i = 0; i < outline.size(); ++i)
     place.names.push_back(named.names[(edge.upper + i) % outline.size()]);
   const Outline points = around(outline, edge, ChordFrame(place));
-  if (auto parameters = parameters_of(points)) {
+  if (auto parameters = parameters_of(points, nose)) {
     place.parameters = std::move(*parameters);
     place.backwards = named.reversed;
     const std::size_t n = outline.size();
@@ -315,10 +341,12 @@ CstFit fit_airfoil(const Domain& domain, const AirfoilPlace& place, int degree) 
   if (const auto* airfoil = std::get_if<CstAirfoil>(&loop.curves.front().shape)) return {.airfoil = *airfoil};
   const Outline outline = outline_of(domain, place.loop).points;
   const Outline points = around(outline, trailing_edge_of(outline), ChordFrame(place));
-  std::vector<AirfoilRow> rows;
-  for (const Point p : points) rows.push_back({p, 0});
   const std::string where = "boundary '" + loop.curves.front().name + "'";
-  CstFit fit = fit_cst(surfaces_of_outline(where, rows, where), degree);
+  const bool nose_on_point =
+      std::any_of(points.begin(), points.end(), [](Point p) { return squared_distance(p, {}) < 1e-18; });
+  CstFit fit = fit_cst(nose_on_point ? surfaces_of_outline(where, rows_of(points), where)
+                                     : surfaces_of({.name = where, .points = points}, where),
+                       degree);
   if (!place.base.empty()) {
     fit.airfoil.te_upper = points.front().y;
     fit.airfoil.te_lower = points.back().y;

@@ -74,6 +74,36 @@ TEST(AirfoilPlace, TheChordIsFoundWhereverTheAirfoilLies) {
   }
 }
 
+// A symmetric section without a point on its nose: neither sheared nor turned, wherever it lies.
+TEST(AirfoilPlace, ANoseBetweenTwoPointsIsFound) {
+  const CstAirfoil section{.upper = {0.17, 0.16, 0.14, 0.15}, .lower = {-0.17, -0.16, -0.14, -0.15}};
+  for (const double angle : {0.0, 0.4, -2.0})
+    for (const bool clockwise : {false, true}) {
+      SCOPED_TRACE(angle);
+      Drawn drawn{.airfoil = section, .angle = angle, .points = 60, .clockwise = clockwise};
+      Domain domain = domain_of(drawn);
+      // Without the point at the nose there are two beside it, as far from the trailing edge.
+      Polyline& outline = std::get<Polyline>(domain.loops[0].curves[0].shape);
+      const auto at_nose = [&](Point p) { return distance(p, drawn.leading) < 1e-9; };
+      ASSERT_EQ(std::erase_if(outline.points, at_nose), 1U);
+      domain.loops[0].curves[0].parameters = Parameters::uniform(59);
+      const AirfoilPlace place = find_airfoil(domain, "wing", "mesh");
+      EXPECT_LT(distance(place.leading, drawn.leading), 1e-3 * drawn.chord);
+      const Point chord = place.trailing - place.leading;
+      EXPECT_NEAR(std::atan2(chord.y, chord.x), angle, 1e-9);
+      ASSERT_EQ(place.parameters.size(), 59U);
+      for (std::size_t i = 1; i < 59; ++i)
+        EXPECT_NEAR(place.parameters[i] + place.parameters[59 - i], 1.0, 1e-9);
+      const CstFit fit = fit_airfoil(domain, place, 3);
+      EXPECT_LT(fit.max_error, 2e-3);
+      for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_NEAR(fit.airfoil.upper[i], -fit.airfoil.lower[i], 1e-6);
+        EXPECT_NEAR(fit.airfoil.upper[i], section.upper[i], 0.01);
+      }
+      EXPECT_TRUE(one_to_one(domain, with_airfoil(domain, place, fit.airfoil)));
+    }
+}
+
 // Symmetric sections have their leading edge where they are drawn: then the design is the one that was drawn.
 TEST(AirfoilPlace, TheFitOfADrawnDesignIsTheDesign) {
   for (const bool clockwise : {false, true}) {

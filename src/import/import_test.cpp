@@ -150,7 +150,8 @@ TEST(Import, WhatIsKeptStaysUntilSomethingTouchesIt) {
   ASSERT_GT(result.non_delaunay_edges, 10U);
   const std::set<test::Corners> before = all_corners(mesh);
   const AirfoilPlace place = find_airfoil(result.mesh.domain(), "airfoil", "file.su2");
-  remodel(result.mesh, with_airfoil(result.mesh.domain(), place, airfoil_catalogue()[3].airfoil()));
+  remodel(result.mesh, with_airfoil(result.mesh.domain(), place, airfoil_catalogue()[3].airfoil()),
+          {.strategy = Strategy::chain});
   const FrozenMesh after = result.mesh.freeze();
   const CheckResult checked = check(after, {.delaunay = false, .design = &result.mesh.domain()});
   EXPECT_TRUE(checked.valid) << checked.violations.front().detail;
@@ -177,7 +178,8 @@ TEST(Import, TrianglesAwayFromAChangeStayToTheLastBit) {
     ImportResult result = imported(mesh);
     const AirfoilPlace place = find_airfoil(result.mesh.domain(), "airfoil", "file.su2");
     const RemodelResult step = remodel(
-        result.mesh, with_airfoil(result.mesh.domain(), place, airfoil_catalogue()[airfoil].airfoil()));
+        result.mesh, with_airfoil(result.mesh.domain(), place, airfoil_catalogue()[airfoil].airfoil()),
+        {.strategy = Strategy::chain});
     ASSERT_EQ(step.stopped, Stopped::done);
     ASSERT_FALSE(step.regenerated) << step.reason;
     const FrozenMesh after = result.mesh.freeze();
@@ -203,7 +205,7 @@ TEST(Import, OtherBodiesStay) {
   ImportResult result = imported(mesh);
   const AirfoilPlace place = find_airfoil(result.mesh.domain(), "hole", "file.su2");
   const Domain next = with_airfoil(result.mesh.domain(), place, airfoil_catalogue()[0].airfoil());
-  ASSERT_FALSE(remodel(result.mesh, next).regenerated);
+  ASSERT_FALSE(remodel(result.mesh, next, {.strategy = Strategy::chain}).regenerated);
   EXPECT_EQ(result.mesh.quick_check(), "");
   const FrozenMesh after = result.mesh.freeze();
   const auto places = [](const FrozenMesh& m, const std::string& name) {
@@ -230,7 +232,7 @@ TEST(Import, RefinedTrianglesAreBetterThanTheFiles) {
   EXPECT_EQ(result.mesh.options().refine_angle_deg, 30.0);
   const AirfoilPlace place = find_airfoil(result.mesh.domain(), "airfoil", "file.su2");
   remodel(result.mesh, with_airfoil(result.mesh.domain(), place, airfoil_catalogue()[2].airfoil()),
-          {.method = Method::general});
+          {.method = Method::general, .strategy = Strategy::chain});
   const MeshParts parts = parts_of(result.mesh.freeze());
   EXPECT_GT(parts.changed.triangles, 100U);
   EXPECT_GE(parts.changed.min_angle_deg, 30.0 * (1.0 - 1e-8));
@@ -248,8 +250,8 @@ TEST(Import, AnImportedMeshGoesOnFromItsNativeFile) {
   EXPECT_EQ(restored.freeze().triangles, mesh.triangles);
   const AirfoilPlace place = find_airfoil(restored.domain(), "airfoil", "file.su2");
   const Domain next = with_airfoil(restored.domain(), place, airfoil_catalogue()[5].airfoil());
-  remodel(result.mesh, next);
-  remodel(restored, next);
+  remodel(result.mesh, next, {.strategy = Strategy::chain});
+  remodel(restored, next, {.strategy = Strategy::chain});
   EXPECT_EQ(restored.state(), result.mesh.state());
   EXPECT_EQ(restored.freeze().triangles, result.mesh.freeze().triangles);
 }
@@ -301,7 +303,7 @@ TEST(Import, WhatIsNoMeshIsRefusedByName) {
 }
 
 // Two triangles that share a point only.
-TEST(Import, BoundariesThatTouchAreRefused) {
+TEST(Import, BoundariesThatTouchAreChainsThatAreJoined) {
   const FrozenMesh mesh{.points = {{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}},
                         .triangles = {{0, 1, 2}, {0, 3, 4}},
                         .boundaries = {},
@@ -311,7 +313,78 @@ TEST(Import, BoundariesThatTouchAreRefused) {
                         .birth = {},
                         .curve = {},
                         .parameter = {}};
-  EXPECT_EQ(problem(mesh), "file.su2: point 0: boundaries touch here, loops without a common point expected");
+  const Mesh mesh_of_it = imported(mesh).mesh;
+  EXPECT_EQ(mesh_of_it.quick_check(), "");
+  ASSERT_EQ(mesh_of_it.domain().loops.size(), 4U);
+  for (const Loop& loop : mesh_of_it.domain().loops) {
+    EXPECT_TRUE(loop.open);
+    EXPECT_EQ(loop.role, LoopRole::left);
+  }
+  EXPECT_EQ(mesh_of_it.freeze().triangles, mesh.triangles);
+  EXPECT_EQ(check(mesh_of_it.freeze()).touching_points, 1U);
+}
+
+// Two islands that touch in a point, each of two chains, and a hole by itself, which moves.
+TEST(Import, AMeshWhoseHolesTouchIsRemodelled) {
+  Domain domain = test::with_holes({test::square_hole(0.75, 0.7, 0.1)});
+  const auto add = [&](std::vector<Point> points) {
+    Loop loop = test::loop(LoopRole::left, "island", Polyline{points}, points.size() - 1);
+    loop.open = true;
+    domain.loops.push_back(loop);
+  };
+  const Point touch{0.3, 0.3};
+  for (const double side : {-0.15, 0.15}) {  // clockwise
+    add({touch, touch + Point{0, side}, touch + Point{side, side}});
+    add({touch + Point{side, side}, touch + Point{side, 0}, touch});
+  }
+  const FrozenMesh file = test::foreign(domain);
+  ASSERT_EQ(check(file).touching_points, 1U);
+  const Mesh start = imported(file).mesh;
+  EXPECT_EQ(start.quick_check(), "");
+  EXPECT_EQ(all_corners(start.freeze()), all_corners(file));
+  Domain moved = start.domain();
+  std::size_t closed = 0;
+  for (Loop& loop : moved.loops)
+    if (!loop.open && loop.role == LoopRole::hole) {
+      loop.placement.position = {0.02, 0.01};
+      ++closed;
+    }
+  ASSERT_EQ(closed, 1U);
+  for (const Strategy strategy : {Strategy::chain, Strategy::morph}) {
+    Mesh mesh = start;
+    const RemodelResult result = remodel(mesh, moved, {.strategy = strategy});
+    EXPECT_FALSE(result.regenerated) << result.reason;
+    EXPECT_GT(result.connectivity_percent(), 60.0);
+    EXPECT_EQ(mesh.quick_check(), "");
+    const CheckResult checked = check(mesh.freeze(), {.design = &mesh.domain()});
+    EXPECT_TRUE(checked.valid);
+    EXPECT_EQ(checked.touching_points, 1U);
+  }
+}
+
+// Without some of its triangles a mesh falls into pieces that touch in points.
+TEST(Import, MeshesWithMissingTrianglesAreRemodelled) {
+  std::mt19937_64 random(test::seed(45));
+  std::size_t touching = 0;
+  for (int i = 0; i < 40; ++i) {
+    SCOPED_TRACE(i);
+    FrozenMesh mesh = i % 2 == 0 ? test::grid(8, random) : test::foreign_holes();
+    mesh.boundaries.clear();
+    std::erase_if(mesh.triangles, [&](const auto&) { return random() % 12 == 0; });
+    Mesh living = imported(mesh, {.refine_angle_deg = 25.0, .max_vertices = 20000}).mesh;
+    const auto fault = [&] {
+      const CheckResult checked = check(living.freeze(), {.delaunay = false, .design = &living.domain()});
+      touching += checked.touching_points > 0;
+      return living.quick_check() + (checked.valid ? "" : checked.violations[0].detail);
+    };
+    EXPECT_EQ(fault(), "");
+    Domain moved = living.domain();
+    for (Loop& loop : moved.loops)
+      if (!loop.open && loop.role == LoopRole::hole) loop.placement.position = {1e-3, 5e-4};
+    EXPECT_FALSE(remodel(living, moved, {.strategy = Strategy::chain}).regenerated);
+    EXPECT_EQ(fault(), "");
+  }
+  EXPECT_GT(touching, 30U);
 }
 
 // Each triangle is fine, each edge has one on either side, and the plane is covered twice.
@@ -388,7 +461,8 @@ void check_promises(const Mesh& mesh) {
 void remodel_to_any(Mesh& mesh, std::mt19937_64& random) {
   const AirfoilPlace place = find_airfoil(mesh.domain(), "airfoil", "file.su2");
   const CstAirfoil airfoil = airfoil_catalogue()[random() % airfoil_catalogue().size()].airfoil();
-  const RemodelResult step = remodel(mesh, with_airfoil(mesh.domain(), place, airfoil));
+  const RemodelResult step =
+      remodel(mesh, with_airfoil(mesh.domain(), place, airfoil), {.strategy = Strategy::chain});
   if (step.stopped == Stopped::done && !step.regenerated) {
     ASSERT_EQ(mesh.quick_check(), "");
   }

@@ -10,23 +10,58 @@ namespace remodel {
 
 namespace {
 
-using Chain = std::vector<BoundaryEdge>;  // closed
+using Chain = std::vector<BoundaryEdge>;
 
-std::vector<Chain> chains_of(const SoundMesh& mesh) {
-  std::vector<std::uint32_t> leaving(mesh.points.size(), no_index);
-  for (std::uint32_t i = 0; i < mesh.boundary.size(); ++i) leaving[mesh.boundary[i].from] = i;
-  std::vector<Chain> chains;
-  for (const BoundaryEdge& first : mesh.boundary) {
-    if (leaving[first.from] == no_index) continue;
-    Chain& chain = chains.emplace_back();
-    for (std::uint32_t v = first.from; leaving[v] != no_index;) {
-      const std::uint32_t edge = std::exchange(leaving[v], no_index);
-      chain.push_back(mesh.boundary[edge]);
-      v = chain.back().to;
+// The boundary, cut at the points where more than one of its edges leaves: which piece goes on as which is a
+// matter of taste there. Closed chains are those that pass no such point.
+class BoundaryChains {
+ public:
+  explicit BoundaryChains(const SoundMesh& mesh)
+      : boundary_(mesh.boundary), leaving_(mesh.points.size(), no_index), joint_(mesh.points.size(), false) {
+    for (std::uint32_t i = 0; i < boundary_.size(); ++i) {
+      const std::uint32_t from = boundary_[i].from;
+      if (leaving_[from] != no_index) joint_[from] = true;
+      leaving_[from] = i;
     }
+    for (const BoundaryEdge& first : boundary_)
+      if (joint_[first.from]) add_open(walk(first));
+    for (const BoundaryEdge& first : boundary_)
+      if (leaving_[first.from] != no_index && !joint_[first.from]) closed_.push_back(walk(first));
+    for (const std::uint32_t point : halves_) joint_[point] = true;
   }
-  return chains;
-}
+
+  std::vector<Chain>& closed() { return closed_; }
+  std::vector<Chain>& open() { return open_; }
+  // Per point: whether an open chain ends there.
+  const std::vector<bool>& joint() const { return joint_; }
+
+ private:
+  // Up to the next joint, or all around.
+  Chain walk(const BoundaryEdge& first) {
+    Chain chain{first};
+    leaving_[first.from] = no_index;
+    for (std::uint32_t v = first.to; !joint_[v] && leaving_[v] != no_index; v = chain.back().to)
+      chain.push_back(boundary_[std::exchange(leaving_[v], no_index)]);
+    return chain;
+  }
+
+  // One that ends where it begins becomes two: a chain has two ends.
+  void add_open(Chain chain) {
+    if (chain.front().from == chain.back().to) {
+      const auto middle = chain.begin() + static_cast<std::ptrdiff_t>(chain.size() / 2);
+      halves_.push_back(middle->from);
+      open_.emplace_back(middle, chain.end());
+      chain.erase(middle, chain.end());
+    }
+    open_.push_back(std::move(chain));
+  }
+
+  const std::vector<BoundaryEdge>& boundary_;
+  std::vector<std::uint32_t> leaving_;  // an edge at each point that is not in a chain yet
+  std::vector<bool> joint_;
+  std::vector<std::uint32_t> halves_;  // points where such chains were cut
+  std::vector<Chain> closed_, open_;
+};
 
 std::ptrdiff_t first_named(const Chain& chain) {
   return std::min_element(chain.begin(), chain.end(),
@@ -107,23 +142,28 @@ void name_regions(const SoundMesh& mesh, LoopsOfMesh& result) {
 }  // namespace
 
 LoopsOfMesh loops_of(const SoundMesh& mesh) {
-  std::vector<Chain> chains = chains_of(mesh);
-  for (Chain& chain : chains) begin_with_first(mesh, chain);
-  std::sort(chains.begin(), chains.end(), [](const Chain& a, const Chain& b) {
-    return a[static_cast<std::size_t>(first_named(a))].place <
-           b[static_cast<std::size_t>(first_named(b))].place;
-  });
+  BoundaryChains boundary(mesh);
+  for (Chain& chain : boundary.closed()) begin_with_first(mesh, chain);
+  std::vector<std::pair<std::uint32_t, const Chain*>> chains;  // by the place of their first named edge
+  for (const std::vector<Chain>* list : {&boundary.closed(), &boundary.open()})
+    for (const Chain& chain : *list)
+      chains.emplace_back(chain[static_cast<std::size_t>(first_named(chain))].place, &chain);
+  std::sort(chains.begin(), chains.end());
   LoopsOfMesh result;
-  for (const Chain& chain : chains) {
-    result.domain.loops.push_back(loop_of(mesh, chain));
+  for (const auto& [place, chain] : chains) {
+    Loop& loop = result.domain.loops.emplace_back(loop_of(mesh, *chain));
     auto& points = result.points.emplace_back();
-    for (const BoundaryEdge& edge : chain) points.push_back(edge.from);
+    for (const BoundaryEdge& edge : *chain) points.push_back(edge.from);
+    loop.open = chain->front().from != chain->back().to;
+    if (loop.open) points.push_back(chain->back().to);
   }
   // With the domain on the left, outlines run counter-clockwise and holes clockwise.
   for (std::size_t i = 0; i < result.domain.loops.size(); ++i)
-    result.domain.loops[i].role = signed_area(result.domain, i) > 0.0 ? LoopRole::outer : LoopRole::hole;
+    result.domain.loops[i].role = result.domain.loops[i].open           ? LoopRole::left
+                                  : signed_area(result.domain, i) > 0.0 ? LoopRole::outer
+                                                                        : LoopRole::hole;
   name_regions(mesh, result);
-  result.joint.assign(mesh.points.size(), false);
+  result.joint = boundary.joint();
   for (const InnerChain& chain : inner_chains(mesh)) add_inner_chain(mesh, chain, result);
   return result;
 }

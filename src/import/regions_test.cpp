@@ -69,7 +69,8 @@ TEST(Regions, KeepTheirPlaceWhateverIsRemodelled) {
     for (const std::size_t airfoil : {3, 5, 1, 0}) {
       const AirfoilPlace place = find_airfoil(living.domain(), "airfoil", "file.msh");
       const RemodelResult step =
-          remodel(living, with_airfoil(living.domain(), place, airfoil_catalogue()[airfoil].airfoil()));
+          remodel(living, with_airfoil(living.domain(), place, airfoil_catalogue()[airfoil].airfoil()),
+                  {.strategy = Strategy::chain});
       EXPECT_FALSE(step.regenerated);
       expect_valid(living);
       const auto after = areas(living.freeze());
@@ -161,7 +162,8 @@ TEST(SteinerPoints, OfAFileAreNoneOfTheDesigns) {
   EXPECT_EQ(place.parameters.size() + place.base.size(), 24U);
   // Vertices correspond one to one: the paper's own method moves them to another airfoil of as many points.
   const RemodelResult step =
-      remodel(living, with_airfoil(living.domain(), place, airfoil_catalogue()[2].airfoil()));
+      remodel(living, with_airfoil(living.domain(), place, airfoil_catalogue()[2].airfoil()),
+              {.strategy = Strategy::chain});
   EXPECT_EQ(step.method, Method::specialised);
   EXPECT_FALSE(step.regenerated);
   expect_valid(living);

@@ -24,7 +24,8 @@ TEST(Import, TheSharedMesh) {
   EXPECT_EQ(place.trailing, (Point{1.0, 0.0}));
   EXPECT_EQ(place.parameters.size(), 200U);
   const RemodelResult step =
-      remodel(result.mesh, with_airfoil(result.mesh.domain(), place, load_airfoil(shape.string(), 5)));
+      remodel(result.mesh, with_airfoil(result.mesh.domain(), place, load_airfoil(shape.string(), 5)),
+              {.strategy = Strategy::chain});
   EXPECT_GT(step.preserved_percent(), 90.0);
   const CheckResult checked =
       check(result.mesh.freeze(),

@@ -36,7 +36,6 @@ class Mender {
     take_regions();
     name_boundary();
     name_interfaces();
-    refuse_touching_boundaries();
     return std::move(sound_);
   }
 
@@ -242,13 +241,6 @@ class Mender {
     if (found->marker == number) return;
     found->marker = number;
     found->place = place;
-  }
-
-  void refuse_touching_boundaries() const {
-    for (std::size_t i = 1; i < sound_.boundary.size(); ++i)
-      if (sound_.boundary[i - 1].from == sound_.boundary[i].from)
-        refuse("point ", number_[sound_.boundary[i].from],
-               ": boundaries touch here, loops without a common point expected");
   }
 
   const FrozenMesh& mesh_;

@@ -30,7 +30,8 @@ struct InnerEdge {
 };
 
 // Counter-clockwise triangles, every edge in one of them or, in opposite directions, in two; no two points
-// coincide; at every point of the boundary one boundary edge ends and one begins. Points keep their order.
+// coincide; at every point of the boundary as many boundary edges end as begin, mostly one. Points keep their
+// order.
 struct SoundMesh {
   std::vector<Point> points;
   std::vector<std::uint8_t> steiner;  // per point; empty: none is

@@ -4,6 +4,7 @@
 #include "io/vtkhdf.h"
 #include "remodel/error.h"
 #include "remodel/io.h"
+#include "remodel/layers.h"
 #include "remodel/mesh_state.h"
 
 namespace remodel {
@@ -27,6 +28,10 @@ void write_mesh(const LayeredMesh& mesh, const std::filesystem::path& file, cons
                 LayerCells cells) {
   if (mesh_format(file) != MeshFormat::vtkhdf) return write_mesh(mesh.freeze(cells), file, options);
   io::write_vtkhdf(file, mesh, options, cells);
+}
+
+void write_mesh(const LayeredMesh& mesh, const std::filesystem::path& file, const WriteOptions& options) {
+  write_mesh(mesh, file, options, LayerCells::quadrilaterals);
 }
 
 bool holds_layers(const std::filesystem::path& file) {

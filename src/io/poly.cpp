@@ -160,9 +160,11 @@ class PolyReader {
       graph_.regions.push_back(std::move(region));
     }
     if (bounds > 0)
-      graph_.left_out.push_back(source_ + ": the area bounds of " + std::to_string(bounds) +
-                                (bounds == 1 ? " region" : " regions") +
-                                " are left out: sizes follow from the distances of the boundary's points");
+      graph_.left_out.push_back(
+          source_ + ": the area bounds of " + std::to_string(bounds) +
+          (bounds == 1 ? " region" : " regions") +
+          " are left out: sizes follow from the distances of points alone; more of them in "
+          "the region, or --resolution, make it finer");
   }
 
   Lines lines_;

@@ -73,7 +73,7 @@ const std::string reference_group = state_group + "/reference";
 // What a layered mesh has beside its outer mesh.
 const std::string layers_group = state_group + "/layers";
 const std::string layer_walls_path = layers_group + "/walls", layer_names_path = layers_group + "/names";
-const std::string layer_fans_path = layers_group + "/fans";
+const std::string layer_fans_path = layers_group + "/fans", layer_columns_path = layers_group + "/columns";
 
 template <class State, class Visitor>
 void for_each_layer_number(State& state, Visitor&& visit) {
@@ -82,17 +82,18 @@ void for_each_layer_number(State& state, Visitor&& visit) {
   visit("thickness", state.options.thickness);
   visit("fan_from_deg", state.options.fan_from_deg);
   visit("levels", state.levels);
-  visit("epoch", state.epoch);
+  visit("next_column", state.next_column);
 }
 
 std::uint64_t checksum_of_layers(const LayeredState& state, const std::string& walls_text) {
   WordChecksum sum;
   for_each_layer_number(state, [&](const char*, auto value) { sum.add(value); });
   for (const std::string& name : state.options.walls) sum.add(name);
-  for (const auto& ring : state.fans) {
-    sum.add(std::uint64_t{ring.size()});
-    for (const std::uint32_t sectors : ring) sum.add(sectors);
-  }
+  for (const auto* numbers : {&state.fans, &state.columns})
+    for (const auto& ring : *numbers) {
+      sum.add(std::uint64_t{ring.size()});
+      for (const std::uint32_t number : ring) sum.add(number);
+    }
   sum.add(walls_text);
   return sum.value();
 }
@@ -169,8 +170,10 @@ void write_layers(Hdf5Writer& out, const LayeredState& state) {
     out.attribute(layers_group, name, std::vector{value});
   });
   if (!state.options.walls.empty()) out.texts(layer_names_path, state.options.walls);
-  for (std::size_t r = 0; r < state.fans.size(); ++r)
+  for (std::size_t r = 0; r < state.fans.size(); ++r) {
     out.array(layer_fans_path + std::to_string(r), state.fans[r]);
+    out.array(layer_columns_path + std::to_string(r), state.columns[r]);
+  }
   out.text(layer_walls_path, walls);
 }
 
@@ -428,8 +431,10 @@ LayeredState read_vtkhdf_layers(const std::filesystem::path& file) {
     value = in.attribute<std::remove_reference_t<decltype(value)>>(layers_group, name).front();
   });
   if (in.exists(layer_names_path)) state.options.walls = in.texts(layer_names_path);
-  while (in.exists(layer_fans_path + std::to_string(state.fans.size())))
-    state.fans.push_back(in.array<std::uint32_t>(layer_fans_path + std::to_string(state.fans.size())));
+  for (std::size_t r = 0; in.exists(layer_fans_path + std::to_string(r)); ++r) {
+    state.fans.push_back(in.array<std::uint32_t>(layer_fans_path + std::to_string(r)));
+    state.columns.push_back(in.array<std::uint32_t>(layer_columns_path + std::to_string(r)));
+  }
   const std::string walls = in.text(layer_walls_path);
   if (in.attribute<std::uint64_t>(layers_group, "checksum").front() != checksum_of_layers(state, walls))
     in.fail(layers_group + "@checksum", "another checksum than that of the content found: the file is damaged");

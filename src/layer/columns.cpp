@@ -187,6 +187,13 @@ void set_tops(ColumnRing& ring, const std::vector<double>& tilt) {
   }
 }
 
+// What is left of a coordinate where a solve has made it vanish, on a line of symmetry, is nothing that exact
+// predicates could work with.
+Point without_traces(Point p, double thickness) {
+  const double trace = 1e-20 * thickness;
+  return {std::abs(p.x) < trace ? 0.0 : p.x, std::abs(p.y) < trace ? 0.0 : p.y};
+}
+
 void set_points(ColumnRing& ring, const LayerOptions& options, std::uint32_t levels) {
   const std::size_t n = ring.size();
   ring.growth.assign(n, 1.0);
@@ -202,7 +209,8 @@ void set_points(ColumnRing& ring, const LayerOptions& options, std::uint32_t lev
     }
     const Point bend = (1.0 / thickness) * (ring.top[c] - ring.normal[c]);
     for (std::uint32_t j = 0; j < levels; ++j)
-      ring.points[c * levels + j] = ring.foot[c] + heights[j] * (ring.normal[c] + heights[j] * bend);
+      ring.points[c * levels + j] =
+          without_traces(ring.foot[c] + heights[j] * (ring.normal[c] + heights[j] * bend), thickness);
   }
 }
 
@@ -316,7 +324,7 @@ bool is_convex(const CellPoints& cell) {
 
 LayerColumns columns_of(const Walls& walls, const std::vector<std::size_t>& loops, const FanSectors& sectors,
                         const LayerOptions& options, std::uint32_t levels) {
-  LayerColumns columns{rings_of(walls, loops, sectors), 0};
+  LayerColumns columns{rings_of(walls, loops, sectors, options), 0};
   std::vector<ColumnRing>& rings = columns.rings;
   set_room(rings, walls, options.thickness);
   std::vector<std::vector<double>> room;

@@ -79,8 +79,14 @@ TEST(Columns, HeightsThicknessesAndGrowthsAreFree) {
   expect_valid(domain, {.first_height = 0.01, .thickness = 0.01}, "a single cell");
 }
 
+// Also by less than any spacing: the tops over such a base are as far apart as those beside it.
 TEST(Columns, EdgesMayBeBlunt) {
-  for (const double gap : {0.0025, 0.02}) expect_valid(spaced(airfoil_domain(with_base(gap))), layer_options(), "base");
+  for (const double gap : {1e-5, 1e-4, 0.0025, 0.02}) {
+    const std::string what = "base of " + std::to_string(gap);
+    const LayerStatistics s = expect_valid(spaced(airfoil_domain(with_base(gap))), layer_options(), what);
+    EXPECT_LT(s.area_jump_max, 5.5) << what;
+    EXPECT_GT(s.corner_min_deg, 65.0) << what;
+  }
 }
 
 TEST(Columns, StationsMayLieAnyhow) {

@@ -13,7 +13,8 @@ struct LayeredMesh::Columns : LayerColumns {
   std::vector<std::size_t> loops;  // that have a layer, as rings are
   FanSectors fans;
   std::uint32_t levels = 0;
-  std::uint32_t epoch = 0;  // of the vertices' keys: how often columns were set up anew
+  std::vector<std::vector<std::uint32_t>> ids;  // per ring and column: its number
+  std::uint32_t next_id = 0;
 
   std::size_t count() const {
     std::size_t columns = 0;
@@ -21,6 +22,14 @@ struct LayeredMesh::Columns : LayerColumns {
     return columns;
   }
 };
+
+// Per ring and column of a layer: the place of the same column in an earlier layer, if it is one of that.
+struct ColumnPlace {
+  std::size_t ring = no_column, column = no_column;
+  static constexpr std::size_t no_column = static_cast<std::size_t>(-1);
+  bool there() const { return column != no_column; }
+};
+using ColumnMatches = std::vector<std::vector<ColumnPlace>>;
 
 // The vertices of the outer mesh on the tops of one ring.
 struct RingTops {

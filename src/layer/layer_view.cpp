@@ -41,7 +41,7 @@ LayerTopology topology_of(const LayerColumns& columns, std::uint32_t levels) {
 class LayerView {
  public:
   LayerView(const Mesh& outer, const Domain& walls, const LayerColumns& columns, std::uint32_t levels,
-            std::uint32_t epoch, LayerCells cells)
+            const std::vector<std::vector<std::uint32_t>>& ids, LayerCells cells)
       : walls_(walls),
         columns_(columns),
         levels_(levels),
@@ -49,7 +49,7 @@ class LayerView {
         outside_(outer.freeze()),
         tops_(tops_of(outer, columns)),
         topology_(topology_of(columns, levels)) {
-    add_layer_points(epoch);
+    add_layer_points(ids);
     add_outer_points();
     add_layer_cells();
     add_outer_cells();
@@ -60,16 +60,20 @@ class LayerView {
   FrozenMesh take() { return std::move(mesh_); }
 
  private:
-  void add_layer_points(std::uint32_t epoch) {
+  std::uint64_t key_of(std::uint32_t id, std::uint32_t level) const {
+    return (std::uint64_t{layer_generation} << 32) + std::uint64_t{id} * (levels_ + 1) + level;
+  }
+
+  void add_layer_points(const std::vector<std::vector<std::uint32_t>>& ids) {
     std::uint32_t column = 0;
-    for (const ColumnRing& ring : columns_.rings) {
+    for (std::size_t r = 0; r < columns_.rings.size(); ++r) {
+      const ColumnRing& ring = columns_.rings[r];
       const std::vector<BoundaryStation> stations = walls_.stations(ring.loop);
       for (std::size_t c = 0; c < ring.size(); ++c, ++column) {
         const auto add = [&](Point p, std::uint32_t level, std::int32_t curve, double t) {
           mesh_.points.push_back(p);
           mesh_.length_scale.push_back(ring.spacing[c]);
-          const VertexKey key{{column * (levels_ + 1) + level}, layer_generation | epoch};
-          mesh_.vertex_keys.push_back(key.value());
+          mesh_.vertex_keys.push_back(key_of(ids[r][c], level));
           mesh_.curve.push_back(curve);
           mesh_.parameter.push_back(t);
           mesh_.steiner.push_back(0);
@@ -264,7 +268,7 @@ LayerTopology LayeredMesh::topology() const {
 
 FrozenMesh LayeredMesh::freeze(LayerCells cells) const {
   if (empty()) return {};
-  return LayerView(outer_, walls_, *columns_, levels(), columns_->epoch, cells).take();
+  return LayerView(outer_, walls_, *columns_, levels(), columns_->ids, cells).take();
 }
 
 }  // namespace remodel

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "generate/require_option.h"
@@ -45,8 +46,54 @@ bool follows_by_index(const Domain& own, const Domain& wanted) {
 }
 
 // The new walls in the terms of the mesh's own: its curves where loops are the same places, written otherwise.
-Domain in_own_terms(const Domain& own, const Domain& wanted) {
-  return follows_by_index(own, wanted) ? wanted : correspond(own, wanted).domain;
+struct NewWalls {
+  Domain domain;
+  std::vector<std::size_t> from;  // per loop: the old one that it is station for station, or no_link
+};
+NewWalls in_own_terms(const Domain& own, const Domain& wanted) {
+  NewWalls walls{wanted, {}};
+  if (follows_by_index(own, wanted)) {
+    for (std::size_t l = 0; l < wanted.loops.size(); ++l) walls.from.push_back(l);
+    return walls;
+  }
+  Correspondence to = correspond(own, wanted);
+  walls.domain = std::move(to.domain);
+  for (std::size_t l = 0; l < to.loops.size(); ++l) {
+    const std::size_t from = to.loops[l].from;
+    const bool same = from != no_link && in_order(own.loops[from], walls.domain.loops[l]);
+    walls.from.push_back(same ? from : no_link);
+  }
+  return walls;
+}
+
+// Per ring: the one of its old loop, or no_column.
+std::vector<std::size_t> old_rings(const std::vector<std::size_t>& loops, const std::vector<std::size_t>& from,
+                                   const std::vector<std::size_t>& old_loops) {
+  std::vector<std::size_t> rings;
+  for (const std::size_t loop : loops) {
+    const auto old = std::find(old_loops.begin(), old_loops.end(), from[loop]);
+    rings.push_back(old == old_loops.end() ? ColumnPlace::no_column
+                                           : static_cast<std::size_t>(old - old_loops.begin()));
+  }
+  return rings;
+}
+
+// The columns of a station are the same where its fan has as many sectors as before.
+ColumnMatches match_columns(const FanSectors& before, const FanSectors& now, const std::vector<std::size_t>& old_ring) {
+  ColumnMatches matches;
+  for (std::size_t r = 0; r < now.size(); ++r) {
+    std::vector<ColumnPlace>& ring = matches.emplace_back();
+    std::size_t first_before = 0;
+    for (std::size_t station = 0; station < now[r].size(); ++station) {
+      const bool known = old_ring[r] != ColumnPlace::no_column;
+      const std::uint32_t sectors = known ? before[old_ring[r]][station] : 0;
+      for (std::uint32_t j = 0; j <= now[r][station]; ++j)
+        ring.push_back(known && sectors == now[r][station] ? ColumnPlace{old_ring[r], first_before + j}
+                                                            : ColumnPlace{});
+      first_before += sectors + 1;
+    }
+  }
+  return matches;
 }
 
 bool same_tops(const Domain& outside, const Domain& expected, const LayerColumns& columns) {
@@ -58,68 +105,91 @@ bool same_tops(const Domain& outside, const Domain& expected, const LayerColumns
   });
 }
 
-// What steps of a mesh have left of the layer.
+// What a step has left of the layer.
 struct LayerCounts {
   std::size_t before = 0, now = 0, preserved = 0, connected = 0;
   std::size_t moved = 0, inserted = 0, removed = 0;  // vertices below the tops
 };
 
-// Per column and level from the wall to the top: whether the point stands where it stood.
-std::vector<bool> points_that_stay(const ColumnRing& was, const ColumnRing& is, std::uint32_t levels) {
-  std::vector<bool> stays;
-  stays.reserve(is.size() * (levels + 1));
-  for (std::size_t c = 0; c < is.size(); ++c) {
-    stays.push_back(was.foot[c] == is.foot[c]);
-    for (std::size_t i = c * levels; i < (c + 1) * levels; ++i) stays.push_back(was.points[i] == is.points[i]);
-  }
-  return stays;
+bool shares_foot(const ColumnRing& ring, std::size_t column) {
+  return column > 0 && ring.station[column] == ring.station[column - 1];
 }
 
-void count_ring(const ColumnRing& was, const RingTops& tops_before, const ColumnRing& is, const RingTops& tops_now,
-                std::uint32_t levels, LayerCounts& counts) {
-  const std::vector<bool> stays = points_that_stay(was, is, levels);
-  for (std::size_t c = 0; c < is.size(); ++c) {
-    const auto &split_before = tops_before.splits[c], &split = tops_now.splits[c];
-    const std::size_t here = c * (levels + 1), there = is.after(c) * (levels + 1);
-    const auto stands = [&](std::uint32_t level) {
-      return stays[here + level] && stays[here + level + 1] && stays[there + level] && stays[there + level + 1];
-    };
-    const bool whole = split.empty() && split_before.empty();
-    const std::uint32_t plain = whole ? levels : levels - 1;
-    counts.connected += plain;
-    for (std::uint32_t level = 0; level < plain; ++level) counts.preserved += stands(level);
-    const auto same_key = [](const RingTops::Split& a, const RingTops::Split& b) { return a.key == b.key; };
-    if (!whole && std::equal(split.begin(), split.end(), split_before.begin(), split_before.end(), same_key)) {
-      const std::size_t parts = parts_of_split(is, c, split.size(), levels);
-      counts.connected += parts;
-      if (stands(levels - 1) && split == split_before) counts.preserved += parts;
+// Without its top, which is the outer mesh's, and without a foot that is another column's.
+std::size_t vertices_below(const ColumnRing& ring, std::size_t column, std::uint32_t levels) {
+  return levels - 1 + (shares_foot(ring, column) ? 0 : 1);
+}
+
+// Counts what is left of an earlier layer.
+class LayerCounter {
+ public:
+  LayerCounter(const LayerColumns& was, const std::vector<RingTops>& tops_before, const LayerColumns& is,
+               const std::vector<RingTops>& tops_now, const ColumnMatches& matches, std::uint32_t levels)
+      : was_(was), is_(is), tops_before_(tops_before), tops_now_(tops_now), matches_(matches), levels_(levels) {
+    for (std::size_t r = 0; r < was.rings.size(); ++r) {
+      counts_.before += cell_count(was.rings[r], tops_before[r], levels);
+      for (std::size_t c = 0; c < was.rings[r].size(); ++c)
+        counts_.removed += vertices_below(was.rings[r], c, levels);
     }
-    const bool shares_foot = c > 0 && is.station[c] == is.station[c - 1];
-    for (std::uint32_t level = shares_foot ? 1 : 0; level < levels; ++level) counts.moved += !stays[here + level];
+    for (std::size_t r = 0; r < is.rings.size(); ++r) {
+      counts_.now += cell_count(is.rings[r], tops_now[r], levels);
+      compare_points(r);
+      for (std::size_t c = 0; c < is.rings[r].size(); ++c) compare_cells(r, c);
+    }
   }
-}
+  const LayerCounts& counts() const { return counts_; }
 
-// Without the tops, which are the outer mesh's.
-std::size_t vertices_below(const ColumnRing& ring, std::uint32_t levels) {
-  std::size_t count = ring.size() * (levels - 1);
-  for (std::size_t c = 0; c < ring.size(); ++c) count += c == 0 || ring.station[c] != ring.station[c - 1];
-  return count;
-}
+ private:
+  // Fills stays_: per column and level from the wall to the top, whether the point stands where it stood.
+  void compare_points(std::size_t r) {
+    const ColumnRing& ring = is_.rings[r];
+    stays_.assign(ring.size() * (levels_ + 1), false);
+    for (std::size_t c = 0; c < ring.size(); ++c) {
+      const ColumnPlace old = matches_[r][c];
+      if (!old.there()) {
+        counts_.inserted += vertices_below(ring, c, levels_);
+        continue;
+      }
+      counts_.removed -= vertices_below(ring, c, levels_);
+      const ColumnRing& before = was_.rings[old.ring];
+      const std::size_t here = c * (levels_ + 1);
+      stays_[here] = ring.foot[c] == before.foot[old.column];
+      for (std::uint32_t j = 0; j < levels_; ++j)
+        stays_[here + j + 1] = ring.points[c * levels_ + j] == before.points[old.column * levels_ + j];
+      for (std::uint32_t level = shares_foot(ring, c) ? 1 : 0; level < levels_; ++level)
+        counts_.moved += !stays_[here + level];
+    }
+  }
 
-LayerCounts count_layer(const LayerColumns& was, const std::vector<RingTops>& tops_before, const LayerColumns& is,
-                        const std::vector<RingTops>& tops_now, std::uint32_t levels, bool same_columns) {
-  LayerCounts counts;
-  for (std::size_t r = 0; r < was.rings.size(); ++r) {
-    counts.before += cell_count(was.rings[r], tops_before[r], levels);
-    if (!same_columns) counts.removed += vertices_below(was.rings[r], levels);
+  // The cells between a column and the next one, if these stood side by side before.
+  void compare_cells(std::size_t r, std::size_t c) {
+    const ColumnRing& ring = is_.rings[r];
+    const std::size_t next = ring.after(c);
+    const ColumnPlace a = matches_[r][c], b = matches_[r][next];
+    if (!a.there() || !b.there() || was_.rings[a.ring].after(a.column) != b.column) return;
+    const std::size_t here = c * (levels_ + 1), there = next * (levels_ + 1);
+    const auto stands = [&](std::uint32_t level) {
+      return stays_[here + level] && stays_[here + level + 1] && stays_[there + level] && stays_[there + level + 1];
+    };
+    const auto &split_before = tops_before_[a.ring].splits[a.column], &split = tops_now_[r].splits[c];
+    const bool whole = split.empty() && split_before.empty();
+    const std::uint32_t plain = whole ? levels_ : levels_ - 1;
+    counts_.connected += plain;
+    for (std::uint32_t level = 0; level < plain; ++level) counts_.preserved += stands(level);
+    const auto same_key = [](const RingTops::Split& p, const RingTops::Split& q) { return p.key == q.key; };
+    if (whole || !std::equal(split.begin(), split.end(), split_before.begin(), split_before.end(), same_key)) return;
+    const std::size_t parts = parts_of_split(ring, c, split.size(), levels_);
+    counts_.connected += parts;
+    if (stands(levels_ - 1) && split == split_before) counts_.preserved += parts;
   }
-  for (std::size_t r = 0; r < is.rings.size(); ++r) {
-    counts.now += cell_count(is.rings[r], tops_now[r], levels);
-    if (!same_columns) counts.inserted += vertices_below(is.rings[r], levels);
-    if (same_columns) count_ring(was.rings[r], tops_before[r], is.rings[r], tops_now[r], levels, counts);
-  }
-  return counts;
-}
+
+  const LayerColumns &was_, &is_;
+  const std::vector<RingTops>&tops_before_, &tops_now_;
+  const ColumnMatches& matches_;
+  std::uint32_t levels_;
+  std::vector<bool> stays_;
+  LayerCounts counts_;
+};
 
 LayeredRemodelResult of_the_whole(const RemodelResult& outer, const LayerCounts& layer) {
   LayeredRemodelResult result;
@@ -133,6 +203,18 @@ LayeredRemodelResult of_the_whole(const RemodelResult& outer, const LayerCounts&
   result.removed += layer.removed;
   result.layer_cells = layer.now;
   return result;
+}
+
+// Whether the numbers of columns are different ones, as many as there are columns.
+bool are_numbers(const LayeredState& state, const LayerColumns& columns) {
+  std::vector<std::uint32_t> all;
+  if (state.columns.size() != columns.rings.size()) return false;
+  for (std::size_t r = 0; r < columns.rings.size(); ++r) {
+    if (state.columns[r].size() != columns.rings[r].size()) return false;
+    all.insert(all.end(), state.columns[r].begin(), state.columns[r].end());
+  }
+  std::sort(all.begin(), all.end());
+  return std::adjacent_find(all.begin(), all.end()) == all.end() && all.back() < state.next_column;
 }
 
 // A fresh outer mesh takes the place of the one before, with keys that were never given out.
@@ -267,8 +349,13 @@ LayeredGenerateResult generate_layered(const Domain& domain, const LayerOptions&
   columns.loops = layered_loops(domain, layers);
   columns.levels = levels_of(layers);
   const Walls walls(domain);
-  columns.fans = fans_of(walls, columns.loops, layers, nullptr).sectors;
+  columns.fans = fans_of(walls, columns.loops, layers, {columns.loops.size(), nullptr});
   static_cast<LayerColumns&>(columns) = columns_of(walls, columns.loops, columns.fans, layers, columns.levels);
+  for (const ColumnRing& ring : columns.rings) {
+    std::vector<std::uint32_t>& ids = columns.ids.emplace_back(ring.size());
+    std::iota(ids.begin(), ids.end(), columns.next_id);
+    columns.next_id += static_cast<std::uint32_t>(ring.size());
+  }
   GenerateResult outer = generate(outside_of(domain, columns, columns.levels), quality, observer);
   mesh.outer_ = std::move(outer.mesh);
   mesh.walls_ = domain;
@@ -284,38 +371,52 @@ LayeredRemodelResult remodel(LayeredMesh& mesh, const Domain& domain, const Remo
     throw Error(ErrorCode::argument, "mesh", "found an empty one, expected one that was generated or read");
   validate(domain);
   const LayeredMesh::Columns& own = *mesh.columns_;
-  Domain wanted = in_own_terms(mesh.walls_, domain);
-  const Walls walls(wanted);
+  NewWalls wanted = in_own_terms(mesh.walls_, domain);
+  const Walls walls(wanted.domain);
 
   auto columns = std::make_unique<LayeredMesh::Columns>();
-  columns->loops = layered_loops(wanted, mesh.options_);
+  columns->loops = layered_loops(wanted.domain, mesh.options_);
   columns->levels = own.levels;
-  // Fans are kept station for station. Loops in another order have the same stations only if they are one to one.
-  const bool same_stations = columns->loops == own.loops && one_to_one(mesh.walls_, wanted);
-  Fans fans = fans_of(walls, columns->loops, mesh.options_, same_stations ? &own.fans : nullptr);
-  const bool same_columns = same_stations && (!fans.changed || fans.sectors == own.fans);
-  columns->fans = std::move(fans.sectors);
-  columns->epoch = own.epoch + (same_columns ? 0 : 1);
+  const std::vector<std::size_t> old_ring = old_rings(columns->loops, wanted.from, own.loops);
+  std::vector<const std::vector<std::uint32_t>*> kept;
+  for (const std::size_t ring : old_ring) kept.push_back(ring == ColumnPlace::no_column ? nullptr : &own.fans[ring]);
+  columns->fans = fans_of(walls, columns->loops, mesh.options_, kept);
   static_cast<LayerColumns&>(*columns) =
       columns_of(walls, columns->loops, columns->fans, mesh.options_, columns->levels);
+  const ColumnMatches matches = match_columns(own.fans, columns->fans, old_ring);
+  columns->next_id = own.next_id;
+  std::size_t same = 0;
+  for (const std::vector<ColumnPlace>& ring : matches) {
+    std::vector<std::uint32_t>& ids = columns->ids.emplace_back();
+    for (const ColumnPlace old : ring) {
+      ids.push_back(old.there() ? own.ids[old.ring][old.column] : columns->next_id++);
+      same += old.there();
+    }
+  }
 
   const std::vector<RingTops> tops_before = tops_of(mesh.outer_, own);
-  const RemodelResult outer = step_outside(mesh.outer_, outside_of(wanted, *columns, columns->levels), *columns, options);
-  const bool as_it_was = outer.abandoned || outer.stopped == Stopped::interrupted;
-  const LayeredMesh::Columns& now = as_it_was ? own : *columns;
-  const LayerCounts counts =
-      count_layer(own, tops_before, now, tops_of(mesh.outer_, now), own.levels, as_it_was || same_columns);
-  LayeredRemodelResult result = of_the_whole(outer, counts);
-  result.shrunk = now.shrunk;
-  result.same_columns = as_it_was || same_columns;
-  if (as_it_was) return result;
-  mesh.walls_ = std::move(wanted);
+  const Domain outside = outside_of(wanted.domain, *columns, columns->levels);
+  const RemodelResult outer = step_outside(mesh.outer_, outside, *columns, options);
+  if (outer.abandoned || outer.stopped == Stopped::interrupted) {
+    LayeredRemodelResult result = of_the_whole(outer, {});
+    const std::size_t cells = mesh.layer_cells();
+    for (std::size_t* count : {&result.triangles_before, &result.triangles, &result.preserved, &result.connected})
+      *count += cells;
+    result.layer_cells = cells;
+    result.shrunk = own.shrunk;
+    return result;
+  }
+  const LayerCounter counter(own, tops_before, *columns, tops_of(mesh.outer_, *columns), matches, own.levels);
+  LayeredRemodelResult result = of_the_whole(outer, counter.counts());
+  result.shrunk = columns->shrunk;
+  result.same_columns = same == own.count() && same == columns->count();
+  mesh.walls_ = std::move(wanted.domain);
   mesh.columns_ = std::move(columns);
   return result;
 }
 
 LayeredState LayeredMesh::state() const {
-  return {outer_.state(), walls_, options_, levels(), columns_->epoch, columns_->fans};
+  return {outer_.state(), walls_, options_, levels(), columns_->fans, columns_->ids, columns_->next_id};
 }
 
 LayeredMesh LayeredMesh::restore(const LayeredState& state, const std::string& source) {
@@ -335,10 +436,13 @@ LayeredMesh LayeredMesh::restore(const LayeredState& state, const std::string& s
              std::all_of(state.fans[r].begin(), state.fans[r].end(), [](std::uint32_t n) { return n <= 64; });
     if (!fits) refuse("found fans of a layer that do not fit its walls, expected one number a station, at most 64");
     columns.levels = state.levels;
-    columns.epoch = state.epoch;
     columns.fans = state.fans;
     static_cast<LayerColumns&>(columns) =
         columns_of(Walls(state.walls), columns.loops, columns.fans, state.options, columns.levels);
+    if (!are_numbers(state, columns))
+      refuse("found numbers of a layer's columns that do not fit, expected different ones, one a column");
+    columns.ids = state.columns;
+    columns.next_id = state.next_column;
   } catch (const Error& error) {
     if (error.code() == ErrorCode::format) throw;
     refuse(std::string("found a layer that cannot be: ") + error.what());

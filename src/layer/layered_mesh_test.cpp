@@ -101,6 +101,12 @@ TEST(LayeredMesh, ForeignStatesAreRefused) {
   EXPECT_TRUE(refused(wrong));
   wrong = state, wrong.fans.clear();
   EXPECT_TRUE(refused(wrong));
+  wrong = state, wrong.columns[0].pop_back();
+  EXPECT_TRUE(refused(wrong));
+  wrong = state, wrong.columns[0][1] = wrong.columns[0][0];
+  EXPECT_TRUE(refused(wrong));
+  wrong = state, wrong.next_column = 5;
+  EXPECT_TRUE(refused(wrong));
   wrong = state, wrong.options.walls = {"wing"};
   EXPECT_TRUE(refused(wrong));
   wrong = state, wrong.walls.loops[0].placement.rotation_deg = 1.0;
@@ -158,6 +164,8 @@ TEST(LayeredMesh, LoopsInAnotherOrderAndDirectionAreTheSame) {
   std::swap(other.loops[0], other.loops[1]);
   const LayeredRemodelResult result = remodel(mesh, other, {.strategy = Strategy::morph});
   EXPECT_FALSE(result.regenerated);
+  EXPECT_TRUE(result.same_columns);
+  EXPECT_EQ(result.preserved, mesh.cells());
   EXPECT_EQ(mesh.freeze().points, before.points);
   EXPECT_EQ(mesh.quick_check(), "");
 }
@@ -175,6 +183,28 @@ TEST(LayeredMesh, AWallThatIsDescribedInAnotherWayGetsAFreshMesh) {
   EXPECT_TRUE(remodel(mesh, other).regenerated);
   EXPECT_EQ(mesh.quick_check(), "");
   EXPECT_EQ(why_no_mesh(mesh.freeze(), other), "");
+}
+
+// A trailing edge that becomes much blunter has another fan; all columns elsewhere keep their numbers.
+TEST(LayeredMesh, AFanWithOtherSectorsLeavesAllOtherColumnsAsTheyAre) {
+  CstAirfoil blunt = named_airfoil("naca:0012", 8);
+  for (auto* surface : {&blunt.upper, &blunt.lower}) surface->back() *= 4.0;
+  LayeredMesh mesh = generate_layered(around(named_airfoil("naca:0012", 8)), layer_options(), quality).mesh;
+  const LayeredState before = mesh.state();
+  Domain next = mesh.domain();
+  next.loops[0].curves[0].shape = blunt;
+  const LayeredRemodelResult result = remodel(mesh, next, {.strategy = Strategy::morph});
+  const LayeredState after = mesh.state();
+  ASSERT_NE(after.fans, before.fans);
+  EXPECT_FALSE(result.same_columns);
+  std::size_t same = 0;
+  for (const std::uint32_t column : after.columns[0])
+    same += std::find(before.columns[0].begin(), before.columns[0].end(), column) != before.columns[0].end();
+  EXPECT_EQ(same, mesh.domain().stations(0).size() - 1);
+  EXPECT_GT(result.connected, (same - 1) * mesh.levels());
+  EXPECT_EQ(mesh.quick_check(), "");
+  EXPECT_EQ(why_no_mesh(mesh.freeze(), next), "");
+  EXPECT_EQ(result.triangles, mesh.cells());
 }
 
 TEST(LayeredMesh, OtherStationsMakeOtherColumns) {

@@ -13,8 +13,8 @@ namespace remodel {
 namespace {
 
 constexpr double full_turn_deg = 360.0;
-// A smooth station that turns by this much has become a corner, whatever fans are kept.
-constexpr double corner_from_deg = 40.0;
+// A station without a fan that turns by this much has become a corner.
+constexpr double corner_from_deg = 60.0;
 
 Point left_of(Point v) {
   return {-v.y, v.x};
@@ -60,11 +60,29 @@ bool domain_on_left(const Walls& walls, std::size_t loop) {
   return (role == LoopRole::outer) == (signed_area_of(walls.points[loop]) > 0.0);
 }
 
+// One sector turns by about what a cell of the layer grows by: then the cells of fans are isotropic at the top.
+double sector_turns(const LayerOptions& options) {
+  return (options.growth - 1.0) / (2.0 * std::numbers::pi);
+}
+
+// Two corners with a fan each, and a short edge between them, such as the base of a trailing edge: their columns at
+// that edge lean apart so that its tops are as far from each other as those of a sector, and not as near as the edge
+// is short.
+void lean_apart(WallCorner& from, WallCorner& to, double edge, bool left, const LayerOptions& options) {
+  const double missing = (sector_turns(options) - edge / (2.0 * std::numbers::pi * options.thickness)) / 2.0;
+  const double lean = std::min({missing, 0.25 * from.turns, 0.25 * to.turns});
+  if (lean <= 0.0) return;
+  from.after = turned(from.after, direction(left ? lean : -lean));
+  to.before = turned(to.before, direction(left ? -lean : lean));
+  from.turns -= lean;
+  to.turns -= lean;
+}
+
 // Turns of stations without a fan are only compared with angles far larger than this: they need no exact ones.
 constexpr double cosine_of_small_turn = 0.98;
 
 // `sectors`: of fans at these stations, where there are any.
-std::vector<WallCorner> corners_of_wall(const std::vector<Point>& points, bool left,
+std::vector<WallCorner> corners_of_wall(const std::vector<Point>& points, bool left, const LayerOptions& options,
                                         const std::vector<std::uint32_t>* sectors) {
   const std::size_t n = points.size();
   std::vector<Point> normals(n);
@@ -81,12 +99,15 @@ std::vector<WallCorner> corners_of_wall(const std::vector<Point>& points, bool l
     const double turns = turns_between(before, after);
     corners[i].turns = left ? -turns : turns;
   }
+  const auto has_fan = [&](std::size_t i) {
+    return sectors != nullptr ? (*sectors)[i] > 0 : corners[i].turns * full_turn_deg > options.fan_from_deg;
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t next = i + 1 == n ? 0 : i + 1;
+    if (has_fan(i) && has_fan(next))
+      lean_apart(corners[i], corners[next], distance(points[i], points[next]), left, options);
+  }
   return corners;
-}
-
-// One sector turns by about what a cell of the layer grows by: then the cells of fans are isotropic at the top.
-double sector_turns(const LayerOptions& options) {
-  return (options.growth - 1.0) / (2.0 * std::numbers::pi);
 }
 
 std::uint32_t sectors_for(double turns, const LayerOptions& options) {
@@ -97,7 +118,7 @@ std::uint32_t sectors_for(double turns, const LayerOptions& options) {
 
 // Whether a corner may keep the sectors that it has.
 bool still_fits(double turns, std::uint32_t sectors, const LayerOptions& options) {
-  if (sectors == 0) return turns * full_turn_deg <= std::max(corner_from_deg, options.fan_from_deg + 10.0);
+  if (sectors == 0) return turns * full_turn_deg <= std::max(corner_from_deg, options.fan_from_deg);
   if (turns <= 0.0) return false;
   const double wanted = std::clamp(turns / sector_turns(options), 2.0, 64.0);
   return std::abs(wanted - static_cast<double>(sectors)) <= 2.5;
@@ -168,33 +189,31 @@ std::vector<std::size_t> layered_loops(const Domain& domain, const LayerOptions&
   return loops;
 }
 
-Fans fans_of(const Walls& walls, const std::vector<std::size_t>& loops, const LayerOptions& options,
-             const FanSectors* kept) {
-  Fans fans;
-  bool fits = kept != nullptr && kept->size() == loops.size();
+FanSectors fans_of(const Walls& walls, const std::vector<std::size_t>& loops, const LayerOptions& options,
+                   const std::vector<const std::vector<std::uint32_t>*>& kept) {
+  FanSectors fans;
   for (std::size_t r = 0; r < loops.size(); ++r) {
     const std::vector<Point>& points = walls.points[loops[r]];
-    fits = fits && (*kept)[r].size() == points.size();
-    const auto corners = corners_of_wall(points, domain_on_left(walls, loops[r]), fits ? &(*kept)[r] : nullptr);
-    auto& sectors = fans.sectors.emplace_back(corners.size());
+    const std::vector<std::uint32_t>* own = kept[r] != nullptr && kept[r]->size() == points.size() ? kept[r] : nullptr;
+    const auto corners = corners_of_wall(points, domain_on_left(walls, loops[r]), options, own);
+    std::vector<std::uint32_t>& sectors = fans.emplace_back(corners.size());
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      sectors[i] = sectors_for(corners[i].turns, options);
-      fits = fits && still_fits(corners[i].turns, (*kept)[r][i], options);
+      const bool fits = own != nullptr && still_fits(corners[i].turns, (*own)[i], options);
+      sectors[i] = fits ? (*own)[i] : sectors_for(corners[i].turns, options);
     }
   }
-  if (!fits) return fans;
-  return {*kept, false};
+  return fans;
 }
 
 std::vector<ColumnRing> rings_of(const Walls& walls, const std::vector<std::size_t>& loops,
-                                 const FanSectors& sectors) {
+                                 const FanSectors& sectors, const LayerOptions& options) {
   std::vector<ColumnRing> rings;
   for (std::size_t r = 0; r < loops.size(); ++r) {
     ColumnRing& ring = rings.emplace_back();
     ring.loop = loops[r];
     ring.left = domain_on_left(walls, loops[r]);
     const std::vector<Point>& points = walls.points[loops[r]];
-    const auto corners = corners_of_wall(points, ring.left, &sectors[r]);
+    const auto corners = corners_of_wall(points, ring.left, options, &sectors[r]);
     const std::size_t n = points.size();
     for (std::size_t i = 0; i < n; ++i) {
       const double to_next = distance(points[i], points[i + 1 == n ? 0 : i + 1]);

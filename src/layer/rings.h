@@ -45,18 +45,14 @@ struct ColumnRing {
 // The loops that get a layer, ascending. Throws Error (argument, geometry) as generate_layered() says.
 std::vector<std::size_t> layered_loops(const Domain& domain, const LayerOptions& options);
 
-// The sectors of fans: by the turns of the corners, but those of `kept` where it has the same loops and stations
-// and no corner has turned by more than two sectors from what they were made for. `changed`: is not `kept`.
-struct Fans {
-  FanSectors sectors;
-  bool changed = true;
-};
-Fans fans_of(const Walls& walls, const std::vector<std::size_t>& loops, const LayerOptions& options,
-             const FanSectors* kept);
+// The sectors of fans: those that are kept, per ring (null: none are), where a corner still turns by what they were
+// made for, to two sectors; by the turns of the corners elsewhere.
+FanSectors fans_of(const Walls& walls, const std::vector<std::size_t>& loops, const LayerOptions& options,
+                   const std::vector<const std::vector<std::uint32_t>*>& kept);
 
 // Columns with their feet and normals. The sides of loops are those of a domain that validate() has accepted.
 std::vector<ColumnRing> rings_of(const Walls& walls, const std::vector<std::size_t>& loops,
-                                 const FanSectors& sectors);
+                                 const FanSectors& sectors, const LayerOptions& options);
 
 // Where a column stands, for messages.
 std::string column_place(const Domain& domain, const ColumnRing& ring, std::size_t column);

@@ -21,7 +21,8 @@ using test::catalogue_domain;
 // A mesh with free slots, Steiner vertices and several steps behind it.
 Mesh used_mesh() {
   Mesh mesh = generate(catalogue_domain(0, 50)).mesh;
-  for (const std::size_t to : {1U, 3U, 5U}) remodel(mesh, catalogue_domain(to, 50));
+  for (const std::size_t to : {1U, 3U, 5U})
+    remodel(mesh, catalogue_domain(to, 50), {.strategy = Strategy::chain});
   return mesh;
 }
 
@@ -49,9 +50,9 @@ TEST(MeshState, OfACopyIsTheSameAndItsOwn) {
   assigned = mesh;
   EXPECT_TRUE(copy.state() == state);
   EXPECT_TRUE(assigned.state() == state);
-  remodel(copy, catalogue_domain(9, 50));
+  remodel(copy, catalogue_domain(9, 50), {.strategy = Strategy::chain});
   EXPECT_TRUE(mesh.state() == state);
-  remodel(mesh, catalogue_domain(9, 50));
+  remodel(mesh, catalogue_domain(9, 50), {.strategy = Strategy::chain});
   EXPECT_TRUE(mesh.state() == copy.state());
   const Mesh moved = std::move(copy);
   EXPECT_TRUE(moved.state() == mesh.state());

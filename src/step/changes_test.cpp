@@ -129,7 +129,9 @@ TEST(Changes, OfARegenerationAreAllVerticesAndNoKeyIsGivenOutAgain) {
     const Mark mark = mesh.mark();
     mesh.data().options.max_vertices =
         static_cast<std::uint32_t>(mesh.data().triangulation.vertex_count()) + 1;
-    ASSERT_TRUE(remodel(mesh, test::catalogue_domain(static_cast<std::size_t>(i), 100)).regenerated);
+    ASSERT_TRUE(
+        remodel(mesh, test::catalogue_domain(static_cast<std::size_t>(i), 100), {.strategy = Strategy::chain})
+            .regenerated);
     const Changes changes = mesh.changes_since(mark);
     expect_same(changes, changes_between(before, Snapshot(mesh)));
     EXPECT_EQ(changes.removed.size(), before.vertices.size());
@@ -152,7 +154,7 @@ TEST(Changes, InsertNoKeyThatWasThereBefore) {
     const Mark mark = mesh.mark();
     const std::uint32_t budget = mesh.data().options.max_vertices;
     if (i % 20 == 19) mesh.data().options.max_vertices = 10;
-    const RemodelResult result = remodel(mesh, walk.domain(60));
+    const RemodelResult result = remodel(mesh, walk.domain(60), {.strategy = Strategy::chain});
     mesh.data().options.max_vertices = budget;
     EXPECT_TRUE(i % 20 != 19 || result.regenerated || result.full_adjustment);
     for (const VertexKey key : mesh.changes_since(mark).inserted)
@@ -177,7 +179,7 @@ TEST(Changes, SinceAMomentOfATrialThatWasTakenBackAreRefused) {
   const Mark before = mesh.mark();
   Mark during;
   {
-    Trial trial(mesh, test::catalogue_domain(1, 60));
+    Trial trial(mesh, test::catalogue_domain(1, 60), {.strategy = Strategy::chain});
     during = mesh.mark();
     EXPECT_TRUE(mesh.changes_since(during).same_connectivity());
     EXPECT_FALSE(mesh.changes_since(before).same_connectivity());

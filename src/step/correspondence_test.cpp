@@ -213,7 +213,8 @@ std::string fault_of(const Mesh& mesh) {
                                    : result.violations[0].rule + ": " + result.violations[0].detail;
 }
 
-constexpr Strategy strategies[] = {Strategy::chain, Strategy::renew, Strategy::morph, Strategy::reference};
+constexpr Strategy every_strategy[] = {Strategy::chain, Strategy::renew, Strategy::morph,
+                                       Strategy::reference};
 
 std::multiset<std::string> names_and_regions(const Domain& domain) {
   std::multiset<std::string> result;
@@ -237,7 +238,7 @@ TEST(Correspondence, TheSameDomainInAnyOrderDirectionAndFirstCornerKeepsEveryTri
     Mesh mesh = generate(domain).mesh;
     const MeshState before = mesh.state();
     const Domain other = shuffled(domain, random);
-    const RemodelOptions options{.strategy = strategies[i % 4]};
+    const RemodelOptions options{.strategy = every_strategy[i % 4]};
     { const Trial trial(mesh, other, options); }
     ASSERT_TRUE(mesh.state() == before) << "a trial changed the mesh";
     const std::set<Seen> triangles = triangles_of(mesh.freeze());
@@ -261,7 +262,7 @@ TEST(Correspondence, NewNamesRolesAndRegionsWin) {
   Mesh mesh = generate(domain).mesh;
   domain.loops[1].region = "water";
   domain.loops[1].curves[0].name = "pier";
-  for (const Strategy strategy : strategies) {
+  for (const Strategy strategy : every_strategy) {
     domain.loops[2].curves[0].name = name_of(strategy);
     const RemodelResult result = remodel(mesh, domain, {.strategy = strategy});
     EXPECT_EQ(result.preserved, result.triangles_before);
@@ -303,8 +304,8 @@ TEST(Correspondence, OneLoopGoneOrAddedKeepsWhatIsFartherThanARemovalRadius) {
   const unsigned long long seed = test::seed(43);
   SCOPED_TRACE("seed " + std::to_string(seed));
   Random random(seed);
-  double sum[4] = {};
-  int count[4] = {};
+  double sum[2][4] = {};
+  int count[2][4] = {};
   for (int i = 0; i < 200; ++i) {
     SCOPED_TRACE("domain " + std::to_string(i));
     const Domain whole = random_domain(random);
@@ -317,7 +318,7 @@ TEST(Correspondence, OneLoopGoneOrAddedKeepsWhatIsFartherThanARemovalRadius) {
     Mesh mesh = generate(from).mesh;
     const FrozenMesh before = mesh.freeze();
     const MeshState state = mesh.state();
-    const RemodelOptions options{.strategy = strategies[i % 4]};
+    const RemodelOptions options{.strategy = every_strategy[i % 4]};
     { const Trial trial(mesh, to, options); }
     ASSERT_TRUE(mesh.state() == state) << "a trial changed the mesh";
     const RemodelResult result = remodel(mesh, to, options);
@@ -325,11 +326,15 @@ TEST(Correspondence, OneLoopGoneOrAddedKeepsWhatIsFartherThanARemovalRadius) {
     ASSERT_EQ(fault_of(mesh), "");
     if (before.triangles.size() < 300) continue;  // of which a removal radius takes much
     const double kept = kept_beyond(before, mesh, whole.points(loop), longest_segment(whole, loop));
-    EXPECT_GT(kept, 75.0);
-    sum[i % 4] += kept;
-    ++count[i % 4];
+    // Where a loop is added its length scales reach farther: what is around it has to be finer.
+    EXPECT_GT(kept, gone ? 90.0 : 70.0);
+    sum[gone][i % 4] += kept;
+    ++count[gone][i % 4];
   }
-  for (int s = 0; s < 4; ++s) EXPECT_GT(sum[s] / count[s], 93.0) << name_of(strategies[s]);
+  for (int s = 0; s < 4; ++s) {
+    EXPECT_GT(sum[1][s] / count[1][s], 98.0) << name_of(every_strategy[s]) << ", gone";
+    EXPECT_GT(sum[0][s] / count[0][s], 94.0) << name_of(every_strategy[s]) << ", added";
+  }
 }
 
 // ---- loops that correspond but for a few stations
@@ -349,7 +354,7 @@ TEST(Correspondence, AnOpenTrailingEdgeClosesAndAClosedOneOpensByEveryStrategy) 
       const Domain after = airfoil_domain(with_edge(to, opens ? 0.004 : 0.0), {.points = 100});
       const Mesh start = generate(before).mesh;
       const MeshState state = start.state();
-      for (const Strategy strategy : strategies) {
+      for (const Strategy strategy : every_strategy) {
         SCOPED_TRACE(std::to_string(a) + " to " + std::to_string(b) + " by " + name_of(strategy));
         Mesh mesh = start;
         const RemodelOptions options{.method = Method::specialised, .strategy = strategy};
@@ -424,7 +429,7 @@ TEST(Correspondence, APolygonKeepsWhatACornerMoreOrLessLeaves) {
     for (Point& p : polygon) p = p + Point{0.02, 0.01};
     return polygon;
   };
-  for (const Strategy strategy : strategies)
+  for (const Strategy strategy : every_strategy)
     for (const bool adds : {true, false}) {
       SCOPED_TRACE(std::string(name_of(strategy)) + (adds ? " adds" : " takes"));
       const std::vector<Point>&from = adds ? corners : more, &to = adds ? more : corners;
@@ -461,7 +466,7 @@ TEST(Correspondence, HolesThatMoveALittleMoveWhateverTheirOrderAndFirstCorners) 
       for (Point& p : std::get<Polyline>(moved.loops[loop].curves[0].shape).points) p = p + by;
     }
     Mesh plain = mesh;
-    const RemodelOptions options{.strategy = strategies[i % 4]};
+    const RemodelOptions options{.strategy = every_strategy[i % 4]};
     const double in_order = remodel(plain, moved, options).connectivity_percent();
     const RemodelResult result = remodel(mesh, shuffled(moved, random), options);
     EXPECT_GT(result.connectivity_percent(), in_order - 5.0);
@@ -492,7 +497,7 @@ TEST(Correspondence, AHeldMeshStaysHeldWhereOnlyTheOrderOfTheDomainIsAnother) {
   EXPECT_TRUE(mesh.state() == state);
   EXPECT_TRUE(remodel(mesh, back, options).held);
   EXPECT_EQ(mesh.quick_check(), "");
-  for (const Strategy strategy : strategies) {  // and where a loop goes
+  for (const Strategy strategy : every_strategy) {  // and where a loop goes
     Mesh other_mesh = mesh;
     Domain less = back;
     less.loops.erase(less.loops.begin());
@@ -515,10 +520,12 @@ TEST(Correspondence, AStepThatEndsEarlyLeavesNamesAndOrderAsTheyWere) {
   std::swap(domain.loops[1], domain.loops[2]);
   std::get<Arc>(domain.loops[1].curves[0].shape).centre.x = 0.6;
   Cancelling observer;
-  EXPECT_EQ(remodel(mesh, domain, {.observer = &observer}).stopped, Stopped::interrupted);
+  EXPECT_EQ(remodel(mesh, domain, {.strategy = Strategy::chain, .observer = &observer}).stopped,
+            Stopped::interrupted);
   EXPECT_TRUE(mesh.state() == before);
   domain.loops.pop_back();
-  EXPECT_EQ(remodel(mesh, domain, {.observer = &observer}).stopped, Stopped::interrupted);
+  EXPECT_EQ(remodel(mesh, domain, {.strategy = Strategy::chain, .observer = &observer}).stopped,
+            Stopped::interrupted);
   EXPECT_TRUE(mesh.state() == before);
 }
 

@@ -36,7 +36,7 @@ void expect_valid(const Mesh& mesh, const std::string& where) {
 
 RemodelResult step(Mesh& mesh, const Domain& domain, const std::string& where,
                    Method method = Method::automatic) {
-  const RemodelResult result = remodel(mesh, domain, {.method = method});
+  const RemodelResult result = remodel(mesh, domain, {.method = method, .strategy = Strategy::chain});
   EXPECT_EQ(result.stopped, Stopped::done) << where;
   EXPECT_FALSE(result.regenerated) << where << ": " << result.reason;
   expect_valid(mesh, where);
@@ -135,7 +135,7 @@ TEST(GeneralCase, ATrialOfEveryDomainReturnsToTheLastBit) {
     Mesh mesh = generate(from).mesh;
     const MeshState before = mesh.state();
     for (const auto& [to_name, to] : all) {
-      { const Trial trial(mesh, to); }
+      { const Trial trial(mesh, to, {.strategy = Strategy::chain}); }
       ASSERT_TRUE(mesh.state() == before) << from_name << " to " << to_name;
     }
   }

@@ -144,7 +144,7 @@ TEST_P(Outside, IsDelaunayAfterEveryReplacement) {
       const Method method = random() % 8 == 0 ? Method::general : Method::automatic;
       RemodelResult result;
       try {
-        result = remodel(mesh, designs.domain(), {.method = method});
+        result = remodel(mesh, designs.domain(), {.method = method, .strategy = Strategy::chain});
       } catch (const Error&) {
         break;  // corners were moved across each other
       }
@@ -229,7 +229,7 @@ TEST(Hull, IsConvexWhereALostCornerMovedIn) {
       };
       SCOPED_TRACE("origin " + std::to_string(origin.y) + ", to " + std::to_string(y));
       Mesh mesh = test::generated(outline(-0.05), {.gradation = 2.0});
-      const RemodelResult result = remodel(mesh, outline(y));
+      const RemodelResult result = remodel(mesh, outline(y), {.strategy = Strategy::chain});
       EXPECT_FALSE(result.regenerated) << result.reason;
       lost += result.full_adjustment ? 0 : 1;
       if (result.full_adjustment) continue;
@@ -249,14 +249,14 @@ TEST(Hull, IsConvexAgainWhereACornerMovedIn) {
   Mesh mesh = test::generated(outline(-0.01), {.min_angle_deg = 20.0, .max_gradation = 2.0});
   bool dented = false;
   for (double y = -0.01; y < 0.02; y += 0.002) {
-    const RemodelResult result = remodel(mesh, outline(y));
+    const RemodelResult result = remodel(mesh, outline(y), {.strategy = Strategy::chain});
     dented |= result.full_adjustment && y > 0.0;
     ASSERT_EQ(mesh.quick_check(), "");
   }
   EXPECT_TRUE(dented);
   Domain larger{{test::rectangle(LoopRole::outer, "outer", {-0.2, -0.2}, {1.2, 1.2}, 3)}};
   larger.loops.push_back(test::square_hole(0.5, -0.1, 0.02, 1));
-  const RemodelResult result = remodel(mesh, larger);
+  const RemodelResult result = remodel(mesh, larger, {.strategy = Strategy::chain});
   EXPECT_FALSE(result.regenerated) << result.reason;
   EXPECT_EQ(mesh.quick_check(), "");
   EXPECT_EQ(mesh.data().triangulation.check(), "");

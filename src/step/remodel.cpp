@@ -1,10 +1,18 @@
 #include "remodel/remodel.h"
 
 #include <algorithm>
+#include <array>
 
+#include "remodel/error.h"
 #include "step/step.h"
 
 namespace remodel {
+
+namespace {
+
+constexpr std::array method_names{"auto", "specialised", "general"};
+
+}  // namespace
 
 double angle_with_slack(const QualityOptions& quality) {
   constexpr double slack = 2.0, largest = 34.0;
@@ -12,15 +20,13 @@ double angle_with_slack(const QualityOptions& quality) {
 }
 
 const char* name_of(Method method) {
-  switch (method) {
-    case Method::automatic:
-      return "auto";
-    case Method::specialised:
-      return "specialised";
-    case Method::general:
-      return "general";
-  }
-  return "unknown";
+  return method_names[static_cast<std::size_t>(method)];
+}
+
+Method method_named(const std::string& name) {
+  for (const Method method : {Method::automatic, Method::specialised, Method::general})
+    if (name == name_of(method)) return method;
+  throw Error(ErrorCode::argument, "method", "found '" + name + "', expected auto, specialised or general");
 }
 
 RemodelResult remodel(Mesh& mesh, const Domain& domain, const RemodelOptions& options) {

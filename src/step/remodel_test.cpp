@@ -102,8 +102,9 @@ std::string unkept(const MeshData& data) {
   return boundary + inner == t.vertex_count() ? "" : "there are other vertices";
 }
 
-// Remodels, and checks all that must hold after any step.
-RemodelResult step(Mesh& mesh, const Domain& domain, const RemodelOptions& options = {}) {
+// Remodels by the paper's method, and checks all that must hold after any step.
+RemodelResult step(Mesh& mesh, const Domain& domain, RemodelOptions options = {}) {
+  options.strategy = Strategy::chain;
   const FrozenMesh before = mesh.freeze();
   const std::uint32_t steps = mesh.step();
   const RemodelResult result = remodel(mesh, domain, options);
@@ -129,7 +130,8 @@ TEST(Remodel, ToTheSameDesignChangesNothing) {
   for (const Method method : {Method::automatic, Method::specialised, Method::general}) {
     Mesh mesh = generated(catalogue_domain(2, 100));
     const MeshState before = mesh.state();
-    const RemodelResult result = remodel(mesh, catalogue_domain(2, 100), {.method = method});
+    const RemodelResult result =
+        remodel(mesh, catalogue_domain(2, 100), {.method = method, .strategy = Strategy::chain});
     EXPECT_TRUE(mesh.state() == before);
     EXPECT_TRUE(result.full_adjustment);
     EXPECT_EQ(result.preserved, mesh.triangle_count());
@@ -388,7 +390,8 @@ TEST(RandomWalks, OfManyKindsAreValidAtEveryStep) {
     Mesh mesh = generated(design(), gradation);
     for (int k = 0; k < 10; ++k, ++steps) {
       const double distance = std::array{0.0, 1.0}[random() % 2];
-      const RemodelResult result = remodel(mesh, design(), {.distance = distance});
+      const RemodelResult result =
+          remodel(mesh, design(), {.distance = distance, .strategy = Strategy::chain});
       ASSERT_EQ(mesh.quick_check(), "") << "round " << round << ", step " << k;
       regenerated += result.regenerated ? 1 : 0;
       partial += !result.full_adjustment && result.moved > 0 ? 1 : 0;
@@ -453,9 +456,9 @@ TEST(AMeshThatWasSaved, GoesOnToTheSameStateAsOneThatNeverLeftMemory) {
   for (int i = 0; i < 50; ++i) {
     walk.next();
     const Method method = i % 5 == 4 ? Method::general : Method::automatic;
-    const RemodelResult a = remodel(mesh, walk.domain(50), {.method = method});
+    const RemodelResult a = remodel(mesh, walk.domain(50), {.method = method, .strategy = Strategy::chain});
     saved = Mesh::restore(saved.state(), "saved");
-    const RemodelResult b = remodel(saved, walk.domain(50), {.method = method});
+    const RemodelResult b = remodel(saved, walk.domain(50), {.method = method, .strategy = Strategy::chain});
     EXPECT_EQ(a.preserved, b.preserved);
     EXPECT_EQ(a.full_adjustment, b.full_adjustment);
     ASSERT_TRUE(mesh.state() == saved.state()) << "step " << i;
@@ -593,7 +596,7 @@ TEST(GeneralMethod, NeverPutsAVertexOnAnotherBoundary) {
   Mesh mesh = generated(domain);
   domain.loops.push_back(
       test::polygon(LoopRole::hole, "hole", {{0.84375, 0.921875}, {0.8, 0.5}, {0.7, 0.5}}));
-  const RemodelResult result = remodel(mesh, domain);
+  const RemodelResult result = remodel(mesh, domain, {.strategy = Strategy::chain});
   EXPECT_TRUE(result.regenerated);
   EXPECT_NE(result.reason.find("lies on a curve of another loop"), std::string::npos) << result.reason;
   EXPECT_EQ(mesh.data().triangulation.check(), "");
@@ -700,10 +703,11 @@ TEST(SpecialisedMethod, MovesPolygonsAndArcs) {
 TEST(Remodel, RefusesAnEmptyMeshAndOneThatWasMovedFrom) {
   const Domain domain = test::catalogue_domain(0, 30);
   Mesh none;
-  EXPECT_THROW(remodel(none, domain), Error);
+  EXPECT_THROW(remodel(none, domain, {.strategy = Strategy::chain}), Error);
   Mesh from = test::generated(domain, {.gradation = 1.0});
   const Mesh to = std::move(from);
-  EXPECT_THROW(remodel(from, domain), Error);  // NOLINT(bugprone-use-after-move)
+  EXPECT_THROW(remodel(from, domain, {.strategy = Strategy::chain}),
+               Error);  // NOLINT(bugprone-use-after-move)
   EXPECT_TRUE(from.empty());
   EXPECT_EQ(from.triangle_count(), 0U);
   EXPECT_TRUE(from.freeze().points.empty());
@@ -711,7 +715,7 @@ TEST(Remodel, RefusesAnEmptyMeshAndOneThatWasMovedFrom) {
   EXPECT_EQ(from.quick_check(), "");
   EXPECT_TRUE(Mesh(from).empty());
   from = to;
-  EXPECT_FALSE(remodel(from, test::catalogue_domain(1, 30)).regenerated);
+  EXPECT_FALSE(remodel(from, test::catalogue_domain(1, 30), {.strategy = Strategy::chain}).regenerated);
 }
 
 // A budget ended generation: bad triangles stay wherever no step comes, and every step says so.
@@ -723,12 +727,14 @@ TEST(Remodel, OfAMeshThatALimitEndedSaysSoUntilNoTriangleIsBad) {
   CstAirfoil design = airfoil_catalogue()[0].airfoil();
   design.upper[2] += 1e-9;
   Mesh mesh = Mesh::restore(cut.mesh.state(), "state");
-  const RemodelResult result = remodel(mesh, airfoil_domain(design, {.points = 60}));
+  const RemodelResult result =
+      remodel(mesh, airfoil_domain(design, {.points = 60}), {.strategy = Strategy::chain});
   EXPECT_EQ(result.stopped, Stopped::vertex_budget);
   mesh.data().options.max_vertices = 100000;
   for (int i = 0; i < 5; ++i) {
-    const Stopped stopped =
-        remodel(mesh, test::catalogue_domain(static_cast<std::size_t>(1 + i), 60)).stopped;
+    const Stopped stopped = remodel(mesh, test::catalogue_domain(static_cast<std::size_t>(1 + i), 60),
+                                    {.strategy = Strategy::chain})
+                                .stopped;
     EXPECT_EQ(stopped == Stopped::done, mesh.quick_check().empty()) << "step " << i;
   }
 }

@@ -22,30 +22,6 @@ namespace remodel {
 
 namespace {
 
-// The loops that are not the same in two domains, a mesh's own and another one; none where the boundary
-// vertices of the two do not correspond one to one.
-std::optional<LoopIndices> moving_loops(Arena& arena, const Domain& its_own, const Domain& domain) {
-  const std::vector<Loop>&from = its_own.loops, &to = domain.loops;
-  if (from.size() != to.size()) return std::nullopt;
-  LoopIndices moving(&arena);
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    if (from[i] == to[i]) continue;
-    const bool same_regions = from[i].region == to[i].region && from[i].right_region == to[i].right_region;
-    if (!same_regions || !one_to_one(from[i], to[i])) return std::nullopt;
-    moving.push_back(i);
-  }
-  return moving;
-}
-
-// Whether another chain is joined to one of the loops.
-bool joined(const MeshData& mesh, const LoopIndices& loops) {
-  if (std::ranges::none_of(mesh.domain.loops, &Loop::open)) return false;
-  bool found = false;
-  for (const std::size_t loop : loops)
-    mesh.walk(mesh.loop_heads[loop], [&](std::uint32_t k) { found |= mesh.at(k).twin != k; });
-  return found;
-}
-
 // Airfoils whose surfaces cross are refused here, before anything is touched: this is cheap enough for every
 // step. That no other curves cross follows for a full adjustment from its triangles, otherwise from
 // validate().
@@ -133,7 +109,7 @@ Step::~Step() {
 
 void Step::take_back() {
   journal_.reset();
-  if (structure_differs_) data().cache.reset();  // it may be of the boundary that was taken back
+  if (plan_.structure_differs) data().cache.reset();  // it may be of the boundary that was taken back
   data().keep = keep_before_;
   data().outside_restored = outside_before_;
   data().marked.return_to(marked_before_);
@@ -161,7 +137,7 @@ void Step::require_options() const {
 }
 
 void Step::require_method() const {
-  if (options_.method != Method::specialised || moving_ || differs_in_parts_) return;
+  if (options_.method != Method::specialised || plan_.specialises()) return;
   throw Error(
       ErrorCode::argument, "method",
       "specialised needs two domains that correspond one to one, but for a few stations, and no chain that "
@@ -171,8 +147,7 @@ void Step::require_method() const {
 RemodelResult Step::run() {
   const Arena::Scope scope(data().arena);
   require_options();
-  find_moving_loops(data().domain);
-  find_correspondence();
+  compare_domains();
   require_method();
   RemodelResult result = remodel();
   const bool as_it_was = result.abandoned || result.stopped == Stopped::interrupted;
@@ -180,13 +155,13 @@ RemodelResult Step::run() {
     renaming_->undo(data());
     renaming_.reset();
   }
-  moving_.reset();
+  plan_.moving.reset();
   places_before_.reset();
   return result;
 }
 
 RemodelResult Step::remodel() {
-  if (moving_ && moving_->empty()) {
+  if (plan_.moving && plan_.moving->empty()) {
     RemodelResult result = unchanged(data());
     result.full_adjustment = true;
     result.held = options_.strategy == Strategy::reference;
@@ -196,46 +171,35 @@ RemodelResult Step::remodel() {
   require_surfaces_apart(domain());
   choose_method();
   if (journalling_ == Journal::always) begin_journal();
-  renewing_ = renews(data(), options_);
-  if (renewing_) data().keep = std::max(data().keep, resolved_keep(options_, data().options));
+  plan_.renews = renews(data(), options_);
+  if (plan_.renews) data().keep = std::max(data().keep, resolved_keep(options_, data().options));
   std::optional<RemodelResult> followed = follow();
   RemodelResult result = followed ? *std::move(followed) : adjust_or_replace();
-  result.method = method_;
+  result.method = attempt_.method;
   return result;
 }
 
-void Step::find_moving_loops(const Domain& from) {
-  moving_ = moving_loops(data().arena, from, domain());
-  other_discretisation_ = !moving_ && (!correspondence_ || differs_much(data().domain, *correspondence_));
-  if (moving_ && joined(data(), *moving_)) moving_.reset();
-}
-
-// Where the domain may correspond to the mesh's own otherwise than by the order of its loops. Domains that
-// are none are refused here.
-void Step::find_correspondence() {
-  const Domain& own = data().domain;
-  if (moving_ && (moving_->empty() || corresponds_by_index(own, wanted_, *moving_))) return;
-  validate(wanted_);
-  correspondence_ = correspond(own, wanted_);
-  structure_differs_ = !only_renames(own, *correspondence_);
-  differs_in_parts_ = structure_differs_ && corresponds_in_parts(own, *correspondence_);
-  if (!structure_differs_ && !same_names(own, *correspondence_)) {
-    renaming_.emplace(data(), *correspondence_);
-    data().marked.for_each([](ChangeRecord& record) { record.note_all_loops(); });
-  }
-  find_moving_loops(data().domain);
+// Domains that are none are refused here. A mesh that has the wanted structure by other names gets these
+// first.
+void Step::compare_domains() {
+  plan_.compare(data(), wanted_);
+  if (!plan_.renames(data().domain)) return;
+  renaming_.emplace(data(), *plan_.correspondence);
+  data().marked.for_each([](ChangeRecord& record) { record.note_all_loops(); });
+  plan_.compare_loops(data(), data().domain, wanted_);
 }
 
 void Step::choose_method() {
-  if (options_.method == Method::general) moving_.reset();
-  method_ = moving_ ? Method::specialised : Method::general;
+  plan_.choose_method(options_.method);
+  attempt_ = {.method = plan_.method};
 }
 
 void Step::begin_journal() {
   // From a reference other loops than those of the step may change too.
+  const bool these_alone = attempt_.method == Method::specialised && !data().reference;
   const std::optional<LoopIndices> any;
-  journal_.emplace(data(), data().reference ? any : moving_);
-  if (leaving_reference_ && data().reference) return_to_reference(data());
+  journal_.emplace(data(), these_alone ? plan_.moving : any);
+  if (places_before_ && data().reference) return_to_reference(data());
 }
 
 // As Strategy::reference has it. Nothing where the design's mesh is no morph of the reference: then the step
@@ -243,11 +207,11 @@ void Step::begin_journal() {
 std::optional<RemodelResult> Step::follow() {
   MeshData& mesh = data();
   if (mesh.reference) {
-    find_moving_loops(mesh.reference->domain);
+    plan_.compare_loops(mesh, mesh.reference->domain, wanted_);
     choose_method();
   }
-  if (options_.strategy == Strategy::reference && moving_) {
-    RemodelResult result = follow_reference(mesh, domain(), *moving_, options_.delaunay_slack_deg);
+  if (options_.strategy == Strategy::reference && plan_.moving) {
+    RemodelResult result = follow_reference(mesh, domain(), *plan_.moving, options_.delaunay_slack_deg);
     if (result.held) {
       result.stopped = what_still_stops();
       return result;
@@ -255,7 +219,7 @@ std::optional<RemodelResult> Step::follow() {
   }
   if (!mesh.reference) return std::nullopt;
   leave_reference();
-  if (structure_differs_) correspondence_ = correspond(mesh.domain, wanted_);
+  if (plan_.structure_differs) plan_.correspondence = correspond(mesh.domain, wanted_);
   return std::nullopt;
 }
 
@@ -264,7 +228,6 @@ void Step::leave_reference() {
   places_before_.emplace(&data().arena);
   for (std::uint32_t i = 0; i < triangulation.vertex_slots(); ++i)
     places_before_->push_back(triangulation.point(VertexId{i}));
-  leaving_reference_ = true;
   if (journal_)
     return_to_reference(data());
   else
@@ -284,7 +247,7 @@ List<VertexId> Step::moved_since_before() const {
 // The reference's own vertices were at their places, or could be moved there with its interior still.
 RemodelResult Step::finish_return() {
   MeshData& mesh = data();
-  for (const std::size_t loop : *moving_) {
+  for (const std::size_t loop : *plan_.moving) {
     mesh.domain.loops[loop] = domain().loops[loop];
     mesh.loop_moved(loop);
   }
@@ -296,23 +259,23 @@ RemodelResult Step::finish_return() {
 }
 
 RemodelResult Step::adjust_or_replace() {
-  if (adjust_in_place()) return leaving_reference_ ? finish_return() : finish_adjustment();
+  if (adjust_in_place()) return places_before_ ? finish_return() : finish_adjustment();
   // A design that corresponds to the present one and cannot be meshed is found out by the replacement itself,
   // exactly: its loops cannot be recovered or do not nest. Then generation says where.
   if (cache_ == nullptr || !cache_->finite()) validate(domain());
   if (cancelled()) return take_back(), interrupted(data());
-  if (change_locally() || morph() || replace()) return std::move(result_);
+  if (attempt_in_turn()) return std::move(result_);
   take_back();
   if (result_.stopped == Stopped::interrupted) return interrupted(data());
   return options_.regenerate ? regenerate() : abandon();
 }
 
 bool Step::adjust_in_place() {
-  if (method_ != Method::specialised) return false;
+  if (plan_.method != Method::specialised) return false;
   MeshData& mesh = data();
-  if (moving_->empty()) return true;  // the design is the reference's
-  cache_ = &adjust_cache(mesh, *moving_);
-  refresh_is_due_ = renewing_ && !leaving_reference_ && refresh_is_due(mesh, options_.designs_a_step);
+  if (plan_.moving->empty()) return true;  // the design is the reference's
+  cache_ = &adjust_cache(mesh, *plan_.moving);
+  refresh_is_due_ = plan_.renews && !places_before_ && refresh_is_due(mesh, options_.designs_a_step);
   // Once vertices move nothing may throw, unless there is a journal: room is made before.
   mesh.renewal.pending_loops.reserve(mesh.domain.loops.size());
   mesh.marked.for_each([&](ChangeRecord& record) {
@@ -329,7 +292,7 @@ RemodelResult Step::finish_adjustment() {
   mesh.outside_restored = false;
   RemodelResult result = remodel::finish_adjustment(mesh, *cache_);
   result.stopped = what_still_stops();
-  if (renewing_) ++mesh.renewal.full_adjustments;
+  if (plan_.renews) ++mesh.renewal.full_adjustments;
   if (!refresh_is_due_) return result;
   std::optional<GenerateResult> fresh = nearer_to_fresh(mesh, options_.observer);
   if (!fresh) return result;
@@ -338,78 +301,33 @@ RemodelResult Step::finish_adjustment() {
   return result;
 }
 
-// After a full adjustment was not possible, as Strategy::morph has it. False, with the mesh as it was, where
-// triangles turn over, or what misses a bound cannot be refined: then vertices are replaced. What becomes a
-// reference moves with its interior: beside walls that moved alone its triangles would have little slack.
-bool Step::morph() {
-  if (!morphs() || cache_ == nullptr || !cache_->finite()) return false;
-  // What has to shed begins anew along the walls: it is as dense as a fresh mesh then, and sheds less often.
-  if (has_surplus(data(), RenewPolicy::morph_surplus)) return false;
-  const auto morph_by = [&](Interior interior) {
-    morphing_ = interior;
-    const bool done = attempt();
-    morphing_.reset();
-    if (!done) {
-      journal_.reset();
-      result_ = {};
-    }
-    return done;
-  };
-  return (options_.strategy == Strategy::morph && morph_by(Interior::still)) || morph_by(Interior::along);
-}
-
-// Where the structure of the boundary differs: what corresponds stays where it is until the rest is in place,
-// and moves then as it does where all corresponds. False, and the mesh is as it was, where that cannot be
-// completed: then all that would move is replaced.
-bool Step::change_locally() {
-  if (!structure_differs_ || options_.method == Method::general) return false;
-  const bool along = morphs() && !has_surplus(data(), RenewPolicy::morph_surplus);
-  const bool still = along && options_.strategy == Strategy::morph;
-  const auto change_by = [&](std::optional<Interior> interior, Places places) {
-    if (result_.stopped == Stopped::interrupted) return false;
-    morphing_ = interior;
-    places_ = places;
-    const bool done = replace_by(differs_in_parts_ ? Method::specialised : Method::general);
-    morphing_.reset();
-    if (done) return true;
-    journal_.reset();
-    cache_ = nullptr;
-    data().cache.reset();
-    if (result_.stopped != Stopped::interrupted) result_ = {};
-    return false;
-  };
-  for (const Places places : {Places::joined, Places::present})
-    if ((still && change_by(Interior::still, places)) || (along && change_by(Interior::along, places)))
-      return true;
-  for (const Places places : {Places::joined, Places::present})
-    if (change_by(std::nullopt, places)) return true;
-  places_ = Places::wanted;
-  method_ = Method::general;
+// After a full adjustment was not possible or does not apply. False, with the reason in failure_, if no
+// attempt can be completed. What has to shed does not morph: replaced, it is as dense along the walls as a
+// fresh mesh, and sheds less often.
+bool Step::attempt_in_turn() {
+  const bool morphs = keeps_connectivity() && (cache_ == nullptr || cache_->finite()) &&
+                      !has_surplus(data(), RenewPolicy::morph_surplus);
+  for (const Attempt& attempt : plan_.attempts(data().arena, options_, morphs)) {
+    attempt_ = attempt;
+    if (attempt.method == Method::general) cache_ = nullptr;
+    if (make_attempt()) return true;
+    // A refinement that does not end after a replacement would not end after the other method's either.
+    const bool hopeless = attempt.replaces_all_that_moves() && result_.stopped != Stopped::done;
+    if (hopeless || result_.stopped == Stopped::interrupted) return false;
+    forget_attempt();
+  }
   return false;
 }
 
-// After a full adjustment was not possible or does not apply: the paper's two methods, the specialised one
-// first, if it applies. False, with the reason in failure_, if neither can be completed.
-bool Step::replace() {
-  if (structure_differs_ &&
-      (options_.method == Method::specialised || result_.stopped == Stopped::interrupted))
-    return false;
-  if (replace_by(method_)) return true;
-  const bool other_left = method_ == Method::specialised && options_.method == Method::automatic &&
-                          result_.stopped == Stopped::done;
-  if (!other_left) return false;
+void Step::forget_attempt() {
   journal_.reset();
-  moving_.reset();
+  result_ = {};
+  if (!plan_.structure_differs) return;
   cache_ = nullptr;
-  return replace_by(Method::general);
+  data().cache.reset();
 }
 
-bool Step::replace_by(Method method) {
-  method_ = method;
-  return attempt();
-}
-
-bool Step::attempt() {
+bool Step::make_attempt() {
   if (!journal_) begin_journal();
   try {
     if (!change_under_journal()) return false;
@@ -425,25 +343,25 @@ bool Step::attempt() {
 
 // The specialised method ends with all of it Delaunay; the hull is as it was where the outermost loop rests.
 bool Step::leaves_outside_restored() const {
-  if (cache_ == nullptr || morphing_ || structure_differs_) return false;
+  if (cache_ == nullptr || attempt_.interior || plan_.structure_differs) return false;
   return std::ranges::none_of(cache_->loops,
                               [&](std::size_t loop) { return domain().loops[loop].role == LoopRole::outer; });
 }
 
 bool Step::change_under_journal() {
   MeshData& mesh = data();
-  const bool renewal = renewing_ && renewal_is_due(mesh);
+  const bool renewal = plan_.renews && renewal_is_due(mesh);
   const std::size_t budget = renewal ? prepare_renewal(mesh, options_.observer) : 0;
-  if (morphing_ && !renewing_) count_imported(mesh);
-  const bool surplus = morphs() && has_surplus(mesh, RenewPolicy::morph_surplus);
+  if (attempt_.interior && !plan_.renews) count_imported(mesh);
+  const bool surplus = keeps_connectivity() && has_surplus(mesh, RenewPolicy::morph_surplus);
   const std::optional<List<VertexId>> moved = change_boundary();
   if (!moved) return false;
   if (renewal) renew_replaced(mesh, *moved, budget);
   // Morphs take along the Steiner vertices of boundaries, which replacements make anew.
-  if (renewal && morphing_) dissolve_dense(mesh, RenewPolicy::dense_below);
+  if (renewal && attempt_.interior) dissolve_dense(mesh, RenewPolicy::dense_below);
   result_.stopped = cancelled() ? Stopped::interrupted : refine_touched(mesh, made(), options_.observer);
-  if (renewing_ && other_discretisation_) discretisation_changed(mesh, options_.observer);
-  if (surplus || (renewing_ && mesh.renewal.until_shed > 0)) shed_and_refine();
+  if (plan_.renews && plan_.other_discretisation) discretisation_changed(mesh, options_.observer);
+  if (surplus || (plan_.renews && mesh.renewal.until_shed > 0)) shed_and_refine();
   if (result_.stopped != Stopped::done) {
     failure_ = std::string("refinement stopped: ") + name_of(result_.stopped);
     if (result_.stopped == Stopped::vertex_budget &&
@@ -453,9 +371,9 @@ bool Step::change_under_journal() {
   }
   require_points_in_domain(mesh);
   result_ = places_before_ ? count_replacement(mesh, moved_since_before()) : count_replacement(mesh, *moved);
-  result_.morphed = morphing_.has_value();
+  result_.morphed = attempt_.interior.has_value();
   result_.stopped = what_still_stops();
-  if (renewing_)
+  if (plan_.renews)
     finish_replacement(mesh, renewal);
   else
     replaced_by_chain(mesh);
@@ -488,39 +406,39 @@ Stopped Step::what_still_stops() {
 // over.
 std::optional<List<VertexId>> Step::change_boundary() {
   MeshData& mesh = data();
-  const ReplaceOptions options{.distance = options_.distance, .renewing = renewing_};
-  if (structure_differs_) return change_structure(options);
-  if (morphing_) {
-    note_moved(mesh, cache_->loops);
-    return morph_mesh(mesh, *cache_, domain(), *morphing_, bounds_of_morph());
-  }
-  if (cache_ != nullptr) {
-    note_moved(mesh, cache_->loops);
-    return replace_where_needed(mesh, *cache_, domain(), options);
-  }
-  return change_structure(options);
+  const ReplaceOptions options{.distance = options_.distance, .renewing = plan_.renews};
+  if (attempt_.method == Method::general || plan_.structure_differs) return change_structure(options);
+  note_moved(mesh, cache_->loops);
+  return move_or_replace(options);
+}
+
+// Moves the loops of the cache, from where they are, as the attempt has it.
+std::optional<List<VertexId>> Step::move_or_replace(const ReplaceOptions& options) {
+  if (attempt_.interior) return morph_mesh(data(), *cache_, domain(), *attempt_.interior, bounds_of_morph());
+  return replace_where_needed(data(), *cache_, domain(), options);
 }
 
 // The same where boundary vertices do not all correspond, or are all to be replaced.
 std::optional<List<VertexId>> Step::change_structure(const ReplaceOptions& options) {
   MeshData& mesh = data();
   mesh.cache.reset();
-  if (!correspondence_) correspondence_ = correspond(mesh.domain, wanted_);
-  note_changed(mesh, *correspondence_);
-  replace_loops(mesh, *correspondence_, places_, options);
+  if (!plan_.correspondence) plan_.correspondence = correspond(mesh.domain, wanted_);
+  note_changed(mesh, *plan_.correspondence);
+  replace_loops(mesh, *plan_.correspondence, attempt_.places, options);
   List<VertexId> moved(&mesh.arena);
   const LoopIndices moving = settle(mesh, moved);
-  if (moving.empty()) return moved;
+  if (moving.empty()) {
+    attempt_.interior.reset();  // nothing moves: all that there is to do is to fill what loops have left
+    return moved;
+  }
   if (joined(mesh, moving)) throw RecoveryError("chains are joined to what moves");
   cache_ = &adjust_cache(mesh, moving);
   std::optional<List<VertexId>> others(&mesh.arena);
   if (adjust_all(mesh, *cache_, domain())) {
     for (std::size_t i = 0; i < cache_->moving.size(); ++i)
       if (cache_->changes_place(i)) others->push_back(cache_->moving[i].vertex);
-  } else if (morphing_) {
-    others = morph_mesh(mesh, *cache_, domain(), *morphing_, bounds_of_morph());
   } else {
-    others = replace_where_needed(mesh, *cache_, domain(), options);
+    others = move_or_replace(options);
   }
   if (!others) return std::nullopt;
   moved.insert(moved.end(), others->begin(), others->end());
@@ -540,7 +458,7 @@ void Step::note_replacement() {
   MeshData& mesh = data();
   mesh.marked.for_each([&](ChangeRecord& record) {
     note_journal(mesh.triangulation, record);
-    if (cache_ != nullptr && !structure_differs_)
+    if (cache_ != nullptr && !plan_.structure_differs)
       record.note_loops(cache_->loops);
     else
       record.note_all_loops();

@@ -1,17 +1,60 @@
 #pragma once
 
-// One remodelling step, and the only owner of what it takes to undo it: journal, backup, and the mesh from
-// before where a fresh one takes its place.
+// One remodelling step: a mesh of one domain becomes a mesh of another one, in place. This class is the only
+// owner of what takes a step back: the journal, copies of what has none, and the mesh from before where a
+// fresh one has taken its place. Source: the paper's sections 3 (general method) and 4.2 (specialised
+// method).
 //
-//   find_correspondence()   the new domain's loops by geometry, where their order alone does not say it
-//   nothing moves           nothing is done
-//   follow()                Strategy::reference: all vertices go where the mesh's reference takes them
-//   adjust_in_place()       all boundary vertices moved to the new design, connectivity unchanged
-//   change_locally()        where the structure of the boundary differs: that is changed first, in place
-//   morph()                 Strategy::morph: the interior moves beside the walls or with them, what misses a
-//                           bound is mended
-//   replace()               what cannot move is relocated or replaced, what was touched is refined
-//   regenerate()            the mesh is taken back and one of the new design generated
+// 1. Compare (StepPlan). Loops of the two domains are paired, by their order where that is beyond doubt,
+//    otherwise by geometry. The result says which loops move with all their vertices in correspondence, and
+//    whether the structure of the boundary differs. Where nothing moves the step ends here. Where names alone
+//    differ the mesh takes the new ones first.
+// 2. Follow, for Strategy::reference and for meshes that it has held: all vertices go where the mesh's
+//    reference takes them (follow.h). If that is no valid mesh the step starts from the reference.
+// 3. Adjust (adjust_all()). All boundary vertices go to their places on the new design. The interior stays
+//    and so does connectivity. This *full adjustment* is accepted if every triangle at a moved vertex is
+//    counter-clockwise, Delaunay and good. Most steps of a converging optimiser end here, without a journal:
+//    everything is checked before anything moves, and nothing can fail afterwards.
+// 4. Otherwise make the attempts of the plan in turn, each under a journal, until one succeeds:
+//      a. connectivity is to be kept (Strategy::morph, reference): vertices beside the walls move too, then
+//         the whole interior moves along (morph.h);
+//      b. the specialised method: what can be adjusted is, what cannot is relocated or replaced
+//         (specialised.cpp);
+//      c. the general method: the boundary is taken out and the new one put in (general.cpp).
+//    Where the structure of the boundary differs, (a) and (b) change that first, while all that corresponds
+//    stays where it is, and move that afterwards.
+//    Every attempt ends alike. Strategy::renew, and all that build on it, renew length scales and coarsen
+//    (renew.h, coarsen.h). Then refinement looks at the triangles that were touched (refine.h), and what is
+//    lost and what is kept is counted (outcome.h).
+// 5. If no attempt succeeds the mesh is taken back, and one of the new design is generated; or it stays as it
+//    was, if RemodelOptions::regenerate is off.
+//
+// What can fail, and what then holds:
+//
+//   what                                          where                  then
+//   -------------------------------------------   ---------------------- ------------------------------------
+//   an option out of range, an empty mesh, a      require_options(),     Error; nothing was touched
+//   trial under way                               require_mesh()
+//   the new domain is none: curves cross, loops   compare_domains(),     Error; nothing was touched, or it is
+//   do not nest, an airfoil's surfaces touch      adjust_or_replace()    taken back
+//   Method::specialised does not apply            require_method()       Error; names are taken back
+//   a vertex or triangle spoils an adjustment     adjust_all()           no vertex has moved; step 4
+//   a held mesh misses a bound                    follow_reference()     no vertex has moved; step 3 from the
+//                                                                        reference
+//   triangles turn over in a morph                morph_mesh()           rolled back; the next attempt
+//   a boundary edge cannot be recovered           RecoveryError          rolled back; the next attempt
+//   refinement meets a limit or runs away         refine_touched()       rolled back; the next attempt after
+//                                                                        a morph or a change of structure,
+//                                                                        step 5 after a replacement
+//   no attempt succeeds                           attempt_in_turn()      rolled back; step 5, with the reason
+//   generation fails: the domain cannot be        regenerate()           Error; the mesh is as it was
+//   meshed
+//   generation meets a limit                      regenerate()           a valid mesh; `stopped` names it
+//   the observer cancels                          anywhere               Stopped::interrupted; as it was
+//   memory runs out, the observer throws          anywhere               passes through; as it was
+//
+// "As it was" and "taken back" mean to the last bit, ids included. A Trial journals a full adjustment too, so
+// that it can take back a step that succeeded.
 
 #include <optional>
 #include <string>
@@ -19,11 +62,9 @@
 #include "remodel/generate.h"
 #include "remodel/remodel.h"
 #include "step/adjust.h"
-#include "step/correspondence.h"
-#include "step/methods.h"
-#include "step/morph.h"
 #include "step/rename.h"
 #include "step/step_journal.h"
+#include "step/step_plan.h"
 
 namespace remodel {
 
@@ -49,18 +90,17 @@ class Step {
  private:
   MeshData& data() { return mesh_.data(); }
   bool cancelled() const { return options_.observer != nullptr && options_.observer->cancelled(); }
-  const Domain& domain() const { return correspondence_ ? correspondence_->domain : wanted_; }
+  const Domain& domain() const { return plan_.target(wanted_); }
+  bool keeps_connectivity() const {
+    return options_.strategy == Strategy::morph || options_.strategy == Strategy::reference;
+  }
   void require_options() const;
   void require_method() const;
   RemodelResult remodel();
   void begin_journal();
   void take_back();
 
-  bool morphs() const {
-    return options_.strategy == Strategy::morph || options_.strategy == Strategy::reference;
-  }
-  void find_moving_loops(const Domain& from);
-  void find_correspondence();
+  void compare_domains();
   void choose_method();
   std::optional<RemodelResult> follow();
   void leave_reference();
@@ -69,17 +109,16 @@ class Step {
   RemodelResult adjust_or_replace();
   bool adjust_in_place();
   RemodelResult finish_adjustment();
-  bool morph();
-  bool change_locally();
-  bool replace();
-  bool replace_by(Method method);
-  bool attempt();
+  bool attempt_in_turn();
+  bool make_attempt();
+  void forget_attempt();
   bool leaves_outside_restored() const;
   bool change_under_journal();
   std::optional<List<VertexId>> change_boundary();
   std::optional<List<VertexId>> change_structure(const ReplaceOptions& options);
+  std::optional<List<VertexId>> move_or_replace(const ReplaceOptions& options);
   Made made() const {
-    return !morphing_                                 ? Made::replaced
+    return !attempt_.interior                         ? Made::replaced
            : options_.strategy == Strategy::reference ? Made::reference
                                                       : Made::morphed;
   }
@@ -106,21 +145,13 @@ class Step {
   std::optional<Renaming> renaming_;
 
   // While it runs.
-  std::optional<Correspondence> correspondence_;  // where it is not by index alone
-  bool structure_differs_ = false;                // of the boundary: not all segments correspond
-  bool differs_in_parts_ = false;                 // and most of each loop does
-  Places places_ = Places::wanted;                // of the attempt under way, where the structure differs
-  std::optional<LoopIndices> moving_;  // the loops that differ, where their vertices correspond one to one
-  Method method_ = Method::general;
-  bool renewing_ = false;
-  std::optional<Interior> morphing_;   // how the attempt under way moves the interior, if it is a morph
-  bool other_discretisation_ = false;  // boundary vertices do not correspond
-  bool refresh_is_due_ = false;
-  AdjustCache* cache_ = nullptr;              // of the specialised method
-  bool leaving_reference_ = false;            // every journal begins with the return to the reference
+  StepPlan plan_;
+  Attempt attempt_;                           // the one under way
+  AdjustCache* cache_ = nullptr;              // of the loops that move in it; none where all are replaced
+  bool refresh_is_due_ = false;               // after a full adjustment
   std::optional<List<Point>> places_before_;  // by slot, where the step left a reference
   RemodelResult result_;
-  std::string failure_;  // why a replacement could not be completed
+  std::string failure_;  // why the last attempt could not be completed
 };
 
 }  // namespace remodel

@@ -78,7 +78,8 @@ TEST(StepCheck, OfTheGeneralMethodSeesWhatItMade) {
   Mesh mesh = generate(test::with_holes({test::square_hole(0.5, 0.5, 0.1)}), {}).mesh;
   const Mark before = mesh.mark();
   const RemodelResult step =
-      remodel(mesh, test::with_holes({test::circle_hole(0.4, 0.5, 0.1), test::star_hole(0.8, 0.8, 0.1)}));
+      remodel(mesh, test::with_holes({test::circle_hole(0.4, 0.5, 0.1), test::star_hole(0.8, 0.8, 0.1)}),
+              {.strategy = Strategy::chain});
   ASSERT_EQ(step.method, Method::general);
   EXPECT_EQ(check_changes(mesh, before).broken, "");
   EXPECT_TRUE(sees(mesh, before, made_by(mesh, mesh.step())));
@@ -90,7 +91,7 @@ TEST(StepCheck, OfOneLoopAmongSeveralSeesWhatItMadeAndLooksAtNoOther) {
   };
   Mesh mesh = generate(domain(0.7), {}).mesh;
   const Mark before = mesh.mark();
-  remodel(mesh, domain(0.75), {.method = Method::specialised});
+  remodel(mesh, domain(0.75), {.method = Method::specialised, .strategy = Strategy::chain});
   ASSERT_EQ(check_changes(mesh, before).broken, "");
   EXPECT_FALSE(check_changes(mesh, before).whole);
   EXPECT_TRUE(sees(mesh, before, made_by(mesh, mesh.step())));
@@ -99,9 +100,9 @@ TEST(StepCheck, OfOneLoopAmongSeveralSeesWhatItMadeAndLooksAtNoOther) {
 TEST(StepCheck, LooksAtTheWholeMeshWhereNothingMoved) {
   const Domain domain = test::catalogue_domain(0, 60);
   Mesh mesh = generate(domain, {.gradation = 2.0}).mesh;
-  remodel(mesh, test::catalogue_domain(1, 60));
+  remodel(mesh, test::catalogue_domain(1, 60), {.strategy = Strategy::chain});
   const Mark before = mesh.mark();
-  remodel(mesh, test::catalogue_domain(1, 60));
+  remodel(mesh, test::catalogue_domain(1, 60), {.strategy = Strategy::chain});
   const StepCheck check = check_changes(mesh, before);
   EXPECT_EQ(check.broken, "");
   EXPECT_TRUE(check.whole);
@@ -123,7 +124,8 @@ TEST(StepCheck, OfAStepThatWasInterruptedFindsTheMeshAsItWas) {
   for (int questions = 0; questions < 40; ++questions) {
     Cancel observer(questions);
     const Mark before = mesh.mark();
-    const RemodelResult step = remodel(mesh, test::catalogue_domain(1, 60), {.observer = &observer});
+    const RemodelResult step =
+        remodel(mesh, test::catalogue_domain(1, 60), {.strategy = Strategy::chain, .observer = &observer});
     EXPECT_EQ(check_changes(mesh, before).broken, "");
     if (step.stopped == Stopped::done) break;
     ++interrupted;
@@ -136,7 +138,7 @@ TEST(StepCheck, OfAStepThatWasInterruptedFindsTheMeshAsItWas) {
 TEST(StepCheck, EndsAtALoopThatRunsInCircles) {
   Mesh mesh = generate(test::catalogue_domain(0, 60), {.gradation = 2.0}).mesh;
   const Mark before = mesh.mark();
-  remodel(mesh, test::catalogue_domain(1, 60));
+  remodel(mesh, test::catalogue_domain(1, 60), {.strategy = Strategy::chain});
   MeshData& data = mesh.data();
   const std::uint32_t k = data.at(data.loop_heads[0]).next;
   data.boundary.edit(data.at(k).next).next = k;
@@ -146,7 +148,7 @@ TEST(StepCheck, EndsAtALoopThatRunsInCircles) {
 TEST(StepCheck, SeesABoundaryVertexThatIsNotOnTheNewDesign) {
   Mesh mesh = generate(test::catalogue_domain(0, 60), {.gradation = 2.0}).mesh;
   const Mark before = mesh.mark();
-  remodel(mesh, test::catalogue_domain(1, 60));
+  remodel(mesh, test::catalogue_domain(1, 60), {.strategy = Strategy::chain});
   ASSERT_EQ(check_changes(mesh, before).broken, "");
   MeshData& data = mesh.data();
   const std::uint32_t k = data.loop_heads[0];

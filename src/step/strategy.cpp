@@ -1,9 +1,11 @@
 #include "step/strategy.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "mesh/renew_policy.h"
+#include "remodel/error.h"
 #include "step/coarsen.h"
 #include "step/count_control.h"
 #include "step/renew.h"
@@ -11,6 +13,14 @@
 namespace remodel {
 
 namespace {
+
+constexpr std::array<StrategyInfo, 4> strategy_infos{{
+    {Strategy::chain, "chain", "the paper's method to the letter, and all that imported meshes have"},
+    {Strategy::renew, "renew", "length scales are renewed, what is too dense is coarsened"},
+    {Strategy::morph, "morph", "renew, but the interior moves along with the boundary where it can"},
+    {Strategy::reference, "reference",
+     "every design's mesh is the morph of one reference mesh, as long as connectivity can be held"},
+}};
 
 // The vertices of the domain triangles that a step has made, for the next renewal.
 void note_touched(MeshData& mesh) {
@@ -26,18 +36,21 @@ void note_touched(MeshData& mesh) {
 
 }  // namespace
 
+std::span<const StrategyInfo> strategies() {
+  return strategy_infos;
+}
+
 const char* name_of(Strategy strategy) {
-  switch (strategy) {
-    case Strategy::chain:
-      return "chain";
-    case Strategy::renew:
-      return "renew";
-    case Strategy::morph:
-      return "morph";
-    case Strategy::reference:
-      return "reference";
+  return strategy_infos[static_cast<std::size_t>(strategy)].name;
+}
+
+Strategy strategy_named(const std::string& name) {
+  std::string expected;
+  for (const StrategyInfo& info : strategy_infos) {
+    if (info.name == name) return info.strategy;
+    expected += (expected.empty() ? "" : ", ") + std::string(info.name);
   }
-  return "unknown";
+  throw Error(ErrorCode::argument, "strategy", "found '" + name + "', expected one of " + expected);
 }
 
 bool renews(const MeshData& mesh, const RemodelOptions& options) {

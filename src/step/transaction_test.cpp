@@ -104,7 +104,7 @@ TEST(FailedAllocations, RollBackAFullAdjustment) {
   const Mesh mesh = generate(airfoil_domain(airfoil, {.points = 50})).mesh;
   const Domain next = airfoil_domain(scaled(airfoil, 1.0001), {.points = 50});
   Mesh copy = mesh;
-  ASSERT_TRUE(remodel(copy, next).full_adjustment);
+  ASSERT_TRUE(remodel(copy, next, {.strategy = Strategy::chain}).full_adjustment);
   fail_every_allocation(mesh, next, {});
   // On a fresh copy each time: with the storage that a failed attempt leaves, the next would need less.
   const MeshState before = mesh.state();
@@ -168,7 +168,7 @@ TEST(FailedAllocations, RollBackAStepThatGeneratesAfresh) {
   const Mesh mesh = generate(catalogue_domain(0, 50), quality).mesh;
   const Domain next = catalogue_domain(5, 200);
   Mesh copy = mesh;
-  ASSERT_TRUE(remodel(copy, next).regenerated);
+  ASSERT_TRUE(remodel(copy, next, {.strategy = Strategy::chain}).regenerated);
   fail_every_allocation(mesh, next, {});
 }
 
@@ -180,7 +180,7 @@ TEST(FailedAllocations, RollBackTrials) {
        {airfoil_domain(scaled(airfoil, 1.0001), {.points = 50}), catalogue_domain(4, 50)}) {
     fail_allocations(
         [&] {
-          Trial trial(mesh, domain);
+          Trial trial(mesh, domain, {.strategy = Strategy::chain});
           trial.keep();
         },
         [&](long n) { expect_same(mesh, before, "allocation " + std::to_string(n)); });
@@ -199,7 +199,8 @@ TEST(FailedAllocations, RollBackStepsOfRandomWalks) {
     for (int step = 0; step < 3; ++step) {
       const Domain design = airfoil_domain(walk.sample(step == 0 ? 0.0005 : 0.1), {.points = 50});
       const RemodelOptions options{.distance = static_cast<double>(random() % 3),
-                                   .method = random() % 3 == 0 ? Method::general : Method::automatic};
+                                   .method = random() % 3 == 0 ? Method::general : Method::automatic,
+                                   .strategy = Strategy::chain};
       ASSERT_NO_FATAL_FAILURE(fail_every_allocation(mesh, design, options));
       remodel(mesh, design, options);
     }
@@ -232,7 +233,7 @@ TEST(AFullAdjustment, AllocatesNothingInProportionToTheMesh) {
       airfoil = scaled(airfoil, 1.000001);
       const Domain domain = airfoil_domain(airfoil, {.points = points});
       const long before = allocations;
-      ASSERT_TRUE(remodel(mesh, domain).full_adjustment);
+      ASSERT_TRUE(remodel(mesh, domain, {.strategy = Strategy::chain}).full_adjustment);
       if (step < 2) continue;
       EXPECT_LE(allocations - before, 2) << "step " << step;
     }
@@ -259,7 +260,8 @@ TEST(Observer, CancelsAStepAtAnyPollAndLeavesTheMeshAsItWas) {
     for (;; ++polls) {
       Cancelling observer(polls);
       const RemodelResult result =
-          remodel(mesh, catalogue_domain(6, 300), {.method = method, .observer = &observer});
+          remodel(mesh, catalogue_domain(6, 300),
+                  {.method = method, .strategy = Strategy::chain, .observer = &observer});
       if (result.stopped == Stopped::done) break;
       ASSERT_EQ(result.stopped, Stopped::interrupted);
       EXPECT_EQ(result.method, method);
@@ -279,7 +281,8 @@ TEST(Observer, ThatThrowsLeavesTheMeshAsItWas) {
   Mesh mesh = generate(catalogue_domain(0, 50)).mesh;
   const MeshState before = mesh.state();
   Throwing observer;
-  EXPECT_THROW(remodel(mesh, catalogue_domain(6, 50), {.observer = &observer}), std::runtime_error);
+  EXPECT_THROW(remodel(mesh, catalogue_domain(6, 50), {.strategy = Strategy::chain, .observer = &observer}),
+               std::runtime_error);
   expect_same(mesh, before, "an observer that throws");
 }
 
@@ -317,7 +320,7 @@ TEST(Limits, ThatAStepReachesLeaveAMeshInOrder) {
     for (int step = 0; step < 6; ++step) {
       const Domain design = catalogue_domain(random() % 10, 50 + 10 * static_cast<int>(random() % 3));
       const Method method = random() % 2 == 0 ? Method::general : Method::automatic;
-      const RemodelResult result = remodel(mesh, design, {.method = method});
+      const RemodelResult result = remodel(mesh, design, {.method = method, .strategy = Strategy::chain});
       if (result.stopped != Stopped::done || result.regenerated) ++reached;
       ASSERT_EQ(mesh.data().triangulation.check_topology(), "") << "round " << round << ", step " << step;
       ASSERT_EQ(check_boundary(mesh.data()), "") << "round " << round << ", step " << step;
@@ -325,7 +328,7 @@ TEST(Limits, ThatAStepReachesLeaveAMeshInOrder) {
       if (promised) {
         ASSERT_EQ(mesh.quick_check(), "") << "round " << round << ", step " << step;
       }
-      remodel(again, design, {.method = method});
+      remodel(again, design, {.method = method, .strategy = Strategy::chain});
       ASSERT_TRUE(again.state() == mesh.state());
     }
   }
@@ -347,9 +350,10 @@ TEST(Trial, ThatEndsLeavesTheMeshAsItWas) {
       for (const double sigma : {0.0005, 0.02, 0.2}) {
         const Domain design = airfoil_domain(walk.sample(sigma), {.points = 60});
         Mesh remodelled = mesh;
-        const RemodelResult expected = remodel(remodelled, design, {.method = method});
+        const RemodelResult expected =
+            remodel(remodelled, design, {.method = method, .strategy = Strategy::chain});
         {
-          const Trial trial(mesh, design, {.method = method});
+          const Trial trial(mesh, design, {.method = method, .strategy = Strategy::chain});
           EXPECT_EQ(trial.result().preserved, expected.preserved);
           ASSERT_TRUE(mesh.state() == remodelled.state()) << "step " << step << ", sigma " << sigma;
           ASSERT_EQ(mesh.quick_check(), "");
@@ -357,8 +361,8 @@ TEST(Trial, ThatEndsLeavesTheMeshAsItWas) {
         ASSERT_NO_FATAL_FAILURE(expect_same(mesh, before, "step " + std::to_string(step)));
       }
       walk.next();
-      remodel(mesh, walk.domain(60), {.method = method});
-      remodel(never_tried, walk.domain(60), {.method = method});
+      remodel(mesh, walk.domain(60), {.method = method, .strategy = Strategy::chain});
+      remodel(never_tried, walk.domain(60), {.method = method, .strategy = Strategy::chain});
       ASSERT_TRUE(mesh.state() == never_tried.state()) << "step " << step;
     }
   }
@@ -376,20 +380,20 @@ TEST(Trial, OfOtherHolesLeavesTheMeshAsItWas) {
   for (std::size_t step = 0; step < 40; ++step) {
     const MeshState before = mesh.state();
     for (const std::vector<Loop>& holes : designs) {
-      const Trial trial(mesh, test::with_holes(holes));
+      const Trial trial(mesh, test::with_holes(holes), {.strategy = Strategy::chain});
       ASSERT_EQ(mesh.quick_check(), "");
       ASSERT_EQ(mesh.domain(), test::with_holes(holes));
     }
     ASSERT_NO_FATAL_FAILURE(expect_same(mesh, before, "step " + std::to_string(step)));
-    remodel(mesh, test::with_holes(designs[step * 7 % 5]));
+    remodel(mesh, test::with_holes(designs[step * 7 % 5]), {.strategy = Strategy::chain});
   }
 }
 
 TEST(Trial, ThatIsKeptIsAStep) {
   Mesh mesh = generate(catalogue_domain(0, 50)).mesh, stepped = mesh;
   for (const std::size_t to : {1U, 4U, 8U}) {
-    remodel(stepped, catalogue_domain(to, 50));
-    Trial trial(mesh, catalogue_domain(to, 50));
+    remodel(stepped, catalogue_domain(to, 50), {.strategy = Strategy::chain});
+    Trial trial(mesh, catalogue_domain(to, 50), {.strategy = Strategy::chain});
     trial.keep();
     EXPECT_TRUE(mesh.state() == stepped.state());
   }
@@ -399,13 +403,13 @@ TEST(Trial, CanBeReadCopiedAndSavedButNotRemodelled) {
   Mesh mesh = generate(catalogue_domain(0, 50)).mesh;
   const MeshState before = mesh.state();
   {
-    const Trial trial(mesh, catalogue_domain(4, 50));
-    EXPECT_THROW(remodel(mesh, catalogue_domain(5, 50)), Error);
-    EXPECT_THROW(Trial(mesh, catalogue_domain(5, 50)), Error);
+    const Trial trial(mesh, catalogue_domain(4, 50), {.strategy = Strategy::chain});
+    EXPECT_THROW(remodel(mesh, catalogue_domain(5, 50), {.strategy = Strategy::chain}), Error);
+    EXPECT_THROW(Trial(mesh, catalogue_domain(5, 50), {.strategy = Strategy::chain}), Error);
     Mesh copy = mesh, restored = Mesh::restore(mesh.state(), "trial");
     EXPECT_EQ(copy.freeze().points.size(), mesh.freeze().points.size());
-    remodel(copy, catalogue_domain(5, 50));
-    remodel(restored, catalogue_domain(5, 50));
+    remodel(copy, catalogue_domain(5, 50), {.strategy = Strategy::chain});
+    remodel(restored, catalogue_domain(5, 50), {.strategy = Strategy::chain});
     EXPECT_EQ(copy.quick_check(), "");
     EXPECT_TRUE(copy.state() == restored.state());
   }
@@ -418,7 +422,7 @@ TEST(Trial, ThatGeneratedAfreshReturnsToo) {
   Mesh mesh = generate(catalogue_domain(0, 50), quality).mesh;
   const MeshState before = mesh.state();
   {
-    const Trial trial(mesh, catalogue_domain(5, 200));
+    const Trial trial(mesh, catalogue_domain(5, 200), {.strategy = Strategy::chain});
     EXPECT_TRUE(trial.result().regenerated);
     EXPECT_EQ(trial.result().stopped, Stopped::vertex_budget);
   }
@@ -430,7 +434,7 @@ TEST(Trial, OfARefusedDesignLeavesTheMeshAsItWas) {
   const MeshState before = mesh.state();
   CstAirfoil crossed = airfoil_catalogue()[0].airfoil();
   crossed.upper.swap(crossed.lower);
-  EXPECT_THROW(Trial(mesh, airfoil_domain(crossed, {.points = 50})), Error);
+  EXPECT_THROW(Trial(mesh, airfoil_domain(crossed, {.points = 50}), {.strategy = Strategy::chain}), Error);
   expect_same(mesh, before, "a refused trial");
 }
 

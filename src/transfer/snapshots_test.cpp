@@ -30,7 +30,7 @@ class OfAHole : public testing::Test {
  protected:
   void go(const std::vector<double>& d) {
     const Mark mark = mesh.mark();
-    remodel(mesh, hole_at(d[0], d[1]));
+    remodel(mesh, hole_at(d[0], d[1]), {.strategy = Strategy::chain});
     ASSERT_TRUE(mesh.changes_since(mark).same_connectivity());
   }
   Mesh mesh = generate(hole_at(0, 0)).mesh;
@@ -96,7 +96,7 @@ TEST_F(OfAHole, AReplacementEndsThem) {
   Snapshots snapshots;
   snapshots.add(mesh, std::vector{0.0, 0.0}, {1.0, 2.0});
   const Mark mark = mesh.mark();
-  remodel(mesh, hole_at(0.1, 0.05));
+  remodel(mesh, hole_at(0.1, 0.05), {.strategy = Strategy::chain});
   ASSERT_FALSE(mesh.changes_since(mark).same_connectivity());
   EXPECT_FALSE(snapshots.start(mesh, std::vector{0.1, 0.05}));
   EXPECT_EQ(snapshots.size(), 0U);

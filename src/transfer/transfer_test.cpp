@@ -154,7 +154,7 @@ TEST(Ride, OfValuesOnTrianglesKeepsThemAndIsExactOnLinearFields) {
     std::vector<double> values = state_of(mesh, FieldPlace::triangles, random);
     const std::vector<double> old = values;
     const Mark mark = mesh.mark();
-    remodel(mesh, designs.next(), {.method = Method::general});
+    remodel(mesh, designs.next(), {.method = Method::general, .strategy = Strategy::chain});
     const Transfer transfer(mesh, mark);
     const ValueMap map = transfer.triangles();
     rows += map.rows.size();
@@ -181,7 +181,7 @@ TEST(Ride, AfterARegenerationIsFromTheOldMeshAsAWhole) {
       values_by_id(mesh, FieldPlace::vertices, 1, [](Point p, auto) { return test::linear(p); });
   const Mark mark = mesh.mark();
   mesh.data().options.max_vertices = static_cast<std::uint32_t>(mesh.data().triangulation.vertex_count()) + 1;
-  ASSERT_TRUE(remodel(mesh, test::catalogue_domain(1, 100)).regenerated);
+  ASSERT_TRUE(remodel(mesh, test::catalogue_domain(1, 100), {.strategy = Strategy::chain}).regenerated);
   const Transfer transfer(mesh, mark, {.outside = Outside::extrapolate});
   const FrozenMesh frozen = mesh.freeze();
   EXPECT_GE(transfer.vertices().rows.size(), frozen.points.size());

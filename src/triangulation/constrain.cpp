@@ -1,5 +1,13 @@
 // Constraints: an edge is recovered by flipping the edges that it crosses (S. W. Sloan, "A fast algorithm for
 // generating constrained Delaunay triangulations", 1993).
+//
+//      c-----e               c-----e
+//     /|    /|\.            /    .' \.     The segment a-b crosses c-d, d-e and e-f. They are flipped in this
+//    / |   / | \.          /  .'     \.    order, to a-e, a-f and a-b, which is constrained. An edge whose
+//   a  |  /  |  b    ->   a===========b    two triangles form no strictly convex quadrilateral waits for the
+//    \ | /   | /           \ `.      /     next round. The other new edges are made Delaunay by flips that
+//     \|/    |/             \   `.  /      stop at a=b.
+//      d-----f               d-----f
 
 #include "remodel/predicates.h"
 #include "triangulation/triangulation.h"

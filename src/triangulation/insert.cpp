@@ -1,5 +1,13 @@
 // Insertion of a vertex by cavity (Bowyer 1981, Watson 1981), constraints not crossed.
 //
+//   f-----e-----d         f-----e-----d
+//   |    / \    |         | `.  |  .' |     The cavity: the triangles whose circles hold p. A search from one
+//   |   /   \   |         |   `.|.'   |     of them finds the others through unconstrained edges. They are
+//   |  /  p  \  |   ->    |    .p.    |     n - 2, if their ring (a, c, d, e, f) has n edges. Each ring edge
+//   | /       \ |         |  .'   `.  |     makes a triangle with p: n, in the same slots and two more.
+//   |/         \|         |.'       `.|
+//   a-----------c         a-----------c
+//
 // Why the search below needs no marks. Let p be any point, not a vertex. No vertex w of the triangulation has
 // all triangles around it in conflict with p: the triangle at w that holds the direction from p beyond w has
 // its two other corners c1, c2 with w + t (w - p) = a positive combination of c1 - w and c2 - w. If p were
@@ -109,6 +117,14 @@ void append_side(const Cavity& side, Link edge, Cavity& whole) {
 
 }  // namespace
 
+//        c                      c
+//      /   \                  / | \       a=b is constrained. p need not lie on it: boundaries are curved.
+//    /   p   \              /.= p =.\     The rings of the cavity on p's side and on the other side make one
+//   a=========b     ->     a='  |  '=b    ring, without a=b. p becomes a vertex inside it; a=p and p=b are
+//    \       /              \   |   /     constrained. The triangles at c have the region of p's side, those
+//      \   /                  \ | /       at d that of the other side.
+//        d                      d
+//
 // The cavity is one on each side of a-b. On the side of p it starts at p's own triangle. On the other side it
 // starts at the triangle next to the edge if p is in its circle; if not, that triangle stays, and the only
 // new one there is (p, a, b), which now lies on its side of the boundary.

@@ -1,8 +1,17 @@
 // Removal of vertices: their triangles leave a hole, which is triangulated from one edge of its border
 // inwards. The Delaunay triangle at an edge joins the vertex whose circle through the edge holds no other;
 // the circles of all vertices on its left side are nested there, so one pass over the border finds it. The
-// triangle leaves a smaller polygon on either side. (The search for the third vertex is that of L. P. Chew,
-// "Constrained Delaunay triangulations", 1989.)
+// triangle leaves a smaller polygon on either side.
+//
+//   d-----c-----b         d-----c-----b
+//   |`.   |   .'|         |    / \    |     v goes. Its star leaves a hole: the polygon a, b, c, d, e. From
+//   |  `. | .'  |         |   /   \   |     the border's edge e-a the search finds c: no other vertex lies in
+//   |    `v'    |   ->    |  /     \  |     the circle of (e, a, c). Two polygons are left, (a, b, c) and
+//   |  .'   `.  |         | /       \ |     (c, d, e), and treated alike. Of n triangles n - 2 are left.
+//   |.'       `.|         |/         \|
+//   e-----------a         e-----------a
+//
+// The search for the third vertex is that of L. P. Chew, "Constrained Delaunay triangulations", 1989.
 //
 // Vertices that lie together go together: a patch of a hundred has some fifty triangles in the end, where one
 // after the other makes five or six for each. Patches are small because the search is quadratic at worst.
@@ -238,6 +247,13 @@ Corner Triangulation::collect_side(Corner first, Hole& side) const {
   return c;
 }
 
+//        c                      c
+//      / | \                  /   \       a=v and v=b are constrained. v's star is two polygons, on the side
+//    /.= v =.\              /       \     of c and on that of d, with a-b as their last edge. Each is cut as
+//   a='  |  '=b     ->     a=========b    the hole of a removal is, and keeps its region. a=b becomes
+//    \   |   /              \       /     constrained.
+//      \ | /                  \   /
+//        d                      d
 bool Triangulation::unsplit(VertexId v) {
   Corner first = star(v);
   while (!link({first.triangle, previous3(first.index)}).constrained()) first = counterclockwise(first);

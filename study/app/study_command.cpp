@@ -196,14 +196,12 @@ void add_counts(CLI::App& app, StudyCommand& command) {
 void add_work_options(CLI::App& app, StudyCommand& command) {
   add_integer(
       app, {"--threads", "N", "one per core; one per rank of an MPI program", "Threads that work: 1 to 1024"},
-      {.low = 1, .high = 1024},
-      [&command](std::int64_t value) { command.threads = static_cast<std::size_t>(value); });
+      {.low = 1, .high = 1024}, command.threads);
   add_real(app, {"--time-limit", "SECONDS", "none", "Ends the study in order after this time: above 0"},
-           {.low = 0.0, .high = 1e9, .above_low = true},
-           [&command](double value) { command.time_limit = value; });
+           {.low = 0.0, .high = 1e9, .above_low = true}, command.time_limit);
   add_real(app,
            {"--rank-timeout", "SECONDS", "60", "Silence after which an MPI rank counts as lost: 1 to 86400"},
-           {.low = 1.0, .high = 86400.0}, [&command](double value) { command.ranks.timeout = value; });
+           {.low = 1.0, .high = 86400.0}, command.ranks.timeout);
 }
 
 }  // namespace
@@ -220,7 +218,7 @@ void add_study_command(CLI::App& program, Action& action) {
                      });
   add_study_report_command(app, action);
   add_text(app, {"-o,--output", "DIR", "", "Directory of the study: new, empty, or with --resume a study's"},
-           Presence::optional, [command](const std::string& text) { command->directory = text; });
+           Presence::optional, command->directory);
   add_lists(app, *command);
   add_counts(app, *command);
   add_flag(app, "--full", "The paper's study: nine airfoils, thirty scenarios of 9000 evaluations",

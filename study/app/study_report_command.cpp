@@ -129,8 +129,8 @@ Status run(const StudyReportCommand& command) {
 void add_study_report_command(CLI::App& study, Action& action) {
   auto command = std::make_shared<StudyReportCommand>();
   CLI::App& app =
-      add_subcommand(study, "report", "Reports the results of a study: a page, tables, figures, the verdict",
-                     [command, &action] { action = [command] { return run(*command); }; });
+      add_command(study, "report", "Reports the results of a study: a page, tables, figures, the verdict",
+                  command, action);
   add_text(app, {"study", "DIR", "", "The study's directory, finished or not"}, Presence::required,
            command->study);
   add_texts(

@@ -68,15 +68,15 @@ std::string verdict_sentence(const StudyContents& study, const VerdictShare& sha
       "Of the rows with I of at least 200, " + std::to_string(share.inside) + of + " (" +
       percent_of(share.inside, share.rows) + ") are within " + fixed(verdict_preserved_points, 1) +
       " percentage points of the paper's preservation and within " + fixed(verdict_generation_percent, 0) +
-      " % of its triangle counts of generation: preservation alone " +
-      std::to_string(share.preserved_inside) + of + ", counts alone " +
+      " % of its triangle counts of generation. For preservation alone these are " +
+      std::to_string(share.preserved_inside) + of + ", for counts alone " +
       std::to_string(share.generation_inside) + of + ".";
   if (study.evaluations < papers_evaluations)
     text +=
         " The scenarios have " + std::to_string(study.evaluations) + " evaluations, the paper's about " +
         std::to_string(papers_evaluations) +
-        ": shorter runs have fewer of the late, small steps in which all boundary vertices move in place, "
-        "and preserve less.";
+        ". Shorter runs have fewer of the late, small steps in which all boundary vertices move in place. "
+        "They preserve less.";
   return text;
 }
 

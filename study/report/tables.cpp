@@ -28,6 +28,19 @@ std::string csv_case(const StudyCase& at) {
          short_number(at.gradation) + ',' + short_number(at.distance);
 }
 
+// A paragraph in lines of at most 118 characters.
+std::string in_lines(const std::string& paragraph) {
+  constexpr std::size_t most = 118;
+  std::string lines = paragraph + '\n';
+  for (std::size_t begin = 0; lines.size() - begin > most + 1;) {
+    const std::size_t end = lines.rfind(' ', begin + most);
+    if (end == std::string::npos || end <= begin) break;
+    lines[end] = '\n';
+    begin = end + 1;
+  }
+  return lines;
+}
+
 // Escapes arbitrary text for a Markdown cell or heading.
 std::string markdown_text(const std::string& text) {
   std::string result;
@@ -100,13 +113,15 @@ std::string verdict_section(const StudyContents& study) {
   const std::vector<VerdictTable> tables = judge_study(study);
   std::string text = "## Verdict\n\n";
   if (tables.empty()) return text + "The study holds no row of the paper's tables by `chain`.\n";
-  text +=
-      report::verdict_sentence(study, verdict_share(tables)) +
-      "\n\nOurs by `chain` beside the paper's, from the least to the largest difference of a table's rows: "
-      "triangles of generation and of remodelling in per cent, preservation and surplus in percentage "
-      "points, speed-up as a ratio (both times are of one machine each; the paper does not name its own).\n\n"
-      "| table | airfoil | σ | rows | generation % | remodelling % | preservation points | surplus points | "
-      "speed-up ratio | inside, I ≥ 200 |\n|---|---|---:|---:|---|---|---|---|---|---|\n";
+  text += in_lines(report::verdict_sentence(study, verdict_share(tables))) + '\n' +
+          in_lines(
+              "The table has ours by `chain` beside the paper's, from the least to the largest difference "
+              "of a table's rows. Triangles of generation and of remodelling are in per cent, preservation "
+              "and surplus in percentage points. The speed-up is a ratio. Both times are of one machine "
+              "each; the paper does not name its own.") +
+          "\n| table | airfoil | σ | rows | generation % | remodelling % | preservation points | surplus "
+          "points | "
+          "speed-up ratio | inside, I ≥ 200 |\n|---|---|---:|---:|---|---|---|---|---|---|\n";
   for (const VerdictTable& table : tables) text += verdict_line(table);
   return text + "\n### Rows outside\n\n" + outside_rows(tables);
 }

@@ -154,6 +154,17 @@ class Airfoils(ProgramTest):
         self.succeed("design", self.write("problem.json", json.dumps(problem)), "-o", "run", "--quiet",
                      status=3)  # one evaluation is a limit
 
+    def test_designs_say_what_became_of_the_frames_of_files(self):
+        turned = str(FILES / "drawn_at_8_degrees.dat")
+        problem = {"airfoil": turned, "mesh": {"points": 40, "farfield_radius": 10}, "flow": [{"mach": 0.3, "alpha_deg": 2}],
+                   "objective": "drag", "constraints": [{"kind": "contains", "airfoil": turned}],
+                   "designer": {"name": "sqp", "evaluations": 1}}
+        outcome = self.succeed("design", self.write("problem.json", json.dumps(problem)), "-o", "run", "--quiet", "--json",
+                               status=3)
+        warnings = [text for text in outcome.json()["warnings"] if "8.0 degrees" in text]
+        self.assertEqual(len(warnings), 1, outcome)
+        self.assertIn("remodel: " + warnings[0], outcome.stderr.splitlines())
+
     def test_naca_sections_by_their_designations(self):
         for name, thickness in (("0012-64", 0.12), ("63-206", 0.06), ("65(1)-412", 0.12), ("64A010", 0.10),
                                 ("63-206 a=.8", 0.06), ("23112", 0.12)):

@@ -241,8 +241,7 @@ class Quadrilaterals(ProgramTest):
         self.assertEqual(self.figures("draw", name, "-o", "q.png")["quadrilaterals"], self.quads)
         flow = self.figures("flow", name, "--model", "potential", "--alpha", 2, "-o", "p.vtu")
         self.assertEqual(flow["quadrilaterals"], self.quads)
-        for field in ("cp", "stream_function"):
-            self.succeed("draw", "p.vtu", "--color", field, "-o", "f.svg")
+        self.succeed("draw", "p.vtu", "--color", "cp", "--iso", 9, "-o", "f.svg")
         flow = self.figures("flow", name, "--mach", 0.3, "-o", "e.vtkhdf")
         self.assertEqual((flow["status"], flow["quadrilaterals"]), ("converged", self.quads))
         # To the same mesh and to one of triangles.
@@ -276,7 +275,7 @@ class Quadrilaterals(ProgramTest):
         text, _, _ = shapes.layered(around=8, layers=1, rings=1)
         quad = next(line for line in text.splitlines() if line.startswith("9 "))
         a, b, c, d = quad.split()[1:]
-        for found, replacement in (("an index below", f"9 {a} {b} {c} 999"), ("the index of a point expected", f"9 {a} {b} {c}"),
+        for found, replacement in (("an index below", f"9 {a} {b} {c} 999"), ("an element expected", f"9 {a} {b} {c}"),
                                    ("the index of a point expected", f"9 {a} {b} {c} -1"), ("found, only triangles", f"12 {a} {b} {c} {d}")):
             self.refused("check", self.write("h.su2", text.replace(quad, replacement)), names=found)
         for rule, replacement in (("index", f"9 {a} {b} {a} {b}"), ("index", f"9 {a} {a} {a} {a}"), ("convex", f"9 {a} {c} {b} {d}"),

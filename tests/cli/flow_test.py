@@ -97,17 +97,40 @@ class Flows(ProgramTest):
             self.assertIn(label, text)
 
     def test_a_format_without_fields_says_so(self):
-        outcome = self.succeed("flow", "naca:0012", "--points", 40, "--mach", 0.4, "-o", "a.su2", "-o", "a.vtu")
+        outcome = self.succeed("flow", "naca:0012", "--mach", 0.4, "-o", "a.su2", "-o", "a.vtu")
         self.assertEqual(outcome.stderr, "remodel: a.su2: the flow left out, for which the format has no place\n")
         outcome = self.succeed("flow", "naca:0012", "--points", 40, "--model", "potential", "-o", "a.su2")
         self.assertEqual(outcome.stderr, "remodel: a.su2: the flow left out, for which the format has no place\n")
 
-    def test_a_slow_stream_is_warned_of(self):
-        shape = ("flow", "naca:0012", "--points", 40, "--alpha", 1, "--mach")
-        warned = self.succeed(*shape, 0.09, "--json")
-        self.assertIn("remodel: naca:0012: below Mach 0.1", warned.stderr)
-        self.assertEqual(["below Mach 0.1" in warning for warning in warned.json()["warnings"]], [True])
-        self.assertEqual(self.succeed(*shape, 0.1).stderr, "")
+    def test_drag_that_a_mesh_makes_is_warned_of(self):
+        shape = ("flow", "naca:0012", "--alpha", 1, "--mach")
+        warned = self.succeed(*shape, 0.3, "--points", 40, "--json")
+        self.assertIn("counts is made by mesh and scheme", warned.stderr)
+        self.assertEqual(["without friction and shocks there is none" in w for w in warned.json()["warnings"]], [True])
+        self.assertEqual(self.succeed(*shape, 0.3).stderr, "")
+        shock = self.figures(*shape, 0.85, "--points", 40)
+        self.assertGreater(shock["cd"], 0.01)
+        self.assertEqual(shock["warnings"], [])  # there may be drag
+
+    def test_slow_streams_have_the_lift_of_potential_flow(self):
+        shape = ("flow", "naca:0012", "--points", 100, "--alpha", 2)
+        potential = self.figures(*shape, "--model", "potential")["cl"]
+        for mach in (0.01, 0.1):
+            figures = self.figures(*shape, "--mach", mach)
+            self.assertAlmostEqual(figures["cl"] / potential, (1 - mach**2) ** -0.5, delta=0.06)
+            self.assertLess(figures["newton_steps"], 20)
+
+    def test_estimates_of_errors(self):
+        shape = ("flow", "naca:2412", "--mach", 0.4, "--alpha", 1)
+        figures = self.figures(*shape, "--points", 60, "--error")
+        error, fine = figures["error"], self.figures(*shape, "--points", 240, "--gradation", 4.8)
+        self.assertKeys(error, "cl cd cm alpha_deg order finer")
+        self.assertAlmostEqual(error["cl"], fine["cl"] - figures["cl"], delta=0.4 * abs(fine["cl"] - figures["cl"]))
+        self.assertAlmostEqual(error["cd"], fine["cd"] - figures["cd"], delta=0.4 * abs(fine["cd"] - figures["cd"]))
+        self.assertEqual(error["order"], 2)
+        self.assertIn("CL lacks about", self.succeed(*shape, "--points", 60, "--error").stdout)
+        self.succeed("mesh", "naca:2412", "--points", 40, "-o", "a.su2")
+        self.refused("flow", "a.su2", "--mach", 0.4, "--error", names="expected a shape or a native mesh")
 
     def test_each_step_is_shown_on_a_terminal(self):
         ours, theirs = pty.openpty()
@@ -306,7 +329,10 @@ class Warnings(ProgramTest):
             warnings = self.warnings("strut.json", *model)
             self.assertEqual(["the lift of 'strut' is not determined" in text for text in warnings], [True])
             text = self.succeed("flow", "strut.json", *model).stdout
-            self.assertRegex(text, r"(?m)^CL .*\(not determined\)$")
+            self.assertRegex(text, r"(?m)^CL +not determined$")
+            figures = self.succeed("flow", "strut.json", *model, "--json").json()
+            self.assertEqual([figures[key] for key in ("cl", "cm")] + [body[key] for body in figures["bodies"] for key in ("cl", "cm")], [None] * 4)
+            self.assertIsInstance(figures["cd"], float)
             self.succeed("mesh", "strut.json", "-o", "strut.su2")
             self.assertIn("'strut'", self.warnings("strut.su2", *model)[0])
         # Nothing goes around it upstream above Mach 1. (One step: this is not about flows that are found.)

@@ -214,6 +214,22 @@ class Losses(Test):
         self.assertIn(BOXES + "FFD_SURFACE_POINTS= 0\n", self.path("f.su2").read_text())
         self.assertEqual(self.succeed("check", "f.su2").status, 0)
 
+    def test_boxes_go_through_batches_and_searches(self):
+        self.succeed("mesh", "naca:0012", "--points", "40", "-o", "plain.su2")
+        self.write("a.su2", self.path("plain.su2").read_text() + BOXES + "FFD_SURFACE_POINTS= 0\n")
+        self.warned("batch", "a.su2", "rae2822", "naca:2412", "--boundary", "airfoil", "-o", "designs", "--meshes",
+                    "su2,vtkhdf,msh", names="designs/*.msh: FFD boxes are left out")  # fmt: skip
+        for file in ("001.su2", "002.su2"):
+            self.assertIn(BOXES, self.path(f"designs/{file}").read_text())
+        self.quiet("convert", "designs/002.vtkhdf", "-o", "b.su2")
+        self.assertIn(BOXES, self.path("b.su2").read_text())
+        count = "grep -c 'FFD_TAG= BOX' {mesh} | sed 's/.*/{ \"objective\": &, \"outputs\": { \"boxes\": & } }/'"
+        self.succeed("optimise", "--mesh", "a.su2", "--boundary", "airfoil", "--evaluate", count, "--evaluations", 3, "--quiet",
+                     "-o", "run")  # fmt: skip
+        self.assertEqual(json.loads(self.path("run/result.json").read_text())["outputs"]["boxes"], 1)
+        self.quiet("convert", "run/last.vtkhdf", "-o", "c.su2")
+        self.assertIn(BOXES, self.path("c.su2").read_text())
+
     def test_other_sections_of_su2_are_said_to_be_left_out(self):
         self.succeed("mesh", "naca:0012", "--points", "40", "-o", "plain.su2")
         self.write("a.su2", self.path("plain.su2").read_text() + "NPERIODIC= 1\nPERIODIC_INDEX= 0\n0 0 0\n")

@@ -133,7 +133,7 @@ class Case {
 
   const json& text_;
   QualityOptions options_;
-  RemodelOptions remodelling_;
+  RemodelOptions remodelling_{.strategy = Strategy::chain};
   std::optional<Mesh> mesh_;
   bool exempt_ = false;
 };

@@ -161,7 +161,7 @@ int print_domains() {
                             .placement = {1.0 + 0.05 * i, 7.0 * i, {0.03 * i, 0.1}}});
     for (const Domain* domain : {&std::as_const(turned), &crossed}) {
       if (i % 3 != 0 && domain == &crossed) continue;
-      remodel::remodel(mesh, *domain);
+      remodel::remodel(mesh, *domain, {.strategy = remodel::Strategy::chain});
       std::printf("domain %d: %zu triangles, %016" PRIx64 "\n", i, mesh.triangle_count(),
                   hash_of(mesh.state()));
     }

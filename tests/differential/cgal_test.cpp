@@ -165,9 +165,9 @@ TEST(RemodelledMeshes, HaveTheDomainTrianglesOfCgalAndOfARebuild) {
     Mesh mesh = generate(airfoil_domain(base, options), {.gradation = 2.0}).mesh;
     for (int step = 0; step < 12; ++step) {
       const double sigma = std::array{0.003, 0.02, 0.1, 0.25}[random() % 4];
-      const RemodelResult result =
-          remodel(mesh, airfoil_domain(test::random_variant(random, base, sigma), options),
-                  {.method = random() % 3 == 0 ? Method::general : Method::automatic});
+      const RemodelResult result = remodel(
+          mesh, airfoil_domain(test::random_variant(random, base, sigma), options),
+          {.method = random() % 3 == 0 ? Method::general : Method::automatic, .strategy = Strategy::chain});
       full += result.full_adjustment ? 1 : 0;
       const Content content = content_of(mesh.data());
 

@@ -161,7 +161,7 @@ MUTATIONS = [
      "entry.curve + shift[mesh.loop_of(entry.curve)]", "entry.curve + 0 * shift[mesh.loop_of(entry.curve)]"),
     ("a renaming is not taken back", R + "step.cpp", "  if (renaming_) renaming_->undo(data());\n", ""),
     ("other structure noted as that of the loops that moved", R + "step.cpp",
-     "cache_ != nullptr && !structure_differs_)", "cache_ != nullptr)"),
+     "cache_ != nullptr && !plan_.structure_differs)", "cache_ != nullptr)"),
     ("rollback forgets the boundary table", R + "step_journal.cpp", "  mesh_.boundary.rollback();\n", "  mesh_.boundary.commit();\n"),
     ("rollback forgets dropped boundary entries", M + "boundary_table.cpp", "        free_.pop_back();\n        entries_[change.k] = change.before;\n", ""),
     ("rollback forgets a table taken whole", M + "boundary_table.cpp", "    entries_.swap(taken_->first);\n", ""),

@@ -237,7 +237,8 @@ TEST(RemodelResult, CountsWhatACountOfAllTrianglesCounts) {
       const RemodelResult result =
           remodel(mesh, airfoil_domain(test::random_variant(random, base, sigma), {.points = points}),
                   {.distance = static_cast<double>(random() % 4),
-                   .method = random() % 4 == 0 ? Method::general : Method::automatic});
+                   .method = random() % 4 == 0 ? Method::general : Method::automatic,
+                   .strategy = Strategy::chain});
       const FrozenMesh after = mesh.freeze();
       ASSERT_EQ(result.triangles_before, before.triangles.size());
       ASSERT_EQ(result.triangles, after.triangles.size());

@@ -205,7 +205,8 @@ TEST(Adjoint, OnlyWhatIsWantedAfterPartialSteps) {
   for (int i = 0; i < 40 && partial == 0; ++i) {
     for (auto* surface : {&airfoil.upper, &airfoil.lower})
       for (double& c : *surface) c += test::uniform(random, -1e-3, 1e-3);
-    partial += !remodel(task.mesh(), airfoil_domain(airfoil, {.points = 60})).full_adjustment;
+    partial += !remodel(task.mesh(), airfoil_domain(airfoil, {.points = 60}), {.strategy = Strategy::chain})
+                    .full_adjustment;
   }
   ASSERT_EQ(partial, 1);
   const FlowGradients all = task.gradients();
@@ -231,7 +232,8 @@ TEST(Adjoint, OldFactorsServeUntilTheyDoNot) {
   for (int i = 0; i < 20 && partial < 2; ++i) {
     for (auto* surface : {&airfoil.upper, &airfoil.lower})
       for (double& c : *surface) c += test::uniform(random, -1e-2, 1e-2);
-    partial += !remodel(task.mesh(), airfoil_domain(airfoil, {.points = 60})).full_adjustment;
+    partial += !remodel(task.mesh(), airfoil_domain(airfoil, {.points = 60}), {.strategy = Strategy::chain})
+                    .full_adjustment;
     task.gradients();
   }
   EXPECT_EQ(partial, 2);

@@ -59,7 +59,7 @@ void Ladder::climb(LadderTask& task) {
     search_by_meshes(task.living->domain(), task.living->options(), task.measure, task.conditions, search,
                      task.state, task.spent);
   else
-    search.from_undisturbed_flow(task.measure, task.state);
+    search.cold(task.measure, task.state);
 }
 
 }  // namespace remodel::flow

@@ -34,6 +34,7 @@ struct Body {
 struct Flow {
   std::vector<double> stream_function;      // per vertex
   std::vector<double> circulation;          // per body
+  std::vector<double> circulation_beside;   // by Kutta's condition beside the edges
   std::vector<double> on_body;              // the stream function, per body
   std::vector<std::vector<double>> speeds;  // per body and wall vertex, along the wall
 };
@@ -97,6 +98,9 @@ Body body_of(const WallLoop& loop, const FrozenMesh& mesh) {
 }
 
 }  // namespace
+
+// Where Kutta's condition is asked for: at the vertices of the edges, or beside them, to compare.
+enum class Kutta { edge, beside };
 
 // Assembles, factors and solves once; keeps what flows at any angle are made of.
 struct PotentialSolver::Solution {
@@ -273,17 +277,20 @@ struct PotentialSolver::Solution {
       });
     }
     for (const std::size_t given : {std::size_t{0}, std::size_t{1}}) {
-      std::vector<double> factors = strengths(flows, given);
+      const std::vector<double> factors = strengths(flows, given, Kutta::edge);
+      const std::vector<double> beside = strengths(flows, given, Kutta::beside);
       combination(functions, flows, factors, given, flow[given]);
       flow[given].on_body.assign(factors.begin(), factors.begin() + static_cast<std::ptrdiff_t>(count));
       flow[given].circulation.assign(factors.begin() + static_cast<std::ptrdiff_t>(count), factors.end());
+      flow[given].circulation_beside.assign(beside.begin() + static_cast<std::ptrdiff_t>(count),
+                                            beside.end());
     }
   }
 
   // Values of the bodies, then circulations: those with which each body's circulation is that of its vortex
   // far away, and the flow leaves sharp edges smoothly or has no circulation.
-  std::vector<double> strengths(const std::vector<std::vector<std::vector<double>>>& flows,
-                                std::size_t given) const {
+  std::vector<double> strengths(const std::vector<std::vector<std::vector<double>>>& flows, std::size_t given,
+                                Kutta where) const {
     const std::size_t count = bodies.size(), n = 2 * count;
     const auto circulation = [&](std::size_t function, std::size_t body) {
       double sum = 0.0;
@@ -291,8 +298,14 @@ struct PotentialSolver::Solution {
       return sum;
     };
     const auto around_edge = [&](std::size_t function, std::size_t body) {
+      const flow::KuttaCondition& kutta = bodies[body].kutta;
       double sum = 0.0;
-      for (const auto& [i, weight] : bodies[body].kutta.terms) sum += weight * flows[function][body][i];
+      if (where == Kutta::beside) {
+        for (std::size_t i = 0; i < 2; ++i)
+          sum += kutta.weights_beside[i] * flows[function][body][kutta.beside[i]];
+        return sum;
+      }
+      for (const auto& [i, weight] : kutta.terms) sum += weight * flows[function][body][i];
       return sum;
     };
     std::vector<double> matrix(n * n, 0.0), rhs(n, 0.0);
@@ -366,9 +379,9 @@ void require_subsonic(double mach) {
                 std::to_string(mach) + " found, at least 0 and less than 1 expected of potential flow");
 }
 
-double lift_of(const Flow& flow, double reference_length) {
+double lift_of(const std::vector<double>& circulations, double reference_length) {
   double sum = 0.0;
-  for (const double circulation : flow.circulation) sum += circulation;
+  for (const double circulation : circulations) sum += circulation;
   return 2.0 * sum / reference_length;
 }
 
@@ -449,11 +462,13 @@ PotentialFlow PotentialSolver::at(double alpha_deg, double mach) const {
   PotentialFlow result;
   result.alpha_deg = alpha_deg;
   result.mach = mach;
-  result.lift = (a * lift_of(s.flow[0], s.options.reference_length) +
-                 b * lift_of(s.flow[1], s.options.reference_length)) /
+  result.lift = (a * lift_of(s.flow[0].circulation, s.options.reference_length) +
+                 b * lift_of(s.flow[1].circulation, s.options.reference_length)) /
                 std::sqrt(1.0 - mach * mach);
   std::vector<flow::PotentialOutline> outlines;
-  flow::PressureForces incompressible{.reference_length = s.options.reference_length};
+  flow::LiftAgain incompressible{.reference_length = s.options.reference_length};
+  incompressible.lift_beside = a * lift_of(s.flow[0].circulation_beside, s.options.reference_length) +
+                               b * lift_of(s.flow[1].circulation_beside, s.options.reference_length);
   combine(result.stream_function, a, s.flow[0].stream_function, b, s.flow[1].stream_function);
   result.velocity = mean_velocities(s.mesh, s.areas, result.stream_function);
   for (std::size_t k = 0; k < s.bodies.size(); ++k) {
@@ -499,8 +514,8 @@ PotentialFlow PotentialSolver::at(double alpha_deg, double mach) const {
 double PotentialSolver::alpha_deg_for(double lift, double mach) const {
   require_subsonic(mach);
   const double scale = 1.0 / std::sqrt(1.0 - mach * mach);
-  const double at_0 = scale * lift_of(solution_->flow[0], solution_->options.reference_length);
-  const double at_90 = scale * lift_of(solution_->flow[1], solution_->options.reference_length);
+  const double at_0 = scale * lift_of(solution_->flow[0].circulation, solution_->options.reference_length);
+  const double at_90 = scale * lift_of(solution_->flow[1].circulation, solution_->options.reference_length);
   const double most = std::hypot(at_0, at_90);
   // lift = most * sin(alpha - alpha without lift)
   if (!(std::abs(lift) <= most) || most == 0.0) {

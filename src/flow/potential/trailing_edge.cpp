@@ -124,8 +124,10 @@ KuttaCondition kutta_condition(std::span<const Point> body, std::size_t base) {
     rest += sign * falling;
     // The neighbour's hat; where it is the last vertex before the base, that of its first half.
     const double next = side.s[std::min(k + 1, side.s.size() - 1)];
-    speeds += next > side.s[k] ? integral_falling(side.s[k], next, power) - falling : falling;
+    const double hat = next > side.s[k] ? integral_falling(side.s[k], next, power) - falling : falling;
+    speeds += hat;
     condition.beside[sign < 0.0 ? 0 : 1] = side.vertices[k];
+    condition.weights_beside[sign < 0.0 ? 0 : 1] = 1.0 / hat;
   }
   condition.terms.push_back({condition.beside[0], rest / speeds});
   condition.terms.push_back({condition.beside[1], -rest / speeds});

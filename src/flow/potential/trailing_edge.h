@@ -55,6 +55,10 @@ struct KuttaCondition {
   // The nearest vertex on each side that the corners of a blunt base do not trouble: of a sharp edge its
   // neighbours.
   std::array<std::size_t, 2> beside = {};
+  // With these weights the clockwise speeds integrated against the hat functions of those two sum up to the
+  // first term alone: the same condition, from a little farther away. On a mesh that is fine enough there
+  // both give the same circulation.
+  std::array<double, 2> weights_beside = {};
 };
 KuttaCondition kutta_condition(std::span<const Point> body, std::size_t base);
 

@@ -5,11 +5,11 @@ namespace remodel::flow {
 namespace {
 
 // Its variables are both ends' values of one unknown, the product with the side's gradient and limited_part().
-using Local = Dual<4>;
+using Four = Dual<4>;
 
 // One side's reconstructed values, and how much further linear extrapolation goes.
 struct Side {
-  Unknowns<Local> value, further;
+  Unknowns<Four> value, further;
 };
 
 Side reconstructed(const FaceInputs<double, double>& in, std::size_t side, double epsilon, double limited,
@@ -17,15 +17,15 @@ Side reconstructed(const FaceInputs<double, double>& in, std::size_t side, doubl
   const double direction = side == 0 ? slopes : -slopes;
   Side result;
   for (std::size_t k = 0; k < unknown_count; ++k) {
-    const Local q[2] = {Local::variable(in.q[0][k], 0), Local::variable(in.q[1][k], 1)};
-    const Local central = q[1] - q[0];
+    const Four q[2] = {Four::variable(in.q[0][k], 0), Four::variable(in.q[1][k], 1)};
+    const Four central = q[1] - q[0];
     const auto [step, further] =
-        reconstruction_step<Local, Local>(in.end[side], 2.0 * Local::variable(in.along[side][k], 2) - central,
-                                          central, epsilon, Local::variable(limited, 3));
+        reconstruction_step<Four, Four>(in.end[side], 2.0 * Four::variable(in.along[side][k], 2) - central,
+                                          central, epsilon, Four::variable(limited, 3));
     result.value[k] = q[side] + direction * step, result.further[k] = direction * further;
   }
   for (const std::size_t k : positive_unknowns)
-    result.value[k] = positivity_limited(result.value[k], Local::variable(in.q[side][k], side));
+    result.value[k] = positivity_limited(result.value[k], Four::variable(in.q[side][k], side));
   return result;
 }
 
@@ -76,7 +76,7 @@ FaceDerivative ConvectiveFlux::derivative(const FaceInputs<double, double>& in) 
   Fluxes<double> by_limited = {};
   for (std::size_t side = 0; side < 2; ++side)
     for (std::size_t z = 0; z < n * n; ++z) {
-      const Local &value_of_side = sides[side].value[z % n], &further = sides[side].further[z % n];
+      const Four &value_of_side = sides[side].value[z % n], &further = sides[side].further[z % n];
       std::array<double, 4> by;
       for (std::size_t i = 0; i < 4; ++i)
         by[i] = by_value[side][z] * value_of_side.slope[i] + by_further[side][z] * further.slope[i];

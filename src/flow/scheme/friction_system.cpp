@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flow/scheme/friction_jacobian.h"
+
 namespace remodel::flow {
 
 template <std::size_t N>

@@ -74,6 +74,7 @@ std::optional<State> start_from_coarser(const Domain& domain, const QualityOptio
   NewtonSearch search(rough, matrix, factors, record);
   search_by_meshes(*coarse, half, Measure(system), conditions, search, state, spent);
   add_cost(record, spent);
+  spent.newton_steps += record.in_vain;
   if (record.status != FlowStatus::converged) return std::nullopt;
   state.q = interpolated(*dual, state.q, fine.points());
   state.augmented[0] *= dual->extent().length / fine.extent().length;
@@ -86,20 +87,24 @@ void search_by_meshes(const Domain& domain, const QualityOptions& quality, const
                       const FlowConditions& conditions, NewtonSearch& search, State& state,
                       SearchRecord& spent) {
   const FlowSystem& system = measure.system();
+  const bool shocks = conditions.mach >= SearchPolicy::mach_of_shocks;
+  if (!shocks && search.from_potential_flow(measure, state)) return;
   if (auto coarse = start_from_coarser(domain, quality, system.mesh(), conditions, search.options(), spent)) {
     state = std::move(*coarse);
     SearchRecord& record = search.record();
     record.newton_steps = 0;
+    record.origin = FlowOrigin::coarser_mesh;
     search.run(measure, pace_from_coarser(system.stream()), state);
     search.beside(measure, state);
     if (record.status != FlowStatus::stalled && record.status != FlowStatus::step_limit) return;
-    spent.newton_steps += record.newton_steps;  // in vain; from_undisturbed_flow() counts anew
+    record.in_vain += record.newton_steps;  // searches count anew
   }
+  if (shocks && search.from_potential_flow(measure, state)) return;
   search.from_undisturbed_flow(measure, state);
 }
 
 void add_coarse(const SearchRecord& spent, FlowResult& result) {
-  result.coarse_steps = spent.newton_steps;
+  result.coarse_steps += spent.newton_steps;
   add_cost(spent, result);
 }
 

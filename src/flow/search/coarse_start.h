@@ -9,7 +9,7 @@
 
 namespace remodel::flow {
 
-// NewtonSearch::from_undisturbed_flow(), but from the flow through a coarser mesh where the mesh is fine, its
+// NewtonSearch::cold(), but from the flow through a coarser mesh where the mesh is fine, its
 // domain has one and that leads on. `spent` gets what coarser meshes took.
 void search_by_meshes(const Domain& domain, const QualityOptions& quality, const Measure& measure,
                       const FlowConditions& conditions, NewtonSearch& search, State& state,

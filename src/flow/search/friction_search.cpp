@@ -11,7 +11,7 @@ namespace remodel::flow {
 namespace {
 
 template <std::size_t N>
-FrictionState<N> state_along(const FrictionState<N>& state, const BlockIncrement<N>& step, double length) {
+FrictionState<N> along(const FrictionState<N>& state, const BlockIncrement<N>& step, double length) {
   FrictionState<N> result = state;
   for (std::size_t v = 0; v < result.q.size(); ++v)
     for (std::size_t k = 0; k < N; ++k) result.q[v][k] += length * step.q[v][k];
@@ -21,7 +21,7 @@ FrictionState<N> state_along(const FrictionState<N>& state, const BlockIncrement
 
 // The part of a step that changes no density and no pressure by too much.
 template <std::size_t N>
-double longest_part(const FrictionState<N>& state, const BlockIncrement<N>& step) {
+double longest(const FrictionState<N>& state, const BlockIncrement<N>& step) {
   double largest = 0.0;
   for (std::size_t v = 0; v < state.q.size(); ++v)
     for (const std::size_t k : positive_unknowns) {
@@ -156,10 +156,10 @@ bool FrictionSearch<N>::solve(const FrictionState<N>& state, const std::vector<d
 template <std::size_t N>
 double FrictionSearch<N>::line_search(const BlockIncrement<N>& step, const std::vector<double>& by_time,
                                       FrictionState<N>& state, At& now) const {
-  double length = longest_part(state, step);
+  double length = longest(state, step);
   for (int i = 0; i <= FrictionPolicy::halvings && length > FrictionPolicy::retried_part;
        ++i, length *= 0.5) {
-    FrictionState<N> next = state_along(state, step, length);
+    FrictionState<N> next = along(state, step, length);
     At there = at(next);
     if (!(unsteady_size(state, next, by_time, there) < now.size)) continue;
     state = std::move(next), now = std::move(there);

@@ -8,6 +8,7 @@
 
 #include "flow/scheme/forces.h"
 #include "flow/search/linear_step.h"
+#include "flow/search/potential_start.h"
 
 namespace remodel::flow {
 
@@ -273,9 +274,22 @@ void NewtonSearch::at_given_angle(const Measure& measure, double rough, State& s
         state);
 }
 
+bool NewtonSearch::from_potential_flow(const Measure& measure, State& state) {
+  std::optional<State> start = potential_start(measure.system());
+  if (!start) return false;
+  state = std::move(*start);
+  record_.origin = FlowOrigin::potential;
+  record_.newton_steps = 0;
+  run(measure, {.cfl = Policy::potential_cfl, .patience = Policy::potential_patience}, state);
+  if (record_.status != FlowStatus::stalled && record_.status != FlowStatus::step_limit) return true;
+  record_.in_vain += record_.newton_steps;
+  return false;
+}
+
 void NewtonSearch::from_undisturbed_flow(const Measure& measure, State& state) {
   const FlowSystem& system = measure.system();
   record_.newton_steps = 0;
+  record_.origin = FlowOrigin::undisturbed;
   if (!system.stream().lift) return at_given_angle(measure, 0.0, state);
   // Undisturbed flow is too far from a flow of this lift for the angle to follow.
   Stream at_angle = system.stream();

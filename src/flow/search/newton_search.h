@@ -9,14 +9,42 @@
 // Grippo, F. Lampariello and S. Lucidi, SIAM J. Numer. Anal. 23 (1986)). Whole steps let the CFL number grow
 // until there is no pseudo-time any more: then convergence is quadratic, or as fast as GMRES solves.
 //
-// run() is that. What it does not find from undisturbed flow, from_undisturbed_flow() finds by fallbacks:
-// beside(), by short time steps where little is left; in stages, which follow the flow from the scheme of
-// first order to the whole one (homotopy in dissipation: D. A. Brown and D. W. Zingg, J. Comput. Appl. Math.,
-// 2018, doi 10.1016/j.cam.2018.06.036, and references there); and by steps at constant CFL away from states
-// that are nearly steady but none.
+// One step of run():
 //
-// Linear systems take incomplete factors and GMRES, or whole factors where those fail or options say so. All
-// numbers are in policy.h.
+//   1. The Jacobian at the state, and V / dt on its diagonal, for the derivatives of what is conserved: the
+//      unknowns are densities, velocities and pressures.
+//   2. Incomplete factors and GMRES, or whole factors where those fail or options say so. GMRES may leave a
+//      part of the linear residual, the less the nearer the flow is (forcing()). Incomplete factors serve the
+//      next steps too, until they cost GMRES eight steps more than their own matrix did.
+//   3. The length: no density or pressure may change by more than two fifths. It is halved, four times at
+//      most, while the residual is above 2.5 times the last one or 6 times the least.
+//   4. A whole step multiplies the CFL number by 2 |R_old| / |R_new|, or by 2 where the residual rises. One
+//      of less than a quarter halves it. Where no length will do the step is made again at a tenth of it.
+//
+//   residual                                   It ends when the residual is below the tolerance; at the limit
+//     ^  \    /\                               on steps; when the residual has not halved in `patience`
+//     |   \__/  \__                            steps (stalled); when the CFL number is below a hundredth
+//     |             \    quadratic             (stalled); or without factors.
+//     |              \__
+//     +-----------------\-> steps              The hump is a shock on its way: the residual has to rise.
+//
+// cold() begins with potential flow, where there is one, and else with undisturbed flow.
+// from_undisturbed_flow() finds by fallbacks what run() does not find from there, in this order:
+//
+//   a. run() from CFL 5.
+//   b. beside(): where it stalls with little residual left, short time steps from there. All but a stagnation
+//      point may be steady by then, and long steps lose what it has gained.
+//   c. in_stages(): from undisturbed flow again, by schemes from that of first order to the whole one; each
+//      flow starts the next (homotopy in dissipation: D. A. Brown and D. W. Zingg, J. Comput. Appl. Math.,
+//      2018, doi 10.1016/j.cam.2018.06.036, and references there). The CFL number is held to the residual's
+//      fall (switched evolution relaxation).
+//   d. Steps at constant CFL, away from a state that is nearly steady but no flow: a fold of the equations,
+//      at which Newton's method would stay forever. Pseudo-time, along which it is unstable, leads away.
+//
+// A given lift has the angle of attack for an unknown more (linear/augmented.h). Undisturbed flow is too far
+// from it: (a) to (d) find the flow at a guess of the angle, run() goes on from that.
+//
+// All numbers are in policy.h, with where they come from.
 
 #include <limits>
 #include <string>
@@ -53,6 +81,8 @@ struct SearchRecord {
   double residual = 0.0;
   std::vector<double> history;
   int newton_steps = 0, factorisations = 0, iterations = 0, gmres_iterations = 0;
+  int in_vain = 0;  // Newton steps from potential flow that led nowhere; newton_steps is without them
+  FlowOrigin origin = FlowOrigin::last_flow;
   double memory_mb = 0.0;
   bool whole_factors = true;
 
@@ -91,6 +121,12 @@ class NewtonSearch {
   void beside(const Measure& measure, State& state);
   // Starts from a flow that is near: without pseudo-time where it is very near and that does not stall.
   void near(const Measure& measure, State& state);
+  // Starts from potential flow; false where that leads to no flow and something else is to be tried.
+  bool from_potential_flow(const Measure& measure, State& state);
+  // From potential flow or else from undisturbed flow.
+  void cold(const Measure& measure, State& state) {
+    if (!from_potential_flow(measure, state)) from_undisturbed_flow(measure, state);
+  }
   // Starts from undisturbed flow, with all fallbacks. It looks for a given lift from the flow at a guess of
   // the angle, and by shorter steps where that stalls.
   void from_undisturbed_flow(const Measure& measure, State& state);

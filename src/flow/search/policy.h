@@ -37,6 +37,11 @@ struct SearchPolicy {
   // steady there. Notebook: CFL 20 takes 17 steps, 1 takes 20, 5 and 100 do not find the flow in 30.
   static constexpr double nearly_found = 1e-3, short_cfl = 20.0;
 
+  // From potential flow. CFL 5, 20, 100 and 1000 take 7, 6, 5 and 5 steps around NACA 0012 at Mach .5, where
+  // undisturbed flow takes 10; at 20 three elements have another flow, of more drag (docs/notebook/flow_walls.md).
+  static constexpr double potential_cfl = 100.0;
+  static constexpr int potential_patience = 15;
+
   // From a flow that is near, below this residual, Newton's method needs no pseudo-time; what is near enough
   // is found at once. Otherwise from CFL 50: 200 takes a third less time at Mach 0.8 and leads to another
   // flow around three elements (notebook).
@@ -94,10 +99,12 @@ struct SearchPolicy {
   // by: from 50 naca:4412 took 109 steps. With a given lift the residual has to rise while the angle goes: no
   // bound then (notebook).
   static constexpr double interpolated_cfl = 20.0, interpolated_cfl_with_lift = 50.0;
-  // Meshes of at least this many vertices begin on a coarser one. Shocks are what that is for: without them
-  // it gains little, and around several elements it may lead to another flow, of less lift (notebook).
+  // From this Mach number on there may be shocks: meshes begin on coarser ones rather than with potential flow.
+  // Below it coarser meshes gain little, and around several elements they may lead to another flow, of less lift
+  // (notebook).
+  static constexpr double mach_of_shocks = 0.6;
+  // Meshes of at least this many vertices begin on a coarser one.
   static std::size_t least_vertices(double mach) {
-    constexpr double mach_of_shocks = 0.6;
     constexpr std::size_t with_shocks = 1500, without = 4000;
     return mach < mach_of_shocks ? without : with_shocks;
   }

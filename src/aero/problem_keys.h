@@ -12,14 +12,14 @@
 #include <type_traits>
 #include <vector>
 
+#include "aero/problem_json.h"
 #include "remodel/airfoil.h"
 #include "remodel/design_space.h"
 #include "remodel/error.h"
 #include "remodel/io.h"
 #include "remodel/shape_files.h"
-#include "report.h"
 
-namespace remodel::app {
+namespace remodel {
 
 // What a value of a type is called in messages.
 template <class T>
@@ -105,26 +105,28 @@ class Keys {
 
 // The airfoil that a design problem in this directory calls by this name: a path leads on from the directory,
 // whatever the program's own is.
-inline CstAirfoil airfoil_beside(const std::filesystem::path& directory, const std::string& name,
-                                 int degree) {
-  if (name.starts_with("naca:") || name == standard_input) return load_airfoil(name, degree);
+inline CstFit airfoil_beside(const std::filesystem::path& directory, const std::string& name, int degree) {
+  if (name.starts_with("naca:") || name == standard_input) return load_fit(name, degree);
   const std::filesystem::path file = directory / name;
   std::error_code ignored;
   if (name.find_first_of("/.") == std::string::npos && !std::filesystem::is_regular_file(file, ignored))
-    return named_airfoil(name, degree);
+    return {.airfoil = named_airfoil(name, degree)};
   // With its directory, so that a name without a dot is one of a file too.
-  return load_airfoil(file.has_parent_path() ? file.string() : "./" + file.string(), degree);
+  return load_fit(file.has_parent_path() ? file.string() : "./" + file.string(), degree);
 }
 
-// The section that a key names. Fits are of degree 8 at most; what is beyond is raised, exactly.
+// The section that a key names; `warnings` gets what its file lost. Fits are of degree 8 at most; what is beyond is
+// raised, exactly.
 inline CstAirfoil section_named(const Keys& keys, const char* key, int degree,
-                                const std::filesystem::path& directory) {
+                                const std::filesystem::path& directory, std::vector<std::string>& warnings) {
   const std::string name = keys.get<std::string>(key);
   try {
-    return raise_degree(airfoil_beside(directory, name, std::min(degree, 8)), degree);
+    const CstFit fit = airfoil_beside(directory, name, std::min(degree, 8));
+    warnings.insert(warnings.end(), fit.warnings.begin(), fit.warnings.end());
+    return raise_degree(fit.airfoil, degree);
   } catch (const Error& error) {
     keys.fail("as '" + std::string(key) + "', " + error.what());
   }
 }
 
-}  // namespace remodel::app
+}  // namespace remodel

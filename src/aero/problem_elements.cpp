@@ -1,6 +1,6 @@
-#include "design_elements.h"
+#include "aero/problem_elements.h"
 
-namespace remodel::app {
+namespace remodel {
 
 namespace {
 
@@ -32,10 +32,10 @@ void read_variables(const Json& json, const std::string& where, DesignElement& e
 }
 
 DesignElement element_of(const Json& entry, const std::string& where, int degree,
-                         const std::filesystem::path& directory) {
+                         const std::filesystem::path& directory, std::vector<std::string>& warnings) {
   const Keys keys(entry, where, {"name", "airfoil", "placement", "variables"});
   DesignElement element{.name = keys.get<std::string>("name"),
-                        .airfoil = section_named(keys, "airfoil", degree, directory)};
+                        .airfoil = section_named(keys, "airfoil", degree, directory, warnings)};
   if (keys.has("placement")) element.placement = placement_of(entry.at("placement"), where + ", placement");
   if (keys.has("variables")) read_variables(entry.at("variables"), where + ", variables", element);
   return element;
@@ -43,13 +43,14 @@ DesignElement element_of(const Json& entry, const std::string& where, int degree
 
 }  // namespace
 
-std::vector<DesignElement> read_elements(const Keys& problem, const std::string& file, int degree) {
+std::vector<DesignElement> read_elements(const Keys& problem, const std::string& file, int degree,
+                                         std::vector<std::string>& warnings) {
   std::vector<DesignElement> elements;
   for (const Json& entry : problem.list("elements", 20))
     elements.push_back(element_of(entry, file + ", element " + std::to_string(elements.size() + 1), degree,
-                                  std::filesystem::path(file).parent_path()));
+                                  std::filesystem::path(file).parent_path(), warnings));
   if (elements.empty()) problem.fail("found no element, expected one or more");
   return elements;
 }
 
-}  // namespace remodel::app
+}  // namespace remodel

@@ -4,12 +4,14 @@
 
 #include <string>
 
-#include "report.h"
+#include <nlohmann/json.hpp>
 
-namespace remodel::app {
+namespace remodel {
+
+using Json = nlohmann::ordered_json;
 
 // Throws Error (format) naming the file, the line and the column where the text is no JSON, has a key twice
 // in one object, a number that is too large, or more than 64 brackets inside each other.
 Json read_design_json(const std::string& file);
 
-}  // namespace remodel::app
+}  // namespace remodel

@@ -1,4 +1,4 @@
-#include "design_json.h"
+#include "aero/problem_json.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -10,7 +10,7 @@
 #include "remodel/error.h"
 #include "remodel/io.h"
 
-namespace remodel::app {
+namespace remodel {
 
 namespace {
 
@@ -73,4 +73,4 @@ Json read_design_json(const std::string& file) {
   }
 }
 
-}  // namespace remodel::app
+}  // namespace remodel

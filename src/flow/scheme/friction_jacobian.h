@@ -1,4 +1,7 @@
-// Derivatives of flows with friction by their unknowns.
+#pragma once
+
+// Derivatives of flows with friction by their unknowns: members of FrictionSystem, which friction_system.cpp
+// instantiates.
 
 #include <algorithm>
 #include <cmath>
@@ -221,12 +224,5 @@ std::array<BlockVector<N>, augmented_count> FrictionSystem<N>::augmented_columns
   }
   return columns;
 }
-
-template void FrictionSystem<4>::jacobian(const FrictionState<4>&, Jacobian&) const;
-template void FrictionSystem<5>::jacobian(const FrictionState<5>&, Jacobian&) const;
-template std::array<BlockVector<4>, augmented_count> FrictionSystem<4>::augmented_columns(
-    const FrictionState<4>&) const;
-template std::array<BlockVector<5>, augmented_count> FrictionSystem<5>::augmented_columns(
-    const FrictionState<5>&) const;
 
 }  // namespace remodel::flow

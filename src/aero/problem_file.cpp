@@ -1,12 +1,12 @@
-#include "design_problem.h"
+#include "remodel/design_problem.h"
 
 #include <algorithm>
 
-#include "design_elements.h"
-#include "design_json.h"
-#include "design_keys.h"
+#include "aero/problem_elements.h"
+#include "aero/problem_json.h"
+#include "aero/problem_keys.h"
 
-namespace remodel::app {
+namespace remodel {
 
 namespace {
 
@@ -43,8 +43,8 @@ int degree_of(const DesignConstraint& constraint, const DesignProblem& problem, 
   return problem.elements.empty() ? problem.airfoil.degree() : degree;
 }
 
-DesignConstraint constraint_of(const Json& entry, const std::string& where, const DesignProblem& problem,
-                               int degree, const std::filesystem::path& directory) {
+DesignConstraint constraint_of(const Json& entry, const std::string& where, DesignProblem& problem, int degree,
+                               const std::filesystem::path& directory) {
   const Keys keys(entry, where,
                   {"kind", "point", "at_least", "at_most", "of_start", "x", "airfoil", "element", "between"});
   DesignConstraint result{.kind = keys.get<std::string>("kind"),
@@ -56,7 +56,8 @@ DesignConstraint constraint_of(const Json& entry, const std::string& where, cons
                           .between = keys.find<std::vector<std::string>>("between")};
   if (keys.has("point")) result.point = keys.whole<std::size_t>("point", {}, 0, problem.points.size() - 1);
   if (keys.has("airfoil"))
-    result.airfoil = section_named(keys, "airfoil", degree_of(result, problem, degree), directory);
+    result.airfoil =
+        section_named(keys, "airfoil", degree_of(result, problem, degree), directory, problem.warnings);
   return result;
 }
 
@@ -110,16 +111,16 @@ DesignProblem read_design_problem(const std::string& file) {
   const int degree = keys.whole<int>("degree", 5, 1, 30);
   if (keys.has("airfoil") == keys.has("elements")) keys.fail("expected one of 'airfoil' and 'elements'");
   if (keys.has("airfoil")) {
-    problem.airfoil = section_named(keys, "airfoil", degree, directory);
+    problem.airfoil = section_named(keys, "airfoil", degree, directory, problem.warnings);
     problem.symmetric = keys.get<bool>("symmetric", false);
   }
   read_mesh_options(json, file, problem);
   if (keys.has("elements")) {
     if (keys.has("symmetric")) keys.fail("found 'symmetric' with 'elements', expected 'airfoil'");
-    problem.elements = read_elements(keys, file, degree);
+    problem.elements = read_elements(keys, file, degree, problem.warnings);
   }
   problem.objective = keys.get<std::string>("objective");
-  if (keys.has("target")) problem.target = section_named(keys, "target", degree, directory);
+  if (keys.has("target")) problem.target = section_named(keys, "target", degree, directory, problem.warnings);
   read_lists(keys, file, degree, problem);
   if (problem.constraints.empty() && keys.has("constraint_tolerance"))
     keys.fail("found 'constraint_tolerance' without 'constraints', expected both or none");
@@ -133,4 +134,4 @@ DesignProblem read_design_problem(const std::string& file) {
   return problem;
 }
 
-}  // namespace remodel::app
+}  // namespace remodel
