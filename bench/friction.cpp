@@ -1,5 +1,5 @@
-// Flows with friction beside their references, on grids of its own: friction CASE [SIZE], where SIZE is 1, 2 or 3. It
-// prints a row of docs/viscous.md.
+// Flows with friction beside their references, on grids of its own: friction CASE [SIZE], where SIZE is 1, 2
+// or 3. It prints a row of docs/viscous.md.
 
 #include <algorithm>
 #include <cmath>
@@ -20,21 +20,31 @@ FlowResult found(const FrozenMesh& mesh, const FlowConditions& conditions, FlowO
     std::fprintf(stderr, "%3d %.3e CL %.5f\n", at.newton_step, at.residual, at.cl);
   };
   FlowResult flow = solve_flow(mesh, conditions, options);
-  std::printf("%zu vertices: %s, CL %.6f, CD %.7f (pressure %.7f, friction %.7f), y+ %.2f, %d steps, %d of GMRES, %.0f MB, "
-              "%.1f s\n",
-              mesh.points.size(), name_of(flow.status), flow.cl, flow.cd, flow.friction->cd_pressure,
-              flow.friction->cd_friction, flow.friction->y_plus_max, flow.newton_steps, flow.gmres_iterations,
-              flow.memory_mb, flow.seconds);
+  std::printf(
+      "%zu vertices: %s, CL %.6f, CD %.7f (pressure %.7f, friction %.7f), y+ %.2f, %d steps, %d of GMRES, "
+      "%.0f MB, "
+      "%.1f s\n",
+      mesh.points.size(), name_of(flow.status), flow.cl, flow.cd, flow.friction->cd_pressure,
+      flow.friction->cd_friction, flow.friction->y_plus_max, flow.newton_steps, flow.gmres_iterations,
+      flow.memory_mb, flow.seconds);
   return flow;
 }
 
 void plate(FlowModel model, int size) {
   FlowOptions options;
-  options.model = model, options.symmetry = {"symmetry"}, options.outlets = {{.name = "outlet", .pressure = 1.0}};
+  options.model = model, options.symmetry = {"symmetry"},
+  options.outlets = {{.name = "outlet", .pressure = 1.0}};
   const auto n = static_cast<std::uint32_t>(size);
   test::PlateSize grid;
   if (model == FlowModel::laminar)
-    grid = {.start = -4, .length = 4, .height = 10, .first = 6e-4 / n, .at_edge = 2e-3 / n, .before = 24 * n, .along = 64 * n, .up = 40 * n};
+    grid = {.start = -4,
+            .length = 4,
+            .height = 10,
+            .first = 6e-4 / n,
+            .at_edge = 2e-3 / n,
+            .before = 24 * n,
+            .along = 64 * n,
+            .up = 40 * n};
   else
     grid = {.first = 2e-6 / n, .at_edge = 2e-3 / n, .before = 12 * n, .along = 32 * n, .up = 32 * n};
   const double reynolds = model == FlowModel::laminar ? 1e5 : 5e6;
@@ -53,7 +63,8 @@ void section(FlowModel model, double mach, double reynolds, double alpha_deg, in
   FlowOptions options;
   options.model = model;
   const auto n = static_cast<std::uint32_t>(size);
-  test::CGridSize grid = {.half = 40 * n, .wake = 20 * n, .up = 32 * n, .at_nose = 4e-3 / n, .at_edge = 4e-3 / n};
+  test::CGridSize grid = {
+      .half = 40 * n, .wake = 20 * n, .up = 32 * n, .at_nose = 4e-3 / n, .at_edge = 4e-3 / n};
   grid.first = (model == FlowModel::laminar ? 2e-3 : 2e-5) / n;
   found(test::c_grid(grid).frozen(), {.mach = mach, .alpha_deg = alpha_deg, .reynolds = reynolds}, options);
 }

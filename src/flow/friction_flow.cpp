@@ -29,7 +29,8 @@ std::vector<WallVertex> wall_vertices_of(const FlowMesh& dual, Point stream) {
     }
   }
   for (WallVertex& wall : walls)
-    if (const double size = std::sqrt(dot(wall.along, wall.along)); size > 0.0) wall.along = (1.0 / size) * wall.along;
+    if (const double size = std::sqrt(dot(wall.along, wall.along)); size > 0.0)
+      wall.along = (1.0 / size) * wall.along;
   return walls;
 }
 
@@ -57,15 +58,16 @@ FlowFriction friction_of(const FrictionSystem<N>& system, const FrictionState<N>
       if (!system.mesh().sticks(entry.vertex))
         height = std::min(height, system.mesh().distances()[entry.vertex]);
     friction.cf[v] = stress / (0.5 * mach * mach);
-    if (std::isfinite(height)) friction.y_plus[v] = std::sqrt(std::fabs(stress) * density(q)) * height / molecular;
+    if (std::isfinite(height))
+      friction.y_plus[v] = std::sqrt(std::fabs(stress) * density(q)) * height / molecular;
     friction.y_plus_max = std::max(friction.y_plus_max, friction.y_plus[v]);
   }
   return friction;
 }
 
 // What has to be known about the cells at the wall.
-std::vector<std::string> friction_warnings(const FrictionMesh& mesh, const FlowFriction& friction, FlowModel model,
-                                           double largest_mach) {
+std::vector<std::string> friction_warnings(const FrictionMesh& mesh, const FlowFriction& friction,
+                                           FlowModel model, double largest_mach) {
   constexpr double wanted = 1.0, tolerated = 2.0;
   std::vector<std::string> warnings;
   if (model == FlowModel::sa && friction.y_plus_max > tolerated) {
@@ -73,23 +75,26 @@ std::vector<std::string> friction_warnings(const FrictionMesh& mesh, const FlowF
     for (const double d : mesh.distances())
       if (d > 0.0) height = std::min(height, d);
     char text[160];
-    std::snprintf(text, sizeof text,
-                  "y+ of the cells at the wall is up to %.3g, expected about %.0f: cells that are %.2g high would do",
-                  friction.y_plus_max, wanted, height * wanted / friction.y_plus_max);
+    std::snprintf(
+        text, sizeof text,
+        "y+ of the cells at the wall is up to %.3g, expected about %.0f: cells that are %.2g high would do",
+        friction.y_plus_max, wanted, height * wanted / friction.y_plus_max);
     warnings.push_back(text);
   }
   if (largest_mach > 1.0)
     warnings.push_back(
-        "the flow is faster than sound in places: with friction this scheme has no limiter, and shocks are off");
+        "the flow is faster than sound in places: with friction this scheme has no limiter, and shocks are "
+        "off");
   const auto is_quad = [](const Cell& cell) { return cell.corners() == 4; };
   if (std::none_of(mesh.dual().cells().begin(), mesh.dual().cells().end(), is_quad))
-    warnings.push_back("the mesh has no layer of quadrilaterals on its walls, which friction is not accurate without");
+    warnings.push_back(
+        "the mesh has no layer of quadrilaterals on its walls, which friction is not accurate without");
   return warnings;
 }
 
 template <std::size_t N>
-FlowResult result_of(const FrictionSystem<N>& system, const FrictionState<N>& state, const FrictionRecord& record,
-                     FlowModel model, double reynolds) {
+FlowResult result_of(const FrictionSystem<N>& system, const FrictionState<N>& state,
+                     const FrictionRecord& record, FlowModel model, double reynolds) {
   FlowResult result;
   result.status = record.status, result.reason = record.reason;
   result.model = model;
@@ -104,7 +109,8 @@ FlowResult result_of(const FrictionSystem<N>& system, const FrictionState<N>& st
   for (std::uint32_t i = 0; i < patches.size(); ++i) {
     if (!patches[i].solid()) continue;
     const WallForces part = system.forces(state, unbalanced, i);
-    result.bodies.push_back({patches[i].name, scale * part.lift, scale * part.drag, scale * scale * part.moment});
+    result.bodies.push_back(
+        {patches[i].name, scale * part.lift, scale * part.drag, scale * scale * part.moment});
   }
   result.friction = friction_of(system, state, unbalanced, reynolds);
   result.friction->cd_pressure = scale * sum.pressure_drag;
@@ -120,7 +126,8 @@ FlowResult result_of(const FrictionSystem<N>& system, const FrictionState<N>& st
   }
   if (record.status == FlowStatus::converged) {
     const std::vector<double> mach = mach_numbers(result);
-    result.warnings = friction_warnings(system.mesh(), *result.friction, model, *std::max_element(mach.begin(), mach.end()));
+    result.warnings = friction_warnings(system.mesh(), *result.friction, model,
+                                        *std::max_element(mach.begin(), mach.end()));
   }
   return result;
 }
@@ -133,7 +140,8 @@ FlowResult found(const FrictionMesh& mesh, const Stream& stream, const Viscosity
   FrictionSearch<N> search(system, options, record);
   if (options.on_step)
     search.on_step = [&](const FrictionProgress& at) {
-      options.on_step({.newton_step = at.step, .residual = at.residual, .cl = reported_length(stream) * at.lift});
+      options.on_step(
+          {.newton_step = at.step, .residual = at.residual, .cl = reported_length(stream) * at.lift});
     };
   FrictionState<N> state = system.start(FrictionPolicy::start_thickness * conditions.reference_length);
   search.run(state);

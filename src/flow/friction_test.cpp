@@ -15,10 +15,17 @@
 namespace remodel::flow {
 namespace {
 
-// A grid with a wall at the bottom: some quadrilaterals are cut in triangles, and all inner vertices are moved.
+// A grid with a wall at the bottom: some quadrilaterals are cut in triangles, and all inner vertices are
+// moved.
 FlowMesh uneven_grid(std::mt19937_64& random) {
-  test::QuadGrid grid = test::plate_grid(
-      {.start = -0.5, .length = 1.0, .height = 1.0, .first = 0.1, .at_edge = 0.1, .before = 3, .along = 5, .up = 5});
+  test::QuadGrid grid = test::plate_grid({.start = -0.5,
+                                          .length = 1.0,
+                                          .height = 1.0,
+                                          .first = 0.1,
+                                          .at_edge = 0.1,
+                                          .before = 3,
+                                          .along = 5,
+                                          .up = 5});
   for (Point& p : grid.points)
     if (p.y > 0.0 && p.y < 1.0 && p.x > -0.5 && p.x < 1.0)
       p = p + Point{test::uniform(random, -0.02, 0.02), test::uniform(random, -0.02, 0.02)};
@@ -33,7 +40,8 @@ FlowMesh uneven_grid(std::mt19937_64& random) {
     cells.push_back({{c[0], c[2], c[3], no_index}});
   }
   grid.cells = std::move(cells);
-  return grid.dual({{"farfield", FarField{}}, {"symmetry", Symmetry{}}, {"outlet", Outlet{1.0}}, {"wall", NoSlipWall{}}});
+  return grid.dual(
+      {{"farfield", FarField{}}, {"symmetry", Symmetry{}}, {"outlet", Outlet{1.0}}, {"wall", NoSlipWall{}}});
 }
 
 // Jacobian times a step, augmented rows and columns, against differences of residuals.
@@ -114,8 +122,8 @@ TEST(Friction, ConstantStressLeavesInnerCellsInBalance) {
     }
 }
 
-// Values of the model by hand: where the working variable is in the logarithmic layer, kappa u d, production and
-// destruction balance what diffusion brings: fw(1) is 1.
+// Values of the model by hand: where the working variable is in the logarithmic layer, kappa u d, production
+// and destruction balance what diffusion brings: fw(1) is 1.
 TEST(Friction, TheModelsSourceVanishesWithDiffusionInTheLogarithmicLayer) {
   using Model = SpalartAllmaras;
   const double d = 0.3, u = 1.0, w = Model::karman * u * d, vorticity = u / (Model::karman * d);
@@ -125,7 +133,8 @@ TEST(Friction, TheModelsSourceVanishesWithDiffusionInTheLogarithmicLayer) {
   EXPECT_NEAR(made + diffused, 0.0, 1e-6 * diffused);
   // Below zero it is driven back to zero, and its diffusion stays positive.
   EXPECT_GT(Model::source<double>(-w, 1e-9, vorticity, d), 0.0);
-  for (const double chi : {-100.0, -10.0, -1.0, -0.1, 0.0, 5.0}) EXPECT_GT(Model::diffusion_ratio(chi), 0.0) << chi;
+  for (const double chi : {-100.0, -10.0, -1.0, -0.1, 0.0, 5.0})
+    EXPECT_GT(Model::diffusion_ratio(chi), 0.0) << chi;
 }
 
 FlowOptions plate_options(FlowModel model) {
@@ -164,7 +173,8 @@ TEST(Friction, ThePlatesLaminarFrictionIsThatOfBlasius) {
   EXPECT_LT(std::fabs(flow.friction->cd_pressure), 1e-12);
 }
 
-// A coarse grid around NACA 0012: what friction and pressure do is near what fine grids give (docs/viscous.md).
+// A coarse grid around NACA 0012: what friction and pressure do is near what fine grids give
+// (docs/viscous.md).
 TEST(Friction, LaminarFlowAroundASymmetricSectionHasNoLift) {
   const test::QuadGrid grid = test::c_grid(
       {.half = 40, .wake = 20, .up = 32, .first = 3e-3, .at_nose = 5e-3, .at_edge = 5e-3, .radius = 50.0});
@@ -179,11 +189,17 @@ TEST(Friction, LaminarFlowAroundASymmetricSectionHasNoLift) {
   EXPECT_NEAR(flow.friction->cd_pressure, 0.0226, 0.003);
 }
 
-// Turbulent friction on a plate, Re 5e6 a unit: within a few percent of NASA's Turbulence Modeling Resource on a grid
-// of 2,600 vertices.
+// Turbulent friction on a plate, Re 5e6 a unit: within a few percent of NASA's Turbulence Modeling Resource
+// on a grid of 2,600 vertices.
 TEST(Friction, ThePlatesTurbulentFrictionIsNearTheReference) {
-  const test::QuadGrid grid = test::plate_grid(
-      {.start = -0.33, .length = 2.0, .height = 1.0, .first = 2e-6, .at_edge = 2e-3, .before = 16, .along = 36, .up = 48});
+  const test::QuadGrid grid = test::plate_grid({.start = -0.33,
+                                                .length = 2.0,
+                                                .height = 1.0,
+                                                .first = 2e-6,
+                                                .at_edge = 2e-3,
+                                                .before = 16,
+                                                .along = 36,
+                                                .up = 48});
   const FrozenMesh mesh = grid.frozen();
   const FlowResult flow =
       solve_flow(mesh, {.mach = 0.2, .reynolds = 5e6}, plate_options(FlowModel::sa), "plate");
@@ -193,7 +209,8 @@ TEST(Friction, ThePlatesTurbulentFrictionIsNearTheReference) {
     if (mesh.points[v].y == 0.0 && std::fabs(mesh.points[v].x - 0.97) < nearest)
       nearest = std::fabs(mesh.points[v].x - 0.97), cf = flow.friction->cf[v];
   EXPECT_NEAR(cf, 0.0027, 0.0002);
-  EXPECT_GT(*std::max_element(flow.friction->viscosity_ratio.begin(), flow.friction->viscosity_ratio.end()), 50.0);
+  EXPECT_GT(*std::max_element(flow.friction->viscosity_ratio.begin(), flow.friction->viscosity_ratio.end()),
+            50.0);
 }
 
 TEST(Friction, ModelsWithFrictionAreRefusedWhereTheyAreNotKnown) {

@@ -1,8 +1,8 @@
 #pragma once
 
-// Grids of quadrilaterals for flows with friction: a plate, and C-grids around NACA 0012 in parabolic coordinates (A.
-// Jameson, "Iterative solution of transonic flows over airfoils and wings", Comm. Pure Appl. Math. 27 (1974)), whose
-// columns stand upright on the wall nearly everywhere.
+// Grids of quadrilaterals for flows with friction: a plate, and C-grids around NACA 0012 in parabolic
+// coordinates (A. Jameson, "Iterative solution of transonic flows over airfoils and wings", Comm. Pure Appl.
+// Math. 27 (1974)), whose columns stand upright on the wall nearly everywhere.
 
 #include <algorithm>
 #include <cmath>
@@ -59,8 +59,8 @@ inline std::vector<double> two_sided(double first, double last, std::uint32_t n)
   return places;
 }
 
-// A plate from 0 to `length`, `along` cells long and `up` high, the first one `first`; behind `before` cells of a line of
-// symmetry that begin at `start`, less than 0.
+// A plate from 0 to `length`, `along` cells long and `up` high, the first one `first`; behind `before` cells
+// of a line of symmetry that begin at `start`, less than 0.
 struct PlateSize {
   double start = -0.33, length = 2.0, height = 1.0, first = 1e-4, at_edge = 2e-3;
   std::uint32_t before = 16, along = 48, up = 48;
@@ -96,7 +96,8 @@ inline double naca0012(double x) {
   constexpr double chord = 1.008930411365;  // where the open formula's thickness is 0
   const double t = chord * x;
   return 0.6 / chord *
-         std::max(0.0, 0.2969 * std::sqrt(t) - 0.1260 * t - 0.3516 * t * t + 0.2843 * t * t * t - 0.1015 * t * t * t * t);
+         std::max(0.0, 0.2969 * std::sqrt(t) - 0.1260 * t - 0.3516 * t * t + 0.2843 * t * t * t -
+                           0.1015 * t * t * t * t);
 }
 
 struct CGridSize {
@@ -106,7 +107,7 @@ struct CGridSize {
   double radius = 100.0;
 };
 inline QuadGrid c_grid(const CGridSize& size) {
-  constexpr double focus = 0.00793;  // half the radius of the nose
+  constexpr double focus = 0.00793;                 // half the radius of the nose
   const auto unwrapped = [&](double x, double y) {  // 2 (z - focus), its root in the upper right
     const double re = 2.0 * (x - focus), im = 2.0 * y, r = std::hypot(re, im);
     return Point{std::sqrt(0.5 * (r + re)), std::sqrt(std::max(0.0, 0.5 * (r - re)))};
@@ -118,10 +119,13 @@ inline QuadGrid c_grid(const CGridSize& size) {
     arc.push_back(arc.back() + std::hypot(x - before, naca0012(x) - naca0012(before)));
     place.push_back(x);
   }
-  std::vector<Point> corner;  // in the plane of parabolic coordinates, from the nose along the upper surface and the wake
+  std::vector<Point>
+      corner;  // in the plane of parabolic coordinates, from the nose along the upper surface and the wake
   for (const double part : two_sided(size.at_nose / arc.back(), size.at_edge / arc.back(), size.half)) {
     const double s = part * arc.back();
-    const auto i = std::min<std::size_t>(arc.size() - 2, static_cast<std::size_t>(std::upper_bound(arc.begin(), arc.end(), s) - arc.begin()) - 1);
+    const auto i = std::min<std::size_t>(
+        arc.size() - 2,
+        static_cast<std::size_t>(std::upper_bound(arc.begin(), arc.end(), s) - arc.begin()) - 1);
     const double x = place[i] + (place[i + 1] - place[i]) * (s - arc[i]) / (arc[i + 1] - arc[i]);
     corner.push_back(unwrapped(x, naca0012(x)));
   }
@@ -133,7 +137,8 @@ inline QuadGrid c_grid(const CGridSize& size) {
   QuadGrid grid;
   const auto columns = static_cast<std::uint32_t>(corner.size());  // of the upper half, with that of the nose
   const std::uint32_t edge = size.half;                            // the column of the trailing edge
-  std::vector<std::vector<std::uint32_t>> column(2 * columns - 1);  // from the lower wake's end to the upper one's
+  std::vector<std::vector<std::uint32_t>> column(2 * columns -
+                                                 1);  // from the lower wake's end to the upper one's
   const auto mirrored = [&](std::uint32_t i) { return 2 * (columns - 1) - i; };
   for (std::uint32_t c = 2 * columns - 1; c-- > 0;) {
     const bool is_lower = c < columns - 1;
@@ -144,7 +149,8 @@ inline QuadGrid c_grid(const CGridSize& size) {
     if (i > edge) first *= std::max(1.0, 0.2 * (0.5 * xi * xi + focus - 1.0) / 0.02);
     const std::vector<double> up = growing(std::min(first, 0.02 * size.radius) / stretch, top - eta, size.up);
     for (std::uint32_t j = 0; j <= size.up; ++j) {
-      if (is_lower && j == 0 && i >= edge) {  // the wake's and the edge's vertices are those of the upper half
+      if (is_lower && j == 0 &&
+          i >= edge) {  // the wake's and the edge's vertices are those of the upper half
         column[c].push_back(column[mirrored(c)][0]);
         continue;
       }

@@ -90,17 +90,17 @@ BlockIncrement<N> close_augmented(std::vector<std::array<double, N>> x,
 }
 
 // For each number of unknowns.
-#define REMODEL_AUGMENTED(N)                                                                                  \
-  template double inner<N>(const std::vector<std::array<double, N>>&,                                         \
-                           const std::vector<std::array<double, N>>&);                                        \
-  template double inner<N>(const BlockIncrement<N>&, const BlockIncrement<N>&);                               \
-  template double norm<N>(const BlockIncrement<N>&);                                                          \
-  template void add_times<N>(BlockIncrement<N>&, double, const BlockIncrement<N>&);                           \
-  template struct BlockAugmentedRows<N>;                                                                      \
-  template class BlockAugmentedMatrix<N>;                                                                     \
-  template BlockIncrement<N> close_augmented<N>(                                                              \
-      std::vector<std::array<double, N>>, const std::array<std::vector<std::array<double, N>>, 2>&,           \
-      const BlockAugmentedRows<N>&, const Augmented&)
+#define REMODEL_AUGMENTED(N)                                                                              \
+  template double inner<N>(const std::vector<std::array<double, N>>&,                                     \
+                           const std::vector<std::array<double, N>>&);                                    \
+  template double inner<N>(const BlockIncrement<N>&, const BlockIncrement<N>&);                           \
+  template double norm<N>(const BlockIncrement<N>&);                                                      \
+  template void add_times<N>(BlockIncrement<N>&, double, const BlockIncrement<N>&);                       \
+  template struct BlockAugmentedRows<N>;                                                                  \
+  template class BlockAugmentedMatrix<N>;                                                                 \
+  template BlockIncrement<N> close_augmented<N>(std::vector<std::array<double, N>>,                       \
+                                                const std::array<std::vector<std::array<double, N>>, 2>&, \
+                                                const BlockAugmentedRows<N>&, const Augmented&)
 REMODEL_AUGMENTED(4);
 REMODEL_AUGMENTED(5);
 #undef REMODEL_AUGMENTED

@@ -1,8 +1,9 @@
 #pragma once
 
-// The turbulence model of P. R. Spalart and S. R. Allmaras (AIAA paper 92-0439, 1992) in its negative variant: S. R.
-// Allmaras, F. T. Johnson and P. R. Spalart, "Modifications and clarifications for the implementation of the
-// Spalart-Allmaras turbulence model", ICCFD7-1902, 2012. Equation numbers are theirs. Fully turbulent: no trip.
+// The turbulence model of P. R. Spalart and S. R. Allmaras (AIAA paper 92-0439, 1992) in its negative
+// variant: S. R. Allmaras, F. T. Johnson and P. R. Spalart, "Modifications and clarifications for the
+// implementation of the Spalart-Allmaras turbulence model", ICCFD7-1902, 2012. Equation numbers are theirs.
+// Fully turbulent: no trip.
 
 #include <algorithm>
 #include <cmath>

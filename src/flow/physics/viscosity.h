@@ -1,7 +1,7 @@
 #pragma once
 
-// Viscosity and conduction of a perfect gas, in units of the stream's: its density and speed of sound are 1, so
-// that a viscosity is Mach number times length over Reynolds number, and a temperature gamma p / rho.
+// Viscosity and conduction of a perfect gas, in units of the stream's: its density and speed of sound are 1,
+// so that a viscosity is Mach number times length over Reynolds number, and a temperature gamma p / rho.
 //
 // Source: W. Sutherland, Phil. Mag. 36 (1893); constants of air as in F. M. White, "Viscous Fluid Flow".
 
@@ -30,14 +30,15 @@ T temperature(const Unknowns<T>& q) {
   return gas_gamma * pressure(q) / density(q);
 }
 
-// Momentum and energy that friction and conduction carry along x and y, against the gradients: the force of the
-// stress, its work, and heat.
+// Momentum and energy that friction and conduction carry along x and y, against the gradients: the force of
+// the stress, its work, and heat.
 template <class T>
 struct ViscousFlux {
   PlaneVector<T> momentum_x, momentum_y, energy;
 };
 
-// u, v: of the face; du, dv, dtemperature: gradients; conduction: viscosity over Prandtl number, of all parts.
+// u, v: of the face; du, dv, dtemperature: gradients; conduction: viscosity over Prandtl number, of all
+// parts.
 template <class T>
 ViscousFlux<T> viscous_flux(const T& u, const T& v, const PlaneVector<T>& du, const PlaneVector<T>& dv,
                             const PlaneVector<T>& dtemperature, const T& viscosity, const T& conduction) {
@@ -45,9 +46,8 @@ ViscousFlux<T> viscous_flux(const T& u, const T& v, const PlaneVector<T>& du, co
   const T xx = viscosity * (2.0 * du.x - spread), yy = viscosity * (2.0 * dv.y - spread);
   const T xy = viscosity * (du.y + dv.x);
   const T heat = conduction / (gas_gamma - 1.0);
-  return {{xx, xy},
-          {xy, yy},
-          {u * xx + v * xy + heat * dtemperature.x, u * xy + v * yy + heat * dtemperature.y}};
+  return {
+      {xx, xy}, {xy, yy}, {u * xx + v * xy + heat * dtemperature.x, u * xy + v * yy + heat * dtemperature.y}};
 }
 
 }  // namespace remodel::flow

@@ -20,7 +20,8 @@ void FrictionSystem<N>::for_each_dependence(Order order, Visit visit) const {
     visit(edge.a, edge.b), visit(edge.b, edge.a);
     if (order == Order::first) continue;
     for (std::size_t side = 0; side < 2; ++side)
-      for (const WeightedVertex& of : mesh_.upwind(e, side)) visit(edge.a, of.vertex), visit(edge.b, of.vertex);
+      for (const WeightedVertex& of : mesh_.upwind(e, side))
+        visit(edge.a, of.vertex), visit(edge.b, of.vertex);
   }
   for (const CornerTriangle& triangle : mesh_.triangles())
     for (const std::uint32_t row : triangle.corner)
@@ -103,7 +104,8 @@ void FrictionSystem<N>::add_face_blocks(const FrictionState<N>& state, Order ord
       for (std::size_t side = 0; side < 2; ++side) {
         add(end[side], sign, by_end[side]);
         if (order == Order::first) continue;
-        for (const WeightedVertex& of : mesh_.upwind(e, side)) add(of.vertex, sign * of.weight, by_upwind[side]);
+        for (const WeightedVertex& of : mesh_.upwind(e, side))
+          add(of.vertex, sign * of.weight, by_upwind[side]);
       }
     }
   }
@@ -213,7 +215,8 @@ std::array<BlockVector<N>, augmented_count> FrictionSystem<N>::augmented_columns
       in.lift.slope[0] = 1.0, in.alpha.slope[1] = 1.0;
       std::array<Two, N> here;
       for (std::size_t k = 0; k < N; ++k) here[k] = Two(state.q[v][k]);
-      const std::array<Two, N> flux = terms_.template boundary_flux<Two, N>(dual_.patch(edge), in, here, stream_);
+      const std::array<Two, N> flux =
+          terms_.template boundary_flux<Two, N>(dual_.patch(edge), in, here, stream_);
       for (std::size_t k = 0; k < N; ++k)
         for (std::size_t z = 0; z < augmented_count; ++z)
           if (!mesh_.sticks(v) || !is_strong(k)) columns[z][v][k] += flux[k].slope[z];

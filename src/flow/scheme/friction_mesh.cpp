@@ -49,22 +49,24 @@ void FrictionMesh::count_cells() {
     around_[edge.a].boundary = around_[edge.b].boundary = true;
 }
 
-// The other edge at v that has no cell in common with this one, where two or four quadrilaterals meet.
+// The other edge at v that has no cell in common with this one, where four cells of a layer meet, or two at
+// its end.
 std::uint32_t FrictionMesh::opposite(std::uint32_t v, std::uint32_t edge) const {
   const Around& at = around_[v];
-  const bool is_inside = at.quads == 4 && at.triangles == 0 && !at.boundary;
+  // Also where fans of triangles at a corner of the wall end.
+  const bool is_inside = at.quads >= 2 && at.quads + at.triangles == 4 && !at.boundary;
   const bool is_end = at.quads == 2 && quads_of_edge_[edge] == 1;
   if (!is_inside && !is_end) return no_index;
   const auto shares_cell = [&](std::uint32_t e, std::uint32_t f) {
     for (const std::uint32_t c : {edge_cells_[2 * e], edge_cells_[2 * e + 1]})
-      if (c != no_index && mesh_.cells()[c].corners() == 4 &&
+      if (c != no_index && (is_inside || mesh_.cells()[c].corners() == 4) &&
           (c == edge_cells_[2 * f] || c == edge_cells_[2 * f + 1]))
         return true;
     return false;
   };
   for (const RingEntry& entry : mesh_.ring(v)) {
     if (entry.edge == edge || shares_cell(edge, entry.edge)) continue;
-    if (is_end && quads_of_edge_[entry.edge] != 1) continue;
+    if (!is_inside && quads_of_edge_[entry.edge] != 1) continue;
     return entry.vertex;
   }
   return no_index;
@@ -104,8 +106,8 @@ void FrictionMesh::make_triangles() {
   const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, bool is_cell) {
     const Point p[3] = {mesh_.points()[a], mesh_.points()[b], mesh_.points()[c]};
     const double twice = cross(p[1] - p[0], p[2] - p[0]);
-    CornerTriangle triangle = {.corner = {a, b, c}, .slope = {}, .area = is_cell ? 0.5 * twice : 0.25 * twice,
-                               .share = {}};
+    CornerTriangle triangle = {
+        .corner = {a, b, c}, .slope = {}, .area = is_cell ? 0.5 * twice : 0.25 * twice, .share = {}};
     for (std::size_t i = 0; i < 3; ++i) {
       const Point side = p[(i + 2) % 3] - p[(i + 1) % 3];
       triangle.slope[i] = (1.0 / twice) * Point{-side.y, side.x};

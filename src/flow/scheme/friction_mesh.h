@@ -1,15 +1,18 @@
 #pragma once
 
-// What flows with friction need of a mesh beside its dual: upwind differences that go straight on along layers of
-// quadrilaterals, triangles that gradients are constant on, distances from walls.
+// What flows with friction need of a mesh beside its dual: upwind differences that go straight on along
+// layers of quadrilaterals, triangles that gradients are constant on, distances from walls.
 //
-// Upwind differences by gradients of vertices fail on curved layers, whose edges are longer than their cells are
-// high by orders of magnitude: off by (du/dn) s^2 / 2R there, many cells' jumps. The *opposite neighbour* of a
-// vertex, straight behind it as seen along an edge, is a matter of topology:
+// Upwind differences by gradients of vertices fail on curved layers, whose edges are longer than their cells
+// are high by orders of magnitude: off by (du/dn) s^2 / 2R there, many cells' jumps. The *opposite neighbour*
+// of a vertex, straight behind it as seen along an edge, is a matter of topology:
 //
-//        |     |     |              At v, among quadrilaterals alone, b is opposite to w, and c to d. At the end of
-//     ---c-----+-----+---           a layer, where two quadrilaterals meet the edge to d, b is still opposite to w,
-//        |     |     |              and d has no opposite neighbour. Other vertices take gradients; on walls, whose
+//        |     |     |              At v, among quadrilaterals alone, b is opposite to w, and c to d. At the
+//        end of
+//     ---c-----+-----+---           a layer, where two quadrilaterals meet the edge to d, b is still opposite
+//     to w,
+//        |     |     |              and d has no opposite neighbour. Other vertices take gradients; on walls,
+//        whose
 //     ---v-----w-----+---           gradients are one-sided, the upwind difference is the central one.
 //    /   |     |     |
 //   b    d     |     |
@@ -27,8 +30,8 @@ struct WeightedVertex {
   double weight;
 };
 
-// The triangle of a triangular cell, or of a corner of a quadrilateral and its two neighbours: the mean over all
-// four is exact for linear functions, and on a rectangle a scheme of edges alone.
+// The triangle of a triangular cell, or of a corner of a quadrilateral and its two neighbours: the mean over
+// all four is exact for linear functions, and on a rectangle a scheme of edges alone.
 struct CornerTriangle {
   std::uint32_t corner[3];
   Point slope[3];   // gradients of the hat functions

@@ -15,18 +15,18 @@ FrictionState<N> FrictionSystem<N>::start(double thickness) const {
   for (std::size_t v = 0; v < dual_.size(); ++v) {
     const double part = std::tanh(mesh_.distances()[v] / thickness);
     const double speed = part * stream_.mach;
-    const double warmth =
-        1.0 + 0.5 * (gas_gamma - 1.0) * (stream_.mach * stream_.mach - speed * speed);
+    const double warmth = 1.0 + 0.5 * (gas_gamma - 1.0) * (stream_.mach * stream_.mach - speed * speed);
     Row& q = state.q[v];
     q[0] = 1.0 / warmth, q[3] = 1.0 / gas_gamma;
     q[1] = speed * std::cos(stream_.alpha), q[2] = speed * std::sin(stream_.alpha);
     if constexpr (N == 5) {
-      // Some turbulence near walls: from the stream's alone boundary layers separate before it has grown. A third
-      // of what the logarithmic layer has.
+      // Some turbulence near walls: from the stream's alone boundary layers separate before it has grown. A
+      // third of what the logarithmic layer has.
       constexpr double part_of_log_layer = 0.005;
       const double d = mesh_.distances()[v];
-      q[4] = part * FrictionTerms::stream_working + part_of_log_layer * stream_.mach / terms_.viscosity.stream *
-                                                         d * std::exp(-d / thickness) / FrictionTerms::working_unit;
+      q[4] = part * FrictionTerms::stream_working +
+             part_of_log_layer * stream_.mach / terms_.viscosity.stream * d * std::exp(-d / thickness) /
+                 FrictionTerms::working_unit;
     }
   }
   return state;
@@ -62,7 +62,8 @@ void FrictionSystem<N>::unbalanced(const FrictionState<N>& state, BlockVector<N>
       const Row to = step(state.q, e, side, Order::whole);
       const Row vertex = value[side];
       for (std::size_t k = 0; k < N; ++k) value[side][k] += to[k];
-      for (const std::size_t k : positive_unknowns) value[side][k] = positivity_limited(value[side][k], vertex[k]);
+      for (const std::size_t k : positive_unknowns)
+        value[side][k] = positivity_limited(value[side][k], vertex[k]);
     }
     const Row flux = terms_.template face_flux<double, N>(value[0], value[1], edge.normal);
     add(edge.a, 1.0, flux), add(edge.b, -1.0, flux);
@@ -112,7 +113,8 @@ WallForces FrictionSystem<N>::forces(const FrictionState<N>& state, const BlockV
     if (!dual_.patch(edge).solid() || (patch != no_index && edge.patch != patch)) continue;
     for (std::size_t i = 0; i < 2; ++i) {
       const std::uint32_t here = i == 0 ? edge.a : edge.b, there = i == 0 ? edge.b : edge.a;
-      const double p = 0.75 * (state.q[here][3] - 1.0 / gas_gamma) + 0.25 * (state.q[there][3] - 1.0 / gas_gamma);
+      const double p =
+          0.75 * (state.q[here][3] - 1.0 / gas_gamma) + 0.25 * (state.q[there][3] - 1.0 / gas_gamma);
       add(by_pressure, p * edge.half[i], 0.75 * dual_.points()[here] + 0.25 * dual_.points()[there]);
       if (seen[here] || !mesh_.sticks(here)) continue;
       seen[here] = true;

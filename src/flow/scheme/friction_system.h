@@ -1,8 +1,8 @@
 #pragma once
 
-// A steady flow with friction, as equations: N = 4 unknowns a vertex for laminar flow, 5 with the turbulence model,
-// and the augmented two of flow_system.h. Walls are strong: the rows of momentum at their vertices say that the
-// gas stands still, and the momentum that they leave unbalanced is the force on the wall.
+// A steady flow with friction, as equations: N = 4 unknowns a vertex for laminar flow, 5 with the turbulence
+// model, and the augmented two of flow_system.h. Walls are strong: the rows of momentum at their vertices say
+// that the gas stands still, and the momentum that they leave unbalanced is the force on the wall.
 
 #include <array>
 #include <vector>
@@ -32,8 +32,8 @@ class FrictionSystem {
         dual_(mesh.dual()),
         stream_(stream),
         terms_{.viscosity = viscosity, .mach = stream.mach, .slopes = stream.slopes} {
-    // At rest on walls the stream's Mach number is the measure. Without any dissipation of the waves of pressure
-    // searches do not converge; with a tenth of this they stall at 1e-5 around NACA 0012.
+    // At rest on walls the stream's Mach number is the measure. Without any dissipation of the waves of
+    // pressure searches do not converge; with a tenth of this they stall at 1e-5 around NACA 0012.
     terms_.fix.mach_squared = stream.mach * stream.mach;
   }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// The terms of flows with friction, each once, for numbers and dual numbers alike: the convective flux of a face,
-// what friction, conduction and turbulence do in a triangle, boundaries. N unknowns a vertex: those of
+// The terms of flows with friction, each once, for numbers and dual numbers alike: the convective flux of a
+// face, what friction, conduction and turbulence do in a triangle, boundaries. N unknowns a vertex: those of
 // physics/state.h, and for 5 the working variable of Spalart and Allmaras, in units of working_unit times the
 // stream's kinematic viscosity.
 
@@ -20,8 +20,8 @@ struct FrictionTerms {
   Viscosity viscosity;
   double mach = 0.0;  // of the stream
   double slopes = 1.0;
-  // Boundary layers are thin where Roe's linear waves hardly move: what the usual half-width of their parabola adds
-  // is far above molecular diffusion.
+  // Boundary layers are thin where Roe's linear waves hardly move: what the usual half-width of their
+  // parabola adds is far above molecular diffusion.
   Dissipation fix = {.acoustic = 0.1, .linear = 1e-3};
   // Large enough for the fifth unknown and its equation to be as large as the others.
   static constexpr double working_unit = 100.0;
@@ -52,8 +52,7 @@ struct FrictionTerms {
     const Fluxes<T> flux = roe_flux<T>(gas(left), gas(right), PlaneVector<double>(normal), fix);
     Local<T, N> result;
     for (std::size_t k = 0; k < unknown_count; ++k) result[k] = flux[k];
-    if constexpr (N == 5)
-      result[4] = upwinded(flux[0], left[4], right[4], std::sqrt(dot(normal, normal)));
+    if constexpr (N == 5) result[4] = upwinded(flux[0], left[4], right[4], std::sqrt(dot(normal, normal)));
     return result;
   }
 
@@ -128,8 +127,8 @@ std::array<Local<T, N>, 3> FrictionTerms::triangle(const std::array<Local<T, N>,
       result[i][4] = spread * ((of.area * of.slope[i].x) * dw.x + (of.area * of.slope[i].y) * dw.y);
       if (of.share[i] == 0.0 || distance[i] == 0.0) continue;
       const T kinematic = molecular[i] / q[i][0];
-      const T made = (1.0 / unit) *
-                     SpalartAllmaras::source<T>(unit * q[i][4], kinematic, vorticity, T(distance[i]));
+      const T made =
+          (1.0 / unit) * SpalartAllmaras::source<T>(unit * q[i][4], kinematic, vorticity, T(distance[i]));
       result[i][4] =
           result[i][4] -
           of.share[i] * (q[i][0] * (made + (SpalartAllmaras::cb2 / SpalartAllmaras::sigma * unit) * square) -

@@ -67,7 +67,8 @@ double FrictionSearch<N>::unsteady_size(const FrictionState<N>& before, const Fr
   if (!std::isfinite(now.size)) return now.size;
   BlockVector<N> whole = now.residual;
   for (std::size_t v = 0; v < whole.size(); ++v) {
-    const auto u = FrictionSystem<N>::conserved_at(state.q[v]), u0 = FrictionSystem<N>::conserved_at(before.q[v]);
+    const auto u = FrictionSystem<N>::conserved_at(state.q[v]),
+               u0 = FrictionSystem<N>::conserved_at(before.q[v]);
     for (std::size_t k = 0; k < N; ++k)
       if (!system_.is_replaced(v, k)) whole[v][k] += by_time[v] * (u[k] - u0[k]);
   }
@@ -100,8 +101,8 @@ void FrictionSearch<N>::precondition(BlockVector<N>& x) {
 }
 
 template <std::size_t N>
-bool FrictionSearch<N>::solve(const FrictionState<N>& state, const std::vector<double>& by_time, const At& now,
-                              BlockIncrement<N>& step) {
+bool FrictionSearch<N>::solve(const FrictionState<N>& state, const std::vector<double>& by_time,
+                              const At& now, BlockIncrement<N>& step) {
   system_.jacobian(state, jacobian_);
   for (std::uint32_t v = 0; v < by_time.size(); ++v) {
     const SquareBlock<N> slope = FrictionSystem<N>::conserved_slope(state.q[v]);
@@ -138,7 +139,10 @@ bool FrictionSearch<N>::solve(const FrictionState<N>& state, const std::vector<d
         x = close_augmented(std::move(x.q), solved, jacobian_.rows, x.augmented);
       },
       right,
-      {.wanted = part * size, .restart = FrictionPolicy::restart, .rounds = FrictionPolicy::rounds, .observer = options_.observer},
+      {.wanted = part * size,
+       .restart = FrictionPolicy::restart,
+       .rounds = FrictionPolicy::rounds,
+       .observer = options_.observer},
       step);
   last_iterations_ = end.iterations;
   record_.gmres_iterations += end.iterations;
@@ -153,7 +157,8 @@ template <std::size_t N>
 double FrictionSearch<N>::line_search(const BlockIncrement<N>& step, const std::vector<double>& by_time,
                                       FrictionState<N>& state, At& now) const {
   double length = longest(state, step);
-  for (int i = 0; i <= FrictionPolicy::halvings && length > FrictionPolicy::retried_part; ++i, length *= 0.5) {
+  for (int i = 0; i <= FrictionPolicy::halvings && length > FrictionPolicy::retried_part;
+       ++i, length *= 0.5) {
     FrictionState<N> next = along(state, step, length);
     At there = at(next);
     if (!(unsteady_size(state, next, by_time, there) < now.size)) continue;
@@ -200,7 +205,8 @@ void FrictionSearch<N>::run(FrictionState<N>& state, double cfl) {
     since_least = now.size < least ? 0 : since_least + (cfl > 1e4 ? 1 : 0);
     least = std::min(least, now.size);
     if (on_step)
-      on_step({record_.newton_steps, now.size, cfl, length, now.forces.lift, now.forces.drag, last_iterations_});
+      on_step(
+          {record_.newton_steps, now.size, cfl, length, now.forces.lift, now.forces.drag, last_iterations_});
   }
   end(FlowStatus::converged, "");
 }

@@ -1,14 +1,15 @@
 #pragma once
 
-// Newton's method for flows with friction, globalised by pseudo-transient continuation from a stream that slows
-// down towards walls.
+// Newton's method for flows with friction, globalised by pseudo-transient continuation from a stream that
+// slows down towards walls.
 //
-// One step solves (V / dt dU/dq + J) dq = -R. The merit of its line search is the residual of the *unsteady* equations
-// of that time step, R + V / dt (U - U_n), which falls along the step even where R has to rise (M. Ceze and K. J.
-// Fidkowski, AIAA paper 2013-2686). The CFL number grows with the part of the step that was taken.
+// One step solves (V / dt dU/dq + J) dq = -R. The merit of its line search is the residual of the *unsteady*
+// equations of that time step, R + V / dt (U - U_n), which falls along the step even where R has to rise (M.
+// Ceze and K. J. Fidkowski, AIAA paper 2013-2686). The CFL number grows with the part of the step that was
+// taken.
 //
-// Linear systems: GMRES with the exact Jacobian, preconditioned by the first-order scheme of one ring, friction and
-// turbulence exact. Incomplete factors of the exact Jacobian are useless beside walls.
+// Linear systems: GMRES with the exact Jacobian, preconditioned by the first-order scheme of one ring,
+// friction and turbulence exact. Incomplete factors of the exact Jacobian are useless beside walls.
 
 #include <functional>
 #include <string>
@@ -75,8 +76,8 @@ class FrictionSearch {
              BlockIncrement<N>& step);
   bool factor();
   void precondition(BlockVector<N>& x);
-  double line_search(const BlockIncrement<N>& step, const std::vector<double>& by_time, FrictionState<N>& state,
-                     At& now) const;
+  double line_search(const BlockIncrement<N>& step, const std::vector<double>& by_time,
+                     FrictionState<N>& state, At& now) const;
 
   const FrictionSystem<N>& system_;
   const FlowOptions& options_;
