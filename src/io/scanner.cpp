@@ -100,14 +100,18 @@ double Scanner::coordinate() {
   return value;
 }
 
-std::int64_t Scanner::integer(std::string_view expected) {
+template <class Integer>
+Integer Scanner::integer(std::string_view expected) {
   const std::string_view found = word(expected);
   const std::string_view digits = without_plus(found);
-  std::int64_t value = 0;
+  Integer value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc{} || end != digits.data() + digits.size()) fail_found(found, expected);
   return value;
 }
+
+template std::int64_t Scanner::integer(std::string_view);
+template std::uint64_t Scanner::integer(std::string_view);
 
 std::uint32_t Scanner::index(std::string_view expected) {
   const std::int64_t value = integer(expected);

@@ -35,7 +35,8 @@ class Scanner {
 
   double real(std::string_view expected);
   double coordinate();  // finite and not absurdly large
-  std::int64_t integer(std::string_view expected);
+  template <class Integer = std::int64_t>  // or std::uint64_t
+  Integer integer(std::string_view expected);
   std::uint32_t index(std::string_view expected);  // 0 to 2^32 - 2
   // A number of items that follow, each at least two bytes: bounded by what is left of the text, so that a
   // wrong header cannot ask for gigabytes.

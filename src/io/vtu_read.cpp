@@ -268,7 +268,8 @@ class VtuReader {
       if constexpr (std::is_floating_point_v<Value>) {
         result.push_back(scan.real("a number"));
       } else {
-        const auto value = real ? rounded(scan) : scan.integer("an integer");
+        using Wide = std::conditional_t<std::is_unsigned_v<Value>, std::uint64_t, std::int64_t>;
+        const auto value = real ? rounded<Wide>(scan) : scan.integer<Wide>("an integer");
         if (!std::in_range<Value>(value)) scan.fail_found(std::to_string(value), "a smaller integer");
         result.push_back(static_cast<Value>(value));
       }
@@ -276,10 +277,12 @@ class VtuReader {
     return result;
   }
 
-  static std::int64_t rounded(Scanner& scan) {
+  template <class Wide>
+  static Wide rounded(Scanner& scan) {
     const double value = scan.real("an integer");
-    if (!(value > -9e15 && value < 9e15)) scan.fail_found(std::to_string(value), "an integer");
-    return static_cast<std::int64_t>(value);
+    if (!(value > (std::is_unsigned_v<Wide> ? -1.0 : -9e15) && value < 9e15))
+      scan.fail_found(std::to_string(value), "an integer");
+    return static_cast<Wide>(value);
   }
 
   // The first `most` bytes of an array, decoded, its header among them.

@@ -137,7 +137,7 @@ class Flows(ProgramTest):
         shown = []
         reader = threading.Thread(target=lambda: shown.append(read_terminal(ours)))
         reader.start()
-        command = [harness.PROGRAM, "flow", "naca:0012", "--points", "40", "--mach", "0.4", "--json"]
+        command = [harness.PROGRAM, "flow", "naca:0012", "--points", "200", "--mach", "0.4", "--json"]
         result = subprocess.run(command, cwd=self.directory, stdout=subprocess.PIPE, stderr=theirs, timeout=60)
         os.close(theirs)
         reader.join()
@@ -316,7 +316,7 @@ class Warnings(ProgramTest):
         figures = outcome.json()
         self.assertEqual(outcome.stderr.splitlines(), [f"remodel: {arguments[0]}: {text}" for text in figures["warnings"]])
         self.assertEqual(figures["lift_determined"], not any("not determined" in text for text in figures["warnings"]))
-        return figures["warnings"]
+        return [text for text in figures["warnings"] if "made by mesh and scheme" not in text]  # of coarse meshes
 
     def test_ordinary_flows_have_none(self):
         for model in (["--mach", 0.4], ["--model", "potential"], ["--model", "potential", "--mach", 0.4]):
@@ -356,8 +356,10 @@ class Warnings(ProgramTest):
         self.domain("blunt.json", [polygon("section", blunt, 120)])
         self.assertEqual(self.warnings("blunt.json", "--mach", 0.4, "--alpha", 2), [])
         self.domain("round.json", [polygon("section", [list(point) for point in ellipse], 120)])
-        for model in (["--mach", 0.4], ["--model", "potential"]):
-            self.assertIn("'section' is not determined", self.warnings("round.json", *model, "--alpha", 2)[0])
+        # (One step: there may be no steady flow.)
+        for model, status in ((["--mach", 0.4, "--max-steps", 1], 3), (["--model", "potential"], 0)):
+            outcome = self.succeed("flow", "round.json", *model, "--alpha", 2, "--json", status=status)
+            self.assertIn("'section' is not determined", outcome.json()["warnings"][0])
 
     def test_an_edge_that_faces_the_stream_is_no_trailing_edge(self):
         turned = [[-0.8, 0.0]] + [[0.2 * math.cos(t), 0.2 * math.sin(t)]

@@ -53,20 +53,19 @@ void FrictionMesh::count_cells() {
 // its end.
 std::uint32_t FrictionMesh::opposite(std::uint32_t v, std::uint32_t edge) const {
   const Around& at = around_[v];
-  // Also where fans of triangles at a corner of the wall end.
-  const bool is_inside = at.quads >= 2 && at.quads + at.triangles == 4 && !at.boundary;
+  const bool is_inside = at.quads == 4 && at.triangles == 0 && !at.boundary;
   const bool is_end = at.quads == 2 && quads_of_edge_[edge] == 1;
   if (!is_inside && !is_end) return no_index;
   const auto shares_cell = [&](std::uint32_t e, std::uint32_t f) {
     for (const std::uint32_t c : {edge_cells_[2 * e], edge_cells_[2 * e + 1]})
-      if (c != no_index && (is_inside || mesh_.cells()[c].corners() == 4) &&
+      if (c != no_index && mesh_.cells()[c].corners() == 4 &&
           (c == edge_cells_[2 * f] || c == edge_cells_[2 * f + 1]))
         return true;
     return false;
   };
   for (const RingEntry& entry : mesh_.ring(v)) {
     if (entry.edge == edge || shares_cell(edge, entry.edge)) continue;
-    if (!is_inside && quads_of_edge_[entry.edge] != 1) continue;
+    if (is_end && quads_of_edge_[entry.edge] != 1) continue;
     return entry.vertex;
   }
   return no_index;
