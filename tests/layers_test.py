@@ -22,7 +22,7 @@ LAYERS = [
     {"name": "layer", "headers": ["layers.h"]},
     {"name": "transfer", "headers": ["transfer.h", "snapshots.h"]},
     {"name": "check", "headers": ["check.h"]},
-    {"name": "flow", "headers": ["flow.h", "potential_flow.h"]},
+    {"name": "flow", "headers": ["flow.h", "flow_error.h", "potential_flow.h"]},
     {"name": "io", "headers": ["foam.h", "io.h", "shape_files.h", "su2_restart.h"]},
     {"name": "draw", "headers": ["draw.h", "film.h", "plot.h"]},
     {

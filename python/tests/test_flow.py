@@ -81,7 +81,7 @@ def test_lift_without_an_edge_is_warned_of(flowing):
     mesh = remodel.generate(remodel.Domain.from_json(json.dumps({"loops": loops})))
     for flow in (remodel.LivingFlow().solve(mesh, mach=0.3), remodel.PotentialSolver(mesh).at(0.0)):
         assert not flow.lift_determined
-        assert len(flow.warnings) == 1 and "'wheel' is not determined" in flow.warnings[0]
+        assert sum("'wheel' is not determined" in text for text in flow.warnings) == 1
         again = pickle.loads(pickle.dumps(flow))
         assert again.warnings == flow.warnings and not again.lift_determined
         for found in (flow, again):
