@@ -92,7 +92,7 @@ def test_lift_without_an_edge_is_warned_of(flowing):
         assert abs(flow.cd if hasattr(flow, "cd") else flow.drag_by_pressure) < 0.5
     section = flowing[1]
     for flow in (remodel.LivingFlow().solve(section, mach=0.3), remodel.PotentialSolver(section).at(2.0)):
-        assert flow.warnings == [] and flow.lift_determined
+        assert not any("not determined" in text for text in flow.warnings) and flow.lift_determined
 
 
 def test_potential_flow_knows_the_mach_number(flowing):
