@@ -120,7 +120,7 @@ struct DesignProblem {
   // A JSON object as which the run's settings, its history and its page have the problem; empty: they have
   // design_problem_json(). A reader of problem files keeps the file's here.
   std::string text = {};
-  // What a reader of its files found that a person has to know: sections that were turned, sheared or closed.
+  // A reader of its files leaves here what a person has to know: sections that were turned, sheared or closed.
   std::vector<std::string> warnings = {};
 };
 

@@ -51,7 +51,7 @@
 
 namespace remodel {
 
-// What the gas is like.
+// The model says what the gas is like.
 enum class FlowModel {
   euler,    // without friction
   laminar,  // viscous and heat-conducting: the Navier-Stokes equations
@@ -65,7 +65,7 @@ struct FlowConditions {
   double alpha_deg = 0.0;  // its angle to the x axis, -90 to 90; where cl is given, where the search begins
   std::optional<double> cl = {};  // the lift coefficient that the angle is to be found for; not above Mach 1
   Point reference = {0.25, 0.0};
-  // That coefficients and the Reynolds number are made with, and nothing else: more than 0.
+  // Coefficients and the Reynolds number are made with this length, and nothing else is: more than 0.
   double reference_length = 1.0;
   double reynolds = 0.0;  // of models with friction, by the reference length: 1 to 1e10
 };
@@ -129,8 +129,8 @@ struct FlowOptions {
   // With friction gas sticks to all walls, through which no heat passes. Meshes should have layers of flat
   // quadrilaterals there (remodel/layers.h). solve_flow() alone finds such flows.
   FlowModel model = FlowModel::euler;
-  // Of the stream in Kelvin, for the viscosity by Sutherland's law: more than 0, or 0 for a constant viscosity. Prandtl
-  // numbers are 0.72, and 0.9 of turbulence.
+  // Sutherland's law makes the viscosity of this temperature of the stream, in Kelvin: more than 0, or 0 for a
+  // constant viscosity. Prandtl numbers are 0.72, and 0.9 of turbulence.
   double temperature_k = 300.0;
 };
 
@@ -173,7 +173,7 @@ struct FlowOpening {
   double mass_flow = 0.0;
 };
 
-// What friction does.
+// This is what friction does.
 struct FlowFriction {
   double reynolds = 0.0;
   double cd_pressure = 0.0, cd_friction = 0.0;  // the parts of the drag coefficient

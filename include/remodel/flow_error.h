@@ -14,8 +14,8 @@
 namespace remodel {
 
 struct FlowError {
-  // What has to be added to the given flow's figures: estimates of what they lack. Where lift is given, that of
-  // cl is 0, and alpha_deg has what the angle lacks.
+  // These estimate what the given flow's figures lack, and are to be added to them. Where lift is given, that of cl
+  // is 0, and alpha_deg has what the angle lacks.
   double cl = 0.0, cd = 0.0, cm = 0.0, alpha_deg = 0.0;
   double order = 2.0;        // p, as above
   FlowResult finer;          // the flow through the finer mesh; where it was not found nothing else counts

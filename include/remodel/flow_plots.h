@@ -22,7 +22,7 @@ std::string duct_caption(double mach);
 Plot cp_plot(const FrozenMesh& mesh, const std::string& farfield, std::span<const double> cp,
              const std::string& caption, const std::string& option);
 
-// Likewise of the friction, FlowFriction::cf, larger values above.
+// This plots the friction likewise, FlowFriction::cf, larger values above.
 Plot cf_plot(const FrozenMesh& mesh, const std::string& farfield, std::span<const double> cf,
              const std::string& caption, const std::string& option);
 

@@ -70,7 +70,7 @@ void space_walls(Domain& domain, const WallSpacing& spacing, const std::vector<s
 // divided; or all of them triangles, by the diagonal that begins at the wall.
 enum class LayerCells : std::uint8_t { quadrilaterals, triangles };
 
-// Where the points of a layer are in the frozen view: before all others, column by column, from the wall upwards.
+// The points of a layer stand in the frozen view before all others, column by column, from the wall upwards.
 // They never change their places as long as columns neither come nor go.
 struct LayerTopology {
   std::uint32_t levels = 0;           // cells of a column
@@ -101,15 +101,15 @@ struct LayerStatistics {
   std::size_t shrunk = 0;      // columns that had to give way so that all cells are convex and tops keep apart
 };
 
-// What a native file holds of a layered mesh beside the outer mesh: the rest is computed from it, to the bit.
+// A native file holds this of a layered mesh: the rest is computed from it, to the bit.
 struct LayeredState {
   MeshState outer;
   Domain walls;
   LayerOptions options;
   std::uint32_t levels = 0;
   std::vector<std::vector<std::uint32_t>> fans{};  // per layered loop and station: the sectors of its fan, or 0
-  // Per layered loop and column: its number, which is never given out again in the life of a mesh. All are below
-  // the last one.
+  // Each column of a layered loop has a number, which is never given out again in the life of a mesh. All are below
+  // next_column.
   std::vector<std::vector<std::uint32_t>> columns{};
   std::uint32_t next_column = 0;
   friend bool operator==(const LayeredState&, const LayeredState&) = default;

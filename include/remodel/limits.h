@@ -14,7 +14,7 @@ namespace remodel {
 // "b" are 1e-9 apart". O(triangles). Empty for a mesh without triangles.
 std::string crowded_place(const Mesh& mesh);
 
-// What MeshStatistics and FrozenMesh::boundaries count, in time proportional to the boundary.
+// This has what MeshStatistics and FrozenMesh::boundaries count, in time proportional to the boundary.
 struct MeshCounts {
   std::size_t triangles = 0, vertices = 0;
   std::size_t steiner_boundary_vertices = 0;
