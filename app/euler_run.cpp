@@ -81,7 +81,7 @@ void add_euler_options(CLI::App& app, EulerRun& run) {
            });
   add_real(app,
            {"--reference-length", "LENGTH", "1",
-            "Length that coefficients are made with, and nothing else: above 0"},
+            "Length that coefficients are made with, and --reynolds: above 0"},
            {.low = 0.0, .above_low = true}, run.conditions.reference_length);
   add_text(app,
            {"--series", "FILE", "",
@@ -161,6 +161,21 @@ std::vector<std::string> write_files(const EulerRun& run, const MeshInput& input
   return files;
 }
 
+// What keeps errors from being estimated is a warning: the flow was found.
+FlowError error_of(const EulerRun& run, const MeshInput& input, const FlowOptions& options, const std::string& source,
+                   FlowResult& flow) {
+  FlowError error;
+  try {
+    error = estimate_error(*input.living, flow, run.conditions, options, source);
+    if (!error.finer.converged())
+      flow.warnings.push_back("the errors are not estimated: on the finer mesh no flow was found: " +
+                              error.finer.reason);
+  } catch (const Error& problem) {
+    flow.warnings.push_back(std::string("the errors are not estimated: ") + problem.what());
+  }
+  return error;
+}
+
 }  // namespace
 
 Status run_euler(const EulerRun& run, const MeshInput& input, const std::string& source,
@@ -178,13 +193,9 @@ Status run_euler(const EulerRun& run, const MeshInput& input, const std::string&
     flow = solve(run, input, source, living, options);
     if (run.gradient && flow.converged())
       gradients = gradients_json(living, *input.living, flow, run.conditions);
-    if (run.error && flow.converged())
-      error = estimate_error(*input.living, flow, run.conditions, options, source);
+    if (run.error && flow.converged()) error = error_of(run, input, options, source, flow);
   }
   const std::vector<std::string> files = write_files(run, input, source, outputs, options, flow);
-  if (error && !error->finer.converged())
-    flow.warnings.push_back("the errors are not estimated: on the finer mesh no flow was found: " +
-                            error->finer.reason);
   print_warnings(source, flow.warnings);
   Report report;
   add_flow_mesh(report, source, name_of(options.model), input.frozen);

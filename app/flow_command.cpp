@@ -1,6 +1,7 @@
 // remodel flow MESH|SHAPE...: the flow around bodies, its coefficients, fields and plots.
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
@@ -77,10 +78,14 @@ MeshInput layered_input(const FlowCommand& command) {
   if (domain.in_farfield) space_walls(domain.domain, WallSpacing{});
   // Lengths of layers are in chords of 1.
   const double reynolds = command.euler.conditions.reynolds / command.euler.conditions.reference_length;
-  const LayerOptions layers = {
-      .first_height =
-          first_height(command.model == FlowModel::sa ? turbulent_y_plus : laminar_y_plus, reynolds),
-      .thickness = 1.2 * boundary_layer_thickness(reynolds)};
+  const bool turbulent = command.model == FlowModel::sa;
+  const double laminar_thickness = std::min(5.0 / std::sqrt(reynolds), 0.5);  // Blasius's
+  LayerOptions layers;
+  layers.thickness =
+      1.2 * (turbulent ? boundary_layer_thickness(reynolds)
+                       : std::max(boundary_layer_thickness(reynolds), laminar_thickness));
+  layers.first_height = std::min(first_height(turbulent ? turbulent_y_plus : laminar_y_plus, reynolds),
+                                 0.1 * layers.thickness);
   LayeredGenerateResult result = generate_layered(domain.domain, layers, meshing.resolved_quality());
   if (result.stopped != Stopped::done)
     throw Error(
@@ -154,7 +159,7 @@ Status run(const FlowCommand& command) {
     refuse(command,
            {"--tolerance", "--max-steps", "--memory", "--solver", "--limiter", "--series", "--gradient",
             "--compare", "--inlet", "--total-pressure", "--total-temperature", "--outlet", "--pressure",
-            "--symmetry", "--history"},
+            "--symmetry", "--history", "--error"},
            "given with --model potential, expected --model euler");
     return run_potential_flow(command, read_input(command));
   }

@@ -63,6 +63,7 @@ void require_consistent(const LayerChoice& choice) {
     refuse(choice.first_height.has_value(), "--first-height", alone);
     refuse(choice.thickness.has_value(), "--layer-thickness", alone);
     refuse(choice.count.has_value(), "--layer-count", alone);
+    refuse(choice.growth.has_value(), "--growth", alone);
     refuse(choice.spacing_given, "--wall-spacing, --te-spacing or --max-spacing", alone);
     return;
   }
@@ -74,7 +75,7 @@ void require_consistent(const LayerChoice& choice) {
 }
 
 LayerOptions resolved(const LayerChoice& choice) {
-  LayerOptions options{.first_height = 0.0, .growth = choice.growth};
+  LayerOptions options{.first_height = 0.0, .growth = choice.growth.value_or(LayerOptions{}.growth)};
   options.first_height =
       choice.first_height ? *choice.first_height : first_height(choice.y_plus.value_or(1.0), *choice.reynolds);
   if (choice.thickness)

@@ -17,7 +17,7 @@ struct LayerChoice {
   bool layers = false;
   std::optional<double> reynolds, y_plus, first_height, thickness;
   std::optional<int> count;
-  double growth = LayerOptions{}.growth;
+  std::optional<double> growth;
   WallSpacing spacing;
   bool spacing_given = false;
   LayerCells cells = LayerCells::quadrilaterals;

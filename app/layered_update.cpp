@@ -54,11 +54,22 @@ DomainInput with_single_airfoil(const LayeredUpdate& update, const Domain& walls
   return input;
 }
 
+// Whether the same parameters are the same points: those of polylines and splines are counted by their points.
+bool has_parameters_of(const Shape& a, const Shape& b) {
+  if (a.index() != b.index()) return false;
+  const auto count = [](const Shape& shape) {
+    if (const auto* polyline = std::get_if<Polyline>(&shape)) return polyline->points.size();
+    if (const auto* spline = std::get_if<Spline>(&shape)) return spline->points.size();
+    return std::size_t{0};
+  };
+  return count(a) == count(b);
+}
+
 // New outlines keep the stations of old ones of their name, where these have curves of the same kinds.
 bool take_stations(Loop& loop, const Domain& walls) {
   for (const Loop& old : walls.loops) {
     const auto alike = [](const Curve& a, const Curve& b) {
-      return a.name == b.name && a.shape.index() == b.shape.index();
+      return a.name == b.name && has_parameters_of(a.shape, b.shape);
     };
     if (!std::equal(loop.curves.begin(), loop.curves.end(), old.curves.begin(), old.curves.end(), alike)) continue;
     for (std::size_t c = 0; c < loop.curves.size(); ++c) loop.curves[c].parameters = old.curves[c].parameters;
@@ -73,9 +84,11 @@ DomainInput with_whole_domain(const LayeredUpdate& update, const Domain& walls) 
   DomainInput input = read_domain(shapes, discretisation_of(walls), update.fit);
   validate_input(shapes, input.domain);
   if (!input.in_farfield) return input;
+  const bool several = std::count_if(input.domain.loops.begin(), input.domain.loops.end(),
+                                     [](const Loop& loop) { return loop.role == LoopRole::hole; }) > 1;
   for (Loop& loop : input.domain.loops) {
     if (loop.role != LoopRole::hole || take_stations(loop, walls)) continue;
-    const std::vector<Parameters> stations = wall_stations(loop, {});
+    const std::vector<Parameters> stations = wall_stations(loop, {}, several);
     for (std::size_t c = 0; c < loop.curves.size(); ++c) loop.curves[c].parameters = stations[c];
   }
   return input;

@@ -37,7 +37,8 @@ FlowError estimate_error(const Mesh& mesh, const FlowResult& flow, const FlowCon
   if (!flow.converged())
     throw Error(ErrorCode::argument, source, "the flow was not found, expected one that was, to judge its error");
   QualityOptions quality = mesh.options();
-  quality.gradation *= 2.0;
+  constexpr double largest_gradation = 1e6;
+  quality.gradation = std::min(2.0 * quality.gradation, largest_gradation);
   const GenerateResult made = generate(with_twice_the_stations(mesh.domain()), quality, options.observer);
   FlowError error;
   if (made.stopped == Stopped::interrupted) {

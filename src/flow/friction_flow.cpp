@@ -107,6 +107,7 @@ FlowResult result_of(const FrictionSystem<N>& system, const FrictionState<N>& st
   result.cl = scale * sum.lift, result.cd = scale * sum.drag, result.cm = scale * scale * sum.moment;
   const std::vector<Patch>& patches = system.mesh().dual().patches();
   for (std::uint32_t i = 0; i < patches.size(); ++i) {
+    if (patches[i].open()) result.openings.push_back({patches[i].name, system.mass_flow(state, i)});
     if (!patches[i].solid()) continue;
     const WallForces part = system.forces(state, unbalanced, i);
     result.bodies.push_back(

@@ -339,6 +339,22 @@ std::string LayeredMesh::quick_check() const {
   return {};
 }
 
+namespace {
+
+// A layer counts in the budget of vertices: it takes memory before refinement looks at that.
+void require_room_for(const Domain& domain, const std::vector<std::size_t>& loops, std::uint32_t levels,
+                      std::uint32_t max_vertices) {
+  std::size_t stations = 0;
+  for (const std::size_t loop : loops)
+    for (const Curve& curve : domain.loops[loop].curves) stations += curve.parameters.size();
+  if (stations * (std::size_t{levels} + 1) <= max_vertices) return;
+  throw Error(ErrorCode::argument, "layers",
+              "found " + std::to_string(stations) + " stations on walls and " + std::to_string(levels) +
+                  " cells across the layer, expected at most " + std::to_string(max_vertices) + " points of both");
+}
+
+}  // namespace
+
 LayeredGenerateResult generate_layered(const Domain& domain, const LayerOptions& layers, const QualityOptions& quality,
                                        StepObserver* observer) {
   require_layer_options(layers);
@@ -348,6 +364,7 @@ LayeredGenerateResult generate_layered(const Domain& domain, const LayerOptions&
   LayeredMesh::Columns& columns = *mesh.columns_;
   columns.loops = layered_loops(domain, layers);
   columns.levels = levels_of(layers);
+  require_room_for(domain, columns.loops, columns.levels, quality.max_vertices);
   const Walls walls(domain);
   columns.fans = fans_of(walls, columns.loops, layers, {columns.loops.size(), nullptr});
   static_cast<LayerColumns&>(columns) = columns_of(walls, columns.loops, columns.fans, layers, columns.levels);

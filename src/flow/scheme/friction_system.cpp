@@ -100,6 +100,16 @@ Augmented FrictionSystem<N>::augmented_residual(const FrictionState<N>& state,
 }
 
 template <std::size_t N>
+double FrictionSystem<N>::mass_flow(const FrictionState<N>& state, std::uint32_t patch) const {
+  double sum = 0.0;
+  for (const BoundaryEdge& edge : dual_.boundary())
+    for (std::size_t i = 0; edge.patch == patch && i < 2; ++i)
+      sum -= terms_.template boundary_flux<double, N>(dual_.patch(edge), boundary_inputs<double>(state, edge, i),
+                                                      state.q[i == 0 ? edge.a : edge.b], stream_)[0];
+  return sum;
+}
+
+template <std::size_t N>
 WallForces FrictionSystem<N>::forces(const FrictionState<N>& state, const BlockVector<N>& unbalanced,
                                      std::uint32_t patch) const {
   Point by_pressure = {}, by_friction = {};
@@ -108,7 +118,14 @@ WallForces FrictionSystem<N>::forces(const FrictionState<N>& state, const BlockV
     to = to + force;
     turning += cross(at - stream_.reference, force);
   };
-  std::vector<bool> seen(dual_.size(), false);
+  // A vertex where walls of two patches meet has of each the part that its edges have there.
+  std::vector<double> length(dual_.size(), 0.0);
+  const auto length_of = [&](const BoundaryEdge& edge) {
+    const Point d = dual_.points()[edge.b] - dual_.points()[edge.a];
+    return std::sqrt(dot(d, d));
+  };
+  for (const BoundaryEdge& edge : dual_.boundary())
+    if (dual_.patch(edge).solid()) length[edge.a] += length_of(edge), length[edge.b] += length_of(edge);
   for (const BoundaryEdge& edge : dual_.boundary()) {
     if (!dual_.patch(edge).solid() || (patch != no_index && edge.patch != patch)) continue;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -116,9 +133,8 @@ WallForces FrictionSystem<N>::forces(const FrictionState<N>& state, const BlockV
       const double p =
           0.75 * (state.q[here][3] - 1.0 / gas_gamma) + 0.25 * (state.q[there][3] - 1.0 / gas_gamma);
       add(by_pressure, p * edge.half[i], 0.75 * dual_.points()[here] + 0.25 * dual_.points()[there]);
-      if (seen[here] || !mesh_.sticks(here)) continue;
-      seen[here] = true;
-      add(by_friction, friction_force(unbalanced, here), dual_.points()[here]);
+      if (mesh_.sticks(here))
+        add(by_friction, (length_of(edge) / length[here]) * friction_force(unbalanced, here), dual_.points()[here]);
     }
   }
   const double ca = std::cos(state.augmented[1]), sa = std::sin(state.augmented[1]);

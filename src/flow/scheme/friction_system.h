@@ -67,6 +67,8 @@ class FrictionSystem {
   static std::array<double, N> conserved_at(const std::array<double, N>& q);
   static SquareBlock<N> conserved_slope(const std::array<double, N>& q);
 
+  // What enters by this patch.
+  double mass_flow(const FrictionState<N>& state, std::uint32_t patch) const;
   // patch: of this wall, no_index: of all.
   WallForces forces(const FrictionState<N>& state, const BlockVector<N>& unbalanced,
                     std::uint32_t patch = no_index) const;

@@ -28,6 +28,7 @@ double longest(const FrictionState<N>& state, const BlockIncrement<N>& step) {
       const double part = std::fabs(step.q[v][k]) / state.q[v][k];
       if (!(part <= largest)) largest = part;  // NaN stays
     }
+  if (!std::isfinite(largest)) return 0.0;
   return std::min(1.0, FrictionPolicy::largest_part / largest);
 }
 
@@ -112,7 +113,10 @@ bool FrictionSearch<N>::solve(const FrictionState<N>& state, const std::vector<d
         if (!system_.is_replaced(v, z / N)) block[z] += by_time[v] * slope[z];
     }
   }
-  if (!factor()) return false;
+  if (!factor()) {
+    note_failure(true);
+    return false;
+  }
   auto columns = system_.augmented_columns(state), solved = columns;
   for (BlockVector<N>& column : solved) precondition(column);
   const BlockAugmentedMatrix<N> matrix(jacobian_.whole, std::move(columns), jacobian_.rows);
@@ -146,10 +150,16 @@ bool FrictionSearch<N>::solve(const FrictionState<N>& state, const std::vector<d
       step);
   last_iterations_ = end.iterations;
   record_.gmres_iterations += end.iterations;
-  // Where even short time steps take too many, incomplete factors do no longer.
-  by_lu_ = by_lu_ || (end.residual > 2.0 * part * size && !record_.whole_factors && failed_before_);
-  failed_before_ = end.residual > 2.0 * part * size;
+  note_failure(!(end.residual <= 2.0 * part * size));
   return end.residual < 0.9 * size;
+}
+
+// Where incomplete factors do no longer, twice in a row, LU takes their place, unless GMRES was asked for.
+template <std::size_t N>
+void FrictionSearch<N>::note_failure(bool failed) {
+  const bool may_be_lu = options_.solver != FlowSolver::gmres;
+  by_lu_ = by_lu_ || (failed && failed_before_ && !record_.whole_factors && may_be_lu);
+  failed_before_ = failed;
 }
 
 // The part of the step that was taken; 0: none.

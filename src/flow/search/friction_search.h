@@ -74,6 +74,7 @@ class FrictionSearch {
                        const std::vector<double>& by_time, const At& now) const;
   bool solve(const FrictionState<N>& state, const std::vector<double>& by_time, const At& now,
              BlockIncrement<N>& step);
+  void note_failure(bool failed);
   bool factor();
   void precondition(BlockVector<N>& x);
   double line_search(const BlockIncrement<N>& step, const std::vector<double>& by_time,
