@@ -123,7 +123,7 @@ class Designs(ProgramTest):
     def test_adodg_1_on_a_coarse_mesh(self):
         """NACA 0012 contained, Mach 0.85: half a mesh, page and film of the run."""
         problem = json.loads((SOURCE / "examples/design/adodg1_coarse.json").read_text())
-        problem["designer"]["evaluations"] = 25
+        problem["designer"]["evaluations"] = 15
         problem["verify"] = []
         figures = self.limited("design", self.write("adodg1.json", json.dumps(problem)), "-o", "run")
         self.assertLess(figures["objective"], 0.5 * figures["start_objective"])
