@@ -15,6 +15,7 @@
 #include "euler_run.h"
 #include "figures.h"
 #include "flow_files.h"
+#include "layer_options.h"
 #include "mesh_input.h"
 #include "meshing_options.h"
 #include "outputs.h"
@@ -67,9 +68,14 @@ std::optional<std::string> mesh_file(const FlowCommand& command) {
   return *file;
 }
 
+void require_whole(const FlowCommand& command, Stopped stopped) {
+  if (stopped == Stopped::done) return;
+  throw Error(ErrorCode::argument, command.input.shapes.front(),
+              std::string("the mesh is unfinished (") + name_of(stopped) + "), expected a whole one");
+}
+
 // A fresh mesh with a layer that the Reynolds number asks for, as mesh --layers makes it.
 MeshInput layered_input(const FlowCommand& command) {
-  constexpr double gradation_with_layers = 8.0;
   constexpr double turbulent_y_plus = 1.0, laminar_y_plus = 0.3;
   refuse(command, {"--points"}, "given with a model with friction, whose layer sets the stations of walls");
   MeshingOptions meshing = command.meshing;
@@ -87,10 +93,7 @@ MeshInput layered_input(const FlowCommand& command) {
   layers.first_height = std::min(first_height(turbulent ? turbulent_y_plus : laminar_y_plus, reynolds),
                                  0.1 * layers.thickness);
   LayeredGenerateResult result = generate_layered(domain.domain, layers, meshing.resolved_quality());
-  if (result.stopped != Stopped::done)
-    throw Error(
-        ErrorCode::argument, command.input.shapes.front(),
-        std::string("the mesh is unfinished (") + name_of(result.stopped) + "), expected a whole one");
+  require_whole(command, result.stopped);
   MeshInput input;
   input.frozen = result.mesh.freeze();
   input.layered = std::move(result.mesh);
@@ -103,10 +106,7 @@ MeshInput read_input(const FlowCommand& command) {
   if (command.has_friction()) return layered_input(command);
   const DomainInput domain = read_domain(command.input, command.meshing.discretisation, command.meshing.fit);
   GenerateResult result = generate_input(command.input, domain.domain, command.meshing.resolved_quality());
-  if (result.stopped != Stopped::done)
-    throw Error(
-        ErrorCode::argument, command.input.shapes.front(),
-        std::string("the mesh is unfinished (") + name_of(result.stopped) + "), expected a whole one");
+  require_whole(command, result.stopped);
   MeshInput input;
   input.frozen = result.mesh.freeze();
   input.living = std::move(result.mesh);

@@ -23,6 +23,9 @@ struct LayerChoice {
   LayerCells cells = LayerCells::quadrilaterals;
 };
 
+// G, where none is given: coarser away from the tops than a mesh without a layer is from its walls.
+inline constexpr double gradation_with_layers = 8.0;
+
 // --layers, --reynolds, --y-plus, --first-height, --growth, --layer-thickness, --layer-count, --wall-spacing,
 // --te-spacing, --max-spacing.
 void add_layer_options(CLI::App& app, LayerChoice& choice);

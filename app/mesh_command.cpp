@@ -61,9 +61,6 @@ void space_input(const MeshCommand& command, DomainInput& input) {
   space_walls(input.domain, command.layers.spacing);
 }
 
-// Coarser away from the tops than a mesh without a layer is from its walls.
-constexpr double gradation_with_layers = 8.0;
-
 Status run_layers(const MeshCommand& command) {
   const LayerOptions layers = resolved(command.layers);
   MeshingOptions meshing = command.meshing;

@@ -33,19 +33,10 @@
 namespace remodel::app {
 namespace {
 
-struct UpdateCommand {
-  std::string mesh;
-  std::string reference;  // empty: the mesh itself
+struct UpdateCommand : LayeredUpdate {  // and what meshes without layers have beside it
+  std::string reference;                // empty: the mesh itself
   StartMeshOptions start;
-  DomainInputOptions shapes;
-  FitOptions fit;
-  RemodelOptions remodelling;
-  MeshOutputs outputs;
-  CarryOptions carry;
-  LayerCells cells = LayerCells::quadrilaterals;
-  int repeat = 1;
   bool no_regenerate = false;
-  bool json = false;
   std::function<bool(const std::string&)> given;  // on the command line
 };
 
@@ -215,8 +206,7 @@ void require_for_layers(const UpdateCommand& command) {
 
 LayeredUpdate layered(const UpdateCommand& command) {
   require_for_layers(command);
-  LayeredUpdate update{command.mesh,    command.shapes, command.fit,    command.remodelling, command.outputs,
-                       command.carry, command.cells,  command.repeat, command.json};
+  LayeredUpdate update = command;
   update.remodelling.regenerate = !command.no_regenerate;
   if (!command.given("--strategy")) update.remodelling.strategy = Strategy::morph;
   return update;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flow/solution.h"
 #include "remodel/error.h"
 #include "remodel/flow_error.h"
 #include "remodel/generate.h"
@@ -23,11 +24,6 @@ Domain with_twice_the_stations(Domain domain) {
       curve.parameters = std::move(all);
     }
   return domain;
-}
-
-bool is_supersonic_somewhere(const FlowResult& flow) {
-  const std::vector<double> mach = mach_numbers(flow);
-  return std::any_of(mach.begin(), mach.end(), [](double m) { return m > 1.0; });
 }
 
 }  // namespace
@@ -53,7 +49,7 @@ FlowError estimate_error(const Mesh& mesh, const FlowResult& flow, const FlowCon
   error.vertices = finer.points.size();
   error.finer = solve_flow_from(mesh.freeze(), flow, finer, conditions, options, source);
   if (!error.finer.converged()) return error;
-  error.order = is_supersonic_somewhere(error.finer) ? 1.0 : 2.0;
+  error.order = remodel::flow::largest_mach(error.finer) > 1.0 ? 1.0 : 2.0;
   const double whole = 1.0 / (1.0 - std::pow(2.0, -error.order));
   error.cl = conditions.cl ? 0.0 : whole * (error.finer.cl - flow.cl);
   error.cd = whole * (error.finer.cd - flow.cd);

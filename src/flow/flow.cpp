@@ -240,11 +240,31 @@ Stream stream_of(const FlowConditions& conditions, const FlowOptions& options, c
           .limiter = options.limiter};
 }
 
+void note_search(const SearchRecord& record, FlowResult& result) {
+  result.status = record.status;
+  result.reason = record.reason;
+  result.residual = record.residual;
+  result.history = record.history;
+  result.origin = record.origin;
+  result.newton_steps = record.newton_steps + record.in_vain;
+  result.coarse_steps = record.in_vain;
+  result.factorisations = record.factorisations;
+  result.krylov_iterations = record.iterations;
+  result.solver = record.whole_factors ? FlowSolver::lu : FlowSolver::gmres;
+  result.gmres_iterations = record.gmres_iterations;
+  result.memory_mb = record.memory_mb;
+}
+
+double largest_mach(const FlowResult& flow) {
+  const std::vector<double> mach = mach_numbers(flow);
+  return *std::max_element(mach.begin(), mach.end());
+}
+
 FlowResult result_of(const FlowSystem& system, const State& state, const SearchRecord& record,
                      FlowStart start) {
   FlowResult result;
-  result.status = record.status;
-  result.reason = record.reason;
+  note_search(record, result);
+  result.start = start;
   result.mach = system.stream().mach;
   result.alpha_deg = state.augmented[1] / one_degree;
   const double scale = reported_length(system.stream());
@@ -262,28 +282,15 @@ FlowResult result_of(const FlowSystem& system, const State& state, const SearchR
   Warnings warnings = warnings_of(system.mesh(), result.mach, result.alpha_deg);
   result.warnings = std::move(warnings.sentences);
   result.lift_determined = warnings.lift_determined;
-  if (system.mesh().has_farfield() && record.status == FlowStatus::converged) {
-    double most = 0.0;
-    for (const Unknowns<double>& q : state.q) most = std::max(most, mach_squared(q));
-    const std::string spurious = spurious_drag_warning(result.cd, scale, std::sqrt(most));
-    if (!spurious.empty()) result.warnings.push_back(spurious);
-  }
-  result.start = start;
-  result.residual = record.residual;
-  result.history = record.history;
-  result.origin = record.origin;
-  result.newton_steps = record.newton_steps + record.in_vain;
-  result.coarse_steps = record.in_vain;
-  result.factorisations = record.factorisations;
-  result.krylov_iterations = record.iterations;
-  result.solver = record.whole_factors ? FlowSolver::lu : FlowSolver::gmres;
-  result.gmres_iterations = record.gmres_iterations;
-  result.memory_mb = record.memory_mb;
   for (const Unknowns<double>& q : state.q) {
     result.density.push_back(density(q));
     result.velocity_x.push_back(velocity_x(q));
     result.velocity_y.push_back(velocity_y(q));
     result.pressure.push_back(pressure(q));
+  }
+  if (system.mesh().has_farfield() && result.converged()) {
+    const std::string spurious = spurious_drag_warning(result.cd, scale, largest_mach(result));
+    if (!spurious.empty()) result.warnings.push_back(spurious);
   }
   return result;
 }

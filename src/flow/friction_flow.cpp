@@ -94,9 +94,9 @@ std::vector<std::string> friction_warnings(const FrictionMesh& mesh, const FlowF
 
 template <std::size_t N>
 FlowResult result_of(const FrictionSystem<N>& system, const FrictionState<N>& state,
-                     const FrictionRecord& record, FlowModel model, double reynolds) {
+                     const SearchRecord& record, FlowModel model, double reynolds) {
   FlowResult result;
-  result.status = record.status, result.reason = record.reason;
+  note_search(record, result);
   result.model = model;
   result.mach = system.stream().mach;
   result.alpha_deg = state.augmented[1] / one_degree;
@@ -116,20 +116,13 @@ FlowResult result_of(const FrictionSystem<N>& system, const FrictionState<N>& st
   result.friction = friction_of(system, state, unbalanced, reynolds);
   result.friction->cd_pressure = scale * sum.pressure_drag;
   result.friction->cd_friction = scale * (sum.drag - sum.pressure_drag);
-  result.residual = record.residual, result.history = record.history;
-  result.newton_steps = record.newton_steps, result.factorisations = record.factorisations;
-  result.solver = record.whole_factors ? FlowSolver::lu : FlowSolver::gmres;
-  result.gmres_iterations = record.gmres_iterations, result.memory_mb = record.memory_mb;
   for (const auto& q : state.q) {
     result.density.push_back(q[0]);
     result.velocity_x.push_back(q[1]), result.velocity_y.push_back(q[2]);
     result.pressure.push_back(q[3]);
   }
-  if (record.status == FlowStatus::converged) {
-    const std::vector<double> mach = mach_numbers(result);
-    result.warnings = friction_warnings(system.mesh(), *result.friction, model,
-                                        *std::max_element(mach.begin(), mach.end()));
-  }
+  if (result.converged())
+    result.warnings = friction_warnings(system.mesh(), *result.friction, model, largest_mach(result));
   return result;
 }
 
@@ -137,13 +130,8 @@ template <std::size_t N>
 FlowResult found(const FrictionMesh& mesh, const Stream& stream, const Viscosity& viscosity,
                  const FlowConditions& conditions, const FlowOptions& options) {
   const FrictionSystem<N> system(mesh, stream, viscosity);
-  FrictionRecord record;
+  SearchRecord record;
   FrictionSearch<N> search(system, options, record);
-  if (options.on_step)
-    search.on_step = [&](const FrictionProgress& at) {
-      options.on_step(
-          {.newton_step = at.step, .residual = at.residual, .cl = reported_length(stream) * at.lift});
-    };
   FrictionState<N> state = system.start(FrictionPolicy::start_thickness * conditions.reference_length);
   search.run(state);
   return result_of(system, state, record, options.model, conditions.reynolds);

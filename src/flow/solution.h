@@ -9,8 +9,6 @@
 
 namespace remodel::flow {
 
-inline constexpr double degree = M_PI / 180.0;  // in radians
-
 // Throws Error (argument) for what is out of range.
 void require_possible(const FlowConditions& conditions, const FlowOptions& options);
 // Throws Error (argument) for a model with friction.
@@ -23,6 +21,9 @@ FlowMesh dual_of(const FrozenMesh& mesh, const FlowConditions& conditions, const
 void require_ways(const FlowMesh& dual, const FlowConditions& conditions, const FlowOptions& options,
                   const std::string& source);
 Stream stream_of(const FlowConditions& conditions, const FlowOptions& options, const FlowMesh& dual);
+// What a search has done, as its result tells it.
+void note_search(const SearchRecord& record, FlowResult& result);
+double largest_mach(const FlowResult& flow);
 FlowResult result_of(const FlowSystem& system, const State& state, const SearchRecord& record,
                      FlowStart start);
 

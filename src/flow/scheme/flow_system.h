@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "flow/linear/augmented.h"
+#include "flow/scheme/boundary_inputs.h"
 #include "flow/scheme/flow_mesh.h"
 #include "flow/scheme/terms.h"
 
@@ -86,18 +87,8 @@ class FlowSystem {
 template <class T>
 BoundaryInputs<T> FlowSystem::boundary_inputs(const State& state, const BoundaryEdge& edge,
                                               std::size_t half) const {
-  const std::uint32_t here = half == 0 ? edge.a : edge.b, there = half == 0 ? edge.b : edge.a;
-  return {.here = unknowns_of<T>(state.q[here]),
-          .there = unknowns_of<T>(state.q[there]),
-          .half = edge.half[half],
-          .normal = edge.normal,
-          .place_here = mesh_.points()[here],
-          .place_there = mesh_.points()[there],
-          .mach = T(stream_.mach),
-          .alpha = T(state.augmented[1]),
-          .lift = T(state.augmented[0]),
-          .near = edge.of_triangle ? 5.0 / 6.0 : 1.0,
-          .far = edge.of_triangle ? 1.0 / 6.0 : 0.0};
+  const auto gas = [&](std::uint32_t v) -> const Unknowns<double>& { return state.q[v]; };
+  return boundary_inputs_of<T>(mesh_, stream_, state.augmented, edge, half, gas);
 }
 
 }  // namespace remodel::flow

@@ -85,17 +85,15 @@ void FrictionSystem<N>::unbalanced(const FrictionState<N>& state, BlockVector<N>
 }
 
 template <std::size_t N>
-void FrictionSystem<N>::residual(const FrictionState<N>& state, BlockVector<N>& out) const {
-  unbalanced(state, out);
+void FrictionSystem<N>::make_walls_strong(const FrictionState<N>& state, BlockVector<N>& unbalanced) const {
   for (std::size_t v = 0; v < dual_.size(); ++v)
     for (std::size_t k = 0; k < N; ++k)
-      if (mesh_.sticks(v) && is_strong(k)) out[v][k] = state.q[v][k];
+      if (is_replaced(v, k)) unbalanced[v][k] = state.q[v][k];
 }
 
 template <std::size_t N>
-Augmented FrictionSystem<N>::augmented_residual(const FrictionState<N>& state,
-                                                const BlockVector<N>& unbalanced) const {
-  return {forces(state, unbalanced).lift - state.augmented[0],
+Augmented FrictionSystem<N>::augmented_residual(const FrictionState<N>& state, double lift) const {
+  return {lift - state.augmented[0],
           stream_.lift ? state.augmented[0] - *stream_.lift : state.augmented[1] - stream_.alpha};
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "flow/linear/augmented.h"
+#include "flow/scheme/boundary_inputs.h"
 #include "flow/scheme/friction_terms.h"
 
 namespace remodel::flow {
@@ -44,11 +45,11 @@ class FrictionSystem {
   // Undisturbed flow that slows down towards walls within `thickness`, at constant total enthalpy.
   FrictionState<N> start(double thickness) const;
 
-  // The flux out of each dual cell; at walls what strong rows say.
-  void residual(const FrictionState<N>& state, BlockVector<N>& out) const;
-  // Everywhere the flux out of the dual cell.
+  // The flux out of each dual cell. It is the residual once make_walls_strong() has replaced rows of walls.
   void unbalanced(const FrictionState<N>& state, BlockVector<N>& out) const;
-  Augmented augmented_residual(const FrictionState<N>& state, const BlockVector<N>& unbalanced) const;
+  void make_walls_strong(const FrictionState<N>& state, BlockVector<N>& unbalanced) const;
+  // lift: of the state's forces.
+  Augmented augmented_residual(const FrictionState<N>& state, double lift) const;
 
   // The vertices that a row depends on: all of them, or those of the first-order scheme, one ring.
   enum class Order { first, whole };
@@ -112,18 +113,8 @@ template <std::size_t N>
 template <class T>
 BoundaryInputs<T> FrictionSystem<N>::boundary_inputs(const FrictionState<N>& state, const BoundaryEdge& edge,
                                                      std::size_t half) const {
-  const std::uint32_t here = half == 0 ? edge.a : edge.b, there = half == 0 ? edge.b : edge.a;
-  return {.here = unknowns_of<T>(FrictionTerms::gas(state.q[here])),
-          .there = unknowns_of<T>(FrictionTerms::gas(state.q[there])),
-          .half = edge.half[half],
-          .normal = edge.normal,
-          .place_here = dual_.points()[here],
-          .place_there = dual_.points()[there],
-          .mach = T(stream_.mach),
-          .alpha = T(state.augmented[1]),
-          .lift = T(state.augmented[0]),
-          .near = edge.of_triangle ? 5.0 / 6.0 : 1.0,
-          .far = edge.of_triangle ? 1.0 / 6.0 : 0.0};
+  const auto gas = [&](std::uint32_t v) { return FrictionTerms::gas(state.q[v]); };
+  return boundary_inputs_of<T>(dual_, stream_, state.augmented, edge, half, gas);
 }
 
 }  // namespace remodel::flow

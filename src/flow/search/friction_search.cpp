@@ -52,11 +52,10 @@ typename FrictionSearch<N>::At FrictionSearch<N>::at(const FrictionState<N>& sta
   for (const auto& q : state.q)
     for (const std::size_t k : positive_unknowns)
       if (!(q[k] > 0.0)) return now;
-  BlockVector<N> balance;
-  system_.unbalanced(state, balance);
-  now.forces = system_.forces(state, balance);
-  now.augmented = system_.augmented_residual(state, balance);
-  system_.residual(state, now.residual);
+  system_.unbalanced(state, now.residual);
+  now.lift = system_.forces(state, now.residual).lift;
+  now.augmented = system_.augmented_residual(state, now.lift);
+  system_.make_walls_strong(state, now.residual);
   now.size = size_of(now.residual, now.augmented);
   return now;
 }
@@ -148,7 +147,6 @@ bool FrictionSearch<N>::solve(const FrictionState<N>& state, const std::vector<d
        .rounds = FrictionPolicy::rounds,
        .observer = options_.observer},
       step);
-  last_iterations_ = end.iterations;
   record_.gmres_iterations += end.iterations;
   note_failure(!(end.residual <= 2.0 * part * size));
   return end.residual < 0.9 * size;
@@ -180,6 +178,8 @@ double FrictionSearch<N>::line_search(const BlockIncrement<N>& step, const std::
 
 template <std::size_t N>
 void FrictionSearch<N>::run(FrictionState<N>& state, double cfl) {
+  record_.origin = FlowOrigin::undisturbed;
+  record_.whole_factors = false;
   scale_ = 1.0;
   At now = at(state);
   scale_ = std::max(size_of(now.residual, {}), 1e-3 * system_.stream().length / gas_gamma);
@@ -214,9 +214,8 @@ void FrictionSearch<N>::run(FrictionState<N>& state, double cfl) {
     record_.history.push_back(now.size);
     since_least = now.size < least ? 0 : since_least + (cfl > 1e4 ? 1 : 0);
     least = std::min(least, now.size);
-    if (on_step)
-      on_step(
-          {record_.newton_steps, now.size, cfl, length, now.forces.lift, now.forces.drag, last_iterations_});
+    if (options_.on_step)
+      options_.on_step({record_.newton_steps, now.size, reported_length(system_.stream()) * now.lift});
   }
   end(FlowStatus::converged, "");
 }

@@ -11,13 +11,12 @@
 // Linear systems: GMRES with the exact Jacobian, preconditioned by the first-order scheme of one ring,
 // friction and turbulence exact. Incomplete factors of the exact Jacobian are useless beside walls.
 
-#include <functional>
-#include <string>
 #include <vector>
 
 #include "flow/linear/direct_solver.h"
 #include "flow/linear/incomplete_lu.h"
 #include "flow/scheme/friction_system.h"
+#include "flow/search/newton_search.h"
 #include "remodel/flow.h"
 
 namespace remodel::flow {
@@ -34,39 +33,21 @@ struct FrictionPolicy {
   static constexpr int patience = 40;  // steps without a new least residual at full CFL
 };
 
-struct FrictionRecord {
-  FlowStatus status = FlowStatus::stalled;
-  std::string reason;
-  double residual = 0.0;
-  std::vector<double> history;
-  int newton_steps = 0, factorisations = 0, gmres_iterations = 0;
-  double memory_mb = 0.0;
-  bool whole_factors = false;
-};
-
-// What a step looks like, for programs that watch.
-struct FrictionProgress {
-  int step;
-  double residual, cfl, length, lift, drag;
-  int gmres_iterations;
-};
-
 template <std::size_t N>
 class FrictionSearch {
  public:
-  FrictionSearch(const FrictionSystem<N>& system, const FlowOptions& options, FrictionRecord& record)
+  FrictionSearch(const FrictionSystem<N>& system, const FlowOptions& options, SearchRecord& record)
       : system_(system), options_(options), record_(record) {}
 
   // Goes on from `state` to the flow, or to where the search ends.
   void run(FrictionState<N>& state, double cfl = FrictionPolicy::first_cfl);
-  std::function<void(const FrictionProgress&)> on_step;
 
  private:
   struct At {
     BlockVector<N> residual;
     Augmented augmented = {};
     double size = 0.0;
-    WallForces forces = {};
+    double lift = 0.0;
   };
   At at(const FrictionState<N>& state) const;
   double size_of(const BlockVector<N>& residual, const Augmented& augmented) const;
@@ -82,13 +63,12 @@ class FrictionSearch {
 
   const FrictionSystem<N>& system_;
   const FlowOptions& options_;
-  FrictionRecord& record_;
+  SearchRecord& record_;
   double scale_ = 1.0;  // of residuals: those of the state that the search began with
   typename FrictionSystem<N>::Jacobian jacobian_;
   IncompleteLu<N> incomplete_;
   DirectSolver<N> lu_;
   bool by_lu_ = false, failed_before_ = false;
-  int last_iterations_ = 0;
 };
 
 }  // namespace remodel::flow
