@@ -28,7 +28,7 @@ struct FrictionPolicy {
   static constexpr double largest_part = 0.2;  // of a density or pressure that a step changes
   static constexpr int halvings = 8;
   static constexpr double start_thickness = 0.01;  // lengths
-  static constexpr double least_forcing = 1e-3, most_forcing = 1e-1;
+  static constexpr double least_forcing = 1e-3, most_forcing = 1e-2;
   static constexpr int restart = 60, rounds = 3;
   static constexpr int patience = 40;  // steps without a new least residual at full CFL
 };
