@@ -17,7 +17,7 @@ struct Case {
           .mesh.freeze(),
       "farfield", "mesh"};
   flow::FlowSystem system{mesh, {.mach = 0.5, .alpha = 0.02}};
-  flow::State state = system.uniform();
+  flow::State state = system.undisturbed();
   Case() {
     for (std::size_t v = 0; v < state.q.size(); ++v)
       for (std::size_t k = 0; k < flow::unknown_count; ++k)

@@ -127,7 +127,7 @@ struct FlowOptions {
   std::vector<std::string> symmetry = {};
   std::function<void(const FlowProgress&)> on_step = {};  // called after each Newton step
   // With friction gas sticks to all walls, through which no heat passes. Meshes should have layers of flat
-  // quadrilaterals there (remodel/layers.h). solve_flow() alone finds such flows.
+  // quadrilaterals there (remodel/layers.h).
   FlowModel model = FlowModel::euler;
   // Sutherland's law makes the viscosity of this temperature of the stream, in Kelvin: more than 0, or 0 for a
   // constant viscosity. Prandtl numbers are 0.72, and 0.9 of turbulence.
@@ -181,8 +181,9 @@ struct FlowFriction {
   // Each has one value for each point of the frozen mesh. On walls: the friction, over half the stream's density times
   // speed squared, positive where it acts along the stream; and y+, of the lowest cell there. 0 elsewhere.
   std::vector<double> cf, y_plus;
-  // Turbulent viscosity over the molecular one there; empty for laminar flow.
-  std::vector<double> viscosity_ratio;
+  // Of turbulent flow, empty otherwise: turbulent viscosity over the molecular one there; and the working variable of
+  // the model, over the stream's kinematic viscosity, which solve_flow_from() begins with.
+  std::vector<double> viscosity_ratio, working;
 };
 
 struct FlowResult {
@@ -321,14 +322,14 @@ class LivingFlow {
   LivingFlow(LivingFlow&&) noexcept;
   LivingFlow& operator=(LivingFlow&&) noexcept;
 
-  // Cold flows begin as those of solve_flow() of a Mesh do. Throws Error (argument) for a model with friction.
+  // Cold flows begin as those of solve_flow() of a Mesh do.
   FlowResult solve(const Mesh& mesh, const FlowConditions& conditions);
   // This takes Mesh::freeze(); cold flows begin without coarser meshes. Throws Error (argument) where
   // vertices have no keys.
   FlowResult solve(const FrozenMesh& mesh, const FlowConditions& conditions);
   // Gradients of the last flow that was found. They take the factors that there are, transposed, where these
   // serve; otherwise new ones, which the next flows have too. Throws Error (argument) before the first flow,
-  // where functionals are of another size, and where there are inlets or outlets.
+  // where functionals are of another size, where there are inlets or outlets, and for models with friction.
   FlowGradients gradients(const std::vector<FlowFunctional>& functions = {},
                           const WantedGradients& wanted = {});
   // The next flow is found cold.
@@ -336,7 +337,8 @@ class LivingFlow {
   // The last flow that was found, without its factors; empty before the first one.
   KeptFlow keep() const;
   // The next flow begins with that one, as if it had been the last, with the factors that there are. Where
-  // flows are not unique it decides which of them is found. Nothing happens if it is empty.
+  // flows are not unique it decides which of them is found. Nothing happens if it is empty. Throws Error
+  // (argument) where it is of another model.
   void go_on_from(const KeptFlow& kept);
 
  private:

@@ -139,7 +139,7 @@ TEST(Duct, TheJacobianOfInletsAndOutletsIsExact) {
       {"out", flow::Outlet{.given = 0.84}}};
   const flow::FlowMesh dual(mesh, patches, "duct");
   const flow::FlowSystem system(dual, {.mach = 0.4});
-  flow::State state = system.uniform();
+  flow::State state = system.undisturbed();
   for (auto& q : state.q)
     for (double& value : q) value += test::uniform(random, -0.05, 0.05);
   flow::BlockRows matrix = system.pattern();

@@ -146,10 +146,14 @@ void require_possible(const FlowConditions& conditions, const FlowOptions& optio
           "Kelvin, or 0");
 }
 
-void require_euler(const FlowOptions& options) {
-  if (options.model == FlowModel::euler) return;
-  throw Error(ErrorCode::argument, "model",
-              std::string("found ") + name_of(options.model) + ", expected euler: flows with friction are found cold");
+void require_known(const FlowResult& known, const FlowMesh& mesh, FlowModel model, const std::string& source) {
+  if (known.density.size() != mesh.size())
+    throw Error(ErrorCode::argument, source,
+                "found a flow at " + std::to_string(known.density.size()) + " points, expected one at the " +
+                    std::to_string(mesh.size()) + " of its mesh");
+  if (model == FlowModel::sa && (!known.friction || known.friction->working.size() != mesh.size()))
+    throw Error(ErrorCode::argument, source,
+                std::string("found a flow of the model ") + name_of(known.model) + ", expected one of sa");
 }
 
 FlowMesh dual_of(const FrozenMesh& mesh, const FlowConditions& conditions, const FlowOptions& options,
@@ -295,7 +299,8 @@ FlowResult result_of(const FlowSystem& system, const State& state, const SearchR
   return result;
 }
 
-Vector interpolated(const FlowMesh& mesh, const Vector& state, std::span<const Point> at) {
+template <std::size_t N>
+BlockVector<N> interpolated(const FlowMesh& mesh, const BlockVector<N>& state, std::span<const Point> at) {
   const std::vector<std::array<std::uint32_t, 3>> triangles = mesh.triangles();
   std::vector<std::uint32_t> start(mesh.size() + 1, 0);
   for (const auto& corners : triangles)
@@ -306,7 +311,7 @@ Vector interpolated(const FlowMesh& mesh, const Vector& state, std::span<const P
     for (const std::uint32_t v : triangles[t]) around[fill[v]++] = t;
 
   const Points points(mesh.points());
-  Vector result;
+  BlockVector<N> result;
   for (const Point p : at) {
     const std::size_t near = points.nearest(p);
     // The triangle that p lies in is mostly one around the nearest vertex, or next to one of these.
@@ -320,14 +325,16 @@ Vector interpolated(const FlowMesh& mesh, const Vector& state, std::span<const P
     }
     double total = 0.0;
     for (double& w : weights) w = std::clamp(w, 0.0, 1.0), total += w;
-    Unknowns<double> value = {};
+    std::array<double, N> value = {};
     for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t k = 0; k < unknown_count; ++k)
+      for (std::size_t k = 0; k < N; ++k)
         value[k] += weights[i] / total * state[triangles[best_triangle][i]][k];
     result.push_back(value);
   }
   return result;
 }
+template BlockVector<4> interpolated<4>(const FlowMesh&, const BlockVector<4>&, std::span<const Point>);
+template BlockVector<5> interpolated<5>(const FlowMesh&, const BlockVector<5>&, std::span<const Point>);
 
 }  // namespace flow
 
@@ -372,22 +379,20 @@ FlowResult solve_flow(const Mesh& mesh, const FlowConditions& conditions, const 
 FlowResult solve_flow_from(const FrozenMesh& before, const FlowResult& known, const FrozenMesh& mesh,
                            const FlowConditions& conditions, const FlowOptions& options,
                            const std::string& source) {
-  const Stopwatch watch;
-  flow::require_euler(options);
   flow::require_possible(conditions, options);
+  if (options.model != FlowModel::euler)
+    return flow::friction_flow_from(before, known, mesh, conditions, options, source);
+  const Stopwatch watch;
   const flow::FlowMesh old = flow::dual_of(before, conditions, options, source);
   const flow::FlowMesh dual = flow::dual_of(mesh, conditions, options, source);
-  if (known.density.size() != old.size())
-    throw Error(ErrorCode::argument, source,
-                "found a flow at " + std::to_string(known.density.size()) + " points, expected one at the " +
-                    std::to_string(old.size()) + " of its mesh");
+  flow::require_known(known, old, options.model, source);
   const flow::FlowSystem system(dual, flow::stream_of(conditions, options, dual));
   const flow::Measure measure(system);
   flow::Vector q(old.size());
   for (std::size_t v = 0; v < q.size(); ++v)
     q[v] = {known.density[v], known.velocity_x[v], known.velocity_y[v], known.pressure[v]};
   flow::State state;
-  state.q = flow::interpolated(old, q, dual.points());
+  state.q = flow::interpolated<flow::unknown_count>(old, q, dual.points());
   state.augmented = {known.cl / flow::reported_length(system.stream()),
                      conditions.cl ? known.alpha_deg * flow::one_degree : system.stream().alpha};
 

@@ -227,7 +227,7 @@ TEST(Flow, AFlowThatStallsIsFoundInStages) {
   const flow::Measure measure(system);
   flow::WholeMatrix matrix;
   flow::Factors factors;
-  flow::State state = system.uniform();
+  flow::State state = system.undisturbed();
   flow::SearchRecord straight, record;
   flow::NewtonSearch(options, matrix, factors, straight)
       .run(measure, {.cfl = flow::SearchPolicy::cold_cfl}, state);

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/stopwatch.h"
-#include "flow/search/friction_search.h"
+#include "flow/search/chord.h"
 #include "flow/solution.h"
 
 namespace remodel::flow {
@@ -35,28 +35,29 @@ std::vector<WallVertex> wall_vertices_of(const FlowMesh& dual, Point stream) {
 }
 
 template <std::size_t N>
-FlowFriction friction_of(const FrictionSystem<N>& system, const FrictionState<N>& state,
-                         const BlockVector<N>& unbalanced, double reynolds) {
-  const FlowMesh& dual = system.mesh().dual();
+FlowFriction friction_of(const FrictionSystem<N>& system, const BlockState<N>& state,
+                         const BlockVector<N>& unbalanced) {
+  const FlowMesh& dual = system.mesh();
   const Viscosity& viscosity = system.terms().viscosity;
   const double mach = system.stream().mach;
   FlowFriction friction;
-  friction.reynolds = reynolds;
+  friction.reynolds = mach * system.stream().reference_length / viscosity.stream;
   friction.cf.assign(dual.size(), 0.0), friction.y_plus.assign(dual.size(), 0.0);
   const std::vector<WallVertex> walls =
       wall_vertices_of(dual, {std::cos(state.augmented[1]), std::sin(state.augmented[1])});
   for (std::uint32_t v = 0; v < dual.size(); ++v) {
     const Unknowns<double> q = FrictionTerms::gas(state.q[v]);
     const double molecular = viscosity.at(temperature(q));
+    if constexpr (N == 5) friction.working.push_back(FrictionTerms::working_unit * state.q[v][4]);
     if constexpr (N == 5)
       friction.viscosity_ratio.push_back(SpalartAllmaras::turbulent_ratio(
           FrictionTerms::working_unit * viscosity.stream * q[0] * state.q[v][4] / molecular));
-    if (!system.mesh().sticks(v) || walls[v].length == 0.0) continue;
+    if (!system.friction_mesh().sticks(v) || walls[v].length == 0.0) continue;
     const double stress = dot(system.friction_force(unbalanced, v), walls[v].along) / walls[v].length;
     double height = std::numeric_limits<double>::infinity();
     for (const RingEntry& entry : dual.ring(v))
-      if (!system.mesh().sticks(entry.vertex))
-        height = std::min(height, system.mesh().distances()[entry.vertex]);
+      if (!system.friction_mesh().sticks(entry.vertex))
+        height = std::min(height, system.friction_mesh().distances()[entry.vertex]);
     friction.cf[v] = stress / (0.5 * mach * mach);
     if (std::isfinite(height))
       friction.y_plus[v] = std::sqrt(std::fabs(stress) * density(q)) * height / molecular;
@@ -92,12 +93,15 @@ std::vector<std::string> friction_warnings(const FrictionMesh& mesh, const FlowF
   return warnings;
 }
 
+}  // namespace
+
 template <std::size_t N>
-FlowResult result_of(const FrictionSystem<N>& system, const FrictionState<N>& state,
-                     const SearchRecord& record, FlowModel model, double reynolds) {
+FlowResult result_of(const FrictionSystem<N>& system, const BlockState<N>& state, const SearchRecord& record,
+                     FlowStart start) {
   FlowResult result;
   note_search(record, result);
-  result.model = model;
+  result.start = start;
+  result.model = N == 5 ? FlowModel::sa : FlowModel::laminar;
   result.mach = system.stream().mach;
   result.alpha_deg = state.augmented[1] / one_degree;
   BlockVector<N> unbalanced;
@@ -105,7 +109,7 @@ FlowResult result_of(const FrictionSystem<N>& system, const FrictionState<N>& st
   const double scale = reported_length(system.stream());
   const WallForces sum = system.forces(state, unbalanced);
   result.cl = scale * sum.lift, result.cd = scale * sum.drag, result.cm = scale * scale * sum.moment;
-  const std::vector<Patch>& patches = system.mesh().dual().patches();
+  const std::vector<Patch>& patches = system.mesh().patches();
   for (std::uint32_t i = 0; i < patches.size(); ++i) {
     if (patches[i].open()) result.openings.push_back({patches[i].name, system.mass_flow(state, i)});
     if (!patches[i].solid()) continue;
@@ -113,7 +117,7 @@ FlowResult result_of(const FrictionSystem<N>& system, const FrictionState<N>& st
     result.bodies.push_back(
         {patches[i].name, scale * part.lift, scale * part.drag, scale * scale * part.moment});
   }
-  result.friction = friction_of(system, state, unbalanced, reynolds);
+  result.friction = friction_of(system, state, unbalanced);
   result.friction->cd_pressure = scale * sum.pressure_drag;
   result.friction->cd_friction = scale * (sum.drag - sum.pressure_drag);
   for (const auto& q : state.q) {
@@ -122,19 +126,28 @@ FlowResult result_of(const FrictionSystem<N>& system, const FrictionState<N>& st
     result.pressure.push_back(q[3]);
   }
   if (result.converged())
-    result.warnings = friction_warnings(system.mesh(), *result.friction, model, largest_mach(result));
+    result.warnings = friction_warnings(system.friction_mesh(), *result.friction, result.model, largest_mach(result));
   return result;
 }
 
+Viscosity viscosity_of(const FlowConditions& conditions, const FlowOptions& options) {
+  return {.stream = conditions.mach * conditions.reference_length / conditions.reynolds,
+          .temperature = options.temperature_k};
+}
+
+namespace {
+
 template <std::size_t N>
-FlowResult found(const FrictionMesh& mesh, const Stream& stream, const Viscosity& viscosity,
-                 const FlowConditions& conditions, const FlowOptions& options) {
-  const FrictionSystem<N> system(mesh, stream, viscosity);
+FlowResult found(const FrozenMesh& frozen, const FlowConditions& conditions, const FlowOptions& options,
+                 const std::string& source) {
+  const FlowMesh mesh = dual_of(frozen, conditions, options, source);
+  const FrictionMesh friction_mesh(mesh);
+  const FrictionSystem<N> system(friction_mesh, stream_of(conditions, options, mesh), viscosity_of(conditions, options));
+  const BlockMeasure<N> measure(system);
   SearchRecord record;
-  FrictionSearch<N> search(system, options, record);
-  FrictionState<N> state = system.start(FrictionPolicy::start_thickness * conditions.reference_length);
-  search.run(state);
-  return result_of(system, state, record, options.model, conditions.reynolds);
+  BlockState<N> state;
+  FrictionSearch<N>(system, measure, options, record).cold(state);
+  return result_of(system, state, record, FlowStart::cold);
 }
 
 }  // namespace
@@ -143,16 +156,58 @@ FlowResult friction_flow(const FrozenMesh& mesh, const FlowConditions& condition
                          const std::string& source) {
   const Stopwatch watch;
   require_possible(conditions, options);
-  const FlowMesh dual = dual_of(mesh, conditions, options, source);
-  const FrictionMesh friction_mesh(dual);
-  const Stream stream = stream_of(conditions, options, dual);
-  const Viscosity viscosity = {.stream = conditions.mach * conditions.reference_length / conditions.reynolds,
-                               .temperature = options.temperature_k};
-  FlowResult result = options.model == FlowModel::sa
-                          ? found<5>(friction_mesh, stream, viscosity, conditions, options)
-                          : found<4>(friction_mesh, stream, viscosity, conditions, options);
+  FlowResult result = options.model == FlowModel::sa ? found<5>(mesh, conditions, options, source)
+                                                     : found<4>(mesh, conditions, options, source);
   result.seconds = watch.seconds();
   return result;
 }
+
+namespace {
+
+template <std::size_t N>
+FlowResult found_from(const FlowMesh& old, const FlowResult& known, const FlowMesh& mesh,
+                      const FlowConditions& conditions, const FlowOptions& options) {
+  const FrictionMesh friction_mesh(mesh);
+  const FrictionSystem<N> system(friction_mesh, stream_of(conditions, options, mesh), viscosity_of(conditions, options));
+  const BlockMeasure<N> measure(system);
+  BlockVector<N> q(old.size());
+  for (std::size_t v = 0; v < q.size(); ++v) {
+    q[v] = {known.density[v], known.velocity_x[v], known.velocity_y[v], known.pressure[v]};
+    if constexpr (N == 5) q[v][4] = known.friction->working[v] / FrictionTerms::working_unit;
+  }
+  BlockState<N> state = {.q = interpolated<N>(old, q, mesh.points()),
+                         .augmented = {known.cl / reported_length(system.stream()),
+                                       conditions.cl ? known.alpha_deg * one_degree : system.stream().alpha}};
+  SearchRecord record;
+  FlowStart start = FlowStart::refactored;
+  BlockWholeMatrix<N> matrix;
+  BlockFactors<N> factors;
+  BlockSearch<N> with_own(options, matrix, factors, record);
+  FrictionSearch<N> search(system, measure, options, record);
+  if (options.solver != FlowSolver::lu || steps_with_own_factors(measure, with_own, state) == ChordEnd::slow)
+    search.near(state);
+  if (record.status == FlowStatus::stalled || record.status == FlowStatus::step_limit) {
+    start = FlowStart::cold;
+    search.cold(state);
+  }
+  return result_of(system, state, record, start);
+}
+
+}  // namespace
+
+FlowResult friction_flow_from(const FrozenMesh& before, const FlowResult& known, const FrozenMesh& mesh,
+                              const FlowConditions& conditions, const FlowOptions& options,
+                              const std::string& source) {
+  const Stopwatch watch;
+  const FlowMesh old = dual_of(before, conditions, options, source), dual = dual_of(mesh, conditions, options, source);
+  require_known(known, old, options.model, source);
+  FlowResult result = options.model == FlowModel::sa ? found_from<5>(old, known, dual, conditions, options)
+                                                     : found_from<4>(old, known, dual, conditions, options);
+  result.seconds = watch.seconds();
+  return result;
+}
+
+template FlowResult result_of<4>(const FrictionSystem<4>&, const BlockState<4>&, const SearchRecord&, FlowStart);
+template FlowResult result_of<5>(const FrictionSystem<5>&, const BlockState<5>&, const SearchRecord&, FlowStart);
 
 }  // namespace remodel::flow

@@ -5,11 +5,14 @@
 #include <cmath>
 #include <random>
 
+#include "flow/living_flow/last_flow.h"
 #include "flow/search/friction_search.h"
 #include "flow/test_flows.h"
 #include "flow/test_grids.h"
 #include "remodel/error.h"
+#include "remodel/airfoil.h"
 #include "remodel/flow.h"
+#include "remodel/layers.h"
 #include "support.h"
 
 namespace remodel::flow {
@@ -53,7 +56,7 @@ void expect_exact_jacobian() {
   const FlowMesh dual = uneven_grid(random);
   const FrictionMesh mesh(dual);
   const FrictionSystem<N> system(mesh, {.mach = 0.4, .alpha = 0.05}, {.stream = 0.4 / 300.0});
-  FrictionState<N> state = system.start(0.2);
+  BlockState<N> state = system.start(0.2);
   BlockIncrement<N> step = zero_of<N>(dual.size());
   for (std::size_t v = 0; v < dual.size(); ++v)
     for (std::size_t k = 0; k < N; ++k) {
@@ -63,14 +66,12 @@ void expect_exact_jacobian() {
   step.augmented = {0.7, -0.4};
   state.augmented = {0.3, 0.06};
   const auto residual_at = [&](double h) {
-    FrictionState<N> at = state;
+    BlockState<N> at = state;
     for (std::size_t v = 0; v < dual.size(); ++v)
       for (std::size_t k = 0; k < N; ++k) at.q[v][k] += h * step.q[v][k];
     for (std::size_t z = 0; z < 2; ++z) at.augmented[z] += h * step.augmented[z];
     BlockIncrement<N> result;
-    system.unbalanced(at, result.q);
-    result.augmented = system.augmented_residual(at, system.forces(at, result.q).lift);
-    system.make_walls_strong(at, result.q);
+    system.residuals(at, result.q, result.augmented);
     return result;
   };
   typename FrictionSystem<N>::Jacobian jacobian;
@@ -213,11 +214,106 @@ TEST(Friction, ThePlatesTurbulentFrictionIsNearTheReference) {
             50.0);
 }
 
+// NACA 0012 with a coarse layer, then two designs on the same stations.
+struct LayeredDesigns {
+  explicit LayeredDesigns(double reynolds, double first) {
+    layer = {.first_height = first, .growth = 1.5, .thickness = 1.2 * boundary_layer_thickness(reynolds)};
+    mesh = generate_layered(domain(), layer, {.gradation = 8.0}).mesh;
+  }
+  Domain domain() const {
+    Domain result = airfoil_domain(airfoil);
+    space_walls(result, {.leading_edge = 0.006, .trailing_edge = 0.006, .most = 0.04, .growth = 0.2});
+    for (std::size_t l = 0; !mesh.empty() && l < result.loops.size(); ++l)
+      for (std::size_t c = 0; c < result.loops[l].curves.size(); ++c)
+        result.loops[l].curves[c].parameters = mesh.domain().loops[l].curves[c].parameters;
+    return result;
+  }
+  void change(double by) {
+    airfoil.upper[1] += by, airfoil.lower[2] += 0.5 * by;
+    remodel::remodel(mesh, domain());
+  }
+  CstAirfoil airfoil = named_airfoil("naca:0012", 5);
+  LayerOptions layer;
+  LayeredMesh mesh;
+};
+
+// What a living flow carries decides how long it takes, and nothing else.
+void expect_living_flow(FlowModel model, const FlowConditions& conditions, double first) {
+  FlowOptions options;
+  options.model = model, options.tolerance = 1e-9;
+  LayeredDesigns designs(conditions.reynolds, first);
+  LivingFlow living(options);
+  const FlowResult start = living.solve(designs.mesh.freeze(), conditions);
+  ASSERT_TRUE(start.converged()) << start.reason;
+  EXPECT_EQ(start.start, FlowStart::cold);
+  EXPECT_LE(start.newton_steps, 30);
+  for (const double by : {1e-3, 2e-2}) {
+    designs.change(by);
+    const FrozenMesh mesh = designs.mesh.freeze();
+    const FlowResult flow = living.solve(mesh, conditions);
+    const FlowResult cold = solve_flow(mesh, conditions, options);
+    ASSERT_TRUE(flow.converged() && cold.converged()) << flow.reason << cold.reason;
+    EXPECT_NE(flow.start, FlowStart::cold);
+    EXPECT_LE(flow.newton_steps, 2);
+    EXPECT_NEAR(flow.cl, cold.cl, 1e-6);
+    EXPECT_NEAR(flow.cd, cold.cd, 1e-7);
+    EXPECT_GT(std::fabs(flow.cl - start.cl), 1e-4);  // it is another flow
+  }
+  EXPECT_THROW(living.gradients(), Error);
+}
+
+TEST(Friction, LaminarFlowsOutliveTheirMesh) {
+  expect_living_flow(FlowModel::laminar, {.mach = 0.5, .alpha_deg = 1.0, .reynolds = 5000.0}, 2e-3);
+}
+TEST(Friction, TurbulentFlowsOutliveTheirMesh) {
+  expect_living_flow(FlowModel::sa, {.mach = 0.5, .alpha_deg = 1.0, .reynolds = 1e6}, 2e-5);
+}
+
+// The angle is looked for with the flow.
+TEST(Friction, AFlowOfAGivenLiftHasTheAngleOfThatLift) {
+  FlowOptions options;
+  options.model = FlowModel::laminar, options.tolerance = 1e-9;
+  const FrozenMesh mesh = LayeredDesigns(500.0, 5e-3).mesh.freeze();
+  const FlowResult given = solve_flow(mesh, {.mach = 0.2, .cl = 0.1, .reynolds = 500.0}, options);
+  ASSERT_TRUE(given.converged()) << given.reason;
+  EXPECT_NEAR(given.cl, 0.1, 1e-8);
+  const FlowResult same =
+      solve_flow(mesh, {.mach = 0.2, .alpha_deg = given.alpha_deg, .reynolds = 500.0}, options);
+  EXPECT_NEAR(same.cl, 0.1, 1e-6);
+  EXPECT_GT(given.alpha_deg, 1.0);
+  EXPECT_LT(given.alpha_deg, 5.0);
+}
+
+// Keys of layers count their vertices by themselves: the same index may be another vertex's outside.
+TEST(Friction, VerticesOfLayersAreFoundBesideOthersOfTheSameIndex) {
+  const std::uint32_t of_layer = 1U << 31;
+  const Keys keys = {{{7}, of_layer}, {{8}, of_layer}, {{7}, 3}, {{8}, 0}};
+  const KeyTable table(keys);
+  for (std::uint32_t i = 0; i < keys.size(); ++i) EXPECT_EQ(table.find(keys[i]), i);
+  EXPECT_EQ(table.find({{7}, 4}), no_index);
+}
+
+TEST(Friction, AFlowIsGoneOnFromOnAnotherMesh) {
+  FlowOptions options;
+  options.model = FlowModel::sa, options.tolerance = 1e-9;
+  const FlowConditions conditions = {.mach = 0.5, .alpha_deg = 1.0, .reynolds = 1e6};
+  LayeredDesigns coarse(1e6, 2e-5), fine(1e6, 1.5e-5);
+  const FrozenMesh before = coarse.mesh.freeze(), mesh = fine.mesh.freeze();
+  const FlowResult known = solve_flow(before, conditions, options);
+  const FlowResult flow = solve_flow_from(before, known, mesh, conditions, options);
+  ASSERT_TRUE(flow.converged()) << flow.reason;
+  const FlowResult cold = solve_flow(mesh, conditions, options);
+  EXPECT_NEAR(flow.cl, cold.cl, 1e-6);
+  EXPECT_NEAR(flow.cd, cold.cd, 1e-7);
+  FlowResult without = known;
+  without.friction->working.clear();
+  EXPECT_THROW(solve_flow_from(before, without, mesh, conditions, options), Error);
+}
+
 TEST(Friction, ModelsWithFrictionAreRefusedWhereTheyAreNotKnown) {
   FlowOptions options;
   options.model = FlowModel::laminar;
   const FrozenMesh mesh = test::c_grid({.half = 8, .wake = 4, .up = 6, .first = 0.02}).frozen();
-  EXPECT_THROW(LivingFlow{options}.solve(mesh, {.mach = 0.5, .reynolds = 1e4}), Error);
   EXPECT_THROW(solve_flow(mesh, {.mach = 0.5}, options), Error);  // without a Reynolds number
 }
 

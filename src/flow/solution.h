@@ -11,8 +11,8 @@ namespace remodel::flow {
 
 // Throws Error (argument) for what is out of range.
 void require_possible(const FlowConditions& conditions, const FlowOptions& options);
-// Throws Error (argument) for a model with friction.
-void require_euler(const FlowOptions& options);
+// Throws Error (argument) where that is no flow through this mesh, or has no state that the model can begin with.
+void require_known(const FlowResult& known, const FlowMesh& mesh, FlowModel model, const std::string& source);
 // The mesh as the solver sees it, with far field, inlets and outlets as the options name them. Throws Error
 // (argument), naming `source`, where it has no wall, or nothing that gas enters or leaves by.
 FlowMesh dual_of(const FrozenMesh& mesh, const FlowConditions& conditions, const FlowOptions& options,
@@ -30,6 +30,7 @@ FlowResult result_of(const FlowSystem& system, const State& state, const SearchR
 // The state of another mesh at these points, interpolated linearly; beyond it that of its nearest triangle.
 // Transfer (remodel/transfer.h) does not serve here: it goes by keys of vertices, and the meshes of
 // search_by_meshes() and solve_flow_from() have no history in common.
-Vector interpolated(const FlowMesh& mesh, const Vector& state, std::span<const Point> at);
+template <std::size_t N>
+BlockVector<N> interpolated(const FlowMesh& mesh, const BlockVector<N>& state, std::span<const Point> at);
 
 }  // namespace remodel::flow

@@ -85,7 +85,7 @@ inline FrozenMesh ring_mesh(std::uint32_t n) {
 // The flow that is found from this one.
 inline flow::State found_from(const flow::FlowSystem& system,
                               const std::function<flow::Unknowns<double>(Point)>& exact_at) {
-  flow::State state = system.uniform();
+  flow::State state = system.undisturbed();
   for (std::size_t v = 0; v < state.q.size(); ++v) state.q[v] = exact_at(system.mesh().points()[v]);
   const FlowOptions options = {.tolerance = 1e-11};
   flow::WholeMatrix matrix;

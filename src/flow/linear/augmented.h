@@ -35,6 +35,14 @@ double norm(const BlockIncrement<N>& a);
 template <std::size_t N>
 void add_times(BlockIncrement<N>& to, double factor, const BlockIncrement<N>& what);
 
+// What flows are found for: the unknowns of vertices and the augmented ones, which in src/flow are the lift coefficient
+// that the far field's vortex belongs to and the angle of attack in radians.
+template <std::size_t N>
+struct BlockState {
+  BlockVector<N> q;
+  Augmented augmented = {};
+};
+
 // D and E. The second equation has augmented unknowns alone.
 template <std::size_t N>
 struct BlockAugmentedRows {
@@ -77,6 +85,7 @@ BlockIncrement<N> close_augmented(std::vector<std::array<double, N>> x,
 using Vector = BlockVector<unknown_count>;
 using Block = SquareBlock<unknown_count>;
 using BlockRows = BlockMatrix<unknown_count>;
+using State = BlockState<unknown_count>;
 using Increment = BlockIncrement<unknown_count>;
 using AugmentedRows = BlockAugmentedRows<unknown_count>;
 using AugmentedMatrix = BlockAugmentedMatrix<unknown_count>;

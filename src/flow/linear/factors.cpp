@@ -14,7 +14,8 @@ constexpr int highest_level = 2, longest_restart = 60, shortest_restart = 20;
 
 }  // namespace
 
-Factored Factors::factor(const BlockRows& matrix, std::array<Vector, augmented_count> augmented,
+template <std::size_t N>
+Factored BlockFactors<N>::factor(const BlockMatrix<N>& matrix, std::array<BlockVector<N>, augmented_count> augmented,
                          FactorKind kind, double memory_mb) {
   Factored outcome = Factored::out_of_memory;
   if (kind == FactorKind::whole && !too_large(matrix.rows.size())) {
@@ -28,12 +29,13 @@ Factored Factors::factor(const BlockRows& matrix, std::array<Vector, augmented_c
   }
   if (outcome != Factored::done) return outcome;
   columns_ = std::move(augmented);
-  for (Vector& column : columns_) solve(column);
+  for (BlockVector<N>& column : columns_) solve(column);
   return outcome;
 }
 
-Factored Factors::factor_incompletely(const BlockRows& matrix, double memory_mb) {
-  const double vector_mb = 1e-6 * gmres_bytes * static_cast<double>(matrix.rows.size());
+template <std::size_t N>
+Factored BlockFactors<N>::factor_incompletely(const BlockMatrix<N>& matrix, double memory_mb) {
+  const double vector_mb = 1e-6 * gmres_bytes_of(N) * static_cast<double>(matrix.rows.size());
   // A level that served this pattern before serves again.
   int level = incomplete_.is_of(matrix) ? incomplete_.level() : highest_level;
   for (; level >= 0; --level) {
@@ -47,33 +49,41 @@ Factored Factors::factor_incompletely(const BlockRows& matrix, double memory_mb)
   return Factored::out_of_memory;
 }
 
-void Factors::solve(Vector& right) {
+template <std::size_t N>
+void BlockFactors<N>::solve(BlockVector<N>& right) {
   if (whole())
     lu_.solve(right, 1);
   else
     incomplete_.solve(right);
 }
 
-void Factors::solve_transposed(Vector& right) {
+template <std::size_t N>
+void BlockFactors<N>::solve_transposed(BlockVector<N>& right) {
   if (whole())
     lu_.solve_transposed(right, 1);
   else
     incomplete_.solve_transposed(right);
 }
 
-double Factors::memory_mb() const {
+template <std::size_t N>
+double BlockFactors<N>::memory_mb() const {
   if (whole() || !incomplete_.ready()) return lu_.memory_mb();
-  return incomplete_.memory_mb() + 1e-6 * gmres_bytes * restart_ * static_cast<double>(columns_[0].size());
+  return incomplete_.memory_mb() + 1e-6 * gmres_bytes_of(N) * restart_ * static_cast<double>(columns_[0].size());
 }
 
 // Incomplete factors are made in the time of about ten solves.
-double Factors::factor_work() const {
+template <std::size_t N>
+double BlockFactors<N>::factor_work() const {
   return whole() ? lu_.factor_work() : 10.0 * solve_work();
 }
 
-double Factors::solve_work() const {
+template <std::size_t N>
+double BlockFactors<N>::solve_work() const {
   return whole() ? lu_.solve_work()
-                 : double{unknown_count * unknown_count} * static_cast<double>(incomplete_.blocks());
+                 : double{N * N} * static_cast<double>(incomplete_.blocks());
 }
+
+template class BlockFactors<4>;
+template class BlockFactors<5>;
 
 }  // namespace remodel::flow

@@ -14,12 +14,14 @@ namespace remodel::flow {
 // What a matrix is factored for: many solves, or the one of a step with GMRES.
 enum class FactorKind { whole, incomplete };
 
-class Factors {
+// Compiled for blocks of N = 4 and 5.
+template <std::size_t N>
+class BlockFactors {
  public:
   // Whole factors if memory_mb, the same in all calls, has room for them; otherwise, or if they are asked
   // for, incomplete ones of the highest level of fill, 2 at most, that leaves room for the vectors of GMRES.
   // `augmented`: the two columns beside the matrix, which are solved for.
-  Factored factor(const BlockRows& matrix, std::array<Vector, augmented_count> augmented, FactorKind kind,
+  Factored factor(const BlockMatrix<N>& matrix, std::array<BlockVector<N>, augmented_count> augmented, FactorKind kind,
                   double memory_mb);
   // Whether whole factors of so many vertices are known to need more memory.
   bool too_large(std::size_t vertices) const { return vertices >= too_large_; }
@@ -28,9 +30,10 @@ class Factors {
 
   // In place, one right-hand side in the order of the matrix's rows: the solution, or with incomplete factors
   // about that.
-  void solve(Vector& right);
-  void solve_transposed(Vector& right);
-  const std::array<Vector, augmented_count>& columns() const { return columns_; }  // of the augmented, solved
+  void solve(BlockVector<N>& right);
+  void solve_transposed(BlockVector<N>& right);
+  // Of the augmented, solved.
+  const std::array<BlockVector<N>, augmented_count>& columns() const { return columns_; }
 
   int restart() const { return restart_; }  // of GMRES: what there is room for
   double memory_mb() const;                 // of the factors and, where they are incomplete, GMRES's vectors
@@ -39,14 +42,15 @@ class Factors {
   double solve_work() const;
 
  private:
-  Factored factor_incompletely(const BlockRows& matrix, double memory_mb);
+  Factored factor_incompletely(const BlockMatrix<N>& matrix, double memory_mb);
 
-  DirectSolver<unknown_count> lu_;
-  IncompleteLu<unknown_count> incomplete_;
+  DirectSolver<N> lu_;
+  IncompleteLu<N> incomplete_;
   // Meshes of so many vertices and more have been found to need more memory.
   std::size_t too_large_ = std::numeric_limits<std::size_t>::max();
   int restart_ = 0;
-  std::array<Vector, augmented_count> columns_;
+  std::array<BlockVector<N>, augmented_count> columns_;
 };
+using Factors = BlockFactors<unknown_count>;
 
 }  // namespace remodel::flow

@@ -2,7 +2,7 @@
 
 // The difference between a mesh and the one that factors belong to.
 
-#include "flow/linear/augmented.h"
+#include "flow/linear/block_matrix.h"
 #include "remodel/ids.h"
 
 namespace remodel::flow {
@@ -13,14 +13,16 @@ struct Overlap {
   std::vector<std::uint32_t> zone;    // vertices with other neighbours and two rings around them, ascending
 
   // These reorder values from vertices to rows, and back; 0 without a counterpart.
-  Vector to_rows(const Vector& x) const {
-    Vector result(rows);
+  template <std::size_t N>
+  BlockVector<N> to_rows(const BlockVector<N>& x) const {
+    BlockVector<N> result(rows);
     for (std::size_t v = 0; v < x.size(); ++v)
       if (row_of[v] != no_index) result[row_of[v]] = x[v];
     return result;
   }
-  Vector to_vertices(const Vector& x) const {
-    Vector result(row_of.size());
+  template <std::size_t N>
+  BlockVector<N> to_vertices(const BlockVector<N>& x) const {
+    BlockVector<N> result(row_of.size());
     for (std::size_t v = 0; v < result.size(); ++v)
       if (row_of[v] != no_index) result[v] = x[row_of[v]];
     return result;

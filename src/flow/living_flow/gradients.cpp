@@ -73,13 +73,13 @@ void Gradients::guess_multipliers(const Keys& keys, std::size_t functions) {
   multiplier_keys_ = keys;
 }
 
-std::optional<std::vector<Total>> Gradients::by_kept_factors(const LastFlow& last, const FlowSystem& system,
+std::optional<std::vector<Total>> Gradients::by_kept_factors(const LastFlow<unknown_count>& last, const FlowSystem& system,
                                                              std::span<const FaceDerivative> faces,
                                                              std::span<const FunctionalSlope> functions,
                                                              int& iterations) {
   if (!kept_.ready()) return std::nullopt;
   const Overlap overlap = kept_.overlap(*last.mesh, last.keys);
-  if (!KeptFactors::is_small(overlap)) return std::nullopt;
+  if (!KeptFactors<unknown_count>::is_small(overlap)) return std::nullopt;
   guess_multipliers(last.keys, functions.size());
   const bool are_own = overlap.zone.empty() && kept_.are_fresh();
   const double most_solves =
@@ -91,7 +91,7 @@ std::optional<std::vector<Total>> Gradients::by_kept_factors(const LastFlow& las
   return totals;
 }
 
-FlowGradients Gradients::of(const LastFlow& last, const std::vector<FlowFunctional>& functions,
+FlowGradients Gradients::of(const LastFlow<unknown_count>& last, const std::vector<FlowFunctional>& functions,
                             const WantedGradients& wanted) {
   const Stopwatch watch;
   if (!last.found()) throw Error(ErrorCode::argument, "gradients", "no flow was found yet, expected one");

@@ -27,7 +27,8 @@ void Worth::given_up() {
   if (!served_) pause_ = std::min(2 * pause_ + 1, SearchPolicy::longest_pause), gone_by_ = 0;
 }
 
-void KeptFactors::belong(const FlowMesh& mesh, const Keys& keys) {
+template <std::size_t N>
+void KeptFactors<N>::belong(const FlowMesh& mesh, const Keys& keys) {
   ready_ = factors.ready();
   rent_ = 0.0;
   worth.made();
@@ -36,11 +37,13 @@ void KeptFactors::belong(const FlowMesh& mesh, const Keys& keys) {
   for (std::size_t v = 0; v < keys.size(); ++v) fill_ring(mesh, keys, v, rings_[v]);
 }
 
-void KeptFactors::drop() {
+template <std::size_t N>
+void KeptFactors<N>::drop() {
   if (std::exchange(ready_, false)) worth.given_up();
 }
 
-Overlap KeptFactors::overlap(const FlowMesh& mesh, const Keys& keys) const {
+template <std::size_t N>
+Overlap KeptFactors<N>::overlap(const FlowMesh& mesh, const Keys& keys) const {
   const KeyTable table(keys_);
   Overlap result{.row_of = std::vector<std::uint32_t>(mesh.size()), .rows = keys_.size(), .zone = {}};
   std::vector<std::uint32_t>& zone = result.zone;
@@ -63,17 +66,23 @@ Overlap KeptFactors::overlap(const FlowMesh& mesh, const Keys& keys) const {
   return result;
 }
 
-bool KeptFactors::is_small(const Overlap& overlap) {
+template <std::size_t N>
+bool KeptFactors<N>::is_small(const Overlap& overlap) {
   return static_cast<double>(overlap.zone.size()) <=
          SearchPolicy::largest_zone * static_cast<double>(overlap.row_of.size());
 }
 
-void KeptFactors::charge(int iterations, int own_iterations, double zone_work) {
+template <std::size_t N>
+void KeptFactors<N>::charge(int iterations, int own_iterations, double zone_work) {
   rent_ += std::max(0, iterations - own_iterations) * factors.solve_work() + zone_work;
 }
 
-double KeptFactors::solves_left() const {
+template <std::size_t N>
+double KeptFactors<N>::solves_left() const {
   return (factors.factor_work() - rent_) / factors.solve_work();
 }
+
+template class KeptFactors<4>;
+template class KeptFactors<5>;
 
 }  // namespace remodel::flow

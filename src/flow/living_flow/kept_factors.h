@@ -23,9 +23,10 @@ class Worth {
   int pause_ = 0, gone_by_ = 0;
 };
 
+template <std::size_t N>
 class KeptFactors {
  public:
-  Factors factors;
+  BlockFactors<N> factors;
   Worth worth;
 
   bool ready() const { return ready_; }

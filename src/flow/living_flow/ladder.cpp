@@ -1,19 +1,19 @@
 #include "flow/living_flow/ladder.h"
 
 #include "flow/search/chord.h"
-#include "flow/search/coarse_start.h"
 
 namespace remodel::flow {
 
-bool Ladder::by_older_factors(LadderTask& task) {
+template <std::size_t N>
+bool Ladder<N>::by_older_factors(LadderTask<N>& task) {
   if (!kept_.ready() || !kept_.factors.whole() || kept_.solves_left() < 0.0) return false;
-  const FlowSystem& system = task.measure.system();
+  const BlockSystem<N>& system = task.measure.system();
   Overlap overlap = kept_.overlap(system.mesh(), task.keys);
   task.corrected = overlap.zone.size();
-  if (!KeptFactors::is_small(overlap)) return false;
-  Preconditioner inverse(system, task.state, kept_.factors, std::move(overlap), options_.memory_mb);
+  if (!KeptFactors<N>::is_small(overlap)) return false;
+  Preconditioner<N> inverse(system, task.state, kept_.factors, std::move(overlap), options_.memory_mb);
   if (!inverse.ready()) return false;
-  NewtonSearch search(options_, matrix_, kept_.factors, task.record);
+  BlockSearch<N> search(options_, matrix_, kept_.factors, task.record);
   const int before = task.record.iterations;
   const ChordEnd end = chord_steps(task.measure, inverse, search, task.state);
   kept_.charge(task.record.iterations - before, SearchPolicy::own_solves, inverse.zone_work());
@@ -26,13 +26,14 @@ bool Ladder::by_older_factors(LadderTask& task) {
   return end == ChordEnd::converged;
 }
 
-bool Ladder::by_own_factors(LadderTask& task) {
+template <std::size_t N>
+bool Ladder<N>::by_own_factors(LadderTask<N>& task) {
   if (lasting_kind(options_) != FactorKind::whole || kept_.factors.too_large(task.keys.size()) ||
       !kept_.worth.pays())
     return false;
   task.start = FlowStart::refactored;
-  const FlowSystem& system = task.measure.system();
-  NewtonSearch search(options_, matrix_, kept_.factors, task.record);
+  const BlockSystem<N>& system = task.measure.system();
+  BlockSearch<N> search(options_, matrix_, kept_.factors, task.record);
   const int before = task.record.factorisations;
   const ChordEnd end = steps_with_own_factors(task.measure, search, task.state);
   if (task.record.factorisations > before) kept_.belong(system.mesh(), task.keys);
@@ -40,26 +41,25 @@ bool Ladder::by_own_factors(LadderTask& task) {
   return end != ChordEnd::slow;
 }
 
-void Ladder::climb(LadderTask& task) {
+template <std::size_t N>
+void Ladder<N>::climb(LadderTask<N>& task) {
   if (task.from_last) {
     if (by_older_factors(task)) return kept_.worth.served();
     kept_.drop();
     if (by_own_factors(task)) return;
   }
-  NewtonSearch search(options_, matrix_, passing_, task.record);
   if (task.from_last) {
     task.start = FlowStart::refactored;
-    search.near(task.measure, task.state);
+    task.near(task.state);
     const FlowStatus status = task.record.status;
     if (status == FlowStatus::converged || status == FlowStatus::interrupted || status == FlowStatus::memory)
       return;
   }
   task.start = FlowStart::cold;
-  if (task.living != nullptr)
-    search_by_meshes(task.living->domain(), task.living->options(), task.measure, task.conditions, search,
-                     task.state, task.spent);
-  else
-    search.cold(task.measure, task.state);
+  task.cold(task.state);
 }
+
+template class Ladder<4>;
+template class Ladder<5>;
 
 }  // namespace remodel::flow

@@ -20,13 +20,15 @@ Keys keys_of(const FrozenMesh& frozen) {
 KeyTable::KeyTable(const Keys& keys) {
   for (std::uint32_t i = 0; i < keys.size(); ++i) {
     const std::uint32_t id = keys[i].id.index;
-    if (id >= at_.size()) at_.resize(id + 1, {no_index, 0});
-    at_[id] = {i, keys[i].generation};
+    std::vector<Place>& at = at_[is_of_layer(keys[i])];
+    if (id >= at.size()) at.resize(id + 1, {no_index, 0});
+    at[id] = {i, keys[i].generation};
   }
 }
 
-State LastFlow::carried(const FlowMesh& now, const Keys& now_keys, const Stream& now_stream) const {
-  State carried;
+template <std::size_t N>
+BlockState<N> LastFlow<N>::carried(const FlowMesh& now, const Keys& now_keys, const Stream& now_stream) const {
+  BlockState<N> carried;
   carried.augmented = state.augmented;
   carried.augmented[0] *= stream.length / now_stream.length;
   if (!now_stream.lift) carried.augmented[1] = now_stream.alpha;
@@ -44,9 +46,12 @@ State LastFlow::carried(const FlowMesh& now, const Keys& now_keys, const Stream&
     }
   }
   if (fresh.empty()) return carried;
-  const Vector values = interpolated(*mesh, state.q, places);
+  const BlockVector<N> values = interpolated<N>(*mesh, state.q, places);
   for (std::size_t i = 0; i < fresh.size(); ++i) carried.q[fresh[i]] = values[i];
   return carried;
 }
+
+template struct LastFlow<4>;
+template struct LastFlow<5>;
 
 }  // namespace remodel::flow

@@ -2,9 +2,10 @@
 
 // The last flow that was found, by the keys of vertices, and what another mesh takes over of it.
 
+#include <array>
 #include <memory>
 
-#include "flow/scheme/flow_system.h"
+#include "flow/scheme/block_system.h"
 #include "remodel/frozen_mesh.h"
 #include "remodel/ids.h"
 
@@ -22,27 +23,31 @@ class KeyTable {
   explicit KeyTable(const Keys& keys);
   // The position among the keys; no_index if it is none of them.
   std::uint32_t find(VertexKey key) const {
-    if (key.id.index >= at_.size() || at_[key.id.index].generation != key.generation) return no_index;
-    return at_[key.id.index].position;
+    const std::vector<Place>& at = at_[is_of_layer(key)];
+    if (key.id.index >= at.size() || at[key.id.index].generation != key.generation) return no_index;
+    return at[key.id.index].position;
   }
 
  private:
   struct Place {
     std::uint32_t position, generation;
   };
-  std::vector<Place> at_;
+  // Of layers, which count their vertices by themselves (LayeredMesh::freeze()).
+  static bool is_of_layer(VertexKey key) { return key.generation >= std::uint32_t{1} << 31; }
+  std::array<std::vector<Place>, 2> at_;
 };
 
+template <std::size_t N>
 struct LastFlow {
   std::shared_ptr<const FlowMesh> mesh;  // none: no flow was found yet
   Keys keys;
-  State state;
+  BlockState<N> state;
   Stream stream;
 
   bool found() const { return mesh != nullptr; }
   // The state on another mesh: values at vertices that are there still are kept, those at new ones
   // interpolated.
-  State carried(const FlowMesh& now, const Keys& now_keys, const Stream& now_stream) const;
+  BlockState<N> carried(const FlowMesh& now, const Keys& now_keys, const Stream& now_stream) const;
 };
 
 }  // namespace remodel::flow

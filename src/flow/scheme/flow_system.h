@@ -12,17 +12,12 @@
 #include <span>
 #include <vector>
 
-#include "flow/linear/augmented.h"
+#include "flow/scheme/block_system.h"
 #include "flow/scheme/boundary_inputs.h"
 #include "flow/scheme/flow_mesh.h"
 #include "flow/scheme/terms.h"
 
 namespace remodel::flow {
-
-struct State {
-  Vector q;                  // per vertex
-  Augmented augmented = {};  // lift coefficient of the vortex; angle of attack, radians
-};
 
 // Derivatives by the vertices' coordinates and by the Mach number of the stream.
 struct ShapeSlope {
@@ -31,29 +26,31 @@ struct ShapeSlope {
   double length = 0.0;  // of residuals, by the stream's, which the limiter has
 };
 
-class FlowSystem {
+class FlowSystem final : public BlockSystem<unknown_count> {
  public:
   FlowSystem(const FlowMesh& mesh, const Stream& stream)
       : mesh_(mesh), stream_(stream), terms_(terms_of(stream)) {}
 
-  const FlowMesh& mesh() const { return mesh_; }
-  const Stream& stream() const { return stream_; }
-  State uniform() const;
+  const FlowMesh& mesh() const override { return mesh_; }
+  const Stream& stream() const override { return stream_; }
+  State undisturbed() const override;
 
   // The flux out of each dual cell. It is not finite where a state is none.
   void residual(const State& state, Vector& out) const;
-  // Lift of the state minus that of the vortex; alpha, or lift, minus the given one.
   Augmented augmented_residual(const State& state) const;
+  void residuals(const State& state, Vector& of_vertices, Augmented& augmented) const override {
+    residual(state, of_vertices);
+    augmented = augmented_residual(state);
+  }
 
-  // All vertices, or some, ascending; each with the vertices of its two rings and itself.
-  BlockRows pattern() const;
-  BlockRows pattern(std::vector<std::uint32_t> rows) const;
-  // Derivatives of the residuals of these rows by the unknowns of vertices. `faces` gets those of all fluxes
-  // that it takes, by edge.
-  void jacobian(const State& state, BlockRows& matrix, std::vector<FaceDerivative>* faces = nullptr) const;
-  // Derivatives of all residuals by the augmented unknowns, and of the augmented equations.
-  std::array<Vector, augmented_count> augmented_columns(const State& state) const;
-  AugmentedRows augmented_rows(const State& state) const;
+  // Each row has the vertices of its two rings and itself.
+  using BlockSystem::pattern;
+  BlockRows pattern(std::vector<std::uint32_t> rows) const override;
+  // `faces` gets the derivatives of all fluxes that it takes, by edge.
+  void jacobian(const State& state, BlockRows& matrix, std::vector<FaceDerivative>* faces) const;
+  void jacobian(const State& state, BlockRows& matrix) const override { jacobian(state, matrix, nullptr); }
+  std::array<Vector, augmented_count> augmented_columns(const State& state) const override;
+  AugmentedRows augmented_rows(const State& state) const override;
 
   // The derivative, at this state, of the sum over vertices of weight times residual, for each row of
   // weights: fluxes are differentiated once. faces: of the whole Jacobian at this state, or empty.

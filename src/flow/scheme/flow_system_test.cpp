@@ -25,7 +25,7 @@ using test::uniform;
 
 // The stream with every value at random, a few percent.
 State disturbed(const FlowSystem& system, std::mt19937_64& random) {
-  State state = system.uniform();
+  State state = system.undisturbed();
   for (auto& q : state.q)
     for (double& value : q) value += uniform(random, -0.05, 0.05);
   state.augmented[0] = 0.4;
@@ -57,7 +57,7 @@ TEST(FlowSystem, UniformFlowHasNoResidualOnAnyMesh) {
     const FlowMesh dual(mesh, "farfield", "mesh");
     const FlowSystem system(dual, {.mach = 0.7, .alpha = 0.3, .vortex = false});
     Vector residual;
-    system.residual(system.uniform(), residual);
+    system.residual(system.undisturbed(), residual);
     for (const auto& block : residual)
       for (const double value : block) EXPECT_LT(std::fabs(value), 2e-13);
   }

@@ -29,18 +29,20 @@ void FrictionSystem<N>::for_each_dependence(Order order, Visit visit) const {
 }
 
 template <std::size_t N>
-BlockMatrix<N> FrictionSystem<N>::pattern(Order order) const {
-  std::vector<std::vector<std::uint32_t>> columns(dual_.size());
+BlockMatrix<N> FrictionSystem<N>::pattern(std::vector<std::uint32_t> rows, Order order) const {
+  BlockMatrix<N> matrix;
+  matrix.rows = std::move(rows);
+  const std::vector<std::uint32_t> row_of = rows_of_vertices(matrix, order).of;
+  std::vector<std::vector<std::uint32_t>> columns(matrix.rows.size());
   for_each_dependence(order, [&](std::uint32_t row, std::uint32_t column) {
-    std::vector<std::uint32_t>& of = columns[row];
+    if (row_of[row] == no_index) return;
+    std::vector<std::uint32_t>& of = columns[row_of[row]];
     const auto at = std::lower_bound(of.begin(), of.end(), column);
     if (at == of.end() || *at != column) of.insert(at, column);
   });
-  BlockMatrix<N> matrix;
   matrix.start.assign(1, 0);
-  for (std::uint32_t v = 0; v < dual_.size(); ++v) {
-    matrix.rows.push_back(v);
-    matrix.column.insert(matrix.column.end(), columns[v].begin(), columns[v].end());
+  for (const std::vector<std::uint32_t>& of : columns) {
+    matrix.column.insert(matrix.column.end(), of.begin(), of.end());
     matrix.start.push_back(static_cast<std::uint32_t>(matrix.column.size()));
   }
   matrix.block.resize(matrix.column.size());
@@ -48,28 +50,50 @@ BlockMatrix<N> FrictionSystem<N>::pattern(Order order) const {
 }
 
 template <std::size_t N>
-void FrictionSystem<N>::jacobian(const FrictionState<N>& state, Jacobian& result) const {
-  if (result.whole.rows.size() != dual_.size())
-    result.whole = pattern(Order::whole), result.first = pattern(Order::first);
-  for (BlockMatrix<N>* matrix : {&result.whole, &result.first})
-    std::fill(matrix->block.begin(), matrix->block.end(), SquareBlock<N>{});
-  add_face_blocks(state, Order::whole, result.whole);
-  add_face_blocks(state, Order::first, result.first);
-  add_triangle_blocks(state, result);
-  add_boundary_blocks(state, result);
+typename FrictionSystem<N>::Rows FrictionSystem<N>::rows_of_vertices(BlockMatrix<N>& matrix, Order order) const {
+  Rows rows = {matrix, order, std::vector<std::uint32_t>(dual_.size(), no_index)};
+  for (std::uint32_t r = 0; r < matrix.rows.size(); ++r) rows.of[matrix.rows[r]] = r;
+  return rows;
+}
+
+template <std::size_t N>
+void FrictionSystem<N>::add_fluxes(const BlockState<N>& state, std::span<Rows> all) const {
+  for (Rows& rows : all) {
+    std::fill(rows.matrix.block.begin(), rows.matrix.block.end(), SquareBlock<N>{});
+    add_face_blocks(state, rows);
+  }
+  add_triangle_blocks(state, all);
+  add_boundary_blocks(state, all);
+}
+
+template <std::size_t N>
+void FrictionSystem<N>::jacobian(const BlockState<N>& state, BlockMatrix<N>& matrix) const {
+  Rows rows[] = {rows_of_vertices(matrix, Order::whole)};
+  add_fluxes(state, rows);
+  make_walls_strong(matrix);
+}
+
+template <std::size_t N>
+void FrictionSystem<N>::jacobian(const BlockState<N>& state, Jacobian& result) const {
+  if (result.whole.rows.size() != dual_.size()) {
+    result.whole = pattern();
+    result.first = pattern(result.whole.rows, Order::first);
+  }
+  Rows rows[] = {rows_of_vertices(result.whole, Order::whole), rows_of_vertices(result.first, Order::first)};
+  add_fluxes(state, rows);
   result.rows = augmented_rows(state, result.whole);
   make_walls_strong(result.whole), make_walls_strong(result.first);
 }
 
 // Reconstructed values depend on the unknown itself alone: its values at both ends and the upwind difference.
 template <std::size_t N>
-void FrictionSystem<N>::add_face_blocks(const FrictionState<N>& state, Order order,
-                                        BlockMatrix<N>& matrix) const {
+void FrictionSystem<N>::add_face_blocks(const BlockState<N>& state, Rows& rows) const {
   using Both = Dual<2 * N>;
   using Three = Dual<3>;
   for (std::size_t e = 0; e < dual_.edges().size(); ++e) {
     const DualEdge& edge = dual_.edges()[e];
     const std::uint32_t end[2] = {edge.a, edge.b};
+    if (rows.of[end[0]] == no_index && rows.of[end[1]] == no_index) continue;
     std::array<Both, N> value[2];
     std::array<Three, N> reconstructed[2];
     for (std::size_t side = 0; side < 2; ++side) {
@@ -79,7 +103,7 @@ void FrictionSystem<N>::add_face_blocks(const FrictionState<N>& state, Order ord
       for (std::size_t k = 0; k < N; ++k) {
         const Three q[2] = {Three::variable(state.q[edge.a][k], 0), Three::variable(state.q[edge.b][k], 1)};
         Three& at = reconstructed[side][k] = q[side];
-        if (order == Order::whole && k < unknown_count) {
+        if (rows.order == Order::whole && k < unknown_count) {
           const Three to = terms_.step(Three::variable(upwind[k], 2), q[1] - q[0]);
           at = side == 0 ? q[0] + to : q[1] - to;
         }
@@ -96,14 +120,15 @@ void FrictionSystem<N>::add_face_blocks(const FrictionState<N>& state, Order ord
         by_end[0][z] += slope * of[0], by_end[1][z] += slope * of[1], by_upwind[side][z] = slope * of[2];
       }
     for (std::size_t row = 0; row < 2; ++row) {
+      if (rows.of[end[row]] == no_index) continue;
       const double sign = row == 0 ? 1.0 : -1.0;
       const auto add = [&](std::uint32_t column, double factor, const SquareBlock<N>& block) {
-        SquareBlock<N>& to = matrix.at(end[row], column);
+        SquareBlock<N>& to = rows.matrix.at(rows.of[end[row]], column);
         for (std::size_t z = 0; z < N * N; ++z) to[z] += factor * block[z];
       };
       for (std::size_t side = 0; side < 2; ++side) {
         add(end[side], sign, by_end[side]);
-        if (order == Order::first) continue;
+        if (rows.order == Order::first) continue;
         for (const WeightedVertex& of : mesh_.upwind(e, side))
           add(of.vertex, sign * of.weight, by_upwind[side]);
       }
@@ -112,27 +137,30 @@ void FrictionSystem<N>::add_face_blocks(const FrictionState<N>& state, Order ord
 }
 
 template <std::size_t N>
-void FrictionSystem<N>::add_triangle_blocks(const FrictionState<N>& state, Jacobian& result) const {
+void FrictionSystem<N>::add_triangle_blocks(const BlockState<N>& state, std::span<Rows> all) const {
   using All = Dual<3 * N>;
+  const auto is_wanted = [&](std::uint32_t v) {
+    return std::any_of(all.begin(), all.end(), [&](const Rows& rows) { return rows.of[v] != no_index; });
+  };
   for (const CornerTriangle& triangle : mesh_.triangles()) {
+    if (std::none_of(std::begin(triangle.corner), std::end(triangle.corner), is_wanted)) continue;
     std::array<std::array<All, N>, 3> q;
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t k = 0; k < N; ++k) q[i][k] = All::variable(state.q[triangle.corner[i]][k], N * i + k);
     const auto flux = terms_.template triangle<All, N>(q, triangle, triangle_distances(triangle));
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j) {
-        SquareBlock<N>&whole = result.whole.at(triangle.corner[i], triangle.corner[j]),
-        &first = result.first.at(triangle.corner[i], triangle.corner[j]);
-        for (std::size_t z = 0; z < N * N; ++z) {
-          const double slope = flux[i][z / N].slope[N * j + z % N];
-          whole[z] += slope, first[z] += slope;
+    for (Rows& rows : all)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t row = rows.of[triangle.corner[i]];
+        for (std::size_t j = 0; row != no_index && j < 3; ++j) {
+          SquareBlock<N>& block = rows.matrix.at(row, triangle.corner[j]);
+          for (std::size_t z = 0; z < N * N; ++z) block[z] += flux[i][z / N].slope[N * j + z % N];
         }
       }
   }
 }
 
 template <std::size_t N>
-void FrictionSystem<N>::add_boundary_blocks(const FrictionState<N>& state, Jacobian& result) const {
+void FrictionSystem<N>::add_boundary_blocks(const BlockState<N>& state, std::span<Rows> all) const {
   constexpr std::size_t n = unknown_count;
   using Both = Dual<N + n>;
   for (const BoundaryEdge& edge : dual_.boundary()) {
@@ -144,8 +172,10 @@ void FrictionSystem<N>::add_boundary_blocks(const FrictionState<N>& state, Jacob
       for (std::size_t k = 0; k < n; ++k) in.here[k].slope[k] = 1.0, in.there[k].slope[N + k] = 1.0;
       const std::array<Both, N> flux =
           terms_.template boundary_flux<Both, N>(dual_.patch(edge), in, here, stream_);
-      for (BlockMatrix<N>* matrix : {&result.whole, &result.first}) {
-        SquareBlock<N>&own = matrix->at(end[i], end[i]), &other = matrix->at(end[i], end[1 - i]);
+      for (Rows& rows : all) {
+        const std::uint32_t at = rows.of[end[i]];
+        if (at == no_index) continue;
+        SquareBlock<N>&own = rows.matrix.at(at, end[i]), &other = rows.matrix.at(at, end[1 - i]);
         for (std::size_t row = 0; row < N; ++row) {
           for (std::size_t k = 0; k < N; ++k) own[N * row + k] += flux[row].slope[k];
           for (std::size_t k = 0; k < n; ++k) other[N * row + k] += flux[row].slope[N + k];
@@ -157,18 +187,29 @@ void FrictionSystem<N>::add_boundary_blocks(const FrictionState<N>& state, Jacob
 
 template <std::size_t N>
 void FrictionSystem<N>::make_walls_strong(BlockMatrix<N>& matrix) const {
-  for (std::uint32_t v = 0; v < dual_.size(); ++v) {
+  for (std::size_t r = 0; r < matrix.rows.size(); ++r) {
+    const std::uint32_t v = matrix.rows[r];
     if (!mesh_.sticks(v)) continue;
-    for (std::uint32_t i = matrix.start[v]; i < matrix.start[v + 1]; ++i)
+    for (std::uint32_t i = matrix.start[r]; i < matrix.start[r + 1]; ++i)
       for (std::size_t z = 0; z < N * N; ++z)
         if (is_strong(z / N)) matrix.block[i][z] = matrix.column[i] == v && z / N == z % N ? 1.0 : 0.0;
   }
 }
 
-// The lift of all walls: friction by the unbalanced momentum of their vertices, whose rows `raw` still has.
 template <std::size_t N>
-BlockAugmentedRows<N> FrictionSystem<N>::augmented_rows(const FrictionState<N>& state,
-                                                        const BlockMatrix<N>& raw) const {
+BlockAugmentedRows<N> FrictionSystem<N>::augmented_rows(const BlockState<N>& state) const {
+  std::vector<std::uint32_t> walls;
+  for (std::uint32_t v = 0; v < dual_.size(); ++v)
+    if (mesh_.sticks(v)) walls.push_back(v);
+  BlockMatrix<N> raw = pattern(std::move(walls));
+  Rows rows[] = {rows_of_vertices(raw, Order::whole)};
+  add_fluxes(state, rows);
+  return augmented_rows(state, raw);
+}
+
+// The lift of all walls: friction by the unbalanced momentum of their vertices.
+template <std::size_t N>
+BlockAugmentedRows<N> FrictionSystem<N>::augmented_rows(const BlockState<N>& state, const BlockMatrix<N>& raw) const {
   BlockAugmentedRows<N> rows;
   const double ca = std::cos(state.augmented[1]), sa = std::sin(state.augmented[1]);
   const double scale = 1.0 / (0.5 * stream_.mach * stream_.mach * stream_.length);
@@ -184,9 +225,10 @@ BlockAugmentedRows<N> FrictionSystem<N>::augmented_rows(const FrictionState<N>& 
       rows.first.push_back({i == 0 ? edge.b : edge.a, there});
     }
   }
-  for (std::uint32_t v = 0; v < dual_.size(); ++v) {
+  for (std::size_t r = 0; r < raw.rows.size(); ++r) {
+    const std::uint32_t v = raw.rows[r];
     if (!of_wall[v] || !mesh_.sticks(v)) continue;
-    for (std::uint32_t i = raw.start[v]; i < raw.start[v + 1]; ++i) {
+    for (std::uint32_t i = raw.start[r]; i < raw.start[r + 1]; ++i) {
       Row by;
       for (std::size_t k = 0; k < N; ++k)
         by[k] = -scale * (raw.block[i][2 * N + k] * ca - raw.block[i][N + k] * sa);
@@ -203,7 +245,7 @@ BlockAugmentedRows<N> FrictionSystem<N>::augmented_rows(const FrictionState<N>& 
 // Walls have none: the far field's vortex and angle do not reach their rows.
 template <std::size_t N>
 std::array<BlockVector<N>, augmented_count> FrictionSystem<N>::augmented_columns(
-    const FrictionState<N>& state) const {
+    const BlockState<N>& state) const {
   using Two = Dual<augmented_count>;
   std::array<BlockVector<N>, augmented_count> columns;
   for (auto& column : columns) column.assign(dual_.size(), {});

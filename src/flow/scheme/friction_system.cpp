@@ -8,8 +8,8 @@
 namespace remodel::flow {
 
 template <std::size_t N>
-FrictionState<N> FrictionSystem<N>::start(double thickness) const {
-  FrictionState<N> state;
+BlockState<N> FrictionSystem<N>::start(double thickness) const {
+  BlockState<N> state;
   state.augmented = {0.0, stream_.alpha};
   state.q.resize(dual_.size());
   for (std::size_t v = 0; v < dual_.size(); ++v) {
@@ -50,7 +50,7 @@ std::array<double, N> FrictionSystem<N>::step(const BlockVector<N>& q, std::size
 }
 
 template <std::size_t N>
-void FrictionSystem<N>::unbalanced(const FrictionState<N>& state, BlockVector<N>& out) const {
+void FrictionSystem<N>::unbalanced(const BlockState<N>& state, BlockVector<N>& out) const {
   out.assign(dual_.size(), {});
   const auto add = [&](std::uint32_t v, double factor, const Row& flux) {
     for (std::size_t k = 0; k < N; ++k) out[v][k] += factor * flux[k];
@@ -85,20 +85,23 @@ void FrictionSystem<N>::unbalanced(const FrictionState<N>& state, BlockVector<N>
 }
 
 template <std::size_t N>
-void FrictionSystem<N>::make_walls_strong(const FrictionState<N>& state, BlockVector<N>& unbalanced) const {
+void FrictionSystem<N>::make_walls_strong(const BlockState<N>& state, BlockVector<N>& unbalanced) const {
   for (std::size_t v = 0; v < dual_.size(); ++v)
     for (std::size_t k = 0; k < N; ++k)
       if (is_replaced(v, k)) unbalanced[v][k] = state.q[v][k];
 }
 
 template <std::size_t N>
-Augmented FrictionSystem<N>::augmented_residual(const FrictionState<N>& state, double lift) const {
-  return {lift - state.augmented[0],
-          stream_.lift ? state.augmented[0] - *stream_.lift : state.augmented[1] - stream_.alpha};
+void FrictionSystem<N>::residuals(const BlockState<N>& state, BlockVector<N>& of_vertices,
+                                  Augmented& augmented) const {
+  unbalanced(state, of_vertices);
+  augmented = {forces(state, of_vertices).lift - state.augmented[0],
+               stream_.lift ? state.augmented[0] - *stream_.lift : state.augmented[1] - stream_.alpha};
+  make_walls_strong(state, of_vertices);
 }
 
 template <std::size_t N>
-double FrictionSystem<N>::mass_flow(const FrictionState<N>& state, std::uint32_t patch) const {
+double FrictionSystem<N>::mass_flow(const BlockState<N>& state, std::uint32_t patch) const {
   double sum = 0.0;
   for (const BoundaryEdge& edge : dual_.boundary())
     for (std::size_t i = 0; edge.patch == patch && i < 2; ++i)
@@ -108,7 +111,7 @@ double FrictionSystem<N>::mass_flow(const FrictionState<N>& state, std::uint32_t
 }
 
 template <std::size_t N>
-WallForces FrictionSystem<N>::forces(const FrictionState<N>& state, const BlockVector<N>& unbalanced,
+WallForces FrictionSystem<N>::forces(const BlockState<N>& state, const BlockVector<N>& unbalanced,
                                      std::uint32_t patch) const {
   Point by_pressure = {}, by_friction = {};
   double turning = 0.0;
@@ -145,7 +148,7 @@ WallForces FrictionSystem<N>::forces(const FrictionState<N>& state, const BlockV
 }
 
 template <std::size_t N>
-std::vector<double> FrictionSystem<N>::wave_speeds(const FrictionState<N>& state) const {
+std::vector<double> FrictionSystem<N>::wave_speeds(const BlockState<N>& state) const {
   std::vector<double> sum(dual_.size(), 0.0);
   const auto speed = [&](std::uint32_t v, Point normal) {
     return wave_speed(FrictionTerms::gas(state.q[v]), normal);

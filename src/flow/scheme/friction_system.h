@@ -5,19 +5,14 @@
 // that the gas stands still, and the momentum that they leave unbalanced is the force on the wall.
 
 #include <array>
+#include <span>
 #include <vector>
 
-#include "flow/linear/augmented.h"
+#include "flow/scheme/block_system.h"
 #include "flow/scheme/boundary_inputs.h"
 #include "flow/scheme/friction_terms.h"
 
 namespace remodel::flow {
-
-template <std::size_t N>
-struct FrictionState {
-  BlockVector<N> q;
-  Augmented augmented = {};  // lift coefficient of the vortex; angle of attack, radians
-};
 
 // Forces on a wall's vertices, as coefficients.
 struct WallForces {
@@ -26,7 +21,7 @@ struct WallForces {
 };
 
 template <std::size_t N>
-class FrictionSystem {
+class FrictionSystem final : public BlockSystem<N> {
  public:
   FrictionSystem(const FrictionMesh& mesh, const Stream& stream, const Viscosity& viscosity)
       : mesh_(mesh),
@@ -38,40 +33,46 @@ class FrictionSystem {
     terms_.fix.mach_squared = stream.mach * stream.mach;
   }
 
-  const FrictionMesh& mesh() const { return mesh_; }
-  const Stream& stream() const { return stream_; }
+  const FlowMesh& mesh() const override { return dual_; }
+  const FrictionMesh& friction_mesh() const { return mesh_; }
+  const Stream& stream() const override { return stream_; }
   const FrictionTerms& terms() const { return terms_; }
 
   // Undisturbed flow that slows down towards walls within `thickness`, at constant total enthalpy.
-  FrictionState<N> start(double thickness) const;
+  BlockState<N> start(double thickness) const;
+  static constexpr double start_thickness = 0.01;  // in reference lengths
+  BlockState<N> undisturbed() const override { return start(start_thickness * stream_.reference_length); }
 
   // The flux out of each dual cell. It is the residual once make_walls_strong() has replaced rows of walls.
-  void unbalanced(const FrictionState<N>& state, BlockVector<N>& out) const;
-  void make_walls_strong(const FrictionState<N>& state, BlockVector<N>& unbalanced) const;
-  // lift: of the state's forces.
-  Augmented augmented_residual(const FrictionState<N>& state, double lift) const;
+  void unbalanced(const BlockState<N>& state, BlockVector<N>& out) const;
+  void make_walls_strong(const BlockState<N>& state, BlockVector<N>& unbalanced) const;
+  void residuals(const BlockState<N>& state, BlockVector<N>& of_vertices, Augmented& augmented) const override;
 
   // The vertices that a row depends on: all of them, or those of the first-order scheme, one ring.
   enum class Order { first, whole };
-  BlockMatrix<N> pattern(Order order) const;
+  using BlockSystem<N>::pattern;
+  BlockMatrix<N> pattern(std::vector<std::uint32_t> rows) const override { return pattern(rows, Order::whole); }
+  BlockMatrix<N> pattern(std::vector<std::uint32_t> rows, Order order) const;
+  void jacobian(const BlockState<N>& state, BlockMatrix<N>& matrix) const override;
   // Derivatives of all rows by the unknowns: of the whole scheme, and of that of first order.
   struct Jacobian {
     BlockMatrix<N> whole, first;
     BlockAugmentedRows<N> rows;  // of the augmented equations of the whole scheme
   };
-  void jacobian(const FrictionState<N>& state, Jacobian& result) const;
-  std::array<BlockVector<N>, augmented_count> augmented_columns(const FrictionState<N>& state) const;
+  void jacobian(const BlockState<N>& state, Jacobian& result) const;
+  std::array<BlockVector<N>, augmented_count> augmented_columns(const BlockState<N>& state) const override;
+  BlockAugmentedRows<N> augmented_rows(const BlockState<N>& state) const override;
 
   // As FlowSystem's.
-  std::vector<double> wave_speeds(const FrictionState<N>& state) const;
+  std::vector<double> wave_speeds(const BlockState<N>& state) const;
   // Density, momentum, energy and density times the working variable; derivatives by the unknowns.
   static std::array<double, N> conserved_at(const std::array<double, N>& q);
   static SquareBlock<N> conserved_slope(const std::array<double, N>& q);
 
   // What enters by this patch.
-  double mass_flow(const FrictionState<N>& state, std::uint32_t patch) const;
+  double mass_flow(const BlockState<N>& state, std::uint32_t patch) const;
   // patch: of this wall, no_index: of all.
-  WallForces forces(const FrictionState<N>& state, const BlockVector<N>& unbalanced,
+  WallForces forces(const BlockState<N>& state, const BlockVector<N>& unbalanced,
                     std::uint32_t patch = no_index) const;
   // Whether the row says that the wall stands still.
   bool is_replaced(std::size_t v, std::size_t k) const { return mesh_.sticks(v) && is_strong(k); }
@@ -83,16 +84,26 @@ class FrictionSystem {
  private:
   using Row = std::array<double, N>;
   template <class T>
-  BoundaryInputs<T> boundary_inputs(const FrictionState<N>& state, const BoundaryEdge& edge,
+  BoundaryInputs<T> boundary_inputs(const BlockState<N>& state, const BoundaryEdge& edge,
                                     std::size_t half) const;
   Row step(const BlockVector<N>& q, std::size_t e, std::size_t side, Order order) const;
   template <class Visit>
   void for_each_dependence(Order order, Visit visit) const;
-  void add_face_blocks(const FrictionState<N>& state, Order order, BlockMatrix<N>& matrix) const;
-  void add_triangle_blocks(const FrictionState<N>& state, Jacobian& result) const;
-  void add_boundary_blocks(const FrictionState<N>& state, Jacobian& result) const;
+  // A matrix that is made, and which of its rows a vertex has: no_index, none.
+  struct Rows {
+    BlockMatrix<N>& matrix;
+    Order order;
+    std::vector<std::uint32_t> of;
+  };
+  Rows rows_of_vertices(BlockMatrix<N>& matrix, Order order) const;
+  // Derivatives of fluxes, before walls are strong.
+  void add_fluxes(const BlockState<N>& state, std::span<Rows> all) const;
+  void add_face_blocks(const BlockState<N>& state, Rows& rows) const;
+  void add_triangle_blocks(const BlockState<N>& state, std::span<Rows> all) const;
+  void add_boundary_blocks(const BlockState<N>& state, std::span<Rows> all) const;
   void make_walls_strong(BlockMatrix<N>& matrix) const;
-  BlockAugmentedRows<N> augmented_rows(const FrictionState<N>& state, const BlockMatrix<N>& raw) const;
+  // raw: rows of all vertices of walls, before walls are strong.
+  BlockAugmentedRows<N> augmented_rows(const BlockState<N>& state, const BlockMatrix<N>& raw) const;
   std::array<Row, 3> triangle_states(const BlockVector<N>& q, const CornerTriangle& triangle) const {
     return {q[triangle.corner[0]], q[triangle.corner[1]], q[triangle.corner[2]]};
   }
@@ -111,7 +122,7 @@ class FrictionSystem {
 
 template <std::size_t N>
 template <class T>
-BoundaryInputs<T> FrictionSystem<N>::boundary_inputs(const FrictionState<N>& state, const BoundaryEdge& edge,
+BoundaryInputs<T> FrictionSystem<N>::boundary_inputs(const BlockState<N>& state, const BoundaryEdge& edge,
                                                      std::size_t half) const {
   const auto gas = [&](std::uint32_t v) { return FrictionTerms::gas(state.q[v]); };
   return boundary_inputs_of<T>(dual_, stream_, state.augmented, edge, half, gas);

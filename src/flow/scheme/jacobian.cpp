@@ -1,18 +1,11 @@
 // The driver that differentiates all terms by the unknowns.
 
 #include <algorithm>
-#include <numeric>
 
 #include "flow/scheme/flow_system.h"
 #include "flow/scheme/forces.h"
 
 namespace remodel::flow {
-
-BlockRows FlowSystem::pattern() const {
-  std::vector<std::uint32_t> all(mesh_.size());
-  std::iota(all.begin(), all.end(), 0U);
-  return pattern(std::move(all));
-}
 
 BlockRows FlowSystem::pattern(std::vector<std::uint32_t> rows) const {
   BlockRows matrix;

@@ -53,7 +53,7 @@ TEST(Quadrilaterals, UniformFlowHasNoResidualAndLinearGradientsAreExact) {
       const FlowMesh dual = test::uncut(mesh, open_ends, stride);
       const FlowSystem system(dual, {.mach = 0.7, .alpha = 0.3, .vortex = false});
       Vector residual;
-      system.residual(system.uniform(), residual);
+      system.residual(system.undisturbed(), residual);
       for (const auto& block : residual)
         for (const double value : block) EXPECT_LT(std::fabs(value), 2e-14);
       const auto linear = [&](std::size_t v) { return 3.0 * dual.points()[v].x - 2.0 * dual.points()[v].y; };
@@ -133,7 +133,7 @@ TEST(Quadrilaterals, DerivativesAreThoseOfDifferences) {
   FlowMesh dual = test::uncut(mesh, open_ends, 4);
   const Stream stream = {.mach = 0.6, .alpha = 0.02};
   const FlowSystem system(dual, stream);
-  State state = system.uniform();
+  State state = system.undisturbed();
   Vector weight(dual.size());
   Increment step = zero(dual.size());
   std::vector<Point> towards(dual.size());

@@ -3,7 +3,7 @@
 
 namespace remodel::flow {
 
-State FlowSystem::uniform() const {
+State FlowSystem::undisturbed() const {
   State state;
   state.augmented = {0.0, stream_.alpha};
   state.q.assign(mesh_.size(), stream_around<double>({0.0, 0.0}, stream_.mach, stream_.alpha, 0.0));

@@ -7,7 +7,8 @@
 
 namespace remodel::flow {
 
-void Anderson::add(Difference difference) {
+template <std::size_t N>
+void Anderson<N>::add(Difference difference) {
   if (differences_.size() == SearchPolicy::anderson_depth) {
     differences_.pop_front();
     const Eigen::Index left = products_.rows() - 1;
@@ -23,15 +24,16 @@ void Anderson::add(Difference difference) {
 
 // Least squares by normal equations of normalised columns: cheap, and as good as what the acceleration needs;
 // columns that hardly add anything are left out by the rank that Eigen finds.
-Increment Anderson::step(Increment f) {
+template <std::size_t N>
+BlockIncrement<N> Anderson<N>::step(BlockIncrement<N> f) {
   if (last_) {
-    Increment change = f;
+    BlockIncrement<N> change = f;
     add_times(change, -1.0, *last_);
     add({std::move(change), std::move(taken_)});
   }
   last_ = f;
   const auto m = static_cast<Eigen::Index>(differences_.size());
-  Increment step = std::move(f);
+  BlockIncrement<N> step = std::move(f);
   if (m > 0) {
     Eigen::VectorXd right(m), norm = products_.diagonal().cwiseSqrt();
     for (Eigen::Index i = 0; i < m; ++i) {
@@ -54,22 +56,24 @@ Increment Anderson::step(Increment f) {
   return step;
 }
 
-void Anderson::scale_last(double taken) {
+template <std::size_t N>
+void Anderson<N>::scale_last(double taken) {
   for (auto& block : taken_.q)
     for (double& x : block) x *= taken;
   for (double& x : taken_.augmented) x *= taken;
 }
 
-Preconditioner::Preconditioner(const FlowSystem& system, const State& state, Factors& factors,
-                               Overlap overlap, double memory_mb)
-    : system_(system), factors_(factors), overlap_(std::move(overlap)) {
+template <std::size_t N>
+Preconditioner<N>::Preconditioner(const BlockSystem<N>& system, const BlockState<N>& state, BlockFactors<N>& factors,
+                                  Overlap overlap, double memory_mb)
+    : factors_(factors), overlap_(std::move(overlap)), rows_(system.augmented_rows(state)) {
   if (!overlap_.zone.empty()) {
     zone_ = system.pattern(overlap_.zone);
     system.jacobian(state, zone_);
     ready_ = zone_lu_.factor(zone_, memory_mb) == Factored::done;
     if (!ready_) return;
   }
-  const std::array<Vector, augmented_count> right = system.augmented_columns(state);
+  const std::array<BlockVector<N>, augmented_count> right = system.augmented_columns(state);
   for (std::size_t z = 0; z < augmented_count; ++z) {
     columns_[z] = overlap_.to_vertices(factors_.columns()[z]);
     correct(right[z], columns_[z]);
@@ -77,33 +81,37 @@ Preconditioner::Preconditioner(const FlowSystem& system, const State& state, Fac
 }
 
 // x += J_zz^-1 (right - J x) on the zone.
-void Preconditioner::correct(const Vector& right, Vector& x) {
+template <std::size_t N>
+void Preconditioner<N>::correct(const BlockVector<N>& right, BlockVector<N>& x) {
   if (zone_.rows.empty()) return;
-  Vector rest(zone_.rows.size());
+  BlockVector<N> rest(zone_.rows.size());
   for (std::size_t r = 0; r < zone_.rows.size(); ++r) rest[r] = right[zone_.rows[r]];
   add_product(zone_, -1.0, x, rest);
   zone_lu_.solve(rest, 1);
   for (std::size_t r = 0; r < zone_.rows.size(); ++r)
-    for (std::size_t k = 0; k < unknown_count; ++k) x[zone_.rows[r]][k] += rest[r][k];
+    for (std::size_t k = 0; k < N; ++k) x[zone_.rows[r]][k] += rest[r][k];
 }
 
-Increment Preconditioner::apply(const State& state, const Residuals& residuals) {
-  const Increment right = residuals.negated();
-  Vector rows = overlap_.to_rows(right.q);
+template <std::size_t N>
+BlockIncrement<N> Preconditioner<N>::apply(const BlockResiduals<N>& residuals) {
+  const BlockIncrement<N> right = residuals.negated();
+  BlockVector<N> rows = overlap_.to_rows(right.q);
   factors_.solve(rows);
-  Vector x = overlap_.to_vertices(rows);
+  BlockVector<N> x = overlap_.to_vertices(rows);
   correct(right.q, x);
-  return close_augmented(std::move(x), columns_, system_.augmented_rows(state), right.augmented);
+  return close_augmented(std::move(x), columns_, rows_, right.augmented);
 }
 
-ChordEnd chord_steps(const Measure& measure, Preconditioner& inverse, NewtonSearch& search, State& state) {
+template <std::size_t N>
+ChordEnd chord_steps(const BlockMeasure<N>& measure, Preconditioner<N>& inverse, BlockSearch<N>& search,
+                     BlockState<N>& state) {
   using Policy = SearchPolicy;
   const FlowOptions& options = search.options();
   SearchRecord& record = search.record();
   const double solve_work = search.factors().solve_work();
-  Anderson anderson;
-  Residuals residuals = measure(state);
-  State best = state;
+  Anderson<N> anderson;
+  BlockResiduals<N> residuals = measure(state);
+  BlockState<N> best = state;
   double least = residuals.size;
   record.residual = least;
   std::vector<double> sizes{least};
@@ -115,7 +123,7 @@ ChordEnd chord_steps(const Measure& measure, Preconditioner& inverse, NewtonSear
   };
   for (std::size_t i = 0; i < Policy::chord_steps && least > options.tolerance; ++i) {
     if (options.observer != nullptr && options.observer->cancelled()) return end(ChordEnd::interrupted);
-    const Increment step = anderson.step(inverse.apply(state, residuals));
+    const BlockIncrement<N> step = anderson.step(inverse.apply(residuals));
     const double length = std::min(1.0, Policy::largest_part / largest_change(state, step));
     if (!(length > 0.0)) return end(ChordEnd::slow);
     if (length < 1.0) anderson.scale_last(length);
@@ -139,8 +147,9 @@ ChordEnd chord_steps(const Measure& measure, Preconditioner& inverse, NewtonSear
   return end(least <= options.tolerance ? ChordEnd::converged : ChordEnd::slow);
 }
 
-ChordEnd steps_with_own_factors(const Measure& measure, NewtonSearch& search, State& state) {
-  const FlowSystem& system = measure.system();
+template <std::size_t N>
+ChordEnd steps_with_own_factors(const BlockMeasure<N>& measure, BlockSearch<N>& search, BlockState<N>& state) {
+  const BlockSystem<N>& system = measure.system();
   SearchRecord& record = search.record();
   for (int attempt = 0; attempt < SearchPolicy::own_attempts; ++attempt) {
     const double before = measure(state).size;
@@ -150,7 +159,7 @@ ChordEnd steps_with_own_factors(const Measure& measure, NewtonSearch& search, St
     if (outcome != Factored::done || !search.factors().whole()) return ChordEnd::slow;
     Overlap same{.row_of = std::vector<std::uint32_t>(state.q.size()), .rows = state.q.size(), .zone = {}};
     std::iota(same.row_of.begin(), same.row_of.end(), 0U);
-    Preconditioner inverse(system, state, search.factors(), std::move(same), search.options().memory_mb);
+    Preconditioner<N> inverse(system, state, search.factors(), std::move(same), search.options().memory_mb);
     const ChordEnd end = chord_steps(measure, inverse, search, state);
     if (end == ChordEnd::interrupted) record.interrupt();
     if (end == ChordEnd::converged) record.status = FlowStatus::converged;
@@ -158,5 +167,15 @@ ChordEnd steps_with_own_factors(const Measure& measure, NewtonSearch& search, St
   }
   return ChordEnd::slow;
 }
+
+// For each number of unknowns.
+#define REMODEL_CHORD(N)                                                                                             \
+  template class Anderson<N>;                                                                                        \
+  template class Preconditioner<N>;                                                                                  \
+  template ChordEnd chord_steps<N>(const BlockMeasure<N>&, Preconditioner<N>&, BlockSearch<N>&, BlockState<N>&);     \
+  template ChordEnd steps_with_own_factors<N>(const BlockMeasure<N>&, BlockSearch<N>&, BlockState<N>&)
+REMODEL_CHORD(4);
+REMODEL_CHORD(5);
+#undef REMODEL_CHORD
 
 }  // namespace remodel::flow

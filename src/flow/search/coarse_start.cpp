@@ -76,7 +76,7 @@ std::optional<State> start_from_coarser(const Domain& domain, const QualityOptio
   add_cost(record, spent);
   spent.newton_steps += record.in_vain;
   if (record.status != FlowStatus::converged) return std::nullopt;
-  state.q = interpolated(*dual, state.q, fine.points());
+  state.q = interpolated<unknown_count>(*dual, state.q, fine.points());
   state.augmented[0] *= dual->extent().length / fine.extent().length;
   return state;
 }

@@ -5,23 +5,15 @@
 #include <limits>
 
 #include "flow/linear/gmres.h"
+#include "flow/search/policy.h"
 
 namespace remodel::flow {
 
 namespace {
 
-template <std::size_t N>
-FrictionState<N> along(const FrictionState<N>& state, const BlockIncrement<N>& step, double length) {
-  FrictionState<N> result = state;
-  for (std::size_t v = 0; v < result.q.size(); ++v)
-    for (std::size_t k = 0; k < N; ++k) result.q[v][k] += length * step.q[v][k];
-  for (std::size_t z = 0; z < augmented_count; ++z) result.augmented[z] += length * step.augmented[z];
-  return result;
-}
-
 // The part of a step that changes no density and no pressure by too much.
 template <std::size_t N>
-double longest(const FrictionState<N>& state, const BlockIncrement<N>& step) {
+double longest(const BlockState<N>& state, const BlockIncrement<N>& step) {
   double largest = 0.0;
   for (std::size_t v = 0; v < state.q.size(); ++v)
     for (const std::size_t k : positive_unknowns) {
@@ -34,45 +26,19 @@ double longest(const FrictionState<N>& state, const BlockIncrement<N>& step) {
 
 }  // namespace
 
-template <std::size_t N>
-double FrictionSearch<N>::size_of(const BlockVector<N>& residual, const Augmented& augmented) const {
-  double square = 0.0;
-  for (const auto& block : residual)
-    for (const double x : block) square += x * x;
-  square /= scale_ * scale_;
-  for (const double x : augmented) square += x * x;
-  const double size = std::sqrt(square);
-  return std::isfinite(size) ? size : std::numeric_limits<double>::infinity();
-}
-
-template <std::size_t N>
-typename FrictionSearch<N>::At FrictionSearch<N>::at(const FrictionState<N>& state) const {
-  At now;
-  now.size = std::numeric_limits<double>::infinity();
-  for (const auto& q : state.q)
-    for (const std::size_t k : positive_unknowns)
-      if (!(q[k] > 0.0)) return now;
-  system_.unbalanced(state, now.residual);
-  now.lift = system_.forces(state, now.residual).lift;
-  now.augmented = system_.augmented_residual(state, now.lift);
-  system_.make_walls_strong(state, now.residual);
-  now.size = size_of(now.residual, now.augmented);
-  return now;
-}
-
 // The residual of the implicit time step from `before`.
 template <std::size_t N>
-double FrictionSearch<N>::unsteady_size(const FrictionState<N>& before, const FrictionState<N>& state,
-                                        const std::vector<double>& by_time, const At& now) const {
+double FrictionSearch<N>::unsteady_size(const BlockState<N>& before, const BlockState<N>& state,
+                                        const std::vector<double>& by_time, const Residuals& now) const {
   if (!std::isfinite(now.size)) return now.size;
-  BlockVector<N> whole = now.residual;
+  BlockVector<N> whole = now.of_vertices;
   for (std::size_t v = 0; v < whole.size(); ++v) {
     const auto u = FrictionSystem<N>::conserved_at(state.q[v]),
                u0 = FrictionSystem<N>::conserved_at(before.q[v]);
     for (std::size_t k = 0; k < N; ++k)
       if (!system_.is_replaced(v, k)) whole[v][k] += by_time[v] * (u[k] - u0[k]);
   }
-  return size_of(whole, now.augmented);
+  return measure_.size_of(whole, now.augmented);
 }
 
 template <std::size_t N>
@@ -101,8 +67,8 @@ void FrictionSearch<N>::precondition(BlockVector<N>& x) {
 }
 
 template <std::size_t N>
-bool FrictionSearch<N>::solve(const FrictionState<N>& state, const std::vector<double>& by_time,
-                              const At& now, BlockIncrement<N>& step) {
+bool FrictionSearch<N>::solve(const BlockState<N>& state, const std::vector<double>& by_time,
+                              const Residuals& now, BlockIncrement<N>& step) {
   system_.jacobian(state, jacobian_);
   for (std::uint32_t v = 0; v < by_time.size(); ++v) {
     const SquareBlock<N> slope = FrictionSystem<N>::conserved_slope(state.q[v]);
@@ -123,21 +89,20 @@ bool FrictionSearch<N>::solve(const FrictionState<N>& state, const std::vector<d
   const auto weighed = [&](BlockIncrement<N>& x, double by) {
     for (double& z : x.augmented) z *= by;
   };
-  BlockIncrement<N> right{.q = now.residual, .augmented = {-now.augmented[0], -now.augmented[1]}};
-  for (auto& block : right.q)
-    for (double& x : block) x = -x;
-  weighed(right, scale_);
+  const double scale = measure_.scale();
+  BlockIncrement<N> right = now.negated();
+  weighed(right, scale);
   const double size = norm(right);
   const double part = std::clamp(now.size, FrictionPolicy::least_forcing, FrictionPolicy::most_forcing);
   step = {};
   const GmresEnd end = gmres_of<N>(
       [&](const BlockIncrement<N>& x) {
         BlockIncrement<N> result = matrix.times(x);
-        weighed(result, scale_);
+        weighed(result, scale);
         return result;
       },
       [&](BlockIncrement<N>& x) {
-        weighed(x, 1.0 / scale_);
+        weighed(x, 1.0 / scale);
         precondition(x.q);
         x = close_augmented(std::move(x.q), solved, jacobian_.rows, x.augmented);
       },
@@ -163,12 +128,12 @@ void FrictionSearch<N>::note_failure(bool failed) {
 // The part of the step that was taken; 0: none.
 template <std::size_t N>
 double FrictionSearch<N>::line_search(const BlockIncrement<N>& step, const std::vector<double>& by_time,
-                                      FrictionState<N>& state, At& now) const {
+                                      BlockState<N>& state, Residuals& now) const {
   double length = longest(state, step);
   for (int i = 0; i <= FrictionPolicy::halvings && length > FrictionPolicy::retried_part;
        ++i, length *= 0.5) {
-    FrictionState<N> next = along(state, step, length);
-    At there = at(next);
+    BlockState<N> next = moved(state, step, length);
+    Residuals there = measure_(next);
     if (!(unsteady_size(state, next, by_time, there) < now.size)) continue;
     state = std::move(next), now = std::move(there);
     return length;
@@ -177,13 +142,27 @@ double FrictionSearch<N>::line_search(const BlockIncrement<N>& step, const std::
 }
 
 template <std::size_t N>
-void FrictionSearch<N>::run(FrictionState<N>& state, double cfl) {
+void FrictionSearch<N>::cold(BlockState<N>& state) {
+  state = system_.undisturbed();
   record_.origin = FlowOrigin::undisturbed;
+  record_.in_vain += record_.newton_steps;
+  record_.newton_steps = 0;
+  if (!system_.stream().lift) return run(state, FrictionPolicy::first_cfl);
+  // Undisturbed flow is too far from a flow of this lift for the angle to follow.
+  Stream at_angle = system_.stream();
+  at_angle.lift.reset();
+  FlowOptions rough = options_;
+  rough.tolerance = std::max(options_.tolerance, SearchPolicy::first_angle_tolerance);
+  const FrictionSystem<N> first(system_.friction_mesh(), at_angle, system_.terms().viscosity);
+  const BlockMeasure<N> measure(first);
+  FrictionSearch(first, measure, rough, record_).run(state, FrictionPolicy::first_cfl);
+  if (record_.status == FlowStatus::converged) run(state, SearchPolicy::with_angle_cfl);
+}
+
+template <std::size_t N>
+void FrictionSearch<N>::run(BlockState<N>& state, double cfl) {
   record_.whole_factors = false;
-  scale_ = 1.0;
-  At now = at(state);
-  scale_ = std::max(size_of(now.residual, {}), 1e-3 * system_.stream().length / gas_gamma);
-  now.size = size_of(now.residual, now.augmented);
+  Residuals now = measure_(state);
   record_.history.push_back(now.size);
   double least = now.size;
   int since_least = 0;
@@ -215,7 +194,7 @@ void FrictionSearch<N>::run(FrictionState<N>& state, double cfl) {
     since_least = now.size < least ? 0 : since_least + (cfl > 1e4 ? 1 : 0);
     least = std::min(least, now.size);
     if (options_.on_step)
-      options_.on_step({record_.newton_steps, now.size, reported_length(system_.stream()) * now.lift});
+      options_.on_step({record_.newton_steps, now.size, reported_length(system_.stream()) * (now.augmented[0] + state.augmented[0])});
   }
   end(FlowStatus::converged, "");
 }

@@ -16,8 +16,7 @@
 #include "flow/linear/direct_solver.h"
 #include "flow/linear/incomplete_lu.h"
 #include "flow/scheme/friction_system.h"
-#include "flow/search/newton_search.h"
-#include "remodel/flow.h"
+#include "flow/search/search.h"
 
 namespace remodel::flow {
 
@@ -27,7 +26,7 @@ struct FrictionPolicy {
   static constexpr double full_growth = 2.0, part_growth = 0.5, shortest_part = 0.3, retried_part = 0.05;
   static constexpr double largest_part = 0.2;  // of a density or pressure that a step changes
   static constexpr int halvings = 8;
-  static constexpr double start_thickness = 0.01;  // lengths
+  static constexpr double carried_cfl = 1e3;  // from a flow that is near
   static constexpr double least_forcing = 1e-3, most_forcing = 1e-2;
   static constexpr int restart = 60, rounds = 3;
   static constexpr int patience = 40;  // steps without a new least residual at full CFL
@@ -36,35 +35,34 @@ struct FrictionPolicy {
 template <std::size_t N>
 class FrictionSearch {
  public:
-  FrictionSearch(const FrictionSystem<N>& system, const FlowOptions& options, SearchRecord& record)
-      : system_(system), options_(options), record_(record) {}
+  // measure: of the system.
+  FrictionSearch(const FrictionSystem<N>& system, const BlockMeasure<N>& measure, const FlowOptions& options,
+                 SearchRecord& record)
+      : system_(system), measure_(measure), options_(options), record_(record) {}
 
+  // From a stream that slows down towards walls.
+  void cold(BlockState<N>& state);
+  // From a flow that is near.
+  void near(BlockState<N>& state) { run(state, FrictionPolicy::carried_cfl); }
   // Goes on from `state` to the flow, or to where the search ends.
-  void run(FrictionState<N>& state, double cfl = FrictionPolicy::first_cfl);
+  void run(BlockState<N>& state, double cfl);
 
  private:
-  struct At {
-    BlockVector<N> residual;
-    Augmented augmented = {};
-    double size = 0.0;
-    double lift = 0.0;
-  };
-  At at(const FrictionState<N>& state) const;
-  double size_of(const BlockVector<N>& residual, const Augmented& augmented) const;
-  double unsteady_size(const FrictionState<N>& before, const FrictionState<N>& state,
-                       const std::vector<double>& by_time, const At& now) const;
-  bool solve(const FrictionState<N>& state, const std::vector<double>& by_time, const At& now,
+  using Residuals = BlockResiduals<N>;
+  double unsteady_size(const BlockState<N>& before, const BlockState<N>& state, const std::vector<double>& by_time,
+                       const Residuals& now) const;
+  bool solve(const BlockState<N>& state, const std::vector<double>& by_time, const Residuals& now,
              BlockIncrement<N>& step);
-  void note_failure(bool failed);
   bool factor();
   void precondition(BlockVector<N>& x);
-  double line_search(const BlockIncrement<N>& step, const std::vector<double>& by_time,
-                     FrictionState<N>& state, At& now) const;
+  void note_failure(bool failed);
+  double line_search(const BlockIncrement<N>& step, const std::vector<double>& by_time, BlockState<N>& state,
+                     Residuals& now) const;
 
   const FrictionSystem<N>& system_;
+  const BlockMeasure<N>& measure_;
   const FlowOptions& options_;
   SearchRecord& record_;
-  double scale_ = 1.0;  // of residuals: those of the state that the search began with
   typename FrictionSystem<N>::Jacobian jacobian_;
   IncompleteLu<N> incomplete_;
   DirectSolver<N> lu_;

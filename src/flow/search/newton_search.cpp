@@ -45,29 +45,6 @@ double forcing(double residual, double target) {
 
 }  // namespace
 
-BlockRows& WholeMatrix::of(const FlowSystem& system) {
-  if (cells_ != system.mesh().cells()) {
-    matrix_ = system.pattern();
-    cells_ = system.mesh().cells();
-  }
-  return matrix_;
-}
-
-FactorKind lasting_kind(const FlowOptions& options) {
-  return options.solver == FlowSolver::gmres ? FactorKind::incomplete : FactorKind::whole;
-}
-
-void SearchRecord::end_without_factors(Factored outcome, double memory_mb_given) {
-  if (outcome == Factored::out_of_memory) {
-    status = FlowStatus::memory;
-    reason =
-        "even incomplete factors need more than the " + text_of(memory_mb_given) + " MB that they may take";
-  } else {
-    status = FlowStatus::stalled;
-    reason = "the Jacobian, or its incomplete LU, is singular at a residual of " + text_of(residual);
-  }
-}
-
 // The progress of one run.
 struct NewtonSearch::Progress {
   const Measure& measure;
@@ -102,22 +79,6 @@ bool NewtonSearch::may_go_on(const Progress& at) {
     return false;
   }
   return true;
-}
-
-Factored NewtonSearch::factor(const FlowSystem& system, const State& state, const BlockRows& matrix,
-                              FactorKind kind) {
-  const Factored outcome = factors_.factor(matrix, system.augmented_columns(state), kind, options_.memory_mb);
-  ++record_.factorisations;
-  if (outcome != Factored::done) return outcome;
-  record_.memory_mb = std::max(record_.memory_mb, factors_.memory_mb());
-  record_.whole_factors = factors_.whole();
-  return outcome;
-}
-
-Factored NewtonSearch::factor_at(const FlowSystem& system, const State& state, FactorKind kind) {
-  BlockRows& matrix = matrix_.of(system);
-  system.jacobian(state, matrix);
-  return factor(system, state, matrix, kind);
 }
 
 void NewtonSearch::run(const Measure& measure, const Pace& pace, State& state) {
@@ -247,7 +208,7 @@ void NewtonSearch::near(const Measure& measure, State& state) {
 // Each stage but the last needs only the neighbourhood of its flow.
 void NewtonSearch::in_stages(const Measure& measure, double rough, State& state) {
   const FlowSystem& system = measure.system();
-  state = system.uniform();
+  state = system.undisturbed();
   Pace pace = {
       .cfl = Policy::cold_cfl, .most = Policy::cold_cfl, .rough = std::max(rough, Policy::stage_tolerance)};
   for (const double slopes : Policy::stages) {
@@ -265,7 +226,7 @@ void NewtonSearch::in_stages(const Measure& measure, double rough, State& state)
 // Where stages end near a state that is nearly steady but no flow (a fold of the equations, at which Newton's
 // method stays for ever), pseudo-time, along which it is unstable, leads away from it.
 void NewtonSearch::at_given_angle(const Measure& measure, double rough, State& state) {
-  state = measure.system().uniform();
+  state = measure.system().undisturbed();
   run(measure, {.cfl = Policy::cold_cfl, .rough = rough}, state);
   beside(measure, state);
   if (record_.status == FlowStatus::stalled) in_stages(measure, rough, state);

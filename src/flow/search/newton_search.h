@@ -47,13 +47,10 @@
 // All numbers are in policy.h, with where they come from.
 
 #include <limits>
-#include <string>
-#include <vector>
 
-#include "flow/linear/factors.h"
-#include "flow/search/measure.h"
+#include "flow/scheme/flow_system.h"
 #include "flow/search/policy.h"
-#include "remodel/flow.h"
+#include "flow/search/search.h"
 
 namespace remodel::flow {
 
@@ -74,45 +71,20 @@ struct Pace {
 };
 inline constexpr double no_pseudo_time = std::numeric_limits<double>::infinity();  // as a CFL number
 
-// What a search for a flow has done so far.
-struct SearchRecord {
-  FlowStatus status = FlowStatus::stalled;
-  std::string reason;
-  double residual = 0.0;
-  std::vector<double> history;
-  int newton_steps = 0, factorisations = 0, iterations = 0, gmres_iterations = 0;
-  int in_vain = 0;  // Newton steps from potential flow that led nowhere; newton_steps is without them
-  FlowOrigin origin = FlowOrigin::last_flow;
-  double memory_mb = 0.0;
-  bool whole_factors = true;
-
-  void interrupt() { status = FlowStatus::interrupted, reason = "interrupted"; }
-  void end_without_factors(Factored outcome, double memory_mb_given);
-};
-
-// The kind of factors that serve for several solves.
-FactorKind lasting_kind(const FlowOptions& options);
-
-// The whole matrix, whose pattern is kept while a mesh has the same cells.
-class WholeMatrix {
+// Of the Euler equations.
+class Measure final : public BlockMeasure<unknown_count> {
  public:
-  BlockRows& of(const FlowSystem& system);
+  explicit Measure(const FlowSystem& system) : BlockMeasure(system), system_(system) {}
+  const FlowSystem& system() const { return system_; }
 
  private:
-  BlockRows matrix_;
-  std::vector<Cell> cells_;
+  const FlowSystem& system_;
 };
 
 // Searches on one mesh, with factors that are kept from one to the next.
-class NewtonSearch {
+class NewtonSearch : public BlockSearch<unknown_count> {
  public:
-  // What a search leaves in `factors` belongs to its last step.
-  NewtonSearch(const FlowOptions& options, WholeMatrix& matrix, Factors& factors, SearchRecord& record)
-      : options_(options), matrix_(matrix), factors_(factors), record_(record) {}
-
-  const FlowOptions& options() const { return options_; }
-  SearchRecord& record() { return record_; }
-  Factors& factors() { return factors_; }
+  using BlockSearch::BlockSearch;
 
   // Goes on from `state` to the flow, or to where it ends; the record's status and reason say which.
   void run(const Measure& measure, const Pace& pace, State& state);
@@ -131,9 +103,6 @@ class NewtonSearch {
   // the angle, and by shorter steps where that stalls.
   void from_undisturbed_flow(const Measure& measure, State& state);
 
-  // Jacobian and factors at a state, without pseudo-time; counted in the record.
-  Factored factor_at(const FlowSystem& system, const State& state, FactorKind kind);
-
  private:
   struct Progress;
   // False where the search has to end, or has ended.
@@ -141,14 +110,8 @@ class NewtonSearch {
   bool step(Progress& at, State& state);
   bool take(Progress& at, State& state, const Increment& step, bool solved);
   bool shorten(Progress& at, double left);
-  Factored factor(const FlowSystem& system, const State& state, const BlockRows& matrix, FactorKind kind);
   void in_stages(const Measure& measure, double rough, State& state);
   void at_given_angle(const Measure& measure, double rough, State& state);
-
-  const FlowOptions& options_;
-  WholeMatrix& matrix_;
-  Factors& factors_;
-  SearchRecord& record_;
 };
 
 }  // namespace remodel::flow
