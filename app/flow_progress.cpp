@@ -7,14 +7,20 @@
 
 namespace remodel::app {
 
-FlowProgressLine::FlowProgressLine(FlowOptions& options)
+namespace {
+const std::string only_one;
+}
+
+FlowProgressLine::FlowProgressLine(FlowOptions& options) : FlowProgressLine(options, only_one) {}
+
+FlowProgressLine::FlowProgressLine(FlowOptions& options, const std::string& which)
     : on_terminal_(progress_style(false) == ProgressStyle::bar) {
   if (!on_terminal_) return;
-  options.on_step = [](const FlowProgress& progress) {
+  options.on_step = [&which](const FlowProgress& progress) {
     char text[100];
     std::snprintf(text, sizeof text, "step %d  residual %.2e  CL %.4f", progress.newton_step,
                   progress.residual, progress.cl);
-    draw_status_line(text);
+    draw_status_line(which + text);
   };
 }
 

@@ -2,6 +2,8 @@
 
 // How far the search for a flow has come, on a terminal.
 
+#include <string>
+
 #include "remodel/flow.h"
 
 namespace remodel::app {
@@ -11,6 +13,8 @@ namespace remodel::app {
 class FlowProgressLine {
  public:
   explicit FlowProgressLine(FlowOptions& options);
+  // Of several flows: says `which` one, as it is at the time.
+  FlowProgressLine(FlowOptions& options, const std::string& which);
   ~FlowProgressLine();
   FlowProgressLine(const FlowProgressLine&) = delete;
   FlowProgressLine& operator=(const FlowProgressLine&) = delete;
