@@ -7,21 +7,20 @@
 
 namespace remodel::app {
 
-namespace {
-const std::string only_one;
-}
-
-FlowProgressLine::FlowProgressLine(FlowOptions& options) : FlowProgressLine(options, only_one) {}
-
-FlowProgressLine::FlowProgressLine(FlowOptions& options, const std::string& which)
+FlowProgressLine::FlowProgressLine(FlowOptions& options)
     : on_terminal_(progress_style(false) == ProgressStyle::bar) {
   if (!on_terminal_) return;
-  options.on_step = [&which](const FlowProgress& progress) {
+  options.on_step = [this](const FlowProgress& progress) {
     char text[100];
     std::snprintf(text, sizeof text, "step %d  residual %.2e  CL %.4f", progress.newton_step,
                   progress.residual, progress.cl);
-    draw_status_line(which + text);
+    draw_status_line(which_ + text);
   };
+}
+
+void FlowProgressLine::begin(const std::string& which) {
+  which_ = which;
+  if (on_terminal_) draw_status_line(which_);
 }
 
 FlowProgressLine::~FlowProgressLine() {

@@ -13,14 +13,15 @@ namespace remodel::app {
 class FlowProgressLine {
  public:
   explicit FlowProgressLine(FlowOptions& options);
-  // Of several flows: says `which` one, as it is at the time.
-  FlowProgressLine(FlowOptions& options, const std::string& which);
+  // The next one of several flows, which the line begins with from now on.
+  void begin(const std::string& which);
   ~FlowProgressLine();
   FlowProgressLine(const FlowProgressLine&) = delete;
   FlowProgressLine& operator=(const FlowProgressLine&) = delete;
 
  private:
   bool on_terminal_;
+  std::string which_;
 };
 
 }  // namespace remodel::app

@@ -97,13 +97,12 @@ Polars find_all(const PolarCommand& command, const std::vector<MeshInput>& meshe
   InterruptObserver observer;
   PolarOptions options = command.polar;
   options.flow.observer = &observer;
-  std::string which;
-  const FlowProgressLine progress(options.flow, which);
+  FlowProgressLine progress(options.flow);
   for (std::size_t i = 0; i < meshes.size() && !polars.interrupted; ++i) {
     const std::string& shape = command.input.shapes[i];
     options.on_search = [&](double mach, double value) {
-      which = shape + "  M " + short_text(mach) + (options.alphas_deg.empty() ? "  CL " : "  angle ") +
-              short_text(value) + "  ";
+      progress.begin(shape + "  M " + short_text(mach) + (options.alphas_deg.empty() ? "  CL " : "  angle ") +
+                     short_text(value) + "  ");
     };
     PolarResult result = meshes[i].living ? find_polar(*meshes[i].living, shape, options)
                                           : find_polar(meshes[i].frozen, shape, options);
