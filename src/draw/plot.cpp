@@ -259,7 +259,7 @@ class PlotPainter {
     for (std::size_t k = 0; k < plot_.curves.size(); ++k) {
       const std::string& name = plot_.curves[k].name;
       if (name.empty()) continue;
-      const double left = place.left + place.width - text_width(cairo, name) - 20.0 * unit_;
+      const double left = place.left + 60.0 * unit_;
       put_text(cairo, left, y, name);
       begin_curve(cairo, k);
       cairo_set_line_width(cairo, 3.0 * unit_);
