@@ -68,6 +68,7 @@ void require_consistent(const PolarCommand& command) {
   if (!command.given("--reynolds"))
     throw Error(ErrorCode::argument, "--reynolds",
                 "not given, expected the Reynolds number of the reference length for --model laminar or sa");
+  refuse_given(command.given, {"--cl"}, "given with --model laminar or sa, expected --alpha");
   refuse_given(command.given, {"--limiter"}, "given with --model laminar or sa, expected --model euler");
 }
 
@@ -266,7 +267,8 @@ void add_conditions(CLI::App& app, PolarCommand& command) {
             {-90, 90}, command.polar.alphas_deg);
   add_range(
       app,
-      {"--cl", "C0:C1:DC", "", "In place of angles: lift coefficients that they are found for, -10 to 10"},
+      {"--cl", "C0:C1:DC", "",
+       "In place of angles: lift coefficients that they are found for, -10 to 10; without friction alone"},
       {-10, 10}, command.polar.lifts);
   add_range(app, {"--mach", "M0:M1:DM", "", "Mach number of the stream, or several, a row each: 0.01 to 3"},
             {0.01, 3}, command.polar.machs);

@@ -15,7 +15,8 @@ namespace remodel {
 
 namespace {
 
-// Flows with friction begin cold each time.
+// Flows with friction begin cold each time. Angles for lifts are not looked for like that: see
+// PolarSearch::find().
 bool outlives_its_mesh(FlowModel model) {
   return model == FlowModel::euler;
 }
@@ -35,6 +36,9 @@ void require_possible_polar(const PolarOptions& options) {
   require_ascending("machs", options.machs);
   require_ascending("alphas_deg", options.alphas_deg);
   require_ascending("lifts", options.lifts);
+  if (!options.lifts.empty() && !outlives_its_mesh(options.flow.model))
+    throw Error(ErrorCode::argument, "lifts",
+                "given with a model with friction, expected angles (alphas_deg)");
   if (options.halvings < 0 || options.halvings > 20)
     throw Error(ErrorCode::argument, "halvings",
                 "found " + std::to_string(options.halvings) + ", expected 0 to 20");
@@ -127,15 +131,20 @@ class PolarSearch {
                        {.halvings = options_.halvings, .misses = options_.misses});
   }
 
+  // From nothing the angle for a lift may be one far beyond the largest lift, where the same lift is found
+  // again: so a row of lifts begins with the flow at an angle of 0.
   FlowResult find(double mach, double value) {
     if (options_.on_search) options_.on_search(mach, value);
     FlowConditions conditions = options_.conditions;
     conditions.mach = mach;
     conditions.cl.reset();
-    if (over_lift())
-      conditions.cl = value, conditions.alpha_deg = alpha_deg_;
-    else
-      conditions.alpha_deg = value;
+    conditions.alpha_deg = over_lift() ? alpha_deg_ : value;
+    if (over_lift()) {
+      if (living_.keep().empty())
+        if (FlowResult start = solve_(living_, conditions); !start.converged())
+          return without_fields(std::move(start));
+      conditions.cl = value;
+    }
     FlowResult flow = solve_(living_, conditions);
     if (flow.converged()) {
       alpha_deg_ = flow.alpha_deg;

@@ -86,6 +86,7 @@ TEST(Polars, FindAnglesForLifts) {
   EXPECT_NEAR(curve.points[0].cl, 0.2, 1e-8);
   EXPECT_NEAR(curve.points[1].cl, 0.4, 1e-8);
   EXPECT_LT(curve.points[0].alpha_deg, curve.points[1].alpha_deg);
+  EXPECT_NE(curve.points[0].start, FlowStart::cold);
 }
 
 TEST(Polars, SayWhatIsNotFound) {
@@ -144,6 +145,10 @@ TEST(Polars, RefuseWhatIsNoRow) {
             }),
             "alphas_deg: found values that do not ascend, expected each to be above the one before");
   EXPECT_EQ(refusal([](PolarOptions& o) { o.halvings = -1; }), "halvings: found -1, expected 0 to 20");
+  EXPECT_EQ(refusal([](PolarOptions& o) {
+              o.flow.model = FlowModel::sa, o.conditions.reynolds = 1e6, o.lifts.swap(o.alphas_deg);
+            }),
+            "lifts: given with a model with friction, expected angles (alphas_deg)");
   EXPECT_EQ(refusal([](PolarOptions& o) { o.misses = 0; }), "misses: found 0, expected 1 or more");
 }
 

@@ -103,6 +103,7 @@ class Polars(ProgramTest):
             ((*mach, *alpha, "--reynolds", 1e6), "--reynolds: given without friction"),
             ((*mach, *alpha, "--model", "sa"), "--reynolds: not given"),
             ((*mach, *alpha, "--model", "sa", "--reynolds", 1e6, "--points", 100), "--points: given with a model with friction"),
+            ((*mach, "--cl", 0.5, "--model", "sa", "--reynolds", 1e6), "--cl: given with --model laminar or sa"),
             ((*mach, *alpha, "-o", "a.vtu"), "a.vtu"),
             ((*mach, *alpha, "-o", "a.csv", "-o", "./a.csv"), "-o: found './a.csv' twice"),
         ):
