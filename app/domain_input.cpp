@@ -268,6 +268,10 @@ void add_domain_input(CLI::App& app, DomainInputOptions& options) {
             {"--name", "NAME", "airfoil; of several by their files",
              "Marker of an airfoil in mesh files; may be repeated, in the order of the airfoils"},
             Presence::optional, options.names);
+  add_reading_options(app, options);
+}
+
+void add_reading_options(CLI::App& app, DomainInputOptions& options) {
   static constexpr std::array outlines{OutlineCurve::spline, OutlineCurve::polyline};
   add_choice(app,
              {"--as-given", "CURVE", "",

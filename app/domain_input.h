@@ -33,6 +33,8 @@ struct DomainInputOptions {
 
 // SHAPE..., --place, --name, --crossings, --join, --as-given, --keep-coordinates.
 void add_domain_input(CLI::App& app, DomainInputOptions& options);
+// The last four: how files of shapes are read.
+void add_reading_options(CLI::App& app, DomainInputOptions& options);
 
 // True if the input is one airfoil without a place and a name, as opposed to a domain or an outline as given.
 bool is_single_airfoil(const DomainInputOptions& options);

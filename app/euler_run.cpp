@@ -46,43 +46,47 @@ FrozenMesh without_openings(FrozenMesh mesh, const FlowOptions& options) {
 
 }  // namespace
 
-void add_euler_options(CLI::App& app, EulerRun& run) {
-  add_real(app, {"--mach", "M", "", "Mach number of the stream, of compressible flow: 0.01 to 3"},
-           {.low = 0.01, .high = 3.0},
-           [&](double value) { run.conditions.mach = value, run.mach_given = true; });
+void add_solver_options(CLI::App& app, FlowConditions& conditions, FlowOptions& options) {
   add_real(app,
            {"--tolerance", "PART", "1e-10",
             "Converged: the residual as a part of undisturbed flow's, 1e-13 to 1e-2"},
-           {.low = 1e-13, .high = 1e-2}, run.options.tolerance);
+           {.low = 1e-13, .high = 1e-2}, options.tolerance);
   add_integer(app, {"--max-steps", "N", "200", "Newton steps of one flow: at least 1"},
-              {.low = 1, .high = 100000}, run.options.max_steps);
+              {.low = 1, .high = 100000}, options.max_steps);
   add_real(app,
            {"--memory", "MB", "4096",
             "What the factors of a matrix may take, megabytes: at least 1; where LU takes more, GMRES with "
             "incomplete factors takes its place"},
-           {.low = 1.0, .high = 1e9}, run.options.memory_mb);
+           {.low = 1.0, .high = 1e9}, options.memory_mb);
   add_choice(
       app,
       {"--solver", "SOLVER", "auto",
        "Linear systems: by lu, by gmres, or by gmres far from a flow and by lu where its factors serve "
        "for several steps or designs"},
       {"auto", "lu", "gmres"}, [&](std::size_t choice) {
-        if (choice > 0) run.options.solver = choice == 1 ? FlowSolver::lu : FlowSolver::gmres;
+        if (choice > 0) options.solver = choice == 1 ? FlowSolver::lu : FlowSolver::gmres;
       });
   add_real(app,
            {"--limiter", "K", "30",
             "Differences below (K h)^(3/2) along an edge are not limited, h being its length over the "
             "walls' extent, the chord of a section: above 0, no unit"},
-           {.low = 0.0, .above_low = true}, run.options.limiter);
+           {.low = 0.0, .above_low = true}, options.limiter);
   add_text(app, {"--reference", "X,Y", "0.25,0", "Point of the moment and of the far field's vortex"},
            Presence::optional, [&](const std::string& text) {
              const std::vector<double> point = parse_reals("--reference", text, 2);
-             run.conditions.reference = {point[0], point[1]};
+             conditions.reference = {point[0], point[1]};
            });
   add_real(app,
            {"--reference-length", "LENGTH", "1",
             "Length that coefficients are made with, and --reynolds: above 0"},
-           {.low = 0.0, .above_low = true}, run.conditions.reference_length);
+           {.low = 0.0, .above_low = true}, conditions.reference_length);
+}
+
+void add_euler_options(CLI::App& app, EulerRun& run) {
+  add_real(app, {"--mach", "M", "", "Mach number of the stream, of compressible flow: 0.01 to 3"},
+           {.low = 0.01, .high = 3.0},
+           [&](double value) { run.conditions.mach = value, run.mach_given = true; });
+  add_solver_options(app, run.conditions, run.options);
   add_text(app,
            {"--series", "FILE", "",
             "JSON array of airfoils: the mesh is remodelled to one after the other, each flow found from the "

@@ -31,8 +31,9 @@ struct EulerRun {
   bool json = false;
 };
 
-// --mach, --tolerance, --max-steps, --memory, --limiter, --reference, --reference-length, --series,
-// --compare, --gradient, --error.
+// --tolerance, --max-steps, --memory, --solver, --limiter, --reference, --reference-length.
+void add_solver_options(CLI::App& app, FlowConditions& conditions, FlowOptions& options);
+// --mach, those of add_solver_options(), --series, --compare, --gradient, --error.
 void add_euler_options(CLI::App& app, EulerRun& run);
 
 // --inlet, --total-pressure, --total-temperature, --outlet, --pressure, --symmetry, --history.

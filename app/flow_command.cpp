@@ -1,8 +1,5 @@
 // remodel flow MESH|SHAPE...: the flow around bodies, its coefficients, fields and plots.
 
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
 #include <functional>
 #include <initializer_list>
 #include <memory>
@@ -15,14 +12,12 @@
 #include "euler_run.h"
 #include "figures.h"
 #include "flow_files.h"
-#include "layer_options.h"
+#include "flow_mesh.h"
 #include "mesh_input.h"
 #include "meshing_options.h"
 #include "outputs.h"
 #include "potential_run.h"
 #include "remodel/error.h"
-#include "remodel/generate.h"
-#include "remodel/layers.h"
 
 namespace remodel::app {
 namespace {
@@ -44,73 +39,13 @@ struct FlowCommand {
 };
 
 void refuse(const FlowCommand& command, std::initializer_list<const char*> options, const char* why) {
-  for (const char* option : options)
-    if (command.given(option)) throw Error(ErrorCode::argument, option, why);
+  refuse_given(command.given, options, why);
 }
 
-bool is_mesh_file(const std::string& name) {
-  const std::string extension = std::filesystem::path(name).extension().string();
-  return extension == ".vtkhdf" || extension == ".su2" || extension == ".msh" || extension == ".vtu";
-}
-
-// The mesh file among the shapes, if there is one: it has to be alone.
-std::optional<std::string> mesh_file(const FlowCommand& command) {
-  const std::vector<std::string>& names = command.input.shapes;
-  const auto file = std::find_if(names.begin(), names.end(), is_mesh_file);
-  if (file == names.end()) return std::nullopt;
-  if (names.size() > 1 || !command.input.places.empty())
-    throw Error(ErrorCode::argument, *file, "holds a mesh, expected it alone and without --place");
-  refuse(command,
-         {"--name", "--as-given", "--keep-coordinates", "--crossings", "--join", "--points",
-          "--farfield-radius", "--farfield-points", "--gradation", "--resolution", "--min-angle",
-          "--max-gradation", "--min-edge", "--max-vertices", "--cst-degree", "--close-trailing-edge"},
-         "given with a mesh, which has its own, expected with a shape");
-  return *file;
-}
-
-void require_whole(const FlowCommand& command, Stopped stopped) {
-  if (stopped == Stopped::done) return;
-  throw Error(ErrorCode::argument, command.input.shapes.front(),
-              std::string("the mesh is unfinished (") + name_of(stopped) + "), expected a whole one");
-}
-
-// A fresh mesh with a layer that the Reynolds number asks for, as mesh --layers makes it.
-MeshInput layered_input(const FlowCommand& command) {
-  constexpr double turbulent_y_plus = 1.0, laminar_y_plus = 0.3;
-  refuse(command, {"--points"}, "given with a model with friction, whose layer sets the stations of walls");
-  MeshingOptions meshing = command.meshing;
-  meshing.gradation = meshing.gradation.value_or(gradation_with_layers);
-  DomainInput domain = read_domain(command.input, meshing.discretisation, meshing.fit);
-  if (domain.in_farfield) space_walls(domain.domain, WallSpacing{});
+MeshInput read_input(const FlowCommand& command) {
   // Lengths of layers are in chords of 1.
   const double reynolds = command.euler.conditions.reynolds / command.euler.conditions.reference_length;
-  const bool turbulent = command.model == FlowModel::sa;
-  const double laminar_thickness = std::min(5.0 / std::sqrt(reynolds), 0.5);  // Blasius's
-  LayerOptions layers;
-  layers.thickness =
-      1.2 * (turbulent ? boundary_layer_thickness(reynolds)
-                       : std::max(boundary_layer_thickness(reynolds), laminar_thickness));
-  layers.first_height = std::min(first_height(turbulent ? turbulent_y_plus : laminar_y_plus, reynolds),
-                                 0.1 * layers.thickness);
-  LayeredGenerateResult result = generate_layered(domain.domain, layers, meshing.resolved_quality());
-  require_whole(command, result.stopped);
-  MeshInput input;
-  input.frozen = result.mesh.freeze();
-  input.layered = std::move(result.mesh);
-  return input;
-}
-
-// A mesh file as it is, or a fresh mesh of a domain.
-MeshInput read_input(const FlowCommand& command) {
-  if (const auto file = mesh_file(command)) return read_any_mesh(*file);
-  if (command.has_friction()) return layered_input(command);
-  const DomainInput domain = read_domain(command.input, command.meshing.discretisation, command.meshing.fit);
-  GenerateResult result = generate_input(command.input, domain.domain, command.meshing.resolved_quality());
-  require_whole(command, result.stopped);
-  MeshInput input;
-  input.frozen = result.mesh.freeze();
-  input.living = std::move(result.mesh);
-  return input;
+  return flow_mesh({command.input, command.meshing, command.model, reynolds, command.given});
 }
 
 Status run_potential_flow(const FlowCommand& command, const MeshInput& input) {
@@ -128,7 +63,7 @@ Status run_potential_flow(const FlowCommand& command, const MeshInput& input) {
 }
 
 StartMesh start_mesh(const FlowCommand& command) {
-  if (const auto file = mesh_file(command)) return read_start_mesh(*file, {});
+  if (const auto file = mesh_file(command.input, command.given)) return read_start_mesh(*file, {});
   return {.mesh = std::move(*read_input(command).living),
           .source = command.input.shapes.front(),
           .imported = std::nullopt};

@@ -2,6 +2,8 @@
 
 // How far the search for a flow has come, on a terminal.
 
+#include <string>
+
 #include "remodel/flow.h"
 
 namespace remodel::app {
@@ -11,12 +13,15 @@ namespace remodel::app {
 class FlowProgressLine {
  public:
   explicit FlowProgressLine(FlowOptions& options);
+  // The next one of several flows, which the line begins with from now on.
+  void begin(const std::string& which);
   ~FlowProgressLine();
   FlowProgressLine(const FlowProgressLine&) = delete;
   FlowProgressLine& operator=(const FlowProgressLine&) = delete;
 
  private:
   bool on_terminal_;
+  std::string which_;
 };
 
 }  // namespace remodel::app

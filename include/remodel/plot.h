@@ -11,8 +11,9 @@
 namespace remodel {
 
 struct PlotCurve {
-  std::string name;  // in the legend; none if it is empty
-  std::vector<Point> points;
+  std::string name = {};  // in the legend, which stands in the corner with the fewest points; none if it is empty
+  std::vector<Point> points = {};
+  bool dots = false;  // one at each point; curves of up to three points have them anyway
 };
 
 struct PlotAxis {
@@ -32,5 +33,9 @@ struct Plot {
 // .svg or .png by extension, written atomically. Error (argument) for another extension, no points, values
 // that are not finite or that a logarithmic axis cannot show, and a width out of range.
 void draw_plot(const Plot& plot, const std::filesystem::path& file);
+
+// Several on one page, row by row, so many in a row (1 or more); all have the width of the first one. Errors as above,
+// and Error (argument) where there is no plot.
+void draw_plots(const std::vector<Plot>& plots, int columns, const std::filesystem::path& file);
 
 }  // namespace remodel

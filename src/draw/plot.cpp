@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "draw/canvas.h"
 #include "draw/field_painter.h"
@@ -112,8 +114,6 @@ class PlotPainter {
   int height() const { return plot_.width * 2 / 3; }
 
   void paint(cairo_t* cairo) const {
-    cairo_set_source_rgb(cairo, 1, 1, 1);
-    cairo_paint(cairo);
     cairo_select_font_face(cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(cairo, 19.0 * unit_);
     x_ticks(cairo);
@@ -170,16 +170,26 @@ class PlotPainter {
       const std::vector<Point>& points = plot_.curves[k].points;
       cairo_new_path(cairo);
       for (const Point p : points) cairo_line_to(cairo, x_.pixel(p.x), y_.pixel(p.y));
-      set_color(cairo, curve_colors[k % curve_colors.size()]);
+      begin_curve(cairo, k);
       cairo_stroke(cairo);
+      cairo_set_dash(cairo, nullptr, 0, 0.0);
       // A line through few points says little of where they are, and through one nothing at all.
       constexpr std::size_t few = 3;
-      if (points.size() > few) continue;
+      if (points.size() > few && !plot_.curves[k].dots) continue;
+      const double radius = (points.size() > few ? 4.0 : 6.0) * unit_;
       for (const Point p : points) {
-        cairo_arc(cairo, x_.pixel(p.x), y_.pixel(p.y), 6.0 * unit_, 0.0, 2.0 * std::numbers::pi);
+        cairo_arc(cairo, x_.pixel(p.x), y_.pixel(p.y), radius, 0.0, 2.0 * std::numbers::pi);
         cairo_fill(cairo);
       }
     }
+  }
+
+  // There are more curves than colours: the next ones are dashed.
+  void begin_curve(cairo_t* cairo, std::size_t k) const {
+    set_color(cairo, curve_colors[k % curve_colors.size()]);
+    const double dash[] = {10.0 * unit_, 5.0 * unit_};
+    const bool dashed = k / curve_colors.size() % 2 == 1;
+    cairo_set_dash(cairo, dashed ? dash : nullptr, dashed ? 2 : 0, 0.0);
   }
 
   void frame(cairo_t* cairo) const {
@@ -201,21 +211,65 @@ class PlotPainter {
     names(cairo);
   }
 
-  // At the right, below the upper edge.
+  struct Legend {
+    double left = 0.0, top = 0.0, width = 0.0, height = 0.0;
+    bool has(double x, double y) const {
+      return x >= left && x <= left + width && y >= top && y <= top + height;
+    }
+  };
+
+  // In the corner that curves leave free: the upper right one if several do so alike.
+  Legend legend(cairo_t* cairo) const {
+    Legend legend;
+    for (const PlotCurve& curve : plot_.curves) {
+      if (curve.name.empty()) continue;
+      legend.width = std::max(legend.width, text_width(cairo, curve.name) + 80.0 * unit_);
+      legend.height += legend_line * unit_;
+    }
+    legend.height += 14.0 * unit_;
+    std::size_t least = std::numeric_limits<std::size_t>::max();
+    Legend best = legend;
+    for (const auto& [right, upper] : {std::pair{true, true}, {false, true}, {true, false}, {false, false}}) {
+      legend.left = right ? x_.to - legend.width : x_.from;
+      legend.top = upper ? y_.to : y_.from - legend.height;
+      const std::size_t covered = covered_by(legend);
+      if (covered < least) best = legend, least = covered;
+    }
+    return best;
+  }
+
+  // How many places of curves lie below it, a number of them for each piece between two points.
+  std::size_t covered_by(const Legend& legend) const {
+    constexpr int places = 8;
+    std::size_t covered = 0;
+    for (const PlotCurve& curve : plot_.curves) {
+      for (std::size_t i = 0; i < curve.points.size(); ++i) {
+        const Point a = curve.points[i == 0 ? 0 : i - 1], b = curve.points[i];
+        const double dx = x_.pixel(b.x) - x_.pixel(a.x), dy = y_.pixel(b.y) - y_.pixel(a.y);
+        for (int k = 1; k <= places; ++k)
+          covered += legend.has(x_.pixel(a.x) + dx * k / places, y_.pixel(a.y) + dy * k / places);
+      }
+    }
+    return covered;
+  }
+
   void names(cairo_t* cairo) const {
-    double y = y_.to + 30.0 * unit_;
+    const Legend place = legend(cairo);
+    double y = place.top + 30.0 * unit_;
     for (std::size_t k = 0; k < plot_.curves.size(); ++k) {
       const std::string& name = plot_.curves[k].name;
       if (name.empty()) continue;
-      const double left = x_.to - text_width(cairo, name) - 20.0 * unit_;
+      const double left = place.left + 60.0 * unit_;
       put_text(cairo, left, y, name);
-      set_color(cairo, curve_colors[k % curve_colors.size()]);
+      begin_curve(cairo, k);
       cairo_set_line_width(cairo, 3.0 * unit_);
       line(cairo, left - 40.0 * unit_, y - 6.0 * unit_, left - 10.0 * unit_, y - 6.0 * unit_);
-      y += 28.0 * unit_;
+      cairo_set_dash(cairo, nullptr, 0, 0.0);
+      y += legend_line * unit_;
     }
   }
 
+  static constexpr double legend_line = 28.0;  // its height
   const Plot& plot_;
   Scale x_, y_;
   double unit_ = 1.0;  // pixels of a line one thick
@@ -223,13 +277,41 @@ class PlotPainter {
 
 }  // namespace
 
+namespace {
+
+void write_picture(const std::filesystem::path& file, int width, int height,
+                   const std::function<void(cairo_t*)>& paint) {
+  write_text_atomically(file, draw_detail::is_svg(file) ? draw_detail::svg_bytes(file, width, height, paint)
+                                                        : draw_detail::png_bytes(file, width, height, paint));
+}
+
+}  // namespace
+
 void draw_plot(const Plot& plot, const std::filesystem::path& file) {
-  const bool svg = draw_detail::is_svg(file);
-  const PlotPainter painter(plot);
-  const auto paint = [&](cairo_t* cairo) { painter.paint(cairo); };
-  const auto bytes = svg ? draw_detail::svg_bytes(file, painter.width(), painter.height(), paint)
-                         : draw_detail::png_bytes(file, painter.width(), painter.height(), paint);
-  write_text_atomically(file, bytes);
+  draw_plots({plot}, 1, file);
+}
+
+void draw_plots(const std::vector<Plot>& given, int columns, const std::filesystem::path& file) {
+  draw_detail::is_svg(file);  // or refuses it
+  if (given.empty()) throw Error(ErrorCode::argument, "plots", "found none, expected one or more");
+  if (columns < 1)
+    throw Error(ErrorCode::argument, "columns", "found " + std::to_string(columns) + ", expected 1 or more");
+  std::vector<Plot> plots = given;
+  for (Plot& plot : plots) plot.width = given.front().width;
+  std::vector<PlotPainter> painters;
+  for (const Plot& plot : plots) painters.emplace_back(plot);
+  const int count = static_cast<int>(painters.size()), in_a_row = std::min(columns, count);
+  const int width = painters.front().width(), height = painters.front().height();
+  write_picture(file, in_a_row * width, (count + in_a_row - 1) / in_a_row * height, [&](cairo_t* cairo) {
+    cairo_set_source_rgb(cairo, 1, 1, 1);
+    cairo_paint(cairo);
+    for (int i = 0; i < count; ++i) {
+      cairo_save(cairo);
+      cairo_translate(cairo, i % in_a_row * width, i / in_a_row * height);
+      painters[static_cast<std::size_t>(i)].paint(cairo);
+      cairo_restore(cairo);
+    }
+  });
 }
 
 }  // namespace remodel

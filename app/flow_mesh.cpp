@@ -1,0 +1,78 @@
+#include "flow_mesh.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "layer_options.h"
+#include "remodel/error.h"
+#include "remodel/flow_layer.h"
+#include "remodel/generate.h"
+#include "remodel/layers.h"
+
+namespace remodel::app {
+namespace {
+
+void require_whole(const DomainInputOptions& input, Stopped stopped) {
+  if (stopped == Stopped::done) return;
+  throw Error(ErrorCode::argument, input.shapes.front(),
+              std::string("the mesh is unfinished (") + name_of(stopped) + "), expected a whole one");
+}
+
+// A fresh mesh with a layer that the Reynolds number asks for, as mesh --layers makes it.
+MeshInput layered_input(const FlowMeshRequest& request) {
+  refuse_given(request.given, {"--points"},
+               "given with a model with friction, whose layer sets the stations of walls");
+  MeshingOptions meshing = request.meshing;
+  meshing.gradation = meshing.gradation.value_or(gradation_with_layers);
+  DomainInput domain = read_domain(request.input, meshing.discretisation, meshing.fit);
+  if (domain.in_farfield) space_walls(domain.domain, WallSpacing{});
+  LayeredGenerateResult result = generate_layered(
+      domain.domain, layer_for_flow(request.model, request.reynolds), meshing.resolved_quality());
+  require_whole(request.input, result.stopped);
+  MeshInput input;
+  input.frozen = result.mesh.freeze();
+  input.layered = std::move(result.mesh);
+  return input;
+}
+
+}  // namespace
+
+void refuse_given(const std::function<bool(const char*)>& given, std::initializer_list<const char*> options,
+                  const char* why) {
+  for (const char* option : options)
+    if (given(option)) throw Error(ErrorCode::argument, option, why);
+}
+
+bool is_mesh_file(const std::string& name) {
+  const std::string extension = std::filesystem::path(name).extension().string();
+  return extension == ".vtkhdf" || extension == ".su2" || extension == ".msh" || extension == ".vtu";
+}
+
+std::optional<std::string> mesh_file(const DomainInputOptions& input,
+                                     const std::function<bool(const char*)>& given) {
+  const auto file = std::find_if(input.shapes.begin(), input.shapes.end(), is_mesh_file);
+  if (file == input.shapes.end()) return std::nullopt;
+  if (input.shapes.size() > 1 || !input.places.empty())
+    throw Error(ErrorCode::argument, *file, "holds a mesh, expected it alone and without --place");
+  refuse_given(given,
+               {"--name", "--as-given", "--keep-coordinates", "--crossings", "--join", "--points",
+                "--farfield-radius", "--farfield-points", "--gradation", "--resolution", "--min-angle",
+                "--max-gradation", "--min-edge", "--max-vertices", "--cst-degree", "--close-trailing-edge"},
+               "given with a mesh, which has its own, expected with a shape");
+  return *file;
+}
+
+MeshInput flow_mesh(const FlowMeshRequest& request) {
+  if (const auto file = mesh_file(request.input, request.given)) return read_any_mesh(*file);
+  if (request.model != FlowModel::euler) return layered_input(request);
+  const DomainInput domain = read_domain(request.input, request.meshing.discretisation, request.meshing.fit);
+  GenerateResult result = generate_input(request.input, domain.domain, request.meshing.resolved_quality());
+  require_whole(request.input, result.stopped);
+  MeshInput input;
+  input.frozen = result.mesh.freeze();
+  input.living = std::move(result.mesh);
+  return input;
+}
+
+}  // namespace remodel::app

@@ -1,0 +1,21 @@
+#pragma once
+
+// The layer of cells that a flow with friction needs on walls.
+
+#include "remodel/flow.h"
+#include "remodel/layers.h"
+
+namespace remodel {
+
+//   Domain domain = airfoil_domain(named_airfoil("naca:0012", 5));
+//   space_walls(domain, {});
+//   LayeredMesh mesh = generate_layered(domain, layer_for_flow(FlowModel::sa, 6e6), {.gradation = 8.0}).mesh;
+//
+// The Reynolds number is that of a chord of 1. The thickness is 1.2 times a turbulent boundary layer's
+// (boundary_layer_thickness()), for laminar flow 1.2 times the larger one of that and Blasius's, 5 /
+// sqrt(Re), which counts up to half a chord. y+ of the first cell on a flat plate is 1 of turbulent flow and
+// 0.3 of laminar flow, and its height is at most a tenth of the thickness. Throws Error (argument) for a
+// model without friction and a Reynolds number that is not 1 to 1e12.
+LayerOptions layer_for_flow(FlowModel model, double reynolds);
+
+}  // namespace remodel

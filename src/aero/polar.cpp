@@ -1,0 +1,219 @@
+#include "remodel/polar.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <utility>
+
+#include "aero/flow_march.h"
+#include "base/stopwatch.h"
+#include "remodel/error.h"
+
+namespace remodel {
+
+namespace {
+
+void require_ascending(const char* what, const std::vector<double>& values) {
+  if (std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) == values.end()) return;
+  throw Error(ErrorCode::argument, what,
+              "found values that do not ascend, expected each to be above the one before");
+}
+
+void require_possible_polar(const PolarOptions& options) {
+  if (options.machs.empty()) throw Error(ErrorCode::argument, "machs", "found none, expected a Mach number");
+  if (options.alphas_deg.empty() == options.lifts.empty())
+    throw Error(ErrorCode::argument, "alphas_deg",
+                options.lifts.empty() ? "found neither angles nor lifts, expected one of them"
+                                      : "found angles and lifts, expected one of them");
+  require_ascending("machs", options.machs);
+  require_ascending("alphas_deg", options.alphas_deg);
+  require_ascending("lifts", options.lifts);
+  if (options.halvings < 0 || options.halvings > 20)
+    throw Error(ErrorCode::argument, "halvings",
+                "found " + std::to_string(options.halvings) + ", expected 0 to 20");
+  if (options.misses < 1)
+    throw Error(ErrorCode::argument, "misses",
+                "found " + std::to_string(options.misses) + ", expected 1 or more");
+}
+
+// The value that a row begins at.
+std::size_t nearest_to_zero(const std::vector<double>& values) {
+  const auto nearer = [](double a, double b) { return std::fabs(a) < std::fabs(b); };
+  return static_cast<std::size_t>(std::min_element(values.begin(), values.end(), nearer) - values.begin());
+}
+
+// What a point is made of; a flow's fields are the largest part of it by far.
+FlowResult without_fields(FlowResult flow) {
+  for (auto* field : {&flow.density, &flow.velocity_x, &flow.velocity_y, &flow.pressure, &flow.history})
+    *field = std::vector<double>();
+  if (flow.friction)
+    for (auto* field : {&flow.friction->cf, &flow.friction->y_plus, &flow.friction->viscosity_ratio,
+                        &flow.friction->working})
+      *field = std::vector<double>();
+  return flow;
+}
+
+PolarPoint point_of(const aero::MarchedFlow& marched, bool over_lift) {
+  const FlowResult& flow = marched.flow;
+  PolarPoint point;
+  point.asked = marched.asked;
+  point.reason = marched.reason;
+  (over_lift ? point.cl : point.alpha_deg) = marched.value;
+  if (!marched.tried) return point;
+  point.converged = flow.converged();
+  point.status = flow.status;
+  point.newton_steps = flow.newton_steps;
+  point.residual = flow.residual;
+  point.start = flow.start;
+  point.seconds = flow.seconds;
+  point.warnings = flow.warnings;
+  if (!flow.converged()) return point;
+  point.alpha_deg = over_lift ? flow.alpha_deg : marched.value;
+  if (flow.lift_determined)
+    point.cl = flow.cl, point.cm = flow.cm;
+  else if (over_lift)
+    point.cl = point.alpha_deg = PolarPoint::none;
+  point.cd = flow.cd;
+  point.cd_pressure = flow.friction ? flow.friction->cd_pressure : flow.cd;
+  point.cd_friction = flow.friction ? flow.friction->cd_friction : 0.0;
+  if (flow.friction) point.y_plus_max = flow.friction->y_plus_max;
+  return point;
+}
+
+// The rows of one mesh.
+class PolarSearch {
+ public:
+  using Solve = std::function<FlowResult(LivingFlow&, const FlowConditions&)>;
+  PolarSearch(Solve solve, const std::string& name, const PolarOptions& options)
+      : solve_(std::move(solve)),
+        name_(name),
+        options_(options),
+        values_(options.alphas_deg.empty() ? options.lifts : options.alphas_deg),
+        living_(options.flow) {}
+
+  PolarResult run() {
+    const Stopwatch watch;
+    PolarResult result;
+    for (const double mach : options_.machs) {
+      const aero::March row = march_at(mach);
+      PolarCurve& curve = result.curves.emplace_back();
+      curve.name = name_, curve.model = options_.flow.model, curve.mach = mach;
+      curve.over_lift = over_lift();
+      if (curve.model != FlowModel::euler) curve.reynolds = options_.conditions.reynolds;
+      for (const aero::MarchedFlow& flow : row.flows) curve.points.push_back(point_of(flow, curve.over_lift));
+      result.interrupted = row.interrupted;
+      if (row.interrupted) break;
+    }
+    result.seconds = watch.seconds();
+    return result;
+  }
+
+ private:
+  bool over_lift() const { return options_.alphas_deg.empty(); }
+
+  aero::March march_at(double mach) {
+    living_.go_on_from(first_of_row_);  // of the Mach number before
+    first_of_row_ = {};
+    alpha_deg_ = 0.0;
+    return aero::march(values_, nearest_to_zero(values_),
+                       {.find = [&](double value) { return find(mach, value); },
+                        .return_to_first = [&] { living_.go_on_from(first_of_row_); }},
+                       {.halvings = options_.halvings, .misses = options_.misses});
+  }
+
+  // From nothing the angle for a lift may be one far beyond the largest lift, where the same lift is found
+  // again: so a row of lifts begins with the flow at an angle of 0.
+  FlowResult find(double mach, double value) {
+    if (options_.on_search) options_.on_search(mach, value);
+    FlowConditions conditions = options_.conditions;
+    conditions.mach = mach;
+    conditions.cl.reset();
+    conditions.alpha_deg = over_lift() ? alpha_deg_ : value;
+    if (over_lift()) {
+      if (living_.keep().empty())
+        if (FlowResult start = solve_(living_, conditions); !start.converged())
+          return without_fields(std::move(start));
+      conditions.cl = value;
+    }
+    FlowResult flow = solve_(living_, conditions);
+    if (flow.converged()) {
+      alpha_deg_ = flow.alpha_deg;
+      if (first_of_row_.empty()) first_of_row_ = living_.keep();
+    }
+    return without_fields(std::move(flow));
+  }
+
+  Solve solve_;
+  const std::string& name_;
+  const PolarOptions& options_;
+  const std::vector<double>& values_;
+  LivingFlow living_;
+  KeptFlow first_of_row_;
+  double alpha_deg_ = 0.0;  // where the search for a lift begins
+};
+
+}  // namespace
+
+PolarResult find_polar(const Mesh& mesh, const std::string& name, const PolarOptions& options) {
+  require_possible_polar(options);
+  const auto solve = [&](LivingFlow& living, const FlowConditions& conditions) {
+    return living.solve(mesh, conditions);
+  };
+  return PolarSearch(solve, name, options).run();
+}
+
+PolarResult find_polar(const FrozenMesh& given, const std::string& name, const PolarOptions& options) {
+  require_possible_polar(options);
+  FrozenMesh mesh = given;
+  if (mesh.vertex_keys.empty())  // of another program: one mesh for all flows
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) mesh.vertex_keys.push_back(i);
+  const auto solve = [&](LivingFlow& living, const FlowConditions& conditions) {
+    return living.solve(mesh, conditions);
+  };
+  return PolarSearch(solve, name, options).run();
+}
+
+std::optional<LargestLift> largest_lift(const PolarCurve& curve) {
+  std::optional<LargestLift> largest;
+  double last_alpha = PolarPoint::none;
+  for (const PolarPoint& point : curve.points) {
+    if (!point.converged || std::isnan(point.cl)) continue;
+    if (!largest || point.cl > largest->cl) largest = {.cl = point.cl, .alpha_deg = point.alpha_deg};
+    last_alpha = std::isnan(last_alpha) ? point.alpha_deg : std::fmax(last_alpha, point.alpha_deg);
+  }
+  if (largest) largest->passed = last_alpha > largest->alpha_deg;
+  return largest;
+}
+
+std::vector<std::string> polar_warnings(const PolarCurve& curve) {
+  struct Kind {
+    std::string first;
+    double alpha_deg = 0.0;
+    int flows = 0;
+  };
+  std::vector<std::pair<std::string, Kind>> kinds;  // by the sentence without its numbers
+  for (const PolarPoint& point : curve.points) {
+    for (const std::string& warning : point.warnings) {
+      std::string key;
+      for (const char c : warning)
+        if (std::isdigit(static_cast<unsigned char>(c)) == 0 && c != '.') key += c;
+      auto kind =
+          std::find_if(kinds.begin(), kinds.end(), [&](const auto& entry) { return entry.first == key; });
+      if (kind == kinds.end()) kind = kinds.insert(kinds.end(), {key, {warning, point.alpha_deg}});
+      ++kind->second.flows;
+    }
+  }
+  std::vector<std::string> sentences;
+  for (const auto& [key, kind] : kinds) {
+    char where[100];
+    std::snprintf(where, sizeof where,
+                  kind.flows == 1 ? " (%d flow, at %.6g degrees)" : " (%d flows, the first at %.6g degrees)",
+                  kind.flows, kind.alpha_deg);
+    sentences.push_back(kind.first + where);
+  }
+  return sentences;
+}
+
+}  // namespace remodel
