@@ -264,6 +264,7 @@ struct FlowGradient {
   double mach = 0.0;
   double alpha_deg = 0.0;  // a degree; 0 where lift is given
   double cl = 0.0;         // by the lift that is given; 0 where the angle is
+  double reynolds = 0.0;   // with friction
 };
 
 // A function of the flow, by its derivatives at fixed flow: of pressures, points and the Mach number, and of
@@ -288,6 +289,7 @@ struct FlowGradients {
   FlowGradient cl, cd, cm;              // empty if they were not wanted
   FlowGradient alpha_deg;               // of the angle, in degrees: 0 but by itself where it is given
   FlowGradient entropy_drag;            // empty if it was not wanted
+  FlowGradient cd_pressure;             // the drag of pressure alone, with friction; the rest of cd's is friction's
   std::vector<FlowGradient> functions;  // that were asked for
   bool interrupted = false;             // by the observer: then there are none
   int factorisations = 0;               // 1 where the factors that there were did not serve
@@ -329,7 +331,8 @@ class LivingFlow {
   FlowResult solve(const FrozenMesh& mesh, const FlowConditions& conditions);
   // Gradients of the last flow that was found. They take the factors that there are, transposed, where these
   // serve; otherwise new ones, which the next flows have too. Throws Error (argument) before the first flow,
-  // where functionals are of another size, where there are inlets or outlets, and for models with friction.
+  // where functionals are of another size, where there are inlets or outlets, and for the drag of entropy with
+  // friction. Neither the turbulence model nor distances from walls are frozen.
   FlowGradients gradients(const std::vector<FlowFunctional>& functions = {},
                           const WantedGradients& wanted = {});
   // The next flow is found cold.

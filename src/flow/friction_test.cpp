@@ -259,7 +259,6 @@ void expect_living_flow(FlowModel model, const FlowConditions& conditions, doubl
     EXPECT_NEAR(flow.cd, cold.cd, 1e-7);
     EXPECT_GT(std::fabs(flow.cl - start.cl), 1e-4);  // it is another flow
   }
-  EXPECT_THROW(living.gradients(), Error);
 }
 
 TEST(Friction, LaminarFlowsOutliveTheirMesh) {
@@ -282,6 +281,79 @@ TEST(Friction, AFlowOfAGivenLiftHasTheAngleOfThatLift) {
   EXPECT_NEAR(same.cl, 0.1, 1e-6);
   EXPECT_GT(given.alpha_deg, 1.0);
   EXPECT_LT(given.alpha_deg, 5.0);
+}
+
+// Gradients against differences of whole flows: along a smooth displacement of all points, walls and layers too, and
+// by what is given of the stream. Turbulence and distances from walls follow.
+void expect_exact_gradients(FlowModel model, const FlowConditions& conditions, double first) {
+  FlowOptions options;
+  options.model = model, options.tolerance = 1e-12;
+  const FrozenMesh mesh = LayeredDesigns(conditions.reynolds, first).mesh.freeze();
+  LivingFlow living(options);
+  ASSERT_TRUE(living.solve(mesh, conditions).converged());
+  std::vector<FlowFunctional> functions(1);  // the mean of pressures squared, which follows density too
+  functions[0].pressure.resize(mesh.points.size()), functions[0].points.resize(mesh.points.size());
+  functions[0].density.assign(mesh.points.size(), 0.0);
+  const auto pick = [](std::size_t v) { return v % 7 == 0; };
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    functions[0].pressure[v] = pick(v) ? 1e-3 : 0.0, functions[0].density[v] = pick(v) ? 2e-3 : 0.0;
+  const FlowGradients found = living.gradients(functions);
+  const auto value = [&](const FlowResult& flow) {
+    std::array<double, 5> values = {flow.cl, flow.cd, flow.cm, flow.friction->cd_pressure, 0.0};
+    for (std::size_t v = 0; v < flow.pressure.size(); ++v)
+      if (pick(v)) values[4] += 1e-3 * flow.pressure[v] + 2e-3 * flow.density[v];
+    return values;
+  };
+  const FlowGradient* of[] = {&found.cl, &found.cd, &found.cm, &found.cd_pressure, &found.functions[0]};
+  const auto direction = [](Point p) {
+    const double near = std::exp(-dot(p, p) / 4.0);
+    return Point{0.2 * near * std::sin(3.0 * p.y + 1.0), near * std::cos(2.0 * p.x - 0.5)};
+  };
+  const auto compare = [&](const char* what, double h, auto change, auto slope) {
+    const auto at = [&](double step) {
+      FrozenMesh moved = mesh;
+      FlowConditions changed = conditions;
+      change(step, moved, changed);
+      const FlowResult flow = living.solve(moved, changed);
+      EXPECT_TRUE(flow.converged()) << what << flow.reason;
+      return value(flow);
+    };
+    const auto p1 = at(h), m1 = at(-h), p2 = at(2 * h), m2 = at(-2 * h);
+    for (std::size_t i = 0; i < p1.size(); ++i) {
+      const double by_flows = (8.0 * (p1[i] - m1[i]) - (p2[i] - m2[i])) / (12.0 * h);
+      const double by_adjoint = slope(*of[i]);
+      EXPECT_NEAR(by_adjoint, by_flows, 1e-6 * std::fabs(by_flows) + 1e-8) << what << " " << i;
+    }
+  };
+  compare(
+      "points", 1e-5,
+      [&](double step, FrozenMesh& moved, FlowConditions&) {
+        for (Point& p : moved.points) p = p + step * direction(p);
+      },
+      [&](const FlowGradient& gradient) {
+        double sum = 0.0;
+        for (std::size_t v = 0; v < mesh.points.size(); ++v)
+          sum += dot(gradient.points[v], direction(mesh.points[v]));
+        return sum;
+      });
+  compare(
+      "angle", 0.001, [](double step, FrozenMesh&, FlowConditions& changed) { changed.alpha_deg += step; },
+      [](const FlowGradient& gradient) { return gradient.alpha_deg; });
+  compare(
+      "mach", 1e-4, [](double step, FrozenMesh&, FlowConditions& changed) { changed.mach += step; },
+      [](const FlowGradient& gradient) { return gradient.mach; });
+  const double reynolds = conditions.reynolds;
+  compare(
+      "reynolds", 1e-3,
+      [&](double step, FrozenMesh&, FlowConditions& changed) { changed.reynolds *= 1.0 + step; },
+      [&](const FlowGradient& gradient) { return reynolds * gradient.reynolds; });
+}
+
+TEST(Friction, LaminarGradientsAreThoseOfWholeFlows) {
+  expect_exact_gradients(FlowModel::laminar, {.mach = 0.5, .alpha_deg = 1.0, .reynolds = 5000.0}, 2e-3);
+}
+TEST(Friction, TurbulentGradientsAreThoseOfWholeFlows) {
+  expect_exact_gradients(FlowModel::sa, {.mach = 0.5, .alpha_deg = 1.0, .reynolds = 1e6}, 2e-5);
 }
 
 // Keys of layers count their vertices by themselves: the same index may be another vertex's outside.

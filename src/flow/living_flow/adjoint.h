@@ -23,10 +23,11 @@
 //      an earlier matrix and, in the zone where the mesh has changed since, an exact solve with the present
 //      one. In the transpose the zone comes first. The two augmented unknowns are eliminated: A^-1 B is
 //      known, what is left is a system of two. The solution of the last design is the first guess.
-//   4. L F_p is never made of a matrix: scheme/shape_derivative.cpp walks the terms once for all functions,
-//      and sums what each face's geometry contributes, weighted by L.
+//   4. L F_p is never made of a matrix: scheme/shape_derivative.cpp and friction_slopes.h walk the terms once for
+//      all functions, and sum what each face's geometry contributes, weighted by L.
 //   5. The limiter's length is the distance of two vertices, the lift's equation sees the walls: both are
-//      added.
+//      added (euler_gradients.cpp). With friction rows of walls that say "the gas stands still" follow no place;
+//      the momentum that is left unbalanced there is the force of friction (friction_gradients.cpp).
 //
 // What comes out are derivatives by points of the mesh. MeshDerivative (remodel/mesh_derivative.h) and
 // InteriorDisplacement take them to the parameters of a design.
@@ -35,51 +36,41 @@
 // has derivatives everywhere but where a limiter's branch changes; tests compare with differences of whole
 // flows (adjoint_test.cpp).
 
-#include <optional>
 #include <span>
 
 #include "flow/linear/factors.h"
 #include "flow/linear/overlap.h"
-#include "flow/scheme/functional.h"
+#include "flow/scheme/block_system.h"
 #include "remodel/flow.h"
 
 namespace remodel::flow {
 
-// Derivatives of a function of the flow, which follows the parameters.
-struct Total {
-  ShapeSlope shape;
-  double condition = 0.0;  // by the angle of attack, a radian; where lift is given, by the lift
-};
-
+// Compiled for blocks of N = 4 and 5.
+template <std::size_t N>
 class Adjoint {
  public:
-  // `matrix`: the Jacobian at the state, without pseudo-time, and what it was made of.
-  Adjoint(const FlowSystem& system, const State& state, const BlockRows& matrix,
-          std::span<const FaceDerivative> faces, Factors& factors, const Overlap& overlap,
-          const FlowOptions& options);
-  // The derivatives of these functions. None where the factors do not serve, or where that takes more than
-  // `most_solves` with them, for all functions together. multipliers: a guess for each function, or one that
-  // is empty; the solutions come to lie there.
-  std::optional<std::vector<Total>> totals(std::span<const FunctionalSlope> functions,
-                                           std::vector<Increment>& multipliers, double most_solves,
-                                           int& iterations);
+  // `matrix`: the Jacobian at the state, without pseudo-time.
+  Adjoint(const BlockSystem<N>& system, const BlockState<N>& state, const BlockMatrix<N>& matrix,
+          BlockFactors<N>& factors, const Overlap& overlap, const FlowOptions& options);
+  // L for each of these J_x. False where the factors do not serve, or where that takes more than `most_solves` with
+  // them, for all functions together. multipliers: a guess for each function, or one that is empty; the solutions
+  // come to lie there.
+  bool solve(std::span<const BlockIncrement<N>> functions, std::vector<BlockIncrement<N>>& multipliers,
+             double most_solves, int& iterations);
 
  private:
-  bool solve(const Increment& right, double most_solves, Increment& guess, int& iterations);
-  void precondition(Increment& x);
-  void precondition_vertices(Vector& x);
+  bool solve(const BlockIncrement<N>& right, double most_solves, BlockIncrement<N>& guess, int& iterations);
+  void precondition(BlockIncrement<N>& x);
+  void precondition_vertices(BlockVector<N>& x);
 
-  const FlowSystem& system_;
-  const State& state_;
-  AugmentedMatrix matrix_;
-  std::span<const FaceDerivative> faces_;
-  Factors& factors_;
+  BlockAugmentedMatrix<N> matrix_;
+  BlockFactors<N>& factors_;
   const Overlap& overlap_;
   const FlowOptions& options_;
-  BlockRows zone_;
-  DirectSolver<unknown_count> zone_lu_;
-  std::array<Vector, augmented_count> columns_;   // A^-1 B, of the earlier matrix
-  std::array<Augmented, augmented_count> small_;  // E^T - (A^-1 B)^T C^T
+  BlockMatrix<N> zone_;
+  DirectSolver<N> zone_lu_;
+  std::array<BlockVector<N>, augmented_count> columns_;  // A^-1 B, of the earlier matrix
+  std::array<Augmented, augmented_count> small_;         // E^T - (A^-1 B)^T C^T
   bool ready_ = true;
 };
 

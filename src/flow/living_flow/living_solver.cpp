@@ -4,11 +4,10 @@
 
 #include "base/stopwatch.h"
 #include "flow/friction_flow.h"
-#include "flow/living_flow/gradients.h"
+#include "flow/living_flow/model_gradients.h"
 #include "flow/living_flow/ladder.h"
 #include "flow/search/coarse_start.h"
 #include "flow/solution.h"
-#include "remodel/error.h"
 
 namespace remodel::flow {
 
@@ -92,7 +91,7 @@ class LivingEuler final : public LivingOf<unknown_count> {
  public:
   using LivingOf::LivingOf;
   FlowGradients gradients(const std::vector<FlowFunctional>& functions, const WantedGradients& wanted) override {
-    return gradients_.of(last_, functions, wanted);
+    return gradients_of(last_, functions, wanted, options_, matrix_, gradients_);
   }
 
  private:
@@ -115,17 +114,15 @@ class LivingEuler final : public LivingOf<unknown_count> {
   }
 
   Factors passing_;  // of steps of which each has a matrix of its own
-  Gradients gradients_{options_, kept_, matrix_};
+  Gradients<unknown_count> gradients_{options_, kept_, matrix_};
 };
 
 template <std::size_t N>
 class LivingFriction final : public LivingOf<N> {
  public:
   using LivingOf<N>::LivingOf;
-  FlowGradients gradients(const std::vector<FlowFunctional>&, const WantedGradients&) override {
-    throw Error(ErrorCode::argument, "model",
-                std::string("found ") + name_of(this->options_.model) + ", expected euler: there are no gradients of "
-                "flows with friction yet");
+  FlowGradients gradients(const std::vector<FlowFunctional>& functions, const WantedGradients& wanted) override {
+    return gradients_of<N>(this->last_, viscosity_, functions, wanted, this->options_, this->matrix_, gradients_);
   }
 
  private:
@@ -139,10 +136,16 @@ class LivingFriction final : public LivingOf<N> {
     FrictionSearch<N> search(system, measure, this->options_, record);
     const auto near = [&](BlockState<N>& state) { search.near(state); };
     const auto cold = [&](BlockState<N>& state) { search.cold(state); };
-    return this->climb(wanted, {measure, wanted.keys, near, cold, record}, [&](const LadderTask<N>& task) {
-      return result_of(system, task.state, record, task.start);
-    });
+    FlowResult result =
+        this->climb(wanted, {measure, wanted.keys, near, cold, record}, [&](const LadderTask<N>& task) {
+          return result_of(system, task.state, record, task.start);
+        });
+    if (result.converged()) viscosity_ = system.terms().viscosity;
+    return result;
   }
+
+  Viscosity viscosity_;  // of the last flow
+  Gradients<N> gradients_{this->options_, this->kept_, this->matrix_};
 };
 
 }  // namespace

@@ -9,6 +9,14 @@
 
 namespace remodel::flow {
 
+// Derivatives by the vertices' coordinates and by what is given of the stream.
+struct ShapeSlope {
+  std::vector<Point> points;
+  double mach = 0.0;
+  double length = 0.0;    // of residuals, by the stream's, which the limiter has
+  double reynolds = 0.0;  // with friction
+};
+
 template <std::size_t N>
 class BlockSystem {
  public:

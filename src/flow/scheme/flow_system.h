@@ -19,13 +19,6 @@
 
 namespace remodel::flow {
 
-// Derivatives by the vertices' coordinates and by the Mach number of the stream.
-struct ShapeSlope {
-  std::vector<Point> points;
-  double mach = 0.0;
-  double length = 0.0;  // of residuals, by the stream's, which the limiter has
-};
-
 class FlowSystem final : public BlockSystem<unknown_count> {
  public:
   FlowSystem(const FlowMesh& mesh, const Stream& stream)

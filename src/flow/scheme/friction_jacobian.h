@@ -87,31 +87,45 @@ void FrictionSystem<N>::jacobian(const BlockState<N>& state, Jacobian& result) c
 
 // Reconstructed values depend on the unknown itself alone: its values at both ends and the upwind difference.
 template <std::size_t N>
-void FrictionSystem<N>::add_face_blocks(const BlockState<N>& state, Rows& rows) const {
-  using Both = Dual<2 * N>;
+template <std::size_t V>
+typename FrictionSystem<N>::template FaceDual<V> FrictionSystem<N>::face_dual(const BlockState<N>& state,
+                                                                              std::size_t e, Order order) const {
+  using T = Dual<V>;
   using Three = Dual<3>;
+  const DualEdge& edge = dual_.edges()[e];
+  FaceDual<V> face;
+  std::array<T, N> value[2];
+  for (std::size_t side = 0; side < 2; ++side) {
+    Row upwind = {};
+    for (const WeightedVertex& of : mesh_.upwind(e, side))
+      for (std::size_t k = 0; k < unknown_count; ++k) upwind[k] += of.weight * state.q[of.vertex][k];
+    for (std::size_t k = 0; k < N; ++k) {
+      const Three q[2] = {Three::variable(state.q[edge.a][k], 0), Three::variable(state.q[edge.b][k], 1)};
+      Three& at = face.reconstructed[side][k] = q[side];
+      if (order == Order::whole && k < unknown_count) {
+        const Three to = terms_.step(Three::variable(upwind[k], 2), q[1] - q[0]);
+        at = side == 0 ? q[0] + to : q[1] - to;
+      }
+      if (k == positive_unknowns[0] || k == positive_unknowns[1]) at = positivity_limited(at, q[side]);
+      value[side][k] = T::variable(at.value, N * side + k);
+    }
+  }
+  if constexpr (V == 2 * N) {
+    face.flux = terms_.template face_flux<T, N>(value[0], value[1], PlaneVector<double>(edge.normal));
+  } else {
+    const PlaneVector<T> normal = {T::variable(edge.normal.x, 2 * N), T::variable(edge.normal.y, 2 * N + 1)};
+    face.flux = terms_.template face_flux<T, N>(value[0], value[1], normal);
+  }
+  return face;
+}
+
+template <std::size_t N>
+void FrictionSystem<N>::add_face_blocks(const BlockState<N>& state, Rows& rows) const {
   for (std::size_t e = 0; e < dual_.edges().size(); ++e) {
     const DualEdge& edge = dual_.edges()[e];
     const std::uint32_t end[2] = {edge.a, edge.b};
     if (rows.of[end[0]] == no_index && rows.of[end[1]] == no_index) continue;
-    std::array<Both, N> value[2];
-    std::array<Three, N> reconstructed[2];
-    for (std::size_t side = 0; side < 2; ++side) {
-      Row upwind = {};
-      for (const WeightedVertex& of : mesh_.upwind(e, side))
-        for (std::size_t k = 0; k < unknown_count; ++k) upwind[k] += of.weight * state.q[of.vertex][k];
-      for (std::size_t k = 0; k < N; ++k) {
-        const Three q[2] = {Three::variable(state.q[edge.a][k], 0), Three::variable(state.q[edge.b][k], 1)};
-        Three& at = reconstructed[side][k] = q[side];
-        if (rows.order == Order::whole && k < unknown_count) {
-          const Three to = terms_.step(Three::variable(upwind[k], 2), q[1] - q[0]);
-          at = side == 0 ? q[0] + to : q[1] - to;
-        }
-        if (k == positive_unknowns[0] || k == positive_unknowns[1]) at = positivity_limited(at, q[side]);
-        value[side][k] = Both::variable(at.value, N * side + k);
-      }
-    }
-    const std::array<Both, N> flux = terms_.template face_flux<Both, N>(value[0], value[1], edge.normal);
+    const auto [flux, reconstructed] = face_dual<2 * N>(state, e, rows.order);
     SquareBlock<N> by_end[2] = {{}, {}}, by_upwind[2] = {{}, {}};
     for (std::size_t z = 0; z < N * N; ++z)
       for (std::size_t side = 0; side < 2; ++side) {
@@ -197,14 +211,19 @@ void FrictionSystem<N>::make_walls_strong(BlockMatrix<N>& matrix) const {
 }
 
 template <std::size_t N>
-BlockAugmentedRows<N> FrictionSystem<N>::augmented_rows(const BlockState<N>& state) const {
+BlockMatrix<N> FrictionSystem<N>::raw_rows_of_walls(const BlockState<N>& state) const {
   std::vector<std::uint32_t> walls;
   for (std::uint32_t v = 0; v < dual_.size(); ++v)
     if (mesh_.sticks(v)) walls.push_back(v);
   BlockMatrix<N> raw = pattern(std::move(walls));
   Rows rows[] = {rows_of_vertices(raw, Order::whole)};
   add_fluxes(state, rows);
-  return augmented_rows(state, raw);
+  return raw;
+}
+
+template <std::size_t N>
+BlockAugmentedRows<N> FrictionSystem<N>::augmented_rows(const BlockState<N>& state) const {
+  return augmented_rows(state, raw_rows_of_walls(state));
 }
 
 // The lift of all walls: friction by the unbalanced momentum of their vertices.

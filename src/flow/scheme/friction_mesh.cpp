@@ -8,10 +8,13 @@ namespace remodel::flow {
 
 namespace {
 
+// Where on the segment p is nearest to, from 0 to 1.
+double nearest_part(Point p, Point a, Point b) {
+  return std::clamp(dot(p - a, b - a) / dot(b - a, b - a), 0.0, 1.0);
+}
+
 double squared_distance_to_segment(Point p, Point a, Point b) {
-  const Point d = b - a;
-  const double t = std::clamp(dot(p - a, d) / dot(d, d), 0.0, 1.0);
-  return squared_distance(p, a + t * d);
+  return squared_distance(p, a + nearest_part(p, a, b) * (b - a));
 }
 
 }  // namespace
@@ -84,10 +87,13 @@ void FrictionMesh::make_upwind() {
             std::sqrt(dot(d, d) / squared_distance(mesh_.points()[here], mesh_.points()[behind]));
         upwind_.push_back({here, sign * ratio});
         upwind_.push_back({behind, -sign * ratio});
+        kinds_.push_back({Upwind::opposite, behind});
       } else if (around_[here].triangles == 0 || mesh_.one_sided(here)) {
         upwind_.push_back({there, sign});
         upwind_.push_back({here, -sign});
+        kinds_.push_back({Upwind::central});
       } else {
+        kinds_.push_back({Upwind::gradient});
         double own = sign;
         for (const RingEntry& entry : mesh_.ring(here)) {
           const double weight = 2.0 * dot(entry.weight, d);
@@ -102,37 +108,45 @@ void FrictionMesh::make_upwind() {
 }
 
 void FrictionMesh::make_triangles() {
-  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, bool is_cell) {
-    const Point p[3] = {mesh_.points()[a], mesh_.points()[b], mesh_.points()[c]};
-    const double twice = cross(p[1] - p[0], p[2] - p[0]);
-    CornerTriangle triangle = {
-        .corner = {a, b, c}, .slope = {}, .area = is_cell ? 0.5 * twice : 0.25 * twice, .share = {}};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Point side = p[(i + 2) % 3] - p[(i + 1) % 3];
-      triangle.slope[i] = (1.0 / twice) * Point{-side.y, side.x};
-      triangle.share[i] = is_cell ? triangle.area / 3.0 : i == 0 ? triangle.area : 0.0;
-    }
-    triangles_.push_back(triangle);
+  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, bool of_quad) {
+    const std::array<PlaneVector<double>, 3> p = {mesh_.points()[a], mesh_.points()[b], mesh_.points()[c]};
+    triangles_.push_back({TriangleShape<double>(p, of_quad), {a, b, c}, of_quad});
   };
   for (const Cell& cell : mesh_.cells()) {
     const std::uint32_t n = cell.corners();
     if (n == 3)
-      add(cell[0], cell[1], cell[2], true);
+      add(cell[0], cell[1], cell[2], false);
     else
-      for (std::uint32_t i = 0; i < n; ++i) add(cell[i], cell[(i + 1) % n], cell[(i + 3) % n], false);
+      for (std::uint32_t i = 0; i < n; ++i) add(cell[i], cell[(i + 1) % n], cell[(i + 3) % n], true);
   }
 }
 
 // The distance from every segment: exact, and quick beside one Jacobian.
 void FrictionMesh::measure_distances() {
   distance_.assign(mesh_.size(), std::numeric_limits<double>::infinity());
-  for (const BoundaryEdge& edge : mesh_.boundary()) {
+  nearest_.assign(mesh_.size(), no_index);
+  for (std::uint32_t e = 0; e < mesh_.boundary().size(); ++e) {
+    const BoundaryEdge& edge = mesh_.boundary()[e];
     if (!mesh_.patch(edge).sticks()) continue;
     const Point a = mesh_.points()[edge.a], b = mesh_.points()[edge.b];
     for (std::size_t v = 0; v < mesh_.size(); ++v)
-      distance_[v] = std::min(distance_[v], squared_distance_to_segment(mesh_.points()[v], a, b));
+      if (const double square = squared_distance_to_segment(mesh_.points()[v], a, b); square < distance_[v])
+        distance_[v] = square, nearest_[v] = e;
   }
   for (std::size_t v = 0; v < mesh_.size(); ++v) distance_[v] = sticks_[v] ? 0.0 : std::sqrt(distance_[v]);
+}
+
+// The nearest place on a segment moves along it alone, or not at all.
+void FrictionMesh::add_distance_slopes(const std::vector<double>& by_distance, std::vector<Point>& points) const {
+  for (std::size_t v = 0; v < mesh_.size(); ++v) {
+    if (by_distance[v] == 0.0 || nearest_[v] == no_index || sticks_[v]) continue;
+    const BoundaryEdge& edge = mesh_.boundary()[nearest_[v]];
+    const Point p = mesh_.points()[v], a = mesh_.points()[edge.a], b = mesh_.points()[edge.b];
+    const double t = nearest_part(p, a, b);
+    const Point by = (by_distance[v] / distance_[v]) * (p - (a + t * (b - a)));
+    points[v] = points[v] + by;
+    points[edge.a] = points[edge.a] - (1.0 - t) * by, points[edge.b] = points[edge.b] - t * by;
+  }
 }
 
 }  // namespace remodel::flow

@@ -32,12 +32,28 @@ struct WeightedVertex {
 
 // The triangle of a triangular cell, or of a corner of a quadrilateral and its two neighbours: the mean over
 // all four is exact for linear functions, and on a rectangle a scheme of edges alone.
-struct CornerTriangle {
-  std::uint32_t corner[3];
-  Point slope[3];   // gradients of the hat functions
-  double area;      // what it counts for: its own, or half of that where it is of a quadrilateral
-  double share[3];  // of the area, for sources: which vertex they belong to
+template <class T>
+struct TriangleShape {
+  PlaneVector<T> slope[3];  // gradients of the hat functions
+  T area;                   // what it counts for: its own, or half of that where it is of a quadrilateral
+  T share[3];               // of the area, for sources: which vertex they belong to
+  TriangleShape(const std::array<PlaneVector<T>, 3>& p, bool of_quad);
 };
+struct CornerTriangle : TriangleShape<double> {
+  std::uint32_t corner[3];
+  bool of_quad;
+};
+
+template <class T>
+TriangleShape<T>::TriangleShape(const std::array<PlaneVector<T>, 3>& p, bool of_quad) {
+  const T twice = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x);
+  area = (of_quad ? 0.25 : 0.5) * twice;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const PlaneVector<T>&from = p[(i + 1) % 3], &to = p[(i + 2) % 3];
+    slope[i] = {(from.y - to.y) / twice, (to.x - from.x) / twice};
+    share[i] = !of_quad ? (1.0 / 3.0) * area : i == 0 ? area : T(0.0);
+  }
+}
 
 class FrictionMesh {
  public:
@@ -50,7 +66,17 @@ class FrictionMesh {
     const std::size_t i = 2 * e + side;
     return {upwind_.data() + upwind_start_[i], upwind_start_[i + 1] - upwind_start_[i]};
   }
+  // What that difference is made of: `behind`, the opposite neighbour, where there is one, and else the difference
+  // itself (central) or the gradient.
+  enum class Upwind : std::uint8_t { opposite, central, gradient };
+  struct UpwindKind {
+    Upwind kind;
+    std::uint32_t behind = no_index;
+  };
+  UpwindKind upwind_kind(std::size_t e, std::size_t side) const { return kinds_[2 * e + side]; }
   const std::vector<CornerTriangle>& triangles() const { return triangles_; }
+  // Adds derivatives of a function by coordinates, given those by distances.
+  void add_distance_slopes(const std::vector<double>& by_distance, std::vector<Point>& points) const;
   const std::vector<double>& distances() const { return distance_; }  // from walls that gas sticks to
   bool sticks(std::size_t v) const { return sticks_[v]; }
 
@@ -71,8 +97,10 @@ class FrictionMesh {
   std::vector<std::uint32_t> edge_cells_;    // two cells each, no_index: none
   std::vector<std::uint32_t> upwind_start_;
   std::vector<WeightedVertex> upwind_;
+  std::vector<UpwindKind> kinds_;
   std::vector<CornerTriangle> triangles_;
   std::vector<double> distance_;
+  std::vector<std::uint32_t> nearest_;  // boundary edges
   std::vector<bool> sticks_;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "flow/scheme/friction_jacobian.h"
+#include "flow/scheme/friction_slopes.h"
 
 namespace remodel::flow {
 
@@ -65,7 +66,7 @@ void FrictionSystem<N>::unbalanced(const BlockState<N>& state, BlockVector<N>& o
       for (const std::size_t k : positive_unknowns)
         value[side][k] = positivity_limited(value[side][k], vertex[k]);
     }
-    const Row flux = terms_.template face_flux<double, N>(value[0], value[1], edge.normal);
+    const Row flux = terms_.template face_flux<double, N>(value[0], value[1], PlaneVector<double>(edge.normal));
     add(edge.a, 1.0, flux), add(edge.b, -1.0, flux);
   }
   for (const CornerTriangle& triangle : mesh_.triangles()) {

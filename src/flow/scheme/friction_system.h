@@ -69,6 +69,19 @@ class FrictionSystem final : public BlockSystem<N> {
   static std::array<double, N> conserved_at(const std::array<double, N>& q);
   static SquareBlock<N> conserved_slope(const std::array<double, N>& q);
 
+  // The derivative, at this state, of the sum over vertices of weight times *unbalanced* flux, for each row of
+  // weights: by places, and by Mach and Reynolds number at fixed unknowns.
+  std::vector<ShapeSlope> slopes_of_unbalanced(const BlockState<N>& state,
+                                               std::span<const BlockVector<N>> weights) const;
+  // A sum of coefficients, and what it follows.
+  struct ForceSlope {
+    BlockIncrement<N> by_unknowns;
+    ShapeSlope shape;       // at fixed unknowns and fixed unbalanced flux
+    BlockVector<N> weight;  // derivatives by the unbalanced flux
+  };
+  // The weighted sum of the coefficients of all walls (pressure_drag: weighted too).
+  ForceSlope force_slope(const BlockState<N>& state, const WallForces& weight) const;
+
   // What enters by this patch.
   double mass_flow(const BlockState<N>& state, std::uint32_t patch) const;
   // patch: of this wall, no_index: of all.
@@ -95,6 +108,15 @@ class FrictionSystem final : public BlockSystem<N> {
     Order order;
     std::vector<std::uint32_t> of;
   };
+  // A face's flux, by reconstructed values of both sides and, for V = 2 N + 2, its normal; and these values by the
+  // unknown at both ends and the upwind difference.
+  template <std::size_t V>
+  struct FaceDual {
+    std::array<Dual<V>, N> flux;
+    std::array<Dual<3>, N> reconstructed[2];
+  };
+  template <std::size_t V>
+  FaceDual<V> face_dual(const BlockState<N>& state, std::size_t e, Order order) const;
   Rows rows_of_vertices(BlockMatrix<N>& matrix, Order order) const;
   // Derivatives of fluxes, before walls are strong.
   void add_fluxes(const BlockState<N>& state, std::span<Rows> all) const;
@@ -102,7 +124,16 @@ class FrictionSystem final : public BlockSystem<N> {
   void add_triangle_blocks(const BlockState<N>& state, std::span<Rows> all) const;
   void add_boundary_blocks(const BlockState<N>& state, std::span<Rows> all) const;
   void make_walls_strong(BlockMatrix<N>& matrix) const;
-  // raw: rows of all vertices of walls, before walls are strong.
+  BlockMatrix<N> raw_rows_of_walls(const BlockState<N>& state) const;  // before walls are strong
+  void add_face_slopes(const BlockState<N>& state, std::span<const BlockVector<N>> weights,
+                       std::span<FlowMesh::Slopes> slopes, std::span<ShapeSlope> results) const;
+  void add_triangle_slopes(const BlockState<N>& state, std::span<const BlockVector<N>> weights,
+                           std::span<ShapeSlope> results) const;
+  void add_boundary_slopes(const BlockState<N>& state, const BlockVector<N>& weight, FlowMesh::Slopes& slopes,
+                           ShapeSlope& result) const;
+  void add_stream_slopes(const BlockState<N>& state, std::span<const BlockVector<N>> weights,
+                         std::span<ShapeSlope> results) const;
+  // raw: of raw_rows_of_walls().
   BlockAugmentedRows<N> augmented_rows(const BlockState<N>& state, const BlockMatrix<N>& raw) const;
   std::array<Row, 3> triangle_states(const BlockVector<N>& q, const CornerTriangle& triangle) const {
     return {q[triangle.corner[0]], q[triangle.corner[1]], q[triangle.corner[2]]};

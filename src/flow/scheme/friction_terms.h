@@ -40,19 +40,21 @@ struct FrictionTerms {
   }
 
   // The working variable is upwinded by the mass that passes.
-  template <class T>
-  T upwinded(const T& mass, const T& left, const T& right, double area) const {
+  template <class T, class G>
+  T upwinded(const T& mass, const T& left, const T& right, const G& area) const {
     const T size = rounded_abs<T>(mass, T(kinks * area));
     return 0.5 * (mass * (left + right) - size * (right - left));
   }
 
   // Of reconstructed values; the working variable's are those of the vertices: first order.
-  template <class T, std::size_t N>
-  Local<T, N> face_flux(const Local<T, N>& left, const Local<T, N>& right, Point normal) const {
-    const Fluxes<T> flux = roe_flux<T>(gas(left), gas(right), PlaneVector<double>(normal), fix);
+  template <class T, std::size_t N, class G>
+  Local<T, N> face_flux(const Local<T, N>& left, const Local<T, N>& right, const PlaneVector<G>& normal) const {
+    using std::sqrt;
+    const Fluxes<T> flux = roe_flux<T>(gas(left), gas(right), normal, fix);
     Local<T, N> result;
     for (std::size_t k = 0; k < unknown_count; ++k) result[k] = flux[k];
-    if constexpr (N == 5) result[4] = upwinded(flux[0], left[4], right[4], std::sqrt(dot(normal, normal)));
+    if constexpr (N == 5)
+      result[4] = upwinded(flux[0], left[4], right[4], G(sqrt(normal.x * normal.x + normal.y * normal.y)));
     return result;
   }
 
@@ -64,24 +66,24 @@ struct FrictionTerms {
     Local<T, N> result;
     for (std::size_t k = 0; k < unknown_count; ++k) result[k] = flux[k];
     if constexpr (N == 5) {
+      using std::sqrt;
       result[4] = T(0.0);
       if (patch.is_farfield() || patch.open())
         result[4] = upwinded(flux[0], here[4], T(stream_working),
-                             std::sqrt(value_of(in.half.x * in.half.x + in.half.y * in.half.y)));
+                             T(sqrt(in.half.x * in.half.x + in.half.y * in.half.y)));
     }
     return result;
   }
 
   // What leaves the dual cells of the corners by friction and conduction, and what turbulence makes there.
-  template <class T, std::size_t N>
-  std::array<Local<T, N>, 3> triangle(const std::array<Local<T, N>, 3>& q, const CornerTriangle& of,
-                                      const std::array<double, 3>& distance) const;
+  template <class T, std::size_t N, class G>
+  std::array<Local<T, N>, 3> triangle(const std::array<Local<T, N>, 3>& q, const TriangleShape<G>& of,
+                                      const std::array<G, 3>& distance) const;
 };
 
-template <class T, std::size_t N>
-std::array<Local<T, N>, 3> FrictionTerms::triangle(const std::array<Local<T, N>, 3>& q,
-                                                   const CornerTriangle& of,
-                                                   const std::array<double, 3>& distance) const {
+template <class T, std::size_t N, class G>
+std::array<Local<T, N>, 3> FrictionTerms::triangle(const std::array<Local<T, N>, 3>& q, const TriangleShape<G>& of,
+                                                   const std::array<G, 3>& distance) const {
   using std::sqrt;
   const auto gradient = [&](const T& a, const T& b, const T& c) {
     return PlaneVector<T>(a * of.slope[0].x + b * of.slope[1].x + c * of.slope[2].x,
@@ -111,7 +113,7 @@ std::array<Local<T, N>, 3> FrictionTerms::triangle(const std::array<Local<T, N>,
       viscous_flux<T>(u, v, du, dv, gradient(warmth[0], warmth[1], warmth[2]), whole, conduction);
   std::array<Local<T, N>, 3> result;
   for (std::size_t i = 0; i < 3; ++i) {
-    const double x = of.area * of.slope[i].x, y = of.area * of.slope[i].y;
+    const G x = of.area * of.slope[i].x, y = of.area * of.slope[i].y;
     result[i][0] = T(0.0);
     result[i][1] = x * flux.momentum_x.x + y * flux.momentum_x.y;
     result[i][2] = x * flux.momentum_y.x + y * flux.momentum_y.y;
@@ -125,7 +127,7 @@ std::array<Local<T, N>, 3> FrictionTerms::triangle(const std::array<Local<T, N>,
     const T square = dw.x * dw.x + dw.y * dw.y, across = drho.x * dw.x + drho.y * dw.y;
     for (std::size_t i = 0; i < 3; ++i) {
       result[i][4] = spread * ((of.area * of.slope[i].x) * dw.x + (of.area * of.slope[i].y) * dw.y);
-      if (of.share[i] == 0.0 || distance[i] == 0.0) continue;
+      if (value_of(of.share[i]) == 0.0 || value_of(distance[i]) == 0.0) continue;
       const T kinematic = molecular[i] / q[i][0];
       const T made =
           (1.0 / unit) * SpalartAllmaras::source<T>(unit * q[i][4], kinematic, vorticity, T(distance[i]));
