@@ -68,7 +68,7 @@ FlowFriction friction_of(const FrictionSystem<N>& system, const BlockState<N>& s
 
 // What has to be known about the cells at the wall.
 std::vector<std::string> friction_warnings(const FrictionMesh& mesh, const FlowFriction& friction,
-                                           FlowModel model, double largest_mach) {
+                                           FlowModel model) {
   constexpr double wanted = 1.0, tolerated = 2.0;
   std::vector<std::string> warnings;
   if (model == FlowModel::sa && friction.y_plus_max > tolerated) {
@@ -82,10 +82,6 @@ std::vector<std::string> friction_warnings(const FrictionMesh& mesh, const FlowF
         friction.y_plus_max, wanted, height * wanted / friction.y_plus_max);
     warnings.push_back(text);
   }
-  if (largest_mach > 1.0)
-    warnings.push_back(
-        "the flow is faster than sound in places: with friction this scheme has no limiter, and shocks are "
-        "off");
   const auto is_quad = [](const Cell& cell) { return cell.corners() == 4; };
   if (std::none_of(mesh.dual().cells().begin(), mesh.dual().cells().end(), is_quad))
     warnings.push_back(
@@ -126,7 +122,7 @@ FlowResult result_of(const FrictionSystem<N>& system, const BlockState<N>& state
     result.pressure.push_back(q[3]);
   }
   if (result.converged())
-    result.warnings = friction_warnings(system.friction_mesh(), *result.friction, result.model, largest_mach(result));
+    result.warnings = friction_warnings(system.friction_mesh(), *result.friction, result.model);
   return result;
 }
 

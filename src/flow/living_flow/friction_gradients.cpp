@@ -31,6 +31,12 @@ std::vector<Total> totals_of(const FrictionSystem<N>& system, const BlockState<N
     for (std::size_t v = 0; v < total.shape.points.size(); ++v)
       total.shape.points[v] =
           total.shape.points[v] + functions[i].shape.points[v] - by_lift * lift.shape.points[v];
+    // The limiter's length is the distance between two vertices.
+    const Extent& extent = system.mesh().extent();
+    const Point far = system.mesh().points()[extent.b] - system.mesh().points()[extent.a];
+    const Point by_far = (total.shape.length * system.stream().length / dot(far, far)) * far;
+    total.shape.points[extent.b] = total.shape.points[extent.b] + by_far;
+    total.shape.points[extent.a] = total.shape.points[extent.a] - by_far;
     total.shape.mach += functions[i].shape.mach - by_lift * lift.shape.mach;
   }
   return result;

@@ -85,25 +85,35 @@ void FrictionSystem<N>::jacobian(const BlockState<N>& state, Jacobian& result) c
   make_walls_strong(result.whole), make_walls_strong(result.first);
 }
 
-// Reconstructed values depend on the unknown itself alone: its values at both ends and the upwind difference.
+// A reconstructed value depends on that unknown at both ends, on its upwind difference, and by the limiter on all
+// unknowns at both ends and on the edge's length.
 template <std::size_t N>
 template <std::size_t V>
 typename FrictionSystem<N>::template FaceDual<V> FrictionSystem<N>::face_dual(const BlockState<N>& state,
                                                                               std::size_t e, Order order) const {
   using T = Dual<V>;
-  using Three = Dual<3>;
+  using One = Dual<5>;
+  constexpr std::size_t n = unknown_count;
   const DualEdge& edge = dual_.edges()[e];
   FaceDual<V> face;
+  Unknowns<Dual<2 * n>> end[2];
+  for (std::size_t k = 0; k < n; ++k) {
+    end[0][k] = Dual<2 * n>::variable(state.q[edge.a][k], k);
+    end[1][k] = Dual<2 * n>::variable(state.q[edge.b][k], n + k);
+  }
+  if (order == Order::whole) face.limited = limited_part<Dual<2 * n>>(end[0], end[1]);
+  const One limited = One::variable(face.limited.value, 3);
+  const One width = One::variable(terms_.limiter_width(dual_.points()[edge.b] - dual_.points()[edge.a]), 4);
   std::array<T, N> value[2];
   for (std::size_t side = 0; side < 2; ++side) {
     Row upwind = {};
     for (const WeightedVertex& of : mesh_.upwind(e, side))
       for (std::size_t k = 0; k < unknown_count; ++k) upwind[k] += of.weight * state.q[of.vertex][k];
     for (std::size_t k = 0; k < N; ++k) {
-      const Three q[2] = {Three::variable(state.q[edge.a][k], 0), Three::variable(state.q[edge.b][k], 1)};
-      Three& at = face.reconstructed[side][k] = q[side];
+      const One q[2] = {One::variable(state.q[edge.a][k], 0), One::variable(state.q[edge.b][k], 1)};
+      One& at = face.reconstructed[side][k] = q[side];
       if (order == Order::whole && k < unknown_count) {
-        const Three to = terms_.step(Three::variable(upwind[k], 2), q[1] - q[0]);
+        const One to = terms_.step(One::variable(upwind[k], 2), q[1] - q[0], width, limited);
         at = side == 0 ? q[0] + to : q[1] - to;
       }
       if (k == positive_unknowns[0] || k == positive_unknowns[1]) at = positivity_limited(at, q[side]);
@@ -125,14 +135,19 @@ void FrictionSystem<N>::add_face_blocks(const BlockState<N>& state, Rows& rows) 
     const DualEdge& edge = dual_.edges()[e];
     const std::uint32_t end[2] = {edge.a, edge.b};
     if (rows.of[end[0]] == no_index && rows.of[end[1]] == no_index) continue;
-    const auto [flux, reconstructed] = face_dual<2 * N>(state, e, rows.order);
+    const auto [flux, reconstructed, limited] = face_dual<2 * N>(state, e, rows.order);
     SquareBlock<N> by_end[2] = {{}, {}}, by_upwind[2] = {{}, {}};
+    Row by_limited = {};
     for (std::size_t z = 0; z < N * N; ++z)
       for (std::size_t side = 0; side < 2; ++side) {
         const double slope = flux[z / N].slope[N * side + z % N];
-        const std::array<double, 3>& of = reconstructed[side][z % N].slope;
+        const std::array<double, 5>& of = reconstructed[side][z % N].slope;
+        by_limited[z / N] += slope * of[3];
         by_end[0][z] += slope * of[0], by_end[1][z] += slope * of[1], by_upwind[side][z] = slope * of[2];
       }
+    for (std::size_t i = 0; limited.value > 0.0 && i < N; ++i)
+      for (std::size_t k = 0; k < 2 * unknown_count; ++k)
+        by_end[k / unknown_count][N * i + k % unknown_count] += by_limited[i] * limited.slope[k];
     for (std::size_t row = 0; row < 2; ++row) {
       if (rows.of[end[row]] == no_index) continue;
       const double sign = row == 0 ? 1.0 : -1.0;

@@ -7,13 +7,10 @@
 // are high by orders of magnitude: off by (du/dn) s^2 / 2R there, many cells' jumps. The *opposite neighbour*
 // of a vertex, straight behind it as seen along an edge, is a matter of topology:
 //
-//        |     |     |              At v, among quadrilaterals alone, b is opposite to w, and c to d. At the
-//        end of
-//     ---c-----+-----+---           a layer, where two quadrilaterals meet the edge to d, b is still opposite
-//     to w,
-//        |     |     |              and d has no opposite neighbour. Other vertices take gradients; on walls,
-//        whose
-//     ---v-----w-----+---           gradients are one-sided, the upwind difference is the central one.
+//        |     |     |      At v, among quadrilaterals alone, b is opposite to w, and c to d. At the end of a
+//     ---c-----+-----+---   layer, where two quadrilaterals meet the edge to d, b is still opposite to w, and d
+//        |     |     |      has no opposite neighbour. Other vertices take gradients. On walls, whose gradients
+//     ---v-----w-----+---   are one-sided, and where b is very near, the upwind difference is the central one.
 //    /   |     |     |
 //   b    d     |     |
 

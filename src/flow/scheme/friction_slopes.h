@@ -59,7 +59,8 @@ void FrictionSystem<N>::add_face_slopes(const BlockState<N>& state, std::span<co
   for (std::size_t e = 0; e < dual_.edges().size(); ++e) {
     const DualEdge& edge = dual_.edges()[e];
     const Point d = dual_.points()[edge.b] - dual_.points()[edge.a];
-    const auto [flux, reconstructed] = face_dual<2 * N + 2>(state, e, Order::whole);
+    const auto [flux, reconstructed, limited] = face_dual<2 * N + 2>(state, e, Order::whole);
+    const double by_square = 3.0 * terms_.limiter_width(d) / dot(d, d);  // the limiter's width
     for (std::size_t j = 0; j < weights.size(); ++j) {
       Row w;
       for (std::size_t k = 0; k < N; ++k) w[k] = weights[j][edge.a][k] - weights[j][edge.b][k];
@@ -68,6 +69,13 @@ void FrictionSystem<N>::add_face_slopes(const BlockState<N>& state, std::span<co
       std::vector<Point>& points = results[j].points;
       for (std::size_t side = 0; side < 2; ++side) {
         const auto [kind, behind] = mesh_.upwind_kind(e, side);
+        if (limited.value > 0.0) {
+          double by_width = 0.0;
+          for (std::size_t k = 0; k < unknown_count; ++k) by_width += by[N * side + k] * reconstructed[side][k].slope[4];
+          points[edge.a] = points[edge.a] - by_width * by_square * d;
+          points[edge.b] = points[edge.b] + by_width * by_square * d;
+          results[j].length -= by_width * by_square * dot(d, d) / terms_.extent;
+        }
         if (kind == Kind::central) continue;
         const std::uint32_t here = side == 0 ? edge.a : edge.b;
         Unknowns<double> by_upwind;

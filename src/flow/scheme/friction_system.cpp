@@ -35,16 +35,17 @@ BlockState<N> FrictionSystem<N>::start(double thickness) const {
 
 // From the value at an end of edge e towards its middle.
 template <std::size_t N>
-std::array<double, N> FrictionSystem<N>::step(const BlockVector<N>& q, std::size_t e, std::size_t side,
-                                              Order order) const {
+std::array<double, N> FrictionSystem<N>::step(const BlockVector<N>& q, std::size_t e, std::size_t side) const {
   Row result = {};
-  if (order == Order::first) return result;
   const DualEdge& edge = dual_.edges()[e];
+  const double limited = limited_part<double>(FrictionTerms::gas(q[edge.a]), FrictionTerms::gas(q[edge.b]));
+  const double width =
+      limited > 0.0 ? terms_.limiter_width(dual_.points()[edge.b] - dual_.points()[edge.a]) : 0.0;
   Row upwind = {};
   for (const WeightedVertex& of : mesh_.upwind(e, side))
     for (std::size_t k = 0; k < unknown_count; ++k) upwind[k] += of.weight * q[of.vertex][k];
   for (std::size_t k = 0; k < unknown_count; ++k) {
-    const double to = terms_.step(upwind[k], q[edge.b][k] - q[edge.a][k]);
+    const double to = terms_.step(upwind[k], q[edge.b][k] - q[edge.a][k], width, limited);
     result[k] = side == 0 ? to : -to;
   }
   return result;
@@ -60,7 +61,7 @@ void FrictionSystem<N>::unbalanced(const BlockState<N>& state, BlockVector<N>& o
     const DualEdge& edge = dual_.edges()[e];
     Row value[2] = {state.q[edge.a], state.q[edge.b]};
     for (std::size_t side = 0; side < 2; ++side) {
-      const Row to = step(state.q, e, side, Order::whole);
+      const Row to = step(state.q, e, side);
       const Row vertex = value[side];
       for (std::size_t k = 0; k < N; ++k) value[side][k] += to[k];
       for (const std::size_t k : positive_unknowns)

@@ -27,7 +27,10 @@ class FrictionSystem final : public BlockSystem<N> {
       : mesh_(mesh),
         dual_(mesh.dual()),
         stream_(stream),
-        terms_{.viscosity = viscosity, .mach = stream.mach, .slopes = stream.slopes} {
+        terms_{.viscosity = viscosity, .mach = stream.mach,
+               .slopes = stream.slopes,
+               .limiter = stream.limiter,
+               .extent = stream.length} {
     // At rest on walls the stream's Mach number is the measure. Without any dissipation of the waves of
     // pressure searches do not converge; with a tenth of this they stall at 1e-5 around NACA 0012.
     terms_.fix.mach_squared = stream.mach * stream.mach;
@@ -99,7 +102,7 @@ class FrictionSystem final : public BlockSystem<N> {
   template <class T>
   BoundaryInputs<T> boundary_inputs(const BlockState<N>& state, const BoundaryEdge& edge,
                                     std::size_t half) const;
-  Row step(const BlockVector<N>& q, std::size_t e, std::size_t side, Order order) const;
+  Row step(const BlockVector<N>& q, std::size_t e, std::size_t side) const;
   template <class Visit>
   void for_each_dependence(Order order, Visit visit) const;
   // A matrix that is made, and which of its rows a vertex has: no_index, none.
@@ -108,12 +111,14 @@ class FrictionSystem final : public BlockSystem<N> {
     Order order;
     std::vector<std::uint32_t> of;
   };
-  // A face's flux, by reconstructed values of both sides and, for V = 2 N + 2, its normal; and these values by the
-  // unknown at both ends and the upwind difference.
+  // A face's flux, by reconstructed values of both sides and, for V = 2 N + 2, its normal; these values by the
+  // unknown at both ends, the upwind difference, limited_part() and the limiter's width; and limited_part() by the
+  // unknowns of both ends.
   template <std::size_t V>
   struct FaceDual {
     std::array<Dual<V>, N> flux;
-    std::array<Dual<3>, N> reconstructed[2];
+    std::array<Dual<5>, N> reconstructed[2];
+    Dual<2 * unknown_count> limited;
   };
   template <std::size_t V>
   FaceDual<V> face_dual(const BlockState<N>& state, std::size_t e, Order order) const;

@@ -20,6 +20,7 @@ struct FrictionTerms {
   Viscosity viscosity;
   double mach = 0.0;  // of the stream
   double slopes = 1.0;
+  double limiter = 30.0, extent = 1.0;  // Stream::limiter and its length
   // Boundary layers are thin where Roe's linear waves hardly move: what the usual half-width of their
   // parabola adds is far above molecular diffusion.
   Dissipation fix = {.acoustic = 0.1, .linear = 1e-3};
@@ -33,10 +34,15 @@ struct FrictionTerms {
     return {q[0], q[1], q[2], q[3]};
   }
 
-  // From the value at an end of an edge to that in its middle.
+  // What the limiter compares the squares of differences along an edge with.
+  double limiter_width(Point edge) const {
+    const double h = limiter * std::sqrt(dot(edge, edge)) / extent;
+    return h * h * h;
+  }
+  // From the value at an end of an edge to that in its middle. `limited` is limited_part() of the edge's ends.
   template <class T>
-  T step(const T& upwind, const T& central) const {
-    return 0.25 * slopes * ((1.0 - kappa) * upwind + (1.0 + kappa) * central);
+  T step(const T& upwind, const T& central, const T& width, const T& limited) const {
+    return slopes * reconstruction_step<T, T>(EdgeEnd::inner, upwind, central, width, limited).step;
   }
 
   // The working variable is upwinded by the mass that passes.
