@@ -134,7 +134,7 @@ double FrictionSearch<N>::line_search(const BlockIncrement<N>& step, const std::
        ++i, length *= 0.5) {
     BlockState<N> next = moved(state, step, length);
     Residuals there = measure_(next);
-    if (!(unsteady_size(state, next, by_time, there) < now.size)) continue;
+    if (!(unsteady_size(state, next, by_time, there) < FrictionPolicy::merit_rise * now.size)) continue;
     state = std::move(next), now = std::move(there);
     return length;
   }
