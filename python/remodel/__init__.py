@@ -8,7 +8,7 @@
     print(step.preserved_percent, mesh.points.shape, mesh.check().valid)
 
 Shapes: Airfoil, Domain, catalogue(). Meshes: generate(), import_mesh(), Mesh, FrozenMesh, check(). Steps:
-Mesh.update() returns a Step, Mesh.trial() tries a design. Values carried from mesh to mesh: Transfer. Flow:
+Mesh.update() returns a Step, Mesh.trial() tries a design. Layers on walls: generate_layered(), LayeredMesh. Values carried from mesh to mesh: Transfer. Flow:
 solve_flow(), LivingFlow, PotentialSolver. Optimisers: optimise(), CMAES.
 
 Lengths are in chords and angles in degrees. Every mesh is constrained Delaunay; a step keeps what it can. Bad
@@ -34,6 +34,8 @@ from ._core import (
     FlowResult,
     FrozenMesh,
     InteriorDisplacement,
+    LayeredMesh,
+    LayeredStep,
     LivingFlow,
     Mesh,
     PotentialFlow,
@@ -46,6 +48,7 @@ from ._core import (
     catalogue,
     check,
     generate,
+    generate_layered,
     import_mesh,
     read_fields,
     read_frozen,
@@ -62,9 +65,9 @@ _extend()
 __all__ = [
     "Airfoil", "ArgumentError", "ArgumentTypeError", "CMAES", "Changes", "CheckResult", "Domain", "Error",
     "EvaluationFailed", "FileError", "FlowResult", "FormatError", "FrozenMesh", "GeometryError",
-    "InteriorDisplacement", "LivingFlow", "Mesh", "OptimiseResult", "PointGradient", "PotentialFlow",
+    "InteriorDisplacement", "LayeredMesh", "LayeredStep", "LivingFlow", "Mesh", "OptimiseResult", "PointGradient", "PotentialFlow",
     "PotentialSolver", "Step", "TopologyChanged", "Transfer", "Trial", "Violation", "__version__", "catalogue",
-    "check", "from_meshio", "from_pyvista", "generate", "import_mesh", "optimise", "read_fields", "read_frozen",
+    "check", "from_meshio", "from_pyvista", "generate", "generate_layered", "import_mesh", "optimise", "read_fields", "read_frozen",
     "solve_flow",
 ]  # fmt: skip
 

@@ -32,6 +32,7 @@ void add_steps(py::module_& module);
 void add_transfers(py::module_& module);
 void add_derivatives(py::module_& module);
 void add_displacements(py::module_& module);
+void add_layers(py::module_& module);
 void add_flows(py::module_& module);
 void add_potential_flows(py::module_& module);
 void add_designers(py::module_& module);
@@ -48,8 +49,10 @@ Domain domain_of(const py::object& shape, const AirfoilDomainOptions& options);
 // The name of an object's type, for messages.
 std::string type_of(const py::handle& object);
 
-// A frozen mesh as it is now: of a FrozenMesh itself, of a Mesh, or after a Step.
+// A frozen mesh as it is now: of a FrozenMesh itself, of a Mesh or LayeredMesh, or after a Step.
 Snapshot snapshot_of(const py::object& mesh);
+// Of a LayeredMesh; none of anything else.
+Snapshot layered_snapshot(const py::object& mesh);
 
 // An array that owns a copy.
 template <class T>

@@ -19,13 +19,17 @@ template <python::Is<FlowOpening> T>
 auto members(T& o) {
   return std::tie(o.name, o.mass_flow);
 }
+template <python::Is<FlowFriction> T>
+auto members(T& f) {
+  return std::tie(f.reynolds, f.cd_pressure, f.cd_friction, f.y_plus_max, f.cf, f.y_plus, f.viscosity_ratio, f.working);
+}
 template <python::Is<FlowResult> T>
 auto members(T& f) {
   return std::tie(f.status, f.reason, f.mach, f.alpha_deg, f.cl, f.cd, f.cm, f.bodies, f.openings, f.start,
                   f.residual, f.history, f.newton_steps, f.factorisations, f.coarse_steps,
                   f.krylov_iterations, f.corrected_vertices, f.solver, f.gmres_iterations, f.memory_mb,
                   f.seconds, f.density, f.velocity_x, f.velocity_y, f.pressure, f.warnings,
-                  f.lift_determined, f.origin, f.entropy_drag);
+                  f.lift_determined, f.origin, f.entropy_drag, f.model, f.friction);
 }
 
 }  // namespace remodel
@@ -36,12 +40,13 @@ namespace {
 using FlowPointer = std::shared_ptr<FlowResult>;
 
 FlowConditions conditions_of(double mach, double alpha, const std::optional<double>& cl,
-                             const std::array<double, 2>& reference, double reference_length) {
+                             const std::array<double, 2>& reference, double reference_length, double reynolds) {
   return {.mach = mach,
           .alpha_deg = alpha,
           .cl = cl,
           .reference = {reference[0], reference[1]},
-          .reference_length = reference_length};
+          .reference_length = reference_length,
+          .reynolds = reynolds};
 }
 
 using Inlets = std::map<std::string, std::array<double, 2>>;  // total pressure and total temperature
@@ -53,11 +58,18 @@ FlowSolver solver_named(const std::string& name) {
   throw Error(ErrorCode::argument, "solver", "found '" + name + "', expected 'lu', 'gmres' or None");
 }
 
+FlowModel model_named(const std::string& name) {
+  for (const FlowModel model : {FlowModel::euler, FlowModel::laminar, FlowModel::sa})
+    if (name == name_of(model)) return model;
+  throw Error(ErrorCode::argument, "model", "found '" + name + "', expected 'euler', 'laminar' or 'sa'");
+}
+
 FlowOptions options_of(const std::string& farfield, double tolerance, int max_steps, double memory_mb,
-                       const std::optional<std::string>& solver, const Inlets& inlets,
-                       const Outlets& outlets) {
+                       const std::optional<std::string>& solver, const Inlets& inlets, const Outlets& outlets,
+                       const std::string& model) {
   FlowOptions options{
       .farfield = farfield, .tolerance = tolerance, .max_steps = max_steps, .memory_mb = memory_mb};
+  options.model = model_named(model);
   if (solver) options.solver = solver_named(*solver);
   for (const auto& [name, total] : inlets)
     options.inlets.push_back({.name = name, .total_pressure = total[0], .total_temperature = total[1]});
@@ -76,10 +88,11 @@ py::object with_mesh(const FlowPointer& flow, const Snapshot& mesh) {
 py::object solved(const py::object& mesh, double mach, double alpha, const std::optional<double>& cl,
                   const std::array<double, 2>& reference, double reference_length,
                   const std::string& farfield, double tolerance, int max_steps, double memory_mb,
-                  const std::optional<std::string>& solver, const Inlets& inlets, const Outlets& outlets) {
+                  const std::optional<std::string>& solver, const Inlets& inlets, const Outlets& outlets,
+                  double reynolds, const std::string& model) {
   const Snapshot frozen = snapshot_of(mesh);
-  const FlowConditions conditions = conditions_of(mach, alpha, cl, reference, reference_length);
-  FlowOptions options = options_of(farfield, tolerance, max_steps, memory_mb, solver, inlets, outlets);
+  const FlowConditions conditions = conditions_of(mach, alpha, cl, reference, reference_length, reynolds);
+  FlowOptions options = options_of(farfield, tolerance, max_steps, memory_mb, solver, inlets, outlets, model);
   const auto stop = std::make_shared<Stop>();
   options.observer = stop.get();
   const FlowPointer flow = Apart().run(stop, [frozen, conditions, options, stop] {
@@ -93,7 +106,8 @@ py::dict dict_of(FlowGradient gradient, const Snapshot& mesh) {
   const py::array points = view_of(std::move(gradient.points));
   const py::object of_mesh = py::module_::import("remodel._gradients").attr("of_mesh");
   return py::dict("points"_a = of_mesh(points, std::const_pointer_cast<FrozenMesh>(mesh)),
-                  "mach"_a = gradient.mach, "alpha"_a = gradient.alpha_deg, "cl"_a = gradient.cl);
+                  "mach"_a = gradient.mach, "alpha"_a = gradient.alpha_deg, "cl"_a = gradient.cl,
+                  "reynolds"_a = gradient.reynolds);
 }
 
 // A LivingFlow, with the observer that it keeps for its whole life.
@@ -123,8 +137,8 @@ class Flows {
   Flows& operator=(const Flows&) = delete;
 
   py::object solve(const py::object& mesh, double mach, double alpha, const std::optional<double>& cl,
-                   const std::array<double, 2>& reference, double reference_length) {
-    const FlowConditions conditions = conditions_of(mach, alpha, cl, reference, reference_length);
+                   const std::array<double, 2>& reference, double reference_length, double reynolds) {
+    const FlowConditions conditions = conditions_of(mach, alpha, cl, reference, reference_length, reynolds);
     const ThreadLock::Held held(lock_);
     const Snapshot given = snapshot_of(mesh), frozen = with_keys(given);
     const FlowPointer result = calls_.run(solver_->stop, [solver = solver_, frozen, conditions] {
@@ -137,9 +151,11 @@ class Flows {
   py::dict gradients() {
     const ThreadLock::Held held(lock_);
     FlowGradients found = calls_.run(solver_->stop, [solver = solver_] { return solver->flow.gradients(); });
-    return py::dict(
+    py::dict result(
         "cl"_a = dict_of(std::move(found.cl), last_), "cd"_a = dict_of(std::move(found.cd), last_),
         "cm"_a = dict_of(std::move(found.cm), last_), "alpha"_a = dict_of(std::move(found.alpha_deg), last_));
+    if (options_.model != FlowModel::euler) result["cd_pressure"] = dict_of(std::move(found.cd_pressure), last_);
+    return result;
   }
   const FlowOptions& options() const { return options_; }
   void forget() {
@@ -213,6 +229,19 @@ void add_figures(py::class_<FlowResult, FlowPointer>& type) {
   type.def_property_readonly("openings", &openings_of,
                              "What enters through each inlet and outlet, by name: density times speed of "
                              "sound of the stream times length.");
+  type.def_property_readonly(
+      "model", [](const FlowResult& f) { return name_of(f.model); }, "'euler', 'laminar' or 'sa'.");
+  const auto friction = [&](const char* name, double FlowFriction::*member, const char* doc) {
+    type.def_property_readonly(
+        name,
+        [member](const FlowResult& f) { return f.friction ? std::optional<double>((*f.friction).*member) : std::nullopt; },
+        doc);
+  };
+  friction("reynolds", &FlowFriction::reynolds, "The Reynolds number by the reference length; None without friction.");
+  friction("cd_pressure", &FlowFriction::cd_pressure, "The part of cd that pressure makes; None without friction.");
+  friction("cd_friction", &FlowFriction::cd_friction, "The part of cd that friction makes; None without friction.");
+  friction("y_plus_max", &FlowFriction::y_plus_max,
+           "The largest y+ of the lowest cells on walls; None without friction.");
   type.def_readonly("residual", &FlowResult::residual);
   type.def_readonly("newton_steps", &FlowResult::newton_steps);
   type.def_readonly("factorisations", &FlowResult::factorisations);
@@ -239,7 +268,12 @@ std::pair<FlowPointer, py::dict> flow_of(const py::tuple& state) {
                      flow->status <= FlowStatus::interrupted && flow->start >= FlowStart::cold &&
                      flow->start <= FlowStart::refactored && flow->solver >= FlowSolver::lu &&
                      flow->origin >= FlowOrigin::last_flow && flow->origin <= FlowOrigin::undisturbed &&
-                     flow->solver <= FlowSolver::gmres,
+                     flow->solver <= FlowSolver::gmres && flow->model >= FlowModel::euler &&
+                     flow->model <= FlowModel::sa &&
+                     (!flow->friction ||
+                      (flow->friction->cf.size() == points && flow->friction->y_plus.size() == points &&
+                       flow->friction->viscosity_ratio.size() == flow->friction->working.size() &&
+                       (flow->friction->working.empty() || flow->friction->working.size() == points))),
                  "a flow");
   return {std::move(flow), state[1].cast<py::dict>()};
 }
@@ -253,6 +287,20 @@ void add_result(py::module_& module) {
   type.def_property_readonly("velocity_x", [](const FlowPointer& f) { return view(f, f->velocity_x); });
   type.def_property_readonly("velocity_y", [](const FlowPointer& f) { return view(f, f->velocity_y); });
   type.def_property_readonly("pressure", [](const FlowPointer& f) { return view(f, f->pressure); });
+  const auto on_walls = [&](const char* name, std::vector<double> FlowFriction::*member, const char* doc) {
+    type.def_property_readonly(
+        name,
+        [member](const FlowPointer& f) -> py::object {
+          if (!f->friction || ((*f->friction).*member).empty()) return py::none();
+          return view(f, (*f->friction).*member);
+        },
+        doc);
+  };
+  on_walls("cf", &FlowFriction::cf,
+           "Friction on walls over half the stream's density times speed squared, 0 elsewhere; None without friction.");
+  on_walls("y_plus", &FlowFriction::y_plus, "y+ of the lowest cells on walls, 0 elsewhere; None without friction.");
+  on_walls("viscosity_ratio", &FlowFriction::viscosity_ratio,
+           "Turbulent viscosity over molecular viscosity; None of flows that are not turbulent.");
   type.def_property_readonly("local_mach", [](const FlowResult& f) { return copied(mach_numbers(f)); });
   type.def_property_readonly(
       "cp", [](const FlowResult& f) { return copied(pressure_coefficients(f)); }, "Pressure coefficients.");
@@ -279,18 +327,23 @@ py::tuple state_of(const Flows& flows) {
   Outlets outlets;
   for (const FlowOutlet& outlet : o.outlets) outlets[outlet.name] = outlet.pressure;
   return py::make_tuple(o.farfield, o.tolerance, o.max_steps, o.memory_mb,
-                        o.solver ? py::object(py::str(name_of(*o.solver))) : py::none(), inlets, outlets);
+                        o.solver ? py::object(py::str(name_of(*o.solver))) : py::none(), inlets, outlets,
+                        py::str(name_of(o.model)));
 }
 
 std::unique_ptr<Flows> flows_of(const py::tuple& state) {
-  require_pickle(state.size() == 7, "a LivingFlow");
+  require_pickle(state.size() == 8, "a LivingFlow");
   return std::make_unique<Flows>(options_of(
       state[0].cast<std::string>(), state[1].cast<double>(), state[2].cast<int>(), state[3].cast<double>(),
-      state[4].cast<std::optional<std::string>>(), state[5].cast<Inlets>(), state[6].cast<Outlets>()));
+      state[4].cast<std::optional<std::string>>(), state[5].cast<Inlets>(), state[6].cast<Outlets>(),
+      state[7].cast<std::string>()));
 }
 
 constexpr const char* solver_text =
-    R"(Steady compressible flow without friction (Euler, gamma = 1.4) around the walls of a mesh.
+    R"(Steady compressible flow (gamma = 1.4) around the walls of a mesh.
+
+model: 'euler', without friction; 'laminar'; 'sa', turbulent by Spalart and Allmaras's model. The last two want the
+Reynolds number of the reference length, 1 to 1e10, and a mesh with layers (generate_layered()); docs/viscous.md.
 
 mach: 0.01 to 3; alpha: degrees, or where cl is given the angle that the search for this lift begins with;
 reference: the moment's point. inlets: total pressure and total temperature of each by name, outlets: the pressure
@@ -308,7 +361,7 @@ void add_flows(py::module_& module) {
              "cl"_a = py::none(), "reference"_a = quarter, "reference_length"_a = 1.0,
              "farfield"_a = "farfield", "tolerance"_a = defaults.tolerance,
              "max_steps"_a = defaults.max_steps, "memory_mb"_a = defaults.memory_mb, "solver"_a = py::none(),
-             "inlets"_a = Inlets(), "outlets"_a = Outlets(), solver_text);
+             "inlets"_a = Inlets(), "outlets"_a = Outlets(), "reynolds"_a = 0.0, "model"_a = "euler", solver_text);
   py::class_<Flows>(
       module, "LivingFlow",
       R"(A flow solver that outlives its mesh: each flow is found from the one before and the factors that are
@@ -316,21 +369,21 @@ still good, whatever update() did to the mesh in between. The result depends on 
 the tolerance. Meshes are living ones, frozen ones (also of arrays) or what an update returns. A pickle goes on with
 the same options, and begins cold. After Ctrl-C the next call waits until a factorisation that was under way has ended.)")
       .def(py::init([](const std::string& farfield, double tolerance, int max_steps, double memory_mb,
-                       const std::optional<std::string>& solver, const Inlets& inlets,
-                       const Outlets& outlets) {
+                       const std::optional<std::string>& solver, const Inlets& inlets, const Outlets& outlets,
+                       const std::string& model) {
              return std::make_unique<Flows>(
-                 options_of(farfield, tolerance, max_steps, memory_mb, solver, inlets, outlets));
+                 options_of(farfield, tolerance, max_steps, memory_mb, solver, inlets, outlets, model));
            }),
            py::kw_only(), "farfield"_a = "farfield", "tolerance"_a = defaults.tolerance,
            "max_steps"_a = defaults.max_steps, "memory_mb"_a = defaults.memory_mb, "solver"_a = py::none(),
-           "inlets"_a = Inlets(), "outlets"_a = Outlets())
+           "inlets"_a = Inlets(), "outlets"_a = Outlets(), "model"_a = "euler")
       .def("solve", &Flows::solve, "mesh"_a, py::kw_only(), "mach"_a = 0.5, "alpha"_a = 0.0,
-           "cl"_a = py::none(), "reference"_a = quarter, "reference_length"_a = 1.0, solver_text)
+           "cl"_a = py::none(), "reference"_a = quarter, "reference_length"_a = 1.0, "reynolds"_a = 0.0, solver_text)
       .def(
           "gradients", &Flows::gradients,
           R"(Derivatives of the last flow's cl, cd, cm and alpha, by their adjoint: for each a dict of points, of
 shape (n, 2) (Mesh.vjp() makes derivatives by the airfoil of them), mach, alpha (a degree) and cl (by the lift that
-was given). Raises ArgumentError before the first flow.)")
+was given), and reynolds; with friction cd_pressure too. Raises ArgumentError before the first flow.)")
       .def(py::pickle(&state_of, &flows_of))
       .def("forget", &Flows::forget, "The next flow is found cold.");
 }

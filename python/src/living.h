@@ -54,7 +54,10 @@ Snapshot after_step(const StepRecord& step);
 
 // The domain that an update to a shape leads to: a Domain itself, or the mesh's own domain with an airfoil in
 // the place of the one called `boundary`.
-Domain next_domain(const LivingMesh& mesh, const py::object& shape, const std::string& boundary);
+Domain next_domain(const Domain& now, const py::object& shape, const std::string& boundary);
+inline Domain next_domain(const LivingMesh& mesh, const py::object& shape, const std::string& boundary) {
+  return next_domain(mesh.mesh.domain(), shape, boundary);
+}
 
 // The loops of a domain that are an airfoil by its coefficients, of that name if there is one.
 std::vector<std::size_t> airfoil_loops(const Domain& domain, const std::string& name);

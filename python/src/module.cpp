@@ -57,6 +57,7 @@ PYBIND11_MODULE(_core, module) {
   add_transfers(module);
   add_derivatives(module);
   add_displacements(module);
+  add_layers(module);
   add_flows(module);
   add_potential_flows(module);
   add_designers(module);

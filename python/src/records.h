@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <concepts>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -65,6 +66,15 @@ struct Packing {  // numbers, enumerations, strings, maps: pybind11 knows them
     } else {
       value = from.cast<T>();
     }
+  }
+};
+
+template <class T>
+struct Packing<std::optional<T>> {
+  static py::object pack(const std::optional<T>& value) { return value ? packed(*value) : py::none(); }
+  static void unpack_to(const py::handle& from, std::optional<T>& value) {
+    value.reset();
+    if (!from.is_none()) unpack(from, value.emplace());
   }
 };
 

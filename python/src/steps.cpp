@@ -282,14 +282,14 @@ Snapshot after_step(const StepRecord& step) {
               "its mesh has changed since or is not here, expected update(..., record=True)");
 }
 
-Domain next_domain(const LivingMesh& mesh, const py::object& shape, const std::string& boundary) {
+Domain next_domain(const Domain& now, const py::object& shape, const std::string& boundary) {
   if (py::isinstance<Domain>(shape)) return shape.cast<Domain>();
   if (!py::isinstance<py::str>(shape) && !py::isinstance<CstAirfoil>(shape))
     throw py::type_error("shape: found " + type_of(shape) +
                          ", expected an Airfoil, a Domain or the name of an airfoil");
   const CstAirfoil airfoil =
       py::isinstance<py::str>(shape) ? named_airfoil(shape.cast<std::string>(), 5) : shape.cast<CstAirfoil>();
-  Domain domain = mesh.mesh.domain();
+  Domain domain = now;
   const std::vector<std::size_t> loops = airfoil_loops(domain, boundary);
   if (loops.size() > 1)
     throw Error(ErrorCode::argument, "boundary",

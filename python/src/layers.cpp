@@ -1,0 +1,207 @@
+// LayeredMesh: layers on walls, for flows with friction.
+
+#include "remodel/layers.h"
+
+#include <optional>
+
+#include "apart.h"
+#include "living.h"
+#include "remodel/check.h"
+#include "remodel/flow_layer.h"
+#include "remodel/generate.h"
+#include "remodel/io.h"
+
+namespace remodel::python {
+namespace {
+
+// As LivingMesh.
+struct LivingLayers {
+  LayeredMesh mesh;
+  ThreadLock lock;
+  Snapshot frozen;
+
+  Snapshot snapshot() {
+    const ThreadLock::Held held(lock);
+    if (!frozen) frozen = std::make_shared<const FrozenMesh>(mesh.freeze());
+    return frozen;
+  }
+};
+using LayersPointer = std::shared_ptr<LivingLayers>;
+
+LayersPointer layers_alive(LayeredMesh mesh) {
+  auto living = std::make_shared<LivingLayers>();
+  living->mesh = std::move(mesh);
+  return living;
+}
+
+FlowModel friction_named(const std::string& model) {
+  if (model == "laminar") return FlowModel::laminar;
+  if (model == "sa") return FlowModel::sa;
+  throw Error(ErrorCode::argument, "model", "found '" + model + "', expected 'laminar' or 'sa'");
+}
+
+// By the Reynolds number, unless heights are given.
+LayerOptions layer_of(const std::optional<double>& reynolds, const std::string& model,
+                      const std::optional<double>& first_height, const std::optional<double>& thickness, double growth,
+                      const std::vector<std::string>& walls) {
+  if (!reynolds && (!first_height || !thickness))
+    throw Error(ErrorCode::argument, "reynolds", "not given, expected it, or first_height and thickness");
+  LayerOptions layer;
+  if (reynolds) layer = layer_for_flow(friction_named(model), *reynolds);
+  if (first_height) layer.first_height = *first_height;
+  if (thickness) layer.thickness = *thickness;
+  layer.growth = growth, layer.walls = walls;
+  return layer;
+}
+
+LayersPointer layers_generated(const py::object& shape, const std::optional<double>& reynolds, const std::string& model,
+                        const std::optional<double>& first_height, const std::optional<double>& thickness,
+                        double growth, const std::vector<std::string>& walls, double spacing, double gradation,
+                        double farfield_radius, int farfield_points, std::uint32_t max_vertices) {
+  const LayerOptions layer = layer_of(reynolds, model, first_height, thickness, growth, walls);
+  if (!(spacing > 0.0)) throw Error(ErrorCode::argument, "spacing", "expected more than 0");
+  Domain domain = domain_of(shape, {.farfield_radius = farfield_radius, .farfield_points = farfield_points});
+  if (!py::isinstance<Domain>(shape)) {
+    const WallSpacing usual;
+    space_walls(domain, {.leading_edge = spacing * usual.leading_edge,
+                         .trailing_edge = spacing * usual.trailing_edge,
+                         .most = spacing * usual.most,
+                         .growth = usual.growth});
+  }
+  LayeredGenerateResult result = interruptible([&](StepObserver& observer) {
+    return generate_layered(domain, layer, {.gradation = gradation, .max_vertices = max_vertices}, &observer);
+  });
+  if (result.stopped != Stopped::done)
+    throw Error(ErrorCode::argument, "max_vertices",
+                std::string("the mesh is unfinished (") + name_of(result.stopped) + "), expected a whole one");
+  return layers_alive(std::move(result.mesh));
+}
+
+using LayeredStepPointer = std::shared_ptr<LayeredRemodelResult>;
+
+LayeredStepPointer layers_updated(const LayersPointer& mesh, const py::object& shape, const std::string& boundary,
+                           const std::string& strategy, bool regenerate) {
+  RemodelOptions options =
+      remodel_options(RemodelOptions{}.distance, "auto", strategy, regenerate, RemodelOptions{}.delaunay_slack_deg);
+  const ThreadLock::Held held(mesh->lock);
+  const Domain domain = next_domain(mesh->mesh.domain(), shape, boundary);
+  return interruptible([&](StepObserver& observer) {
+    options.observer = &observer;
+    auto result = std::make_shared<LayeredRemodelResult>(remodel(mesh->mesh, domain, options));
+    mesh->frozen.reset();
+    return result;
+  });
+}
+
+CheckResult layers_checked(LivingLayers& mesh) {
+  const Snapshot frozen = mesh.snapshot();
+  CheckOptions options;
+  {
+    const ThreadLock::Held held(mesh.lock);
+    const Mesh& outer = mesh.mesh.outer();
+    options = {.min_angle_deg = outer.options().min_angle_deg,
+               .delaunay = !outer.shows_file_triangles(),
+               .delaunay_slack_deg = outer.delaunay_slack_deg()};
+  }
+  return Apart().run(std::make_shared<Stop>(), [frozen, options] { return check(*frozen, options); });
+}
+
+void add_layered_step(py::module_& module) {
+  py::class_<LayeredRemodelResult, LayeredStepPointer> type(
+      module, "LayeredStep", "What LayeredMesh.update() did. Cells are those of the whole: layer and outside.");
+  type.def_property_readonly("preserved_percent", &LayeredRemodelResult::preserved_percent,
+                             "Cells that are there still, with all corners where they were, of those before.");
+  type.def_property_readonly("connectivity_percent", &LayeredRemodelResult::connectivity_percent,
+                             "Cells whose corners are joined still, moved or not, of those before.");
+  type.def_readonly("same_columns", &LayeredRemodelResult::same_columns,
+                    "Whether the layer's connectivity is what it was: no station or fan has changed.");
+  type.def_readonly("full_adjustment", &LayeredRemodelResult::full_adjustment,
+                    "Whether the outer mesh's connectivity is what it was.");
+  type.def_readonly("abandoned", &LayeredRemodelResult::abandoned,
+                    "With regenerate=False: the step could not be completed, and the mesh is as it was.");
+  type.def_readonly("reason", &LayeredRemodelResult::reason, "Why it was generated afresh or abandoned.");
+  type.def_readonly("moved", &LayeredRemodelResult::moved);
+  type.def_readonly("inserted", &LayeredRemodelResult::inserted);
+  type.def_readonly("removed", &LayeredRemodelResult::removed);
+  type.def("__repr__", [](const LayeredRemodelResult& step) {
+    return "LayeredStep(preserved_percent=" + std::to_string(step.preserved_percent()) + ")";
+  });
+}
+
+void add_layered_mesh(py::module_& module) {
+  py::class_<LivingLayers, LayersPointer> type(
+      module, "LayeredMesh",
+      R"(A living mesh with layers of flat quadrilaterals on its walls, for flows with friction. Made by
+generate_layered() or LayeredMesh.load(); changed by update(), which keeps the layer's connectivity for a whole run.
+solve_flow() and LivingFlow.solve() take it. freeze() has its arrays.)");
+  type.def("freeze",
+           [](LivingLayers& mesh) { return std::const_pointer_cast<FrozenMesh>(mesh.snapshot()); },
+           "The mesh as it is now: read-only arrays, points of the layer first.");
+  type.def("update", &layers_updated, "shape"_a, py::kw_only(), "boundary"_a = "", "strategy"_a = "renew",
+           "regenerate"_a = true,
+           R"(Remodels to a Domain, or to an Airfoil (or the name of one) in the place of the one called `boundary`, on
+the same stations. strategy: 'renew', 'morph', 'reference' or another of Mesh.update(). Where anything is refused the
+mesh is as it was. Raises ArgumentError and GeometryError; Ctrl-C ends it.)");
+  type.def("check", &layers_checked, "Validates it: cells convex, conforming and counter-clockwise, the outer mesh as promised.");
+  type.def("copy", [](LivingLayers& mesh) {
+    const ThreadLock::Held held(mesh.lock);
+    return layers_alive(mesh.mesh);
+  });
+  type.def("save",
+           [](LivingLayers& mesh, const std::filesystem::path& file) {
+             const ThreadLock::Held held(mesh.lock);
+             py::gil_scoped_release released;
+             write_mesh(mesh.mesh, file);
+           },
+           "file"_a, "Writes it by the file's suffix; .vtkhdf is native: load() goes on from it, to the bit.");
+  type.def_static("load",
+                  [](const std::filesystem::path& file) {
+                    py::gil_scoped_release released;
+                    return layers_alive(read_layered_mesh(file));
+                  },
+                  "file"_a, "A native file (.vtkhdf) of a layered mesh. Raises FileError and FormatError.");
+  const auto figure = [&](const char* name, auto read, const char* doc) {
+    type.def_property_readonly(
+        name,
+        [read](LivingLayers& mesh) {
+          const ThreadLock::Held held(mesh.lock);
+          return read(mesh.mesh);
+        },
+        doc);
+  };
+  figure("cells", [](const LayeredMesh& m) { return m.cells(); }, "How many cells it has: layer and outside.");
+  figure("layer_cells", [](const LayeredMesh& m) { return m.layer_cells(); }, "How many of them are of the layer.");
+  figure("columns", [](const LayeredMesh& m) { return m.columns(); }, "Stations with a column of cells.");
+  figure("levels", [](const LayeredMesh& m) { return m.levels(); }, "Cells of a column.");
+  figure("shrunk", [](const LayeredMesh& m) { return m.shrunk(); }, "Columns that had to give way.");
+  figure("first_height", [](const LayeredMesh& m) { return m.options().first_height; },
+         "The height of the cells at the wall, in chords.");
+  figure("thickness", [](const LayeredMesh& m) { return m.options().thickness; },
+         "The wanted thickness of the layer, in chords.");
+}
+
+}  // namespace
+
+Snapshot layered_snapshot(const py::object& mesh) {
+  if (!py::isinstance<LivingLayers>(mesh)) return nullptr;
+  return mesh.cast<LayersPointer>()->snapshot();
+}
+
+void add_layers(py::module_& module) {
+  add_layered_step(module);
+  add_layered_mesh(module);
+  const LayerOptions usual;
+  module.def("generate_layered", &layers_generated, "shape"_a, py::kw_only(), "reynolds"_a = py::none(), "model"_a = "sa",
+             "first_height"_a = py::none(), "thickness"_a = py::none(), "growth"_a = usual.growth,
+             "walls"_a = std::vector<std::string>(), "spacing"_a = 1.0, "gradation"_a = 8.0,
+             "farfield_radius"_a = 25.0, "farfield_points"_a = 50, "max_vertices"_a = QualityOptions{}.max_vertices,
+             R"(A mesh with layers on its walls, of a Domain or around an Airfoil (or the name of one).
+
+reynolds: of a chord; it gives heights and thickness for the model, 'laminar' or 'sa' (y+ 0.3 and 1 on a flat plate).
+first_height and thickness, in chords, are given instead or besides. growth: of a cell's height over that of the cell
+below, 1.02 to 2. walls: names of the loops that get a layer, all holes unless given. spacing: the distances between
+stations over the usual ones (0.0015 chords at both edges, 0.008 at most); a Domain has its own stations. gradation: as
+generate()'s. docs/layers.md has what to choose. Raises ArgumentError and GeometryError; Ctrl-C ends it.)");
+}
+
+}  // namespace remodel::python

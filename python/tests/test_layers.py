@@ -1,0 +1,101 @@
+"""Layers on walls, and flows with friction."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+import remodel
+
+COARSE = dict(spacing=4.0, growth=1.5, farfield_points=30)
+
+
+def laminar_mesh(shape="naca:0012"):
+    return remodel.generate_layered(shape, reynolds=5000.0, model="laminar", **COARSE)
+
+
+def changed(airfoil, by):
+    design = np.array(airfoil.design)
+    design[1] += by
+    return airfoil.with_design(design)
+
+
+def test_a_layer_is_of_convex_quadrilaterals_on_the_wall():
+    mesh = laminar_mesh()
+    frozen = mesh.freeze()
+    assert mesh.check().valid
+    assert len(frozen.quads) > 0 and mesh.layer_cells >= len(frozen.quads)
+    assert mesh.cells == len(frozen.quads) + len(frozen.triangles)
+    corners = frozen.points[frozen.quads]
+    for i in range(4):
+        a, b, c = corners[:, i], corners[:, (i + 1) % 4], corners[:, (i + 2) % 4]
+        assert np.all(np.cross(b - a, c - b) > 0.0)
+    turbulent = remodel.generate_layered("naca:0012", reynolds=6e6, **COARSE)
+    assert turbulent.first_height < 0.01 * mesh.first_height
+
+
+def test_an_update_keeps_the_layers_connectivity():
+    airfoil = remodel.Airfoil("naca:0012")
+    mesh = remodel.generate_layered(airfoil, reynolds=5000.0, model="laminar", **COARSE)
+    before = mesh.freeze()
+    copy = mesh.copy()
+    for strategy in ("renew", "morph", "reference"):
+        step = mesh.update(changed(airfoil, 0.005), strategy=strategy)
+        assert step.same_columns and step.connectivity_percent > 99.0
+        assert mesh.check().valid
+        assert np.array_equal(mesh.freeze().quads, before.quads)
+    assert np.array_equal(copy.freeze().points, before.points)
+    assert not np.array_equal(mesh.freeze().points, before.points)
+
+
+def test_files_keep_a_layered_mesh_to_the_bit(tmp_path):
+    mesh = laminar_mesh()
+    mesh.save(tmp_path / "layered.vtkhdf")
+    loaded = remodel.LayeredMesh.load(tmp_path / "layered.vtkhdf")
+    assert np.array_equal(loaded.freeze().points, mesh.freeze().points)
+    for each in (mesh, loaded):
+        each.update("naca:1412")
+    assert np.array_equal(loaded.freeze().points, mesh.freeze().points)
+    assert np.array_equal(pickle.loads(pickle.dumps(mesh.freeze())).quads, mesh.freeze().quads)
+
+
+def test_a_flow_with_friction_outlives_its_mesh():
+    airfoil = remodel.Airfoil("naca:0012")
+    mesh = remodel.generate_layered(airfoil, reynolds=5000.0, model="laminar", **COARSE)
+    living = remodel.LivingFlow(model="laminar", tolerance=1e-9)
+    conditions = dict(mach=0.5, alpha=1.0, reynolds=5000.0)
+    first = living.solve(mesh, **conditions)
+    assert first.converged and first.model == "laminar" and first.reynolds == pytest.approx(5000.0)
+    assert first.cd == pytest.approx(first.cd_pressure + first.cd_friction)
+    assert first.cf.shape == first.density.shape and first.cf.max() > 0.0 and first.y_plus_max > 0.0
+    assert first.viscosity_ratio is None
+    mesh.update(changed(airfoil, 0.005))
+    second = living.solve(mesh, **conditions)
+    cold = remodel.solve_flow(mesh, model="laminar", tolerance=1e-9, **conditions)
+    assert second.start != "cold" and cold.start == "cold"
+    assert second.cl == pytest.approx(cold.cl, abs=1e-6) and second.cd == pytest.approx(cold.cd, abs=1e-7)
+    gradients = living.gradients()
+    assert gradients["cd"]["points"].shape == mesh.freeze().points.shape
+    # Friction falls as the Reynolds number grows.
+    assert gradients["cd"]["reynolds"] < 0.0
+    again = pickle.loads(pickle.dumps(second))
+    assert again.cd_friction == second.cd_friction and np.array_equal(again.cf, second.cf)
+    assert pickle.loads(pickle.dumps(living)).solve(mesh, **conditions).converged
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: remodel.generate_layered("naca:0012"), "reynolds: not given"),
+        (lambda: remodel.generate_layered("naca:0012", reynolds=6e6, model="euler"), "model: found 'euler'"),
+        (lambda: remodel.generate_layered("naca:0012", reynolds=6e6, growth=9.0), "growth"),
+        (lambda: remodel.generate_layered("naca:0012", reynolds=6e6, spacing=0.0), "spacing"),
+        (lambda: remodel.generate_layered("naca:0012", reynolds=6e6, walls=["none"]), "none"),
+        (lambda: remodel.generate_layered("naca:0012", reynolds=float("nan")), "reynolds: found nan"),
+        (lambda: remodel.LivingFlow(model="les"), "model: found 'les'"),
+        (lambda: remodel.solve_flow(laminar_mesh(), model="laminar", mach=0.5), "reynolds: found 0"),
+    ],
+)
+def test_misuse_is_answered_by_one_of_our_exceptions(call, message):
+    with pytest.raises(remodel.Error, match=message):
+        call()
