@@ -9,7 +9,7 @@ SOURCE = Path(os.environ.get("REMODEL_PYTHON_TEST_SOURCE", Path(__file__).resolv
 
 def blocks_of_readme():
     blocks = re.findall(r"^```python\n(.*?)^```", (SOURCE / "README.md").read_text(), re.MULTILINE | re.DOTALL)
-    assert len(blocks) == 2
+    assert len(blocks) == 3
     return blocks
 
 
@@ -31,9 +31,16 @@ def test_the_first_lines_of_the_readme_end_in_a_drag_and_its_gradient(capsys):
     assert abs((drags[1] - drags[0]) / (2 * step) / gradient[3] - 1) < 1e-3
 
 
+def test_the_readmes_flow_with_friction_outlives_its_mesh(capsys):
+    exec(compile(blocks_of_readme()[1], "README.md", "exec"), {})
+    pressure, friction, start, by_reynolds = capsys.readouterr().out.split()
+    assert 0.01 < float(pressure) < 0.05 and 0.02 < float(friction) < 0.06
+    assert start != "cold" and float(by_reynolds) < 0.0
+
+
 def test_the_lines_of_the_readme(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    exec(compile(blocks_of_readme()[1], "README.md", "exec"), {})
+    exec(compile(blocks_of_readme()[2], "README.md", "exec"), {})
     printed = capsys.readouterr().out
     assert "design 10:" in printed and "tried:" in printed
     kept = [float(percent) for percent in re.findall(r"([\d.]+) % kept", printed)]
