@@ -181,8 +181,8 @@ struct FlowFriction {
   // Each has one value for each point of the frozen mesh. On walls: the friction, over half the stream's density times
   // speed squared, positive where it acts along the stream; and y+, of the lowest cell there. 0 elsewhere.
   std::vector<double> cf, y_plus;
-  // Of turbulent flow, empty otherwise: turbulent viscosity over the molecular one there; and the working variable of
-  // the model, over the stream's kinematic viscosity, which solve_flow_from() begins with.
+  // Turbulent flow has turbulent viscosity over the molecular one there, and the working variable of the model over the
+  // stream's kinematic viscosity, which solve_flow_from() begins with. Both are empty otherwise.
   std::vector<double> viscosity_ratio, working;
 };
 
