@@ -66,15 +66,18 @@ struct Row {
     seconds += spent, slowest = std::max(slowest, spent), ++flows;
     failed += !flow.converged(), newton += flow.newton_steps, chord += flow.krylov_iterations;
     gmres += flow.gmres_iterations, factorisations += flow.factorisations;
-    std::fprintf(stderr, "%-7s %8.3f s, %s, %s, CL %.6f, CD %.7f, %d Newton, %d chord, %d GMRES, %d factors, zone %zu, %.0f MB\n", name, spent,
-                 name_of(flow.status), name_of(flow.start), flow.cl, flow.cd, flow.newton_steps, flow.krylov_iterations,
-                 flow.gmres_iterations, flow.factorisations, flow.corrected_vertices, flow.memory_mb);
+    std::fprintf(stderr,
+                 "%-7s %8.3f s, %s, %s, CL %.6f, CD %.7f, %d Newton, %d chord, %d GMRES, %d factors, zone "
+                 "%zu, %.0f MB\n",
+                 name, spent, name_of(flow.status), name_of(flow.start), flow.cl, flow.cd, flow.newton_steps,
+                 flow.krylov_iterations, flow.gmres_iterations, flow.factorisations, flow.corrected_vertices,
+                 flow.memory_mb);
     return flow;
   }
   void print(double cold) const {
-    std::printf("| %s | %.3f (slowest %.3f) | %.1f | %.1f | %.1f | %.1f | %.1f | %d of %d |\n", name, seconds / flows,
-                slowest, cold * flows / seconds, 1.0 * newton / flows, 1.0 * chord / flows, 1.0 * gmres / flows,
-                1.0 * factorisations / flows, flows - failed, flows);
+    std::printf("| %s | %.3f (slowest %.3f) | %.1f | %.1f | %.1f | %.1f | %.1f | %d of %d |\n", name,
+                seconds / flows, slowest, cold * flows / seconds, 1.0 * newton / flows, 1.0 * chord / flows,
+                1.0 * gmres / flows, 1.0 * factorisations / flows, flows - failed, flows);
   }
 };
 
@@ -83,8 +86,11 @@ struct Row {
 int main(int count, char** arguments) {
   std::vector<std::string> given(arguments + 1, arguments + count);
   RemodelOptions how;
-  if (!given.empty() && std::isalpha(given[0][0])) how.strategy = strategy_named(given[0]), given.erase(given.begin());
-  const auto number = [&](std::size_t i, double otherwise) { return i < given.size() ? std::atof(given[i].c_str()) : otherwise; };
+  if (!given.empty() && std::isalpha(given[0][0]))
+    how.strategy = strategy_named(given[0]), given.erase(given.begin());
+  const auto number = [&](std::size_t i, double otherwise) {
+    return i < given.size() ? std::atof(given[i].c_str()) : otherwise;
+  };
   const double mach = number(0, 0.5), sigma = number(2, 1e-3);
   const FlowConditions conditions = {.mach = mach, .alpha_deg = number(1, 2.0), .reynolds = 6e6};
   FlowOptions options;
@@ -101,12 +107,14 @@ int main(int count, char** arguments) {
   LivingFlow outlives(options), from_last(by_gmres);
   FrozenMesh before = mesh.freeze();
   FlowResult last = cold.time([&] { return solve_flow(before, conditions, options); });
-  std::printf("%zu vertices, M %g, %g degrees, sigma %g\n", before.points.size(), mach, conditions.alpha_deg, sigma);
+  std::printf("%zu vertices, M %g, %g degrees, sigma %g\n", before.points.size(), mach, conditions.alpha_deg,
+              sigma);
   outlives.solve(before, conditions), from_last.solve(before, conditions);
   for (int i = 0; i < static_cast<int>(number(3, 10)); ++i) {
     airfoil = walk(airfoil, sigma, random);
     const Domain domain = domain_of(airfoil, &mesh.domain());
-    if (remodel::remodel(mesh, domain, how).abandoned) return std::fprintf(stderr, "a design was refused\n"), 1;
+    if (remodel::remodel(mesh, domain, how).abandoned)
+      return std::fprintf(stderr, "a design was refused\n"), 1;
     const FrozenMesh now = mesh.freeze();
     living.time([&] { return outlives.solve(now, conditions); });
     warm.time([&] { return from_last.solve(now, conditions); });
@@ -114,7 +122,8 @@ int main(int count, char** arguments) {
     last = rival.time([&] { return solve_flow_from(before, last, fresh, conditions, by_gmres); });
     before = fresh;
   }
-  std::printf("| | s a flow | cold over it | Newton steps | with older factors | GMRES | factorisations | found |\n");
+  std::printf(
+      "| | s a flow | cold over it | Newton steps | with older factors | GMRES | factorisations | found |\n");
   for (const Row* row : {&cold, &rival, &warm, &living}) row->print(cold.seconds);
   return cold.failed + rival.failed + warm.failed + living.failed > 0;
 }

@@ -21,15 +21,16 @@ auto members(T& o) {
 }
 template <python::Is<FlowFriction> T>
 auto members(T& f) {
-  return std::tie(f.reynolds, f.cd_pressure, f.cd_friction, f.y_plus_max, f.cf, f.y_plus, f.viscosity_ratio, f.working);
+  return std::tie(f.reynolds, f.cd_pressure, f.cd_friction, f.y_plus_max, f.cf, f.y_plus, f.viscosity_ratio,
+                  f.working);
 }
 template <python::Is<FlowResult> T>
 auto members(T& f) {
   return std::tie(f.status, f.reason, f.mach, f.alpha_deg, f.cl, f.cd, f.cm, f.bodies, f.openings, f.start,
                   f.residual, f.history, f.newton_steps, f.factorisations, f.coarse_steps,
                   f.krylov_iterations, f.corrected_vertices, f.solver, f.gmres_iterations, f.memory_mb,
-                  f.seconds, f.density, f.velocity_x, f.velocity_y, f.pressure, f.warnings,
-                  f.lift_determined, f.origin, f.entropy_drag, f.model, f.friction);
+                  f.seconds, f.density, f.velocity_x, f.velocity_y, f.pressure, f.warnings, f.lift_determined,
+                  f.origin, f.entropy_drag, f.model, f.friction);
 }
 
 }  // namespace remodel
@@ -40,7 +41,8 @@ namespace {
 using FlowPointer = std::shared_ptr<FlowResult>;
 
 FlowConditions conditions_of(double mach, double alpha, const std::optional<double>& cl,
-                             const std::array<double, 2>& reference, double reference_length, double reynolds) {
+                             const std::array<double, 2>& reference, double reference_length,
+                             double reynolds) {
   return {.mach = mach,
           .alpha_deg = alpha,
           .cl = cl,
@@ -154,7 +156,8 @@ class Flows {
     py::dict result(
         "cl"_a = dict_of(std::move(found.cl), last_), "cd"_a = dict_of(std::move(found.cd), last_),
         "cm"_a = dict_of(std::move(found.cm), last_), "alpha"_a = dict_of(std::move(found.alpha_deg), last_));
-    if (options_.model != FlowModel::euler) result["cd_pressure"] = dict_of(std::move(found.cd_pressure), last_);
+    if (options_.model != FlowModel::euler)
+      result["cd_pressure"] = dict_of(std::move(found.cd_pressure), last_);
     return result;
   }
   const FlowOptions& options() const { return options_; }
@@ -234,12 +237,17 @@ void add_figures(py::class_<FlowResult, FlowPointer>& type) {
   const auto friction = [&](const char* name, double FlowFriction::*member, const char* doc) {
     type.def_property_readonly(
         name,
-        [member](const FlowResult& f) { return f.friction ? std::optional<double>((*f.friction).*member) : std::nullopt; },
+        [member](const FlowResult& f) {
+          return f.friction ? std::optional<double>((*f.friction).*member) : std::nullopt;
+        },
         doc);
   };
-  friction("reynolds", &FlowFriction::reynolds, "The Reynolds number by the reference length; None without friction.");
-  friction("cd_pressure", &FlowFriction::cd_pressure, "The part of cd that pressure makes; None without friction.");
-  friction("cd_friction", &FlowFriction::cd_friction, "The part of cd that friction makes; None without friction.");
+  friction("reynolds", &FlowFriction::reynolds,
+           "The Reynolds number by the reference length; None without friction.");
+  friction("cd_pressure", &FlowFriction::cd_pressure,
+           "The part of cd that pressure makes; None without friction.");
+  friction("cd_friction", &FlowFriction::cd_friction,
+           "The part of cd that friction makes; None without friction.");
   friction("y_plus_max", &FlowFriction::y_plus_max,
            "The largest y+ of the lowest cells on walls; None without friction.");
   type.def_readonly("residual", &FlowResult::residual);
@@ -297,8 +305,10 @@ void add_result(py::module_& module) {
         doc);
   };
   on_walls("cf", &FlowFriction::cf,
-           "Friction on walls over half the stream's density times speed squared, 0 elsewhere; None without friction.");
-  on_walls("y_plus", &FlowFriction::y_plus, "y+ of the lowest cells on walls, 0 elsewhere; None without friction.");
+           "Friction on walls over half the stream's density times speed squared, 0 elsewhere; None without "
+           "friction.");
+  on_walls("y_plus", &FlowFriction::y_plus,
+           "y+ of the lowest cells on walls, 0 elsewhere; None without friction.");
   on_walls("viscosity_ratio", &FlowFriction::viscosity_ratio,
            "Turbulent viscosity over molecular viscosity; None of flows that are not turbulent.");
   type.def_property_readonly("local_mach", [](const FlowResult& f) { return copied(mach_numbers(f)); });
@@ -333,10 +343,10 @@ py::tuple state_of(const Flows& flows) {
 
 std::unique_ptr<Flows> flows_of(const py::tuple& state) {
   require_pickle(state.size() == 8, "a LivingFlow");
-  return std::make_unique<Flows>(options_of(
-      state[0].cast<std::string>(), state[1].cast<double>(), state[2].cast<int>(), state[3].cast<double>(),
-      state[4].cast<std::optional<std::string>>(), state[5].cast<Inlets>(), state[6].cast<Outlets>(),
-      state[7].cast<std::string>()));
+  return std::make_unique<Flows>(
+      options_of(state[0].cast<std::string>(), state[1].cast<double>(), state[2].cast<int>(),
+                 state[3].cast<double>(), state[4].cast<std::optional<std::string>>(),
+                 state[5].cast<Inlets>(), state[6].cast<Outlets>(), state[7].cast<std::string>()));
 }
 
 constexpr const char* solver_text =
@@ -361,7 +371,8 @@ void add_flows(py::module_& module) {
              "cl"_a = py::none(), "reference"_a = quarter, "reference_length"_a = 1.0,
              "farfield"_a = "farfield", "tolerance"_a = defaults.tolerance,
              "max_steps"_a = defaults.max_steps, "memory_mb"_a = defaults.memory_mb, "solver"_a = py::none(),
-             "inlets"_a = Inlets(), "outlets"_a = Outlets(), "reynolds"_a = 0.0, "model"_a = "euler", solver_text);
+             "inlets"_a = Inlets(), "outlets"_a = Outlets(), "reynolds"_a = 0.0, "model"_a = "euler",
+             solver_text);
   py::class_<Flows>(
       module, "LivingFlow",
       R"(A flow solver that outlives its mesh: each flow is found from the one before and the factors that are
@@ -378,7 +389,8 @@ the same options, and begins cold. After Ctrl-C the next call waits until a fact
            "max_steps"_a = defaults.max_steps, "memory_mb"_a = defaults.memory_mb, "solver"_a = py::none(),
            "inlets"_a = Inlets(), "outlets"_a = Outlets(), "model"_a = "euler")
       .def("solve", &Flows::solve, "mesh"_a, py::kw_only(), "mach"_a = 0.5, "alpha"_a = 0.0,
-           "cl"_a = py::none(), "reference"_a = quarter, "reference_length"_a = 1.0, "reynolds"_a = 0.0, solver_text)
+           "cl"_a = py::none(), "reference"_a = quarter, "reference_length"_a = 1.0, "reynolds"_a = 0.0,
+           solver_text)
       .def(
           "gradients", &Flows::gradients,
           R"(Derivatives of the last flow's cl, cd, cm and alpha, by their adjoint: for each a dict of points, of

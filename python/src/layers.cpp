@@ -42,8 +42,8 @@ FlowModel friction_named(const std::string& model) {
 
 // By the Reynolds number, unless heights are given.
 LayerOptions layer_of(const std::optional<double>& reynolds, const std::string& model,
-                      const std::optional<double>& first_height, const std::optional<double>& thickness, double growth,
-                      const std::vector<std::string>& walls) {
+                      const std::optional<double>& first_height, const std::optional<double>& thickness,
+                      double growth, const std::vector<std::string>& walls) {
   if (!reynolds && (!first_height || !thickness))
     throw Error(ErrorCode::argument, "reynolds", "not given, expected it, or first_height and thickness");
   LayerOptions layer;
@@ -54,10 +54,11 @@ LayerOptions layer_of(const std::optional<double>& reynolds, const std::string& 
   return layer;
 }
 
-LayersPointer layers_generated(const py::object& shape, const std::optional<double>& reynolds, const std::string& model,
-                        const std::optional<double>& first_height, const std::optional<double>& thickness,
-                        double growth, const std::vector<std::string>& walls, double spacing, double gradation,
-                        double farfield_radius, int farfield_points, std::uint32_t max_vertices) {
+LayersPointer layers_generated(const py::object& shape, const std::optional<double>& reynolds,
+                               const std::string& model, const std::optional<double>& first_height,
+                               const std::optional<double>& thickness, double growth,
+                               const std::vector<std::string>& walls, double spacing, double gradation,
+                               double farfield_radius, int farfield_points, std::uint32_t max_vertices) {
   const LayerOptions layer = layer_of(reynolds, model, first_height, thickness, growth, walls);
   if (!(spacing > 0.0)) throw Error(ErrorCode::argument, "spacing", "expected more than 0");
   Domain domain = domain_of(shape, {.farfield_radius = farfield_radius, .farfield_points = farfield_points});
@@ -72,17 +73,18 @@ LayersPointer layers_generated(const py::object& shape, const std::optional<doub
     return generate_layered(domain, layer, {.gradation = gradation, .max_vertices = max_vertices}, &observer);
   });
   if (result.stopped != Stopped::done)
-    throw Error(ErrorCode::argument, "max_vertices",
-                std::string("the mesh is unfinished (") + name_of(result.stopped) + "), expected a whole one");
+    throw Error(
+        ErrorCode::argument, "max_vertices",
+        std::string("the mesh is unfinished (") + name_of(result.stopped) + "), expected a whole one");
   return layers_alive(std::move(result.mesh));
 }
 
 using LayeredStepPointer = std::shared_ptr<LayeredRemodelResult>;
 
-LayeredStepPointer layers_updated(const LayersPointer& mesh, const py::object& shape, const std::string& boundary,
-                           const std::string& strategy, bool regenerate) {
-  RemodelOptions options =
-      remodel_options(RemodelOptions{}.distance, "auto", strategy, regenerate, RemodelOptions{}.delaunay_slack_deg);
+LayeredStepPointer layers_updated(const LayersPointer& mesh, const py::object& shape,
+                                  const std::string& boundary, const std::string& strategy, bool regenerate) {
+  RemodelOptions options = remodel_options(RemodelOptions{}.distance, "auto", strategy, regenerate,
+                                           RemodelOptions{}.delaunay_slack_deg);
   const ThreadLock::Held held(mesh->lock);
   const Domain domain = next_domain(mesh->mesh.domain(), shape, boundary);
   return interruptible([&](StepObserver& observer) {
@@ -108,9 +110,11 @@ CheckResult layers_checked(LivingLayers& mesh) {
 
 void add_layered_step(py::module_& module) {
   py::class_<LayeredRemodelResult, LayeredStepPointer> type(
-      module, "LayeredStep", "What LayeredMesh.update() did. Cells are those of the whole: layer and outside.");
-  type.def_property_readonly("preserved_percent", &LayeredRemodelResult::preserved_percent,
-                             "Cells that are there still, with all corners where they were, of those before.");
+      module, "LayeredStep",
+      "What LayeredMesh.update() did. Cells are those of the whole: layer and outside.");
+  type.def_property_readonly(
+      "preserved_percent", &LayeredRemodelResult::preserved_percent,
+      "Cells that are there still, with all corners where they were, of those before.");
   type.def_property_readonly("connectivity_percent", &LayeredRemodelResult::connectivity_percent,
                              "Cells whose corners are joined still, moved or not, of those before.");
   type.def_readonly("same_columns", &LayeredRemodelResult::same_columns,
@@ -134,32 +138,36 @@ void add_layered_mesh(py::module_& module) {
       R"(A living mesh with layers of flat quadrilaterals on its walls, for flows with friction. Made by
 generate_layered() or LayeredMesh.load(); changed by update(), which keeps the layer's connectivity for a whole run.
 solve_flow() and LivingFlow.solve() take it. freeze() has its arrays.)");
-  type.def("freeze",
-           [](LivingLayers& mesh) { return std::const_pointer_cast<FrozenMesh>(mesh.snapshot()); },
-           "The mesh as it is now: read-only arrays, points of the layer first.");
-  type.def("update", &layers_updated, "shape"_a, py::kw_only(), "boundary"_a = "", "strategy"_a = "renew",
-           "regenerate"_a = true,
-           R"(Remodels to a Domain, or to an Airfoil (or the name of one) in the place of the one called `boundary`, on
+  type.def(
+      "freeze", [](LivingLayers& mesh) { return std::const_pointer_cast<FrozenMesh>(mesh.snapshot()); },
+      "The mesh as it is now: read-only arrays, points of the layer first.");
+  type.def(
+      "update", &layers_updated, "shape"_a, py::kw_only(), "boundary"_a = "", "strategy"_a = "renew",
+      "regenerate"_a = true,
+      R"(Remodels to a Domain, or to an Airfoil (or the name of one) in the place of the one called `boundary`, on
 the same stations. strategy: 'renew', 'morph', 'reference' or another of Mesh.update(). Where anything is refused the
 mesh is as it was. Raises ArgumentError and GeometryError; Ctrl-C ends it.)");
-  type.def("check", &layers_checked, "Validates it: cells convex, conforming and counter-clockwise, the outer mesh as promised.");
+  type.def("check", &layers_checked,
+           "Validates it: cells convex, conforming and counter-clockwise, the outer mesh as promised.");
   type.def("copy", [](LivingLayers& mesh) {
     const ThreadLock::Held held(mesh.lock);
     return layers_alive(mesh.mesh);
   });
-  type.def("save",
-           [](LivingLayers& mesh, const std::filesystem::path& file) {
-             const ThreadLock::Held held(mesh.lock);
-             py::gil_scoped_release released;
-             write_mesh(mesh.mesh, file);
-           },
-           "file"_a, "Writes it by the file's suffix; .vtkhdf is native: load() goes on from it, to the bit.");
-  type.def_static("load",
-                  [](const std::filesystem::path& file) {
-                    py::gil_scoped_release released;
-                    return layers_alive(read_layered_mesh(file));
-                  },
-                  "file"_a, "A native file (.vtkhdf) of a layered mesh. Raises FileError and FormatError.");
+  type.def(
+      "save",
+      [](LivingLayers& mesh, const std::filesystem::path& file) {
+        const ThreadLock::Held held(mesh.lock);
+        py::gil_scoped_release released;
+        write_mesh(mesh.mesh, file);
+      },
+      "file"_a, "Writes it by the file's suffix; .vtkhdf is native: load() goes on from it, to the bit.");
+  type.def_static(
+      "load",
+      [](const std::filesystem::path& file) {
+        py::gil_scoped_release released;
+        return layers_alive(read_layered_mesh(file));
+      },
+      "file"_a, "A native file (.vtkhdf) of a layered mesh. Raises FileError and FormatError.");
   const auto figure = [&](const char* name, auto read, const char* doc) {
     type.def_property_readonly(
         name,
@@ -169,15 +177,23 @@ mesh is as it was. Raises ArgumentError and GeometryError; Ctrl-C ends it.)");
         },
         doc);
   };
-  figure("cells", [](const LayeredMesh& m) { return m.cells(); }, "How many cells it has: layer and outside.");
-  figure("layer_cells", [](const LayeredMesh& m) { return m.layer_cells(); }, "How many of them are of the layer.");
-  figure("columns", [](const LayeredMesh& m) { return m.columns(); }, "Stations with a column of cells.");
-  figure("levels", [](const LayeredMesh& m) { return m.levels(); }, "Cells of a column.");
-  figure("shrunk", [](const LayeredMesh& m) { return m.shrunk(); }, "Columns that had to give way.");
-  figure("first_height", [](const LayeredMesh& m) { return m.options().first_height; },
-         "The height of the cells at the wall, in chords.");
-  figure("thickness", [](const LayeredMesh& m) { return m.options().thickness; },
-         "The wanted thickness of the layer, in chords.");
+  figure(
+      "cells", [](const LayeredMesh& m) { return m.cells(); }, "How many cells it has: layer and outside.");
+  figure(
+      "layer_cells", [](const LayeredMesh& m) { return m.layer_cells(); },
+      "How many of them are of the layer.");
+  figure(
+      "columns", [](const LayeredMesh& m) { return m.columns(); }, "Stations with a column of cells.");
+  figure(
+      "levels", [](const LayeredMesh& m) { return m.levels(); }, "Cells of a column.");
+  figure(
+      "shrunk", [](const LayeredMesh& m) { return m.shrunk(); }, "Columns that had to give way.");
+  figure(
+      "first_height", [](const LayeredMesh& m) { return m.options().first_height; },
+      "The height of the cells at the wall, in chords.");
+  figure(
+      "thickness", [](const LayeredMesh& m) { return m.options().thickness; },
+      "The wanted thickness of the layer, in chords.");
 }
 
 }  // namespace
@@ -191,10 +207,11 @@ void add_layers(py::module_& module) {
   add_layered_step(module);
   add_layered_mesh(module);
   const LayerOptions usual;
-  module.def("generate_layered", &layers_generated, "shape"_a, py::kw_only(), "reynolds"_a = py::none(), "model"_a = "sa",
-             "first_height"_a = py::none(), "thickness"_a = py::none(), "growth"_a = usual.growth,
-             "walls"_a = std::vector<std::string>(), "spacing"_a = 1.0, "gradation"_a = 8.0,
-             "farfield_radius"_a = 25.0, "farfield_points"_a = 50, "max_vertices"_a = QualityOptions{}.max_vertices,
+  module.def("generate_layered", &layers_generated, "shape"_a, py::kw_only(), "reynolds"_a = py::none(),
+             "model"_a = "sa", "first_height"_a = py::none(), "thickness"_a = py::none(),
+             "growth"_a = usual.growth, "walls"_a = std::vector<std::string>(), "spacing"_a = 1.0,
+             "gradation"_a = 8.0, "farfield_radius"_a = 25.0, "farfield_points"_a = 50,
+             "max_vertices"_a = QualityOptions{}.max_vertices,
              R"(A mesh with layers on its walls, of a Domain or around an Airfoil (or the name of one).
 
 reynolds: of a chord; it gives heights and thickness for the model, 'laminar' or 'sa' (y+ 0.3 and 1 on a flat plate).

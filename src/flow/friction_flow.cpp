@@ -48,10 +48,11 @@ FlowFriction friction_of(const FrictionSystem<N>& system, const BlockState<N>& s
   for (std::uint32_t v = 0; v < dual.size(); ++v) {
     const Unknowns<double> q = FrictionTerms::gas(state.q[v]);
     const double molecular = viscosity.at(temperature(q));
-    if constexpr (N == 5) friction.working.push_back(FrictionTerms::working_unit * state.q[v][4]);
-    if constexpr (N == 5)
-      friction.viscosity_ratio.push_back(SpalartAllmaras::turbulent_ratio(
-          FrictionTerms::working_unit * viscosity.stream * q[0] * state.q[v][4] / molecular));
+    if constexpr (N == 5) {
+      friction.working.push_back(FrictionTerms::working_unit * state.q[v][4]);
+      friction.viscosity_ratio.push_back(
+          SpalartAllmaras::turbulent_ratio(friction.working.back() * viscosity.stream * q[0] / molecular));
+    }
     if (!system.friction_mesh().sticks(v) || walls[v].length == 0.0) continue;
     const double stress = dot(system.friction_force(unbalanced, v), walls[v].along) / walls[v].length;
     double height = std::numeric_limits<double>::infinity();
@@ -138,7 +139,8 @@ FlowResult found(const FrozenMesh& frozen, const FlowConditions& conditions, con
                  const std::string& source) {
   const FlowMesh mesh = dual_of(frozen, conditions, options, source);
   const FrictionMesh friction_mesh(mesh);
-  const FrictionSystem<N> system(friction_mesh, stream_of(conditions, options, mesh), viscosity_of(conditions, options));
+  const FrictionSystem<N> system(friction_mesh, stream_of(conditions, options, mesh),
+                                 viscosity_of(conditions, options));
   const BlockMeasure<N> measure(system);
   SearchRecord record;
   BlockState<N> state;
@@ -164,7 +166,8 @@ template <std::size_t N>
 FlowResult found_from(const FlowMesh& old, const FlowResult& known, const FlowMesh& mesh,
                       const FlowConditions& conditions, const FlowOptions& options) {
   const FrictionMesh friction_mesh(mesh);
-  const FrictionSystem<N> system(friction_mesh, stream_of(conditions, options, mesh), viscosity_of(conditions, options));
+  const FrictionSystem<N> system(friction_mesh, stream_of(conditions, options, mesh),
+                                 viscosity_of(conditions, options));
   const BlockMeasure<N> measure(system);
   BlockVector<N> q(old.size());
   for (std::size_t v = 0; v < q.size(); ++v) {
@@ -195,7 +198,8 @@ FlowResult friction_flow_from(const FrozenMesh& before, const FlowResult& known,
                               const FlowConditions& conditions, const FlowOptions& options,
                               const std::string& source) {
   const Stopwatch watch;
-  const FlowMesh old = dual_of(before, conditions, options, source), dual = dual_of(mesh, conditions, options, source);
+  const FlowMesh old = dual_of(before, conditions, options, source),
+                 dual = dual_of(mesh, conditions, options, source);
   require_known(known, old, options.model, source);
   FlowResult result = options.model == FlowModel::sa ? found_from<5>(old, known, dual, conditions, options)
                                                      : found_from<4>(old, known, dual, conditions, options);
@@ -203,7 +207,9 @@ FlowResult friction_flow_from(const FrozenMesh& before, const FlowResult& known,
   return result;
 }
 
-template FlowResult result_of<4>(const FrictionSystem<4>&, const BlockState<4>&, const SearchRecord&, FlowStart);
-template FlowResult result_of<5>(const FrictionSystem<5>&, const BlockState<5>&, const SearchRecord&, FlowStart);
+template FlowResult result_of<4>(const FrictionSystem<4>&, const BlockState<4>&, const SearchRecord&,
+                                 FlowStart);
+template FlowResult result_of<5>(const FrictionSystem<5>&, const BlockState<5>&, const SearchRecord&,
+                                 FlowStart);
 
 }  // namespace remodel::flow

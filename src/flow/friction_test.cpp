@@ -9,8 +9,8 @@
 #include "flow/search/friction_search.h"
 #include "flow/test_flows.h"
 #include "flow/test_grids.h"
-#include "remodel/error.h"
 #include "remodel/airfoil.h"
+#include "remodel/error.h"
 #include "remodel/flow.h"
 #include "remodel/layers.h"
 #include "support.h"
@@ -285,7 +285,8 @@ TEST(Friction, AFlowOfAGivenLiftHasTheAngleOfThatLift) {
 
 // Gradients against differences of whole flows: along a smooth displacement of all points, walls and layers too, and
 // by what is given of the stream. Turbulence and distances from walls follow.
-void expect_exact_gradients(FlowModel model, const FlowConditions& conditions, double first, double within = 1e-6) {
+void expect_exact_gradients(FlowModel model, const FlowConditions& conditions, double first,
+                            double within = 1e-6) {
   FlowOptions options;
   options.model = model, options.tolerance = 1e-12;
   const FrozenMesh mesh = LayeredDesigns(conditions.reynolds, first).mesh.freeze();
@@ -354,7 +355,8 @@ TEST(Friction, LaminarGradientsAreThoseOfWholeFlows) {
 }
 // Faster than sound in places: with the limiter.
 TEST(Friction, TransonicGradientsAreThoseOfWholeFlows) {
-  expect_exact_gradients(FlowModel::laminar, {.mach = 0.85, .alpha_deg = 2.0, .reynolds = 5000.0}, 2e-3, 3e-6);
+  expect_exact_gradients(FlowModel::laminar, {.mach = 0.85, .alpha_deg = 2.0, .reynolds = 5000.0}, 2e-3,
+                         3e-6);
 }
 TEST(Friction, TurbulentGradientsAreThoseOfWholeFlows) {
   expect_exact_gradients(FlowModel::sa, {.mach = 0.5, .alpha_deg = 1.0, .reynolds = 1e6}, 2e-5);

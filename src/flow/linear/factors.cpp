@@ -15,8 +15,9 @@ constexpr int highest_level = 2, longest_restart = 60, shortest_restart = 20;
 }  // namespace
 
 template <std::size_t N>
-Factored BlockFactors<N>::factor(const BlockMatrix<N>& matrix, std::array<BlockVector<N>, augmented_count> augmented,
-                         FactorKind kind, double memory_mb) {
+Factored BlockFactors<N>::factor(const BlockMatrix<N>& matrix,
+                                 std::array<BlockVector<N>, augmented_count> augmented, FactorKind kind,
+                                 double memory_mb) {
   Factored outcome = Factored::out_of_memory;
   if (kind == FactorKind::whole && !too_large(matrix.rows.size())) {
     incomplete_.forget();
@@ -68,7 +69,8 @@ void BlockFactors<N>::solve_transposed(BlockVector<N>& right) {
 template <std::size_t N>
 double BlockFactors<N>::memory_mb() const {
   if (whole() || !incomplete_.ready()) return lu_.memory_mb();
-  return incomplete_.memory_mb() + 1e-6 * gmres_bytes_of(N) * restart_ * static_cast<double>(columns_[0].size());
+  return incomplete_.memory_mb() +
+         1e-6 * gmres_bytes_of(N) * restart_ * static_cast<double>(columns_[0].size());
 }
 
 // Incomplete factors are made in the time of about ten solves.
@@ -79,8 +81,7 @@ double BlockFactors<N>::factor_work() const {
 
 template <std::size_t N>
 double BlockFactors<N>::solve_work() const {
-  return whole() ? lu_.solve_work()
-                 : double{N * N} * static_cast<double>(incomplete_.blocks());
+  return whole() ? lu_.solve_work() : double{N * N} * static_cast<double>(incomplete_.blocks());
 }
 
 template class BlockFactors<4>;

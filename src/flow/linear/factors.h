@@ -21,8 +21,8 @@ class BlockFactors {
   // Whole factors if memory_mb, the same in all calls, has room for them; otherwise, or if they are asked
   // for, incomplete ones of the highest level of fill, 2 at most, that leaves room for the vectors of GMRES.
   // `augmented`: the two columns beside the matrix, which are solved for.
-  Factored factor(const BlockMatrix<N>& matrix, std::array<BlockVector<N>, augmented_count> augmented, FactorKind kind,
-                  double memory_mb);
+  Factored factor(const BlockMatrix<N>& matrix, std::array<BlockVector<N>, augmented_count> augmented,
+                  FactorKind kind, double memory_mb);
   // Whether whole factors of so many vertices are known to need more memory.
   bool too_large(std::size_t vertices) const { return vertices >= too_large_; }
   bool ready() const { return lu_.ready() || incomplete_.ready(); }

@@ -59,21 +59,22 @@ bool Adjoint<N>::solve(const BlockIncrement<N>& right, double most_solves, Block
   const double wanted =
       std::clamp(options_.tolerance, Policy::least_adjoint, Policy::most_adjoint) * norm(right);
   const bool whole = factors_.whole();
-  const GmresEnd end = gmres_of<N>([&](const BlockIncrement<N>& x) { return matrix_.transposed_times(x); },
-                             [&](BlockIncrement<N>& x) { precondition(x); }, right,
-                             {.wanted = wanted,
-                              .restart = whole ? Policy::adjoint_steps : factors_.restart(),
-                              .rounds = whole ? Policy::adjoint_rounds : Policy::incomplete_adjoint_rounds,
-                              .most_iterations = most_solves,
-                              .observer = options_.observer},
-                             guess);
+  const GmresEnd end =
+      gmres_of<N>([&](const BlockIncrement<N>& x) { return matrix_.transposed_times(x); },
+                  [&](BlockIncrement<N>& x) { precondition(x); }, right,
+                  {.wanted = wanted,
+                   .restart = whole ? Policy::adjoint_steps : factors_.restart(),
+                   .rounds = whole ? Policy::adjoint_rounds : Policy::incomplete_adjoint_rounds,
+                   .most_iterations = most_solves,
+                   .observer = options_.observer},
+                  guess);
   iterations += end.iterations;
   return end.in_time && end.residual <= Policy::rounding_slack * wanted;
 }
 
 template <std::size_t N>
-bool Adjoint<N>::solve(std::span<const BlockIncrement<N>> functions, std::vector<BlockIncrement<N>>& multipliers,
-                       double most_solves, int& iterations) {
+bool Adjoint<N>::solve(std::span<const BlockIncrement<N>> functions,
+                       std::vector<BlockIncrement<N>>& multipliers, double most_solves, int& iterations) {
   if (!ready_) return false;
   multipliers.resize(functions.size());
   for (std::size_t i = 0; i < functions.size(); ++i) {

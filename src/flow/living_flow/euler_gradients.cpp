@@ -34,7 +34,8 @@ GivenSlope slope_of(const FlowFunctional& function, std::size_t size) {
 namespace {
 
 std::vector<Total> totals_of(const FlowSystem& system, const State& state,
-                             std::span<const FunctionalSlope> functions, std::span<const FaceDerivative> faces,
+                             std::span<const FunctionalSlope> functions,
+                             std::span<const FaceDerivative> faces,
                              const std::vector<Increment>& multipliers) {
   std::vector<Vector> weights;
   for (const Increment& multiplier : multipliers) weights.push_back(multiplier.q);

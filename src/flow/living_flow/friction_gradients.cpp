@@ -93,7 +93,8 @@ FlowGradients gradients_of(const LastFlow<N>& last, const Viscosity& viscosity,
   system.jacobian(last.state, matrix.of(system));
   std::vector<BlockIncrement<N>> by_unknowns;
   for (Slope& slope : slopes) by_unknowns.push_back(std::move(slope.by_unknowns));
-  const std::vector<BlockIncrement<N>>* multipliers = gradients.multipliers(last, system, by_unknowns, result);
+  const std::vector<BlockIncrement<N>>* multipliers =
+      gradients.multipliers(last, system, by_unknowns, result);
   if (multipliers == nullptr) return result;
   std::vector<Total> totals = totals_of<N>(system, last.state, slopes, *multipliers);
   for (std::size_t i = 0; i < places.size(); ++i)
@@ -102,11 +103,11 @@ FlowGradients gradients_of(const LastFlow<N>& last, const Viscosity& viscosity,
   return result;
 }
 
-template FlowGradients gradients_of<4>(const LastFlow<4>&, const Viscosity&, const std::vector<FlowFunctional>&,
-                                       const WantedGradients&, const FlowOptions&, BlockWholeMatrix<4>&,
-                                       Gradients<4>&);
-template FlowGradients gradients_of<5>(const LastFlow<5>&, const Viscosity&, const std::vector<FlowFunctional>&,
-                                       const WantedGradients&, const FlowOptions&, BlockWholeMatrix<5>&,
-                                       Gradients<5>&);
+template FlowGradients gradients_of<4>(const LastFlow<4>&, const Viscosity&,
+                                       const std::vector<FlowFunctional>&, const WantedGradients&,
+                                       const FlowOptions&, BlockWholeMatrix<4>&, Gradients<4>&);
+template FlowGradients gradients_of<5>(const LastFlow<5>&, const Viscosity&,
+                                       const std::vector<FlowFunctional>&, const WantedGradients&,
+                                       const FlowOptions&, BlockWholeMatrix<5>&, Gradients<5>&);
 
 }  // namespace remodel::flow

@@ -27,7 +27,8 @@ KeyTable::KeyTable(const Keys& keys) {
 }
 
 template <std::size_t N>
-BlockState<N> LastFlow<N>::carried(const FlowMesh& now, const Keys& now_keys, const Stream& now_stream) const {
+BlockState<N> LastFlow<N>::carried(const FlowMesh& now, const Keys& now_keys,
+                                   const Stream& now_stream) const {
   BlockState<N> carried;
   carried.augmented = state.augmented;
   carried.augmented[0] *= stream.length / now_stream.length;

@@ -61,7 +61,8 @@ FlowResult LivingFlow::solve(const FrozenMesh& mesh, const FlowConditions& condi
   return impl_->solver->solve(mesh, nullptr, conditions);
 }
 
-FlowGradients LivingFlow::gradients(const std::vector<FlowFunctional>& functions, const WantedGradients& wanted) {
+FlowGradients LivingFlow::gradients(const std::vector<FlowFunctional>& functions,
+                                    const WantedGradients& wanted) {
   return impl_->solver->gradients(functions, wanted);
 }
 
@@ -82,8 +83,9 @@ void LivingFlow::go_on_from(const KeptFlow& kept) {
   if (kept.empty()) return;
   const FlowModel model = impl_->solver->options().model;
   if (kept.flow_->model != model)
-    throw Error(ErrorCode::argument, "kept flow",
-                std::string("found one of the model ") + name_of(kept.flow_->model) + ", expected " + name_of(model));
+    throw Error(
+        ErrorCode::argument, "kept flow",
+        std::string("found one of the model ") + name_of(kept.flow_->model) + ", expected " + name_of(model));
   impl_->solver->go_on_from(kept.flow_->last);
 }
 

@@ -4,8 +4,8 @@
 
 #include "base/stopwatch.h"
 #include "flow/friction_flow.h"
-#include "flow/living_flow/model_gradients.h"
 #include "flow/living_flow/ladder.h"
+#include "flow/living_flow/model_gradients.h"
 #include "flow/search/coarse_start.h"
 #include "flow/solution.h"
 
@@ -59,7 +59,8 @@ std::shared_ptr<const FlowMesh> LivingOf<N>::mesh_of(const FrozenMesh& frozen, c
 }
 
 template <std::size_t N>
-FlowResult LivingOf<N>::solve(const FrozenMesh& frozen, const Mesh* living, const FlowConditions& conditions) {
+FlowResult LivingOf<N>::solve(const FrozenMesh& frozen, const Mesh* living,
+                              const FlowConditions& conditions) {
   const Stopwatch watch;
   require_possible(conditions, options_);
   Keys keys = keys_of(frozen);
@@ -90,7 +91,8 @@ FlowResult LivingOf<N>::climb(const Wanted& wanted, LadderTask<N> task, Result m
 class LivingEuler final : public LivingOf<unknown_count> {
  public:
   using LivingOf::LivingOf;
-  FlowGradients gradients(const std::vector<FlowFunctional>& functions, const WantedGradients& wanted) override {
+  FlowGradients gradients(const std::vector<FlowFunctional>& functions,
+                          const WantedGradients& wanted) override {
     return gradients_of(last_, functions, wanted, options_, matrix_, gradients_);
   }
 
@@ -103,14 +105,15 @@ class LivingEuler final : public LivingOf<unknown_count> {
     const auto near = [&](State& state) { search.near(measure, state); };
     const auto cold = [&](State& state) {
       if (wanted.living == nullptr) return search.cold(measure, state);
-      search_by_meshes(wanted.living->domain(), wanted.living->options(), measure, wanted.conditions, search, state,
-                       spent);
+      search_by_meshes(wanted.living->domain(), wanted.living->options(), measure, wanted.conditions, search,
+                       state, spent);
     };
-    return climb(wanted, {measure, wanted.keys, near, cold, record}, [&](const LadderTask<unknown_count>& task) {
-      FlowResult result = result_of(system, task.state, record, task.start);
-      add_coarse(spent, result);
-      return result;
-    });
+    return climb(wanted, {measure, wanted.keys, near, cold, record},
+                 [&](const LadderTask<unknown_count>& task) {
+                   FlowResult result = result_of(system, task.state, record, task.start);
+                   add_coarse(spent, result);
+                   return result;
+                 });
   }
 
   Factors passing_;  // of steps of which each has a matrix of its own
@@ -121,8 +124,10 @@ template <std::size_t N>
 class LivingFriction final : public LivingOf<N> {
  public:
   using LivingOf<N>::LivingOf;
-  FlowGradients gradients(const std::vector<FlowFunctional>& functions, const WantedGradients& wanted) override {
-    return gradients_of<N>(this->last_, viscosity_, functions, wanted, this->options_, this->matrix_, gradients_);
+  FlowGradients gradients(const std::vector<FlowFunctional>& functions,
+                          const WantedGradients& wanted) override {
+    return gradients_of<N>(this->last_, viscosity_, functions, wanted, this->options_, this->matrix_,
+                           gradients_);
   }
 
  private:
@@ -136,10 +141,9 @@ class LivingFriction final : public LivingOf<N> {
     FrictionSearch<N> search(system, measure, this->options_, record);
     const auto near = [&](BlockState<N>& state) { search.near(state); };
     const auto cold = [&](BlockState<N>& state) { search.cold(state); };
-    FlowResult result =
-        this->climb(wanted, {measure, wanted.keys, near, cold, record}, [&](const LadderTask<N>& task) {
-          return result_of(system, task.state, record, task.start);
-        });
+    FlowResult result = this->climb(
+        wanted, {measure, wanted.keys, near, cold, record},
+        [&](const LadderTask<N>& task) { return result_of(system, task.state, record, task.start); });
     if (result.converged()) viscosity_ = system.terms().viscosity;
     return result;
   }

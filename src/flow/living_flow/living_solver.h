@@ -21,8 +21,10 @@ class LivingSolver {
 
   const FlowOptions& options() const { return options_; }
   // living: the mesh that was frozen, or nullptr.
-  virtual FlowResult solve(const FrozenMesh& frozen, const Mesh* living, const FlowConditions& conditions) = 0;
-  virtual FlowGradients gradients(const std::vector<FlowFunctional>& functions, const WantedGradients& wanted) = 0;
+  virtual FlowResult solve(const FrozenMesh& frozen, const Mesh* living,
+                           const FlowConditions& conditions) = 0;
+  virtual FlowGradients gradients(const std::vector<FlowFunctional>& functions,
+                                  const WantedGradients& wanted) = 0;
   // The last flow that was found; it has no mesh before the first one.
   virtual AnyLastFlow last() const = 0;
   virtual void go_on_from(const AnyLastFlow& last) = 0;

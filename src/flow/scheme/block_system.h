@@ -28,7 +28,8 @@ class BlockSystem {
   virtual BlockState<N> undisturbed() const = 0;
   // The flux out of each dual cell. And: lift of the state minus that of the vortex; alpha, or lift, minus the given
   // one. They are not finite where a state is none.
-  virtual void residuals(const BlockState<N>& state, BlockVector<N>& of_vertices, Augmented& augmented) const = 0;
+  virtual void residuals(const BlockState<N>& state, BlockVector<N>& of_vertices,
+                         Augmented& augmented) const = 0;
 
   // The pattern of these rows, ascending.
   virtual BlockMatrix<N> pattern(std::vector<std::uint32_t> rows) const = 0;

@@ -50,7 +50,8 @@ BlockMatrix<N> FrictionSystem<N>::pattern(std::vector<std::uint32_t> rows, Order
 }
 
 template <std::size_t N>
-typename FrictionSystem<N>::Rows FrictionSystem<N>::rows_of_vertices(BlockMatrix<N>& matrix, Order order) const {
+typename FrictionSystem<N>::Rows FrictionSystem<N>::rows_of_vertices(BlockMatrix<N>& matrix,
+                                                                     Order order) const {
   Rows rows = {matrix, order, std::vector<std::uint32_t>(dual_.size(), no_index)};
   for (std::uint32_t r = 0; r < matrix.rows.size(); ++r) rows.of[matrix.rows[r]] = r;
   return rows;
@@ -90,7 +91,8 @@ void FrictionSystem<N>::jacobian(const BlockState<N>& state, Jacobian& result) c
 template <std::size_t N>
 template <std::size_t V>
 typename FrictionSystem<N>::template FaceDual<V> FrictionSystem<N>::face_dual(const BlockState<N>& state,
-                                                                              std::size_t e, Order order) const {
+                                                                              std::size_t e,
+                                                                              Order order) const {
   using T = Dual<V>;
   using One = Dual<5>;
   constexpr std::size_t n = unknown_count;
@@ -243,7 +245,8 @@ BlockAugmentedRows<N> FrictionSystem<N>::augmented_rows(const BlockState<N>& sta
 
 // The lift of all walls: friction by the unbalanced momentum of their vertices.
 template <std::size_t N>
-BlockAugmentedRows<N> FrictionSystem<N>::augmented_rows(const BlockState<N>& state, const BlockMatrix<N>& raw) const {
+BlockAugmentedRows<N> FrictionSystem<N>::augmented_rows(const BlockState<N>& state,
+                                                        const BlockMatrix<N>& raw) const {
   BlockAugmentedRows<N> rows;
   const double ca = std::cos(state.augmented[1]), sa = std::sin(state.augmented[1]);
   const double scale = 1.0 / (0.5 * stream_.mach * stream_.mach * stream_.length);

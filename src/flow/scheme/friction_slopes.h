@@ -14,7 +14,8 @@ namespace {
 
 // The weighted sum of derivatives by all variables.
 template <std::size_t V, std::size_t N>
-std::array<double, V> weighted_slope(const std::array<double, N>& weight, const std::array<Dual<V>, N>& flux) {
+std::array<double, V> weighted_slope(const std::array<double, N>& weight,
+                                     const std::array<Dual<V>, N>& flux) {
   std::array<double, V> by = {};
   for (std::size_t i = 0; i < N; ++i)
     for (std::size_t z = 0; z < V; ++z) by[z] += weight[i] * flux[i].slope[z];
@@ -24,8 +25,8 @@ std::array<double, V> weighted_slope(const std::array<double, N>& weight, const 
 }  // namespace
 
 template <std::size_t N>
-std::vector<ShapeSlope> FrictionSystem<N>::slopes_of_unbalanced(const BlockState<N>& state,
-                                                                std::span<const BlockVector<N>> weights) const {
+std::vector<ShapeSlope> FrictionSystem<N>::slopes_of_unbalanced(
+    const BlockState<N>& state, std::span<const BlockVector<N>> weights) const {
   const std::size_t edges = dual_.edges().size();
   std::vector<ShapeSlope> results(weights.size(), {.points = std::vector<Point>(dual_.size())});
   std::vector<FlowMesh::Slopes> slopes(
@@ -46,7 +47,8 @@ std::vector<ShapeSlope> FrictionSystem<N>::slopes_of_unbalanced(const BlockState
 // gradients.
 template <std::size_t N>
 void FrictionSystem<N>::add_face_slopes(const BlockState<N>& state, std::span<const BlockVector<N>> weights,
-                                        std::span<FlowMesh::Slopes> slopes, std::span<ShapeSlope> results) const {
+                                        std::span<FlowMesh::Slopes> slopes,
+                                        std::span<ShapeSlope> results) const {
   using Kind = FrictionMesh::Upwind;
   const auto gas = [&](std::uint32_t v, std::size_t k) { return state.q[v][k]; };
   std::vector<Unknowns<Point>> gradient(dual_.size());
@@ -71,7 +73,8 @@ void FrictionSystem<N>::add_face_slopes(const BlockState<N>& state, std::span<co
         const auto [kind, behind] = mesh_.upwind_kind(e, side);
         if (limited.value > 0.0) {
           double by_width = 0.0;
-          for (std::size_t k = 0; k < unknown_count; ++k) by_width += by[N * side + k] * reconstructed[side][k].slope[4];
+          for (std::size_t k = 0; k < unknown_count; ++k)
+            by_width += by[N * side + k] * reconstructed[side][k].slope[4];
           points[edge.a] = points[edge.a] - by_width * by_square * d;
           points[edge.b] = points[edge.b] + by_width * by_square * d;
           results[j].length -= by_width * by_square * dot(d, d) / terms_.extent;
@@ -114,7 +117,8 @@ void FrictionSystem<N>::add_face_slopes(const BlockState<N>& state, std::span<co
 
 // By the places of the corners, and by their distances from walls.
 template <std::size_t N>
-void FrictionSystem<N>::add_triangle_slopes(const BlockState<N>& state, std::span<const BlockVector<N>> weights,
+void FrictionSystem<N>::add_triangle_slopes(const BlockState<N>& state,
+                                            std::span<const BlockVector<N>> weights,
                                             std::span<ShapeSlope> results) const {
   using T = Dual<9>;
   std::vector<std::vector<double>> by_distance(weights.size(), std::vector<double>(dual_.size(), 0.0));
@@ -142,7 +146,8 @@ void FrictionSystem<N>::add_triangle_slopes(const BlockState<N>& state, std::spa
       }
     }
   }
-  for (std::size_t j = 0; j < weights.size(); ++j) mesh_.add_distance_slopes(by_distance[j], results[j].points);
+  for (std::size_t j = 0; j < weights.size(); ++j)
+    mesh_.add_distance_slopes(by_distance[j], results[j].points);
 }
 
 template <std::size_t N>

@@ -35,7 +35,8 @@ BlockState<N> FrictionSystem<N>::start(double thickness) const {
 
 // From the value at an end of edge e towards its middle.
 template <std::size_t N>
-std::array<double, N> FrictionSystem<N>::step(const BlockVector<N>& q, std::size_t e, std::size_t side) const {
+std::array<double, N> FrictionSystem<N>::step(const BlockVector<N>& q, std::size_t e,
+                                              std::size_t side) const {
   Row result = {};
   const DualEdge& edge = dual_.edges()[e];
   const double limited = limited_part<double>(FrictionTerms::gas(q[edge.a]), FrictionTerms::gas(q[edge.b]));
@@ -67,7 +68,8 @@ void FrictionSystem<N>::unbalanced(const BlockState<N>& state, BlockVector<N>& o
       for (const std::size_t k : positive_unknowns)
         value[side][k] = positivity_limited(value[side][k], vertex[k]);
     }
-    const Row flux = terms_.template face_flux<double, N>(value[0], value[1], PlaneVector<double>(edge.normal));
+    const Row flux =
+        terms_.template face_flux<double, N>(value[0], value[1], PlaneVector<double>(edge.normal));
     add(edge.a, 1.0, flux), add(edge.b, -1.0, flux);
   }
   for (const CornerTriangle& triangle : mesh_.triangles()) {
@@ -107,8 +109,9 @@ double FrictionSystem<N>::mass_flow(const BlockState<N>& state, std::uint32_t pa
   double sum = 0.0;
   for (const BoundaryEdge& edge : dual_.boundary())
     for (std::size_t i = 0; edge.patch == patch && i < 2; ++i)
-      sum -= terms_.template boundary_flux<double, N>(dual_.patch(edge), boundary_inputs<double>(state, edge, i),
-                                                      state.q[i == 0 ? edge.a : edge.b], stream_)[0];
+      sum -=
+          terms_.template boundary_flux<double, N>(dual_.patch(edge), boundary_inputs<double>(state, edge, i),
+                                                   state.q[i == 0 ? edge.a : edge.b], stream_)[0];
   return sum;
 }
 
@@ -137,7 +140,8 @@ WallForces FrictionSystem<N>::forces(const BlockState<N>& state, const BlockVect
           0.75 * (state.q[here][3] - 1.0 / gas_gamma) + 0.25 * (state.q[there][3] - 1.0 / gas_gamma);
       add(by_pressure, p * edge.half[i], 0.75 * dual_.points()[here] + 0.25 * dual_.points()[there]);
       if (mesh_.sticks(here))
-        add(by_friction, (length_of(edge) / length[here]) * friction_force(unbalanced, here), dual_.points()[here]);
+        add(by_friction, (length_of(edge) / length[here]) * friction_force(unbalanced, here),
+            dual_.points()[here]);
     }
   }
   const double ca = std::cos(state.augmented[1]), sa = std::sin(state.augmented[1]);

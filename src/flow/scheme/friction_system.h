@@ -27,7 +27,8 @@ class FrictionSystem final : public BlockSystem<N> {
       : mesh_(mesh),
         dual_(mesh.dual()),
         stream_(stream),
-        terms_{.viscosity = viscosity, .mach = stream.mach,
+        terms_{.viscosity = viscosity,
+               .mach = stream.mach,
                .slopes = stream.slopes,
                .limiter = stream.limiter,
                .extent = stream.length} {
@@ -49,12 +50,15 @@ class FrictionSystem final : public BlockSystem<N> {
   // The flux out of each dual cell. It is the residual once make_walls_strong() has replaced rows of walls.
   void unbalanced(const BlockState<N>& state, BlockVector<N>& out) const;
   void make_walls_strong(const BlockState<N>& state, BlockVector<N>& unbalanced) const;
-  void residuals(const BlockState<N>& state, BlockVector<N>& of_vertices, Augmented& augmented) const override;
+  void residuals(const BlockState<N>& state, BlockVector<N>& of_vertices,
+                 Augmented& augmented) const override;
 
   // The vertices that a row depends on: all of them, or those of the first-order scheme, one ring.
   enum class Order { first, whole };
   using BlockSystem<N>::pattern;
-  BlockMatrix<N> pattern(std::vector<std::uint32_t> rows) const override { return pattern(rows, Order::whole); }
+  BlockMatrix<N> pattern(std::vector<std::uint32_t> rows) const override {
+    return pattern(rows, Order::whole);
+  }
   BlockMatrix<N> pattern(std::vector<std::uint32_t> rows, Order order) const;
   void jacobian(const BlockState<N>& state, BlockMatrix<N>& matrix) const override;
   // Derivatives of all rows by the unknowns: of the whole scheme, and of that of first order.

@@ -54,7 +54,8 @@ struct FrictionTerms {
 
   // Of reconstructed values; the working variable's are those of the vertices: first order.
   template <class T, std::size_t N, class G>
-  Local<T, N> face_flux(const Local<T, N>& left, const Local<T, N>& right, const PlaneVector<G>& normal) const {
+  Local<T, N> face_flux(const Local<T, N>& left, const Local<T, N>& right,
+                        const PlaneVector<G>& normal) const {
     using std::sqrt;
     const Fluxes<T> flux = roe_flux<T>(gas(left), gas(right), normal, fix);
     Local<T, N> result;
@@ -88,7 +89,8 @@ struct FrictionTerms {
 };
 
 template <class T, std::size_t N, class G>
-std::array<Local<T, N>, 3> FrictionTerms::triangle(const std::array<Local<T, N>, 3>& q, const TriangleShape<G>& of,
+std::array<Local<T, N>, 3> FrictionTerms::triangle(const std::array<Local<T, N>, 3>& q,
+                                                   const TriangleShape<G>& of,
                                                    const std::array<G, 3>& distance) const {
   using std::sqrt;
   const auto gradient = [&](const T& a, const T& b, const T& c) {

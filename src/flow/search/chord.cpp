@@ -64,8 +64,8 @@ void Anderson<N>::scale_last(double taken) {
 }
 
 template <std::size_t N>
-Preconditioner<N>::Preconditioner(const BlockSystem<N>& system, const BlockState<N>& state, BlockFactors<N>& factors,
-                                  Overlap overlap, double memory_mb)
+Preconditioner<N>::Preconditioner(const BlockSystem<N>& system, const BlockState<N>& state,
+                                  BlockFactors<N>& factors, Overlap overlap, double memory_mb)
     : factors_(factors), overlap_(std::move(overlap)), rows_(system.augmented_rows(state)) {
   if (!overlap_.zone.empty()) {
     zone_ = system.pattern(overlap_.zone);
@@ -148,7 +148,8 @@ ChordEnd chord_steps(const BlockMeasure<N>& measure, Preconditioner<N>& inverse,
 }
 
 template <std::size_t N>
-ChordEnd steps_with_own_factors(const BlockMeasure<N>& measure, BlockSearch<N>& search, BlockState<N>& state) {
+ChordEnd steps_with_own_factors(const BlockMeasure<N>& measure, BlockSearch<N>& search,
+                                BlockState<N>& state) {
   const BlockSystem<N>& system = measure.system();
   SearchRecord& record = search.record();
   for (int attempt = 0; attempt < SearchPolicy::own_attempts; ++attempt) {
@@ -169,10 +170,11 @@ ChordEnd steps_with_own_factors(const BlockMeasure<N>& measure, BlockSearch<N>& 
 }
 
 // For each number of unknowns.
-#define REMODEL_CHORD(N)                                                                                             \
-  template class Anderson<N>;                                                                                        \
-  template class Preconditioner<N>;                                                                                  \
-  template ChordEnd chord_steps<N>(const BlockMeasure<N>&, Preconditioner<N>&, BlockSearch<N>&, BlockState<N>&);     \
+#define REMODEL_CHORD(N)                                                                        \
+  template class Anderson<N>;                                                                   \
+  template class Preconditioner<N>;                                                             \
+  template ChordEnd chord_steps<N>(const BlockMeasure<N>&, Preconditioner<N>&, BlockSearch<N>&, \
+                                   BlockState<N>&);                                             \
   template ChordEnd steps_with_own_factors<N>(const BlockMeasure<N>&, BlockSearch<N>&, BlockState<N>&)
 REMODEL_CHORD(4);
 REMODEL_CHORD(5);

@@ -33,7 +33,7 @@ class Anderson {
   void add(Difference difference);
 
   std::deque<Difference> differences_;
-  Eigen::MatrixXd products_;       // of the differences of f with each other
+  Eigen::MatrixXd products_;               // of the differences of f with each other
   std::optional<BlockIncrement<N>> last_;  // f of the last step
   BlockIncrement<N> taken_;                // the last step
 };
@@ -45,8 +45,8 @@ class Preconditioner {
  public:
   // Vertices of the overlap's zone are corrected by the Jacobian at `state`, and the augmented equations are those
   // there.
-  Preconditioner(const BlockSystem<N>& system, const BlockState<N>& state, BlockFactors<N>& factors, Overlap overlap,
-                 double memory_mb);
+  Preconditioner(const BlockSystem<N>& system, const BlockState<N>& state, BlockFactors<N>& factors,
+                 Overlap overlap, double memory_mb);
   bool ready() const { return ready_; }
   // Approximate Newton step: minus the inverse times the residuals.
   BlockIncrement<N> apply(const BlockResiduals<N>& residuals);

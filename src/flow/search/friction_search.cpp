@@ -194,7 +194,8 @@ void FrictionSearch<N>::run(BlockState<N>& state, double cfl) {
     since_least = now.size < least ? 0 : since_least + (cfl > 1e4 ? 1 : 0);
     least = std::min(least, now.size);
     if (options_.on_step)
-      options_.on_step({record_.newton_steps, now.size, reported_length(system_.stream()) * (now.augmented[0] + state.augmented[0])});
+      options_.on_step({record_.newton_steps, now.size,
+                        reported_length(system_.stream()) * (now.augmented[0] + state.augmented[0])});
   }
   end(FlowStatus::converged, "");
 }

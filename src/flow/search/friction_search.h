@@ -5,8 +5,8 @@
 //
 // One step solves (V / dt dU/dq + J) dq = -R. The merit of its line search is the residual of the *unsteady*
 // equations of that time step, R + V / dt (U - U_n), which falls along the step even where R has to rise (M.
-// Ceze and K. J. Fidkowski, AIAA paper 2013-2686); it may rise somewhat itself. The CFL number grows with the part of the step that was
-// taken.
+// Ceze and K. J. Fidkowski, AIAA paper 2013-2686); it may rise somewhat itself. The CFL number grows with the
+// part of the step that was taken.
 //
 // Linear systems: GMRES with the exact Jacobian, preconditioned by the first-order scheme of one ring,
 // friction and turbulence exact. Incomplete factors of the exact Jacobian are useless beside walls.
@@ -53,8 +53,8 @@ class FrictionSearch {
 
  private:
   using Residuals = BlockResiduals<N>;
-  double unsteady_size(const BlockState<N>& before, const BlockState<N>& state, const std::vector<double>& by_time,
-                       const Residuals& now) const;
+  double unsteady_size(const BlockState<N>& before, const BlockState<N>& state,
+                       const std::vector<double>& by_time, const Residuals& now) const;
   bool solve(const BlockState<N>& state, const std::vector<double>& by_time, const Residuals& now,
              BlockIncrement<N>& step);
   bool factor();

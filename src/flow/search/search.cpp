@@ -17,7 +17,8 @@ void SearchRecord::end_without_factors(Factored outcome, double memory_mb_given)
                   memory_mb_given);
   } else {
     status = FlowStatus::stalled;
-    std::snprintf(text, sizeof text, "the Jacobian, or its incomplete LU, is singular at a residual of %.2g", residual);
+    std::snprintf(text, sizeof text, "the Jacobian, or its incomplete LU, is singular at a residual of %.2g",
+                  residual);
   }
   reason = text;
 }
@@ -32,8 +33,8 @@ BlockMatrix<N>& BlockWholeMatrix<N>::of(const BlockSystem<N>& system) {
 }
 
 template <std::size_t N>
-Factored BlockSearch<N>::factor(const BlockSystem<N>& system, const BlockState<N>& state, const BlockMatrix<N>& matrix,
-                                FactorKind kind) {
+Factored BlockSearch<N>::factor(const BlockSystem<N>& system, const BlockState<N>& state,
+                                const BlockMatrix<N>& matrix, FactorKind kind) {
   const Factored outcome = factors_.factor(matrix, system.augmented_columns(state), kind, options_.memory_mb);
   ++record_.factorisations;
   if (outcome != Factored::done) return outcome;
@@ -43,7 +44,8 @@ Factored BlockSearch<N>::factor(const BlockSystem<N>& system, const BlockState<N
 }
 
 template <std::size_t N>
-Factored BlockSearch<N>::factor_at(const BlockSystem<N>& system, const BlockState<N>& state, FactorKind kind) {
+Factored BlockSearch<N>::factor_at(const BlockSystem<N>& system, const BlockState<N>& state,
+                                   FactorKind kind) {
   BlockMatrix<N>& matrix = matrix_.of(system);
   system.jacobian(state, matrix);
   return factor(system, state, matrix, kind);

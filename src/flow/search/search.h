@@ -47,7 +47,8 @@ template <std::size_t N>
 class BlockSearch {
  public:
   // What a search leaves in `factors` belongs to its last step.
-  BlockSearch(const FlowOptions& options, BlockWholeMatrix<N>& matrix, BlockFactors<N>& factors, SearchRecord& record)
+  BlockSearch(const FlowOptions& options, BlockWholeMatrix<N>& matrix, BlockFactors<N>& factors,
+              SearchRecord& record)
       : options_(options), matrix_(matrix), factors_(factors), record_(record) {}
 
   const FlowOptions& options() const { return options_; }
