@@ -14,6 +14,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -115,6 +116,7 @@ struct LayeredState {
   friend bool operator==(const LayeredState&, const LayeredState&) = default;
 };
 
+class LayeredMeshDerivative;
 struct LayeredGenerateResult;
 struct LayeredRemodelResult;
 
@@ -156,6 +158,7 @@ class LayeredMesh {
   friend LayeredGenerateResult generate_layered(const Domain&, const LayerOptions&, const QualityOptions&,
                                                 StepObserver*);
   friend LayeredRemodelResult remodel(LayeredMesh&, const Domain&, const RemodelOptions&);
+  friend LayeredMeshDerivative;
 
   Mesh outer_;
   Domain walls_;
@@ -182,6 +185,25 @@ struct LayeredRemodelResult : RemodelResult {
   std::size_t shrunk = 0;       // see LayerStatistics
   bool same_columns = true;     // false: columns have come or gone, as stations have, or fans have other sectors;
                                 // where stations are the same, all other columns stay
+};
+
+// The derivative of a layered mesh by its design, at fixed connectivity: walls by their curves at fixed parameters, the
+// layer by its columns, the outer mesh's interior still, as a step does it where it can (MeshDerivative). Columns are
+// differenced to fourth order, which is exact to 1e-9 where no column gives way in another manner beside the design.
+class LayeredMeshDerivative {
+ public:
+  explicit LayeredMeshDerivative(const LayeredMesh& mesh);
+
+  std::size_t coefficients() const { return moved_.size(); }  // coefficients_of(mesh.domain()), mesh_derivative.h
+  std::size_t points() const { return points_; }              // of mesh.freeze()
+  // How points move with the coefficients in this direction. Throws Error (argument) for another size, as vjp() does.
+  std::vector<Point> jvp(std::span<const double> direction) const;
+  // Transposed: derivatives by points to derivatives by coefficients.
+  std::vector<double> vjp(std::span<const Point> by_points) const;
+
+ private:
+  std::size_t points_ = 0;
+  std::vector<std::vector<Point>> moved_;  // by each coefficient: how every point moves
 };
 
 // Remodels a layered mesh, in place: the walls become those of the new domain, with the options that the mesh

@@ -108,6 +108,16 @@ CheckResult layers_checked(LivingLayers& mesh) {
   return Apart().run(std::make_shared<Stop>(), [frozen, options] { return check(*frozen, options); });
 }
 
+// By an airfoil's coefficients, upper then lower.
+py::array_t<double> layers_vjp(LivingLayers& mesh, const py::object& by_points, const std::string& boundary) {
+  const std::vector<Point> weights = points(array_of(by_points, "by_points"), "by_points");
+  const ThreadLock::Held held(mesh.lock);
+  const auto [first, count] = airfoil_numbers(mesh.mesh.domain(), boundary);
+  const std::vector<double> all = LayeredMeshDerivative(mesh.mesh).vjp(weights);
+  return copied(std::vector<double>(all.begin() + static_cast<std::ptrdiff_t>(first),
+                                    all.begin() + static_cast<std::ptrdiff_t>(first + count)));
+}
+
 void add_layered_step(py::module_& module) {
   py::class_<LayeredRemodelResult, LayeredStepPointer> type(
       module, "LayeredStep",
@@ -147,6 +157,10 @@ solve_flow() and LivingFlow.solve() take it. freeze() has its arrays.)");
       R"(Remodels to a Domain, or to an Airfoil (or the name of one) in the place of the one called `boundary`, on
 the same stations. strategy: 'renew', 'morph', 'reference' or another of Mesh.update(). Where anything is refused the
 mesh is as it was. Raises ArgumentError and GeometryError; Ctrl-C ends it.)");
+  type.def("vjp", &layers_vjp, "by_points"_a, "boundary"_a = "",
+           R"(Derivatives by the points of freeze(), of shape (n, 2), become derivatives by an airfoil's coefficients
+(Airfoil.design's order), at fixed connectivity: walls move with their curves, the layer with its columns, the rest of
+the interior stays. LivingFlow.gradients() has derivatives by points.)");
   type.def("check", &layers_checked,
            "Validates it: cells convex, conforming and counter-clockwise, the outer mesh as promised.");
   type.def("copy", [](LivingLayers& mesh) {

@@ -59,6 +59,10 @@ inline Domain next_domain(const LivingMesh& mesh, const py::object& shape, const
   return next_domain(mesh.mesh.domain(), shape, boundary);
 }
 
+// Where the upper and lower coefficients of the airfoil of that name, or the only one, are in coefficients_of(): the first
+// and how many. Throws Error (argument) where there is not one such airfoil.
+std::pair<std::size_t, std::size_t> airfoil_numbers(const Domain& domain, const std::string& boundary);
+
 // The loops of a domain that are an airfoil by its coefficients, of that name if there is one.
 std::vector<std::size_t> airfoil_loops(const Domain& domain, const std::string& name);
 

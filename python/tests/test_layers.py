@@ -76,6 +76,15 @@ def test_a_flow_with_friction_outlives_its_mesh():
     assert second.cl == pytest.approx(cold.cl, abs=1e-6) and second.cd == pytest.approx(cold.cd, abs=1e-7)
     gradients = living.gradients()
     assert gradients["cd"]["points"].shape == mesh.freeze().points.shape
+    # By the airfoil's coefficients, through the columns: against flows of designs beside this one.
+    by_design = mesh.vjp(gradients["cd"]["points"])
+    assert by_design.shape == airfoil.design.shape
+    drags = []
+    for step in (-2e-5, 2e-5):
+        beside = mesh.copy()
+        assert beside.update(changed(airfoil, 0.005 + step)).full_adjustment
+        drags.append(living.solve(beside, **conditions).cd)
+    assert by_design[1] == pytest.approx((drags[1] - drags[0]) / 4e-5, rel=1e-3)
     # Friction falls as the Reynolds number grows.
     assert gradients["cd"]["reynolds"] < 0.0
     again = pickle.loads(pickle.dumps(second))

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -13,6 +14,7 @@
 #include "remodel/error.h"
 #include "remodel/flow.h"
 #include "remodel/layers.h"
+#include "remodel/mesh_derivative.h"
 #include "support.h"
 
 namespace remodel::flow {
@@ -360,6 +362,54 @@ TEST(Friction, TransonicGradientsAreThoseOfWholeFlows) {
 }
 TEST(Friction, TurbulentGradientsAreThoseOfWholeFlows) {
   expect_exact_gradients(FlowModel::sa, {.mach = 0.5, .alpha_deg = 1.0, .reynolds = 1e6}, 2e-5);
+}
+
+// Gradients by the design's numbers, through the columns: against flows on the meshes that steps lead to.
+TEST(Friction, GradientsByTheDesignAreThoseOfFlowsOnTheMeshesOfSteps) {
+  FlowOptions options;
+  options.model = FlowModel::laminar, options.tolerance = 1e-12;
+  const FlowConditions conditions = {.mach = 0.5, .alpha_deg = 1.0, .reynolds = 5000.0};
+  LayeredDesigns designs(conditions.reynolds, 2e-3);
+  const Domain domain = designs.domain();
+  const std::vector<double> coefficients = coefficients_of(domain);
+  const std::vector<std::string> names = coefficient_names(domain);
+  const auto index = [&](const std::string& end) {
+    const auto at = std::find_if(names.begin(), names.end(), [&](const auto& name) { return name.ends_with(end); });
+    return static_cast<std::size_t>(at - names.begin());
+  };
+  LivingFlow living(options);
+  ASSERT_TRUE(living.solve(designs.mesh.freeze(), conditions).converged());
+  const FlowGradients gradients = living.gradients();
+  const LayeredMeshDerivative derivative(designs.mesh);
+  ASSERT_EQ(derivative.points(), designs.mesh.freeze().points.size());
+  const std::vector<double> cl = derivative.vjp(gradients.cl.points), cd = derivative.vjp(gradients.cd.points);
+  for (const std::size_t i : {index("upper[1]"), index("lower[3]")}) {
+    ASSERT_LT(i, coefficients.size());
+    std::vector<FlowResult> flows;
+    std::vector<std::vector<Point>> places;
+    constexpr double h = 1e-5;
+    for (const int times : {-2, -1, 1, 2}) {
+      std::vector<double> changed = coefficients;
+      changed[i] += times * h;
+      LayeredMesh mesh = designs.mesh;
+      ASSERT_TRUE(remodel::remodel(mesh, with_coefficients(domain, changed)).full_adjustment);
+      places.push_back(mesh.freeze().points);
+      flows.push_back(living.solve(mesh.freeze(), conditions));
+      ASSERT_TRUE(flows.back().converged());
+    }
+    const auto difference = [&](auto value) { return (value(0) - 8.0 * value(1) + 8.0 * value(2) - value(3)) / (12.0 * h); };
+    const double by_cl = difference([&](std::size_t k) { return flows[k].cl; });
+    const double by_cd = difference([&](std::size_t k) { return flows[k].cd; });
+    EXPECT_NEAR(cl[i], by_cl, 1e-6 * std::fabs(by_cl) + 1e-8) << names[i];
+    EXPECT_NEAR(cd[i], by_cd, 1e-6 * std::fabs(by_cd) + 1e-8) << names[i];
+    std::vector<double> direction(coefficients.size(), 0.0);
+    direction[i] = 1.0;
+    const std::vector<Point> moved = derivative.jvp(direction);
+    for (std::size_t v = 0; v < moved.size(); ++v) {
+      EXPECT_NEAR(moved[v].x, difference([&](std::size_t k) { return places[k][v].x; }), 1e-8) << v;
+      EXPECT_NEAR(moved[v].y, difference([&](std::size_t k) { return places[k][v].y; }), 1e-8) << v;
+    }
+  }
 }
 
 // Keys of layers count their vertices by themselves: the same index may be another vertex's outside.
