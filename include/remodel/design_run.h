@@ -34,6 +34,7 @@ struct FreshFlow {
   int points = 0;  // on each section
   std::size_t vertices = 0;
   double mach = 0.0, alpha_deg = 0.0, cl = 0.0, cd = 0.0, cm = 0.0;
+  std::optional<double> cd_pressure, cd_friction;  // with friction
   bool converged = false;
   std::vector<NamedNumber> violated;  // constraints of flows, by how much; within the tolerance they are not
   double seconds = 0.0;
@@ -65,7 +66,7 @@ struct DesignResult {
   std::vector<FreshFlow> verified;
 };
 
-// Searches, with the meshes following by Strategy::morph, and evaluates the best design on fresh meshes at
+// Searches, with the meshes following by Strategy::reference, and evaluates the best design on fresh meshes at
 // the end. The directory has what optimise() leaves there, and fresh.json (fresh_json()). A result is the
 // same for the same problem, but for times. The observer is asked by flows and meshes too, between their
 // steps, from several threads. Throws Error as validate() and optimise() do.
@@ -84,7 +85,7 @@ struct DesignRun {
   std::vector<EvaluationRecord> rows;
   std::size_t best = 0;   // row; without a best design the least violated one's, or the first
   bool has_flow = false;  // of that row; otherwise none of any design was found
-  std::vector<FlowConditions> conditions;  // of the points
+  std::vector<DesignPoint> points;
   std::unique_ptr<const FlowSpace> space;
 
   const std::vector<double>& best_design() const { return rows[best].coefficients; }

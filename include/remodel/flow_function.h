@@ -1,7 +1,7 @@
 #pragma once
 
 // Functions of flows with their derivatives: what a design makes small, or keeps within a limit. Those that
-// have names (lift, drag, moment, lift_over_drag, suction, inverse) are listed in src/aero/kinds.cpp; a
+// have names (drag, lift, moment, suction ...) are listed in src/aero/kinds.cpp; a
 // function of the user's own is a FlowFunctionOf.
 //
 //   problem.objective = "side force squared";
@@ -13,9 +13,9 @@
 #include <map>
 #include <optional>
 
+#include "remodel/domain.h"
 #include "remodel/flow.h"
 #include "remodel/frozen_mesh.h"
-#include "remodel/mesh.h"
 
 namespace remodel {
 
@@ -24,8 +24,8 @@ using StationPressures = std::map<double, double>;
 
 // The flow around one design at one point of its problem.
 struct FlowView {
-  const Mesh& mesh;
-  const FrozenMesh& frozen;  // mesh.freeze(): its points are those of the flow's fields
+  const Domain& domain;      // of the bodies: frozen.curve counts its curves
+  const FrozenMesh& frozen;  // its points are those of the flow's fields
   const FlowResult& flow;    // converged. Coefficients are of the whole, also where half of it was found
   // These are pressures of the section DesignProblem::target, at the same conditions; null where there is
   // none.
@@ -37,6 +37,7 @@ struct FlowView {
 struct FlowValue {
   double value = 0.0;
   double by_drag = 0.0, by_lift = 0.0, by_moment = 0.0;  // by FlowResult::cd, cl, cm
+  double by_pressure_drag = 0.0;                         // by FlowFriction::cd_pressure
   std::optional<FlowFunctional> by_flow = {};            // by pressures and points, at fixed coefficients
 };
 

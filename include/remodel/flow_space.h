@@ -15,6 +15,8 @@
 
 namespace remodel {
 
+class LayerFrame;  // remodel/layers.h
+
 // The lowest and the highest value of each number of a design.
 struct DesignBounds {
   std::vector<double> low, high;
@@ -30,7 +32,11 @@ class FlowSpace : public DesignSpace {
  public:
   // True if the domain is the upper half of one whose flows are their own mirror images.
   virtual bool half() const { return false; }
-  // The domain of a design with this number of points on each section.
+  // Where flows have friction, layers lie on the walls: domain() is that of the mesh beyond them then, walls() that of
+  // the bodies. Otherwise both are the same.
+  virtual const LayerFrame* layers() const { return nullptr; }
+  virtual Domain walls(std::span<const double> design) const { return domain(design); }
+  // walls() of a design with this number of points on each section, about so many where there are layers.
   virtual Domain domain_with(std::span<const double> design, int points) const = 0;
   // `coefficients`: how far a coefficient of a section may go from the start.
   virtual DesignBounds bounds(double coefficients) const = 0;
@@ -50,7 +56,7 @@ class FlowSpace : public DesignSpace {
     return {};
   }
 
-  // Derivatives by the design of a function of the domain, of those by its numbers (coefficients_of(Domain)).
+  // Derivatives by the design of a function of walls(), of those by its numbers (coefficients_of(Domain)).
   virtual std::vector<double> gradient_of_domain(std::span<const double> by_numbers) const = 0;
   // These are derivatives by the design of a function of a section, of those by its coefficients, upper
   // surface first.

@@ -21,6 +21,7 @@
 #include "remodel/domain.h"
 #include "remodel/frozen_mesh.h"
 #include "remodel/mesh.h"
+#include "remodel/mesh_derivative.h"
 #include "remodel/mesh_state.h"
 #include "remodel/remodel.h"
 
@@ -155,10 +156,9 @@ class LayeredMesh {
 
  private:
   struct Columns;
-  friend LayeredGenerateResult generate_layered(const Domain&, const LayerOptions&, const QualityOptions&,
-                                                StepObserver*);
   friend LayeredRemodelResult remodel(LayeredMesh&, const Domain&, const RemodelOptions&);
   friend LayeredMeshDerivative;
+  friend class LayerFrame;
 
   Mesh outer_;
   Domain walls_;
@@ -188,11 +188,13 @@ struct LayeredRemodelResult : RemodelResult {
 };
 
 // The derivative of a layered mesh by its design, at fixed connectivity: walls by their curves at fixed parameters, the
-// layer by its columns, the outer mesh's interior still, as a step does it where it can (MeshDerivative). Columns are
-// differenced to fourth order, which is exact to 1e-9 where no column gives way in another manner beside the design.
+// layer by its columns, the outer mesh as MeshDerivative has it: its interior still, or along with the tops of these
+// loops. Columns are differenced to fourth order, which is exact to 1e-9 where no column gives way in another manner
+// beside the design.
 class LayeredMeshDerivative {
  public:
   explicit LayeredMeshDerivative(const LayeredMesh& mesh);
+  LayeredMeshDerivative(const LayeredMesh& mesh, std::span<const std::size_t> moving);
 
   std::size_t coefficients() const { return moved_.size(); }  // coefficients_of(mesh.domain()), mesh_derivative.h
   std::size_t points() const { return points_; }              // of mesh.freeze()
@@ -202,8 +204,33 @@ class LayeredMeshDerivative {
   std::vector<double> vjp(std::span<const Point> by_points) const;
 
  private:
+  LayeredMeshDerivative(const LayeredMesh& mesh, const MeshDerivative& outer);
+
   std::size_t points_ = 0;
   std::vector<std::vector<Point>> moved_;  // by each coefficient: how every point moves
+};
+
+// The layers of a row of designs as a function of the design alone: levels and fans are those of the first walls. So an
+// outer mesh can be led from design to design as any mesh is, to outside(walls), and around() says what mesh that makes
+// with its layer. Columns have the same numbers in all of them.
+class LayerFrame {
+ public:
+  // Throws as generate_layered() does.
+  LayerFrame(const Domain& walls, const LayerOptions& options);
+  const LayerOptions& options() const { return options_; }
+  // The domain of the outer mesh: the tops of columns in place of walls. Throws Error (geometry) where the walls have
+  // no layer, with the place, and Error (argument) for walls with other loops or stations.
+  Domain outside(const Domain& walls) const;
+  // Precondition: `outer` is a mesh of outside(walls). Throws likewise.
+  LayeredMesh around(const Mesh& outer, const Domain& walls) const;
+
+ private:
+  std::unique_ptr<LayeredMesh::Columns> columns_at(const Domain& walls) const;
+
+  LayerOptions options_;
+  std::vector<std::size_t> loops_;
+  std::vector<std::vector<std::uint32_t>> fans_;  // per layered loop and station: the sectors of its fan, or 0
+  std::uint32_t levels_ = 0;
 };
 
 // Remodels a layered mesh, in place: the walls become those of the new domain, with the options that the mesh

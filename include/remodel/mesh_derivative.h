@@ -1,15 +1,22 @@
 #pragma once
 
-// The derivative of a mesh by its design, at fixed connectivity, with the interior still: what a full
-// adjustment does, as remodel() does it wherever it can. Boundary vertices keep their curve and parameter t.
+// The derivative of a mesh by its design, at fixed connectivity. Boundary vertices keep their curve and parameter
+// t. The interior does what the step does that the derivative is of:
+//
+//   step                                    interior   derivative
+//   full adjustment (any strategy but       still      MeshDerivative(mesh)
+//     reference, where the walls alone move)
+//   Strategy::reference, while held         along      MeshDerivative(mesh, moving)
 //
 //   MeshDerivative derivative(mesh);
 //   std::vector<double> gradient = derivative.vjp(flow.gradients().cd.points);   // by coefficients_of()
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "remodel/displacement.h"
 #include "remodel/domain.h"
 #include "remodel/error.h"
 #include "remodel/mesh.h"
@@ -34,7 +41,11 @@ class MeshDerivative {
   // At the design that the mesh has: by the coefficients of mesh.domain(), which may write loops that did not
   // move otherwise than the domain that was given (remodel()).
   explicit MeshDerivative(const Mesh& mesh);
-  // This takes a mesh's frozen view and its domain.
+  // The interior moves along with these loops of the domain, by their indices, as Strategy::reference moves it
+  // (remodel/displacement.h): exact for the meshes of one reference. Throws Error (argument) for an index that there
+  // is not.
+  MeshDerivative(const Mesh& mesh, std::span<const std::size_t> moving);
+  // This takes a mesh's frozen view and its domain. The interior is still.
   MeshDerivative(const FrozenMesh& frozen, const Domain& domain);
 
   std::size_t coefficients() const { return count_; }  // of coefficients_of()
@@ -53,9 +64,12 @@ class MeshDerivative {
     std::vector<double> t;
     std::vector<std::uint32_t> point;
   };
+  std::vector<Point> walls_jvp(std::span<const double> direction) const;
+
   Domain domain_;
   std::vector<Piece> pieces_;
   std::size_t count_ = 0, points_ = 0;
+  std::optional<InteriorDisplacement> interior_;  // none: still
 };
 
 // The mesh cannot follow to another design with the connectivity that it has.

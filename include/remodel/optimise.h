@@ -48,6 +48,7 @@ struct OptimiseOptions {
   // Its observer is asked by all threads; strategy and designs_a_step are set from what follows.
   RemodelOptions remodel{};
   MeshStrategy strategy = MeshStrategy::renew;
+  double reference_slack_deg = 2.0;  // of angle_with_slack(), for MeshStrategy::reference
   // Living meshes. The designs of a generation are handed to the workers whose last designs are nearest, and
   // evaluated at once. Meshes, rows and figures depend on it; designs do not. 0: the strategy's own number,
   // which is 1, but for `pool` as many as a generation has designs.

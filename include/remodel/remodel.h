@@ -12,9 +12,10 @@
 
 namespace remodel {
 
-// QualityOptions::refine_angle_deg of meshes that Strategy::reference is to hold: as given, but at least two
-// degrees more than the angle that they promise.
-double angle_with_slack(const QualityOptions& quality);
+// QualityOptions::refine_angle_deg of meshes that Strategy::reference is to hold: as given, but at least so many
+// degrees more than the angle that they promise. Two degrees hold most designs, and cost a third more triangles at I =
+// 200, four times as many at I = 100; one degree costs 2 and 57 per cent.
+double angle_with_slack(const QualityOptions& quality, double slack_deg = 2.0);
 
 // How a mesh follows its domain. It is one choice, by the same names everywhere: remodel() and Trial, the
 // program's `update`, `batch` and `optimise`, Python. docs/strategies.md argues for the default with figures.

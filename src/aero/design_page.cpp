@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "aero/base64_text.h"
+#include "aero/design_mesh.h"
 #include "remodel/draw.h"
 #include "remodel/error.h"
 #include "remodel/flow_plots.h"
@@ -81,11 +82,11 @@ struct Shown {
 
 Shown shown_of(const std::string& name, const std::vector<double>& design, const Mesh& mesh,
                const DesignRun& run) {
-  const FrozenMesh frozen = mesh.freeze();
+  const FrozenMesh frozen = DesignMesh(*run.space, mesh, design).frozen();
   const bool half = run.space->half();
   Shown result{name, design, half ? mirrored(frozen) : frozen, {}, {}, {}};
-  for (const FlowConditions& conditions : run.conditions) {
-    FlowResult flow = solve_design_flow(mesh, conditions, half);
+  for (const DesignPoint& point : run.points) {
+    FlowResult flow = solve_design_flow(*run.space, mesh, design, point);
     result.mach.push_back(mach_numbers(flow)), result.cp.push_back(pressure_coefficients(flow));
     if (half) {
       result.mach.back() = mirrored(frozen, result.mach.back());
@@ -218,7 +219,7 @@ PageJson cost_of(const DesignRun& run, const Shown& first, const Shown& last) {
   const double flow_seconds = run.sum("flow_seconds"), gradient_seconds = run.sum("gradient_seconds");
   const double designs = static_cast<double>(run.rows.size());
   return {{"designs", run.rows.size()},
-          {"flows", run.rows.size() * run.conditions.size()},
+          {"flows", run.rows.size() * run.points.size()},
           {"connectivity_kept", kept},
           {"connectivity_percent", connected},
           {"factorisations", static_cast<std::uint64_t>(run.sum("factorisations"))},
@@ -343,7 +344,7 @@ std::string outcome(const DesignRun& run, const PageJson& cost) {
 Mesh mesh_of_best(const fs::path& directory, const DesignRun& run) {
   const fs::path last = directory / "last.vtkhdf";
   Mesh mesh = read_mesh(fs::exists(last) ? last : directory / "first.vtkhdf");
-  remodel(mesh, run.space->domain(run.best_design()), {.strategy = strategy_with_flows});
+  remodel(mesh, run.space->domain(run.best_design()), {.strategy = info_of(design_strategy).step});
   return mesh;
 }
 
@@ -369,10 +370,10 @@ std::string page_of(const fs::path& directory, const DesignRun& run, const Shown
           constraints_table(cost.at("constraints"));
   page += fresh_table(directory, run);
   page += "<h2>Pressure</h2>\n";
-  for (std::size_t i = 0; i < run.conditions.size(); ++i)
+  for (std::size_t i = 0; i < run.points.size(); ++i)
     page += pressures(scratch, first, last, run.space->sections(), i);
   page += "<h2>Mach number</h2>\n";
-  for (std::size_t i = 0; i < run.conditions.size(); ++i) {
+  for (std::size_t i = 0; i < run.points.size(); ++i) {
     const double most = std::max(*std::max_element(first.mach[i].begin(), first.mach[i].end()),
                                  *std::max_element(last.mach[i].begin(), last.mach[i].end()));
     page += "<div class=\"pair\">" + mach_field(scratch, run, first, i, most) +

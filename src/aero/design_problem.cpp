@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "aero/design_mesh.h"
 #include "aero/resolved_problem.h"
 #include "remodel/sqp.h"
 
@@ -12,10 +13,13 @@ using ProblemJson = nlohmann::ordered_json;
 
 ProblemJson points_json(const DesignProblem& problem) {
   ProblemJson points = ProblemJson::array();
-  for (const auto& [conditions, weight] : problem.points) {
+  for (const auto& [conditions, weight, model] : problem.points) {
     points.push_back({{"mach", conditions.mach}, {"alpha_deg", conditions.alpha_deg}});
     if (conditions.cl) points.back()["cl"] = *conditions.cl;
     points.back()["weight"] = weight;
+    if (model == FlowModel::euler) continue;
+    points.back()["model"] = name_of(model);
+    points.back()["reynolds"] = conditions.reynolds;
   }
   return points;
 }
@@ -93,8 +97,8 @@ std::string design_problem_json(const DesignProblem& problem) {
   return json.dump();
 }
 
-FlowOptions design_flow_options(bool half, StepObserver* observer) {
-  return {.vortex = !half, .observer = observer};
+FlowOptions design_flow_options(const FlowSpace& space, const DesignPoint& point, StepObserver* observer) {
+  return {.vortex = !space.half(), .observer = observer, .model = point.model};
 }
 
 FlowResult whole_of(FlowResult half) {
@@ -103,10 +107,13 @@ FlowResult whole_of(FlowResult half) {
   return half;
 }
 
-FlowResult solve_design_flow(const Mesh& mesh, const FlowConditions& conditions, bool half,
-                             StepObserver* observer) {
-  FlowResult flow = solve_flow(mesh, conditions, design_flow_options(half, observer));
-  return half ? whole_of(std::move(flow)) : flow;
+FlowResult solve_design_flow(const FlowSpace& space, const Mesh& mesh, std::span<const double> design,
+                             const DesignPoint& point, StepObserver* observer) {
+  const FlowOptions options = design_flow_options(space, point, observer);
+  FlowResult flow = space.layers() != nullptr
+                        ? solve_flow(DesignMesh(space, mesh, design).frozen(), point.conditions, options)
+                        : solve_flow(mesh, point.conditions, options);
+  return space.half() ? whole_of(std::move(flow)) : flow;
 }
 
 }  // namespace remodel

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "aero/element_space.h"
+#include "aero/layered_space.h"
 #include "aero/section_space.h"
 #include "remodel/error.h"
 #include "remodel/evaluation.h"
@@ -63,7 +64,7 @@ bool holds_design_run(const std::filesystem::path& directory) {
 
 namespace {
 
-std::unique_ptr<const FlowSpace> space_of(const RunJson& options, const std::string& file) {
+std::unique_ptr<FlowSpace> bodies_of(const RunJson& options, const std::string& file) {
   if (options.contains("elements"))
     return std::make_unique<ElementSpace>(ElementSpace::from_description(options.dump(), file));
   const RunJson& space = options.at("space");
@@ -74,6 +75,12 @@ std::unique_ptr<const FlowSpace> space_of(const RunJson& options, const std::str
                           .domain = {.points = space.at("points"),
                                      .farfield_radius = space.at("farfield_radius"),
                                      .farfield_points = space.at("farfield_points")}});
+}
+
+std::unique_ptr<const FlowSpace> space_of(const RunJson& options, const std::string& file) {
+  std::unique_ptr<FlowSpace> bodies = bodies_of(options, file);
+  if (!options.contains("layers")) return bodies;
+  return LayeredSpace::from_description(std::move(bodies), options.dump());
 }
 
 // Of the designs whose flows were found, the row of the one that violates its worst constraint least, of
@@ -103,9 +110,14 @@ DesignRun read_design_run(const std::filesystem::path& directory) {
     options.at("constraint_names").get_to(run.constraint_names);
     run.constraint_tolerance = options.value("constraint_tolerance", 0.0);
     for (const RunJson& entry : problem.at("flow")) {
-      FlowConditions& at = run.conditions.emplace_back();
+      DesignPoint& point = run.points.emplace_back();
+      FlowConditions& at = point.conditions;
       at.mach = entry.at("mach"), at.alpha_deg = entry.value("alpha_deg", 0.0);
+      at.reynolds = entry.value("reynolds", 0.0);
       if (entry.contains("cl")) at.cl = entry.at("cl").get<double>();
+      const std::string model = entry.value("model", name_of(FlowModel::euler));
+      for (const FlowModel known : {FlowModel::laminar, FlowModel::sa})
+        if (model == name_of(known)) point.model = known;
     }
   } catch (const std::out_of_range&) {
     throw Error(ErrorCode::format, file.string(), "found no run of `remodel design`");

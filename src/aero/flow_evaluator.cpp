@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "aero/design_mesh.h"
 #include "aero/flow_memory.h"
 #include "aero/resolved_problem.h"
 #include "base/threads.h"
 #include "remodel/error.h"
-#include "remodel/mesh_derivative.h"
 #include "remodel/remodel.h"
 
 namespace remodel {
@@ -45,11 +45,12 @@ class FlowEvaluator final : public Evaluator {
     auto& memory = static_cast<FlowMemory&>(*state);
     memory.observer.ask(task.observer);
     while (memory.flows.size() < problem_.points.size())
-      memory.flows.emplace_back(design_flow_options(space_.half(), &memory.observer));
+      memory.flows.emplace_back(flow_options(memory.flows.size(), memory));
     if (is_first || task.step.changed() != 0) memory.connectivity = 2 * task.evaluation;
     if (parts_.target) aim(task, memory);
     memory.known.go_on_from(task.from, memory.flows);
-    const Shared shared{task, MeshDerivative(task.mesh), task.mesh.freeze()};
+    const DesignMesh mesh(space_, task.mesh, task.design);
+    const Shared shared{mesh, task.gradient ? std::optional<DesignDerivative>({space_, mesh}) : std::nullopt};
     std::vector<PointFlow> points(problem_.points.size());
     ThreadTeam(std::min(points.size(), threads_)).run(points.size(), [&](std::size_t i) {
       points[i] = point_of(shared, i, memory);
@@ -90,9 +91,8 @@ class FlowEvaluator final : public Evaluator {
  private:
   // What the points of a design have in common.
   struct Shared {
-    const EvaluationTask& task;
-    MeshDerivative derivative;
-    FrozenMesh frozen;
+    const DesignMesh& mesh;
+    std::optional<DesignDerivative> derivative;  // none: no gradients are asked for
   };
   // What came of a point.
   struct PointFlow {
@@ -101,22 +101,26 @@ class FlowEvaluator final : public Evaluator {
     double gradient_seconds = 0.0;
   };
 
+  FlowOptions flow_options(std::size_t point, FlowMemory& memory) const {
+    return design_flow_options(space_, problem_.points[point], &memory.observer);
+  }
+
   // Called from several threads: of the memory it changes this point's flow alone.
   PointFlow point_of(const Shared& shared, std::size_t index, FlowMemory& memory) const {
-    PointFlow point{.flow = memory.flows[index].solve(shared.task.mesh, problem_.points[index].conditions),
+    PointFlow point{.flow = shared.mesh.solve(memory.flows[index], problem_.points[index].conditions),
                     .slopes = {}};
     if (space_.half()) point.flow = whole_of(std::move(point.flow));
     if (!point.flow.converged()) throw std::runtime_error("no flow was found: " + point.flow.reason);
     if (!point.flow.lift_determined)
       throw std::runtime_error("the lift is not determined: a section has no edge that the flow leaves from");
-    const FlowView view{shared.task.mesh, shared.frozen, point.flow,
+    const FlowView view{shared.mesh.walls(), shared.mesh.frozen(), point.flow,
                         parts_.target ? &memory.target[index] : nullptr};
     std::vector<FlowValue> values;
     for (const std::size_t function : asked_[index]) {
       values.push_back(parts_.functions[function]->at(view));
       point.slopes[function].value = values.back().value;
     }
-    if (shared.task.gradient) add_derivatives(shared, index, memory, values, point);
+    if (shared.derivative) add_derivatives(shared, index, memory, values, point);
     return point;
   }
 
@@ -124,21 +128,23 @@ class FlowEvaluator final : public Evaluator {
   void add_derivatives(const Shared& shared, std::size_t index, FlowMemory& memory,
                        std::vector<FlowValue>& values, PointFlow& point) const {
     WantedGradients wanted{.lift = false, .drag = false, .moment = false, .angle = false};
+    bool pressure_drag = false;
     std::vector<FlowFunctional> functionals;
     for (FlowValue& value : values) {
       wanted.lift = wanted.lift || value.by_lift != 0.0;
-      wanted.drag = wanted.drag || value.by_drag != 0.0;
+      wanted.drag = wanted.drag || value.by_drag != 0.0 || value.by_pressure_drag != 0.0;
+      pressure_drag = pressure_drag || value.by_pressure_drag != 0.0;
       wanted.moment = wanted.moment || value.by_moment != 0.0;
       if (value.by_flow) functionals.push_back(std::move(*value.by_flow));
     }
     const FlowGradients gradients = memory.flows[index].gradients(functionals, wanted);
     if (gradients.interrupted) throw std::runtime_error("interrupted");
     const auto by_design = [&](bool is_wanted, const FlowGradient& gradient) {
-      return is_wanted ? space_.gradient_of_domain(shared.derivative.vjp(gradient.points))
-                       : std::vector<double>();
+      return is_wanted ? shared.derivative->vjp(gradient.points) : std::vector<double>();
     };
     const std::vector<double> lift = by_design(wanted.lift, gradients.cl),
-                              moment = by_design(wanted.moment, gradients.cm);
+                              moment = by_design(wanted.moment, gradients.cm),
+                              of_pressure = by_design(pressure_drag, gradients.cd_pressure);
     std::vector<double> drag = by_design(wanted.drag, gradients.cd);
     if (space_.half())
       for (double& x : drag) x *= 2.0;
@@ -149,6 +155,7 @@ class FlowEvaluator final : public Evaluator {
       if (value.by_drag != 0.0) add(by, value.by_drag, drag);
       if (value.by_lift != 0.0) add(by, value.by_lift, lift);
       if (value.by_moment != 0.0) add(by, value.by_moment, moment);
+      if (value.by_pressure_drag != 0.0) add(by, value.by_pressure_drag, of_pressure);
       if (value.by_flow) add(by, 1.0, by_design(true, gradients.functions.at(next++)));
       point.slopes[asked_[index][i]].by = std::move(by);
     }
@@ -170,14 +177,13 @@ class FlowEvaluator final : public Evaluator {
     const bool is_aimed = memory.aimed_at == memory.connectivity;
     if (is_aimed && memory.is_like) return;
     Mesh mesh = task.mesh;
-    const RemodelResult step = remodel(mesh, *parts_.target, {.strategy = strategy_with_flows});
+    const RemodelResult step = remodel(mesh, *parts_.target, {.strategy = info_of(design_strategy).step});
     const bool is_like = step.born() == 0 && step.gone() == 0;
     if (is_aimed && !is_like) return;
     if (is_aimed) ++memory.connectivity;
     memory.target.clear();
     for (std::size_t i = 0; i < problem_.points.size(); ++i) {
-      if (memory.target_flows.size() == i)
-        memory.target_flows.emplace_back(design_flow_options(space_.half(), &memory.observer));
+      if (memory.target_flows.size() == i) memory.target_flows.emplace_back(flow_options(i, memory));
       const FlowResult flow = memory.target_flows[i].solve(mesh, problem_.points[i].conditions);
       if (!flow.converged()) throw std::runtime_error("no flow was found around the target: " + flow.reason);
       memory.target.push_back(at_stations(mesh.freeze(), pressure_coefficients(flow)));
@@ -192,6 +198,10 @@ class FlowEvaluator final : public Evaluator {
     const std::string suffix = index == 0 ? "" : "_" + std::to_string(index + 1);
     outputs["cl" + suffix] = flow.cl, outputs["cd" + suffix] = flow.cd, outputs["cm" + suffix] = flow.cm;
     outputs["alpha_deg" + suffix] = flow.alpha_deg;
+    if (flow.friction) {
+      outputs["cd_pressure" + suffix] = flow.friction->cd_pressure;
+      outputs["cd_friction" + suffix] = flow.friction->cd_friction;
+    }
     outputs["flow_seconds"] += flow.seconds;
     outputs["factorisations"] += flow.factorisations;
     if (with_gradients) outputs["gradient_seconds"] += point.gradient_seconds;
@@ -202,7 +212,8 @@ class FlowEvaluator final : public Evaluator {
       result.constraints.push_back(value);
       if (task.gradient) result.constraint_gradients.push_back(std::move(by));
     };
-    const DesignView view{space_, task.design, task.mesh.domain()};
+    const Domain walls = space_.walls(task.design);
+    const DesignView view{space_, task.design, walls};
     for (const ResolvedProblem::DomainLimit& limit : parts_.domain)
       for (DesignValue& value : limit.constraint->at(view)) add_one(value.value, std::move(value.by_design));
     for (const ResolvedProblem::FlowLimit& limit : parts_.flow) {

@@ -14,6 +14,20 @@ class Drag final : public FlowFunction {
   bool is_even() const override { return true; }
 };
 
+class PressureDrag final : public FlowFunction {
+  FlowValue at(const FlowView& of) const override {
+    return {.value = of.flow.friction->cd_pressure, .by_pressure_drag = 1.0};
+  }
+  bool needs_friction() const override { return true; }
+};
+
+class FrictionDrag final : public FlowFunction {
+  FlowValue at(const FlowView& of) const override {
+    return {.value = of.flow.friction->cd_friction, .by_drag = 1.0, .by_pressure_drag = -1.0};
+  }
+  bool needs_friction() const override { return true; }
+};
+
 class Lift final : public FlowFunction {
   FlowValue at(const FlowView& of) const override { return {.value = of.flow.cl, .by_lift = 1.0}; }
   bool is_given(const FlowConditions& conditions) const override { return conditions.cl.has_value(); }
@@ -44,6 +58,16 @@ extern constinit const FlowKind drag_kind = {.name = "drag",
                                              .at_least = any_coefficient,
                                              .at_most = any_coefficient,
                                              .make = made<Drag>};
+extern constinit const FlowKind pressure_drag_kind = {.name = "pressure_drag",
+                                                      .objective = 1.0,
+                                                      .at_least = any_coefficient,
+                                                      .at_most = any_coefficient,
+                                                      .make = made<PressureDrag>};
+extern constinit const FlowKind friction_drag_kind = {.name = "friction_drag",
+                                                      .objective = 1.0,
+                                                      .at_least = any_coefficient,
+                                                      .at_most = any_coefficient,
+                                                      .make = made<FrictionDrag>};
 extern constinit const FlowKind lift_kind = {.name = "lift",
                                              .objective = -1.0,
                                              .at_least = any_coefficient,

@@ -22,6 +22,7 @@ class FlowFunction {
   // Whether half of a flow that is its own mirror image says all of it.
   virtual bool is_even() const { return false; }
   virtual bool needs_target() const { return false; }
+  virtual bool needs_friction() const { return false; }
   // Whether the conditions give its value, so that there is nothing to design.
   virtual bool is_given(const FlowConditions& conditions) const {
     static_cast<void>(conditions);

@@ -5,6 +5,7 @@
 #include "aero/problem_elements.h"
 #include "aero/problem_json.h"
 #include "aero/problem_keys.h"
+#include "aero/resolved_problem.h"
 
 namespace remodel {
 
@@ -18,22 +19,49 @@ Json object_of(const Json& problem, const char* key) {
   return problem.contains(key) ? problem.at(key) : Json::object();
 }
 
+FlowModel model_named(const Keys& keys) {
+  const std::string name = keys.get<std::string>("model", "euler");
+  for (const FlowModel model : {FlowModel::euler, FlowModel::laminar, FlowModel::sa})
+    if (name == name_of(model)) return model;
+  keys.fail("found '" + name + "' as 'model', expected euler, laminar or sa");
+}
+
 DesignPoint point_of(const Json& entry, const std::string& where) {
-  const Keys keys(entry, where, {"mach", "alpha_deg", "cl", "weight"});
-  return {.conditions = {.mach = keys.get<double>("mach"),
-                         .alpha_deg = keys.get<double>("alpha_deg", 0.0),
-                         .cl = keys.find<double>("cl")},
-          .weight = keys.get<double>("weight", 1.0)};
+  const Keys keys(entry, where, {"mach", "alpha_deg", "cl", "weight", "model", "reynolds"});
+  DesignPoint point{.conditions = {.mach = keys.get<double>("mach"),
+                                   .alpha_deg = keys.get<double>("alpha_deg", 0.0),
+                                   .cl = keys.find<double>("cl"),
+                                   .reynolds = keys.get<double>("reynolds", 0.0)},
+                    .weight = keys.get<double>("weight", 1.0),
+                    .model = model_named(keys)};
+  if (point.model != FlowModel::euler) keys.require("reynolds");
+  if (point.model == FlowModel::euler && keys.has("reynolds"))
+    keys.fail("found 'reynolds' without a model with friction, expected \"laminar\" or \"sa\" as 'model'");
+  return point;
+}
+
+// Heights and thickness as layer_for_flow() has them for the points, unless they are given.
+LayerOptions layer_of(const Json& object, const std::string& file, const LayerOptions& usual) {
+  const Keys keys(object, file + ", mesh, layers", {"first_height", "growth", "thickness"});
+  LayerOptions layer = usual;
+  layer.first_height = keys.get<double>("first_height", usual.first_height);
+  layer.growth = keys.get<double>("growth", usual.growth);
+  layer.thickness = keys.get<double>("thickness", usual.thickness);
+  return layer;
 }
 
 void read_mesh_options(const Json& json, const std::string& file, DesignProblem& problem) {
   const Json object = object_of(json, "mesh");
-  const Keys mesh(object, file + ", mesh", {"points", "gradation", "farfield_radius"});
-  problem.domain.points = mesh.whole<int>("points", 100, 8, 100000);
+  const Keys mesh(object, file + ", mesh", {"points", "gradation", "farfield_radius", "layers"});
+  const bool has_friction = problem.points.front().model != FlowModel::euler;
+  problem.domain.points = mesh.whole<int>("points", has_friction ? usual_points_with_friction : 100, 8, 100000);
   if (problem.domain.points % 2 != 0)
     mesh.fail("found " + std::to_string(problem.domain.points) + " as 'points', expected an even number");
   problem.domain.farfield_radius = mesh.get<double>("farfield_radius", 25.0);
   problem.gradation = mesh.find<double>("gradation");
+  if (!mesh.has("layers")) return;
+  if (!has_friction) mesh.fail("found 'layers' without friction, expected 'model' and 'reynolds' at all points");
+  problem.layer = layer_of(object.at("layers"), file, layer_for_points(problem.points));
 }
 
 // Of the section that a constraint is of: what it contains is given with as many coefficients.
@@ -86,11 +114,14 @@ void read_designer(const Keys& keys, DesignProblem& problem) {
   problem.seed = keys.whole<std::uint64_t>("seed", 1, 0, UINT64_MAX);
 }
 
-void read_lists(const Keys& keys, const std::string& file, int degree, DesignProblem& problem) {
-  const std::filesystem::path directory = std::filesystem::path(file).parent_path();
+void read_points(const Keys& keys, const std::string& file, DesignProblem& problem) {
   for (const Json& entry : keys.list("flow", most_points))
     problem.points.push_back(point_of(entry, file + ", flow " + std::to_string(problem.points.size() + 1)));
   if (problem.points.empty()) keys.fail("expected at least one point of 'flow'");
+}
+
+void read_lists(const Keys& keys, const std::string& file, int degree, DesignProblem& problem) {
+  const std::filesystem::path directory = std::filesystem::path(file).parent_path();
   for (const Json& entry : keys.list("constraints", most_constraints))
     problem.constraints.push_back(
         constraint_of(entry, file + ", constraint " + std::to_string(problem.constraints.size() + 1), problem,
@@ -114,6 +145,7 @@ DesignProblem read_design_problem(const std::string& file) {
     problem.airfoil = section_named(keys, "airfoil", degree, directory, problem.warnings);
     problem.symmetric = keys.get<bool>("symmetric", false);
   }
+  read_points(keys, file, problem);
   read_mesh_options(json, file, problem);
   if (keys.has("elements")) {
     if (keys.has("symmetric")) keys.fail("found 'symmetric' with 'elements', expected 'airfoil'");

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "aero/element_space.h"
+#include "aero/layered_space.h"
 #include "aero/section_space.h"
+#include "remodel/flow_layer.h"
 
 namespace remodel {
 namespace {
@@ -146,7 +148,7 @@ class Resolver {
   void require_points() const {
     if (problem_.points.empty()) place_.fail("expected at least one point of 'flow'");
     for (std::size_t i = 0; i < problem_.points.size(); ++i) {
-      const auto& [conditions, weight] = problem_.points[i];
+      const auto& [conditions, weight, model] = problem_.points[i];
       const ProblemPlace place = place_of("flow", i);
       place.require_number(conditions.mach, "mach", {0.01, 3.0});
       place.require_number(conditions.alpha_deg, "alpha_deg", {-90.0, 90.0});
@@ -155,7 +157,27 @@ class Resolver {
         place.fail(
             "found 'cl' with a 'mach' above 1, expected 'alpha_deg': lift is given below the speed of sound");
       place.require_number(weight, "weight", {0.0, 1e6});
+      if (has_friction() != (model != FlowModel::euler))
+        place.fail("found the model " + shown(name_of(model)) +
+                   " beside points of another kind, expected friction at all points or at none");
+      if (has_friction()) place.require_number(conditions.reynolds, "reynolds", {1.0, 1e10});
+      if (!has_friction() && conditions.reynolds != 0.0)
+        place.fail("found 'reynolds' with the model \"euler\", expected \"laminar\" or \"sa\" as 'model'");
     }
+    require_layer();
+  }
+
+  bool has_friction() const { return problem_.points.front().model != FlowModel::euler; }
+
+  void require_layer() const {
+    if (problem_.layer && !has_friction())
+      place_.inner("mesh").fail("found 'layers' without friction, expected 'model' and 'reynolds' at all points");
+    constexpr int least_points = 150;
+    if (has_friction() && problem_.domain.points < least_points)
+      place_.inner("mesh").fail("found " + shown(problem_.domain.points) + " as 'points' with friction, expected " +
+                                shown(least_points) + " or more; " + shown(usual_points_with_friction) + " are usual");
+    if (has_friction() && problem_.target)
+      place_.fail("found 'target' with friction, expected points without");
   }
 
   // Each function once: constraints of one kind share what it takes.
@@ -178,6 +200,7 @@ class Resolver {
       index_of(kind, std::nullopt);
     }
     const FlowFunction& objective = *resolved_.functions.front();
+    require_friction(objective, place_, problem_.objective);
     for (const DesignPoint& point : problem_.points)
       if (objective.is_given(point.conditions))
         place_.fail("found the objective '" + problem_.objective + "' with 'cl', expected 'alpha_deg' alone");
@@ -190,7 +213,12 @@ class Resolver {
       place_.fail("found 'target' with 'elements', expected 'airfoil'");
   }
 
-  std::string name_of(std::size_t index) const {
+  void require_friction(const FlowFunction& function, const ProblemPlace& place, const std::string& kind) const {
+    if (function.needs_friction() && !has_friction())
+      place.fail("found '" + kind + "' without friction, expected 'model' and 'reynolds' at all points");
+  }
+
+  std::string name_of_constraint(std::size_t index) const {
     const DesignConstraint& constraint = problem_.constraints[index];
     if (!constraint.name.empty()) return constraint.name;
     const std::string& kind = is_own(constraint) && constraint.kind.empty() ? "own" : constraint.kind;
@@ -219,7 +247,7 @@ class Resolver {
     require_members(constraint, members_of(kind, has_elements), place);
     if (kind.at_least && kind.at_most && constraint.at_least.has_value() == constraint.at_most.has_value())
       place.fail("expected one of at_least and at_most");
-    ResolvedProblem::FlowLimit limit{.point = constraint.point.value_or(0), .name = name_of(index)};
+    ResolvedProblem::FlowLimit limit{.point = constraint.point.value_or(0), .name = name_of_constraint(index)};
     if (limit.point >= problem_.points.size())
       place.fail("found " + shown(limit.point) + " as 'point', expected a whole number from 0 to " +
                  shown(problem_.points.size() - 1));
@@ -236,6 +264,7 @@ class Resolver {
       limit.function = index_of(kind, section);
     }
     const FlowFunction& function = *resolved_.functions[limit.function];
+    require_friction(function, place, constraint.kind);
     if (function.is_given(problem_.points[limit.point].conditions))
       place.fail("found '" + constraint.kind +
                  "' of a point whose 'cl' is given, expected 'alpha_deg' alone there");
@@ -250,12 +279,19 @@ class Resolver {
       return point.conditions.alpha_deg == 0.0 && !point.conditions.cl;
     };
     const auto is_even = [](const FlowFunctionPtr& function) { return function->is_even(); };
-    return problem_.symmetric && problem_.airfoil.te_upper == 0.0 &&
+    return problem_.symmetric && problem_.airfoil.te_upper == 0.0 && !has_friction() &&
            std::all_of(problem_.points.begin(), problem_.points.end(), along_axis) &&
            std::all_of(resolved_.functions.begin(), resolved_.functions.end(), is_even);
   }
 
   void make_space() {
+    make_space_of_bodies();
+    if (has_friction())
+      resolved_.space = std::make_unique<LayeredSpace>(std::move(resolved_.space), problem_.layer.value_or(layer_for_points(problem_.points)),
+                                                       problem_.domain.points);
+  }
+
+  void make_space_of_bodies() {
     if (!problem_.elements.empty()) {
       resolved_.space = std::make_unique<ElementSpace>(space_of_elements(problem_, place_));
       return;
@@ -286,7 +322,7 @@ class Resolver {
       place_.fail("found " + std::to_string(functions_ + resolved_.flow.size()) +
                   " entries in 'constraints, counting stations', expected at most " +
                   std::to_string(most_functions));
-    resolved_.domain.push_back({std::move(made), name_of(index)});
+    resolved_.domain.push_back({std::move(made), name_of_constraint(index)});
   }
 
   DomainRequest request_of(const DesignConstraint& constraint, const DomainKind& kind,
@@ -353,6 +389,17 @@ class Resolver {
 };
 
 }  // namespace
+
+LayerOptions layer_for_points(const std::vector<DesignPoint>& points) {
+  std::optional<LayerOptions> layer;
+  for (const DesignPoint& point : points) {
+    const LayerOptions own = layer_for_flow(point.model, point.conditions.reynolds / point.conditions.reference_length);
+    if (!layer) layer = own;
+    layer->first_height = std::min(layer->first_height, own.first_height);
+    layer->thickness = std::max(layer->thickness, own.thickness);
+  }
+  return layer.value();
+}
 
 ResolvedProblem resolved(const DesignProblem& problem, const std::string& source) {
   return Resolver(problem, source).result();

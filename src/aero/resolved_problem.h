@@ -33,6 +33,9 @@ struct ResolvedProblem {
   std::vector<std::string> names() const;  // of each function of an evaluation
 };
 
+// The layer that serves all of these points, which have friction.
+LayerOptions layer_for_points(const std::vector<DesignPoint>& points);
+
 // Throws Error (argument), as validate() does.
 ResolvedProblem resolved(const DesignProblem& problem, const std::string& source);
 

@@ -23,8 +23,10 @@ class AskingObserver final : public StepObserver {
   OptimiseObserver* observer_;
 };
 
+// With friction away from the tops of layers.
 double gradation_of(const DesignProblem& problem) {
-  return problem.gradation.value_or(problem.domain.points / 50.0);
+  const bool has_friction = problem.points.front().model != FlowModel::euler;
+  return problem.gradation.value_or(problem.domain.points / (has_friction ? 37.5 : 50.0));
 }
 
 OptimiseOptions options_of(const DesignProblem& problem, const DesignRunOptions& options,
@@ -33,7 +35,8 @@ OptimiseOptions options_of(const DesignProblem& problem, const DesignRunOptions&
   result.domain = problem.domain;
   result.quality.gradation = gradation_of(problem);
   result.remodel.observer = &observer;
-  result.strategy = MeshStrategy::morph;
+  result.strategy = design_strategy;
+  result.reference_slack_deg = design_slack_deg;
   result.evaluations = problem.evaluations;
   result.constraint_tolerance = problem.constraint_tolerance;
   result.workers = 1;
@@ -46,17 +49,45 @@ OptimiseOptions options_of(const DesignProblem& problem, const DesignRunOptions&
 
 // The constraints of a point that its flow on a fresh mesh violates.
 std::vector<NamedNumber> violated_by(const ResolvedProblem& problem, double tolerance, std::size_t point,
-                                     const Mesh& mesh, const FlowResult& flow) {
+                                     const Domain& walls, const FrozenMesh& frozen, const FlowResult& flow) {
   std::vector<NamedNumber> result;
   if (!flow.converged() || !flow.lift_determined) return result;
-  const FrozenMesh frozen = mesh.freeze();
   for (const ResolvedProblem::FlowLimit& limit : problem.flow) {
     if (limit.point != point) continue;
-    const double value = problem.functions[limit.function]->at({mesh, frozen, flow}).value;
+    const double value = problem.functions[limit.function]->at({walls, frozen, flow}).value;
     const double excess = limit.factor * (value - limit.limit);
     if (excess > tolerance) result.push_back({limit.name, excess});
   }
   return result;
+}
+
+// A mesh that no search has seen, with layers where the space has them.
+struct FreshMesh {
+  Mesh plain;  // without layers
+  FrozenMesh frozen;
+  Stopped stopped = Stopped::done;
+};
+
+FreshMesh fresh_mesh(const FlowSpace& space, const Domain& walls, double gradation, StepObserver& observer) {
+  FreshMesh fresh;
+  if (space.layers() != nullptr) {
+    const LayeredGenerateResult made =
+        generate_layered(walls, space.layers()->options(), {.gradation = gradation}, &observer);
+    fresh.frozen = made.mesh.freeze(), fresh.stopped = made.stopped;
+  } else {
+    GenerateResult made = generate(walls, {.gradation = gradation}, &observer);
+    fresh.frozen = made.mesh.freeze(), fresh.stopped = made.stopped;
+    fresh.plain = std::move(made.mesh);
+  }
+  return fresh;
+}
+
+FlowResult flow_through(const FreshMesh& mesh, const FlowSpace& space, const DesignPoint& point,
+                        StepObserver& observer) {
+  const FlowOptions options = design_flow_options(space, point, &observer);
+  FlowResult flow = mesh.plain.empty() ? solve_flow(mesh.frozen, point.conditions, options)
+                                       : solve_flow(mesh.plain, point.conditions, options);
+  return space.half() ? whole_of(std::move(flow)) : flow;
 }
 
 // What kept one of the meshes or flows from being finished, or done.
@@ -64,23 +95,24 @@ Stopped verify(const DesignProblem& problem, const ResolvedProblem& parts, std::
                StepObserver& observer, std::vector<FreshFlow>& verified) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   for (const int points : problem.verify) {
-    const double gradation = gradation_of(problem) * points / problem.domain.points;
-    const GenerateResult made =
-        generate(parts.space->domain_with(design, points), {.gradation = gradation}, &observer);
-    if (made.stopped != Stopped::done) return made.stopped;
+    const Domain walls = parts.space->domain_with(design, points);
+    const FreshMesh mesh =
+        fresh_mesh(*parts.space, walls, gradation_of(problem) * points / problem.domain.points, observer);
+    if (mesh.stopped != Stopped::done) return mesh.stopped;
     for (std::size_t i = 0; i < problem.points.size(); ++i) {
-      const FlowResult flow =
-          solve_design_flow(made.mesh, problem.points[i].conditions, parts.space->half(), &observer);
+      const FlowResult flow = flow_through(mesh, *parts.space, problem.points[i], observer);
       if (flow.status == FlowStatus::interrupted) return Stopped::interrupted;
       verified.push_back({.points = points,
-                          .vertices = made.mesh.freeze().points.size(),
+                          .vertices = mesh.frozen.points.size(),
                           .mach = flow.mach,
                           .alpha_deg = flow.alpha_deg,
                           .cl = flow.lift_determined ? flow.cl : none,
                           .cd = flow.cd,
                           .cm = flow.lift_determined ? flow.cm : none,
+                          .cd_pressure = flow.friction ? std::optional(flow.friction->cd_pressure) : std::nullopt,
+                          .cd_friction = flow.friction ? std::optional(flow.friction->cd_friction) : std::nullopt,
                           .converged = flow.converged(),
-                          .violated = violated_by(parts, problem.constraint_tolerance, i, made.mesh, flow),
+                          .violated = violated_by(parts, problem.constraint_tolerance, i, walls, mesh.frozen, flow),
                           .seconds = flow.seconds});
     }
   }
@@ -90,7 +122,7 @@ Stopped verify(const DesignProblem& problem, const ResolvedProblem& parts, std::
 // What the search took: the first design's flows were found cold.
 void add_cost(const DesignRun& run, DesignResult& result) {
   result.start_objective = run.start_objective();
-  result.flows = run.rows.size() * run.conditions.size();
+  result.flows = run.rows.size() * run.points.size();
   result.gradients = run.with_gradients() ? result.flows : 0;
   result.replacements = static_cast<std::size_t>(std::count_if(
       run.rows.begin(), run.rows.end(), [](const EvaluationRecord& row) { return row.changed() != 0; }));
@@ -132,6 +164,8 @@ std::string fresh_json(const std::vector<FreshFlow>& flows) {
                     {"converged", flow.converged},
                     {"violated", std::move(violated)},
                     {"seconds", flow.seconds}});
+    if (flow.cd_pressure) list.back()["cd_pressure"] = *flow.cd_pressure;
+    if (flow.cd_friction) list.back()["cd_friction"] = *flow.cd_friction;
   }
   return list.dump();
 }

@@ -39,8 +39,8 @@ class Suction final : public FlowFunction {
   bool is_asked_for(const FlowView& of, std::size_t p) const {
     if (of.frozen.curve[p] < 0 || of.frozen.steiner[p] != 0) return false;
     const auto curve = static_cast<std::size_t>(of.frozen.curve[p]);
-    if (loop_) return of.mesh.domain().loop_of(curve) == *loop_;
-    const std::string& name = of.mesh.domain().curve(curve).name;
+    if (loop_) return of.domain.loop_of(curve) == *loop_;
+    const std::string& name = of.domain.curve(curve).name;
     return name != "farfield" && name != "symmetry";
   }
 

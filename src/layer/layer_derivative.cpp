@@ -6,7 +6,6 @@
 
 #include "layer/layer_parts.h"
 #include "remodel/error.h"
-#include "remodel/mesh_derivative.h"
 
 namespace remodel {
 
@@ -39,11 +38,16 @@ void require_size(std::size_t found, std::size_t expected, const char* what) {
 
 }  // namespace
 
-LayeredMeshDerivative::LayeredMeshDerivative(const LayeredMesh& mesh) {
+LayeredMeshDerivative::LayeredMeshDerivative(const LayeredMesh& mesh)
+    : LayeredMeshDerivative(mesh, MeshDerivative(mesh.outer())) {}
+
+LayeredMeshDerivative::LayeredMeshDerivative(const LayeredMesh& mesh, std::span<const std::size_t> moving)
+    : LayeredMeshDerivative(mesh, MeshDerivative(mesh.outer(), moving)) {}
+
+LayeredMeshDerivative::LayeredMeshDerivative(const LayeredMesh& mesh, const MeshDerivative& beyond) {
   constexpr double step = 1e-4;  // of the coefficients, which are in chords or near 1, and of degrees
   const LayeredMesh::Columns& columns = *mesh.columns_;
   const FrozenMesh outside = mesh.outer().freeze();
-  const MeshDerivative beyond(mesh.outer());
   // The tops are points of the layer; all others of the outer mesh follow these.
   std::vector<bool> is_top(outside.points.size(), false);
   for (const RingTops& ring : tops_of(mesh.outer(), columns))

@@ -23,6 +23,9 @@ struct LayeredMesh::Columns : LayerColumns {
   }
 };
 
+// Throws Error (argument) for options out of range.
+void require_layer_options(const LayerOptions& options);
+
 // Per ring and column of a layer: the place of the same column in an earlier layer, if it is one of that.
 struct ColumnPlace {
   std::size_t ring = no_column, column = no_column;

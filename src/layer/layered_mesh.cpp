@@ -1,9 +1,6 @@
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
-#include "generate/require_option.h"
-#include "layer/heights.h"
 #include "layer/layer_parts.h"
 #include "mesh/mesh_data.h"
 #include "remodel/error.h"
@@ -14,24 +11,6 @@
 namespace remodel {
 
 namespace {
-
-void require_layer_options(const LayerOptions& options) {
-  require_option(options.first_height > 0.0 && options.first_height <= 1e3, "first layer height",
-                 options.first_height, "more than 0 and at most 1000 chords");
-  require_option(options.growth >= 1.02 && options.growth <= 2.0, "growth", options.growth, "1.02 to 2");
-  require_option(options.thickness >= options.first_height && options.thickness <= 1e3, "layer thickness",
-                 options.thickness, "at least the first layer's height and at most 1000 chords");
-  require_option(options.fan_from_deg >= 10.0 && options.fan_from_deg <= 90.0, "angle of fans", options.fan_from_deg,
-                 "10 to 90");
-}
-
-std::uint32_t levels_of(const LayerOptions& options) {
-  const std::uint32_t levels = level_count(options.first_height, options.growth, options.thickness);
-  const double reached = options.first_height * geometric_sum(options.growth, levels);
-  require_option(reached >= options.thickness * (1.0 - 1e-6), "layer thickness", options.thickness,
-                 "one that 1000 cells fill");
-  return levels;
-}
 
 // The loops that differ; false if the two have other loops or stations, or may be in another order.
 bool follows_by_index(const Domain& own, const Domain& wanted) {
@@ -337,50 +316,6 @@ std::string LayeredMesh::quick_check() const {
     }
   }
   return {};
-}
-
-namespace {
-
-// A layer counts in the budget of vertices: it takes memory before refinement looks at that.
-void require_room_for(const Domain& domain, const std::vector<std::size_t>& loops, std::uint32_t levels,
-                      std::uint32_t max_vertices) {
-  std::size_t stations = 0;
-  for (const std::size_t loop : loops)
-    for (const Curve& curve : domain.loops[loop].curves) stations += curve.parameters.size();
-  if (stations * (std::size_t{levels} + 1) <= max_vertices) return;
-  throw Error(ErrorCode::argument, "layers",
-              "found " + std::to_string(stations) + " stations on walls and " + std::to_string(levels) +
-                  " cells across the layer, expected at most " + std::to_string(max_vertices) + " points of both");
-}
-
-}  // namespace
-
-LayeredGenerateResult generate_layered(const Domain& domain, const LayerOptions& layers, const QualityOptions& quality,
-                                       StepObserver* observer) {
-  require_layer_options(layers);
-  validate(domain);
-  LayeredGenerateResult result;
-  LayeredMesh& mesh = result.mesh;
-  LayeredMesh::Columns& columns = *mesh.columns_;
-  columns.loops = layered_loops(domain, layers);
-  columns.levels = levels_of(layers);
-  require_room_for(domain, columns.loops, columns.levels, quality.max_vertices);
-  const Walls walls(domain);
-  columns.fans = fans_of(walls, columns.loops, layers, {columns.loops.size(), nullptr});
-  static_cast<LayerColumns&>(columns) = columns_of(walls, columns.loops, columns.fans, layers, columns.levels);
-  for (const ColumnRing& ring : columns.rings) {
-    std::vector<std::uint32_t>& ids = columns.ids.emplace_back(ring.size());
-    std::iota(ids.begin(), ids.end(), columns.next_id);
-    columns.next_id += static_cast<std::uint32_t>(ring.size());
-  }
-  GenerateResult outer = generate(outside_of(domain, columns, columns.levels), quality, observer);
-  mesh.outer_ = std::move(outer.mesh);
-  mesh.walls_ = domain;
-  mesh.options_ = layers;
-  result.stopped = outer.stopped;
-  result.small_angles = outer.small_angles;
-  result.exempt_triangles = outer.exempt_triangles;
-  return result;
 }
 
 LayeredRemodelResult remodel(LayeredMesh& mesh, const Domain& domain, const RemodelOptions& options) {

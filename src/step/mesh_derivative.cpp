@@ -62,6 +62,10 @@ Domain with_coefficients(const Domain& domain, std::span<const double> coefficie
 
 MeshDerivative::MeshDerivative(const Mesh& mesh) : MeshDerivative(mesh.freeze(), mesh.domain()) {}
 
+MeshDerivative::MeshDerivative(const Mesh& mesh, std::span<const std::size_t> moving) : MeshDerivative(mesh) {
+  interior_.emplace(mesh, moving);
+}
+
 MeshDerivative::MeshDerivative(const FrozenMesh& frozen, const Domain& domain)
     : domain_(domain), points_(frozen.points.size()) {
   for (std::size_t l = 0; l < domain.loops.size(); ++l) {
@@ -85,6 +89,11 @@ MeshDerivative::MeshDerivative(const FrozenMesh& frozen, const Domain& domain)
 
 std::vector<Point> MeshDerivative::jvp(std::span<const double> direction) const {
   require_count(direction.size(), count_, "direction");
+  const std::vector<Point> walls = walls_jvp(direction);
+  return interior_ ? interior_->jvp(walls) : walls;
+}
+
+std::vector<Point> MeshDerivative::walls_jvp(std::span<const double> direction) const {
   std::vector<Point> result(points_);
   for (std::size_t c = 0; c < pieces_.size(); ++c) {
     const Piece& piece = pieces_[c];
@@ -105,6 +114,11 @@ std::vector<Point> MeshDerivative::jvp(std::span<const double> direction) const 
 
 std::vector<double> MeshDerivative::vjp(std::span<const Point> by_points) const {
   require_count(by_points.size(), points_, "derivatives by points");
+  std::vector<Point> along;
+  if (interior_) {
+    along = interior_->vjp(by_points);
+    by_points = along;
+  }
   std::vector<double> result(count_, 0.0);
   for (std::size_t c = 0; c < pieces_.size(); ++c) {
     const Piece& piece = pieces_[c];

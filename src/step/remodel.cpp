@@ -14,9 +14,9 @@ constexpr std::array method_names{"auto", "specialised", "general"};
 
 }  // namespace
 
-double angle_with_slack(const QualityOptions& quality) {
-  constexpr double slack = 2.0, largest = 34.0;
-  return std::max(quality.refine_angle_deg, std::min(quality.min_angle_deg + slack, largest));
+double angle_with_slack(const QualityOptions& quality, double slack_deg) {
+  constexpr double largest = 34.0;
+  return std::max(quality.refine_angle_deg, std::min(quality.min_angle_deg + slack_deg, largest));
 }
 
 const char* name_of(Method method) {
