@@ -96,10 +96,11 @@ void add_euler_options(CLI::App& app, EulerRun& run) {
       app, "--gradient",
       "Also derivatives of the coefficients by the shape's numbers, the Mach number and the angle (or lift)",
       run.gradient);
-  add_flag(app, "--error",
-           "Also how far the coefficients are from those of an infinitely fine mesh: an estimate by one more mesh "
-           "with half the edges' length",
-           run.error);
+  add_flag(
+      app, "--error",
+      "Also how far the coefficients are from those of an infinitely fine mesh: an estimate by one more mesh "
+      "with half the edges' length",
+      run.error);
   add_choice(app,
              {"--compare", "WITH", "nothing",
               "With --series: also solve each design on a fresh mesh, cold or (rival) from the flow before"},
@@ -111,7 +112,9 @@ namespace {
 
 FlowResult solve(const EulerRun& run, const MeshInput& input, const std::string& source, LivingFlow& living,
                  const FlowOptions& options) {
-  if (run.gradient) return living.solve(*input.living, run.conditions);
+  if (run.gradient)
+    return input.living ? living.solve(*input.living, run.conditions)
+                        : living.solve(input.frozen, run.conditions);
   return input.living ? solve_flow(*input.living, run.conditions, options, source)
                       : solve_flow(input.frozen, run.conditions, options, source);
 }
@@ -120,14 +123,15 @@ void require_possible(const EulerRun& run, const MeshInput& input) {
   require_mach(run);
   if (run.compare != Compare::none)
     throw Error(ErrorCode::argument, "--compare", "given without --series, expected a series to compare");
-  if (run.gradient && !input.living)
+  if (run.gradient && !input.living && !input.layered)
     throw Error(ErrorCode::argument, "--gradient",
                 "given with the mesh of another program, expected a shape or a native mesh, whose curves are "
                 "known");
   if (run.error && !input.living)
-    throw Error(ErrorCode::argument, "--error",
-                "given with the mesh of another program, expected a shape or a native mesh, of which a finer one "
-                "can be made");
+    throw Error(
+        ErrorCode::argument, "--error",
+        "given with the mesh of another program, expected a shape or a native mesh, of which a finer one "
+        "can be made");
 }
 
 // Files of a flow, or of a search that found none, which has residuals alone.
@@ -166,8 +170,8 @@ std::vector<std::string> write_files(const EulerRun& run, const MeshInput& input
 }
 
 // What keeps errors from being estimated is a warning: the flow was found.
-FlowError error_of(const EulerRun& run, const MeshInput& input, const FlowOptions& options, const std::string& source,
-                   FlowResult& flow) {
+FlowError error_of(const EulerRun& run, const MeshInput& input, const FlowOptions& options,
+                   const std::string& source, FlowResult& flow) {
   FlowError error;
   try {
     error = estimate_error(*input.living, flow, run.conditions, options, source);
@@ -195,8 +199,7 @@ Status run_euler(const EulerRun& run, const MeshInput& input, const std::string&
     const FlowProgressLine progress(options);
     LivingFlow living(options);
     flow = solve(run, input, source, living, options);
-    if (run.gradient && flow.converged())
-      gradients = gradients_json(living, *input.living, flow, run.conditions);
+    if (run.gradient && flow.converged()) gradients = gradients_json(living, input, flow, run.conditions);
     if (run.error && flow.converged()) error = error_of(run, input, options, source, flow);
   }
   const std::vector<std::string> files = write_files(run, input, source, outputs, options, flow);

@@ -52,5 +52,7 @@ Status run_euler(const EulerRun& run, const MeshInput& input, const std::string&
 // Remodels the mesh to each airfoil of the series and reports the flow around each. One that no mesh can have
 // is reported as not converged, with the reason. It is in flow_series.cpp.
 Status run_series(const EulerRun& run, StartMesh start);
+// The same on a mesh with layers; `source` names it.
+Status run_layered_series(const EulerRun& run, LayeredMesh start, const std::string& source);
 
 }  // namespace remodel::app

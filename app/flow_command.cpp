@@ -72,12 +72,12 @@ StartMesh start_mesh(const FlowCommand& command) {
 // Options that models with friction need, or do not know yet.
 void require_fitting_model(const FlowCommand& command) {
   if (!command.has_friction())
-    return refuse(command, {"--reynolds", "--cf-plot"}, "given without friction, expected --model laminar or sa");
+    return refuse(command, {"--reynolds", "--cf-plot"},
+                  "given without friction, expected --model laminar or sa");
   if (!command.given("--reynolds"))
     throw Error(ErrorCode::argument, "--reynolds",
                 "not given, expected the Reynolds number of the reference length for --model laminar or sa");
-  refuse(command, {"--series", "--gradient", "--compare", "--error", "--limiter"},
-         "given with --model laminar or sa, expected --model euler");
+  refuse(command, {"--error", "--limiter"}, "given with --model laminar or sa, expected --model euler");
 }
 
 Status run(const FlowCommand& command) {
@@ -86,10 +86,9 @@ Status run(const FlowCommand& command) {
   if (!command.euler.cf_plot.empty()) require_writable_as(command.euler.cf_plot, {".svg", ".png"});
   if (!command.cp_plot.empty()) require_writable_as(command.cp_plot, {".svg", ".png"});
   if (!command.euler.history.empty()) require_writable_as(command.euler.history, {".csv", ".svg", ".png"});
-  require_different_files(command.outputs,
-                          {{"--cp-plot", command.cp_plot},
-                           {"--cf-plot", command.euler.cf_plot},
-                           {"--history", command.euler.history}});
+  require_different_files(command.outputs, {{"--cp-plot", command.cp_plot},
+                                            {"--cf-plot", command.euler.cf_plot},
+                                            {"--history", command.euler.history}});
   if (command.is_potential) {
     refuse(command,
            {"--tolerance", "--max-steps", "--memory", "--solver", "--limiter", "--series", "--gradient",
@@ -110,7 +109,14 @@ Status run(const FlowCommand& command) {
   if (!command.outputs.files().empty() || !command.cp_plot.empty() || !command.euler.history.empty())
     throw Error(ErrorCode::argument, "--series",
                 "given with a file to write, expected no file: there are many flows");
-  return run_series(euler, start_mesh(command));
+  if (!command.has_friction()) return run_series(euler, start_mesh(command));
+  MeshInput input = read_input(command);
+  if (!input.layered)
+    throw Error(
+        ErrorCode::argument, command.input.shapes.front(),
+        "found a mesh without layers of its own, expected a shape or a native mesh with layers for --series "
+        "with friction");
+  return run_layered_series(euler, std::move(*input.layered), command.input.shapes.front());
 }
 
 }  // namespace
@@ -120,21 +126,23 @@ void add_flow_command(CLI::App& program, Action& action) {
   CLI::App& app = add_command(program, "flow", "The flow around airfoils, or through a mesh of any format",
                               command, action);
   add_domain_input(app, command->input);
-  add_choice(app,
-             {"--model", "MODEL", "euler",
-              "euler: of a compressible gas without friction; potential: of an incompressible one, with "
-              "pressures by "
-              "Karman and Tsien's rule where --mach is given; laminar: of a compressible gas with friction; sa: of "
-              "its turbulent flow, by Spalart's and Allmaras's model"},
-             {"euler", "potential", "laminar", "sa"}, [command](std::size_t choice) {
-               command->is_potential = choice == 1;
-               command->model = choice < 2 ? FlowModel::euler : choice == 2 ? FlowModel::laminar : FlowModel::sa;
-             });
-  add_real(app,
-           {"--reynolds", "RE", "",
-            "Reynolds number by the reference length, of models with friction: 1 to 1e10. A layer of cells on the "
-            "walls follows from it where a shape is given"},
-           {.low = 1.0, .high = 1e10}, [command](double value) { command->euler.conditions.reynolds = value; });
+  add_choice(
+      app,
+      {"--model", "MODEL", "euler",
+       "euler: of a compressible gas without friction; potential: of an incompressible one, with "
+       "pressures by "
+       "Karman and Tsien's rule where --mach is given; laminar: of a compressible gas with friction; sa: of "
+       "its turbulent flow, by Spalart's and Allmaras's model"},
+      {"euler", "potential", "laminar", "sa"}, [command](std::size_t choice) {
+        command->is_potential = choice == 1;
+        command->model = choice < 2 ? FlowModel::euler : choice == 2 ? FlowModel::laminar : FlowModel::sa;
+      });
+  add_real(
+      app,
+      {"--reynolds", "RE", "",
+       "Reynolds number by the reference length, of models with friction: 1 to 1e10. A layer of cells on the "
+       "walls follows from it where a shape is given"},
+      {.low = 1.0, .high = 1e10}, [command](double value) { command->euler.conditions.reynolds = value; });
   add_real(app, {"--alpha", "DEG", "0", "Angle of attack in degrees, -90 to 90"}, {.low = -90, .high = 90},
            command->alpha_deg);
   add_real(app, {"--cl", "CL", "", "Lift coefficient that the angle of attack is found for: -10 to 10"},
@@ -144,7 +152,8 @@ void add_flow_command(CLI::App& program, Action& action) {
            Presence::optional, command->farfield);
   add_text(app, {"--cp-plot", "FILE", "", "Plot of the pressure coefficient along every body: .svg or .png"},
            Presence::optional, command->cp_plot);
-  add_text(app, {"--cf-plot", "FILE", "", "Plot of the friction along every body, with friction: .svg or .png"},
+  add_text(app,
+           {"--cf-plot", "FILE", "", "Plot of the friction along every body, with friction: .svg or .png"},
            Presence::optional, command->euler.cf_plot);
   add_euler_options(app, command->euler);
   add_duct_options(app, command->euler);

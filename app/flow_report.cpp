@@ -1,6 +1,9 @@
 #include "flow_report.h"
 
+#include <functional>
 #include <limits>
+#include <memory>
+#include <span>
 
 #include "remodel/mesh_derivative.h"
 
@@ -113,31 +116,54 @@ void add_flow_figures(Report& report, const FlowResult& flow, const FlowConditio
   report.data("history", flow.history);
 }
 
-Json gradients_json(LivingFlow& living, const Mesh& mesh, const FlowResult& flow,
+namespace {
+
+// The shape's numbers of a native mesh, and derivatives by them of those by points.
+struct ShapeNumbers {
+  std::vector<std::string> names;
+  std::function<std::vector<double>(std::span<const Point>)> vjp;
+};
+
+ShapeNumbers shape_numbers(const MeshInput& input) {
+  if (input.layered) {
+    auto layered = std::make_shared<LayeredMeshDerivative>(*input.layered);
+    return {coefficient_names(input.layered->domain()),
+            [=](auto by_points) { return layered->vjp(by_points); }};
+  }
+  auto plain = std::make_shared<MeshDerivative>(*input.living);
+  return {coefficient_names(input.living->domain()), [=](auto by_points) { return plain->vjp(by_points); }};
+}
+
+}  // namespace
+
+Json gradients_json(LivingFlow& living, const MeshInput& input, const FlowResult& flow,
                     const FlowConditions& conditions) {
   const FlowGradients gradients = living.gradients();
   if (gradients.interrupted) return nullptr;
-  const MeshDerivative derivative(mesh);
-  const std::vector<std::string> names = coefficient_names(mesh.domain());
-  Json sections = Json::object(), others = Json::object(), mach = Json::object();
+  const ShapeNumbers shape = shape_numbers(input);
+  const std::vector<std::string>& names = shape.names;
+  Json sections = Json::object(), others = Json::object(), mach = Json::object(), reynolds = Json::object();
   const auto place_of = [&](std::size_t i) -> Json& { return is_of_section(names[i]) ? sections : others; };
   for (std::size_t i = 0; i < names.size(); ++i) place_of(i)["names"].push_back(names[i]);
   sections["names"].push_back(conditions.cl ? "cl" : "alpha_deg");
   const auto note = [&](const char* name, const FlowGradient& gradient) {
-    const std::vector<double> by = derivative.vjp(gradient.points);
+    const std::vector<double> by = shape.vjp(gradient.points);
     for (std::size_t i = 0; i < names.size(); ++i) place_of(i)[name].push_back(by[i]);
     sections[name].push_back(conditions.cl ? gradient.cl : gradient.alpha_deg);
     mach[name] = gradient.mach;
+    if (flow.friction) reynolds[name] = gradient.reynolds;
   };
   const auto note_if_determined = [&](const char* name, const FlowGradient& gradient) {
     if (flow.lift_determined) return note(name, gradient);
     for (Json* of : {&sections, &others, &mach}) (*of)[name] = nullptr;
   };
   note_if_determined("cl", gradients.cl), note("cd", gradients.cd), note_if_determined("cm", gradients.cm);
+  if (flow.friction) note("cd_pressure", gradients.cd_pressure);
   if (conditions.cl) note_if_determined("alpha_deg", gradients.alpha_deg);
   Json json = std::move(sections);
   json["others"] = std::move(others);
   json["mach"] = std::move(mach);
+  if (flow.friction) json["reynolds"] = std::move(reynolds);
   json["seconds"] = gradients.seconds;
   return json;
 }
@@ -145,8 +171,9 @@ Json gradients_json(LivingFlow& living, const Mesh& mesh, const FlowResult& flow
 void add_gradients(Report& report, const Json& gradients) {
   report.data("gradient", gradients);
   report.line("gradients by", gradients["names"].dump());
-  for (const auto& [key, label] : {std::pair{"cl", "CL"}, std::pair{"cd", "CD"}, std::pair{"cm", "CM"},
-                                   std::pair{"alpha_deg", "the angle, degrees"}})
+  for (const auto& [key, label] :
+       {std::pair{"cl", "CL"}, std::pair{"cd", "CD"}, std::pair{"cd_pressure", "CD of pressure"},
+        std::pair{"cm", "CM"}, std::pair{"alpha_deg", "the angle, degrees"}})
     if (gradients.contains(key) && !gradients[key].is_null())
       report.line(std::string("gradient of ") + label, gradients[key].dump());
 }
@@ -159,13 +186,14 @@ void add_error(Report& report, const FlowError& error) {
                         {"cm", error.cm},
                         {"alpha_deg", error.alpha_deg},
                         {"order", error.order},
-                        {"finer", {{"vertices", error.vertices},
-                                   {"cl", finer.cl},
-                                   {"cd", finer.cd},
-                                   {"cm", finer.cm},
-                                   {"alpha_deg", finer.alpha_deg},
-                                   {"newton_steps", finer.newton_steps},
-                                   {"seconds", finer.seconds}}}});
+                        {"finer",
+                         {{"vertices", error.vertices},
+                          {"cl", finer.cl},
+                          {"cd", finer.cd},
+                          {"cm", finer.cm},
+                          {"alpha_deg", finer.alpha_deg},
+                          {"newton_steps", finer.newton_steps},
+                          {"seconds", finer.seconds}}}});
   const auto bar = [&](const char* label, double lacks, double on_finer) {
     report.line(label, Json(lacks).dump() + " (on " + std::to_string(error.vertices) + " vertices " +
                            Json(on_finer).dump() + ")");

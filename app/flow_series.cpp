@@ -7,6 +7,7 @@
 #include "flow_files.h"
 #include "flow_report.h"
 #include "interrupt.h"
+#include "layered_update.h"
 #include "new_airfoil.h"
 #include "remodel/error.h"
 #include "remodel/generate.h"
@@ -35,19 +36,78 @@ std::vector<CstAirfoil> read_series(const std::string& file) {
   return airfoils;
 }
 
+// The living mesh of a series: of triangles alone, or with layers.
+class SeriesMesh {
+ public:
+  virtual ~SeriesMesh() = default;
+  virtual Domain with(const CstAirfoil& airfoil) const = 0;
+  virtual RemodelResult step(const Domain& domain, StepObserver& observer) = 0;
+  virtual FlowResult solve(LivingFlow& living, const FlowConditions& conditions) const = 0;
+  // A fresh mesh of the same options, and the flow through it from nothing.
+  virtual FrozenMesh fresh(const Domain& domain) = 0;
+  virtual FlowResult cold(const FlowConditions& conditions, const FlowOptions& options) const = 0;
+};
+
+class PlainSeriesMesh final : public SeriesMesh {
+ public:
+  explicit PlainSeriesMesh(StartMesh start) : start_(std::move(start)) {}
+  Domain with(const CstAirfoil& airfoil) const override { return with_new_airfoil(start_, {}, airfoil); }
+  RemodelResult step(const Domain& domain, StepObserver& observer) override {
+    return remodel(start_.mesh, domain, {.strategy = strategy_with_flows, .observer = &observer});
+  }
+  FlowResult solve(LivingFlow& living, const FlowConditions& conditions) const override {
+    return living.solve(start_.mesh, conditions);
+  }
+  FrozenMesh fresh(const Domain& domain) override {
+    fresh_ = generate(domain, start_.mesh.options()).mesh;
+    return fresh_.freeze();
+  }
+  FlowResult cold(const FlowConditions& conditions, const FlowOptions& options) const override {
+    return solve_flow(fresh_, conditions, options);
+  }
+
+ private:
+  StartMesh start_;
+  Mesh fresh_;
+};
+
+class LayeredSeriesMesh final : public SeriesMesh {
+ public:
+  LayeredSeriesMesh(LayeredMesh start, const std::string& source)
+      : mesh_(std::move(start)), source_(source) {}
+  Domain with(const CstAirfoil& airfoil) const override {
+    return walls_with_airfoil(mesh_.domain(), airfoil, source_);
+  }
+  RemodelResult step(const Domain& domain, StepObserver& observer) override {
+    return remodel(mesh_, domain, {.strategy = strategy_with_flows, .observer = &observer});
+  }
+  FlowResult solve(LivingFlow& living, const FlowConditions& conditions) const override {
+    return living.solve(mesh_.freeze(), conditions);
+  }
+  FrozenMesh fresh(const Domain& domain) override {
+    return fresh_ = generate_layered(domain, mesh_.options(), mesh_.outer().options()).mesh.freeze();
+  }
+  FlowResult cold(const FlowConditions& conditions, const FlowOptions& options) const override {
+    return solve_flow(fresh_, conditions, options);
+  }
+
+ private:
+  LayeredMesh mesh_;
+  std::string source_;
+  FrozenMesh fresh_;
+};
+
 // The same designs on fresh meshes, for comparison.
 class Comparison {
  public:
-  Comparison(Compare kind, const QualityOptions& quality, const FlowConditions& conditions,
-             const FlowOptions& options)
-      : kind_(kind), quality_(quality), conditions_(conditions), options_(options) {}
+  Comparison(Compare kind, SeriesMesh& mesh, const FlowConditions& conditions, const FlowOptions& options)
+      : kind_(kind), series_(mesh), conditions_(conditions), options_(options) {}
 
   void add(const Domain& domain, Json& entry) {
     if (kind_ == Compare::none) return;
-    const Mesh fresh = generate(domain, quality_).mesh;
-    FrozenMesh mesh = fresh.freeze();
+    FrozenMesh mesh = series_.fresh(domain);
     const bool cold = kind_ == Compare::cold || !flow_;
-    FlowResult flow = cold ? solve_flow(fresh, conditions_, options_)
+    FlowResult flow = cold ? series_.cold(conditions_, options_)
                            : solve_flow_from(mesh_, *flow_, mesh, conditions_, options_);
     entry[kind_ == Compare::cold ? "cold_seconds" : "rival_seconds"] = flow.seconds;
     entry[kind_ == Compare::cold ? "cold_cl" : "rival_cl"] =
@@ -58,7 +118,7 @@ class Comparison {
 
  private:
   Compare kind_;
-  QualityOptions quality_;
+  SeriesMesh& series_;
   FlowConditions conditions_;
   FlowOptions options_;
   FrozenMesh mesh_;
@@ -73,7 +133,7 @@ Json refused_design(const std::string& why) {
 // The row so far.
 class Row {
  public:
-  explicit Row(std::string source) : source_(std::move(source)) {}
+  Row(std::string source, FlowModel model) : source_(std::move(source)), model_(model) {}
 
   void add(const FlowResult& flow, Json entry) {
     factorisations_ += flow.factorisations;
@@ -95,7 +155,7 @@ class Row {
   Status report(bool json) const {
     Report report;
     report.figure("mesh", "mesh", source_);
-    report.data("model", "euler");
+    report.data("model", name_of(model_));
     report.figure("flows", "flows", designs_.size());
     report.figure("not_converged", "flows that were not found", not_found_);
     report.figure("factorisations", "factorisations", factorisations_);
@@ -128,6 +188,7 @@ class Row {
   }
 
   std::string source_;
+  FlowModel model_;
   Json designs_ = Json::array();
   std::vector<std::string> warnings_;
   Status worst_ = Status::done;
@@ -135,9 +196,7 @@ class Row {
   double seconds_ = 0.0;
 };
 
-}  // namespace
-
-Status run_series(const EulerRun& run, StartMesh start) {
+Status run_row(const EulerRun& run, SeriesMesh& mesh, const std::string& source) {
   require_mach(run);
   if (run.gradient)
     throw Error(ErrorCode::argument, "--gradient", "given with --series, expected a single flow");
@@ -145,14 +204,14 @@ Status run_series(const EulerRun& run, StartMesh start) {
   FlowOptions options = options_of(run);
   options.observer = &observer;
   LivingFlow living(options);
-  Comparison comparison(run.compare, start.mesh.options(), run.conditions, options);
-  Row row(start.source);
+  Comparison comparison(run.compare, mesh, run.conditions, options);
+  Row row(source, options.model);
   for (const CstAirfoil& airfoil : read_series(run.series)) {
     std::optional<Domain> domain;
     RemodelResult step;
     try {
-      domain = with_new_airfoil(start, {}, airfoil);
-      step = remodel(start.mesh, *domain, {.strategy = strategy_with_flows, .observer = &observer});
+      domain = mesh.with(airfoil);
+      step = mesh.step(*domain, observer);
     } catch (const Error& error) {
       if (error.code() != ErrorCode::geometry) throw;
       row.add_refused(error.what());
@@ -162,7 +221,7 @@ Status run_series(const EulerRun& run, StartMesh start) {
       row.ended(Status::limit);
       break;
     }
-    const FlowResult flow = living.solve(start.mesh, run.conditions);
+    const FlowResult flow = mesh.solve(living, run.conditions);
     Json entry = to_json(flow, run.conditions);
     entry["full_adjustment"] = step.full_adjustment;
     comparison.add(*domain, entry);
@@ -170,6 +229,19 @@ Status run_series(const EulerRun& run, StartMesh start) {
     if (flow.status == FlowStatus::interrupted || flow.status == FlowStatus::memory) break;
   }
   return row.report(run.json);
+}
+
+}  // namespace
+
+Status run_series(const EulerRun& run, StartMesh start) {
+  const std::string source = start.source;
+  PlainSeriesMesh mesh(std::move(start));
+  return run_row(run, mesh, source);
+}
+
+Status run_layered_series(const EulerRun& run, LayeredMesh start, const std::string& source) {
+  LayeredSeriesMesh mesh(std::move(start), source);
+  return run_row(run, mesh, source);
 }
 
 }  // namespace remodel::app

@@ -16,11 +16,12 @@
 namespace remodel::app {
 namespace {
 
-// Puts an airfoil in the place of another one: on the same stations, with a base where the trailing edge is open,
-// of as many pieces as the old one or as the spacing beside it asks for.
+// Puts an airfoil in the place of another one: on the same stations, with a base where the trailing edge is
+// open, of as many pieces as the old one or as the spacing beside it asks for.
 void replace_airfoil(Loop& loop, const CstAirfoil& airfoil) {
   Curve& curve = loop.curves.front();
-  const double beside = distance(airfoil.at(0.0), airfoil.at(curve.parameters.size() > 1 ? curve.parameters[1] : 0.5));
+  const double beside =
+      distance(airfoil.at(0.0), airfoil.at(curve.parameters.size() > 1 ? curve.parameters[1] : 0.5));
   curve.shape = airfoil;
   const bool open = airfoil.te_upper != airfoil.te_lower;
   if (!open) {
@@ -33,8 +34,9 @@ void replace_airfoil(Loop& loop, const CstAirfoil& airfoil) {
     return;
   }
   const double pieces = std::clamp(std::floor(distance(base.from, base.to) / beside + 0.5), 1.0, 1000.0);
-  loop.curves.push_back(
-      {.name = curve.name, .shape = base, .parameters = Parameters::uniform(static_cast<std::size_t>(pieces))});
+  loop.curves.push_back({.name = curve.name,
+                         .shape = base,
+                         .parameters = Parameters::uniform(static_cast<std::size_t>(pieces))});
 }
 
 bool is_airfoil(const Loop& loop) {
@@ -45,16 +47,12 @@ DomainInput with_single_airfoil(const LayeredUpdate& update, const Domain& walls
   const std::string& shape = update.shapes.shapes.front();
   DomainInput input;
   const CstFit fit = fit_shape(shape, update.fit, input.fits);
-  input.domain = walls;
-  const auto loop = std::find_if(input.domain.loops.begin(), input.domain.loops.end(), is_airfoil);
-  if (loop == input.domain.loops.end())
-    throw Error(ErrorCode::argument, update.mesh,
-                "found a mesh without an airfoil of coefficients, expected one, or a whole domain for SHAPE");
-  replace_airfoil(*loop, fit.airfoil);
+  input.domain = walls_with_airfoil(walls, fit.airfoil, update.mesh);
   return input;
 }
 
-// Whether the same parameters are the same points: those of polylines and splines are counted by their points.
+// Whether the same parameters are the same points: those of polylines and splines are counted by their
+// points.
 bool has_parameters_of(const Shape& a, const Shape& b) {
   if (a.index() != b.index()) return false;
   const auto count = [](const Shape& shape) {
@@ -71,7 +69,8 @@ bool take_stations(Loop& loop, const Domain& walls) {
     const auto alike = [](const Curve& a, const Curve& b) {
       return a.name == b.name && has_parameters_of(a.shape, b.shape);
     };
-    if (!std::equal(loop.curves.begin(), loop.curves.end(), old.curves.begin(), old.curves.end(), alike)) continue;
+    if (!std::equal(loop.curves.begin(), loop.curves.end(), old.curves.begin(), old.curves.end(), alike))
+      continue;
     for (std::size_t c = 0; c < loop.curves.size(); ++c) loop.curves[c].parameters = old.curves[c].parameters;
     return true;
   }
@@ -103,7 +102,8 @@ void warn_of_step(const LayeredUpdate& update, const LayeredRemodelResult& resul
   else if (result.regenerated)
     warn(update.mesh + ": generated afresh outside the layer, " + lost + ": " + result.reason);
   else if (!result.same_columns)
-    warn(update.mesh + ": the layer has other columns than before, as its walls have other stations or corners");
+    warn(update.mesh +
+         ": the layer has other columns than before, as its walls have other stations or corners");
 }
 
 void print_report(const LayeredUpdate& update, const DomainInput& input, const LayeredMesh& mesh,
@@ -133,6 +133,16 @@ void print_report(const LayeredUpdate& update, const DomainInput& input, const L
 
 }  // namespace
 
+Domain walls_with_airfoil(const Domain& walls, const CstAirfoil& airfoil, const std::string& mesh) {
+  Domain result = walls;
+  const auto loop = std::find_if(result.loops.begin(), result.loops.end(), is_airfoil);
+  if (loop == result.loops.end())
+    throw Error(ErrorCode::argument, mesh,
+                "found a mesh without an airfoil of coefficients, expected one, or a whole domain for SHAPE");
+  replace_airfoil(*loop, airfoil);
+  return result;
+}
+
 Status run_layered_update(const LayeredUpdate& update) {
   const LayeredMesh original = read_layered_mesh(update.mesh);
   const FrozenMesh before = original.freeze();
@@ -157,7 +167,8 @@ Status run_layered_update(const LayeredUpdate& update) {
     const FrozenMesh after = mesh.freeze();
     cargo.carry(before, after);
     std::size_t ignored = 0;
-    update.outputs.with_boxes(without_surface_points(boxes, ignored)).write(mesh, update.cells, cargo.fields());
+    update.outputs.with_boxes(without_surface_points(boxes, ignored))
+        .write(mesh, update.cells, cargo.fields());
     cargo.write_state(after);
   }
   warn_of_step(update, result);

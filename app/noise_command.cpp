@@ -60,8 +60,13 @@ struct Objective {
   std::shared_ptr<std::vector<std::string>> failures = std::make_shared<std::vector<std::string>>();
 };
 
+// One way of making the meshes of the line. Hub and reference are meshes of the design in the middle.
+enum class Way { fresh, living, hub, reference };
+constexpr const char* way_names[] = {"fresh", "living", "hub", "reference"};
+
 // A new solver for each way of making meshes. With fresh meshes nothing of the last flow is of use.
-Objective flow_objective(const NoiseCommand& command, StepObserver& observer, bool carry) {
+Objective flow_objective(const NoiseCommand& command, StepObserver& observer, Way way) {
+  const bool carry = way != Way::fresh;
   FlowOptions options = command.flow;
   options.observer = &observer;
   auto solver = std::make_shared<LivingFlow>(options);
@@ -77,7 +82,11 @@ Objective flow_objective(const NoiseCommand& command, StepObserver& observer, bo
             return std::nullopt;
           },
           [=](const Mesh& mesh, std::span<const double> direction) {
-            const MeshDerivative derivative(mesh);
+            // Of the line's meshes: those of a reference move with their airfoil, the first loop of their
+            // domain.
+            const std::size_t airfoil[] = {0};
+            const MeshDerivative derivative =
+                way == Way::reference ? MeshDerivative(mesh, airfoil) : MeshDerivative(mesh);
             const FlowGradients gradients = solver->gradients({}, {.moment = false, .angle = false});
             if (gradients.interrupted) throw Interrupted();
             std::vector<double> slopes;
@@ -164,10 +173,6 @@ Mesh finished_mesh(const Domain& domain, const QualityOptions& quality, StepObse
                 std::string("a mesh is unfinished (") + name_of(result.stopped) + "), expected whole ones");
   return std::move(result.mesh);
 }
-
-// One way of making the meshes of the line. Hub and reference are meshes of the design in the middle.
-enum class Way { fresh, living, hub, reference };
-constexpr const char* way_names[] = {"fresh", "living", "hub", "reference"};
 
 class LineMeshes {
  public:
@@ -335,7 +340,7 @@ Status run(const NoiseCommand& command) {
   std::vector<Series> all;
   Objective objective;
   for (const Way way : {Way::fresh, Way::living, Way::hub, Way::reference}) {
-    objective = command.mach ? flow_objective(command, observer, way != Way::fresh)
+    objective = command.mach ? flow_objective(command, observer, way)
                              : command_objective(command, observer, way != Way::fresh);
     all.push_back(evaluate(way, objective, line, space, command, observer));
   }

@@ -37,7 +37,8 @@ inline constexpr int usual_points_with_friction = 300;
 struct DesignPoint {
   FlowConditions conditions;  // mach 0.01 to 3; cl below Mach 1 only
   double weight = 1.0;        // of the objective; 0: the point is there for its constraints alone
-  FlowModel model = FlowModel::euler;  // with friction of all points, or of none: `conditions` has its `reynolds`
+  FlowModel model =
+      FlowModel::euler;  // with friction of all points, or of none: `conditions` has its `reynolds`
 };
 
 // A number of an element's placement that the search may change.
@@ -103,16 +104,17 @@ struct DesignProblem {
   // flows are their own mirror images then, half of each is computed (FlowSpace::half()).
   bool symmetric = false;
   AirfoilDomainOptions domain = {.points = 100};
-  // Of the mesh; none: points / 50. With friction `points` is about how many stations a section has, 150 or more
-  // (usual_points_with_friction).
+  // Of the mesh; none: points / 50. With friction `points` is about how many stations a section has, 150 or
+  // more (usual_points_with_friction).
   std::optional<double> gradation = {};
-  // Of flows with friction, on all sections; none: of what layer_for_flow() has for the points, the least first height
-  // and the largest thickness.
+  // Of flows with friction, on all sections; none: of what layer_for_flow() has for the points, the least
+  // first height and the largest thickness.
   std::optional<LayerOptions> layer = {};
   std::vector<DesignPoint> points = {};  // of flow: one or more
-  // A name of objective_names(): the sum over points, by their weights, of drag, pressure_drag, friction_drag, lift (made large),
-  // lift_over_drag (made large), moment (made large) or inverse, half the mean square difference of pressure
-  // coefficients to those of `target` at stations. With own_objective any text: that function, made small.
+  // A name of objective_names(): the sum over points, by their weights, of drag, pressure_drag,
+  // friction_drag, lift (made large), lift_over_drag (made large), moment (made large) or inverse, half the
+  // mean square difference of pressure coefficients to those of `target` at stations. With own_objective any
+  // text: that function, made small.
   std::string objective = "drag";
   FlowFunctionOf own_objective = {};
   std::optional<CstAirfoil> target = {};  // of inverse design
@@ -131,12 +133,13 @@ struct DesignProblem {
   // A JSON object as which the run's settings, its history and its page have the problem; empty: they have
   // design_problem_json(). A reader of problem files keeps the file's here.
   std::string text = {};
-  // A reader of its files leaves here what a person has to know: sections that were turned, sheared or closed.
+  // A reader of its files leaves here what a person has to know: sections that were turned, sheared or
+  // closed.
   std::vector<std::string> warnings = {};
 };
 
-// How the meshes of a search follow its designs: as long as one reference holds, their objective is a smooth function of
-// the design, and its gradient is exact.
+// How the meshes of a search follow its designs: as long as one reference holds, their objective is a smooth
+// function of the design, and its gradient is exact.
 inline constexpr MeshStrategy design_strategy = MeshStrategy::reference;
 inline constexpr double design_slack_deg = 1.0;  // OptimiseOptions::reference_slack_deg
 
@@ -159,18 +162,19 @@ std::unique_ptr<FlowSpace> design_space(const DesignProblem& problem);
 // The names are those of the constraints that the functions of an evaluation are of, one for each function,
 // in their order: of sections and domains first, gaps behind them, then of flows.
 std::vector<std::string> constraint_names(const DesignProblem& problem);
-// Flows of all points on the living mesh, and their gradients by the design: exact ones of the discrete flow on the
-// meshes of one reference (Strategy::reference). With friction the living mesh is what lies beyond the layers. Outputs:
-// cl, cd, cm, with friction cd_pressure and cd_friction, alpha_deg (of the second point cl_2 ...),
-// connectivity, factorisations, flow_seconds, gradient_seconds. The space must outlive it. The flows of the
-// points are found on so many threads at most; times alone depend on it.
+// Flows of all points on the living mesh, and their gradients by the design: exact ones of the discrete flow
+// on the meshes of one reference (Strategy::reference). With friction the living mesh is what lies beyond the
+// layers. Outputs: cl, cd, cm, with friction cd_pressure and cd_friction, alpha_deg (of the second point cl_2
+// ...), connectivity, factorisations, flow_seconds, gradient_seconds. The space must outlive it. The flows of
+// the points are found on so many threads at most; times alone depend on it.
 std::unique_ptr<Evaluator> flow_evaluator(const DesignProblem& problem, const FlowSpace& space,
                                           std::size_t threads = 1);
 std::unique_ptr<Designer> make_designer(const DesignProblem& problem, const FlowSpace& space);
 
 // Options of the flows of a point. Half of a flow has a lift of its own, but the whole has none, and no
 // vortex far away.
-FlowOptions design_flow_options(const FlowSpace& space, const DesignPoint& point, StepObserver* observer = nullptr);
+FlowOptions design_flow_options(const FlowSpace& space, const DesignPoint& point,
+                                StepObserver* observer = nullptr);
 // The coefficients of the whole of a flow of which half was found.
 FlowResult whole_of(FlowResult half);
 // A design's flow found cold with these options, with the coefficients of the whole. The mesh is one of

@@ -66,8 +66,8 @@ struct DesignResult {
   std::vector<FreshFlow> verified;
 };
 
-// Searches, with the meshes following by Strategy::reference, and evaluates the best design on fresh meshes at
-// the end. The directory has what optimise() leaves there, and fresh.json (fresh_json()). A result is the
+// Searches, with the meshes following by Strategy::reference, and evaluates the best design on fresh meshes
+// at the end. The directory has what optimise() leaves there, and fresh.json (fresh_json()). A result is the
 // same for the same problem, but for times. The observer is asked by flows and meshes too, between their
 // steps, from several threads. Throws Error as validate() and optimise() do.
 DesignResult run_design(const DesignProblem& problem, const DesignRunOptions& options,

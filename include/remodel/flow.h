@@ -29,9 +29,10 @@
 // incomplete factors, and by sparse LU where its factors last. docs/flow.md has equations, sources and
 // verification.
 //
-// Models with friction (FlowOptions::model) share the dual, Roe's flux, the far field and the two augmented unknowns.
-// Upwind differences follow the lines of quadrilaterals, friction is linear on triangles, walls are strong; linear
-// systems are preconditioned by the scheme of first order. docs/viscous.md has scheme and verification.
+// Models with friction (FlowOptions::model) share the dual, Roe's flux, the far field and the two augmented
+// unknowns. Upwind differences follow the lines of quadrilaterals, friction is linear on triangles, walls are
+// strong; linear systems are preconditioned by the scheme of first order. docs/viscous.md has scheme and
+// verification.
 //
 // Errors: Error (argument) for conditions and options out of range, for symmetry planes that are not straight
 // or not along the stream, and for a mesh without a far field or another way in and out, without a wall, with
@@ -55,8 +56,8 @@ namespace remodel {
 enum class FlowModel {
   euler,    // without friction
   laminar,  // viscous and heat-conducting: the Navier-Stokes equations
-  sa,       // the same in the mean of a turbulent flow, with the model of Spalart and Allmaras in its negative variant
-            // (ICCFD7-1902), fully turbulent: the stream's working variable is 3 times its viscosity
+  sa,  // the same in the mean of a turbulent flow, with the model of Spalart and Allmaras in its negative
+       // variant (ICCFD7-1902), fully turbulent: the stream's working variable is 3 times its viscosity
 };
 const char* name_of(FlowModel model);  // "euler", "laminar", "sa"
 
@@ -129,8 +130,8 @@ struct FlowOptions {
   // With friction gas sticks to all walls, through which no heat passes. Meshes should have layers of flat
   // quadrilaterals there (remodel/layers.h).
   FlowModel model = FlowModel::euler;
-  // Sutherland's law makes the viscosity of this temperature of the stream, in Kelvin: more than 0, or 0 for a
-  // constant viscosity. Prandtl numbers are 0.72, and 0.9 of turbulence.
+  // Sutherland's law makes the viscosity of this temperature of the stream, in Kelvin: more than 0, or 0 for
+  // a constant viscosity. Prandtl numbers are 0.72, and 0.9 of turbulence.
   double temperature_k = 300.0;
 };
 
@@ -154,8 +155,8 @@ const char* name_of(FlowStart start);  // "cold", "carried", "refactored"
 
 // The state that Newton's method began with, and found the flow from.
 enum class FlowOrigin {
-  last_flow,     // or the flow that was given
-  potential,     // potential flow through the same mesh, with the density and pressure of the stream's entropy
+  last_flow,  // or the flow that was given
+  potential,  // potential flow through the same mesh, with the density and pressure of the stream's entropy
   coarser_mesh,  // the flow through a coarser mesh of the same domain
   undisturbed,   // the stream
 };
@@ -178,11 +179,13 @@ struct FlowFriction {
   double reynolds = 0.0;
   double cd_pressure = 0.0, cd_friction = 0.0;  // the parts of the drag coefficient
   double y_plus_max = 0.0;
-  // Each has one value for each point of the frozen mesh. On walls: the friction, over half the stream's density times
-  // speed squared, positive where it acts along the stream; and y+, of the lowest cell there. 0 elsewhere.
+  // Each has one value for each point of the frozen mesh. On walls: the friction, over half the stream's
+  // density times speed squared, positive where it acts along the stream; and y+, of the lowest cell there. 0
+  // elsewhere.
   std::vector<double> cf, y_plus;
-  // Turbulent flow has turbulent viscosity over the molecular one there, and the working variable of the model over the
-  // stream's kinematic viscosity, which solve_flow_from() begins with. Both are empty otherwise.
+  // Turbulent flow has turbulent viscosity over the molecular one there, and the working variable of the
+  // model over the stream's kinematic viscosity, which solve_flow_from() begins with. Both are empty
+  // otherwise.
   std::vector<double> viscosity_ratio, working;
 };
 
@@ -201,19 +204,19 @@ struct FlowResult {
   std::vector<FlowOpening> openings;  // inlets, then outlets
 
   // Each is a sentence on what has to be known before a coefficient is used: bodies whose lift is not
-  // determined because they have no edge that the flow leaves from (below Mach 1), drag of more than ten counts
-  // where nothing is faster than sound, which mesh and scheme make.
+  // determined because they have no edge that the flow leaves from (below Mach 1), drag of more than ten
+  // counts where nothing is faster than sound, which mesh and scheme make.
   std::vector<std::string> warnings;
   bool lift_determined = true;  // false: a body has no edge; lift and moment mean nothing then
 
   FlowStart start = FlowStart::cold;
   FlowOrigin origin = FlowOrigin::undisturbed;
-  double residual = 0.0;               // as FlowOptions::tolerance counts it
-  std::vector<double> history;         // residuals, from the first state on
-  int newton_steps = 0;                // steps with a Jacobian of their own
-  int factorisations = 0;              // of the whole matrix
-  int coarse_steps = 0;  // of the Newton steps: on coarser meshes, and from starts that led nowhere
-  int krylov_iterations = 0;           // steps with older factors
+  double residual = 0.0;        // as FlowOptions::tolerance counts it
+  std::vector<double> history;  // residuals, from the first state on
+  int newton_steps = 0;         // steps with a Jacobian of their own
+  int factorisations = 0;       // of the whole matrix
+  int coarse_steps = 0;         // of the Newton steps: on coarser meshes, and from starts that led nowhere
+  int krylov_iterations = 0;    // steps with older factors
   std::size_t corrected_vertices = 0;  // where older factors were corrected because the mesh has changed
   FlowSolver solver = FlowSolver::lu;  // of the last step
   int gmres_iterations = 0;            // of all Newton steps
@@ -232,20 +235,20 @@ struct FlowResult {
 std::vector<double> mach_numbers(const FlowResult& flow);
 std::vector<double> pressure_coefficients(const FlowResult& flow);
 std::vector<double> entropy_errors(const FlowResult& flow);
-// density, velocity, pressure, mach, cp and entropy, with friction also cf, y_plus and (turbulent) viscosity_ratio, for
-// files and pictures.
+// density, velocity, pressure, mach, cp and entropy, with friction also cf, y_plus and (turbulent)
+// viscosity_ratio, for files and pictures.
 std::vector<Field> fields_of(const FlowResult& flow);
 
-// The flow through a mesh, found from potential flow where there is one, otherwise from undisturbed flow. `source`
-// names the mesh in messages.
+// The flow through a mesh, found from potential flow where there is one, otherwise from undisturbed flow.
+// `source` names the mesh in messages.
 FlowResult solve_flow(const FrozenMesh& mesh, const FlowConditions& conditions,
                       const FlowOptions& options = {}, const std::string& source = "mesh");
 
-// This is the flow through Mesh::freeze(). From Mach 0.6 on, fine meshes (of 1,500 vertices and more) begin with
-// the flow through a coarser mesh of the same domain, generated with every second station and half the
-// gradation's G, which begins likewise; below, those of 4,000 and more do where potential flow does not lead on.
-// Where the domain has open chains or that does not lead on either, they begin as above. Steps, factorisations,
-// memory and seconds count coarser meshes too.
+// This is the flow through Mesh::freeze(). From Mach 0.6 on, fine meshes (of 1,500 vertices and more) begin
+// with the flow through a coarser mesh of the same domain, generated with every second station and half the
+// gradation's G, which begins likewise; below, those of 4,000 and more do where potential flow does not lead
+// on. Where the domain has open chains or that does not lead on either, they begin as above. Steps,
+// factorisations, memory and seconds count coarser meshes too.
 FlowResult solve_flow(const Mesh& mesh, const FlowConditions& conditions, const FlowOptions& options = {},
                       const std::string& source = "mesh");
 
@@ -281,15 +284,17 @@ struct WantedGradients {
   bool lift = true, drag = true, moment = true;
   bool angle = true;  // of the angle of attack, where lift is given
   bool entropy_drag = false;
+  bool pressure_drag = true;  // of flows with friction, where that of drag is wanted
 };
 
 // The gradients are those of the last flow that was found. Where lift is given the angle of attack follows
 // too: cl has no derivative but that by itself, and alpha_deg says how the angle follows.
 struct FlowGradients {
-  FlowGradient cl, cd, cm;              // empty if they were not wanted
-  FlowGradient alpha_deg;               // of the angle, in degrees: 0 but by itself where it is given
-  FlowGradient entropy_drag;            // empty if it was not wanted
-  FlowGradient cd_pressure;             // the drag of pressure alone, with friction; the rest of cd's is friction's
+  FlowGradient cl, cd, cm;    // empty if they were not wanted
+  FlowGradient alpha_deg;     // of the angle, in degrees: 0 but by itself where it is given
+  FlowGradient entropy_drag;  // empty if it was not wanted
+  FlowGradient
+      cd_pressure;  // with friction, if wanted: of the drag of pressure; the rest of cd's is friction's
   std::vector<FlowGradient> functions;  // that were asked for
   bool interrupted = false;             // by the observer: then there are none
   int factorisations = 0;               // 1 where the factors that there were did not serve
@@ -331,8 +336,8 @@ class LivingFlow {
   FlowResult solve(const FrozenMesh& mesh, const FlowConditions& conditions);
   // Gradients of the last flow that was found. They take the factors that there are, transposed, where these
   // serve; otherwise new ones, which the next flows have too. Throws Error (argument) before the first flow,
-  // where functionals are of another size, where there are inlets or outlets, and for the drag of entropy with
-  // friction. Neither the turbulence model nor distances from walls are frozen.
+  // where functionals are of another size, where there are inlets or outlets, and for the drag of entropy
+  // with friction. Neither the turbulence model nor distances from walls are frozen.
   FlowGradients gradients(const std::vector<FlowFunctional>& functions = {},
                           const WantedGradients& wanted = {});
   // The next flow is found cold.

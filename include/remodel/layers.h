@@ -2,12 +2,12 @@
 
 // Layers of flat quadrilaterals on walls, for flows with friction, that live with the shape.
 //
-// A layered mesh is two things. Around it lies a living mesh of triangles, Mesh, as any other, whose hole is not
-// the wall but a polygon some hundredths of a chord off it. Between the two stand *columns* of cells, one on each
-// station of the wall, all with the same number of *levels*. Columns are a function of the wall alone: a step
-// computes them anew, and remodels the outer mesh to the polygon of their tops. So the connectivity of a layer is
-// the same for a whole run, whatever the outer mesh has to do; only a top cell whose upper edge the outer mesh has
-// split is divided into triangles, and no further cell below it.
+// A layered mesh is two things. Around it lies a living mesh of triangles, Mesh, as any other, whose hole is
+// not the wall but a polygon some hundredths of a chord off it. Between the two stand *columns* of cells, one
+// on each station of the wall, all with the same number of *levels*. Columns are a function of the wall
+// alone: a step computes them anew, and remodels the outer mesh to the polygon of their tops. So the
+// connectivity of a layer is the same for a whole run, whatever the outer mesh has to do; only a top cell
+// whose upper edge the outer mesh has split is divided into triangles, and no further cell below it.
 //
 // Lengths are in chords, as everywhere.
 
@@ -30,46 +30,48 @@ namespace remodel {
 struct LayerOptions {
   double first_height = 0.0;  // of the cells at the wall: more than 0; first_height() has one for a y+
   double growth = 1.2;        // of a cell's height over that of the cell below it, at most: 1.02 to 2
-  // The wanted thickness of the whole layer: at least first_height. In gaps, coves and concave corners columns
-  // are thinner: they take half the radius of the ball that touches the wall there and has no other wall inside.
+  // The wanted thickness of the whole layer: at least first_height. In gaps, coves and concave corners
+  // columns are thinner: they take half the radius of the ball that touches the wall there and has no other
+  // wall inside.
   double thickness = 0.02;
-  // The boundary names of the loops that get a layer, which every curve of such a loop has to have one of. Empty:
-  // all holes.
+  // The boundary names of the loops that get a layer, which every curve of such a loop has to have one of.
+  // Empty: all holes.
   std::vector<std::string> walls = {};
   double fan_from_deg = 30.0;  // a convex corner that turns by more gets a fan of columns: 10 to 90
   friend bool operator==(const LayerOptions&, const LayerOptions&) = default;
 };
 
 // The height in chords at which y+ is what is given, on a flat plate of the chord's length with a turbulent
-// boundary layer: y+ / (Re sqrt(cf / 2)), cf = 0.026 Re^(-1/7). Source: F. M. White, "Viscous Fluid Flow", 1974.
-// Around an airfoil y+ is up to three times as much where the flow is fast. Throws Error (argument) unless y+ is
-// positive and Re is 1 to 1e12.
+// boundary layer: y+ / (Re sqrt(cf / 2)), cf = 0.026 Re^(-1/7). Source: F. M. White, "Viscous Fluid Flow",
+// 1974. Around an airfoil y+ is up to three times as much where the flow is fast. Throws Error (argument)
+// unless y+ is positive and Re is 1 to 1e12.
 double first_height(double y_plus, double reynolds);
-// 0.37 Re^(-1/5): the thickness of that boundary layer at the end of the plate (H. Schlichting, "Boundary-Layer
-// Theory"). A layer needs a fifth more.
+// 0.37 Re^(-1/5): the thickness of that boundary layer at the end of the plate (H. Schlichting,
+// "Boundary-Layer Theory"). A layer needs a fifth more.
 double boundary_layer_thickness(double reynolds);
-// The thickness of `count` cells of which the first has this height and each is `growth` times the one below it.
+// The thickness of `count` cells of which the first has this height and each is `growth` times the one below
+// it.
 double thickness_of(double first_height, double growth, int count);
 
-// The distances between the stations of a wall in chords: at the nose, at the corners (of which the trailing edge
-// is one), and the largest; they grow by `growth` for each unit of length that lies between.
+// The distances between the stations of a wall in chords: at the nose, at the corners (of which the trailing
+// edge is one), and the largest; they grow by `growth` for each unit of length that lies between.
 struct WallSpacing {
   double leading_edge = 0.0015;
   double trailing_edge = 0.0015;
   double most = 0.008;
   double growth = 0.11;
 };
-// The stations of a closed loop by these distances, a list for each of its curves, for Curve::parameters. The nose
-// is a station, of curves that are no airfoil the point farthest from where the loop begins. Polylines keep their
-// corners. With several elements (bends = true) curves with a small radius have distances of an eighth of it,
-// where that is not below a quarter of the nose's. Throws Error (argument) for distances that are not positive, or
-// below 1e-6, and a growth that is not 0.01 to 1.
+// The stations of a closed loop by these distances, a list for each of its curves, for Curve::parameters. The
+// nose is a station, of curves that are no airfoil the point farthest from where the loop begins. Polylines
+// keep their corners. With several elements (bends = true) curves with a small radius have distances of an
+// eighth of it, where that is not below a quarter of the nose's. Throws Error (argument) for distances that
+// are not positive, or below 1e-6, and a growth that is not 0.01 to 1.
 std::vector<Parameters> wall_stations(const Loop& loop, const WallSpacing& spacing, bool bends = false);
 // These stations on all holes, or on the loops of those names (LayerOptions::walls).
 void space_walls(Domain& domain, const WallSpacing& spacing, const std::vector<std::string>& walls = {});
 
-// The cells of the frozen view: quadrilaterals with triangles where fans meet the wall and where top cells are
-// divided; or all of them triangles, by the diagonal that begins at the wall.
+// The cells of the frozen view: quadrilaterals with triangles where fans meet the wall and where top cells
+// are divided; or all of them triangles, by the diagonal that begins at the wall.
 enum class LayerCells : std::uint8_t { quadrilaterals, triangles };
 
 // The points of a layer stand in the frozen view before all others, column by column, from the wall upwards.
@@ -91,16 +93,16 @@ struct LeastAndMost {
 };
 struct LayerStatistics {
   std::size_t columns = 0;
-  std::size_t cells = 0;      // of the layer, triangles included
-  double first_height = 0.0;  // as asked; where columns are too thin for it, cells are lower
-  LeastAndMost thickness;     // of columns
-  LeastAndMost growth;        // of columns; 1: uniform
-  double aspect_max = 0.0;    // the longest edge at the wall over the height of its cell
+  std::size_t cells = 0;        // of the layer, triangles included
+  double first_height = 0.0;    // as asked; where columns are too thin for it, cells are lower
+  LeastAndMost thickness;       // of columns
+  LeastAndMost growth;          // of columns; 1: uniform
+  double aspect_max = 0.0;      // the longest edge at the wall over the height of its cell
   double corner_min_deg = 0.0;  // the smallest corner of quadrilaterals
   // A triangle over a top cell, and the cell: the larger area over the smaller one.
   double area_jump_median = 0.0, area_jump_max = 0.0;
   std::size_t split_tops = 0;  // top cells that are divided into triangles
-  std::size_t shrunk = 0;      // columns that had to give way so that all cells are convex and tops keep apart
+  std::size_t shrunk = 0;  // columns that had to give way so that all cells are convex and tops keep apart
 };
 
 // A native file holds this of a layered mesh: the rest is computed from it, to the bit.
@@ -109,9 +111,10 @@ struct LayeredState {
   Domain walls;
   LayerOptions options;
   std::uint32_t levels = 0;
-  std::vector<std::vector<std::uint32_t>> fans{};  // per layered loop and station: the sectors of its fan, or 0
-  // Each column of a layered loop has a number, which is never given out again in the life of a mesh. All are below
-  // next_column.
+  std::vector<std::vector<std::uint32_t>>
+      fans{};  // per layered loop and station: the sectors of its fan, or 0
+  // Each column of a layered loop has a number, which is never given out again in the life of a mesh. All are
+  // below next_column.
   std::vector<std::vector<std::uint32_t>> columns{};
   std::uint32_t next_column = 0;
   friend bool operator==(const LayeredState&, const LayeredState&) = default;
@@ -132,8 +135,8 @@ class LayeredMesh {
   LayeredMesh& operator=(const LayeredMesh&);
 
   bool empty() const { return outer_.empty(); }
-  const Mesh& outer() const { return outer_; }        // of what lies beyond the tops
-  const Domain& domain() const { return walls_; }     // the walls, not the tops
+  const Mesh& outer() const { return outer_; }     // of what lies beyond the tops
+  const Domain& domain() const { return walls_; }  // the walls, not the tops
   const LayerOptions& options() const { return options_; }
   std::uint32_t levels() const;
   std::size_t columns() const;
@@ -141,14 +144,15 @@ class LayeredMesh {
   std::size_t cells() const { return layer_cells() + outer_.triangle_count(); }
   std::size_t shrunk() const;
 
-  // Points: those of LayerTopology, then those of the outer mesh that are not tops. Cells: triangles of the layer,
-  // triangles of the outer mesh; quadrilaterals column by column, from the wall upwards. Vertices have keys:
-  // those of the layer, by column and level, are of generations from 2^31 on.
+  // Points: those of LayerTopology, then those of the outer mesh that are not tops. Cells: triangles of the
+  // layer, triangles of the outer mesh; quadrilaterals column by column, from the wall upwards. Vertices have
+  // keys: those of the layer, by column and level, are of generations from 2^31 on.
   FrozenMesh freeze(LayerCells cells = LayerCells::quadrilaterals) const;
   LayerTopology topology() const;
   LayerStatistics statistics() const;
 
-  // The outer mesh's quick_check(); all cells strictly convex, by exact predicates; the tops are the outer mesh's.
+  // The outer mesh's quick_check(); all cells strictly convex, by exact predicates; the tops are the outer
+  // mesh's.
   std::string quick_check() const;
   LayeredState state() const;
   // Throws Error (format) where the state is none, or its outer mesh does not fit the walls' columns.
@@ -169,36 +173,39 @@ class LayeredMesh {
 struct LayeredGenerateResult {
   LayeredMesh mesh;
   Stopped stopped = Stopped::done;
-  std::size_t small_angles = 0;      // of the outer mesh's domain: see GenerateResult
+  std::size_t small_angles = 0;  // of the outer mesh's domain: see GenerateResult
   std::size_t exempt_triangles = 0;
 };
 
-// Throws Error (argument) for options out of range and names that no closed loop has; Error (geometry) for what
-// validate() refuses, for chains that end on a wall, and where no layer fits, with the place.
+// Throws Error (argument) for options out of range and names that no closed loop has; Error (geometry) for
+// what validate() refuses, for chains that end on a wall, and where no layer fits, with the place.
 LayeredGenerateResult generate_layered(const Domain& domain, const LayerOptions& layers,
                                        const QualityOptions& quality = {}, StepObserver* observer = nullptr);
 
-// The figures of a step. Those that RemodelResult counts as triangles are cells of the whole: layer and outside.
-// Its moved, inserted and removed vertices are those of the whole too.
+// The figures of a step. Those that RemodelResult counts as triangles are cells of the whole: layer and
+// outside. Its moved, inserted and removed vertices are those of the whole too.
 struct LayeredRemodelResult : RemodelResult {
   std::size_t layer_cells = 0;  // now
   std::size_t shrunk = 0;       // see LayerStatistics
-  bool same_columns = true;     // false: columns have come or gone, as stations have, or fans have other sectors;
-                                // where stations are the same, all other columns stay
+  bool same_columns = true;     // false: columns have come or gone, as stations have, or fans have other
+                             // sectors; where stations are the same, all other columns stay
 };
 
-// The derivative of a layered mesh by its design, at fixed connectivity: walls by their curves at fixed parameters, the
-// layer by its columns, the outer mesh as MeshDerivative has it: its interior still, or along with the tops of these
-// loops. Columns are differenced to fourth order, which is exact to 1e-9 where no column gives way in another manner
-// beside the design.
+// The derivative of a layered mesh by its design, at fixed connectivity: walls by their curves at fixed
+// parameters, the layer by its columns, the outer mesh as MeshDerivative has it: its interior still, or along
+// with the tops of these loops. Columns are differenced to fourth order, which is exact to 1e-9 where no
+// column gives way in another manner beside the design.
 class LayeredMeshDerivative {
  public:
   explicit LayeredMeshDerivative(const LayeredMesh& mesh);
   LayeredMeshDerivative(const LayeredMesh& mesh, std::span<const std::size_t> moving);
 
-  std::size_t coefficients() const { return moved_.size(); }  // coefficients_of(mesh.domain()), mesh_derivative.h
-  std::size_t points() const { return points_; }              // of mesh.freeze()
-  // How points move with the coefficients in this direction. Throws Error (argument) for another size, as vjp() does.
+  std::size_t coefficients() const {
+    return moved_.size();
+  }                                               // coefficients_of(mesh.domain()), mesh_derivative.h
+  std::size_t points() const { return points_; }  // of mesh.freeze()
+  // How points move with the coefficients in this direction. Throws Error (argument) for another size, as
+  // vjp() does.
   std::vector<Point> jvp(std::span<const double> direction) const;
   // Transposed: derivatives by points to derivatives by coefficients.
   std::vector<double> vjp(std::span<const Point> by_points) const;
@@ -210,16 +217,16 @@ class LayeredMeshDerivative {
   std::vector<std::vector<Point>> moved_;  // by each coefficient: how every point moves
 };
 
-// The layers of a row of designs as a function of the design alone: levels and fans are those of the first walls. So an
-// outer mesh can be led from design to design as any mesh is, to outside(walls), and around() says what mesh that makes
-// with its layer. Columns have the same numbers in all of them.
+// The layers of a row of designs as a function of the design alone: levels and fans are those of the first
+// walls. So an outer mesh can be led from design to design as any mesh is, to outside(walls), and around()
+// says what mesh that makes with its layer. Columns have the same numbers in all of them.
 class LayerFrame {
  public:
   // Throws as generate_layered() does.
   LayerFrame(const Domain& walls, const LayerOptions& options);
   const LayerOptions& options() const { return options_; }
-  // The domain of the outer mesh: the tops of columns in place of walls. Throws Error (geometry) where the walls have
-  // no layer, with the place, and Error (argument) for walls with other loops or stations.
+  // The domain of the outer mesh: the tops of columns in place of walls. Throws Error (geometry) where the
+  // walls have no layer, with the place, and Error (argument) for walls with other loops or stations.
   Domain outside(const Domain& walls) const;
   // Precondition: `outer` is a mesh of outside(walls). Throws likewise.
   LayeredMesh around(const Mesh& outer, const Domain& walls) const;
@@ -229,14 +236,15 @@ class LayerFrame {
 
   LayerOptions options_;
   std::vector<std::size_t> loops_;
-  std::vector<std::vector<std::uint32_t>> fans_;  // per layered loop and station: the sectors of its fan, or 0
+  std::vector<std::vector<std::uint32_t>>
+      fans_;  // per layered loop and station: the sectors of its fan, or 0
   std::uint32_t levels_ = 0;
 };
 
 // Remodels a layered mesh, in place: the walls become those of the new domain, with the options that the mesh
-// has. Columns stay as they are where the walls' stations do; fans keep their sectors until a corner turns by more
-// than two sectors beyond them. Otherwise as remodel() of Mesh: where anything is refused, given up or thrown, the
-// mesh is as it was.
+// has. Columns stay as they are where the walls' stations do; fans keep their sectors until a corner turns by
+// more than two sectors beyond them. Otherwise as remodel() of Mesh: where anything is refused, given up or
+// thrown, the mesh is as it was.
 LayeredRemodelResult remodel(LayeredMesh& mesh, const Domain& domain, const RemodelOptions& options = {});
 
 }  // namespace remodel

@@ -1,7 +1,7 @@
 #pragma once
 
-// The derivative of a mesh by its design, at fixed connectivity. Boundary vertices keep their curve and parameter
-// t. The interior does what the step does that the derivative is of:
+// The derivative of a mesh by its design, at fixed connectivity. Boundary vertices keep their curve and
+// parameter t. The interior does what the step does that the derivative is of:
 //
 //   step                                    interior   derivative
 //   full adjustment (any strategy but       still      MeshDerivative(mesh)
@@ -41,9 +41,9 @@ class MeshDerivative {
   // At the design that the mesh has: by the coefficients of mesh.domain(), which may write loops that did not
   // move otherwise than the domain that was given (remodel()).
   explicit MeshDerivative(const Mesh& mesh);
-  // The interior moves along with these loops of the domain, by their indices, as Strategy::reference moves it
-  // (remodel/displacement.h): exact for the meshes of one reference. Throws Error (argument) for an index that there
-  // is not.
+  // The interior moves along with these loops of the domain, by their indices, as Strategy::reference moves
+  // it (remodel/displacement.h): exact for the meshes of one reference. Throws Error (argument) for an index
+  // that there is not.
   MeshDerivative(const Mesh& mesh, std::span<const std::size_t> moving);
   // This takes a mesh's frozen view and its domain. The interior is still.
   MeshDerivative(const FrozenMesh& frozen, const Domain& domain);

@@ -12,9 +12,9 @@
 
 namespace remodel {
 
-// QualityOptions::refine_angle_deg of meshes that Strategy::reference is to hold: as given, but at least so many
-// degrees more than the angle that they promise. Two degrees hold most designs, and cost a third more triangles at I =
-// 200, four times as many at I = 100; one degree costs 2 and 57 per cent.
+// QualityOptions::refine_angle_deg of meshes that Strategy::reference is to hold: as given, but at least so
+// many degrees more than the angle that they promise. Two degrees hold most designs, and cost a third more
+// triangles at I = 200, four times as many at I = 100; one degree costs 2 and 57 per cent.
 double angle_with_slack(const QualityOptions& quality, double slack_deg = 2.0);
 
 // How a mesh follows its domain. It is one choice, by the same names everywhere: remodel() and Trial, the
@@ -67,8 +67,8 @@ std::span<const StrategyInfo> strategies();  // in the order of the enumeration
 const char* name_of(Strategy strategy);
 // Throws Error (argument) listing the names.
 Strategy strategy_named(const std::string& name);
-// The strategy of steps about which nothing else is said, and that of meshes that a flow follows: `design`,
-// `flow --series`, `noise`.
+// The strategy of steps about which nothing else is said, and that of meshes that a flow follows: `flow
+// --series`, `noise`. Designs have design_strategy (remodel/design_problem.h).
 inline constexpr Strategy default_strategy = Strategy::renew, strategy_with_flows = Strategy::morph;
 
 // Which of the paper's two methods a step may use: the specialised one (section 4.2) moves and replaces

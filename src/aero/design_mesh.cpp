@@ -5,7 +5,8 @@
 namespace remodel {
 namespace {
 
-std::optional<LayeredMesh> with_layers(const FlowSpace& space, const Mesh& mesh, std::span<const double> design) {
+std::optional<LayeredMesh> with_layers(const FlowSpace& space, const Mesh& mesh,
+                                       std::span<const double> design) {
   if (space.layers() == nullptr) return std::nullopt;
   return space.layers()->around(mesh, space.walls(design));
 }

@@ -33,8 +33,8 @@ class DesignMesh {
   FrozenMesh frozen_;
 };
 
-// Its derivative by the design, with the interior along with the loops that designs move: that of the meshes of one
-// reference.
+// Its derivative by the design, with the interior along with the loops that designs move: that of the meshes
+// of one reference.
 class DesignDerivative {
  public:
   DesignDerivative(const FlowSpace& space, const DesignMesh& mesh);

@@ -162,9 +162,7 @@ Mesh mesh_of_start(const DesignProblem& problem, const FlowSpace& space) {
 class Case {
  public:
   explicit Case(const DesignProblem& problem)
-      : problem_(problem),
-        space_(design_space(problem)),
-        mesh_(mesh_of_start(problem, *space_)) {}
+      : problem_(problem), space_(design_space(problem)), mesh_(mesh_of_start(problem, *space_)) {}
 
   const DesignProblem& problem() const { return problem_; }
   const FlowSpace& space() const { return *space_; }
@@ -172,7 +170,8 @@ class Case {
   // As a search has it: a morph of the start's mesh.
   Mesh mesh_of(const std::vector<double>& design) const {
     Mesh mesh = mesh_;
-    const RemodelResult step = remodel(mesh, space_->domain(design), {.strategy = info_of(design_strategy).step});
+    const RemodelResult step =
+        remodel(mesh, space_->domain(design), {.strategy = info_of(design_strategy).step});
     EXPECT_TRUE(step.held);
     return mesh;
   }
@@ -316,7 +315,8 @@ DesignProblem viscous_problem() {
   return problem;
 }
 
-// Of all that a design with friction is made of: pressure and friction, the layer's columns, and what lies beyond them.
+// Of all that a design with friction is made of: pressure and friction, the layer's columns, and what lies
+// beyond them.
 TEST(Friction, GradientsAreThoseOfWholeFlowsOnMeshesOfOneReference) {
   DesignProblem problem = viscous_problem();
   problem.constraints = {{.kind = "lift", .at_least = 0.0},
@@ -326,14 +326,14 @@ TEST(Friction, GradientsAreThoseOfWholeFlowsOnMeshesOfOneReference) {
   const Case task(problem);
   const std::vector<double> start = task.space().start();
   const Evaluation evaluation = task.evaluate(start);
-  EXPECT_NEAR(evaluation.objective, evaluation.outputs.at("cd_pressure") + evaluation.outputs.at("cd_friction"), 1e-12);
+  EXPECT_NEAR(evaluation.objective,
+              evaluation.outputs.at("cd_pressure") + evaluation.outputs.at("cd_friction"), 1e-12);
   std::vector<FlowResult> flows;  // of the differences, in their order
-  LivingFlow living(
-      [&] {
-        FlowOptions options = design_flow_options(task.space(), problem.points[0]);
-        options.tolerance = 1e-11;
-        return options;
-      }());
+  LivingFlow living([&] {
+    FlowOptions options = design_flow_options(task.space(), problem.points[0]);
+    options.tolerance = 1e-11;
+    return options;
+  }());
   const auto drag = [&](const std::vector<double>& design) {
     const Mesh mesh = task.mesh_of(design);
     flows.push_back(DesignMesh(task.space(), mesh, design).solve(living, problem.points[0].conditions));
@@ -427,7 +427,8 @@ TEST(HalfDomain, DragTendsToHalfOfTheMirroredMeshs) {
     const Mesh mesh = task.mesh();
     const FrozenMesh half = mesh.freeze();
     const FlowConditions conditions = task.problem().points[0].conditions;
-    const FlowResult upper = solve_design_flow(task.space(), mesh, task.space().start(), task.problem().points[0]),
+    const FlowResult upper = solve_design_flow(task.space(), mesh, task.space().start(),
+                                               task.problem().points[0]),
                      both = solve_flow(mirrored(half), conditions);
     ASSERT_TRUE(upper.converged() && both.converged());
     differences.push_back(std::fabs(upper.cd - both.cd) / both.cd);
@@ -467,7 +468,8 @@ DesignProblem three_elements() {
 
 TEST(Elements, GradientsAreThoseOfWholeFlows) {
   const Case task(three_elements());
-  // All elements have left their places, as in a search: how the interior goes with one depends on which others move.
+  // All elements have left their places, as in a search: how the interior goes with one depends on which
+  // others move.
   std::vector<double> start = task.space().start();
   ASSERT_EQ(start.size(), 4u + 8u + 3u);
   for (std::size_t i = 0; i < start.size(); ++i) start[i] += i % 2 == 0 ? 1e-4 : -1e-4;
@@ -617,7 +619,8 @@ TEST(Problems, ThatMakeNoSenseAreRefusedWithTheirPlace) {
   EXPECT_EQ(refused([](DesignProblem& p) { p.points[0].conditions.mach = std::nan(""); }),
             "it, flow 1: found null as 'mach', expected 0.01 to 3.0");
   EXPECT_EQ(refused([](DesignProblem& p) { p.objective = "beauty"; }),
-            "it: found 'beauty' as 'objective', expected drag, pressure_drag, friction_drag, lift, lift_over_drag, moment, inverse");
+            "it: found 'beauty' as 'objective', expected drag, pressure_drag, friction_drag, lift, "
+            "lift_over_drag, moment, inverse");
   EXPECT_EQ(refused([](DesignProblem& p) { p.objective = "inverse"; }), "it: the key 'target' is missing");
   EXPECT_EQ(refused([](DesignProblem& p) { p.designer = "mma"; }),
             "it, designer: found 'mma' as 'name', expected sqp, cmaes");

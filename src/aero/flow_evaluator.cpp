@@ -127,13 +127,13 @@ class FlowEvaluator final : public Evaluator {
   // Derivatives of the functions of a point by the design: those of coefficients and of pressures together.
   void add_derivatives(const Shared& shared, std::size_t index, FlowMemory& memory,
                        std::vector<FlowValue>& values, PointFlow& point) const {
-    WantedGradients wanted{.lift = false, .drag = false, .moment = false, .angle = false};
-    bool pressure_drag = false;
+    WantedGradients wanted{
+        .lift = false, .drag = false, .moment = false, .angle = false, .pressure_drag = false};
     std::vector<FlowFunctional> functionals;
     for (FlowValue& value : values) {
       wanted.lift = wanted.lift || value.by_lift != 0.0;
       wanted.drag = wanted.drag || value.by_drag != 0.0 || value.by_pressure_drag != 0.0;
-      pressure_drag = pressure_drag || value.by_pressure_drag != 0.0;
+      wanted.pressure_drag = wanted.pressure_drag || value.by_pressure_drag != 0.0;
       wanted.moment = wanted.moment || value.by_moment != 0.0;
       if (value.by_flow) functionals.push_back(std::move(*value.by_flow));
     }
@@ -144,7 +144,7 @@ class FlowEvaluator final : public Evaluator {
     };
     const std::vector<double> lift = by_design(wanted.lift, gradients.cl),
                               moment = by_design(wanted.moment, gradients.cm),
-                              of_pressure = by_design(pressure_drag, gradients.cd_pressure);
+                              of_pressure = by_design(wanted.pressure_drag, gradients.cd_pressure);
     std::vector<double> drag = by_design(wanted.drag, gradients.cd);
     if (space_.half())
       for (double& x : drag) x *= 2.0;

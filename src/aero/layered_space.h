@@ -1,7 +1,7 @@
 #pragma once
 
-// A design space around whose sections lie layers of flat cells, for flows with friction: the design's domain is
-// what lies beyond the layers (LayerFrame), so that the living mesh of a run is their outer mesh.
+// A design space around whose sections lie layers of flat cells, for flows with friction: the design's domain
+// is what lies beyond the layers (LayerFrame), so that the living mesh of a run is their outer mesh.
 
 #include <memory>
 
@@ -12,8 +12,9 @@ namespace remodel {
 
 class LayeredSpace final : public FlowSpace {
  public:
-  // Stations are those of the start, about `points` on each section, as close to each other at noses and corners as
-  // wall_stations() has them. All designs have stations at the same parameters. Throws Error as LayerFrame does.
+  // Stations are those of the start, about `points` on each section, as close to each other at noses and
+  // corners as wall_stations() has them. All designs have stations at the same parameters. Throws Error as
+  // LayerFrame does.
   LayeredSpace(std::unique_ptr<FlowSpace> bodies, const LayerOptions& layer, int points);
 
   // What description() has, around the bodies that it has. Throws Json's exceptions.
@@ -37,7 +38,9 @@ class LayeredSpace final : public FlowSpace {
   Placement placement(std::span<const double> design, std::size_t index) const override {
     return bodies_->placement(design, index);
   }
-  std::vector<NamedNumber> named(std::span<const double> design) const override { return bodies_->named(design); }
+  std::vector<NamedNumber> named(std::span<const double> design) const override {
+    return bodies_->named(design);
+  }
   std::vector<double> gradient_of_domain(std::span<const double> by_numbers) const override {
     return bodies_->gradient_of_domain(by_numbers);
   }

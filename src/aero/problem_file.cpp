@@ -54,13 +54,15 @@ void read_mesh_options(const Json& json, const std::string& file, DesignProblem&
   const Json object = object_of(json, "mesh");
   const Keys mesh(object, file + ", mesh", {"points", "gradation", "farfield_radius", "layers"});
   const bool has_friction = problem.points.front().model != FlowModel::euler;
-  problem.domain.points = mesh.whole<int>("points", has_friction ? usual_points_with_friction : 100, 8, 100000);
+  problem.domain.points =
+      mesh.whole<int>("points", has_friction ? usual_points_with_friction : 100, 8, 100000);
   if (problem.domain.points % 2 != 0)
     mesh.fail("found " + std::to_string(problem.domain.points) + " as 'points', expected an even number");
   problem.domain.farfield_radius = mesh.get<double>("farfield_radius", 25.0);
   problem.gradation = mesh.find<double>("gradation");
   if (!mesh.has("layers")) return;
-  if (!has_friction) mesh.fail("found 'layers' without friction, expected 'model' and 'reynolds' at all points");
+  if (!has_friction)
+    mesh.fail("found 'layers' without friction, expected 'model' and 'reynolds' at all points");
   problem.layer = layer_of(object.at("layers"), file, layer_for_points(problem.points));
 }
 
@@ -71,8 +73,8 @@ int degree_of(const DesignConstraint& constraint, const DesignProblem& problem, 
   return problem.elements.empty() ? problem.airfoil.degree() : degree;
 }
 
-DesignConstraint constraint_of(const Json& entry, const std::string& where, DesignProblem& problem, int degree,
-                               const std::filesystem::path& directory) {
+DesignConstraint constraint_of(const Json& entry, const std::string& where, DesignProblem& problem,
+                               int degree, const std::filesystem::path& directory) {
   const Keys keys(entry, where,
                   {"kind", "point", "at_least", "at_most", "of_start", "x", "airfoil", "element", "between"});
   DesignConstraint result{.kind = keys.get<std::string>("kind"),

@@ -171,11 +171,13 @@ class Resolver {
 
   void require_layer() const {
     if (problem_.layer && !has_friction())
-      place_.inner("mesh").fail("found 'layers' without friction, expected 'model' and 'reynolds' at all points");
+      place_.inner("mesh").fail(
+          "found 'layers' without friction, expected 'model' and 'reynolds' at all points");
     constexpr int least_points = 150;
     if (has_friction() && problem_.domain.points < least_points)
-      place_.inner("mesh").fail("found " + shown(problem_.domain.points) + " as 'points' with friction, expected " +
-                                shown(least_points) + " or more; " + shown(usual_points_with_friction) + " are usual");
+      place_.inner("mesh").fail("found " + shown(problem_.domain.points) +
+                                " as 'points' with friction, expected " + shown(least_points) + " or more; " +
+                                shown(usual_points_with_friction) + " are usual");
     if (has_friction() && problem_.target)
       place_.fail("found 'target' with friction, expected points without");
   }
@@ -213,7 +215,8 @@ class Resolver {
       place_.fail("found 'target' with 'elements', expected 'airfoil'");
   }
 
-  void require_friction(const FlowFunction& function, const ProblemPlace& place, const std::string& kind) const {
+  void require_friction(const FlowFunction& function, const ProblemPlace& place,
+                        const std::string& kind) const {
     if (function.needs_friction() && !has_friction())
       place.fail("found '" + kind + "' without friction, expected 'model' and 'reynolds' at all points");
   }
@@ -247,7 +250,8 @@ class Resolver {
     require_members(constraint, members_of(kind, has_elements), place);
     if (kind.at_least && kind.at_most && constraint.at_least.has_value() == constraint.at_most.has_value())
       place.fail("expected one of at_least and at_most");
-    ResolvedProblem::FlowLimit limit{.point = constraint.point.value_or(0), .name = name_of_constraint(index)};
+    ResolvedProblem::FlowLimit limit{.point = constraint.point.value_or(0),
+                                     .name = name_of_constraint(index)};
     if (limit.point >= problem_.points.size())
       place.fail("found " + shown(limit.point) + " as 'point', expected a whole number from 0 to " +
                  shown(problem_.points.size() - 1));
@@ -287,8 +291,9 @@ class Resolver {
   void make_space() {
     make_space_of_bodies();
     if (has_friction())
-      resolved_.space = std::make_unique<LayeredSpace>(std::move(resolved_.space), problem_.layer.value_or(layer_for_points(problem_.points)),
-                                                       problem_.domain.points);
+      resolved_.space = std::make_unique<LayeredSpace>(
+          std::move(resolved_.space), problem_.layer.value_or(layer_for_points(problem_.points)),
+          problem_.domain.points);
   }
 
   void make_space_of_bodies() {
@@ -393,7 +398,8 @@ class Resolver {
 LayerOptions layer_for_points(const std::vector<DesignPoint>& points) {
   std::optional<LayerOptions> layer;
   for (const DesignPoint& point : points) {
-    const LayerOptions own = layer_for_flow(point.model, point.conditions.reynolds / point.conditions.reference_length);
+    const LayerOptions own =
+        layer_for_flow(point.model, point.conditions.reynolds / point.conditions.reference_length);
     if (!layer) layer = own;
     layer->first_height = std::min(layer->first_height, own.first_height);
     layer->thickness = std::max(layer->thickness, own.thickness);

@@ -102,18 +102,19 @@ Stopped verify(const DesignProblem& problem, const ResolvedProblem& parts, std::
     for (std::size_t i = 0; i < problem.points.size(); ++i) {
       const FlowResult flow = flow_through(mesh, *parts.space, problem.points[i], observer);
       if (flow.status == FlowStatus::interrupted) return Stopped::interrupted;
-      verified.push_back({.points = points,
-                          .vertices = mesh.frozen.points.size(),
-                          .mach = flow.mach,
-                          .alpha_deg = flow.alpha_deg,
-                          .cl = flow.lift_determined ? flow.cl : none,
-                          .cd = flow.cd,
-                          .cm = flow.lift_determined ? flow.cm : none,
-                          .cd_pressure = flow.friction ? std::optional(flow.friction->cd_pressure) : std::nullopt,
-                          .cd_friction = flow.friction ? std::optional(flow.friction->cd_friction) : std::nullopt,
-                          .converged = flow.converged(),
-                          .violated = violated_by(parts, problem.constraint_tolerance, i, walls, mesh.frozen, flow),
-                          .seconds = flow.seconds});
+      verified.push_back(
+          {.points = points,
+           .vertices = mesh.frozen.points.size(),
+           .mach = flow.mach,
+           .alpha_deg = flow.alpha_deg,
+           .cl = flow.lift_determined ? flow.cl : none,
+           .cd = flow.cd,
+           .cm = flow.lift_determined ? flow.cm : none,
+           .cd_pressure = flow.friction ? std::optional(flow.friction->cd_pressure) : std::nullopt,
+           .cd_friction = flow.friction ? std::optional(flow.friction->cd_friction) : std::nullopt,
+           .converged = flow.converged(),
+           .violated = violated_by(parts, problem.constraint_tolerance, i, walls, mesh.frozen, flow),
+           .seconds = flow.seconds});
     }
   }
   return Stopped::done;

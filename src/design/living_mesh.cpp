@@ -92,7 +92,7 @@ RemodelOptions step_options(const OptimiseOptions& options) {
 QualityOptions quality_of(const OptimiseOptions& options) {
   if (options.start) return options.start->mesh.options();
   QualityOptions quality = options.quality;
-  if (options.strategy == MeshStrategy::reference) 
+  if (options.strategy == MeshStrategy::reference)
     quality.refine_angle_deg = angle_with_slack(quality, options.reference_slack_deg);
   return quality;
 }

@@ -1,4 +1,5 @@
-// LayeredMeshDerivative: columns by differences, what lies beyond their tops by the outer mesh's own derivative.
+// LayeredMeshDerivative: columns by differences, what lies beyond their tops by the outer mesh's own
+// derivative.
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +25,8 @@ Places places_at(const Domain& walls, const std::vector<std::size_t>& loops, con
   for (const ColumnRing& ring : columns.rings)
     for (std::size_t c = 0; c < ring.size(); ++c) {
       if (c == 0 || ring.station[c] != ring.station[c - 1]) places.layer.push_back(ring.foot[c]);
-      for (std::uint32_t level = 0; level < levels; ++level) places.layer.push_back(ring.points[c * levels + level]);
+      for (std::uint32_t level = 0; level < levels; ++level)
+        places.layer.push_back(ring.points[c * levels + level]);
     }
   places.outside = coefficients_of(outside_of(walls, columns, levels));
   return places;

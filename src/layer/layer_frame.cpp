@@ -32,7 +32,8 @@ void require_room_for(const Domain& domain, const LayerOptions& layers, std::uin
   if (stations * (std::size_t{levels} + 1) <= max_vertices) return;
   throw Error(ErrorCode::argument, "layers",
               "found " + std::to_string(stations) + " stations on walls and " + std::to_string(levels) +
-                  " cells across the layer, expected at most " + std::to_string(max_vertices) + " points of both");
+                  " cells across the layer, expected at most " + std::to_string(max_vertices) +
+                  " points of both");
 }
 
 }  // namespace
@@ -43,8 +44,8 @@ void require_layer_options(const LayerOptions& options) {
   require_option(options.growth >= 1.02 && options.growth <= 2.0, "growth", options.growth, "1.02 to 2");
   require_option(options.thickness >= options.first_height && options.thickness <= 1e3, "layer thickness",
                  options.thickness, "at least the first layer's height and at most 1000 chords");
-  require_option(options.fan_from_deg >= 10.0 && options.fan_from_deg <= 90.0, "angle of fans", options.fan_from_deg,
-                 "10 to 90");
+  require_option(options.fan_from_deg >= 10.0 && options.fan_from_deg <= 90.0, "angle of fans",
+                 options.fan_from_deg, "10 to 90");
 }
 
 LayerFrame::LayerFrame(const Domain& walls, const LayerOptions& options) : options_(options) {
@@ -60,7 +61,8 @@ std::unique_ptr<LayeredMesh::Columns> LayerFrame::columns_at(const Domain& walls
   for (std::size_t r = 0; fits && r < loops_.size(); ++r)
     fits = walls.stations(loops_[r]).size() == fans_[r].size();
   if (!fits)
-    throw Error(ErrorCode::argument, "walls", "found other loops or stations, expected those that the layer began with");
+    throw Error(ErrorCode::argument, "walls",
+                "found other loops or stations, expected those that the layer began with");
   auto columns = std::make_unique<LayeredMesh::Columns>();
   columns->loops = loops_, columns->levels = levels_, columns->fans = fans_;
   static_cast<LayerColumns&>(*columns) = columns_of(Walls(walls), loops_, fans_, options_, levels_);
@@ -85,8 +87,8 @@ LayeredMesh LayerFrame::around(const Mesh& outer, const Domain& walls) const {
   return mesh;
 }
 
-LayeredGenerateResult generate_layered(const Domain& domain, const LayerOptions& layers, const QualityOptions& quality,
-                                       StepObserver* observer) {
+LayeredGenerateResult generate_layered(const Domain& domain, const LayerOptions& layers,
+                                       const QualityOptions& quality, StepObserver* observer) {
   validate(domain);
   require_room_for(domain, layers, quality.max_vertices);
   const LayerFrame frame(domain, layers);

@@ -41,14 +41,16 @@ struct RingTops {
     Point point;
     friend bool operator==(const Split&, const Split&) = default;
   };
-  std::vector<VertexId> top;                // per column
-  std::vector<std::vector<Split>> splits;  // per column: Steiner vertices from its top to the next one's, in order
+  std::vector<VertexId> top;  // per column
+  std::vector<std::vector<Split>>
+      splits;  // per column: Steiner vertices from its top to the next one's, in order
 };
 std::vector<RingTops> tops_of(const Mesh& outer, const LayerColumns& columns);
 
 // Cells of a ring's layer, divided top cells by their triangles.
 std::size_t cell_count(const ColumnRing& ring, const RingTops& tops, std::uint32_t levels);
 // The triangles of a divided top cell.
-std::size_t parts_of_split(const ColumnRing& ring, std::size_t column, std::size_t splits, std::uint32_t levels);
+std::size_t parts_of_split(const ColumnRing& ring, std::size_t column, std::size_t splits,
+                           std::uint32_t levels);
 
 }  // namespace remodel

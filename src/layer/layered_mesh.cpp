@@ -24,7 +24,8 @@ bool follows_by_index(const Domain& own, const Domain& wanted) {
   return corresponds_by_index(own, wanted, moving);
 }
 
-// The new walls in the terms of the mesh's own: its curves where loops are the same places, written otherwise.
+// The new walls in the terms of the mesh's own: its curves where loops are the same places, written
+// otherwise.
 struct NewWalls {
   Domain domain;
   std::vector<std::size_t> from;  // per loop: the old one that it is station for station, or no_link
@@ -46,7 +47,8 @@ NewWalls in_own_terms(const Domain& own, const Domain& wanted) {
 }
 
 // Per ring: the one of its old loop, or no_column.
-std::vector<std::size_t> old_rings(const std::vector<std::size_t>& loops, const std::vector<std::size_t>& from,
+std::vector<std::size_t> old_rings(const std::vector<std::size_t>& loops,
+                                   const std::vector<std::size_t>& from,
                                    const std::vector<std::size_t>& old_loops) {
   std::vector<std::size_t> rings;
   for (const std::size_t loop : loops) {
@@ -58,7 +60,8 @@ std::vector<std::size_t> old_rings(const std::vector<std::size_t>& loops, const 
 }
 
 // The columns of a station are the same where its fan has as many sectors as before.
-ColumnMatches match_columns(const FanSectors& before, const FanSectors& now, const std::vector<std::size_t>& old_ring) {
+ColumnMatches match_columns(const FanSectors& before, const FanSectors& now,
+                            const std::vector<std::size_t>& old_ring) {
   ColumnMatches matches;
   for (std::size_t r = 0; r < now.size(); ++r) {
     std::vector<ColumnPlace>& ring = matches.emplace_back();
@@ -68,7 +71,7 @@ ColumnMatches match_columns(const FanSectors& before, const FanSectors& now, con
       const std::uint32_t sectors = known ? before[old_ring[r]][station] : 0;
       for (std::uint32_t j = 0; j <= now[r][station]; ++j)
         ring.push_back(known && sectors == now[r][station] ? ColumnPlace{old_ring[r], first_before + j}
-                                                            : ColumnPlace{});
+                                                           : ColumnPlace{});
       first_before += sectors + 1;
     }
   }
@@ -104,7 +107,12 @@ class LayerCounter {
  public:
   LayerCounter(const LayerColumns& was, const std::vector<RingTops>& tops_before, const LayerColumns& is,
                const std::vector<RingTops>& tops_now, const ColumnMatches& matches, std::uint32_t levels)
-      : was_(was), is_(is), tops_before_(tops_before), tops_now_(tops_now), matches_(matches), levels_(levels) {
+      : was_(was),
+        is_(is),
+        tops_before_(tops_before),
+        tops_now_(tops_now),
+        matches_(matches),
+        levels_(levels) {
     for (std::size_t r = 0; r < was.rings.size(); ++r) {
       counts_.before += cell_count(was.rings[r], tops_before[r], levels);
       for (std::size_t c = 0; c < was.rings[r].size(); ++c)
@@ -148,7 +156,8 @@ class LayerCounter {
     if (!a.there() || !b.there() || was_.rings[a.ring].after(a.column) != b.column) return;
     const std::size_t here = c * (levels_ + 1), there = next * (levels_ + 1);
     const auto stands = [&](std::uint32_t level) {
-      return stays_[here + level] && stays_[here + level + 1] && stays_[there + level] && stays_[there + level + 1];
+      return stays_[here + level] && stays_[here + level + 1] && stays_[there + level] &&
+             stays_[there + level + 1];
     };
     const auto &split_before = tops_before_[a.ring].splits[a.column], &split = tops_now_[r].splits[c];
     const bool whole = split.empty() && split_before.empty();
@@ -156,7 +165,8 @@ class LayerCounter {
     counts_.connected += plain;
     for (std::uint32_t level = 0; level < plain; ++level) counts_.preserved += stands(level);
     const auto same_key = [](const RingTops::Split& p, const RingTops::Split& q) { return p.key == q.key; };
-    if (whole || !std::equal(split.begin(), split.end(), split_before.begin(), split_before.end(), same_key)) return;
+    if (whole || !std::equal(split.begin(), split.end(), split_before.begin(), split_before.end(), same_key))
+      return;
     const std::size_t parts = parts_of_split(ring, c, split.size(), levels_);
     counts_.connected += parts;
     if (stands(levels_ - 1) && split == split_before) counts_.preserved += parts;
@@ -219,9 +229,9 @@ RemodelResult regenerate_outside(Mesh& outer, const Domain& outside, const Remod
   return result;
 }
 
-// The step of the outer mesh. Where it follows by index it takes the tops as they are. Where it has to find out
-// what is what, it may keep an old loop whose places are those of the tops to the last rounding, although the wall
-// below is another one, or is written otherwise. Then the tops are not the columns'.
+// The step of the outer mesh. Where it follows by index it takes the tops as they are. Where it has to find
+// out what is what, it may keep an old loop whose places are those of the tops to the last rounding, although
+// the wall below is another one, or is written otherwise. Then the tops are not the columns'.
 RemodelResult step_outside(Mesh& outer, const Domain& outside, const LayerColumns& columns,
                            const RemodelOptions& options) {
   if (follows_by_index(outer.domain(), outside)) return remodel(outer, outside, options);
@@ -239,7 +249,8 @@ RemodelResult step_outside(Mesh& outer, const Domain& outside, const LayerColumn
 
 }  // namespace
 
-std::size_t parts_of_split(const ColumnRing& ring, std::size_t column, std::size_t splits, std::uint32_t levels) {
+std::size_t parts_of_split(const ColumnRing& ring, std::size_t column, std::size_t splits,
+                           std::uint32_t levels) {
   const bool fan = levels == 1 && ring.step[column] == 0.0;
   return splits + (fan ? 1 : 2);
 }
@@ -331,7 +342,8 @@ LayeredRemodelResult remodel(LayeredMesh& mesh, const Domain& domain, const Remo
   columns->levels = own.levels;
   const std::vector<std::size_t> old_ring = old_rings(columns->loops, wanted.from, own.loops);
   std::vector<const std::vector<std::uint32_t>*> kept;
-  for (const std::size_t ring : old_ring) kept.push_back(ring == ColumnPlace::no_column ? nullptr : &own.fans[ring]);
+  for (const std::size_t ring : old_ring)
+    kept.push_back(ring == ColumnPlace::no_column ? nullptr : &own.fans[ring]);
   columns->fans = fans_of(walls, columns->loops, mesh.options_, kept);
   static_cast<LayerColumns&>(*columns) =
       columns_of(walls, columns->loops, columns->fans, mesh.options_, columns->levels);
@@ -352,7 +364,8 @@ LayeredRemodelResult remodel(LayeredMesh& mesh, const Domain& domain, const Remo
   if (outer.abandoned || outer.stopped == Stopped::interrupted) {
     LayeredRemodelResult result = of_the_whole(outer, {});
     const std::size_t cells = mesh.layer_cells();
-    for (std::size_t* count : {&result.triangles_before, &result.triangles, &result.preserved, &result.connected})
+    for (std::size_t* count :
+         {&result.triangles_before, &result.triangles, &result.preserved, &result.connected})
       *count += cells;
     result.layer_cells = cells;
     result.shrunk = own.shrunk;
@@ -386,7 +399,8 @@ LayeredMesh LayeredMesh::restore(const LayeredState& state, const std::string& s
     for (std::size_t r = 0; fits && r < columns.loops.size(); ++r)
       fits = state.fans[r].size() == state.walls.stations(columns.loops[r]).size() &&
              std::all_of(state.fans[r].begin(), state.fans[r].end(), [](std::uint32_t n) { return n <= 64; });
-    if (!fits) refuse("found fans of a layer that do not fit its walls, expected one number a station, at most 64");
+    if (!fits)
+      refuse("found fans of a layer that do not fit its walls, expected one number a station, at most 64");
     columns.levels = state.levels;
     columns.fans = state.fans;
     static_cast<LayerColumns&>(columns) =

@@ -1,5 +1,6 @@
 """Flows with friction, by the program."""
 
+import json
 import unittest
 
 from harness import ProgramTest
@@ -22,11 +23,31 @@ class Friction(ProgramTest):
         self.assertGreater(flow["y_plus_max"], 0)
         self.assertIn("<svg", self.path("cf.svg").read_text())
 
+    def test_rows_of_designs_and_gradients(self):
+        """The slope of CD along a line of designs, by the adjoint, is that of the row's flows."""
+        self.succeed("mesh", "naca:0012", "--cst-degree", 3, *LAYERS, "-o", "a.vtkhdf")
+        options = ("--model", "laminar", "--mach", 0.5, "--alpha", 1, "--reynolds", 5000)
+        airfoil = json.loads(self.succeed("fit", "naca:0012", "--cst-degree", 3).stdout)
+        step = 1e-4
+        designs = [{**airfoil, "upper": [airfoil["upper"][0] + place * step, *airfoil["upper"][1:]]} for place in (-1, 0, 1)]
+        self.write("designs.json", json.dumps(designs))
+        row = self.succeed("flow", "a.vtkhdf", *options, "--series", "designs.json", "--json").json()
+        self.assertEqual((row["flows"], row["not_converged"], row["model"]), (3, 0, "laminar"))
+        self.assertEqual(row["designs"][2]["warm"], "carried")
+        flow = self.succeed("flow", "a.vtkhdf", *options, "--gradient", "--json").json()
+        self.assertAlmostEqual(flow["cd"], row["designs"][1]["cd"], delta=1e-9)
+        gradient = flow["gradient"]
+        self.assertEqual(gradient["names"][0], "airfoil.upper[0]")
+        for key in ("cd", "cd_pressure"):
+            slope = (row["designs"][2][key] - row["designs"][0][key]) / (2 * step)
+            self.assertAlmostEqual(gradient[key][0], slope, delta=1e-4 * abs(slope))
+        self.assertLess(gradient["reynolds"]["cd"], 0)
+
     def test_what_does_not_fit_is_refused(self):
         for words, message in (
             (("--model", "sa"), "--reynolds: not given"),
             (("--reynolds", 1e6), "--reynolds: given without friction"),
-            (("--model", "sa", "--reynolds", 1e6, "--gradient"), "--gradient: given with --model laminar or sa"),
+            (("--model", "sa", "--reynolds", 1e6, "--error"), "--error: given with --model laminar or sa"),
             (("--model", "sa", "--reynolds", 1e6, "--points", 100), "--points: given with a model with friction"),
         ):
             with self.subTest(message):

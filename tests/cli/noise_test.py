@@ -60,8 +60,10 @@ class Noise(ProgramTest):
         for count in (5, 6):
             figures = self.noise("--count", count, "--spacing", 1e-5, "--degree", 2, "--mach", 0.4, "--alpha", 1)
             for k in range(2):
-                slope, adjoint = (figures["hub"][key][k] for key in ("slope", "adjoint"))
-                self.assertAlmostEqual(slope, adjoint, delta=1e-4 * abs(adjoint) + 1e-7)
+                for way in ("hub", "reference"):
+                    slope, adjoint = (figures[way][key][k] for key in ("slope", "adjoint"))
+                    self.assertAlmostEqual(slope, adjoint, delta=1e-4 * abs(adjoint) + 1e-7)
+                adjoint = figures["hub"]["adjoint"][k]
                 self.assertAlmostEqual(figures["fresh"]["adjoint"][k], adjoint, delta=0.5 * abs(adjoint))
         text = self.succeed("noise", "naca:0012", "--points", 20, "--farfield-points", 12, "--count", 5, "--mach", 0.4).stdout
         self.assertEqual(text.count("by the adjoint"), 8)

@@ -8,8 +8,8 @@ namespace remodel::flow {
 
 namespace {
 
-// Rows of walls that say "the gas stands still" follow nothing that is given. Functions follow the momentum that is
-// unbalanced there, and so does the lift's equation.
+// Rows of walls that say "the gas stands still" follow nothing that is given. Functions follow the momentum
+// that is unbalanced there, and so does the lift's equation.
 template <std::size_t N>
 std::vector<Total> totals_of(const FrictionSystem<N>& system, const BlockState<N>& state,
                              std::span<const typename FrictionSystem<N>::ForceSlope> functions,
@@ -73,7 +73,8 @@ FlowGradients gradients_of(const LastFlow<N>& last, const Viscosity& viscosity,
   if (wanted.lift) add(system.force_slope(last.state, {.lift = 1.0}), result.cl, scale);
   if (wanted.drag) {
     add(system.force_slope(last.state, {.drag = 1.0}), result.cd, scale);
-    add(system.force_slope(last.state, {.pressure_drag = 1.0}), result.cd_pressure, scale);
+    if (wanted.pressure_drag)
+      add(system.force_slope(last.state, {.pressure_drag = 1.0}), result.cd_pressure, scale);
   }
   if (wanted.moment) add(system.force_slope(last.state, {.moment = 1.0}), result.cm, scale * scale);
   if (wanted.angle) {
