@@ -400,7 +400,8 @@ class Designs(ProgramTest):
         done = 0
         for session in range(3):
             options = ["--resume"] if session else []
-            status, figures, _ = self.end_by_sigterm(problem, "run", "first.vtkhdf", *options)
+            begun = "first.vtkhdf" if session else "checkpoint.json"
+            status, figures, _ = self.end_by_sigterm(problem, "run", begun, *options)
             self.assertEqual(len(self.rows("run")), figures["evaluations"])
             self.assertGreaterEqual(figures["evaluations"], done)
             checkpoint = json.loads(self.path("run/checkpoint.json").read_text())
