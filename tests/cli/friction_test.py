@@ -27,7 +27,8 @@ class Friction(ProgramTest):
         """The slope of CD along a line of designs, by the adjoint, is that of the row's flows."""
         self.succeed("mesh", "naca:0012", "--cst-degree", 3, *LAYERS, "-o", "a.vtkhdf")
         options = ("--model", "laminar", "--mach", 0.5, "--alpha", 1, "--reynolds", 5000)
-        airfoil = json.loads(self.succeed("fit", "naca:0012", "--cst-degree", 3).stdout)
+        fitted = self.succeed("fit", "naca:0012", "--cst-degree", 3, "--json").json()
+        airfoil = {key: fitted[key] for key in ("degree", "upper", "lower")}
         step = 1e-4
         designs = [{**airfoil, "upper": [airfoil["upper"][0] + place * step, *airfoil["upper"][1:]]} for place in (-1, 0, 1)]
         self.write("designs.json", json.dumps(designs))

@@ -583,8 +583,14 @@ class Watching(PageTest):
             document.getElementById('goal').value = 'naca0012';
             document.getElementById('search').click();
         })()""")
+        # A search that is stopped before its first design leaves nothing to undo.
         self.browser.wait_for("document.getElementById('search').textContent === 'Stop'")
-        self.value("{ const button = document.getElementById('search'); if (button.textContent === 'Stop') button.click() }")
+        self.value(f"""(async () => {{
+            const begun = await ({named})("rae2822"), far = {far}, button = document.getElementById("search");
+            const running = () => button.textContent === "Stop";
+            while (running() && far([...live.shown.design], begun) < 1e-6) await new Promise((resume) => setTimeout(resume, 1));
+            if (running()) button.click();
+        }})()""")
         self.browser.wait_for(ended)
         self.settled()
         self.click("undo")
