@@ -67,7 +67,8 @@ class StudyTest(DiskTest):
             if process.poll() is not None:
                 break
             time.sleep(0.02)
-        self.fail(f"no rows in {table}")
+        process.kill()
+        self.fail(f"no rows in {table}: exit status {process.returncode}, {process.communicate()}")
 
 
 class Studies(StudyTest):
