@@ -82,6 +82,22 @@ void add_solver_options(CLI::App& app, FlowConditions& conditions, FlowOptions& 
            {.low = 0.0, .above_low = true}, conditions.reference_length);
 }
 
+void add_transition_option(CLI::App& app, FlowConditions& conditions) {
+  add_text(
+      app,
+      {"--transition", "XU,XL", "0,0",
+       "With --model sa: where the boundary layers of upper and lower sides become turbulent, as parts of "
+       "the chord from 0 to 1"},
+      Presence::optional, [&](const std::string& text) {
+        const std::vector<double> places = parse_reals("--transition", text, 2);
+        for (const double place : places)
+          if (!(place >= 0.0 && place <= 1.0))
+            throw Error(ErrorCode::argument, "--transition",
+                        "found '" + text + "', expected two numbers from 0 to 1");
+        conditions.transition = {places[0], places[1]};
+      });
+}
+
 void add_euler_options(CLI::App& app, EulerRun& run) {
   add_real(app, {"--mach", "M", "", "Mach number of the stream, of compressible flow: 0.01 to 3"},
            {.low = 0.01, .high = 3.0},

@@ -36,6 +36,7 @@ Json to_json(const FlowResult& flow, const FlowConditions& conditions) {
     json["cd_friction"] = flow.friction->cd_friction;
     json["y_plus_max"] = flow.friction->y_plus_max;
     json["reynolds"] = flow.friction->reynolds;
+    if (flow.friction->transition) json["transition"] = *flow.friction->transition;
   }
   if (!flow.reason.empty()) json["reason"] = flow.reason;
   json["residual"] = flow.residual;
@@ -100,6 +101,7 @@ void add_flow_figures(Report& report, const FlowResult& flow, const FlowConditio
   figure("entropy_drag", "CD by entropy", mark);
   figure("cd_pressure", "CD of pressure", mark), figure("cd_friction", "CD of friction", mark);
   figure("y_plus_max", "largest y+", mark), figure("reynolds", "Reynolds number");
+  figure("transition", "transition of upper and lower sides", "chords");
   figure("alpha_deg", "angle of attack", "degrees");
   figure("mach", "Mach number");
   if (flow.converged()) add_end();

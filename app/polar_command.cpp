@@ -62,6 +62,8 @@ void require_consistent(const PolarCommand& command) {
     throw Error(ErrorCode::argument, command.given("--cl") ? "--cl" : "--alpha",
                 command.given("--cl") ? "given with --alpha, expected one of them"
                                       : "not given, expected angles A0:A1:DA, or lifts by --cl C0:C1:DC");
+  if (command.polar.flow.model != FlowModel::sa)
+    refuse_given(command.given, {"--transition"}, "given without turbulence, expected --model sa");
   if (!has_friction(command))
     return refuse_given(command.given, {"--reynolds"},
                         "given without friction, expected --model laminar or sa");
@@ -183,6 +185,8 @@ Report report_of(const PolarCommand& command, const Polars& polars) {
   report.data("shapes", command.input.shapes);
   report.figure("model", "model", name_of(command.polar.flow.model));
   if (has_friction(command)) report.figure("reynolds", "Reynolds number", command.polar.conditions.reynolds);
+  if (const auto& places = command.polar.conditions.transition)
+    report.figure("transition", "transition of upper and lower sides", Json(*places));
   Json points = Json::array(), curves = Json::array(), cl_max;
   std::size_t found = 0;
   for (std::size_t i = 0; i < polars.curves.size(); ++i) {
@@ -266,8 +270,7 @@ void add_conditions(CLI::App& app, PolarCommand& command) {
             {-90, 90}, command.polar.alphas_deg);
   add_range(
       app,
-      {"--cl", "C0:C1:DC", "",
-       "In place of angles: lift coefficients that they are found for, -10 to 10"},
+      {"--cl", "C0:C1:DC", "", "In place of angles: lift coefficients that they are found for, -10 to 10"},
       {-10, 10}, command.polar.lifts);
   add_range(app, {"--mach", "M0:M1:DM", "", "Mach number of the stream, or several, a row each: 0.01 to 3"},
             {0.01, 3}, command.polar.machs);
@@ -287,6 +290,7 @@ void add_conditions(CLI::App& app, PolarCommand& command) {
        "Reynolds number by the reference length, of models with friction: 1 to 1e10. A layer of cells on the "
        "walls follows from it where a shape is given"},
       {.low = 1.0, .high = 1e10}, command.polar.conditions.reynolds);
+  add_transition_option(app, command.polar.conditions);
   add_integer(app,
               {"--halvings", "N", "3",
                "Where a flow is not found, the step from the last one is halved so many times: 0 to 20"},

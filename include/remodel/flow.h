@@ -69,6 +69,11 @@ struct FlowConditions {
   // Coefficients and the Reynolds number are made with this length, and nothing else is: more than 0.
   double reference_length = 1.0;
   double reynolds = 0.0;  // of models with friction, by the reference length: 1 to 1e10
+  // Where the boundary layers of upper and lower sides become turbulent, as parts of the chord from 0 to 1,
+  // by the model sa; none: at the leading edge. Ahead of it the model has no production of turbulence, in the
+  // vertices whose nearest place on a wall lies there. The chord of each body is from its rearmost point to
+  // the farthest one from that. Derivatives by the shape hold the zone.
+  std::optional<std::array<double, 2>> transition = {};
 };
 
 // A boundary through which gas enters at a right angle, with a given total pressure and total temperature:
@@ -177,7 +182,8 @@ struct FlowOpening {
 // This is what friction does.
 struct FlowFriction {
   double reynolds = 0.0;
-  double cd_pressure = 0.0, cd_friction = 0.0;  // the parts of the drag coefficient
+  std::optional<std::array<double, 2>> transition = {};  // that was given
+  double cd_pressure = 0.0, cd_friction = 0.0;           // the parts of the drag coefficient
   double y_plus_max = 0.0;
   // Each has one value for each point of the frozen mesh. On walls: the friction, over half the stream's
   // density times speed squared, positive where it acts along the stream; and y+, of the lowest cell there. 0

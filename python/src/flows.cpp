@@ -21,8 +21,8 @@ auto members(T& o) {
 }
 template <python::Is<FlowFriction> T>
 auto members(T& f) {
-  return std::tie(f.reynolds, f.cd_pressure, f.cd_friction, f.y_plus_max, f.cf, f.y_plus, f.viscosity_ratio,
-                  f.working);
+  return std::tie(f.reynolds, f.transition, f.cd_pressure, f.cd_friction, f.y_plus_max, f.cf, f.y_plus,
+                  f.viscosity_ratio, f.working);
 }
 template <python::Is<FlowResult> T>
 auto members(T& f) {
@@ -39,16 +39,18 @@ namespace remodel::python {
 namespace {
 
 using FlowPointer = std::shared_ptr<FlowResult>;
+using Transition = std::optional<std::array<double, 2>>;
 
 FlowConditions conditions_of(double mach, double alpha, const std::optional<double>& cl,
-                             const std::array<double, 2>& reference, double reference_length,
-                             double reynolds) {
+                             const std::array<double, 2>& reference, double reference_length, double reynolds,
+                             const Transition& transition) {
   return {.mach = mach,
           .alpha_deg = alpha,
           .cl = cl,
           .reference = {reference[0], reference[1]},
           .reference_length = reference_length,
-          .reynolds = reynolds};
+          .reynolds = reynolds,
+          .transition = transition};
 }
 
 using Inlets = std::map<std::string, std::array<double, 2>>;  // total pressure and total temperature
@@ -91,9 +93,10 @@ py::object solved(const py::object& mesh, double mach, double alpha, const std::
                   const std::array<double, 2>& reference, double reference_length,
                   const std::string& farfield, double tolerance, int max_steps, double memory_mb,
                   const std::optional<std::string>& solver, const Inlets& inlets, const Outlets& outlets,
-                  double reynolds, const std::string& model) {
+                  double reynolds, const std::string& model, const Transition& transition) {
   const Snapshot frozen = snapshot_of(mesh);
-  const FlowConditions conditions = conditions_of(mach, alpha, cl, reference, reference_length, reynolds);
+  const FlowConditions conditions =
+      conditions_of(mach, alpha, cl, reference, reference_length, reynolds, transition);
   FlowOptions options = options_of(farfield, tolerance, max_steps, memory_mb, solver, inlets, outlets, model);
   const auto stop = std::make_shared<Stop>();
   options.observer = stop.get();
@@ -139,8 +142,10 @@ class Flows {
   Flows& operator=(const Flows&) = delete;
 
   py::object solve(const py::object& mesh, double mach, double alpha, const std::optional<double>& cl,
-                   const std::array<double, 2>& reference, double reference_length, double reynolds) {
-    const FlowConditions conditions = conditions_of(mach, alpha, cl, reference, reference_length, reynolds);
+                   const std::array<double, 2>& reference, double reference_length, double reynolds,
+                   const Transition& transition) {
+    const FlowConditions conditions =
+        conditions_of(mach, alpha, cl, reference, reference_length, reynolds, transition);
     const ThreadLock::Held held(lock_);
     const Snapshot given = snapshot_of(mesh), frozen = with_keys(given);
     const FlowPointer result = calls_.run(solver_->stop, [solver = solver_, frozen, conditions] {
@@ -354,6 +359,8 @@ constexpr const char* solver_text =
 
 model: 'euler', without friction; 'laminar'; 'sa', turbulent by Spalart and Allmaras's model. The last two want the
 Reynolds number of the reference length, 1 to 1e10, and a mesh with layers (generate_layered()); docs/viscous.md.
+transition: with 'sa', where the boundary layers of upper and lower sides become turbulent, two parts of the chord from
+0 to 1; None: at the leading edge.
 
 mach: 0.01 to 3; alpha: degrees, or where cl is given the angle that the search for this lift begins with;
 reference: the moment's point. inlets: total pressure and total temperature of each by name, outlets: the pressure
@@ -372,7 +379,7 @@ void add_flows(py::module_& module) {
              "farfield"_a = "farfield", "tolerance"_a = defaults.tolerance,
              "max_steps"_a = defaults.max_steps, "memory_mb"_a = defaults.memory_mb, "solver"_a = py::none(),
              "inlets"_a = Inlets(), "outlets"_a = Outlets(), "reynolds"_a = 0.0, "model"_a = "euler",
-             solver_text);
+             "transition"_a = py::none(), solver_text);
   py::class_<Flows>(
       module, "LivingFlow",
       R"(A flow solver that outlives its mesh: each flow is found from the one before and the factors that are
@@ -390,7 +397,7 @@ the same options, and begins cold. After Ctrl-C the next call waits until a fact
            "inlets"_a = Inlets(), "outlets"_a = Outlets(), "model"_a = "euler")
       .def("solve", &Flows::solve, "mesh"_a, py::kw_only(), "mach"_a = 0.5, "alpha"_a = 0.0,
            "cl"_a = py::none(), "reference"_a = quarter, "reference_length"_a = 1.0, "reynolds"_a = 0.0,
-           solver_text)
+           "transition"_a = py::none(), solver_text)
       .def(
           "gradients", &Flows::gradients,
           R"(Derivatives of the last flow's cl, cd, cm and alpha, by their adjoint: for each a dict of points, of

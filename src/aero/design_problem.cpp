@@ -20,6 +20,7 @@ ProblemJson points_json(const DesignProblem& problem) {
     if (model == FlowModel::euler) continue;
     points.back()["model"] = name_of(model);
     points.back()["reynolds"] = conditions.reynolds;
+    if (conditions.transition) points.back()["transition"] = *conditions.transition;
   }
   return points;
 }

@@ -114,6 +114,7 @@ DesignRun read_design_run(const std::filesystem::path& directory) {
       FlowConditions& at = point.conditions;
       at.mach = entry.at("mach"), at.alpha_deg = entry.value("alpha_deg", 0.0);
       at.reynolds = entry.value("reynolds", 0.0);
+      if (entry.contains("transition")) at.transition = entry.at("transition").get<std::array<double, 2>>();
       if (entry.contains("cl")) at.cl = entry.at("cl").get<double>();
       const std::string model = entry.value("model", name_of(FlowModel::euler));
       for (const FlowModel known : {FlowModel::laminar, FlowModel::sa})

@@ -50,8 +50,8 @@ std::vector<std::vector<std::uint32_t>> pieces_of(const FrozenBoundary& boundary
 }
 
 // Adds a curve of the values along each piece of a boundary but the far field.
-Plot along_bodies(Plot plot, const FrozenMesh& mesh, const std::string& farfield, std::span<const double> values,
-                  const std::string& option) {
+Plot along_bodies(Plot plot, const FrozenMesh& mesh, const std::string& farfield,
+                  std::span<const double> values, const std::string& option) {
   const auto point_of = [&](std::uint32_t v) { return Point{mesh.points[v].x, values[v]}; };
   for (const FrozenBoundary& boundary : mesh.boundaries) {
     if (boundary.name == farfield || boundary.edges.empty()) continue;
@@ -70,8 +70,8 @@ Plot along_bodies(Plot plot, const FrozenMesh& mesh, const std::string& farfield
 
 Plot cp_plot(const FrozenMesh& mesh, const std::string& farfield, std::span<const double> cp,
              const std::string& caption, const std::string& option) {
-  return along_bodies({.x = {"x"}, .y = {.label = "Cp", .reversed = true}, .caption = caption}, mesh, farfield, cp,
-                      option);
+  return along_bodies({.x = {"x"}, .y = {.label = "Cp", .reversed = true}, .caption = caption}, mesh,
+                      farfield, cp, option);
 }
 
 Plot cf_plot(const FrozenMesh& mesh, const std::string& farfield, std::span<const double> cf,

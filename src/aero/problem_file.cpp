@@ -27,13 +27,20 @@ FlowModel model_named(const Keys& keys) {
 }
 
 DesignPoint point_of(const Json& entry, const std::string& where) {
-  const Keys keys(entry, where, {"mach", "alpha_deg", "cl", "weight", "model", "reynolds"});
+  const Keys keys(entry, where, {"mach", "alpha_deg", "cl", "weight", "model", "reynolds", "transition"});
   DesignPoint point{.conditions = {.mach = keys.get<double>("mach"),
                                    .alpha_deg = keys.get<double>("alpha_deg", 0.0),
                                    .cl = keys.find<double>("cl"),
                                    .reynolds = keys.get<double>("reynolds", 0.0)},
                     .weight = keys.get<double>("weight", 1.0),
                     .model = model_named(keys)};
+  if (keys.has("transition")) {
+    const auto places = keys.get<std::vector<double>>("transition");
+    if (places.size() != 2)
+      keys.fail("found " + std::to_string(places.size()) +
+                " numbers as 'transition', expected two: of upper and lower sides, 0 to 1");
+    point.conditions.transition = {places[0], places[1]};
+  }
   if (point.model != FlowModel::euler) keys.require("reynolds");
   if (point.model == FlowModel::euler && keys.has("reynolds"))
     keys.fail("found 'reynolds' without a model with friction, expected \"laminar\" or \"sa\" as 'model'");
@@ -135,7 +142,12 @@ void read_lists(const Keys& keys, const std::string& file, int degree, DesignPro
 }  // namespace
 
 DesignProblem read_design_problem(const std::string& file) {
-  const Json json = read_design_json(file);
+  constexpr std::size_t most_bytes = std::size_t{16} << 20;
+  return parse_design_problem(read_text(file, most_bytes), file);
+}
+
+DesignProblem parse_design_problem(const std::string& text, const std::string& file) {
+  const Json json = parse_design_json(text, file);
   const Keys keys(json, file,
                   {"airfoil", "elements", "degree", "symmetric", "mesh", "flow", "objective", "target",
                    "constraints", "constraint_tolerance", "designer", "verify"});

@@ -8,7 +8,6 @@
 
 #include "base/strict_json.h"
 #include "remodel/error.h"
-#include "remodel/io.h"
 
 namespace remodel {
 
@@ -58,9 +57,7 @@ struct Watch {
 
 }  // namespace
 
-Json read_design_json(const std::string& file) {
-  constexpr std::size_t most_bytes = std::size_t{16} << 20;
-  const std::string text = read_text(file, most_bytes);
+Json parse_design_json(const std::string& text, const std::string& file) {
   std::istringstream watched(text), stream(text);
   StrictJson<Json, Watch> strict(Watch{file, text, watched});
   Json::sax_parse(watched, &strict);

@@ -12,6 +12,6 @@ using Json = nlohmann::ordered_json;
 
 // Throws Error (format) naming the file, the line and the column where the text is no JSON, has a key twice
 // in one object, a number that is too large, or more than 64 brackets inside each other.
-Json read_design_json(const std::string& file);
+Json parse_design_json(const std::string& text, const std::string& source);
 
 }  // namespace remodel

@@ -160,6 +160,11 @@ class Resolver {
       if (has_friction() != (model != FlowModel::euler))
         place.fail("found the model " + shown(name_of(model)) +
                    " beside points of another kind, expected friction at all points or at none");
+      if (conditions.transition) {
+        if (model != FlowModel::sa)
+          place.fail("found 'transition' with the model " + shown(name_of(model)) + ", expected \"sa\"");
+        for (const double x : *conditions.transition) place.require_number(x, "transition", {0.0, 1.0});
+      }
       if (has_friction()) place.require_number(conditions.reynolds, "reynolds", {1.0, 1e10});
       if (!has_friction() && conditions.reynolds != 0.0)
         place.fail("found 'reynolds' with the model \"euler\", expected \"laminar\" or \"sa\" as 'model'");

@@ -139,14 +139,22 @@ void require_possible(const FlowConditions& conditions, const FlowOptions& optio
   require(options.limiter > 0.0 && std::isfinite(options.limiter), "limiter", options.limiter, "more than 0");
   require(options.memory_mb >= 1.0, "memory", options.memory_mb, "1 MB or more");
   require_openings(conditions, options);
+  if (conditions.transition) {
+    if (options.model != FlowModel::sa)
+      throw Error(ErrorCode::argument, "transition",
+                  std::string("given with the model ") + name_of(options.model) + ", expected sa");
+    for (const double x : *conditions.transition)
+      require(x >= 0.0 && x <= 1.0, "transition", x, "0 to 1 chords");
+  }
   if (options.model == FlowModel::euler) return;
   require(conditions.reynolds >= 1.0 && conditions.reynolds <= 1e10, "reynolds", conditions.reynolds,
           "1 to 1e10 for a model with friction");
-  require(options.temperature_k >= 0.0 && std::isfinite(options.temperature_k), "temperature", options.temperature_k,
-          "Kelvin, or 0");
+  require(options.temperature_k >= 0.0 && std::isfinite(options.temperature_k), "temperature",
+          options.temperature_k, "Kelvin, or 0");
 }
 
-void require_known(const FlowResult& known, const FlowMesh& mesh, FlowModel model, const std::string& source) {
+void require_known(const FlowResult& known, const FlowMesh& mesh, FlowModel model,
+                   const std::string& source) {
   if (known.density.size() != mesh.size())
     throw Error(ErrorCode::argument, source,
                 "found a flow at " + std::to_string(known.density.size()) + " points, expected one at the " +
@@ -240,6 +248,7 @@ Stream stream_of(const FlowConditions& conditions, const FlowOptions& options, c
           .reference = conditions.reference,
           .length = extent,
           .reference_length = conditions.reference_length,
+          .transition = conditions.transition,
           .vortex = options.vortex && options.symmetry.empty(),
           .limiter = options.limiter};
 }

@@ -42,6 +42,7 @@ FlowFriction friction_of(const FrictionSystem<N>& system, const BlockState<N>& s
   const double mach = system.stream().mach;
   FlowFriction friction;
   friction.reynolds = mach * system.stream().reference_length / viscosity.stream;
+  friction.transition = system.stream().transition;
   friction.cf.assign(dual.size(), 0.0), friction.y_plus.assign(dual.size(), 0.0);
   const std::vector<WallVertex> walls =
       wall_vertices_of(dual, {std::cos(state.augmented[1]), std::sin(state.augmented[1])});
@@ -138,7 +139,7 @@ template <std::size_t N>
 FlowResult found(const FrozenMesh& frozen, const FlowConditions& conditions, const FlowOptions& options,
                  const std::string& source) {
   const FlowMesh mesh = dual_of(frozen, conditions, options, source);
-  const FrictionMesh friction_mesh(mesh);
+  const FrictionMesh friction_mesh(mesh, conditions.transition);
   const FrictionSystem<N> system(friction_mesh, stream_of(conditions, options, mesh),
                                  viscosity_of(conditions, options));
   const BlockMeasure<N> measure(system);
@@ -165,7 +166,7 @@ namespace {
 template <std::size_t N>
 FlowResult found_from(const FlowMesh& old, const FlowResult& known, const FlowMesh& mesh,
                       const FlowConditions& conditions, const FlowOptions& options) {
-  const FrictionMesh friction_mesh(mesh);
+  const FrictionMesh friction_mesh(mesh, conditions.transition);
   const FrictionSystem<N> system(friction_mesh, stream_of(conditions, options, mesh),
                                  viscosity_of(conditions, options));
   const BlockMeasure<N> measure(system);

@@ -51,12 +51,12 @@ FlowMesh uneven_grid(std::mt19937_64& random) {
 
 // Jacobian times a step, augmented rows and columns, against differences of residuals.
 template <std::size_t N>
-void expect_exact_jacobian(double mach) {
+void expect_exact_jacobian(double mach, const std::optional<std::array<double, 2>>& transition = {}) {
   const unsigned long long seed = test::seed(46);
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937_64 random(seed);
   const FlowMesh dual = uneven_grid(random);
-  const FrictionMesh mesh(dual);
+  const FrictionMesh mesh(dual, transition);
   const FrictionSystem<N> system(mesh, {.mach = mach, .alpha = 0.05}, {.stream = mach / 300.0});
   BlockState<N> state = system.start(0.2);
   BlockIncrement<N> step = zero_of<N>(dual.size());
@@ -94,6 +94,7 @@ TEST(Friction, LaminarJacobianIsThatOfDifferences) {
 }
 TEST(Friction, TurbulentJacobianIsThatOfDifferences) {
   for (const double mach : {0.4, 1.1}) expect_exact_jacobian<5>(mach);
+  expect_exact_jacobian<5>(0.4, {{0.5, 0.5}});
 }
 
 // The viscous terms of linear functions: constant stress, whose sum over an inner dual cell is 0.
@@ -110,7 +111,7 @@ TEST(Friction, ConstantStressLeavesInnerCellsInBalance) {
       const Point p = dual.points()[triangle.corner[i]];
       q[i] = {1.0, 0.3 * p.x + 0.5 * p.y, -0.2 * p.x + 0.1 * p.y, 1.0 / gas_gamma};
     }
-    const auto flux = terms.triangle<double, 4>(q, triangle, {1.0, 1.0, 1.0});
+    const auto flux = terms.triangle<double, 4>(q, triangle, {{{1.0}, {1.0}, {1.0}}});
     for (std::size_t i = 0; i < 3; ++i)
       for (const std::size_t k : {std::size_t{1}, std::size_t{2}}) sum[triangle.corner[i]][k] += flux[i][k];
     area += triangle.area;
@@ -130,12 +131,14 @@ TEST(Friction, ConstantStressLeavesInnerCellsInBalance) {
 TEST(Friction, TheModelsSourceVanishesWithDiffusionInTheLogarithmicLayer) {
   using Model = SpalartAllmaras;
   const double d = 0.3, u = 1.0, w = Model::karman * u * d, vorticity = u / (Model::karman * d);
-  const double made = Model::source<double>(w, 1e-9, vorticity, d);
+  const double made = Model::source<double>(w, 1e-9, vorticity, d, false);
   const double slope = Model::karman * u;
   const double diffused = (1.0 + Model::cb2) / Model::sigma * slope * slope;
   EXPECT_NEAR(made + diffused, 0.0, 1e-6 * diffused);
   // Below zero it is driven back to zero, and its diffusion stays positive.
-  EXPECT_GT(Model::source<double>(-w, 1e-9, vorticity, d), 0.0);
+  EXPECT_GT(Model::source<double>(-w, 1e-9, vorticity, d, false), 0.0);
+  // A laminar zone makes none.
+  EXPECT_LT(Model::source<double>(w, 1e-9, vorticity, d, true), 0.0);
   for (const double chi : {-100.0, -10.0, -1.0, -0.1, 0.0, 5.0})
     EXPECT_GT(Model::diffusion_ratio(chi), 0.0) << chi;
 }
@@ -192,18 +195,21 @@ TEST(Friction, LaminarFlowAroundASymmetricSectionHasNoLift) {
   EXPECT_NEAR(flow.friction->cd_pressure, 0.0226, 0.003);
 }
 
+test::QuadGrid turbulent_plate() {
+  return test::plate_grid({.start = -0.33,
+                           .length = 2.0,
+                           .height = 1.0,
+                           .first = 2e-6,
+                           .at_edge = 2e-3,
+                           .before = 16,
+                           .along = 36,
+                           .up = 48});
+}
+
 // Turbulent friction on a plate, Re 5e6 a unit: within a few percent of NASA's Turbulence Modeling Resource
 // on a grid of 2,600 vertices.
 TEST(Friction, ThePlatesTurbulentFrictionIsNearTheReference) {
-  const test::QuadGrid grid = test::plate_grid({.start = -0.33,
-                                                .length = 2.0,
-                                                .height = 1.0,
-                                                .first = 2e-6,
-                                                .at_edge = 2e-3,
-                                                .before = 16,
-                                                .along = 36,
-                                                .up = 48});
-  const FrozenMesh mesh = grid.frozen();
+  const FrozenMesh mesh = turbulent_plate().frozen();
   const FlowResult flow =
       solve_flow(mesh, {.mach = 0.2, .reynolds = 5e6}, plate_options(FlowModel::sa), "plate");
   ASSERT_TRUE(flow.converged()) << flow.reason;
@@ -214,6 +220,41 @@ TEST(Friction, ThePlatesTurbulentFrictionIsNearTheReference) {
   EXPECT_NEAR(cf, 0.0027, 0.0002);
   EXPECT_GT(*std::max_element(flow.friction->viscosity_ratio.begin(), flow.friction->viscosity_ratio.end()),
             50.0);
+}
+
+// Blasius's friction ahead of the transition, and more than that of a fully turbulent plate soon behind it:
+// the layer is thinner there.
+TEST(Friction, APlateIsLaminarAheadOfItsTransition) {
+  const FrozenMesh mesh = turbulent_plate().frozen();
+  const FlowOptions options = plate_options(FlowModel::sa);
+  const FlowResult turbulent = solve_flow(mesh, {.mach = 0.2, .reynolds = 5e6}, options, "plate");
+  const FlowResult flow =
+      solve_flow(mesh, {.mach = 0.2, .reynolds = 5e6, .transition = {{0.25, 0.0}}}, options, "plate");
+  ASSERT_TRUE(flow.converged()) << flow.reason;
+  int ahead = 0, behind = 0;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    const Point p = mesh.points[v];
+    if (p.y != 0.0) continue;
+    if (p.x > 0.05 && p.x < 0.3) {
+      EXPECT_NEAR(flow.friction->cf[v] / (0.664115 / std::sqrt(5e6 * p.x)), 1.0, 0.05) << p.x;
+      ++ahead;
+    }
+    if (p.x > 0.8 && p.x < 1.9) {
+      EXPECT_GT(flow.friction->cf[v], turbulent.friction->cf[v]) << p.x;
+      EXPECT_LT(flow.friction->cf[v], 1.3 * turbulent.friction->cf[v]) << p.x;
+      ++behind;
+    }
+  }
+  EXPECT_GT(ahead, 5);
+  EXPECT_GT(behind, 5);
+}
+
+TEST(Friction, ATransitionWithoutTurbulenceIsRefused) {
+  const FrozenMesh mesh = turbulent_plate().frozen();
+  FlowConditions conditions = {.mach = 0.2, .reynolds = 5e6, .transition = {{0.25, 0.5}}};
+  EXPECT_THROW(solve_flow(mesh, conditions, plate_options(FlowModel::laminar), "plate"), Error);
+  conditions.transition = {{0.25, 1.5}};
+  EXPECT_THROW(solve_flow(mesh, conditions, plate_options(FlowModel::sa), "plate"), Error);
 }
 
 // NACA 0012 with a coarse layer, then two designs on the same stations.
@@ -285,8 +326,8 @@ TEST(Friction, AFlowOfAGivenLiftHasTheAngleOfThatLift) {
   EXPECT_LT(given.alpha_deg, 5.0);
 }
 
-// Gradients against differences of whole flows: along a smooth displacement of all points, walls and layers too, and
-// by what is given of the stream. Turbulence and distances from walls follow.
+// Gradients against differences of whole flows: along a smooth displacement of all points, walls and layers
+// too, and by what is given of the stream. Turbulence and distances from walls follow.
 void expect_exact_gradients(FlowModel model, const FlowConditions& conditions, double first,
                             double within = 1e-6) {
   FlowOptions options;
@@ -374,7 +415,8 @@ TEST(Friction, GradientsByTheDesignAreThoseOfFlowsOnTheMeshesOfSteps) {
   const std::vector<double> coefficients = coefficients_of(domain);
   const std::vector<std::string> names = coefficient_names(domain);
   const auto index = [&](const std::string& end) {
-    const auto at = std::find_if(names.begin(), names.end(), [&](const auto& name) { return name.ends_with(end); });
+    const auto at =
+        std::find_if(names.begin(), names.end(), [&](const auto& name) { return name.ends_with(end); });
     return static_cast<std::size_t>(at - names.begin());
   };
   LivingFlow living(options);
@@ -382,7 +424,8 @@ TEST(Friction, GradientsByTheDesignAreThoseOfFlowsOnTheMeshesOfSteps) {
   const FlowGradients gradients = living.gradients();
   const LayeredMeshDerivative derivative(designs.mesh);
   ASSERT_EQ(derivative.points(), designs.mesh.freeze().points.size());
-  const std::vector<double> cl = derivative.vjp(gradients.cl.points), cd = derivative.vjp(gradients.cd.points);
+  const std::vector<double> cl = derivative.vjp(gradients.cl.points),
+                            cd = derivative.vjp(gradients.cd.points);
   for (const std::size_t i : {index("upper[1]"), index("lower[3]")}) {
     ASSERT_LT(i, coefficients.size());
     std::vector<FlowResult> flows;
@@ -397,7 +440,9 @@ TEST(Friction, GradientsByTheDesignAreThoseOfFlowsOnTheMeshesOfSteps) {
       flows.push_back(living.solve(mesh.freeze(), conditions));
       ASSERT_TRUE(flows.back().converged());
     }
-    const auto difference = [&](auto value) { return (value(0) - 8.0 * value(1) + 8.0 * value(2) - value(3)) / (12.0 * h); };
+    const auto difference = [&](auto value) {
+      return (value(0) - 8.0 * value(1) + 8.0 * value(2) - value(3)) / (12.0 * h);
+    };
     const double by_cl = difference([&](std::size_t k) { return flows[k].cl; });
     const double by_cd = difference([&](std::size_t k) { return flows[k].cd; });
     EXPECT_NEAR(cl[i], by_cl, 1e-6 * std::fabs(by_cl) + 1e-8) << names[i];

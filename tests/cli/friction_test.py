@@ -47,6 +47,10 @@ class Friction(ProgramTest):
     def test_what_does_not_fit_is_refused(self):
         for words, message in (
             (("--model", "sa"), "--reynolds: not given"),
+            (("--model", "laminar", "--reynolds", 1e6, "--transition", "0.1,0.2"), "--transition: given without turbulence"),
+            (("--transition", "0.1,0.2"), "--transition: given without turbulence"),
+            (("--model", "sa", "--reynolds", 1e6, "--transition", "0.1,1.2"), "--transition: found '0.1,1.2'"),
+            (("--model", "sa", "--reynolds", 1e6, "--transition", "0.1"), "--transition: found '0.1'"),
             (("--reynolds", 1e6), "--reynolds: given without friction"),
             (("--model", "sa", "--reynolds", 1e6, "--error"), "--error: given with --model laminar or sa"),
             (("--model", "sa", "--reynolds", 1e6, "--points", 100), "--points: given with a model with friction"),

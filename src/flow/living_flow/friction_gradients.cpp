@@ -52,7 +52,7 @@ FlowGradients gradients_of(const LastFlow<N>& last, const Viscosity& viscosity,
   require_gradients(last.found(), options);
   if (wanted.entropy_drag)
     throw Error(ErrorCode::argument, "entropy_drag", "asked for with friction, expected a flow without");
-  const FrictionMesh mesh(*last.mesh);
+  const FrictionMesh mesh(*last.mesh, last.stream.transition);
   const FrictionSystem<N> system(mesh, last.stream, viscosity);
   const std::size_t size = last.mesh->size();
   FlowGradients result;

@@ -23,7 +23,8 @@ class LivingOf : public LivingSolver {
   void go_on_from(const AnyLastFlow& last) final { last_ = std::get<LastFlow<N>>(last); }
 
  protected:
-  // A flow that is looked for: `task` has neither measure nor searches yet, and comes back as the ladder left it.
+  // A flow that is looked for: `task` has neither measure nor searches yet, and comes back as the ladder left
+  // it.
   struct Wanted {
     std::shared_ptr<const FlowMesh> mesh;
     Keys keys;
@@ -133,7 +134,7 @@ class LivingFriction final : public LivingOf<N> {
  private:
   using typename LivingOf<N>::Wanted;
   FlowResult look_for(const Wanted& wanted) override {
-    const FrictionMesh mesh(*wanted.mesh);
+    const FrictionMesh mesh(*wanted.mesh, wanted.conditions.transition);
     const FrictionSystem<N> system(mesh, stream_of(wanted.conditions, this->options_, *wanted.mesh),
                                    viscosity_of(wanted.conditions, this->options_));
     const BlockMeasure<N> measure(system);

@@ -3,7 +3,8 @@
 // The turbulence model of P. R. Spalart and S. R. Allmaras (AIAA paper 92-0439, 1992) in its negative
 // variant: S. R. Allmaras, F. T. Johnson and P. R. Spalart, "Modifications and clarifications for the
 // implementation of the Spalart-Allmaras turbulence model", ICCFD7-1902, 2012. Equation numbers are theirs.
-// Fully turbulent: no trip.
+// No trip term: a laminar zone has no production, as is usual (FUN3D, CFL3D, SU2). C. L. Rumsey and P. R.
+// Spalart, AIAA J. 47 (2009), on what the model does where production is left to itself.
 
 #include <algorithm>
 #include <cmath>
@@ -34,17 +35,18 @@ struct SpalartAllmaras {
   }
 
   // Production less destruction of the working variable w, by kinematic viscosity, vorticity and the distance
-  // from walls (13 to 17, 22).
+  // from walls (13 to 17, 22). There is no production in laminar zones.
   template <class T>
-  static T source(const T& w, const T& viscosity, const T& vorticity, const T& distance) {
+  static T source(const T& w, const T& viscosity, const T& vorticity, const T& distance, bool is_laminar) {
     using std::exp;
     const T by_distance = w / (distance * distance);
-    if (value_of(w) < 0.0) return cb1 * (1.0 - ct3) * vorticity * w + cw1 * (w * by_distance);
+    const double production = is_laminar ? 0.0 : cb1;
+    if (value_of(w) < 0.0) return production * (1.0 - ct3) * vorticity * w + cw1 * (w * by_distance);
     const T chi = w / viscosity;
     const T laminar = ct3 * exp(-ct4 * (chi * chi));
     const T shear = modified_vorticity(chi, vorticity, by_distance);
     const T wall = wall_function(by_distance, shear);
-    return cb1 * (1.0 - laminar) * (shear * w) -
+    return production * (1.0 - laminar) * (shear * w) -
            (cw1 * wall - (cb1 / (karman * karman)) * laminar) * (w * by_distance);
   }
 

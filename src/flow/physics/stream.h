@@ -2,6 +2,7 @@
 
 // What is given of a flow: the undisturbed stream, and what scales and limits.
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -21,6 +22,7 @@ struct Stream {
   // walls. Flows do not depend on what coefficients are reported with, `reference_length`.
   double length = 1.0;
   double reference_length = 1.0;
+  std::optional<std::array<double, 2>> transition = {};  // of turbulent flow, as FlowConditions has it
   bool vortex = true;
   double limiter = 30.0;  // K: slopes of less than (K h / length)^(3/2) are not limited
   // Instead of the stream: the state at points of the far field, for flows with known solutions.

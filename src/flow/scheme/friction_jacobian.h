@@ -86,8 +86,8 @@ void FrictionSystem<N>::jacobian(const BlockState<N>& state, Jacobian& result) c
   make_walls_strong(result.whole), make_walls_strong(result.first);
 }
 
-// A reconstructed value depends on that unknown at both ends, on its upwind difference, and by the limiter on all
-// unknowns at both ends and on the edge's length.
+// A reconstructed value depends on that unknown at both ends, on its upwind difference, and by the limiter on
+// all unknowns at both ends and on the edge's length.
 template <std::size_t N>
 template <std::size_t V>
 typename FrictionSystem<N>::template FaceDual<V> FrictionSystem<N>::face_dual(const BlockState<N>& state,
@@ -178,7 +178,7 @@ void FrictionSystem<N>::add_triangle_blocks(const BlockState<N>& state, std::spa
     std::array<std::array<All, N>, 3> q;
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t k = 0; k < N; ++k) q[i][k] = All::variable(state.q[triangle.corner[i]][k], N * i + k);
-    const auto flux = terms_.template triangle<All, N>(q, triangle, triangle_distances(triangle));
+    const auto flux = terms_.template triangle<All, N>(q, triangle, wall_places(triangle));
     for (Rows& rows : all)
       for (std::size_t i = 0; i < 3; ++i) {
         const std::uint32_t row = rows.of[triangle.corner[i]];

@@ -4,18 +4,15 @@
 #include <cmath>
 #include <limits>
 
+#include "flow/scheme/laminar_zone.h"
+
 namespace remodel::flow {
 
 namespace {
 
-// Columns of a fan stand close together at the edge: a difference between them would be stretched to that between
-// columns behind, a hundred times as long. RAE 2822 was not found so.
+// Columns of a fan stand close together at the edge: a difference between them would be stretched to that
+// between columns behind, a hundred times as long. RAE 2822 was not found so.
 constexpr double largest_ratio = 4.0;
-
-// Where on the segment p is nearest to, from 0 to 1.
-double nearest_part(Point p, Point a, Point b) {
-  return std::clamp(dot(p - a, b - a) / dot(b - a, b - a), 0.0, 1.0);
-}
 
 double squared_distance_to_segment(Point p, Point a, Point b) {
   return squared_distance(p, a + nearest_part(p, a, b) * (b - a));
@@ -23,7 +20,12 @@ double squared_distance_to_segment(Point p, Point a, Point b) {
 
 }  // namespace
 
-FrictionMesh::FrictionMesh(const FlowMesh& mesh) : mesh_(mesh) {
+double nearest_part(Point p, Point a, Point b) {
+  return std::clamp(dot(p - a, b - a) / dot(b - a, b - a), 0.0, 1.0);
+}
+
+FrictionMesh::FrictionMesh(const FlowMesh& mesh, const std::optional<std::array<double, 2>>& transition)
+    : mesh_(mesh) {
   sticks_.assign(mesh.size(), false);
   for (const BoundaryEdge& edge : mesh.boundary())
     if (mesh.patch(edge).sticks()) sticks_[edge.a] = sticks_[edge.b] = true;
@@ -31,6 +33,7 @@ FrictionMesh::FrictionMesh(const FlowMesh& mesh) : mesh_(mesh) {
   make_upwind();
   make_triangles();
   measure_distances();
+  if (transition) laminar_ = laminar_zone(mesh, nearest_, *transition);
 }
 
 void FrictionMesh::count_cells() {
@@ -144,7 +147,8 @@ void FrictionMesh::measure_distances() {
 }
 
 // The nearest place on a segment moves along it alone, or not at all.
-void FrictionMesh::add_distance_slopes(const std::vector<double>& by_distance, std::vector<Point>& points) const {
+void FrictionMesh::add_distance_slopes(const std::vector<double>& by_distance,
+                                       std::vector<Point>& points) const {
   for (std::size_t v = 0; v < mesh_.size(); ++v) {
     if (by_distance[v] == 0.0 || nearest_[v] == no_index || sticks_[v]) continue;
     const BoundaryEdge& edge = mesh_.boundary()[nearest_[v]];

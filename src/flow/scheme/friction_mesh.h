@@ -8,19 +8,27 @@
 // of a vertex, straight behind it as seen along an edge, is a matter of topology:
 //
 //        |     |     |      At v, among quadrilaterals alone, b is opposite to w, and c to d. At the end of a
-//     ---c-----+-----+---   layer, where two quadrilaterals meet the edge to d, b is still opposite to w, and d
-//        |     |     |      has no opposite neighbour. Other vertices take gradients. On walls, whose gradients
-//     ---v-----w-----+---   are one-sided, and where b is very near, the upwind difference is the central one.
+//     ---c-----+-----+---   layer, where two quadrilaterals meet the edge to d, b is still opposite to w, and
+//     d
+//        |     |     |      has no opposite neighbour. Other vertices take gradients. On walls, whose
+//        gradients
+//     ---v-----w-----+---   are one-sided, and where b is very near, the upwind difference is the central
+//     one.
 //    /   |     |     |
 //   b    d     |     |
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "flow/scheme/flow_mesh.h"
 
 namespace remodel::flow {
+
+// Where on the segment from a to b p is nearest to, from 0 to 1.
+double nearest_part(Point p, Point a, Point b);
 
 struct WeightedVertex {
   std::uint32_t vertex;
@@ -52,9 +60,17 @@ TriangleShape<T>::TriangleShape(const std::array<PlaneVector<T>, 3>& p, bool of_
   }
 }
 
+// What the turbulence model knows of a vertex.
+template <class T>
+struct WallPlace {
+  T distance;  // from walls that gas sticks to
+  bool is_laminar = false;
+};
+
 class FrictionMesh {
  public:
-  explicit FrictionMesh(const FlowMesh& mesh);
+  // transition: of upper and lower sides, chord fractions; none: turbulent from the leading edge on.
+  explicit FrictionMesh(const FlowMesh& mesh, const std::optional<std::array<double, 2>>& transition = {});
 
   const FlowMesh& dual() const { return mesh_; }
   // The upwind difference over edge `e` at its first (0) or second end, over the edge's length and in its
@@ -63,8 +79,8 @@ class FrictionMesh {
     const std::size_t i = 2 * e + side;
     return {upwind_.data() + upwind_start_[i], upwind_start_[i + 1] - upwind_start_[i]};
   }
-  // What that difference is made of: `behind`, the opposite neighbour, where there is one, and else the difference
-  // itself (central) or the gradient.
+  // What that difference is made of: `behind`, the opposite neighbour, where there is one, and else the
+  // difference itself (central) or the gradient.
   enum class Upwind : std::uint8_t { opposite, central, gradient };
   struct UpwindKind {
     Upwind kind;
@@ -76,6 +92,8 @@ class FrictionMesh {
   void add_distance_slopes(const std::vector<double>& by_distance, std::vector<Point>& points) const;
   const std::vector<double>& distances() const { return distance_; }  // from walls that gas sticks to
   bool sticks(std::size_t v) const { return sticks_[v]; }
+  // Before the transition. Derivatives by the shape hold it.
+  bool is_laminar(std::size_t v) const { return !laminar_.empty() && laminar_[v]; }
 
  private:
   struct Around {
@@ -99,6 +117,7 @@ class FrictionMesh {
   std::vector<double> distance_;
   std::vector<std::uint32_t> nearest_;  // boundary edges
   std::vector<bool> sticks_;
+  std::vector<bool> laminar_;  // empty: none is
 };
 
 }  // namespace remodel::flow

@@ -1,8 +1,8 @@
 #pragma once
 
-// Derivatives of flows with friction by places and by what is given of the stream: members of FrictionSystem, which
-// friction_system.cpp instantiates. Reverse by hand across sums, forward dual numbers within one term, as
-// shape_derivative.cpp.
+// Derivatives of flows with friction by places and by what is given of the stream: members of FrictionSystem,
+// which friction_system.cpp instantiates. Reverse by hand across sums, forward dual numbers within one term,
+// as shape_derivative.cpp.
 
 #include <cmath>
 
@@ -43,8 +43,8 @@ std::vector<ShapeSlope> FrictionSystem<N>::slopes_of_unbalanced(
   return results;
 }
 
-// By normals, and by what upwind differences follow: lengths of the edge and of that to the opposite neighbour, or
-// gradients.
+// By normals, and by what upwind differences follow: lengths of the edge and of that to the opposite
+// neighbour, or gradients.
 template <std::size_t N>
 void FrictionSystem<N>::add_face_slopes(const BlockState<N>& state, std::span<const BlockVector<N>> weights,
                                         std::span<FlowMesh::Slopes> slopes,
@@ -125,14 +125,14 @@ void FrictionSystem<N>::add_triangle_slopes(const BlockState<N>& state,
   for (const CornerTriangle& triangle : mesh_.triangles()) {
     std::array<std::array<T, N>, 3> q;
     std::array<PlaneVector<T>, 3> p;
-    std::array<T, 3> distance;
+    std::array<WallPlace<T>, 3> wall;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t v = triangle.corner[i];
       for (std::size_t k = 0; k < N; ++k) q[i][k] = T(state.q[v][k]);
       p[i] = {T::variable(dual_.points()[v].x, 2 * i), T::variable(dual_.points()[v].y, 2 * i + 1)};
-      distance[i] = T::variable(mesh_.distances()[v], 6 + i);
+      wall[i] = {T::variable(mesh_.distances()[v], 6 + i), mesh_.is_laminar(v)};
     }
-    const auto flux = terms_.template triangle<T, N>(q, TriangleShape<T>(p, triangle.of_quad), distance);
+    const auto flux = terms_.template triangle<T, N>(q, TriangleShape<T>(p, triangle.of_quad), wall);
     for (std::size_t j = 0; j < weights.size(); ++j) {
       std::array<double, 9> by = {};
       for (std::size_t i = 0; i < 3; ++i) {
@@ -177,8 +177,8 @@ void FrictionSystem<N>::add_boundary_slopes(const BlockState<N>& state, const Bl
   }
 }
 
-// Differences of fourth order over a thousandth of each number: to 1e-12 of the residual, where the Mach number is in
-// the stream, the viscosity, the flux's factor of slow flow and the rounding of vorticity.
+// Differences of fourth order over a thousandth of each number: to 1e-12 of the residual, where the Mach
+// number is in the stream, the viscosity, the flux's factor of slow flow and the rounding of vorticity.
 template <std::size_t N>
 void FrictionSystem<N>::add_stream_slopes(const BlockState<N>& state, std::span<const BlockVector<N>> weights,
                                           std::span<ShapeSlope> results) const {

@@ -76,8 +76,8 @@ class FrictionSystem final : public BlockSystem<N> {
   static std::array<double, N> conserved_at(const std::array<double, N>& q);
   static SquareBlock<N> conserved_slope(const std::array<double, N>& q);
 
-  // The derivative, at this state, of the sum over vertices of weight times *unbalanced* flux, for each row of
-  // weights: by places, and by Mach and Reynolds number at fixed unknowns.
+  // The derivative, at this state, of the sum over vertices of weight times *unbalanced* flux, for each row
+  // of weights: by places, and by Mach and Reynolds number at fixed unknowns.
   std::vector<ShapeSlope> slopes_of_unbalanced(const BlockState<N>& state,
                                                std::span<const BlockVector<N>> weights) const;
   // A sum of coefficients, and what it follows.
@@ -115,9 +115,9 @@ class FrictionSystem final : public BlockSystem<N> {
     Order order;
     std::vector<std::uint32_t> of;
   };
-  // A face's flux, by reconstructed values of both sides and, for V = 2 N + 2, its normal; these values by the
-  // unknown at both ends, the upwind difference, limited_part() and the limiter's width; and limited_part() by the
-  // unknowns of both ends.
+  // A face's flux, by reconstructed values of both sides and, for V = 2 N + 2, its normal; these values by
+  // the unknown at both ends, the upwind difference, limited_part() and the limiter's width; and
+  // limited_part() by the unknowns of both ends.
   template <std::size_t V>
   struct FaceDual {
     std::array<Dual<V>, N> flux;
@@ -147,9 +147,11 @@ class FrictionSystem final : public BlockSystem<N> {
   std::array<Row, 3> triangle_states(const BlockVector<N>& q, const CornerTriangle& triangle) const {
     return {q[triangle.corner[0]], q[triangle.corner[1]], q[triangle.corner[2]]};
   }
-  std::array<double, 3> triangle_distances(const CornerTriangle& triangle) const {
-    const std::vector<double>& d = mesh_.distances();
-    return {d[triangle.corner[0]], d[triangle.corner[1]], d[triangle.corner[2]]};
+  std::array<WallPlace<double>, 3> wall_places(const CornerTriangle& triangle) const {
+    std::array<WallPlace<double>, 3> places;
+    for (std::size_t i = 0; i < 3; ++i)
+      places[i] = {mesh_.distances()[triangle.corner[i]], mesh_.is_laminar(triangle.corner[i])};
+    return places;
   }
   // Whether the k-th row of a wall's vertex is replaced by "this unknown is 0".
   static bool is_strong(std::size_t k) { return k == 1 || k == 2 || k == 4; }

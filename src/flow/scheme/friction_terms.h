@@ -39,7 +39,8 @@ struct FrictionTerms {
     const double h = limiter * std::sqrt(dot(edge, edge)) / extent;
     return h * h * h;
   }
-  // From the value at an end of an edge to that in its middle. `limited` is limited_part() of the edge's ends.
+  // From the value at an end of an edge to that in its middle. `limited` is limited_part() of the edge's
+  // ends.
   template <class T>
   T step(const T& upwind, const T& central, const T& width, const T& limited) const {
     return slopes * reconstruction_step<T, T>(EdgeEnd::inner, upwind, central, width, limited).step;
@@ -85,13 +86,13 @@ struct FrictionTerms {
   // What leaves the dual cells of the corners by friction and conduction, and what turbulence makes there.
   template <class T, std::size_t N, class G>
   std::array<Local<T, N>, 3> triangle(const std::array<Local<T, N>, 3>& q, const TriangleShape<G>& of,
-                                      const std::array<G, 3>& distance) const;
+                                      const std::array<WallPlace<G>, 3>& wall) const;
 };
 
 template <class T, std::size_t N, class G>
 std::array<Local<T, N>, 3> FrictionTerms::triangle(const std::array<Local<T, N>, 3>& q,
                                                    const TriangleShape<G>& of,
-                                                   const std::array<G, 3>& distance) const {
+                                                   const std::array<WallPlace<G>, 3>& wall) const {
   using std::sqrt;
   const auto gradient = [&](const T& a, const T& b, const T& c) {
     return PlaneVector<T>(a * of.slope[0].x + b * of.slope[1].x + c * of.slope[2].x,
@@ -135,10 +136,10 @@ std::array<Local<T, N>, 3> FrictionTerms::triangle(const std::array<Local<T, N>,
     const T square = dw.x * dw.x + dw.y * dw.y, across = drho.x * dw.x + drho.y * dw.y;
     for (std::size_t i = 0; i < 3; ++i) {
       result[i][4] = spread * ((of.area * of.slope[i].x) * dw.x + (of.area * of.slope[i].y) * dw.y);
-      if (value_of(of.share[i]) == 0.0 || value_of(distance[i]) == 0.0) continue;
+      if (value_of(of.share[i]) == 0.0 || value_of(wall[i].distance) == 0.0) continue;
       const T kinematic = molecular[i] / q[i][0];
-      const T made =
-          (1.0 / unit) * SpalartAllmaras::source<T>(unit * q[i][4], kinematic, vorticity, T(distance[i]));
+      const T made = (1.0 / unit) * SpalartAllmaras::source<T>(unit * q[i][4], kinematic, vorticity,
+                                                               T(wall[i].distance), wall[i].is_laminar);
       result[i][4] =
           result[i][4] -
           of.share[i] * (q[i][0] * (made + (SpalartAllmaras::cb2 / SpalartAllmaras::sigma * unit) * square) -

@@ -1,0 +1,109 @@
+#include "flow/scheme/laminar_zone.h"
+
+#include <algorithm>
+
+#include "flow/scheme/friction_mesh.h"
+
+namespace remodel::flow {
+
+namespace {
+
+struct Chord {
+  Point leading, trailing;
+  double fraction(Point p) const {
+    const Point whole = trailing - leading;
+    return dot(p - leading, whole) / dot(whole, whole);
+  }
+};
+
+// The sides of all walls, by boundary edges.
+class WallSides {
+ public:
+  explicit WallSides(const FlowMesh& mesh);
+  const Chord& chord(std::uint32_t edge) const { return chords_[wall_[edge]]; }
+  bool lower(std::uint32_t edge) const { return lower_[edge]; }
+
+ private:
+  std::vector<std::uint32_t> connected_with(std::uint32_t edge) const;
+  void add_wall(const std::vector<std::uint32_t>& edges);
+  // How far the edges are above the chord, times their lengths.
+  double above(const Chord& chord, std::uint32_t edge) const;
+
+  const FlowMesh& mesh_;
+  std::vector<std::uint32_t> next_, previous_;  // edges that begin and end at a vertex
+  std::vector<Chord> chords_;
+  std::vector<std::uint32_t> wall_;  // of each edge; no_index: of none
+  std::vector<bool> lower_;
+};
+
+WallSides::WallSides(const FlowMesh& mesh)
+    : mesh_(mesh),
+      next_(mesh.size(), no_index),
+      previous_(mesh.size(), no_index),
+      wall_(mesh.boundary().size(), no_index),
+      lower_(mesh.boundary().size()) {
+  const auto count = static_cast<std::uint32_t>(mesh.boundary().size());
+  const auto is_wall = [&](std::uint32_t e) { return mesh.patch(mesh.boundary()[e]).sticks(); };
+  for (std::uint32_t e = 0; e < count; ++e)
+    if (is_wall(e)) next_[mesh.boundary()[e].a] = previous_[mesh.boundary()[e].b] = e;
+  for (std::uint32_t e = 0; e < count; ++e)
+    if (is_wall(e) && wall_[e] == no_index) add_wall(connected_with(e));
+}
+
+std::vector<std::uint32_t> WallSides::connected_with(std::uint32_t edge) const {
+  std::uint32_t first = edge;
+  for (std::uint32_t e = previous_[mesh_.boundary()[edge].a]; e != no_index && e != edge;
+       e = previous_[mesh_.boundary()[e].a])
+    first = e;
+  std::vector<std::uint32_t> edges = {first};
+  for (std::uint32_t e = next_[mesh_.boundary()[first].b]; e != no_index && e != first;
+       e = next_[mesh_.boundary()[e].b])
+    edges.push_back(e);
+  return edges;
+}
+
+void WallSides::add_wall(const std::vector<std::uint32_t>& edges) {
+  std::vector<Point> p;
+  for (const std::uint32_t e : edges) p.push_back(mesh_.points()[mesh_.boundary()[e].a]);
+  p.push_back(mesh_.points()[mesh_.boundary()[edges.back()].b]);
+  const auto rear = std::max_element(p.begin(), p.end(), [](Point a, Point b) { return a.x < b.x; });
+  const auto front = std::max_element(p.begin(), p.end(), [&](Point a, Point b) {
+    return squared_distance(a, *rear) < squared_distance(b, *rear);
+  });
+  const Chord chord{*front, *rear};
+  const auto [from, to] = std::minmax({front - p.begin(), rear - p.begin()});
+  double first_part = 0.0, second_part = 0.0;
+  for (std::ptrdiff_t i = 0; i < std::ssize(edges); ++i)
+    (i >= from && i < to ? first_part : second_part) += above(chord, edges[static_cast<std::size_t>(i)]);
+  for (std::ptrdiff_t i = 0; i < std::ssize(edges); ++i) {
+    const std::uint32_t e = edges[static_cast<std::size_t>(i)];
+    wall_[e] = static_cast<std::uint32_t>(chords_.size());
+    lower_[e] = (i >= from && i < to) == (first_part < second_part);
+  }
+  chords_.push_back(chord);
+}
+
+double WallSides::above(const Chord& chord, std::uint32_t edge) const {
+  const Point a = mesh_.points()[mesh_.boundary()[edge].a], b = mesh_.points()[mesh_.boundary()[edge].b];
+  const Point along = chord.trailing - chord.leading, to = 0.5 * (a + b) - chord.leading;
+  return (along.x * to.y - along.y * to.x) * std::sqrt(squared_distance(a, b));
+}
+
+}  // namespace
+
+std::vector<bool> laminar_zone(const FlowMesh& mesh, const std::vector<std::uint32_t>& nearest,
+                               std::array<double, 2> transition) {
+  const WallSides sides(mesh);
+  std::vector<bool> laminar(mesh.size(), false);
+  for (std::size_t v = 0; v < mesh.size(); ++v) {
+    const std::uint32_t e = nearest[v];
+    if (e == no_index) continue;
+    const BoundaryEdge& edge = mesh.boundary()[e];
+    const Point a = mesh.points()[edge.a], b = mesh.points()[edge.b];
+    const Point place = a + nearest_part(mesh.points()[v], a, b) * (b - a);
+    laminar[v] = sides.chord(e).fraction(place) < transition[sides.lower(e) ? 1 : 0];
+  }
+  return laminar;
+}
+
+}  // namespace remodel::flow
