@@ -154,6 +154,9 @@ void validate(const DesignProblem& problem, const std::string& source = "design 
 // Reads the file of a problem: docs/design.md describes it. Paths in it lead on from its directory. Throws
 // Error naming the file and the place in it.
 DesignProblem read_design_problem(const std::string& file);
+// The same from the text of such a file. `source` names it in messages; paths in it lead on from its
+// directory.
+DesignProblem parse_design_problem(const std::string& text, const std::string& source);
 // The problem's own text, or one made of its members; own functions are named in it, no more.
 std::string design_problem_json(const DesignProblem& problem);
 

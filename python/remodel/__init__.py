@@ -9,7 +9,7 @@
 
 Shapes: Airfoil, Domain, catalogue(). Meshes: generate(), import_mesh(), Mesh, FrozenMesh, check(). Steps:
 Mesh.update() returns a Step, Mesh.trial() tries a design. Layers on walls: generate_layered(), LayeredMesh. Values carried from mesh to mesh: Transfer. Flow:
-solve_flow(), LivingFlow, PotentialSolver. Optimisers: optimise(), CMAES.
+solve_flow(), LivingFlow, PotentialSolver. Optimisers: design(), optimise(), CMAES.
 
 Lengths are in chords and angles in degrees. Every mesh is constrained Delaunay; a step keeps what it can. Bad
 input raises an Error: ArgumentError, FileError, FormatError or GeometryError, with the place and what was
@@ -54,6 +54,7 @@ from ._core import (
     read_frozen,
     solve_flow,
 )
+from ._design import DesignResult, design
 from ._designers import CMAES
 from ._errors import ArgumentError, ArgumentTypeError, Error, EvaluationFailed, FileError, FormatError, GeometryError, TopologyChanged
 from ._gradients import PointGradient
@@ -63,11 +64,11 @@ from ._optimise import OptimiseResult, optimise
 _extend()
 
 __all__ = [
-    "Airfoil", "ArgumentError", "ArgumentTypeError", "CMAES", "Changes", "CheckResult", "Domain", "Error",
+    "Airfoil", "ArgumentError", "ArgumentTypeError", "CMAES", "Changes", "CheckResult", "DesignResult", "Domain", "Error",
     "EvaluationFailed", "FileError", "FlowResult", "FormatError", "FrozenMesh", "GeometryError",
     "InteriorDisplacement", "LayeredMesh", "LayeredStep", "LivingFlow", "Mesh", "OptimiseResult", "PointGradient", "PotentialFlow",
     "PotentialSolver", "Step", "TopologyChanged", "Transfer", "Trial", "Violation", "__version__", "catalogue",
-    "check", "from_meshio", "from_pyvista", "generate", "generate_layered", "import_mesh", "optimise", "read_fields", "read_frozen",
+    "check", "design", "from_meshio", "from_pyvista", "generate", "generate_layered", "import_mesh", "optimise", "read_fields", "read_frozen",
     "solve_flow",
 ]  # fmt: skip
 

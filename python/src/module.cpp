@@ -62,4 +62,5 @@ PYBIND11_MODULE(_core, module) {
   add_potential_flows(module);
   add_designers(module);
   add_optimise(module);
+  add_designs(module);
 }

@@ -4,50 +4,10 @@
 
 #include <cmath>
 
-#include "bindings.h"
-#include "interrupts.h"
+#include "run_watch.h"
 
 namespace remodel::python {
 namespace {
-
-template <class T>
-py::object object_of(const T& value) {
-  if constexpr (std::is_enum_v<T>)
-    return py::str(name_of(value));
-  else
-    return py::cast(value);
-}
-
-template <class List, class Record>
-py::dict dict_of(const List& figures, const Record& record) {
-  py::dict result;
-  for_each_figure(figures, record,
-                  [&](const auto& figure, const auto& value) { result[figure.name] = object_of(value); });
-  return result;
-}
-
-// What a run asks now and then: whether Ctrl-C was pressed, or the objective or the callback raised.
-class Watch final : public OptimiseObserver {
- public:
-  explicit Watch(py::object callback) : callback_(std::move(callback)) {}
-  void evaluated(const EvaluationRecord& record) override {
-    if (callback_.is_none()) return;
-    py::gil_scoped_acquire gil;
-    try {
-      const py::object answer = callback_(dict_of(evaluation_figures, record));
-      if (answer.is(py::bool_(true))) ended_ = true;
-    } catch (py::error_already_set& error) {
-      interrupts.keep(std::move(error));
-    }
-  }
-  bool cancelled() override { return ended_ || interrupts.cancelled(); }
-
-  Interrupts interrupts;
-
- private:
-  py::object callback_;
-  std::atomic<bool> ended_ = false;
-};
 
 // An objective in Python: evaluate(design, mesh, step) -> number, or a dict with what Evaluation has.
 class PythonEvaluator final : public Evaluator {
@@ -56,30 +16,20 @@ class PythonEvaluator final : public Evaluator {
 
   Evaluation evaluate(const EvaluationTask& task, std::unique_ptr<EvaluatorState>&) override {
     auto mesh = std::make_shared<FrozenMesh>(task.mesh.freeze());
-    py::gil_scoped_acquire gil;
+    const std::vector<double> design(task.design.begin(), task.design.end());
     try {
-      const std::vector<double> design(task.design.begin(), task.design.end());
-      return evaluation_of(evaluate_(copied(design), std::move(mesh), dict_of(mesh_step_figures, task.step)));
-    } catch (py::error_already_set& error) {
-      fail(std::move(error), task);
-    } catch (py::builtin_exception& error) {
-      error.set_error();
-      fail(py::error_already_set(), task);
+      return watch_.ask([&] {
+        return evaluation_of(
+            evaluate_(copied(design), std::move(mesh), figures_dict(mesh_step_figures, task.step)));
+      });
+    } catch (...) {
+      task.observer.cancelled();  // what ends the run is no failure of the design
+      throw;
     }
   }
   std::string description() const override { return R"({"evaluator": "python"})"; }
 
  private:
-  // EvaluationFailed is an answer; every other exception ends the run, and is the caller's. Has the GIL.
-  [[noreturn]] void fail(py::error_already_set error, const EvaluationTask& task) {
-    const std::string message = error.what();
-    if (!error.matches(py::module_::import("remodel._errors").attr("EvaluationFailed"))) {
-      watch_.interrupts.keep(std::move(error));
-      py::gil_scoped_release released;
-      task.observer.cancelled();
-    }
-    throw std::runtime_error(message);
-  }
   static Evaluation evaluation_of(const py::object& answer) {
     Evaluation result;
     if (!py::isinstance<py::dict>(answer)) {
@@ -103,13 +53,6 @@ class PythonEvaluator final : public Evaluator {
   py::object evaluate_;
   Watch& watch_;
 };
-
-py::list rows_of(const std::filesystem::path& file) {
-  py::list rows;
-  History::open(file).each(
-      [&](const EvaluationRecord& record) { rows.append(dict_of(evaluation_figures, record)); });
-  return rows;
-}
 
 OptimiseOptions options_of(const std::filesystem::path& directory, int points, double sigma,
                            std::uint64_t seed, std::size_t evaluations, double tolerance,
@@ -144,7 +87,7 @@ py::dict optimised(const CstAirfoil& from, const py::object& objective, const Op
     result = optimise(from, evaluator, options, &watch);
   }
   watch.interrupts.rethrow();
-  py::dict figures = dict_of(optimise_figures, result);
+  py::dict figures = figures_dict(optimise_figures, result);
   figures["best"] = result.best;
   figures["best_design"] = copied(result.best_design);
   figures["outputs"] = result.outputs;

@@ -40,32 +40,12 @@ class FlowEvaluator final : public Evaluator {
   }
 
   Evaluation evaluate(const EvaluationTask& task, std::unique_ptr<EvaluatorState>& state) override {
-    const bool is_first = !state;
-    if (is_first) state = std::make_unique<FlowMemory>();
-    auto& memory = static_cast<FlowMemory&>(*state);
-    memory.observer.ask(task.observer);
-    while (memory.flows.size() < problem_.points.size())
-      memory.flows.emplace_back(flow_options(memory.flows.size(), memory));
-    if (is_first || task.step.changed() != 0) memory.connectivity = 2 * task.evaluation;
-    if (parts_.target) aim(task, memory);
-    memory.known.go_on_from(task.from, memory.flows);
-    const DesignMesh mesh(space_, task.mesh, task.design);
-    const Shared shared{mesh, task.gradient ? std::optional<DesignDerivative>({space_, mesh}) : std::nullopt};
-    std::vector<PointFlow> points(problem_.points.size());
-    ThreadTeam(std::min(points.size(), threads_)).run(points.size(), [&](std::size_t i) {
-      points[i] = point_of(shared, i, memory);
-    });
-    Evaluation result{.objective = 0.0};
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      note(points[i], i, task.gradient, result.outputs);
-      const double factor = problem_.points[i].weight * parts_.sense;
-      result.objective += factor * points[i].slopes[0].value;
-      if (task.gradient) add(result.gradient, factor, points[i].slopes[0].by);
+    try {
+      return evaluated(task, state);
+    } catch (...) {
+      task.observer.cancelled();  // a function of the user's that ends the run is no failure of the design
+      throw;
     }
-    memory.known.note(task.design, task.from, memory.flows);
-    add_constraints(task, points, result);
-    result.outputs["connectivity"] = static_cast<double>(memory.connectivity);
-    return result;
   }
 
   std::unique_ptr<EvaluatorState> restore(const std::string& bytes, const Mesh&,
@@ -100,6 +80,35 @@ class FlowEvaluator final : public Evaluator {
     std::map<std::size_t, Slope> slopes;  // of the functions that are asked for
     double gradient_seconds = 0.0;
   };
+
+  Evaluation evaluated(const EvaluationTask& task, std::unique_ptr<EvaluatorState>& state) {
+    const bool is_first = !state;
+    if (is_first) state = std::make_unique<FlowMemory>();
+    auto& memory = static_cast<FlowMemory&>(*state);
+    memory.observer.ask(task.observer);
+    while (memory.flows.size() < problem_.points.size())
+      memory.flows.emplace_back(flow_options(memory.flows.size(), memory));
+    if (is_first || task.step.changed() != 0) memory.connectivity = 2 * task.evaluation;
+    if (parts_.target) aim(task, memory);
+    memory.known.go_on_from(task.from, memory.flows);
+    const DesignMesh mesh(space_, task.mesh, task.design);
+    const Shared shared{mesh, task.gradient ? std::optional<DesignDerivative>({space_, mesh}) : std::nullopt};
+    std::vector<PointFlow> points(problem_.points.size());
+    ThreadTeam(std::min(points.size(), threads_)).run(points.size(), [&](std::size_t i) {
+      points[i] = point_of(shared, i, memory);
+    });
+    Evaluation result{.objective = 0.0};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      note(points[i], i, task.gradient, result.outputs);
+      const double factor = problem_.points[i].weight * parts_.sense;
+      result.objective += factor * points[i].slopes[0].value;
+      if (task.gradient) add(result.gradient, factor, points[i].slopes[0].by);
+    }
+    memory.known.note(task.design, task.from, memory.flows);
+    add_constraints(task, points, result);
+    result.outputs["connectivity"] = static_cast<double>(memory.connectivity);
+    return result;
+  }
 
   FlowOptions flow_options(std::size_t point, FlowMemory& memory) const {
     return design_flow_options(space_, problem_.points[point], &memory.observer);

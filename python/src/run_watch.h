@@ -1,0 +1,86 @@
+#pragma once
+
+// What runs of optimise() and design() share: figures as dicts, and what a run asks Python now and then.
+
+#include <atomic>
+#include <type_traits>
+
+#include "bindings.h"
+#include "interrupts.h"
+#include "remodel/history.h"
+#include "remodel/optimise.h"
+
+namespace remodel::python {
+
+template <class T>
+py::object object_of(const T& value) {
+  if constexpr (std::is_enum_v<T>)
+    return py::str(name_of(value));
+  else
+    return py::cast(value);
+}
+
+template <class List, class Record>
+py::dict figures_dict(const List& figures, const Record& record) {
+  py::dict result;
+  for_each_figure(figures, record,
+                  [&](const auto& figure, const auto& value) { result[figure.name] = object_of(value); });
+  return result;
+}
+
+inline py::list rows_of(const std::filesystem::path& file) {
+  py::list rows;
+  History::open(file).each(
+      [&](const EvaluationRecord& record) { rows.append(figures_dict(evaluation_figures, record)); });
+  return rows;
+}
+
+// Whether Ctrl-C was pressed, or a function or the callback raised.
+class Watch final : public OptimiseObserver {
+ public:
+  explicit Watch(py::object callback) : callback_(std::move(callback)) {}
+  void evaluated(const EvaluationRecord& record) override {
+    if (callback_.is_none()) return;
+    py::gil_scoped_acquire gil;
+    try {
+      const py::object answer = callback_(figures_dict(evaluation_figures, record));
+      if (answer.is(py::bool_(true))) ended_ = true;
+    } catch (py::error_already_set& error) {
+      interrupts.keep(std::move(error));
+    }
+  }
+  bool cancelled() override { return ended_ || interrupts.cancelled(); }
+
+  // Calls a function of Python's for the run, and answers for what it raises: EvaluationFailed is the failure
+  // of one design; every other exception ends the run, and is the caller's. Takes the GIL.
+  template <class Call>
+  auto ask(Call&& call) {
+    py::gil_scoped_acquire gil;
+    try {
+      return call();
+    } catch (py::error_already_set& error) {
+      fail(std::move(error));
+    } catch (py::builtin_exception& error) {
+      error.set_error();
+      fail(py::error_already_set());
+    } catch (const Error& error) {
+      PyErr_SetString(py::module_::import("remodel._errors").attr("ArgumentError").ptr(), error.what());
+      fail(py::error_already_set());
+    }
+  }
+
+  Interrupts interrupts;
+
+ private:
+  [[noreturn]] void fail(py::error_already_set error) {
+    const std::string message = error.what();
+    if (!error.matches(py::module_::import("remodel._errors").attr("EvaluationFailed")))
+      interrupts.keep(std::move(error));
+    throw std::runtime_error(message);
+  }
+
+  py::object callback_;
+  std::atomic<bool> ended_ = false;
+};
+
+}  // namespace remodel::python
