@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/stopwatch.h"
+#include "flow/scheme/laminar_zone.h"
 #include "flow/search/chord.h"
 #include "flow/solution.h"
 
@@ -68,7 +69,21 @@ FlowFriction friction_of(const FrictionSystem<N>& system, const BlockState<N>& s
   return friction;
 }
 
-// What has to be known about the cells at the wall.
+// The vertex of least x where gas flows back along a wall ahead of the transition that was given, but not at
+// the nose, where it flows around that.
+std::optional<std::uint32_t> separated_ahead_of_transition(const FrictionMesh& mesh,
+                                                           const FlowFriction& friction) {
+  std::optional<std::uint32_t> first;
+  if (!friction.transition) return first;
+  const std::vector<bool> nose = laminar_zone(mesh.dual(), mesh.nearest(), {0.2, 0.2});
+  for (std::uint32_t v = 0; v < mesh.dual().size(); ++v)
+    if (mesh.sticks(v) && mesh.is_laminar(v) && !nose[v] && friction.cf[v] < 0.0 &&
+        (!first || mesh.dual().points()[v].x < mesh.dual().points()[*first].x))
+      first = v;
+  return first;
+}
+
+// What has to be known about the cells at the wall, and about the transition.
 std::vector<std::string> friction_warnings(const FrictionMesh& mesh, const FlowFriction& friction,
                                            FlowModel model) {
   constexpr double wanted = 1.0, tolerated = 2.0;
@@ -88,6 +103,16 @@ std::vector<std::string> friction_warnings(const FrictionMesh& mesh, const FlowF
   if (std::none_of(mesh.dual().cells().begin(), mesh.dual().cells().end(), is_quad))
     warnings.push_back(
         "the mesh has no layer of quadrilaterals on its walls, which friction is not accurate without");
+  if (const auto v = separated_ahead_of_transition(mesh, friction)) {
+    char text[160];
+    const Point p = mesh.dual().points()[*v];
+    std::snprintf(
+        text, sizeof text,
+        "the laminar boundary layer separates at (%.3g, %.3g), ahead of the given transition, where a "
+        "free one would come before long",
+        p.x, p.y);
+    warnings.push_back(text);
+  }
   return warnings;
 }
 

@@ -15,7 +15,7 @@ import zlib
 BROWSER = shutil.which("chromium") or shutil.which("chromium-browser")
 FLAGS = ["--headless=new", "--no-sandbox", "--no-first-run", "--disable-background-networking", "--disable-extensions",
          "--enable-unsafe-swiftshader", "--hide-scrollbars", "--remote-debugging-pipe"]
-PATIENCE = 60  # seconds that anything may take
+PATIENCE = 240  # seconds that anything may take, on a machine with much other work
 
 
 class BrowserError(Exception):

@@ -7,14 +7,11 @@
 // are high by orders of magnitude: off by (du/dn) s^2 / 2R there, many cells' jumps. The *opposite neighbour*
 // of a vertex, straight behind it as seen along an edge, is a matter of topology:
 //
-//        |     |     |      At v, among quadrilaterals alone, b is opposite to w, and c to d. At the end of a
-//     ---c-----+-----+---   layer, where two quadrilaterals meet the edge to d, b is still opposite to w, and
-//     d
-//        |     |     |      has no opposite neighbour. Other vertices take gradients. On walls, whose
-//        gradients
-//     ---v-----w-----+---   are one-sided, and where b is very near, the upwind difference is the central
-//     one.
-//    /   |     |     |
+//        |     |     |      At v, among quadrilaterals alone, b is opposite to w, and c to d. At the end
+//     ---c-----+-----+---   of a layer, where two quadrilaterals meet the edge to d, b is still opposite to
+//        |     |     |      w, and d has no opposite neighbour. Other vertices take gradients. On walls,
+//     ---v-----w-----+---   whose gradients are one-sided, and where b is very near, the upwind difference
+//    /   |     |     |      is the central one.
 //   b    d     |     |
 
 #include <array>
@@ -92,6 +89,8 @@ class FrictionMesh {
   void add_distance_slopes(const std::vector<double>& by_distance, std::vector<Point>& points) const;
   const std::vector<double>& distances() const { return distance_; }  // from walls that gas sticks to
   bool sticks(std::size_t v) const { return sticks_[v]; }
+  // The boundary edge of such walls that is nearest, of each vertex; no_index: there is none.
+  const std::vector<std::uint32_t>& nearest() const { return nearest_; }
   // Before the transition. Derivatives by the shape hold it.
   bool is_laminar(std::size_t v) const { return !laminar_.empty() && laminar_[v]; }
 
@@ -115,7 +114,7 @@ class FrictionMesh {
   std::vector<UpwindKind> kinds_;
   std::vector<CornerTriangle> triangles_;
   std::vector<double> distance_;
-  std::vector<std::uint32_t> nearest_;  // boundary edges
+  std::vector<std::uint32_t> nearest_;
   std::vector<bool> sticks_;
   std::vector<bool> laminar_;  // empty: none is
 };
