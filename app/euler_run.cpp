@@ -10,9 +10,11 @@
 #include "flow_progress.h"
 #include "flow_report.h"
 #include "interrupt.h"
+#include "remodel/boundary_layer.h"
 #include "remodel/error.h"
 #include "remodel/flow_error.h"
 #include "remodel/flow_plots.h"
+#include "remodel/io.h"
 
 namespace remodel::app {
 
@@ -173,6 +175,10 @@ std::vector<std::string> write_files(const EulerRun& run, const MeshInput& input
                         "--cf-plot"),
                 run.cf_plot);
       files.push_back(run.cf_plot);
+    }
+    if (!run.wall_table.empty()) {
+      write_text_atomically(run.wall_table, boundary_layer_table(input.frozen, flow));
+      files.push_back(run.wall_table);
     }
   }
   if (!run.history.empty()) {

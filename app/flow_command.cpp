@@ -74,7 +74,7 @@ void require_fitting_model(const FlowCommand& command) {
   if (command.is_potential || command.model != FlowModel::sa)
     refuse(command, {"--transition"}, "given without turbulence, expected --model sa");
   if (!command.has_friction())
-    return refuse(command, {"--reynolds", "--cf-plot"},
+    return refuse(command, {"--reynolds", "--cf-plot", "--wall-table"},
                   "given without friction, expected --model laminar or sa");
   if (!command.given("--reynolds"))
     throw Error(ErrorCode::argument, "--reynolds",
@@ -86,10 +86,12 @@ Status run(const FlowCommand& command) {
   command.outputs.require_possible();
   require_fitting_model(command);
   if (!command.euler.cf_plot.empty()) require_writable_as(command.euler.cf_plot, {".svg", ".png"});
+  if (!command.euler.wall_table.empty()) require_writable_as(command.euler.wall_table, {".csv"});
   if (!command.cp_plot.empty()) require_writable_as(command.cp_plot, {".svg", ".png"});
   if (!command.euler.history.empty()) require_writable_as(command.euler.history, {".csv", ".svg", ".png"});
   require_different_files(command.outputs, {{"--cp-plot", command.cp_plot},
                                             {"--cf-plot", command.euler.cf_plot},
+                                            {"--wall-table", command.euler.wall_table},
                                             {"--history", command.euler.history}});
   if (command.is_potential) {
     refuse(command,
@@ -108,7 +110,8 @@ Status run(const FlowCommand& command) {
   euler.json = command.json;
   if (euler.series.empty())
     return run_euler(euler, read_input(command), command.input.shapes.front(), command.outputs);
-  if (!command.outputs.files().empty() || !command.cp_plot.empty() || !command.euler.history.empty())
+  if (!command.outputs.files().empty() || !euler.cp_plot.empty() || !euler.cf_plot.empty() ||
+      !euler.wall_table.empty() || !euler.history.empty())
     throw Error(ErrorCode::argument, "--series",
                 "given with a file to write, expected no file: there are many flows");
   if (!command.has_friction()) return run_series(euler, start_mesh(command));
@@ -158,6 +161,10 @@ void add_flow_command(CLI::App& program, Action& action) {
   add_text(app,
            {"--cf-plot", "FILE", "", "Plot of the friction along every body, with friction: .svg or .png"},
            Presence::optional, command->euler.cf_plot);
+  add_text(app,
+           {"--wall-table", "FILE", "",
+            "Table of what friction does along walls, with the boundary layer's thicknesses: .csv"},
+           Presence::optional, command->euler.wall_table);
   add_euler_options(app, command->euler);
   add_duct_options(app, command->euler);
   command->outputs.add_options(app, Presence::optional);

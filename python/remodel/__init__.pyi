@@ -313,6 +313,7 @@ class Transfer:
 
 class FlowResult:
     mesh: FrozenMesh
+    def boundary_layer(self) -> dict[str, Any]: ...
     @property
     def converged(self) -> bool: ...
     @property

@@ -1,5 +1,6 @@
 // Compressible flow: solve_flow, LivingFlow and FlowResult.
 
+#include "remodel/boundary_layer.h"
 #include "remodel/flow.h"
 
 #include <numeric>
@@ -189,6 +190,31 @@ class Flows {
   Snapshot last_;  // the mesh of the last flow that was found
 };
 
+// Arrays by name, a value for each station.
+py::dict boundary_layer_of(const FlowResult& flow, const py::object& mesh) {
+  const std::vector<BoundaryLayerStation> stations = boundary_layer(*snapshot_of(mesh), flow);
+  py::dict result;
+  py::list walls;
+  for (const BoundaryLayerStation& station : stations) walls.append(station.wall);
+  result["wall"] = walls;
+  const auto add = [&](const char* name, auto BoundaryLayerStation::*member) {
+    std::vector<double> values;
+    for (const BoundaryLayerStation& station : stations)
+      values.push_back(static_cast<double>(station.*member));
+    result[name] = copied(values);
+  };
+  std::vector<std::int64_t> vertices;
+  for (const BoundaryLayerStation& station : stations) vertices.push_back(station.vertex);
+  result["vertex"] = py::array_t<std::int64_t>(static_cast<py::ssize_t>(vertices.size()), vertices.data());
+  add("arc", &BoundaryLayerStation::arc), add("cf", &BoundaryLayerStation::cf);
+  add("y_plus", &BoundaryLayerStation::y_plus), add("edge_speed", &BoundaryLayerStation::edge_speed);
+  add("thickness", &BoundaryLayerStation::thickness);
+  add("displacement_thickness", &BoundaryLayerStation::displacement_thickness);
+  add("momentum_thickness", &BoundaryLayerStation::momentum_thickness);
+  add("shape_factor", &BoundaryLayerStation::shape_factor);
+  return result;
+}
+
 double if_determined(const FlowResult& flow, double value) {
   return flow.lift_determined ? value : std::numeric_limits<double>::quiet_NaN();
 }
@@ -255,6 +281,15 @@ void add_figures(py::class_<FlowResult, FlowPointer>& type) {
            "The part of cd that friction makes; None without friction.");
   friction("y_plus_max", &FlowFriction::y_plus_max,
            "The largest y+ of the lowest cells on walls; None without friction.");
+  type.def(
+      "boundary_layer",
+      [](const py::object& self) {
+        return boundary_layer_of(self.cast<const FlowResult&>(), self.attr("mesh"));
+      },
+      "The boundary layer along walls, of a flow with friction: a dict of arrays with a value for each "
+      "station, wall (a list of names), vertex, arc (along the wall), cf, y_plus, edge_speed (over the "
+      "stream's), thickness (99 %), displacement_thickness, momentum_thickness (in units of the mesh; nan "
+      "where the mesh has no layer that is as thick) and shape_factor.");
   type.def_readonly("residual", &FlowResult::residual);
   type.def_readonly("newton_steps", &FlowResult::newton_steps);
   type.def_readonly("factorisations", &FlowResult::factorisations);

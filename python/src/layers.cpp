@@ -6,10 +6,23 @@
 
 #include "apart.h"
 #include "living.h"
+#include "pickles.h"
+#include "records.h"
 #include "remodel/check.h"
 #include "remodel/flow_layer.h"
 #include "remodel/generate.h"
 #include "remodel/io.h"
+
+namespace remodel {
+
+template <python::Is<LayeredRemodelResult> T>
+auto members(T& r) {
+  return std::tie(r.triangles_before, r.triangles, r.preserved, r.connected, r.moved, r.inserted, r.removed,
+                  r.flipped, r.full_adjustment, r.morphed, r.held, r.method, r.refreshed, r.regenerated,
+                  r.abandoned, r.reason, r.stopped, r.layer_cells, r.shrunk, r.same_columns);
+}
+
+}  // namespace remodel
 
 namespace remodel::python {
 namespace {
@@ -27,6 +40,36 @@ struct LivingLayers {
   }
 };
 using LayersPointer = std::shared_ptr<LivingLayers>;
+
+// The native state, for pickles: a mesh that was pickled goes on to the same bytes.
+py::dict layered_dict(const LayeredState& state) {
+  return py::dict("outer"_a = python::dict_of(state.outer), "walls"_a = domain_to_json(state.walls),
+                  "first_height"_a = state.options.first_height, "growth"_a = state.options.growth,
+                  "thickness"_a = state.options.thickness, "names"_a = state.options.walls,
+                  "fan_from_deg"_a = state.options.fan_from_deg, "levels"_a = state.levels,
+                  "fans"_a = state.fans, "columns"_a = state.columns, "next_column"_a = state.next_column);
+}
+
+LayeredState layered_state_of(const py::dict& dict) {
+  LayeredState state;
+  const auto read = [&](const char* key, auto& member) {
+    try {
+      member = dict[key].cast<std::decay_t<decltype(member)>>();
+    } catch (const std::exception&) {
+      throw Error(ErrorCode::format, "pickle",
+                  std::string("'") + key + "' is missing or of another kind, expected the state of a mesh");
+    }
+  };
+  py::dict outer;
+  std::string walls;
+  read("outer", outer), read("walls", walls);
+  state.outer = python::state_of(outer), state.walls = domain_from_json(walls, "pickle");
+  read("first_height", state.options.first_height), read("growth", state.options.growth);
+  read("thickness", state.options.thickness), read("names", state.options.walls);
+  read("fan_from_deg", state.options.fan_from_deg), read("levels", state.levels);
+  read("fans", state.fans), read("columns", state.columns), read("next_column", state.next_column);
+  return state;
+}
 
 LayersPointer layers_alive(LayeredMesh mesh) {
   auto living = std::make_shared<LivingLayers>();
@@ -137,6 +180,7 @@ void add_layered_step(py::module_& module) {
   type.def_readonly("moved", &LayeredRemodelResult::moved);
   type.def_readonly("inserted", &LayeredRemodelResult::inserted);
   type.def_readonly("removed", &LayeredRemodelResult::removed);
+  type.def(record_pickle<LayeredRemodelResult>());
   type.def("__repr__", [](const LayeredRemodelResult& step) {
     return "LayeredStep(preserved_percent=" + std::to_string(step.preserved_percent()) + ")";
   });
@@ -157,8 +201,9 @@ solve_flow() and LivingFlow.solve() take it. freeze() has its arrays.)");
       R"(Remodels to a Domain, or to an Airfoil (or the name of one) in the place of the one called `boundary`, on
 the same stations. strategy: 'renew', 'morph', 'reference' or another of Mesh.update(). Where anything is refused the
 mesh is as it was. Raises ArgumentError and GeometryError; Ctrl-C ends it.)");
-  type.def("vjp", &layers_vjp, "by_points"_a, "boundary"_a = "",
-           R"(Derivatives by the points of freeze(), of shape (n, 2), become derivatives by an airfoil's coefficients
+  type.def(
+      "vjp", &layers_vjp, "by_points"_a, "boundary"_a = "",
+      R"(Derivatives by the points of freeze(), of shape (n, 2), become derivatives by an airfoil's coefficients
 (Airfoil.design's order), at fixed connectivity: walls move with their curves, the layer with its columns, the rest of
 the interior stays. LivingFlow.gradients() has derivatives by points.)");
   type.def("check", &layers_checked,
@@ -182,6 +227,14 @@ the interior stays. LivingFlow.gradients() has derivatives by points.)");
         return layers_alive(read_layered_mesh(file));
       },
       "file"_a, "A native file (.vtkhdf) of a layered mesh. Raises FileError and FormatError.");
+  type.def(py::pickle(
+      [](LivingLayers& mesh) {
+        const ThreadLock::Held held(mesh.lock);
+        return layered_dict(mesh.mesh.state());
+      },
+      [](const py::dict& state) {
+        return layers_alive(LayeredMesh::restore(layered_state_of(state), "pickle"));
+      }));
   const auto figure = [&](const char* name, auto read, const char* doc) {
     type.def_property_readonly(
         name,

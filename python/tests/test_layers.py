@@ -74,6 +74,12 @@ def test_a_flow_with_friction_outlives_its_mesh():
     cold = remodel.solve_flow(mesh, model="laminar", tolerance=1e-9, **conditions)
     assert second.start != "cold" and cold.start == "cold"
     assert second.cl == pytest.approx(cold.cl, abs=1e-6) and second.cd == pytest.approx(cold.cd, abs=1e-7)
+    layer = second.boundary_layer()
+    assert set(layer["wall"]) == {"airfoil"} and np.array_equal(layer["cf"], second.cf[layer["vertex"]])
+    middle = np.abs(second.mesh.points[layer["vertex"], 0] - 0.3) < 0.1
+    assert (layer["displacement_thickness"][middle] > 2 * layer["momentum_thickness"][middle]).all()
+    with pytest.raises(remodel.ArgumentError, match="friction"):
+        remodel.solve_flow(remodel.generate("naca:0012", points=60), mach=0.5).boundary_layer()
     gradients = living.gradients()
     assert gradients["cd"]["points"].shape == mesh.freeze().points.shape
     # By the airfoil's coefficients, through the columns: against flows of designs beside this one.
@@ -90,6 +96,22 @@ def test_a_flow_with_friction_outlives_its_mesh():
     again = pickle.loads(pickle.dumps(second))
     assert again.cd_friction == second.cd_friction and np.array_equal(again.cf, second.cf)
     assert pickle.loads(pickle.dumps(living)).solve(mesh, **conditions).converged
+
+
+def test_a_pickled_mesh_goes_on_as_a_copy_does(tmp_path):
+    airfoil = remodel.Airfoil("naca:0012", degree=3)
+    mesh = remodel.generate_layered(airfoil, reynolds=5000.0, model="laminar", **COARSE)
+    step = mesh.update(changed(airfoil, 0.004))
+    assert pickle.loads(pickle.dumps(step)).preserved_percent == step.preserved_percent
+    pickled, copied = pickle.loads(pickle.dumps(mesh)), mesh.copy()
+    for each, name in ((pickled, "a.vtkhdf"), (copied, "b.vtkhdf")):
+        each.update(changed(airfoil, 0.008))
+        each.save(tmp_path / name)
+    assert (tmp_path / "a.vtkhdf").read_bytes() == (tmp_path / "b.vtkhdf").read_bytes()
+    make, arguments, state = mesh.__reduce_ex__(2)[:3]
+    del state["walls"]
+    with pytest.raises(remodel.FormatError, match="'walls' is missing"):
+        make(*arguments).__setstate__(state)
 
 
 @pytest.mark.parametrize(

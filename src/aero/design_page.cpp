@@ -124,12 +124,25 @@ std::string numbers_table(const Shown& first, const Shown& last, const FlowSpace
   return table + "</table>\n";
 }
 
+// All flows of a problem have friction, or none has.
+bool has_friction(const Shown& of) {
+  return !of.flows.empty() && of.flows.front().friction.has_value();
+}
+
+std::string cells_of(const FrozenMesh& mesh) {
+  const std::string triangles = std::to_string(mesh.triangles.size()) + " triangles";
+  return mesh.quads.empty() ? triangles
+                            : triangles + ", " + std::to_string(mesh.quads.size()) + " quadrilaterals";
+}
+
 std::string not_found(const Shown& of, std::size_t point) {
   return "<p>" + of.name + ", point " + std::to_string(point + 1) + ": no flow was found.</p>\n";
 }
 
-std::string pressures(const Scratch& scratch, const Shown& first, const Shown& last, std::size_t sections,
-                      std::size_t point) {
+// What `plot_of` draws of a design along its sections, both designs in one picture.
+std::string along_sections(const Scratch& scratch, const Shown& first, const Shown& last,
+                           std::size_t sections, std::size_t point,
+                           const std::function<Plot(const Shown&, const std::string& caption)>& plot_of) {
   Plot plot;
   std::string missing;
   for (const Shown* of : {&first, &last}) {
@@ -138,8 +151,7 @@ std::string pressures(const Scratch& scratch, const Shown& first, const Shown& l
       missing += not_found(*of, point);
       continue;
     }
-    Plot one = cp_plot(of->mesh, "farfield", of->cp[point], flow_caption(flow.mach, flow.alpha_deg, flow.cl),
-                       "report");
+    Plot one = plot_of(*of, flow_caption(flow.mach, flow.alpha_deg, flow.cl));
     if (plot.curves.empty()) plot.x = one.x, plot.y = one.y, plot.caption = one.caption;
     for (std::size_t i = 0; i < one.curves.size(); ++i) {
       PlotCurve& curve = one.curves[i];
@@ -155,6 +167,28 @@ std::string pressures(const Scratch& scratch, const Shown& first, const Shown& l
   }
   if (plot.curves.empty()) return missing;
   return scratch.picture(".svg", [&](const fs::path& file) { draw_plot(plot, file); }) + missing;
+}
+
+std::string pressures(const Scratch& scratch, const Shown& first, const Shown& last, std::size_t sections) {
+  std::string pictures = "<h2>Pressure</h2>\n";
+  for (std::size_t i = 0; i < first.flows.size(); ++i)
+    pictures +=
+        along_sections(scratch, first, last, sections, i, [&](const Shown& of, const std::string& caption) {
+          return cp_plot(of.mesh, "farfield", of.cp[i], caption, "report");
+        });
+  return pictures;
+}
+
+// Nothing where flows have none.
+std::string frictions(const Scratch& scratch, const Shown& first, const Shown& last, std::size_t sections) {
+  if (!has_friction(first)) return {};
+  std::string pictures = "<h2>Friction</h2>\n";
+  for (std::size_t i = 0; i < first.flows.size(); ++i)
+    pictures +=
+        along_sections(scratch, first, last, sections, i, [&](const Shown& of, const std::string& caption) {
+          return cf_plot(of.mesh, "farfield", of.flows[i].friction->cf, caption, "report");
+        });
+  return pictures;
 }
 
 // Mach numbers of one point around a section, in colours of one range.
@@ -259,22 +293,34 @@ std::string cost_table(const PageJson& cost) {
          "</table>\n";
 }
 
+std::string cells(const std::vector<std::string>& texts) {
+  std::string result;
+  for (const std::string& text : texts) result += "<td>" + text + "</td>";
+  return result;
+}
+
+std::string counts(double cd) {
+  return number(1e4 * cd, "%.2f");
+}
+
 std::string points_table(const Shown& first, const Shown& last) {
-  std::string table =
-      "<table>\n<tr><th></th><th>Mach</th><th>α</th><th>CL</th><th>CD, counts</th><th>CM</th></tr>\n";
+  const bool friction = has_friction(first);
+  std::string table = "<table>\n<tr><th></th><th>Mach</th><th>α</th><th>CL</th><th>CD, counts</th>";
+  if (friction) table += "<th>of pressure</th><th>of friction</th><th>y⁺, at most</th>";
+  table += "<th>CM</th></tr>\n";
   for (std::size_t i = 0; i < first.flows.size(); ++i)
     for (const Shown* of : {&first, &last}) {
       const FlowResult& flow = of->flows[i];
-      table += "<tr><th>" + of->name + "</th>";
-      table += "<td>" + number(flow.mach) + "</td>";
+      table += "<tr><th>" + of->name + "</th>" + cells({number(flow.mach)});
       if (!flow.converged()) {
-        table += "<td colspan=\"4\">no flow was found</td></tr>\n";
+        table += std::string("<td colspan=\"") + (friction ? "7" : "4") + "\">no flow was found</td></tr>\n";
         continue;
       }
-      for (const std::string& cell : {number(flow.alpha_deg, "%.3f") + "°", number(flow.cl, "%.4f"),
-                                      number(1e4 * flow.cd, "%.2f"), number(flow.cm, "%.4f")})
-        table += "<td>" + cell + "</td>";
-      table += "</tr>\n";
+      table += cells({number(flow.alpha_deg, "%.3f") + "°", number(flow.cl, "%.4f"), counts(flow.cd)});
+      if (friction)
+        table += cells({counts(flow.friction->cd_pressure), counts(flow.friction->cd_friction),
+                        number(flow.friction->y_plus_max, "%.2f")});
+      table += cells({number(flow.cm, "%.4f")}) + "</tr>\n";
     }
   return table + "</table>\n";
 }
@@ -293,26 +339,31 @@ std::string fresh_table(const fs::path& directory, const DesignRun& run) {
   const fs::path file = directory / "fresh.json";
   const PageJson fresh = fs::exists(file) ? PageJson::parse(read_text(file), nullptr, false) : PageJson();
   if (!run.has_best() || !fresh.is_object() || fresh.at("design") != PageJson(run.best_design())) return {};
+  const PageJson& entries = fresh.at("verified");
+  const bool friction = std::any_of(entries.begin(), entries.end(),
+                                    [](const PageJson& e) { return e.contains("cd_friction"); });
   std::string table =
       "<h2>On fresh meshes</h2>\n<p>The best section on meshes that the search has not seen, flows found "
-      "cold.</p>\n<table>\n<tr><th>points</th><th>vertices</th><th>Mach</th><th>CL</th><th>CD, counts</th>"
-      "<th>CM</th><th>constraints violated</th><th>seconds</th></tr>\n";
-  for (const PageJson& entry : fresh.at("verified")) {
-    table += "<tr><td>" + entry.at("points").dump() + "</td><td>" + entry.at("vertices").dump() +
-             "</td><td>" + number(entry.at("mach")) + "</td>";
+      "cold.</p>\n<table>\n<tr><th>points</th><th>vertices</th><th>Mach</th><th>CL</th><th>CD, counts</th>";
+  if (friction) table += "<th>of pressure</th><th>of friction</th>";
+  table += "<th>CM</th><th>constraints violated</th><th>seconds</th></tr>\n";
+  for (const PageJson& entry : entries) {
+    table +=
+        "<tr>" + cells({entry.at("points").dump(), entry.at("vertices").dump(), number(entry.at("mach"))});
     if (entry.at("converged") != true) {
-      table += "<td colspan=\"5\">no flow was found</td></tr>\n";
+      table += std::string("<td colspan=\"") + (friction ? "7" : "5") + "\">no flow was found</td></tr>\n";
       continue;
     }
     std::string violated;
     for (const auto& [name, excess] : entry.at("violated").items())
       violated += (violated.empty() ? "" : ", ") + escaped(name) + " by " + number(excess.get<double>());
-    for (const std::string& cell :
-         {number(entry.at("cl"), "%.4f"), number(1e4 * entry.at("cd").get<double>(), "%.2f"),
-          number(entry.at("cm"), "%.4f"), violated.empty() ? "none" : violated,
-          number(entry.at("seconds"), "%.1f")})
-      table += "<td>" + cell + "</td>";
-    table += "</tr>\n";
+    table += cells({number(entry.at("cl"), "%.4f"), counts(entry.at("cd"))});
+    if (friction)
+      for (const char* part : {"cd_pressure", "cd_friction"})
+        table += cells({entry.contains(part) ? counts(entry.at(part)) : ""});
+    table += cells({number(entry.at("cm"), "%.4f"), violated.empty() ? "none" : violated,
+                    number(entry.at("seconds"), "%.1f")}) +
+             "</tr>\n";
   }
   return table + "</table>\n";
 }
@@ -361,17 +412,15 @@ std::string page_of(const fs::path& directory, const DesignRun& run, const Shown
       "content=\"width=device-width\"><title>Remodel: a design</title><style>" +
       std::string(style) + "</style></head><body>\n<h1>A design on one mesh</h1>\n";
   page += "<p>" + outcome(run, cost) + "; " + std::to_string(run.rows.size()) +
-          (run.rows.size() == 1 ? " design" : " designs") + " on a mesh of " +
-          std::to_string(first.mesh.triangles.size()) + " triangles" +
+          (run.rows.size() == 1 ? " design" : " designs") + " on a mesh of " + cells_of(first.mesh) +
           (run.space->half() ? ", computed in the upper half and mirrored" : "") + ".</p>\n";
   page += "<h2>Sections</h2>\n<p><span class=\"first\">first</span>, <span class=\"last\">" + last.name +
           "</span></p>\n" + both_outlines(first, last, run) + numbers_table(first, last, *run.space) +
           points_table(first, last) + "<p class=\"note\">The run's own mesh; CD in counts (10⁻⁴).</p>\n" +
           constraints_table(cost.at("constraints"));
   page += fresh_table(directory, run);
-  page += "<h2>Pressure</h2>\n";
-  for (std::size_t i = 0; i < run.points.size(); ++i)
-    page += pressures(scratch, first, last, run.space->sections(), i);
+  page += pressures(scratch, first, last, run.space->sections()) +
+          frictions(scratch, first, last, run.space->sections());
   page += "<h2>Mach number</h2>\n";
   for (std::size_t i = 0; i < run.points.size(); ++i) {
     const double most = std::max(*std::max_element(first.mach[i].begin(), first.mach[i].end()),
@@ -390,7 +439,7 @@ std::string page_of(const fs::path& directory, const DesignRun& run, const Shown
       draw(of->mesh, file,
            {.window = window_of(run, {-0.15, -0.25, 1.15, 0.25}, 0.08, 0.08),
             .width = 1000,
-            .caption = of->name + ": " + std::to_string(of->mesh.triangles.size()) + " triangles"});
+            .caption = of->name + ": " + cells_of(of->mesh)});
     });
   return page + "<h2>Problem</h2>\n<pre>" + escaped(PageJson::parse(run.problem).dump(1)) +
          "</pre>\n</body></html>\n";

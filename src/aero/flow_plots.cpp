@@ -3,9 +3,8 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <map>
-#include <set>
 
+#include "aero/boundary_pieces.h"
 #include "remodel/error.h"
 #include "remodel/io.h"
 
@@ -29,33 +28,13 @@ std::string duct_caption(double mach) {
 
 namespace {
 
-// The vertices along a boundary, piece by piece, whatever the order of its edges is.
-std::vector<std::vector<std::uint32_t>> pieces_of(const FrozenBoundary& boundary) {
-  std::map<std::uint32_t, std::uint32_t> next;
-  std::set<std::uint32_t> within;
-  for (const auto& [from, to] : boundary.edges) next[from] = to, within.insert(to);
-  std::vector<std::vector<std::uint32_t>> pieces;
-  const auto follow = [&](std::uint32_t v) {
-    if (!next.contains(v)) return;
-    pieces.push_back({v});
-    for (auto at = next.find(v); at != next.end(); at = next.find(pieces.back().back())) {
-      pieces.back().push_back(at->second);
-      next.erase(at);
-    }
-  };
-  for (const auto& [from, to] : boundary.edges)
-    if (!within.contains(from)) follow(from);  // where an open piece begins
-  for (const auto& [from, to] : boundary.edges) follow(from);
-  return pieces;
-}
-
 // Adds a curve of the values along each piece of a boundary but the far field.
 Plot along_bodies(Plot plot, const FrozenMesh& mesh, const std::string& farfield,
                   std::span<const double> values, const std::string& option) {
   const auto point_of = [&](std::uint32_t v) { return Point{mesh.points[v].x, values[v]}; };
   for (const FrozenBoundary& boundary : mesh.boundaries) {
     if (boundary.name == farfield || boundary.edges.empty()) continue;
-    const auto pieces = pieces_of(boundary);
+    const auto pieces = boundary_pieces(boundary);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       PlotCurve& curve = plot.curves.emplace_back();
       curve.name = pieces.size() == 1 ? boundary.name : boundary.name + " " + std::to_string(i + 1);

@@ -1,49 +1,34 @@
 // Polars as tables and plots.
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 
+#include "aero/table_cell.h"
 #include "remodel/polar.h"
 
 namespace remodel {
 
 namespace {
 
-// The shortest text that reads as the same double; nothing for what is not a number.
-std::string cell_of(double value) {
-  if (std::isnan(value)) return {};
-  std::array<char, 40> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
-}
-
-std::string cell_of(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
-
 std::string row_of(const PolarCurve& curve, const PolarPoint& point) {
   const double reynolds = curve.model == FlowModel::euler ? PolarPoint::none : curve.reynolds;
-  const std::string cells[] = {cell_of(curve.name),
-                               cell_of(curve.mach),
-                               cell_of(reynolds),
+  const std::string cells[] = {table_cell(curve.name),
+                               table_cell(curve.mach),
+                               table_cell(reynolds),
                                point.asked ? "1" : "0",
-                               cell_of(point.alpha_deg),
-                               cell_of(point.cl),
-                               cell_of(point.cd),
-                               cell_of(point.cm),
-                               cell_of(point.cd_pressure),
-                               cell_of(point.cd_friction),
-                               cell_of(point.y_plus_max),
+                               table_cell(point.alpha_deg),
+                               table_cell(point.cl),
+                               table_cell(point.cd),
+                               table_cell(point.cm),
+                               table_cell(point.cd_pressure),
+                               table_cell(point.cd_friction),
+                               table_cell(point.y_plus_max),
                                point.converged ? "1" : "0",
                                point.status ? name_of(*point.status) : "not-looked-for",
                                std::to_string(point.newton_steps),
-                               cell_of(point.residual),
-                               cell_of(point.reason)};
+                               table_cell(point.residual),
+                               table_cell(point.reason)};
   std::string row;
   for (const std::string& cell : cells) row += cell + ',';
   row.back() = '\n';

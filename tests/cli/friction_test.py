@@ -1,5 +1,6 @@
 """Flows with friction, by the program."""
 
+import csv
 import json
 import unittest
 
@@ -13,7 +14,8 @@ class Friction(ProgramTest):
     def test_laminar_flow_on_a_mesh_with_a_layer(self):
         self.succeed("mesh", "naca:0012", *LAYERS, "-o", "a.vtkhdf")
         flow = self.succeed("flow", "a.vtkhdf", "--model", "laminar", "--mach", 0.5, "--reynolds", 5000,
-                            "--tolerance", 1e-8, "--cf-plot", "cf.svg", "-o", "b.vtkhdf", "--json").json()
+                            "--tolerance", 1e-8, "--cf-plot", "cf.svg", "--wall-table", "wall.csv",
+                            "-o", "b.vtkhdf", "--json").json()
         self.assertTrue(flow["converged"])
         self.assertEqual(flow["model"], "laminar")
         self.assertEqual(flow["reynolds"], 5000)
@@ -22,6 +24,13 @@ class Friction(ProgramTest):
         self.assertAlmostEqual(flow["cl"], 0.0, delta=2e-3)
         self.assertGreater(flow["y_plus_max"], 0)
         self.assertIn("<svg", self.path("cf.svg").read_text())
+        self.assertIn("wall.csv", " ".join(flow["written"]))
+        rows = list(csv.DictReader(self.path("wall.csv").open()))
+        self.assertAlmostEqual(max(float(row["y_plus"]) for row in rows), flow["y_plus_max"], places=12)
+        middle = [row for row in rows if 0.2 < float(row["x"]) < 0.4]
+        self.assertGreater(len(middle), 5)
+        for row in middle:  # Blasius's is 2.59; it grows towards separation
+            self.assertTrue(2 < float(row["shape_factor"]) < 4, row)
 
     def test_rows_of_designs_and_gradients(self):
         """The slope of CD along a line of designs, by the adjoint, is that of the row's flows."""
@@ -44,6 +53,21 @@ class Friction(ProgramTest):
             self.assertAlmostEqual(gradient[key][0], slope, delta=1e-4 * abs(slope))
         self.assertLess(gradient["reynolds"]["cd"], 0)
 
+    def test_the_page_of_a_design_parts_its_drag(self):
+        problem = {"airfoil": "naca:0012", "degree": 3, "flow": [{"mach": 0.5, "alpha_deg": 1, "model": "laminar", "reynolds": 5000}],
+                   "mesh": {"points": 150, "layers": {"first_height": 2e-3}}, "objective": "friction_drag", "verify": [150],
+                   "designer": {"evaluations": 2}}  # fmt: skip
+        self.write("problem.json", json.dumps(problem))
+        figures = self.succeed("design", "problem.json", "-o", "run", "--json", status=3).json()
+        self.assertAlmostEqual(figures["cd_pressure"] + figures["cd_friction"], figures["cd"], places=12)
+        self.succeed("design", "report", "run")
+        page = self.path("run/report.html").read_text()
+        self.assertIn(" quadrilaterals", page)
+        self.assertIn("<h2>Friction</h2>", page)
+        (fresh,) = figures["verified"]
+        for part in (figures["cd_pressure"], figures["cd_friction"], fresh["cd_pressure"], fresh["cd_friction"]):
+            self.assertIn(f"<td>{1e4 * part:.2f}</td>", page)
+
     def test_what_does_not_fit_is_refused(self):
         for words, message in (
             (("--model", "sa"), "--reynolds: not given"),
@@ -52,6 +76,9 @@ class Friction(ProgramTest):
             (("--model", "sa", "--reynolds", 1e6, "--transition", "0.1,1.2"), "--transition: found '0.1,1.2'"),
             (("--model", "sa", "--reynolds", 1e6, "--transition", "0.1"), "--transition: found '0.1'"),
             (("--reynolds", 1e6), "--reynolds: given without friction"),
+            (("--wall-table", "a.csv"), "--wall-table: given without friction"),
+            (("--model", "sa", "--reynolds", 1e6, "--wall-table", "a.txt"), "a.txt"),
+            (("--model", "sa", "--reynolds", 1e6, "--cf-plot", "a.svg", "--series", "x.json"), "--series: given with a file"),
             (("--model", "sa", "--reynolds", 1e6, "--error"), "--error: given with --model laminar or sa"),
             (("--model", "sa", "--reynolds", 1e6, "--points", 100), "--points: given with a model with friction"),
         ):

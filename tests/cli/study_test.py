@@ -57,7 +57,7 @@ class StudyTest(DiskTest):
             connection.close()
 
     def wait_for_rows(self, directory, table, process):
-        deadline = time.monotonic() + 60
+        deadline = time.monotonic() + 240
         while time.monotonic() < deadline:
             try:
                 if self.count(directory, table) > 0:

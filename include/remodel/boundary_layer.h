@@ -1,0 +1,47 @@
+#pragma once
+
+// Boundary layers of flows with friction: thicknesses along walls, from the columns of quadrilaterals there
+// (remodel/layers.h). The speed in a layer is that of its vorticity,
+//
+//   u(y) = integral of the vorticity from the wall to y,
+//
+// which is constant outside of the layer, also where the outer flow is not: at the nose and in gaps. P.
+// Spalart and J. Watmuff, J. Fluid Mech. 249 (1993), section 2. The edge of the layer is where u has 99 % of
+// that constant.
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "remodel/flow.h"
+#include "remodel/frozen_mesh.h"
+
+namespace remodel {
+
+struct BoundaryLayerStation {
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  std::string wall;          // the boundary's name
+  std::uint32_t vertex = 0;  // of the frozen mesh
+  double arc = 0.0;          // along the wall from its first station, in units of the mesh
+  double cf = 0.0, y_plus = 0.0;
+  // Lengths are in units of the mesh. None (not a number) where the column of quadrilaterals ends within the
+  // boundary layer (u changes by more than 0.5 % over its last tenth), or there is none.
+  double edge_speed = none;  // over the stream's speed
+  double thickness = none;   // to where u has 99 % of the edge's
+  // Integrals over y of 1 - (rho u) / (rho u)_edge, and of (rho u) / (rho u)_edge (1 - u / u_edge), to the
+  // edge.
+  double displacement_thickness = none, momentum_thickness = none;
+  double shape_factor = none;  // the first over the second
+};
+
+// The stations of all walls that gas sticks to, in the order in which the domain's boundaries have them: the
+// domain is to their left. Throws Error (argument) where the flow has no friction or is not one of this mesh.
+std::vector<BoundaryLayerStation> boundary_layer(const FrozenMesh& mesh, const FlowResult& flow);
+
+// A row for each station, with a header: wall, x, y, arc, cp, cf, y_plus, edge_speed, thickness,
+// displacement_thickness, momentum_thickness, shape_factor. What is not a number is empty. Numbers read as
+// the same doubles.
+std::string boundary_layer_table(const FrozenMesh& mesh, const FlowResult& flow);
+
+}  // namespace remodel
