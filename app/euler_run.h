@@ -18,11 +18,11 @@ struct EulerRun {
   FlowConditions conditions;
   bool mach_given = false;
   FlowOptions options;
-  std::string series;   // a file; none if it is empty
-  std::string cp_plot;  // likewise
-  std::string cf_plot;  // likewise
+  std::string series;      // a file; none if it is empty
+  std::string cp_plot;     // likewise
+  std::string cf_plot;     // likewise
   std::string wall_table;  // likewise
-  std::string history;  // likewise
+  std::string history;     // likewise
   std::vector<std::string> inlets, outlets;
   FlowInlet inlet;    // what is given at all inlets
   FlowOutlet outlet;  // likewise

@@ -1,7 +1,7 @@
 // Design problems by flows (remodel/design_run.h), with functions in Python.
 
 #include <cmath>
-#include <set>
+#include <map>
 
 #include "remodel/design_run.h"
 #include "run_watch.h"
@@ -52,15 +52,15 @@ void add_field(FlowFunctional& by, const std::string& key, const std::string& pl
 
 // (value, dict of derivatives).
 FlowValue flow_value_of(const py::tuple& answer, const std::string& name, std::size_t size) {
+  static const std::map<std::string, double FlowValue::*> by_coefficient = {
+      {"cl", &FlowValue::by_lift},
+      {"cd", &FlowValue::by_drag},
+      {"cm", &FlowValue::by_moment},
+      {"cd_pressure", &FlowValue::by_pressure_drag}};
   FlowValue result{.value = answer[0].cast<double>()};
   for (const auto& [key, values] : answer[1].cast<py::dict>()) {
     const auto part = key.cast<std::string>();
     const std::string place = name + ", gradient, " + part;
-    const std::map<std::string, double FlowValue::*> by_coefficient = {
-        {"cl", &FlowValue::by_lift},
-        {"cd", &FlowValue::by_drag},
-        {"cm", &FlowValue::by_moment},
-        {"cd_pressure", &FlowValue::by_pressure_drag}};
     if (const auto found = by_coefficient.find(part); found != by_coefficient.end()) {
       result.*found->second = values.cast<double>();
       continue;
@@ -113,11 +113,12 @@ void add_functions(const OwnFunctions& functions, Watch& watch, DesignProblem& p
       continue;
     }
     DesignConstraint& constraint = problem.constraints.at(*own.constraint);
-    constraint.kind.clear(), constraint.name = own.name;
-    if (own.of_design)
+    if (own.of_design) {
       constraint = {.own_design = design_function(own, watch), .name = own.name};
-    else
+    } else {
+      constraint.kind.clear(), constraint.name = own.name;
       constraint.own_flow = flow_function(own, watch);
+    }
   }
 }
 

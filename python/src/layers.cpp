@@ -7,7 +7,6 @@
 #include "apart.h"
 #include "living.h"
 #include "pickles.h"
-#include "records.h"
 #include "remodel/check.h"
 #include "remodel/flow_layer.h"
 #include "remodel/generate.h"
@@ -17,9 +16,8 @@ namespace remodel {
 
 template <python::Is<LayeredRemodelResult> T>
 auto members(T& r) {
-  return std::tie(r.triangles_before, r.triangles, r.preserved, r.connected, r.moved, r.inserted, r.removed,
-                  r.flipped, r.full_adjustment, r.morphed, r.held, r.method, r.refreshed, r.regenerated,
-                  r.abandoned, r.reason, r.stopped, r.layer_cells, r.shrunk, r.same_columns);
+  using Outer = std::conditional_t<std::is_const_v<T>, const RemodelResult, RemodelResult>;
+  return std::tuple_cat(members(static_cast<Outer&>(r)), std::tie(r.layer_cells, r.shrunk, r.same_columns));
 }
 
 }  // namespace remodel
@@ -53,12 +51,8 @@ py::dict layered_dict(const LayeredState& state) {
 LayeredState layered_state_of(const py::dict& dict) {
   LayeredState state;
   const auto read = [&](const char* key, auto& member) {
-    try {
-      member = dict[key].cast<std::decay_t<decltype(member)>>();
-    } catch (const std::exception&) {
-      throw Error(ErrorCode::format, "pickle",
-                  std::string("'") + key + "' is missing or of another kind, expected the state of a mesh");
-    }
+    read_member(dict, key,
+                [&](const py::handle& object) { member = object.cast<std::decay_t<decltype(member)>>(); });
   };
   py::dict outer;
   std::string walls;

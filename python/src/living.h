@@ -7,9 +7,21 @@
 
 #include "bindings.h"
 #include "interrupts.h"
+#include "records.h"
 #include "remodel/changes.h"
 #include "remodel/mesh.h"
 #include "remodel/remodel.h"
+
+namespace remodel {
+
+template <python::Is<RemodelResult> T>
+auto members(T& r) {
+  return std::tie(r.triangles_before, r.triangles, r.preserved, r.connected, r.moved, r.inserted, r.removed,
+                  r.flipped, r.full_adjustment, r.morphed, r.held, r.method, r.refreshed, r.regenerated,
+                  r.abandoned, r.reason, r.stopped);
+}
+
+}  // namespace remodel
 
 namespace remodel::python {
 
@@ -59,8 +71,8 @@ inline Domain next_domain(const LivingMesh& mesh, const py::object& shape, const
   return next_domain(mesh.mesh.domain(), shape, boundary);
 }
 
-// Where the upper and lower coefficients of the airfoil of that name, or the only one, are in coefficients_of(): the first
-// and how many. Throws Error (argument) where there is not one such airfoil.
+// Where the upper and lower coefficients of the airfoil of that name, or the only one, are in
+// coefficients_of(): the first and how many. Throws Error (argument) where there is not one such airfoil.
 std::pair<std::size_t, std::size_t> airfoil_numbers(const Domain& domain, const std::string& boundary);
 
 // The loops of a domain that are an airfoil by its coefficients, of that name if there is one.

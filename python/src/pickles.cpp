@@ -91,12 +91,7 @@ py::dict dict_of(const MeshState& state) {
 MeshState state_of(const py::dict& dict) {
   MeshState state;
   const auto read = [&](const char* key, auto& member) {
-    try {
-      from_python(dict[key], member);
-    } catch (const std::exception&) {
-      throw Error(ErrorCode::format, "pickle",
-                  std::string("'") + key + "' is missing or of another kind, expected the state of a mesh");
-    }
+    read_member(dict, key, [&](const py::handle& object) { from_python(object, member); });
   };
   each_member(state, read);
   read("markers", state.imported.markers);

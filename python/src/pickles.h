@@ -12,4 +12,15 @@ py::dict dict_of(const MeshState& state);
 // Throws Error (format) for another dict, naming the key.
 MeshState state_of(const py::dict& dict);
 
+// convert(dict[key]), or Error (format) naming the key.
+template <class Convert>
+void read_member(const py::dict& dict, const char* key, Convert convert) {
+  try {
+    convert(dict[key]);
+  } catch (const std::exception&) {
+    throw Error(ErrorCode::format, "pickle",
+                std::string("'") + key + "' is missing or of another kind, expected the state of a mesh");
+  }
+}
+
 }  // namespace remodel::python

@@ -12,12 +12,6 @@ template <python::Is<Changes> T>
 auto members(T& c) {
   return std::tie(c.moved, c.inserted, c.removed, c.born, c.gone);
 }
-template <python::Is<RemodelResult> T>
-auto members(T& r) {
-  return std::tie(r.triangles_before, r.triangles, r.preserved, r.connected, r.moved, r.inserted, r.removed,
-                  r.flipped, r.full_adjustment, r.morphed, r.held, r.method, r.refreshed, r.regenerated,
-                  r.abandoned, r.reason, r.stopped);
-}
 
 }  // namespace remodel
 

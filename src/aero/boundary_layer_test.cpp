@@ -7,33 +7,22 @@
 #include "flow/test_grids.h"
 #include "remodel/error.h"
 #include "remodel/flow.h"
-#include "remodel/layers.h"
 
 namespace remodel {
 namespace {
 
-FlowOptions plate_options(FlowModel model) {
-  return {.tolerance = 1e-9,
-          .outlets = {{.name = "outlet", .pressure = 1.0}},
-          .symmetry = {"symmetry"},
-          .model = model,
-          .temperature_k = 0.0};
+// Of constant viscosity.
+FlowResult plate_flow(const FrozenMesh& mesh, FlowModel model, double reynolds) {
+  FlowOptions options = test::plate_options(model);
+  options.temperature_k = 0.0;
+  return solve_flow(mesh, {.mach = 0.2, .reynolds = reynolds}, options, "plate");
 }
 
 // H. Schlichting, Boundary-Layer Theory (1979), chapter VII: 4.91, 1.7208 and 0.664 times x over the root of
 // its Reynolds number.
 TEST(BoundaryLayer, OfALaminarPlateIsThatOfBlasius) {
-  const FrozenMesh mesh = test::plate_grid({.start = -4.0,
-                                            .length = 4.0,
-                                            .height = 10.0,
-                                            .first = 5e-4,
-                                            .at_edge = 2e-3,
-                                            .before = 24,
-                                            .along = 64,
-                                            .up = 48})
-                              .frozen();
-  const FlowResult flow =
-      solve_flow(mesh, {.mach = 0.2, .reynolds = 1e5}, plate_options(FlowModel::laminar), "plate");
+  const FrozenMesh mesh = test::laminar_plate().frozen();
+  const FlowResult flow = plate_flow(mesh, FlowModel::laminar, 1e5);
   ASSERT_TRUE(flow.converged()) << flow.reason;
   int compared = 0;
   for (const BoundaryLayerStation& station : boundary_layer(mesh, flow)) {
@@ -54,17 +43,8 @@ TEST(BoundaryLayer, OfALaminarPlateIsThatOfBlasius) {
 
 // Von Karman: without a gradient of pressure the momentum thickness grows by half of the friction.
 TEST(BoundaryLayer, OfATurbulentPlateLosesTheMomentumThatFrictionTakes) {
-  const FrozenMesh mesh = test::plate_grid({.start = -0.33,
-                                            .length = 2.0,
-                                            .height = 1.0,
-                                            .first = 2e-6,
-                                            .at_edge = 2e-3,
-                                            .before = 16,
-                                            .along = 36,
-                                            .up = 48})
-                              .frozen();
-  const FlowResult flow =
-      solve_flow(mesh, {.mach = 0.2, .reynolds = 5e6}, plate_options(FlowModel::sa), "plate");
+  const FrozenMesh mesh = test::turbulent_plate().frozen();
+  const FlowResult flow = plate_flow(mesh, FlowModel::sa, 5e6);
   ASSERT_TRUE(flow.converged()) << flow.reason;
   const std::vector<BoundaryLayerStation> stations = boundary_layer(mesh, flow);
   double lost = 0.0, theta = BoundaryLayerStation::none, grown = 0.0;

@@ -143,28 +143,11 @@ TEST(Friction, TheModelsSourceVanishesWithDiffusionInTheLogarithmicLayer) {
     EXPECT_GT(Model::diffusion_ratio(chi), 0.0) << chi;
 }
 
-FlowOptions plate_options(FlowModel model) {
-  FlowOptions options;
-  options.model = model;
-  options.tolerance = 1e-9;
-  options.symmetry = {"symmetry"};
-  options.outlets = {{.name = "outlet", .pressure = 1.0}};
-  return options;
-}
-
 // H. Blasius, Z. Math. Phys. 56 (1908): cf = 0.664115 / sqrt(Re x).
 TEST(Friction, ThePlatesLaminarFrictionIsThatOfBlasius) {
-  const test::QuadGrid grid = test::plate_grid({.start = -4.0,
-                                                .length = 4.0,
-                                                .height = 10.0,
-                                                .first = 5e-4,
-                                                .at_edge = 2e-3,
-                                                .before = 24,
-                                                .along = 64,
-                                                .up = 48});
-  FlowOptions options = plate_options(FlowModel::laminar);
+  FlowOptions options = test::plate_options(FlowModel::laminar);
   options.temperature_k = 0.0;
-  const FrozenMesh mesh = grid.frozen();
+  const FrozenMesh mesh = test::laminar_plate().frozen();
   const FlowResult flow = solve_flow(mesh, {.mach = 0.2, .reynolds = 1e5}, options, "plate");
   ASSERT_TRUE(flow.converged()) << flow.reason;
   EXPECT_LE(flow.newton_steps, 20);
@@ -195,23 +178,12 @@ TEST(Friction, LaminarFlowAroundASymmetricSectionHasNoLift) {
   EXPECT_NEAR(flow.friction->cd_pressure, 0.0226, 0.003);
 }
 
-test::QuadGrid turbulent_plate() {
-  return test::plate_grid({.start = -0.33,
-                           .length = 2.0,
-                           .height = 1.0,
-                           .first = 2e-6,
-                           .at_edge = 2e-3,
-                           .before = 16,
-                           .along = 36,
-                           .up = 48});
-}
-
 // Turbulent friction on a plate, Re 5e6 a unit: within a few percent of NASA's Turbulence Modeling Resource
 // on a grid of 2,600 vertices.
 TEST(Friction, ThePlatesTurbulentFrictionIsNearTheReference) {
-  const FrozenMesh mesh = turbulent_plate().frozen();
+  const FrozenMesh mesh = test::turbulent_plate().frozen();
   const FlowResult flow =
-      solve_flow(mesh, {.mach = 0.2, .reynolds = 5e6}, plate_options(FlowModel::sa), "plate");
+      solve_flow(mesh, {.mach = 0.2, .reynolds = 5e6}, test::plate_options(FlowModel::sa), "plate");
   ASSERT_TRUE(flow.converged()) << flow.reason;
   double nearest = 1.0, cf = 0.0;
   for (std::size_t v = 0; v < mesh.points.size(); ++v)
@@ -225,8 +197,8 @@ TEST(Friction, ThePlatesTurbulentFrictionIsNearTheReference) {
 // Blasius's friction ahead of the transition, and more than that of a fully turbulent plate soon behind it:
 // the layer is thinner there.
 TEST(Friction, APlateIsLaminarAheadOfItsTransition) {
-  const FrozenMesh mesh = turbulent_plate().frozen();
-  const FlowOptions options = plate_options(FlowModel::sa);
+  const FrozenMesh mesh = test::turbulent_plate().frozen();
+  const FlowOptions options = test::plate_options(FlowModel::sa);
   const FlowResult turbulent = solve_flow(mesh, {.mach = 0.2, .reynolds = 5e6}, options, "plate");
   const FlowResult flow =
       solve_flow(mesh, {.mach = 0.2, .reynolds = 5e6, .transition = {{0.25, 0.0}}}, options, "plate");
@@ -250,11 +222,11 @@ TEST(Friction, APlateIsLaminarAheadOfItsTransition) {
 }
 
 TEST(Friction, ATransitionWithoutTurbulenceIsRefused) {
-  const FrozenMesh mesh = turbulent_plate().frozen();
+  const FrozenMesh mesh = test::turbulent_plate().frozen();
   FlowConditions conditions = {.mach = 0.2, .reynolds = 5e6, .transition = {{0.25, 0.5}}};
-  EXPECT_THROW(solve_flow(mesh, conditions, plate_options(FlowModel::laminar), "plate"), Error);
+  EXPECT_THROW(solve_flow(mesh, conditions, test::plate_options(FlowModel::laminar), "plate"), Error);
   conditions.transition = {{0.25, 1.5}};
-  EXPECT_THROW(solve_flow(mesh, conditions, plate_options(FlowModel::sa), "plate"), Error);
+  EXPECT_THROW(solve_flow(mesh, conditions, test::plate_options(FlowModel::sa), "plate"), Error);
 }
 
 // NACA 0012 with a coarse layer, then two designs on the same stations.

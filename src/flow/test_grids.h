@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "flow/scheme/flow_mesh.h"
+#include "remodel/flow.h"
 
 namespace remodel::test {
 
@@ -89,6 +90,37 @@ inline QuadGrid plate_grid(const PlateSize& size) {
     grid.boundaries[3].edges.push_back({at(0, j + 1), at(0, j)});
   }
   return grid;
+}
+
+// The plates whose friction is known: 5e-4 high cells for laminar flow at Re 1e5 a unit, 2e-6 for turbulent
+// flow at 5e6.
+inline QuadGrid laminar_plate() {
+  return plate_grid({.start = -4.0,
+                     .length = 4.0,
+                     .height = 10.0,
+                     .first = 5e-4,
+                     .at_edge = 2e-3,
+                     .before = 24,
+                     .along = 64,
+                     .up = 48});
+}
+inline QuadGrid turbulent_plate() {
+  return plate_grid({.start = -0.33,
+                     .length = 2.0,
+                     .height = 1.0,
+                     .first = 2e-6,
+                     .at_edge = 2e-3,
+                     .before = 16,
+                     .along = 36,
+                     .up = 48});
+}
+inline FlowOptions plate_options(FlowModel model) {
+  FlowOptions options;
+  options.model = model;
+  options.tolerance = 1e-9;
+  options.symmetry = {"symmetry"};
+  options.outlets = {{.name = "outlet", .pressure = 1.0}};
+  return options;
 }
 
 // NACA 0012 with the sharp edge of the closed formula, chord 1.
