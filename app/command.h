@@ -43,6 +43,7 @@ void add_design_command(CLI::App& program, Action& action);
 void add_draw_command(CLI::App& program, Action& action);
 void add_film_command(CLI::App& program, Action& action);
 void add_polar_command(CLI::App& program, Action& action);
+void add_sweep_command(CLI::App& program, Action& action);
 void add_noise_command(CLI::App& program, Action& action);
 void add_transfer_command(CLI::App& program, Action& action);
 void add_live_command(CLI::App& program, Action& action);

@@ -115,11 +115,11 @@ int run(const Words& words) {
   program.require_subcommand(1);
   const KeptPipes input_is_read_once;
   Action action;
-  for (const auto add : {add_mesh_command, add_update_command, add_batch_command, add_check_command,
-                         add_fit_command, add_flow_command, add_polar_command, add_optimise_command,
-                         add_design_command, add_draw_command, add_film_command, add_live_command,
-                         add_noise_command, add_transfer_command, add_convert_command, add_shapes_command,
-                         add_soak_command}) {
+  for (const auto add :
+       {add_mesh_command, add_update_command, add_batch_command, add_check_command, add_fit_command,
+        add_flow_command, add_polar_command, add_sweep_command, add_optimise_command, add_design_command,
+        add_draw_command, add_film_command, add_live_command, add_noise_command, add_transfer_command,
+        add_convert_command, add_shapes_command, add_soak_command}) {
     add(program, action);
   }
 #ifdef REMODEL_STUDY

@@ -42,7 +42,7 @@ bool Schedule::ready(std::size_t number) const {
                      [&](std::size_t needed) { return states_[needed] == State::done; });
 }
 
-std::optional<StudyJobs::Job> Schedule::next() {
+std::optional<CrewJobs::Job> Schedule::next() {
   if (cancelled()) return std::nullopt;
   const std::scoped_lock lock(mutex_);
   while (first_waiting_ < jobs_.size() && states_[first_waiting_] != State::waiting) ++first_waiting_;

@@ -11,7 +11,7 @@
 
 namespace remodel {
 
-class Schedule : public StudyJobs {
+class Schedule : public CrewJobs {
  public:
   // From now on the store is used only under this object's lock.
   Schedule(StudyStore& store, StudyObserver& observer);

@@ -70,7 +70,7 @@ StudyOptions read_study_options(const fs::path& directory) {
   return StudyStore(directory).options();
 }
 
-StudyResult study(const fs::path& directory, const StudyOptions& options, StudyMode mode, StudyCrew& crew,
+StudyResult study(const fs::path& directory, const StudyOptions& options, StudyMode mode, Crew& crew,
                   StudyObserver* observer) {
   const Stopwatch watch;
   require_good(options);
@@ -90,7 +90,7 @@ StudyResult study(const fs::path& directory, const StudyOptions& options, StudyM
   Schedule schedule(store, observer ? *observer : silent);
   StudyResult result;
   result.before = schedule.progress().done;
-  crew.work(schedule);
+  crew.work(schedule, run_study_job);
 
   const StudyOptions& all = store.options();
   result.jobs = schedule.progress().jobs;

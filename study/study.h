@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "remodel/airfoil.h"
+#include "remodel/crew.h"
 
 namespace remodel {
 
@@ -78,48 +79,8 @@ class StudyObserver {
   virtual bool cancelled() { return false; }
 };
 
-// The jobs that a crew works on. All members may be called from any thread.
-class StudyJobs {
- public:
-  struct Job {
-    std::size_t number = 0;
-    std::string work;  // bytes for run_study_job()
-  };
-  virtual ~StudyJobs() = default;
-  // Returns the most urgent job that can be begun. Nothing if all others wait for jobs in progress, or if
-  // ended().
-  virtual std::optional<Job> next() = 0;
-  // Stores the job's rows in the database, in one transaction. Does nothing for a job that is finished
-  // already. Throws Error.
-  virtual void finish(std::size_t number, const std::string& rows) = 0;
-  // Returns a job that was begun but not finished, so that another worker does it.
-  virtual void give_back(std::size_t number) = 0;
-  // True once all jobs are finished or the study is cancelled.
-  virtual bool ended() const = 0;
-  virtual bool cancelled() const = 0;
-};
-
-// Does one job, from bytes to bytes. `cancelled` is called at least once per mesh; the result is empty if it
-// returned true. Throws Error (format) for bytes of another version.
+// Does one job of a study: the CrewWork of study(). `cancelled` is called at least once per mesh.
 std::optional<std::string> run_study_job(const std::string& work, const std::function<bool()>& cancelled);
-
-// Workers that do a study's jobs.
-class StudyCrew {
- public:
-  virtual ~StudyCrew() = default;
-  // Returns when jobs.ended(). Rethrows the exception of a job or of finish() after all workers have stopped.
-  virtual void work(StudyJobs& jobs) = 0;
-};
-
-// A crew of threads of this process, at least 1.
-class StudyThreads : public StudyCrew {
- public:
-  explicit StudyThreads(std::size_t threads) : threads_(threads) {}
-  void work(StudyJobs& jobs) override;
-
- private:
-  std::size_t threads_;
-};
 
 enum class StudyStopped { done, interrupted };
 const char* name_of(StudyStopped stopped);  // "done", "interrupted"
@@ -152,6 +113,6 @@ enum class StudyMode { begin, resume };
 //
 // Throws Error (argument, file, format, geometry).
 StudyResult study(const std::filesystem::path& directory, const StudyOptions& options, StudyMode mode,
-                  StudyCrew& crew, StudyObserver* observer = nullptr);
+                  Crew& crew, StudyObserver* observer = nullptr);
 
 }  // namespace remodel

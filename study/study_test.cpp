@@ -84,12 +84,12 @@ class Study : public testing::Test {
   }
 
   StudyResult begin(const std::string& name, const StudyOptions& options, std::size_t threads = 1) {
-    StudyThreads crew(threads);
+    ThreadCrew crew(threads);
     return study(root_ / name, options, StudyMode::begin, crew);
   }
   StudyResult resume(const std::string& name, const StudyOptions& options,
                      StudyObserver* observer = nullptr) {
-    StudyThreads crew(2);
+    ThreadCrew crew(2);
     return study(root_ / name, options, StudyMode::resume, crew, observer);
   }
   // Whole, on one thread.
@@ -141,7 +141,7 @@ TEST_F(Study, GoesOnFromWhereverItWasInterrupted) {
   for (const std::size_t jobs : {1U, 2U, 4U, 9U}) {
     const std::string name = "after-" + std::to_string(jobs);
     CancelAfter observer(jobs);
-    StudyThreads crew(1);
+    ThreadCrew crew(1);
     const StudyResult first = study(root_ / name, tiny(), StudyMode::begin, crew, &observer);
     EXPECT_EQ(first.stopped, StudyStopped::interrupted);
     EXPECT_EQ(first.done, jobs);
@@ -161,7 +161,7 @@ TEST_F(Study, DropsABegunJobWhenItIsCancelled) {
     bool cancelled() override { return ++asked > 20; }
     std::atomic<int> asked = 0;
   } observer;
-  StudyThreads crew(2);
+  ThreadCrew crew(2);
   const StudyResult result = study(root_ / "a", options, StudyMode::begin, crew, &observer);
   EXPECT_EQ(result.stopped, StudyStopped::interrupted);
   EXPECT_EQ(result.done, 0U);
@@ -300,11 +300,11 @@ TEST_F(Study, ItsPathsAreFeasibleForEveryPair) {
 }
 
 // A crew that takes all jobs it can get and does the last one first, returns each once and does some twice.
-struct ContraryCrew : StudyCrew {
-  void work(StudyJobs& jobs) override {
+struct ContraryCrew : Crew {
+  void work(CrewJobs& jobs, const CrewWork& work) override {
     std::map<std::size_t, bool> given_back;
     while (!jobs.ended()) {
-      std::vector<StudyJobs::Job> taken;
+      std::vector<CrewJobs::Job> taken;
       while (auto job = jobs.next()) taken.push_back(std::move(*job));
       ASSERT_FALSE(taken.empty());
       for (; !taken.empty(); taken.pop_back()) {
@@ -313,7 +313,7 @@ struct ContraryCrew : StudyCrew {
           jobs.give_back(number);
           continue;
         }
-        const std::string rows = *run_study_job(taken.back().work, {});
+        const std::string rows = *work(taken.back().work, {});
         jobs.finish(number, rows);
         jobs.give_back(number);
         jobs.finish(number, rows);
@@ -332,7 +332,7 @@ TEST_F(Study, PassesOnWhatAnObserverThrows) {
   struct : StudyObserver {
     void finished(const StudyProgress&) override { throw std::runtime_error("enough"); }
   } observer;
-  StudyThreads crew(3);
+  ThreadCrew crew(3);
   EXPECT_THROW(study(root_ / "a", tiny(), StudyMode::begin, crew, &observer), std::runtime_error);
   EXPECT_EQ(resume("a", tiny()).stopped, StudyStopped::done);
   EXPECT_EQ(tables_of(root_ / "a"), expected(tiny()));

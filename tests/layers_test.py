@@ -29,10 +29,10 @@ LAYERS = [
         "name": "design",
         "headers": [
             "optimise.h", "designer.h", "evaluation.h", "evaluator.h", "design_space.h", "living_mesh.h", "figures.h",
-            "replay.h", "batch.h", "noise.h", "directory_lock.h", "cmaes.h", "sqp.h", "history.h", "soak.h",
+            "replay.h", "batch.h", "noise.h", "directory_lock.h", "cmaes.h", "sqp.h", "history.h", "soak.h", "crew.h",
         ],
     },
-    {"name": "aero", "headers": ["boundary_layer.h", "design_problem.h", "design_run.h", "flow_function.h", "flow_layer.h", "flow_plots.h", "flow_space.h", "polar.h"]},
+    {"name": "aero", "headers": ["boundary_layer.h", "design_problem.h", "design_run.h", "flow_function.h", "flow_layer.h", "flow_plots.h", "flow_space.h", "polar.h", "sweep.h"]},
     {"name": "python", "headers": []},
     {"name": "study", "headers": []},
     {"name": "app", "headers": []},

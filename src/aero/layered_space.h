@@ -52,11 +52,12 @@ class LayeredSpace final : public FlowSpace {
   std::string text(std::span<const double> design) const override { return bodies_->text(design); }
   std::string description() const override;
 
- private:
-  using Stations = std::vector<Parameters>;  // of each curve of the domain
-  static Stations stations_of(const Domain& start, int points);
+  using Stations = std::vector<Parameters>;  // of each curve of a domain
+  // About so many on each section, as close to each other at noses and corners as wall_stations() has them.
+  static Stations stations_of(const Domain& walls, int points);
   static Domain with_stations(Domain walls, const Stations& stations);
 
+ private:
   std::unique_ptr<FlowSpace> bodies_;
   int points_;
   Stations stations_;

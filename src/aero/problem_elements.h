@@ -10,8 +10,8 @@
 
 namespace remodel {
 
-// The array `elements` of the problem; `warnings` gets what files of sections lost. Throws Error (format) naming the
-// file and the key.
+// The array `elements` of the problem; `warnings` gets what files of sections lost. Throws Error (format)
+// naming the file and the key.
 std::vector<DesignElement> read_elements(const Keys& problem, const std::string& file, int degree,
                                          std::vector<std::string>& warnings);
 

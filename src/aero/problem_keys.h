@@ -115,8 +115,8 @@ inline CstFit airfoil_beside(const std::filesystem::path& directory, const std::
   return load_fit(file.has_parent_path() ? file.string() : "./" + file.string(), degree);
 }
 
-// The section that a key names; `warnings` gets what its file lost. Fits are of degree 8 at most; what is beyond is
-// raised, exactly.
+// The section that a key names; `warnings` gets what its file lost. Fits are of degree 8 at most; what is
+// beyond is raised, exactly.
 inline CstAirfoil section_named(const Keys& keys, const char* key, int degree,
                                 const std::filesystem::path& directory, std::vector<std::string>& warnings) {
   const std::string name = keys.get<std::string>(key);

@@ -65,7 +65,7 @@ Status status_of(const StudyResult& result) {
 }
 
 // Rank 0 of an MPI program, or the only process.
-Status run_study(const StudyCommand& command, StudyCrew& crew) {
+Status run_study(const StudyCommand& command, Crew& crew) {
   const StudyOptions options = options_of(command);
   StudyProgressLine progress(progress_style(command.quiet), "options: " + study_options_to_json(options),
                              command.time_limit);
@@ -97,13 +97,13 @@ Status run(const StudyCommand& command) {
                 "found with --resume, expected one of them: a study knows its options");
   if (!command.resume) require_place(command.directory);
   if (launched_ranks() == 1) {
-    StudyThreads crew(command.threads != 0 ? command.threads
-                                           : std::max(1U, std::thread::hardware_concurrency()));
+    ThreadCrew crew(command.threads != 0 ? command.threads
+                                         : std::max(1U, std::thread::hardware_concurrency()));
     return run_study(command, crew);
   }
-  const std::unique_ptr<StudyRanks> ranks = begin_ranks(command.ranks);
-  if (launched_rank() > 0) return ranks->serve() ? Status::done : Status::limit;
-  const std::unique_ptr<StudyCrew> crew = ranks->crew(std::max<std::size_t>(1, command.threads));
+  const std::unique_ptr<Ranks> ranks = begin_ranks(command.ranks);
+  if (launched_rank() > 0) return ranks->serve(run_study_job) ? Status::done : Status::limit;
+  const std::unique_ptr<Crew> crew = ranks->crew(std::max<std::size_t>(1, command.threads));
   return run_study(command, *crew);
 }
 

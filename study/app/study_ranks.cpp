@@ -130,9 +130,9 @@ struct Peer {
 };
 
 // Forwards to a study's jobs until it is stopped; then there are no more.
-class StoppableJobs : public StudyJobs {
+class StoppableJobs : public CrewJobs {
  public:
-  explicit StoppableJobs(StudyJobs& jobs) : jobs_(jobs) {}
+  explicit StoppableJobs(CrewJobs& jobs) : jobs_(jobs) {}
   void stop() { stopped_ = true; }
   std::optional<Job> next() override { return stopped_ ? std::nullopt : jobs_.next(); }
   void finish(std::size_t number, const std::string& rows) override { jobs_.finish(number, rows); }
@@ -141,23 +141,23 @@ class StoppableJobs : public StudyJobs {
   bool cancelled() const override { return stopped_ || jobs_.cancelled(); }
 
  private:
-  StudyJobs& jobs_;
+  CrewJobs& jobs_;
   std::atomic<bool> stopped_ = false;
 };
 
 class MpiRanks;
 
 // The crew of rank 0: hands jobs to the other ranks while its own threads work too.
-class RankCrew : public StudyCrew {
+class RankCrew : public Crew {
  public:
   RankCrew(MpiRanks& ranks, std::size_t threads) : ranks_(ranks), threads_(threads) {}
-  void work(StudyJobs& jobs) override;
+  void work(CrewJobs& jobs, const CrewWork& work) override;
 
  private:
-  void serve(StudyJobs& jobs);
-  void take(const Message& message, StudyJobs& jobs);
-  void hand_out(StudyJobs& jobs);
-  void look_for_lost(StudyJobs& jobs);
+  void serve(CrewJobs& jobs);
+  void take(const Message& message, CrewJobs& jobs);
+  void hand_out(CrewJobs& jobs);
+  void look_for_lost(CrewJobs& jobs);
 
   MpiRanks& ranks_;
   std::size_t threads_;
@@ -165,7 +165,7 @@ class RankCrew : public StudyCrew {
   Stopwatch watch_;
 };
 
-class MpiRanks : public StudyRanks {
+class MpiRanks : public Ranks {
  public:
   explicit MpiRanks(const RanksOptions& options) : options_(options) {
     int provided = 0;
@@ -176,16 +176,16 @@ class MpiRanks : public StudyRanks {
   }
   ~MpiRanks() override;
 
-  std::unique_ptr<StudyCrew> crew(std::size_t threads) override {
-    if (size_ == 1) return std::make_unique<StudyThreads>(threads);
+  std::unique_ptr<Crew> crew(std::size_t threads) override {
+    if (size_ == 1) return std::make_unique<ThreadCrew>(threads);
     return std::make_unique<RankCrew>(*this, threads);
   }
-  bool serve() override;
+  bool serve(const CrewWork& work) override;
 
  private:
   friend class RankCrew;
   void take(const Message& message);
-  void do_job(const std::string& bytes);
+  void do_job(const std::string& bytes, const CrewWork& work);
   bool job_cancelled();
   void look_around();
   // True if rank 0 has been silent for the timeout.
@@ -203,14 +203,14 @@ class MpiRanks : public StudyRanks {
   std::vector<std::string> jobs_;
 };
 
-void RankCrew::work(StudyJobs& jobs) {
+void RankCrew::work(CrewJobs& jobs, const CrewWork& work) {
   peers_.resize(static_cast<std::size_t>(ranks_.size_));
   StoppableJobs stoppable(jobs);
   std::exception_ptr failure, failure_of_own;
   {
     std::jthread own([&] {
       try {
-        StudyThreads(threads_).work(stoppable);
+        ThreadCrew(threads_).work(stoppable, work);
       } catch (...) {
         failure_of_own = std::current_exception();
       }
@@ -229,7 +229,7 @@ void RankCrew::work(StudyJobs& jobs) {
   if (failure) std::rethrow_exception(failure);
 }
 
-void RankCrew::serve(StudyJobs& jobs) {
+void RankCrew::serve(CrewJobs& jobs) {
   const std::vector<Message> messages = ranks_.mail_.received();
   for (const Message& message : messages) take(message, jobs);
   hand_out(jobs);
@@ -237,7 +237,7 @@ void RankCrew::serve(StudyJobs& jobs) {
   if (messages.empty()) std::this_thread::sleep_for(idle_pause);
 }
 
-void RankCrew::take(const Message& message, StudyJobs& jobs) {
+void RankCrew::take(const Message& message, CrewJobs& jobs) {
   Peer& peer = peers_[static_cast<std::size_t>(message.rank)];
   peer.heard_at = watch_.seconds();
   peer.lost = false;
@@ -258,11 +258,11 @@ void RankCrew::take(const Message& message, StudyJobs& jobs) {
   }
 }
 
-void RankCrew::hand_out(StudyJobs& jobs) {
+void RankCrew::hand_out(CrewJobs& jobs) {
   for (std::size_t rank = 1; rank < peers_.size(); ++rank) {
     Peer& peer = peers_[rank];
     if (!peer.asks || peer.lost) continue;
-    std::optional<StudyJobs::Job> job = jobs.next();
+    std::optional<CrewJobs::Job> job = jobs.next();
     if (!job) return;
     peer.asks = false;
     peer.job = job->number;
@@ -270,7 +270,7 @@ void RankCrew::hand_out(StudyJobs& jobs) {
   }
 }
 
-void RankCrew::look_for_lost(StudyJobs& jobs) {
+void RankCrew::look_for_lost(CrewJobs& jobs) {
   for (std::size_t rank = 1; rank < peers_.size(); ++rank) {
     Peer& peer = peers_[rank];
     const double silence = watch_.seconds() - peer.heard_at;
@@ -313,7 +313,7 @@ void MpiRanks::end_others() {
   while (!mail_.all_sent() && leaving.seconds() < 1.0) pause();
 }
 
-bool MpiRanks::serve() {
+bool MpiRanks::serve(const CrewWork& work) {
   const InterruptFlag interrupt;  // mpirun passes signals to all ranks; only rank 0 acts on them
   mail_.send(0, ask_tag);
   while (!stopped_ && !alone()) {
@@ -324,7 +324,7 @@ bool MpiRanks::serve() {
     }
     const std::string job = std::move(jobs_.back());
     jobs_.pop_back();
-    do_job(job);
+    do_job(job, work);
   }
   mail_.send(0, bye_tag);
   while (!left_ && !alone()) {
@@ -361,10 +361,10 @@ bool MpiRanks::job_cancelled() {
   return stopped_ || alone();
 }
 
-void MpiRanks::do_job(const std::string& bytes) {
-  const auto [number, work] = parts_of(bytes);
+void MpiRanks::do_job(const std::string& bytes, const CrewWork& work) {
+  const auto [number, job] = parts_of(bytes);
   try {
-    const std::optional<std::string> rows = run_study_job(work, [this] { return job_cancelled(); });
+    const std::optional<std::string> rows = work(job, [this] { return job_cancelled(); });
     if (rows) mail_.send(0, rows_tag, numbered(number, *rows));
   } catch (const std::exception& problem) {
     mail_.send(0, failed_tag, problem.what());
@@ -376,7 +376,7 @@ void MpiRanks::do_job(const std::string& bytes) {
 
 void go_on_with_mpi(char**) {}
 
-std::unique_ptr<StudyRanks> begin_ranks(const RanksOptions& options) {
+std::unique_ptr<Ranks> begin_ranks(const RanksOptions& options) {
   return std::make_unique<MpiRanks>(options);
 }
 

@@ -14,13 +14,13 @@ struct RanksOptions {
   double timeout = 60.0;  // seconds of silence
 };
 
-class StudyRanks {
+class Ranks {
  public:
-  virtual ~StudyRanks() = default;  // on rank 0 it ends the others
+  virtual ~Ranks() = default;  // on rank 0 it ends the others
   // For rank 0: a crew of all ranks, in which rank 0 works too, on the given number of threads.
-  virtual std::unique_ptr<StudyCrew> crew(std::size_t threads) = 0;
+  virtual std::unique_ptr<Crew> crew(std::size_t threads) = 0;
   // For all other ranks: does jobs until rank 0 has no more. Returns false if rank 0 was lost.
-  virtual bool serve() = 0;
+  virtual bool serve(const CrewWork& work) = 0;
 };
 
 // Replaces the process by remodel-mpi, the same program built with MPI, which is installed beside remodel.
@@ -28,6 +28,6 @@ class StudyRanks {
 void go_on_with_mpi(char** argv);
 
 // Initialises MPI. Throws Error (argument) in the program without MPI.
-std::unique_ptr<StudyRanks> begin_ranks(const RanksOptions& options);
+std::unique_ptr<Ranks> begin_ranks(const RanksOptions& options);
 
 }  // namespace remodel::app

@@ -17,7 +17,7 @@ void go_on_with_mpi(char** argv) {
   ::execv(program.c_str(), argv);  // returns only on failure
 }
 
-std::unique_ptr<StudyRanks> begin_ranks(const RanksOptions&) {
+std::unique_ptr<Ranks> begin_ranks(const RanksOptions&) {
   throw Error(
       ErrorCode::argument, "study",
       "found " + std::to_string(launched_ranks()) +

@@ -1,20 +1,19 @@
+#include "remodel/crew.h"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
-#include <optional>
-#include <string>
 
 #include "base/threads.h"
-#include "study/study.h"
 
 namespace remodel {
 namespace {
 
-class Workers {
+class ThreadsAtWork {
  public:
-  explicit Workers(StudyJobs& jobs) : jobs_(jobs) {}
+  ThreadsAtWork(CrewJobs& jobs, const CrewWork& work) : jobs_(jobs), work_(work) {}
 
   // The first worker that fails ends the others.
   void run() {
@@ -30,11 +29,11 @@ class Workers {
 
  private:
   void one_job() {
-    const std::optional<StudyJobs::Job> job = jobs_.next();
+    const std::optional<CrewJobs::Job> job = jobs_.next();
     if (!job) return wait();
-    const std::optional<std::string> rows =
-        run_study_job(job->work, [this] { return failed_ || jobs_.cancelled(); });
-    rows ? jobs_.finish(job->number, *rows) : jobs_.give_back(job->number);
+    const std::optional<std::string> result =
+        work_(job->work, [this] { return failed_ || jobs_.cancelled(); });
+    result ? jobs_.finish(job->number, *result) : jobs_.give_back(job->number);
     news_.notify_all();
   }
   // The wait is short, because nothing signals that an observer has cancelled.
@@ -43,7 +42,8 @@ class Workers {
     news_.wait_for(lock, std::chrono::milliseconds(20));
   }
 
-  StudyJobs& jobs_;
+  CrewJobs& jobs_;
+  const CrewWork& work_;
   std::mutex mutex_;
   std::condition_variable news_;
   std::atomic<bool> failed_ = false;
@@ -51,10 +51,10 @@ class Workers {
 
 }  // namespace
 
-void StudyThreads::work(StudyJobs& jobs) {
-  Workers workers(jobs);
+void ThreadCrew::work(CrewJobs& jobs, const CrewWork& work) {
+  ThreadsAtWork at_work(jobs, work);
   const std::size_t threads = std::max<std::size_t>(threads_, 1);
-  ThreadTeam(threads).run(threads, [&workers](std::size_t) { workers.run(); });
+  ThreadTeam(threads).run(threads, [&at_work](std::size_t) { at_work.run(); });
 }
 
 }  // namespace remodel

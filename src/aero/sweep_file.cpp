@@ -1,0 +1,318 @@
+// A sweep's file as docs/sweep.md describes it.
+
+#include <algorithm>
+#include <cmath>
+
+#include "aero/problem_keys.h"
+#include "aero/problem_place.h"
+#include "aero/unit_samples.h"
+#include "remodel/design_problem.h"
+#include "remodel/polar.h"
+#include "remodel/sweep.h"
+
+namespace remodel {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_sections = 100000, most_values = 10000, most_entries = 100000;
+constexpr std::size_t most_file_bytes = std::size_t{16} << 20;
+
+Sampling sampling_of(const Keys& keys) {
+  const std::string name = keys.get<std::string>("method", "sobol");
+  for (const Sampling sampling : {Sampling::sobol, Sampling::latin_hypercube})
+    if (name == name_of(sampling)) return sampling;
+  keys.fail("found '" + name + "' as 'method', expected sobol or latin-hypercube");
+}
+
+// Sections, one entry of the file after the other.
+class SectionReader {
+ public:
+  SectionReader(const std::string& file, int degree, SweepProblem& problem)
+      : file_(file), directory_(fs::path(file).parent_path()), degree_(degree), problem_(problem) {}
+
+  void read(const Json& entry) {
+    ++number_;
+    const std::string where = file_ + ", section " + std::to_string(number_);
+    if (entry.is_string()) return add_named(entry.get<std::string>(), where);
+    if (!entry.is_object())
+      throw Error(ErrorCode::format, where,
+                  "found " + std::string(entry.type_name()) + ", expected a name, or an object");
+    if (entry.contains("directory"))
+      add_directory(Keys(entry, where, {"directory"}));
+    else
+      add_samples(Keys(entry, where, {"samples", "around", "range", "method", "seed"}));
+  }
+
+ private:
+  void add(SweepSection section) {
+    if (problem_.sections.size() == most_sections)
+      throw Error(
+          ErrorCode::format, file_,
+          "found more than " + std::to_string(most_sections) + " sections, expected that many at most");
+    problem_.sections.push_back(std::move(section));
+  }
+  // A file that is no airfoil is a section that is not there; a name that nothing has is a mistake.
+  void add_named(const std::string& name, const std::string& where) {
+    try {
+      const CstFit fit = airfoil_beside(directory_, name, degree_);
+      problem_.warnings.insert(problem_.warnings.end(), fit.warnings.begin(), fit.warnings.end());
+      SweepSection section{.name = name, .airfoil = fit.airfoil};
+      if (!surfaces_apart(fit.airfoil)) section.problem = name + ": the surfaces cross";
+      add(std::move(section));
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::format) throw Error(error.code(), where, error.what());
+      add({.name = name, .problem = error.what()});
+    }
+  }
+  void add_directory(const Keys& keys) {
+    const fs::path named = keys.get<std::string>("directory"), directory = directory_ / named;
+    std::error_code problem;
+    std::vector<std::string> names;
+    for (const fs::directory_entry& entry : fs::directory_iterator(directory, problem)) {
+      const std::string extension = entry.path().extension().string();
+      if (entry.is_regular_file() && (extension == ".dat" || extension == ".txt" || extension == ".json"))
+        names.push_back((named / entry.path().filename()).string());
+    }
+    if (problem) keys.fail("cannot read '" + directory.string() + "': " + problem.message());
+    if (names.empty())
+      keys.fail("found no .dat, .txt or .json in '" + directory.string() + "', expected files of sections");
+    std::sort(names.begin(), names.end());
+    for (const std::string& name : names) add_named(name, file_ + ", section " + std::to_string(number_));
+  }
+  void add_samples(const Keys& keys) {
+    const auto count = keys.whole<std::size_t>("samples", {}, 1, most_sections);
+    const std::string around = keys.get<std::string>("around");
+    const CstAirfoil start = section_named(keys, "around", degree_, directory_, problem_.warnings);
+    const double range = keys.get<double>("range");
+    if (!(range > 0.0 && range <= 1.0))
+      keys.fail("found " + shown(range) + " as 'range', expected a number above 0, at most 1");
+    const std::size_t half = start.upper.size();
+    const auto samples =
+        unit_samples(sampling_of(keys), count, 2 * half, keys.whole<std::uint64_t>("seed", 1, 0, UINT64_MAX));
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      SweepSection section{.name = around + "#" + std::to_string(i + 1), .airfoil = start};
+      for (std::size_t c = 0; c < 2 * half; ++c)
+        (c < half ? section.airfoil.upper[c] : section.airfoil.lower[c - half]) +=
+            range * (2.0 * samples[i][c] - 1.0);
+      if (!surfaces_apart(section.airfoil)) section.problem = section.name + ": the surfaces cross";
+      add(std::move(section));
+    }
+  }
+
+  const std::string& file_;
+  fs::path directory_;
+  int degree_;
+  SweepProblem& problem_;
+  std::size_t number_ = 0;
+};
+
+struct ConditionRanges {
+  static constexpr ValueRange mach{0.01, 3}, alpha_deg{-90, 90}, cl{-10, 10}, reynolds{1, 1e10};
+};
+
+// A number, several, or "FIRST:LAST:STEP".
+std::vector<double> values_of(const Keys& keys, const Json& object, const char* key, ValueRange range) {
+  const Json& value = object.at(key);
+  std::vector<double> values;
+  if (value.is_string()) {
+    try {
+      values = parse_range(key, value.get<std::string>(), range);
+    } catch (const Error& error) {
+      keys.fail(error.what());
+    }
+  } else if (value.is_number()) {
+    values = {value.get<double>()};
+  } else {
+    values = keys.get<std::vector<double>>(key);
+  }
+  if (values.empty() || values.size() > most_values)
+    keys.fail("found " + std::to_string(values.size()) + " values as '" + key + "', expected 1 to " +
+              std::to_string(most_values));
+  std::sort(values.begin(), values.end());
+  for (const double x : values)
+    if (!(x >= range.low && x <= range.high))
+      keys.fail("found " + shown(x) + " as '" + key + "', expected " + shown(range.low) + " to " +
+                shown(range.high));
+  if (std::adjacent_find(values.begin(), values.end()) != values.end())
+    keys.fail("found a value twice in '" + std::string(key) + "', expected each once");
+  return values;
+}
+
+std::vector<SweepRow> rows_of_grid(const Keys& keys, const Json& object, const SweepProblem& problem,
+                                   const char* value_key, ValueRange value_range) {
+  std::vector<double> reynolds{0.0};
+  if (problem.model != FlowModel::euler)
+    reynolds = values_of(keys, object, "reynolds", ConditionRanges::reynolds);
+  const std::vector<double> values = values_of(keys, object, value_key, value_range);
+  std::vector<SweepRow> rows;
+  for (const double mach : values_of(keys, object, "mach", ConditionRanges::mach))
+    for (const double re : reynolds) rows.push_back({.mach = mach, .reynolds = re, .values = values});
+  return rows;
+}
+
+// Samples between two values each, in an order in which each is near the one before: a row for each.
+std::vector<SweepRow> rows_of_samples(const Keys& keys, const Json& object, const SweepProblem& problem,
+                                      const char* value_key, ValueRange value_range) {
+  struct Axis {
+    double low, high;
+  };
+  std::vector<Axis> axes;
+  const auto add = [&](const char* key, ValueRange range) {
+    const std::vector<double> ends = values_of(keys, object, key, range);
+    if (ends.size() > 2)
+      keys.fail("found " + std::to_string(ends.size()) + " values as '" + key +
+                "' of samples, expected one, or the lowest and the highest");
+    axes.push_back({ends.front(), ends.back()});
+  };
+  add("mach", ConditionRanges::mach);
+  add(value_key, value_range);
+  if (problem.model != FlowModel::euler) add("reynolds", ConditionRanges::reynolds);
+  const auto count = keys.whole<std::size_t>("samples", {}, 1, most_values);
+  auto left = unit_samples(sampling_of(keys), count, axes.size(),
+                           keys.whole<std::uint64_t>("seed", 1, 0, UINT64_MAX));
+  const auto at = [&](const std::vector<double>& unit, std::size_t axis) {
+    return axes[axis].low + unit[axis] * (axes[axis].high - axes[axis].low);
+  };
+  const auto reynolds_at = [&](const std::vector<double>& unit) {  // by its logarithm
+    return axes[2].low * std::pow(axes[2].high / axes[2].low, unit[2]);
+  };
+  std::vector<SweepRow> rows;
+  std::vector<double> last(axes.size(), 0.0);
+  while (!left.empty()) {
+    const auto distance = [&](const std::vector<double>& unit) {
+      double sum = 0.0;
+      for (std::size_t d = 0; d < unit.size(); ++d) sum += (unit[d] - last[d]) * (unit[d] - last[d]);
+      return sum;
+    };
+    const auto next = std::min_element(
+        left.begin(), left.end(), [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+    last = *next;
+    left.erase(next);
+    rows.push_back({.mach = at(last, 0),
+                    .reynolds = axes.size() > 2 ? reynolds_at(last) : 0.0,
+                    .values = {at(last, 1)}});
+  }
+  return rows;
+}
+
+void read_conditions(const Json& json, const std::string& file, SweepProblem& problem) {
+  const Json object = json.at("conditions");
+  const Keys keys(object, file + ", conditions",
+                  {"mach", "alpha_deg", "cl", "reynolds", "samples", "method", "seed"});
+  keys.require("mach");
+  if (keys.has("alpha_deg") == keys.has("cl")) keys.fail("expected one of 'alpha_deg' and 'cl'");
+  if (problem.model != FlowModel::euler) keys.require("reynolds");
+  if (problem.model == FlowModel::euler && keys.has("reynolds"))
+    keys.fail("found 'reynolds' without a model with friction, expected \"laminar\" or \"sa\" as 'model'");
+  for (const char* key : {"method", "seed"})
+    if (keys.has(key) && !keys.has("samples"))
+      keys.fail("found '" + std::string(key) + "' without 'samples', expected both or none");
+  problem.over_lift = keys.has("cl");
+  const char* value = problem.over_lift ? "cl" : "alpha_deg";
+  const ValueRange range = problem.over_lift ? ConditionRanges::cl : ConditionRanges::alpha_deg;
+  problem.rows = keys.has("samples") ? rows_of_samples(keys, object, problem, value, range)
+                                     : rows_of_grid(keys, object, problem, value, range);
+}
+
+void read_mesh(const Json& json, const std::string& file, SweepProblem& problem) {
+  const Json object = json.contains("mesh") ? json.at("mesh") : Json::object();
+  const Keys keys(object, file + ", mesh", {"points", "gradation", "farfield_radius"});
+  const bool has_friction = problem.model != FlowModel::euler;
+  problem.domain.points =
+      keys.whole<int>("points", has_friction ? usual_points_with_friction : 200, 8, 100000);
+  problem.gradation = keys.find<double>("gradation");
+  problem.domain.farfield_radius = keys.get<double>("farfield_radius", problem.domain.farfield_radius);
+}
+
+SweepOrder order_of(const Keys& keys) {
+  const std::string name = keys.get<std::string>("order", "nearest");
+  for (const SweepOrder order : {SweepOrder::nearest, SweepOrder::given, SweepOrder::random})
+    if (name == name_of(order)) return order;
+  keys.fail("found '" + name + "' as 'order', expected nearest, given or random");
+}
+
+FlowModel model_of(const Keys& keys) {
+  const std::string name = keys.get<std::string>("model", "euler");
+  for (const FlowModel model : {FlowModel::euler, FlowModel::laminar, FlowModel::sa})
+    if (name == name_of(model)) return model;
+  keys.fail("found '" + name + "' as 'model', expected euler, laminar or sa");
+}
+
+void read_sections(const Keys& keys, const std::string& file, SweepProblem& problem) {
+  keys.require("sections");
+  SectionReader reader(file, keys.whole<int>("degree", 8, 1, 30), problem);
+  for (const Json& entry : keys.list("sections", most_entries)) reader.read(entry);
+  if (problem.sections.empty()) keys.fail("found no sections, expected one at least");
+  if (std::ranges::none_of(problem.sections, [](const SweepSection& s) { return s.problem.empty(); }))
+    keys.fail("found no section that could be read; the first: " + problem.sections.front().problem);
+}
+
+}  // namespace
+
+SweepProblem read_sweep(const std::string& file) {
+  return parse_sweep(read_text(file, most_file_bytes), file);
+}
+
+SweepProblem parse_sweep(const std::string& text, const std::string& file) {
+  const Json json = parse_design_json(text, file);
+  const Keys keys(json, file,
+                  {"sections", "degree", "conditions", "model", "transition", "mesh", "surface_stations",
+                   "chain", "order", "seed", "tolerance", "max_steps"});
+  SweepProblem problem;
+  problem.model = model_of(keys);
+  if (keys.has("transition")) {
+    const auto places = keys.get<std::vector<double>>("transition");
+    if (places.size() != 2)
+      keys.fail("found " + std::to_string(places.size()) +
+                " numbers as 'transition', expected two: of upper and lower sides, 0 to 1");
+    problem.transition = {places[0], places[1]};
+  }
+  keys.require("conditions");
+  read_conditions(json, file, problem);
+  read_mesh(json, file, problem);
+  problem.stations = keys.whole<std::size_t>("surface_stations", 0, 0, 10000);
+  problem.chain = keys.whole<std::size_t>("chain", problem.chain, 1, most_sections);
+  problem.order = order_of(keys);
+  problem.seed = keys.whole<std::uint64_t>("seed", 1, 0, UINT64_MAX);
+  problem.tolerance = keys.get<double>("tolerance", problem.tolerance);
+  problem.max_steps = keys.whole<int>("max_steps", problem.max_steps, 1, 1000000);
+  read_sections(keys, file, problem);
+  validate(problem, file);
+  return problem;
+}
+
+void validate(const SweepProblem& problem, const std::string& source) {
+  const ProblemPlace place(source);
+  if (problem.sections.empty()) place.fail("found no sections, expected one at least");
+  if (problem.rows.empty()) place.fail("found no conditions, expected a row at least");
+  const bool has_friction = problem.model != FlowModel::euler;
+  for (const SweepRow& row : problem.rows) {
+    place.require_number(row.mach, "mach", {0.01, 3});
+    if (has_friction) place.require_number(row.reynolds, "reynolds", {1, 1e10});
+    if (problem.over_lift && row.mach >= 1.0)
+      place.fail("found Mach " + shown(row.mach) + " with lifts, expected less than 1, or angles");
+    if (row.values.empty() || !std::ranges::is_sorted(row.values, std::less_equal<>()))
+      place.fail(
+          "found no values of a row, or values that do not ascend, expected each above the one before");
+    for (const double value : row.values)
+      problem.over_lift ? place.require_number(value, "cl", {-10, 10})
+                        : place.require_number(value, "alpha_deg", {-90, 90});
+  }
+  if (problem.transition) {
+    if (problem.model != FlowModel::sa)
+      place.fail("found 'transition' without turbulence, expected \"sa\" as 'model'");
+    for (const double x : *problem.transition) place.require_number(x, "transition", {0, 1});
+  }
+  if (problem.domain.points < 8 || problem.domain.points % 2 != 0)
+    place.fail("found " + shown(problem.domain.points) + " as 'points', expected an even number, 8 or more");
+  if (has_friction && problem.domain.points < 150)
+    place.fail("found " + shown(problem.domain.points) + " as 'points', expected 150 or more with friction");
+  if (problem.gradation) place.require_number(*problem.gradation, "gradation", {1e-3, 1e6});
+  place.require_number(problem.domain.farfield_radius, "farfield_radius", {1.5, 1e6});
+  place.require_number(problem.tolerance, "tolerance", {1e-13, 1e-2});
+  if (problem.stations == 1) place.fail("found 1 as 'surface_stations', expected 0, or 2 or more");
+  if (problem.chain == 0) place.fail("found 0 as 'chain', expected 1 or more");
+}
+
+}  // namespace remodel
