@@ -18,13 +18,11 @@
 #include "help.h"
 #include "interrupt.h"
 #include "launched.h"
+#include "ranks.h"
 #include "remodel/error.h"
 #include "remodel/io.h"
 #include "remodel/version.h"
 #include "warnings.h"
-#ifdef REMODEL_STUDY
-#include "study/app/study_ranks.h"
-#endif
 
 namespace remodel::app {
 namespace {
@@ -164,10 +162,9 @@ int run(const Words& words) {
 int main(int argc, char** argv) {
   // A write beyond the limit on file sizes then fails as on a full disk, instead of ending the process.
   std::signal(SIGXFSZ, SIG_IGN);
-#ifdef REMODEL_STUDY
-  if (remodel::app::launched_ranks() > 1 && argc > 1 && std::string_view(argv[1]) == "study")
+  const std::string_view subcommand = argc > 1 ? argv[1] : "";
+  if (remodel::app::launched_ranks() > 1 && (subcommand == "study" || subcommand == "sweep"))
     remodel::app::go_on_with_mpi(argv);
-#endif
   remodel::app::end_at_interrupt();
   return remodel::app::run(remodel::app::words_of(argc, argv));
 }

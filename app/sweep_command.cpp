@@ -10,8 +10,10 @@
 #include "command.h"
 #include "figures.h"
 #include "interrupt.h"
+#include "launched.h"
 #include "outputs.h"
 #include "progress.h"
+#include "ranks.h"
 #include "remodel/error.h"
 #include "remodel/sweep.h"
 #include "terminal.h"
@@ -25,6 +27,7 @@ struct SweepCommand {
   std::string problem;
   std::filesystem::path directory;
   std::size_t threads = 0;  // 0: not given
+  RanksOptions ranks;
   bool resume = false, quiet = false, json = false;
 };
 
@@ -101,12 +104,11 @@ void add_result(Report& report, const SweepResult& result) {
   report.figure("stopped", "stopped", name_of(result.stopped));
 }
 
-Status run(const SweepCommand& command) {
-  require_possible(command);
+// Rank 0 of an MPI program, or the only process.
+Status run_sweep(const SweepCommand& command, Crew& crew) {
   const SweepProblem problem = read_sweep(command.problem);
   warn(problem.warnings);
   SweepProgressLine progress(progress_style(command.quiet));
-  ThreadCrew crew(command.threads != 0 ? command.threads : std::max(1U, std::thread::hardware_concurrency()));
   const SweepResult result = sweep(command.directory, problem,
                                    command.resume ? SweepMode::resume : SweepMode::begin, crew, &progress);
   progress.end_line();
@@ -121,6 +123,19 @@ Status run(const SweepCommand& command) {
   report.print(command.json);
   if (result.stopped != SweepStopped::done) return Status::limit;
   return result.not_found == 0 ? Status::done : Status::answer_is_no;
+}
+
+Status run(const SweepCommand& command) {
+  require_possible(command);
+  if (launched_ranks() == 1) {
+    ThreadCrew crew(command.threads != 0 ? command.threads
+                                         : std::max(1U, std::thread::hardware_concurrency()));
+    return run_sweep(command, crew);
+  }
+  const std::unique_ptr<Ranks> ranks = begin_ranks(command.ranks);
+  if (launched_rank() > 0) return ranks->serve(run_sweep_chain) ? Status::done : Status::limit;
+  const std::unique_ptr<Crew> crew = ranks->crew(std::max<std::size_t>(1, command.threads));
+  return run_sweep(command, *crew);
 }
 
 }  // namespace
@@ -139,9 +154,10 @@ void add_sweep_command(CLI::App& program, Action& action) {
            "Continue the sweep in the directory; sections and conditions that SWEEP has more of extend it",
            command->resume);
   add_integer(app,
-              {"--threads", "N", "one per core",
+              {"--threads", "N", "one per core; one per rank of an MPI program",
                "Chains of sections at the same time. The table does not depend on it; 1 to 1024"},
               {.low = 1, .high = 1024}, command->threads);
+  add_rank_option(app, command->ranks);
   add_flag(app, "--quiet", "No progress on standard error", command->quiet);
   add_json_flag(app, command->json);
 }

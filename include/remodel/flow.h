@@ -315,9 +315,15 @@ class KeptFlow {
 
  private:
   friend class LivingFlow;
+  friend KeptFlow changed(const KeptFlow& flow, const KeptFlow& from, const KeptFlow& to);
   struct Flow;
   std::shared_ptr<const Flow> flow_;
 };
+
+// The flow, changed as another one has from `from` to `to`: on to's mesh, with what `to` has beyond `from` at
+// each vertex. A start for a new shape at one condition, where the flows of both shapes at another condition
+// are known. Throws Error (argument) where one is empty, or of another model.
+KeptFlow changed(const KeptFlow& flow, const KeptFlow& from, const KeptFlow& to);
 
 // A solver that outlives its mesh. It keeps the last flow and the factors of a matrix, by the keys of
 // vertices, and uses both for the next flow, whatever was done to the mesh in between: older factors go on

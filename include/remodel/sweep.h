@@ -63,7 +63,7 @@ struct SweepProblem {
   // that is not given is points / 50, with friction that of the program's layered meshes.
   AirfoilDomainOptions domain = {};
   std::optional<double> gradation = {};
-  double tolerance = 1e-10;  // FlowOptions
+  double tolerance = 1e-8;  // FlowOptions: coefficients are off by less than that of tables
   int max_steps = 200;
   std::size_t chain = 20;  // sections of a chain, at most
   SweepOrder order = SweepOrder::nearest;

@@ -7,7 +7,8 @@
 #include <map>
 #include <utility>
 
-#include "aero/flow_rows.h"
+#include "aero/flow_march.h"
+#include "aero/polar_point.h"
 #include "base/stopwatch.h"
 #include "remodel/error.h"
 
@@ -38,32 +39,84 @@ void require_possible_polar(const PolarOptions& options) {
                 "found " + std::to_string(options.misses) + ", expected 1 or more");
 }
 
-// The rows of one mesh.
-PolarResult find_rows(const aero::FlowRows::Solve& solve, const std::string& name,
-                      const PolarOptions& options) {
-  const Stopwatch watch;
-  const bool over_lift = options.alphas_deg.empty();
-  const std::vector<double>& values = over_lift ? options.lifts : options.alphas_deg;
-  aero::FlowRows rows(options.flow, {.halvings = options.halvings, .misses = options.misses}, over_lift,
-                      false);
-  PolarResult result;
-  for (const double mach : options.machs) {
-    FlowConditions conditions = options.conditions;
-    conditions.mach = mach;
-    const auto before = [&](double value) {
-      if (options.on_search) options.on_search(mach, value);
-    };
-    const aero::March row = rows.march(conditions, values, solve, {.before = before, .found = {}});
-    PolarCurve& curve = result.curves.emplace_back();
-    curve.name = name, curve.model = options.flow.model, curve.mach = mach, curve.over_lift = over_lift;
-    if (curve.model != FlowModel::euler) curve.reynolds = options.conditions.reynolds;
-    for (const aero::MarchedFlow& flow : row.flows) curve.points.push_back(aero::point_of(flow, over_lift));
-    result.interrupted = row.interrupted;
-    if (row.interrupted) break;
-  }
-  result.seconds = watch.seconds();
-  return result;
+// The value that a row begins at.
+std::size_t nearest_to_zero(const std::vector<double>& values) {
+  const auto nearer = [](double a, double b) { return std::fabs(a) < std::fabs(b); };
+  return static_cast<std::size_t>(std::min_element(values.begin(), values.end(), nearer) - values.begin());
 }
+
+// The rows of one mesh.
+class PolarSearch {
+ public:
+  using Solve = std::function<FlowResult(LivingFlow&, const FlowConditions&)>;
+  PolarSearch(Solve solve, const std::string& name, const PolarOptions& options)
+      : solve_(std::move(solve)),
+        name_(name),
+        options_(options),
+        values_(options.alphas_deg.empty() ? options.lifts : options.alphas_deg),
+        living_(options.flow) {}
+
+  PolarResult run() {
+    const Stopwatch watch;
+    PolarResult result;
+    for (const double mach : options_.machs) {
+      const aero::March row = march_at(mach);
+      PolarCurve& curve = result.curves.emplace_back();
+      curve.name = name_, curve.model = options_.flow.model, curve.mach = mach;
+      curve.over_lift = over_lift();
+      if (curve.model != FlowModel::euler) curve.reynolds = options_.conditions.reynolds;
+      for (const aero::MarchedFlow& flow : row.flows)
+        curve.points.push_back(aero::point_of(flow, curve.over_lift));
+      result.interrupted = row.interrupted;
+      if (row.interrupted) break;
+    }
+    result.seconds = watch.seconds();
+    return result;
+  }
+
+ private:
+  bool over_lift() const { return options_.alphas_deg.empty(); }
+
+  aero::March march_at(double mach) {
+    living_.go_on_from(first_of_row_);  // of the Mach number before
+    first_of_row_ = {};
+    alpha_deg_ = 0.0;
+    return aero::march(values_, nearest_to_zero(values_),
+                       {.find = [&](double value) { return find(mach, value); },
+                        .return_to_first = [&] { living_.go_on_from(first_of_row_); }},
+                       {.halvings = options_.halvings, .misses = options_.misses});
+  }
+
+  // From nothing the angle for a lift may be one far beyond the largest lift, where the same lift is found
+  // again: so a row of lifts begins with the flow at an angle of 0.
+  FlowResult find(double mach, double value) {
+    if (options_.on_search) options_.on_search(mach, value);
+    FlowConditions conditions = options_.conditions;
+    conditions.mach = mach;
+    conditions.cl.reset();
+    conditions.alpha_deg = over_lift() ? alpha_deg_ : value;
+    if (over_lift()) {
+      if (living_.keep().empty())
+        if (FlowResult start = solve_(living_, conditions); !start.converged())
+          return aero::without_fields(std::move(start));
+      conditions.cl = value;
+    }
+    FlowResult flow = solve_(living_, conditions);
+    if (flow.converged()) {
+      alpha_deg_ = flow.alpha_deg;
+      if (first_of_row_.empty()) first_of_row_ = living_.keep();
+    }
+    return aero::without_fields(std::move(flow));
+  }
+
+  Solve solve_;
+  const std::string& name_;
+  const PolarOptions& options_;
+  const std::vector<double>& values_;
+  LivingFlow living_;
+  KeptFlow first_of_row_;
+  double alpha_deg_ = 0.0;  // where the search for a lift begins
+};
 
 }  // namespace
 
@@ -72,7 +125,7 @@ PolarResult find_polar(const Mesh& mesh, const std::string& name, const PolarOpt
   const auto solve = [&](LivingFlow& living, const FlowConditions& conditions) {
     return living.solve(mesh, conditions);
   };
-  return find_rows(solve, name, options);
+  return PolarSearch(solve, name, options).run();
 }
 
 PolarResult find_polar(const FrozenMesh& given, const std::string& name, const PolarOptions& options) {
@@ -83,7 +136,7 @@ PolarResult find_polar(const FrozenMesh& given, const std::string& name, const P
   const auto solve = [&](LivingFlow& living, const FlowConditions& conditions) {
     return living.solve(mesh, conditions);
   };
-  return find_rows(solve, name, options);
+  return PolarSearch(solve, name, options).run();
 }
 
 std::optional<LargestLift> largest_lift(const PolarCurve& curve) {

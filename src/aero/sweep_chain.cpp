@@ -1,13 +1,14 @@
 // One chain of a sweep: a living mesh that goes from section to section, and the flows around each.
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <numbers>
 #include <utility>
 
-#include "aero/flow_rows.h"
 #include "aero/layered_space.h"
+#include "aero/polar_point.h"
 #include "aero/resolved_problem.h"
 #include "aero/sweep_record.h"
 #include "base/stopwatch.h"
@@ -33,6 +34,15 @@ struct Unfinished {
   Stopped stopped;
 };
 
+// A state of the living mesh, as flows see it.
+struct SectionMesh {
+  Mesh plain;  // empty where there is a layer
+  FrozenMesh frozen;
+  FlowResult solve(LivingFlow& flow, const FlowConditions& conditions) const {
+    return plain.empty() ? flow.solve(frozen, conditions) : flow.solve(plain, conditions);
+  }
+};
+
 // The living mesh of a chain, with a layer where there is friction.
 class ChainMesh {
  public:
@@ -50,12 +60,10 @@ class ChainMesh {
       layered_.empty() ? make_layered(walls) : require_done(remodel(layered_, walls, step_options()));
     else
       plain_.empty() ? make_plain(walls) : require_done(remodel(plain_, walls, step_options()));
-    frozen_ = has_layer() ? layered_.freeze() : plain_.freeze();
   }
-  FlowResult solve(LivingFlow& flow, const FlowConditions& conditions) const {
-    return has_layer() ? flow.solve(frozen_, conditions) : flow.solve(plain_, conditions);
+  SectionMesh now() const {
+    return {.plain = plain_, .frozen = has_layer() ? layered_.freeze() : plain_.freeze()};
   }
-  const FrozenMesh& frozen() const { return frozen_; }
 
  private:
   bool has_layer() const { return problem_.model != FlowModel::euler; }
@@ -94,7 +102,6 @@ class ChainMesh {
   std::map<std::size_t, LayeredSpace::Stations> stations_;  // by the number of the section's curves
   Mesh plain_;
   LayeredMesh layered_;
-  FrozenMesh frozen_;
 };
 
 // Values on the section by the parameter of its curve, at the stations of both surfaces.
@@ -135,6 +142,48 @@ class SurfaceStations {
   std::size_t count_;
 };
 
+// A condition of the chain. They are in an order in which each is near an earlier one: a row begins at the
+// value nearest to 0, goes up from there, then down.
+struct Condition {
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  std::size_t row = 0;
+  double value = 0.0;
+  std::size_t before = none;  // the near one
+  bool in_row = false;        // that is of the same row
+};
+
+std::vector<Condition> conditions_of(const std::vector<SweepRow>& rows) {
+  std::vector<Condition> conditions;
+  std::size_t first_of_last_row = Condition::none;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const std::vector<double>& values = rows[r].values;
+    const auto nearer = [](double a, double b) { return std::fabs(a) < std::fabs(b); };
+    const auto start =
+        static_cast<std::size_t>(std::min_element(values.begin(), values.end(), nearer) - values.begin());
+    const std::size_t first = conditions.size();
+    conditions.push_back({.row = r, .value = values[start], .before = first_of_last_row});
+    for (std::size_t i = start + 1; i < values.size(); ++i)
+      conditions.push_back({.row = r, .value = values[i], .before = conditions.size() - 1, .in_row = true});
+    for (std::size_t i = start; i-- > 0;)
+      conditions.push_back({.row = r,
+                            .value = values[i],
+                            .before = i + 1 == start ? first : conditions.size() - 1,
+                            .in_row = true});
+    first_of_last_row = first;
+  }
+  return conditions;
+}
+
+// The meshes of all sections first, then one condition after the other, each through all sections, to and
+// fro:
+//
+//   sections     1    2    3    4
+//   condition 1  o -> o -> o -> o      each flow goes on from the one before, with the factors that there
+//   are,
+//                               |      changed as the flows of the condition before differ between the same
+//   condition 2  o <- o <- o <- o      two sections
+//
+// So factors of one flow serve the next ones: nothing differs but the section, by little.
 class Chain {
  public:
   Chain(const ChainWork& work, const std::function<bool()>& cancelled)
@@ -142,17 +191,38 @@ class Chain {
         problem_(work.problem),
         question_(cancelled),
         stations_(problem_.stations),
-        mesh_(problem_, question_),
-        rows_(flow_options(), {.halvings = 2, .misses = 2}, problem_.over_lift, true) {}
+        living_(flow_options()) {}
 
   // Nothing if it was cancelled.
   std::optional<ChainResult> run() {
-    for (std::size_t i = 0; i < problem_.sections.size(); ++i)
-      if (!add_section(problem_.sections[i], work_.sections[i])) return std::nullopt;
+    if (!make_meshes()) return std::nullopt;
+    const std::vector<Condition> conditions = conditions_of(problem_.rows);
+    found_.resize(conditions.size());
+    for (std::size_t c = 0; c < conditions.size(); ++c) {
+      found_[c].resize(places_.size());
+      std::optional<std::size_t> last;  // section of this condition that has a flow
+      for (std::size_t i = 0; i < places_.size(); ++i) {
+        const std::size_t k = c % 2 == 0 ? i : places_.size() - 1 - i;
+        if (!add(conditions, c, k, last)) return std::nullopt;
+        if (!found_[c][k].flow.empty()) last = k;
+      }
+      forget_before(conditions, c);
+    }
     return std::move(result_);
   }
 
  private:
+  // A section that has a mesh.
+  struct Place {
+    std::size_t section = 0;
+    SectionMesh mesh;
+  };
+  struct Found {
+    KeptFlow flow;
+    double alpha_deg = 0.0;
+    int misses = 0;  // in a row, up to this condition
+  };
+
   FlowOptions flow_options() {
     FlowOptions options;
     options.tolerance = problem_.tolerance;
@@ -162,12 +232,13 @@ class Chain {
     return options;
   }
 
-  bool add_section(const SweepSection& section, std::size_t number) {
-    std::string problem = section.problem;
-    if (problem.empty()) {
-      const Stopwatch watch;
+  bool make_meshes() {
+    const Stopwatch watch;
+    ChainMesh mesh(problem_, question_);
+    for (std::size_t i = 0; i < problem_.sections.size(); ++i) {
+      std::string problem = problem_.sections[i].problem;
       try {
-        mesh_.go_to(section.airfoil);
+        if (problem.empty()) mesh.go_to(problem_.sections[i].airfoil);
       } catch (const Error& error) {
         if (error.code() != ErrorCode::geometry) throw;
         problem = error.what();
@@ -175,61 +246,116 @@ class Chain {
         if (unfinished.stopped == Stopped::interrupted) return false;
         problem = std::string("the mesh was not finished: ") + name_of(unfinished.stopped);
       }
-      result_.mesh_seconds += watch.seconds();
+      if (problem.empty())
+        places_.push_back({work_.sections[i], mesh.now()});
+      else
+        refuse(work_.sections[i], problem);
     }
+    result_.mesh_seconds = watch.seconds();
+    return true;
+  }
+
+  void refuse(std::size_t section, const std::string& why) {
     for (const SweepRow& row : problem_.rows) {
-      if (!problem.empty())
-        refuse(row, number, problem);
-      else if (!add_row(row, number))
-        return false;
-    }
-    return true;
-  }
-
-  void refuse(const SweepRow& row, std::size_t section, const std::string& why) {
-    for (const double value : row.values) {
-      SweepFlow& flow = result_.flows.emplace_back(SweepFlow{
-          .section = section, .mach = row.mach, .reynolds = row.reynolds, .asked = value, .refused = true});
-      (problem_.over_lift ? flow.point.cl : flow.point.alpha_deg) = value;
-      flow.point.reason = why;
+      for (const double value : row.values) {
+        SweepFlow& flow = result_.flows.emplace_back(SweepFlow{
+            .section = section, .mach = row.mach, .reynolds = row.reynolds, .asked = value, .refused = true});
+        (problem_.over_lift ? flow.point.cl : flow.point.alpha_deg) = value;
+        flow.point.reason = why;
+      }
     }
   }
 
-  bool add_row(const SweepRow& row, std::size_t section) {
-    const FlowConditions conditions{
-        .mach = row.mach, .reynolds = row.reynolds, .transition = problem_.transition};
-    struct Surface {
-      std::vector<double> cp, cf;
-    };
-    std::map<double, Surface> surfaces;  // by the value
-    const auto solve = [&](LivingFlow& living, const FlowConditions& at) { return mesh_.solve(living, at); };
-    const auto see = [&](double value, const FlowResult& flow) {
-      surfaces[value] = {
-          stations_.at(mesh_.frozen(), pressure_coefficients(flow)),
-          flow.friction ? stations_.at(mesh_.frozen(), flow.friction->cf) : std::vector<double>()};
-    };
-    const aero::March march = rows_.march(conditions, row.values, solve, {.before = {}, .found = see});
-    if (march.interrupted) return false;
-    for (const aero::MarchedFlow& marched : march.flows) {
-      if (!marched.asked) continue;
-      Surface& surface = surfaces[marched.value];  // empty where there is no flow
-      result_.flows.push_back({.section = section,
-                               .mach = row.mach,
-                               .reynolds = row.reynolds,
-                               .asked = marched.value,
-                               .point = aero::point_of(marched, problem_.over_lift),
-                               .cp = std::move(surface.cp),
-                               .cf = std::move(surface.cf)});
+  // Beginnings of a search, the best first. One is empty: nothing that is known.
+  std::vector<Found> beginnings(const std::vector<Condition>& all, std::size_t c, std::size_t k,
+                                const std::optional<std::size_t>& last) const {
+    const std::size_t before = all[c].before;
+    const Found* same_section = before == Condition::none ? nullptr : &found_[before][k];
+    if (same_section != nullptr && same_section->flow.empty()) same_section = nullptr;
+    std::vector<Found> result;
+    if (last) {
+      Found from_last = found_[c][*last];
+      if (same_section != nullptr && !found_[before][*last].flow.empty()) {
+        const Found& other = found_[before][*last];
+        from_last.flow = changed(from_last.flow, other.flow, same_section->flow);
+        from_last.alpha_deg += same_section->alpha_deg - other.alpha_deg;
+      }
+      result.push_back(std::move(from_last));
     }
+    if (same_section != nullptr) result.push_back(*same_section);
+    if (result.empty()) result.push_back({});
+    return result;
+  }
+
+  bool add(const std::vector<Condition>& all, std::size_t c, std::size_t k,
+           const std::optional<std::size_t>& last) {
+    constexpr int most_misses = 2;
+    const Condition& condition = all[c];
+    const SweepRow& row = problem_.rows[condition.row];
+    const int misses = condition.in_row ? found_[condition.before][k].misses : 0;
+    aero::MarchedFlow marched{
+        .value = condition.value, .tried = misses < most_misses, .flow = {}, .reason = {}};
+    SweepFlow flow{
+        .section = places_[k].section, .mach = row.mach, .reynolds = row.reynolds, .asked = condition.value};
+    if (!marched.tried) {
+      marched.reason = "not looked for: no flow was found at two values before";
+    } else {
+      for (const Found& beginning : beginnings(all, c, k, last)) {
+        marched.flow = search(condition, k, beginning);
+        if (marched.flow.status == FlowStatus::interrupted) return false;
+        if (marched.flow.converged()) break;
+      }
+      marched.reason = marched.flow.reason;
+    }
+    Found& found = found_[c][k];
+    found.misses = misses + 1;
+    if (marched.tried && marched.flow.converged()) {
+      found = {.flow = living_.keep(), .alpha_deg = marched.flow.alpha_deg};
+      const FrozenMesh& mesh = places_[k].mesh.frozen;
+      flow.cp = stations_.at(mesh, pressure_coefficients(marched.flow));
+      if (marched.flow.friction) flow.cf = stations_.at(mesh, marched.flow.friction->cf);
+    }
+    flow.point = aero::point_of(marched, problem_.over_lift);
+    result_.flows.push_back(std::move(flow));
     return true;
+  }
+
+  FlowResult search(const Condition& condition, std::size_t k, const Found& beginning) {
+    const SweepRow& row = problem_.rows[condition.row];
+    FlowConditions at{.mach = row.mach,
+                      .alpha_deg = problem_.over_lift ? beginning.alpha_deg : condition.value,
+                      .reynolds = row.reynolds,
+                      .transition = problem_.transition};
+    if (beginning.flow.empty())
+      living_.forget();
+    else
+      living_.go_on_from(beginning.flow);
+    if (problem_.over_lift) {
+      // From nothing the angle for a lift may be one far beyond the largest lift.
+      if (beginning.flow.empty())
+        if (FlowResult start = places_[k].mesh.solve(living_, at); !start.converged()) return start;
+      at.cl = condition.value;
+    }
+    return places_[k].mesh.solve(living_, at);
+  }
+
+  // Flows that no later condition begins with.
+  void forget_before(const std::vector<Condition>& all, std::size_t c) {
+    std::vector<bool> needed(c + 1, false);
+    for (std::size_t later = c + 1; later < all.size(); ++later)
+      if (all[later].before <= c) needed[all[later].before] = true;
+    for (std::size_t i = 0; i <= c; ++i)
+      if (!needed[i])
+        for (Found& found : found_[i]) found.flow = {};
   }
 
   const ChainWork& work_;
   const SweepProblem& problem_;
   Question question_;
   SurfaceStations stations_;
-  ChainMesh mesh_;
-  aero::FlowRows rows_;
+  LivingFlow living_;
+  std::vector<Place> places_;
+  std::vector<std::vector<Found>> found_;  // by condition and place
   ChainResult result_;
 };
 

@@ -29,6 +29,7 @@ SweepProblem small_sweep() {
   problem.rows = {{.mach = 0.4, .values = {-1, 0, 2}}, {.mach = 0.5, .values = {1}}};
   problem.domain = {.points = 40, .farfield_radius = 10.0};
   problem.gradation = 1.0;
+  problem.tolerance = 1e-10;
   problem.chain = 2;
   problem.stations = 9;
   return problem;

@@ -9,11 +9,11 @@
 #include "figures.h"
 #include "launched.h"
 #include "outputs.h"
+#include "ranks.h"
 #include "remodel/error.h"
 #include "remodel/shape_files.h"
 #include "study/study.h"
 #include "study_progress.h"
-#include "study_ranks.h"
 #include "study_report_command.h"
 
 namespace remodel::app {
@@ -199,9 +199,7 @@ void add_work_options(CLI::App& app, StudyCommand& command) {
       {.low = 1, .high = 1024}, command.threads);
   add_real(app, {"--time-limit", "SECONDS", "none", "Ends the study in order after this time: above 0"},
            {.low = 0.0, .high = 1e9, .above_low = true}, command.time_limit);
-  add_real(app,
-           {"--rank-timeout", "SECONDS", "60", "Silence after which an MPI rank counts as lost: 1 to 86400"},
-           {.low = 1.0, .high = 86400.0}, command.ranks.timeout);
+  add_rank_option(app, command.ranks);
 }
 
 }  // namespace

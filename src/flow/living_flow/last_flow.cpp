@@ -1,5 +1,8 @@
 #include "flow/living_flow/last_flow.h"
 
+#include <algorithm>
+
+#include "flow/physics/state.h"
 #include "flow/solution.h"
 #include "remodel/error.h"
 
@@ -50,6 +53,23 @@ BlockState<N> LastFlow<N>::carried(const FlowMesh& now, const Keys& now_keys,
   const BlockVector<N> values = interpolated<N>(*mesh, state.q, places);
   for (std::size_t i = 0; i < fresh.size(); ++i) carried.q[fresh[i]] = values[i];
   return carried;
+}
+
+template <std::size_t N>
+LastFlow<N> LastFlow<N>::changed(const LastFlow& from, const LastFlow& to) const {
+  LastFlow result{
+      .mesh = to.mesh, .keys = to.keys, .state = carried(*to.mesh, to.keys, stream), .stream = stream};
+  const BlockState<N> before = from.carried(*to.mesh, to.keys, to.stream);
+  for (std::size_t v = 0; v < result.state.q.size(); ++v) {
+    auto q = result.state.q[v];
+    for (std::size_t k = 0; k < N; ++k) q[k] += to.state.q[v][k] - before.q[v][k];
+    if (std::all_of(positive_unknowns.begin(), positive_unknowns.end(),
+                    [&](std::size_t k) { return q[k] > 0.0; }))
+      result.state.q[v] = q;
+  }
+  for (std::size_t z = 0; z < augmented_count; ++z)
+    result.state.augmented[z] += to.state.augmented[z] - before.augmented[z];
+  return result;
 }
 
 template struct LastFlow<4>;

@@ -48,6 +48,9 @@ struct LastFlow {
   // The state on another mesh: values at vertices that are there still are kept, those at new ones
   // interpolated.
   BlockState<N> carried(const FlowMesh& now, const Keys& now_keys, const Stream& now_stream) const;
+  // This flow on to's mesh, changed by what `to` has beyond `from` at each vertex; unchanged where that would
+  // leave no density or pressure.
+  LastFlow changed(const LastFlow& from, const LastFlow& to) const;
 };
 
 }  // namespace remodel::flow

@@ -43,6 +43,21 @@ struct KeptFlow::Flow {
   flow::AnyLastFlow last;
 };
 
+KeptFlow changed(const KeptFlow& flow, const KeptFlow& from, const KeptFlow& to) {
+  if (flow.empty() || from.empty() || to.empty())
+    throw Error(ErrorCode::argument, "kept flow", "found an empty one, expected three flows");
+  if (flow.flow_->model != from.flow_->model || flow.flow_->model != to.flow_->model)
+    throw Error(ErrorCode::argument, "kept flow", "found flows of several models, expected one");
+  const auto change = [&](const auto& last) -> flow::AnyLastFlow {
+    using Last = std::decay_t<decltype(last)>;
+    return last.changed(std::get<Last>(from.flow_->last), std::get<Last>(to.flow_->last));
+  };
+  KeptFlow result;
+  result.flow_ = std::make_shared<const KeptFlow::Flow>(
+      KeptFlow::Flow{flow.flow_->model, std::visit(change, flow.flow_->last)});
+  return result;
+}
+
 struct LivingFlow::Impl {
   std::unique_ptr<flow::LivingSolver> solver;
 };

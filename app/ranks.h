@@ -1,12 +1,16 @@
 #pragma once
 
-// Distributes a study's jobs over the ranks of an MPI program. Rank 0 owns the study and hands out jobs; the
-// other ranks ask for jobs and send rows back. A rank that is silent for too long counts as lost and its job
-// is given to another. Should it answer after all, rows that are already stored are not replaced.
+// Distributes jobs over the ranks of an MPI program. Rank 0 owns them and hands them out; the other ranks ask
+// for jobs and send results back. A rank that is silent for too long counts as lost and its job
+// is given to another. Should it answer after all, results that are already stored are not replaced.
 
 #include <memory>
 
-#include "study/study.h"
+#include "remodel/crew.h"
+
+namespace CLI {
+class App;
+}
 
 namespace remodel::app {
 
@@ -26,6 +30,9 @@ class Ranks {
 // Replaces the process by remodel-mpi, the same program built with MPI, which is installed beside remodel.
 // Returns if there is no such program. In remodel-mpi itself it does nothing.
 void go_on_with_mpi(char** argv);
+
+// --rank-timeout
+void add_rank_option(CLI::App& app, RanksOptions& options);
 
 // Initialises MPI. Throws Error (argument) in the program without MPI.
 std::unique_ptr<Ranks> begin_ranks(const RanksOptions& options);

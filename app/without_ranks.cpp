@@ -1,12 +1,12 @@
-// The part of study_ranks.h in the program without MPI: it becomes remodel-mpi.
+// The part of ranks.h in the program without MPI: it becomes remodel-mpi.
 
 #include <unistd.h>
 
 #include <filesystem>
 
 #include "launched.h"
+#include "ranks.h"
 #include "remodel/error.h"
-#include "study_ranks.h"
 
 namespace remodel::app {
 
@@ -19,7 +19,7 @@ void go_on_with_mpi(char** argv) {
 
 std::unique_ptr<Ranks> begin_ranks(const RanksOptions&) {
   throw Error(
-      ErrorCode::argument, "study",
+      ErrorCode::argument, "mpirun",
       "found " + std::to_string(launched_ranks()) +
           " MPI ranks, expected one: this program was built without MPI, and no remodel-mpi is beside it");
 }

@@ -1,4 +1,4 @@
-// The ranks of an MPI program as a study's crew. All sends and receives are non-blocking, so that a rank that
+// The ranks of an MPI program as a crew. All sends and receives are non-blocking, so that a rank that
 // dies in the middle of a message blocks no other.
 //
 //   worker -> rank 0   ask     nothing                  a request for a job
@@ -12,7 +12,7 @@
 //                      leave   1 if a rank was lost     the answer to bye
 
 #define OMPI_SKIP_MPICXX 1
-#include "study_ranks.h"
+#include "ranks.h"
 
 #include <mpi.h>
 
@@ -32,6 +32,7 @@
 #include <vector>
 
 #include "interrupt.h"
+#include "launched.h"
 #include "timing.h"
 
 namespace remodel::app {
@@ -129,7 +130,7 @@ struct Peer {
   double heard_at = 0.0;
 };
 
-// Forwards to a study's jobs until it is stopped; then there are no more.
+// Forwards to a crew's jobs until it is stopped; then there are no more.
 class StoppableJobs : public CrewJobs {
  public:
   explicit StoppableJobs(CrewJobs& jobs) : jobs_(jobs) {}
@@ -173,6 +174,10 @@ class MpiRanks : public Ranks {
     MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
+    // The sequential MUMPS brings functions of the same names, which know one rank: app/CMakeLists.txt links
+    // it behind.
+    if (rank_ != launched_rank() || size_ != launched_ranks())
+      throw std::logic_error("MPI's own functions are not those that this program has found");
   }
   ~MpiRanks() override;
 
