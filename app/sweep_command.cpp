@@ -27,14 +27,18 @@ struct SweepCommand {
   std::string problem;
   std::filesystem::path directory;
   std::size_t threads = 0;  // 0: not given
+  double time_limit = 0.0;
   RanksOptions ranks;
   bool resume = false, quiet = false, json = false;
 };
 
 class SweepProgressLine final : public SweepObserver {
  public:
-  explicit SweepProgressLine(ProgressStyle style) : style_(style) {}
-  bool cancelled() override { return interrupt_.raised(); }
+  // time_limit: seconds; 0: none
+  SweepProgressLine(ProgressStyle style, double time_limit) : style_(style), time_limit_(time_limit) {}
+  bool cancelled() override {
+    return interrupt_.raised() || (time_limit_ > 0.0 && watch_.seconds() > time_limit_);
+  }
 
   void finished(const SweepProgress& progress) override {
     if (style_ == ProgressStyle::none) return;
@@ -64,6 +68,7 @@ class SweepProgressLine final : public SweepObserver {
 
  private:
   ProgressStyle style_;
+  double time_limit_;
   InterruptFlag interrupt_;
   Stopwatch watch_;
   double shown_at_ = 0.0;  // seconds
@@ -108,7 +113,7 @@ void add_result(Report& report, const SweepResult& result) {
 Status run_sweep(const SweepCommand& command, Crew& crew) {
   const SweepProblem problem = read_sweep(command.problem);
   warn(problem.warnings);
-  SweepProgressLine progress(progress_style(command.quiet));
+  SweepProgressLine progress(progress_style(command.quiet), command.time_limit);
   const SweepResult result = sweep(command.directory, problem,
                                    command.resume ? SweepMode::resume : SweepMode::begin, crew, &progress);
   progress.end_line();
@@ -138,6 +143,35 @@ Status run(const SweepCommand& command) {
   return run_sweep(command, *crew);
 }
 
+struct SweepReportCommand {
+  std::filesystem::path sweep;
+  std::string output;
+  bool json = false;
+};
+
+Status run(const SweepReportCommand& command) {
+  const std::string page = command.output.empty() ? (command.sweep / "report.html").string() : command.output;
+  require_writable_as(page, {".html"});
+  const Json figures = Json::parse(write_sweep_page(command.sweep, page));
+  Report report;
+  report.figure("sweep", "sweep", command.sweep.string());
+  for (const auto& [key, value] : figures.items()) report.figure(key, key, value);
+  add_output_figures(report, {page});
+  report.print(command.json);
+  return Status::done;
+}
+
+void add_sweep_report_command(CLI::App& sweep, Action& action) {
+  auto command = std::make_shared<SweepReportCommand>();
+  CLI::App& app =
+      add_command(sweep, "report", "Reports a sweep on one page, with everything in it", command, action);
+  add_text(app, {"DIR", "", "", "Directory of `remodel sweep`, finished or not"}, Presence::required,
+           command->sweep);
+  add_text(app, {"-o,--output", "FILE", "DIR/report.html", "Page to write: .html"}, Presence::optional,
+           command->output);
+  add_json_flag(app, command->json);
+}
+
 }  // namespace
 
 void add_sweep_command(CLI::App& program, Action& action) {
@@ -157,9 +191,12 @@ void add_sweep_command(CLI::App& program, Action& action) {
               {"--threads", "N", "one per core; one per rank of an MPI program",
                "Chains of sections at the same time. The table does not depend on it; 1 to 1024"},
               {.low = 1, .high = 1024}, command->threads);
+  add_real(app, {"--time-limit", "SECONDS", "none", "Ends the sweep in order after this time: above 0"},
+           {.low = 0.0, .high = 1e9, .above_low = true}, command->time_limit);
   add_rank_option(app, command->ranks);
   add_flag(app, "--quiet", "No progress on standard error", command->quiet);
   add_json_flag(app, command->json);
+  add_sweep_report_command(app, action);
 }
 
 }  // namespace remodel::app

@@ -149,4 +149,9 @@ std::optional<std::string> run_sweep_chain(const std::string& work, const std::f
 SweepProblem read_sweep_problem(const std::filesystem::path& directory);
 std::vector<SweepFlow> read_sweep_flows(const std::filesystem::path& directory);
 
+// Writes a sweep's page (.html), finished or not, with everything in it: polars, means over sections,
+// extremes, what was not found and why, what it cost. Returns its figures, a JSON object. Throws Error (file,
+// format).
+std::string write_sweep_page(const std::filesystem::path& directory, const std::filesystem::path& page);
+
 }  // namespace remodel

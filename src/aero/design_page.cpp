@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "aero/base64_text.h"
 #include "aero/design_mesh.h"
+#include "aero/page_parts.h"
 #include "remodel/draw.h"
 #include "remodel/error.h"
 #include "remodel/flow_plots.h"
@@ -25,51 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using PageJson = nlohmann::ordered_json;
-
-std::string number(double value, const char* format = "%.4g") {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text)
-    result += c == '<'    ? "&lt;"
-              : c == '>'  ? "&gt;"
-              : c == '&'  ? "&amp;"
-              : c == '"'  ? "&quot;"
-              : c == '\'' ? "&#39;"
-                          : std::string(1, c);
-  return result;
-}
-
-// A directory that is gone with everything in it when this is.
-class Scratch {
- public:
-  Scratch() {
-    std::string name = (fs::temp_directory_path() / "remodel-report-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr)
-      throw Error(ErrorCode::file, name, "cannot make a temporary directory");
-    path_ = name;
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  // What `write` makes of a file of this extension, as the source of an image.
-  std::string picture(const char* extension, const std::function<void(const fs::path&)>& write) const {
-    const fs::path file = path_ / (std::string("picture") + extension);
-    write(file);
-    const std::string kind = extension == std::string(".svg") ? "svg+xml" : "png";
-    return "<img alt=\"\" src=\"data:image/" + kind + ";base64," + base64_text(read_text(file)) + "\">\n";
-  }
-
- private:
-  fs::path path_;
-};
 
 // One design: its mesh and the flows through it, whole.
 struct Shown {
@@ -268,10 +223,6 @@ PageJson cost_of(const DesignRun& run, const Shown& first, const Shown& last) {
           {"constraints", std::move(violations)}};
 }
 
-std::string row(const std::string& name, const std::string& value) {
-  return "<tr><th>" + name + "</th><td>" + value + "</td></tr>\n";
-}
-
 std::string cost_table(const PageJson& cost) {
   const auto at = [&](const char* key, const char* format = "%.4g") {
     return number(cost.at(key).get<double>(), format);
@@ -291,12 +242,6 @@ std::string cost_table(const PageJson& cost) {
          row("largest shift of the objective by a change of connectivity, same design",
              cost.at("largest_shift").is_null() ? "not measured" : at("largest_shift", "%.2g")) +
          "</table>\n";
-}
-
-std::string cells(const std::vector<std::string>& texts) {
-  std::string result;
-  for (const std::string& text : texts) result += "<td>" + text + "</td>";
-  return result;
 }
 
 std::string counts(double cd) {
@@ -368,18 +313,6 @@ std::string fresh_table(const fs::path& directory, const DesignRun& run) {
   return table + "</table>\n";
 }
 
-constexpr const char* style =
-    ":root{color-scheme:light}body{margin:0 auto;max-width:1100px;padding:20px;font:15px/1.5 "
-    "system-ui,'DejaVu "
-    "Sans',sans-serif;color:#1d2329;background:#fcfcfa}h1{font-size:26px}h2{font-size:19px;margin-top:36px;"
-    "border-top:1px solid #d9dcdf;padding-top:12px}table{border-collapse:collapse;font-variant-numeric:"
-    "tabular-nums}th,td{padding:3px 10px;border-bottom:1px solid #d9dcdf;text-align:right}th{text-align:left;"
-    "font-weight:500;color:#4b545c}img{max-width:100%;display:block;margin:10px 0}.pair{display:grid;"
-    "grid-template-columns:1fr 1fr;gap:10px}.outlines{width:100%}.outlines polygon{fill:none;stroke-width:3}"
-    ".first{stroke:#1f5aa6;color:#1f5aa6}.last{stroke:#cc4026;color:#cc4026}.note{color:#667079}"
-    "pre{overflow-x:auto;background:#f0f1f0;padding:10px;font-size:12px}@media(max-width:700px){.pair{"
-    "grid-template-columns:1fr}}";
-
 // What the search has come to, in words.
 std::string outcome(const DesignRun& run, const PageJson& cost) {
   const std::string objective = escaped(run.objective);
@@ -407,10 +340,7 @@ const char* name_of_best(const DesignRun& run) {
 std::string page_of(const fs::path& directory, const DesignRun& run, const Shown& first, const Shown& last,
                     const PageJson& cost) {
   const Scratch scratch;
-  std::string page =
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-      "content=\"width=device-width\"><title>Remodel: a design</title><style>" +
-      std::string(style) + "</style></head><body>\n<h1>A design on one mesh</h1>\n";
+  std::string page = page_head("Remodel: a design") + "<h1>A design on one mesh</h1>\n";
   page += "<p>" + outcome(run, cost) + "; " + std::to_string(run.rows.size()) +
           (run.rows.size() == 1 ? " design" : " designs") + " on a mesh of " + cells_of(first.mesh) +
           (run.space->half() ? ", computed in the upper half and mirrored" : "") + ".</p>\n";

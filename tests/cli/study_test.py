@@ -8,11 +8,11 @@ import signal
 import sqlite3
 import subprocess
 import time
-from pathlib import Path
 
 import harness
 from bad_input_test import limit_file_size
 from crash_test import DiskTest
+from ranks import UnderMpirun
 
 KEYS = (
     "options jobs done before cells scenarios replays evaluations invalid_meshes recoveries stopped_replays "
@@ -166,29 +166,10 @@ class Studies(StudyTest):
         self.assertEqual([path.name for path in self.path("s").iterdir()], ["study.sqlite"])
 
 
-class RankTest(StudyTest):
-    launcher = ()
-    mpirun_options = ("--oversubscribe",)
-
+class RankTest(UnderMpirun, StudyTest):
     def setUp(self):
         super().setUp()
-        if shutil.which("mpirun") is None:
-            self.skipTest("needs mpirun (openmpi-bin)")
-        outcome = self.run_program(
-            *self.study("probe", *SMALL, "--time-limit", 0.001), env={**os.environ, "OMPI_COMM_WORLD_SIZE": "2"}
-        )
-        if "built without MPI" in outcome.stderr:
-            self.skipTest("the program was built without MPI")
-
-    def start_ranks(self, ranks, options, *arguments):
-        # Without these two variables mpirun refuses to run as root.
-        root = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-        return subprocess.Popen(
-            [*self.launcher, "mpirun", *self.mpirun_options, *options, "-n", str(ranks), harness.PROGRAM,
-             *map(str, arguments)],
-            cwd=self.directory, env={**os.environ, **root}, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-        )  # fmt: skip
+        self.require_ranks(*self.study("probe", *SMALL, "--time-limit", 0.001))
 
     def mpirun(self, ranks, options, directory, *more):
         process = self.start_ranks(ranks, options, *self.study(directory, *more))
@@ -196,19 +177,6 @@ class RankTest(StudyTest):
 
 
 class Ranks(RankTest):
-    def kill_rank(self, process, rank):
-        """Sends SIGKILL to the given rank of this mpirun, which its environment identifies."""
-        for entry in Path("/proc").iterdir():
-            try:
-                if not entry.name.isdigit() or f"PPid:\t{process.pid}\n" not in (entry / "status").read_text():
-                    continue
-                if f"OMPI_COMM_WORLD_RANK={rank}".encode() in (entry / "environ").read_bytes().split(b"\0"):
-                    os.kill(int(entry.name), signal.SIGKILL)
-                    return
-            except OSError:
-                continue
-        self.fail(f"no rank {rank} of {process.pid}")
-
     def test_any_number_of_ranks(self):
         self.succeed(*self.study("whole", *SMALL))
         for ranks in (1, 2, 4):

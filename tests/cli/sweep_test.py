@@ -11,6 +11,7 @@ import unittest
 
 import harness
 from harness import ProgramTest
+from ranks import UnderMpirun
 
 SMALL = {"points": 40, "farfield_radius": 10, "gradation": 1}
 SWEEP = {"sections": [{"samples": 8, "around": "naca:0012", "range": 0.01}],
@@ -120,6 +121,37 @@ class Sweeps(SweepTest):
                          [("sections/good.json", "converged"), ("sections/poem.dat", "refused")])
         self.assertIn("poem.dat", rows[1]["reason"])
         self.assertEqual(rows[1]["cl"], "")
+
+
+class Ranks(UnderMpirun, SweepTest):
+    def setUp(self):
+        super().setUp()
+        self.require_ranks("sweep", self.sweep_file(sections=["naca:0012"]), "-o", "probe")
+        self.sweep_file(sections=[{"samples": 40, "around": "naca:0012", "range": 0.01}])
+        self.succeed("sweep", "s.json", "-o", "whole")
+
+    def test_any_number_of_ranks_makes_one_table(self):
+        for ranks in (1, 2, 4):
+            process = self.start_ranks(ranks, (), "sweep", "s.json", "-o", ranks)
+            message = process.communicate(timeout=120)[1]
+            self.assertEqual(process.returncode, 0, message)
+            self.assertEqual(self.tables(ranks), self.tables("whole"), f"{ranks} ranks")
+
+    def test_work_of_a_killed_rank_is_done_again(self):
+        process = self.start_ranks(3, ("--enable-recovery",), "sweep", "s.json", "-o", "d", "--rank-timeout", 3)
+        deadline = time.monotonic() + 60
+        while not list(self.path(".").glob("d/chains/*.cbor")) and time.monotonic() < deadline:
+            time.sleep(0.005)
+        self.kill_rank(process, 2)
+        message = process.communicate(timeout=120)[1]
+        self.assertEqual(process.returncode, 0, message)
+        self.assertEqual(self.tables("d"), self.tables("whole"))
+
+    def test_what_is_wrong_is_said_once(self):
+        process = self.start_ranks(3, (), "sweep", "none.json", "-o", "d")
+        message = process.communicate(timeout=120)[1]
+        self.assertEqual(process.returncode, 2, message)
+        self.assertEqual(message.count(b"remodel: error:"), 1, message)
 
 
 class Refusals(SweepTest):
