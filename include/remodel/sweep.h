@@ -24,6 +24,7 @@
 #include "remodel/crew.h"
 #include "remodel/domain.h"
 #include "remodel/flow.h"
+#include "remodel/layers.h"
 #include "remodel/polar.h"
 
 namespace remodel {
@@ -59,10 +60,13 @@ struct SweepProblem {
   bool over_lift = false;      // SweepRow::values are lift coefficients
   FlowModel model = FlowModel::euler;
   std::optional<std::array<double, 2>> transition = {};  // FlowConditions::transition
-  // Of meshes. With friction the layer sets the stations of walls, and `points` has no effect; a gradation
-  // that is not given is points / 50, with friction that of the program's layered meshes.
+  // Of meshes. With friction `points` is about how many stations a section has, 150 or more. A gradation that
+  // is not given is points / 50.
   AirfoilDomainOptions domain = {};
   std::optional<double> gradation = {};
+  // With friction; none: of what layer_for_flow() has for the Reynolds numbers, the least first height and
+  // the largest thickness.
+  std::optional<LayerOptions> layer = {};
   double tolerance = 1e-8;  // FlowOptions: coefficients are off by less than that of tables
   int max_steps = 200;
   std::size_t chain = 20;  // sections of a chain, at most

@@ -47,16 +47,6 @@ DesignPoint point_of(const Json& entry, const std::string& where) {
   return point;
 }
 
-// Heights and thickness as layer_for_flow() has them for the points, unless they are given.
-LayerOptions layer_of(const Json& object, const std::string& file, const LayerOptions& usual) {
-  const Keys keys(object, file + ", mesh, layers", {"first_height", "growth", "thickness"});
-  LayerOptions layer = usual;
-  layer.first_height = keys.get<double>("first_height", usual.first_height);
-  layer.growth = keys.get<double>("growth", usual.growth);
-  layer.thickness = keys.get<double>("thickness", usual.thickness);
-  return layer;
-}
-
 void read_mesh_options(const Json& json, const std::string& file, DesignProblem& problem) {
   const Json object = object_of(json, "mesh");
   const Keys mesh(object, file + ", mesh", {"points", "gradation", "farfield_radius", "layers"});
@@ -70,7 +60,7 @@ void read_mesh_options(const Json& json, const std::string& file, DesignProblem&
   if (!mesh.has("layers")) return;
   if (!has_friction)
     mesh.fail("found 'layers' without friction, expected 'model' and 'reynolds' at all points");
-  problem.layer = layer_of(object.at("layers"), file, layer_for_points(problem.points));
+  problem.layer = layer_given(object.at("layers"), file + ", mesh, layers", layer_for_points(problem.points));
 }
 
 // Of the section that a constraint is of: what it contains is given with as many coefficients.

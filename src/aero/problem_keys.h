@@ -17,6 +17,7 @@
 #include "remodel/design_space.h"
 #include "remodel/error.h"
 #include "remodel/io.h"
+#include "remodel/layers.h"
 #include "remodel/shape_files.h"
 
 namespace remodel {
@@ -127,6 +128,16 @@ inline CstAirfoil section_named(const Keys& keys, const char* key, int degree,
   } catch (const Error& error) {
     keys.fail("as '" + std::string(key) + "', " + error.what());
   }
+}
+
+// A layer of cells by its keys, what is not given as usual.
+inline LayerOptions layer_given(const Json& object, const std::string& where, const LayerOptions& usual) {
+  const Keys keys(object, where, {"first_height", "growth", "thickness"});
+  LayerOptions layer = usual;
+  layer.first_height = keys.get<double>("first_height", usual.first_height);
+  layer.growth = keys.get<double>("growth", usual.growth);
+  layer.thickness = keys.get<double>("thickness", usual.thickness);
+  return layer;
 }
 
 }  // namespace remodel

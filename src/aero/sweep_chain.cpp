@@ -75,19 +75,13 @@ class ChainMesh {
     if (stations.empty()) stations = LayeredSpace::stations_of(walls, problem_.domain.points);
     walls = LayeredSpace::with_stations(std::move(walls), stations);
   }
-  LayerOptions layer() const {
-    std::vector<DesignPoint> points;
-    for (const SweepRow& row : problem_.rows)
-      points.push_back({.conditions = {.mach = row.mach, .reynolds = row.reynolds}, .model = problem_.model});
-    return layer_for_points(points);
-  }
   void make_plain(const Domain& walls) {
     GenerateResult result = generate(walls, quality_, &observer_);
     require_done(result);
     plain_ = std::move(result.mesh);
   }
   void make_layered(const Domain& walls) {
-    LayeredGenerateResult result = generate_layered(walls, layer(), quality_, &observer_);
+    LayeredGenerateResult result = generate_layered(walls, sweep_layer(problem_), quality_, &observer_);
     require_done(result);
     layered_ = std::move(result.mesh);
   }

@@ -71,6 +71,8 @@ void SweepDirectory::require_new(const fs::path& directory) {
 
 SweepDirectory::SweepDirectory(fs::path directory, SweepProblem problem)
     : directory_(std::move(directory)), problem_(std::move(problem)) {
+  // Further Reynolds numbers do not change it.
+  if (problem_.model != FlowModel::euler) problem_.layer = sweep_layer(problem_);
   plans_ = plans_of_missing(problem_, {});
   fs::create_directory(directory_ / chains_name);
   save();

@@ -5,8 +5,11 @@
 
 #include "aero/problem_keys.h"
 #include "aero/problem_place.h"
+#include "aero/resolved_problem.h"
+#include "aero/sweep_record.h"
 #include "aero/unit_samples.h"
 #include "remodel/design_problem.h"
+#include "remodel/design_run.h"
 #include "remodel/polar.h"
 #include "remodel/sweep.h"
 
@@ -40,6 +43,8 @@ class SectionReader {
                   "found " + std::string(entry.type_name()) + ", expected a name, or an object");
     if (entry.contains("directory"))
       add_directory(Keys(entry, where, {"directory"}));
+    else if (entry.contains("designs"))
+      add_designs(Keys(entry, where, {"designs"}));
     else
       add_samples(Keys(entry, where, {"samples", "around", "range", "method", "seed"}));
   }
@@ -79,6 +84,21 @@ class SectionReader {
       keys.fail("found no .dat, .txt or .json in '" + directory.string() + "', expected files of sections");
     std::sort(names.begin(), names.end());
     for (const std::string& name : names) add_named(name, file_ + ", section " + std::to_string(number_));
+  }
+  void add_designs(const Keys& keys) {
+    const std::string name = keys.get<std::string>("designs");
+    const fs::path directory = directory_ / name;
+    if (!fs::exists(directory / "history.sqlite") || !holds_design_run(directory))
+      keys.fail("found no run of `remodel design` in '" + directory.string() + "'");
+    const DesignRun run = read_design_run(directory);
+    if (run.space->sections() != 1)
+      keys.fail("found a run of " + std::to_string(run.space->sections()) + " sections, expected one");
+    for (const EvaluationRecord& row : run.rows) {
+      SweepSection section{.name = name + "#" + std::to_string(row.evaluation),
+                           .airfoil = run.space->section(row.coefficients, 0)};
+      const auto is_same = [&](const SweepSection& other) { return other.airfoil == section.airfoil; };
+      if (std::ranges::none_of(problem_.sections, is_same)) add(std::move(section));
+    }
   }
   void add_samples(const Keys& keys) {
     const auto count = keys.whole<std::size_t>("samples", {}, 1, most_sections);
@@ -217,12 +237,15 @@ void read_conditions(const Json& json, const std::string& file, SweepProblem& pr
 
 void read_mesh(const Json& json, const std::string& file, SweepProblem& problem) {
   const Json object = json.contains("mesh") ? json.at("mesh") : Json::object();
-  const Keys keys(object, file + ", mesh", {"points", "gradation", "farfield_radius"});
+  const Keys keys(object, file + ", mesh", {"points", "gradation", "farfield_radius", "layers"});
   const bool has_friction = problem.model != FlowModel::euler;
   problem.domain.points =
       keys.whole<int>("points", has_friction ? usual_points_with_friction : 200, 8, 100000);
   problem.gradation = keys.find<double>("gradation");
   problem.domain.farfield_radius = keys.get<double>("farfield_radius", problem.domain.farfield_radius);
+  if (!keys.has("layers")) return;
+  if (!has_friction) keys.fail("found 'layers' without friction, expected \"laminar\" or \"sa\" as 'model'");
+  problem.layer = layer_given(object.at("layers"), file + ", mesh, layers", sweep_layer(problem));
 }
 
 SweepOrder order_of(const Keys& keys) {
@@ -249,6 +272,14 @@ void read_sections(const Keys& keys, const std::string& file, SweepProblem& prob
 }
 
 }  // namespace
+
+LayerOptions sweep_layer(const SweepProblem& problem) {
+  if (problem.layer) return *problem.layer;
+  std::vector<DesignPoint> points;
+  for (const SweepRow& row : problem.rows)
+    points.push_back({.conditions = {.mach = row.mach, .reynolds = row.reynolds}, .model = problem.model});
+  return layer_for_points(points);
+}
 
 SweepProblem read_sweep(const std::string& file) {
   return parse_sweep(read_text(file, most_file_bytes), file);
@@ -309,6 +340,11 @@ void validate(const SweepProblem& problem, const std::string& source) {
   if (has_friction && problem.domain.points < 150)
     place.fail("found " + shown(problem.domain.points) + " as 'points', expected 150 or more with friction");
   if (problem.gradation) place.require_number(*problem.gradation, "gradation", {1e-3, 1e6});
+  if (problem.layer) {
+    place.require_number(problem.layer->first_height, "first_height", {1e-9, 1});
+    place.require_number(problem.layer->growth, "growth", {1.02, 2});
+    place.require_number(problem.layer->thickness, "thickness", {problem.layer->first_height, 1});
+  }
   place.require_number(problem.domain.farfield_radius, "farfield_radius", {1.5, 1e6});
   place.require_number(problem.tolerance, "tolerance", {1e-13, 1e-2});
   if (problem.stations == 1) place.fail("found 1 as 'surface_stations', expected 0, or 2 or more");

@@ -143,6 +143,10 @@ Json to_json(const SweepProblem& problem) {
             {"stations", problem.stations}};
   if (problem.gradation) json["gradation"] = *problem.gradation;
   if (problem.transition) json["transition"] = *problem.transition;
+  if (problem.layer)
+    json["layer"] = {{"first_height", problem.layer->first_height},
+                     {"growth", problem.layer->growth},
+                     {"thickness", problem.layer->thickness}};
   json["rows"] = to_json(problem.rows);
   json["sections"] = std::move(sections);
   return json;
@@ -166,6 +170,12 @@ SweepProblem sweep_problem_from(const Json& json, const std::string& source) {
     problem.stations = count_at(json, "stations", 0, 100000);
     if (json.contains("gradation")) problem.gradation = json.at("gradation").get<double>();
     if (json.contains("transition")) problem.transition = json.at("transition").get<std::array<double, 2>>();
+    if (json.contains("layer")) {
+      const Json& layer = json.at("layer");
+      problem.layer = LayerOptions{.first_height = layer.at("first_height").get<double>(),
+                                   .growth = layer.at("growth").get<double>(),
+                                   .thickness = layer.at("thickness").get<double>()};
+    }
     problem.rows = rows_from(json.at("rows"));
     for (const Json& section : json.at("sections")) problem.sections.push_back(section_from(section, source));
     return problem;

@@ -28,6 +28,9 @@ struct ChainResult {
   double mesh_seconds = 0.0;
 };
 
+// The layer that all flows share. Precondition: they have friction.
+LayerOptions sweep_layer(const SweepProblem& problem);
+
 Json to_json(const SweepProblem& problem);
 Json to_json(const std::vector<SweepPlan>& plans);
 // Of the sweep's own files, which anybody may have written. Throw Error (format) naming the source.

@@ -122,6 +122,32 @@ class Sweeps(SweepTest):
         self.assertIn("poem.dat", rows[1]["reason"])
         self.assertEqual(rows[1]["cl"], "")
 
+    def test_designs_of_a_run_are_sections(self):
+        self.write("p.json", json.dumps({
+            "airfoil": "naca:0012", "degree": 2, "symmetric": True, "mesh": {"points": 40, "farfield_radius": 10},
+            "flow": [{"mach": 0.7, "alpha_deg": 0}], "objective": "drag",
+            "constraints": [{"kind": "area", "of_start": 1}], "designer": {"evaluations": 4}}))
+        self.succeed("design", "p.json", "-o", "run")
+        figures = self.figures("sweep", self.sweep_file(sections=[{"designs": "run"}], conditions={"mach": 0.7, "cl": 0.1}),
+                               "-o", "d")
+        self.assertGreater(figures["sections"], 1)
+        self.assertEqual(self.rows("d")[0]["shape"], "run#1")
+        for row in self.rows("d"):
+            self.assertAlmostEqual(float(row["cl"]), 0.1, delta=1e-6)
+
+    def test_the_page(self):
+        self.write("poem.dat", "a poem\nof two lines\n")
+        self.succeed("sweep", self.sweep_file(sections=["naca:0012", "naca:2412", "poem.dat"]), "-o", "d", status=1)
+        figures = self.figures("sweep", "report", "d")
+        self.assertKeys(figures, "sweep sections planned flows found not_found with_warnings flow_seconds "
+                                 "cold_seconds_estimate written")
+        self.assertEqual((figures["found"], figures["not_found"]), (12, 6))
+        page = self.path("d/report.html").read_text()
+        for text in ("A sweep of 3 sections", "most lift", "naca:2412", "Polars", "poem.dat", "refused: 6"):
+            self.assertIn(text, page)
+        self.assertNotIn("http", page.replace("http://www.w3.org", ""))
+        self.refused("sweep", "report", "none", names="none/sweep.json")
+
 
 class Ranks(UnderMpirun, SweepTest):
     def setUp(self):
