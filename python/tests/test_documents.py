@@ -7,10 +7,22 @@ from pathlib import Path
 SOURCE = Path(os.environ.get("REMODEL_PYTHON_TEST_SOURCE", Path(__file__).resolve().parents[2]))
 
 
+def blocks_of(document):
+    return re.findall(r"^```python\n(.*?)^```", (SOURCE / document).read_text(), re.MULTILINE | re.DOTALL)
+
+
 def blocks_of_readme():
-    blocks = re.findall(r"^```python\n(.*?)^```", (SOURCE / "README.md").read_text(), re.MULTILINE | re.DOTALL)
+    blocks = blocks_of("README.md")
     assert len(blocks) == 3
     return blocks
+
+
+def test_the_lines_of_the_tutorial(capsys):
+    (lines,) = blocks_of("docs/tutorial.md")
+    exec(compile(lines, "tutorial.md", "exec"), {})
+    lifts = [float(line.split()[1]) for line in capsys.readouterr().out.splitlines()]
+    assert len(lifts) == 3 and lifts == sorted(lifts)  # more camber, more lift
+    assert 0.1 < lifts[0] < 0.16
 
 
 def test_the_first_lines_of_the_readme_end_in_a_drag_and_its_gradient(capsys):

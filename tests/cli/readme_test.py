@@ -30,6 +30,9 @@ class Documents(ProgramTest):
     def test_every_command_of_the_guide(self):
         self.run_all("docs/guide.md")
 
+    def test_every_command_of_the_tutorial(self):
+        self.run_all("docs/tutorial.md")
+
     def test_every_command_of_the_page_on_morphs(self):
         self.run_all("docs/morph.md")
 
