@@ -9,7 +9,7 @@
 
 Shapes: Airfoil, Domain, catalogue(). Meshes: generate(), import_mesh(), Mesh, FrozenMesh, check(). Steps:
 Mesh.update() returns a Step, Mesh.trial() tries a design. Layers on walls: generate_layered(), LayeredMesh. Values carried from mesh to mesh: Transfer. Flow:
-solve_flow(), LivingFlow, PotentialSolver. Optimisers: design(), optimise(), CMAES.
+solve_flow(), LivingFlow, PotentialSolver. Optimisers: design(), optimise(), CMAES. Many flows: sweep().
 
 Lengths are in chords and angles in degrees. Every mesh is constrained Delaunay; a step keeps what it can. Bad
 input raises an Error: ArgumentError, FileError, FormatError or GeometryError, with the place and what was
@@ -60,6 +60,7 @@ from ._errors import ArgumentError, ArgumentTypeError, Error, EvaluationFailed, 
 from ._gradients import PointGradient
 from ._mesh import extend as _extend
 from ._optimise import OptimiseResult, optimise
+from ._sweep import SweepResult, sweep
 
 _extend()
 
@@ -67,9 +68,9 @@ __all__ = [
     "Airfoil", "ArgumentError", "ArgumentTypeError", "CMAES", "Changes", "CheckResult", "DesignResult", "Domain", "Error",
     "EvaluationFailed", "FileError", "FlowResult", "FormatError", "FrozenMesh", "GeometryError",
     "InteriorDisplacement", "LayeredMesh", "LayeredStep", "LivingFlow", "Mesh", "OptimiseResult", "PointGradient", "PotentialFlow",
-    "PotentialSolver", "Step", "TopologyChanged", "Transfer", "Trial", "Violation", "__version__", "catalogue",
+    "PotentialSolver", "Step", "SweepResult", "TopologyChanged", "Transfer", "Trial", "Violation", "__version__", "catalogue",
     "check", "design", "from_meshio", "from_pyvista", "generate", "generate_layered", "import_mesh", "optimise", "read_fields", "read_frozen",
-    "solve_flow",
+    "solve_flow", "sweep",
 ]  # fmt: skip
 
 for _name in __all__:

@@ -38,6 +38,7 @@ void add_potential_flows(py::module_& module);
 void add_designers(py::module_& module);
 void add_optimise(py::module_& module);
 void add_designs(py::module_& module);
+void add_sweeps(py::module_& module);
 
 // Throws Error (argument) unless the array has one dimension.
 std::vector<double> reals(const Reals& values, const char* name);

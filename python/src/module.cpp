@@ -63,4 +63,5 @@ PYBIND11_MODULE(_core, module) {
   add_designers(module);
   add_optimise(module);
   add_designs(module);
+  add_sweeps(module);
 }

@@ -41,7 +41,9 @@ class SectionReader {
     if (!entry.is_object())
       throw Error(ErrorCode::format, where,
                   "found " + std::string(entry.type_name()) + ", expected a name, or an object");
-    if (entry.contains("directory"))
+    if (entry.contains("airfoil"))
+      add_given(Keys(entry, where, {"name", "airfoil"}), entry);
+    else if (entry.contains("directory"))
       add_directory(Keys(entry, where, {"directory"}));
     else if (entry.contains("designs"))
       add_designs(Keys(entry, where, {"designs"}));
@@ -69,6 +71,16 @@ class SectionReader {
       if (error.code() != ErrorCode::format) throw Error(error.code(), where, error.what());
       add({.name = name, .problem = error.what()});
     }
+  }
+  void add_given(const Keys& keys, const Json& entry) {
+    SweepSection section{.name = keys.get<std::string>("name")};
+    try {
+      section.airfoil = airfoil_from_json(entry.at("airfoil").dump(), "airfoil");
+    } catch (const Error& error) {
+      keys.fail(error.what());
+    }
+    if (!surfaces_apart(section.airfoil)) section.problem = section.name + ": the surfaces cross";
+    add(std::move(section));
   }
   void add_directory(const Keys& keys) {
     const fs::path named = keys.get<std::string>("directory"), directory = directory_ / named;
