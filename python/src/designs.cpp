@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "functionals.h"
 #include "remodel/design_run.h"
 #include "run_watch.h"
 
@@ -17,38 +18,6 @@ struct OwnFunction {
   std::string name;
 };
 using OwnFunctions = std::vector<OwnFunction>;
-
-std::vector<double> numbers_of(const py::handle& values, const std::string& name, std::size_t size) {
-  const Reals array = array_of(values, name);
-  if (array.ndim() != 1 || static_cast<std::size_t>(array.size()) != size)
-    throw Error(ErrorCode::argument, name,
-                "found " + std::to_string(array.size()) + " numbers, expected " + std::to_string(size));
-  return {array.data(), array.data() + array.size()};
-}
-
-// Derivatives by the flow's fields and points, at fixed coefficients.
-void add_field(FlowFunctional& by, const std::string& key, const std::string& place, const py::handle& values,
-               std::size_t size) {
-  if (key == "points") {
-    by.points = points(array_of(values, place), place);
-    if (by.points.size() != size)
-      throw Error(ErrorCode::argument, place,
-                  "found " + std::to_string(by.points.size()) + " rows, expected " + std::to_string(size));
-  } else if (key == "pressure") {
-    by.pressure = numbers_of(values, place, size);
-  } else if (key == "density") {
-    by.density = numbers_of(values, place, size);
-  } else if (key == "velocity_x") {
-    by.velocity_x = numbers_of(values, place, size);
-  } else if (key == "velocity_y") {
-    by.velocity_y = numbers_of(values, place, size);
-  } else {
-    throw Error(
-        ErrorCode::argument, place,
-        "is no part of a gradient, expected cl, cd, cm, cd_pressure, mach, points, pressure, density, "
-        "velocity_x or velocity_y");
-  }
-}
 
 // (value, dict of derivatives).
 FlowValue flow_value_of(const py::tuple& answer, const std::string& name, std::size_t size) {
@@ -65,13 +34,12 @@ FlowValue flow_value_of(const py::tuple& answer, const std::string& name, std::s
       result.*found->second = values.cast<double>();
       continue;
     }
-    if (!result.by_flow)
-      result.by_flow =
-          FlowFunctional{.pressure = std::vector<double>(size, 0.0), .points = std::vector<Point>(size)};
-    if (part == "mach")
-      result.by_flow->mach = values.cast<double>();
-    else
-      add_field(*result.by_flow, part, place, values, size);
+    if (!result.by_flow) result.by_flow = zero_functional(size);
+    if (!add_field(*result.by_flow, part, place, values, size))
+      throw Error(
+          ErrorCode::argument, place,
+          "is no part of a gradient, expected cl, cd, cm, cd_pressure, mach, points, pressure, density, "
+          "velocity_x or velocity_y");
   }
   return result;
 }

@@ -7,6 +7,7 @@
 
 #include "apart.h"
 #include "bindings.h"
+#include "functionals.h"
 #include "living.h"
 #include "records.h"
 
@@ -116,6 +117,29 @@ py::dict dict_of(FlowGradient gradient, const Snapshot& mesh) {
                   "reynolds"_a = gradient.reynolds);
 }
 
+// Functions of a flow by name, each a dict of its derivatives by fields of the flow and points.
+std::vector<FlowFunctional> functionals_of(const py::dict& functions, std::size_t size) {
+  std::vector<FlowFunctional> result;
+  for (const auto& [key, parts] : functions) {
+    const auto name = py::cast<std::string>(py::str(key));
+    for (const char* own : {"cl", "cd", "cm", "alpha", "cd_pressure"})
+      if (name == own)
+        throw Error(ErrorCode::argument, "functions",
+                    "found '" + name + "', which gradients() has anyway, expected another name");
+    if (!py::isinstance<py::dict>(parts))
+      throw Error(ErrorCode::argument, "functions, " + name, "found " + type_of(parts) + ", expected a dict");
+    FlowFunctional& by = result.emplace_back(zero_functional(size));
+    for (const auto& [part, values] : py::reinterpret_borrow<py::dict>(parts)) {
+      const auto field = py::cast<std::string>(py::str(part));
+      if (!add_field(by, field, "functions, " + name + ", " + field, values, size))
+        throw Error(
+            ErrorCode::argument, "functions, " + name,
+            "found '" + field + "', expected mach, points, pressure, density, velocity_x or velocity_y");
+    }
+  }
+  return result;
+}
+
 // A LivingFlow, with the observer that it keeps for its whole life.
 struct Solver {
   explicit Solver(FlowOptions options) : flow(observed(std::move(options), *stop)) {}
@@ -156,14 +180,20 @@ class Flows {
     return with_mesh(result, given);
   }
   // Gradients of the last flow: by the points of its mesh, and by Mach number and angle.
-  py::dict gradients() {
+  py::dict gradients(const py::dict& functions) {
     const ThreadLock::Held held(lock_);
-    FlowGradients found = calls_.run(solver_->stop, [solver = solver_] { return solver->flow.gradients(); });
+    if (!last_) throw Error(ErrorCode::argument, "gradients", "no flow was found yet, expected one");
+    const std::vector<FlowFunctional> wanted = functionals_of(functions, last_->points.size());
+    FlowGradients found =
+        calls_.run(solver_->stop, [solver = solver_, wanted] { return solver->flow.gradients(wanted); });
     py::dict result(
         "cl"_a = dict_of(std::move(found.cl), last_), "cd"_a = dict_of(std::move(found.cd), last_),
         "cm"_a = dict_of(std::move(found.cm), last_), "alpha"_a = dict_of(std::move(found.alpha_deg), last_));
     if (options_.model != FlowModel::euler)
       result["cd_pressure"] = dict_of(std::move(found.cd_pressure), last_);
+    std::size_t next = 0;
+    for (const auto& [name, parts] : functions)
+      result[name] = dict_of(std::move(found.functions.at(next++)), last_);
     return result;
   }
   const FlowOptions& options() const { return options_; }
@@ -434,10 +464,14 @@ the same options, and begins cold. After Ctrl-C the next call waits until a fact
            "cl"_a = py::none(), "reference"_a = quarter, "reference_length"_a = 1.0, "reynolds"_a = 0.0,
            "transition"_a = py::none(), solver_text)
       .def(
-          "gradients", &Flows::gradients,
+          "gradients", &Flows::gradients, "functions"_a = py::dict(),
           R"(Derivatives of the last flow's cl, cd, cm and alpha, by their adjoint: for each a dict of points, of
 shape (n, 2) (Mesh.vjp() makes derivatives by the airfoil of them), mach, alpha (a degree) and cl (by the lift that
-was given), and reynolds; with friction cd_pressure too. Raises ArgumentError before the first flow.)")
+was given), and reynolds; with friction cd_pressure too.
+
+functions: functions of one's own, a dict of names and the derivatives of each at fixed others: a dict with any of
+pressure, density, velocity_x, velocity_y (of shape (n,), by the fields of the flow), points (of shape (n, 2)) and mach.
+The result has their total derivatives by name. Raises ArgumentError before the first flow.)")
       .def(py::pickle(&state_of, &flows_of))
       .def("forget", &Flows::forget, "The next flow is found cold.");
 }
