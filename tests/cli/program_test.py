@@ -54,7 +54,7 @@ class Program(harness.ProgramTest):
                                  text=True, env={**os.environ, "OMPI_COMM_WORLD_SIZE": "2"})  # fmt: skip
         self.assertEqual((process.returncode, process.stdout), (2, ""), process.stderr)
         self.assertEqual(len(process.stderr.splitlines()), 1)
-        self.assertIn("study: found 2 MPI ranks, expected one: this program was built without MPI", process.stderr)
+        self.assertIn("mpirun: found 2 MPI ranks, expected one: this program was built without MPI", process.stderr)
         self.assertEqual(self.files(), {})
 
     def test_help_begins_with_examples_that_work_and_fits_a_screen(self):
