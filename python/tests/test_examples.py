@@ -23,13 +23,13 @@ def example(name):
 def test_every_script_is_tested():
     here = Path(__file__).read_text()
     for script in EXAMPLES.glob("*.py"):
-        assert f'"{script.stem}"' in here, script
+        assert script.stem in here, script
 
 
 def test_a_polar_has_the_slope_of_thin_airfoils():
-    rows = example("polar").main(points=60)
+    rows = example("polar").main(angles=(0, 2), points=100)
     slope = np.polyfit(rows[:, 0], rows[:, 1], 1)[0]
-    assert 0.95 < slope / (2 * np.pi**2 / 180 / np.sqrt(1 - 0.3**2)) < 1.2
+    assert 1.0 < slope / (2 * np.pi**2 / 180 / np.sqrt(1 - 0.3**2)) < 1.2
 
 
 def test_drag_falls_at_fixed_lift():

@@ -42,7 +42,7 @@ def test_sections_may_be_airfoils_and_their_outlines_come_with_the_rows():
 
 def test_a_directory_is_gone_on_with_and_extended(tmp_path):
     seen = []
-    first = remodel.sweep(PROBLEM | {"chain": 1}, directory=tmp_path / "s", callback=lambda figures: seen.append(figures) or True)
+    first = remodel.sweep(PROBLEM | {"chain": 1}, directory=tmp_path / "s", threads=1, callback=lambda figures: seen.append(figures) or True)
     assert first.stopped == "interrupted" and len(first) < 4 and seen[0]["flows"] == 4
     more = PROBLEM | {"chain": 1, "conditions": {"mach": 0.4, "alpha_deg": [0, 1, 2]}}
     whole = remodel.sweep(more, directory=tmp_path / "s", resume=True)
@@ -64,7 +64,7 @@ def test_what_raises_ends_the_sweep():
     [
         (lambda: remodel.sweep(7), "problem: found 7"),
         (lambda: remodel.sweep({}), "problem: the key 'conditions' is missing"),
-        (lambda: remodel.sweep(PROBLEM | {"sections": [np.nan]}), "problem: "),
+        (lambda: remodel.sweep(PROBLEM | {"sections": [np.nan]}), "problem['sections'][0]: found nan"),
         (lambda: remodel.sweep(PROBLEM | {"sections": []}), "found no sections"),
         (lambda: remodel.sweep(PROBLEM, threads=-1), "threads: found -1"),
         (lambda: remodel.sweep(PROBLEM, resume=True), "resume: found without a directory"),
