@@ -1,4 +1,4 @@
-"""The same under OpenMDAO: lift over drag of a section by ScipyOptimizeDriver, with total derivatives.
+"""Drag under OpenMDAO, at a lift of 0.3 or more: a section by ScipyOptimizeDriver, with total derivatives.
 
     python3 openmdao_slsqp.py
 
