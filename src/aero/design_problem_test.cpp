@@ -152,6 +152,60 @@ TEST(EdgeConstraints, OfStartIsAPartOfTheStartsOwn) {
               1e-8);
 }
 
+// y of a surface over x, from the curve itself.
+double height_at(const CstAirfoil& airfoil, double x, bool upper) {
+  const double t = std::acos(2.0 * x - 1.0) / (2.0 * M_PI);
+  return airfoil.at(upper ? t : 1.0 - t).y;
+}
+
+// The area between two stations, by thin slices of the curve.
+double area_of_slices(const CstAirfoil& airfoil, double front, double back) {
+  constexpr int slices = 20000;
+  double sum = 0.0;
+  for (int i = 0; i < slices; ++i) {
+    const double x = front + (back - front) * (i + 0.5) / slices;
+    sum += (height_at(airfoil, x, true) - height_at(airfoil, x, false)) * (back - front) / slices;
+  }
+  return sum;
+}
+
+TEST(SizeConstraints, TanksAndBoxesAreThoseOfTheCurve) {
+  for (const char* name : {"naca2412", "rae2822"}) {
+    const CstAirfoil airfoil = section(name);
+    const double tank = area_of_slices(airfoil, 0.2, 0.6);
+    double least = 1.0;
+    for (int i = 0; i <= 1000; ++i) {
+      const double x = 0.15 + 0.5 * i / 1000;
+      least = std::min(least, height_at(airfoil, x, true) - height_at(airfoil, x, false));
+    }
+    const DesignProblem problem =
+        problem_of(airfoil, {{.kind = "tank", .at_least = tank, .x = {{0.2, 0.6}}},
+                             {.kind = "tank", .of_start = 0.5, .x = {{0.2, 0.6}}},
+                             {.kind = "box", .at_least = least + 0.001, .x = {{0.15, 0.65}}},
+                             {.kind = "box", .of_start = 0.9, .x = {{0.15, 0.65}}}});
+    const std::vector<double> values = values_of(problem, airfoil);
+    ASSERT_EQ(values.size(), 2u + 2u * 21u);
+    EXPECT_NEAR(values[0], 0.0, 1e-6);
+    EXPECT_NEAR(values[1], -0.5 * tank, 1e-6);
+    // Of 21 stations the thinnest is at an end for these sections.
+    EXPECT_NEAR(*std::max_element(values.begin() + 2, values.begin() + 23), 0.001, 1e-9);
+    EXPECT_NEAR(*std::max_element(values.begin() + 23, values.end()), -0.1 * least, 1e-9);
+    EXPECT_NEAR(area_of_slices(airfoil, 0.0, 1.0),
+                -values_of(problem_of(airfoil, {{.kind = "area", .at_least = 0.0}}), airfoil)[0], 1e-6);
+  }
+}
+
+TEST(SizeConstraints, CamberHasALimitOnEitherSide) {
+  const CstAirfoil airfoil = section("naca2412");
+  const double camber = 0.5 * (height_at(airfoil, 0.4, true) + height_at(airfoil, 0.4, false));
+  EXPECT_NEAR(camber, 0.02, 3e-4);
+  const std::vector<double> values = values_of(
+      problem_of(airfoil, {{.kind = "camber", .at_least = 0.01, .at_most = 0.03, .x = {{0.4}}}}), airfoil);
+  ASSERT_EQ(values.size(), 2u);
+  EXPECT_NEAR(values[0], 0.01 - camber, 1e-12);
+  EXPECT_NEAR(values[1], camber - 0.03, 1e-12);
+}
+
 Mesh mesh_of_start(const DesignProblem& problem, const FlowSpace& space) {
   QualityOptions quality{.gradation = problem.gradation.value_or(problem.domain.points / 50.0)};
   quality.refine_angle_deg = angle_with_slack(quality, design_slack_deg);

@@ -6,7 +6,7 @@ namespace remodel {
 
 extern const FlowKind drag_kind, pressure_drag_kind, friction_drag_kind, lift_kind, lift_over_drag_kind,
     moment_kind, inverse_kind, suction_kind;
-extern const DomainKind gap_kind, area_kind, thickness_kind, contains_kind, trailing_edge_angle_kind,
+extern const DomainKind gap_kind, area_kind, tank_kind, thickness_kind, box_kind, camber_kind, contains_kind, trailing_edge_angle_kind,
     leading_edge_radius_kind;
 
 namespace {
@@ -24,7 +24,10 @@ constexpr const FlowKind* all_of_flows[] = {
 constexpr const DomainKind* all_of_domains[] = {
     &gap_kind,                  //
     &area_kind,                 //
+    &tank_kind,                 //
     &thickness_kind,            //
+    &box_kind,                  //
+    &camber_kind,               //
     &contains_kind,             //
     &trailing_edge_angle_kind,  //
     &leading_edge_radius_kind,  //

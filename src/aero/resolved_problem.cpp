@@ -71,6 +71,7 @@ Members members_of(const DomainKind& kind, bool has_elements) {
   return {.x = kind.takes_x,
           .airfoil = kind.takes_airfoil,
           .between = kind.takes_between,
+          .at_most = kind.takes_most,
           .of_start = kind.takes_start,
           .at_least = kind.takes_least,
           .element = has_elements && kind.of_section};

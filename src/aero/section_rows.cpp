@@ -18,6 +18,19 @@ void add_height(const CstAirfoil& like, double x, bool upper, double factor, Sec
   to.bound -= factor * at.x * (upper ? like.te_upper : like.te_lower);
 }
 
+const std::vector<double>& stations_of(const DomainRequest& request) {
+  constexpr std::size_t most_stations = 1000;
+  const std::vector<double>& stations = request.place.given(request.given.x, "x");
+  if (stations.empty()) request.place.fail("found no number in 'x', expected at least one");
+  if (stations.size() > most_stations)
+    request.place.fail("found " + std::to_string(stations.size()) + " entries in 'x', expected at most " +
+                       std::to_string(most_stations));
+  for (const double x : stations)
+    if (!(x > 0.0 && x < 1.0))
+      request.place.fail("found " + shown(x) + " in 'x', expected numbers above 0 and below 1");
+  return stations;
+}
+
 double value_of(const SectionRow& row, const CstAirfoil& airfoil) {
   double sum = 0.0;
   const std::size_t n = airfoil.upper.size();

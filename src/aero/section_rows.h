@@ -17,6 +17,8 @@ double parameter_at(double x);
 // Adds factor times the height of a surface at x to what is at least the bound. Of the airfoil its degree,
 // class and trailing edge are of account.
 void add_height(const CstAirfoil& like, double x, bool upper, double factor, SectionRow& row);
+// The stations `x` of a constraint: one or more, above 0 and below 1.
+const std::vector<double>& stations_of(const DomainRequest& request);
 // row * a - bound: what is at least 0.
 double value_of(const SectionRow& row, const CstAirfoil& airfoil);
 

@@ -1,5 +1,6 @@
-// The area of a section, and its thickness at stations.
+// The area of a section or of a part of it, and its thickness at stations or all over a part.
 
+#include <algorithm>
 #include <cmath>
 
 #include "aero/section_rows.h"
@@ -8,45 +9,77 @@ namespace remodel {
 namespace {
 
 constexpr Limits any_size = {0.0, 10.0};
-constexpr std::size_t most_stations = 1000;
 
 DomainConstraintPtr at_least(const DomainRequest& request, std::vector<SectionRow> rows) {
   for (SectionRow& row : rows) row.bound += request.least(any_size, value_of(row, request.start));
   return std::make_shared<SectionRows>(request.section, std::move(rows));
 }
 
-// The area between both surfaces by the trapezoidal rule in t, which is exact to rounding for these sections.
-DomainConstraintPtr area(const DomainRequest& request) {
+// What lies between two stations, `x`, in the direction of the chord.
+struct Span {
+  double front = 0.0, back = 0.0;
+};
+Span span_of(const DomainRequest& request) {
+  const std::vector<double>& x = stations_of(request);
+  if (x.size() != 2 || !(x[0] < x[1]))
+    request.place.fail("found " + shown(x) + " as 'x', expected two numbers, the front one first");
+  return {x[0], x[1]};
+}
+
+// The area between both surfaces from front to back, by the trapezoidal rule in t, which is exact to rounding
+// for the whole of these sections, and to 1e-5 of it for a part.
+SectionRow area_between(const CstAirfoil& like, Span span) {
   constexpr int pieces = 400;
+  const double first = std::acos(2.0 * span.back - 1.0), last = std::acos(2.0 * span.front - 1.0);
   SectionRow sum;
-  for (int i = 1; i < pieces; ++i) {
-    const double angle = M_PI * i / pieces, x = 0.5 * (1.0 + std::cos(angle));
-    const double width = 0.5 * std::sin(angle) * M_PI / pieces;
-    add_height(request.start, x, true, width, sum), add_height(request.start, x, false, -width, sum);
+  for (int i = 0; i <= pieces; ++i) {
+    const double angle = first + (last - first) * i / pieces, x = 0.5 * (1.0 + std::cos(angle));
+    const double width = (i == 0 || i == pieces ? 0.25 : 0.5) * std::sin(angle) * (last - first) / pieces;
+    if (!(width > 0.0)) continue;  // an edge, where a section has no height
+    add_height(like, x, true, width, sum), add_height(like, x, false, -width, sum);
   }
-  return at_least(request, {sum});
+  return sum;
+}
+
+SectionRow thickness_at(const CstAirfoil& like, double x) {
+  SectionRow row;
+  add_height(like, x, true, 1.0, row), add_height(like, x, false, -1.0, row);
+  return row;
+}
+
+DomainConstraintPtr area(const DomainRequest& request) {
+  return at_least(request, {area_between(request.start, {0.0, 1.0})});
+}
+
+DomainConstraintPtr tank(const DomainRequest& request) {
+  return at_least(request, {area_between(request.start, span_of(request))});
 }
 
 DomainConstraintPtr thickness(const DomainRequest& request) {
-  const std::vector<double>& stations = request.place.given(request.given.x, "x");
-  if (stations.empty()) request.place.fail("found no number in 'x', expected at least one");
-  if (stations.size() > most_stations)
-    request.place.fail("found " + std::to_string(stations.size()) + " entries in 'x', expected at most " +
-                       std::to_string(most_stations));
   std::vector<SectionRow> rows;
-  for (const double x : stations) {
-    if (!(x > 0.0 && x < 1.0))
-      request.place.fail("found " + shown(x) + " in 'x', expected numbers above 0 and below 1");
-    rows.emplace_back();
-    add_height(request.start, x, true, 1.0, rows.back());
-    add_height(request.start, x, false, -1.0, rows.back());
-  }
+  for (const double x : stations_of(request)) rows.push_back(thickness_at(request.start, x));
   return at_least(request, std::move(rows));
+}
+
+// The thickness everywhere from front to back, at stations; a part of the start's is one of its least there.
+DomainConstraintPtr box(const DomainRequest& request) {
+  constexpr int pieces = 20;
+  const Span span = span_of(request);
+  std::vector<SectionRow> rows;
+  double of_start = 10.0;
+  for (int i = 0; i <= pieces; ++i) {
+    rows.push_back(thickness_at(request.start, span.front + (span.back - span.front) * i / pieces));
+    of_start = std::min(of_start, value_of(rows.back(), request.start));
+  }
+  for (SectionRow& row : rows) row.bound += request.least(any_size, of_start);
+  return std::make_shared<SectionRows>(request.section, std::move(rows));
 }
 
 }  // namespace
 
 extern constinit const DomainKind area_kind = {.name = "area", .make = area};
+extern constinit const DomainKind tank_kind = {.name = "tank", .takes_x = true, .make = tank};
+extern constinit const DomainKind box_kind = {.name = "box", .takes_x = true, .make = box};
 extern constinit const DomainKind thickness_kind = {.name = "thickness", .takes_x = true, .make = thickness};
 
 }  // namespace remodel
