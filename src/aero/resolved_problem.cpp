@@ -352,7 +352,7 @@ class Resolver {
     if (kind.takes_least && kind.takes_start) {
       if (constraint.at_least.has_value() == constraint.of_start.has_value())
         place.fail("expected one of at_least and of_start");
-    } else if (kind.takes_least) {
+    } else if (kind.takes_least && !kind.takes_most) {
       place.given(constraint.at_least, "at_least");
     }
     return request;
