@@ -6,6 +6,7 @@
 
 #include <memory>
 
+#include "command.h"
 #include "remodel/crew.h"
 
 namespace CLI {
@@ -33,6 +34,11 @@ void go_on_with_mpi(char** argv);
 
 // --rank-timeout
 void add_rank_option(CLI::App& app, RanksOptions& options);
+
+// Calls `lead` with a crew: threads of this process (0: as many as cores), or in an MPI program all ranks,
+// with so many threads on rank 0 (0: one). The other ranks do `work` until rank 0 has no more.
+Status with_crew(std::size_t threads, const RanksOptions& options, const CrewWork& work,
+                 const std::function<Status(Crew&)>& lead);
 
 // Initialises MPI. Throws Error (argument) in the program without MPI.
 std::unique_ptr<Ranks> begin_ranks(const RanksOptions& options);

@@ -4,13 +4,11 @@
 #include <array>
 #include <cstdio>
 #include <memory>
-#include <thread>
 
 #include "arguments.h"
 #include "command.h"
 #include "figures.h"
 #include "interrupt.h"
-#include "launched.h"
 #include "outputs.h"
 #include "progress.h"
 #include "ranks.h"
@@ -132,15 +130,8 @@ Status run_sweep(const SweepCommand& command, Crew& crew) {
 
 Status run(const SweepCommand& command) {
   require_possible(command);
-  if (launched_ranks() == 1) {
-    ThreadCrew crew(command.threads != 0 ? command.threads
-                                         : std::max(1U, std::thread::hardware_concurrency()));
-    return run_sweep(command, crew);
-  }
-  const std::unique_ptr<Ranks> ranks = begin_ranks(command.ranks);
-  if (launched_rank() > 0) return ranks->serve(run_sweep_chain) ? Status::done : Status::limit;
-  const std::unique_ptr<Crew> crew = ranks->crew(std::max<std::size_t>(1, command.threads));
-  return run_sweep(command, *crew);
+  return with_crew(command.threads, command.ranks, run_sweep_chain,
+                   [&](Crew& crew) { return run_sweep(command, crew); });
 }
 
 struct SweepReportCommand {

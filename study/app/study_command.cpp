@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <memory>
-#include <thread>
 
 #include "arguments.h"
 #include "command.h"
 #include "figures.h"
-#include "launched.h"
 #include "outputs.h"
 #include "ranks.h"
 #include "remodel/error.h"
@@ -96,15 +94,8 @@ Status run(const StudyCommand& command) {
     throw Error(ErrorCode::argument, "--full",
                 "found with --resume, expected one of them: a study knows its options");
   if (!command.resume) require_place(command.directory);
-  if (launched_ranks() == 1) {
-    ThreadCrew crew(command.threads != 0 ? command.threads
-                                         : std::max(1U, std::thread::hardware_concurrency()));
-    return run_study(command, crew);
-  }
-  const std::unique_ptr<Ranks> ranks = begin_ranks(command.ranks);
-  if (launched_rank() > 0) return ranks->serve(run_study_job) ? Status::done : Status::limit;
-  const std::unique_ptr<Crew> crew = ranks->crew(std::max<std::size_t>(1, command.threads));
-  return run_study(command, *crew);
+  return with_crew(command.threads, command.ranks, run_study_job,
+                   [&](Crew& crew) { return run_study(command, crew); });
 }
 
 StudyPair parse_pair(const std::string& option, const std::string& text) {
