@@ -1,7 +1,8 @@
-"""Components for OpenMDAO: an airfoil's coefficients to mesh coordinates, and these to lift and drag.
+"""Components for OpenMDAO. SectionComponent: an airfoil's coefficients to lift, drag and sizes, with or without friction.
+MeshComponent and FlowComponent: the same in two, for geometry of other components, without friction.
 
-OpenMDAO is imported with this module, and nothing else is that remodel does not need. Connectivity is fixed, as
-OpenMDAO's arrays are: the points of a design are those of the first mesh, its interior moved along with the walls
+OpenMDAO is imported with this module, and nothing else is that remodel does not need. SectionComponent owns its mesh,
+whose connectivity changes where it must. That of the pair is fixed, as OpenMDAO's arrays are: the points of a design are those of the first mesh, its interior moved along with the walls
 (InteriorDisplacement), which is linear in the coefficients. What cannot be computed (triangles that turn over or walls
 that cross far from the first design, a flow that is not found) raises openmdao's AnalysisError. Drivers that do not catch it, as
 ScipyOptimizeDriver, end with it: give the design variables bounds, or take pyOptSparseDriver. `MeshComponent.renew()`
@@ -11,7 +12,7 @@ makes a mesh for the present design, for a problem that is set up again.
 import numpy as np
 from openmdao.api import AnalysisError, ExplicitComponent
 
-from ._core import InteriorDisplacement, LivingFlow
+from ._core import Airfoil, InteriorDisplacement, LivingFlow, generate, generate_layered
 from ._errors import ArgumentError, Error
 from ._mesh import Validity
 
@@ -151,3 +152,131 @@ class FlowComponent(ExplicitComponent):
             partials[name, "points"] = np.ravel(gradient["points"])[None, :]
             partials[name, "mach"] = gradient["mach"]
             partials[name, "alpha"] = gradient["alpha"]
+
+
+class SectionComponent(ExplicitComponent):
+    """An airfoil's coefficients ('design', upper then lower) and the stream to the flow's coefficients and sizes.
+
+    Inputs: design; mach; alpha (degrees), or lift, the coefficient that the angle is found for; with friction reynolds, by
+    the chord. Outputs: cl (where alpha is given), alpha (where lift is), cd, cm, with friction cd_pressure; area (square
+    chords); with thickness_at thickness, at those stations.
+
+    Options: airfoil, the one to begin with, or its name; model, 'euler', 'laminar' or 'sa'; mach, alpha, lift, reynolds to
+    begin with; transition, places of both sides (model 'sa'); thickness_at, x of stations; mesh, a dict of what generate()
+    or, with friction, generate_layered() takes; tolerance of flows.
+
+    The mesh and the flow live from design to design. Each design's mesh is the morph of the first one, so that outputs are
+    smooth and partials are those of the very way that the mesh goes; where no morph is good enough, triangles are replaced
+    and outputs jump by the mesh's error. AnalysisError: surfaces that cross, no mesh, no flow.
+    """
+
+    def initialize(self):
+        declare = self.options.declare
+        declare("airfoil", default="naca:0012")
+        declare("model", default="euler")
+        declare("mach", default=0.5)
+        declare("alpha", default=0.0)
+        declare("lift", default=None)
+        declare("reynolds", default=None)
+        declare("transition", default=None)
+        declare("thickness_at", default=())
+        declare("mesh", default=None)
+        declare("tolerance", default=1e-10)
+
+    def setup(self):
+        given = self.options["airfoil"]
+        self.start = given if isinstance(given, Airfoil) else Airfoil(given)
+        self._has_friction = self.options["model"] != "euler"
+        reynolds = self.options["reynolds"]
+        if self._has_friction != (reynolds is not None):
+            raise ArgumentError(f"reynolds: found {reynolds!r} with the model {self.options['model']!r}, expected it with friction alone")
+        self.mesh = self._mesh_of_start(reynolds)
+        self.solver = LivingFlow(model=self.options["model"], tolerance=self.options["tolerance"])
+        self._solved = self._gradients = None
+        self._sizes = _Sizes(self.start, self.options["thickness_at"])
+
+        self._condition = "alpha" if self.options["lift"] is None else "lift"
+        self._stream = ["mach", self._condition, *(["reynolds"] if self._has_friction else [])]
+        self.add_input("design", val=self.start.design)
+        for name in self._stream:
+            self.add_input(name, val=self.options[name])
+        self._outputs = ["cl" if self._condition == "alpha" else "alpha", "cd", "cm", *(["cd_pressure"] if self._has_friction else [])]
+        for name in self._outputs:
+            self.add_output(name, val=0.0)
+            self.declare_partials(name, ["design", *self._stream])
+        for name, values in self._sizes.at(self.start).items():
+            self.add_output(name, val=values)
+            self.declare_partials(name, "design")
+
+    def _mesh_of_start(self, reynolds):
+        options = dict(self.options["mesh"] or {})
+        if not self._has_friction:
+            return generate(self.start, **options)
+        return generate_layered(self.start, reynolds=float(np.ravel(reynolds)[0]), model=self.options["model"], **options)
+
+    def _solve(self, inputs):
+        """The flow at these inputs, found unless it was the last one."""
+        at = {name: np.array(inputs[name], dtype=float) for name in ("design", *self._stream)}
+        if self._solved is not None and all(np.array_equal(at[name], self._solved[0][name]) for name in at):
+            return self._solved[1]
+        self._solved = self._gradients = None
+        airfoil = self.start.with_design(at["design"])
+        if not airfoil.feasible:
+            raise AnalysisError("design: its surfaces cross" + _RECIPE)
+        conditions = {name: float(np.ravel(at[name])[0]) for name in self._stream}
+        if self._condition == "lift":
+            conditions["cl"] = conditions.pop("lift")
+        if self.options["transition"] is not None:
+            conditions["transition"] = self.options["transition"]
+        try:
+            self.mesh.update(airfoil, strategy="reference")
+            flow = self.solver.solve(self.mesh, **conditions)
+        except Error as error:
+            raise AnalysisError(str(error) + _RECIPE) from error
+        if not flow.converged:
+            raise AnalysisError(f"flow: {flow.reason}" + _RECIPE)
+        self._solved = at, flow
+        return flow
+
+    def compute(self, inputs, outputs):
+        flow = self._solve(inputs)
+        for name in self._outputs:
+            outputs[name] = getattr(flow, name)
+        for name, values in self._sizes.at(self.start.with_design(np.array(inputs["design"], dtype=float))).items():
+            outputs[name] = values
+
+    def compute_partials(self, inputs, partials):
+        self._solve(inputs)
+        if self._gradients is None:
+            gradients = self.solver.gradients()
+            self._gradients = {name: (gradients[name], self.mesh.vjp(gradients[name]["points"])) for name in self._outputs}
+        for name, (gradient, by_design) in self._gradients.items():
+            partials[name, "design"] = np.asarray(by_design)[None, :]
+            for condition in self._stream:
+                partials[name, condition] = gradient["cl" if condition == "lift" else condition]
+        for name, slope in self._sizes.slopes.items():
+            partials[name, "design"] = slope
+
+
+class _Sizes:
+    """The area of a section and its thickness at stations: both are linear in the coefficients."""
+
+    _POINTS = 2001
+
+    def __init__(self, start, stations):
+        self._stations = np.atleast_1d(np.array(stations, dtype=float)) if len(np.atleast_1d(stations)) else np.empty(0)
+        if not ((self._stations > 0) & (self._stations < 1)).all():
+            raise ArgumentError(f"thickness_at: found {self._stations.tolist()}, expected numbers above 0 and below 1")
+        base, unit = self.at(start), np.eye(len(start.design))
+        self.slopes = {name: np.column_stack([self.at(start.with_design(start.design + e))[name] - values for e in unit])
+                       for name, values in base.items()}  # fmt: skip
+
+    def at(self, airfoil):
+        points = airfoil.coordinates(self._POINTS)
+        x, y = points.T
+        sizes = {"area": np.atleast_1d(0.5 * np.sum(x[:-1] * y[1:] - x[1:] * y[:-1]))}
+        if len(self._stations):
+            nose = self._POINTS // 2
+            upper = np.interp(self._stations, x[nose::-1], y[nose::-1])
+            sizes["thickness"] = upper - np.interp(self._stations, x[nose:], y[nose:])
+        return sizes

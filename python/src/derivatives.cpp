@@ -142,9 +142,9 @@ LivingMeshPointer at(LivingMesh& mesh, const py::object& shape, const std::strin
 
 }  // namespace
 
-std::pair<std::size_t, std::size_t> airfoil_numbers(const Domain& domain, const std::string& boundary) {
+AirfoilNumbers airfoil_numbers(const Domain& domain, const std::string& boundary) {
   const Range range = airfoil_range(domain, boundary);
-  return {range.first, range.count};
+  return {range.loops.front(), range.first, range.count};
 }
 
 void add_derivatives(py::module_& module) {

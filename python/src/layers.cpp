@@ -145,12 +145,28 @@ CheckResult layers_checked(LivingLayers& mesh) {
   return Apart().run(std::make_shared<Stop>(), [frozen, options] { return check(*frozen, options); });
 }
 
+// The loops that have moved since the reference, or that the numbers move: the interior goes along with them.
+std::vector<std::size_t> moving_loops(const Mesh& outer, std::size_t of_numbers) {
+  const Domain reference = outer.state().reference_domain;
+  std::vector<std::size_t> moving;
+  for (std::size_t i = 0; i < outer.domain().loops.size(); ++i)
+    if (i == of_numbers || !(outer.domain().loops[i] == reference.loops[i])) moving.push_back(i);
+  return moving;
+}
+
 // By an airfoil's coefficients, upper then lower.
-py::array_t<double> layers_vjp(LivingLayers& mesh, const py::object& by_points, const std::string& boundary) {
+py::array_t<double> layers_vjp(LivingLayers& mesh, const py::object& by_points, const std::string& boundary,
+                               const std::string& interior) {
+  if (interior != "own" && interior != "still")
+    throw Error(ErrorCode::argument, "interior", "found '" + interior + "', expected own or still");
   const std::vector<Point> weights = points(array_of(by_points, "by_points"), "by_points");
   const ThreadLock::Held held(mesh.lock);
-  const auto [first, count] = airfoil_numbers(mesh.mesh.domain(), boundary);
-  const std::vector<double> all = LayeredMeshDerivative(mesh.mesh).vjp(weights);
+  const auto [loop, first, count] = airfoil_numbers(mesh.mesh.domain(), boundary);
+  const bool along = interior == "own" && mesh.mesh.outer().held();
+  const LayeredMeshDerivative derivative =
+      along ? LayeredMeshDerivative(mesh.mesh, moving_loops(mesh.mesh.outer(), loop))
+            : LayeredMeshDerivative(mesh.mesh);
+  const std::vector<double> all = derivative.vjp(weights);
   return copied(std::vector<double>(all.begin() + static_cast<std::ptrdiff_t>(first),
                                     all.begin() + static_cast<std::ptrdiff_t>(first + count)));
 }
@@ -196,10 +212,11 @@ solve_flow() and LivingFlow.solve() take it. freeze() has its arrays.)");
 the same stations. strategy: 'renew', 'morph', 'reference' or another of Mesh.update(). Where anything is refused the
 mesh is as it was. Raises ArgumentError and GeometryError; Ctrl-C ends it.)");
   type.def(
-      "vjp", &layers_vjp, "by_points"_a, "boundary"_a = "",
+      "vjp", &layers_vjp, "by_points"_a, "boundary"_a = "", py::kw_only(), "interior"_a = "own",
       R"(Derivatives by the points of freeze(), of shape (n, 2), become derivatives by an airfoil's coefficients
-(Airfoil.design's order), at fixed connectivity: walls move with their curves, the layer with its columns, the rest of
-the interior stays. LivingFlow.gradients() has derivatives by points.)");
+(Airfoil.design's order), at fixed connectivity: walls move with their curves, the layer with its columns. The rest of the
+interior stays ('still'), or goes as the last step would ('own'): along after update(strategy='reference'), otherwise it
+stays. LivingFlow.gradients() has derivatives by points.)");
   type.def("check", &layers_checked,
            "Validates it: cells convex, conforming and counter-clockwise, the outer mesh as promised.");
   type.def("copy", [](LivingLayers& mesh) {

@@ -72,8 +72,12 @@ inline Domain next_domain(const LivingMesh& mesh, const py::object& shape, const
 }
 
 // Where the upper and lower coefficients of the airfoil of that name, or the only one, are in
-// coefficients_of(): the first and how many. Throws Error (argument) where there is not one such airfoil.
-std::pair<std::size_t, std::size_t> airfoil_numbers(const Domain& domain, const std::string& boundary);
+// coefficients_of(): its loop, the first and how many. Throws Error (argument) where there is not one such
+// airfoil.
+struct AirfoilNumbers {
+  std::size_t loop, first, count;
+};
+AirfoilNumbers airfoil_numbers(const Domain& domain, const std::string& boundary);
 
 // The loops of a domain that are an airfoil by its coefficients, of that name if there is one.
 std::vector<std::size_t> airfoil_loops(const Domain& domain, const std::string& name);

@@ -179,3 +179,70 @@ def test_slsqp_of_openmdao_ends_by_itself(airfoil):
     problem.run_model()
     problem.run_driver()
     assert abs(problem.get_val("cl")[0] - 0.3) < 1e-4
+
+
+def section_of(api, **options):
+    component = api.components.SectionComponent(**options)
+    component.setup()
+    return component
+
+
+def partials_of(component):
+    partials = {}
+    component.compute_partials(component.inputs, partials)
+    return partials
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"airfoil": "naca:2412", "mach": 0.4, "alpha": 1.0, "mesh": {"points": 40}, "thickness_at": (0.3, 0.7)},
+        {"airfoil": "naca:0012", "mach": 0.4, "lift": 0.2, "mesh": {"points": 40}},
+        {"airfoil": "naca:0012", "model": "laminar", "mach": 0.4, "alpha": 1.0, "reynolds": 1000.0,
+         "mesh": {"spacing": 6.0, "growth": 1.5}},
+    ],
+)  # fmt: skip
+def test_a_section_has_the_partials_of_the_way_that_its_mesh_goes(api, options):
+    section = section_of(api, tolerance=1e-12, **options)
+    design = section.inputs["design"].copy()
+    outputs = [name for name in ("cl", "alpha", "cd", "cm", "cd_pressure", "area", "thickness") if name in section.outputs]
+    section.compute(section.inputs | {"design": design + 0.003}, section.outputs)  # the morph is no longer the first mesh
+    base = {"design": design + 0.002}
+    section.compute(section.inputs | base, section.outputs)
+    section.inputs.update(base)
+    partials = partials_of(section)
+    random, h = np.random.default_rng(3), 1e-4
+    for wrt in ("design", "mach", section._condition):
+        direction = random.standard_normal(section.inputs[wrt].shape)
+        by = {}
+        for k in (-2, -1, 1, 2):
+            section.compute(section.inputs | {wrt: section.inputs[wrt] + k * h * direction}, section.outputs)
+            by[k] = {name: section.outputs[name].copy() if hasattr(section.outputs[name], "copy") else section.outputs[name] for name in outputs}
+        for name in outputs:
+            difference = (8 * (np.atleast_1d(by[1][name]) - by[-1][name]) - (np.atleast_1d(by[2][name]) - by[-2][name])) / (12 * h)
+            if (name, wrt) not in partials:
+                assert np.allclose(difference, 0), (name, wrt)
+                continue
+            slope = np.atleast_2d(partials[name, wrt]) @ direction
+            assert np.allclose(slope, difference, rtol=2e-5, atol=1e-7), (name, wrt, slope, difference)
+
+
+def test_a_section_goes_far_and_says_what_has_no_flow(api):
+    section = section_of(api, airfoil="naca:0012", mach=0.4, alpha=1.0, mesh={"points": 40})
+    far = remodel.Airfoil("rae2822", degree=section.start.degree)
+    for part in (0.5, 1.0):  # no morph of the first mesh may be good enough: triangles are replaced
+        design = (1 - part) * section.start.design + part * far.design
+        section.compute(section.inputs | {"design": design}, section.outputs)
+    fresh = remodel.generate(section.start.with_design(far.design), points=40)
+    assert abs(section.outputs["cl"] - remodel.solve_flow(fresh, mach=0.4, alpha=1.0).cl) < 0.03
+    with pytest.raises(api.AnalysisError, match="its surfaces cross; bound the design"):
+        section.compute(section.inputs | {"design": -section.start.design}, section.outputs)
+    section.compute(section.inputs, section.outputs)  # and goes on
+
+
+def test_sections_refuse_what_does_not_fit(api):
+    for options, message in (({"reynolds": 1e6}, "reynolds: found 1000000.0 with the model 'euler'"),
+                             ({"model": "sa"}, "reynolds: found None with the model 'sa'"),
+                             ({"thickness_at": (0.5, 1.0)}, "thickness_at: found")):  # fmt: skip
+        with pytest.raises(remodel.ArgumentError, match=message):
+            section_of(api, mesh={"points": 40}, **options)
