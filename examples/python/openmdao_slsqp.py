@@ -1,34 +1,42 @@
-"""Drag under OpenMDAO, at a lift of 0.3 or more: a section by ScipyOptimizeDriver, with total derivatives.
+"""Drag at fixed lift under OpenMDAO: a section by ScipyOptimizeDriver, with exact total derivatives.
 
-    python3 openmdao_slsqp.py
+    python3 openmdao_slsqp.py [euler|laminar|sa]
 
-MeshComponent has the points of a design, FlowComponent their flow; OpenMDAO chains the derivatives of both.
+SectionComponent owns the mesh and the flow, which live from design to design. The area may not fall.
 """
+
+import sys
 
 import openmdao.api as om
 
 import remodel
-from remodel.openmdao import FlowComponent, MeshComponent
+from remodel.openmdao import SectionComponent
+
+CASES = {
+    "euler": {"mach": 0.75, "lift": 0.3, "mesh": {"points": 100}},
+    "laminar": {"model": "laminar", "mach": 0.5, "lift": 0.1, "reynolds": 5000.0, "mesh": {"spacing": 4.0, "growth": 1.5}},
+    "sa": {"model": "sa", "mach": 0.73, "lift": 0.5, "reynolds": 6.5e6, "mesh": {"spacing": 2.0}},
+}
 
 
-def main(start="naca:0012", points=100, mach=0.75, alpha=2.0, iterations=15):
-    geometry = MeshComponent(mesh=remodel.generate(start, points=points))
+def main(case="euler", start="naca:0012", iterations=20, **changes):
+    section = SectionComponent(airfoil=start, **(CASES[case] | changes))
     problem = om.Problem()
-    problem.model.add_subsystem("geometry", geometry, promotes=["design", "points"])
-    problem.model.add_subsystem("flow", FlowComponent(geometry=geometry, mach=mach, alpha=alpha), promotes=["*"])
+    problem.model.add_subsystem("section", section, promotes=["*"])
     design = remodel.Airfoil(start).design
-    problem.model.add_design_var("design", lower=design - 0.02, upper=design + 0.02)
+    problem.model.add_design_var("design", lower=design - 0.1, upper=design + 0.1)
     problem.model.add_objective("cd", ref=1e-3)
-    problem.driver = om.ScipyOptimizeDriver(optimizer="SLSQP", maxiter=iterations, tol=1e-4, disp=False)
-    problem.model.add_constraint("cl", lower=0.3)
+    problem.driver = om.ScipyOptimizeDriver(optimizer="SLSQP", maxiter=iterations, tol=1e-3, disp=False)
     problem.setup()
     problem.run_model()
-    first = float(problem.get_val("cd")[0])
+    first, area = float(problem.get_val("cd")[0]), float(problem.get_val("area")[0])
+    problem.model.add_constraint("area", lower=area, ref=area)
+    problem.setup()
     problem.run_driver()
-    drag, lift = float(problem.get_val("cd")[0]), float(problem.get_val("cl")[0])
-    print(f"{1e4 * first:.1f} to {1e4 * drag:.1f} counts, CL {lift:.4f}")
-    return first, drag, lift
+    last, flows = float(problem.get_val("cd")[0]), section.flows
+    print(f"{1e4 * first:.1f} to {1e4 * last:.1f} counts in {flows} flows, area {100 * float(problem.get_val('area')[0]) / area:.2f} %")
+    return first, last, flows, float(problem.get_val("area")[0]) / area
 
 
 if __name__ == "__main__":
-    main()
+    main(*sys.argv[1:2])

@@ -167,7 +167,7 @@ class SectionComponent(ExplicitComponent):
 
     The mesh and the flow live from design to design. Each design's mesh is the morph of the first one, so that outputs are
     smooth and partials are those of the very way that the mesh goes; where no morph is good enough, triangles are replaced
-    and outputs jump by the mesh's error. AnalysisError: surfaces that cross, no mesh, no flow.
+    and outputs jump by the mesh's error. `flows` counts searches. AnalysisError: surfaces that cross, no mesh, no flow.
     """
 
     def initialize(self):
@@ -193,6 +193,7 @@ class SectionComponent(ExplicitComponent):
         self.mesh = self._mesh_of_start(reynolds)
         self.solver = LivingFlow(model=self.options["model"], tolerance=self.options["tolerance"])
         self._solved = self._gradients = None
+        self.flows = 0  # that were looked for
         self._sizes = _Sizes(self.start, self.options["thickness_at"])
 
         self._condition = "alpha" if self.options["lift"] is None else "lift"
@@ -230,6 +231,7 @@ class SectionComponent(ExplicitComponent):
             conditions["transition"] = self.options["transition"]
         try:
             self.mesh.update(airfoil, strategy="reference")
+            self.flows += 1
             flow = self.solver.solve(self.mesh, **conditions)
         except Error as error:
             raise AnalysisError(str(error) + _RECIPE) from error
