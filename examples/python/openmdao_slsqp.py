@@ -19,17 +19,18 @@ CASES = {
 }
 
 
-def main(case="euler", start="naca:0012", iterations=20, **changes):
+def main(case="euler", start="naca:0012", iterations=30, bound=None, **changes):
     section = SectionComponent(airfoil=start, **(CASES[case] | changes))
     problem = om.Problem()
     problem.model.add_subsystem("section", section, promotes=["*"])
     design = remodel.Airfoil(start).design
-    problem.model.add_design_var("design", lower=design - 0.1, upper=design + 0.1)
-    problem.model.add_objective("cd", ref=1e-3)
-    problem.driver = om.ScipyOptimizeDriver(optimizer="SLSQP", maxiter=iterations, tol=1e-3, disp=False)
+    bound = bound or (0.1 if case == "euler" else 0.03)
+    problem.model.add_design_var("design", lower=design - bound, upper=design + bound)
+    problem.driver = om.ScipyOptimizeDriver(optimizer="SLSQP", maxiter=iterations, tol=1e-5, disp=False)
     problem.setup()
     problem.run_model()
     first, area = float(problem.get_val("cd")[0]), float(problem.get_val("area")[0])
+    problem.model.add_objective("cd", ref=first)
     problem.model.add_constraint("area", lower=area, ref=area)
     problem.setup()
     problem.run_driver()

@@ -194,18 +194,18 @@ class SectionComponent(ExplicitComponent):
         self.solver = LivingFlow(model=self.options["model"], tolerance=self.options["tolerance"])
         self._solved = self._gradients = None
         self.flows = 0  # that were looked for
-        self._sizes = _Sizes(self.start, self.options["thickness_at"])
+        self._geometry = _Sizes(self.start, self.options["thickness_at"])
 
         self._condition = "alpha" if self.options["lift"] is None else "lift"
         self._stream = ["mach", self._condition, *(["reynolds"] if self._has_friction else [])]
         self.add_input("design", val=self.start.design)
         for name in self._stream:
             self.add_input(name, val=self.options[name])
-        self._outputs = ["cl" if self._condition == "alpha" else "alpha", "cd", "cm", *(["cd_pressure"] if self._has_friction else [])]
-        for name in self._outputs:
+        self._of_flow = ["cl" if self._condition == "alpha" else "alpha", "cd", "cm", *(["cd_pressure"] if self._has_friction else [])]
+        for name in self._of_flow:
             self.add_output(name, val=0.0)
             self.declare_partials(name, ["design", *self._stream])
-        for name, values in self._sizes.at(self.start).items():
+        for name, values in self._geometry.at(self.start).items():
             self.add_output(name, val=values)
             self.declare_partials(name, "design")
 
@@ -242,21 +242,21 @@ class SectionComponent(ExplicitComponent):
 
     def compute(self, inputs, outputs):
         flow = self._solve(inputs)
-        for name in self._outputs:
+        for name in self._of_flow:
             outputs[name] = getattr(flow, name)
-        for name, values in self._sizes.at(self.start.with_design(np.array(inputs["design"], dtype=float))).items():
+        for name, values in self._geometry.at(self.start.with_design(np.array(inputs["design"], dtype=float))).items():
             outputs[name] = values
 
     def compute_partials(self, inputs, partials):
         self._solve(inputs)
         if self._gradients is None:
             gradients = self.solver.gradients()
-            self._gradients = {name: (gradients[name], self.mesh.vjp(gradients[name]["points"])) for name in self._outputs}
+            self._gradients = {name: (gradients[name], self.mesh.vjp(gradients[name]["points"])) for name in self._of_flow}
         for name, (gradient, by_design) in self._gradients.items():
             partials[name, "design"] = np.asarray(by_design)[None, :]
             for condition in self._stream:
                 partials[name, condition] = gradient["cl" if condition == "lift" else condition]
-        for name, slope in self._sizes.slopes.items():
+        for name, slope in self._geometry.slopes.items():
             partials[name, "design"] = slope
 
 
