@@ -85,10 +85,17 @@ class SweepJobs final : public CrewJobs {
   mutable std::atomic<bool> cancelled_ = false;
 };
 
-SweepDirectory opened(const fs::path& directory, const SweepProblem& problem, SweepMode mode) {
+// is_ours: the directory was made for this sweep, and is gone again if it cannot begin.
+SweepDirectory opened(const fs::path& directory, const SweepProblem& problem, SweepMode mode, bool is_ours) {
   if (mode == SweepMode::begin) {
     SweepDirectory::require_new(directory);  // again, now that the lock keeps others from beginning
-    return {directory, problem};
+    try {
+      return {directory, problem};
+    } catch (...) {
+      std::error_code ignored;
+      if (is_ours) fs::remove(directory, ignored);
+      throw;
+    }
   }
   SweepDirectory sweep(directory);
   sweep.extend(problem);
@@ -165,8 +172,9 @@ SweepResult sweep(const fs::path& directory, const SweepProblem& problem, SweepM
   validate(problem, "sweep");
   if (mode == SweepMode::begin) SweepDirectory::require_new(directory);
   if (mode == SweepMode::resume) SweepDirectory ignored(directory);  // throws where there is none
+  const bool is_missing = !fs::exists(directory);
   const DirectoryLock lock(directory);
-  const SweepDirectory sweep = opened(directory, problem, mode);
+  const SweepDirectory sweep = opened(directory, problem, mode, is_missing);
   lock.sync();
   SweepObserver silent;
   SweepJobs jobs(sweep, observer ? *observer : silent);

@@ -74,7 +74,6 @@ SweepDirectory::SweepDirectory(fs::path directory, SweepProblem problem)
   // Further Reynolds numbers do not change it.
   if (problem_.model != FlowModel::euler) problem_.layer = sweep_layer(problem_);
   plans_ = plans_of_missing(problem_, {});
-  fs::create_directory(directory_ / chains_name);
   save();
 }
 
@@ -135,6 +134,7 @@ ChainWork SweepDirectory::work_of(const PlannedChain& chain) const {
 }
 
 void SweepDirectory::write(std::size_t chain, const std::string& result) const {
+  fs::create_directory(directory_ / chains_name);
   write_text_atomically(file_of(chain), result + seal_of(result));
 }
 

@@ -10,6 +10,7 @@ import time
 import unittest
 
 import harness
+from crash_test import DiskTest
 from harness import ProgramTest
 from ranks import UnderMpirun
 
@@ -178,6 +179,28 @@ class Ranks(UnderMpirun, SweepTest):
         message = process.communicate(timeout=120)[1]
         self.assertEqual(process.returncode, 2, message)
         self.assertEqual(message.count(b"remodel: error:"), 1, message)
+
+
+class Disks(SweepTest, DiskTest):
+    def test_a_disk_that_fills_up(self):
+        self.sweep_file(sections=[{"samples": 40, "around": "naca:0012", "range": 0.01}])
+        self.succeed("sweep", "s.json", "-o", "whole")
+        self.mount("size=1m")
+        self.fill(left=60_000)
+        outcome = self.run_program("sweep", "s.json", "-o", "disk/s")
+        self.assertEqual(outcome.status, 2, outcome)
+        self.assertEqual(len(outcome.stderr.splitlines()), 1, outcome)
+        self.assertIn("disk/s/", outcome.stderr)
+        self.assertFalse(list(self.path("disk/s").rglob("*.tmp")))
+        self.path("disk/filler").unlink()
+        self.succeed("sweep", "s.json", "-o", "disk/s", "--resume")
+        self.assertEqual(self.tables("disk/s"), self.tables("whole"))
+
+    def test_no_room_for_the_start(self):
+        self.sweep_file()
+        self.mount("size=16k")
+        self.fill()
+        self.refused("sweep", "s.json", "-o", "disk/s", names="disk/s")
 
 
 class Refusals(SweepTest):
