@@ -294,8 +294,10 @@ class Chain {
     if (!marched.tried) {
       marched.reason = "not looked for: no flow was found at two values before";
     } else {
+      double seconds = 0.0;
       for (const Found& beginning : beginnings(all, c, k, last)) {
         marched.flow = search(condition, k, beginning);
+        marched.flow.seconds = seconds += marched.flow.seconds;
         if (marched.flow.status == FlowStatus::interrupted) return false;
         if (marched.flow.converged()) break;
       }
