@@ -84,6 +84,36 @@ struct EndsAt final : StepObserver {
   int left;
 };
 
+// Of two sections at two angles three flows are known: the fourth begins nearer to itself than any of them.
+TEST(LivingFlow, AFlowThatIsChangedAsAnotherOneIsNearTheOneLookedFor) {
+  CstAirfoil airfoil = named_airfoil("naca:0012", 5);
+  const Mesh first = generate(domain_of(airfoil), {.gradation = 1.2}).mesh;
+  for (double& coefficient : airfoil.upper) coefficient += 0.01;
+  Mesh second = first;
+  remodel(second, domain_of(airfoil), {.strategy = Strategy::morph});
+  const FlowConditions flat = {.mach = 0.5, .alpha_deg = 0.0}, steep = {.mach = 0.5, .alpha_deg = 2.0};
+  LivingFlow living;
+  const auto kept = [&](const Mesh& mesh, const FlowConditions& at) {
+    EXPECT_TRUE(living.solve(mesh, at).converged());
+    return living.keep();
+  };
+  const KeptFlow first_flat = kept(first, flat), first_steep = kept(first, steep),
+                 second_flat = kept(second, flat);
+  const FlowResult cold = solve_flow(second.freeze(), steep);
+  const auto begun_from = [&](const KeptFlow& flow) {
+    LivingFlow fresh;
+    fresh.go_on_from(flow);
+    const FlowResult result = fresh.solve(second, steep);
+    EXPECT_TRUE(result.converged());
+    EXPECT_NEAR(result.cl, cold.cl, 1e-8);
+    return result.history.front();
+  };
+  const double changed_one = begun_from(changed(first_steep, first_flat, second_flat));
+  EXPECT_LT(changed_one, 0.5 * begun_from(first_steep));
+  EXPECT_LT(changed_one, 0.5 * begun_from(second_flat));
+  EXPECT_THROW(changed(first_steep, {}, second_flat), Error);
+}
+
 TEST(LivingFlow, AFlowThatIsCancelledInItsLastStepIsNotTheLastOne) {
   const Mesh mesh = generate(domain_of(named_airfoil("naca:0012", 5)), {.gradation = 1.2}).mesh;
   const FlowConditions conditions = {.mach = 0.6, .alpha_deg = 1.25};
