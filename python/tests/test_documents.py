@@ -17,6 +17,17 @@ def blocks_of_readme():
     return blocks
 
 
+def test_the_loop_of_the_page_on_python_loses_drag(capsys):
+    exec(compile(blocks_of("docs/python.md")[0], "python.md", "exec"), {})
+    counts = [float(line.split()[0]) for line in capsys.readouterr().out.splitlines()]
+    assert len(counts) == 3 and counts[2] < counts[1] < counts[0]
+
+
+def test_the_lines_of_the_page_on_sweeps(capsys):
+    exec(compile(blocks_of("docs/sweep.md")[1], "sweep.md", "exec"), {})
+    assert "found=4" in capsys.readouterr().out
+
+
 def test_the_lines_of_the_tutorial(capsys):
     (lines,) = blocks_of("docs/tutorial.md")
     exec(compile(lines, "tutorial.md", "exec"), {})
