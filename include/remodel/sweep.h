@@ -73,6 +73,7 @@ struct SweepProblem {
   SweepOrder order = SweepOrder::nearest;
   std::uint64_t seed = 1;    // of a random order
   std::size_t stations = 0;  // of pressures on each surface, from nose to trailing edge; 0: none are kept
+  bool fields = false;       // each flow's mesh and fields as a .vtu file, fields/ in the directory
   std::vector<std::string> warnings = {};  // of a reader: sections that were turned, sheared or closed
 };
 
@@ -91,8 +92,8 @@ std::vector<double> sweep_stations(std::size_t count);
 struct SweepFlow {
   std::size_t section = 0;  // its index in SweepProblem::sections
   double mach = 0.0, reynolds = 0.0;
-  double asked = 0.0;    // the angle or the lift
-  bool refused = false;  // there is no section, or no mesh: point.reason says why
+  double asked = 0.0;     // the angle or the lift
+  bool refused = false;   // there is no section, or no mesh: point.reason says why
   PolarPoint point = {};  // its seconds are of all searches
   // At the stations of the upper surface from nose to trailing edge, then of the lower one: the pressure
   // coefficient and, with friction, the friction coefficient. Empty where there is no flow.
@@ -147,6 +148,10 @@ SweepResult sweep(const std::filesystem::path& directory, const SweepProblem& pr
 
 // Does one chain, from bytes to bytes: the CrewWork of sweep().
 std::optional<std::string> run_sweep_chain(const std::string& work, const std::function<bool()>& cancelled);
+
+// The file of a flow's mesh and fields, from the sweep's directory: "fields/000012_M0.3_Re6000000_2.vtu" of
+// section 12.
+std::string sweep_fields_file(const SweepFlow& flow);
 
 // A sweep's directory: the sweep, and the flows of its finished chains by section, Mach number, Reynolds
 // number and value. Throws Error (file, format).

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <numbers>
@@ -11,9 +13,11 @@
 #include "aero/polar_point.h"
 #include "aero/resolved_problem.h"
 #include "aero/sweep_record.h"
+#include "aero/table_cell.h"
 #include "base/stopwatch.h"
 #include "remodel/error.h"
 #include "remodel/generate.h"
+#include "remodel/io.h"
 #include "remodel/layers.h"
 #include "remodel/remodel.h"
 
@@ -310,10 +314,18 @@ class Chain {
       const FrozenMesh& mesh = places_[k].mesh.frozen;
       flow.cp = stations_.at(mesh, pressure_coefficients(marched.flow));
       if (marched.flow.friction) flow.cf = stations_.at(mesh, marched.flow.friction->cf);
+      if (problem_.fields) write_fields(mesh, marched.flow, flow);
     }
     flow.point = aero::point_of(marched, problem_.over_lift);
     result_.flows.push_back(std::move(flow));
     return true;
+  }
+
+  void write_fields(const FrozenMesh& mesh, const FlowResult& found, const SweepFlow& flow) const {
+    const std::filesystem::path file = std::filesystem::path(work_.directory) / sweep_fields_file(flow);
+    std::filesystem::create_directories(file.parent_path());
+    const std::vector<Field> fields = fields_of(found);
+    write_mesh(mesh, file, {.fields = fields});
   }
 
   FlowResult search(const Condition& condition, std::size_t k, const Found& beginning) {
@@ -356,6 +368,14 @@ class Chain {
 };
 
 }  // namespace
+
+std::string sweep_fields_file(const SweepFlow& flow) {
+  char section[32];
+  std::snprintf(section, sizeof section, "%06zu", flow.section);
+  const std::string reynolds = flow.reynolds > 0.0 ? "_Re" + table_cell(flow.reynolds) : "";
+  return std::string("fields/") + section + "_M" + table_cell(flow.mach) + reynolds + "_" +
+         table_cell(flow.asked) + ".vtu";
+}
 
 std::vector<double> sweep_stations(std::size_t count) {
   std::vector<double> stations;

@@ -125,7 +125,8 @@ bool SweepDirectory::is_finished(std::size_t chain) const {
 }
 
 ChainWork SweepDirectory::work_of(const PlannedChain& chain) const {
-  ChainWork work{.problem = problem_, .sections = *chain.sections};
+  ChainWork work{
+      .problem = problem_, .sections = *chain.sections, .directory = fs::absolute(directory_).string()};
   work.problem.rows = chain.plan->rows;
   work.problem.sections.clear();
   for (const std::size_t section : *chain.sections)

@@ -301,7 +301,7 @@ SweepProblem parse_sweep(const std::string& text, const std::string& file) {
   const Json json = parse_design_json(text, file);
   const Keys keys(json, file,
                   {"sections", "degree", "conditions", "model", "transition", "mesh", "surface_stations",
-                   "chain", "order", "seed", "tolerance", "max_steps"});
+                   "fields", "chain", "order", "seed", "tolerance", "max_steps"});
   SweepProblem problem;
   problem.model = model_of(keys);
   if (keys.has("transition")) {
@@ -315,6 +315,7 @@ SweepProblem parse_sweep(const std::string& text, const std::string& file) {
   read_conditions(json, file, problem);
   read_mesh(json, file, problem);
   problem.stations = keys.whole<std::size_t>("surface_stations", 0, 0, 10000);
+  problem.fields = keys.get<bool>("fields", false);
   problem.chain = keys.whole<std::size_t>("chain", problem.chain, 1, most_sections);
   problem.order = order_of(keys);
   problem.seed = keys.whole<std::uint64_t>("seed", 1, 0, UINT64_MAX);

@@ -140,7 +140,8 @@ Json to_json(const SweepProblem& problem) {
             {"chain", problem.chain},
             {"order", name_of(problem.order)},
             {"seed", problem.seed},
-            {"stations", problem.stations}};
+            {"stations", problem.stations},
+            {"fields", problem.fields}};
   if (problem.gradation) json["gradation"] = *problem.gradation;
   if (problem.transition) json["transition"] = *problem.transition;
   if (problem.layer)
@@ -168,6 +169,7 @@ SweepProblem sweep_problem_from(const Json& json, const std::string& source) {
                           {SweepOrder::nearest, SweepOrder::given, SweepOrder::random});
     problem.seed = json.at("seed").get<std::uint64_t>();
     problem.stations = count_at(json, "stations", 0, 100000);
+    problem.fields = json.at("fields").get<bool>();
     if (json.contains("gradation")) problem.gradation = json.at("gradation").get<double>();
     if (json.contains("transition")) problem.transition = json.at("transition").get<std::array<double, 2>>();
     if (json.contains("layer")) {
@@ -206,7 +208,7 @@ std::vector<SweepPlan> sweep_plans_from(const Json& json, const SweepProblem& pr
 }
 
 std::string encode(const ChainWork& work) {
-  return cbor({{"sweep", to_json(work.problem)}, {"sections", work.sections}});
+  return cbor({{"sweep", to_json(work.problem)}, {"sections", work.sections}, {"directory", work.directory}});
 }
 
 ChainWork decode_chain_work(const std::string& bytes) {
@@ -214,7 +216,8 @@ ChainWork decode_chain_work(const std::string& bytes) {
   return trusted(source, [&] {
     const Json json = Json::from_cbor(bytes);
     ChainWork work{.problem = sweep_problem_from(json.at("sweep"), source),
-                   .sections = json.at("sections").get<std::vector<std::size_t>>()};
+                   .sections = json.at("sections").get<std::vector<std::size_t>>(),
+                   .directory = json.at("directory").get<std::string>()};
     if (work.sections.size() != work.problem.sections.size())
       throw std::invalid_argument("found numbers of other sections");
     return work;

@@ -22,6 +22,7 @@ struct SweepPlan {
 struct ChainWork {
   SweepProblem problem;
   std::vector<std::size_t> sections;
+  std::string directory;  // the sweep's, where fields go
 };
 struct ChainResult {
   std::vector<SweepFlow> flows;

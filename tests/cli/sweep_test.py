@@ -72,6 +72,13 @@ class Sweeps(SweepTest):
             numpy.testing.assert_allclose(lifts[first], file["flows/cl"][:][first], atol=0.02)
             self.assertEqual(json.loads(file["sweep"][0])["points"], 40)
 
+    def test_fields_on_request(self):
+        self.succeed("sweep", self.sweep_file(fields=True, conditions={"mach": 0.3, "alpha_deg": [0, 1.5]}), "-o", "d")
+        names = sorted(path.name for path in self.path("d/fields").iterdir())
+        self.assertEqual(names, [f"{s:06d}_M0.3_{a}.vtu" for s in range(8) for a in ("0", "1.5")])
+        self.succeed("draw", "d/fields/000003_M0.3_1.5.vtu", "-o", "mach.png", "--color", "mach")
+        self.refused("sweep", self.sweep_file(fields=False), "-o", "d", "--resume", names="fields")
+
     def test_threads_and_an_order_change_no_flow_beyond_its_mesh(self):
         self.succeed("sweep", self.sweep_file(), "-o", "a", "--threads", 1)
         self.succeed("sweep", "s.json", "-o", "b", "--threads", 3)
