@@ -10,6 +10,7 @@
 #include "number_text.h"
 #include "optimise_start.h"
 #include "outputs.h"
+#include "page_command.h"
 #include "progress.h"
 #include "remodel/design_run.h"
 #include "remodel/error.h"
@@ -114,35 +115,6 @@ Status run(const DesignCommand& command) {
   return std::isfinite(result.search.objective) ? Status::done : Status::answer_is_no;
 }
 
-struct DesignReportCommand {
-  std::filesystem::path run;
-  std::string output;
-  bool json = false;
-};
-
-Status run(const DesignReportCommand& command) {
-  const std::string page = command.output.empty() ? (command.run / "report.html").string() : command.output;
-  require_writable_as(page, {".html"});
-  const Json figures = Json::parse(write_design_page(command.run, page));
-  Report report;
-  report.figure("run", "run", command.run.string());
-  for (const auto& [key, value] : figures.items()) report.figure(key, key, value);
-  add_output_figures(report, {page});
-  report.print(command.json);
-  return Status::done;
-}
-
-void add_design_report_command(CLI::App& design, Action& action) {
-  auto command = std::make_shared<DesignReportCommand>();
-  CLI::App& app =
-      add_command(design, "report", "Reports a run on one page, with everything in it", command, action);
-  add_text(app, {"DIR", "", "", "Run directory of `remodel design`, finished or not"}, Presence::required,
-           command->run);
-  add_text(app, {"-o,--output", "FILE", "DIR/report.html", "Page to write: .html"}, Presence::optional,
-           command->output);
-  add_json_flag(app, command->json);
-}
-
 }  // namespace
 
 void add_design_command(CLI::App& program, Action& action) {
@@ -169,7 +141,11 @@ void add_design_command(CLI::App& program, Action& action) {
       {.low = 1, .high = 1000}, command->run.threads);
   add_flag(app, "--quiet", "No progress on standard error", command->quiet);
   add_json_flag(app, command->json);
-  add_design_report_command(app, action);
+  add_page_command(app, action,
+                   {.description = "Reports a run on one page, with everything in it",
+                    .directory_help = "Run directory of `remodel design`, finished or not",
+                    .key = "run",
+                    .write = write_design_page});
 }
 
 }  // namespace remodel::app

@@ -39,6 +39,13 @@ void require_writable_directory(const std::filesystem::path& directory) {
                 "directory '" + there.string() + "' is not writable: " + std::strerror(errno));
 }
 
+void require_place_of_run(const std::filesystem::path& directory) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(directory, ignored)) return require_writable(directory / "new");
+  if (!std::filesystem::exists(directory, ignored))
+    require_writable(directory.has_filename() ? directory : directory.parent_path());
+}
+
 void require_writable_as(const std::string& file, std::initializer_list<const char*> extensions) {
   const std::string extension = std::filesystem::path(file).extension().string();
   if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
@@ -123,16 +130,19 @@ MeshOutputs MeshOutputs::with_boxes(const std::string& su2_boxes) const {
 }
 
 void MeshOutputs::write(const Mesh& mesh, std::span<const Field> fields) const {
-  write_each(fields, [&] { return mesh.freeze(); },
-             [&](const std::string& file, const WriteOptions& options) { write_mesh(mesh, file, options); });
+  write_each(
+      fields, [&] { return mesh.freeze(); },
+      [&](const std::string& file, const WriteOptions& options) { write_mesh(mesh, file, options); });
 }
 void MeshOutputs::write(const FrozenMesh& mesh, std::span<const Field> fields) const {
-  write_each(fields, [&]() -> const FrozenMesh& { return mesh; },
-             [&](const std::string& file, const WriteOptions& options) { write_mesh(mesh, file, options); });
+  write_each(
+      fields, [&]() -> const FrozenMesh& { return mesh; },
+      [&](const std::string& file, const WriteOptions& options) { write_mesh(mesh, file, options); });
 }
 void MeshOutputs::write(const LayeredMesh& mesh, LayerCells cells, std::span<const Field> fields) const {
-  write_each(fields, [&] { return mesh.freeze(cells); },
-             [&](const std::string& file, const WriteOptions& options) { write_mesh(mesh, file, options, cells); });
+  write_each(
+      fields, [&] { return mesh.freeze(cells); },
+      [&](const std::string& file, const WriteOptions& options) { write_mesh(mesh, file, options, cells); });
 }
 void MeshOutputs::write(const Mesh& mesh) const {
   write(mesh, {});

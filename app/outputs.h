@@ -47,7 +47,9 @@ class MeshOutputs {
 void warn_of_inner_curves(const FrozenMesh& mesh, const std::string& file, const std::string& remedy);
 // Throws Error (file) if the file is a directory, or its directory is missing or not writable.
 void require_writable(const std::filesystem::path& file);
-// The same, and throws Error (argument) if the file has none of the extensions (".png").
+// Throws Error (file) where a directory with files of a run cannot be made, or written to.
+void require_place_of_run(const std::filesystem::path& directory);
+// require_writable(), and throws Error (argument) if the file has none of the extensions (".png").
 void require_writable_as(const std::string& file, std::initializer_list<const char*> extensions);
 // Throws Error (file) if there is no such directory and none can be made, or it is not writable.
 void require_writable_directory(const std::filesystem::path& directory);

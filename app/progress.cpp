@@ -25,9 +25,30 @@ std::string bar_of(double part) {
   return text;
 }
 
+bool StatusLine::is_due(bool is_last) {
+  const double pause = style_ == ProgressStyle::bar ? 0.1 : 5.0, now = seconds();
+  if (now - shown_at_ < pause && !is_last) return false;
+  shown_at_ = now;
+  return true;
+}
+
+bool StatusLine::show(double part, const char* text) const {
+  if (style_ == ProgressStyle::bar) {
+    draw_status_line("[" + bar_of(part) + "] " + text);
+    return true;
+  }
+  std::fprintf(stderr, "%s\n", text);
+  std::fflush(stderr);
+  return false;
+}
+
+void StatusLine::end() const {
+  if (style_ == ProgressStyle::bar) std::fputc('\n', stderr);
+}
+
 void Progress::evaluated(const EvaluationRecord& record) {
   if (at_first_) std::exchange(at_first_, nullptr)();
-  if (style_ == ProgressStyle::none) return;
+  if (line_.style() == ProgressStyle::none) return;
   if (first_ == 0) {
     // Nothing is printed before the first evaluation: a refusal may still come, and it has to be the only
     // line.
@@ -35,32 +56,22 @@ void Progress::evaluated(const EvaluationRecord& record) {
     first_ = record.evaluation;
   }
   preserved_sum_ += record.preserved_percent;
-  const double seconds = watch_.seconds();
-  const double pause = style_ == ProgressStyle::bar ? 0.1 : 5.0;
-  if (seconds - shown_at_ < pause && record.evaluation != evaluations_) return;
-  shown_at_ = seconds;
-  show(record, seconds);
+  if (line_.is_due(record.evaluation == evaluations_)) show(record);
 }
 
-void Progress::show(const EvaluationRecord& record, double seconds) {
+void Progress::show(const EvaluationRecord& record) const {
   const double done = static_cast<double>(record.evaluation - first_ + 1);
-  const double left = static_cast<double>(evaluations_ - record.evaluation) * seconds / done;
+  const double left = static_cast<double>(evaluations_ - record.evaluation) * line_.seconds() / done;
   std::array<char, 200> figures{};
   std::snprintf(figures.data(), figures.size(),
                 "%zu/%zu  objective %.3g  sigma %.2g  %zu triangles  preserved %.2f %%  %.0f s left",
                 static_cast<std::size_t>(record.evaluation), evaluations_, record.best_objective,
                 record.sigma, record.triangles, preserved_sum_ / done, left);
-  if (style_ == ProgressStyle::bar) {
-    const double part = static_cast<double>(record.evaluation) / static_cast<double>(evaluations_);
-    draw_status_line("[" + bar_of(part) + "] " + figures.data());
-  } else {
-    std::fprintf(stderr, "%s\n", figures.data());
-    std::fflush(stderr);
-  }
+  line_.show(static_cast<double>(record.evaluation) / static_cast<double>(evaluations_), figures.data());
 }
 
 void Progress::finish() {
-  if (style_ == ProgressStyle::bar && first_ != 0) std::fputc('\n', stderr);
+  if (first_ != 0) line_.end();
 }
 
 }  // namespace remodel::app

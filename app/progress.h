@@ -24,11 +24,30 @@ ProgressStyle progress_style(bool quiet);
 // A bar of 20 characters; `part` is from 0 to 1.
 std::string bar_of(double part);
 
+// What says on standard error, now and then, how far a run is.
+class StatusLine {
+ public:
+  // begun_at: seconds, from which the first pause counts.
+  explicit StatusLine(ProgressStyle style, double begun_at = 0.0) : style_(style), shown_at_(begun_at) {}
+  ProgressStyle style() const { return style_; }
+  double seconds() const { return watch_.seconds(); }
+  // Whether it is time for the next one: at the last one always.
+  bool is_due(bool is_last);
+  // part: from 0 to 1, of a bar. Returns true if it is one, which end() has to end.
+  bool show(double part, const char* text) const;
+  void end() const;  // of a bar
+
+ private:
+  ProgressStyle style_;
+  Stopwatch watch_;
+  double shown_at_;
+};
+
 class Progress : public OptimiseObserver {
  public:
   // heading: the first line, the resolved options.
   Progress(ProgressStyle style, std::size_t evaluations, std::string heading)
-      : style_(style), evaluations_(evaluations), heading_(std::move(heading)) {}
+      : line_(style), evaluations_(evaluations), heading_(std::move(heading)) {}
 
   // What is to be said when the first evaluation shows that the run was not refused.
   void say_at_first(std::function<void()> say) { at_first_ = std::move(say); }
@@ -40,15 +59,13 @@ class Progress : public OptimiseObserver {
   void finish();
 
  private:
-  void show(const EvaluationRecord& record, double seconds);
+  void show(const EvaluationRecord& record) const;
 
-  ProgressStyle style_;
+  StatusLine line_;
   std::size_t evaluations_;
   std::string heading_;
   std::function<void()> at_first_;
   InterruptObserver interrupt_;
-  Stopwatch watch_;
-  double shown_at_ = 0.0;  // seconds
   std::size_t first_ = 0;  // the first evaluation of this session: not 1 in a resumed run
   double preserved_sum_ = 0.0;
 };

@@ -1,6 +1,5 @@
 // remodel sweep SWEEP.json -o DIR: the flows around many sections at many conditions, as a table.
 
-#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <memory>
@@ -10,12 +9,11 @@
 #include "figures.h"
 #include "interrupt.h"
 #include "outputs.h"
+#include "page_command.h"
 #include "progress.h"
 #include "ranks.h"
 #include "remodel/error.h"
 #include "remodel/sweep.h"
-#include "terminal.h"
-#include "timing.h"
 #include "warnings.h"
 
 namespace remodel::app {
@@ -33,44 +31,33 @@ struct SweepCommand {
 class SweepProgressLine final : public SweepObserver {
  public:
   // time_limit: seconds; 0: none
-  SweepProgressLine(ProgressStyle style, double time_limit) : style_(style), time_limit_(time_limit) {}
+  SweepProgressLine(ProgressStyle style, double time_limit) : line_(style), time_limit_(time_limit) {}
   bool cancelled() override {
-    return interrupt_.raised() || (time_limit_ > 0.0 && watch_.seconds() > time_limit_);
+    return interrupt_.raised() || (time_limit_ > 0.0 && line_.seconds() > time_limit_);
   }
 
   void finished(const SweepProgress& progress) override {
-    if (style_ == ProgressStyle::none) return;
-    const double seconds = watch_.seconds();
-    const double pause = style_ == ProgressStyle::bar ? 0.1 : 5.0;
-    if (seconds - shown_at_ < pause && progress.chains_done != progress.chains) return;
-    shown_at_ = seconds;
+    if (line_.style() == ProgressStyle::none || !line_.is_due(progress.chains_done == progress.chains))
+      return;
+    const double seconds = line_.seconds();
     const auto here = static_cast<double>(progress.flows_done - progress.flows_before);
     const auto left = static_cast<double>(progress.flows - progress.flows_done);
     std::array<char, 200> text{};
     std::snprintf(text.data(), text.size(),
                   "%zu/%zu flows, %zu found  %.3g flows a minute  about %.0f s left", progress.flows_done,
                   progress.flows, progress.found, 60.0 * here / seconds, left * seconds / here);
-    if (style_ == ProgressStyle::bar) {
-      begun_ = true;
-      draw_status_line(
-          "[" + bar_of(static_cast<double>(progress.flows_done) / static_cast<double>(progress.flows)) +
-          "] " + text.data());
-    } else {
-      std::fprintf(stderr, "%s\n", text.data());
-      std::fflush(stderr);
-    }
+    begun_ |= line_.show(static_cast<double>(progress.flows_done) / static_cast<double>(progress.flows),
+                         text.data());
   }
   void end_line() const {
-    if (begun_) std::fputc('\n', stderr);
+    if (begun_) line_.end();
   }
 
  private:
-  ProgressStyle style_;
+  StatusLine line_;
   double time_limit_;
   InterruptFlag interrupt_;
-  Stopwatch watch_;
-  double shown_at_ = 0.0;  // seconds
-  bool begun_ = false;     // a bar is drawn
+  bool begun_ = false;  // a bar is drawn
 };
 
 void require_possible(const SweepCommand& command) {
@@ -78,10 +65,8 @@ void require_possible(const SweepCommand& command) {
     throw Error(ErrorCode::argument, command.problem.empty() ? "SWEEP" : "--output",
                 "is missing, expected a sweep's file and -o, its directory");
   std::error_code ignored;
-  if (std::filesystem::is_directory(command.directory, ignored))
-    return require_writable(command.directory / "new");
-  if (!command.resume && !std::filesystem::exists(command.directory, ignored))
-    require_writable(command.directory.has_filename() ? command.directory : command.directory.parent_path());
+  if (!command.resume || std::filesystem::is_directory(command.directory, ignored))
+    require_place_of_run(command.directory);
 }
 
 void add_refused(Report& report, const SweepProblem& problem) {
@@ -134,35 +119,6 @@ Status run(const SweepCommand& command) {
                    [&](Crew& crew) { return run_sweep(command, crew); });
 }
 
-struct SweepReportCommand {
-  std::filesystem::path sweep;
-  std::string output;
-  bool json = false;
-};
-
-Status run(const SweepReportCommand& command) {
-  const std::string page = command.output.empty() ? (command.sweep / "report.html").string() : command.output;
-  require_writable_as(page, {".html"});
-  const Json figures = Json::parse(write_sweep_page(command.sweep, page));
-  Report report;
-  report.figure("sweep", "sweep", command.sweep.string());
-  for (const auto& [key, value] : figures.items()) report.figure(key, key, value);
-  add_output_figures(report, {page});
-  report.print(command.json);
-  return Status::done;
-}
-
-void add_sweep_report_command(CLI::App& sweep, Action& action) {
-  auto command = std::make_shared<SweepReportCommand>();
-  CLI::App& app =
-      add_command(sweep, "report", "Reports a sweep on one page, with everything in it", command, action);
-  add_text(app, {"DIR", "", "", "Directory of `remodel sweep`, finished or not"}, Presence::required,
-           command->sweep);
-  add_text(app, {"-o,--output", "FILE", "DIR/report.html", "Page to write: .html"}, Presence::optional,
-           command->output);
-  add_json_flag(app, command->json);
-}
-
 }  // namespace
 
 void add_sweep_command(CLI::App& program, Action& action) {
@@ -187,7 +143,11 @@ void add_sweep_command(CLI::App& program, Action& action) {
   add_rank_option(app, command->ranks);
   add_flag(app, "--quiet", "No progress on standard error", command->quiet);
   add_json_flag(app, command->json);
-  add_sweep_report_command(app, action);
+  add_page_command(app, action,
+                   {.description = "Reports a sweep on one page, with everything in it",
+                    .directory_help = "Directory of `remodel sweep`, finished or not",
+                    .key = "sweep",
+                    .write = write_sweep_page});
 }
 
 }  // namespace remodel::app

@@ -20,39 +20,29 @@ double seconds_of(const StudyRows& rows) {
 }  // namespace
 
 Schedule::Schedule(StudyStore& store, StudyObserver& observer)
-    : store_(store),
-      observer_(observer),
-      jobs_(plan(store.options())),
-      states_(jobs_.size(), State::waiting) {
+    : Schedule(store, observer, plan(store.options())) {}
+
+Schedule::Schedule(StudyStore& store, StudyObserver& observer, std::vector<PlannedJob> jobs)
+    : JobQueue(jobs.size()), store_(store), observer_(observer), jobs_(std::move(jobs)) {
   const std::set<JobKey> finished = store.finished();
   progress_.jobs = jobs_.size();
   for (std::size_t i = 0; i < jobs_.size(); ++i) {
     progress_.core_seconds += jobs_[i].core_seconds;
     if (!finished.contains(jobs_[i].key)) continue;
-    states_[i] = State::done;
+    mark_done(i);
     ++progress_.done;
     progress_.core_seconds_done += jobs_[i].core_seconds;
   }
   progress_.core_seconds_before = progress_.core_seconds_done;
 }
 
-bool Schedule::ready(std::size_t number) const {
-  return states_[number] == State::waiting &&
-         std::all_of(jobs_[number].needs.begin(), jobs_[number].needs.end(),
-                     [&](std::size_t needed) { return states_[needed] == State::done; });
+bool Schedule::can_begin(std::size_t number) const {
+  return std::all_of(jobs_[number].needs.begin(), jobs_[number].needs.end(),
+                     [&](std::size_t needed) { return is_done(needed); });
 }
 
-std::optional<CrewJobs::Job> Schedule::next() {
-  if (cancelled()) return std::nullopt;
-  const std::scoped_lock lock(mutex_);
-  while (first_waiting_ < jobs_.size() && states_[first_waiting_] != State::waiting) ++first_waiting_;
-  for (std::size_t i = first_waiting_; i < jobs_.size(); ++i) {
-    if (!ready(i)) continue;
-    std::string work = encode(work_of(jobs_[i].key));
-    states_[i] = State::out;
-    return Job{i, std::move(work)};
-  }
-  return std::nullopt;
+std::string Schedule::work_of(std::size_t number) const {
+  return encode(work_of(jobs_[number].key));
 }
 
 StudyWork Schedule::work_of(const JobKey& key) const {
@@ -84,34 +74,14 @@ StudyWork Schedule::work_of(const JobKey& key) const {
 
 void Schedule::finish(std::size_t number, const std::string& bytes) {
   const StudyRows rows = decode_rows(bytes);
-  const std::scoped_lock lock(mutex_);
-  if (states_[number] == State::done) return;
-  store_.write(jobs_[number].key, rows);
-  states_[number] = State::done;
-  ++progress_.done;
-  progress_.core_seconds_done += jobs_[number].core_seconds;
-  progress_.job = describe(store_.options(), jobs_[number].key);
-  progress_.job_seconds = seconds_of(rows);
-  observer_.finished(progress_);
-}
-
-void Schedule::give_back(std::size_t number) {
-  const std::scoped_lock lock(mutex_);
-  if (states_[number] != State::out) return;
-  states_[number] = State::waiting;
-  first_waiting_ = std::min(first_waiting_, number);
-}
-
-bool Schedule::ended() const {
-  if (cancelled()) return true;
-  const std::scoped_lock lock(mutex_);
-  return progress_.done == jobs_.size();
-}
-
-// A cancelled study stays cancelled, whatever the observer answers later: its crews may have left.
-bool Schedule::cancelled() const {
-  if (!cancelled_ && observer_.cancelled()) cancelled_ = true;
-  return cancelled_;
+  finish_once(number, [&] {
+    store_.write(jobs_[number].key, rows);
+    ++progress_.done;
+    progress_.core_seconds_done += jobs_[number].core_seconds;
+    progress_.job = describe(store_.options(), jobs_[number].key);
+    progress_.job_seconds = seconds_of(rows);
+    observer_.finished(progress_);
+  });
 }
 
 }  // namespace remodel

@@ -2,41 +2,34 @@
 
 // Hands out the unfinished jobs of a study in the order of the plan.
 
-#include <atomic>
-#include <mutex>
 #include <vector>
 
+#include "design/job_queue.h"
 #include "study/plan.h"
 #include "study/store.h"
 
 namespace remodel {
 
-class Schedule : public CrewJobs {
+class Schedule final : public JobQueue {
  public:
   // From now on the store is used only under this object's lock.
   Schedule(StudyStore& store, StudyObserver& observer);
 
-  std::optional<Job> next() override;
   void finish(std::size_t number, const std::string& rows) override;
-  void give_back(std::size_t number) override;
-  bool ended() const override;
-  bool cancelled() const override;
 
   const StudyProgress& progress() const { return progress_; }
 
  private:
-  enum class State { waiting, out, done };
-  bool ready(std::size_t number) const;
+  Schedule(StudyStore& store, StudyObserver& observer, std::vector<PlannedJob> jobs);
+  bool can_begin(std::size_t number) const override;
+  std::string work_of(std::size_t number) const override;
   StudyWork work_of(const JobKey& key) const;
+  bool asks_to_cancel() const override { return observer_.cancelled(); }
 
-  mutable std::mutex mutex_;
   StudyStore& store_;
   StudyObserver& observer_;
   std::vector<PlannedJob> jobs_;
-  std::vector<State> states_;
-  std::size_t first_waiting_ = 0;  // jobs before this index are not waiting
   StudyProgress progress_;
-  mutable std::atomic<bool> cancelled_ = false;
 };
 
 }  // namespace remodel

@@ -77,11 +77,12 @@ using DesignFunctionOf = std::function<std::vector<DesignValue>(const DesignView
 //   suction              the peak of -Cp of `point`, of all walls or of one `element`, at_most
 //   area, thickness      of a section, thickness at each of `x`: at_least, or of_start, a part of the start's
 //   tank                 the area of a section between two stations `x`, likewise
-//   box                  the thickness everywhere between two stations `x` (at 21), likewise; of_start: of
-//   the least camber               of a section at each of `x`, at_least, at_most or both trailing_edge_angle
-//   of a section, in degrees: at_least or of_start leading_edge_radius  of each surface of a section,
-//   likewise contains             the section contains `airfoil`, at 39 stations of each surface gap the
-//   least distance `between` two elements, at_least
+//   box                  the thickness all over between two stations `x` (at 21); of_start: of the least
+//   camber               of a section at each of `x`: at_least, at_most or both
+//   trailing_edge_angle  of a section, in degrees: at_least or of_start
+//   leading_edge_radius  of each surface of a section, likewise
+//   contains             the section contains `airfoil`, at 39 stations of each surface
+//   gap                  the least distance `between` two elements, at_least
 struct DesignConstraint {
   std::string kind = {};
   std::optional<double> at_least = {}, at_most = {}, of_start = {};

@@ -64,13 +64,7 @@ struct Way {
     if (how != "own" && how != "still" && how != "along")
       throw Error(ErrorCode::argument, "interior", "found '" + how + "', expected own, still or along");
     if (how == "still" || (how == "own" && !mesh.held() && !living.follows)) return;
-    std::vector<std::size_t> moving;
-    const Domain reference = mesh.held() ? mesh.state().reference_domain : mesh.domain();
-    for (std::size_t i = 0; i < mesh.domain().loops.size(); ++i)
-      if (std::find(range.loops.begin(), range.loops.end(), i) != range.loops.end() ||
-          !(mesh.domain().loops[i] == reference.loops[i]))
-        moving.push_back(i);
-    interior.emplace(mesh, moving);
+    interior.emplace(mesh, moving_loops(mesh, range.loops));
   }
 
  private:
@@ -141,6 +135,16 @@ LivingMeshPointer at(LivingMesh& mesh, const py::object& shape, const std::strin
 }
 
 }  // namespace
+
+std::vector<std::size_t> moving_loops(const Mesh& mesh, const std::vector<std::size_t>& loops) {
+  const Domain reference = mesh.held() ? mesh.state().reference_domain : mesh.domain();
+  std::vector<std::size_t> moving;
+  for (std::size_t i = 0; i < mesh.domain().loops.size(); ++i)
+    if (std::find(loops.begin(), loops.end(), i) != loops.end() ||
+        !(mesh.domain().loops[i] == reference.loops[i]))
+      moving.push_back(i);
+  return moving;
+}
 
 AirfoilNumbers airfoil_numbers(const Domain& domain, const std::string& boundary) {
   const Range range = airfoil_range(domain, boundary);

@@ -50,6 +50,29 @@ class Interrupts final : public StepObserver {
   std::optional<py::error_already_set> error_;
 };
 
+// A function of Python's that is told how a run goes: True ends the run, and so does what it raises.
+class Callback {
+ public:
+  explicit Callback(py::object call) : call_(std::move(call)) {}
+  // figures() makes the dict that it is called with. From any thread, with or without the GIL.
+  template <class Figures>
+  void tell(Figures&& figures, Interrupts& interrupts) {
+    if (call_.is_none()) return;
+    py::gil_scoped_acquire gil;
+    try {
+      const py::object answer = call_(figures());
+      if (answer.is(py::bool_(true))) ended_ = true;
+    } catch (py::error_already_set& error) {
+      interrupts.keep(std::move(error));
+    }
+  }
+  bool ended() const { return ended_; }
+
+ private:
+  py::object call_;
+  std::atomic<bool> ended_ = false;
+};
+
 // Runs work without the GIL; Ctrl-C ends it and becomes KeyboardInterrupt. work(StepObserver&) -> result
 template <class Work>
 auto interruptible(Work&& work) {

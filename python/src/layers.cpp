@@ -145,15 +145,6 @@ CheckResult layers_checked(LivingLayers& mesh) {
   return Apart().run(std::make_shared<Stop>(), [frozen, options] { return check(*frozen, options); });
 }
 
-// The loops that have moved since the reference, or that the numbers move: the interior goes along with them.
-std::vector<std::size_t> moving_loops(const Mesh& outer, std::size_t of_numbers) {
-  const Domain reference = outer.state().reference_domain;
-  std::vector<std::size_t> moving;
-  for (std::size_t i = 0; i < outer.domain().loops.size(); ++i)
-    if (i == of_numbers || !(outer.domain().loops[i] == reference.loops[i])) moving.push_back(i);
-  return moving;
-}
-
 // By an airfoil's coefficients, upper then lower.
 py::array_t<double> layers_vjp(LivingLayers& mesh, const py::object& by_points, const std::string& boundary,
                                const std::string& interior) {
@@ -164,7 +155,7 @@ py::array_t<double> layers_vjp(LivingLayers& mesh, const py::object& by_points, 
   const auto [loop, first, count] = airfoil_numbers(mesh.mesh.domain(), boundary);
   const bool along = interior == "own" && mesh.mesh.outer().held();
   const LayeredMeshDerivative derivative =
-      along ? LayeredMeshDerivative(mesh.mesh, moving_loops(mesh.mesh.outer(), loop))
+      along ? LayeredMeshDerivative(mesh.mesh, moving_loops(mesh.mesh.outer(), {loop}))
             : LayeredMeshDerivative(mesh.mesh);
   const std::vector<double> all = derivative.vjp(weights);
   return copied(std::vector<double>(all.begin() + static_cast<std::ptrdiff_t>(first),

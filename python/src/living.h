@@ -71,6 +71,10 @@ inline Domain next_domain(const LivingMesh& mesh, const py::object& shape, const
   return next_domain(mesh.mesh.domain(), shape, boundary);
 }
 
+// The loops whose movement the interior goes along with: those, and all that have moved since the reference
+// of a mesh that is held.
+std::vector<std::size_t> moving_loops(const Mesh& mesh, const std::vector<std::size_t>& loops);
+
 // Where the upper and lower coefficients of the airfoil of that name, or the only one, are in
 // coefficients_of(): its loop, the first and how many. Throws Error (argument) where there is not one such
 // airfoil.

@@ -2,7 +2,6 @@
 
 // What runs of optimise() and design() share: figures as dicts, and what a run asks Python now and then.
 
-#include <atomic>
 #include <type_traits>
 
 #include "bindings.h"
@@ -40,16 +39,9 @@ class Watch final : public OptimiseObserver {
  public:
   explicit Watch(py::object callback) : callback_(std::move(callback)) {}
   void evaluated(const EvaluationRecord& record) override {
-    if (callback_.is_none()) return;
-    py::gil_scoped_acquire gil;
-    try {
-      const py::object answer = callback_(figures_dict(evaluation_figures, record));
-      if (answer.is(py::bool_(true))) ended_ = true;
-    } catch (py::error_already_set& error) {
-      interrupts.keep(std::move(error));
-    }
+    callback_.tell([&] { return figures_dict(evaluation_figures, record); }, interrupts);
   }
-  bool cancelled() override { return ended_ || interrupts.cancelled(); }
+  bool cancelled() override { return callback_.ended() || interrupts.cancelled(); }
 
   // Calls a function of Python's for the run, and answers for what it raises: EvaluationFailed is the failure
   // of one design; every other exception ends the run, and is the caller's. Takes the GIL.
@@ -79,8 +71,7 @@ class Watch final : public OptimiseObserver {
     throw std::runtime_error(message);
   }
 
-  py::object callback_;
-  std::atomic<bool> ended_ = false;
+  Callback callback_;
 };
 
 }  // namespace remodel::python

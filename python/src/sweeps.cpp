@@ -13,23 +13,17 @@ class SweepWatch final : public SweepObserver {
  public:
   explicit SweepWatch(py::object callback) : callback_(std::move(callback)) {}
   void finished(const SweepProgress& progress) override {
-    if (callback_.is_none()) return;
-    py::gil_scoped_acquire gil;
-    try {
-      const py::object answer = callback_(
-          py::dict("flows"_a = progress.flows, "done"_a = progress.flows_done, "found"_a = progress.found));
-      if (answer.is(py::bool_(true))) ended_ = true;
-    } catch (py::error_already_set& error) {
-      interrupts.keep(std::move(error));
-    }
+    const auto figures = [&] {
+      return py::dict("flows"_a = progress.flows, "done"_a = progress.flows_done, "found"_a = progress.found);
+    };
+    callback_.tell(figures, interrupts);
   }
-  bool cancelled() override { return ended_ || interrupts.cancelled(); }
+  bool cancelled() override { return callback_.ended() || interrupts.cancelled(); }
 
   Interrupts interrupts;
 
  private:
-  py::object callback_;
-  std::atomic<bool> ended_ = false;
+  Callback callback_;
 };
 
 template <class Of>

@@ -76,7 +76,8 @@ struct DomainKind {
   const char* name;
   bool of_section = true;  // otherwise of the whole domain
   // Beside at_least, which all but `contains` take.
-  bool takes_least = true, takes_start = true, takes_most = false, takes_x = false, takes_airfoil = false, takes_between = false;
+  bool takes_least = true, takes_start = true, takes_most = false, takes_x = false, takes_airfoil = false,
+       takes_between = false;
   DomainConstraintPtr (*make)(const DomainRequest& request) = nullptr;
 };
 

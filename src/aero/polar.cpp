@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "aero/flow_march.h"
-#include "aero/polar_point.h"
+#include "aero/flow_row.h"
 #include "base/stopwatch.h"
 #include "remodel/error.h"
 
@@ -39,17 +39,21 @@ void require_possible_polar(const PolarOptions& options) {
                 "found " + std::to_string(options.misses) + ", expected 1 or more");
 }
 
-// The value that a row begins at.
-std::size_t nearest_to_zero(const std::vector<double>& values) {
-  const auto nearer = [](double a, double b) { return std::fabs(a) < std::fabs(b); };
-  return static_cast<std::size_t>(std::min_element(values.begin(), values.end(), nearer) - values.begin());
+// What a point is made of; a flow's fields are the largest part of it by far.
+FlowResult without_fields(FlowResult flow) {
+  for (auto* field : {&flow.density, &flow.velocity_x, &flow.velocity_y, &flow.pressure, &flow.history})
+    *field = std::vector<double>();
+  if (flow.friction)
+    for (auto* field : {&flow.friction->cf, &flow.friction->y_plus, &flow.friction->viscosity_ratio,
+                        &flow.friction->working})
+      *field = std::vector<double>();
+  return flow;
 }
 
 // The rows of one mesh.
 class PolarSearch {
  public:
-  using Solve = std::function<FlowResult(LivingFlow&, const FlowConditions&)>;
-  PolarSearch(Solve solve, const std::string& name, const PolarOptions& options)
+  PolarSearch(aero::RowSolve solve, const std::string& name, const PolarOptions& options)
       : solve_(std::move(solve)),
         name_(name),
         options_(options),
@@ -81,35 +85,25 @@ class PolarSearch {
     living_.go_on_from(first_of_row_);  // of the Mach number before
     first_of_row_ = {};
     alpha_deg_ = 0.0;
-    return aero::march(values_, nearest_to_zero(values_),
+    return aero::march(values_, aero::nearest_to_zero(values_),
                        {.find = [&](double value) { return find(mach, value); },
                         .return_to_first = [&] { living_.go_on_from(first_of_row_); }},
                        {.halvings = options_.halvings, .misses = options_.misses});
   }
 
-  // From nothing the angle for a lift may be one far beyond the largest lift, where the same lift is found
-  // again: so a row of lifts begins with the flow at an angle of 0.
   FlowResult find(double mach, double value) {
     if (options_.on_search) options_.on_search(mach, value);
     FlowConditions conditions = options_.conditions;
     conditions.mach = mach;
-    conditions.cl.reset();
-    conditions.alpha_deg = over_lift() ? alpha_deg_ : value;
-    if (over_lift()) {
-      if (living_.keep().empty())
-        if (FlowResult start = solve_(living_, conditions); !start.converged())
-          return aero::without_fields(std::move(start));
-      conditions.cl = value;
-    }
-    FlowResult flow = solve_(living_, conditions);
+    FlowResult flow = aero::find_at(living_, solve_, conditions, value, over_lift(), alpha_deg_);
     if (flow.converged()) {
       alpha_deg_ = flow.alpha_deg;
       if (first_of_row_.empty()) first_of_row_ = living_.keep();
     }
-    return aero::without_fields(std::move(flow));
+    return without_fields(std::move(flow));
   }
 
-  Solve solve_;
+  aero::RowSolve solve_;
   const std::string& name_;
   const PolarOptions& options_;
   const std::vector<double>& values_;

@@ -14,18 +14,6 @@ namespace {
 // What a problem may have at most of each: more would not end, and is a mistake of whoever wrote the file.
 constexpr std::size_t most_points = 1000, most_constraints = 1000, most_verified = 100;
 
-// The object of a key, empty where there is none.
-Json object_of(const Json& problem, const char* key) {
-  return problem.contains(key) ? problem.at(key) : Json::object();
-}
-
-FlowModel model_named(const Keys& keys) {
-  const std::string name = keys.get<std::string>("model", "euler");
-  for (const FlowModel model : {FlowModel::euler, FlowModel::laminar, FlowModel::sa})
-    if (name == name_of(model)) return model;
-  keys.fail("found '" + name + "' as 'model', expected euler, laminar or sa");
-}
-
 DesignPoint point_of(const Json& entry, const std::string& where) {
   const Keys keys(entry, where, {"mach", "alpha_deg", "cl", "weight", "model", "reynolds", "transition"});
   DesignPoint point{.conditions = {.mach = keys.get<double>("mach"),
@@ -34,16 +22,8 @@ DesignPoint point_of(const Json& entry, const std::string& where) {
                                    .reynolds = keys.get<double>("reynolds", 0.0)},
                     .weight = keys.get<double>("weight", 1.0),
                     .model = model_named(keys)};
-  if (keys.has("transition")) {
-    const auto places = keys.get<std::vector<double>>("transition");
-    if (places.size() != 2)
-      keys.fail("found " + std::to_string(places.size()) +
-                " numbers as 'transition', expected two: of upper and lower sides, 0 to 1");
-    point.conditions.transition = {places[0], places[1]};
-  }
-  if (point.model != FlowModel::euler) keys.require("reynolds");
-  if (point.model == FlowModel::euler && keys.has("reynolds"))
-    keys.fail("found 'reynolds' without a model with friction, expected \"laminar\" or \"sa\" as 'model'");
+  point.conditions.transition = transition_of(keys);
+  require_reynolds(keys, point.model);
   return point;
 }
 

@@ -16,6 +16,7 @@
 #include "remodel/airfoil.h"
 #include "remodel/design_space.h"
 #include "remodel/error.h"
+#include "remodel/flow.h"
 #include "remodel/io.h"
 #include "remodel/layers.h"
 #include "remodel/shape_files.h"
@@ -128,6 +129,45 @@ inline CstAirfoil section_named(const Keys& keys, const char* key, int degree,
   } catch (const Error& error) {
     keys.fail("as '" + std::string(key) + "', " + error.what());
   }
+}
+
+// The object of a key, empty where there is none.
+inline Json object_of(const Json& json, const char* key) {
+  return json.contains(key) ? json.at(key) : Json::object();
+}
+
+// The value whose name_of() a key has; without the key the first one.
+template <class Enum>
+Enum choice(const Keys& keys, const char* key, std::initializer_list<Enum> values) {
+  const std::string name = keys.get<std::string>(key, name_of(*values.begin()));
+  std::string expected;
+  for (const Enum& value : values) {
+    if (name == name_of(value)) return value;
+    const bool is_last = &value == values.end() - 1;
+    expected += (expected.empty() ? "" : is_last ? " or " : ", ") + std::string(name_of(value));
+  }
+  keys.fail("found '" + name + "' as '" + key + "', expected " + expected);
+}
+
+inline FlowModel model_named(const Keys& keys) {
+  return choice(keys, "model", {FlowModel::euler, FlowModel::laminar, FlowModel::sa});
+}
+
+// FlowConditions::transition.
+inline std::optional<std::array<double, 2>> transition_of(const Keys& keys) {
+  if (!keys.has("transition")) return std::nullopt;
+  const auto places = keys.get<std::vector<double>>("transition");
+  if (places.size() != 2)
+    keys.fail("found " + std::to_string(places.size()) +
+              " numbers as 'transition', expected two: of upper and lower sides, 0 to 1");
+  return std::array{places[0], places[1]};
+}
+
+// A Reynolds number is there with friction, and with it alone.
+inline void require_reynolds(const Keys& keys, FlowModel model) {
+  if (model != FlowModel::euler) return keys.require("reynolds");
+  if (keys.has("reynolds"))
+    keys.fail("found 'reynolds' without a model with friction, expected \"laminar\" or \"sa\" as 'model'");
 }
 
 // A layer of cells by its keys, what is not given as usual.

@@ -1,12 +1,11 @@
 // A sweep's session: a crew does the chains that are not finished, and the tables are made of all that are.
 
 #include <algorithm>
-#include <atomic>
-#include <mutex>
 
 #include "aero/sweep_directory.h"
 #include "aero/sweep_table.h"
 #include "base/stopwatch.h"
+#include "design/job_queue.h"
 #include "remodel/directory_lock.h"
 #include "remodel/error.h"
 #include "remodel/sweep.h"
@@ -16,73 +15,50 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class SweepJobs final : public CrewJobs {
+class SweepJobs final : public JobQueue {
  public:
   // From now on the directory is used only under this object's lock.
   SweepJobs(const SweepDirectory& directory, SweepObserver& observer)
-      : directory_(directory),
+      : JobQueue(directory.chains().size()),
+        directory_(directory),
         observer_(observer),
-        chains_(directory.chains()),
-        states_(chains_.size(), State::waiting) {
+        chains_(directory.chains()) {
     progress_.chains = chains_.size();
     for (std::size_t i = 0; i < chains_.size(); ++i) {
       progress_.flows += chains_[i].flows();
-      if (directory_.is_finished(i)) note(i, directory_.read(i));
+      if (!directory_.is_finished(i)) continue;
+      mark_done(i);
+      note(directory_.read(i));
     }
     progress_.flows_before = progress_.flows_done;
   }
 
-  std::optional<Job> next() override {
-    if (cancelled()) return std::nullopt;
-    const std::scoped_lock lock(mutex_);
-    for (std::size_t i = 0; i < chains_.size(); ++i) {
-      if (states_[i] != State::waiting) continue;
-      states_[i] = State::out;
-      return Job{i, encode(directory_.work_of(chains_[i]))};
-    }
-    return std::nullopt;
-  }
   void finish(std::size_t number, const std::string& bytes) override {
-    const std::scoped_lock lock(mutex_);
-    if (states_[number] == State::done) return;
     const ChainResult result = decode_chain_result(bytes, "result of a chain");
-    directory_.write(number, bytes);
-    note(number, result);
-    observer_.finished(progress_);
-  }
-  void give_back(std::size_t number) override {
-    const std::scoped_lock lock(mutex_);
-    if (states_[number] == State::out) states_[number] = State::waiting;
-  }
-  bool ended() const override {
-    if (cancelled()) return true;
-    const std::scoped_lock lock(mutex_);
-    return progress_.chains_done == progress_.chains;
-  }
-  // A cancelled sweep stays cancelled, whatever the observer answers later: its crew may have left.
-  bool cancelled() const override {
-    if (!cancelled_ && observer_.cancelled()) cancelled_ = true;
-    return cancelled_;
+    finish_once(number, [&] {
+      directory_.write(number, bytes);
+      note(result);
+      observer_.finished(progress_);
+    });
   }
 
   const SweepProgress& progress() const { return progress_; }
 
  private:
-  enum class State { waiting, out, done };
-  void note(std::size_t number, const ChainResult& result) {
-    states_[number] = State::done;
+  std::string work_of(std::size_t number) const override {
+    return encode(directory_.work_of(chains_[number]));
+  }
+  bool asks_to_cancel() const override { return observer_.cancelled(); }
+  void note(const ChainResult& result) {
     ++progress_.chains_done;
     progress_.flows_done += result.flows.size();
     for (const SweepFlow& flow : result.flows) progress_.found += flow.point.converged;
   }
 
-  mutable std::mutex mutex_;
   const SweepDirectory& directory_;
   SweepObserver& observer_;
   std::vector<PlannedChain> chains_;
-  std::vector<State> states_;
   SweepProgress progress_;
-  mutable std::atomic<bool> cancelled_ = false;
 };
 
 // is_ours: the directory was made for this sweep, and is gone again if it cannot begin.
@@ -125,24 +101,6 @@ Finished finished_of(const SweepDirectory& directory) {
   return finished;
 }
 
-void add_costs(const Finished& finished, SweepResult& result) {
-  double cold_seconds = 0.0;
-  std::size_t cold = 0;
-  for (const SweepFlow& flow : finished.flows) {
-    result.found += flow.point.converged;
-    result.flow_seconds += flow.point.seconds;
-    if (!flow.point.converged || flow.point.start != FlowStart::cold) continue;
-    cold_seconds += flow.point.seconds;
-    ++cold;
-  }
-  result.flows = finished.flows.size();
-  result.not_found = result.flows - result.found;
-  result.mesh_seconds = finished.mesh_seconds;
-  if (cold != 0)
-    result.cold_seconds_estimate =
-        cold_seconds / static_cast<double>(cold) * static_cast<double>(result.flows);
-}
-
 }  // namespace
 
 const char* name_of(SweepOrder order) {
@@ -155,6 +113,24 @@ const char* name_of(SweepOrder order) {
       return "random";
   }
   return "";
+}
+
+SweepCounts counts_of(const std::vector<SweepFlow>& flows) {
+  SweepCounts counts;
+  double cold_seconds = 0.0;
+  std::size_t cold = 0;
+  for (const SweepFlow& flow : flows) {
+    counts.found += flow.point.converged;
+    counts.warned += flow.point.converged && !flow.point.warnings.empty();
+    counts.seconds += flow.point.seconds;
+    if (!flow.point.converged || flow.point.start != FlowStart::cold) continue;
+    cold_seconds += flow.point.seconds;
+    ++cold;
+  }
+  if (cold != 0)
+    counts.cold_seconds_estimate =
+        cold_seconds / static_cast<double>(cold) * static_cast<double>(flows.size());
+  return counts;
 }
 
 const char* status_of(const SweepFlow& flow) {
@@ -171,7 +147,7 @@ SweepResult sweep(const fs::path& directory, const SweepProblem& problem, SweepM
   const Stopwatch watch;
   validate(problem, "sweep");
   if (mode == SweepMode::begin) SweepDirectory::require_new(directory);
-  if (mode == SweepMode::resume) SweepDirectory ignored(directory);  // throws where there is none
+  if (mode == SweepMode::resume) SweepDirectory::require_there(directory);
   const bool is_missing = !fs::exists(directory);
   const DirectoryLock lock(directory);
   const SweepDirectory sweep = opened(directory, problem, mode, is_missing);
@@ -183,8 +159,14 @@ SweepResult sweep(const fs::path& directory, const SweepProblem& problem, SweepM
   const Finished finished = finished_of(sweep);
   write_sweep_tables(directory, sweep.problem(), finished.flows);
   lock.sync();
+  const SweepCounts counts = counts_of(finished.flows);
   SweepResult result;
-  add_costs(finished, result);
+  result.flows = finished.flows.size();
+  result.found = counts.found;
+  result.not_found = result.flows - counts.found;
+  result.flow_seconds = counts.seconds;
+  result.mesh_seconds = finished.mesh_seconds;
+  result.cold_seconds_estimate = counts.cold_seconds_estimate.value_or(0.0);
   result.planned = jobs.progress().flows;
   result.sections = sweep.problem().sections.size();
   result.chains = jobs.progress().chains;

@@ -9,8 +9,8 @@
 #include <numbers>
 #include <utility>
 
+#include "aero/flow_row.h"
 #include "aero/layered_space.h"
-#include "aero/polar_point.h"
 #include "aero/resolved_problem.h"
 #include "aero/sweep_record.h"
 #include "aero/table_cell.h"
@@ -155,9 +155,7 @@ std::vector<Condition> conditions_of(const std::vector<SweepRow>& rows) {
   std::size_t first_of_last_row = Condition::none;
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const std::vector<double>& values = rows[r].values;
-    const auto nearer = [](double a, double b) { return std::fabs(a) < std::fabs(b); };
-    const auto start =
-        static_cast<std::size_t>(std::min_element(values.begin(), values.end(), nearer) - values.begin());
+    const std::size_t start = aero::nearest_to_zero(values);
     const std::size_t first = conditions.size();
     conditions.push_back({.row = r, .value = values[start], .before = first_of_last_row});
     for (std::size_t i = start + 1; i < values.size(); ++i)
@@ -172,16 +170,27 @@ std::vector<Condition> conditions_of(const std::vector<SweepRow>& rows) {
   return conditions;
 }
 
+// Of each condition the last one that begins with its flows, or itself.
+std::vector<std::size_t> last_uses_of(const std::vector<Condition>& conditions) {
+  std::vector<std::size_t> last(conditions.size());
+  for (std::size_t c = 0; c < conditions.size(); ++c) {
+    last[c] = c;
+    if (conditions[c].before != Condition::none) last[conditions[c].before] = c;
+  }
+  return last;
+}
+
 // The meshes of all sections first, then one condition after the other, each through all sections, to and
 // fro:
 //
 //   sections     1    2    3    4
-//   condition 1  o -> o -> o -> o      each flow goes on from the one before, with the factors that there
-//   are,
-//                               |      changed as the flows of the condition before differ between the same
-//   condition 2  o <- o <- o <- o      two sections
+//   condition 1  o -> o -> o -> o
+//                               |
+//   condition 2  o <- o <- o <- o
 //
-// So factors of one flow serve the next ones: nothing differs but the section, by little.
+// Each flow goes on from the one before, changed as the flows of the condition before differ between the same
+// two sections, with the factors that there are. So factors of one flow serve the next ones: nothing differs
+// but the section, by little.
 class Chain {
  public:
   Chain(const ChainWork& work, const std::function<bool()>& cancelled)
@@ -195,6 +204,7 @@ class Chain {
   std::optional<ChainResult> run() {
     if (!make_meshes()) return std::nullopt;
     const std::vector<Condition> conditions = conditions_of(problem_.rows);
+    const std::vector<std::size_t> last_uses = last_uses_of(conditions);
     found_.resize(conditions.size());
     for (std::size_t c = 0; c < conditions.size(); ++c) {
       found_[c].resize(places_.size());
@@ -204,7 +214,8 @@ class Chain {
         if (!add(conditions, c, k, last)) return std::nullopt;
         if (!found_[c][k].flow.empty()) last = k;
       }
-      forget_before(conditions, c);
+      forget(conditions[c].before, last_uses, c);
+      forget(c, last_uses, c);
     }
     return std::move(result_);
   }
@@ -330,31 +341,22 @@ class Chain {
 
   FlowResult search(const Condition& condition, std::size_t k, const Found& beginning) {
     const SweepRow& row = problem_.rows[condition.row];
-    FlowConditions at{.mach = row.mach,
-                      .alpha_deg = problem_.over_lift ? beginning.alpha_deg : condition.value,
-                      .reynolds = row.reynolds,
-                      .transition = problem_.transition};
     if (beginning.flow.empty())
       living_.forget();
     else
       living_.go_on_from(beginning.flow);
-    if (problem_.over_lift) {
-      // From nothing the angle for a lift may be one far beyond the largest lift.
-      if (beginning.flow.empty())
-        if (FlowResult start = places_[k].mesh.solve(living_, at); !start.converged()) return start;
-      at.cl = condition.value;
-    }
-    return places_[k].mesh.solve(living_, at);
+    const auto solve = [&](LivingFlow& living, const FlowConditions& at) {
+      return places_[k].mesh.solve(living, at);
+    };
+    return aero::find_at(living_, solve,
+                         {.mach = row.mach, .reynolds = row.reynolds, .transition = problem_.transition},
+                         condition.value, problem_.over_lift, beginning.alpha_deg);
   }
 
   // Flows that no later condition begins with.
-  void forget_before(const std::vector<Condition>& all, std::size_t c) {
-    std::vector<bool> needed(c + 1, false);
-    for (std::size_t later = c + 1; later < all.size(); ++later)
-      if (all[later].before <= c) needed[all[later].before] = true;
-    for (std::size_t i = 0; i <= c; ++i)
-      if (!needed[i])
-        for (Found& found : found_[i]) found.flow = {};
+  void forget(std::size_t condition, const std::vector<std::size_t>& last_uses, std::size_t now) {
+    if (condition == Condition::none || last_uses[condition] > now) return;
+    for (Found& found : found_[condition]) found.flow = {};
   }
 
   const ChainWork& work_;

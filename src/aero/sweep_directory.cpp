@@ -56,6 +56,12 @@ bool SweepDirectory::exists(const fs::path& directory) {
   return fs::exists(directory / sweep_name, ignored);
 }
 
+void SweepDirectory::require_there(const fs::path& directory) {
+  if (!exists(directory))
+    throw Error(ErrorCode::file, (directory / sweep_name).string(),
+                "not found, expected a sweep's directory");
+}
+
 void SweepDirectory::require_new(const fs::path& directory) {
   std::error_code problem;
   if (!fs::exists(directory, problem)) return;
@@ -79,8 +85,7 @@ SweepDirectory::SweepDirectory(fs::path directory, SweepProblem problem)
 
 SweepDirectory::SweepDirectory(fs::path directory) : directory_(std::move(directory)) {
   const fs::path file = directory_ / sweep_name;
-  if (!exists(directory_))
-    throw Error(ErrorCode::file, file.string(), "not found, expected a sweep's directory");
+  require_there(directory_);
   const Json json = parse_design_json(read_text(file, most_bytes), file.string());
   if (!json.is_object() || !json.contains("sweep") || !json.contains("plans"))
     throw Error(ErrorCode::format, file.string(), "found no sweep, expected the keys 'sweep' and 'plans'");

@@ -23,6 +23,7 @@ struct PlannedChain {
 class SweepDirectory {
  public:
   static bool exists(const std::filesystem::path& directory);
+  static void require_there(const std::filesystem::path& directory);  // throws Error (file)
   // Throws Error unless the directory is missing or empty.
   static void require_new(const std::filesystem::path& directory);
 

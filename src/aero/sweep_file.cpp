@@ -22,10 +22,7 @@ constexpr std::size_t most_sections = 100000, most_values = 10000, most_entries 
 constexpr std::size_t most_file_bytes = std::size_t{16} << 20;
 
 Sampling sampling_of(const Keys& keys) {
-  const std::string name = keys.get<std::string>("method", "sobol");
-  for (const Sampling sampling : {Sampling::sobol, Sampling::latin_hypercube})
-    if (name == name_of(sampling)) return sampling;
-  keys.fail("found '" + name + "' as 'method', expected sobol or latin-hypercube");
+  return choice(keys, "method", {Sampling::sobol, Sampling::latin_hypercube});
 }
 
 // Sections, one entry of the file after the other.
@@ -57,6 +54,8 @@ class SectionReader {
       throw Error(
           ErrorCode::format, file_,
           "found more than " + std::to_string(most_sections) + " sections, expected that many at most");
+    if (section.problem.empty() && !surfaces_apart(section.airfoil))
+      section.problem = section.name + ": the surfaces cross";
     problem_.sections.push_back(std::move(section));
   }
   // A file that is no airfoil is a section that is not there; a name that nothing has is a mistake.
@@ -64,9 +63,7 @@ class SectionReader {
     try {
       const CstFit fit = airfoil_beside(directory_, name, degree_);
       problem_.warnings.insert(problem_.warnings.end(), fit.warnings.begin(), fit.warnings.end());
-      SweepSection section{.name = name, .airfoil = fit.airfoil};
-      if (!surfaces_apart(fit.airfoil)) section.problem = name + ": the surfaces cross";
-      add(std::move(section));
+      add({.name = name, .airfoil = fit.airfoil});
     } catch (const Error& error) {
       if (error.code() != ErrorCode::format) throw Error(error.code(), where, error.what());
       add({.name = name, .problem = error.what()});
@@ -79,7 +76,6 @@ class SectionReader {
     } catch (const Error& error) {
       keys.fail(error.what());
     }
-    if (!surfaces_apart(section.airfoil)) section.problem = section.name + ": the surfaces cross";
     add(std::move(section));
   }
   void add_directory(const Keys& keys) {
@@ -127,7 +123,6 @@ class SectionReader {
       for (std::size_t c = 0; c < 2 * half; ++c)
         (c < half ? section.airfoil.upper[c] : section.airfoil.lower[c - half]) +=
             range * (2.0 * samples[i][c] - 1.0);
-      if (!surfaces_apart(section.airfoil)) section.problem = section.name + ": the surfaces cross";
       add(std::move(section));
     }
   }
@@ -234,9 +229,7 @@ void read_conditions(const Json& json, const std::string& file, SweepProblem& pr
                   {"mach", "alpha_deg", "cl", "reynolds", "samples", "method", "seed"});
   keys.require("mach");
   if (keys.has("alpha_deg") == keys.has("cl")) keys.fail("expected one of 'alpha_deg' and 'cl'");
-  if (problem.model != FlowModel::euler) keys.require("reynolds");
-  if (problem.model == FlowModel::euler && keys.has("reynolds"))
-    keys.fail("found 'reynolds' without a model with friction, expected \"laminar\" or \"sa\" as 'model'");
+  require_reynolds(keys, problem.model);
   for (const char* key : {"method", "seed"})
     if (keys.has(key) && !keys.has("samples"))
       keys.fail("found '" + std::string(key) + "' without 'samples', expected both or none");
@@ -248,7 +241,7 @@ void read_conditions(const Json& json, const std::string& file, SweepProblem& pr
 }
 
 void read_mesh(const Json& json, const std::string& file, SweepProblem& problem) {
-  const Json object = json.contains("mesh") ? json.at("mesh") : Json::object();
+  const Json object = object_of(json, "mesh");
   const Keys keys(object, file + ", mesh", {"points", "gradation", "farfield_radius", "layers"});
   const bool has_friction = problem.model != FlowModel::euler;
   problem.domain.points =
@@ -258,20 +251,6 @@ void read_mesh(const Json& json, const std::string& file, SweepProblem& problem)
   if (!keys.has("layers")) return;
   if (!has_friction) keys.fail("found 'layers' without friction, expected \"laminar\" or \"sa\" as 'model'");
   problem.layer = layer_given(object.at("layers"), file + ", mesh, layers", sweep_layer(problem));
-}
-
-SweepOrder order_of(const Keys& keys) {
-  const std::string name = keys.get<std::string>("order", "nearest");
-  for (const SweepOrder order : {SweepOrder::nearest, SweepOrder::given, SweepOrder::random})
-    if (name == name_of(order)) return order;
-  keys.fail("found '" + name + "' as 'order', expected nearest, given or random");
-}
-
-FlowModel model_of(const Keys& keys) {
-  const std::string name = keys.get<std::string>("model", "euler");
-  for (const FlowModel model : {FlowModel::euler, FlowModel::laminar, FlowModel::sa})
-    if (name == name_of(model)) return model;
-  keys.fail("found '" + name + "' as 'model', expected euler, laminar or sa");
 }
 
 void read_sections(const Keys& keys, const std::string& file, SweepProblem& problem) {
@@ -303,21 +282,15 @@ SweepProblem parse_sweep(const std::string& text, const std::string& file) {
                   {"sections", "degree", "conditions", "model", "transition", "mesh", "surface_stations",
                    "fields", "chain", "order", "seed", "tolerance", "max_steps"});
   SweepProblem problem;
-  problem.model = model_of(keys);
-  if (keys.has("transition")) {
-    const auto places = keys.get<std::vector<double>>("transition");
-    if (places.size() != 2)
-      keys.fail("found " + std::to_string(places.size()) +
-                " numbers as 'transition', expected two: of upper and lower sides, 0 to 1");
-    problem.transition = {places[0], places[1]};
-  }
+  problem.model = model_named(keys);
+  problem.transition = transition_of(keys);
   keys.require("conditions");
   read_conditions(json, file, problem);
   read_mesh(json, file, problem);
   problem.stations = keys.whole<std::size_t>("surface_stations", 0, 0, 10000);
   problem.fields = keys.get<bool>("fields", false);
   problem.chain = keys.whole<std::size_t>("chain", problem.chain, 1, most_sections);
-  problem.order = order_of(keys);
+  problem.order = choice(keys, "order", {SweepOrder::nearest, SweepOrder::given, SweepOrder::random});
   problem.seed = keys.whole<std::uint64_t>("seed", 1, 0, UINT64_MAX);
   problem.tolerance = keys.get<double>("tolerance", problem.tolerance);
   problem.max_steps = keys.whole<int>("max_steps", problem.max_steps, 1, 1000000);

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "aero/page_parts.h"
-#include "aero/problem_json.h"
+#include "aero/sweep_record.h"
 #include "remodel/io.h"
 #include "remodel/plot.h"
 #include "remodel/sweep.h"
@@ -187,25 +187,16 @@ std::string missing_table(const Swept& swept) {
 }
 
 Json figures_of(const Swept& swept) {
-  std::size_t found = 0, cold = 0, warned = 0;
-  double seconds = 0.0, cold_seconds = 0.0;
-  for (const SweepFlow& flow : swept.flows) {
-    found += flow.point.converged;
-    warned += flow.point.converged && !flow.point.warnings.empty();
-    seconds += flow.point.seconds;
-    if (!flow.point.converged || flow.point.start != FlowStart::cold) continue;
-    cold_seconds += flow.point.seconds, ++cold;
-  }
-  const auto flows = static_cast<double>(swept.flows.size());
+  const SweepCounts counts = counts_of(swept.flows);
   Json figures{{"sections", swept.problem.sections.size()},
                {"planned", swept.planned},
                {"flows", swept.flows.size()},
-               {"found", found},
-               {"not_found", swept.flows.size() - found},
-               {"with_warnings", warned},
-               {"flow_seconds", seconds}};
+               {"found", counts.found},
+               {"not_found", swept.flows.size() - counts.found},
+               {"with_warnings", counts.warned},
+               {"flow_seconds", counts.seconds}};
   figures["cold_seconds_estimate"] =
-      cold == 0 ? Json() : Json(cold_seconds / static_cast<double>(cold) * flows);
+      counts.cold_seconds_estimate ? Json(*counts.cold_seconds_estimate) : Json();
   return figures;
 }
 

@@ -26,10 +26,7 @@ std::vector<std::size_t> ordered(const SweepProblem& problem, const std::vector<
   for (const std::size_t i : sections) (problem.sections[i].problem.empty() ? good : refused).push_back(i);
   if (problem.order == SweepOrder::random) {
     portable::Generator random(problem.seed);
-    for (std::size_t i = good.size(); i > 1; --i) {
-      const std::size_t other = random.next() % i;
-      std::swap(good[i - 1], good[other]);
-    }
+    portable::shuffle(good, random);
   }
   if (problem.order == SweepOrder::nearest && !good.empty()) {
     std::vector<CstAirfoil> airfoils;

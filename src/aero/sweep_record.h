@@ -4,6 +4,7 @@
 // them as CBOR (RFC 8949), every double exact.
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,15 @@ struct ChainResult {
   std::vector<SweepFlow> flows;
   double mesh_seconds = 0.0;
 };
+
+// What the flows of a sweep come to.
+struct SweepCounts {
+  std::size_t found = 0;
+  std::size_t warned = 0;                       // of those found
+  double seconds = 0.0;                         // of all searches
+  std::optional<double> cold_seconds_estimate;  // SweepResult's; none where no flow was found cold
+};
+SweepCounts counts_of(const std::vector<SweepFlow>& flows);
 
 // The layer that all flows share. Precondition: they have friction.
 LayerOptions sweep_layer(const SweepProblem& problem);

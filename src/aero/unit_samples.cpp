@@ -31,7 +31,7 @@ Samples latin_hypercube(std::size_t count, std::size_t dimensions, portable::Gen
   std::vector<std::size_t> interval(count);
   for (std::size_t d = 0; d < dimensions; ++d) {
     std::iota(interval.begin(), interval.end(), std::size_t{0});
-    for (std::size_t i = count; i > 1; --i) std::swap(interval[i - 1], interval[random.next() % i]);
+    portable::shuffle(interval, random);
     for (std::size_t i = 0; i < count; ++i)
       samples[i][d] = (static_cast<double>(interval[i]) + random.uniform()) / static_cast<double>(count);
   }

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace remodel::portable {
 
@@ -89,5 +91,11 @@ class Generator {
   static std::uint64_t rotate(std::uint64_t x, int k) { return (x << k) | (x >> (64 - k)); }
   State state_{};
 };
+
+// Every order with the same probability (R. Durstenfeld, Comm. ACM 7, 1964).
+template <class Value>
+void shuffle(std::vector<Value>& values, Generator& random) {
+  for (std::size_t i = values.size(); i > 1; --i) std::swap(values[i - 1], values[random.next() % i]);
+}
 
 }  // namespace remodel::portable

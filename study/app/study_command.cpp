@@ -79,21 +79,13 @@ Status run_study(const StudyCommand& command, Crew& crew) {
   return status_of(result);
 }
 
-// Throws Error before the first job where the directory cannot take a study.
-void require_place(const std::filesystem::path& directory) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(directory, ignored)) return require_writable(directory / "new");
-  if (!std::filesystem::exists(directory, ignored))
-    require_writable(directory.has_filename() ? directory : directory.parent_path());
-}
-
 Status run(const StudyCommand& command) {
   if (command.directory.empty())
     throw Error(ErrorCode::argument, "-o", "not found, expected the study's directory");
   if (command.resume && command.full)
     throw Error(ErrorCode::argument, "--full",
                 "found with --resume, expected one of them: a study knows its options");
-  if (!command.resume) require_place(command.directory);
+  if (!command.resume) require_place_of_run(command.directory);
   return with_crew(command.threads, command.ranks, run_study_job,
                    [&](Crew& crew) { return run_study(command, crew); });
 }

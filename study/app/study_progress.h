@@ -7,7 +7,6 @@
 #include "interrupt.h"
 #include "progress.h"
 #include "study/study.h"
-#include "timing.h"
 
 namespace remodel::app {
 
@@ -15,22 +14,20 @@ class StudyProgressLine : public StudyObserver {
  public:
   // heading: the first line, the resolved options. time_limit: in seconds; 0 for none.
   StudyProgressLine(ProgressStyle style, std::string heading, double time_limit)
-      : style_(style), heading_(std::move(heading)), time_limit_(time_limit) {}
+      : line_(style, -1e9), heading_(std::move(heading)), time_limit_(time_limit) {}
 
   void finished(const StudyProgress& progress) override;
   bool cancelled() override {
-    return interrupt_.raised() || (time_limit_ > 0.0 && watch_.seconds() > time_limit_);
+    return interrupt_.raised() || (time_limit_ > 0.0 && line_.seconds() > time_limit_);
   }
   // Ends the line of the progress bar.
   void finish();
 
  private:
-  ProgressStyle style_;
+  StatusLine line_;
   std::string heading_;
   double time_limit_;
   InterruptFlag interrupt_;
-  Stopwatch watch_;
-  double shown_at_ = -1e9;  // seconds
   bool begun_ = false;
 };
 

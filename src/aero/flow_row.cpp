@@ -1,15 +1,24 @@
-#include "aero/polar_point.h"
+#include "aero/flow_row.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace remodel::aero {
 
-FlowResult without_fields(FlowResult flow) {
-  for (auto* field : {&flow.density, &flow.velocity_x, &flow.velocity_y, &flow.pressure, &flow.history})
-    *field = std::vector<double>();
-  if (flow.friction)
-    for (auto* field : {&flow.friction->cf, &flow.friction->y_plus, &flow.friction->viscosity_ratio,
-                        &flow.friction->working})
-      *field = std::vector<double>();
-  return flow;
+std::size_t nearest_to_zero(const std::vector<double>& values) {
+  const auto nearer = [](double a, double b) { return std::fabs(a) < std::fabs(b); };
+  return static_cast<std::size_t>(std::min_element(values.begin(), values.end(), nearer) - values.begin());
+}
+
+FlowResult find_at(LivingFlow& living, const RowSolve& solve, FlowConditions conditions, double value,
+                   bool over_lift, double alpha_deg) {
+  conditions.cl.reset();
+  conditions.alpha_deg = over_lift ? alpha_deg : value;
+  if (!over_lift) return solve(living, conditions);
+  if (living.keep().empty())
+    if (FlowResult start = solve(living, conditions); !start.converged()) return start;
+  conditions.cl = value;
+  return solve(living, conditions);
 }
 
 PolarPoint point_of(const MarchedFlow& marched, bool over_lift) {
