@@ -19,6 +19,13 @@ from ._mesh import Validity
 _RECIPE = "; bound the design variables, or take a driver that catches AnalysisError, as pyOptSparseDriver"
 
 
+def _require(flow):
+    if not flow.converged:
+        raise AnalysisError(f"flow: {flow.reason}" + _RECIPE)
+    if not flow.lift_determined:
+        raise AnalysisError("flow: the lift is not determined: a body has no edge that the flow leaves from")
+
+
 class MeshComponent(ExplicitComponent):
     """Coefficients of an airfoil ('design', upper then lower) to 'points' of shape (n, 2).
 
@@ -124,10 +131,7 @@ class FlowComponent(ExplicitComponent):
             flow = self.solver.solve(mesh, **conditions)
         except Error as error:
             raise AnalysisError(str(error) + _RECIPE) from error
-        if not flow.converged:
-            raise AnalysisError(f"flow: {flow.reason}" + _RECIPE)
-        if not flow.lift_determined:
-            raise AnalysisError("flow: the lift is not determined: a body has no edge that the flow leaves from")
+        _require(flow)
         self._solved = points, conditions, flow
         return flow
 
@@ -235,8 +239,7 @@ class SectionComponent(ExplicitComponent):
             flow = self.solver.solve(self.mesh, **conditions)
         except Error as error:
             raise AnalysisError(str(error) + _RECIPE) from error
-        if not flow.converged:
-            raise AnalysisError(f"flow: {flow.reason}" + _RECIPE)
+        _require(flow)
         self._solved = at, flow
         return flow
 
