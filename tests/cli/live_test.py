@@ -65,6 +65,8 @@ class PageTest(ProgramTest):
         self.value(f"document.getElementById({json.dumps(element)}).click()")
 
     def middle(self, selector, index=0):
+        """Where to point at an element. A long sentence makes the stage less high, and the handles follow a frame later."""
+        self.value("new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(() => drawn(true))))")
         return self.value(f"""(() => {{
             const box = document.querySelectorAll({json.dumps(selector)})[{index}].getBoundingClientRect();
             return [box.x + box.width / 2, box.y + box.height / 2];
