@@ -145,7 +145,7 @@ void require_possible(const EulerRun& run, const MeshInput& input) {
     throw Error(ErrorCode::argument, "--gradient",
                 "given with the mesh of another program, expected a shape or a native mesh, whose curves are "
                 "known");
-  if (run.error && !input.living)
+  if (run.error && !input.living && !input.layered)
     throw Error(
         ErrorCode::argument, "--error",
         "given with the mesh of another program, expected a shape or a native mesh, of which a finer one "
@@ -196,7 +196,8 @@ FlowError error_of(const EulerRun& run, const MeshInput& input, const FlowOption
                    const std::string& source, FlowResult& flow) {
   FlowError error;
   try {
-    error = estimate_error(*input.living, flow, run.conditions, options, source);
+    error = input.layered ? estimate_error(*input.layered, flow, run.conditions, options, source)
+                          : estimate_error(*input.living, flow, run.conditions, options, source);
     if (!error.finer.converged())
       flow.warnings.push_back("the errors are not estimated: on the finer mesh no flow was found: " +
                               error.finer.reason);

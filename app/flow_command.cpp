@@ -79,7 +79,7 @@ void require_fitting_model(const FlowCommand& command) {
   if (!command.given("--reynolds"))
     throw Error(ErrorCode::argument, "--reynolds",
                 "not given, expected the Reynolds number of the reference length for --model laminar or sa");
-  refuse(command, {"--error", "--limiter"}, "given with --model laminar or sa, expected --model euler");
+  refuse(command, {"--limiter"}, "given with --model laminar or sa, expected --model euler");
 }
 
 Status run(const FlowCommand& command) {

@@ -1,5 +1,6 @@
 #include "flow_report.h"
 
+#include <cstdio>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -197,8 +198,9 @@ void add_error(Report& report, const FlowError& error) {
                           {"newton_steps", finer.newton_steps},
                           {"seconds", finer.seconds}}}});
   const auto bar = [&](const char* label, double lacks, double on_finer) {
-    report.line(label, Json(lacks).dump() + " (on " + std::to_string(error.vertices) + " vertices " +
-                           Json(on_finer).dump() + ")");
+    char text[100];
+    std::snprintf(text, sizeof text, "%.2g (on %zu vertices %.6g)", lacks, error.vertices, on_finer);
+    report.line(label, text);
   };
   bar("CL lacks about", error.cl, finer.cl);
   bar("CD lacks about", error.cd, finer.cd);

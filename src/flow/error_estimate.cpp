@@ -26,16 +26,35 @@ Domain with_twice_the_stations(Domain domain) {
   return domain;
 }
 
-}  // namespace
-
-FlowError estimate_error(const Mesh& mesh, const FlowResult& flow, const FlowConditions& conditions,
-                         const FlowOptions& options, const std::string& source) {
-  if (!flow.converged())
-    throw Error(ErrorCode::argument, source, "the flow was not found, expected one that was, to judge its error");
-  QualityOptions quality = mesh.options();
+QualityOptions with_half_the_sizes(QualityOptions quality) {
   constexpr double largest_gradation = 1e6;
   quality.gradation = std::min(2.0 * quality.gradation, largest_gradation);
-  const GenerateResult made = generate(with_twice_the_stations(mesh.domain()), quality, options.observer);
+  return quality;
+}
+
+// Twice as many cells across the same thickness.
+LayerOptions with_half_the_heights(LayerOptions layer) {
+  constexpr double least_growth = 1.02;
+  layer.first_height *= 0.5;
+  layer.growth = std::max(std::sqrt(layer.growth), least_growth);
+  return layer;
+}
+
+void require_found(const FlowResult& flow, const std::string& source) {
+  if (!flow.converged())
+    throw Error(ErrorCode::argument, source,
+                "the flow was not found, expected one that was, to judge its error");
+}
+
+double order_of(const FlowResult& finer) {
+  return remodel::flow::largest_mach(finer) > 1.0 ? 1.0 : 2.0;
+}
+
+// `made` is the result of generate() or generate_layered().
+template <typename Made>
+FlowError error_beside(const Made& made, const FrozenMesh& mesh, const FlowResult& flow,
+                       const FlowConditions& conditions, const FlowOptions& options,
+                       const std::string& source) {
   FlowError error;
   if (made.stopped == Stopped::interrupted) {
     error.finer.status = FlowStatus::interrupted;
@@ -43,19 +62,38 @@ FlowError estimate_error(const Mesh& mesh, const FlowResult& flow, const FlowCon
   }
   if (made.stopped != Stopped::done)
     throw Error(ErrorCode::geometry, source,
-                std::string("the finer mesh for the estimate of errors is unfinished (") + name_of(made.stopped) +
-                    "), expected a whole one");
+                std::string("the finer mesh for the estimate of errors is unfinished (") +
+                    name_of(made.stopped) + "), expected a whole one");
   const FrozenMesh finer = made.mesh.freeze();
   error.vertices = finer.points.size();
-  error.finer = solve_flow_from(mesh.freeze(), flow, finer, conditions, options, source);
+  error.finer = solve_flow_from(mesh, flow, finer, conditions, options, source);
   if (!error.finer.converged()) return error;
-  error.order = remodel::flow::largest_mach(error.finer) > 1.0 ? 1.0 : 2.0;
+  error.order = order_of(error.finer);
   const double whole = 1.0 / (1.0 - std::pow(2.0, -error.order));
   error.cl = conditions.cl ? 0.0 : whole * (error.finer.cl - flow.cl);
   error.cd = whole * (error.finer.cd - flow.cd);
   error.cm = whole * (error.finer.cm - flow.cm);
   error.alpha_deg = conditions.cl ? whole * (error.finer.alpha_deg - flow.alpha_deg) : 0.0;
   return error;
+}
+
+}  // namespace
+
+FlowError estimate_error(const Mesh& mesh, const FlowResult& flow, const FlowConditions& conditions,
+                         const FlowOptions& options, const std::string& source) {
+  require_found(flow, source);
+  const GenerateResult made =
+      generate(with_twice_the_stations(mesh.domain()), with_half_the_sizes(mesh.options()), options.observer);
+  return error_beside(made, mesh.freeze(), flow, conditions, options, source);
+}
+
+FlowError estimate_error(const LayeredMesh& mesh, const FlowResult& flow, const FlowConditions& conditions,
+                         const FlowOptions& options, const std::string& source) {
+  require_found(flow, source);
+  const LayeredGenerateResult made =
+      generate_layered(with_twice_the_stations(mesh.domain()), with_half_the_heights(mesh.options()),
+                       with_half_the_sizes(mesh.outer().options()), options.observer);
+  return error_beside(made, mesh.freeze(), flow, conditions, options, source);
 }
 
 }  // namespace remodel
