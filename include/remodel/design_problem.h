@@ -107,11 +107,11 @@ struct DesignProblem {
   // flows are their own mirror images then, half of each is computed (FlowSpace::half()).
   bool symmetric = false;
   AirfoilDomainOptions domain = {.points = 100};
-  // Of the mesh; none: points / 50. With friction `points` is about how many stations a section has, 150 or
-  // more (usual_points_with_friction).
+  // The mesh has this gradation; none: points / 50. With friction `points` is about how many stations a
+  // section has, 150 or more (usual_points_with_friction).
   std::optional<double> gradation = {};
-  // Of flows with friction, on all sections; none: of what layer_for_flow() has for the points, the least
-  // first height and the largest thickness.
+  // All sections have this layer in flows with friction; none: of what layer_for_flow() has for the points,
+  // the least first height and the largest thickness.
   std::optional<LayerOptions> layer = {};
   std::vector<DesignPoint> points = {};  // of flow: one or more
   // A name of objective_names(): the sum over points, by their weights, of drag, pressure_drag,
@@ -157,7 +157,7 @@ void validate(const DesignProblem& problem, const std::string& source = "design 
 // Reads the file of a problem: docs/design.md describes it. Paths in it lead on from its directory. Throws
 // Error naming the file and the place in it.
 DesignProblem read_design_problem(const std::string& file);
-// The same from the text of such a file. `source` names it in messages; paths in it lead on from its
+// This one reads the text of such a file. `source` names it in messages; paths in it lead on from its
 // directory.
 DesignProblem parse_design_problem(const std::string& text, const std::string& source);
 // The problem's own text, or one made of its members; own functions are named in it, no more.

@@ -69,10 +69,10 @@ struct FlowConditions {
   // Coefficients and the Reynolds number are made with this length, and nothing else is: more than 0.
   double reference_length = 1.0;
   double reynolds = 0.0;  // of models with friction, by the reference length: 1 to 1e10
-  // Where the boundary layers of upper and lower sides become turbulent, as parts of the chord from 0 to 1,
-  // by the model sa; none: at the leading edge. Ahead of it the model has no production of turbulence, in the
-  // vertices whose nearest place on a wall lies there. The chord of each body is from its rearmost point to
-  // the farthest one from that. Derivatives by the shape hold the zone.
+  // The boundary layers of upper and lower sides become turbulent there, by the model sa, as parts of the
+  // chord from 0 to 1; none: at the leading edge. Ahead of it the model has no production of turbulence, in
+  // the vertices whose nearest place on a wall lies there. The chord of each body is from its rearmost point
+  // to the farthest one from that. Derivatives by the shape hold the zone.
   std::optional<std::array<double, 2>> transition = {};
 };
 

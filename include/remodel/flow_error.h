@@ -30,7 +30,7 @@ struct FlowError {
 // names.
 FlowError estimate_error(const Mesh& mesh, const FlowResult& flow, const FlowConditions& conditions,
                          const FlowOptions& options = {}, const std::string& source = "mesh");
-// Likewise through layers: the finer mesh has also twice the columns and twice the cells across.
+// This one is through layers: the finer mesh has also twice the columns and twice the cells across.
 FlowError estimate_error(const LayeredMesh& mesh, const FlowResult& flow, const FlowConditions& conditions,
                          const FlowOptions& options = {}, const std::string& source = "mesh");
 

@@ -32,7 +32,7 @@ class FlowSpace : public DesignSpace {
  public:
   // True if the domain is the upper half of one whose flows are their own mirror images.
   virtual bool half() const { return false; }
-  // Where flows have friction, layers lie on the walls: domain() is that of the mesh beyond them then,
+  // Layers lie on the walls where flows have friction: domain() is that of the mesh beyond them then,
   // walls() that of the bodies. Otherwise both are the same.
   virtual const LayerFrame* layers() const { return nullptr; }
   virtual Domain walls(std::span<const double> design) const { return domain(design); }

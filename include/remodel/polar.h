@@ -70,7 +70,7 @@ struct PolarCurve {
 };
 
 struct PolarOptions {
-  // What flows have in common, but for mach, alpha_deg and cl.
+  // Flows have all of this in common but for mach, alpha_deg and cl.
   FlowConditions conditions = {};
   FlowOptions flow = {};
   std::vector<double> machs = {};       // ascending: a curve for each
@@ -92,7 +92,7 @@ struct PolarResult {
 // LivingFlow::solve() does, where there are no Mach numbers, neither angles nor lifts, or both, where values
 // do not ascend, and for halvings and misses out of range.
 PolarResult find_polar(const Mesh& mesh, const std::string& name, const PolarOptions& options);
-// The same on meshes with layers (LayeredMesh::freeze()) and meshes of other programs.
+// This one takes meshes with layers (LayeredMesh::freeze()) and meshes of other programs.
 PolarResult find_polar(const FrozenMesh& mesh, const std::string& name, const PolarOptions& options);
 
 struct LargestLift {

@@ -46,7 +46,7 @@ struct SweepRow {
   friend bool operator==(const SweepRow&, const SweepRow&) = default;
 };
 
-// In what order chains meet the sections.
+// Chains meet the sections in one of these orders.
 enum class SweepOrder {
   nearest,  // order_designs() of remodel/batch.h
   given,
@@ -60,8 +60,8 @@ struct SweepProblem {
   bool over_lift = false;      // SweepRow::values are lift coefficients
   FlowModel model = FlowModel::euler;
   std::optional<std::array<double, 2>> transition = {};  // FlowConditions::transition
-  // Of meshes. With friction `points` is about how many stations a section has, 150 or more. A gradation that
-  // is not given is points / 50.
+  // All meshes have these. With friction `points` is about how many stations a section has, 150 or more. A
+  // gradation that is not given is points / 50.
   AirfoilDomainOptions domain = {};
   std::optional<double> gradation = {};
   // With friction; none: of what layer_for_flow() has for the Reynolds numbers, the least first height and
@@ -127,7 +127,7 @@ struct SweepResult {
   double seconds = 0.0;       // wall time of this session
   double flow_seconds = 0.0;  // of all searches, of all sessions
   double mesh_seconds = 0.0;  // of all meshes, likewise
-  // What as many flows would have taken, each by itself: their number times the mean time of those that were
+  // Estimated for as many flows, each by itself: their number times the mean time of those that were
   // found cold.
   double cold_seconds_estimate = 0.0;
   SweepStopped stopped = SweepStopped::done;
