@@ -60,6 +60,7 @@ void add_soak_command(CLI::App& program, Action& action) {
               {"--full-check-every", "K", "200",
                "Every K-th mesh also goes through the independent validator; 0: never"},
               {.low = 0}, command->soak.full_check_every);
+  add_flag(app, "--layers", "Airfoils and sets of them with layers on their walls", command->soak.layers);
   add_json_flag(app, command->json);
 }
 

@@ -15,6 +15,7 @@ struct SoakOptions {
   std::uint64_t seed = 1;              // the same seed, the same episodes
   std::size_t first_episode = 1;       // to see one again; from 1
   std::size_t full_check_every = 200;  // every K-th mesh also goes through check()
+  bool layers = false;                 // episodes of meshes with layers on their walls (remodel/layers.h)
   std::function<bool(std::size_t)> keep_going =
       {};  // asked before every step, with the steps done; empty: always
 };
@@ -41,7 +42,9 @@ struct SoakResult {
 // slat, main airfoil and flap, a duct, a lake with an island, a wall and lone points, a mesh of another
 // program; some at the coordinates of a map), I from 8 to 400, G, D of the paper's four, method and strategy.
 // Its steps are random walks, jumps to other shapes, and designs that cross themselves. Episodes know nothing
-// of each other: `first_episode` begins with a later one. Throws Error (argument) for episode 0.
+// of each other: `first_episode` begins with a later one. Episodes with layers are of airfoils and of sets of
+// slat, main airfoil and flap, with first heights from 3e-7 to 3e-4 chords. Throws Error (argument) for
+// episode 0.
 SoakResult soak(const SoakOptions& options);
 
 }  // namespace remodel

@@ -16,6 +16,14 @@ namespace remodel {
 
 namespace {
 
+// What soak() asks of a mesh with or without layers.
+const Mesh& outer_of(const Mesh& mesh) {
+  return mesh;
+}
+const Mesh& outer_of(const LayeredMesh& mesh) {
+  return mesh.outer();
+}
+
 double peak_memory_mib() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -45,23 +53,31 @@ class Soak {
 
   void episode(std::uint64_t seed) {
     portable::Generator random(seed);
-    SoakCase drawn = draw_case(random);
+    if (options_.layers)
+      episode(draw_layered_case(random));
+    else
+      episode(draw_case(random));
+  }
+
+  template <class AnyMesh>
+  void episode(SoakCase<AnyMesh> drawn) {
     for (std::size_t i = 1; i <= steps_of_an_episode && going(); ++i) {
       number_ = (episode_ - 1) * steps_of_an_episode + i;
       step(drawn);
     }
   }
 
-  void step(SoakCase& drawn) {
+  template <class AnyMesh>
+  void step(SoakCase<AnyMesh>& drawn) {
     ++result_.steps;
-    Mesh& mesh = drawn.mesh;
-    std::optional<MeshState> before;  // to compare with, now and then
+    AnyMesh& mesh = drawn.mesh;
+    std::optional<decltype(mesh.state())> before;  // to compare with, now and then
     if (number_ % 50 == 0) before = mesh.state();
-    const std::uint32_t step_before = mesh.step();
+    const std::uint32_t step_before = outer_of(mesh).step();
     const ThreadStopwatch watch;
     bool finished = true;
     try {
-      const RemodelResult outcome = remodel(mesh, drawn.walk->next(), drawn.remodel);
+      const auto outcome = remodel(mesh, drawn.walk->next(), drawn.remodel);
       finished = outcome.stopped == Stopped::done;
       result_.recoveries += outcome.regenerated ? 1 : 0;
       result_.full_adjustments += outcome.full_adjustment ? 1 : 0;
@@ -69,7 +85,7 @@ class Soak {
       note_time(1e3 * watch.seconds());
     } catch (const Error& error) {
       ++result_.refused;
-      if (mesh.step() != step_before || (before && !(mesh.state() == *before)))
+      if (outer_of(mesh).step() != step_before || (before && !(mesh.state() == *before)))
         fail("a refused design changed the mesh");
       return;
     }
@@ -84,23 +100,26 @@ class Soak {
   }
 
   // A mesh that a limit left unfinished has the quality that it has, and is valid in all else.
-  void validate(const Mesh& mesh, bool finished) {
+  template <class AnyMesh>
+  void validate(const AnyMesh& mesh, bool finished) {
     if (const std::string broken = finished ? mesh.quick_check() : ""; !broken.empty()) fail(broken);
     const bool chosen = options_.full_check_every != 0 && number_ % options_.full_check_every == 0;
     if (finished && !chosen) return;
     ++result_.full_checks;
-    const CheckResult checked = check(mesh.freeze(), promises(mesh, finished));
+    CheckOptions promised = promises(outer_of(mesh), finished);
+    promised.design = &mesh.domain();
+    const CheckResult checked = check(mesh.freeze(), promised);
     if (finished) result_.min_angle_deg = std::min(result_.min_angle_deg, checked.min_angle_deg);
     if (!checked.valid) fail(checked.violations.front().rule + ": " + checked.violations.front().detail);
     try {  // reading back looks at what lies outside the domain too
-      Mesh::restore(mesh.state(), "mesh");
+      AnyMesh::restore(mesh.state(), "mesh");
     } catch (const Error& error) {
       fail(std::string("cannot be restored: ") + error.what());
     }
   }
 
   static CheckOptions promises(const Mesh& mesh, bool finished) {
-    CheckOptions promised{.delaunay_slack_deg = mesh.delaunay_slack_deg(), .design = &mesh.domain()};
+    CheckOptions promised{.delaunay_slack_deg = mesh.delaunay_slack_deg()};
     if (!finished) return promised;
     promised.min_angle_deg = mesh.options().min_angle_deg;
     promised.max_gradation = mesh.promised_gradation();

@@ -231,6 +231,37 @@ class OnAMap : public SoakWalk {
   Point origin_;
 };
 
+// Another walk's domains, with stations for layers: those of the first one.
+class WithStations : public SoakWalk {
+ public:
+  WithStations(std::unique_ptr<SoakWalk> walk, const WallSpacing& spacing)
+      : walk_(std::move(walk)), first_(walk_->next()) {
+    space_walls(first_, spacing);
+  }
+
+  const Domain& first() const { return first_; }
+
+  Domain next() override {
+    Domain domain = walk_->next();
+    for (std::size_t l = 0; l < domain.loops.size(); ++l)
+      for (std::size_t c = 0; c < domain.loops[l].curves.size(); ++c)
+        domain.loops[l].curves[c].parameters = first_.loops[l].curves[c].parameters;
+    return domain;
+  }
+
+ private:
+  std::unique_ptr<SoakWalk> walk_;
+  Domain first_;
+};
+
+LayerOptions draw_layer(Generator& random) {
+  LayerOptions layer;
+  layer.first_height = 3e-4 * portable::exp(-6.9 * random.uniform());
+  layer.growth = pick(random, std::array{1.15, 1.2, 1.2, 1.3});
+  layer.thickness = pick(random, std::array{0.005, 0.01, 0.02, 0.03});
+  return layer;
+}
+
 QualityOptions draw_quality(Generator& random, int points) {
   QualityOptions quality;
   quality.gradation = std::max(0.5, points / 50.0 * pick(random, std::array{0.5, 1.0, 1.0, 2.0}));
@@ -259,7 +290,7 @@ Mesh without_design(const Mesh& mesh) {
 
 }  // namespace
 
-SoakCase draw_case(Generator& random) {
+SoakCase<Mesh> draw_case(Generator& random) {
   const int points = pick(random, std::array{8, 20, 50, 50, 50, 80, 100, 100, 150, 200, 400});
   const AirfoilDomainOptions airfoils{.points = points};
   const double kind = random.uniform();
@@ -275,7 +306,7 @@ SoakCase draw_case(Generator& random) {
   const bool foreign = kind < 0.1;
   if (!foreign && random.uniform() < 0.2) walk = std::make_unique<OnAMap>(random, std::move(walk));
 
-  SoakCase drawn;
+  SoakCase<Mesh> drawn;
   drawn.remodel = draw_remodel(random);
   QualityOptions quality = draw_quality(random, points);
   if (drawn.remodel.strategy == Strategy::reference) quality.refine_angle_deg = angle_with_slack(quality);
@@ -285,6 +316,24 @@ SoakCase draw_case(Generator& random) {
     walk = std::make_unique<ForeignMesh>(random, drawn.mesh.domain());
   }
   drawn.walk = std::move(walk);
+  return drawn;
+}
+
+SoakCase<LayeredMesh> draw_layered_case(Generator& random) {
+  std::unique_ptr<SoakWalk> walk;
+  if (random.uniform() < 0.65)
+    walk = std::make_unique<OneAirfoil>(random, AirfoilDomainOptions{});
+  else
+    walk = std::make_unique<HighLift>(random, AirfoilDomainOptions{});
+  const double size = pick(random, std::array{1.0, 2.0, 4.0});
+  auto stations = std::make_unique<WithStations>(
+      std::move(walk), WallSpacing{0.0015 * size, 0.0015 * size, 0.008 * size, std::min(0.11 * size, 0.4)});
+  SoakCase<LayeredMesh> drawn;
+  drawn.remodel = draw_remodel(random);
+  QualityOptions quality{.gradation = std::max(2.0, 8.0 / size)};
+  if (drawn.remodel.strategy == Strategy::reference) quality.refine_angle_deg = angle_with_slack(quality);
+  drawn.mesh = generate_layered(stations->first(), draw_layer(random), quality).mesh;
+  drawn.walk = std::move(stations);
   return drawn;
 }
 

@@ -6,6 +6,7 @@
 
 #include "design/portable_math.h"
 #include "remodel/domain.h"
+#include "remodel/layers.h"
 #include "remodel/mesh.h"
 #include "remodel/remodel.h"
 
@@ -18,8 +19,9 @@ class SoakWalk {
   virtual Domain next() = 0;
 };
 
+template <class AnyMesh>  // Mesh or LayeredMesh
 struct SoakCase {
-  Mesh mesh;  // of a first design
+  AnyMesh mesh;  // of a first design
   RemodelOptions remodel;
   std::unique_ptr<SoakWalk> walk;
 };
@@ -28,6 +30,9 @@ struct SoakCase {
 // main airfoil and flap, ducts, lakes with islands, cracks and lone points, and airfoil meshes without a
 // design, as from a file of another program. One in five lies at coordinates as of a map, kilometres from the
 // origin. `random` must outlive the walk.
-SoakCase draw_case(portable::Generator& random);
+SoakCase<Mesh> draw_case(portable::Generator& random);
+// Airfoils and sets of slat, main airfoil and flap with layers on their walls, whose stations stay. First
+// heights are from 3e-7 to 3e-4 chords.
+SoakCase<LayeredMesh> draw_layered_case(portable::Generator& random);
 
 }  // namespace remodel

@@ -20,6 +20,14 @@ TEST(Soak, LeavesNoInvalidMesh) {
   }
 }
 
+TEST(Soak, LeavesNoInvalidMeshWithLayers) {
+  const SoakResult result = soak({.steps = 1000, .seed = 1, .full_check_every = 20, .layers = true});
+  EXPECT_EQ(result.steps, 1000U);
+  EXPECT_EQ(result.invalid_meshes, 0U) << result.first_failure;
+  EXPECT_GT(result.full_checks, 25U);
+  EXPECT_GT(result.refused, 0U);
+}
+
 TEST(Soak, DoesTheSameForTheSameSeed) {
   const SoakResult one = soak({.steps = 300, .seed = 7}), other = soak({.steps = 300, .seed = 7});
   EXPECT_EQ(one.refused, other.refused);
@@ -32,7 +40,7 @@ TEST(Soak, DoesTheSameForTheSameSeed) {
 TEST(Soak, MeshesOfSetsThatMoveDoNotGrow) {
   portable::Generator random(portable::Generator::State{15952085631558647039U, 6382075082175451244U,
                                                         171190061788599379U, 10512949784226226080U});
-  SoakCase drawn = draw_case(random);
+  SoakCase<Mesh> drawn = draw_case(random);
   ASSERT_EQ(drawn.remodel.strategy, Strategy::reference);
   for (int i = 0; i < 70; ++i) {
     try {
