@@ -6,7 +6,7 @@ import tempfile
 import numpy as np
 
 from . import _bridges, _plot
-from ._core import FlowResult, FrozenMesh, Mesh, PotentialFlow, Step, Transfer, check
+from ._core import FlowResult, FrozenMesh, LayeredMesh, Mesh, PotentialFlow, Step, Transfer, check
 from ._errors import ArgumentError
 
 _ARRAYS = {
@@ -26,6 +26,10 @@ _ARRAYS = {
 }
 
 
+# Those that a mesh with layers has too.
+_LAYERED_ARRAYS = ("points", "triangles", "quads", "boundaries", "vertex_keys", "region", "region_names")
+
+
 def _array(name):
     return property(lambda mesh: getattr(mesh.freeze(), name), doc=_ARRAYS[name])
 
@@ -37,7 +41,7 @@ def _draw(mesh, file, *, window=None, width=1600):
 
 def _svg(mesh):
     """What notebooks show: the mesh around its bodies."""
-    frozen = mesh.freeze() if isinstance(mesh, Mesh) else mesh
+    frozen = mesh.freeze() if hasattr(mesh, "freeze") else mesh
     if len(frozen.triangles) + len(frozen.quads) == 0:
         return None
     with tempfile.TemporaryDirectory() as directory:
@@ -45,6 +49,45 @@ def _svg(mesh):
         frozen.draw(file, window=_plot.close_window(frozen), width=720)
         with open(file, encoding="utf-8") as text:
             return text.read()
+
+
+class LayeredTrial:
+    """A design that is tried inside a `with` block: the mesh returns to what it was, to the last bit, unless keep() is
+    called. `step` is the LayeredStep to the design."""
+
+    def __init__(self, mesh, shape, options):
+        self._mesh, self._shape, self._options = mesh, shape, options
+        self._before = self._step = None
+
+    def __enter__(self):
+        if self._step is not None:
+            raise ArgumentError("trial: was entered before, expected a new one for each block")
+        before = self._mesh.copy()
+        self._step = self._mesh.update(self._shape, **self._options)
+        self._before = before
+        return self
+
+    def __exit__(self, *_):
+        if self._before is not None:
+            self._mesh._become(self._before)
+        self._before = None
+
+    @property
+    def step(self):
+        if self._step is None:
+            raise ArgumentError("trial: has not begun, expected `with mesh.trial(...) as trial`")
+        return self._step
+
+    def keep(self):
+        """The mesh stays as it is now."""
+        if self._before is None:
+            raise ArgumentError("trial: is over or has not begun, expected to be kept inside its block")
+        self._before = None
+
+
+def _layered_trial(mesh, shape, *, boundary="", strategy="renew", regenerate=True):
+    """Tries a design: `with mesh.trial(shape) as trial`. Arguments are those of update()."""
+    return LayeredTrial(mesh, shape, {"boundary": boundary, "strategy": strategy, "regenerate": regenerate})
 
 
 def _matrix(transfer, place="vertices"):
@@ -88,10 +131,13 @@ def _check(mesh, *, min_angle=0.0, max_gradation=0.0, delaunay=True, delaunay_sl
 def extend():
     for name in _ARRAYS:
         setattr(Mesh, name, _array(name))
-    Mesh.draw = _draw
+    for name in _LAYERED_ARRAYS:
+        setattr(LayeredMesh, name, _array(name))
+    LayeredMesh.trial = _layered_trial
+    Mesh.draw = LayeredMesh.draw = _draw
     _check.__doc__ = check.__doc__
     FrozenMesh.check = _check
-    for kind in (Mesh, FrozenMesh):
+    for kind in (Mesh, LayeredMesh, FrozenMesh):
         kind.plot = _plot.plot_mesh
         kind.to_meshio = _bridges.to_meshio
         kind.to_pyvista = _bridges.to_pyvista

@@ -145,21 +145,41 @@ CheckResult layers_checked(LivingLayers& mesh) {
   return Apart().run(std::make_shared<Stop>(), [frozen, options] { return check(*frozen, options); });
 }
 
-// By an airfoil's coefficients, upper then lower.
-py::array_t<double> layers_vjp(LivingLayers& mesh, const py::object& by_points, const std::string& boundary,
-                               const std::string& interior) {
+struct LayersWay {
+  LayeredMeshDerivative derivative;
+  std::size_t first = 0, count = 0;  // the airfoil's coefficients, upper then lower
+};
+
+LayersWay layers_way(const LayeredMesh& mesh, const std::string& boundary, const std::string& interior) {
   if (interior != "own" && interior != "still")
     throw Error(ErrorCode::argument, "interior", "found '" + interior + "', expected own or still");
+  const auto [loop, first, count] = airfoil_numbers(mesh.domain(), boundary);
+  if (interior == "own" && mesh.outer().held())
+    return {LayeredMeshDerivative(mesh, moving_loops(mesh.outer(), {loop})), first, count};
+  return {LayeredMeshDerivative(mesh), first, count};
+}
+
+py::array layers_jvp(LivingLayers& mesh, const Reals& direction, const std::string& boundary,
+                     const std::string& interior) {
+  const std::vector<double> given = reals(direction, "direction");
+  const ThreadLock::Held held(mesh.lock);
+  const LayersWay way = layers_way(mesh.mesh, boundary, interior);
+  if (given.size() != way.count)
+    throw Error(ErrorCode::argument, "direction",
+                "found " + std::to_string(given.size()) + " numbers, expected " + std::to_string(way.count));
+  std::vector<double> all(way.derivative.coefficients(), 0.0);
+  std::copy(given.begin(), given.end(), all.begin() + static_cast<std::ptrdiff_t>(way.first));
+  return view_of(way.derivative.jvp(all));
+}
+
+py::array_t<double> layers_vjp(LivingLayers& mesh, const py::object& by_points, const std::string& boundary,
+                               const std::string& interior) {
   const std::vector<Point> weights = points(array_of(by_points, "by_points"), "by_points");
   const ThreadLock::Held held(mesh.lock);
-  const auto [loop, first, count] = airfoil_numbers(mesh.mesh.domain(), boundary);
-  const bool along = interior == "own" && mesh.mesh.outer().held();
-  const LayeredMeshDerivative derivative =
-      along ? LayeredMeshDerivative(mesh.mesh, moving_loops(mesh.mesh.outer(), {loop}))
-            : LayeredMeshDerivative(mesh.mesh);
-  const std::vector<double> all = derivative.vjp(weights);
-  return copied(std::vector<double>(all.begin() + static_cast<std::ptrdiff_t>(first),
-                                    all.begin() + static_cast<std::ptrdiff_t>(first + count)));
+  const LayersWay way = layers_way(mesh.mesh, boundary, interior);
+  const std::vector<double> all = way.derivative.vjp(weights);
+  const auto first = all.begin() + static_cast<std::ptrdiff_t>(way.first);
+  return copied(std::vector<double>(first, first + static_cast<std::ptrdiff_t>(way.count)));
 }
 
 void add_layered_step(py::module_& module) {
@@ -192,7 +212,8 @@ void add_layered_mesh(py::module_& module) {
       module, "LayeredMesh",
       R"(A living mesh with layers of flat quadrilaterals on its walls, for flows with friction. Made by
 generate_layered() or LayeredMesh.load(); changed by update(), which keeps the layer's connectivity for a whole run.
-solve_flow() and LivingFlow.solve() take it. freeze() has its arrays.)");
+solve_flow() and LivingFlow.solve() take it. It has the arrays, pictures and bridges of a Mesh: points of the layer come
+first, column by column.)");
   type.def(
       "freeze", [](LivingLayers& mesh) { return std::const_pointer_cast<FrozenMesh>(mesh.snapshot()); },
       "The mesh as it is now: read-only arrays, points of the layer first.");
@@ -202,6 +223,9 @@ solve_flow() and LivingFlow.solve() take it. freeze() has its arrays.)");
       R"(Remodels to a Domain, or to an Airfoil (or the name of one) in the place of the one called `boundary`, on
 the same stations. strategy: 'renew', 'morph', 'reference' or another of Mesh.update(). Where anything is refused the
 mesh is as it was. Raises ArgumentError and GeometryError; Ctrl-C ends it.)");
+  type.def("jvp", &layers_jvp, "direction"_a, "boundary"_a = "", py::kw_only(), "interior"_a = "own",
+           R"(How the points of freeze() move, of shape (n, 2), with an airfoil's coefficients in a direction
+(Airfoil.design's order), at fixed connectivity. interior: as vjp()'s.)");
   type.def(
       "vjp", &layers_vjp, "by_points"_a, "boundary"_a = "", py::kw_only(), "interior"_a = "own",
       R"(Derivatives by the points of freeze(), of shape (n, 2), become derivatives by an airfoil's coefficients
@@ -213,6 +237,11 @@ stays. LivingFlow.gradients() has derivatives by points.)");
   type.def("copy", [](LivingLayers& mesh) {
     const ThreadLock::Held held(mesh.lock);
     return layers_alive(mesh.mesh);
+  });
+  type.def("_become", [](LivingLayers& mesh, LivingLayers& other) {  // of trial(); the other one is spent
+    const ThreadLock::Held held(mesh.lock);
+    mesh.mesh = std::move(other.mesh);
+    mesh.frozen.reset();
   });
   type.def(
       "save",
@@ -246,6 +275,8 @@ stays. LivingFlow.gradients() has derivatives by points.)");
         },
         doc);
   };
+  figure(
+      "domain", [](const LayeredMesh& m) { return m.domain(); }, "The present walls, a copy.");
   figure(
       "cells", [](const LayeredMesh& m) { return m.cells(); }, "How many cells it has: layer and outside.");
   figure(

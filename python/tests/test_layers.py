@@ -48,6 +48,54 @@ def test_an_update_keeps_the_layers_connectivity():
     assert not np.array_equal(mesh.freeze().points, before.points)
 
 
+def test_a_trial_leaves_the_mesh_as_it_was():
+    airfoil = remodel.Airfoil("naca:0012")
+    mesh = remodel.generate_layered(airfoil, reynolds=5000.0, model="laminar", **COARSE)
+    before, state = mesh.points, pickle.dumps(mesh)
+    with mesh.trial(changed(airfoil, 0.01)) as trial:
+        assert trial.step.same_columns and not np.array_equal(mesh.points, before)
+    assert np.array_equal(mesh.points, before) and pickle.dumps(mesh) == state
+    with pytest.raises(remodel.ArgumentError, match="is over"):
+        trial.keep()
+    with pytest.raises(remodel.GeometryError), mesh.trial(airfoil.with_design(-np.array(airfoil.design))):
+        pass
+    assert pickle.dumps(mesh) == state
+    with mesh.trial(changed(airfoil, 0.01)) as trial:
+        trial.keep()
+    assert not np.array_equal(mesh.points, before)
+    with pytest.raises(remodel.ArgumentError, match="entered before"), trial:
+        pass
+
+
+def test_directions_of_a_design_are_differences_of_meshes():
+    airfoil = remodel.Airfoil("naca:0012")
+    mesh = remodel.generate_layered(airfoil, reynolds=5000.0, model="laminar", **COARSE)
+    direction = np.zeros(len(airfoil.design))
+    direction[1] = 1.0
+    moved = mesh.jvp(direction)
+    weights = np.random.default_rng(1).normal(size=moved.shape)
+    assert np.isclose((weights * moved).sum(), mesh.vjp(weights) @ direction, rtol=1e-9)
+    layer, ends = np.unique(mesh.quads), []
+    for step in (1e-4, -1e-4):
+        with mesh.trial(changed(airfoil, step)):
+            ends.append(mesh.points[layer])
+    assert np.abs(moved[layer]).max() > 0.1
+    assert np.abs((ends[0] - ends[1]) / 2e-4 - moved[layer]).max() < 1e-5
+    with pytest.raises(remodel.ArgumentError, match="direction: found 2 numbers"):
+        mesh.jvp([1.0, 2.0])
+
+
+def test_it_is_drawn_and_handed_on_as_any_mesh(tmp_path):
+    mesh = laminar_mesh()
+    assert len(mesh.quads) + len(mesh.triangles) == mesh.cells and "airfoil" in mesh.boundaries
+    mesh.draw(tmp_path / "mesh.png", width=300)
+    assert (tmp_path / "mesh.png").stat().st_size > 1000
+    assert mesh._repr_svg_().startswith("<?xml") or "<svg" in mesh._repr_svg_()
+    axes = pytest.importorskip("matplotlib.pyplot").subplots()[1]
+    assert mesh.plot(ax=axes) is axes
+    assert "airfoil" in mesh.domain.to_json()
+
+
 def test_files_keep_a_layered_mesh_to_the_bit(tmp_path):
     mesh = laminar_mesh()
     mesh.save(tmp_path / "layered.vtkhdf")
