@@ -180,6 +180,10 @@ std::vector<std::string> write_files(const EulerRun& run, const MeshInput& input
       write_text_atomically(run.wall_table, boundary_layer_table(input.frozen, flow));
       files.push_back(run.wall_table);
     }
+    if (!run.profiles.empty()) {
+      write_text_atomically(run.profiles, boundary_layer_profile_table(input.frozen, flow, run.profiles_at));
+      files.push_back(run.profiles);
+    }
   }
   if (!run.history.empty()) {
     write_residuals(flow.history, flow.converged() ? caption : "not converged", run.history);

@@ -22,7 +22,9 @@ struct EulerRun {
   std::string cp_plot;     // likewise
   std::string cf_plot;     // likewise
   std::string wall_table;  // likewise
-  std::string history;     // likewise
+  std::string profiles;    // likewise
+  std::vector<double> profiles_at = {0.25, 0.5, 0.75, 0.95};
+  std::string history;  // likewise
   std::vector<std::string> inlets, outlets;
   FlowInlet inlet;    // what is given at all inlets
   FlowOutlet outlet;  // likewise

@@ -48,6 +48,16 @@ MeshInput read_input(const FlowCommand& command) {
   return flow_mesh({command.input, command.meshing, command.model, reynolds, command.given});
 }
 
+// Any number of parts of a chord.
+std::vector<double> parse_places(const std::string& option, const std::string& text) {
+  const auto count = static_cast<std::size_t>(std::count(text.begin(), text.end(), ',')) + 1;
+  const std::vector<double> places = parse_reals(option, text, count);
+  for (const double place : places)
+    if (!(place >= 0.0 && place <= 1.0))
+      throw Error(ErrorCode::argument, option, "found '" + text + "', expected numbers from 0 to 1");
+  return places;
+}
+
 Status run_potential_flow(const FlowCommand& command, const MeshInput& input) {
   PotentialRun run;
   run.alpha_deg = command.alpha_deg;
@@ -74,7 +84,7 @@ void require_fitting_model(const FlowCommand& command) {
   if (command.is_potential || command.model != FlowModel::sa)
     refuse(command, {"--transition"}, "given without turbulence, expected --model sa");
   if (!command.has_friction())
-    return refuse(command, {"--reynolds", "--cf-plot", "--wall-table"},
+    return refuse(command, {"--reynolds", "--cf-plot", "--wall-table", "--profiles"},
                   "given without friction, expected --model laminar or sa");
   if (!command.given("--reynolds"))
     throw Error(ErrorCode::argument, "--reynolds",
@@ -87,11 +97,16 @@ Status run(const FlowCommand& command) {
   require_fitting_model(command);
   if (!command.euler.cf_plot.empty()) require_writable_as(command.euler.cf_plot, {".svg", ".png"});
   if (!command.euler.wall_table.empty()) require_writable_as(command.euler.wall_table, {".csv"});
+  if (!command.euler.profiles.empty())
+    require_writable_as(command.euler.profiles, {".csv"});
+  else
+    refuse(command, {"--profiles-at"}, "given without --profiles, expected a file to write them to");
   if (!command.cp_plot.empty()) require_writable_as(command.cp_plot, {".svg", ".png"});
   if (!command.euler.history.empty()) require_writable_as(command.euler.history, {".csv", ".svg", ".png"});
   require_different_files(command.outputs, {{"--cp-plot", command.cp_plot},
                                             {"--cf-plot", command.euler.cf_plot},
                                             {"--wall-table", command.euler.wall_table},
+                                            {"--profiles", command.euler.profiles},
                                             {"--history", command.euler.history}});
   if (command.is_potential) {
     refuse(command,
@@ -111,7 +126,7 @@ Status run(const FlowCommand& command) {
   if (euler.series.empty())
     return run_euler(euler, read_input(command), command.input.shapes.front(), command.outputs);
   if (!command.outputs.files().empty() || !euler.cp_plot.empty() || !euler.cf_plot.empty() ||
-      !euler.wall_table.empty() || !euler.history.empty())
+      !euler.wall_table.empty() || !euler.profiles.empty() || !euler.history.empty())
     throw Error(ErrorCode::argument, "--series",
                 "given with a file to write, expected no file: there are many flows");
   if (!command.has_friction()) return run_series(euler, start_mesh(command));
@@ -165,6 +180,16 @@ void add_flow_command(CLI::App& program, Action& action) {
            {"--wall-table", "FILE", "",
             "Table of what friction does along walls, with the boundary layer's thicknesses: .csv"},
            Presence::optional, command->euler.wall_table);
+  add_text(app,
+           {"--profiles", "FILE", "",
+            "Table of velocities, temperatures and turbulence through boundary layers, with friction: .csv"},
+           Presence::optional, command->euler.profiles);
+  add_text(app,
+           {"--profiles-at", "X,...", "0.25,0.5,0.75,0.95",
+            "Where --profiles are taken on both sides of each wall: parts of its chord from 0 to 1"},
+           Presence::optional, [=](const std::string& text) {
+             command->euler.profiles_at = parse_places("--profiles-at", text);
+           });
   add_euler_options(app, command->euler);
   add_duct_options(app, command->euler);
   command->outputs.add_options(app, Presence::optional);

@@ -44,4 +44,34 @@ std::vector<BoundaryLayerStation> boundary_layer(const FrozenMesh& mesh, const F
 // the same doubles.
 std::string boundary_layer_table(const FrozenMesh& mesh, const FlowResult& flow);
 
+// A point of a profile, which is a column of cells from the wall on.
+struct BoundaryLayerPoint {
+  double height = 0.0;           // from the wall, in units of the mesh
+  double speed = 0.0;            // along the wall, positive as at the column's end, over the stream's speed
+  double density = 0.0;          // over the stream's
+  double temperature = 0.0;      // likewise
+  double viscosity_ratio = 0.0;  // of turbulence over the molecular one; 0 in laminar flow
+  // The height and the speed in units of the wall's viscosity and friction: u+ = y+ next to the wall, and
+  // log(y+) / 0.41 + 5 farther out in a turbulent layer without a gradient of pressure.
+  double y_plus = 0.0, u_plus = BoundaryLayerStation::none;
+};
+
+struct BoundaryLayerProfile {
+  std::string wall;                        // the boundary's name
+  double place = 0.0;                      // that was asked for
+  std::uint32_t vertex = 0;                // of the frozen mesh: the station
+  std::vector<BoundaryLayerPoint> points;  // none where no quadrilaterals stand on the wall
+};
+
+// The profiles at the stations nearest to these places, 0 to 1, parts of each connected wall's extent along x
+// from its foremost point on: one for each side of a wall that has a station there. Throws as
+// boundary_layer() does.
+std::vector<BoundaryLayerProfile> boundary_layer_profiles(const FrozenMesh& mesh, const FlowResult& flow,
+                                                          const std::vector<double>& places);
+
+// A row for each point, with a header: wall, place, x and y of the station, height, speed, density,
+// temperature, viscosity_ratio, y_plus, u_plus. As boundary_layer_table().
+std::string boundary_layer_profile_table(const FrozenMesh& mesh, const FlowResult& flow,
+                                         const std::vector<double>& places);
+
 }  // namespace remodel

@@ -245,6 +245,24 @@ py::dict boundary_layer_of(const FlowResult& flow, const py::object& mesh) {
   return result;
 }
 
+py::list profiles_of(const FlowResult& flow, const py::object& mesh, const std::vector<double>& places) {
+  py::list result;
+  for (const BoundaryLayerProfile& profile : boundary_layer_profiles(*snapshot_of(mesh), flow, places)) {
+    py::dict one("wall"_a = profile.wall, "place"_a = profile.place, "vertex"_a = profile.vertex);
+    const auto add = [&](const char* name, double BoundaryLayerPoint::*member) {
+      std::vector<double> values;
+      for (const BoundaryLayerPoint& point : profile.points) values.push_back(point.*member);
+      one[name] = copied(values);
+    };
+    add("height", &BoundaryLayerPoint::height), add("speed", &BoundaryLayerPoint::speed);
+    add("density", &BoundaryLayerPoint::density), add("temperature", &BoundaryLayerPoint::temperature);
+    add("viscosity_ratio", &BoundaryLayerPoint::viscosity_ratio);
+    add("y_plus", &BoundaryLayerPoint::y_plus), add("u_plus", &BoundaryLayerPoint::u_plus);
+    result.append(one);
+  }
+  return result;
+}
+
 double if_determined(const FlowResult& flow, double value) {
   return flow.lift_determined ? value : std::numeric_limits<double>::quiet_NaN();
 }
@@ -320,6 +338,16 @@ void add_figures(py::class_<FlowResult, FlowPointer>& type) {
       "station, wall (a list of names), vertex, arc (along the wall), cf, y_plus, edge_speed (over the "
       "stream's), thickness (99 %), displacement_thickness, momentum_thickness (in units of the mesh; nan "
       "where the mesh has no layer that is as thick) and shape_factor.");
+  type.def(
+      "profiles",
+      [](const py::object& self, const std::vector<double>& places) {
+        return profiles_of(self.cast<const FlowResult&>(), self.attr("mesh"), places);
+      },
+      "places"_a,
+      R"(Profiles through the boundary layer of a flow with friction: a list of dicts, one for each side of each wall
+at each place, a part of its chord from 0 to 1. Each has wall, place, vertex (the nearest station) and arrays from the
+wall on: height (in units of the mesh), speed along the wall, density and temperature (over the stream's),
+viscosity_ratio (of turbulence over the molecular one), y_plus and u_plus. Raises ArgumentError.)");
   type.def_readonly("residual", &FlowResult::residual);
   type.def_readonly("newton_steps", &FlowResult::newton_steps);
   type.def_readonly("factorisations", &FlowResult::factorisations);

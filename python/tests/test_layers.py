@@ -126,6 +126,11 @@ def test_a_flow_with_friction_outlives_its_mesh():
     assert set(layer["wall"]) == {"airfoil"} and np.array_equal(layer["cf"], second.cf[layer["vertex"]])
     middle = np.abs(second.mesh.points[layer["vertex"], 0] - 0.3) < 0.1
     assert (layer["displacement_thickness"][middle] > 2 * layer["momentum_thickness"][middle]).all()
+    profiles = second.profiles([0.5])
+    assert len(profiles) == 2 and {p["wall"] for p in profiles} == {"airfoil"}
+    assert all(p["speed"][0] == 0.0 and p["speed"].max() > 1.0 and (np.diff(p["height"]) > 0.0).all() for p in profiles)
+    with pytest.raises(remodel.ArgumentError, match="places"):
+        second.profiles([2.0])
     with pytest.raises(remodel.ArgumentError, match="friction"):
         remodel.solve_flow(remodel.generate("naca:0012", points=60), mach=0.5).boundary_layer()
     gradients = living.gradients()

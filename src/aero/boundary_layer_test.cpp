@@ -60,6 +60,35 @@ TEST(BoundaryLayer, OfATurbulentPlateLosesTheMomentumThatFrictionTakes) {
   EXPECT_NEAR(grown / lost, 1.0, 0.03);
 }
 
+// Next to the wall u+ = y+; in the logarithmic layer u+ = log(y+) / 0.41 + 5 (D. Coles, J. Fluid Mech. 1,
+// 1956; the constants are those that the turbulence model was made for).
+TEST(BoundaryLayer, OfATurbulentPlateFollowsTheLawOfTheWall) {
+  const FrozenMesh mesh = test::turbulent_plate().frozen();
+  const FlowResult flow = plate_flow(mesh, FlowModel::sa, 5e6);
+  ASSERT_TRUE(flow.converged()) << flow.reason;
+  const std::vector<BoundaryLayerProfile> profiles = boundary_layer_profiles(mesh, flow, {0.4, 0.7});
+  ASSERT_EQ(profiles.size(), 2U);
+  for (const BoundaryLayerProfile& profile : profiles) {
+    SCOPED_TRACE(profile.place);
+    EXPECT_NEAR(mesh.points[profile.vertex].x, 2.0 * profile.place, 0.1);
+    int viscous = 0, logarithmic = 0;
+    for (const BoundaryLayerPoint& point : profile.points) {
+      if (point.y_plus < 4.0) {
+        EXPECT_NEAR(point.u_plus, point.y_plus, 0.03 * point.y_plus + 1e-12);
+        ++viscous;
+      } else if (point.y_plus > 40.0 && point.y_plus < 200.0) {
+        EXPECT_NEAR(point.u_plus, std::log(point.y_plus) / 0.41 + 5.0, 0.9) << point.y_plus;
+        EXPECT_NEAR(point.viscosity_ratio, 0.41 * point.y_plus, 0.25 * point.viscosity_ratio) << point.y_plus;
+        ++logarithmic;
+      }
+    }
+    EXPECT_GT(viscous, 3);
+    EXPECT_GT(logarithmic, 3);
+    EXPECT_NEAR(profile.points.back().speed, 1.0, 0.01);
+    EXPECT_NEAR(profile.points.front().temperature, 1.0 + 0.2 * 0.04 * 0.89, 0.002);  // of recovery
+  }
+}
+
 // Both sides of a symmetric section have the same layer, thin at the nose and thick at the trailing edge.
 TEST(BoundaryLayer, OfASectionIsMirrored) {
   const FrozenMesh mesh =
@@ -93,6 +122,7 @@ TEST(BoundaryLayer, WithoutFrictionIsRefused) {
   const FrozenMesh mesh = test::c_grid({.half = 8, .wake = 4, .up = 6, .first = 0.02}).frozen();
   FlowResult flow;
   EXPECT_THROW(boundary_layer(mesh, flow), Error);
+  EXPECT_THROW(boundary_layer_profiles(mesh, flow, {0.5}), Error);
   flow.friction = FlowFriction{};
   EXPECT_THROW(boundary_layer(mesh, flow), Error);
 }

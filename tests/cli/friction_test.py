@@ -15,6 +15,7 @@ class Friction(ProgramTest):
         self.succeed("mesh", "naca:0012", *LAYERS, "-o", "a.vtkhdf")
         flow = self.succeed("flow", "a.vtkhdf", "--model", "laminar", "--mach", 0.5, "--reynolds", 5000,
                             "--tolerance", 1e-8, "--cf-plot", "cf.svg", "--wall-table", "wall.csv",
+                            "--profiles", "profiles.csv", "--profiles-at", "0.3,0.7",
                             "-o", "b.vtkhdf", "--json").json()
         self.assertTrue(flow["converged"])
         self.assertEqual(flow["model"], "laminar")
@@ -31,6 +32,14 @@ class Friction(ProgramTest):
         self.assertGreater(len(middle), 5)
         for row in middle:  # Blasius's is 2.59; it grows towards separation
             self.assertTrue(2 < float(row["shape_factor"]) < 4, row)
+
+        profiles = list(csv.DictReader(self.path("profiles.csv").open()))
+        self.assertEqual({row["place"] for row in profiles}, {"0.3", "0.7"})
+        self.assertEqual(len({(row["x"], row["y"]) for row in profiles}), 4)
+        for row in profiles:
+            if float(row["height"]) == 0:
+                self.assertEqual((float(row["speed"]), float(row["u_plus"])), (0, 0))
+        self.assertAlmostEqual(max(float(row["speed"]) for row in profiles), 1.15, delta=0.1)
 
     def test_estimates_of_errors(self):
         self.succeed("mesh", "naca:0012", "--layers", "--first-height", 3e-3, "--growth", 1.5, "--layer-thickness", 0.085,
@@ -89,6 +98,9 @@ class Friction(ProgramTest):
             (("--reynolds", 1e6), "--reynolds: given without friction"),
             (("--wall-table", "a.csv"), "--wall-table: given without friction"),
             (("--model", "sa", "--reynolds", 1e6, "--wall-table", "a.txt"), "a.txt"),
+            (("--profiles", "a.csv"), "--profiles: given without friction"),
+            (("--model", "sa", "--reynolds", 1e6, "--profiles-at", "0.5"), "--profiles-at: given without --profiles"),
+            (("--model", "sa", "--reynolds", 1e6, "--profiles", "a.csv", "--profiles-at", "1.5"), "--profiles-at: found '1.5'"),
             (("--model", "sa", "--reynolds", 1e6, "--cf-plot", "a.svg", "--series", "x.json"), "--series: given with a file"),
             (("--model", "sa", "--reynolds", 1e6, "--points", 100), "--points: given with a model with friction"),
         ):
