@@ -337,6 +337,14 @@ const char* name_of_best(const DesignRun& run) {
   return run.has_flow ? "least violated" : "first tried";
 }
 
+// Sections, or boundaries of a deformed domain, that plots have curves of.
+std::size_t walls_of(const DesignRun& run, const Shown& of) {
+  if (run.space->sections() != 0) return run.space->sections();
+  const auto is_wall = [](const FrozenBoundary& boundary) { return boundary.name != "farfield"; };
+  return static_cast<std::size_t>(
+      std::count_if(of.mesh.boundaries.begin(), of.mesh.boundaries.end(), is_wall));
+}
+
 std::string page_of(const fs::path& directory, const DesignRun& run, const Shown& first, const Shown& last,
                     const PageJson& cost) {
   const Scratch scratch;
@@ -349,8 +357,8 @@ std::string page_of(const fs::path& directory, const DesignRun& run, const Shown
           points_table(first, last) + "<p class=\"note\">The run's own mesh; CD in counts (10⁻⁴).</p>\n" +
           constraints_table(cost.at("constraints"));
   page += fresh_table(directory, run);
-  page += pressures(scratch, first, last, run.space->sections()) +
-          frictions(scratch, first, last, run.space->sections());
+  const std::size_t walls = walls_of(run, first);
+  page += pressures(scratch, first, last, walls) + frictions(scratch, first, last, walls);
   page += "<h2>Mach number</h2>\n";
   for (std::size_t i = 0; i < run.points.size(); ++i) {
     const double most = std::max(*std::max_element(first.mach[i].begin(), first.mach[i].end()),
