@@ -214,7 +214,7 @@ DeformedSpace DeformedSpace::from_description(const std::string& text, const std
     }
   }
   const int points = deformed.at("points");
-  if (points < 1 || stations_on_walls(start) == 0)
+  if (points < 1 || points > 100000 || stations_on_walls(start) == 0)
     throw Error(ErrorCode::format, source, "found a deformed domain without stations");
   return {std::move(start), std::move(variables), points};
 }
