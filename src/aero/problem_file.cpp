@@ -85,6 +85,18 @@ DesignConstraint constraint_of(const Json& entry, const std::string& where, Desi
   return result;
 }
 
+// Whether a number of the design goes as far as the designer's `bounds` say.
+bool has_bounds_to_be_given(const DesignProblem& problem) {
+  if (!problem.deformation)
+    return problem.elements.empty() ||
+           std::any_of(problem.elements.begin(), problem.elements.end(),
+                       [](const DesignElement& element) { return element.coefficients; });
+  const auto has_none = [](const DeformationPart& part) {
+    return std::visit([](const auto& of) { return !of.range.bounds; }, part);
+  };
+  return std::any_of(problem.deformation->parts.begin(), problem.deformation->parts.end(), has_none);
+}
+
 // Throws for keys that this designer has no use for.
 void require_keys_of_designer(const Keys& keys, const DesignProblem& problem) {
   const bool is_cmaes = problem.designer == "cmaes";
@@ -93,12 +105,12 @@ void require_keys_of_designer(const Keys& keys, const DesignProblem& problem) {
     if (keys.has(key) && expected.find(key) == std::string::npos)
       keys.fail("found the key '" + std::string(key) + "', which '" + problem.designer +
                 "' has no use for, expected " + expected);
-  const auto has_coefficients = [](const DesignElement& element) { return element.coefficients; };
-  if (keys.has("bounds") && !problem.elements.empty() &&
-      std::none_of(problem.elements.begin(), problem.elements.end(), has_coefficients))
+  if (keys.has("bounds") && !has_bounds_to_be_given(problem))
     keys.fail(
-        "found the key 'bounds', which is of coefficients, expected it where an element has "
-        "\"coefficients\": true");
+        problem.deformation
+            ? "found the key 'bounds', which deformations have of their own, expected it where one has none"
+            : "found the key 'bounds', which is of coefficients, expected it where an element has "
+              "\"coefficients\": true");
 }
 
 void read_designer(const Keys& keys, DesignProblem& problem) {

@@ -147,6 +147,8 @@ Deformation read_space(const Keys& problem_keys, const Json& problem, const std:
   if (keys.has("outline") == keys.has("domain")) keys.fail("expected one of 'outline' and 'domain'");
   const bool is_outline = keys.has("outline");
   if (!is_outline && keys.has("curve")) keys.fail("found 'curve' with 'domain', expected 'outline'");
+  if (!is_outline && object_of(problem, "mesh").contains("farfield_radius"))
+    problem_keys.fail("found 'farfield_radius' in 'mesh' with a 'domain', expected it with an 'outline'");
   Deformation result{.domain = is_outline ? outline_domain(keys, source, farfield, warnings)
                                           : domain_named(keys, source, warnings),
                      .parts = {}};

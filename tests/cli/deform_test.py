@@ -169,6 +169,8 @@ class Deformations(ProgramTest):
             ({"objective": "inverse"}, "problem.json: found the objective 'inverse' with 'space', expected 'airfoil'"),
         ):  # fmt: skip
             self.refused("design", self.duct(**changes), "-o", "run", names=message)
+        self.refused("design", self.duct(mesh={"farfield_radius": 9}), "-o", "run", names="found 'farfield_radius' in 'mesh' with a 'domain'")
+        self.refused("design", self.duct(designer={"bounds": 0.1}), "-o", "run", names="designer: found the key 'bounds', which deformations have of their own")
         for deformation, message in (
             ({**POINTS, "on": "axis"}, "found 'axis' as 'on', expected the name of a spline or polyline"),
             ({**POINTS, "points": [7]}, "found 7 in 'points', expected whole numbers from 0 to 6, the points of 'wall'"),
