@@ -153,6 +153,28 @@ class Deformations(ProgramTest):
             line = self.refused("design", self.problem(deformation), "-o", "run", names=message)
             self.assertIn(place, line)
 
+    def test_several_loops_have_their_constraints_by_name(self):
+        """Two flat backs in one far field, each of a box of its own."""
+        outline = (SOURCE / "examples/design/flatback.dat").read_text().splitlines()[1:]
+        points = [[float(x) for x in line.split()] for line in outline][::4]
+        shape = {"kind": "spline", "points": points}
+        base = {"kind": "line", "from": points[-1], "to": points[0]}
+        parts = [
+            {"role": "hole", "placement": placement, "curves": [{"name": name, "shape": shape, "stations": 40}, {"name": name, "shape": base, "stations": 1}]}
+            for name, placement in (("main", {}), ("flap", {"chord": 0.3, "rotation_deg": -15, "position": [1.05, -0.02]}))
+        ]
+        circle = {"kind": "arc", "centre": [0, 0], "radius": 20, "start": 0, "sweep": 6.283185307179586}
+        farfield = {"role": "outer", "curves": [{"name": "farfield", "shape": circle, "stations": 30}]}
+        self.write("two.json", json.dumps({"loops": [*parts, farfield]}))
+        box = {**BOX, "x": [-0.001, 0.95], "y": [-0.1, 0.1], "hold": {"left": 1, "right": 2}, "bounds": [-0.03, 0.03]}
+        space = {"domain": "two.json", "deformations": [{**box, "on": "flap"}, {**box, "on": "main"}]}
+        areas = [{"kind": "area", "element": name, "of_start": 1} for name in ("main", "flap")]
+        changes = {"space": space, "mesh": {"gradation": 1.2}, "flow": [{"mach": 0.2, "alpha_deg": 2}], "objective": "lift", "verify": []}
+        figures = self.figures("design", self.problem(**changes, constraints=areas, designer={"evaluations": 4}), "-o", "run", status=3)
+        self.assertLess(figures["objective"], 1.02 * figures["start_objective"])  # made large: below 0
+        self.assertEqual(figures["constraints"], {"area (constraint 1)": 0, "area (constraint 2)": 0})
+        self.refused("design", self.problem(**changes, constraints=[{"kind": "area", "of_start": 1}]), "-o", "other", names="constraint 1: the key 'element' is missing")
+
     def test_refusals_of_ducts(self):
         point = json.loads(self.path(self.duct()).read_text())["flow"][0]
         for changes, message in (
