@@ -65,24 +65,8 @@ void require_at_most_one_each(const char* option, std::size_t found, std::size_t
                     std::to_string(airfoils) + " airfoils");
 }
 
-// As an outline is given it stays where it is, unless that is not about the chord of 1 from the origin on
-// that everything else assumes.
-constexpr double near_origin = 0.1, near_one = 0.25;
 // Below, an incidence is what digits and the choice of a nose leave of none.
 constexpr double least_incidence_deg = 0.1;
-
-bool in_chords(const AirfoilFrame& frame) {
-  return std::abs(frame.chord - 1.0) <= near_one && std::abs(frame.nose.x) <= near_origin &&
-         std::abs(frame.nose.y) <= near_origin;
-}
-
-// In chords from the nose, neither turned nor sheared.
-std::vector<Point> moved_to_origin(const AirfoilOutline& outline) {
-  std::vector<Point> points;
-  for (const Point p : outline.points)
-    points.push_back((1.0 / outline.frame.chord) * (p - outline.frame.nose));
-  return points;
-}
 
 // The box of all noses and trailing edges, which a farfield goes around.
 struct Extent {
@@ -112,7 +96,7 @@ class AirfoilInput {
       else
         add_named(i);
     }
-    if (keeps_ && std::abs(longest_ - 1.0) > near_one)
+    if (keeps_ && !lies_in_chords({.chord = longest_}))
       warn("the longest chord is " + short_text(longest_) +
            " in the coordinates of the files, which are kept: coefficients of a flow are of the reference "
            "length "
@@ -172,7 +156,7 @@ class AirfoilInput {
 
   PlacedAirfoil as_given(std::size_t i, const AirfoilOutline& outline, bool keep, bool place) {
     const std::string& shape = options_.shapes[i];
-    const bool stays = keep || (!place && in_chords(outline.frame));
+    const bool stays = keep || (!place && lies_in_chords(outline.frame));
     PlacedAirfoil placed;
     placed.name = name_for(i);
     placed.outline =

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "remodel/airfoil.h"
+#include "remodel/deformation.h"
 #include "remodel/designer.h"
 #include "remodel/domain.h"
 #include "remodel/evaluator.h"
@@ -39,6 +40,10 @@ struct DesignPoint {
   double weight = 1.0;        // of the objective; 0: the point is there for its constraints alone
   FlowModel model =
       FlowModel::euler;  // with friction of all points, or of none: `conditions` has its `reynolds`
+  // Of a deformed domain, without friction: FlowOptions of these names.
+  std::vector<FlowInlet> inlets = {};
+  std::vector<FlowOutlet> outlets = {};
+  std::vector<std::string> symmetry = {};
 };
 
 // A number of an element's placement that the search may change.
@@ -74,6 +79,8 @@ using DesignFunctionOf = std::function<std::vector<DesignValue>(const DesignView
 // functions is given. What a kind has no use for is not given.
 //   lift, drag, moment   a coefficient of the flow of `point`, at_least or at_most
 //   pressure_drag, friction_drag    the parts of drag, likewise
+//   mass_flow            what leaves through the outlets of `point`, at_least or at_most
+//   total_pressure       its mean there by mass flow, a part of the stream's, likewise
 //   suction              the peak of -Cp of `point`, of all walls or of one `element`, at_most
 //   area, thickness      of a section, thickness at each of `x`: at_least, or of_start, a part of the start's
 //   tank                 the area of a section between two stations `x`, likewise
@@ -83,6 +90,9 @@ using DesignFunctionOf = std::function<std::vector<DesignValue>(const DesignView
 //   leading_edge_radius  of each surface of a section, likewise
 //   contains             the section contains `airfoil`, at 39 stations of each surface
 //   gap                  the least distance `between` two elements, at_least
+// Of a deformed domain there are area and thickness alone, of a loop that moves: where there are several,
+// `element` is the name of one of its curves. `x` is in units of the domain, thickness from the lowest to the
+// highest place of the loop there.
 struct DesignConstraint {
   std::string kind = {};
   std::optional<double> at_least = {}, at_most = {}, of_start = {};
@@ -103,6 +113,9 @@ inline constexpr double default_constraint_tolerance = 1e-5;
 struct DesignProblem {
   CstAirfoil airfoil = {};                   // the start, of one section
   std::vector<DesignElement> elements = {};  // in its place: several sections
+  // In the place of both: any domain, and what may move in it. `domain.points` is about how many stations its
+  // curves have then, but for those named "farfield"; as many as they are leave them as they are.
+  std::optional<Deformation> deformation = {};
   // The lower surface is the upper one's mirror image, as it is of the start but for 1e-4 chords. Where all
   // flows are their own mirror images then, half of each is computed (FlowSpace::half()).
   bool symmetric = false;
@@ -115,9 +128,9 @@ struct DesignProblem {
   std::optional<LayerOptions> layer = {};
   std::vector<DesignPoint> points = {};  // of flow: one or more
   // A name of objective_names(): the sum over points, by their weights, of drag, pressure_drag,
-  // friction_drag, lift (made large), lift_over_drag (made large), moment (made large) or inverse, half the
-  // mean square difference of pressure coefficients to those of `target` at stations. With own_objective any
-  // text: that function, made small.
+  // friction_drag, lift (made large), lift_over_drag (made large), moment (made large), mass_flow (made
+  // large), total_pressure (made large) or inverse, half the mean square difference of pressure coefficients
+  // to those of `target` at stations. With own_objective any text: that function, made small.
   std::string objective = "drag";
   FlowFunctionOf own_objective = {};
   std::optional<CstAirfoil> target = {};  // of inverse design
@@ -126,7 +139,7 @@ struct DesignProblem {
 
   std::string designer = "sqp";   // a name of designer_names()
   std::size_t evaluations = 100;  // designs, at most
-  double bounds = 0.1;            // sqp: how far a coefficient may go from the start
+  double bounds = 0.1;            // sqp: how far a coefficient, or a deformation, may go from the start
   double trust = 0.02;            // sqp: how far a number may go in the first step
   double sigma = 0.01;            // cmaes: the first standard deviation
   std::uint64_t seed = 1;         // cmaes

@@ -111,7 +111,8 @@ DesignRun read_design_run(const std::filesystem::path& directory);
 std::vector<NamedNumber> violations_of(const std::vector<std::string>& names, double tolerance,
                                        const std::vector<double>& constraints);
 
-// Closed polygons of the sections of a design, where they lie.
+// Closed polygons of the sections of a design, where they lie; of a deformed domain all loops but the far
+// field.
 std::vector<std::vector<Point>> outlines(const FlowSpace& space, std::span<const double> design);
 // x0, y0, x1, y1 of what is worth seeing around the sections of the start and of the best design: `beside`
 // and `above` parts of their common width more on each side. What is given for one section.

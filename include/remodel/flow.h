@@ -348,8 +348,8 @@ class LivingFlow {
   FlowResult solve(const FrozenMesh& mesh, const FlowConditions& conditions);
   // Gradients of the last flow that was found. They take the factors that there are, transposed, where these
   // serve; otherwise new ones, which the next flows have too. Throws Error (argument) before the first flow,
-  // where functionals are of another size, where there are inlets or outlets, and for the drag of entropy
-  // with friction. Neither the turbulence model nor distances from walls are frozen.
+  // where functionals are of another size, and with friction for the drag of entropy and where there are
+  // inlets or outlets. Neither the turbulence model nor distances from walls are frozen.
   FlowGradients gradients(const std::vector<FlowFunctional>& functions = {},
                           const WantedGradients& wanted = {});
   // The next flow is found cold.

@@ -44,7 +44,7 @@ class FlowSpace : public DesignSpace {
   // SqpOptions::metric; empty: nothing is known.
   virtual std::vector<double> metric() const { return {}; }
 
-  // Sections in their own chords, and where they lie.
+  // Sections in their own chords, and where they lie. A deformed domain has none.
   virtual std::size_t sections() const { return 1; }
   virtual CstAirfoil section(std::span<const double> design, std::size_t index) const = 0;
   virtual Placement placement(std::span<const double> design, std::size_t index) const {

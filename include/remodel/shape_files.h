@@ -17,6 +17,11 @@ namespace remodel {
 // parse_airfoil() and parse_outlines() of a file.
 AirfoilCoordinates read_airfoil(const std::filesystem::path& file);
 AirfoilOutlines read_outlines(const std::filesystem::path& file);
+// True if a section lies about where everything else assumes it: with a chord of 1, to a quarter, from the
+// origin on, to a tenth. Otherwise moved_to_origin() has the points in chords from the nose, neither turned
+// nor sheared.
+bool lies_in_chords(const AirfoilFrame& frame);
+std::vector<Point> moved_to_origin(const AirfoilOutline& outline);
 
 // SHAPE of the command line: a coordinate file, a .json file of CST coefficients, or what named_airfoil()
 // takes. What exists as a file, contains '/' or '.', or is '-' (standard input) is a file. degree and

@@ -135,3 +135,19 @@ def test_refusals_name_the_place(tmp_path):
         remodel.design(problem(), resume=True)
     with pytest.raises(remodel.ArgumentError, match="directory"):
         remodel.design(problem(designer={"evaluations": 1})).report()
+
+
+def test_an_outline_as_it_is_given_is_deformed(tmp_path):
+    box = {"kind": "box", "x": [-0.001, 1.001], "y": [-0.07, 0.07], "points": [4, 2], "hold": {"left": 1, "right": 1}}
+    space = {"outline": "naca:0012", "deformations": [box]}
+    given = {"space": space, "flow": [{"mach": 0.8}], "mesh": {"points": 40, "gradation": 1}, "objective": "drag",
+             "constraints": [{"kind": "area", "of_start": 1}], "designer": {"evaluations": 5}}  # fmt: skip
+    result = remodel.design(given)
+    assert result.objective < 0.95 * result.start_objective and result.designs.shape == (5, 4)
+    assert sorted(result.named) == ["airfoil.box[1,0].y", "airfoil.box[1,1].y", "airfoil.box[2,0].y", "airfoil.box[2,1].y"]
+    # A design space is one file as well.
+    file = tmp_path / "space.json"
+    file.write_text(json.dumps(space))
+    assert remodel.design({**given, "space": file}).objective == result.objective
+    with pytest.raises(remodel.ArgumentError, match="deformation 1: found a box that holds no point of 'airfoil'"):
+        remodel.design({**given, "space": {**space, "deformations": [{**box, "x": [2, 3]}]}})

@@ -30,6 +30,7 @@ using PageJson = nlohmann::ordered_json;
 struct Shown {
   std::string name;
   std::vector<double> design;
+  std::vector<DesignPoint> points;
   FrozenMesh mesh;
   std::vector<FlowResult> flows;
   std::vector<std::vector<double>> mach, cp;
@@ -39,7 +40,7 @@ Shown shown_of(const std::string& name, const std::vector<double>& design, const
                const DesignRun& run) {
   const FrozenMesh frozen = DesignMesh(*run.space, mesh, design).frozen();
   const bool half = run.space->half();
-  Shown result{name, design, half ? mirrored(frozen) : frozen, {}, {}, {}};
+  Shown result{name, design, run.points, half ? mirrored(frozen) : frozen, {}, {}, {}};
   for (const DesignPoint& point : run.points) {
     FlowResult flow = solve_design_flow(*run.space, mesh, design, point);
     result.mach.push_back(mach_numbers(flow)), result.cp.push_back(pressure_coefficients(flow));
@@ -94,6 +95,25 @@ std::string not_found(const Shown& of, std::size_t point) {
   return "<p>" + of.name + ", point " + std::to_string(point + 1) + ": no flow was found.</p>\n";
 }
 
+bool has_openings(const DesignPoint& point) {
+  return !point.inlets.empty() || !point.outlets.empty();
+}
+
+// The mesh without boundaries that are no walls.
+FrozenMesh walls_alone(FrozenMesh mesh, const DesignPoint& point) {
+  std::vector<std::string> names = point.symmetry;
+  for (const FlowInlet& inlet : point.inlets) names.push_back(inlet.name);
+  for (const FlowOutlet& outlet : point.outlets) names.push_back(outlet.name);
+  std::erase_if(mesh.boundaries, [&](const FrozenBoundary& boundary) {
+    return std::find(names.begin(), names.end(), boundary.name) != names.end();
+  });
+  return mesh;
+}
+
+std::string caption_of(const FlowResult& flow, const DesignPoint& point) {
+  return has_openings(point) ? duct_caption(flow.mach) : flow_caption(flow.mach, flow.alpha_deg, flow.cl);
+}
+
 // What `plot_of` draws of a design along its sections, both designs in one picture.
 std::string along_sections(const Scratch& scratch, const Shown& first, const Shown& last,
                            std::size_t sections, std::size_t point,
@@ -106,7 +126,7 @@ std::string along_sections(const Scratch& scratch, const Shown& first, const Sho
       missing += not_found(*of, point);
       continue;
     }
-    Plot one = plot_of(*of, flow_caption(flow.mach, flow.alpha_deg, flow.cl));
+    Plot one = plot_of(*of, caption_of(flow, of->points[point]));
     if (plot.curves.empty()) plot.x = one.x, plot.y = one.y, plot.caption = one.caption;
     for (std::size_t i = 0; i < one.curves.size(); ++i) {
       PlotCurve& curve = one.curves[i];
@@ -129,7 +149,7 @@ std::string pressures(const Scratch& scratch, const Shown& first, const Shown& l
   for (std::size_t i = 0; i < first.flows.size(); ++i)
     pictures +=
         along_sections(scratch, first, last, sections, i, [&](const Shown& of, const std::string& caption) {
-          return cp_plot(of.mesh, "farfield", of.cp[i], caption, "report");
+          return cp_plot(walls_alone(of.mesh, of.points[i]), "farfield", of.cp[i], caption, "report");
         });
   return pictures;
 }
@@ -141,7 +161,8 @@ std::string frictions(const Scratch& scratch, const Shown& first, const Shown& l
   for (std::size_t i = 0; i < first.flows.size(); ++i)
     pictures +=
         along_sections(scratch, first, last, sections, i, [&](const Shown& of, const std::string& caption) {
-          return cf_plot(of.mesh, "farfield", of.flows[i].friction->cf, caption, "report");
+          return cf_plot(walls_alone(of.mesh, of.points[i]), "farfield", of.flows[i].friction->cf, caption,
+                         "report");
         });
   return pictures;
 }
@@ -160,7 +181,7 @@ std::string mach_field(const Scratch& scratch, const DesignRun& run, const Shown
   DrawOptions options{
       .window = window_of(run, {-0.35, -0.55, 1.35, 0.65}, 0.15, 0.25), .width = 1000, .line = 1.8};
   options.field = std::move(field);
-  options.caption = of.name + ": " + flow_caption(flow.mach, flow.alpha_deg, flow.cl) + ", " +
+  options.caption = of.name + ": " + caption_of(flow, of.points[point]) + ", " +
                     number(1e4 * flow.cd, "%.1f") + " counts of drag";
   return scratch.picture(".png", [&](const fs::path& file) { draw(of.mesh, file, options); });
 }
@@ -337,6 +358,14 @@ const char* name_of_best(const DesignRun& run) {
   return run.has_flow ? "least violated" : "first tried";
 }
 
+// Sections. A deformed domain counts as one where it has one wall in a far field, otherwise as several.
+std::size_t walls_of(const DesignRun& run, const Shown& of) {
+  if (run.space->sections() != 0) return run.space->sections();
+  const auto is_wall = [](const FrozenBoundary& boundary) { return boundary.name != "farfield"; };
+  const auto count = std::count_if(of.mesh.boundaries.begin(), of.mesh.boundaries.end(), is_wall);
+  return count == 1 ? 1 : 2;
+}
+
 std::string page_of(const fs::path& directory, const DesignRun& run, const Shown& first, const Shown& last,
                     const PageJson& cost) {
   const Scratch scratch;
@@ -349,8 +378,8 @@ std::string page_of(const fs::path& directory, const DesignRun& run, const Shown
           points_table(first, last) + "<p class=\"note\">The run's own mesh; CD in counts (10⁻⁴).</p>\n" +
           constraints_table(cost.at("constraints"));
   page += fresh_table(directory, run);
-  page += pressures(scratch, first, last, run.space->sections()) +
-          frictions(scratch, first, last, run.space->sections());
+  const std::size_t walls = walls_of(run, first);
+  page += pressures(scratch, first, last, walls) + frictions(scratch, first, last, walls);
   page += "<h2>Mach number</h2>\n";
   for (std::size_t i = 0; i < run.points.size(); ++i) {
     const double most = std::max(*std::max_element(first.mach[i].begin(), first.mach[i].end()),

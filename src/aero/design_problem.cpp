@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "aero/design_mesh.h"
+#include "aero/problem_openings.h"
 #include "aero/resolved_problem.h"
 #include "remodel/sqp.h"
 
@@ -13,12 +14,14 @@ using ProblemJson = nlohmann::ordered_json;
 
 ProblemJson points_json(const DesignProblem& problem) {
   ProblemJson points = ProblemJson::array();
-  for (const auto& [conditions, weight, model] : problem.points) {
+  for (const DesignPoint& point : problem.points) {
+    const FlowConditions& conditions = point.conditions;
     points.push_back({{"mach", conditions.mach}, {"alpha_deg", conditions.alpha_deg}});
     if (conditions.cl) points.back()["cl"] = *conditions.cl;
-    points.back()["weight"] = weight;
-    if (model == FlowModel::euler) continue;
-    points.back()["model"] = name_of(model);
+    points.back()["weight"] = point.weight;
+    write_openings(point, points.back());
+    if (point.model == FlowModel::euler) continue;
+    points.back()["model"] = name_of(point.model);
     points.back()["reynolds"] = conditions.reynolds;
     if (conditions.transition) points.back()["transition"] = *conditions.transition;
   }
@@ -99,7 +102,12 @@ std::string design_problem_json(const DesignProblem& problem) {
 }
 
 FlowOptions design_flow_options(const FlowSpace& space, const DesignPoint& point, StepObserver* observer) {
-  return {.vortex = !space.half(), .observer = observer, .model = point.model};
+  return {.vortex = !space.half(),
+          .observer = observer,
+          .inlets = point.inlets,
+          .outlets = point.outlets,
+          .symmetry = point.symmetry,
+          .model = point.model};
 }
 
 FlowResult whole_of(FlowResult half) {

@@ -13,6 +13,7 @@
 #include "aero/element_space.h"
 #include "aero/gap.h"
 #include "aero/resolved_problem.h"
+#include "aero/test_designs.h"
 #include "remodel/design_run.h"
 #include "remodel/generate.h"
 #include "remodel/living_mesh.h"
@@ -20,6 +21,11 @@
 
 namespace remodel {
 namespace {
+
+using test::Case;
+using test::Flows;
+using test::mesh_of_start;
+using test::relative;
 
 CstAirfoil section(const std::string& name, int degree = 5) {
   return raise_degree(named_airfoil(name, degree), degree);
@@ -206,73 +212,6 @@ TEST(SizeConstraints, CamberHasALimitOnEitherSide) {
   EXPECT_NEAR(values[1], camber - 0.03, 1e-12);
 }
 
-Mesh mesh_of_start(const DesignProblem& problem, const FlowSpace& space) {
-  QualityOptions quality{.gradation = problem.gradation.value_or(problem.domain.points / 50.0)};
-  quality.refine_angle_deg = angle_with_slack(quality, design_slack_deg);
-  return generate(space.domain(space.start()), quality).mesh;
-}
-
-// One evaluation of a design, on a mesh of its own.
-class Case {
- public:
-  explicit Case(const DesignProblem& problem)
-      : problem_(problem), space_(design_space(problem)), mesh_(mesh_of_start(problem, *space_)) {}
-
-  const DesignProblem& problem() const { return problem_; }
-  const FlowSpace& space() const { return *space_; }
-  const Mesh& mesh() const { return mesh_; }
-  // As a search has it: a morph of the start's mesh.
-  Mesh mesh_of(const std::vector<double>& design) const {
-    Mesh mesh = mesh_;
-    const RemodelResult step =
-        remodel(mesh, space_->domain(design), {.strategy = info_of(design_strategy).step});
-    EXPECT_TRUE(step.held);
-    return mesh;
-  }
-  Evaluation evaluate(const std::vector<double>& design, std::size_t threads = 1) const {
-    StepObserver observer;
-    const Mesh mesh = mesh_of(design);
-    std::unique_ptr<EvaluatorState> state;
-    return flow_evaluator(problem_, *space_, threads)
-        ->evaluate({.design = design,
-                    .mesh = mesh,
-                    .step = {},
-                    .before = nullptr,
-                    .gradient = true,
-                    .observer = observer},
-                   state);
-  }
-  // Central differences of fourth order by each number of the design, at the start or about another design.
-  std::vector<double> differences(const std::function<double(const std::vector<double>&)>& f, double h,
-                                  std::vector<double> about = {}) const {
-    if (about.empty()) about = space_->start();
-    std::vector<double> result;
-    for (std::size_t i = 0; i < about.size(); ++i) {
-      const auto at = [&](double s) {
-        std::vector<double> design = about;
-        design[i] += s;
-        return f(design);
-      };
-      result.push_back((at(-2 * h) - 8 * at(-h) + 8 * at(h) - at(2 * h)) / (12 * h));
-    }
-    return result;
-  }
-
- private:
-  DesignProblem problem_;
-  std::unique_ptr<FlowSpace> space_;
-  Mesh mesh_;
-};
-
-// |a - b| / |b|
-double relative(const std::vector<double>& a, const std::vector<double>& b) {
-  EXPECT_EQ(a.size(), b.size());
-  double wrong = 0.0, size = 0.0;
-  for (std::size_t i = 0; i < b.size(); ++i)
-    wrong += (a.at(i) - b[i]) * (a.at(i) - b[i]), size += b[i] * b[i];
-  return std::sqrt(wrong / size);
-}
-
 TEST(EdgeConstraints, GradientsAreThoseOfTheCurve) {
   const std::vector<DesignConstraint> constraints = {{.kind = "trailing_edge_angle", .of_start = 1.0},
                                                      {.kind = "leading_edge_radius", .of_start = 1.0}};
@@ -302,28 +241,6 @@ DesignProblem symmetric_flow(double alpha_deg = 0.0) {
   problem.points = {{.conditions = {.mach = 0.8, .alpha_deg = alpha_deg}}};
   return problem;
 }
-
-// Flows of a case's designs, one after the other, with the mesh's connectivity.
-class Flows {
- public:
-  explicit Flows(const Case& task) : task_(task), living_(accurate(task)) {}
-  FlowResult operator()(const std::vector<double>& design) {
-    FlowResult result = living_.solve(task_.mesh_of(design), task_.problem().points[0].conditions);
-    EXPECT_TRUE(result.converged()) << result.reason;
-    return result;
-  }
-  FlowGradients gradients() { return living_.gradients(); }  // of the last one
-
- private:
-  static FlowOptions accurate(const Case& task) {
-    FlowOptions options = design_flow_options(task.space(), task.problem().points[0]);
-    options.tolerance = 1e-12;
-    return options;
-  }
-
-  const Case& task_;
-  LivingFlow living_;
-};
 
 TEST(HalfDomain, GradientsAreThoseOfWholeFlows) {
   const Case task(symmetric_flow());
@@ -674,12 +591,12 @@ TEST(Problems, ThatMakeNoSenseAreRefusedWithTheirPlace) {
             "it, flow 1: found null as 'mach', expected 0.01 to 3.0");
   EXPECT_EQ(refused([](DesignProblem& p) { p.objective = "beauty"; }),
             "it: found 'beauty' as 'objective', expected drag, pressure_drag, friction_drag, lift, "
-            "lift_over_drag, moment, inverse");
+            "lift_over_drag, moment, mass_flow, total_pressure, inverse");
   EXPECT_EQ(refused([](DesignProblem& p) { p.objective = "inverse"; }), "it: the key 'target' is missing");
   EXPECT_EQ(refused([](DesignProblem& p) { p.designer = "mma"; }),
             "it, designer: found 'mma' as 'name', expected sqp, cmaes");
   EXPECT_EQ(refused([](DesignProblem& p) { p.airfoil = {}; }),
-            "it: expected one of 'airfoil' and 'elements'");
+            "it: expected one of 'airfoil', 'elements' and 'space'");
   EXPECT_EQ(
       refused([](DesignProblem& p) { p.airfoil.lower.pop_back(); }),
       "it: found 6 and 5 coefficients of the surfaces of 'airfoil', expected as many of both, 2 or more");

@@ -5,8 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "aero/deformed_space.h"
 #include "aero/element_space.h"
 #include "aero/layered_space.h"
+#include "aero/problem_openings.h"
 #include "aero/section_space.h"
 #include "remodel/error.h"
 #include "remodel/evaluation.h"
@@ -67,6 +69,8 @@ namespace {
 std::unique_ptr<FlowSpace> bodies_of(const RunJson& options, const std::string& file) {
   if (options.contains("elements"))
     return std::make_unique<ElementSpace>(ElementSpace::from_description(options.dump(), file));
+  if (options.contains("deformed"))
+    return std::make_unique<DeformedSpace>(DeformedSpace::from_description(options.dump(), file));
   const RunJson& space = options.at("space");
   return std::make_unique<SectionSpace>(
       airfoil_from_json(space.at("from").dump(), file),
@@ -116,6 +120,7 @@ DesignRun read_design_run(const std::filesystem::path& directory) {
       at.reynolds = entry.value("reynolds", 0.0);
       if (entry.contains("transition")) at.transition = entry.at("transition").get<std::array<double, 2>>();
       if (entry.contains("cl")) at.cl = entry.at("cl").get<double>();
+      read_openings(entry, file.string(), point);
       const std::string model = entry.value("model", name_of(FlowModel::euler));
       for (const FlowModel known : {FlowModel::laminar, FlowModel::sa})
         if (model == name_of(known)) point.model = known;
@@ -142,8 +147,32 @@ DesignRun read_design_run(const std::filesystem::path& directory) {
   return run;
 }
 
+namespace {
+
+// Of the loops of a domain but the far field, each piece between stations in a few straight ones.
+std::vector<std::vector<Point>> outlines_of(const Domain& domain) {
+  constexpr int pieces = 4;
+  std::vector<std::vector<Point>> result;
+  for (const Loop& loop : domain.loops) {
+    if (loop.curves.front().name == "farfield") continue;
+    const Frame frame(loop.placement);
+    std::vector<Point>& outline = result.emplace_back();
+    for (const Curve& curve : loop.curves)
+      for (std::size_t i = 0; i < curve.parameters.size(); ++i) {
+        const double from = curve.parameters[i];
+        const double to = i + 1 < curve.parameters.size() ? curve.parameters[i + 1] : 1.0;
+        for (int k = 0; k < pieces; ++k)
+          outline.push_back(frame(point_at(curve.shape, from + (to - from) * k / pieces)));
+      }
+  }
+  return result;
+}
+
+}  // namespace
+
 std::vector<std::vector<Point>> outlines(const FlowSpace& space, std::span<const double> design) {
   constexpr int pieces = 400;
+  if (space.sections() == 0) return outlines_of(space.walls(design));
   std::vector<std::vector<Point>> result;
   for (std::size_t index = 0; index < space.sections(); ++index) {
     const CstAirfoil section = space.section(design, index);

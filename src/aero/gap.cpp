@@ -5,8 +5,7 @@
 #include <limits>
 
 #include "aero/kinds.h"
-#include "remodel/frozen_mesh.h"
-#include "remodel/mesh_derivative.h"
+#include "aero/stations_derivative.h"
 
 namespace remodel {
 
@@ -71,18 +70,11 @@ Gap gap_between(const Domain& domain, std::size_t loop, std::size_t other) {
     best = reverse;
     std::swap(loop, other);
   }
-  // The three stations as the points of a mesh, of which the derivative by the domain is known.
   const std::vector<BoundaryStation> at = domain.stations(loop), along = domain.stations(other);
-  FrozenMesh three;
-  for (const BoundaryStation& station :
-       {at[best.corner], along[best.side], along[(best.side + 1) % along.size()]}) {
-    three.points.push_back(domain.at(station));
-    three.curve.push_back(static_cast<std::int32_t>(station.curve));
-    three.parameter.push_back(station.t);
-  }
+  const BoundaryStation three[] = {at[best.corner], along[best.side], along[(best.side + 1) % along.size()]};
   const Point by_corner = (1.0 / best.distance) * best.apart;
   const Point by_points[] = {by_corner, (best.along - 1.0) * by_corner, -best.along * by_corner};
-  return {best.distance, MeshDerivative(three, domain).vjp(by_points)};
+  return {best.distance, derivative_by_numbers(domain, three, by_points)};
 }
 
 }  // namespace remodel

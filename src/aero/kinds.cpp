@@ -5,7 +5,7 @@
 namespace remodel {
 
 extern const FlowKind drag_kind, pressure_drag_kind, friction_drag_kind, lift_kind, lift_over_drag_kind,
-    moment_kind, inverse_kind, suction_kind;
+    moment_kind, mass_flow_kind, total_pressure_kind, inverse_kind, suction_kind;
 extern const DomainKind gap_kind, area_kind, tank_kind, thickness_kind, box_kind, camber_kind, contains_kind,
     trailing_edge_angle_kind, leading_edge_radius_kind;
 
@@ -18,6 +18,8 @@ constexpr const FlowKind* all_of_flows[] = {
     &lift_kind,            //
     &lift_over_drag_kind,  //
     &moment_kind,          //
+    &mass_flow_kind,       //
+    &total_pressure_kind,  //
     &inverse_kind,         //
     &suction_kind,         //
 };
@@ -80,6 +82,16 @@ std::size_t element_index(const DesignProblem& problem, const std::string& name,
 
 std::size_t DomainRequest::element(const std::string& name) const {
   return element_index(problem, name, place);
+}
+
+const std::vector<double>& station_list_of(const DomainRequest& request) {
+  constexpr std::size_t most_stations = 1000;
+  const std::vector<double>& stations = request.place.given(request.given.x, "x");
+  if (stations.empty()) request.place.fail("found no number in 'x', expected at least one");
+  if (stations.size() > most_stations)
+    request.place.fail("found " + std::to_string(stations.size()) + " entries in 'x', expected at most " +
+                       std::to_string(most_stations));
+  return stations;
 }
 
 double DomainRequest::least(Limits limits, double of_start) const {

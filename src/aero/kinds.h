@@ -23,6 +23,9 @@ class FlowFunction {
   virtual bool is_even() const { return false; }
   virtual bool needs_target() const { return false; }
   virtual bool needs_friction() const { return false; }
+  virtual bool needs_outlets() const { return false; }
+  // Whether it looks at all walls, which are told from openings by their names alone.
+  virtual bool is_of_walls() const { return false; }
   // Whether the conditions give its value, so that there is nothing to design.
   virtual bool is_given(const FlowConditions& conditions) const {
     static_cast<void>(conditions);
@@ -63,8 +66,9 @@ struct DomainRequest {
   const DesignConstraint& given;
   const DesignProblem& problem;
   ProblemPlace place;
-  std::size_t section = 0;  // of a constraint of a section
-  CstAirfoil start = {};    // that section, as it is at the start
+  std::size_t section = 0;   // of a constraint of a section
+  CstAirfoil start = {};     // that section, as it is at the start
+  Domain start_domain = {};  // of a deformed domain, of which `section` is a loop
   bool symmetric = false;
 
   std::size_t element(const std::string& name) const;  // its index; throws where there is none
@@ -79,10 +83,14 @@ struct DomainKind {
   bool takes_least = true, takes_start = true, takes_most = false, takes_x = false, takes_airfoil = false,
        takes_between = false;
   DomainConstraintPtr (*make)(const DomainRequest& request) = nullptr;
+  // Of a loop of a deformed domain; none: there is no such constraint of these.
+  DomainConstraintPtr (*make_of_loop)(const DomainRequest& request) = nullptr;
 };
 
 std::span<const FlowKind* const> flow_kinds();
 std::span<const DomainKind* const> domain_kinds();
+// The stations `x` of a constraint, as they are: one or more.
+const std::vector<double>& station_list_of(const DomainRequest& request);
 const FlowKind* find_flow_kind(const std::string& name);  // null where there is none
 const DomainKind* find_domain_kind(const std::string& name);
 

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 
+#include "aero/deformed_space.h"
 #include "aero/problem_elements.h"
 #include "aero/problem_json.h"
 #include "aero/problem_keys.h"
+#include "aero/problem_openings.h"
+#include "aero/problem_space.h"
 #include "aero/resolved_problem.h"
 
 namespace remodel {
@@ -15,7 +18,9 @@ namespace {
 constexpr std::size_t most_points = 1000, most_constraints = 1000, most_verified = 100;
 
 DesignPoint point_of(const Json& entry, const std::string& where) {
-  const Keys keys(entry, where, {"mach", "alpha_deg", "cl", "weight", "model", "reynolds", "transition"});
+  const Keys keys(entry, where,
+                  {"mach", "alpha_deg", "cl", "weight", "model", "reynolds", "transition", "inlets",
+                   "outlets", "symmetry"});
   DesignPoint point{.conditions = {.mach = keys.get<double>("mach"),
                                    .alpha_deg = keys.get<double>("alpha_deg", 0.0),
                                    .cl = keys.find<double>("cl"),
@@ -24,6 +29,7 @@ DesignPoint point_of(const Json& entry, const std::string& where) {
                     .model = model_named(keys)};
   point.conditions.transition = transition_of(keys);
   require_reynolds(keys, point.model);
+  read_openings(entry, where, point);
   return point;
 }
 
@@ -33,7 +39,7 @@ void read_mesh_options(const Json& json, const std::string& file, DesignProblem&
   const bool has_friction = problem.points.front().model != FlowModel::euler;
   problem.domain.points =
       mesh.whole<int>("points", has_friction ? usual_points_with_friction : 100, 8, 100000);
-  if (problem.domain.points % 2 != 0)
+  if (problem.domain.points % 2 != 0 && !json.contains("space"))
     mesh.fail("found " + std::to_string(problem.domain.points) + " as 'points', expected an even number");
   problem.domain.farfield_radius = mesh.get<double>("farfield_radius", 25.0);
   problem.gradation = mesh.find<double>("gradation");
@@ -43,11 +49,22 @@ void read_mesh_options(const Json& json, const std::string& file, DesignProblem&
   problem.layer = layer_given(object.at("layers"), file + ", mesh, layers", layer_for_points(problem.points));
 }
 
+// Unless the file says otherwise, the stations are those of the domain that is deformed.
+void read_deformation(const Keys& keys, const Json& json, const std::string& file, DesignProblem& problem) {
+  for (const char* key : {"degree", "symmetric", "target"})
+    if (keys.has(key)) keys.fail("found '" + std::string(key) + "' with 'space', expected 'airfoil'");
+  problem.deformation = read_space(keys, json, file, problem.domain, problem.warnings);
+  const Json mesh = object_of(json, "mesh");
+  const bool has_friction = problem.points.front().model != FlowModel::euler;
+  if (!mesh.contains("points") && !has_friction)
+    problem.domain.points = static_cast<int>(stations_on_walls(problem.deformation->domain));
+}
+
 // Of the section that a constraint is of: what it contains is given with as many coefficients.
 int degree_of(const DesignConstraint& constraint, const DesignProblem& problem, int degree) {
   for (const DesignElement& element : problem.elements)
     if (constraint.element == element.name) return element.airfoil.degree();
-  return problem.elements.empty() ? problem.airfoil.degree() : degree;
+  return problem.elements.empty() && !problem.deformation ? problem.airfoil.degree() : degree;
 }
 
 DesignConstraint constraint_of(const Json& entry, const std::string& where, DesignProblem& problem,
@@ -68,6 +85,18 @@ DesignConstraint constraint_of(const Json& entry, const std::string& where, Desi
   return result;
 }
 
+// Whether a number of the design goes as far as the designer's `bounds` say.
+bool has_bounds_to_be_given(const DesignProblem& problem) {
+  if (!problem.deformation)
+    return problem.elements.empty() ||
+           std::any_of(problem.elements.begin(), problem.elements.end(),
+                       [](const DesignElement& element) { return element.coefficients; });
+  const auto has_none = [](const DeformationPart& part) {
+    return std::visit([](const auto& of) { return !of.range.bounds; }, part);
+  };
+  return std::any_of(problem.deformation->parts.begin(), problem.deformation->parts.end(), has_none);
+}
+
 // Throws for keys that this designer has no use for.
 void require_keys_of_designer(const Keys& keys, const DesignProblem& problem) {
   const bool is_cmaes = problem.designer == "cmaes";
@@ -76,12 +105,12 @@ void require_keys_of_designer(const Keys& keys, const DesignProblem& problem) {
     if (keys.has(key) && expected.find(key) == std::string::npos)
       keys.fail("found the key '" + std::string(key) + "', which '" + problem.designer +
                 "' has no use for, expected " + expected);
-  const auto has_coefficients = [](const DesignElement& element) { return element.coefficients; };
-  if (keys.has("bounds") && !problem.elements.empty() &&
-      std::none_of(problem.elements.begin(), problem.elements.end(), has_coefficients))
+  if (keys.has("bounds") && !has_bounds_to_be_given(problem))
     keys.fail(
-        "found the key 'bounds', which is of coefficients, expected it where an element has "
-        "\"coefficients\": true");
+        problem.deformation
+            ? "found the key 'bounds', which deformations have of their own, expected it where one has none"
+            : "found the key 'bounds', which is of coefficients, expected it where an element has "
+              "\"coefficients\": true");
 }
 
 void read_designer(const Keys& keys, DesignProblem& problem) {
@@ -119,12 +148,13 @@ DesignProblem read_design_problem(const std::string& file) {
 DesignProblem parse_design_problem(const std::string& text, const std::string& file) {
   const Json json = parse_design_json(text, file);
   const Keys keys(json, file,
-                  {"airfoil", "elements", "degree", "symmetric", "mesh", "flow", "objective", "target",
-                   "constraints", "constraint_tolerance", "designer", "verify"});
+                  {"airfoil", "elements", "space", "degree", "symmetric", "mesh", "flow", "objective",
+                   "target", "constraints", "constraint_tolerance", "designer", "verify"});
   const std::filesystem::path directory = std::filesystem::path(file).parent_path();
   DesignProblem problem{.text = json.dump()};
   const int degree = keys.whole<int>("degree", 5, 1, 30);
-  if (keys.has("airfoil") == keys.has("elements")) keys.fail("expected one of 'airfoil' and 'elements'");
+  if (keys.has("airfoil") + keys.has("elements") + keys.has("space") != 1)
+    keys.fail("expected one of 'airfoil', 'elements' and 'space'");
   if (keys.has("airfoil")) {
     problem.airfoil = section_named(keys, "airfoil", degree, directory, problem.warnings);
     problem.symmetric = keys.get<bool>("symmetric", false);
@@ -135,6 +165,7 @@ DesignProblem parse_design_problem(const std::string& text, const std::string& f
     if (keys.has("symmetric")) keys.fail("found 'symmetric' with 'elements', expected 'airfoil'");
     problem.elements = read_elements(keys, file, degree, problem.warnings);
   }
+  if (keys.has("space")) read_deformation(keys, json, file, problem);
   problem.objective = keys.get<std::string>("objective");
   if (keys.has("target")) problem.target = section_named(keys, "target", degree, directory, problem.warnings);
   read_lists(keys, file, degree, problem);

@@ -36,9 +36,12 @@ constexpr const char* kind_of() {
 // A JSON object of which every key has to be known.
 class Keys {
  public:
-  Keys(const Json& object, std::string where, std::initializer_list<const char*> known)
-      : object_(object), where_(std::move(where)) {
+  // Of which keys are read that another one knows.
+  Keys(const Json& object, std::string where) : object_(object), where_(std::move(where)) {
     if (!object.is_object()) fail("found " + std::string(object.type_name()) + ", expected an object");
+  }
+  Keys(const Json& object, std::string where, std::initializer_list<const char*> known)
+      : Keys(object, std::move(where)) {
     for (const auto& [key, value] : object.items())
       if (std::find(known.begin(), known.end(), key) == known.end()) {
         std::string names;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "aero/deformed_space.h"
 #include "aero/element_space.h"
 #include "aero/layered_space.h"
+#include "aero/problem_openings.h"
 #include "aero/section_space.h"
 #include "remodel/flow_layer.h"
 
@@ -131,25 +133,29 @@ class Resolver {
   }
 
   void require_sections() const {
-    if (problem_.elements.empty() == (problem_.airfoil.upper.empty() && problem_.airfoil.lower.empty()))
-      place_.fail("expected one of 'airfoil' and 'elements'");
-    if (problem_.elements.empty()) require_surfaces(problem_.airfoil, place_, "airfoil");
+    const bool has_airfoil = !problem_.airfoil.upper.empty() || !problem_.airfoil.lower.empty();
+    if (has_airfoil + !problem_.elements.empty() + problem_.deformation.has_value() != 1)
+      place_.fail("expected one of 'airfoil', 'elements' and 'space'");
+    if (has_airfoil) require_surfaces(problem_.airfoil, place_, "airfoil");
     for (std::size_t i = 0; i < problem_.elements.size(); ++i)
       require_surfaces(problem_.elements[i].airfoil, place_of("element", i), "airfoil");
     if (problem_.target) require_surfaces(*problem_.target, place_, "target");
     if (!problem_.text.empty() && !nlohmann::json::parse(problem_.text, nullptr, false).is_object())
       place_.fail("found a 'text' that is no JSON object");
-    if (!problem_.elements.empty() && problem_.symmetric)
-      place_.fail("found 'symmetric' with 'elements', expected 'airfoil'");
+    if (!has_airfoil && problem_.symmetric)
+      place_.fail("found 'symmetric' with '" + instead_of_airfoil() + "', expected 'airfoil'");
     if (problem_.gradation)
       place_.inner("mesh").require_number(*problem_.gradation, "gradation", {0.1, 1000.0});
     place_.inner("mesh").require_number(problem_.domain.farfield_radius, "farfield_radius", {2.0, 1e6});
   }
 
+  std::string instead_of_airfoil() const { return problem_.deformation ? "space" : "elements"; }
+
   void require_points() const {
     if (problem_.points.empty()) place_.fail("expected at least one point of 'flow'");
     for (std::size_t i = 0; i < problem_.points.size(); ++i) {
-      const auto& [conditions, weight, model] = problem_.points[i];
+      const FlowConditions& conditions = problem_.points[i].conditions;
+      const FlowModel model = problem_.points[i].model;
       const ProblemPlace place = place_of("flow", i);
       place.require_number(conditions.mach, "mach", {0.01, 3.0});
       place.require_number(conditions.alpha_deg, "alpha_deg", {-90.0, 90.0});
@@ -157,7 +163,8 @@ class Resolver {
       if (conditions.cl && conditions.mach > 1.0)
         place.fail(
             "found 'cl' with a 'mach' above 1, expected 'alpha_deg': lift is given below the speed of sound");
-      place.require_number(weight, "weight", {0.0, 1e6});
+      place.require_number(problem_.points[i].weight, "weight", {0.0, 1e6});
+      require_openings_of(problem_.points[i], place);
       if (has_friction() != (model != FlowModel::euler))
         place.fail("found the model " + shown(name_of(model)) +
                    " beside points of another kind, expected friction at all points or at none");
@@ -171,6 +178,15 @@ class Resolver {
         place.fail("found 'reynolds' with the model \"euler\", expected \"laminar\" or \"sa\" as 'model'");
     }
     require_layer();
+  }
+
+  void require_openings_of(const DesignPoint& point, const ProblemPlace& place) const {
+    const bool has_any = !point.inlets.empty() || !point.outlets.empty() || !point.symmetry.empty();
+    if (has_any && !problem_.deformation)
+      place.fail("found 'inlets', 'outlets' or 'symmetry', expected them with 'space'");
+    if (has_any && has_friction())
+      place.fail("found 'inlets', 'outlets' or 'symmetry' with friction, expected the model \"euler\"");
+    if (problem_.deformation) require_openings(point, problem_.deformation->domain, place);
   }
 
   bool has_friction() const { return problem_.points.front().model != FlowModel::euler; }
@@ -212,13 +228,25 @@ class Resolver {
     for (const DesignPoint& point : problem_.points)
       if (objective.is_given(point.conditions))
         place_.fail("found the objective '" + problem_.objective + "' with 'cl', expected 'alpha_deg' alone");
-    if (objective.needs_target() && !problem_.elements.empty())
-      place_.fail("found the objective '" + problem_.objective + "' with 'elements', expected 'airfoil'");
+    const bool has_airfoil = problem_.elements.empty() && !problem_.deformation;
+    if (objective.needs_target() && !has_airfoil)
+      place_.fail("found the objective '" + problem_.objective + "' with '" + instead_of_airfoil() +
+                  "', expected 'airfoil'");
+    for (std::size_t i = 0; i < problem_.points.size(); ++i)
+      require_openings_for(objective, problem_.points[i], place_of("flow", i), problem_.objective);
     if (objective.needs_target()) place_.given(problem_.target, "target");
     if (!objective.needs_target() && !problem_.own_objective && problem_.target)
       place_.fail("found 'target' with the objective '" + problem_.objective + "', expected 'inverse'");
-    if (problem_.target && !problem_.elements.empty())
-      place_.fail("found 'target' with 'elements', expected 'airfoil'");
+    if (problem_.target && !has_airfoil)
+      place_.fail("found 'target' with '" + instead_of_airfoil() + "', expected 'airfoil'");
+  }
+
+  static void require_openings_for(const FlowFunction& function, const DesignPoint& point,
+                                   const ProblemPlace& place, const std::string& kind) {
+    if (function.needs_outlets() && point.outlets.empty())
+      place.fail("found '" + kind + "' without 'outlets', expected one or more");
+    if (function.is_of_walls() && (!point.inlets.empty() || !point.outlets.empty()))
+      place.fail("found '" + kind + "' with inlets or outlets, expected a far field alone");
   }
 
   void require_friction(const FlowFunction& function, const ProblemPlace& place,
@@ -248,7 +276,7 @@ class Resolver {
     if (!constraint.own_flow) {
       place.require_word(constraint.kind, "kind", constraint_kinds());
       if (const DomainKind* kind = find_domain_kind(constraint.kind))
-        return require_members(constraint, members_of(*kind, has_elements), place);
+        return require_members(constraint, members_of(*kind, has_elements || problem_.deformation), place);
     }
     constexpr Limits any = {-1e300, 1e300};
     const FlowKind own = {.name = "own", .at_least = any, .at_most = any};
@@ -275,6 +303,7 @@ class Resolver {
     }
     const FlowFunction& function = *resolved_.functions[limit.function];
     require_friction(function, place, constraint.kind);
+    require_openings_for(function, problem_.points[limit.point], place, constraint.kind);
     if (function.is_given(problem_.points[limit.point].conditions))
       place.fail("found '" + constraint.kind +
                  "' of a point whose 'cl' is given, expected 'alpha_deg' alone there");
@@ -303,6 +332,7 @@ class Resolver {
   }
 
   void make_space_of_bodies() {
+    if (problem_.deformation) return make_deformed_space();
     if (!problem_.elements.empty()) {
       resolved_.space = std::make_unique<ElementSpace>(space_of_elements(problem_, place_));
       return;
@@ -316,6 +346,32 @@ class Resolver {
     resolved_.space = std::move(space);
   }
 
+  void make_deformed_space() {
+    const ProblemPlace place = place_.inner("space");
+    const Domain& start = problem_.deformation->domain;
+    try {
+      validate(start);
+    } catch (const Error& error) {
+      place.fail("found a domain that is none: " + std::string(error.what()));
+    }
+    const auto is_body = [](const Loop& loop) {
+      return loop.role == LoopRole::hole || loop.curves.front().name == "farfield";
+    };
+    if (has_friction() && !std::all_of(start.loops.begin(), start.loops.end(), is_body))
+      place.fail("found walls that are no holes with friction, expected the model \"euler\"");
+    if (problem_.domain.points < 3 || problem_.domain.points > 100000)
+      place_.inner("mesh").require_number(problem_.domain.points, "points", {3.0, 1e5});
+    auto space = std::make_unique<DeformedSpace>(start, variables_of(*problem_.deformation, place),
+                                                 problem_.domain.points);
+    moving_ = space->moving_loops();
+    try {
+      validate(space->domain(space->start()));
+    } catch (const Error& error) {
+      place_.inner("mesh").fail("found 'points' with which there is no domain: " + std::string(error.what()));
+    }
+    resolved_.space = std::move(space);
+  }
+
   void resolve_domain_limit(std::size_t index) {
     const DesignConstraint& constraint = problem_.constraints[index];
     if (constraint.own_flow) return;
@@ -324,7 +380,8 @@ class Resolver {
     if (constraint.own_design) {
       made = std::make_shared<OwnDomainConstraint>(constraint.own_design, *resolved_.space);
     } else if (const DomainKind* kind = find_domain_kind(constraint.kind)) {
-      made = kind->make(request_of(constraint, *kind, place));
+      const DomainRequest request = request_of(constraint, *kind, place);
+      made = problem_.deformation ? kind->make_of_loop(request) : kind->make(request);
     } else {
       return;
     }
@@ -340,7 +397,12 @@ class Resolver {
                            const ProblemPlace& place) const {
     DomainRequest request{
         .given = constraint, .problem = problem_, .place = place, .symmetric = problem_.symmetric};
-    if (kind.of_section) {
+    if (problem_.deformation) {
+      if (kind.make_of_loop == nullptr)
+        place.fail("found '" + constraint.kind + "' with 'space', expected area, thickness, or one of flows");
+      request.start_domain = resolved_.space->walls(resolved_.space->start());
+      request.section = loop_of(constraint, request.start_domain, place);
+    } else if (kind.of_section) {
       if (!problem_.elements.empty()) {
         const std::string& name = place.given(constraint.element, "element");
         request.section = request.element(name);
@@ -356,6 +418,22 @@ class Resolver {
       place.given(constraint.at_least, "at_least");
     }
     return request;
+  }
+
+  // The loop that a constraint of a deformed domain is of.
+  std::size_t loop_of(const DesignConstraint& constraint, const Domain& domain,
+                      const ProblemPlace& place) const {
+    std::vector<std::string> names;
+    std::optional<std::size_t> found;
+    for (const std::size_t loop : moving_)
+      for (const Curve& curve : domain.loops[loop].curves) {
+        names.push_back(curve.name);
+        if (constraint.element == curve.name) found = loop;
+      }
+    if (!constraint.element && moving_.size() == 1) found = moving_.front();
+    if (!found) place.require_word(place.given(constraint.element, "element"), "element", names);
+    if (domain.loops[*found].open) place.fail("found an open chain, expected a closed loop");
+    return *found;
   }
 
   // A point without a weight is looked at for its constraints alone.
@@ -382,7 +460,8 @@ class Resolver {
     for (const int points : problem_.verify) {
       if (points < 8 || points > 100000)
         place_.fail("found " + shown(points) + " as 'verify', expected a whole number from 8 to 100000");
-      if (points % 2 != 0) place_.fail("found " + shown(points) + " in 'verify', expected even numbers");
+      if (points % 2 != 0 && !problem_.deformation)
+        place_.fail("found " + shown(points) + " in 'verify', expected even numbers");
     }
   }
 
@@ -396,6 +475,7 @@ class Resolver {
   ProblemPlace place_;
   ResolvedProblem resolved_;
   std::vector<Known> known_;
+  std::vector<std::size_t> moving_;  // loops of a deformed domain
   std::size_t functions_ = 0;
 };
 

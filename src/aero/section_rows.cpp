@@ -19,12 +19,7 @@ void add_height(const CstAirfoil& like, double x, bool upper, double factor, Sec
 }
 
 const std::vector<double>& stations_of(const DomainRequest& request) {
-  constexpr std::size_t most_stations = 1000;
-  const std::vector<double>& stations = request.place.given(request.given.x, "x");
-  if (stations.empty()) request.place.fail("found no number in 'x', expected at least one");
-  if (stations.size() > most_stations)
-    request.place.fail("found " + std::to_string(stations.size()) + " entries in 'x', expected at most " +
-                       std::to_string(most_stations));
+  const std::vector<double>& stations = station_list_of(request);
   for (const double x : stations)
     if (!(x > 0.0 && x < 1.0))
       request.place.fail("found " + shown(x) + " in 'x', expected numbers above 0 and below 1");

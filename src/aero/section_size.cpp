@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "aero/loop_size.h"
 #include "aero/section_rows.h"
 
 namespace remodel {
@@ -77,9 +78,10 @@ DomainConstraintPtr box(const DomainRequest& request) {
 
 }  // namespace
 
-extern constinit const DomainKind area_kind = {.name = "area", .make = area};
+extern constinit const DomainKind area_kind = {.name = "area", .make = area, .make_of_loop = area_of_loop};
 extern constinit const DomainKind tank_kind = {.name = "tank", .takes_x = true, .make = tank};
 extern constinit const DomainKind box_kind = {.name = "box", .takes_x = true, .make = box};
-extern constinit const DomainKind thickness_kind = {.name = "thickness", .takes_x = true, .make = thickness};
+extern constinit const DomainKind thickness_kind = {
+    .name = "thickness", .takes_x = true, .make = thickness, .make_of_loop = thickness_of_loop};
 
 }  // namespace remodel

@@ -32,6 +32,7 @@ class Suction final : public FlowFunction {
     result.value = most + std::log(sum) / sharpness;
     return result;
   }
+  bool is_of_walls() const override { return true; }
   // Peaks are large: they count in parts of what is allowed.
   double unit(double limit) const override { return limit; }
 

@@ -99,6 +99,8 @@ class SectionReader {
     if (!fs::exists(directory / "history.sqlite") || !holds_design_run(directory))
       keys.fail("found no run of `remodel design` in '" + directory.string() + "'");
     const DesignRun run = read_design_run(directory);
+    if (run.space->sections() == 0)
+      keys.fail("found a run of a deformed shape, expected one of a section by its coefficients");
     if (run.space->sections() != 1)
       keys.fail("found a run of " + std::to_string(run.space->sections()) + " sections, expected one");
     for (const EvaluationRecord& row : run.rows) {

@@ -1,5 +1,7 @@
 #include "remodel/shape_files.h"
 
+#include <cmath>
+
 #include "remodel/error.h"
 #include "remodel/io.h"
 
@@ -30,6 +32,19 @@ bool names_a_file(const std::string& shape) {
 
 AirfoilCoordinates read_airfoil(const std::filesystem::path& file) {
   return parse_airfoil(read_text(file, largest_airfoil_file), file.string());
+}
+
+bool lies_in_chords(const AirfoilFrame& frame) {
+  constexpr double near_origin = 0.1, near_one = 0.25;
+  return std::abs(frame.chord - 1.0) <= near_one && std::abs(frame.nose.x) <= near_origin &&
+         std::abs(frame.nose.y) <= near_origin;
+}
+
+std::vector<Point> moved_to_origin(const AirfoilOutline& outline) {
+  std::vector<Point> points;
+  for (const Point p : outline.points)
+    points.push_back((1.0 / outline.frame.chord) * (p - outline.frame.nose));
+  return points;
 }
 
 AirfoilOutlines read_outlines(const std::filesystem::path& file) {

@@ -276,7 +276,7 @@ class Designs(ProgramTest):
 
         suction = {"kind": "suction", "at_most": 5}
         for changes, name in (
-            ({"airfoil": "naca:0012"}, "expected one of 'airfoil' and 'elements'"),
+            ({"airfoil": "naca:0012"}, "expected one of 'airfoil', 'elements' and 'space'"),
             ({"symmetric": True}, "found 'symmetric' with 'elements'"),
             ({"objective": "inverse", "target": "naca:0012"}, "found the objective 'inverse' with 'elements'"),
             ({"flow": [{"mach": 0.2, "cl": 1}]}, "found the objective 'lift' with 'cl'"),

@@ -31,8 +31,9 @@ Coefficients3 difference(const std::function<Coefficients3(double)>& f, double h
 
 class Case {
  public:
-  Case(const Domain& domain, const FlowConditions& conditions, const QualityOptions& quality)
-      : mesh_(generate(domain, quality).mesh), conditions_(conditions), living_({.tolerance = 1e-12}) {}
+  Case(const Domain& domain, const FlowConditions& conditions, const QualityOptions& quality,
+       const FlowOptions& options = {.tolerance = 1e-12})
+      : mesh_(generate(domain, quality).mesh), conditions_(conditions), living_(options) {}
 
   Mesh& mesh() { return mesh_; }
   LivingFlow& living() { return living_; }
@@ -115,6 +116,28 @@ TEST(Adjoint, GradientsAreThoseOfWholeFlows) {
   EXPECT_LT(subsonic.error(subsonic.gradients(), 1e-5), 1e-7);
   Case transonic(section("naca:0012", 100), {.mach = 0.8, .alpha_deg = 1.25}, {.gradation = 2});
   EXPECT_LT(transonic.error(transonic.gradients(), 1e-6), 1e-6);
+}
+
+// A nozzle, its wall the first curve: without a shock, choked with one, and with an outlet faster than sound.
+TEST(Adjoint, GradientsThroughInletsAndOutletsAreThoseOfWholeFlows) {
+  const auto line = [](const char* name, Point from, Point to, std::size_t stations) {
+    return Curve{.name = name, .shape = Line{from, to}, .parameters = Parameters::uniform(stations)};
+  };
+  const Curve wall{
+      .name = "wall",
+      .shape = spline_through({{4.0, 0.5}, {3.0, 0.46}, {2.0, 0.41}, {1.0, 0.46}, {0.4, 0.5}, {0.0, 0.5}}),
+      .parameters = Parameters::uniform(40)};
+  const Domain nozzle{{Loop{.curves = {wall, line("inlet", {0.0, 0.5}, {0.0, 0.0}, 6),
+                                       line("axis", {0.0, 0.0}, {4.0, 0.0}, 32),
+                                       line("outlet", {4.0, 0.0}, {4.0, 0.5}, 6)}}}};
+  for (const double pressure : {0.95, 0.75, 0.2}) {
+    Case task(nozzle, {.mach = 0.3}, {.gradation = 2},
+              {.tolerance = 1e-12,
+               .inlets = {{.name = "inlet", .total_pressure = 1.02, .total_temperature = 1.1}},
+               .outlets = {{.name = "outlet", .pressure = pressure}},
+               .symmetry = {"axis"}});
+    EXPECT_LT(task.error(task.gradients(), 1e-5), 1e-7) << pressure;
+  }
 }
 
 TEST(Adjoint, LiftThatIsGivenStays) {

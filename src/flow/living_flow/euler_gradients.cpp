@@ -64,10 +64,10 @@ std::vector<Total> totals_of(const FlowSystem& system, const State& state,
 }  // namespace
 
 FlowGradients gradients_of(const LastFlow<unknown_count>& last, const std::vector<FlowFunctional>& functions,
-                           const WantedGradients& wanted, const FlowOptions& options, WholeMatrix& matrix,
+                           const WantedGradients& wanted, WholeMatrix& matrix,
                            Gradients<unknown_count>& gradients) {
   const Stopwatch watch;
-  require_gradients(last.found(), options);
+  require_gradients(last.found());
   const FlowSystem system(*last.mesh, last.stream);
   FlowGradients result;
   result.functions.assign(functions.size(), {});

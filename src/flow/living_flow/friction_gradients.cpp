@@ -49,7 +49,10 @@ FlowGradients gradients_of(const LastFlow<N>& last, const Viscosity& viscosity,
                            const std::vector<FlowFunctional>& functions, const WantedGradients& wanted,
                            const FlowOptions& options, BlockWholeMatrix<N>& matrix, Gradients<N>& gradients) {
   const Stopwatch watch;
-  require_gradients(last.found(), options);
+  require_gradients(last.found());
+  if (!options.inlets.empty() || !options.outlets.empty())
+    throw Error(ErrorCode::argument, "gradients",
+                "found inlets or outlets with friction, expected a far field alone");
   if (wanted.entropy_drag)
     throw Error(ErrorCode::argument, "entropy_drag", "asked for with friction, expected a flow without");
   const FrictionMesh mesh(*last.mesh, last.stream.transition);

@@ -20,10 +20,8 @@ FlowGradient gradient_of(Total total, double scale, const Stream& stream) {
           .reynolds = scale * total.shape.reynolds};
 }
 
-void require_gradients(bool found, const FlowOptions& options) {
+void require_gradients(bool found) {
   if (!found) throw Error(ErrorCode::argument, "gradients", "no flow was found yet, expected one");
-  if (!options.inlets.empty() || !options.outlets.empty())
-    throw Error(ErrorCode::argument, "gradients", "found inlets or outlets, expected a far field alone");
 }
 
 // The multipliers of the last gradients are the guess for the next ones.

@@ -15,8 +15,8 @@ struct Total {
 };
 // scale: the function that is reported, over the one that these are of.
 FlowGradient gradient_of(Total total, double scale, const Stream& stream);
-// Throws Error (argument) where there is no last flow, or openings.
-void require_gradients(bool found, const FlowOptions& options);
+// Throws Error (argument) where there is no last flow.
+void require_gradients(bool found);
 
 template <std::size_t N>
 class Gradients {

@@ -94,7 +94,7 @@ class LivingEuler final : public LivingOf<unknown_count> {
   using LivingOf::LivingOf;
   FlowGradients gradients(const std::vector<FlowFunctional>& functions,
                           const WantedGradients& wanted) override {
-    return gradients_of(last_, functions, wanted, options_, matrix_, gradients_);
+    return gradients_of(last_, functions, wanted, matrix_, gradients_);
   }
 
  private:

@@ -10,7 +10,7 @@ namespace remodel::flow {
 
 // As LivingFlow::gradients() says.
 FlowGradients gradients_of(const LastFlow<unknown_count>& last, const std::vector<FlowFunctional>& functions,
-                           const WantedGradients& wanted, const FlowOptions& options, WholeMatrix& matrix,
+                           const WantedGradients& wanted, WholeMatrix& matrix,
                            Gradients<unknown_count>& gradients);
 template <std::size_t N>
 FlowGradients gradients_of(const LastFlow<N>& last, const Viscosity& viscosity,

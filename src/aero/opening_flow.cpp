@@ -1,0 +1,130 @@
+// What leaves a duct through its outlets: how much gas, and with which total pressure. Both by the
+// trapezoidal rule over the edges of the outlets, of states at vertices.
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "aero/kinds.h"
+
+namespace remodel {
+namespace {
+
+constexpr double gamma = 1.4;
+
+// A number with its derivatives by density, velocity, pressure and the normal at one vertex of an edge.
+struct AtVertex {
+  double value = 0.0;
+  double by[4] = {};
+  Point by_normal;
+};
+
+AtVertex mass_at(const FlowResult& flow, std::uint32_t v, Point normal) {
+  const double rho = flow.density[v];
+  const Point velocity = {flow.velocity_x[v], flow.velocity_y[v]};
+  const double speed = dot(velocity, normal);
+  return {rho * speed, {speed, rho * normal.x, rho * normal.y, 0.0}, rho * velocity};
+}
+
+// The mass flow times the total pressure, p (1 + 0.2 M^2)^3.5.
+AtVertex pressure_flow_at(const FlowResult& flow, std::uint32_t v, Point normal) {
+  constexpr double half_g = 0.5 * (gamma - 1.0), power = gamma / (gamma - 1.0);
+  const AtVertex mass = mass_at(flow, v, normal);
+  const double rho = flow.density[v], p = flow.pressure[v];
+  const double x = flow.velocity_x[v], y = flow.velocity_y[v];
+  const double square = rho * (x * x + y * y) / (gamma * p), base = 1.0 + half_g * square;
+  const double total = p * std::pow(base, power);
+  const double by_square = p * power * std::pow(base, power - 1.0) * half_g;
+  const double by[4] = {by_square * square / rho, by_square * 2.0 * rho * x / (gamma * p),
+                        by_square * 2.0 * rho * y / (gamma * p), total / p - by_square * square / p};
+  AtVertex result{mass.value * total, {}, total * mass.by_normal};
+  for (std::size_t k = 0; k < 4; ++k) result.by[k] = mass.by[k] * total + mass.value * by[k];
+  return result;
+}
+
+FlowValue nothing_of(const FlowView& of) {
+  const std::vector<double> none(of.frozen.points.size(), 0.0);
+  return {.by_flow = FlowFunctional{.pressure = none,
+                                    .points = std::vector<Point>(none.size()),
+                                    .density = none,
+                                    .velocity_x = none,
+                                    .velocity_y = none}};
+}
+
+bool is_outlet(const FlowView& of, const std::string& name) {
+  return std::any_of(of.flow.openings.begin(), of.flow.openings.end(), [&](const FlowOpening& opening) {
+    return opening.name == name && opening.mass_flow < 0.0;
+  });
+}
+
+// The integral over all outlets of what there is at vertices.
+FlowValue over_outlets(const FlowView& of,
+                       AtVertex (*at)(const FlowResult& flow, std::uint32_t v, Point normal)) {
+  FlowValue sum = nothing_of(of);
+  FlowFunctional& by = *sum.by_flow;
+  std::vector<double>* const by_state[4] = {&by.density, &by.velocity_x, &by.velocity_y, &by.pressure};
+  for (const FrozenBoundary& boundary : of.frozen.boundaries) {
+    if (!is_outlet(of, boundary.name)) continue;
+    for (const auto& [a, b] : boundary.edges) {
+      const Point along = of.frozen.points[b] - of.frozen.points[a];
+      for (const std::uint32_t v : {a, b}) {
+        const AtVertex part = at(of.flow, v, {along.y, -along.x});  // the domain is on the left
+        sum.value += 0.5 * part.value;
+        for (std::size_t k = 0; k < 4; ++k) (*by_state[k])[v] += 0.5 * part.by[k];
+        const Point by_along = 0.5 * Point{-part.by_normal.y, part.by_normal.x};
+        by.points[b] = by.points[b] + by_along, by.points[a] = by.points[a] - by_along;
+      }
+    }
+  }
+  return sum;
+}
+
+void add_scaled(FlowFunctional& to, double factor, const FlowFunctional& from) {
+  const auto add = [&](auto& values, const auto& others) {
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = values[i] + factor * others[i];
+  };
+  add(to.pressure, from.pressure), add(to.points, from.points), add(to.density, from.density);
+  add(to.velocity_x, from.velocity_x), add(to.velocity_y, from.velocity_y);
+}
+
+class MassFlow final : public FlowFunction {
+  FlowValue at(const FlowView& of) const override { return over_outlets(of, mass_at); }
+  bool needs_outlets() const override { return true; }
+};
+
+// The mean by mass flow, as a part of the stream's.
+class TotalPressure final : public FlowFunction {
+  FlowValue at(const FlowView& of) const override {
+    const FlowValue mass = over_outlets(of, mass_at), weighted = over_outlets(of, pressure_flow_at);
+    if (!(mass.value > 0.0)) throw std::runtime_error("no gas leaves through outlets");
+    const double mach = of.flow.mach, base = 1.0 + 0.2 * mach * mach;
+    const double stream = std::pow(base, 3.5) / gamma, scale = 1.0 / (stream * mass.value);
+    FlowValue result = nothing_of(of);
+    result.value = scale * weighted.value;
+    add_scaled(*result.by_flow, scale, *weighted.by_flow);
+    add_scaled(*result.by_flow, -result.value / mass.value, *mass.by_flow);
+    result.by_flow->mach = -result.value * 3.5 * 0.4 * mach / base;
+    return result;
+  }
+  bool needs_outlets() const override { return true; }
+};
+
+template <class Function>
+FlowFunctionPtr opening_function(std::optional<std::size_t>) {
+  return std::make_shared<Function>();
+}
+
+}  // namespace
+
+extern constinit const FlowKind mass_flow_kind = {.name = "mass_flow",
+                                                  .objective = -1.0,
+                                                  .at_least = Limits{0.0, 1e6},
+                                                  .at_most = Limits{0.0, 1e6},
+                                                  .make = opening_function<MassFlow>};
+extern constinit const FlowKind total_pressure_kind = {.name = "total_pressure",
+                                                       .objective = -1.0,
+                                                       .at_least = Limits{0.0, 1e3},
+                                                       .at_most = Limits{0.0, 1e3},
+                                                       .make = opening_function<TotalPressure>};
+
+}  // namespace remodel

@@ -1,0 +1,16 @@
+#pragma once
+
+// Derivatives of functions of a few stations of a domain.
+
+#include <span>
+#include <vector>
+
+#include "remodel/domain.h"
+
+namespace remodel {
+
+// By the numbers of the domain (coefficients_of(Domain)), of those by the places of these stations.
+std::vector<double> derivative_by_numbers(const Domain& domain, std::span<const BoundaryStation> stations,
+                                          std::span<const Point> by_points);
+
+}  // namespace remodel
