@@ -27,7 +27,7 @@ namespace remodel {
 enum class Moves { y, x, xy };
 const char* name_of(Moves moves);  // "y", "x", "xy"
 
-// What all parts have: how far a variable may go, in its own unit, from 0 on (none: as far as
+// All parts have these: how far a variable may go, in its own unit, from 0 on (none: as far as
 // DesignProblem::bounds), and what the design divides it by.
 struct DeformationRange {
   std::optional<std::array<double, 2>> bounds = {};  // lowest, not above 0, and highest, not below 0

@@ -40,7 +40,7 @@ struct DesignPoint {
   double weight = 1.0;        // of the objective; 0: the point is there for its constraints alone
   FlowModel model =
       FlowModel::euler;  // with friction of all points, or of none: `conditions` has its `reynolds`
-  // Of a deformed domain, without friction: FlowOptions of these names.
+  // A deformed domain may have these without friction: they are FlowOptions of the same names.
   std::vector<FlowInlet> inlets = {};
   std::vector<FlowOutlet> outlets = {};
   std::vector<std::string> symmetry = {};
@@ -113,8 +113,9 @@ inline constexpr double default_constraint_tolerance = 1e-5;
 struct DesignProblem {
   CstAirfoil airfoil = {};                   // the start, of one section
   std::vector<DesignElement> elements = {};  // in its place: several sections
-  // In the place of both: any domain, and what may move in it. `domain.points` is about how many stations its
-  // curves have then, but for those named "farfield"; as many as they are leave them as they are.
+  // This takes the place of both: any domain, and what may move in it. `domain.points` is about how many
+  // stations its curves have then, but for those named "farfield"; as many as they are leave them as they
+  // are.
   std::optional<Deformation> deformation = {};
   // The lower surface is the upper one's mirror image, as it is of the start but for 1e-4 chords. Where all
   // flows are their own mirror images then, half of each is computed (FlowSpace::half()).
