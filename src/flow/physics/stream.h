@@ -23,6 +23,7 @@ struct Stream {
   double length = 1.0;
   double reference_length = 1.0;
   std::optional<std::array<double, 2>> transition = {};  // of turbulent flow, as FlowConditions has it
+  std::optional<double> wall_temperature = {};           // likewise, of flows with friction
   bool vortex = true;
   double limiter = 30.0;  // K: slopes of less than (K h / length)^(3/2) are not limited
   // Instead of the stream: the state at points of the far field, for flows with known solutions.

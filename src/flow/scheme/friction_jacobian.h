@@ -223,7 +223,7 @@ void FrictionSystem<N>::make_walls_strong(BlockMatrix<N>& matrix) const {
     if (!mesh_.sticks(v)) continue;
     for (std::uint32_t i = matrix.start[r]; i < matrix.start[r + 1]; ++i)
       for (std::size_t z = 0; z < N * N; ++z)
-        if (is_strong(z / N)) matrix.block[i][z] = matrix.column[i] == v && z / N == z % N ? 1.0 : 0.0;
+        if (is_strong(z / N)) matrix.block[i][z] = matrix.column[i] == v ? strong_slope(z / N, z % N) : 0.0;
   }
 }
 
