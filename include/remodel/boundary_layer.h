@@ -41,8 +41,8 @@ struct BoundaryLayerStation {
 std::vector<BoundaryLayerStation> boundary_layer(const FrozenMesh& mesh, const FlowResult& flow);
 
 // A row for each station, with a header: wall, x, y, arc, cp, cf, y_plus, edge_speed, thickness,
-// displacement_thickness, momentum_thickness, shape_factor, ch. What is not a number is empty. Numbers read as
-// the same doubles.
+// displacement_thickness, momentum_thickness, shape_factor, ch. What is not a number is empty. Numbers read
+// as the same doubles.
 std::string boundary_layer_table(const FrozenMesh& mesh, const FlowResult& flow);
 
 }  // namespace remodel

@@ -45,8 +45,7 @@ using Transition = std::optional<std::array<double, 2>>;
 
 FlowConditions conditions_of(double mach, double alpha, const std::optional<double>& cl,
                              const std::array<double, 2>& reference, double reference_length, double reynolds,
-                             const Transition& transition,
-                             const std::optional<double>& wall_temperature) {
+                             const Transition& transition, const std::optional<double>& wall_temperature) {
   return {.mach = mach,
           .alpha_deg = alpha,
           .cl = cl,
@@ -392,9 +391,10 @@ void add_result(py::module_& module) {
   on_walls("cf", &FlowFriction::cf,
            "Friction on walls over half the stream's density times speed squared, 0 elsewhere; None without "
            "friction.");
-  on_walls("ch", &FlowFriction::ch,
-           "Heat that walls take over the stream's density times speed times cp times temperature, 0 elsewhere; "
-           "None without a temperature of walls.");
+  on_walls(
+      "ch", &FlowFriction::ch,
+      "Heat that walls take over the stream's density times speed times cp times temperature, 0 elsewhere; "
+      "None without a temperature of walls.");
   on_walls("y_plus", &FlowFriction::y_plus,
            "y+ of the lowest cells on walls, 0 elsewhere; None without friction.");
   on_walls("viscosity_ratio", &FlowFriction::viscosity_ratio,

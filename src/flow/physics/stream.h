@@ -33,6 +33,7 @@ struct Stream {
   // The part of each step of the reconstruction that is taken: 1 is the scheme, 0 the one of first order,
   // less than 1 a stage on the way to a flow.
   double slopes = 1.0;
+  double working_slopes = 1.0;  // likewise, of the turbulence model's working variable alone
 };
 
 // What the coefficients that are reported are, over those in here: a length over another.

@@ -48,9 +48,11 @@ std::array<double, N> FrictionSystem<N>::step(const BlockVector<N>& q, std::size
       limited > 0.0 ? terms_.limiter_width(dual_.points()[edge.b] - dual_.points()[edge.a]) : 0.0;
   Row upwind = {};
   for (const WeightedVertex& of : mesh_.upwind(e, side))
-    for (std::size_t k = 0; k < unknown_count; ++k) upwind[k] += of.weight * q[of.vertex][k];
-  for (std::size_t k = 0; k < unknown_count; ++k) {
-    const double to = terms_.step(upwind[k], q[edge.b][k] - q[edge.a][k], width, limited);
+    for (std::size_t k = 0; k < N; ++k) upwind[k] += of.weight * q[of.vertex][k];
+  for (std::size_t k = 0; k < N; ++k) {
+    const double central = q[edge.b][k] - q[edge.a][k];
+    const double to = k < unknown_count ? terms_.step(upwind[k], central, width, limited)
+                                        : terms_.working_step(upwind[k], central);
     result[k] = side == 0 ? to : -to;
   }
   return result;

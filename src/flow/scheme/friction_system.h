@@ -2,8 +2,9 @@
 
 // A steady flow with friction, as equations: N = 4 unknowns a vertex for laminar flow, 5 with the turbulence
 // model, and the augmented two of flow_system.h. Walls are strong: the rows of momentum at their vertices say
-// that the gas stands still, and the momentum that they leave unbalanced is the force on the wall. Where walls
-// have a temperature the rows of energy say that the gas there has it, and what they leave unbalanced is heat.
+// that the gas stands still, and the momentum that they leave unbalanced is the force on the wall. Where
+// walls have a temperature the rows of energy say that the gas there has it, and what they leave unbalanced
+// is heat.
 
 #include <array>
 #include <span>
@@ -31,6 +32,7 @@ class FrictionSystem final : public BlockSystem<N> {
         terms_{.viscosity = viscosity,
                .mach = stream.mach,
                .slopes = stream.slopes,
+               .working_slopes = stream.working_slopes,
                .limiter = stream.limiter,
                .extent = stream.length} {
     // At rest on walls the stream's Mach number is the measure. Without any dissipation of the waves of
