@@ -47,7 +47,7 @@ struct FrictionTerms {
   }
 
   // The same of the working variable, limited everywhere: without that it swings below zero where boundary
-  // layers end, and NACA 0012 at 0 degrees took 27 steps instead of 22 (docs/viscous.md).
+  // layers end, and NACA 0012 at 0 degrees took 27 steps instead of 24 (docs/viscous.md).
   template <class T>
   T working_step(const T& upwind, const T& central) const {
     constexpr double unlimited = 0.1;  // the square of a difference, of 30 times the stream's viscosity
