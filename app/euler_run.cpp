@@ -84,7 +84,7 @@ void add_solver_options(CLI::App& app, FlowConditions& conditions, FlowOptions& 
            {.low = 0.0, .above_low = true}, conditions.reference_length);
 }
 
-void add_transition_option(CLI::App& app, FlowConditions& conditions) {
+void add_friction_options(CLI::App& app, FlowConditions& conditions) {
   add_text(
       app,
       {"--transition", "XU,XL", "0,0",
@@ -98,6 +98,12 @@ void add_transition_option(CLI::App& app, FlowConditions& conditions) {
                         "found '" + text + "', expected two numbers from 0 to 1");
         conditions.transition = {places[0], places[1]};
       });
+  add_real(
+      app,
+      {"--wall-temperature", "PART", "",
+       "With --model laminar or sa: temperature of all walls, a part of the stream's static temperature: "
+       "above 0; otherwise no heat passes through walls"},
+      {.low = 0.0, .above_low = true}, conditions.wall_temperature);
 }
 
 void add_euler_options(CLI::App& app, EulerRun& run) {

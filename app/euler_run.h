@@ -36,8 +36,8 @@ struct EulerRun {
 
 // --tolerance, --max-steps, --memory, --solver, --limiter, --reference, --reference-length.
 void add_solver_options(CLI::App& app, FlowConditions& conditions, FlowOptions& options);
-// --transition, of turbulent flow.
-void add_transition_option(CLI::App& app, FlowConditions& conditions);
+// --transition, of turbulent flow, and --wall-temperature, of flows with friction.
+void add_friction_options(CLI::App& app, FlowConditions& conditions);
 // --mach, those of add_solver_options(), --series, --compare, --gradient, --error.
 void add_euler_options(CLI::App& app, EulerRun& run);
 

@@ -84,7 +84,7 @@ void require_fitting_model(const FlowCommand& command) {
   if (command.is_potential || command.model != FlowModel::sa)
     refuse(command, {"--transition"}, "given without turbulence, expected --model sa");
   if (!command.has_friction())
-    return refuse(command, {"--reynolds", "--cf-plot", "--wall-table", "--profiles"},
+    return refuse(command, {"--reynolds", "--wall-temperature", "--cf-plot", "--wall-table", "--profiles"},
                   "given without friction, expected --model laminar or sa");
   if (!command.given("--reynolds"))
     throw Error(ErrorCode::argument, "--reynolds",
@@ -163,7 +163,7 @@ void add_flow_command(CLI::App& program, Action& action) {
        "Reynolds number by the reference length, of models with friction: 1 to 1e10. A layer of cells on the "
        "walls follows from it where a shape is given"},
       {.low = 1.0, .high = 1e10}, [command](double value) { command->euler.conditions.reynolds = value; });
-  add_transition_option(app, command->euler.conditions);
+  add_friction_options(app, command->euler.conditions);
   add_real(app, {"--alpha", "DEG", "0", "Angle of attack in degrees, -90 to 90"}, {.low = -90, .high = 90},
            command->alpha_deg);
   add_real(app, {"--cl", "CL", "", "Lift coefficient that the angle of attack is found for: -10 to 10"},

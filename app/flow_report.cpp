@@ -38,6 +38,10 @@ Json to_json(const FlowResult& flow, const FlowConditions& conditions) {
     json["y_plus_max"] = flow.friction->y_plus_max;
     json["reynolds"] = flow.friction->reynolds;
     if (flow.friction->transition) json["transition"] = *flow.friction->transition;
+    if (flow.friction->wall_temperature) {
+      json["wall_temperature"] = *flow.friction->wall_temperature;
+      json["heat"] = flow.friction->heat;
+    }
   }
   if (!flow.reason.empty()) json["reason"] = flow.reason;
   json["residual"] = flow.residual;
@@ -103,6 +107,8 @@ void add_flow_figures(Report& report, const FlowResult& flow, const FlowConditio
   figure("cd_pressure", "CD of pressure", mark), figure("cd_friction", "CD of friction", mark);
   figure("y_plus_max", "largest y+", mark), figure("reynolds", "Reynolds number");
   figure("transition", "transition of upper and lower sides", "chords");
+  figure("wall_temperature", "temperature of walls, over the stream's");
+  figure("heat", "heat that walls take, over the stream's", mark);
   figure("alpha_deg", "angle of attack", "degrees");
   figure("mach", "Mach number");
   if (flow.converged()) add_end();

@@ -65,7 +65,7 @@ void require_consistent(const PolarCommand& command) {
   if (command.polar.flow.model != FlowModel::sa)
     refuse_given(command.given, {"--transition"}, "given without turbulence, expected --model sa");
   if (!has_friction(command))
-    return refuse_given(command.given, {"--reynolds"},
+    return refuse_given(command.given, {"--reynolds", "--wall-temperature"},
                         "given without friction, expected --model laminar or sa");
   if (!command.given("--reynolds"))
     throw Error(ErrorCode::argument, "--reynolds",
@@ -187,6 +187,8 @@ Report report_of(const PolarCommand& command, const Polars& polars) {
   if (has_friction(command)) report.figure("reynolds", "Reynolds number", command.polar.conditions.reynolds);
   if (const auto& places = command.polar.conditions.transition)
     report.figure("transition", "transition of upper and lower sides", Json(*places));
+  if (const auto& warmth = command.polar.conditions.wall_temperature)
+    report.figure("wall_temperature", "temperature of walls, over the stream's", *warmth);
   Json points = Json::array(), curves = Json::array(), cl_max;
   std::size_t found = 0;
   for (std::size_t i = 0; i < polars.curves.size(); ++i) {
@@ -290,7 +292,7 @@ void add_conditions(CLI::App& app, PolarCommand& command) {
        "Reynolds number by the reference length, of models with friction: 1 to 1e10. A layer of cells on the "
        "walls follows from it where a shape is given"},
       {.low = 1.0, .high = 1e10}, command.polar.conditions.reynolds);
-  add_transition_option(app, command.polar.conditions);
+  add_friction_options(app, command.polar.conditions);
   add_integer(app,
               {"--halvings", "N", "3",
                "Where a flow is not found, the step from the last one is halved so many times: 0 to 20"},

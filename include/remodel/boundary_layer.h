@@ -25,6 +25,7 @@ struct BoundaryLayerStation {
   std::uint32_t vertex = 0;  // of the frozen mesh
   double arc = 0.0;          // along the wall from its first station, in units of the mesh
   double cf = 0.0, y_plus = 0.0;
+  double ch = none;  // FlowFriction::ch; none where no heat passes
   // Lengths are in units of the mesh. None (not a number) where the column of quadrilaterals ends within the
   // boundary layer (u changes by more than 0.5 % over its last tenth), or there is none.
   double edge_speed = none;  // over the stream's speed
@@ -40,8 +41,8 @@ struct BoundaryLayerStation {
 std::vector<BoundaryLayerStation> boundary_layer(const FrozenMesh& mesh, const FlowResult& flow);
 
 // A row for each station, with a header: wall, x, y, arc, cp, cf, y_plus, edge_speed, thickness,
-// displacement_thickness, momentum_thickness, shape_factor. What is not a number is empty. Numbers read as
-// the same doubles.
+// displacement_thickness, momentum_thickness, shape_factor, ch. What is not a number is empty. Numbers read
+// as the same doubles.
 std::string boundary_layer_table(const FrozenMesh& mesh, const FlowResult& flow);
 
 // A point of a profile, which is a column of cells from the wall on.

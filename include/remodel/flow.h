@@ -74,6 +74,9 @@ struct FlowConditions {
   // the vertices whose nearest place on a wall lies there. The chord of each body is from its rearmost point
   // to the farthest one from that. Derivatives by the shape hold the zone.
   std::optional<std::array<double, 2>> transition = {};
+  // The temperature of all walls, of models with friction, as a part of the stream's static temperature: more
+  // than 0. None: no heat passes through walls.
+  std::optional<double> wall_temperature = {};
 };
 
 // A boundary through which gas enters at a right angle, with a given total pressure and total temperature:
@@ -132,8 +135,8 @@ struct FlowOptions {
   // vortex. Names as those of outlets.
   std::vector<std::string> symmetry = {};
   std::function<void(const FlowProgress&)> on_step = {};  // called after each Newton step
-  // With friction gas sticks to all walls, through which no heat passes. Meshes should have layers of flat
-  // quadrilaterals there (remodel/layers.h).
+  // With friction gas sticks to all walls, through which no heat passes where no temperature is given
+  // (FlowConditions). Meshes should have layers of flat quadrilaterals there (remodel/layers.h).
   FlowModel model = FlowModel::euler;
   // Sutherland's law makes the viscosity of this temperature of the stream, in Kelvin: more than 0, or 0 for
   // a constant viscosity. Prandtl numbers are 0.72, and 0.9 of turbulence.
@@ -185,6 +188,14 @@ struct FlowFriction {
   std::optional<std::array<double, 2>> transition = {};  // that was given
   double cd_pressure = 0.0, cd_friction = 0.0;           // the parts of the drag coefficient
   double y_plus_max = 0.0;
+  // Of walls with a temperature. `heat` is what all walls take from the gas in unit time, over the stream's
+  // density times speed times specific enthalpy (cp times temperature) times the reference length; negative
+  // where they warm the gas. `ch` has one value for each point of the frozen mesh: the same by the wall's own
+  // length instead, 0 elsewhere. Over the gas's recovery temperature less the wall's, as parts of the
+  // stream's, it is the Stanton number. Empty without a temperature.
+  std::optional<double> wall_temperature = {};  // that was given
+  double heat = 0.0;
+  std::vector<double> ch = {};
   // Each has one value for each point of the frozen mesh. On walls: the friction, over half the stream's
   // density times speed squared, positive where it acts along the stream; and y+, of the lowest cell there. 0
   // elsewhere.
@@ -241,8 +252,8 @@ struct FlowResult {
 std::vector<double> mach_numbers(const FlowResult& flow);
 std::vector<double> pressure_coefficients(const FlowResult& flow);
 std::vector<double> entropy_errors(const FlowResult& flow);
-// density, velocity, pressure, mach, cp and entropy, with friction also cf, y_plus and (turbulent)
-// viscosity_ratio, for files and pictures.
+// density, velocity, pressure, mach, cp and entropy, with friction also cf, y_plus, (turbulent)
+// viscosity_ratio and (with a temperature of walls) ch, for files and pictures.
 std::vector<Field> fields_of(const FlowResult& flow);
 
 // The flow through a mesh, found from potential flow where there is one, otherwise from undisturbed flow.

@@ -24,7 +24,7 @@ auto members(T& o) {
 template <python::Is<FlowFriction> T>
 auto members(T& f) {
   return std::tie(f.reynolds, f.transition, f.cd_pressure, f.cd_friction, f.y_plus_max, f.cf, f.y_plus,
-                  f.viscosity_ratio, f.working);
+                  f.viscosity_ratio, f.working, f.wall_temperature, f.heat, f.ch);
 }
 template <python::Is<FlowResult> T>
 auto members(T& f) {
@@ -45,14 +45,15 @@ using Transition = std::optional<std::array<double, 2>>;
 
 FlowConditions conditions_of(double mach, double alpha, const std::optional<double>& cl,
                              const std::array<double, 2>& reference, double reference_length, double reynolds,
-                             const Transition& transition) {
+                             const Transition& transition, const std::optional<double>& wall_temperature) {
   return {.mach = mach,
           .alpha_deg = alpha,
           .cl = cl,
           .reference = {reference[0], reference[1]},
           .reference_length = reference_length,
           .reynolds = reynolds,
-          .transition = transition};
+          .transition = transition,
+          .wall_temperature = wall_temperature};
 }
 
 using Inlets = std::map<std::string, std::array<double, 2>>;  // total pressure and total temperature
@@ -95,10 +96,11 @@ py::object solved(const py::object& mesh, double mach, double alpha, const std::
                   const std::array<double, 2>& reference, double reference_length,
                   const std::string& farfield, double tolerance, int max_steps, double memory_mb,
                   const std::optional<std::string>& solver, const Inlets& inlets, const Outlets& outlets,
-                  double reynolds, const std::string& model, const Transition& transition) {
+                  double reynolds, const std::string& model, const Transition& transition,
+                  const std::optional<double>& wall_temperature) {
   const Snapshot frozen = snapshot_of(mesh);
   const FlowConditions conditions =
-      conditions_of(mach, alpha, cl, reference, reference_length, reynolds, transition);
+      conditions_of(mach, alpha, cl, reference, reference_length, reynolds, transition, wall_temperature);
   FlowOptions options = options_of(farfield, tolerance, max_steps, memory_mb, solver, inlets, outlets, model);
   const auto stop = std::make_shared<Stop>();
   options.observer = stop.get();
@@ -168,9 +170,9 @@ class Flows {
 
   py::object solve(const py::object& mesh, double mach, double alpha, const std::optional<double>& cl,
                    const std::array<double, 2>& reference, double reference_length, double reynolds,
-                   const Transition& transition) {
+                   const Transition& transition, const std::optional<double>& wall_temperature) {
     const FlowConditions conditions =
-        conditions_of(mach, alpha, cl, reference, reference_length, reynolds, transition);
+        conditions_of(mach, alpha, cl, reference, reference_length, reynolds, transition, wall_temperature);
     const ThreadLock::Held held(lock_);
     const Snapshot given = snapshot_of(mesh), frozen = with_keys(given);
     const FlowPointer result = calls_.run(solver_->stop, [solver = solver_, frozen, conditions] {
@@ -242,6 +244,7 @@ py::dict boundary_layer_of(const FlowResult& flow, const py::object& mesh) {
   add("displacement_thickness", &BoundaryLayerStation::displacement_thickness);
   add("momentum_thickness", &BoundaryLayerStation::momentum_thickness);
   add("shape_factor", &BoundaryLayerStation::shape_factor);
+  add("ch", &BoundaryLayerStation::ch);
   return result;
 }
 
@@ -329,6 +332,17 @@ void add_figures(py::class_<FlowResult, FlowPointer>& type) {
            "The part of cd that friction makes; None without friction.");
   friction("y_plus_max", &FlowFriction::y_plus_max,
            "The largest y+ of the lowest cells on walls; None without friction.");
+  type.def_property_readonly(
+      "wall_temperature",
+      [](const FlowResult& f) { return f.friction ? f.friction->wall_temperature : std::nullopt; },
+      "The temperature of walls over the stream's; None where no heat passes.");
+  type.def_property_readonly(
+      "heat",
+      [](const FlowResult& f) {
+        const bool passes = f.friction && f.friction->wall_temperature;
+        return passes ? std::optional<double>(f.friction->heat) : std::nullopt;
+      },
+      "What all walls take, as `ch`, by the reference length; None where no heat passes.");
   type.def(
       "boundary_layer",
       [](const py::object& self) {
@@ -337,7 +351,7 @@ void add_figures(py::class_<FlowResult, FlowPointer>& type) {
       "The boundary layer along walls, of a flow with friction: a dict of arrays with a value for each "
       "station, wall (a list of names), vertex, arc (along the wall), cf, y_plus, edge_speed (over the "
       "stream's), thickness (99 %), displacement_thickness, momentum_thickness (in units of the mesh; nan "
-      "where the mesh has no layer that is as thick) and shape_factor.");
+      "where the mesh has no layer that is as thick), shape_factor and ch (heat; nan where none passes).");
   type.def(
       "profiles",
       [](const py::object& self, const std::vector<double>& places) {
@@ -405,6 +419,10 @@ void add_result(py::module_& module) {
   on_walls("cf", &FlowFriction::cf,
            "Friction on walls over half the stream's density times speed squared, 0 elsewhere; None without "
            "friction.");
+  on_walls(
+      "ch", &FlowFriction::ch,
+      "Heat that walls take over the stream's density times speed times cp times temperature, 0 elsewhere; "
+      "None without a temperature of walls.");
   on_walls("y_plus", &FlowFriction::y_plus,
            "y+ of the lowest cells on walls, 0 elsewhere; None without friction.");
   on_walls("viscosity_ratio", &FlowFriction::viscosity_ratio,
@@ -453,7 +471,8 @@ constexpr const char* solver_text =
 model: 'euler', without friction; 'laminar'; 'sa', turbulent by Spalart and Allmaras's model. The last two want the
 Reynolds number of the reference length, 1 to 1e10, and a mesh with layers (generate_layered()); docs/viscous.md.
 transition: with 'sa', where the boundary layers of upper and lower sides become turbulent, two parts of the chord from
-0 to 1; None: at the leading edge.
+0 to 1; None: at the leading edge. wall_temperature: with 'laminar' and 'sa', of all walls, as a part of the stream's
+static temperature, more than 0; None: no heat passes through walls.
 
 mach: 0.01 to 3; alpha: degrees, or where cl is given the angle that the search for this lift begins with;
 reference: the moment's point. inlets: total pressure and total temperature of each by name, outlets: the pressure
@@ -472,7 +491,7 @@ void add_flows(py::module_& module) {
              "farfield"_a = "farfield", "tolerance"_a = defaults.tolerance,
              "max_steps"_a = defaults.max_steps, "memory_mb"_a = defaults.memory_mb, "solver"_a = py::none(),
              "inlets"_a = Inlets(), "outlets"_a = Outlets(), "reynolds"_a = 0.0, "model"_a = "euler",
-             "transition"_a = py::none(), solver_text);
+             "transition"_a = py::none(), "wall_temperature"_a = py::none(), solver_text);
   py::class_<Flows>(
       module, "LivingFlow",
       R"(A flow solver that outlives its mesh: each flow is found from the one before and the factors that are
@@ -490,7 +509,7 @@ the same options, and begins cold. After Ctrl-C the next call waits until a fact
            "inlets"_a = Inlets(), "outlets"_a = Outlets(), "model"_a = "euler")
       .def("solve", &Flows::solve, "mesh"_a, py::kw_only(), "mach"_a = 0.5, "alpha"_a = 0.0,
            "cl"_a = py::none(), "reference"_a = quarter, "reference_length"_a = 1.0, "reynolds"_a = 0.0,
-           "transition"_a = py::none(), solver_text)
+           "transition"_a = py::none(), "wall_temperature"_a = py::none(), solver_text)
       .def(
           "gradients", &Flows::gradients, "functions"_a = py::dict(),
           R"(Derivatives of the last flow's cl, cd, cm and alpha, by their adjoint: for each a dict of points, of

@@ -151,6 +151,27 @@ def test_a_flow_with_friction_outlives_its_mesh():
     assert pickle.loads(pickle.dumps(living)).solve(mesh, **conditions).converged
 
 
+def test_heat_passes_walls_with_a_temperature():
+    mesh = remodel.generate_layered("naca:0012", reynolds=5000.0, model="laminar", **COARSE)
+    conditions = dict(mach=0.5, reynolds=5000.0)
+    living = remodel.LivingFlow(model="laminar")
+    without = living.solve(mesh, **conditions)
+    assert without.wall_temperature is None and without.heat is None and without.ch is None
+    assert np.isnan(without.boundary_layer()["ch"]).all()
+    flow = living.solve(mesh, wall_temperature=1.2, **conditions)
+    assert flow.converged and flow.wall_temperature == 1.2 and flow.heat < 0.0
+    layer = flow.boundary_layer()
+    assert np.array_equal(layer["ch"], flow.ch[layer["vertex"]])
+    warmth = 1.4 * flow.pressure / flow.density
+    assert warmth[layer["vertex"]] == pytest.approx(1.2)
+    assert pickle.loads(pickle.dumps(flow)).heat == flow.heat
+    for bad in (0.0, -1.0, float("nan")):
+        with pytest.raises(remodel.ArgumentError):
+            living.solve(mesh, wall_temperature=bad, **conditions)
+    with pytest.raises(remodel.ArgumentError, match="wall temperature"):
+        remodel.solve_flow(remodel.generate("naca:0012", points=60), mach=0.5, wall_temperature=1.2)
+
+
 def test_a_pickled_mesh_goes_on_as_a_copy_does(tmp_path):
     airfoil = remodel.Airfoil("naca:0012", degree=3)
     mesh = remodel.generate_layered(airfoil, reynolds=5000.0, model="laminar", **COARSE)

@@ -201,6 +201,7 @@ std::vector<BoundaryLayerStation> boundary_layer(const FrozenMesh& mesh, const F
                     BoundaryLayerStation& station = stations.emplace_back();
                     station.wall = name, station.vertex = v, station.arc = arc;
                     station.cf = flow.friction->cf[v], station.y_plus = flow.friction->y_plus[v];
+                    if (flow.friction->wall_temperature) station.ch = flow.friction->ch[v];
                     measure(columns.profile(column_at(columns, piece, i)), flow.mach, station);
                   }
                 });
@@ -240,13 +241,13 @@ std::string boundary_layer_table(const FrozenMesh& mesh, const FlowResult& flow)
   const std::vector<double> cp = pressure_coefficients(flow);
   std::string table =
       "wall,x,y,arc,cp,cf,y_plus,edge_speed,thickness,displacement_thickness,momentum_thickness,"
-      "shape_factor\n";
+      "shape_factor,ch\n";
   for (const BoundaryLayerStation& station : boundary_layer(mesh, flow)) {
     table += table_cell(station.wall);
     const Point p = mesh.points[station.vertex];
     for (const double value : {p.x, p.y, station.arc, cp[station.vertex], station.cf, station.y_plus,
                                station.edge_speed, station.thickness, station.displacement_thickness,
-                               station.momentum_thickness, station.shape_factor})
+                               station.momentum_thickness, station.shape_factor, station.ch})
       table += ',' + table_cell(value);
     table += '\n';
   }

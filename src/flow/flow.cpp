@@ -146,6 +146,13 @@ void require_possible(const FlowConditions& conditions, const FlowOptions& optio
     for (const double x : *conditions.transition)
       require(x >= 0.0 && x <= 1.0, "transition", x, "0 to 1 chords");
   }
+  if (conditions.wall_temperature) {
+    if (options.model == FlowModel::euler)
+      throw Error(ErrorCode::argument, "wall temperature",
+                  "given with the model euler, expected one with friction");
+    require(*conditions.wall_temperature > 0.0 && std::isfinite(*conditions.wall_temperature),
+            "wall temperature", *conditions.wall_temperature, "more than 0, as a part of the stream's");
+  }
   if (options.model == FlowModel::euler) return;
   require(conditions.reynolds >= 1.0 && conditions.reynolds <= 1e10, "reynolds", conditions.reynolds,
           "1 to 1e10 for a model with friction");
@@ -249,6 +256,7 @@ Stream stream_of(const FlowConditions& conditions, const FlowOptions& options, c
           .length = extent,
           .reference_length = conditions.reference_length,
           .transition = conditions.transition,
+          .wall_temperature = conditions.wall_temperature,
           .vortex = options.vortex && options.symmetry.empty(),
           .limiter = options.limiter};
 }
@@ -469,6 +477,7 @@ std::vector<Field> fields_of(const FlowResult& flow) {
   fields.push_back({.name = "y_plus", .values = flow.friction->y_plus});
   if (flow.model == FlowModel::sa)
     fields.push_back({.name = "viscosity_ratio", .values = flow.friction->viscosity_ratio});
+  if (flow.friction->wall_temperature) fields.push_back({.name = "ch", .values = flow.friction->ch});
   return fields;
 }
 

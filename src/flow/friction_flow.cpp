@@ -44,6 +44,9 @@ FlowFriction friction_of(const FrictionSystem<N>& system, const BlockState<N>& s
   FlowFriction friction;
   friction.reynolds = mach * system.stream().reference_length / viscosity.stream;
   friction.transition = system.stream().transition;
+  friction.wall_temperature = system.stream().wall_temperature;
+  if (friction.wall_temperature) friction.ch.assign(dual.size(), 0.0);
+  const double heat_scale = (gas_gamma - 1.0) / mach;  // over the stream's enthalpy, of a unit of length
   friction.cf.assign(dual.size(), 0.0), friction.y_plus.assign(dual.size(), 0.0);
   const std::vector<WallVertex> walls =
       wall_vertices_of(dual, {std::cos(state.augmented[1]), std::sin(state.augmented[1])});
@@ -62,6 +65,11 @@ FlowFriction friction_of(const FrictionSystem<N>& system, const BlockState<N>& s
       if (!system.friction_mesh().sticks(entry.vertex))
         height = std::min(height, system.friction_mesh().distances()[entry.vertex]);
     friction.cf[v] = stress / (0.5 * mach * mach);
+    if (friction.wall_temperature) {
+      const double heat = heat_scale * system.heat(unbalanced, v);
+      friction.ch[v] = heat / walls[v].length;
+      friction.heat += heat / system.stream().reference_length;
+    }
     if (std::isfinite(height))
       friction.y_plus[v] = std::sqrt(std::fabs(stress) * density(q)) * height / molecular;
     friction.y_plus_max = std::max(friction.y_plus_max, friction.y_plus[v]);

@@ -51,13 +51,15 @@ FlowMesh uneven_grid(std::mt19937_64& random) {
 
 // Jacobian times a step, augmented rows and columns, against differences of residuals.
 template <std::size_t N>
-void expect_exact_jacobian(double mach, const std::optional<std::array<double, 2>>& transition = {}) {
+void expect_exact_jacobian(double mach, const std::optional<std::array<double, 2>>& transition = {},
+                           std::optional<double> wall_temperature = {}) {
   const unsigned long long seed = test::seed(46);
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937_64 random(seed);
   const FlowMesh dual = uneven_grid(random);
   const FrictionMesh mesh(dual, transition);
-  const FrictionSystem<N> system(mesh, {.mach = mach, .alpha = 0.05}, {.stream = mach / 300.0});
+  const FrictionSystem<N> system(mesh, {.mach = mach, .alpha = 0.05, .wall_temperature = wall_temperature},
+                                 {.stream = mach / 300.0});
   BlockState<N> state = system.start(0.2);
   BlockIncrement<N> step = zero_of<N>(dual.size());
   for (std::size_t v = 0; v < dual.size(); ++v)
@@ -91,10 +93,12 @@ void expect_exact_jacobian(double mach, const std::optional<std::array<double, 2
 
 TEST(Friction, LaminarJacobianIsThatOfDifferences) {
   for (const double mach : {0.4, 1.1}) expect_exact_jacobian<4>(mach);
+  expect_exact_jacobian<4>(0.4, {}, 1.3);
 }
 TEST(Friction, TurbulentJacobianIsThatOfDifferences) {
   for (const double mach : {0.4, 1.1}) expect_exact_jacobian<5>(mach);
   expect_exact_jacobian<5>(0.4, {{0.5, 0.5}});
+  expect_exact_jacobian<5>(0.4, {}, 0.7);
 }
 
 // The viscous terms of linear functions: constant stress, whose sum over an inner dual cell is 0.
@@ -282,6 +286,10 @@ TEST(Friction, LaminarFlowsOutliveTheirMesh) {
 TEST(Friction, TurbulentFlowsOutliveTheirMesh) {
   expect_living_flow(FlowModel::sa, {.mach = 0.5, .alpha_deg = 1.0, .reynolds = 1e6}, 2e-5);
 }
+TEST(Friction, FlowsBesideWarmWallsOutliveTheirMesh) {
+  expect_living_flow(FlowModel::laminar,
+                     {.mach = 0.5, .alpha_deg = 1.0, .reynolds = 5000.0, .wall_temperature = 1.3}, 2e-3);
+}
 
 // The angle is looked for with the flow.
 TEST(Friction, AFlowOfAGivenLiftHasTheAngleOfThatLift) {
@@ -360,13 +368,19 @@ void expect_exact_gradients(FlowModel model, const FlowConditions& conditions, d
       [](const FlowGradient& gradient) { return gradient.mach; });
   const double reynolds = conditions.reynolds;
   compare(
-      "reynolds", 1e-3,
+      "reynolds", 3e-3,
       [&](double step, FrozenMesh&, FlowConditions& changed) { changed.reynolds *= 1.0 + step; },
       [&](const FlowGradient& gradient) { return reynolds * gradient.reynolds; });
 }
 
 TEST(Friction, LaminarGradientsAreThoseOfWholeFlows) {
   expect_exact_gradients(FlowModel::laminar, {.mach = 0.5, .alpha_deg = 1.0, .reynolds = 5000.0}, 2e-3);
+}
+TEST(Friction, GradientsBesideWarmWallsAreThoseOfWholeFlows) {
+  expect_exact_gradients(FlowModel::laminar,
+                         {.mach = 0.5, .alpha_deg = 1.0, .reynolds = 5000.0, .wall_temperature = 1.3}, 2e-3);
+  expect_exact_gradients(FlowModel::sa,
+                         {.mach = 0.5, .alpha_deg = 1.0, .reynolds = 1e6, .wall_temperature = 0.8}, 2e-5);
 }
 // Faster than sound in places: with the limiter.
 TEST(Friction, TransonicGradientsAreThoseOfWholeFlows) {

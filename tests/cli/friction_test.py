@@ -2,6 +2,7 @@
 
 import csv
 import json
+import math
 import unittest
 
 from harness import ProgramTest
@@ -52,6 +53,26 @@ class Friction(ProgramTest):
             self.assertAlmostEqual(flow["error"][key], lack, delta=0.4 * abs(lack))
         self.assertGreater(flow["error"]["finer"]["vertices"], 3 * flow["vertices"])
 
+    def test_heat_passes_walls_with_a_temperature(self):
+        self.succeed("mesh", "naca:0012", *LAYERS, "-o", "a.vtkhdf")
+        heat = {}
+        for warmth in (0.9, 1.2):
+            flow = self.succeed("flow", "a.vtkhdf", "--model", "laminar", "--mach", 0.5, "--reynolds", 5000,
+                                "--wall-temperature", warmth, "--wall-table", f"{warmth}.csv", "--json").json()
+            self.assertTrue(flow["converged"])
+            self.assertEqual(flow["wall_temperature"], warmth)
+            heat[warmth] = flow["heat"]
+            rows = list(csv.DictReader(self.path(f"{warmth}.csv").open()))
+            place = [(float(row["x"]), float(row["y"])) for row in rows]
+            ch = [float(row["ch"]) for row in rows]
+            around = range(len(rows))
+            whole = sum(ch[i] * 0.5 * (math.dist(place[i - 1], place[i]) + math.dist(place[i], place[(i + 1) % len(rows)]))
+                        for i in around)  # fmt: skip
+            self.assertAlmostEqual(whole, heat[warmth], delta=1e-9)
+        self.assertGreater(heat[0.9], 0)
+        # The gas recovers about 1.04 of the stream's temperature: 0.16 below the warm wall's, 0.14 above the cold one's.
+        self.assertAlmostEqual(heat[1.2] / heat[0.9], -0.16 / 0.14, delta=0.15)
+
     def test_rows_of_designs_and_gradients(self):
         """The slope of CD along a line of designs, by the adjoint, is that of the row's flows."""
         self.succeed("mesh", "naca:0012", "--cst-degree", 3, *LAYERS, "-o", "a.vtkhdf")
@@ -97,6 +118,9 @@ class Friction(ProgramTest):
             (("--model", "sa", "--reynolds", 1e6, "--transition", "0.1"), "--transition: found '0.1'"),
             (("--reynolds", 1e6), "--reynolds: given without friction"),
             (("--wall-table", "a.csv"), "--wall-table: given without friction"),
+            (("--wall-temperature", 1.1), "--wall-temperature: given without friction"),
+            (("--model", "potential", "--wall-temperature", 1.1), "--wall-temperature: given without friction"),
+            (("--model", "laminar", "--reynolds", 1e6, "--wall-temperature", 0), "--wall-temperature: found '0'"),
             (("--model", "sa", "--reynolds", 1e6, "--wall-table", "a.txt"), "a.txt"),
             (("--profiles", "a.csv"), "--profiles: given without friction"),
             (("--model", "sa", "--reynolds", 1e6, "--profiles-at", "0.5"), "--profiles-at: given without --profiles"),

@@ -8,8 +8,9 @@ namespace remodel::flow {
 
 namespace {
 
-// Rows of walls that say "the gas stands still" follow nothing that is given. Functions follow the momentum
-// that is unbalanced there, and so does the lift's equation.
+// Rows of walls that say "the gas stands still", or how warm it is, follow no place and nothing that
+// derivatives are by. Functions follow the momentum that is unbalanced there, and so does the lift's
+// equation.
 template <std::size_t N>
 std::vector<Total> totals_of(const FrictionSystem<N>& system, const BlockState<N>& state,
                              std::span<const typename FrictionSystem<N>::ForceSlope> functions,

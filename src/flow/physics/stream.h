@@ -23,6 +23,7 @@ struct Stream {
   double length = 1.0;
   double reference_length = 1.0;
   std::optional<std::array<double, 2>> transition = {};  // of turbulent flow, as FlowConditions has it
+  std::optional<double> wall_temperature = {};           // likewise, of flows with friction
   bool vortex = true;
   double limiter = 30.0;  // K: slopes of less than (K h / length)^(3/2) are not limited
   // Instead of the stream: the state at points of the far field, for flows with known solutions.
@@ -32,6 +33,7 @@ struct Stream {
   // The part of each step of the reconstruction that is taken: 1 is the scheme, 0 the one of first order,
   // less than 1 a stage on the way to a flow.
   double slopes = 1.0;
+  double working_slopes = 1.0;  // likewise, of the turbulence model's working variable alone
 };
 
 // What the coefficients that are reported are, over those in here: a length over another.

@@ -110,12 +110,14 @@ typename FrictionSystem<N>::template FaceDual<V> FrictionSystem<N>::face_dual(co
   for (std::size_t side = 0; side < 2; ++side) {
     Row upwind = {};
     for (const WeightedVertex& of : mesh_.upwind(e, side))
-      for (std::size_t k = 0; k < unknown_count; ++k) upwind[k] += of.weight * state.q[of.vertex][k];
+      for (std::size_t k = 0; k < N; ++k) upwind[k] += of.weight * state.q[of.vertex][k];
     for (std::size_t k = 0; k < N; ++k) {
       const One q[2] = {One::variable(state.q[edge.a][k], 0), One::variable(state.q[edge.b][k], 1)};
       One& at = face.reconstructed[side][k] = q[side];
-      if (order == Order::whole && k < unknown_count) {
-        const One to = terms_.step(One::variable(upwind[k], 2), q[1] - q[0], width, limited);
+      if (order == Order::whole) {
+        const One behind = One::variable(upwind[k], 2), central = q[1] - q[0];
+        const One to = k < unknown_count ? terms_.step(behind, central, width, limited)
+                                         : terms_.working_step(behind, central);
         at = side == 0 ? q[0] + to : q[1] - to;
       }
       if (k == positive_unknowns[0] || k == positive_unknowns[1]) at = positivity_limited(at, q[side]);
@@ -223,7 +225,7 @@ void FrictionSystem<N>::make_walls_strong(BlockMatrix<N>& matrix) const {
     if (!mesh_.sticks(v)) continue;
     for (std::uint32_t i = matrix.start[r]; i < matrix.start[r + 1]; ++i)
       for (std::size_t z = 0; z < N * N; ++z)
-        if (is_strong(z / N)) matrix.block[i][z] = matrix.column[i] == v && z / N == z % N ? 1.0 : 0.0;
+        if (is_strong(z / N)) matrix.block[i][z] = matrix.column[i] == v ? strong_slope(z / N, z % N) : 0.0;
   }
 }
 

@@ -51,13 +51,13 @@ void FrictionSystem<N>::add_face_slopes(const BlockState<N>& state, std::span<co
                                         std::span<ShapeSlope> results) const {
   using Kind = FrictionMesh::Upwind;
   const auto gas = [&](std::uint32_t v, std::size_t k) { return state.q[v][k]; };
-  std::vector<Unknowns<Point>> gradient(dual_.size());
+  std::vector<std::array<Point, N>> gradient(dual_.size());
   for (std::uint32_t v = 0; v < dual_.size(); ++v)
     for (const RingEntry& entry : dual_.ring(v))
-      for (std::size_t k = 0; k < unknown_count; ++k)
+      for (std::size_t k = 0; k < N; ++k)
         gradient[v][k] = gradient[v][k] + (gas(entry.vertex, k) - gas(v, k)) * entry.weight;
-  std::vector<std::vector<Unknowns<Point>>> by_gradient(weights.size(),
-                                                        std::vector<Unknowns<Point>>(dual_.size()));
+  std::vector<std::vector<std::array<Point, N>>> by_gradient(weights.size(),
+                                                             std::vector<std::array<Point, N>>(dual_.size()));
   for (std::size_t e = 0; e < dual_.edges().size(); ++e) {
     const DualEdge& edge = dual_.edges()[e];
     const Point d = dual_.points()[edge.b] - dual_.points()[edge.a];
@@ -73,29 +73,27 @@ void FrictionSystem<N>::add_face_slopes(const BlockState<N>& state, std::span<co
         const auto [kind, behind] = mesh_.upwind_kind(e, side);
         if (limited.value > 0.0) {
           double by_width = 0.0;
-          for (std::size_t k = 0; k < unknown_count; ++k)
-            by_width += by[N * side + k] * reconstructed[side][k].slope[4];
+          for (std::size_t k = 0; k < N; ++k) by_width += by[N * side + k] * reconstructed[side][k].slope[4];
           points[edge.a] = points[edge.a] - by_width * by_square * d;
           points[edge.b] = points[edge.b] + by_width * by_square * d;
           results[j].length -= by_width * by_square * dot(d, d) / terms_.extent;
         }
         if (kind == Kind::central) continue;
         const std::uint32_t here = side == 0 ? edge.a : edge.b;
-        Unknowns<double> by_upwind;
-        for (std::size_t k = 0; k < unknown_count; ++k)
-          by_upwind[k] = by[N * side + k] * reconstructed[side][k].slope[2];
+        Row by_upwind;
+        for (std::size_t k = 0; k < N; ++k) by_upwind[k] = by[N * side + k] * reconstructed[side][k].slope[2];
         Point by_d;
         if (kind == Kind::opposite) {
           const Point back = dual_.points()[here] - dual_.points()[behind];
           const double length = std::sqrt(dot(d, d)), length_back = std::sqrt(dot(back, back));
           double by_ratio = 0.0;
-          for (std::size_t k = 0; k < unknown_count; ++k)
+          for (std::size_t k = 0; k < N; ++k)
             by_ratio += (side == 0 ? 1.0 : -1.0) * by_upwind[k] * (gas(here, k) - gas(behind, k));
           by_d = (by_ratio / (length * length_back)) * d;
           const Point by_back = (-by_ratio * length / (length_back * length_back * length_back)) * back;
           points[here] = points[here] + by_back, points[behind] = points[behind] - by_back;
         } else {
-          for (std::size_t k = 0; k < unknown_count; ++k) {
+          for (std::size_t k = 0; k < N; ++k) {
             by_gradient[j][here][k] = by_gradient[j][here][k] + 2.0 * by_upwind[k] * d;
             by_d = by_d + 2.0 * by_upwind[k] * gradient[here][k];
           }
@@ -109,7 +107,7 @@ void FrictionSystem<N>::add_face_slopes(const BlockState<N>& state, std::span<co
       std::size_t i = dual_.ring_begin(v);
       for (const RingEntry& entry : dual_.ring(v)) {
         Point& by_weight = slopes[j].weight[i++];
-        for (std::size_t k = 0; k < unknown_count; ++k)
+        for (std::size_t k = 0; k < N; ++k)
           by_weight = by_weight + (gas(entry.vertex, k) - gas(v, k)) * by_gradient[j][v][k];
       }
     }

@@ -16,7 +16,11 @@ BlockState<N> FrictionSystem<N>::start(double thickness) const {
   for (std::size_t v = 0; v < dual_.size(); ++v) {
     const double part = std::tanh(mesh_.distances()[v] / thickness);
     const double speed = part * stream_.mach;
-    const double warmth = 1.0 + 0.5 * (gas_gamma - 1.0) * (stream_.mach * stream_.mach - speed * speed);
+    double warmth = 1.0 + 0.5 * (gas_gamma - 1.0) * (stream_.mach * stream_.mach - speed * speed);
+    // Temperature as it follows the speed at a Prandtl number of 1 (Crocco and Busemann).
+    if (stream_.wall_temperature)
+      warmth += (1.0 - part) *
+                (*stream_.wall_temperature - 1.0 - 0.5 * (gas_gamma - 1.0) * stream_.mach * stream_.mach);
     Row& q = state.q[v];
     q[0] = 1.0 / warmth, q[3] = 1.0 / gas_gamma;
     q[1] = speed * std::cos(stream_.alpha), q[2] = speed * std::sin(stream_.alpha);
@@ -44,9 +48,11 @@ std::array<double, N> FrictionSystem<N>::step(const BlockVector<N>& q, std::size
       limited > 0.0 ? terms_.limiter_width(dual_.points()[edge.b] - dual_.points()[edge.a]) : 0.0;
   Row upwind = {};
   for (const WeightedVertex& of : mesh_.upwind(e, side))
-    for (std::size_t k = 0; k < unknown_count; ++k) upwind[k] += of.weight * q[of.vertex][k];
-  for (std::size_t k = 0; k < unknown_count; ++k) {
-    const double to = terms_.step(upwind[k], q[edge.b][k] - q[edge.a][k], width, limited);
+    for (std::size_t k = 0; k < N; ++k) upwind[k] += of.weight * q[of.vertex][k];
+  for (std::size_t k = 0; k < N; ++k) {
+    const double central = q[edge.b][k] - q[edge.a][k];
+    const double to = k < unknown_count ? terms_.step(upwind[k], central, width, limited)
+                                        : terms_.working_step(upwind[k], central);
     result[k] = side == 0 ? to : -to;
   }
   return result;
@@ -92,7 +98,10 @@ template <std::size_t N>
 void FrictionSystem<N>::make_walls_strong(const BlockState<N>& state, BlockVector<N>& unbalanced) const {
   for (std::size_t v = 0; v < dual_.size(); ++v)
     for (std::size_t k = 0; k < N; ++k)
-      if (is_replaced(v, k)) unbalanced[v][k] = state.q[v][k];
+      if (is_replaced(v, k)) {
+        unbalanced[v][k] = state.q[v][k];
+        if (k == 3) unbalanced[v][k] -= *stream_.wall_temperature / gas_gamma * state.q[v][0];
+      }
 }
 
 template <std::size_t N>

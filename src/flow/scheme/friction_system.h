@@ -2,7 +2,9 @@
 
 // A steady flow with friction, as equations: N = 4 unknowns a vertex for laminar flow, 5 with the turbulence
 // model, and the augmented two of flow_system.h. Walls are strong: the rows of momentum at their vertices say
-// that the gas stands still, and the momentum that they leave unbalanced is the force on the wall.
+// that the gas stands still, and the momentum that they leave unbalanced is the force on the wall. Where
+// walls have a temperature the rows of energy say that the gas there has it, and what they leave unbalanced
+// is heat.
 
 #include <array>
 #include <span>
@@ -30,6 +32,7 @@ class FrictionSystem final : public BlockSystem<N> {
         terms_{.viscosity = viscosity,
                .mach = stream.mach,
                .slopes = stream.slopes,
+               .working_slopes = stream.working_slopes,
                .limiter = stream.limiter,
                .extent = stream.length} {
     // At rest on walls the stream's Mach number is the measure. Without any dissipation of the waves of
@@ -94,12 +97,14 @@ class FrictionSystem final : public BlockSystem<N> {
   // patch: of this wall, no_index: of all.
   WallForces forces(const BlockState<N>& state, const BlockVector<N>& unbalanced,
                     std::uint32_t patch = no_index) const;
-  // Whether the row says that the wall stands still.
+  // Whether the row says that the wall stands still, or how warm it is.
   bool is_replaced(std::size_t v, std::size_t k) const { return mesh_.sticks(v) && is_strong(k); }
   // The force of friction on the vertex, by its unbalanced momentum: what it receives less the pressure.
   Point friction_force(const BlockVector<N>& unbalanced, std::size_t v) const {
     return {-unbalanced[v][1], -unbalanced[v][2]};
   }
+  // The heat that the wall takes from the gas at the vertex, likewise.
+  double heat(const BlockVector<N>& unbalanced, std::size_t v) const { return -unbalanced[v][3]; }
 
  private:
   using Row = std::array<double, N>;
@@ -153,8 +158,16 @@ class FrictionSystem final : public BlockSystem<N> {
       places[i] = {mesh_.distances()[triangle.corner[i]], mesh_.is_laminar(triangle.corner[i])};
     return places;
   }
-  // Whether the k-th row of a wall's vertex is replaced by "this unknown is 0".
-  static bool is_strong(std::size_t k) { return k == 1 || k == 2 || k == 4; }
+  // Whether the k-th row of a wall's vertex is replaced: of energy by the wall's temperature, the others by
+  // "this unknown is 0".
+  bool is_strong(std::size_t k) const {
+    return k == 1 || k == 2 || k == 4 || (k == 3 && stream_.wall_temperature);
+  }
+  // The derivative of such a row by the unknown z of its own vertex; all others are 0.
+  double strong_slope(std::size_t k, std::size_t z) const {
+    if (k == 3 && z == 0) return -*stream_.wall_temperature / gas_gamma;
+    return k == z ? 1.0 : 0.0;
+  }
 
   const FrictionMesh& mesh_;
   const FlowMesh& dual_;

@@ -147,16 +147,32 @@ void FrictionSearch<N>::cold(BlockState<N>& state) {
   record_.origin = FlowOrigin::undisturbed;
   record_.in_vain += record_.newton_steps;
   record_.newton_steps = 0;
-  if (!system_.stream().lift) return run(state, FrictionPolicy::first_cfl);
-  // Undisturbed flow is too far from a flow of this lift for the angle to follow.
+  double cfl = FrictionPolicy::first_cfl;
   Stream at_angle = system_.stream();
   at_angle.lift.reset();
+  if constexpr (N == 5) {
+    Stream first_order = at_angle;
+    first_order.working_slopes = 0.0;
+    if (!found_rough(first_order, FrictionPolicy::first_order_tolerance, cfl, state)) return;
+    cfl = FrictionPolicy::second_order_cfl;
+  }
+  // Undisturbed flow is too far from a flow of this lift for the angle to follow.
+  if (system_.stream().lift) {
+    if (!found_rough(at_angle, SearchPolicy::first_angle_tolerance, cfl, state)) return;
+    cfl = SearchPolicy::with_angle_cfl;
+  }
+  run(state, cfl);
+}
+
+template <std::size_t N>
+bool FrictionSearch<N>::found_rough(const Stream& stream, double tolerance, double cfl,
+                                    BlockState<N>& state) {
   FlowOptions rough = options_;
-  rough.tolerance = std::max(options_.tolerance, SearchPolicy::first_angle_tolerance);
-  const FrictionSystem<N> first(system_.friction_mesh(), at_angle, system_.terms().viscosity);
-  const BlockMeasure<N> measure(first);
-  FrictionSearch(first, measure, rough, record_).run(state, FrictionPolicy::first_cfl);
-  if (record_.status == FlowStatus::converged) run(state, SearchPolicy::with_angle_cfl);
+  rough.tolerance = std::max(options_.tolerance, tolerance);
+  const FrictionSystem<N> system(system_.friction_mesh(), stream, system_.terms().viscosity);
+  const BlockMeasure<N> measure(system);
+  FrictionSearch(system, measure, rough, record_).run(state, cfl);
+  return record_.status == FlowStatus::converged;
 }
 
 template <std::size_t N>

@@ -1,8 +1,8 @@
 #pragma once
 
-// A wall that a gas with friction sticks to, without heat through it: the flux is the pressure's, and the
-// rows of momentum (and of the turbulence) at its vertices are replaced, scheme/friction_system.h. Its edges
-// are not bent: cells beside it may be lower than it bulges.
+// A wall that a gas with friction sticks to: the flux is the pressure's, and the rows of momentum (of the
+// turbulence, and of energy where the wall has a temperature) at its vertices are replaced,
+// scheme/friction_system.h. Its edges are not bent: cells beside it may be lower than it bulges.
 
 #include "flow/physics/boundary/slip_wall.h"
 
