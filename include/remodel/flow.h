@@ -188,11 +188,11 @@ struct FlowFriction {
   std::optional<std::array<double, 2>> transition = {};  // that was given
   double cd_pressure = 0.0, cd_friction = 0.0;           // the parts of the drag coefficient
   double y_plus_max = 0.0;
-  // Of walls with a temperature. `heat` is what all walls take from the gas in unit time, over the stream's
-  // density times speed times specific enthalpy (cp times temperature) times the reference length; negative
-  // where they warm the gas. `ch` has one value for each point of the frozen mesh: the same by the wall's own
-  // length instead, 0 elsewhere. Over the gas's recovery temperature less the wall's, as parts of the
-  // stream's, it is the Stanton number. Empty without a temperature.
+  // Walls with a temperature have these. `heat` is what all walls take from the gas in unit time, over the
+  // stream's density times speed times specific enthalpy (cp times temperature) times the reference length;
+  // negative where they warm the gas. `ch` has one value for each point of the frozen mesh: the same by the
+  // wall's own length instead, 0 elsewhere. Over the gas's recovery temperature less the wall's, as parts of
+  // the stream's, it is the Stanton number. Empty without a temperature.
   std::optional<double> wall_temperature = {};  // that was given
   double heat = 0.0;
   std::vector<double> ch = {};
