@@ -83,6 +83,7 @@ std::string text_of(const FreshFlow& fresh) {
       "CL " + Json(fresh.cl).dump() + ", CD " + Json(fresh.cd).dump() + ", CM " + Json(fresh.cm).dump();
   for (const auto& [name, excess] : fresh.violated)
     text += ", violates '" + name + "' by " + short_text(excess);
+  if (fresh.error) text += ", CD lacks about " + short_text(fresh.error->cd);
   return text;
 }
 

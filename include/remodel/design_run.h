@@ -31,6 +31,12 @@ struct DesignRunOptions {
 // The best design's flow at one point, on a fresh mesh, which no search has seen. cl, cm: nan if
 // undetermined.
 struct FreshFlow {
+  // What figures lack of those of an infinitely fine mesh, to be added to them: Richardson's estimate by this
+  // mesh and the next coarser one (remodel/flow_error.h). Where lift is given that of cl is 0.
+  struct Error {
+    double cl = 0.0, cd = 0.0, cm = 0.0;
+    double order = 2.0;  // of the errors: 1 where there is a supersonic region
+  };
   int points = 0;  // on each section
   std::size_t vertices = 0;
   double mach = 0.0, alpha_deg = 0.0, cl = 0.0, cd = 0.0, cm = 0.0;
@@ -38,6 +44,8 @@ struct FreshFlow {
   bool converged = false;
   std::vector<NamedNumber> violated;  // constraints of flows, by how much; within the tolerance they are not
   double seconds = 0.0;
+  double mach_max = 0.0;  // the largest local Mach number
+  std::optional<Error> error = {};  // on the finest of several meshes
 };
 
 struct DesignResult {

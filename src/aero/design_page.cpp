@@ -310,14 +310,15 @@ std::string fresh_table(const fs::path& directory, const DesignRun& run) {
                                     [](const PageJson& e) { return e.contains("cd_friction"); });
   std::string table =
       "<h2>On fresh meshes</h2>\n<p>The best section on meshes that the search has not seen, flows found "
-      "cold.</p>\n<table>\n<tr><th>points</th><th>vertices</th><th>Mach</th><th>CL</th><th>CD, counts</th>";
+      "cold. What the finest lacks of an infinitely fine mesh is estimated by it and the "
+      "next.</p>\n<table>\n<tr><th>points</th><th>vertices</th><th>Mach</th><th>CL</th><th>CD, counts</th>";
   if (friction) table += "<th>of pressure</th><th>of friction</th>";
-  table += "<th>CM</th><th>constraints violated</th><th>seconds</th></tr>\n";
+  table += "<th>CD lacks about</th><th>CM</th><th>constraints violated</th><th>seconds</th></tr>\n";
   for (const PageJson& entry : entries) {
     table +=
         "<tr>" + cells({entry.at("points").dump(), entry.at("vertices").dump(), number(entry.at("mach"))});
     if (entry.at("converged") != true) {
-      table += std::string("<td colspan=\"") + (friction ? "7" : "5") + "\">no flow was found</td></tr>\n";
+      table += std::string("<td colspan=\"") + (friction ? "8" : "6") + "\">no flow was found</td></tr>\n";
       continue;
     }
     std::string violated;
@@ -327,6 +328,7 @@ std::string fresh_table(const fs::path& directory, const DesignRun& run) {
     if (friction)
       for (const char* part : {"cd_pressure", "cd_friction"})
         table += cells({entry.contains(part) ? counts(entry.at(part)) : ""});
+    table += cells({entry.contains("error") ? counts(entry.at("error").at("cd")) : ""});
     table += cells({number(entry.at("cm"), "%.4f"), violated.empty() ? "none" : violated,
                     number(entry.at("seconds"), "%.1f")}) +
              "</tr>\n";

@@ -1,6 +1,7 @@
 // The search of a design problem, from its start to fresh meshes of its best design.
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -90,6 +91,32 @@ FlowResult flow_through(const FreshMesh& mesh, const FlowSpace& space, const Des
   return space.half() ? whole_of(std::move(flow)) : flow;
 }
 
+double largest(const std::vector<double>& values) {
+  return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
+}
+
+// By the two finest meshes of each point, if flows through both were found.
+void add_errors(std::size_t points, std::vector<FreshFlow>& verified) {
+  for (std::size_t point = 0; point < points; ++point) {
+    FreshFlow *finest = nullptr, *next = nullptr;
+    for (std::size_t i = point; i < verified.size(); i += points) {
+      FreshFlow& flow = verified[i];
+      if (finest == nullptr || flow.points > finest->points) {
+        next = finest, finest = &flow;
+      } else if (flow.points < finest->points && (next == nullptr || flow.points > next->points)) {
+        next = &flow;
+      }
+    }
+    if (next == nullptr || !finest->converged || !next->converged) continue;
+    const double order = finest->mach_max > 1.0 ? 1.0 : 2.0;
+    const double rest = 1.0 / (std::pow(double(finest->points) / next->points, order) - 1.0);
+    finest->error = {.cl = rest * (finest->cl - next->cl),
+                     .cd = rest * (finest->cd - next->cd),
+                     .cm = rest * (finest->cm - next->cm),
+                     .order = order};
+  }
+}
+
 // What kept one of the meshes or flows from being finished, or done.
 Stopped verify(const DesignProblem& problem, const ResolvedProblem& parts, std::span<const double> design,
                StepObserver& observer, std::vector<FreshFlow>& verified) {
@@ -114,9 +141,11 @@ Stopped verify(const DesignProblem& problem, const ResolvedProblem& parts, std::
            .cd_friction = flow.friction ? std::optional(flow.friction->cd_friction) : std::nullopt,
            .converged = flow.converged(),
            .violated = violated_by(parts, problem.constraint_tolerance, i, walls, mesh.frozen, flow),
-           .seconds = flow.seconds});
+           .seconds = flow.seconds,
+           .mach_max = largest(mach_numbers(flow))});
     }
   }
+  add_errors(problem.points.size(), verified);
   return Stopped::done;
 }
 
@@ -164,9 +193,15 @@ std::string fresh_json(const std::vector<FreshFlow>& flows) {
                     {"cm", flow.cm},
                     {"converged", flow.converged},
                     {"violated", std::move(violated)},
-                    {"seconds", flow.seconds}});
+                    {"seconds", flow.seconds},
+                    {"mach_max", flow.mach_max}});
     if (flow.cd_pressure) list.back()["cd_pressure"] = *flow.cd_pressure;
     if (flow.cd_friction) list.back()["cd_friction"] = *flow.cd_friction;
+    if (flow.error)
+      list.back()["error"] = {{"cl", flow.error->cl},
+                              {"cd", flow.error->cd},
+                              {"cm", flow.error->cm},
+                              {"order", flow.error->order}};
   }
   return list.dump();
 }

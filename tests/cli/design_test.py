@@ -51,6 +51,17 @@ class Designs(ProgramTest):
         resumed = self.limited("design", self.problem(), "-o", "run", "--resume")
         self.assertEqual(resumed["best"], best)
 
+    def test_two_fresh_meshes_say_what_the_finer_lacks(self):
+        figures = self.limited("design", self.problem(verify=[80, 40], designer={"evaluations": 2}), "-o", "run")
+        fine, coarse = figures["verified"]
+        self.assertNotIn("error", coarse)
+        self.assertGreater(fine["mach_max"], 1)  # so that errors are taken to fall with the edges' length
+        self.assertEqual(fine["error"]["order"], 1)
+        self.assertAlmostEqual(fine["error"]["cd"], fine["cd"] - coarse["cd"], places=12)
+        self.assertLess(fine["error"]["cd"], 0)
+        self.succeed("design", "report", "run")
+        self.assertIn(f"<td>{1e4 * fine['error']['cd']:.2f}</td>", self.path("run/report.html").read_text())
+
     def test_a_search_that_ends_by_itself_is_done_and_one_at_its_limit_is_not(self):
         """What is finished is written at the limit too, fresh meshes included, and the search goes on from there."""
         limited = self.limited("design", self.problem(designer={"evaluations": 2}), "-o", "run")
