@@ -44,7 +44,7 @@ struct FreshFlow {
   bool converged = false;
   std::vector<NamedNumber> violated;  // constraints of flows, by how much; within the tolerance they are not
   double seconds = 0.0;
-  double mach_max = 0.0;  // the largest local Mach number
+  double mach_max = 0.0;            // the largest local Mach number
   std::optional<Error> error = {};  // on the finest of several meshes
 };
 
