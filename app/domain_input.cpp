@@ -104,6 +104,7 @@ class AirfoilInput {
   }
 
   const Airfoils& airfoils() const { return airfoils_; }
+  double chord() const { return keeps_ ? longest_ : 1.0; }
   // The farfield around what stays in the coordinates of its files.
   AirfoilDomainOptions farfield(AirfoilDomainOptions discretisation) const {
     if (!keeps_ || options_.farfield_stays) return discretisation;
@@ -321,6 +322,7 @@ DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOp
   airfoils.read();
   input.domain = airfoils_domain(airfoils.airfoils(), airfoils.farfield(discretisation));
   input.in_farfield = true;
+  input.chord = airfoils.chord();
   return input;
 }
 

@@ -54,6 +54,7 @@ struct DomainInput {
   std::vector<ShapeFit> fits = {};                        // of coordinate files
   std::vector<ShapeOutline> outlines = {};                // of those that are not fitted
   bool in_farfield = false;                               // airfoils in the farfield of the options
+  double chord = 1.0;  // in units of the domain: the longest, of files whose coordinates are kept
 };
 // Warns of what was joined and left out. Throws Error as the readers do, and for more places or names than
 // shapes.

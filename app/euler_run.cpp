@@ -187,7 +187,11 @@ std::vector<std::string> write_files(const EulerRun& run, const MeshInput& input
       files.push_back(run.wall_table);
     }
     if (!run.profiles.empty()) {
-      write_text_atomically(run.profiles, boundary_layer_profile_table(input.frozen, flow, run.profiles_at));
+      const std::string table = boundary_layer_profile_table(input.frozen, flow, run.profiles_at);
+      if (std::count(table.begin(), table.end(), '\n') < 2)
+        print_warnings(source, {"no columns of quadrilaterals stand on its walls, expected a layer: " +
+                                run.profiles + " has no profiles"});
+      write_text_atomically(run.profiles, table);
       files.push_back(run.profiles);
     }
   }

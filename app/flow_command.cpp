@@ -43,7 +43,7 @@ void refuse(const FlowCommand& command, std::initializer_list<const char*> optio
 }
 
 MeshInput read_input(const FlowCommand& command) {
-  // Lengths of layers are in chords of 1.
+  // By a length of 1.
   const double reynolds = command.euler.conditions.reynolds / command.euler.conditions.reference_length;
   return flow_mesh({command.input, command.meshing, command.model, reynolds, command.given});
 }

@@ -26,9 +26,10 @@ MeshInput layered_input(const FlowMeshRequest& request) {
   MeshingOptions meshing = request.meshing;
   meshing.gradation = meshing.gradation.value_or(gradation_with_layers);
   DomainInput domain = read_domain(request.input, meshing.discretisation, meshing.fit);
-  if (domain.in_farfield) space_walls(domain.domain, WallSpacing{});
-  LayeredGenerateResult result = generate_layered(
-      domain.domain, layer_for_flow(request.model, request.reynolds), meshing.resolved_quality());
+  if (domain.in_farfield) space_walls(domain.domain, in_units(WallSpacing{}, domain.chord));
+  const LayerOptions layer = layer_for_flow(request.model, request.reynolds * domain.chord);
+  LayeredGenerateResult result =
+      generate_layered(domain.domain, in_units(layer, domain.chord), meshing.resolved_quality());
   require_whole(request.input, result.stopped);
   MeshInput input;
   input.frozen = result.mesh.freeze();

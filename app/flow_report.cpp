@@ -190,16 +190,17 @@ void add_gradients(Report& report, const Json& gradients) {
 void add_error(Report& report, const FlowError& error) {
   if (!error.finer.converged()) return report.data("error", nullptr);
   const FlowResult& finer = error.finer;
-  report.data("error", {{"cl", error.cl},
+  const bool determined = finer.lift_determined;
+  report.data("error", {{"cl", if_determined(finer, error.cl)},
                         {"cd", error.cd},
-                        {"cm", error.cm},
+                        {"cm", if_determined(finer, error.cm)},
                         {"alpha_deg", error.alpha_deg},
                         {"order", error.order},
                         {"finer",
                          {{"vertices", error.vertices},
-                          {"cl", finer.cl},
+                          {"cl", if_determined(finer, finer.cl)},
                           {"cd", finer.cd},
-                          {"cm", finer.cm},
+                          {"cm", if_determined(finer, finer.cm)},
                           {"alpha_deg", finer.alpha_deg},
                           {"newton_steps", finer.newton_steps},
                           {"seconds", finer.seconds}}}});
@@ -208,9 +209,9 @@ void add_error(Report& report, const FlowError& error) {
     std::snprintf(text, sizeof text, "%.2g (on %zu vertices %.6g)", lacks, error.vertices, on_finer);
     report.line(label, text);
   };
-  bar("CL lacks about", error.cl, finer.cl);
+  if (determined) bar("CL lacks about", error.cl, finer.cl);
   bar("CD lacks about", error.cd, finer.cd);
-  bar("CM lacks about", error.cm, finer.cm);
+  if (determined) bar("CM lacks about", error.cm, finer.cm);
   if (error.alpha_deg != 0.0) bar("the angle lacks about", error.alpha_deg, finer.alpha_deg);
 }
 

@@ -15,8 +15,10 @@ void refuse(bool found, const char* option, const char* problem) {
 
 void add_spacings(CLI::App& app, LayerChoice& choice) {
   const auto add = [&](const char* name, double& target, const std::string& where) {
-    add_real(app, {name, "CHORDS", short_text(target), "With --layers: distance of stations " + where + ": 1e-6 to 1"},
-             {.low = 1e-6, .high = 1.0}, [&](double value) { target = value, choice.spacing_given = true; });
+    add_real(
+        app,
+        {name, "CHORDS", short_text(target), "With --layers: distance of stations " + where + ": 1e-6 to 1"},
+        {.low = 1e-6, .high = 1.0}, [&](double value) { target = value, choice.spacing_given = true; });
   };
   add("--wall-spacing", choice.spacing.leading_edge, "at the leading edge");
   add("--te-spacing", choice.spacing.trailing_edge, "at the trailing edge and other corners");
@@ -35,13 +37,17 @@ void add_layer_cells(CLI::App& app, LayerCells& cells) {
 }
 
 void add_layer_options(CLI::App& app, LayerChoice& choice) {
-  add_flag(app, "--layers", "Put layers of flat quadrilaterals on the walls of all holes, for flows with friction",
+  add_flag(app, "--layers",
+           "Put layers of flat quadrilaterals on the walls of all holes, for flows with friction",
            choice.layers);
-  add_real(app, {"--reynolds", "RE", "", "Reynolds number, which the first height and the thickness follow from"},
+  add_real(app,
+           {"--reynolds", "RE", "", "Reynolds number, which the first height and the thickness follow from"},
            {.low = 1.0, .high = 1e12}, [&](double value) { choice.reynolds = value; });
-  add_real(app, {"--y-plus", "Y", "1", "y+ of the first layer's height on a flat plate at --reynolds: above 0"},
+  add_real(app,
+           {"--y-plus", "Y", "1", "y+ of the first layer's height on a flat plate at --reynolds: above 0"},
            {.low = 0.0, .high = 1e4, .above_low = true}, [&](double value) { choice.y_plus = value; });
-  add_real(app, {"--first-height", "CHORDS", "", "The first layer's height itself, in place of --y-plus: above 0"},
+  add_real(app,
+           {"--first-height", "CHORDS", "", "The first layer's height itself, in place of --y-plus: above 0"},
            {.low = 0.0, .high = 1e3, .above_low = true}, [&](double value) { choice.first_height = value; });
   add_real(app, {"--growth", "RATIO", "1.2", "Height of a cell over that of the cell below it: 1.02 to 2"},
            {.low = 1.02, .high = 2.0}, [&](double value) { choice.growth = value; });
@@ -49,8 +55,10 @@ void add_layer_options(CLI::App& app, LayerChoice& choice) {
            {"--layer-thickness", "CHORDS", "1.2 times 0.37 Re^(-1/5), or 0.02 without --reynolds",
             "Thickness of the whole layer, which is thinner in gaps and corners: above 0"},
            {.low = 0.0, .high = 1e3, .above_low = true}, [&](double value) { choice.thickness = value; });
-  add_integer(app, {"--layer-count", "K", "", "Number of cells across the layer, in place of its thickness: 1 to 1000"},
-              {.low = 1, .high = 1000}, [&](std::int64_t value) { choice.count = static_cast<int>(value); });
+  add_integer(
+      app,
+      {"--layer-count", "K", "", "Number of cells across the layer, in place of its thickness: 1 to 1000"},
+      {.low = 1, .high = 1000}, [&](std::int64_t value) { choice.count = static_cast<int>(value); });
   add_spacings(app, choice);
   add_layer_cells(app, choice.cells);
 }
@@ -71,46 +79,57 @@ void require_consistent(const LayerChoice& choice) {
   refuse(!choice.first_height && !choice.reynolds, "--layers",
          "given without --reynolds and --first-height, expected one of them");
   refuse(choice.y_plus && !choice.reynolds, "--y-plus", "given without --reynolds, expected both");
-  refuse(choice.thickness && choice.count, "--layer-count", "given with --layer-thickness, expected one of them");
+  refuse(choice.thickness && choice.count, "--layer-count",
+         "given with --layer-thickness, expected one of them");
 }
 
-LayerOptions resolved(const LayerChoice& choice) {
+WallSpacing in_units(WallSpacing spacing, double chord) {
+  for (double* distance : {&spacing.leading_edge, &spacing.trailing_edge, &spacing.most}) *distance *= chord;
+  return spacing;
+}
+
+LayerOptions in_units(LayerOptions layer, double chord) {
+  layer.first_height *= chord, layer.thickness *= chord;
+  return layer;
+}
+
+LayerOptions resolved(const LayerChoice& choice, double chord) {
   LayerOptions options{.first_height = 0.0, .growth = choice.growth.value_or(LayerOptions{}.growth)};
-  options.first_height =
-      choice.first_height ? *choice.first_height : first_height(choice.y_plus.value_or(1.0), *choice.reynolds);
+  options.first_height = choice.first_height ? *choice.first_height
+                                             : first_height(choice.y_plus.value_or(1.0), *choice.reynolds);
   if (choice.thickness)
     options.thickness = *choice.thickness;
   else if (choice.count)
     options.thickness = thickness_of(options.first_height, options.growth, *choice.count);
   else if (choice.reynolds)
     options.thickness = 1.2 * boundary_layer_thickness(*choice.reynolds);
-  return options;
+  return in_units(options, chord);
 }
 
 void add_layer_figures(Report& report, const LayeredMesh& mesh) {
   const LayerStatistics layer = mesh.statistics();
-  report.data("layers",
-              {{"columns", layer.columns},
-               {"cells", layer.cells},
-               {"levels", mesh.levels()},
-               {"first_height", layer.first_height},
-               {"thickness", {{"least", layer.thickness.least}, {"most", layer.thickness.most}}},
-               {"growth", {{"least", layer.growth.least}, {"most", layer.growth.most}}},
-               {"aspect_max", layer.aspect_max},
-               {"corner_min_deg", layer.corner_min_deg},
-               {"area_jump", {{"median", layer.area_jump_median}, {"max", layer.area_jump_max}}},
-               {"split_tops", layer.split_tops},
-               {"shrunk", layer.shrunk}});
+  report.data("layers", {{"columns", layer.columns},
+                         {"cells", layer.cells},
+                         {"levels", mesh.levels()},
+                         {"first_height", layer.first_height},
+                         {"thickness", {{"least", layer.thickness.least}, {"most", layer.thickness.most}}},
+                         {"growth", {{"least", layer.growth.least}, {"most", layer.growth.most}}},
+                         {"aspect_max", layer.aspect_max},
+                         {"corner_min_deg", layer.corner_min_deg},
+                         {"area_jump", {{"median", layer.area_jump_median}, {"max", layer.area_jump_max}}},
+                         {"split_tops", layer.split_tops},
+                         {"shrunk", layer.shrunk}});
   const auto range = [](const LeastAndMost& values) {
     return values.least == values.most ? short_text(values.most)
                                        : short_text(values.least) + " to " + short_text(values.most);
   };
-  report.line("layer", std::to_string(layer.columns) + " columns of " + std::to_string(mesh.levels()) + " levels, " +
-                           std::to_string(layer.cells) + " cells, the first " + short_text(layer.first_height) +
-                           " chords high");
+  report.line("layer", std::to_string(layer.columns) + " columns of " + std::to_string(mesh.levels()) +
+                           " levels, " + std::to_string(layer.cells) + " cells, the first " +
+                           short_text(layer.first_height) + " chords high");
   report.line("layer's thickness", range(layer.thickness) + " chords, growth " + range(layer.growth));
   report.line("layer's cells", "aspect up to " + short_text(layer.aspect_max) + ", corners from " +
-                                   short_text(layer.corner_min_deg) + " degrees; over their tops areas differ " +
+                                   short_text(layer.corner_min_deg) +
+                                   " degrees; over their tops areas differ " +
                                    short_text(layer.area_jump_median) + " times (median), up to " +
                                    short_text(layer.area_jump_max));
   if (layer.shrunk > 0) report.line("layer gave way", "in " + std::to_string(layer.shrunk) + " columns");

@@ -32,10 +32,14 @@ void add_layer_options(CLI::App& app, LayerChoice& choice);
 // --layer-cells.
 void add_layer_cells(CLI::App& app, LayerCells& cells);
 
-// Throws Error (argument) for options that exclude each other, or are given without --layers or what they need.
+// Throws Error (argument) for options that exclude each other, or are given without --layers or what they
+// need.
 void require_consistent(const LayerChoice& choice);
-// Precondition: --layers.
-LayerOptions resolved(const LayerChoice& choice);
+// Precondition: --layers. Lengths are in units of the domain, in which a chord is so long.
+LayerOptions resolved(const LayerChoice& choice, double chord);
+// These distances are in chords; the result is in such units.
+WallSpacing in_units(WallSpacing spacing, double chord);
+LayerOptions in_units(LayerOptions layer, double chord);
 
 // Reports under layers{...} the figures of the layer.
 void add_layer_figures(Report& report, const LayeredMesh& mesh);

@@ -51,29 +51,32 @@ void report_input(Report& report, const MeshCommand& command, const DomainInput&
   add_findings(report, input);
 }
 
-// The stations of airfoils are those of the layer's spacings; a domain file has its own, unless spacings are given.
+// The stations of airfoils are those of the layer's spacings; a domain file has its own, unless spacings are
+// given.
 void space_input(const MeshCommand& command, DomainInput& input) {
   if (command.given("--points"))
     throw Error(ErrorCode::argument, "--points",
-                "given with --layers, expected --wall-spacing, --te-spacing and --max-spacing, which set the stations");
+                "given with --layers, expected --wall-spacing, --te-spacing and --max-spacing, which set the "
+                "stations");
   if (!input.in_farfield && !command.layers.spacing_given) return;
   validate_input(command.shapes, input.domain);
-  space_walls(input.domain, command.layers.spacing);
+  space_walls(input.domain, in_units(command.layers.spacing, input.chord));
 }
 
 Status run_layers(const MeshCommand& command) {
-  const LayerOptions layers = resolved(command.layers);
   MeshingOptions meshing = command.meshing;
   meshing.gradation = meshing.gradation.value_or(gradation_with_layers);
   DomainInput input = read_domain(command.shapes, meshing.discretisation, meshing.fit);
   space_input(command, input);
+  const LayerOptions layers = resolved(command.layers, input.chord);
 
   InterruptObserver observer;
   LayeredGenerateResult result;
   std::vector<double> seconds;
   for (int i = 0; i < command.repeat && result.stopped != Stopped::interrupted; ++i) {
     const Stopwatch watch;
-    LayeredGenerateResult generated = generate_layered(input.domain, layers, meshing.resolved_quality(), &observer);
+    LayeredGenerateResult generated =
+        generate_layered(input.domain, layers, meshing.resolved_quality(), &observer);
     seconds.push_back(watch.seconds());
     result = std::move(generated);
   }
@@ -94,7 +97,8 @@ Status run_layers(const MeshCommand& command) {
   report.figure("min_angle_deg", "smallest angle outside the layer", outside.min_angle_deg, "degrees");
   add_exemption_figures(report, outside.exempt_triangles, outside.min_held_angle_deg);
   report.figure("max_gradation", "largest r / (H mean LS) outside", outside.max_gradation);
-  report.figure("seconds", command.repeat > 1 ? "generation, median" : "generation", median(seconds), "seconds");
+  report.figure("seconds", command.repeat > 1 ? "generation, median" : "generation", median(seconds),
+                "seconds");
   report.figure("stopped", "stopped", name_of(result.stopped));
   warn_of_limit(result.stopped, mesh.outer());
   add_output_figures(report, command.outputs.files());

@@ -65,8 +65,8 @@ struct BoundaryLayerProfile {
 };
 
 // The profiles at the stations nearest to these places, 0 to 1, parts of each connected wall's extent along x
-// from its foremost point on: one for each side of a wall that has a station there. Throws as
-// boundary_layer() does.
+// from its foremost point on: one for each side of a wall that has a station there. Foremost and rearmost
+// points are of no side: the stations next to them are taken. Throws as boundary_layer() does.
 std::vector<BoundaryLayerProfile> boundary_layer_profiles(const FrozenMesh& mesh, const FlowResult& flow,
                                                           const std::vector<double>& places);
 

@@ -222,11 +222,13 @@ std::vector<BoundaryLayerProfile> boundary_layer_profiles(const FrozenMesh& mesh
     const auto before = [&](std::uint32_t v, std::uint32_t w) { return x_of(v) < x_of(w); };
     const auto [least, most] = std::minmax_element(piece.begin(), piece.end(), before);
     for (const double place : places) {
-      const double x = between(x_of(*least), x_of(*most), place);
+      constexpr double inside = 1e-9;  // both ends of a wall are on both its sides, and on none of them alone
+      const double x = between(x_of(*least), x_of(*most), std::clamp(place, inside, 1.0 - inside));
       for (std::size_t i = 0; i + 1 < piece.size(); ++i) {
         const double here = x_of(piece[i]) - x, there = x_of(piece[i + 1]) - x;
         if ((here < 0.0) == (there < 0.0)) continue;
-        const std::size_t nearest = std::fabs(here) <= std::fabs(there) ? i : i + 1;
+        std::size_t nearest = std::fabs(here) <= std::fabs(there) ? i : i + 1;
+        if (piece[nearest] == *least || piece[nearest] == *most) nearest = 2 * i + 1 - nearest;
         profiles.push_back({.wall = name,
                             .place = place,
                             .vertex = piece[nearest],

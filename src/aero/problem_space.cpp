@@ -51,18 +51,23 @@ std::vector<Point> points_named(const Keys& keys, const std::filesystem::path& d
   return moved_to_origin(outline);
 }
 
+// The outline's points are begun at the trailing edge, along the upper side first, each once: whatever the
+// file's order.
 Domain outline_domain(const Keys& keys, const SpaceSource& source, const AirfoilDomainOptions& farfield,
-                      std::vector<std::string>& warnings) {
+                      std::vector<Point>& points, std::vector<std::string>& warnings) {
   const std::string curve = keys.get<std::string>("curve", "spline");
   if (curve != "spline" && curve != "polyline")
     keys.fail("found '" + curve + "' as 'curve', expected spline or polyline");
   try {
-    const std::vector<Point> points = points_named(keys, source.directory, warnings);
+    points = points_named(keys, source.directory, warnings);
     if (points.size() < 4) keys.fail("found an outline of fewer than 4 points");
+    // Stations come later: how many there are is the mesh's `points`.
+    AirfoilDomainOptions around = farfield;
+    around.points += around.points % 2;
     const OutlineCurve kind = curve == "spline" ? OutlineCurve::spline : OutlineCurve::polyline;
     return airfoils_domain(
         {{.name = name_of_outline, .airfoil = {}, .outline = outline_of(points, kind, name_of_outline)}},
-        farfield);
+        around);
   } catch (const Error& error) {
     if (error.code() == ErrorCode::format && std::string(error.what()).starts_with(source.where)) throw;
     keys.fail("as 'outline', " + std::string(error.what()));
@@ -123,6 +128,18 @@ CurvePoints points_of(const Keys& keys, const std::string& on) {
   return points;
 }
 
+// Says where points lie that are named by their numbers in an outline, which may not have the file's order.
+void say_places(const CurvePoints& part, const std::vector<Point>& outline, const std::string& where,
+                std::vector<std::string>& warnings) {
+  std::string places;
+  for (const std::size_t i : part.points)
+    if (i < outline.size())
+      places += (places.empty() ? "" : ", ") + std::to_string(i) + " lies at " + shown(outline[i].x) + ", " +
+                shown(outline[i].y);
+  if (!places.empty())
+    warnings.push_back(where + ": points count from the trailing edge along the upper side: " + places);
+}
+
 DeformationPart part_of(const Json& entry, const std::string& where, bool is_outline) {
   const Keys any(entry, where);
   const std::string kind = any.get<std::string>("kind");
@@ -149,13 +166,17 @@ Deformation read_space(const Keys& problem_keys, const Json& problem, const std:
   if (!is_outline && keys.has("curve")) keys.fail("found 'curve' with 'domain', expected 'outline'");
   if (!is_outline && object_of(problem, "mesh").contains("farfield_radius"))
     problem_keys.fail("found 'farfield_radius' in 'mesh' with a 'domain', expected it with an 'outline'");
-  Deformation result{.domain = is_outline ? outline_domain(keys, source, farfield, warnings)
+  std::vector<Point> outline;
+  Deformation result{.domain = is_outline ? outline_domain(keys, source, farfield, outline, warnings)
                                           : domain_named(keys, source, warnings),
                      .parts = {}};
   keys.require("deformations");
-  for (const Json& entry : keys.list("deformations", most_parts))
-    result.parts.push_back(part_of(
-        entry, source.where + ", deformation " + std::to_string(result.parts.size() + 1), is_outline));
+  for (const Json& entry : keys.list("deformations", most_parts)) {
+    const std::string where = source.where + ", deformation " + std::to_string(result.parts.size() + 1);
+    result.parts.push_back(part_of(entry, where, is_outline));
+    if (const auto* points = std::get_if<CurvePoints>(&result.parts.back()))
+      say_places(*points, outline, where, warnings);
+  }
   return result;
 }
 

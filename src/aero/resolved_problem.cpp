@@ -428,7 +428,12 @@ class Resolver {
     for (const std::size_t loop : moving_)
       for (const Curve& curve : domain.loops[loop].curves) {
         names.push_back(curve.name);
-        if (constraint.element == curve.name) found = loop;
+        if (constraint.element != curve.name || found == loop) continue;
+        if (found)
+          place.fail("found '" + curve.name +
+                     "' as 'element', the name of curves of several loops that move, expected "
+                     "that of one");
+        found = loop;
       }
     if (!constraint.element && moving_.size() == 1) found = moving_.front();
     if (!found) place.require_word(place.given(constraint.element, "element"), "element", names);

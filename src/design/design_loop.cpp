@@ -112,6 +112,7 @@ class Run {
   Feasible feasible_;
   std::string settings_;
   bool mesh_is_of_last_row_ = true;
+  std::string limit_;  // of a mesh, that ended the run
   // What was there before the evaluations under way.
   struct Before {
     std::string designer;
@@ -207,6 +208,9 @@ OptimiseStopped Run::stop_within(std::vector<Sample>& samples, std::vector<Job>&
     observer.evaluated(jobs[i].record);
   }
   if (options_.keep_finished) keep_finished(jobs, first);
+  if (unfinished->stopped != Stopped::interrupted)
+    limit_ = "evaluation " + std::to_string(evaluations() + 1) +
+             ": a mesh of this design ended at its limit, " + name_of(unfinished->stopped);
   return unfinished->stopped == Stopped::interrupted ? OptimiseStopped::interrupted
                                                      : OptimiseStopped::mesh_limit;
 }
@@ -335,6 +339,7 @@ OptimiseResult Run::finish(OptimiseStopped stopped) {
     write(kept_->checkpoint, kept_->meshes);
   }
   OptimiseResult result = progress_.summary.result();
+  if (!limit_.empty()) result.detail += (result.detail.empty() ? "" : "; ") + limit_;
   result.infeasible_samples += progress_.refused;
   result.stopped = stopped;
   result.workers = progress_.workers.count();

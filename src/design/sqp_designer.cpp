@@ -144,10 +144,13 @@ double SqpDesigner::model(const std::vector<double>& step) const {
 void SqpDesigner::propose() {
   const std::size_t n = best_.design.size();
   std::vector<double> low(n), high(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    low[i] = std::min(0.0, std::max(options_.low[i] - best_.design[i], -trust_));
-    high[i] = std::max(0.0, std::min(options_.high[i] - best_.design[i], trust_));
-  }
+  const auto box = [&] {
+    for (std::size_t i = 0; i < n; ++i) {
+      low[i] = std::min(0.0, std::max(options_.low[i] - best_.design[i], -trust_));
+      high[i] = std::max(0.0, std::min(options_.high[i] - best_.design[i], trust_));
+    }
+  };
+  box();
   const auto search = [&] { return small_step({best_.evaluation, curvature_, scale_, penalty_}, low, high); };
   std::vector<double> step = search();
   // Where the objective's fall pays for a violation that need not be, the penalty is too small.
@@ -158,6 +161,18 @@ void SqpDesigner::propose() {
     step = search();
   }
   promised_ = -model(step);
+  // A first box in which the model promises next to nothing is too small, and says nothing of the start.
+  constexpr double largest_trust = 1e6, next_to_nothing = 1e-4, worth_a_step = 1e-2, nearly = 0.99;
+  const auto is_held_by_box = [&] {
+    return std::any_of(step.begin(), step.end(), [&](double x) { return std::fabs(x) >= nearly * trust_; });
+  };
+  const bool is_too_small = !learnt_ && promised_ < next_to_nothing;
+  while (is_too_small && promised_ < worth_a_step && trust_ < largest_trust && is_held_by_box()) {
+    trust_ *= growth;
+    box();
+    step = search();
+    promised_ = -model(step);
+  }
   finished_ = trust_ < options_.least_trust || !(promised_ > least_promise);
   pending_ = best_.design;
   for (std::size_t i = 0; i < n; ++i) pending_[i] += step[i];

@@ -49,6 +49,32 @@ class Deformations(ProgramTest):
             **changes,
         }))  # fmt: skip
 
+    def test_how_small_the_first_box_is_does_not_end_the_search(self):
+        """A scale of 1e-6 makes the first box so small that the model cannot promise anything in it."""
+        bumps = {**BUMPS, "bounds": [-0.02, 0.02], "scale": 1e-6}
+        figures = self.figures("design", self.problem(bumps, constraints=[], flow=[{"mach": 0.5, "alpha_deg": 1}], verify=[]),
+                               "-o", "run", status=3)  # fmt: skip
+        self.assertEqual(figures["evaluations"], 5)
+        self.assertLess(figures["objective"], 0.998 * figures["start_objective"])
+
+    def test_points_of_an_outline_are_said_and_an_odd_number_of_stations_is_taken(self):
+        points = {"kind": "points", "points": [9], "bounds": [-0.001, 0.001]}
+        outcome = self.run_program("design", self.problem(points, mesh={"points": 41, "gradation": 1}, verify=[],
+                                                          designer={"evaluations": 1}), "-o", "run")  # fmt: skip
+        self.assertRegex(outcome.stderr, r"deformation 1: points count from the trailing edge along the upper side: 9 lies at 0\.9")
+
+    def test_a_name_of_several_loops_is_no_name(self):
+        hole = lambda x: {"role": "hole", "curves": [{"name": "body", "stations": 20, "shape": {"kind": "spline", "points": [
+            [x + 0.2, 0], [x + 0.1, 0.05], [x, 0], [x + 0.1, -0.05], [x + 0.2, 0]]}}]}  # fmt: skip
+        far = {"role": "outer", "curves": [{"name": "farfield", "stations": 30,
+                                            "shape": {"kind": "arc", "centre": [0, 0], "radius": 20, "start": 0, "sweep": 6.283185307179586}}]}
+        self.write("two.json", json.dumps({"loops": [far, hole(0), hole(1)]}))
+        space = {"domain": "two.json", "deformations": [{"kind": "points", "on": "body", "points": [1]}]}
+        box = {"kind": "box", "on": "body", "x": [-0.1, 1.3], "y": [-0.1, 0.1], "points": [3, 2]}
+        space["deformations"] = [box]
+        self.refused("design", self.problem(space=space, mesh={}, constraints=[{"kind": "area", "at_least": 0.001, "element": "body"}]),
+                     "-o", "run", names="the name of curves of several loops that move")  # fmt: skip
+
     def test_a_box_lowers_drag_and_goes_on(self):
         figures = self.figures("design", self.problem(), "-o", "run", status=3)
         self.assertLess(figures["objective"], 0.9 * figures["start_objective"])

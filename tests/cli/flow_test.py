@@ -129,6 +129,12 @@ class Flows(ProgramTest):
         self.assertAlmostEqual(error["cd"], fine["cd"] - figures["cd"], delta=0.4 * abs(fine["cd"] - figures["cd"]))
         self.assertEqual(error["order"], 2)
         self.assertIn("CL lacks about", self.succeed(*shape, "--points", 60, "--error").stdout)
+        round_body = {"loops": [{"role": role, "curves": [{"name": name, "stations": 24, "shape": {
+            "kind": "arc", "centre": [0, 0], "radius": radius, "start": 0, "sweep": 6.283185307179586}}]}
+            for role, name, radius in (("outer", "farfield", 10), ("hole", "body", 0.5))]}  # fmt: skip
+        self.write("round.json", json.dumps(round_body))
+        error = self.figures("flow", "round.json", "--mach", 0.2, "--error")["error"]
+        self.assertEqual((error["cl"], error["cm"], error["finer"]["cl"]), (None, None, None))
         self.succeed("mesh", "naca:2412", "--points", 40, "-o", "a.su2")
         self.refused("flow", "a.su2", "--mach", 0.4, "--error", names="expected a shape or a native mesh")
 

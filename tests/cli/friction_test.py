@@ -42,6 +42,27 @@ class Friction(ProgramTest):
                 self.assertEqual((float(row["speed"]), float(row["u_plus"])), (0, 0))
         self.assertAlmostEqual(max(float(row["speed"]) for row in profiles), 1.15, delta=0.1)
 
+    def test_profiles_at_both_ends_are_of_both_sides_and_need_columns(self):
+        options = ("--model", "laminar", "--mach", 0.3, "--reynolds", 500, "--profiles", "p.csv", "--profiles-at", "0,1")
+        layer = ("--layers", "--first-height", 5e-3, "--growth", 1.5, "--layer-thickness", 0.1, "--max-spacing", 0.08,
+                 "--wall-spacing", 0.02, "--te-spacing", 0.02, "--farfield-radius", 10)  # fmt: skip
+        self.succeed("mesh", "naca:0012", *layer, "-o", "quads.vtkhdf")
+        self.succeed("mesh", "naca:0012", *layer, "--layer-cells", "triangles", "-o", "triangles.su2")
+        self.succeed("flow", "quads.vtkhdf", *options)
+        rows = list(csv.DictReader(self.path("p.csv").open()))
+        self.assertEqual(len({(row["place"], row["x"], row["y"]) for row in rows}), 4)
+        self.assertIn("no columns of quadrilaterals", self.succeed("flow", "triangles.su2", *options).stderr)
+
+    def test_layers_are_in_chords_where_coordinates_are_kept(self):
+        points = [(0.5 + 0.5 * math.cos(math.pi * i / 20), 0.3 * math.sin(math.pi * i / 20) * 0.2) for i in range(41)]
+        counts = []
+        for chord in (1, 10):
+            self.write("a.dat", "ellipse\n" + "".join(f"{chord * x:.9f} {chord * y:.9f}\n" for x, y in points))
+            figures = self.figures("mesh", "a.dat", "--as-given", "spline", "--keep-coordinates", "--layers", "--reynolds", 1e4)
+            counts.append((figures["layers"]["columns"], figures["layers"]["levels"]))
+            self.assertAlmostEqual(figures["layers"]["first_height"] / chord, 0.0017, delta=0.0001)
+        self.assertEqual(*counts)
+
     def test_estimates_of_errors(self):
         self.succeed("mesh", "naca:0012", "--layers", "--first-height", 3e-3, "--growth", 1.5, "--layer-thickness", 0.085,
                      "--max-spacing", 0.06, "--wall-spacing", 0.012, "--te-spacing", 0.012, "-o", "a.vtkhdf")  # fmt: skip
