@@ -31,8 +31,8 @@ struct DesignRunOptions {
 // The best design's flow at one point, on a fresh mesh, which no search has seen. cl, cm: nan if
 // undetermined.
 struct FreshFlow {
-  // What figures lack of those of an infinitely fine mesh, to be added to them: Richardson's estimate by this
-  // mesh and the next coarser one (remodel/flow_error.h). Where lift is given that of cl is 0.
+  // This is what figures lack of those of an infinitely fine mesh, to be added to them: Richardson's estimate
+  // by this mesh and the next coarser one (remodel/flow_error.h). Where lift is given that of cl is 0.
   struct Error {
     double cl = 0.0, cd = 0.0, cm = 0.0;
     double order = 2.0;  // of the errors: 1 where there is a supersonic region
