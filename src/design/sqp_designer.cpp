@@ -166,7 +166,7 @@ void SqpDesigner::propose() {
   const auto is_held_by_box = [&] {
     return std::any_of(step.begin(), step.end(), [&](double x) { return std::fabs(x) >= nearly * trust_; });
   };
-  const bool is_too_small = !learnt_ && promised_ < next_to_nothing;
+  const bool is_too_small = steps_ == 0 && promised_ < next_to_nothing;
   while (is_too_small && promised_ < worth_a_step && trust_ < largest_trust && is_held_by_box()) {
     trust_ *= growth;
     box();
