@@ -87,7 +87,8 @@ DomainInput with_whole_domain(const LayeredUpdate& update, const Domain& walls) 
                                      [](const Loop& loop) { return loop.role == LoopRole::hole; }) > 1;
   for (Loop& loop : input.domain.loops) {
     if (loop.role != LoopRole::hole || take_stations(loop, walls)) continue;
-    const std::vector<Parameters> stations = wall_stations(loop, {}, several);
+    const std::vector<Parameters> stations =
+        wall_stations(loop, in_units(WallSpacing{}, input.chord), several);
     for (std::size_t c = 0; c < loop.curves.size(); ++c) loop.curves[c].parameters = stations[c];
   }
   return input;
