@@ -37,13 +37,11 @@ Status status_of(const FlowResult& flow) {
 
 namespace {
 
-FrozenMesh without_openings(FrozenMesh mesh, const FlowOptions& options) {
-  std::erase_if(mesh.boundaries, [&](const FrozenBoundary& boundary) {
-    const auto is_named = [&](const auto& opening) { return opening.name == boundary.name; };
-    return std::any_of(options.inlets.begin(), options.inlets.end(), is_named) ||
-           std::any_of(options.outlets.begin(), options.outlets.end(), is_named);
-  });
-  return mesh;
+FrozenMesh without_openings(const FrozenMesh& mesh, const FlowOptions& options) {
+  std::vector<std::string> names;
+  for (const FlowInlet& inlet : options.inlets) names.push_back(inlet.name);
+  for (const FlowOutlet& outlet : options.outlets) names.push_back(outlet.name);
+  return without_boundaries(mesh, names);
 }
 
 }  // namespace
@@ -187,11 +185,12 @@ std::vector<std::string> write_files(const EulerRun& run, const MeshInput& input
       files.push_back(run.wall_table);
     }
     if (!run.profiles.empty()) {
-      const std::string table = boundary_layer_profile_table(input.frozen, flow, run.profiles_at);
-      if (std::count(table.begin(), table.end(), '\n') < 2)
+      const auto profiles = boundary_layer_profiles(input.frozen, flow, run.profiles_at);
+      if (std::all_of(profiles.begin(), profiles.end(),
+                      [](const auto& profile) { return profile.points.empty(); }))
         print_warnings(source, {"no columns of quadrilaterals stand on its walls, expected a layer: " +
                                 run.profiles + " has no profiles"});
-      write_text_atomically(run.profiles, table);
+      write_text_atomically(run.profiles, boundary_layer_profile_table(input.frozen, profiles));
       files.push_back(run.profiles);
     }
   }

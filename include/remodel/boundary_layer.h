@@ -70,9 +70,9 @@ struct BoundaryLayerProfile {
 std::vector<BoundaryLayerProfile> boundary_layer_profiles(const FrozenMesh& mesh, const FlowResult& flow,
                                                           const std::vector<double>& places);
 
-// A row for each point, with a header: wall, place, x and y of the station, height, speed, density,
-// temperature, viscosity_ratio, y_plus, u_plus. As boundary_layer_table().
-std::string boundary_layer_profile_table(const FrozenMesh& mesh, const FlowResult& flow,
-                                         const std::vector<double>& places);
+// Profiles of this mesh as a table: a row for each point, with a header: wall, place, x and y of the station,
+// height, speed, density, temperature, viscosity_ratio, y_plus, u_plus. Numbers read as the same doubles.
+std::string boundary_layer_profile_table(const FrozenMesh& mesh,
+                                         const std::vector<BoundaryLayerProfile>& profiles);
 
 }  // namespace remodel

@@ -15,6 +15,11 @@
 
 namespace remodel {
 
+// p, as above, of errors of coefficients, by the largest local Mach number.
+inline double order_of_errors(double mach_max) {
+  return mach_max > 1.0 ? 1.0 : 2.0;
+}
+
 struct FlowError {
   // These estimate what the given flow's figures lack, and are to be added to them. Where lift is given, that
   // of cl is 0, and alpha_deg has what the angle lacks.

@@ -16,6 +16,10 @@ std::string flow_caption(double mach, double alpha_deg, double cl);
 // "M 0.3": no lift and no angle belong to a duct.
 std::string duct_caption(double mach);
 
+// The mesh without the boundaries of these names, which are no walls to plot along: openings, planes of
+// symmetry.
+FrozenMesh without_boundaries(FrozenMesh mesh, std::span<const std::string> names);
+
 // The pressure coefficients of vertices along every boundary but the far field, smaller ones above, over x: a
 // curve for each body, or each piece of a wall, by the boundary's name and a number where there are several.
 // Throws Error (argument) naming `option` where there is no other boundary.

@@ -256,10 +256,10 @@ std::string boundary_layer_table(const FrozenMesh& mesh, const FlowResult& flow)
   return table;
 }
 
-std::string boundary_layer_profile_table(const FrozenMesh& mesh, const FlowResult& flow,
-                                         const std::vector<double>& places) {
+std::string boundary_layer_profile_table(const FrozenMesh& mesh,
+                                         const std::vector<BoundaryLayerProfile>& profiles) {
   std::string table = "wall,place,x,y,height,speed,density,temperature,viscosity_ratio,y_plus,u_plus\n";
-  for (const BoundaryLayerProfile& profile : boundary_layer_profiles(mesh, flow, places)) {
+  for (const BoundaryLayerProfile& profile : profiles) {
     const Point p = mesh.points[profile.vertex];
     for (const BoundaryLayerPoint& point : profile.points) {
       table += table_cell(profile.wall);

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "aero/stations_derivative.h"
 #include "remodel/error.h"
-#include "remodel/mesh_derivative.h"
 
 namespace remodel {
 namespace {
@@ -92,16 +92,11 @@ std::vector<double> DeformedSpace::metric() const {
   const std::size_t n = variables_.size();
   // How the stations of the start move with each variable, one column each.
   const Domain domain = with_stations(start_, start_, points_);
-  FrozenMesh stations;
+  std::vector<BoundaryStation> stations;
   std::vector<std::size_t> loop;
   for (std::size_t l = 0; l < domain.loops.size(); ++l)
-    for (const BoundaryStation& station : domain.stations(l)) {
-      stations.points.push_back(domain.at(station));
-      stations.curve.push_back(static_cast<std::int32_t>(station.curve));
-      stations.parameter.push_back(station.t);
-      loop.push_back(l);
-    }
-  const MeshDerivative derivative(stations, domain);
+    for (const BoundaryStation& station : domain.stations(l)) stations.push_back(station), loop.push_back(l);
+  const MeshDerivative derivative = derivative_of_stations(domain, stations);
   std::vector<std::vector<Point>> moved;
   for (const DeformationVariable& variable : variables_) {
     std::vector<double> direction(numbers_.size(), 0.0);

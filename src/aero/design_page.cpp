@@ -100,14 +100,11 @@ bool has_openings(const DesignPoint& point) {
 }
 
 // The mesh without boundaries that are no walls.
-FrozenMesh walls_alone(FrozenMesh mesh, const DesignPoint& point) {
+FrozenMesh walls_alone(const FrozenMesh& mesh, const DesignPoint& point) {
   std::vector<std::string> names = point.symmetry;
   for (const FlowInlet& inlet : point.inlets) names.push_back(inlet.name);
   for (const FlowOutlet& outlet : point.outlets) names.push_back(outlet.name);
-  std::erase_if(mesh.boundaries, [&](const FrozenBoundary& boundary) {
-    return std::find(names.begin(), names.end(), boundary.name) != names.end();
-  });
-  return mesh;
+  return without_boundaries(mesh, names);
 }
 
 std::string caption_of(const FlowResult& flow, const DesignPoint& point) {

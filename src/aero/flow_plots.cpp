@@ -1,5 +1,6 @@
 #include "remodel/flow_plots.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -24,6 +25,13 @@ std::string duct_caption(double mach) {
   char caption[40];
   std::snprintf(caption, sizeof caption, "M %.4g", mach);
   return caption;
+}
+
+FrozenMesh without_boundaries(FrozenMesh mesh, std::span<const std::string> names) {
+  std::erase_if(mesh.boundaries, [&](const FrozenBoundary& boundary) {
+    return std::find(names.begin(), names.end(), boundary.name) != names.end();
+  });
+  return mesh;
 }
 
 namespace {

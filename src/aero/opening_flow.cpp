@@ -6,11 +6,12 @@
 #include <stdexcept>
 
 #include "aero/kinds.h"
+#include "flow/physics/euler.h"
 
 namespace remodel {
 namespace {
 
-constexpr double gamma = 1.4;
+constexpr double gamma = flow::gas_gamma;
 
 // A number with its derivatives by density, velocity, pressure and the normal at one vertex of an edge.
 struct AtVertex {

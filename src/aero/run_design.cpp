@@ -7,7 +7,9 @@
 #include <thread>
 
 #include "aero/resolved_problem.h"
+#include "flow/solution.h"
 #include "remodel/design_run.h"
+#include "remodel/flow_error.h"
 #include "remodel/generate.h"
 #include "remodel/io.h"
 
@@ -91,10 +93,6 @@ FlowResult flow_through(const FreshMesh& mesh, const FlowSpace& space, const Des
   return space.half() ? whole_of(std::move(flow)) : flow;
 }
 
-double largest(const std::vector<double>& values) {
-  return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
-}
-
 // By the two finest meshes of each point, if flows through both were found.
 void add_errors(std::size_t points, std::vector<FreshFlow>& verified) {
   for (std::size_t point = 0; point < points; ++point) {
@@ -108,7 +106,7 @@ void add_errors(std::size_t points, std::vector<FreshFlow>& verified) {
       }
     }
     if (next == nullptr || !finest->converged || !next->converged) continue;
-    const double order = finest->mach_max > 1.0 ? 1.0 : 2.0;
+    const double order = order_of_errors(finest->mach_max);
     const double rest = 1.0 / (std::pow(double(finest->points) / next->points, order) - 1.0);
     finest->error = {.cl = rest * (finest->cl - next->cl),
                      .cd = rest * (finest->cd - next->cd),
@@ -142,7 +140,7 @@ Stopped verify(const DesignProblem& problem, const ResolvedProblem& parts, std::
            .converged = flow.converged(),
            .violated = violated_by(parts, problem.constraint_tolerance, i, walls, mesh.frozen, flow),
            .seconds = flow.seconds,
-           .mach_max = largest(mach_numbers(flow))});
+           .mach_max = remodel::flow::largest_mach(flow)});
     }
   }
   add_errors(problem.points.size(), verified);

@@ -46,10 +46,6 @@ void require_found(const FlowResult& flow, const std::string& source) {
                 "the flow was not found, expected one that was, to judge its error");
 }
 
-double order_of(const FlowResult& finer) {
-  return remodel::flow::largest_mach(finer) > 1.0 ? 1.0 : 2.0;
-}
-
 // `made` is the result of generate() or generate_layered().
 template <typename Made>
 FlowError error_beside(const Made& made, const FrozenMesh& mesh, const FlowResult& flow,
@@ -68,7 +64,7 @@ FlowError error_beside(const Made& made, const FrozenMesh& mesh, const FlowResul
   error.vertices = finer.points.size();
   error.finer = solve_flow_from(mesh, flow, finer, conditions, options, source);
   if (!error.finer.converged()) return error;
-  error.order = order_of(error.finer);
+  error.order = order_of_errors(remodel::flow::largest_mach(error.finer));
   const double whole = 1.0 / (1.0 - std::pow(2.0, -error.order));
   error.cl = conditions.cl ? 0.0 : whole * (error.finer.cl - flow.cl);
   error.cd = whole * (error.finer.cd - flow.cd);
