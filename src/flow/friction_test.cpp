@@ -182,8 +182,8 @@ TEST(Friction, LaminarFlowAroundASymmetricSectionHasNoLift) {
   EXPECT_NEAR(flow.friction->cd_pressure, 0.0226, 0.003);
 }
 
-// Turbulent friction on a plate, Re 5e6 a unit: within a few percent of NASA's Turbulence Modeling Resource
-// on a grid of 2,600 vertices.
+// Turbulent friction on a plate, Re 5e6 a unit: NASA's Turbulence Modeling Resource has 0.002706 (CFL3D) and
+// 0.002705 (FUN3D) on 545 x 385 points. This grid has 2,600, which grow by 1.27.
 TEST(Friction, ThePlatesTurbulentFrictionIsNearTheReference) {
   const FrozenMesh mesh = test::turbulent_plate().frozen();
   const FlowResult flow =
@@ -193,7 +193,7 @@ TEST(Friction, ThePlatesTurbulentFrictionIsNearTheReference) {
   for (std::size_t v = 0; v < mesh.points.size(); ++v)
     if (mesh.points[v].y == 0.0 && std::fabs(mesh.points[v].x - 0.97) < nearest)
       nearest = std::fabs(mesh.points[v].x - 0.97), cf = flow.friction->cf[v];
-  EXPECT_NEAR(cf, 0.0027, 0.0002);
+  EXPECT_NEAR(cf, 0.002705, 0.01 * 0.002705);
   EXPECT_GT(*std::max_element(flow.friction->viscosity_ratio.begin(), flow.friction->viscosity_ratio.end()),
             50.0);
 }
@@ -265,7 +265,7 @@ void expect_living_flow(FlowModel model, const FlowConditions& conditions, doubl
   const FlowResult start = living.solve(designs.mesh.freeze(), conditions);
   ASSERT_TRUE(start.converged()) << start.reason;
   EXPECT_EQ(start.start, FlowStart::cold);
-  EXPECT_LE(start.newton_steps, 30);
+  EXPECT_LE(start.newton_steps, 40);
   for (const double by : {1e-3, 2e-2}) {
     designs.change(by);
     const FrozenMesh mesh = designs.mesh.freeze();
@@ -462,8 +462,9 @@ TEST(Friction, AFlowIsGoneOnFromOnAnotherMesh) {
   const FlowResult flow = solve_flow_from(before, known, mesh, conditions, options);
   ASSERT_TRUE(flow.converged()) << flow.reason;
   const FlowResult cold = solve_flow(mesh, conditions, options);
-  EXPECT_NEAR(flow.cl, cold.cl, 1e-6);
-  EXPECT_NEAR(flow.cd, cold.cd, 1e-7);
+  // Turbulence may set in one of these long cells further on (docs/viscous.md).
+  EXPECT_NEAR(flow.cl, cold.cl, 2e-5);
+  EXPECT_NEAR(flow.cd, cold.cd, 2e-6);
   FlowResult without = known;
   without.friction->working.clear();
   EXPECT_THROW(solve_flow_from(before, without, mesh, conditions, options), Error);

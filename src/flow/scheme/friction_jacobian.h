@@ -64,6 +64,7 @@ void FrictionSystem<N>::add_fluxes(const BlockState<N>& state, std::span<Rows> a
     add_face_blocks(state, rows);
   }
   add_triangle_blocks(state, all);
+  if (N == 5) add_source_blocks(state, all);
   add_boundary_blocks(state, all);
 }
 
@@ -189,6 +190,31 @@ void FrictionSystem<N>::add_triangle_blocks(const BlockState<N>& state, std::spa
           for (std::size_t z = 0; z < N * N; ++z) block[z] += flux[i][z / N].slope[N * j + z % N];
         }
       }
+  }
+}
+
+// What turbulence makes at a vertex, by its own unknowns and by the velocities that its vorticity is of.
+template <std::size_t N>
+void FrictionSystem<N>::add_source_blocks(const BlockState<N>& state, std::span<Rows> all) const {
+  using T = Dual<N + 1>;
+  for (std::uint32_t v = 0; v < dual_.size(); ++v) {
+    if (!has_turbulence(v)) continue;
+    Local<T, N> q;
+    for (std::size_t k = 0; k < N; ++k) q[k] = T::variable(state.q[v][k], k);
+    const T turning = T::variable(vorticity(state.q, v), N);
+    const T made = terms_.template made<T, N, double>(q, turning, mesh_.area(v), wall_place(v));
+    for (Rows& rows : all) {
+      if (rows.of[v] == no_index) continue;
+      SquareBlock<N>& own = rows.matrix.at(rows.of[v], v);
+      const auto row = [](SquareBlock<N>& block) { return block.data() + N * (N - 1); };
+      for (std::size_t k = 0; k < N; ++k) row(own)[k] -= made.slope[k];
+      for (std::size_t k = 0; k < dual_.ring(v).size(); ++k) {
+        const Point by = made.slope[N] * mesh_.mean_gradient(v)[k];
+        double* there = row(rows.matrix.at(rows.of[v], dual_.ring(v)[k].vertex));
+        there[1] += by.y, there[2] -= by.x;
+        row(own)[1] -= by.y, row(own)[2] += by.x;
+      }
+    }
   }
 }
 

@@ -32,6 +32,7 @@ FrictionMesh::FrictionMesh(const FlowMesh& mesh, const std::optional<std::array<
   count_cells();
   make_upwind();
   make_triangles();
+  make_mean_gradients();
   measure_distances();
   if (transition) laminar_ = laminar_zone(mesh, nearest_, *transition);
 }
@@ -129,6 +130,25 @@ void FrictionMesh::make_triangles() {
     else
       for (std::uint32_t i = 0; i < n; ++i) add(cell[i], cell[(i + 1) % n], cell[(i + 3) % n], true);
   }
+}
+
+void FrictionMesh::make_mean_gradients() {
+  area_.assign(mesh_.size(), 0.0);
+  mean_gradient_.assign(mesh_.size() == 0 ? 0 : mesh_.ring_begin(mesh_.size()), {});
+  for (const CornerTriangle& triangle : triangles_)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t v = triangle.corner[i];
+      area_[v] += triangle.share[i];
+      for (std::size_t k = 0; k < mesh_.ring(v).size(); ++k)
+        for (std::size_t j = 0; j < 3; ++j)
+          if (mesh_.ring(v)[k].vertex == triangle.corner[j]) {
+            Point& weight = mean_gradient_[mesh_.ring_begin(v) + k];
+            weight = weight + triangle.share[i] * Point{triangle.slope[j].x, triangle.slope[j].y};
+          }
+    }
+  for (std::size_t v = 0; v < mesh_.size(); ++v)
+    for (std::size_t k = mesh_.ring_begin(v); k < mesh_.ring_begin(v + 1); ++k)
+      mean_gradient_[k] = (1.0 / area_[v]) * mean_gradient_[k];
 }
 
 // The distance from every segment: exact, and quick beside one Jacobian.

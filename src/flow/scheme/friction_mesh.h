@@ -85,6 +85,12 @@ class FrictionMesh {
   };
   UpwindKind upwind_kind(std::size_t e, std::size_t side) const { return kinds_[2 * e + side]; }
   const std::vector<CornerTriangle>& triangles() const { return triangles_; }
+  // What triangles share out to a vertex; its mean gradient over that is the sum over ring() of these weights
+  // times (value there - value here).
+  double area(std::size_t v) const { return area_[v]; }
+  std::span<const Point> mean_gradient(std::size_t v) const {
+    return {mean_gradient_.data() + mesh_.ring_begin(v), mesh_.ring(v).size()};
+  }
   // Adds derivatives of a function by coordinates, given those by distances.
   void add_distance_slopes(const std::vector<double>& by_distance, std::vector<Point>& points) const;
   const std::vector<double>& distances() const { return distance_; }  // from walls that gas sticks to
@@ -103,6 +109,7 @@ class FrictionMesh {
   void count_cells();
   void make_upwind();
   void make_triangles();
+  void make_mean_gradients();
   void measure_distances();
 
   const FlowMesh& mesh_;
@@ -113,6 +120,8 @@ class FrictionMesh {
   std::vector<WeightedVertex> upwind_;
   std::vector<UpwindKind> kinds_;
   std::vector<CornerTriangle> triangles_;
+  std::vector<double> area_;
+  std::vector<Point> mean_gradient_;  // as the rings of all vertices, one after the other
   std::vector<double> distance_;
   std::vector<std::uint32_t> nearest_;
   std::vector<bool> sticks_;

@@ -113,6 +113,26 @@ void FrictionSystem<N>::add_face_slopes(const BlockState<N>& state, std::span<co
     }
 }
 
+// What turbulence makes at each vertex, by the area that triangles share out to it, by the sum of shares
+// times their vorticity, and by its distance from walls.
+template <std::size_t N>
+std::vector<typename FrictionSystem<N>::SourceSlope> FrictionSystem<N>::source_slopes(
+    const BlockState<N>& state) const {
+  std::vector<SourceSlope> result(dual_.size());
+  using T = Dual<3>;
+  for (std::size_t v = 0; N == 5 && v < dual_.size(); ++v) {
+    if (!has_turbulence(v)) continue;
+    Local<T, N> q;
+    for (std::size_t k = 0; k < N; ++k) q[k] = T(state.q[v][k]);
+    const T area = T::variable(mesh_.area(v), 0);
+    const T turning = T::variable(mesh_.area(v) * vorticity(state.q, v), 1);
+    const WallPlace<T> wall = {T::variable(mesh_.distances()[v], 2), mesh_.is_laminar(v)};
+    const T made = terms_.template made<T, N, T>(q, turning / area, area, wall);
+    result[v] = {made.slope[0], made.slope[1], made.slope[2]};
+  }
+  return result;
+}
+
 // By the places of the corners, and by their distances from walls.
 template <std::size_t N>
 void FrictionSystem<N>::add_triangle_slopes(const BlockState<N>& state,
@@ -120,6 +140,10 @@ void FrictionSystem<N>::add_triangle_slopes(const BlockState<N>& state,
                                             std::span<ShapeSlope> results) const {
   using T = Dual<9>;
   std::vector<std::vector<double>> by_distance(weights.size(), std::vector<double>(dual_.size(), 0.0));
+  const std::vector<SourceSlope> sources = source_slopes(state);
+  for (std::size_t j = 0; N == 5 && j < weights.size(); ++j)
+    for (std::size_t v = 0; v < dual_.size(); ++v)
+      by_distance[j][v] -= weights[j][v][N - 1] * sources[v].distance;
   for (const CornerTriangle& triangle : mesh_.triangles()) {
     std::array<std::array<T, N>, 3> q;
     std::array<PlaneVector<T>, 3> p;
@@ -130,7 +154,15 @@ void FrictionSystem<N>::add_triangle_slopes(const BlockState<N>& state,
       p[i] = {T::variable(dual_.points()[v].x, 2 * i), T::variable(dual_.points()[v].y, 2 * i + 1)};
       wall[i] = {T::variable(mesh_.distances()[v], 6 + i), mesh_.is_laminar(v)};
     }
-    const auto flux = terms_.template triangle<T, N>(q, TriangleShape<T>(p, triangle.of_quad), wall);
+    const TriangleShape<T> shape(p, triangle.of_quad);
+    auto flux = terms_.template triangle<T, N>(q, shape, wall);
+    if (N == 5) {
+      const T turning = FrictionTerms::template vorticity<T, N>(q, shape);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const SourceSlope& by = sources[triangle.corner[i]];
+        flux[i][N - 1] = flux[i][N - 1] - by.share * shape.share[i] - by.turning * (shape.share[i] * turning);
+      }
+    }
     for (std::size_t j = 0; j < weights.size(); ++j) {
       std::array<double, 9> by = {};
       for (std::size_t i = 0; i < 3; ++i) {

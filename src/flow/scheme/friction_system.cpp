@@ -83,6 +83,10 @@ void FrictionSystem<N>::unbalanced(const BlockState<N>& state, BlockVector<N>& o
                                                           wall_places(triangle));
     for (std::size_t i = 0; i < 3; ++i) add(triangle.corner[i], 1.0, flux[i]);
   }
+  for (std::size_t v = 0; N == 5 && v < dual_.size(); ++v)
+    if (has_turbulence(v))
+      out[v][N - 1] -= terms_.template made<double, N, double>(state.q[v], vorticity(state.q, v),
+                                                               mesh_.area(v), wall_place(v));
   for (const BoundaryEdge& edge : dual_.boundary())
     for (std::size_t i = 0; i < 2; ++i) {
       const std::uint32_t here = i == 0 ? edge.a : edge.b;

@@ -136,11 +136,16 @@ class FrictionSystem final : public BlockSystem<N> {
   void add_fluxes(const BlockState<N>& state, std::span<Rows> all) const;
   void add_face_blocks(const BlockState<N>& state, Rows& rows) const;
   void add_triangle_blocks(const BlockState<N>& state, std::span<Rows> all) const;
+  void add_source_blocks(const BlockState<N>& state, std::span<Rows> all) const;
   void add_boundary_blocks(const BlockState<N>& state, std::span<Rows> all) const;
   void make_walls_strong(BlockMatrix<N>& matrix) const;
   BlockMatrix<N> raw_rows_of_walls(const BlockState<N>& state) const;  // before walls are strong
   void add_face_slopes(const BlockState<N>& state, std::span<const BlockVector<N>> weights,
                        std::span<FlowMesh::Slopes> slopes, std::span<ShapeSlope> results) const;
+  struct SourceSlope {
+    double share = 0.0, turning = 0.0, distance = 0.0;
+  };
+  std::vector<SourceSlope> source_slopes(const BlockState<N>& state) const;
   void add_triangle_slopes(const BlockState<N>& state, std::span<const BlockVector<N>> weights,
                            std::span<ShapeSlope> results) const;
   void add_boundary_slopes(const BlockState<N>& state, const BlockVector<N>& weight, FlowMesh::Slopes& slopes,
@@ -153,10 +158,19 @@ class FrictionSystem final : public BlockSystem<N> {
     return {q[triangle.corner[0]], q[triangle.corner[1]], q[triangle.corner[2]]};
   }
   std::array<WallPlace<double>, 3> wall_places(const CornerTriangle& triangle) const {
-    std::array<WallPlace<double>, 3> places;
-    for (std::size_t i = 0; i < 3; ++i)
-      places[i] = {mesh_.distances()[triangle.corner[i]], mesh_.is_laminar(triangle.corner[i])};
-    return places;
+    return {wall_place(triangle.corner[0]), wall_place(triangle.corner[1]), wall_place(triangle.corner[2])};
+  }
+  WallPlace<double> wall_place(std::size_t v) const { return {mesh_.distances()[v], mesh_.is_laminar(v)}; }
+  bool has_turbulence(std::size_t v) const { return mesh_.distances()[v] > 0.0; }
+  // The mean over what belongs to the vertex.
+  double vorticity(const BlockVector<N>& q, std::size_t v) const {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < dual_.ring(v).size(); ++k) {
+      const Row& there = q[dual_.ring(v)[k].vertex];
+      const Point weight = mesh_.mean_gradient(v)[k];
+      sum += weight.x * (there[2] - q[v][2]) - weight.y * (there[1] - q[v][1]);
+    }
+    return sum;
   }
   // Whether the k-th row of a wall's vertex is replaced: of energy by the wall's temperature, the others by
   // "this unknown is 0".

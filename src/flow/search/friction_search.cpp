@@ -181,7 +181,7 @@ void FrictionSearch<N>::run(BlockState<N>& state, double cfl) {
   Residuals now = measure_(state);
   record_.history.push_back(now.size);
   double least = now.size;
-  int since_least = 0;
+  int since_least = 0, returns = 0;
   const auto end = [&](FlowStatus status, const char* reason) {
     record_.status = status, record_.reason = reason, record_.residual = now.size;
   };
@@ -190,6 +190,10 @@ void FrictionSearch<N>::run(BlockState<N>& state, double cfl) {
       return end(FlowStatus::interrupted, "interrupted");
     if (record_.newton_steps >= options_.max_steps)
       return end(FlowStatus::step_limit, "the number of steps has reached its limit");
+    if (since_least > FrictionPolicy::patience && returns < FrictionPolicy::most_returns) {
+      ++returns, since_least = 0, least = std::numeric_limits<double>::infinity();
+      cfl = FrictionPolicy::return_cfl;
+    }
     if (cfl < FrictionPolicy::least_cfl || since_least > FrictionPolicy::patience)
       return end(FlowStatus::stalled, "the residual falls no more");
     std::vector<double> by_time = system_.wave_speeds(state);
@@ -207,8 +211,9 @@ void FrictionSearch<N>::run(BlockState<N>& state, double cfl) {
     else
       cfl *= 0.5;
     record_.history.push_back(now.size);
-    since_least = now.size < least ? 0 : since_least + (cfl > 1e4 ? 1 : 0);
-    least = std::min(least, now.size);
+    const bool has_fallen = now.size < FrictionPolicy::fall * least;
+    since_least = has_fallen ? 0 : since_least + (cfl > 1e4 ? 1 : 0);
+    if (has_fallen) least = now.size;
     if (options_.on_step)
       options_.on_step({record_.newton_steps, now.size,
                         reported_length(system_.stream()) * (now.augmented[0] + state.augmented[0])});
