@@ -1,12 +1,13 @@
 """CMA-ES in the words of pycma."""
 
 from collections import namedtuple
+from collections.abc import Iterable
 
 import numpy as np
 
 from . import _calls
 from ._core import _Cmaes
-from ._errors import ArgumentError
+from ._errors import ArgumentError, ArgumentTypeError
 
 Result = namedtuple("Result", "xbest fbest evaluations iterations xfavorite sigma")
 
@@ -66,6 +67,9 @@ class CMAES:
     def tell(self, solutions, function_values):
         """The values of samples, the smaller the better; NaN and infinity rank last. popsize of them make a
         generation."""
+        for name, given in (("solutions", solutions), ("function_values", function_values)):
+            if not isinstance(given, Iterable):
+                raise ArgumentTypeError(f"{name}: found {_calls.shown(given)}, expected one for each sample")
         solutions = [_calls.reals(f"solutions[{number}]", solution) for number, solution in enumerate(solutions)]
         values = [_value(number, value) for number, value in enumerate(function_values)]
         if len(solutions) != len(values):

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from . import _calls
 from ._errors import ArgumentError
 
 FATES = ("#e8ecef", "#f2c14e", "#d1495b")  # kept, moved, new
@@ -28,7 +29,7 @@ def _axes(ax, mesh, window):
         import matplotlib.pyplot as plt
 
         _, ax = plt.subplots(figsize=(8, 4.5))
-    x0, y0, x1, y1 = window if window is not None else close_window(mesh)
+    x0, y0, x1, y1 = _calls.reals("window", window, (4,)) if window is not None else close_window(mesh)
     ax.set(xlim=(x0, x1), ylim=(y0, y1), aspect="equal", xlabel="x", ylabel="y")
     return ax
 

@@ -65,7 +65,7 @@ class SweepResult(SimpleNamespace):
         return f"SweepResult(flows={len(self)}, found={self.found}, sections={len(self.names)}, stopped={self.stopped!r})"
 
 
-@_calls.python_call(directory="path", threads="int")
+@_calls.python_call(directory="path", threads="int", resume="bool")
 def sweep(problem, *, directory=None, resume=False, threads=0, callback=None):
     """Finds the flows around many sections at many conditions. Returns a SweepResult.
 

@@ -35,19 +35,29 @@ class Displacement {
   }
 
   py::array jvp(const Reals& walls) const {
-    const std::vector<Point> displacements = points(walls, "walls");
+    const std::vector<Point> displacements = of_all_points(walls, "walls");
     for (std::size_t i = 0; i < std::min(displacements.size(), still_.size()); ++i)
       if (still_[i] && !(displacements[i] == Point{}))
         throw Error(ErrorCode::argument, "walls",
                     "moves point " + std::to_string(i) + " of a wall that rests, expected zero there");
     return view_of(field_->jvp(displacements));
   }
-  py::array vjp(const Reals& by_points) const { return view_of(field_->vjp(points(by_points, "by_points"))); }
+  py::array vjp(const Reals& by_points) const {
+    return view_of(field_->vjp(of_all_points(by_points, "by_points")));
+  }
   std::size_t size() const { return field_->points(); }
 
   py::tuple state() const { return py::make_tuple(mesh_, names_); }
 
  private:
+  std::vector<Point> of_all_points(const Reals& values, const char* name) const {
+    std::vector<Point> result = points(values, name);
+    if (result.size() != size())
+      throw Error(ErrorCode::argument, name,
+                  "found " + std::to_string(result.size()) + " rows, expected " + std::to_string(size()) +
+                      ", one for each point");
+    return result;
+  }
   std::vector<std::size_t> loops(const Domain& domain) const {
     std::vector<std::size_t> result;
     for (std::size_t i = 0; i < domain.loops.size(); ++i) {
