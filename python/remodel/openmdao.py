@@ -9,6 +9,8 @@ ScipyOptimizeDriver, end with it: give the design variables bounds, or take pyOp
 makes a mesh for the present design, for a problem that is set up again.
 """
 
+import os
+
 import numpy as np
 from openmdao.api import AnalysisError, ExplicitComponent
 
@@ -200,6 +202,7 @@ class SectionComponent(ExplicitComponent):
 
     def setup(self):
         given = self.options["airfoil"]
+        _require_type("airfoil", given, (Airfoil, str, os.PathLike), "an Airfoil, or its name or file")
         self.start = given if isinstance(given, Airfoil) else Airfoil(given)
         self._has_friction = self.options["model"] != "euler"
         reynolds = self.options["reynolds"]
