@@ -211,6 +211,7 @@ def _explained(error, name, signature, kinds, args, options):
 
 def _wrapped(call, name, signature, kinds, text, plain):
     names = list(signature.parameters)
+    is_method = names[:1] == ["self"]
     arrays = frozenset(argument for argument, kind in kinds.items() if kind and kind[1].startswith("an array"))
 
     def look(argument, value):
@@ -221,6 +222,8 @@ def _wrapped(call, name, signature, kinds, text, plain):
             raise ArgumentTypeError(f"{argument}: found {shown(value)}, expected {kinds[argument][1]}")
 
     def looked_at(*args, **options):
+        if is_method and args and args[0] is None:  # which pybind11 would hand on as no object
+            raise ArgumentTypeError(f"self: found None, expected what {name} is a method of")
         for argument, value in zip(names, args):
             if type(value) not in plain or argument in arrays:
                 look(argument, value)

@@ -25,6 +25,7 @@ class DesignResult(SimpleNamespace):
     rows: a dict for each design. `result.column(name)` is one figure, or one output, of all of them.
     """
 
+    @_calls.python_call(name="str")
     def column(self, name):
         """One figure or output of all designs as an array, say 'objective' or 'cd'; None becomes NaN."""
         values = [row[name] if name in row else row["outputs"].get(name) for row in self.rows]
@@ -110,6 +111,8 @@ def _text_of(file):
         raise FileError(f"{os.fspath(file)}: cannot be read: {error.strerror}, expected a problem file") from None
     except UnicodeDecodeError:
         raise FormatError(f"{os.fspath(file)}: found no text, expected a design problem") from None
+    except ValueError as error:  # a null in the name
+        raise FileError(f"{os.fspath(file)!r}: {error}, expected the name of a file") from None
 
 
 def _parts_of(problem):

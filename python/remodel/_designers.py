@@ -9,6 +9,7 @@ from . import _calls
 from ._core import _Cmaes
 from ._errors import ArgumentError, ArgumentTypeError
 
+_MOST_SAMPLES = 1_000_000  # at once
 Result = namedtuple("Result", "xbest fbest evaluations iterations xfavorite sigma")
 
 
@@ -60,8 +61,8 @@ class CMAES:
     def ask(self, number=None):
         """A list of samples, popsize of them unless told otherwise. Infeasible ones may be replaced by ask(1)."""
         count = self.popsize if number is None else number
-        if not isinstance(count, (int, np.integer)) or count < 1:
-            raise ArgumentError(f"number: found {count!r}, expected 1 or more")
+        if not isinstance(count, (int, np.integer)) or not 1 <= count <= _MOST_SAMPLES:
+            raise ArgumentError(f"number: found {_calls.shown(count)}, expected 1 to {_MOST_SAMPLES}")
         return [self._state.ask() for _ in range(count)]
 
     def tell(self, solutions, function_values):

@@ -91,6 +91,7 @@ def trial(mesh, shape, *, boundary="", strategy="renew", regenerate=True):
     return LayeredTrial(mesh, shape, {"boundary": boundary, "strategy": strategy, "regenerate": regenerate})
 
 
+@_calls.python_call(place="str")
 def _matrix(transfer, place="vertices"):
     """ride() as a sparse matrix of shape (after, before): scipy.sparse.csr_array, whose transpose is for adjoints."""
     from scipy.sparse import csr_array

@@ -16,6 +16,7 @@ class OptimiseResult(SimpleNamespace):
     rows: a dict for each evaluation. `result.column(name)` is one figure of all of them.
     """
 
+    @_calls.python_call(name="str")
     def column(self, name):
         """One figure of all evaluations as an array, say 'objective'; None becomes NaN."""
         if self.rows and name not in self.rows[0]:

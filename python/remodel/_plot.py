@@ -3,7 +3,7 @@
 import numpy as np
 
 from . import _calls
-from ._errors import ArgumentError
+from ._errors import ArgumentError, ArgumentTypeError
 
 FATES = ("#e8ecef", "#f2c14e", "#d1495b")  # kept, moved, new
 
@@ -24,7 +24,13 @@ def close_window(mesh):
     return [float(v) for v in (low[0] - margin, low[1] - margin, high[0] + margin, high[1] + margin)]
 
 
+def _require_axes(ax):
+    if ax is not None and not hasattr(ax, "add_collection"):
+        raise ArgumentTypeError(f"ax: found {_calls.shown(ax)}, expected axes of matplotlib or None")
+
+
 def _axes(ax, mesh, window):
+    _require_axes(ax)
     if ax is None:
         import matplotlib.pyplot as plt
 
@@ -72,9 +78,9 @@ def _add_boundaries(ax, mesh, **style):
 
 
 def _add_colors(ax, mesh, color, seen, cmap):
-    values = np.asarray(color, dtype=float)
+    values = _calls.reals("color", color)
     triangles, cells = _halves(mesh)
-    if len(values) not in (len(mesh.points), len(mesh.triangles) + len(mesh.quads)) or values.ndim != 1:
+    if values.ndim != 1 or len(values) not in (len(mesh.points), len(mesh.triangles) + len(mesh.quads)):
         raise ArgumentError(f"color: found shape {values.shape}, expected one value a point or one a triangle")
     x, y = mesh.points.T
     if len(values) == len(mesh.points):
@@ -82,6 +88,7 @@ def _add_colors(ax, mesh, color, seen, cmap):
     return ax.tripcolor(x, y, triangles[seen], facecolors=values[cells[seen]], cmap=cmap)
 
 
+@_calls.python_call(edges="bool")
 def plot_mesh(mesh, color=None, ax=None, *, window=None, cmap="viridis", label=None, edges=None):
     """Draws the mesh with matplotlib and returns the axes.
 
@@ -126,6 +133,7 @@ def plot_step(step, ax=None, *, window=None):
 
 
 def _new_axes(ax):
+    _require_axes(ax)
     if ax is None:
         import matplotlib.pyplot as plt
 

@@ -62,8 +62,8 @@ class USMesh:
 
     def getOption(self, name):
         """The value of an option."""
-        if name not in self._options:
-            raise ArgumentError(f"name: found {name!r}, expected one of {', '.join(self._options)}")
+        if not isinstance(name, str) or name not in self._options:
+            raise ArgumentError(f"name: found {_calls.shown(name)}, expected one of {', '.join(self._options)}")
         return self._options[name]
 
     def setOption(self, name, value):
@@ -248,8 +248,10 @@ class USMesh:
         """Compares warpDeriv() with differences of warpMesh(), numbers dofStart to dofEnd - 1 of the flat surface. Returns
         an array of shape (k, 3): the derivative, the difference, and how far they are apart, over the larger one."""
         for name, value in (("dofStart", dofStart), ("dofEnd", dofEnd), ("randomSeed", randomSeed)):
-            if not isinstance(value, (int, np.integer)) or value < 0:
-                raise ArgumentTypeError(f"{name}: found {_calls.shown(value)}, expected an integer of 0 or more")
+            if not isinstance(value, (int, np.integer)) or not 0 <= value < 2**32:
+                raise ArgumentTypeError(f"{name}: found {_calls.shown(value)}, expected an integer from 0 to {2**32 - 1}")
+        if not isinstance(solverVec, (bool, np.bool_)):
+            raise ArgumentTypeError(f"solverVec: found {_calls.shown(solverVec)}, expected True or False")
         if not float(_calls.reals("h", h, ())) > 0.0:
             raise ArgumentError(f"h: found {h}, expected a step above 0")
         self._set_internal_surface()

@@ -90,8 +90,8 @@ void add_displacements(py::module_& module) {
 InteriorDisplacement(mesh, moving): moving are the names of the boundaries that move, all but `farfield` unless given.
 It is the field of E. Luke, E. Collins and E. Blades (J. Comput. Phys. 231, 2012), of edges instead of nodes, at the
 places that the mesh has now, or if it is held at those of its reference. The mesh need not live on.)")
-      .def(py::init<const LivingMeshPointer&, const std::optional<std::vector<std::string>>&>(), "mesh"_a,
-           "moving"_a = py::none())
+      .def(py::init<const LivingMeshPointer&, const std::optional<std::vector<std::string>>&>(),
+           py::arg("mesh").none(false), "moving"_a = py::none())
       .def("jvp", &Displacement::jvp, "walls"_a,
            "The displacement of every point, of shape (n, 2). walls: of the same shape, that of boundary "
            "points; those of other points are not read, those of walls that rest have to be zero.")
@@ -100,7 +100,7 @@ places that the mesh has now, or if it is held at those of its reference. The me
       .def("__len__", &Displacement::size)
       .def(py::pickle([](const Displacement& d) { return d.state(); },
                       [](const py::tuple& state) {
-                        if (state.size() != 2)
+                        if (state.size() != 2 || state[0].is_none())
                           throw Error(ErrorCode::format, "pickle", "expected an InteriorDisplacement");
                         return std::make_unique<Displacement>(
                             state[0].cast<LivingMeshPointer>(),

@@ -196,7 +196,9 @@ Domain polygons(const py::dict& outer, const py::dict& holes) {
 }
 
 PlacedAirfoil placed_airfoil(const py::handle& item, const std::string& place) {
-  const auto element = member<py::dict>(item, place, "a dict");
+  if (!py::isinstance<py::dict>(item))  // or pybind11 would make one of pairs
+    throw py::type_error(place + ": found " + type_of(item) + ", expected a dict");
+  const auto element = py::reinterpret_borrow<py::dict>(item);
   PlacedAirfoil placed;
   for (const char* needed : {"name", "airfoil"})
     if (!element.contains(needed))
