@@ -1,8 +1,11 @@
 """Meshes of meshio and PyVista, with the names of boundaries and regions. Neither is imported before one of these
 functions is called."""
 
+from collections.abc import Mapping
+
 import numpy as np
 
+from . import _calls
 from ._core import FrozenMesh
 from ._errors import ArgumentError, ArgumentTypeError
 
@@ -15,8 +18,12 @@ _VTK_LINE, _VTK_TRIANGLE, _VTK_QUAD = 3, 5, 9
 def _placed(mesh, fields):
     """The fields as arrays, each with whether it is on points."""
     result = {}
+    if not isinstance(fields, (Mapping, type(None))):
+        raise ArgumentTypeError(f"fields: found {_calls.shown(fields)}, expected a dict of values by name")
     for name, values in (fields or {}).items():
         values = np.asarray(values)
+        if values.ndim == 0:
+            raise ArgumentTypeError(f"{name}: found {_calls.shown(fields[name])}, expected an array of values")
         on_points = len(values) == len(mesh.points)
         if not on_points and len(values) != len(mesh.triangles) + len(mesh.quads):
             cell = "cell" if len(mesh.quads) else "triangle"
@@ -81,6 +88,7 @@ def _split(cells):
     return np.concatenate([cells[:, [0, 1, 2]], cells[:, [0, 2, 3]]])
 
 
+@_calls.python_call(split_quadrilaterals="bool")
 def from_meshio(mesh, *, split_quadrilaterals=False):
     """The triangles and quadrilaterals of a meshio.Mesh as a FrozenMesh, with boundaries and regions by cell set or
     physical name.
@@ -187,6 +195,7 @@ def to_pyvista(mesh, fields=None):
     return grid
 
 
+@_calls.python_call(split_quadrilaterals="bool")
 def from_pyvista(grid, *, split_quadrilaterals=False):
     """The triangles and quadrilaterals of a pyvista.UnstructuredGrid as a FrozenMesh, with the boundaries and regions of
     to_pyvista().

@@ -36,8 +36,20 @@ def shown(value):
 
 def finite(name, value):
     """Throws ArgumentError where the value has a part that is complex, NaN or infinite, naming it."""
-    if type(value) is np.ndarray and value.ndim == 1 and value.dtype.kind == "f" and math.isfinite(value.dot(value)):
-        return  # the usual case, soon
+    if _is_sound_row(value):
+        return
+    try:
+        _finite(name, value)
+    except RecursionError:
+        raise ArgumentError(f"{name}: contains itself, expected parts with an end") from None
+
+
+def _is_sound_row(value):
+    """The usual case, soon: finite doubles in a row. A sum of squares past the largest double is looked at again."""
+    return type(value) is np.ndarray and value.dtype.char == "d" and value.ndim == 1 and math.isfinite(value.dot(value))
+
+
+def _finite(name, value):
     if value is None or isinstance(value, (str, bytes, bool, int)):
         return
     if isinstance(value, (complex, np.complexfloating)):
@@ -47,12 +59,20 @@ def finite(name, value):
             raise ArgumentError(f"{name}: found {value}, expected a finite number")
     elif isinstance(value, Mapping):
         for key, item in value.items():
-            finite(f"{name}[{key!r}]", item)
+            _finite(f"{name}[{key!r}]", item)
     elif isinstance(value, (list, tuple)) and not all(isinstance(item, numbers.Number) for item in value):
         for index, item in enumerate(value):
-            finite(f"{name}[{index}]", item)
+            _finite(f"{name}[{index}]", item)
     elif isinstance(value, (list, tuple, np.ndarray)) or hasattr(value, "__array__"):
-        _finite_array(name, np.asarray(value))
+        _finite_array(name, _as_array(name, value))
+
+
+def _as_array(name, value):
+    """numpy.asarray(), whose refusals (a tensor on another device or with gradients) name the argument."""
+    try:
+        return np.asarray(value)
+    except Exception as error:
+        raise ArgumentTypeError(f"{name}: found {shown(value)} ({error}), expected what numpy.asarray() takes") from error
 
 
 def _finite_array(name, values):
@@ -60,7 +80,7 @@ def _finite_array(name, values):
         raise ArgumentError(f"{name}: found complex numbers, expected real ones (complex steps do not pass through meshes; their derivatives are jvp() and vjp())")
     if values.dtype.kind == "O":
         for index in np.ndindex(values.shape):
-            finite(f"{name}[{', '.join(map(str, index))}]", values[index])
+            _finite(f"{name}[{', '.join(map(str, index))}]", values[index])
     elif values.dtype.kind == "f" and not np.isfinite(values).all():
         index = tuple(np.argwhere(~np.isfinite(values))[0])
         place = f"{name}[{', '.join(map(str, index))}]" if index else name
@@ -98,7 +118,8 @@ def _is_integer(value):
     return isinstance(value, (numbers.Integral, np.integer))
 
 
-# What an annotation of pybind11's stands for: whether a value fits, and how to say so.
+# What an annotation of pybind11's stands for: whether a value fits, and how to say so; of lists and dicts, also the kind
+# of what they hold.
 _KINDS = {
     "float": (_is_real, "a number"),
     "int": (_is_integer, "an integer"),
@@ -115,7 +136,7 @@ def _kind(annotation, classes):
     text = annotation.replace("remodel._core.", "")
     if text.startswith("Optional["):
         inner = _kind(text[len("Optional[") : -1], classes)
-        return inner and ((lambda value: value is None or inner[0](value)), f"{inner[1]} or None")
+        return inner and ((lambda value: value is None or inner[0](value)), f"{inner[1]} or None", *inner[2:])
     if "PathLike" in text:
         text = "path"
     elif text.startswith("numpy.ndarray"):
@@ -126,9 +147,28 @@ def _kind(annotation, classes):
         return _KINDS[text]
     if text == "object":
         return None
-    if sized := re.match(r"(?:List|Annotated)\[\w+\[(\d+)\]", text):
-        return (lambda value: False), f"{sized[1]} numbers"
-    return (lambda value: False), {"Dict": "a dict of numbers by name", "List": "a list"}.get(text.split("[")[0], text)
+    if sized := re.fullmatch(r"List\[(\w+)\[(\d+)\]\]", text):
+        inner, count = _KINDS[sized[1]], int(sized[2])
+        return (lambda value: _is_sequence(value) and len(value) == count and all(map(inner[0], value))), f"{count} numbers"
+    if held := re.fullmatch(r"(List|Dict)\[(?:str, )?(.*)\]", text):
+        inner = _kind(held[2], classes)
+        if held[1] == "List":
+            return (lambda value: _is_sequence(value) and all(map(inner[0], value))), f"a list, each part {inner[1]}", inner
+        return (lambda value: isinstance(value, Mapping) and all(map(inner[0], value.values()))), f"a dict with, by name, {inner[1]}", inner
+    return (lambda value: False), {"Iterable": "a list"}.get(text, text)
+
+
+def _is_sequence(value):
+    return isinstance(value, (list, tuple, np.ndarray))
+
+
+def _misfit(argument, value, kind):
+    """The error of a value that does not fit: of the first part that does not, where a list or a dict has one."""
+    if len(kind) > 2 and (_is_sequence(value) or isinstance(value, Mapping)):
+        for key, part in value.items() if isinstance(value, Mapping) else enumerate(value):
+            if not kind[2][0](part):
+                return _misfit(f"{argument}[{key!r}]", part, kind[2])
+    return ArgumentTypeError(f"{argument}: found {shown(value)}, expected {kind[1]}")
 
 
 def _parsed(call, classes):
@@ -162,7 +202,7 @@ def _explained(error, name, signature, kinds, args, options):
         return ArgumentTypeError(f"{name}: {wrong}, expected {name}{signature}")
     for argument, value in given.items():
         if kinds.get(argument) and not kinds[argument][0](value):
-            return ArgumentTypeError(f"{argument}: found {shown(value)}, expected {kinds[argument][1]}")
+            return _misfit(argument, value, kinds[argument])
     for argument, value in given.items():
         if kinds.get(argument) is not None and _is_integer(value) and not 0 <= value < 2**31:
             return ArgumentTypeError(f"{argument}: found {shown(value)}, expected an integer of 31 bits")
@@ -171,14 +211,19 @@ def _explained(error, name, signature, kinds, args, options):
 
 def _wrapped(call, name, signature, kinds, text, plain):
     names = list(signature.parameters)
+    is_method = names[:1] == ["self"]
     arrays = frozenset(argument for argument, kind in kinds.items() if kind and kind[1].startswith("an array"))
 
     def look(argument, value):
+        if _is_sound_row(value):
+            return
         finite(argument, value)
         if argument in arrays and not (type(value) is np.ndarray and value.dtype.kind in "biuf") and not kinds[argument][0](value):
             raise ArgumentTypeError(f"{argument}: found {shown(value)}, expected {kinds[argument][1]}")
 
     def looked_at(*args, **options):
+        if is_method and args and args[0] is None:  # which pybind11 would hand on as no object
+            raise ArgumentTypeError(f"self: found None, expected what {name} is a method of")
         for argument, value in zip(names, args):
             if type(value) not in plain or argument in arrays:
                 look(argument, value)

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _calls, _plot
 from ._core import Airfoil, _design, _design_page
-from ._errors import ArgumentError, ArgumentTypeError, FormatError
+from ._errors import ArgumentError, ArgumentTypeError, FileError, FormatError
 
 _SOURCE = "problem"  # what messages call a problem that is no file
 
@@ -25,6 +25,7 @@ class DesignResult(SimpleNamespace):
     rows: a dict for each design. `result.column(name)` is one figure, or one output, of all of them.
     """
 
+    @_calls.python_call(name="str")
     def column(self, name):
         """One figure or output of all designs as an array, say 'objective' or 'cd'; None becomes NaN."""
         values = [row[name] if name in row else row["outputs"].get(name) for row in self.rows]
@@ -63,7 +64,7 @@ class DesignResult(SimpleNamespace):
         return f"DesignResult(evaluations={self.evaluations}, objective={objective}, stopped={self.stopped!r})"
 
 
-@_calls.python_call(directory="path", threads="int")
+@_calls.python_call(directory="path", threads="int", resume="bool", overwrite="bool")
 def design(problem, *, directory=None, resume=False, overwrite=False, threads=0, callback=None):
     """Searches the section of least drag, or another objective, by flows and their gradients. Returns a DesignResult.
 
@@ -107,9 +108,11 @@ def _text_of(file):
     try:
         return Path(file).read_text()
     except OSError as error:
-        raise ArgumentError(f"{os.fspath(file)}: {error.strerror}, expected a problem file") from None
+        raise FileError(f"{os.fspath(file)}: cannot be read: {error.strerror}, expected a problem file") from None
     except UnicodeDecodeError:
         raise FormatError(f"{os.fspath(file)}: found no text, expected a design problem") from None
+    except ValueError as error:  # a null in the name
+        raise FileError(f"{os.fspath(file)!r}: {error}, expected the name of a file") from None
 
 
 def _parts_of(problem):

@@ -1,13 +1,15 @@
 """CMA-ES in the words of pycma."""
 
 from collections import namedtuple
+from collections.abc import Iterable
 
 import numpy as np
 
 from . import _calls
 from ._core import _Cmaes
-from ._errors import ArgumentError
+from ._errors import ArgumentError, ArgumentTypeError
 
+_MOST_SAMPLES = 1_000_000  # at once
 Result = namedtuple("Result", "xbest fbest evaluations iterations xfavorite sigma")
 
 
@@ -59,13 +61,16 @@ class CMAES:
     def ask(self, number=None):
         """A list of samples, popsize of them unless told otherwise. Infeasible ones may be replaced by ask(1)."""
         count = self.popsize if number is None else number
-        if not isinstance(count, (int, np.integer)) or count < 1:
-            raise ArgumentError(f"number: found {count!r}, expected 1 or more")
+        if not isinstance(count, (int, np.integer)) or not 1 <= count <= _MOST_SAMPLES:
+            raise ArgumentError(f"number: found {_calls.shown(count)}, expected 1 to {_MOST_SAMPLES}")
         return [self._state.ask() for _ in range(count)]
 
     def tell(self, solutions, function_values):
         """The values of samples, the smaller the better; NaN and infinity rank last. popsize of them make a
         generation."""
+        for name, given in (("solutions", solutions), ("function_values", function_values)):
+            if not isinstance(given, Iterable):
+                raise ArgumentTypeError(f"{name}: found {_calls.shown(given)}, expected one for each sample")
         solutions = [_calls.reals(f"solutions[{number}]", solution) for number, solution in enumerate(solutions)]
         values = [_value(number, value) for number, value in enumerate(function_values)]
         if len(solutions) != len(values):

@@ -5,7 +5,7 @@ import tempfile
 
 import numpy as np
 
-from . import _bridges, _plot
+from . import _bridges, _calls, _plot
 from ._core import FlowResult, FrozenMesh, LayeredMesh, Mesh, PotentialFlow, Step, Transfer, check
 from ._errors import ArgumentError
 
@@ -85,11 +85,13 @@ class LayeredTrial:
         self._before = None
 
 
-def _layered_trial(mesh, shape, *, boundary="", strategy="renew", regenerate=True):
+@_calls.python_call(boundary="str", strategy="str", regenerate="bool")
+def trial(mesh, shape, *, boundary="", strategy="renew", regenerate=True):
     """Tries a design: `with mesh.trial(shape) as trial`. Arguments are those of update()."""
     return LayeredTrial(mesh, shape, {"boundary": boundary, "strategy": strategy, "regenerate": regenerate})
 
 
+@_calls.python_call(place="str")
 def _matrix(transfer, place="vertices"):
     """ride() as a sparse matrix of shape (after, before): scipy.sparse.csr_array, whose transpose is for adjoints."""
     from scipy.sparse import csr_array
@@ -133,7 +135,7 @@ def extend():
         setattr(Mesh, name, _array(name))
     for name in _LAYERED_ARRAYS:
         setattr(LayeredMesh, name, _array(name))
-    LayeredMesh.trial = _layered_trial
+    LayeredMesh.trial = trial
     Mesh.draw = LayeredMesh.draw = _draw
     _check.__doc__ = check.__doc__
     FrozenMesh.check = _check

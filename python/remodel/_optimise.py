@@ -16,8 +16,11 @@ class OptimiseResult(SimpleNamespace):
     rows: a dict for each evaluation. `result.column(name)` is one figure of all of them.
     """
 
+    @_calls.python_call(name="str")
     def column(self, name):
         """One figure of all evaluations as an array, say 'objective'; None becomes NaN."""
+        if self.rows and name not in self.rows[0]:
+            raise ArgumentError(f"name: found {name!r}, expected a figure of an evaluation, as 'objective' or 'triangles'")
         return np.array([np.nan if row[name] is None else row[name] for row in self.rows])
 
     def plot_history(self, ax=None):
@@ -29,7 +32,7 @@ class OptimiseResult(SimpleNamespace):
 
 
 @_calls.python_call(directory="path", points="int", sigma="float", seed="int", evaluations="int", tolerance="float",
-                    strategy="str", workers="int", threads="int")  # fmt: skip
+                    strategy="str", workers="int", threads="int", resume="bool", overwrite="bool")  # fmt: skip
 def optimise(start, objective, *, directory=None, points=200, sigma=0.05, seed=1, evaluations=9000, tolerance=0.0,
              strategy="renew", workers=0, threads=None, resume=False, overwrite=False, callback=None):  # fmt: skip
     """Searches an airfoil by CMA-ES; one living mesh follows the designs. Returns an OptimiseResult.
@@ -53,6 +56,8 @@ def optimise(start, objective, *, directory=None, points=200, sigma=0.05, seed=1
     for name, value, most in (("points", points, 2**31), ("seed", seed, 2**64), ("evaluations", evaluations, 2**63), ("workers", workers, 2**31), ("threads", threads or 0, 2**31)):
         if not 0 <= value < most:
             raise ArgumentError(f"{name}: found {value}, expected 0 to {most - 1}")
+    if resume and directory is None:
+        raise ArgumentError("resume: found without a directory, expected that of the run")
     if threads is None:
         threads = 0 if isinstance(objective, Airfoil) else 1
     if not isinstance(objective, Airfoil):
@@ -64,12 +69,19 @@ def optimise(start, objective, *, directory=None, points=200, sigma=0.05, seed=1
         return OptimiseResult(**_optimise(start, objective, scratch, *options))
 
 
+def _is_number(answer):
+    try:
+        return np.iscomplexobj(answer) or float(answer) is not None
+    except (TypeError, ValueError):
+        return False
+
+
 def _real(objective):
     """The same function; what is complex in its answer raises, where half of it would be lost."""
 
     def asked(*args):
         answer = objective(*args)
-        if answer is None or isinstance(answer, (str, bytes)):
+        if not isinstance(answer, dict) and (isinstance(answer, (str, bytes)) or not _is_number(answer)):
             raise ArgumentTypeError(f"objective: returned {_calls.shown(answer)}, expected a number, or a dict with one")
         numbers = answer.items() if isinstance(answer, dict) else [("objective", answer)]
         for name, value in numbers:

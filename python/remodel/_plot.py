@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from ._errors import ArgumentError
+from . import _calls
+from ._errors import ArgumentError, ArgumentTypeError
 
 FATES = ("#e8ecef", "#f2c14e", "#d1495b")  # kept, moved, new
 
@@ -23,12 +24,18 @@ def close_window(mesh):
     return [float(v) for v in (low[0] - margin, low[1] - margin, high[0] + margin, high[1] + margin)]
 
 
+def _require_axes(ax):
+    if ax is not None and not hasattr(ax, "add_collection"):
+        raise ArgumentTypeError(f"ax: found {_calls.shown(ax)}, expected axes of matplotlib or None")
+
+
 def _axes(ax, mesh, window):
+    _require_axes(ax)
     if ax is None:
         import matplotlib.pyplot as plt
 
         _, ax = plt.subplots(figsize=(8, 4.5))
-    x0, y0, x1, y1 = window if window is not None else close_window(mesh)
+    x0, y0, x1, y1 = _calls.reals("window", window, (4,)) if window is not None else close_window(mesh)
     ax.set(xlim=(x0, x1), ylim=(y0, y1), aspect="equal", xlabel="x", ylabel="y")
     return ax
 
@@ -71,9 +78,9 @@ def _add_boundaries(ax, mesh, **style):
 
 
 def _add_colors(ax, mesh, color, seen, cmap):
-    values = np.asarray(color, dtype=float)
+    values = _calls.reals("color", color)
     triangles, cells = _halves(mesh)
-    if len(values) not in (len(mesh.points), len(mesh.triangles) + len(mesh.quads)) or values.ndim != 1:
+    if values.ndim != 1 or len(values) not in (len(mesh.points), len(mesh.triangles) + len(mesh.quads)):
         raise ArgumentError(f"color: found shape {values.shape}, expected one value a point or one a triangle")
     x, y = mesh.points.T
     if len(values) == len(mesh.points):
@@ -81,6 +88,7 @@ def _add_colors(ax, mesh, color, seen, cmap):
     return ax.tripcolor(x, y, triangles[seen], facecolors=values[cells[seen]], cmap=cmap)
 
 
+@_calls.python_call(edges="bool")
 def plot_mesh(mesh, color=None, ax=None, *, window=None, cmap="viridis", label=None, edges=None):
     """Draws the mesh with matplotlib and returns the axes.
 
@@ -125,6 +133,7 @@ def plot_step(step, ax=None, *, window=None):
 
 
 def _new_axes(ax):
+    _require_axes(ax)
     if ax is None:
         import matplotlib.pyplot as plt
 

@@ -42,7 +42,7 @@ class SweepResult(SimpleNamespace):
         """The sections at the flows' rows: y of the upper surface at `count` stations from nose to trailing edge, then of
         the lower one, of shape (flows, 2 * count). NaN where there is no section."""
         if not isinstance(count, int) or not 2 <= count <= 100000:
-            raise ArgumentError(f"count: found {count!r}, expected 2 to 100000")
+            raise ArgumentError(f"count: found {_calls.shown(count)}, expected 2 to 100000")
         of_each = np.full((len(self.airfoils), 2 * count), np.nan)
         for row, airfoil in zip(of_each, self.airfoils):
             if airfoil is not None:
@@ -65,7 +65,7 @@ class SweepResult(SimpleNamespace):
         return f"SweepResult(flows={len(self)}, found={self.found}, sections={len(self.names)}, stopped={self.stopped!r})"
 
 
-@_calls.python_call(directory="path", threads="int")
+@_calls.python_call(directory="path", threads="int", resume="bool")
 def sweep(problem, *, directory=None, resume=False, threads=0, callback=None):
     """Finds the flows around many sections at many conditions. Returns a SweepResult.
 

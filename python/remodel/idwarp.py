@@ -41,6 +41,8 @@ class USMesh:
     `farfield`."""
 
     def __init__(self, options=None, comm=None, debug=False, *, surface=None):
+        if comm is not None and not hasattr(comm, "size"):
+            raise ArgumentTypeError(f"comm: found {_calls.shown(comm)}, expected a communicator of MPI, or None")
         if comm is not None and comm.size != 1:
             raise ArgumentError(f"comm: found {comm.size} processes, expected one: a mesh is whole in each process")
         mesh = options if isinstance(options, (Mesh, FrozenMesh)) else None
@@ -60,8 +62,8 @@ class USMesh:
 
     def getOption(self, name):
         """The value of an option."""
-        if name not in self._options:
-            raise ArgumentError(f"name: found {name!r}, expected one of {', '.join(self._options)}")
+        if not isinstance(name, str) or name not in self._options:
+            raise ArgumentError(f"name: found {_calls.shown(name)}, expected one of {', '.join(self._options)}")
         return self._options[name]
 
     def setOption(self, name, value):
@@ -85,6 +87,8 @@ class USMesh:
             file = self.getOption("gridFile")
             if file is None:
                 raise ArgumentError("gridFile: not given, expected the name of a mesh file: .vtkhdf, .vtu, .msh or .su2")
+            if not isinstance(file, (str, os.PathLike)):
+                raise ArgumentTypeError(f"gridFile: found {_calls.shown(file)}, expected the name of a file")
             if os.path.splitext(file)[1].lower() == ".cgns":
                 raise ArgumentError(f"gridFile: found {file}, expected .vtkhdf, .vtu, .msh or .su2 (meshio reads CGNS; USMesh(remodel.from_meshio(...)))")
             mesh = Mesh.load(file)
@@ -103,6 +107,8 @@ class USMesh:
         there = self._start.boundaries
         if names is None:
             return [name for name in there if name != "farfield"]
+        if not isinstance(names, (list, tuple)) or not all(isinstance(name, str) for name in names):
+            raise ArgumentTypeError(f"surface: found {_calls.shown(names)}, expected a list of names of boundaries")
         by_lower = {name.lower(): name for name in there}  # IDWarp lowers the names of families
         for name in names:
             if name not in there and name.lower() not in by_lower:
@@ -122,11 +128,12 @@ class USMesh:
             lost = int(np.argmax(found < 0))
             raise ArgumentError(f"pts[{lost}]: found {pts[lost, 0]:.9g}, {pts[lost, 1]:.9g}, where the grid has no boundary vertex, expected one")
         if conn is not None:
-            conn = np.asarray(conn).ravel()
+            conn = _integers("conn", conn)
             if len(conn) and (conn.min() < 0 or conn.max() >= len(pts)):
                 raise ArgumentError(f"conn: found {conn.min()} to {conn.max()}, expected 0 to {len(pts)} - 1")
-            if faceSizes is not None and int(np.sum(faceSizes)) != len(conn):
-                raise ArgumentError(f"faceSizes: found {int(np.sum(faceSizes))} corners, expected {len(conn)}")
+            corners = None if faceSizes is None else int(np.sum(_integers("faceSizes", faceSizes)))
+            if corners is not None and corners != len(conn):
+                raise ArgumentError(f"faceSizes: found {corners} corners, expected {len(conn)}")
         self._define(boundary[found].astype(np.int64), pts)
 
     def _define(self, vertices, coordinates):
@@ -240,6 +247,13 @@ class USMesh:
     def verifyWarpDeriv(self, dXv=None, solverVec=True, dofStart=0, dofEnd=10, h=1e-6, randomSeed=314):
         """Compares warpDeriv() with differences of warpMesh(), numbers dofStart to dofEnd - 1 of the flat surface. Returns
         an array of shape (k, 3): the derivative, the difference, and how far they are apart, over the larger one."""
+        for name, value in (("dofStart", dofStart), ("dofEnd", dofEnd), ("randomSeed", randomSeed)):
+            if not isinstance(value, (int, np.integer)) or not 0 <= value < 2**32:
+                raise ArgumentTypeError(f"{name}: found {_calls.shown(value)}, expected an integer from 0 to {2**32 - 1}")
+        if not isinstance(solverVec, (bool, np.bool_)):
+            raise ArgumentTypeError(f"solverVec: found {_calls.shown(solverVec)}, expected True or False")
+        if not float(_calls.reals("h", h, ())) > 0.0:
+            raise ArgumentError(f"h: found {h}, expected a step above 0")
         self._set_internal_surface()
         if dXv is None:
             size = 3 * len(self._grid) if not solverVec or self._external is None else len(self._external)
@@ -268,6 +282,14 @@ class USMesh:
         if fileName is None:
             raise ArgumentError("fileName: not given, expected the name of a file")
         self._start.with_points(self._points).save(fileName)
+
+
+def _integers(name, values):
+    """A flat array. Throws ArgumentTypeError unless the values are integers."""
+    values = np.asarray(values).ravel()
+    if len(values) and values.dtype.kind not in "iu":
+        raise ArgumentTypeError(f"{name}: found {_calls.shown(values)}, expected integers")
+    return values
 
 
 def _matches(points, among, distance):

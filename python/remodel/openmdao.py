@@ -9,14 +9,22 @@ ScipyOptimizeDriver, end with it: give the design variables bounds, or take pyOp
 makes a mesh for the present design, for a problem that is set up again.
 """
 
+import os
+
 import numpy as np
 from openmdao.api import AnalysisError, ExplicitComponent
 
-from ._core import Airfoil, InteriorDisplacement, LivingFlow, generate, generate_layered
-from ._errors import ArgumentError, Error
+from . import _calls
+from ._core import Airfoil, FrozenMesh, InteriorDisplacement, LivingFlow, Mesh, generate, generate_layered
+from ._errors import ArgumentError, ArgumentTypeError, Error
 from ._mesh import Validity
 
 _RECIPE = "; bound the design variables, or take a driver that catches AnalysisError, as pyOptSparseDriver"
+
+
+def _require_type(name, value, kinds, expected):
+    if not isinstance(value, kinds):
+        raise ArgumentTypeError(f"{name}: found {_calls.shown(value)}, expected {expected}")
 
 
 def _require(flow):
@@ -39,8 +47,10 @@ class MeshComponent(ExplicitComponent):
         self.options.declare("boundary", default="")
 
     def setup(self):
+        _require_type("mesh", self.options["mesh"], Mesh, "a Mesh")
         self._refer_to(self.options["mesh"].copy())
         airfoil = self.options["airfoil"]
+        _require_type("airfoil", airfoil, (Airfoil, type(None)), "an Airfoil or None")
         if airfoil is not None and (airfoil.degree != self._airfoil.degree or airfoil.with_design(self._base) != self._airfoil):
             raise ArgumentError("airfoil: is not the mesh's with other coefficients, expected the same degree, exponents and trailing edge")
         self.add_input("design", val=self._base if airfoil is None else airfoil.design)
@@ -102,7 +112,10 @@ class FlowComponent(ExplicitComponent):
         mesh, geometry = self.options["mesh"], self.options["geometry"]
         if mesh is None and geometry is None:
             raise ArgumentError("mesh: not given, expected a mesh or the component that its points come from")
+        _require_type("geometry", geometry, (MeshComponent, type(None)), "a MeshComponent or None")
+        _require_type("solver", self.options["solver"], (LivingFlow, type(None)), "a LivingFlow or None")
         mesh = geometry.options["mesh"] if mesh is None else mesh
+        _require_type("mesh", mesh, (Mesh, FrozenMesh), "a Mesh or FrozenMesh")
         self.frozen = mesh.freeze() if hasattr(mesh, "freeze") else mesh
         self._validity = Validity(self.frozen)
         self.solver = self.options["solver"] or LivingFlow(tolerance=1e-12)
@@ -189,6 +202,7 @@ class SectionComponent(ExplicitComponent):
 
     def setup(self):
         given = self.options["airfoil"]
+        _require_type("airfoil", given, (Airfoil, str, os.PathLike), "an Airfoil, or its name or file")
         self.start = given if isinstance(given, Airfoil) else Airfoil(given)
         self._has_friction = self.options["model"] != "euler"
         reynolds = self.options["reynolds"]
@@ -214,6 +228,7 @@ class SectionComponent(ExplicitComponent):
             self.declare_partials(name, "design")
 
     def _mesh_of_start(self, reynolds):
+        _require_type("mesh", self.options["mesh"], (dict, type(None)), "a dict of what generate() takes, or None")
         options = dict(self.options["mesh"] or {})
         if not self._has_friction:
             return generate(self.start, **options)
@@ -269,7 +284,7 @@ class _Sizes:
     _POINTS = 2001
 
     def __init__(self, start, stations):
-        self._stations = np.atleast_1d(np.array(stations, dtype=float)) if len(np.atleast_1d(stations)) else np.empty(0)
+        self._stations = np.atleast_1d(_calls.reals("thickness_at", stations))
         if not ((self._stations > 0) & (self._stations < 1)).all():
             raise ArgumentError(f"thickness_at: found {self._stations.tolist()}, expected numbers above 0 and below 1")
         base, unit = self.at(start), np.eye(len(start.design))

@@ -39,7 +39,8 @@ Range airfoil_range(const Domain& domain, const std::string& boundary) {
   }
   if (airfoils != 1)
     throw Error(ErrorCode::argument, "boundary",
-                "names " + std::to_string(airfoils) + " airfoils by coefficients, expected one");
+                "found '" + boundary + "', which names " + std::to_string(airfoils) +
+                    " airfoils by coefficients, expected one");
   return found;
 }
 

@@ -35,19 +35,29 @@ class Displacement {
   }
 
   py::array jvp(const Reals& walls) const {
-    const std::vector<Point> displacements = points(walls, "walls");
+    const std::vector<Point> displacements = of_all_points(walls, "walls");
     for (std::size_t i = 0; i < std::min(displacements.size(), still_.size()); ++i)
       if (still_[i] && !(displacements[i] == Point{}))
         throw Error(ErrorCode::argument, "walls",
                     "moves point " + std::to_string(i) + " of a wall that rests, expected zero there");
     return view_of(field_->jvp(displacements));
   }
-  py::array vjp(const Reals& by_points) const { return view_of(field_->vjp(points(by_points, "by_points"))); }
+  py::array vjp(const Reals& by_points) const {
+    return view_of(field_->vjp(of_all_points(by_points, "by_points")));
+  }
   std::size_t size() const { return field_->points(); }
 
   py::tuple state() const { return py::make_tuple(mesh_, names_); }
 
  private:
+  std::vector<Point> of_all_points(const Reals& values, const char* name) const {
+    std::vector<Point> result = points(values, name);
+    if (result.size() != size())
+      throw Error(ErrorCode::argument, name,
+                  "found " + std::to_string(result.size()) + " rows, expected " + std::to_string(size()) +
+                      ", one for each point");
+    return result;
+  }
   std::vector<std::size_t> loops(const Domain& domain) const {
     std::vector<std::size_t> result;
     for (std::size_t i = 0; i < domain.loops.size(); ++i) {
@@ -80,8 +90,8 @@ void add_displacements(py::module_& module) {
 InteriorDisplacement(mesh, moving): moving are the names of the boundaries that move, all but `farfield` unless given.
 It is the field of E. Luke, E. Collins and E. Blades (J. Comput. Phys. 231, 2012), of edges instead of nodes, at the
 places that the mesh has now, or if it is held at those of its reference. The mesh need not live on.)")
-      .def(py::init<const LivingMeshPointer&, const std::optional<std::vector<std::string>>&>(), "mesh"_a,
-           "moving"_a = py::none())
+      .def(py::init<const LivingMeshPointer&, const std::optional<std::vector<std::string>>&>(),
+           py::arg("mesh").none(false), "moving"_a = py::none())
       .def("jvp", &Displacement::jvp, "walls"_a,
            "The displacement of every point, of shape (n, 2). walls: of the same shape, that of boundary "
            "points; those of other points are not read, those of walls that rest have to be zero.")
@@ -90,7 +100,7 @@ places that the mesh has now, or if it is held at those of its reference. The me
       .def("__len__", &Displacement::size)
       .def(py::pickle([](const Displacement& d) { return d.state(); },
                       [](const py::tuple& state) {
-                        if (state.size() != 2)
+                        if (state.size() != 2 || state[0].is_none())
                           throw Error(ErrorCode::format, "pickle", "expected an InteriorDisplacement");
                         return std::make_unique<Displacement>(
                             state[0].cast<LivingMeshPointer>(),

@@ -25,7 +25,22 @@ const char* exception_of(ErrorCode code) {
 // Options have their units in their names in C++, and none in Python, where some are called otherwise too.
 std::string text_of(const Error& error) {
   static constexpr std::pair<const char*, const char*> renamed[] = {
-      {"CST degree", "degree"}, {"CMA-ES sigma", "sigma0"}, {"CMA-ES population", "popsize"}};
+      {"CST degree", "degree"},
+      {"CMA-ES sigma", "sigma0"},
+      {"CMA-ES population", "popsize"},
+      {"CMA-ES start", "x0"},
+      {"CMA-ES sample", "solutions"},
+      {"derivatives by points", "by_points"},
+      {"first layer height", "first_height"},
+      {"layer thickness", "thickness"},
+      {"Reynolds number", "reynolds"},
+      {"wall temperature", "wall_temperature"},
+      {"reference length", "reference_length"},
+      {"max steps", "max_steps"},
+      {"memory", "memory_mb"},
+      {"total pressure", "inlets, total pressure"},
+      {"total temperature", "inlets, total temperature"},
+      {"pressure", "outlets, pressure"}};
   const std::string text = error.what();
   const std::size_t end = text.find(": ");
   if (error.code() != ErrorCode::argument || end == std::string::npos) return text;
@@ -84,7 +99,8 @@ void add_errors(py::module_&) {
     } catch (const std::filesystem::filesystem_error& error) {
       raise(file_error(error), "FileError");
     } catch (const py::cast_error&) {
-      PyErr_SetString(PyExc_TypeError, "found an object of another type, expected one that help() names");
+      raise(Error(ErrorCode::argument, "object", "found one of another type, expected one that help() names"),
+            "ArgumentTypeError");
     }
   });
 }

@@ -85,6 +85,11 @@ FlowOptions options_of(const std::string& farfield, double tolerance, int max_st
   return options;
 }
 
+void require_reynolds_with_friction(FlowModel model, double reynolds) {
+  if (model == FlowModel::euler && reynolds != 0.0)
+    throw Error(ErrorCode::argument, "reynolds", "given with the model euler, expected one with friction");
+}
+
 // A flow knows the mesh that its values are on.
 py::object with_mesh(const FlowPointer& flow, const Snapshot& mesh) {
   py::object result = py::cast(flow);
@@ -102,6 +107,7 @@ py::object solved(const py::object& mesh, double mach, double alpha, const std::
   const FlowConditions conditions =
       conditions_of(mach, alpha, cl, reference, reference_length, reynolds, transition, wall_temperature);
   FlowOptions options = options_of(farfield, tolerance, max_steps, memory_mb, solver, inlets, outlets, model);
+  require_reynolds_with_friction(options.model, reynolds);
   const auto stop = std::make_shared<Stop>();
   options.observer = stop.get();
   const FlowPointer flow = Apart().run(stop, [frozen, conditions, options, stop] {
@@ -171,6 +177,7 @@ class Flows {
   py::object solve(const py::object& mesh, double mach, double alpha, const std::optional<double>& cl,
                    const std::array<double, 2>& reference, double reference_length, double reynolds,
                    const Transition& transition, const std::optional<double>& wall_temperature) {
+    require_reynolds_with_friction(options_.model, reynolds);
     const FlowConditions conditions =
         conditions_of(mach, alpha, cl, reference, reference_length, reynolds, transition, wall_temperature);
     const ThreadLock::Held held(lock_);

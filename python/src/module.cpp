@@ -42,6 +42,18 @@ std::string type_of(const py::handle& object) {
   return py::str(py::type::handle_of(object).attr("__name__"));
 }
 
+// What Class.__new__(Class) makes without __init__ has no value of its class. pybind11 would hand out memory
+// that nobody has written; that memory is asked for here.
+void refuse_unmade_objects(const py::module_& module) {
+  for (const auto& [name, member] : module.attr("__dict__").cast<py::dict>()) {
+    if (!PyType_Check(member.ptr())) continue;
+    if (auto* const info = py::detail::get_type_info(reinterpret_cast<PyTypeObject*>(member.ptr())))
+      info->operator_new = [](std::size_t) -> void* {
+        throw Error(ErrorCode::argument, "object", "was made by __new__ alone, expected a call of its class");
+      };
+  }
+}
+
 }  // namespace remodel::python
 
 PYBIND11_MODULE(_core, module) {
@@ -64,4 +76,5 @@ PYBIND11_MODULE(_core, module) {
   add_optimise(module);
   add_designs(module);
   add_sweeps(module);
+  refuse_unmade_objects(module);
 }

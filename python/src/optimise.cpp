@@ -45,7 +45,8 @@ class PythonEvaluator final : public Evaluator {
       else if (name == "outputs")
         result.outputs = value.cast<std::map<std::string, double>>();
       else
-        throw py::key_error("'" + name + "', expected objective, constraints or outputs");
+        throw Error(ErrorCode::argument, "objective",
+                    "returned the key '" + name + "', expected objective, constraints or outputs");
     }
     return result;
   }

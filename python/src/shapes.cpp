@@ -74,6 +74,13 @@ std::string airfoil_text(const CstAirfoil& airfoil) {
          ", thickness=" + std::to_string(max_thickness(airfoil).value) + ")";
 }
 
+// What a shape is pickled as.
+std::string text_in(const py::tuple& state) {
+  if (state.size() != 1 || !py::isinstance<py::str>(state[0]))
+    throw Error(ErrorCode::format, "pickle", "is damaged, expected the text of a shape");
+  return state[0].cast<std::string>();
+}
+
 void add_airfoil(py::module_& module) {
   py::class_<CstAirfoil> airfoil(
       module, "Airfoil",
@@ -141,9 +148,8 @@ chord: a UserWarning says so where that is more than rounding. Raises FileError,
       "file"_a, "Writes the coefficients as .json, exactly.");
   airfoil.def(py::self == py::self);
   airfoil.def("__repr__", &airfoil_text);
-  airfoil.def(py::pickle(
-      [](const CstAirfoil& a) { return py::make_tuple(airfoil_to_json(a)); },
-      [](const py::tuple& state) { return airfoil_from_json(state[0].cast<std::string>(), "pickle"); }));
+  airfoil.def(py::pickle([](const CstAirfoil& a) { return py::make_tuple(airfoil_to_json(a)); },
+                         [](const py::tuple& state) { return airfoil_from_json(text_in(state), "pickle"); }));
   module.def(
       "catalogue",
       [] {
@@ -190,7 +196,9 @@ Domain polygons(const py::dict& outer, const py::dict& holes) {
 }
 
 PlacedAirfoil placed_airfoil(const py::handle& item, const std::string& place) {
-  const auto element = member<py::dict>(item, place, "a dict");
+  if (!py::isinstance<py::dict>(item))  // or pybind11 would make one of pairs
+    throw py::type_error(place + ": found " + type_of(item) + ", expected a dict");
+  const auto element = py::reinterpret_borrow<py::dict>(item);
   PlacedAirfoil placed;
   for (const char* needed : {"name", "airfoil"})
     if (!element.contains(needed))
@@ -244,7 +252,8 @@ CstAirfoil airfoil_of(const Domain& domain, const std::string& boundary) {
   const std::vector<std::size_t> loops = airfoil_loops(domain, boundary);
   if (loops.size() != 1)
     throw Error(ErrorCode::argument, "boundary",
-                "names " + std::to_string(loops.size()) + " airfoils by coefficients, expected one");
+                "found '" + boundary + "', which names " + std::to_string(loops.size()) +
+                    " airfoils by coefficients, expected one");
   return std::get<CstAirfoil>(domain.loops[loops[0]].curves.front().shape);
 }
 
@@ -252,6 +261,15 @@ std::filesystem::path path_of(const py::object& shape) {
   if (py::isinstance<py::str>(shape) || py::hasattr(shape, "__fspath__"))
     return shape.cast<std::filesystem::path>();
   throw py::type_error("shape: found " + type_of(shape) + ", expected an Airfoil or the name of a file");
+}
+
+// "naca:2412", "rae2822": no file.
+bool is_name_of_airfoil(const py::object& shape) {
+  if (!py::isinstance<py::str>(shape)) return false;
+  const auto name = shape.cast<std::string>();
+  return name.starts_with("naca:") ||
+         (!name.empty() && name.find_first_of("./\\") == std::string::npos &&
+          name.find('\0') == std::string::npos && !std::filesystem::exists(name));
 }
 
 void add_domain(py::module_& module) {
@@ -262,10 +280,10 @@ Domain(airfoil, points=200, farfield_radius=25, farfield_points=50), Domain("fil
 has the layout), Domain.polygons(...) or Domain.airfoils(...). Raises GeometryError for curves that cross or
 touch, with the loop and the place.)");
   domain.def(py::init([](const py::object& shape, int points, double radius, int farfield_points) {
-               if (!py::isinstance<CstAirfoil>(shape)) return load_domain(path_of(shape));
-               return airfoil_domain(
-                   shape.cast<CstAirfoil>(),
-                   {.points = points, .farfield_radius = radius, .farfield_points = farfield_points});
+               if (!py::isinstance<CstAirfoil>(shape) && !is_name_of_airfoil(shape))
+                 return load_domain(path_of(shape));
+               return domain_of(
+                   shape, {.points = points, .farfield_radius = radius, .farfield_points = farfield_points});
              }),
              "shape"_a, py::kw_only(), "points"_a = 200, "farfield_radius"_a = 25.0,
              "farfield_points"_a = 50);
@@ -298,9 +316,8 @@ touch, with the loop and the place.)");
   domain.def(py::self == py::self);
   domain.def("__repr__",
              [](const Domain& d) { return "Domain(" + std::to_string(d.loops.size()) + " loops)"; });
-  domain.def(py::pickle(
-      [](const Domain& d) { return py::make_tuple(domain_to_json(d)); },
-      [](const py::tuple& state) { return domain_from_json(state[0].cast<std::string>(), "pickle"); }));
+  domain.def(py::pickle([](const Domain& d) { return py::make_tuple(domain_to_json(d)); },
+                        [](const py::tuple& state) { return domain_from_json(text_in(state), "pickle"); }));
 }
 
 }  // namespace

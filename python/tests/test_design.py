@@ -129,7 +129,7 @@ def test_refusals_name_the_place(tmp_path):
     for wrong in (3, None, [problem()]):
         with pytest.raises(remodel.ArgumentTypeError, match="problem"):
             remodel.design(wrong)
-    with pytest.raises(remodel.ArgumentError, match="missing.json"):
+    with pytest.raises(remodel.FileError, match="missing.json"):
         remodel.design(tmp_path / "missing.json")
     with pytest.raises(remodel.ArgumentError, match="resume"):
         remodel.design(problem(), resume=True)

@@ -192,15 +192,17 @@ def test_a_forked_process_goes_on_with_its_own_mesh(mesh, airfoil):
     assert mesh.steps == 0 and mesh.check().valid
 
 
+def resident():
+    """Bytes in memory."""
+    with open("/proc/self/statm") as statm:
+        return int(statm.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
 def test_ten_thousand_designs_take_no_more_memory(airfoil):
     """Under the sanitizers, which keep what is freed, a tenth of them."""
     mesh = remodel.generate(airfoil, points=40)
     pair = [airfoil.with_design(airfoil.design * scale) for scale in (1.0, 1.002)]
     sanitized = "asan" in os.environ.get("LD_PRELOAD", "")
-
-    def resident():
-        with open("/proc/self/statm") as statm:
-            return int(statm.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
     def run(count):
         for number in range(count):
@@ -212,3 +214,21 @@ def test_ten_thousand_designs_take_no_more_memory(airfoil):
     run(500 if sanitized else 9500)
     gc.collect()
     assert sanitized or resident() - before < 4 << 20
+
+
+def test_hundreds_of_flows_with_gradients_take_no_more_memory(airfoil):
+    """The growth of the last half: the factors of the first flows have found their room by then."""
+    mesh, flow = remodel.generate(airfoil, points=40), remodel.LivingFlow()
+    sanitized = "asan" in os.environ.get("LD_PRELOAD", "")
+
+    def run(count):
+        for number in range(count):
+            mesh.update(airfoil.with_design(airfoil.design * (1.0 + 0.002 * (number % 7))))
+            assert flow.solve(mesh, mach=0.4).converged
+            assert np.isfinite(mesh.vjp(flow.gradients()["cd"]["points"])).all()
+        gc.collect()
+        return resident()
+
+    half = run(10 if sanitized else 150)
+    whole = run(10 if sanitized else 150)
+    assert sanitized or whole - half < 8 << 20

@@ -168,7 +168,7 @@ def test_heat_passes_walls_with_a_temperature():
     for bad in (0.0, -1.0, float("nan")):
         with pytest.raises(remodel.ArgumentError):
             living.solve(mesh, wall_temperature=bad, **conditions)
-    with pytest.raises(remodel.ArgumentError, match="wall temperature"):
+    with pytest.raises(remodel.ArgumentError, match="wall_temperature"):
         remodel.solve_flow(remodel.generate("naca:0012", points=60), mach=0.5, wall_temperature=1.2)
 
 

@@ -43,6 +43,11 @@ def api(monkeypatch):
     sys.modules.pop("remodel.openmdao", None)
 
 
+@pytest.fixture(autouse=True)
+def room(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # OpenMDAO writes a directory for each problem
+
+
 @pytest.fixture
 def mesh(airfoil):
     return remodel.generate(airfoil, points=40)

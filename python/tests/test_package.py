@@ -4,6 +4,7 @@ import os
 import shutil
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -74,6 +75,45 @@ def test_an_editable_install_works_and_a_failed_one_leaves_the_good_one(environm
     assert run(environment, "-c", "import remodel; print(remodel.edited)").strip() == "True"
     run(environment, "-m", "pip", "uninstall", "-y", "remodel")
     run(environment, "-c", "import importlib.util as i; assert i.find_spec('remodel') is None")
+
+
+WHERE_FROM = """
+import sys
+sys.path.insert(0, sys.argv[1])
+import remodel
+mesh = remodel.generate("naca:0012", points=60)
+assert mesh.update("naca:2412").triangles == len(mesh) and remodel.LivingFlow().solve(mesh, mach=0.3).converged
+mesh.save(sys.argv[1] + "/mesh.vtkhdf")
+assert len(remodel.Mesh.load(sys.argv[1] + "/mesh.vtkhdf")) == len(mesh)
+print(*sorted({line.split()[-1] for line in open("/proc/self/maps") if ".so" in line}), sep="\\n")
+"""
+
+
+def test_a_whole_wheel_brings_its_libraries_and_their_licences(tmp_path):
+    """What it needs beside them are the C and C++ libraries alone; what it loads is its own."""
+    missing = [tool for tool in ("patchelf", "dpkg", "objdump", "gcc") if shutil.which(tool) is None]
+    if missing or "asan" in os.environ.get("LD_PRELOAD", ""):
+        pytest.skip(f"no {', '.join(missing) or 'wheels of a sanitizer'}")
+    plain, whole = tmp_path / "plain", tmp_path / "whole"
+    run(sys.executable, "-m", "pip", "wheel", "--no-index", "--no-build-isolation", "--no-deps", "-w", plain, SOURCE, REMODEL_BUILD_DIRECTORY=BUILD)
+    (wheel,) = plain.glob("*.whl")
+    first = subprocess.run([SOURCE / "scripts/wheel", "--check", wheel], stdout=subprocess.PIPE, text=True)
+    assert first.returncode == 1 and "libcairo.so" in first.stdout
+    assert "libraries" in run(SOURCE / "scripts/wheel", "-o", whole, wheel)
+    (wheel,) = whole.glob("remodel-*-manylinux_2_*.whl")
+    assert "needs nothing but the C and C++ libraries" in run(SOURCE / "scripts/wheel", "--check", wheel)
+
+    with zipfile.ZipFile(wheel) as archive:
+        archive.extractall(tmp_path / "site")
+    libraries = {file.name for file in (tmp_path / "site/remodel.libs").iterdir()}
+    assert not any(name.startswith(("libcurl", "libssl", "libcrypto", "libgnutls")) for name in libraries)
+    (bundled,) = (tmp_path / "site").glob("*.dist-info/licenses/BUNDLED.txt")
+    packages = [line.split()[0] for line in bundled.read_text().splitlines() if ": " in line and line[0].islower()]
+    assert len(packages) > 10 and all((bundled.parent / f"{package}.txt").stat().st_size > 200 for package in packages)
+    loaded = [Path(name) for name in run(sys.executable, "-I", "-c", WHERE_FROM, tmp_path / "site").split()]
+    ours = [path.name for path in loaded if path.parent.name == "remodel.libs"]
+    assert set(ours) == libraries
+    assert not [path for path in loaded if path.name.startswith(("libhdf5", "libcairo", "libsmumps", "libcurl")) and path.name not in ours]
 
 
 def test_the_number_of_jobs_is_the_users(tmp_path, monkeypatch):

@@ -20,6 +20,9 @@ struct RemapInput {
   const RemapOptions& options;
 };
 
+// The components as a size. Throws Error (argument) unless there are as many values for each of the numbers.
+std::size_t require_values(const std::vector<double>& values, std::size_t numbers, int components);
+
 // Runs a remap and puts what it has made into the values, after the map of what has not changed.
 template <class Remap>
 Balance remap_by(Remap&& remap, const ValueMap& map, int components, std::vector<double>& values) {

@@ -123,6 +123,19 @@ TEST(Remap, IsOfSecondOrderAndConserves) {
   }
 }
 
+TEST(Remap, RefusesValuesOfAnotherCount) {
+  const auto [before, after] = two_squares(6);
+  const Transfer transfer(before, after);
+  for (const FieldPlace place : places)
+    for (const int components : {0, 1, 2, 5})
+      for (const std::size_t count :
+           {std::size_t{0}, std::size_t{7}, before.points.size() + before.triangles.size()}) {
+        std::vector<double> values(count, 1.0);
+        EXPECT_THROW(transfer.remap(place, components, values), Error);
+        EXPECT_EQ(values.size(), count);
+      }
+}
+
 TEST(Remap, IsExactOnLinearFields) {
   const auto [before, after] = two_squares(12);
   for (const FieldPlace place : places) {

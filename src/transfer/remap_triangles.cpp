@@ -153,8 +153,8 @@ class TriangleRemap {
 
 Balance remap_triangles(const RemapInput& input, const ValueMap& map, int components,
                         std::vector<double>& values) {
-  return remap_by(TriangleRemap(input, static_cast<std::size_t>(components), values), map, components,
-                  values);
+  const std::size_t width = require_values(values, map.size_before, components);
+  return remap_by(TriangleRemap(input, width, values), map, components, values);
 }
 
 }  // namespace remodel

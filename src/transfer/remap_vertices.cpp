@@ -258,7 +258,8 @@ class VertexRemap {
 
 Balance remap_vertices(const RemapInput& input, const ValueMap& map, int components,
                        std::vector<double>& values) {
-  return remap_by(VertexRemap(input, static_cast<std::size_t>(components), values), map, components, values);
+  const std::size_t width = require_values(values, map.size_before, components);
+  return remap_by(VertexRemap(input, width, values), map, components, values);
 }
 
 }  // namespace remodel

@@ -3,10 +3,9 @@
 
 #include "remodel/error.h"
 #include "remodel/transfer.h"
+#include "transfer/remap.h"
 
 namespace remodel {
-
-namespace {
 
 std::size_t require_values(const std::vector<double>& values, std::size_t numbers, int components) {
   if (components < 1)
@@ -19,8 +18,6 @@ std::size_t require_values(const std::vector<double>& values, std::size_t number
                     " for each of " + std::to_string(numbers) + " numbers");
   return width;
 }
-
-}  // namespace
 
 void ValueMap::add_row(std::uint32_t to, const std::array<std::uint32_t, 3>& from,
                        const std::array<double, 3>& weights, double distance) {
