@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "io/mesh_bytes.h"
 #include "io/test_meshes.h"
 #include "io/vtkhdf.h"
 #include "remodel/airfoil.h"
@@ -9,6 +10,7 @@
 #include "remodel/io.h"
 #include "remodel/layers.h"
 #include "remodel/mesh_state.h"
+#include "remodel/remodel.h"
 
 namespace remodel {
 namespace {
@@ -41,6 +43,20 @@ TEST(LivingMesh, ASealedStateOutOfRangeIsRefusedWithItsFile) {
             begin + "resolution: found 0.000000, expected a number above 0 up to 1e6");
   EXPECT_EQ(refusal([](MeshState& s) { s.options.min_angle_deg = 5e20; }),
             begin + "min_angle_deg: found 500000000000000000000.000000, expected 0 to 34 degrees");
+}
+
+TEST(LivingMesh, ComesBackFromItsBytesWithTheSameState) {
+  Mesh mesh = generate(airfoil_domain(named_airfoil("naca:0012", 5), {.points = 40})).mesh;
+  const Domain next = airfoil_domain(named_airfoil("naca:0011", 5), {.points = 40});
+  for (const Strategy strategy : {Strategy::renew, Strategy::reference}) {
+    remodel(mesh, next, {.strategy = strategy});
+    const std::string bytes = io::mesh_to_bytes(mesh);
+    EXPECT_EQ(io::mesh_from_bytes(bytes, "here").state(), mesh.state());
+    for (const std::size_t size : {bytes.size() - 1, bytes.size() / 2, std::size_t{3}, std::size_t{0}})
+      EXPECT_NE(error_of([&] { io::mesh_from_bytes(bytes.substr(0, size), "here"); }), "") << size;
+    EXPECT_EQ(error_of([&] { io::mesh_from_bytes(bytes + "x", "here"); }),
+              "here: found other bytes than those of a mesh's state");
+  }
 }
 
 TEST(LivingMesh, ComesBackFromItsFileWithTheSameStateAndTheSameBytes) {
