@@ -60,7 +60,7 @@ auto understood(Read read) {
 
 std::string encode(const PostedDesign& design, const std::vector<const Mesh*>& meshes) {
   const EvaluationRecord& record = design.record;
-  return cbor_of({{"run", design.run},
+  return cbor_of(Json{{"run", design.run},
                {"worker", design.worker},
                {"token", design.token},
                {"before", design.before},
