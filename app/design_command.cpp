@@ -100,7 +100,8 @@ CrewWork work_of_ranks(const DesignCommand& command) {
     throw Error(ErrorCode::argument, command.problem,
                 "found one point of flow and one living mesh, expected several points, or \"cmaes\" with "
                 "'workers': " +
-                    std::to_string(launched_ranks()) + " MPI ranks have no more than one flow to find at a time");
+                    std::to_string(launched_ranks()) +
+                    " MPI ranks have no more than one flow to find at a time");
   return design_work(problem);
 }
 

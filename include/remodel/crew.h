@@ -58,17 +58,17 @@ class ThreadCrew final : public Crew {
   std::size_t threads_;
 };
 
-// Jobs that a run posts as it goes. Those of one key are done one after the other by one worker, so that it can
-// keep what it has of the last one; who that is, the crew finds out: the first one that is free. Where that
-// worker is lost, another takes its place, without what was kept.
+// Jobs that a run posts as it goes. Those of one key are done one after the other by one worker, so that it
+// can keep what it has of the last one; who that is, the crew finds out: the first one that is free. Where
+// that worker is lost, another takes its place, without what was kept.
 class PostedJobs final : public CrewJobs {
  public:
-  // Calls `run` on a thread of its own while the crew works on the jobs that it posts. Rethrows what `run` or the
-  // crew has thrown, when both have ended.
+  // Calls `run` on a thread of its own while the crew works on the jobs that it posts. Rethrows what `run` or
+  // the crew has thrown, when both have ended.
   static void lead(Crew& crew, const CrewWork& work, const std::function<void(PostedJobs&)>& run);
 
-  // Posts a job and waits for its result. Nothing where `cancelled`, which is asked meanwhile, returned true, or
-  // the crew has failed. May be called from several threads at once, with a key of its own each.
+  // Posts a job and waits for its result. Nothing where `cancelled`, which is asked meanwhile, returned true,
+  // or the crew has failed. May be called from several threads at once, with a key of its own each.
   std::optional<std::string> result_of(std::uint64_t key, std::string work,
                                        const std::function<bool()>& cancelled);
   // A number that no other call has returned, from 1.

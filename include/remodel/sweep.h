@@ -100,9 +100,9 @@ struct SweepFlow {
   // At the stations of the upper surface from nose to trailing edge, then of the lower one: the pressure
   // coefficient and, with friction, the friction coefficient. Empty where there is no flow.
   std::vector<double> cp = {}, cf = {};
-  // At SweepProblem::field_points: density, velocity in x and in y, pressure and, with turbulence, turbulent over
-  // molecular viscosity, one after the other, in the units of FlowResult. Not a number where a point is in the body
-  // or beyond the far field; empty where there is no flow.
+  // At SweepProblem::field_points: density, velocity in x and in y, pressure and, with turbulence, turbulent
+  // over molecular viscosity, one after the other, in the units of FlowResult. Not a number where a point is
+  // in the body or beyond the far field; empty where there is no flow.
   std::vector<double> fields = {};
 };
 // "converged" or why there is no flow: another name_of(FlowStatus), "refused", "not-looked-for".

@@ -18,8 +18,8 @@ class TemplatePlaces {
  public:
   TemplatePlaces() = default;
   TemplatePlaces(const FrozenMesh& mesh, std::span<const Point> points);
-  // Of values of the mesh's points, by linear interpolation in the triangle that holds a point, in the first of
-  // several; not a number where none does: in the body, or beyond the far field.
+  // Of values of the mesh's points, by linear interpolation in the triangle that holds a point, in the first
+  // of several; not a number where none does: in the body, or beyond the far field.
   std::vector<double> at(const std::vector<double>& values) const;
 
  private:

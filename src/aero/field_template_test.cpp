@@ -23,8 +23,7 @@ std::vector<Point> grid(double half, std::size_t count) {
 
 FrozenMesh layered(const CstAirfoil& airfoil) {
   const Domain walls = airfoil_domain(airfoil, {.points = 80, .farfield_radius = 5.0});
-  return generate_layered(walls, {.first_height = 1e-3, .growth = 1.2, .thickness = 0.02},
-                          {.gradation = 2.0})
+  return generate_layered(walls, {.first_height = 1e-3, .growth = 1.2, .thickness = 0.02}, {.gradation = 2.0})
       .mesh.freeze();
 }
 
@@ -38,7 +37,8 @@ TEST(FieldTemplates, ReproduceALinearFieldExactly) {
   std::vector<Point> points = grid(0.6, 61);
   for (const auto& quad : mesh.quads) {  // their middles too
     Point middle;
-    for (const std::uint32_t v : quad) middle = {middle.x + mesh.points[v].x / 4, middle.y + mesh.points[v].y / 4};
+    for (const std::uint32_t v : quad)
+      middle = {middle.x + mesh.points[v].x / 4, middle.y + mesh.points[v].y / 4};
     points.push_back(middle);
   }
   const std::vector<double> found = TemplatePlaces(mesh, points).at(values);

@@ -10,8 +10,8 @@
 #include "aero/flow_memory.h"
 #include "aero/posted_point.h"
 #include "aero/resolved_problem.h"
-#include "design/posted_design.h"
 #include "base/threads.h"
+#include "design/posted_design.h"
 #include "remodel/error.h"
 #include "remodel/remodel.h"
 
@@ -69,7 +69,8 @@ class FlowEvaluator final : public Evaluator {
         .dump();
   }
 
-  // One point of a design, for the crew of another evaluator. `states`: what this process has of earlier ones.
+  // One point of a design, for the crew of another evaluator. `states`: what this process has of earlier
+  // ones.
   std::optional<std::string> point_for_crew(const std::string& bytes, PointStates& states,
                                             const std::function<bool()>& cancelled) {
     PostedPoint posted = decode_posted_point(bytes);
@@ -117,7 +118,8 @@ class FlowEvaluator final : public Evaluator {
       memory.flows.emplace_back(flow_options(memory.flows.size(), memory));
     if (is_first || task.step.changed() != 0) memory.connectivity = 2 * task.evaluation;
     if (parts_.target) aim(task, memory);
-    std::vector<PointFlow> points = ranks_ != nullptr ? points_elsewhere(task, memory) : points_here(task, memory);
+    std::vector<PointFlow> points =
+        ranks_ != nullptr ? points_elsewhere(task, memory) : points_here(task, memory);
     Evaluation result{.objective = 0.0};
     for (std::size_t i = 0; i < points.size(); ++i) {
       note(points[i], i, task.gradient, result.outputs);
@@ -157,8 +159,8 @@ class FlowEvaluator final : public Evaluator {
                                .gradient = task.gradient,
                                .target = parts_.target ? std::optional(memory.target[i]) : std::nullopt,
                                .mesh = {}};
-      const std::optional<std::string> bytes = ranks_->result_of(
-          i, encode(posted, task.mesh), [&] { return memory.observer.cancelled(); });
+      const std::optional<std::string> bytes =
+          ranks_->result_of(i, encode(posted, task.mesh), [&] { return memory.observer.cancelled(); });
       if (!bytes) throw std::runtime_error("interrupted");
       EvaluatedPoint evaluated = decode_evaluated_point(*bytes);
       if (!evaluated.problem.empty()) throw std::runtime_error(evaluated.problem);
@@ -307,8 +309,7 @@ std::unique_ptr<Evaluator> flow_evaluator(const DesignProblem& problem, const Fl
 
 CrewWork flow_points_work(const DesignProblem& problem) {
   struct Parts {
-    explicit Parts(const DesignProblem& of)
-        : space(design_space(of)), evaluator(of, *space, 1, nullptr) {}
+    explicit Parts(const DesignProblem& of) : space(design_space(of)), evaluator(of, *space, 1, nullptr) {}
     std::unique_ptr<FlowSpace> space;
     FlowEvaluator evaluator;
     PointStates states;

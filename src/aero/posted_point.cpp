@@ -25,8 +25,8 @@ auto point_read(Read read) {
 }  // namespace
 
 std::string encode(const PostedPoint& point, const Mesh& mesh) {
-  PointJson json{{"run", point.run},       {"point", point.point},   {"token", point.token},
-                 {"before", point.before}, {"design", point.design}, {"from", point.from},
+  PointJson json{{"run", point.run},          {"point", point.point},   {"token", point.token},
+                 {"before", point.before},    {"design", point.design}, {"from", point.from},
                  {"gradient", point.gradient}};
   if (point.target) {
     PointJson& target = json["target"] = PointJson::array();

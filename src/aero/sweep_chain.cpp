@@ -331,8 +331,7 @@ class Chain {
       const FrozenMesh& mesh = places_[k].mesh.frozen;
       flow.cp = stations_.at(mesh, pressure_coefficients(marched.flow));
       if (marched.flow.friction) flow.cf = stations_.at(mesh, marched.flow.friction->cf);
-      if (!problem_.field_points.empty())
-        flow.fields = template_values(marched.flow, places_[k].points);
+      if (!problem_.field_points.empty()) flow.fields = template_values(marched.flow, places_[k].points);
       if (problem_.fields) write_fields(mesh, marched.flow, flow);
     }
     flow.point = aero::point_of(marched, problem_.over_lift);

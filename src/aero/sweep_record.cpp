@@ -212,7 +212,8 @@ std::vector<SweepPlan> sweep_plans_from(const Json& json, const SweepProblem& pr
 }
 
 std::string encode(const ChainWork& work) {
-  return cbor_of(Json{{"sweep", to_json(work.problem)}, {"sections", work.sections}, {"directory", work.directory}});
+  return cbor_of(
+      Json{{"sweep", to_json(work.problem)}, {"sections", work.sections}, {"directory", work.directory}});
 }
 
 ChainWork decode_chain_work(const std::string& bytes) {
@@ -231,7 +232,8 @@ ChainWork decode_chain_work(const std::string& bytes) {
 std::string encode(const ChainResult& result) {
   Json flows = Json::array();
   for (const SweepFlow& flow : result.flows) flows.push_back(to_json(flow));
-  return cbor_of(Json{{"version", version}, {"mesh_seconds", result.mesh_seconds}, {"flows", std::move(flows)}});
+  return cbor_of(
+      Json{{"version", version}, {"mesh_seconds", result.mesh_seconds}, {"flows", std::move(flows)}});
 }
 
 ChainResult decode_chain_result(const std::string& bytes, const std::string& source) {

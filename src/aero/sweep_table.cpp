@@ -4,8 +4,8 @@
 #include <limits>
 #include <string>
 
-#include "aero/sweep_record.h"
 #include "aero/field_template.h"
+#include "aero/sweep_record.h"
 #include "aero/table_cell.h"
 #include "io/column_file.h"
 #include "remodel/error.h"

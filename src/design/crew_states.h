@@ -13,8 +13,8 @@
 
 namespace remodel {
 
-// What jobs have left for the next ones, by their keys; each with the token of the job that left it: where another
-// process has done a job since, it is of no use.
+// What jobs have left for the next ones, by their keys; each with the token of the job that left it: where
+// another process has done a job since, it is of no use.
 template <class State>
 class CrewStates {
  public:

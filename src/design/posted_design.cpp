@@ -61,20 +61,20 @@ auto understood(Read read) {
 std::string encode(const PostedDesign& design, const std::vector<const Mesh*>& meshes) {
   const EvaluationRecord& record = design.record;
   return cbor_of(Json{{"run", design.run},
-               {"worker", design.worker},
-               {"token", design.token},
-               {"before", design.before},
-               {"state", to_json(design.state)},
-               {"meshes", meshes_json(meshes)},
-               {"design", design.proposal.design},
-               {"gradient", design.proposal.gradient},
-               {"from", design.proposal.from},
-               {"compare", design.tasks.compare ? Json(*design.tasks.compare) : Json()},
-               {"check", name_of(design.tasks.check)},
-               {"squared_displacement", design.squared_displacement},
-               {"evaluation", record.evaluation},
-               {"generation", record.generation},
-               {"sigma", record.sigma}});
+                      {"worker", design.worker},
+                      {"token", design.token},
+                      {"before", design.before},
+                      {"state", to_json(design.state)},
+                      {"meshes", meshes_json(meshes)},
+                      {"design", design.proposal.design},
+                      {"gradient", design.proposal.gradient},
+                      {"from", design.proposal.from},
+                      {"compare", design.tasks.compare ? Json(*design.tasks.compare) : Json()},
+                      {"check", name_of(design.tasks.check)},
+                      {"squared_displacement", design.squared_displacement},
+                      {"evaluation", record.evaluation},
+                      {"generation", record.generation},
+                      {"sigma", record.sigma}});
 }
 
 PostedDesign decode_posted_design(const std::string& bytes) {

@@ -1,8 +1,9 @@
 #pragma once
 
-// The evaluation of one design on a worker's mesh as a job of a crew, from bytes to bytes: the mesh and what the
-// worker knows go there and come back. The mesh is whole in its bytes. What an evaluator keeps may be more than its
-// bytes have (factors of matrices): a process that has done the worker's job before goes on with that itself.
+// The evaluation of one design on a worker's mesh as a job of a crew, from bytes to bytes: the mesh and what
+// the worker knows go there and come back. The mesh is whole in its bytes. What an evaluator keeps may be
+// more than its bytes have (factors of matrices): a process that has done the worker's job before goes on
+// with that itself.
 
 #include <memory>
 #include <optional>

@@ -43,8 +43,7 @@ std::optional<std::string> PostedJobs::result_of(std::uint64_t key, std::string 
     lock.lock();
     cancelled_ = cancelled_ || is_cancelled;
     if (cancelled_ || failed_) break;
-    news_.wait_for(lock, between_questions,
-                   [&] { return failed_ || posted_[number].state == State::done; });
+    news_.wait_for(lock, between_questions, [&] { return failed_ || posted_[number].state == State::done; });
   }
   const Posted posted = std::move(posted_[number]);
   posted_.erase(number);

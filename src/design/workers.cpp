@@ -175,9 +175,8 @@ void Workers::Crew::evaluate_elsewhere(Worker& worker, Job& job) const {
   design.state.evaluator = bytes_of(worker.evaluator);
   std::vector<const Mesh*> meshes{&worker.living->mesh()};
   if (hub) meshes.push_back(&hub->mesh());
-  const std::optional<std::string> bytes =
-      options.ranks->result_of(design.worker, encode(design, meshes),
-                               [this] { return evaluating.observer.cancelled(); });
+  const std::optional<std::string> bytes = options.ranks->result_of(
+      design.worker, encode(design, meshes), [this] { return evaluating.observer.cancelled(); });
   job.stopped = Stopped::interrupted;
   if (!bytes) return;
   EvaluatedDesign evaluated = decode_evaluated_design(*bytes);
@@ -197,8 +196,8 @@ void Workers::Crew::evaluate_elsewhere(Worker& worker, Job& job) const {
     worker.evaluator = std::make_unique<StateElsewhere>(std::move(kept));
 }
 
-CrewWork Workers::work_of_crew(const DesignSpace& space, Evaluator& evaluator,
-                               const OptimiseOptions& options, std::size_t population) {
+CrewWork Workers::work_of_crew(const DesignSpace& space, Evaluator& evaluator, const OptimiseOptions& options,
+                               std::size_t population) {
   const auto states = std::make_shared<CrewStates<EvaluatorState>>();
   return [&space, &evaluator, &options, population, states, run = identity_of(space, evaluator)](
              const std::string& bytes, const std::function<bool()>& cancelled) -> std::optional<std::string> {

@@ -98,8 +98,8 @@ class Workers {
   // them, are those after the last finished job of each worker.
   KeptWorkers kept(WorkersState before, std::span<const Job> first) const;
 
-  // The work of the crew that OptimiseOptions::ranks has designs evaluated by, on meshes that it is sent. Space,
-  // evaluator and options must outlive it; these have no ranks.
+  // The work of the crew that OptimiseOptions::ranks has designs evaluated by, on meshes that it is sent.
+  // Space, evaluator and options must outlive it; these have no ranks.
   static CrewWork work_of_crew(const DesignSpace& space, Evaluator& evaluator, const OptimiseOptions& options,
                                std::size_t population);
 

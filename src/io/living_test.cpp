@@ -73,7 +73,8 @@ TEST(LivingMesh, ComesBackFromItsFileWithTheSameStateAndTheSameBytes) {
 LayeredMesh layered_mesh() {
   Domain domain = airfoil_domain(named_airfoil("naca:2412", 8));
   space_walls(domain, {.most = 0.03});
-  LayeredMesh mesh = generate_layered(domain, {.first_height = 1e-4, .walls = {"airfoil"}}, {.gradation = 4.0}).mesh;
+  LayeredMesh mesh =
+      generate_layered(domain, {.first_height = 1e-4, .walls = {"airfoil"}}, {.gradation = 4.0}).mesh;
   Domain next = domain;
   next.loops[0].placement.rotation_deg = -1.0;
   remodel::remodel(mesh, next, {.strategy = Strategy::reference});
@@ -113,9 +114,12 @@ TEST(LayeredMesh, IsNotTakenForOneWithoutLayersNorTheOtherWayRound) {
   write_mesh(layered_mesh(), scratch / "layers.vtkhdf");
   write_mesh(square_mesh(), scratch / "square.vtkhdf");
   EXPECT_FALSE(holds_layers(scratch / "square.vtkhdf"));
-  const std::string begin = (scratch / "layers.vtkhdf").string() + ":/remodel/layers: a mesh with layers found";
+  const std::string begin =
+      (scratch / "layers.vtkhdf").string() + ":/remodel/layers: a mesh with layers found";
   EXPECT_TRUE(error_of([&] { read_mesh(scratch / "layers.vtkhdf").step(); }).starts_with(begin));
-  EXPECT_NE(error_of([&] { read_layered_mesh(scratch / "square.vtkhdf").levels(); }).find("/remodel/layers: not found"),
+  EXPECT_NE(error_of([&] {
+              read_layered_mesh(scratch / "square.vtkhdf").levels();
+            }).find("/remodel/layers: not found"),
             std::string::npos);
   EXPECT_NE(error_of([&] { read_layered_mesh(scratch / "m.su2").levels(); }).find("another format found"),
             std::string::npos);

@@ -1,7 +1,7 @@
 #pragma once
 
-// A living mesh as bytes, for messages between processes of one program on machines of one kind: the mesh that is
-// made of them goes on to the same bytes.
+// A living mesh as bytes, for messages between processes of one program on machines of one kind: the mesh
+// that is made of them goes on to the same bytes.
 
 #include <string>
 

@@ -1,6 +1,7 @@
 #pragma once
 
-// The numbers and arrays of a mesh's state by name: visit(name, value), visit(name, values, values an element).
+// The numbers and arrays of a mesh's state by name: visit(name, value), visit(name, values, values an
+// element).
 
 #include "remodel/mesh_state.h"
 

@@ -388,7 +388,8 @@ LayeredState read_vtkhdf_layers(const std::filesystem::path& file) {
   }
   const std::string walls = in.text(layer_walls_path);
   if (in.attribute<std::uint64_t>(layers_group, "checksum").front() != checksum_of_layers(state, walls))
-    in.fail(layers_group + "@checksum", "another checksum than that of the content found: the file is damaged");
+    in.fail(layers_group + "@checksum",
+            "another checksum than that of the content found: the file is damaged");
   state.walls = domain_from_json(walls, in.place(layer_walls_path));
   return state;
 }
