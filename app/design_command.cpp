@@ -7,11 +7,13 @@
 #include "arguments.h"
 #include "command.h"
 #include "figures.h"
+#include "launched.h"
 #include "number_text.h"
 #include "optimise_start.h"
 #include "outputs.h"
 #include "page_command.h"
 #include "progress.h"
+#include "ranks.h"
 #include "remodel/design_run.h"
 #include "remodel/error.h"
 #include "warnings.h"
@@ -22,6 +24,7 @@ namespace {
 struct DesignCommand {
   std::string problem;
   DesignRunOptions run;
+  RanksOptions ranks;
   bool quiet = false, json = false;
 };
 
@@ -53,10 +56,13 @@ void add_constraints(Report& report, const std::vector<NamedNumber>& constraints
     report.line("constraint: " + name, violation == 0.0 ? "kept" : "violated by " + short_text(violation));
 }
 
-void require_possible(const DesignCommand& command) {
+void require_given(const DesignCommand& command) {
   if (command.problem.empty() || command.run.directory.empty())
     throw Error(ErrorCode::argument, command.problem.empty() ? "PROBLEM" : "--output",
                 "is missing, expected a design problem and -o, a run directory");
+}
+
+void require_possible(const DesignCommand& command) {
   require_run_directory(command.run.directory);
   if (command.run.resume && command.run.overwrite)
     throw Error(ErrorCode::argument, "--overwrite", "found with --resume, expected one of them");
@@ -87,10 +93,23 @@ std::string text_of(const FreshFlow& fresh) {
   return text;
 }
 
-Status run(const DesignCommand& command) {
+// Under mpirun.
+CrewWork work_of_ranks(const DesignCommand& command) {
+  const DesignProblem problem = read_design_problem(command.problem);
+  if (problem.points.size() == 1 && (problem.designer != "cmaes" || problem.workers == 1))
+    throw Error(ErrorCode::argument, command.problem,
+                "found one point of flow and one living mesh, expected several points, or \"cmaes\" with "
+                "'workers': " +
+                    std::to_string(launched_ranks()) +
+                    " MPI ranks have no more than one flow to find at a time");
+  return design_work(problem);
+}
+
+Status run_search(DesignCommand& command, PostedJobs* jobs) {
   require_possible(command);
   const DesignProblem problem = read_design_problem(command.problem);
   warn(problem.warnings);
+  command.run.ranks = jobs;
   Progress progress(progress_style(command.quiet), problem.evaluations, "problem: " + command.problem);
   const DesignResult result = run_design(problem, command.run, &progress);
   progress.finish();
@@ -114,6 +133,13 @@ Status run(const DesignCommand& command) {
   report.print(command.json);
   if (result.stopped != "done") return Status::limit;
   return std::isfinite(result.search.objective) ? Status::done : Status::answer_is_no;
+}
+
+Status run(DesignCommand& command) {
+  require_given(command);
+  return with_posted_jobs(
+      command.ranks, [&] { return work_of_ranks(command); },
+      [&](PostedJobs* jobs) { return run_search(command, jobs); });
 }
 
 }  // namespace
@@ -140,6 +166,7 @@ void add_design_command(CLI::App& program, Action& action) {
        "Flows of the problem's points that are looked for at the same time. The result does not depend "
        "on it; 1 to 1000"},
       {.low = 1, .high = 1000}, command->run.threads);
+  add_rank_option(app, command->ranks);
   add_flag(app, "--quiet", "No progress on standard error", command->quiet);
   add_json_flag(app, command->json);
   add_page_command(app, action,

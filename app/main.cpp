@@ -156,6 +156,11 @@ int run(const Words& words) {
   }
 }
 
+// Whether MPI's ranks do its work together.
+bool shares_ranks(std::string_view subcommand) {
+  return subcommand == "study" || subcommand == "sweep" || subcommand == "optimise" || subcommand == "design";
+}
+
 }  // namespace
 }  // namespace remodel::app
 
@@ -163,7 +168,7 @@ int main(int argc, char** argv) {
   // A write beyond the limit on file sizes then fails as on a full disk, instead of ending the process.
   std::signal(SIGXFSZ, SIG_IGN);
   const std::string_view subcommand = argc > 1 ? argv[1] : "";
-  if (remodel::app::launched_ranks() > 1 && (subcommand == "study" || subcommand == "sweep"))
+  if (remodel::app::launched_ranks() > 1 && remodel::app::shares_ranks(subcommand))
     remodel::app::go_on_with_mpi(argv);
   remodel::app::end_at_interrupt();
   return remodel::app::run(remodel::app::words_of(argc, argv));

@@ -12,10 +12,12 @@
 #include "command.h"
 #include "evaluate_options.h"
 #include "figures.h"
+#include "launched.h"
 #include "meshing_options.h"
 #include "optimise_start.h"
 #include "outputs.h"
 #include "progress.h"
+#include "ranks.h"
 #include "remodel/error.h"
 #include "remodel/io.h"
 #include "remodel_options.h"
@@ -30,6 +32,7 @@ struct OptimiseCommand {
   EvaluateOptions evaluate;
   MeshingOptions meshing;
   OptimiseOptions run;
+  RanksOptions ranks;
   int repeat = 1;
   bool quiet = false;
   bool json = false;
@@ -106,24 +109,49 @@ void require_one_evaluator(const OptimiseCommand& command) {
     throw Error(ErrorCode::argument, "--evaluate", "given with --to, one of them expected");
 }
 
+// The program in a process, on a host's own disk space: only one may have a directory of evaluations.
+std::unique_ptr<Evaluator> program_of(const OptimiseCommand& command) {
+  EvaluateOptions options = command.evaluate;
+  options.run.directory = command.run.directory / "evaluations";
+  if (launched_rank() > 0) options.run.directory /= "rank-" + std::to_string(launched_rank());
+  if (command.run.start) options.run.su2_boxes = command.run.start->su2_boxes;
+  return shell_evaluator(options);
+}
+
+// A search of coefficients does not change the trailing edge: the target has the start's.
+CstAirfoil target_of(const OptimiseCommand& command, OptimiseStart& start) {
+  CstAirfoil to = fit_shape(command.to, command.meshing.fit, start.fits).airfoil;
+  to.te_upper = start.from.te_upper, to.te_lower = start.from.te_lower;
+  return to;
+}
+
+// Under mpirun.
+CrewWork work_of_ranks(OptimiseCommand command) {
+  if (command.run.workers == 1 || (command.run.workers == 0 && command.run.strategy != MeshStrategy::pool))
+    throw Error(ErrorCode::argument, "--workers",
+                "found 1 with " + std::to_string(launched_ranks()) +
+                    " MPI ranks, expected 2 or more: a living mesh has one design at a time");
+  OptimiseStart start = read_start(command.start, command.meshing, command.run);
+  if (command.evaluate.command.empty())
+    return optimise_work(start.from, target_of(command, start), command.run);
+  const std::shared_ptr<Evaluator> evaluator = program_of(command);
+  const CrewWork work = optimise_work(start.from, *evaluator, command.run);
+  return [evaluator, work](const std::string& bytes, const std::function<bool()>& cancelled) {
+    return work(bytes, cancelled);
+  };
+}
+
 // One run. Command, start and progress must outlive it.
 std::function<OptimiseResult()> once(const OptimiseCommand& command, OptimiseStart& start,
                                      Progress& progress) {
   if (!command.evaluate.command.empty()) {
-    EvaluateOptions options = command.evaluate;
-    options.run.directory = command.run.directory / "evaluations";
-    if (command.run.start) options.run.su2_boxes = command.run.start->su2_boxes;
-    std::shared_ptr<Evaluator> evaluator = shell_evaluator(options);
+    const std::shared_ptr<Evaluator> evaluator = program_of(command);
     return [&, evaluator] { return optimise(start.from, *evaluator, command.run, &progress); };
   }
-  CstAirfoil to = fit_shape(command.to, command.meshing.fit, start.fits).airfoil;
-  // A search of coefficients does not change the trailing edge: the target has the start's.
-  to.te_upper = start.from.te_upper, to.te_lower = start.from.te_lower;
-  return [&, to] { return optimise(start.from, to, command.run, &progress); };
+  return [&, to = target_of(command, start)] { return optimise(start.from, to, command.run, &progress); };
 }
 
-Status run(OptimiseCommand& command) {
-  require_one_evaluator(command);
+Status run_search(OptimiseCommand& command, PostedJobs* jobs) {
   require_run_directory(command.run.directory);
   if (command.run.resume && command.repeat > 1) {
     throw Error(ErrorCode::argument, "--repeat",
@@ -132,6 +160,7 @@ Status run(OptimiseCommand& command) {
   if (command.run.resume && command.run.overwrite)
     throw Error(ErrorCode::argument, "--overwrite", "found with --resume, expected one of them");
   command.run.keep_finished = !command.evaluate.command.empty();
+  command.run.ranks = jobs;
   OptimiseStart start = read_start(command.start, command.meshing, command.run);
   const Json options = options_json(command);
   Progress progress(progress_style(command.quiet), command.run.evaluations, "options: " + options.dump());
@@ -159,6 +188,13 @@ Status run(OptimiseCommand& command) {
     std::fprintf(stderr, "remodel: all %llu evaluations failed: %s\n",
                  static_cast<unsigned long long>(result.evaluations), result.detail.c_str());
   return status_of(result);
+}
+
+Status run(OptimiseCommand& command) {
+  require_one_evaluator(command);
+  return with_posted_jobs(
+      command.ranks, [&] { return work_of_ranks(command); },
+      [&](PostedJobs* jobs) { return run_search(command, jobs); });
 }
 
 void add_strategy(CLI::App& app, OptimiseOptions& run) {
@@ -246,6 +282,7 @@ void add_optimise_command(CLI::App& program, Action& action) {
   add_meshing_options(app, command->meshing);
   add_remodel_options(app, command->run.remodel);
   add_strategy(app, command->run);
+  add_rank_option(app, command->ranks);
   add_search_options(app, command->run);
   add_flag(app, "--resume", "Continue from the checkpoint in the run directory", command->run.resume);
   add_flag(app, "--overwrite", "Replace the run that the run directory holds", command->run.overwrite);

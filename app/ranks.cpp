@@ -135,9 +135,12 @@ class StoppableJobs : public CrewJobs {
  public:
   explicit StoppableJobs(CrewJobs& jobs) : jobs_(jobs) {}
   void stop() { stopped_ = true; }
-  std::optional<Job> next() override { return stopped_ ? std::nullopt : jobs_.next(); }
+  std::optional<Job> next(std::size_t worker) override {
+    return stopped_ ? std::nullopt : jobs_.next(worker);
+  }
   void finish(std::size_t number, const std::string& rows) override { jobs_.finish(number, rows); }
   void give_back(std::size_t number) override { jobs_.give_back(number); }
+  void lose(std::size_t worker) override { jobs_.lose(worker); }
   bool ended() const override { return stopped_ || jobs_.ended(); }
   bool cancelled() const override { return stopped_ || jobs_.cancelled(); }
 
@@ -267,8 +270,8 @@ void RankCrew::hand_out(CrewJobs& jobs) {
   for (std::size_t rank = 1; rank < peers_.size(); ++rank) {
     Peer& peer = peers_[rank];
     if (!peer.asks || peer.lost) continue;
-    std::optional<CrewJobs::Job> job = jobs.next();
-    if (!job) return;
+    std::optional<CrewJobs::Job> job = jobs.next(rank);
+    if (!job) continue;
     peer.asks = false;
     peer.job = job->number;
     ranks_.mail_.send(static_cast<int>(rank), job_tag, numbered(job->number, job->work));
@@ -285,6 +288,7 @@ void RankCrew::look_for_lost(CrewJobs& jobs) {
                    silence);
       if (peer.job) jobs.give_back(*peer.job);
       peer.job.reset();
+      jobs.lose(rank);
     }
   }
 }

@@ -40,6 +40,11 @@ void add_rank_option(CLI::App& app, RanksOptions& options);
 Status with_crew(std::size_t threads, const RanksOptions& options, const CrewWork& work,
                  const std::function<Status(Crew&)>& lead);
 
+// Under mpirun it calls `run` on rank 0, with jobs that all ranks do the work of, one at a time; otherwise
+// with null. `work` makes that on each rank, before MPI begins.
+Status with_posted_jobs(const RanksOptions& options, const std::function<CrewWork()>& work,
+                        const std::function<Status(PostedJobs*)>& run);
+
 // Initialises MPI. Throws Error (argument) in the program without MPI.
 std::unique_ptr<Ranks> begin_ranks(const RanksOptions& options);
 

@@ -25,4 +25,15 @@ Status with_crew(std::size_t threads, const RanksOptions& options, const CrewWor
   return lead(*crew);
 }
 
+Status with_posted_jobs(const RanksOptions& options, const std::function<CrewWork()>& work,
+                        const std::function<Status(PostedJobs*)>& run) {
+  if (launched_ranks() == 1) return run(nullptr);
+  const CrewWork made = work();
+  return with_crew(1, options, made, [&](Crew& crew) {
+    Status status = Status::done;
+    PostedJobs::lead(crew, made, [&](PostedJobs& jobs) { status = run(&jobs); });
+    return status;
+  });
+}
+
 }  // namespace remodel::app

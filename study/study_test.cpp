@@ -305,7 +305,7 @@ struct ContraryCrew : Crew {
     std::map<std::size_t, bool> given_back;
     while (!jobs.ended()) {
       std::vector<CrewJobs::Job> taken;
-      while (auto job = jobs.next()) taken.push_back(std::move(*job));
+      while (auto job = jobs.next(0)) taken.push_back(std::move(*job));
       ASSERT_FALSE(taken.empty());
       for (; !taken.empty(); taken.pop_back()) {
         const std::size_t number = taken.back().number;

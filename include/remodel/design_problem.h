@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "remodel/airfoil.h"
+#include "remodel/crew.h"
 #include "remodel/deformation.h"
 #include "remodel/designer.h"
 #include "remodel/domain.h"
@@ -144,6 +145,9 @@ struct DesignProblem {
   double trust = 0.02;            // sqp: how far a number may go in the first step
   double sigma = 0.01;            // cmaes: the first standard deviation
   std::uint64_t seed = 1;         // cmaes
+  // cmaes: living meshes, 1 to 1000. The designs of a generation are handed out to them, and evaluated at
+  // once.
+  std::size_t workers = 1;
   // Points on each section of fresh meshes, even: on each the best design is evaluated at the end.
   std::vector<int> verify = {};
 
@@ -186,9 +190,11 @@ std::vector<std::string> constraint_names(const DesignProblem& problem);
 // on the meshes of one reference (Strategy::reference). With friction the living mesh is what lies beyond the
 // layers. Outputs: cl, cd, cm, with friction cd_pressure and cd_friction, alpha_deg (of the second point cl_2
 // ...), connectivity, factorisations, flow_seconds, gradient_seconds. The space must outlive it. The flows of
-// the points are found on so many threads at most; times alone depend on it.
+// the points are found on so many threads at most; times alone depend on it. `ranks`: by the crew that works
+// on these, which does flow_points_work().
 std::unique_ptr<Evaluator> flow_evaluator(const DesignProblem& problem, const FlowSpace& space,
-                                          std::size_t threads = 1);
+                                          std::size_t threads = 1, PostedJobs* ranks = nullptr);
+CrewWork flow_points_work(const DesignProblem& problem);
 std::unique_ptr<Designer> make_designer(const DesignProblem& problem, const FlowSpace& space);
 
 // Options of the flows of a point. Half of a flow has a lift of its own, but the whole has none, and no

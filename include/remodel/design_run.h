@@ -26,6 +26,9 @@ struct DesignRunOptions {
   bool resume = false;                // go on from the directory's checkpoint
   bool overwrite = false;             // replace the run that the directory holds; not with resume
   std::size_t threads = 0;  // flows of points at the same time; times alone depend on it; 0: as many as cores
+  // The crew that works on these, which does design_work(), finds the flows: each of its processes those of
+  // some points, or, where the problem has several workers, those of the designs of some.
+  PostedJobs* ranks = nullptr;
 };
 
 // The best design's flow at one point, on a fresh mesh, which no search has seen. cl, cm: nan if
@@ -80,6 +83,11 @@ struct DesignResult {
 // steps, from several threads. Throws Error as validate() and optimise() do.
 DesignResult run_design(const DesignProblem& problem, const DesignRunOptions& options,
                         OptimiseObserver* observer = nullptr);
+
+// The work of a crew that finds the flows of such a search (DesignRunOptions::ranks). The result is that of
+// threads, to the bit; where one of the crew is lost, its next flows begin anew, which leaves what the flows'
+// tolerance says.
+CrewWork design_work(const DesignProblem& problem);
 
 // A JSON array of objects.
 std::string fresh_json(const std::vector<FreshFlow>& flows);

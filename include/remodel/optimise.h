@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "remodel/airfoil.h"
+#include "remodel/crew.h"
 #include "remodel/design_space.h"
 #include "remodel/designer.h"
 #include "remodel/domain.h"
@@ -54,9 +55,12 @@ struct OptimiseOptions {
   // which is 1, but for `pool` as many as a generation has designs.
   std::size_t workers = 0;
   std::size_t threads = 0;  // nothing but times depends on it; 0: as many as cores. At most one a worker
-  double sigma = 0.05;      // initial standard deviation of the coefficients; > 0
-  std::uint64_t seed = 1;   // of the samples; the designs depend on nothing else of these options but
-                            // sigma and, where samples are refused, on domain
+  // Designs are evaluated by the crew that works on these, which does optimise_work(): then threads say
+  // nothing.
+  PostedJobs* ranks = nullptr;
+  double sigma = 0.05;             // initial standard deviation of the coefficients; > 0
+  std::uint64_t seed = 1;          // of the samples; the designs depend on nothing else of these options but
+                                   // sigma and, where samples are refused, on domain
   std::size_t evaluations = 9000;  // feasible samples, one remodelling each; at least 1
   // The run is done after the generation in which the best objective is at most this (square chords), or in
   // which the search has converged; 0: only after all evaluations. Not one of the settings that a resumed run
@@ -217,6 +221,15 @@ OptimiseResult optimise(const CstAirfoil& from, const CstAirfoil& to, const Opti
 // This runs with an evaluator of one's own.
 OptimiseResult optimise(const CstAirfoil& from, Evaluator& evaluator, const OptimiseOptions& options,
                         OptimiseObserver* observer = nullptr);
+
+// The work of a crew that evaluates the designs of such a run (OptimiseOptions::ranks), made of the same
+// arguments in each of its processes. A design goes there with its worker's mesh, and comes back with it. All
+// of a crew have the same result as threads of one process, to the bit; where one of them is lost, evaluators
+// whose states say more than their bytes begin without.
+CrewWork optimise_work(const DesignSpace& space, Evaluator& evaluator, const OptimiseOptions& options,
+                       std::size_t population);
+CrewWork optimise_work(const CstAirfoil& from, const CstAirfoil& to, const OptimiseOptions& options);
+CrewWork optimise_work(const CstAirfoil& from, Evaluator& evaluator, const OptimiseOptions& options);
 
 // How a run's meshes are stepped: options.remodel with the step of options.strategy.
 RemodelOptions step_options(const OptimiseOptions& options);

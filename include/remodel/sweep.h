@@ -74,6 +74,8 @@ struct SweepProblem {
   std::uint64_t seed = 1;    // of a random order
   std::size_t stations = 0;  // of pressures on each surface, from nose to trailing edge; 0: none are kept
   bool fields = false;       // each flow's mesh and fields as a .vtu file, fields/ in the directory
+  // Each flow's density, velocity, pressure and, with turbulence, viscosity ratio at these points, in chords.
+  std::vector<Point> field_points = {};
   std::vector<std::string> warnings = {};  // of a reader: sections that were turned, sheared or closed
 };
 
@@ -98,6 +100,10 @@ struct SweepFlow {
   // At the stations of the upper surface from nose to trailing edge, then of the lower one: the pressure
   // coefficient and, with friction, the friction coefficient. Empty where there is no flow.
   std::vector<double> cp = {}, cf = {};
+  // At SweepProblem::field_points: density, velocity in x and in y, pressure and, with turbulence, turbulent
+  // over molecular viscosity, one after the other, in the units of FlowResult. Not a number where a point is
+  // in the body or beyond the far field; empty where there is no flow.
+  std::vector<double> fields = {};
 };
 // "converged" or why there is no flow: another name_of(FlowStatus), "refused", "not-looked-for".
 const char* status_of(const SweepFlow& flow);

@@ -8,19 +8,15 @@
 
 #include "aero/design_mesh.h"
 #include "aero/flow_memory.h"
+#include "aero/posted_point.h"
 #include "aero/resolved_problem.h"
 #include "base/threads.h"
+#include "design/posted_design.h"
 #include "remodel/error.h"
 #include "remodel/remodel.h"
 
 namespace remodel {
 namespace {
-
-// A value and its derivatives by the design, of one flow.
-struct Slope {
-  double value = 0.0;
-  std::vector<double> by;
-};
 
 void add(std::vector<double>& to, double factor, const std::vector<double>& from) {
   to.resize(from.size(), 0.0);
@@ -29,8 +25,13 @@ void add(std::vector<double>& to, double factor, const std::vector<double>& from
 
 class FlowEvaluator final : public Evaluator {
  public:
-  FlowEvaluator(const DesignProblem& problem, const FlowSpace& space, std::size_t threads)
-      : problem_(problem), parts_(resolved(problem, "design problem")), space_(space), threads_(threads) {
+  // ranks: have the flows of points found by a crew; null: by threads.
+  FlowEvaluator(const DesignProblem& problem, const FlowSpace& space, std::size_t threads, PostedJobs* ranks)
+      : problem_(problem),
+        parts_(resolved(problem, "design problem")),
+        space_(space),
+        threads_(ranks == nullptr ? threads : problem.points.size()),
+        ranks_(ranks) {
     for (std::size_t i = 0; i < problem_.points.size(); ++i) {
       std::vector<std::size_t>& asked = asked_.emplace_back(1, 0);  // the objective is of each point
       for (const ResolvedProblem::FlowLimit& limit : parts_.flow)
@@ -68,35 +69,57 @@ class FlowEvaluator final : public Evaluator {
         .dump();
   }
 
+  // One point of a design, for the crew of another evaluator. `states`: what this process has of earlier
+  // ones.
+  std::optional<std::string> point_for_crew(const std::string& bytes, PointStates& states,
+                                            const std::function<bool()>& cancelled) {
+    PostedPoint posted = decode_posted_point(bytes);
+    if (posted.run != identity_of(space_, *this))
+      throw Error(ErrorCode::argument, "a rank",
+                  "found another problem than rank 0 has, expected the same files on all hosts");
+    std::unique_ptr<PointState> state = states.take(posted.point, posted.before);
+    if (!state) {
+      state = std::make_unique<PointState>();
+      state->memory.flows.emplace_back(flow_options(posted.point, state->memory));
+    } else {
+      state->memory.known.note(state->design, state->from, state->memory.flows);
+    }
+    CrewQuestion question(cancelled);
+    state->memory.observer.ask(question);
+    state->memory.known.go_on_from(posted.from, state->memory.flows);
+    EvaluatedPoint evaluated;
+    try {
+      const DesignMesh mesh(space_, posted.mesh, posted.design);
+      const Shared shared{mesh,
+                          posted.gradient ? std::optional<DesignDerivative>({space_, mesh}) : std::nullopt};
+      evaluated.point = point_of(shared, posted.point, state->memory.flows.front(),
+                                 posted.target ? &*posted.target : nullptr);
+    } catch (const std::exception& problem) {
+      evaluated.problem = problem.what();
+    }
+    if (question.told()) return std::nullopt;
+    state->design = std::move(posted.design), state->from = std::move(posted.from);
+    states.put(posted.point, posted.token, std::move(state));
+    return encode(evaluated);
+  }
+
  private:
   // What the points of a design have in common.
   struct Shared {
     const DesignMesh& mesh;
     std::optional<DesignDerivative> derivative;  // none: no gradients are asked for
   };
-  // What came of a point.
-  struct PointFlow {
-    FlowResult flow;
-    std::map<std::size_t, Slope> slopes;  // of the functions that are asked for
-    double gradient_seconds = 0.0;
-  };
-
   Evaluation evaluated(const EvaluationTask& task, std::unique_ptr<EvaluatorState>& state) {
     const bool is_first = !state;
     if (is_first) state = std::make_unique<FlowMemory>();
     auto& memory = static_cast<FlowMemory&>(*state);
     memory.observer.ask(task.observer);
-    while (memory.flows.size() < problem_.points.size())
+    while (ranks_ == nullptr && memory.flows.size() < problem_.points.size())
       memory.flows.emplace_back(flow_options(memory.flows.size(), memory));
     if (is_first || task.step.changed() != 0) memory.connectivity = 2 * task.evaluation;
     if (parts_.target) aim(task, memory);
-    memory.known.go_on_from(task.from, memory.flows);
-    const DesignMesh mesh(space_, task.mesh, task.design);
-    const Shared shared{mesh, task.gradient ? std::optional<DesignDerivative>({space_, mesh}) : std::nullopt};
-    std::vector<PointFlow> points(problem_.points.size());
-    ThreadTeam(std::min(points.size(), threads_)).run(points.size(), [&](std::size_t i) {
-      points[i] = point_of(shared, i, memory);
-    });
+    std::vector<PointFlow> points =
+        ranks_ != nullptr ? points_elsewhere(task, memory) : points_here(task, memory);
     Evaluation result{.objective = 0.0};
     for (std::size_t i = 0; i < points.size(); ++i) {
       note(points[i], i, task.gradient, result.outputs);
@@ -104,37 +127,73 @@ class FlowEvaluator final : public Evaluator {
       result.objective += factor * points[i].slopes[0].value;
       if (task.gradient) add(result.gradient, factor, points[i].slopes[0].by);
     }
-    memory.known.note(task.design, task.from, memory.flows);
+    if (ranks_ == nullptr) memory.known.note(task.design, task.from, memory.flows);
     add_constraints(task, points, result);
     result.outputs["connectivity"] = static_cast<double>(memory.connectivity);
     return result;
+  }
+
+  std::vector<PointFlow> points_here(const EvaluationTask& task, FlowMemory& memory) const {
+    memory.known.go_on_from(task.from, memory.flows);
+    const DesignMesh mesh(space_, task.mesh, task.design);
+    const Shared shared{mesh, task.gradient ? std::optional<DesignDerivative>({space_, mesh}) : std::nullopt};
+    std::vector<PointFlow> points(problem_.points.size());
+    ThreadTeam(std::min(points.size(), threads_)).run(points.size(), [&](std::size_t i) {
+      points[i] = point_of(shared, i, memory.flows[i], parts_.target ? &memory.target[i] : nullptr);
+    });
+    return points;
+  }
+
+  // Each point is a job, which goes on from the flow of the design before where it was done.
+  std::vector<PointFlow> points_elsewhere(const EvaluationTask& task, FlowMemory& memory) const {
+    std::vector<PointFlow> points(problem_.points.size());
+    memory.tokens.resize(points.size());
+    const std::string run = identity_of(space_, *this);
+    ThreadTeam(points.size()).run(points.size(), [&](std::size_t i) {
+      const PostedPoint posted{.run = run,
+                               .point = i,
+                               .token = ranks_->new_token(),
+                               .before = memory.tokens[i],
+                               .design = {task.design.begin(), task.design.end()},
+                               .from = {task.from.begin(), task.from.end()},
+                               .gradient = task.gradient,
+                               .target = parts_.target ? std::optional(memory.target[i]) : std::nullopt,
+                               .mesh = {}};
+      const std::optional<std::string> bytes =
+          ranks_->result_of(i, encode(posted, task.mesh), [&] { return memory.observer.cancelled(); });
+      if (!bytes) throw std::runtime_error("interrupted");
+      EvaluatedPoint evaluated = decode_evaluated_point(*bytes);
+      if (!evaluated.problem.empty()) throw std::runtime_error(evaluated.problem);
+      memory.tokens[i] = posted.token;
+      points[i] = std::move(evaluated.point);
+    });
+    return points;
   }
 
   FlowOptions flow_options(std::size_t point, FlowMemory& memory) const {
     return design_flow_options(space_, problem_.points[point], &memory.observer);
   }
 
-  // Called from several threads: of the memory it changes this point's flow alone.
-  PointFlow point_of(const Shared& shared, std::size_t index, FlowMemory& memory) const {
-    PointFlow point{.flow = shared.mesh.solve(memory.flows[index], problem_.points[index].conditions),
-                    .slopes = {}};
+  // Called from several threads. living: the point's flow; target: its pressures, of inverse design.
+  PointFlow point_of(const Shared& shared, std::size_t index, LivingFlow& living,
+                     const StationPressures* target) const {
+    PointFlow point{.flow = shared.mesh.solve(living, problem_.points[index].conditions), .slopes = {}};
     if (space_.half()) point.flow = whole_of(std::move(point.flow));
     if (!point.flow.converged()) throw std::runtime_error("no flow was found: " + point.flow.reason);
     if (!point.flow.lift_determined)
       throw std::runtime_error("the lift is not determined: a section has no edge that the flow leaves from");
-    const FlowView view{shared.mesh.walls(), shared.mesh.frozen(), point.flow,
-                        parts_.target ? &memory.target[index] : nullptr};
+    const FlowView view{shared.mesh.walls(), shared.mesh.frozen(), point.flow, target};
     std::vector<FlowValue> values;
     for (const std::size_t function : asked_[index]) {
       values.push_back(parts_.functions[function]->at(view));
       point.slopes[function].value = values.back().value;
     }
-    if (shared.derivative) add_derivatives(shared, index, memory, values, point);
+    if (shared.derivative) add_derivatives(shared, index, living, values, point);
     return point;
   }
 
   // Derivatives of the functions of a point by the design: those of coefficients and of pressures together.
-  void add_derivatives(const Shared& shared, std::size_t index, FlowMemory& memory,
+  void add_derivatives(const Shared& shared, std::size_t index, LivingFlow& living,
                        std::vector<FlowValue>& values, PointFlow& point) const {
     WantedGradients wanted{
         .lift = false, .drag = false, .moment = false, .angle = false, .pressure_drag = false};
@@ -146,7 +205,7 @@ class FlowEvaluator final : public Evaluator {
       wanted.moment = wanted.moment || value.by_moment != 0.0;
       if (value.by_flow) functionals.push_back(std::move(*value.by_flow));
     }
-    const FlowGradients gradients = memory.flows[index].gradients(functionals, wanted);
+    const FlowGradients gradients = living.gradients(functionals, wanted);
     if (gradients.interrupted) throw std::runtime_error("interrupted");
     const auto by_design = [&](bool is_wanted, const FlowGradient& gradient) {
       return is_wanted ? shared.derivative->vjp(gradient.points) : std::vector<double>();
@@ -237,14 +296,28 @@ class FlowEvaluator final : public Evaluator {
   ResolvedProblem parts_;
   const FlowSpace& space_;
   std::size_t threads_;
+  PostedJobs* ranks_;
   std::vector<std::vector<std::size_t>> asked_;  // of each point: functions
 };
 
 }  // namespace
 
 std::unique_ptr<Evaluator> flow_evaluator(const DesignProblem& problem, const FlowSpace& space,
-                                          std::size_t threads) {
-  return std::make_unique<FlowEvaluator>(problem, space, threads);
+                                          std::size_t threads, PostedJobs* ranks) {
+  return std::make_unique<FlowEvaluator>(problem, space, threads, ranks);
+}
+
+CrewWork flow_points_work(const DesignProblem& problem) {
+  struct Parts {
+    explicit Parts(const DesignProblem& of) : space(design_space(of)), evaluator(of, *space, 1, nullptr) {}
+    std::unique_ptr<FlowSpace> space;
+    FlowEvaluator evaluator;
+    PointStates states;
+  };
+  const auto parts = std::make_shared<Parts>(problem);
+  return [parts](const std::string& bytes, const std::function<bool()>& cancelled) {
+    return parts->evaluator.point_for_crew(bytes, parts->states, cancelled);
+  };
 }
 
 }  // namespace remodel

@@ -72,6 +72,7 @@ struct FlowMemory final : EvaluatorState {
   // A number for the mesh's connectivity that no other one has had in the run: twice that of the evaluation
   // that found it first, and one more where the target's mesh has joined it since.
   std::uint64_t connectivity = 0;
+  std::vector<std::uint64_t> tokens;  // of each point's last job, where ranks find the flows
   // Of inverse design: the target's pressures at stations, on a copy of the mesh that followed to it.
   std::vector<LivingFlow> target_flows;
   std::vector<StationPressures> target;

@@ -100,8 +100,8 @@ bool has_bounds_to_be_given(const DesignProblem& problem) {
 // Throws for keys that this designer has no use for.
 void require_keys_of_designer(const Keys& keys, const DesignProblem& problem) {
   const bool is_cmaes = problem.designer == "cmaes";
-  const std::string expected = is_cmaes ? "evaluations, sigma, seed" : "evaluations, bounds, trust";
-  for (const char* key : {"bounds", "trust", "sigma", "seed"})
+  const std::string expected = is_cmaes ? "evaluations, sigma, seed, workers" : "evaluations, bounds, trust";
+  for (const char* key : {"bounds", "trust", "sigma", "seed", "workers"})
     if (keys.has(key) && expected.find(key) == std::string::npos)
       keys.fail("found the key '" + std::string(key) + "', which '" + problem.designer +
                 "' has no use for, expected " + expected);
@@ -120,6 +120,7 @@ void read_designer(const Keys& keys, DesignProblem& problem) {
   problem.trust = keys.get<double>("trust", problem.trust);
   problem.sigma = keys.get<double>("sigma", problem.sigma);
   problem.seed = keys.whole<std::uint64_t>("seed", 1, 0, UINT64_MAX);
+  problem.workers = keys.whole<std::size_t>("workers", 1, 1, 1000);
 }
 
 void read_points(const Keys& keys, const std::string& file, DesignProblem& problem) {
@@ -174,7 +175,7 @@ DesignProblem parse_design_problem(const std::string& text, const std::string& f
   problem.constraint_tolerance = keys.get<double>("constraint_tolerance", problem.constraint_tolerance);
   const Json designer_object = object_of(json, "designer");
   const Keys designer(designer_object, file + ", designer",
-                      {"name", "evaluations", "bounds", "trust", "sigma", "seed"});
+                      {"name", "evaluations", "bounds", "trust", "sigma", "seed", "workers"});
   read_designer(designer, problem);
   validate(problem, file);
   require_keys_of_designer(designer, problem);

@@ -32,6 +32,11 @@ double gradation_of(const DesignProblem& problem) {
   return problem.gradation.value_or(problem.domain.points / (has_friction ? 37.5 : 50.0));
 }
 
+// Steps that follow gradients are of one design at a time.
+std::size_t workers_of(const DesignProblem& problem) {
+  return problem.designer == "cmaes" ? problem.workers : 1;
+}
+
 OptimiseOptions options_of(const DesignProblem& problem, const DesignRunOptions& options,
                            StepObserver& observer) {
   OptimiseOptions result;
@@ -42,7 +47,9 @@ OptimiseOptions options_of(const DesignProblem& problem, const DesignRunOptions&
   result.reference_slack_deg = design_slack_deg;
   result.evaluations = problem.evaluations;
   result.constraint_tolerance = problem.constraint_tolerance;
-  result.workers = 1;
+  result.workers = workers_of(problem);
+  result.threads = options.threads;
+  if (result.workers > 1) result.ranks = options.ranks;
   result.checkpoint_every = 5;
   result.keep_finished = true;
   result.resume = options.resume, result.overwrite = options.overwrite;
@@ -204,12 +211,34 @@ std::string fresh_json(const std::vector<FreshFlow>& flows) {
   return list.dump();
 }
 
+CrewWork design_work(const DesignProblem& problem) {
+  if (workers_of(problem) == 1) return flow_points_work(problem);
+  struct Parts {
+    explicit Parts(const DesignProblem& of)
+        : space(design_space(of)),
+          evaluator(flow_evaluator(of, *space)),
+          options(options_of(of, {.threads = 1}, silent)),
+          work(optimise_work(*space, *evaluator, options, make_designer(of, *space)->population())) {}
+    StepObserver silent;
+    std::unique_ptr<FlowSpace> space;
+    std::unique_ptr<Evaluator> evaluator;
+    OptimiseOptions options;
+    CrewWork work;
+  };
+  const auto parts = std::make_shared<Parts>(problem);
+  return [parts](const std::string& bytes, const std::function<bool()>& cancelled) {
+    return parts->work(bytes, cancelled);
+  };
+}
+
 DesignResult run_design(const DesignProblem& problem, const DesignRunOptions& options,
                         OptimiseObserver* observer) {
   const ResolvedProblem parts = resolved(problem, "design problem");
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
+  const std::size_t threads = options.threads != 0 ? options.threads : cores, workers = workers_of(problem);
   const std::unique_ptr<Evaluator> evaluator =
-      flow_evaluator(problem, *parts.space, options.threads != 0 ? options.threads : cores);
+      flow_evaluator(problem, *parts.space, std::max<std::size_t>(1, threads / workers),
+                     workers == 1 ? options.ranks : nullptr);
   const std::unique_ptr<Designer> designer = make_designer(problem, *parts.space);
   AskingObserver asking(observer);
   DesignResult result;

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "aero/field_template.h"
 #include "aero/flow_row.h"
 #include "aero/layered_space.h"
 #include "aero/resolved_problem.h"
@@ -225,6 +226,7 @@ class Chain {
   struct Place {
     std::size_t section = 0;
     SectionMesh mesh;
+    TemplatePlaces points;
   };
   struct Found {
     KeptFlow flow;
@@ -256,7 +258,7 @@ class Chain {
         problem = std::string("the mesh was not finished: ") + name_of(unfinished.stopped);
       }
       if (problem.empty())
-        places_.push_back({work_.sections[i], mesh.now()});
+        add_place(work_.sections[i], mesh.now());
       else
         refuse(work_.sections[i], problem);
     }
@@ -264,6 +266,10 @@ class Chain {
     return true;
   }
 
+  void add_place(std::size_t section, SectionMesh mesh) {
+    TemplatePlaces points(mesh.frozen, problem_.field_points);
+    places_.push_back({section, std::move(mesh), std::move(points)});
+  }
   void refuse(std::size_t section, const std::string& why) {
     for (const SweepRow& row : problem_.rows) {
       for (const double value : row.values) {
@@ -325,6 +331,7 @@ class Chain {
       const FrozenMesh& mesh = places_[k].mesh.frozen;
       flow.cp = stations_.at(mesh, pressure_coefficients(marched.flow));
       if (marched.flow.friction) flow.cf = stations_.at(mesh, marched.flow.friction->cf);
+      if (!problem_.field_points.empty()) flow.fields = template_values(marched.flow, places_[k].points);
       if (problem_.fields) write_fields(mesh, marched.flow, flow);
     }
     flow.point = aero::point_of(marched, problem_.over_lift);

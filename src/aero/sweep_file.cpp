@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
+#include <stdexcept>
 
 #include "aero/problem_keys.h"
 #include "aero/problem_place.h"
@@ -255,6 +257,76 @@ void read_mesh(const Json& json, const std::string& file, SweepProblem& problem)
   problem.layer = layer_given(object.at("layers"), file + ", mesh, layers", sweep_layer(problem));
 }
 
+constexpr std::size_t most_template_points = 100000;
+
+// A grid's values of x or y: [FIRST, LAST, COUNT].
+std::vector<double> grid_values(const Keys& keys, const char* key) {
+  const auto given = keys.get<std::vector<double>>(key);
+  const double most = static_cast<double>(most_template_points);
+  if (given.size() != 3 || !(given[0] < given[1]) || !(given[2] >= 2 && given[2] <= most) ||
+      given[2] != std::floor(given[2]))
+    keys.fail("found " + Json(given).dump() + " as '" + key +
+              "', expected the first value, a larger last one and their number, 2 or more");
+  const auto count = static_cast<std::size_t>(given[2]);
+  std::vector<double> values(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double part = static_cast<double>(i) / static_cast<double>(count - 1);
+    values[i] = (1.0 - part) * given[0] + part * given[1];
+  }
+  return values;
+}
+
+// x and y of a line of a table.
+Point point_of_line(const std::string& line, const std::string& where) {
+  std::size_t of_x = 0, of_y = 0;
+  Point p;
+  try {
+    p.x = std::stod(line, &of_x);
+    std::size_t at = line.find_first_not_of(" \t", of_x);
+    if (at != std::string::npos && line[at] == ',') ++at;
+    if (at == std::string::npos || at >= line.size()) throw std::invalid_argument("no y");
+    p.y = std::stod(line.substr(at), &of_y);
+    if (line.find_first_not_of(" \t\r", at + of_y) != std::string::npos || !std::isfinite(p.x + p.y))
+      throw std::invalid_argument("more");
+  } catch (const std::logic_error&) {
+    throw Error(ErrorCode::format, where, "found '" + line + "', expected two numbers: x,y");
+  }
+  return p;
+}
+
+// A first line without numbers is a heading.
+std::vector<Point> points_of_table(const fs::path& table) {
+  std::istringstream lines(read_text(table, most_file_bytes));
+  std::vector<Point> points;
+  std::string line;
+  for (std::size_t number = 1; std::getline(lines, line); ++number) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    if (number == 1 && line.find_first_of("0123456789") == std::string::npos) continue;
+    points.push_back(point_of_line(line, table.string() + ", line " + std::to_string(number)));
+  }
+  return points;
+}
+
+std::vector<Point> read_template(const Keys& keys, const Json& json, const std::string& file) {
+  std::vector<Point> points;
+  if (json.is_string()) {
+    points = points_of_table(fs::path(file).parent_path() / json.get<std::string>());
+  } else if (json.is_object()) {
+    const Keys grid(json, file + ", template", {"x", "y"});
+    const std::vector<double> xs = grid_values(grid, "x"), ys = grid_values(grid, "y");
+    if (xs.size() * ys.size() <= most_template_points)
+      for (const double y : ys)
+        for (const double x : xs) points.push_back({x, y});
+  } else {
+    keys.fail("found " + std::string(json.type_name()) +
+              " as 'template', expected the name of a table of points, or a grid's 'x' and 'y'");
+  }
+  if (points.empty() || points.size() > most_template_points)
+    keys.fail("found no points of 'template', or too many, expected 1 to " +
+              std::to_string(most_template_points));
+  return points;
+}
+
 void read_sections(const Keys& keys, const std::string& file, SweepProblem& problem) {
   keys.require("sections");
   SectionReader reader(file, keys.whole<int>("degree", 8, 1, 30), problem);
@@ -282,7 +354,7 @@ SweepProblem parse_sweep(const std::string& text, const std::string& file) {
   const Json json = parse_design_json(text, file);
   const Keys keys(json, file,
                   {"sections", "degree", "conditions", "model", "transition", "mesh", "surface_stations",
-                   "fields", "chain", "order", "seed", "tolerance", "max_steps"});
+                   "fields", "template", "chain", "order", "seed", "tolerance", "max_steps"});
   SweepProblem problem;
   problem.model = model_named(keys);
   problem.transition = transition_of(keys);
@@ -291,6 +363,7 @@ SweepProblem parse_sweep(const std::string& text, const std::string& file) {
   read_mesh(json, file, problem);
   problem.stations = keys.whole<std::size_t>("surface_stations", 0, 0, 10000);
   problem.fields = keys.get<bool>("fields", false);
+  if (keys.has("template")) problem.field_points = read_template(keys, json.at("template"), file);
   problem.chain = keys.whole<std::size_t>("chain", problem.chain, 1, most_sections);
   problem.order = choice(keys, "order", {SweepOrder::nearest, SweepOrder::given, SweepOrder::random});
   problem.seed = keys.whole<std::uint64_t>("seed", 1, 0, UINT64_MAX);

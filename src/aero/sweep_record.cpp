@@ -5,12 +5,13 @@
 #include <utility>
 
 #include "base/checked_json.h"
+#include "base/json_bytes.h"
 #include "remodel/error.h"
 
 namespace remodel {
 namespace {
 
-constexpr int version = 1;
+constexpr int version = 2;
 
 // What `read` makes of it; every way in which a file can be no sweep's is one kind of error.
 template <class Read>
@@ -92,7 +93,8 @@ Json to_json(const SweepFlow& flow) {
                       p.seconds,
                       p.warnings,
                       flow.cp,
-                      flow.cf});
+                      flow.cf,
+                      flow.fields});
 }
 
 SweepFlow flow_from(const Json& json) {
@@ -115,14 +117,9 @@ SweepFlow flow_from(const Json& json) {
   p.start = named(take().get<std::string>(), {FlowStart::cold, FlowStart::carried, FlowStart::refactored});
   p.seconds = number_or_none(take());
   p.warnings = take().get<std::vector<std::string>>();
-  for (std::vector<double>* values : {&flow.cp, &flow.cf})
+  for (std::vector<double>* values : {&flow.cp, &flow.cf, &flow.fields})
     for (const Json& value : take()) values->push_back(number_or_none(value));
   return flow;
-}
-
-std::string cbor(const Json& json) {
-  const std::vector<std::uint8_t> bytes = Json::to_cbor(json);
-  return {bytes.begin(), bytes.end()};
 }
 
 }  // namespace
@@ -148,6 +145,10 @@ Json to_json(const SweepProblem& problem) {
     json["layer"] = {{"first_height", problem.layer->first_height},
                      {"growth", problem.layer->growth},
                      {"thickness", problem.layer->thickness}};
+  if (!problem.field_points.empty()) {
+    Json& points = json["field_points"] = Json::array();
+    for (const Point p : problem.field_points) points.push_back({p.x, p.y});
+  }
   json["rows"] = to_json(problem.rows);
   json["sections"] = std::move(sections);
   return json;
@@ -178,6 +179,9 @@ SweepProblem sweep_problem_from(const Json& json, const std::string& source) {
                                    .growth = layer.at("growth").get<double>(),
                                    .thickness = layer.at("thickness").get<double>()};
     }
+    if (json.contains("field_points"))
+      for (const Json& p : json.at("field_points"))
+        problem.field_points.push_back({p.at(0).get<double>(), p.at(1).get<double>()});
     problem.rows = rows_from(json.at("rows"));
     for (const Json& section : json.at("sections")) problem.sections.push_back(section_from(section, source));
     return problem;
@@ -208,7 +212,8 @@ std::vector<SweepPlan> sweep_plans_from(const Json& json, const SweepProblem& pr
 }
 
 std::string encode(const ChainWork& work) {
-  return cbor({{"sweep", to_json(work.problem)}, {"sections", work.sections}, {"directory", work.directory}});
+  return cbor_of(
+      Json{{"sweep", to_json(work.problem)}, {"sections", work.sections}, {"directory", work.directory}});
 }
 
 ChainWork decode_chain_work(const std::string& bytes) {
@@ -227,7 +232,8 @@ ChainWork decode_chain_work(const std::string& bytes) {
 std::string encode(const ChainResult& result) {
   Json flows = Json::array();
   for (const SweepFlow& flow : result.flows) flows.push_back(to_json(flow));
-  return cbor({{"version", version}, {"mesh_seconds", result.mesh_seconds}, {"flows", std::move(flows)}});
+  return cbor_of(
+      Json{{"version", version}, {"mesh_seconds", result.mesh_seconds}, {"flows", std::move(flows)}});
 }
 
 ChainResult decode_chain_result(const std::string& bytes, const std::string& source) {

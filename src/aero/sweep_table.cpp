@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "aero/field_template.h"
 #include "aero/sweep_record.h"
 #include "aero/table_cell.h"
 #include "io/column_file.h"
@@ -127,21 +128,57 @@ void add_surfaces(const SweepProblem& problem, const std::vector<SweepFlow>& flo
   if (problem.model != FlowModel::euler) add("cf", &SweepFlow::cf);
 }
 
+// Flows by points; not a number, and not known, where there is no flow or the point is not in the mesh.
+void add_template(const SweepProblem& problem, const std::vector<SweepFlow>& flows,
+                  std::vector<io::FileColumn>& columns) {
+  const std::size_t width = problem.field_points.size();
+  if (width == 0) return;
+  std::vector<double> points;
+  for (const Point p : problem.field_points) points.insert(points.end(), {p.x, p.y});
+  columns.push_back({.path = "/template/points", .values = std::move(points), .width = 2});
+  std::vector<std::uint8_t> known;
+  for (const SweepFlow& flow : flows)
+    for (std::size_t i = 0; i < width; ++i)
+      known.push_back(!flow.fields.empty() && !std::isnan(flow.fields[i]) ? 1 : 0);
+  columns.push_back({.path = "/template/known", .values = std::move(known), .width = width});
+  std::size_t first = 0;
+  for (const std::string& name : template_fields(problem.model)) {
+    std::vector<double> values;
+    for (const SweepFlow& flow : flows)
+      for (std::size_t i = 0; i < width; ++i)
+        values.push_back(flow.fields.empty() ? PolarPoint::none : flow.fields[first + i]);
+    columns.push_back({.path = "/template/" + name, .values = std::move(values), .width = width});
+    first += width;
+  }
+}
+
+void require_sizes(const std::filesystem::path& directory, const SweepProblem& problem,
+                   const std::vector<SweepFlow>& flows) {
+  const auto require = [&](const std::vector<double>& values, std::size_t expected, const char* what) {
+    if (!values.empty() && values.size() != expected)
+      throw Error(ErrorCode::format, directory.string(),
+                  "found " + std::to_string(values.size()) + " values " + what + ", expected " +
+                      std::to_string(expected));
+  };
+  for (const SweepFlow& flow : flows) {
+    for (const std::vector<double>* values : {&flow.cp, &flow.cf})
+      require(*values, 2 * problem.stations, "on a section");
+    require(flow.fields, template_fields(problem.model).size() * problem.field_points.size(),
+            "at the points of a template");
+  }
+}
+
 }  // namespace
 
 void write_sweep_tables(const std::filesystem::path& directory, const SweepProblem& problem,
                         const std::vector<SweepFlow>& flows) {
-  for (const SweepFlow& flow : flows)
-    for (const std::vector<double>* values : {&flow.cp, &flow.cf})
-      if (!values->empty() && values->size() != 2 * problem.stations)
-        throw Error(ErrorCode::format, directory.string(),
-                    "found " + std::to_string(values->size()) + " values on a section, expected " +
-                        std::to_string(2 * problem.stations));
+  require_sizes(directory, problem, flows);
   write_text_atomically(directory / "table.csv", csv_of(problem, flows));
   std::vector<io::FileColumn> columns;
   add_sections(problem, columns);
   add_flows(flows, columns);
   add_surfaces(problem, flows, columns);
+  add_template(problem, flows, columns);
   columns.push_back({.path = "/sweep", .values = std::vector<std::string>{to_json(problem).dump(1)}});
   io::write_columns(directory / "table.h5", columns,
                     {{"format", "remodel sweep 1"}, {"version", REMODEL_VERSION}});

@@ -29,17 +29,17 @@ class ThreadsAtWork {
 
  private:
   void one_job() {
-    const std::optional<CrewJobs::Job> job = jobs_.next();
+    const std::optional<CrewJobs::Job> job = jobs_.next(0);
     if (!job) return wait();
     const std::optional<std::string> result =
         work_(job->work, [this] { return failed_ || jobs_.cancelled(); });
     result ? jobs_.finish(job->number, *result) : jobs_.give_back(job->number);
     news_.notify_all();
   }
-  // The wait is short, because nothing signals that an observer has cancelled.
+  // The wait is short, because nothing signals that an observer has cancelled, or that a job was posted.
   void wait() {
     std::unique_lock lock(mutex_);
-    news_.wait_for(lock, std::chrono::milliseconds(20));
+    news_.wait_for(lock, std::chrono::milliseconds(2));
   }
 
   CrewJobs& jobs_;

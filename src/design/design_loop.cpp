@@ -34,14 +34,15 @@ WriteOptions boxes_of(const OptimiseOptions& options) {
   return {.su2_boxes = options.start ? options.start->su2_boxes : std::string()};
 }
 
-// Who waits for an evaluation asks the run's observer.
+// Who waits for an evaluation asks the run's observer. A crew that has failed ends the run too.
 class CancelQuestion final : public StepObserver {
  public:
-  explicit CancelQuestion(OptimiseObserver& observer) : observer_(observer) {}
-  bool cancelled() override { return observer_.cancelled(); }
+  CancelQuestion(OptimiseObserver& observer, const PostedJobs* ranks) : observer_(observer), ranks_(ranks) {}
+  bool cancelled() override { return observer_.cancelled() || (ranks_ != nullptr && ranks_->failed()); }
 
  private:
   OptimiseObserver& observer_;
+  const PostedJobs* ranks_;
 };
 
 Feasible feasible_in(const DesignSpace& space) {
@@ -500,7 +501,7 @@ OptimiseResult run_design_loop(const LoopParts& problem, const OptimiseOptions& 
   require_good(options);
   OptimiseObserver silent;
   OptimiseObserver& listener = observer ? *observer : silent;
-  CancelQuestion question(listener);
+  CancelQuestion question(listener, options.ranks);
   const Evaluating evaluating{.space = problem.space,
                               .evaluator = problem.evaluator,
                               .options = options,

@@ -5,7 +5,7 @@
 
 namespace remodel {
 
-std::optional<CrewJobs::Job> JobQueue::next() {
+std::optional<CrewJobs::Job> JobQueue::next(std::size_t) {
   if (cancelled()) return std::nullopt;
   const std::scoped_lock lock(mutex_);
   while (first_waiting_ < states_.size() && states_[first_waiting_] != State::waiting) ++first_waiting_;

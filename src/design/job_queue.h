@@ -14,7 +14,7 @@ namespace remodel {
 
 class JobQueue : public CrewJobs {
  public:
-  std::optional<Job> next() final;
+  std::optional<Job> next(std::size_t worker) final;
   void give_back(std::size_t number) final;
   bool ended() const final;
   bool cancelled() const final;

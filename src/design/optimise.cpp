@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include "design/airfoil_space.h"
 #include "design/design_loop.h"
 #include "design/design_search.h"
 #include "design/interpolation.h"
+#include "design/workers.h"
 #include "remodel/error.h"
 
 namespace remodel {
@@ -19,14 +22,50 @@ OptimiseResult optimise(const DesignSpace& space, Designer& designer, Evaluator&
 
 namespace {
 
+AirfoilSpace space_around(const CstAirfoil& from, const OptimiseOptions& options) {
+  return options.start ? AirfoilSpace(from, options.start->mesh.domain(), options.start->place)
+                       : AirfoilSpace(from, options.domain);
+}
+
+// Work of a crew, with what it needs.
+struct AirfoilWork {
+  AirfoilWork(const CstAirfoil& from, const OptimiseOptions& given)
+      : options(given), space(space_around(from, given)) {
+    options.ranks = nullptr;
+    options.threads = 1;
+  }
+  OptimiseOptions options;
+  AirfoilSpace space;
+  std::unique_ptr<Evaluator> own;  // where it has one
+  CrewWork work;
+};
+
+CrewWork work_around(const CstAirfoil& from, Evaluator* evaluator, std::unique_ptr<Evaluator> own,
+                     const OptimiseOptions& options) {
+  const auto parts = std::make_shared<AirfoilWork>(from, options);
+  parts->own = std::move(own);
+  const std::size_t population =
+      interpolation_designer(parts->space.start(), options.sigma, options.seed).population();
+  parts->work = optimise_work(parts->space, evaluator != nullptr ? *evaluator : *parts->own, parts->options,
+                              population);
+  return [parts](const std::string& bytes, const std::function<bool()>& cancelled) {
+    return parts->work(bytes, cancelled);
+  };
+}
+
+// Both with the higher of their degrees.
+std::pair<CstAirfoil, CstAirfoil> of_one_degree(const CstAirfoil& start, const CstAirfoil& target) {
+  require_same_family(start, target);
+  const int degree = std::max(start.degree(), target.degree());
+  return {raise_degree(start, degree), raise_degree(target, degree)};
+}
+
 // CMA-ES over the coefficients of an airfoil. target: of a shape interpolation.
 OptimiseResult optimise_airfoil(const CstAirfoil& from, const CstAirfoil* target, Evaluator& evaluator,
                                 const OptimiseOptions& options, OptimiseObserver* observer) {
   if (!(options.sigma > 0.0 && std::isfinite(options.sigma)))
     throw Error(ErrorCode::argument, "sigma", "expected more than 0");
-  const AirfoilSpace space = options.start
-                                 ? AirfoilSpace(from, options.start->mesh.domain(), options.start->place)
-                                 : AirfoilSpace(from, options.domain);
+  const AirfoilSpace space = space_around(from, options);
   using enum CmaesDesigner::AtConvergence;
   CmaesDesigner designer = interpolation_designer(space.start(), options.sigma, options.seed,
                                                   options.tolerance == 0.0 ? go_on : end);
@@ -57,11 +96,23 @@ OptimiseResult optimise(const CstAirfoil& from, Evaluator& evaluator, const Opti
 
 OptimiseResult optimise(const CstAirfoil& start, const CstAirfoil& target, const OptimiseOptions& options,
                         OptimiseObserver* observer) {
-  require_same_family(start, target);
-  const int degree = std::max(start.degree(), target.degree());
-  const CstAirfoil from = raise_degree(start, degree), to = raise_degree(target, degree);
+  const auto [from, to] = of_one_degree(start, target);
   const std::unique_ptr<Evaluator> evaluator = interpolation_evaluator(to);
   return optimise_airfoil(from, &to, *evaluator, options, observer);
+}
+
+CrewWork optimise_work(const DesignSpace& space, Evaluator& evaluator, const OptimiseOptions& options,
+                       std::size_t population) {
+  return Workers::work_of_crew(space, evaluator, options, population);
+}
+
+CrewWork optimise_work(const CstAirfoil& start, const CstAirfoil& target, const OptimiseOptions& options) {
+  const auto [from, to] = of_one_degree(start, target);
+  return work_around(from, nullptr, interpolation_evaluator(to), options);
+}
+
+CrewWork optimise_work(const CstAirfoil& from, Evaluator& evaluator, const OptimiseOptions& options) {
+  return work_around(from, &evaluator, nullptr, options);
 }
 
 }  // namespace remodel

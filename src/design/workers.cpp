@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <thread>
 #include <utility>
 
 #include "base/stopwatch.h"
+#include "design/crew_states.h"
 #include "design/judge.h"
+#include "design/posted_design.h"
+#include "remodel/error.h"
 
 namespace remodel {
 namespace {
@@ -26,6 +30,14 @@ struct Worker {
   std::unique_ptr<EvaluatorState> evaluator{};
   std::vector<Job*> jobs{};        // handed to it, in order
   std::optional<Before> before{};  // where finished designs are to be kept, and the last one is not
+  std::uint64_t token = 0;         // of its last job that a crew has done
+};
+
+// What an evaluator keeps in another process, as bytes.
+struct StateElsewhere final : EvaluatorState {
+  explicit StateElsewhere(std::string of) : text(std::move(of)) {}
+  std::string bytes() const override { return text; }
+  std::string text;
 };
 
 std::string bytes_of(const std::unique_ptr<EvaluatorState>& state) {
@@ -33,6 +45,7 @@ std::string bytes_of(const std::unique_ptr<EvaluatorState>& state) {
 }
 
 std::size_t thread_count(const OptimiseOptions& options, std::size_t workers) {
+  if (options.ranks != nullptr) return workers;  // each waits for a job of its own
   const std::size_t wanted =
       options.threads != 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
   return std::min(wanted, workers);
@@ -64,9 +77,11 @@ struct Workers::Crew {
   }
   bool has_hub() const { return options.strategy == MeshStrategy::hub; }
   bool regenerates() const { return options.strategy == MeshStrategy::regenerate; }
+  std::unique_ptr<LivingMesh> living_around(Mesh mesh) const;
   Worker& nearest(const DesignProfile& design);
   void hand_out(std::vector<Job>& jobs);
   void evaluate(Worker& worker, Job& job) const;
+  void evaluate_elsewhere(Worker& worker, Job& job) const;
   void evaluate_next(Worker& worker, Job& job) const;
 
   Evaluating evaluating;
@@ -88,11 +103,14 @@ void Workers::Crew::start_hub(Mesh mesh) {
 
 Worker& Workers::Crew::add(WorkerState state, Mesh mesh) {
   DesignProfile profile = profile_of(state.design);
+  return workers.emplace_back(Worker{
+      .living = living_around(std::move(mesh)), .state = std::move(state), .profile = std::move(profile)});
+}
+
+std::unique_ptr<LivingMesh> Workers::Crew::living_around(Mesh mesh) const {
   const DesignSpace& space = evaluating.space;
-  auto living = hub ? std::make_unique<TrialMesh>(options, space, *hub, std::move(mesh))
-                    : std::make_unique<LivingMesh>(options, space, std::move(mesh), at_work);
-  return workers.emplace_back(
-      Worker{.living = std::move(living), .state = std::move(state), .profile = std::move(profile)});
+  return hub ? std::make_unique<TrialMesh>(options, space, *hub, std::move(mesh))
+             : std::make_unique<LivingMesh>(options, space, std::move(mesh), at_work);
 }
 
 Worker& Workers::Crew::nearest(const DesignProfile& design) {
@@ -142,11 +160,80 @@ void Workers::Crew::evaluate(Worker& worker, Job& job) const {
   job.stopped = judge(evaluating, *worker.living, worker.evaluator, job);
 }
 
+// The worker's mesh, and what it knows, go to the process that does its jobs and come back.
+void Workers::Crew::evaluate_elsewhere(Worker& worker, Job& job) const {
+  PostedDesign design{.run = identity_of(evaluating.space, evaluating.evaluator),
+                      .worker = job.record.worker,
+                      .token = options.ranks->new_token(),
+                      .before = worker.token,
+                      .state = worker.state,
+                      .meshes = {},
+                      .proposal = job.proposal,
+                      .tasks = job.tasks,
+                      .record = job.record,
+                      .squared_displacement = job.squared_displacement};
+  design.state.evaluator = bytes_of(worker.evaluator);
+  std::vector<const Mesh*> meshes{&worker.living->mesh()};
+  if (hub) meshes.push_back(&hub->mesh());
+  const std::optional<std::string> bytes = options.ranks->result_of(
+      design.worker, encode(design, meshes), [this] { return evaluating.observer.cancelled(); });
+  job.stopped = Stopped::interrupted;
+  if (!bytes) return;
+  EvaluatedDesign evaluated = decode_evaluated_design(*bytes);
+  job.stopped = evaluated.stopped;
+  if (job.stopped != Stopped::done) return;
+  const std::uint64_t number = job.record.worker;
+  job.record = std::move(evaluated.finished.record);
+  job.record.worker = number;
+  job.evaluation = std::move(evaluated.finished.evaluation);
+  worker.token = design.token;
+  worker.living = living_around(std::move(evaluated.meshes.front()));
+  WorkerState& state = worker.state;
+  state.row = evaluated.state.row, state.checked = evaluated.state.checked;
+  state.full_adjustments = evaluated.state.full_adjustments;
+  worker.evaluator.reset();
+  if (std::string& kept = evaluated.state.evaluator; !kept.empty())
+    worker.evaluator = std::make_unique<StateElsewhere>(std::move(kept));
+}
+
+CrewWork Workers::work_of_crew(const DesignSpace& space, Evaluator& evaluator, const OptimiseOptions& options,
+                               std::size_t population) {
+  const auto states = std::make_shared<CrewStates<EvaluatorState>>();
+  return [&space, &evaluator, &options, population, states, run = identity_of(space, evaluator)](
+             const std::string& bytes, const std::function<bool()>& cancelled) -> std::optional<std::string> {
+    PostedDesign design = decode_posted_design(bytes);
+    if (design.run != run)
+      throw Error(ErrorCode::argument, "a rank",
+                  "found another problem than rank 0 has, expected the same files on all hosts");
+    CrewQuestion question(cancelled);
+    Crew crew({space, evaluator, options, population, question});
+    if (crew.has_hub()) crew.start_hub(std::move(design.meshes.back()));
+    const std::string kept = design.state.evaluator;
+    Worker& worker = crew.add(std::move(design.state), std::move(design.meshes.front()));
+    worker.evaluator = states->take(design.worker, design.before);
+    if (!worker.evaluator && !kept.empty())
+      worker.evaluator = evaluator.restore(kept, worker.living->mesh(), "a design of another process");
+    Job job{.proposal = std::move(design.proposal),
+            .tasks = std::move(design.tasks),
+            .record = std::move(design.record),
+            .squared_displacement = design.squared_displacement};
+    crew.evaluate(worker, job);
+    if (job.stopped == Stopped::interrupted) return std::nullopt;
+    EvaluatedDesign evaluated{.stopped = job.stopped,
+                              .finished = {std::move(job.record), std::move(job.evaluation)},
+                              .state = worker.state,
+                              .meshes = {}};
+    evaluated.state.evaluator = bytes_of(worker.evaluator);
+    states->put(design.worker, design.token, std::move(worker.evaluator));
+    return encode(evaluated, worker.living->mesh());
+  };
+}
+
 void Workers::Crew::evaluate_next(Worker& worker, Job& job) const {
   if (options.keep_finished)
     worker.before.emplace(
         Before{worker.living->mesh(), worker.state.row, worker.state.checked, bytes_of(worker.evaluator)});
-  evaluate(worker, job);
+  options.ranks != nullptr ? evaluate_elsewhere(worker, job) : evaluate(worker, job);
   job.finished = job.stopped == Stopped::done;
   if (job.finished) worker.before.reset();
 }

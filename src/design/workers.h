@@ -21,6 +21,7 @@
 #include "design/hub.h"
 #include "design/living_mesh.h"
 #include "design/regeneration_rule.h"
+#include "remodel/crew.h"
 #include "remodel/designer.h"
 #include "remodel/evaluator.h"
 #include "remodel/optimise.h"
@@ -96,6 +97,11 @@ class Workers {
   // before, the state after the first jobs alone, of which all are finished; but meshes, and what belongs to
   // them, are those after the last finished job of each worker.
   KeptWorkers kept(WorkersState before, std::span<const Job> first) const;
+
+  // The work of the crew that OptimiseOptions::ranks has designs evaluated by, on meshes that it is sent.
+  // Space, evaluator and options must outlive it; these have no ranks.
+  static CrewWork work_of_crew(const DesignSpace& space, Evaluator& evaluator, const OptimiseOptions& options,
+                               std::size_t population);
 
  private:
   struct Crew;

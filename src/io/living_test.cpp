@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "io/mesh_bytes.h"
 #include "io/test_meshes.h"
 #include "io/vtkhdf.h"
 #include "remodel/airfoil.h"
@@ -9,6 +10,7 @@
 #include "remodel/io.h"
 #include "remodel/layers.h"
 #include "remodel/mesh_state.h"
+#include "remodel/remodel.h"
 
 namespace remodel {
 namespace {
@@ -43,6 +45,20 @@ TEST(LivingMesh, ASealedStateOutOfRangeIsRefusedWithItsFile) {
             begin + "min_angle_deg: found 500000000000000000000.000000, expected 0 to 34 degrees");
 }
 
+TEST(LivingMesh, ComesBackFromItsBytesWithTheSameState) {
+  Mesh mesh = generate(airfoil_domain(named_airfoil("naca:0012", 5), {.points = 40})).mesh;
+  const Domain next = airfoil_domain(named_airfoil("naca:0011", 5), {.points = 40});
+  for (const Strategy strategy : {Strategy::renew, Strategy::reference}) {
+    remodel(mesh, next, {.strategy = strategy});
+    const std::string bytes = io::mesh_to_bytes(mesh);
+    EXPECT_EQ(io::mesh_from_bytes(bytes, "here").state(), mesh.state());
+    for (const std::size_t size : {bytes.size() - 1, bytes.size() / 2, std::size_t{3}, std::size_t{0}})
+      EXPECT_NE(error_of([&] { io::mesh_from_bytes(bytes.substr(0, size), "here"); }), "") << size;
+    EXPECT_EQ(error_of([&] { io::mesh_from_bytes(bytes + "x", "here"); }),
+              "here: found other bytes than those of a mesh's state");
+  }
+}
+
 TEST(LivingMesh, ComesBackFromItsFileWithTheSameStateAndTheSameBytes) {
   const Scratch scratch;
   const Mesh mesh = square_mesh();
@@ -57,7 +73,8 @@ TEST(LivingMesh, ComesBackFromItsFileWithTheSameStateAndTheSameBytes) {
 LayeredMesh layered_mesh() {
   Domain domain = airfoil_domain(named_airfoil("naca:2412", 8));
   space_walls(domain, {.most = 0.03});
-  LayeredMesh mesh = generate_layered(domain, {.first_height = 1e-4, .walls = {"airfoil"}}, {.gradation = 4.0}).mesh;
+  LayeredMesh mesh =
+      generate_layered(domain, {.first_height = 1e-4, .walls = {"airfoil"}}, {.gradation = 4.0}).mesh;
   Domain next = domain;
   next.loops[0].placement.rotation_deg = -1.0;
   remodel::remodel(mesh, next, {.strategy = Strategy::reference});
@@ -97,9 +114,12 @@ TEST(LayeredMesh, IsNotTakenForOneWithoutLayersNorTheOtherWayRound) {
   write_mesh(layered_mesh(), scratch / "layers.vtkhdf");
   write_mesh(square_mesh(), scratch / "square.vtkhdf");
   EXPECT_FALSE(holds_layers(scratch / "square.vtkhdf"));
-  const std::string begin = (scratch / "layers.vtkhdf").string() + ":/remodel/layers: a mesh with layers found";
+  const std::string begin =
+      (scratch / "layers.vtkhdf").string() + ":/remodel/layers: a mesh with layers found";
   EXPECT_TRUE(error_of([&] { read_mesh(scratch / "layers.vtkhdf").step(); }).starts_with(begin));
-  EXPECT_NE(error_of([&] { read_layered_mesh(scratch / "square.vtkhdf").levels(); }).find("/remodel/layers: not found"),
+  EXPECT_NE(error_of([&] {
+              read_layered_mesh(scratch / "square.vtkhdf").levels();
+            }).find("/remodel/layers: not found"),
             std::string::npos);
   EXPECT_NE(error_of([&] { read_layered_mesh(scratch / "m.su2").levels(); }).find("another format found"),
             std::string::npos);

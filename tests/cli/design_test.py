@@ -112,7 +112,7 @@ class Designs(ProgramTest):
 
     def test_keys_of_no_use_are_refused(self):
         """Each with its place and what is of use there."""
-        of_cmaes, of_gradients = "expected evaluations, sigma, seed", "expected evaluations, bounds, trust"
+        of_cmaes, of_gradients = "expected evaluations, sigma, seed, workers", "expected evaluations, bounds, trust"
         lift = [{"kind": "lift", "at_least": 0.1}]
         other = {"mach": 0.5, "weight": 0}
         for changes, place, name in (
