@@ -8,6 +8,7 @@
 
 #include "aero/design_mesh.h"
 #include "aero/flow_memory.h"
+#include "aero/outlet_numbers.h"
 #include "aero/resolved_problem.h"
 #include "base/threads.h"
 #include "remodel/error.h"
@@ -77,6 +78,7 @@ class FlowEvaluator final : public Evaluator {
   // What came of a point.
   struct PointFlow {
     FlowResult flow;
+    std::vector<std::pair<std::string, double>> of_outlets = {};
     std::map<std::size_t, Slope> slopes;  // of the functions that are asked for
     double gradient_seconds = 0.0;
   };
@@ -124,6 +126,7 @@ class FlowEvaluator final : public Evaluator {
       throw std::runtime_error("the lift is not determined: a section has no edge that the flow leaves from");
     const FlowView view{shared.mesh.walls(), shared.mesh.frozen(), point.flow,
                         parts_.target ? &memory.target[index] : nullptr};
+    point.of_outlets = outlet_numbers(problem_.points[index], view);
     std::vector<FlowValue> values;
     for (const std::size_t function : asked_[index]) {
       values.push_back(parts_.functions[function]->at(view));
@@ -211,6 +214,7 @@ class FlowEvaluator final : public Evaluator {
       outputs["cd_pressure" + suffix] = flow.friction->cd_pressure;
       outputs["cd_friction" + suffix] = flow.friction->cd_friction;
     }
+    for (const auto& [name, value] : point.of_outlets) outputs[name + suffix] = value;
     outputs["flow_seconds"] += flow.seconds;
     outputs["factorisations"] += flow.factorisations;
     if (with_gradients) outputs["gradient_seconds"] += point.gradient_seconds;
