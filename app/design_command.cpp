@@ -23,6 +23,7 @@ namespace {
 
 struct DesignCommand {
   std::string problem;
+  std::optional<DesignStart> start;
   DesignRunOptions run;
   RanksOptions ranks;
   bool quiet = false, json = false;
@@ -56,6 +57,22 @@ void add_constraints(Report& report, const std::vector<NamedNumber>& constraints
     report.line("constraint: " + name, violation == 0.0 ? "kept" : "violated by " + short_text(violation));
 }
 
+// HISTORY[:N]
+DesignStart start_of(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string::npos) return {.history = text};
+  const std::string number = text.substr(colon + 1);
+  const bool is_number =
+      !number.empty() && number.size() < 10 && number.find_first_not_of("0123456789") == std::string::npos;
+  if (colon == 0 || (!is_number && number != "best"))
+    throw Error(
+        ErrorCode::argument, "--start",
+        "found '" + text + "', expected a run directory, or one with the number of a design behind a colon");
+  DesignStart start{.history = text.substr(0, colon)};
+  if (is_number) start.design = std::stoull(number);
+  return start;
+}
+
 void require_given(const DesignCommand& command) {
   if (command.problem.empty() || command.run.directory.empty())
     throw Error(ErrorCode::argument, command.problem.empty() ? "PROBLEM" : "--output",
@@ -87,15 +104,32 @@ std::string text_of(const FreshFlow& fresh) {
   if (!fresh.converged) return "no flow was found";
   std::string text =
       "CL " + Json(fresh.cl).dump() + ", CD " + Json(fresh.cd).dump() + ", CM " + Json(fresh.cm).dump();
+  for (const NamedNumber& number : fresh.outlets)
+    text += ", " + number.name + " " + Json(number.value).dump();
+  if (!fresh.warning.empty()) text += " (" + fresh.warning + ")";
   for (const auto& [name, excess] : fresh.violated)
     text += ", violates '" + name + "' by " + short_text(excess);
   if (fresh.error) text += ", CD lacks about " + short_text(fresh.error->cd);
   return text;
 }
 
+// The meshes of a search from coarse to fine.
+void add_stages(Report& report, const std::vector<DesignStage>& stages) {
+  for (const DesignStage& stage : stages)
+    report.line("mesh of I = " + std::to_string(stage.points),
+                std::to_string(stage.evaluations) + " designs, objective " +
+                    (stage.objective ? short_text(*stage.objective) : "none") + ", " +
+                    short_text(stage.seconds) + " seconds");
+  report.data("stages", Json::parse(stages_json(stages)));
+}
+
 // Under mpirun.
 CrewWork work_of_ranks(const DesignCommand& command) {
-  const DesignProblem problem = read_design_problem(command.problem);
+  DesignProblem problem = read_design_problem(command.problem);
+  if (command.start) problem.start = command.start, validate(problem, command.problem);
+  if (!problem.coarse_points.empty())
+    throw Error(ErrorCode::argument, command.problem,
+                "found meshes from coarse to fine, expected one mesh under mpirun");
   if (problem.points.size() == 1 && (problem.designer != "cmaes" || problem.workers == 1))
     throw Error(ErrorCode::argument, command.problem,
                 "found one point of flow and one living mesh, expected several points, or \"cmaes\" with "
@@ -107,10 +141,12 @@ CrewWork work_of_ranks(const DesignCommand& command) {
 
 Status run_search(DesignCommand& command, PostedJobs* jobs) {
   require_possible(command);
-  const DesignProblem problem = read_design_problem(command.problem);
+  DesignProblem problem = read_design_problem(command.problem);
+  if (command.start) problem.start = command.start, validate(problem, command.problem);
   warn(problem.warnings);
   command.run.ranks = jobs;
-  Progress progress(progress_style(command.quiet), problem.evaluations, "problem: " + command.problem);
+  Progress progress(progress_style(command.quiet), problem.evaluations * (1 + problem.coarse_points.size()),
+                    "problem: " + command.problem);
   const DesignResult result = run_design(problem, command.run, &progress);
   progress.finish();
 
@@ -127,6 +163,7 @@ Status run_search(DesignCommand& command, PostedJobs* jobs) {
   report.figure("converged", "converged", result.converged);
   for (const FreshFlow& fresh : result.verified)
     report.line("fresh mesh, I = " + std::to_string(fresh.points), text_of(fresh));
+  if (!result.stages.empty()) add_stages(report, result.stages);
   report.data("verified", Json::parse(fresh_json(result.verified)));
   report.data("best", Json::parse(result.best));
   report.figure("directory", "run directory", command.run.directory.string());
@@ -158,6 +195,10 @@ void add_design_command(CLI::App& program, Action& action) {
       app,
       {"-o,--output", "DIR", "", "Run directory: new or empty; that of a run with --resume or --overwrite"},
       Presence::optional, command->run.directory);
+  add_text(app,
+           {"--start", "RUN[:N]", "",
+            "Begin with design N, the best one unless given, of another run with the same variables"},
+           Presence::optional, [=](const std::string& text) { command->start = start_of(text); });
   add_flag(app, "--resume", "Continue from the checkpoint in the run directory", command->run.resume);
   add_flag(app, "--overwrite", "Replace the run that the run directory holds", command->run.overwrite);
   add_integer(

@@ -24,8 +24,10 @@ struct FitCommand {
   bool json = false;
 };
 
-void require_possible(const std::string& output) {
-  if (!output.empty()) require_writable_as(output, {".json"});
+void require_possible(const FitCommand& command) {
+  if (command.output.empty()) return;
+  require_writable_as(command.output, {".json"});
+  require_no_input(command.output, {command.shape});
 }
 
 void add_extreme(Report& report, const std::string& key, const Extreme& extreme) {
@@ -41,7 +43,7 @@ void add_frame_line(Report& report, const AirfoilFrame& frame) {
 }
 
 Status run(const FitCommand& command) {
-  require_possible(command.output);
+  require_possible(command);
   const CstFit fit = fit_shape(command.shape, command.fit);
   const bool apart = surfaces_apart(fit.airfoil);
   if (!command.output.empty()) {

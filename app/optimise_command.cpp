@@ -250,7 +250,8 @@ void require_run_directory(const std::filesystem::path& directory) {
   }
   require_writable(directory / "history.sqlite");
   bool of_a_run = false;
-  for (const char* name : {"history.sqlite", "checkpoint.json", "first.vtkhdf", ".remodel-start"}) {
+  for (const char* name :
+       {"history.sqlite", "checkpoint.json", "first.vtkhdf", ".remodel-start", "stage-1"}) {
     of_a_run = of_a_run || fs::exists(directory / name);
   }
   if (!of_a_run && !fs::is_empty(directory)) {

@@ -28,6 +28,22 @@ void require_writable(const std::filesystem::path& given) {
   }
 }
 
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code none_there;
+  if (std::filesystem::equivalent(a, b, none_there)) return true;
+  const auto place = [&](const std::filesystem::path& file) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(file), none_there);
+  };
+  return place(a) == place(b) && !written_place(a).in_place;  // a device may be written to twice
+}
+
+void require_no_input(const std::string& file, const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs)
+    if (is_same_file(file, input))
+      throw Error(ErrorCode::argument, "-o",
+                  "found '" + file + "', which is the input '" + input + "', expected another file");
+}
+
 void require_writable_directory(const std::filesystem::path& directory) {
   std::filesystem::path there = std::filesystem::absolute(directory);
   std::error_code ignored;
@@ -93,8 +109,8 @@ void MeshOutputs::require_possible() const {
   for (std::size_t i = 0; i < files_.size(); ++i) {
     mesh_format(files_[i]);
     require_writable(files_[i]);
-    if (std::find(files_.begin(), files_.begin() + static_cast<std::ptrdiff_t>(i), files_[i]) !=
-        files_.begin() + static_cast<std::ptrdiff_t>(i)) {
+    const auto same = [&](const std::string& other) { return is_same_file(other, files_[i]); };
+    if (std::any_of(files_.begin(), files_.begin() + static_cast<std::ptrdiff_t>(i), same)) {
       throw Error(ErrorCode::argument, "-o", "found '" + files_[i] + "' twice, expected different files");
     }
   }

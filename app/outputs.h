@@ -51,6 +51,10 @@ void require_writable(const std::filesystem::path& file);
 void require_place_of_run(const std::filesystem::path& directory);
 // require_writable(), and throws Error (argument) if the file has none of the extensions (".png").
 void require_writable_as(const std::string& file, std::initializer_list<const char*> extensions);
+// Whether both names lead to one file, by links too; one that there is not yet counts by its name.
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
+// Throws Error (argument) where the file is one of those that are read, and would be lost.
+void require_no_input(const std::string& file, const std::vector<std::string>& inputs);
 // Throws Error (file) if there is no such directory and none can be made, or it is not writable.
 void require_writable_directory(const std::filesystem::path& directory);
 

@@ -49,6 +49,7 @@ void require_possible_files(const PolarCommand& command) {
   std::set<std::filesystem::path> places;
   for (const std::string& file : command.files) {
     require_writable_as(file, {".csv", ".json", ".svg", ".png"});
+    require_no_input(file, command.input.shapes);
     if (!places.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(file))).second)
       throw Error(ErrorCode::argument, "-o", "found '" + file + "' twice, expected different files");
   }

@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -111,6 +112,12 @@ struct DesignConstraint {
 // `constraints`: what linearised constraints leave at the end of a search, and far above rounding.
 inline constexpr double default_constraint_tolerance = 1e-5;
 
+// A design of an earlier run of the same variables.
+struct DesignStart {
+  std::filesystem::path history;          // the run's directory, or its history.sqlite
+  std::optional<std::uint64_t> design{};  // its number, from 1; none: the run's best
+};
+
 struct DesignProblem {
   CstAirfoil airfoil = {};                   // the start, of one section
   std::vector<DesignElement> elements = {};  // in its place: several sections
@@ -122,6 +129,9 @@ struct DesignProblem {
   // flows are their own mirror images then, half of each is computed (FlowSpace::half()).
   bool symmetric = false;
   AirfoilDomainOptions domain = {.points = 100};
+  // The search goes through meshes of so many points, increasing, before that of domain.points. Each begins
+  // with the best design of the one before.
+  std::vector<int> coarse_points = {};
   // The mesh has this gradation; none: points / 50. With friction `points` is about how many stations a
   // section has, 150 or more (usual_points_with_friction).
   std::optional<double> gradation = {};
@@ -143,11 +153,16 @@ struct DesignProblem {
   std::size_t evaluations = 100;  // designs, at most
   double bounds = 0.1;            // sqp: how far a coefficient, or a deformation, may go from the start
   double trust = 0.02;            // sqp: how far a number may go in the first step
+  double least_promise = 1e-6;    // sqp: SqpOptions::least_promise
   double sigma = 0.01;            // cmaes: the first standard deviation
   std::uint64_t seed = 1;         // cmaes
   // cmaes: living meshes, 1 to 1000. The designs of a generation are handed out to them, and evaluated at
   // once.
   std::size_t workers = 1;
+  // The search begins with this design in the place of the space's start, which bounds and parts `of_start`
+  // go on being of: one of an earlier run, or the numbers of one.
+  std::optional<DesignStart> start = {};
+  std::vector<double> first_design = {};
   // Points on each section of fresh meshes, even: on each the best design is evaluated at the end.
   std::vector<int> verify = {};
 

@@ -44,11 +44,24 @@ struct FreshFlow {
   std::size_t vertices = 0;
   double mach = 0.0, alpha_deg = 0.0, cl = 0.0, cd = 0.0, cm = 0.0;
   std::optional<double> cd_pressure, cd_friction;  // with friction
+  std::vector<NamedNumber> outlets;  // of a duct: mass_flow, and total_pressure as a part of the stream's
+  std::string warning;               // what has to be known before these are used; mostly empty
   bool converged = false;
   std::vector<NamedNumber> violated;  // constraints of flows, by how much; within the tolerance they are not
   double seconds = 0.0;
   double mach_max = 0.0;            // the largest local Mach number
   std::optional<Error> error = {};  // on the finest of several meshes
+};
+
+// The search on one mesh of a problem with several, from coarse to fine.
+struct DesignStage {
+  int points = 0;
+  double triangles = 0.0;                   // mean over its designs
+  std::size_t evaluations = 0;              // designs
+  std::optional<double> start_objective{};  // of its first design on its own mesh
+  std::optional<double> objective{};        // of its best one
+  double seconds = 0.0;                     // wall time, without fresh meshes
+  std::string stopped;                      // DesignResult::stopped
 };
 
 struct DesignResult {
@@ -75,6 +88,10 @@ struct DesignResult {
   // There is one for each number in DesignProblem::verify, of each point; none where the verification was
   // interrupted.
   std::vector<FreshFlow> verified;
+  // One for each mesh, where the problem has several (DesignProblem::coarse_points): all else here is of the
+  // last one, and so are the files in the run's directory but stages.json and stage-1, stage-2 ..., the
+  // directories of the coarse meshes' runs.
+  std::vector<DesignStage> stages;
 };
 
 // Searches, with the meshes following by Strategy::reference, and evaluates the best design on fresh meshes
@@ -89,8 +106,9 @@ DesignResult run_design(const DesignProblem& problem, const DesignRunOptions& op
 // tolerance says.
 CrewWork design_work(const DesignProblem& problem);
 
-// A JSON array of objects.
+// JSON arrays of objects.
 std::string fresh_json(const std::vector<FreshFlow>& flows);
+std::string stages_json(const std::vector<DesignStage>& stages);
 
 // A run as its history has it.
 struct DesignRun {
@@ -103,6 +121,7 @@ struct DesignRun {
   bool has_flow = false;  // of that row; otherwise none of any design was found
   std::vector<DesignPoint> points;
   std::unique_ptr<const FlowSpace> space;
+  std::vector<double> first_design;  // that the search began with, and whose mesh is the first one
 
   const std::vector<double>& best_design() const { return rows[best].coefficients; }
   bool has_best() const { return std::isfinite(rows[best].best_objective); }

@@ -54,6 +54,11 @@ class Designer {
   // Throws Error (format) naming `source` for a text that is no such state.
   virtual std::string state() const = 0;
   virtual void restore(const std::string& state, const std::string& source) = 0;
+  // Goes on, on another mesh, from what the search of this state has learnt, with its own start. The state is
+  // of a designer of the same kind. By default nothing is carried.
+  virtual void carry(const std::string& state, const std::string& source) {
+    static_cast<void>(state), static_cast<void>(source);
+  }
   // A JSON object says what the proposals depend on: a run can be resumed with the same alone.
   virtual std::string description() const = 0;
 };

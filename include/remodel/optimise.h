@@ -78,11 +78,16 @@ struct OptimiseOptions {
   // one loses none that was finished. Where several workers are interrupted, rows end before the first design
   // that was not finished; those behind it that were are in the checkpoint, and are not evaluated again.
   bool keep_finished = false;
+  // A design whose mesh meets a limit has failed, as one whose evaluation throws has, and the run goes on
+  // from the mesh before it. With keep_finished alone. Otherwise such a design ends the run.
+  bool fail_at_limits = false;
   std::size_t max_refused = 10000;    // infeasible samples in a row that end the run; at least 1
   bool resume = false;                // go on from the directory's checkpoint
   bool overwrite = false;             // replace the run that the directory holds; not with resume
   std::filesystem::path directory{};  // of the run's files; made if missing
-  std::optional<MeshStart> start{};   // then domain and quality say nothing: the mesh has its own
+  // The first mesh is of this design; none: of the space's start. Not with `start`.
+  std::vector<double> first_design{};
+  std::optional<MeshStart> start{};  // then domain and quality say nothing: the mesh has its own
 };
 
 // Why a run ended. Whatever it is, what is finished is kept.
@@ -90,7 +95,7 @@ enum class OptimiseStopped {
   done,         // all evaluations, the tolerance, or Designer::finished()
   interrupted,  // OptimiseObserver::cancelled()
   infeasible,   // max_refused infeasible samples in a row
-  mesh_limit,   // a mesh could not be finished within the quality options' budget
+  mesh_limit,   // a mesh could not be finished within the quality options' budget (but see fail_at_limits)
 };
 const char* name_of(OptimiseStopped stopped);  // "done", "interrupted", "infeasible", "mesh-limit"
 

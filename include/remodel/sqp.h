@@ -15,6 +15,9 @@ namespace remodel {
 struct SqpOptions {
   double trust = 0.02;        // first half-width of the trust box, in the design's numbers; > 0
   double least_trust = 1e-5;  // the search ends below
+  // It ends too where its model promises less than this part of the objective's first value, once more after
+  // a model that begins anew, if this is small.
+  double least_promise = 1e-6;
   // The lowest and highest value of each number of the design.
   std::vector<double> low{}, high{};
   // Initial shape of the second derivatives, a symmetric positive matrix row by row; empty: the identity.
@@ -45,6 +48,9 @@ class SqpDesigner final : public Designer {
   std::vector<double> centre() const override { return best_.design; }
   std::string state() const override;
   void restore(const std::string& state, const std::string& source) override;
+  // Second derivatives, the penalty, a box no smaller than a part of the first, and the objective's first value,
+  // by which the search ends.
+  void carry(const std::string& state, const std::string& source) override;
   std::string description() const override;
 
  private:
@@ -66,6 +72,7 @@ class SqpDesigner final : public Designer {
   std::optional<Known> waiting_;   // for the best design's evaluation on the present mesh
   std::vector<double> curvature_;  // symmetric, row by row
   bool learnt_ = false;            // from a step
+  bool carried_ = false;           // the model is another search's, before the first design is told
   double scale_ = 1.0, trust_ = 0.0, penalty_ = 0.0, promised_ = 0.0, shift_ = 0.0;
   double begun_at_ = 0.0;  // merit where the model began
   std::uint64_t steps_ = 0;

@@ -570,6 +570,7 @@ class DesignResult:
     named: dict[str, float]
     constraints: dict[str, float]
     verified: list[dict[str, Any]]
+    stages: list[dict[str, Any]]
     rows: list[dict[str, Any]]
     warnings: list[str]
     directory: Optional[str]

@@ -19,7 +19,7 @@ _SOURCE = "problem"  # what messages call a problem that is no file
 class DesignResult(SimpleNamespace):
     """What a search found: objective and start_objective (None without a flow), best_design (an array), best (a dict as
     best.json has it), converged, stopped, detail, constraints (by how much each is violated, 0 within the tolerance),
-    outputs (cl, cd, ... of the best design), verified (its flows on fresh meshes, a dict each), evaluations, flows,
+    outputs (cl, cd, ... of the best design), stages (a dict for each mesh, where there are several), verified (its flows on fresh meshes, a dict each), evaluations, flows,
     gradients, cold_equivalents, warnings, directory (None: it was a temporary one).
 
     rows: a dict for each design. `result.column(name)` is one figure, or one output, of all of them.
@@ -91,7 +91,7 @@ def design(problem, *, directory=None, resume=False, overwrite=False, threads=0,
     if resume and overwrite:
         raise ArgumentError("overwrite: found with resume, expected one of them")
     if isinstance(problem, (str, os.PathLike)):
-        parts = (_text_of(problem), os.fspath(problem), None, None, [])
+        parts = (_text_of(problem), os.fspath(problem), None, None, [], None, None)
     elif isinstance(problem, dict):
         parts = _parts_of(problem)
     else:
@@ -118,6 +118,7 @@ def _text_of(file):
 def _parts_of(problem):
     """The problem as text, with placeholders for what no text has, and what stands there."""
     problem = dict(problem)
+    start = _start_of(problem.pop("start", None))
     airfoils = []
     for key in ("airfoil", "target"):
         given = problem.get(key)
@@ -138,7 +139,23 @@ def _parts_of(problem):
         text = json.dumps(problem, default=_plain, allow_nan=False)
     except (TypeError, ValueError) as error:
         raise ArgumentTypeError(f"problem: {error}, expected what a problem file may have, or an Airfoil or a function where docs say so") from None
-    return text, _SOURCE, *airfoils, functions
+    return text, _SOURCE, *airfoils, functions, *start
+
+
+def _start_of(given):
+    """The run that a search begins with a design of, and its number: None for the best one."""
+    if given is None:
+        return None, None
+    if not isinstance(given, dict) or "history" not in given or set(given) - {"history", "design"}:
+        raise ArgumentTypeError(f"{_SOURCE}, start: found {_calls.shown(given)}, expected a dict with 'history' and perhaps 'design'")
+    if not isinstance(given["history"], (str, os.PathLike)):
+        raise ArgumentTypeError(f"{_SOURCE}, start: found {_calls.shown(given['history'])} as 'history', expected a path")
+    number = given.get("design", "best")
+    if number == "best":
+        return given["history"], None
+    if isinstance(number, bool) or not isinstance(number, (int, np.integer)) or number < 1:
+        raise ArgumentTypeError(f"{_SOURCE}, start: found {_calls.shown(number)} as 'design', expected a number from 1 or 'best'")
+    return given["history"], int(number)
 
 
 def _plain(value):

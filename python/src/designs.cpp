@@ -116,13 +116,15 @@ py::dict dict_of(const DesignResult& result, const std::filesystem::path& direct
   figures["replacements"] = result.replacements;
   figures["cold_equivalents"] = py::cast(result.cold_equivalents);
   figures["verified"] = json.attr("loads")(fresh_json(result.verified));
+  figures["stages"] = json.attr("loads")(stages_json(result.stages));
   figures["rows"] = rows_of(directory / "history.sqlite");
   return figures;
 }
 
 py::dict designed(const std::string& text, const std::string& source,
                   const std::optional<CstAirfoil>& airfoil, const std::optional<CstAirfoil>& target,
-                  const py::list& functions, const DesignRunOptions& options, const py::object& callback) {
+                  const py::list& functions, const std::optional<DesignStart>& start,
+                  const DesignRunOptions& options, const py::object& callback) {
   OwnFunctions own;
   for (const auto& entry : functions) {
     const auto row = entry.cast<py::tuple>();
@@ -133,6 +135,7 @@ py::dict designed(const std::string& text, const std::string& source,
   DesignProblem problem = parse_design_problem(text, source);
   if (airfoil) problem.airfoil = *airfoil;
   if (target) problem.target = *target;
+  if (start) problem.start = start;
   add_functions(own, watch, problem);
   if (airfoil || target || !own.empty()) problem.text.clear();  // no text has these
   validate(problem, source);
@@ -156,14 +159,17 @@ void add_designs(py::module_& module) {
       "_design",
       [](const std::string& text, const std::string& source, const std::optional<CstAirfoil>& airfoil,
          const std::optional<CstAirfoil>& target, const py::list& functions,
+         const std::optional<std::filesystem::path>& history, const std::optional<std::uint64_t>& design,
          const std::filesystem::path& directory, bool resume, bool overwrite, std::size_t threads,
          const py::object& callback) {
+        std::optional<DesignStart> start;
+        if (history) start = DesignStart{.history = *history, .design = design};
         return designed(
-            text, source, airfoil, target, functions,
+            text, source, airfoil, target, functions, start,
             {.directory = directory, .resume = resume, .overwrite = overwrite, .threads = threads}, callback);
       },
-      "text"_a, "source"_a, "airfoil"_a, "target"_a, "functions"_a, "directory"_a, "resume"_a, "overwrite"_a,
-      "threads"_a, "callback"_a);
+      "text"_a, "source"_a, "airfoil"_a, "target"_a, "functions"_a, "history"_a, "design"_a, "directory"_a,
+      "resume"_a, "overwrite"_a, "threads"_a, "callback"_a);
   module.def(
       "_design_page",
       [](const std::filesystem::path& directory, const std::filesystem::path& page) {

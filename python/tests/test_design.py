@@ -151,3 +151,22 @@ def test_an_outline_as_it_is_given_is_deformed(tmp_path):
     assert remodel.design({**given, "space": file}).objective == result.objective
     with pytest.raises(remodel.ArgumentError, match="deformation 1: found a box that holds no point of 'airfoil'"):
         remodel.design({**given, "space": {**space, "deformations": [{**box, "x": [2, 3]}]}})
+
+
+def test_a_search_begins_with_a_design_of_another_run(tmp_path):
+    before = remodel.design(problem(), directory=tmp_path / "before")
+    again = problem(designer={"evaluations": 1})
+    for design, expected in ((2, before.designs[1]), ("best", before.best_design)):
+        result = remodel.design({**again, "start": {"history": tmp_path / "before", "design": design}}, directory=tmp_path / str(design))
+        assert np.array_equal(result.designs[0], expected)
+    for start in ("before", {"design": 1}, {"history": 3}, {"history": "before", "design": 0}, {"history": "before", "design": True}):
+        with pytest.raises(remodel.ArgumentTypeError, match="problem, start: found"):
+            remodel.design({**again, "start": start})
+    with pytest.raises(remodel.ArgumentError, match="found no design 99"):
+        remodel.design({**again, "start": {"history": tmp_path / "before", "design": 99}})
+
+
+def test_a_search_goes_from_coarse_to_fine():
+    result = remodel.design(problem(mesh={"points": [24, 40]}, designer={"evaluations": 3}))
+    assert [stage["points"] for stage in result.stages] == [24, 40]
+    assert result.stages[-1]["objective"] == result.objective

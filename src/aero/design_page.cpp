@@ -310,12 +310,16 @@ std::string fresh_table(const fs::path& directory, const DesignRun& run) {
       "cold. What the finest lacks of an infinitely fine mesh is estimated by it and the "
       "next.</p>\n<table>\n<tr><th>points</th><th>vertices</th><th>Mach</th><th>CL</th><th>CD, counts</th>";
   if (friction) table += "<th>of pressure</th><th>of friction</th>";
+  const bool duct =
+      std::any_of(entries.begin(), entries.end(), [](const PageJson& e) { return e.contains("mass_flow"); });
+  if (duct) table += "<th>mass flow</th><th>total pressure</th>";
   table += "<th>CD lacks about</th><th>CM</th><th>constraints violated</th><th>seconds</th></tr>\n";
   for (const PageJson& entry : entries) {
     table +=
         "<tr>" + cells({entry.at("points").dump(), entry.at("vertices").dump(), number(entry.at("mach"))});
     if (entry.at("converged") != true) {
-      table += std::string("<td colspan=\"") + (friction ? "8" : "6") + "\">no flow was found</td></tr>\n";
+      table +=
+          "<td colspan=\"" + std::to_string(6 + 2 * friction + 2 * duct) + "\">no flow was found</td></tr>\n";
       continue;
     }
     std::string violated;
@@ -325,11 +329,35 @@ std::string fresh_table(const fs::path& directory, const DesignRun& run) {
     if (friction)
       for (const char* part : {"cd_pressure", "cd_friction"})
         table += cells({entry.contains(part) ? counts(entry.at(part)) : ""});
+    if (duct)
+      for (const char* part : {"mass_flow", "total_pressure"})
+        table += cells({entry.contains(part) ? number(entry.at(part), "%.6g") : ""});
     table += cells({entry.contains("error") ? counts(entry.at("error").at("cd")) : ""});
     table += cells({number(entry.at("cm"), "%.4f"), violated.empty() ? "none" : violated,
                     number(entry.at("seconds"), "%.1f")}) +
              "</tr>\n";
   }
+  return table + "</table>\n";
+}
+
+// The search from coarse to fine, as the command left it.
+std::string stages_table(const fs::path& directory) {
+  const fs::path file = directory / "stages.json";
+  const PageJson stages = fs::exists(file) ? PageJson::parse(read_text(file), nullptr, false) : PageJson();
+  if (!stages.is_array()) return {};
+  const auto shown = [](const PageJson& value) { return value.is_null() ? "none" : number(value, "%.6g"); };
+  std::string table =
+      "<h2>From coarse to fine</h2>\n<p>Each mesh begins with the best design of the one before; all else "
+      "here "
+      "is of the last one.</p>\n<table>\n<tr><th>points</th><th>triangles, "
+      "mean</th><th>designs</th><th>first "
+      "objective</th><th>best objective</th><th>seconds</th></tr>\n";
+  for (const PageJson& stage : stages)
+    table += "<tr>" +
+             cells({stage.at("points").dump(), number(stage.at("triangles"), "%.0f"),
+                    stage.at("evaluations").dump(), shown(stage.at("start_objective")),
+                    shown(stage.at("objective")), number(stage.at("seconds"), "%.1f")}) +
+             "</tr>\n";
   return table + "</table>\n";
 }
 
@@ -376,7 +404,7 @@ std::string page_of(const fs::path& directory, const DesignRun& run, const Shown
           "</span></p>\n" + both_outlines(first, last, run) + numbers_table(first, last, *run.space) +
           points_table(first, last) + "<p class=\"note\">The run's own mesh; CD in counts (10⁻⁴).</p>\n" +
           constraints_table(cost.at("constraints"));
-  page += fresh_table(directory, run);
+  page += stages_table(directory) + fresh_table(directory, run);
   const std::size_t walls = walls_of(run, first);
   page += pressures(scratch, first, last, walls) + frictions(scratch, first, last, walls);
   page += "<h2>Mach number</h2>\n";
@@ -407,7 +435,7 @@ std::string page_of(const fs::path& directory, const DesignRun& run, const Shown
 
 std::string write_design_page(const fs::path& directory, const fs::path& page) {
   const DesignRun run = read_design_run(directory);
-  const Shown first = shown_of("first", run.space->start(), read_mesh(directory / "first.vtkhdf"), run);
+  const Shown first = shown_of("first", run.first_design, read_mesh(directory / "first.vtkhdf"), run);
   const Shown last = shown_of(name_of_best(run), run.best_design(), mesh_of_best(directory, run), run);
   const PageJson figures = cost_of(run, first, last);
   write_text_atomically(page, page_of(directory, run, first, last, figures));

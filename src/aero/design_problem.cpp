@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "aero/design_mesh.h"
+#include "aero/first_design.h"
 #include "aero/problem_openings.h"
 #include "aero/resolved_problem.h"
 #include "remodel/sqp.h"
@@ -42,16 +43,18 @@ ProblemJson constraint_json(const DesignConstraint& constraint) {
 }
 
 std::unique_ptr<Designer> make_cmaes(const DesignProblem& problem, const FlowSpace& space) {
-  return std::make_unique<CmaesDesigner>(space.start(),
+  return std::make_unique<CmaesDesigner>(first_design_of(problem, space, ProblemPlace("design problem")),
                                          CmaesOptions{.sigma = problem.sigma, .seed = problem.seed});
 }
 
 std::unique_ptr<Designer> make_sqp(const DesignProblem& problem, const FlowSpace& space) {
   DesignBounds bounds = space.bounds(problem.bounds);
-  return std::make_unique<SqpDesigner>(space.start(), SqpOptions{.trust = problem.trust,
-                                                                 .low = std::move(bounds.low),
-                                                                 .high = std::move(bounds.high),
-                                                                 .metric = space.metric()});
+  return std::make_unique<SqpDesigner>(first_design_of(problem, space, ProblemPlace("design problem")),
+                                       SqpOptions{.trust = problem.trust,
+                                                  .least_promise = problem.least_promise,
+                                                  .low = std::move(bounds.low),
+                                                  .high = std::move(bounds.high),
+                                                  .metric = space.metric()});
 }
 
 struct DesignerKind {

@@ -26,7 +26,7 @@ double DesignRun::sum(const char* output) const {
 
 std::optional<double> DesignRun::start_objective() const {
   const EvaluationRecord& first = rows.front();
-  if (first.coefficients != space->start() || !std::isfinite(first.objective)) return std::nullopt;
+  if (first.coefficients != first_design || !std::isfinite(first.objective)) return std::nullopt;
   return first.objective;
 }
 
@@ -111,6 +111,7 @@ DesignRun read_design_run(const std::filesystem::path& directory) {
     run.problem = problem.dump();
     problem.at("objective").get_to(run.objective);
     run.space = space_of(options, file.string());
+    run.first_design = options.value("first_design", run.space->start());
     options.at("constraint_names").get_to(run.constraint_names);
     run.constraint_tolerance = options.value("constraint_tolerance", 0.0);
     for (const RunJson& entry : problem.at("flow")) {
@@ -134,6 +135,8 @@ DesignRun read_design_run(const std::filesystem::path& directory) {
   if (run.rows.empty())
     throw Error(ErrorCode::format, file.string(), "found no design, expected one or more");
   const std::size_t numbers = run.space->start().size();
+  if (run.first_design.size() != numbers)
+    throw Error(ErrorCode::format, file.string(), "found a first design of another number of variables");
   for (const EvaluationRecord& row : run.rows)
     if (row.coefficients.size() != numbers)
       throw Error(ErrorCode::format, file.string(),
@@ -189,7 +192,7 @@ std::array<double, 4> window_of(const DesignRun& run, const std::array<double, 4
   if (run.space->sections() == 1) return of_one;
   constexpr double far = 1e9;
   std::array<double, 4> box = {far, far, -far, -far};
-  for (const std::vector<double>& design : {run.space->start(), run.best_design()})
+  for (const std::vector<double>& design : {run.first_design, run.best_design()})
     for (const std::vector<Point>& outline : outlines(*run.space, design))
       for (const Point p : outline)
         box = {std::min(box[0], p.x), std::min(box[1], p.y), std::max(box[2], p.x), std::max(box[3], p.y)};

@@ -8,6 +8,7 @@
 
 #include "aero/design_mesh.h"
 #include "aero/flow_memory.h"
+#include "aero/outlet_numbers.h"
 #include "aero/posted_point.h"
 #include "aero/resolved_problem.h"
 #include "base/threads.h"
@@ -183,6 +184,7 @@ class FlowEvaluator final : public Evaluator {
     if (!point.flow.lift_determined)
       throw std::runtime_error("the lift is not determined: a section has no edge that the flow leaves from");
     const FlowView view{shared.mesh.walls(), shared.mesh.frozen(), point.flow, target};
+    point.of_outlets = outlet_numbers(problem_.points[index], view);
     std::vector<FlowValue> values;
     for (const std::size_t function : asked_[index]) {
       values.push_back(parts_.functions[function]->at(view));
@@ -270,6 +272,7 @@ class FlowEvaluator final : public Evaluator {
       outputs["cd_pressure" + suffix] = flow.friction->cd_pressure;
       outputs["cd_friction" + suffix] = flow.friction->cd_friction;
     }
+    for (const auto& [name, value] : point.of_outlets) outputs[name + suffix] = value;
     outputs["flow_seconds"] += flow.seconds;
     outputs["factorisations"] += flow.factorisations;
     if (with_gradients) outputs["gradient_seconds"] += point.gradient_seconds;

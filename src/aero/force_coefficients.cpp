@@ -30,6 +30,7 @@ class FrictionDrag final : public FlowFunction {
 
 class Lift final : public FlowFunction {
   FlowValue at(const FlowView& of) const override { return {.value = of.flow.cl, .by_lift = 1.0}; }
+  bool needs_farfield() const override { return true; }
   bool is_given(const FlowConditions& conditions) const override { return conditions.cl.has_value(); }
 };
 
@@ -39,6 +40,7 @@ class Moment final : public FlowFunction {
 
 // Drag over lift is made small: it is smooth where drag is none.
 class DragOverLift final : public FlowFunction {
+  bool needs_farfield() const override { return true; }
   FlowValue at(const FlowView& of) const override {
     const double cl = of.flow.cl, cd = of.flow.cd;
     if (!(cl > 0.0)) throw std::runtime_error("the lift is not positive");

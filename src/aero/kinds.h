@@ -24,6 +24,7 @@ class FlowFunction {
   virtual bool needs_target() const { return false; }
   virtual bool needs_friction() const { return false; }
   virtual bool needs_outlets() const { return false; }
+  virtual bool needs_farfield() const { return false; }
   // Whether it looks at all walls, which are told from openings by their names alone.
   virtual bool is_of_walls() const { return false; }
   // Whether the conditions give its value, so that there is nothing to design.

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include "aero/kinds.h"
+#include "aero/outlet_numbers.h"
 #include "flow/physics/euler.h"
 
 namespace remodel {
@@ -95,6 +97,7 @@ class MassFlow final : public FlowFunction {
 
 // The mean by mass flow, as a part of the stream's.
 class TotalPressure final : public FlowFunction {
+ public:
   FlowValue at(const FlowView& of) const override {
     const FlowValue mass = over_outlets(of, mass_at), weighted = over_outlets(of, pressure_flow_at);
     if (!(mass.value > 0.0)) throw std::runtime_error("no gas leaves through outlets");
@@ -116,6 +119,34 @@ FlowFunctionPtr opening_function(std::optional<std::size_t>) {
 }
 
 }  // namespace
+
+std::vector<std::pair<std::string, double>> outlet_numbers(const DesignPoint& point, const FlowView& of) {
+  if (point.outlets.empty()) return {};
+  const double mass = over_outlets(of, mass_at).value;
+  if (!(mass > 0.0)) return {{"mass_flow", mass}};
+  return {{"mass_flow", mass}, {"total_pressure", TotalPressure().at(of).value}};
+}
+
+double entering_total_pressure(const DesignPoint& point, const Domain& walls) {
+  double most = 0.0;
+  for (const Loop& loop : walls.loops)
+    for (const Curve& curve : loop.curves)
+      if (curve.name == "farfield") most = 1.0;
+  for (const FlowInlet& inlet : point.inlets) most = std::max(most, inlet.total_pressure);
+  return most;
+}
+
+std::string total_pressure_warning(double found, double entering) {
+  constexpr double rounding = 1e-6;
+  if (!(found > entering * (1.0 + rounding))) return {};
+  char text[160];
+  std::snprintf(
+      text, sizeof text,
+      "the total pressure at outlets is %.6g of the stream's where gas enters with %.6g: the mesh makes "
+      "the rest, and a finer one less",
+      found, entering);
+  return text;
+}
 
 extern constinit const FlowKind mass_flow_kind = {.name = "mass_flow",
                                                   .objective = -1.0,

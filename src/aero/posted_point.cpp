@@ -65,7 +65,8 @@ std::string encode(const EvaluatedPoint& evaluated) {
                  {"alpha_deg", flow.alpha_deg},
                  {"seconds", flow.seconds},
                  {"factorisations", flow.factorisations},
-                 {"gradient_seconds", evaluated.point.gradient_seconds}};
+                 {"gradient_seconds", evaluated.point.gradient_seconds},
+                 {"of_outlets", evaluated.point.of_outlets}};
   if (flow.friction) json["friction"] = {flow.friction->cd_pressure, flow.friction->cd_friction};
   PointJson& slopes = json["slopes"] = PointJson::array();
   for (const auto& [function, slope] : evaluated.point.slopes)
@@ -87,6 +88,8 @@ EvaluatedPoint decode_evaluated_point(const std::string& bytes) {
     flow.seconds = json.at("seconds").get<double>();
     flow.factorisations = json.at("factorisations").get<int>();
     evaluated.point.gradient_seconds = json.at("gradient_seconds").get<double>();
+    for (const PointJson& number : json.at("of_outlets"))
+      evaluated.point.of_outlets.push_back({number.at(0).get<std::string>(), number.at(1).get<double>()});
     if (json.contains("friction")) {
       flow.friction.emplace();
       flow.friction->cd_pressure = json.at("friction").at(0).get<double>();

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "aero/flow_memory.h"
@@ -24,6 +25,7 @@ struct Slope {
 // What came of a point.
 struct PointFlow {
   FlowResult flow;
+  std::vector<std::pair<std::string, double>> of_outlets = {};
   std::map<std::size_t, Slope> slopes;  // of the functions that are asked for
   double gradient_seconds = 0.0;
 };

@@ -15,7 +15,7 @@ namespace remodel {
 namespace {
 
 // What a problem may have at most of each: more would not end, and is a mistake of whoever wrote the file.
-constexpr std::size_t most_points = 1000, most_constraints = 1000, most_verified = 100;
+constexpr std::size_t most_points = 1000, most_constraints = 1000, most_verified = 100, most_meshes = 10;
 
 DesignPoint point_of(const Json& entry, const std::string& where) {
   const Keys keys(entry, where,
@@ -33,14 +33,26 @@ DesignPoint point_of(const Json& entry, const std::string& where) {
   return point;
 }
 
+// One number, or several from coarse to fine.
+void read_points_of_meshes(const Keys& mesh, const Json& given, bool may_be_odd, DesignProblem& problem) {
+  std::vector<int> points;
+  for (const Json& entry : given.is_array() ? mesh.list("points", most_meshes) : Json::array({given})) {
+    points.push_back(mesh.whole_number<int>(entry, "points", 8, 100000));
+    if (points.back() % 2 != 0 && !may_be_odd)
+      mesh.fail("found " + std::to_string(points.back()) + " as 'points', expected an even number");
+  }
+  if (points.empty()) mesh.fail("found no number in 'points', expected one or more");
+  problem.domain.points = points.back();
+  points.pop_back();
+  problem.coarse_points = std::move(points);
+}
+
 void read_mesh_options(const Json& json, const std::string& file, DesignProblem& problem) {
   const Json object = object_of(json, "mesh");
   const Keys mesh(object, file + ", mesh", {"points", "gradation", "farfield_radius", "layers"});
   const bool has_friction = problem.points.front().model != FlowModel::euler;
-  problem.domain.points =
-      mesh.whole<int>("points", has_friction ? usual_points_with_friction : 100, 8, 100000);
-  if (problem.domain.points % 2 != 0 && !json.contains("space"))
-    mesh.fail("found " + std::to_string(problem.domain.points) + " as 'points', expected an even number");
+  problem.domain.points = has_friction ? usual_points_with_friction : 100;
+  if (mesh.has("points")) read_points_of_meshes(mesh, object.at("points"), json.contains("space"), problem);
   problem.domain.farfield_radius = mesh.get<double>("farfield_radius", 25.0);
   problem.gradation = mesh.find<double>("gradation");
   if (!mesh.has("layers")) return;
@@ -129,6 +141,15 @@ void read_points(const Keys& keys, const std::string& file, DesignProblem& probl
   if (problem.points.empty()) keys.fail("expected at least one point of 'flow'");
 }
 
+// Its path leads on from the problem's directory.
+DesignStart start_given(const Json& json, const std::string& file) {
+  const Keys keys(json, file + ", start", {"history", "design"});
+  DesignStart start{.history = std::filesystem::path(file).parent_path() / keys.get<std::string>("history")};
+  if (keys.has("design") && json.at("design") != "best")
+    start.design = keys.whole<std::uint64_t>("design", {}, 1, 1000000);
+  return start;
+}
+
 void read_lists(const Keys& keys, const std::string& file, int degree, DesignProblem& problem) {
   const std::filesystem::path directory = std::filesystem::path(file).parent_path();
   for (const Json& entry : keys.list("constraints", most_constraints))
@@ -150,7 +171,7 @@ DesignProblem parse_design_problem(const std::string& text, const std::string& f
   const Json json = parse_design_json(text, file);
   const Keys keys(json, file,
                   {"airfoil", "elements", "space", "degree", "symmetric", "mesh", "flow", "objective",
-                   "target", "constraints", "constraint_tolerance", "designer", "verify"});
+                   "target", "constraints", "constraint_tolerance", "designer", "start", "verify"});
   const std::filesystem::path directory = std::filesystem::path(file).parent_path();
   DesignProblem problem{.text = json.dump()};
   const int degree = keys.whole<int>("degree", 5, 1, 30);
@@ -177,6 +198,7 @@ DesignProblem parse_design_problem(const std::string& text, const std::string& f
   const Keys designer(designer_object, file + ", designer",
                       {"name", "evaluations", "bounds", "trust", "sigma", "seed", "workers"});
   read_designer(designer, problem);
+  if (keys.has("start")) problem.start = start_given(json.at("start"), file);
   validate(problem, file);
   require_keys_of_designer(designer, problem);
   return problem;

@@ -57,14 +57,14 @@ struct Watch {
 
 }  // namespace
 
-Json parse_design_json(const std::string& text, const std::string& file) {
+Json parse_design_json(const std::string& text, const std::string& file, const char* expected) {
   std::istringstream watched(text), stream(text);
   StrictJson<Json, Watch> strict(Watch{file, text, watched});
   Json::sax_parse(watched, &strict);
   try {
     return Json::parse(stream);
   } catch (const Json::parse_error& error) {
-    fail_at(file, text, std::max<std::size_t>(error.byte, 1) - 1, "found no JSON", "a design problem");
+    fail_at(file, text, std::max<std::size_t>(error.byte, 1) - 1, "found no JSON", expected);
   } catch (const Json::out_of_range&) {
     fail_at(file, text, read_of(stream, text) - 1, "found a number that is too large", "one below 1.8e308");
   }

@@ -1,6 +1,8 @@
 #include "aero/problem_openings.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 #include "aero/problem_keys.h"
 
@@ -13,11 +15,68 @@ std::string numbered(const std::string& where, const char* what, std::size_t ind
   return where + ", " + what + " " + std::to_string(index + 1);
 }
 
-bool has_boundary(const Domain& domain, const std::string& name) {
+// Curves that bound the domain, each name once; inner ones bound nothing.
+std::vector<std::string> boundaries_of(const Domain& domain) {
+  std::vector<std::string> names;
   for (const Loop& loop : domain.loops)
     for (const Curve& curve : loop.curves)
-      if (curve.name == name) return true;
-  return false;
+      if (loop.role != LoopRole::internal && std::find(names.begin(), names.end(), curve.name) == names.end())
+        names.push_back(curve.name);
+  return names;
+}
+
+std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+// From station to station, of all curves of this name.
+std::vector<Point> edges_named(const Domain& domain, const std::string& name) {
+  std::vector<Point> edges;
+  for (std::size_t i = 0; i < domain.loops.size(); ++i) {
+    const Loop& loop = domain.loops[i];
+    const std::vector<Point> points = domain.points(i);
+    std::size_t at = 0;
+    for (const Curve& curve : loop.curves)
+      for (std::size_t k = 0; k < curve.parameters.size(); ++k, ++at)
+        if (curve.name == name && at + (loop.open ? 1 : 0) < points.size())
+          edges.push_back(points[(at + 1) % points.size()] - points[at]);
+  }
+  return edges;
+}
+
+// The mirror image of the stream is the stream: what a flow asks of such planes, to the same digits.
+void require_symmetry(const DesignPoint& point, const Domain& domain, const ProblemPlace& place) {
+  constexpr double least_turn = 1e-4, degree = 0.017453292519943295;
+  if (!point.symmetry.empty() && point.conditions.cl)
+    place.fail("found 'cl' with 'symmetry', expected 'alpha_deg'");
+  const double alpha = point.conditions.alpha_deg * degree;
+  const Point stream = {std::cos(alpha), std::sin(alpha)};
+  for (const std::string& name : point.symmetry)
+    for (const Point edge : edges_named(domain, name))
+      if (std::fabs(cross(edge, stream)) > least_turn * std::sqrt(dot(edge, edge)))
+        place.fail("found '" + name +
+                   "' as the name of a symmetry plane, expected a straight line along the " + "stream of " +
+                   shown(point.conditions.alpha_deg) + " degrees");
+}
+
+// Gas leaves by no outlet whose pressure is that of the gas at rest, or more.
+void require_lower_pressures(const DesignPoint& point, bool has_farfield, const ProblemPlace& place) {
+  double total = has_farfield ? 1.0 : 0.0;
+  for (const FlowInlet& inlet : point.inlets) total = std::max(total, inlet.total_pressure);
+  total *= std::pow(1.0 + 0.2 * point.conditions.mach * point.conditions.mach, 3.5);
+  for (const FlowOutlet& outlet : point.outlets)
+    if (!(outlet.pressure < total))
+      place.fail("found " + shown(outlet.pressure) + " as the 'pressure' of the outlet '" + outlet.name +
+                 "', expected less than the " + short_number(total) +
+                 " of the total pressure that the gas enters with");
 }
 
 }  // namespace
@@ -50,10 +109,15 @@ void write_openings(const DesignPoint& point, Json& to) {
 }
 
 void require_openings(const DesignPoint& point, const Domain& domain, const ProblemPlace& place) {
+  const std::vector<std::string> boundaries = boundaries_of(domain);
+  const auto is_boundary = [&](const std::string& name) {
+    return std::find(boundaries.begin(), boundaries.end(), name) != boundaries.end();
+  };
   std::vector<std::string> names = {"farfield"};
   const auto require_name = [&](const std::string& name, const char* what) {
-    if (!has_boundary(domain, name))
-      place.fail("found '" + name + "' as the name of " + what + ", expected that of curves of the domain");
+    if (!is_boundary(name))
+      place.fail("found '" + name + "' as the name of " + what +
+                 ", expected that of curves of the domain: " + listed(boundaries));
     if (std::find(names.begin(), names.end(), name) != names.end())
       place.fail("found '" + name + "' as the name of " + what + ", expected another name for each boundary");
     names.push_back(name);
@@ -71,10 +135,18 @@ void require_openings(const DesignPoint& point, const Domain& domain, const Prob
   for (const std::string& name : point.symmetry) require_name(name, "a symmetry plane");
   if (!point.inlets.empty() && point.conditions.mach >= 1.0)
     place.fail("found 'inlets' with a 'mach' of 1 or more, expected less");
-  if (!has_boundary(domain, "farfield") && (point.inlets.empty() || point.outlets.empty()))
+  const bool has_farfield = is_boundary("farfield");
+  if (!has_farfield && (point.inlets.empty() || point.outlets.empty()))
     place.fail(std::string("found no curve 'farfield' in the domain and no ") +
                (point.inlets.empty() ? "'inlets'" : "'outlets'") + ", expected one for the gas to " +
                (point.inlets.empty() ? "enter" : "leave") + " by");
+  if (!has_farfield && point.conditions.cl)
+    place.fail("found 'cl' with a domain without a curve 'farfield', expected 'alpha_deg'");
+  if (names.size() - 1 + (has_farfield ? 1 : 0) >= boundaries.size())
+    place.fail("found no wall among the curves of the domain (" + listed(boundaries) +
+               "), expected one that is no opening");
+  require_symmetry(point, domain, place);
+  require_lower_pressures(point, has_farfield, place);
 }
 
 }  // namespace remodel

@@ -22,7 +22,8 @@ SpaceSource source_of(const Keys& keys, const Json& problem, const std::string& 
   const std::filesystem::path path = directory / given.get<std::string>();
   constexpr std::size_t most_bytes = std::size_t{16} << 20;
   try {
-    return {parse_design_json(read_text(path, most_bytes), path.string()), path.string(), path.parent_path()};
+    return {parse_design_json(read_text(path, most_bytes), path.string(), "a design space, a JSON object"),
+            path.string(), path.parent_path()};
   } catch (const Error& error) {
     keys.fail("as 'space', " + std::string(error.what()));
   }

@@ -5,6 +5,7 @@
 
 #include "aero/deformed_space.h"
 #include "aero/element_space.h"
+#include "aero/first_design.h"
 #include "aero/layered_space.h"
 #include "aero/problem_openings.h"
 #include "aero/section_space.h"
@@ -124,6 +125,7 @@ class Resolver {
     place_.require_number(problem_.constraint_tolerance, "constraint_tolerance", {0.0, 1.0});
     require_weights();
     require_designer();
+    resolved_.first_design = first_design_of(problem_, *resolved_.space, place_);
     return std::move(resolved_);
   }
 
@@ -147,11 +149,35 @@ class Resolver {
     if (problem_.gradation)
       place_.inner("mesh").require_number(*problem_.gradation, "gradation", {0.1, 1000.0});
     place_.inner("mesh").require_number(problem_.domain.farfield_radius, "farfield_radius", {2.0, 1e6});
+    require_increasing_points();
+  }
+
+  void require_increasing_points() const {
+    int before = 7;
+    std::vector<int> all = problem_.coarse_points;
+    all.push_back(problem_.domain.points);
+    for (const int points : all) {
+      if (all.size() > 1 && (points <= before || points > 100000))
+        place_.inner("mesh").fail("found " + shown(all) +
+                                  " as 'points', expected meshes from coarse to fine, of 8 "
+                                  "to 100000 points");
+      before = points;
+    }
   }
 
   std::string instead_of_airfoil() const { return problem_.deformation ? "space" : "elements"; }
 
+  void require_given_domain() const {
+    if (!problem_.deformation) return;
+    try {
+      validate(problem_.deformation->domain);
+    } catch (const Error& error) {
+      place_.inner("space").fail("found a domain that is none: " + std::string(error.what()));
+    }
+  }
+
   void require_points() const {
+    require_given_domain();
     if (problem_.points.empty()) place_.fail("expected at least one point of 'flow'");
     for (std::size_t i = 0; i < problem_.points.size(); ++i) {
       const FlowConditions& conditions = problem_.points[i].conditions;
@@ -196,10 +222,12 @@ class Resolver {
       place_.inner("mesh").fail(
           "found 'layers' without friction, expected 'model' and 'reynolds' at all points");
     constexpr int least_points = 150;
-    if (has_friction() && problem_.domain.points < least_points)
-      place_.inner("mesh").fail("found " + shown(problem_.domain.points) +
-                                " as 'points' with friction, expected " + shown(least_points) + " or more; " +
-                                shown(usual_points_with_friction) + " are usual");
+    const int coarsest =
+        problem_.coarse_points.empty() ? problem_.domain.points : problem_.coarse_points.front();
+    if (has_friction() && coarsest < least_points)
+      place_.inner("mesh").fail("found " + shown(coarsest) + " as 'points' with friction, expected " +
+                                shown(least_points) + " or more; " + shown(usual_points_with_friction) +
+                                " are usual");
     if (has_friction() && problem_.target)
       place_.fail("found 'target' with friction, expected points without");
   }
@@ -232,6 +260,7 @@ class Resolver {
     if (objective.needs_target() && !has_airfoil)
       place_.fail("found the objective '" + problem_.objective + "' with '" + instead_of_airfoil() +
                   "', expected 'airfoil'");
+    require_farfield_for(objective, place_, problem_.objective);
     for (std::size_t i = 0; i < problem_.points.size(); ++i)
       require_openings_for(objective, problem_.points[i], place_of("flow", i), problem_.objective);
     if (objective.needs_target()) place_.given(problem_.target, "target");
@@ -247,6 +276,18 @@ class Resolver {
       place.fail("found '" + kind + "' without 'outlets', expected one or more");
     if (function.is_of_walls() && (!point.inlets.empty() || !point.outlets.empty()))
       place.fail("found '" + kind + "' with inlets or outlets, expected a far field alone");
+  }
+
+  // Lift of a duct's walls is that of half of them, or none.
+  void require_farfield_for(const FlowFunction& function, const ProblemPlace& place,
+                            const std::string& kind) const {
+    if (!function.needs_farfield() || !problem_.deformation) return;
+    for (const Loop& loop : problem_.deformation->domain.loops)
+      for (const Curve& curve : loop.curves)
+        if (curve.name == "farfield") return;
+    place.fail("found '" + kind +
+               "' with a domain without a curve 'farfield', expected drag, moment, mass_flow or "
+               "total_pressure");
   }
 
   void require_friction(const FlowFunction& function, const ProblemPlace& place,
@@ -304,6 +345,7 @@ class Resolver {
     const FlowFunction& function = *resolved_.functions[limit.function];
     require_friction(function, place, constraint.kind);
     require_openings_for(function, problem_.points[limit.point], place, constraint.kind);
+    require_farfield_for(function, place, constraint.kind);
     if (function.is_given(problem_.points[limit.point].conditions))
       place.fail("found '" + constraint.kind +
                  "' of a point whose 'cl' is given, expected 'alpha_deg' alone there");
@@ -342,6 +384,11 @@ class Resolver {
     auto space = std::make_unique<SectionSpace>(
         start,
         SectionSpaceOptions{.symmetric = problem_.symmetric, .half = is_half(), .domain = problem_.domain});
+    try {
+      validate(space->domain(space->start()));
+    } catch (const Error& error) {
+      place_.fail("found an airfoil as 'airfoil' that makes no domain: " + std::string(error.what()));
+    }
     if (problem_.target) resolved_.target = space->domain_of(*problem_.target, problem_.domain.points);
     resolved_.space = std::move(space);
   }
@@ -349,11 +396,6 @@ class Resolver {
   void make_deformed_space() {
     const ProblemPlace place = place_.inner("space");
     const Domain& start = problem_.deformation->domain;
-    try {
-      validate(start);
-    } catch (const Error& error) {
-      place.fail("found a domain that is none: " + std::string(error.what()));
-    }
     const auto is_body = [](const Loop& loop) {
       return loop.role == LoopRole::hole || loop.curves.front().name == "farfield";
     };

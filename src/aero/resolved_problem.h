@@ -29,6 +29,7 @@ struct ResolvedProblem {
   std::optional<Domain> target;            // of inverse design
   std::vector<DomainLimit> domain;         // in the order of evaluations
   std::vector<FlowLimit> flow;             // behind them
+  std::vector<double> first_design;        // of the search
 
   std::vector<std::string> names() const;  // of each function of an evaluation
 };

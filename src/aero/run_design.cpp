@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "aero/design_stages.h"
+#include "aero/outlet_numbers.h"
 #include "aero/resolved_problem.h"
 #include "flow/solution.h"
 #include "remodel/design_run.h"
@@ -37,8 +39,8 @@ std::size_t workers_of(const DesignProblem& problem) {
   return problem.designer == "cmaes" ? problem.workers : 1;
 }
 
-OptimiseOptions options_of(const DesignProblem& problem, const DesignRunOptions& options,
-                           StepObserver& observer) {
+OptimiseOptions options_of(const DesignProblem& problem, const ResolvedProblem& parts,
+                           const DesignRunOptions& options, StepObserver& observer) {
   OptimiseOptions result;
   result.domain = problem.domain;
   result.quality.gradation = gradation_of(problem);
@@ -52,8 +54,10 @@ OptimiseOptions options_of(const DesignProblem& problem, const DesignRunOptions&
   if (result.workers > 1) result.ranks = options.ranks;
   result.checkpoint_every = 5;
   result.keep_finished = true;
+  result.fail_at_limits = true;
   result.resume = options.resume, result.overwrite = options.overwrite;
   result.directory = options.directory;
+  if (parts.first_design != parts.space->start()) result.first_design = parts.first_design;
   return result;
 }
 
@@ -122,6 +126,14 @@ void add_errors(std::size_t points, std::vector<FreshFlow>& verified) {
   }
 }
 
+void add_outlets(const DesignPoint& point, const FlowView& of, FreshFlow& fresh) {
+  for (const auto& [name, value] : outlet_numbers(point, of)) {
+    fresh.outlets.push_back({name, value});
+    if (name == "total_pressure")
+      fresh.warning = total_pressure_warning(value, entering_total_pressure(point, of.domain));
+  }
+}
+
 // What kept one of the meshes or flows from being finished, or done.
 Stopped verify(const DesignProblem& problem, const ResolvedProblem& parts, std::span<const double> design,
                StepObserver& observer, std::vector<FreshFlow>& verified) {
@@ -144,10 +156,13 @@ Stopped verify(const DesignProblem& problem, const ResolvedProblem& parts, std::
            .cm = flow.lift_determined ? flow.cm : none,
            .cd_pressure = flow.friction ? std::optional(flow.friction->cd_pressure) : std::nullopt,
            .cd_friction = flow.friction ? std::optional(flow.friction->cd_friction) : std::nullopt,
+           .outlets = {},
+           .warning = {},
            .converged = flow.converged(),
            .violated = violated_by(parts, problem.constraint_tolerance, i, walls, mesh.frozen, flow),
            .seconds = flow.seconds,
            .mach_max = remodel::flow::largest_mach(flow)});
+      if (flow.converged()) add_outlets(problem.points[i], {walls, mesh.frozen, flow}, verified.back());
     }
   }
   add_errors(problem.points.size(), verified);
@@ -166,9 +181,22 @@ void add_cost(const DesignRun& run, DesignResult& result) {
     result.cold_equivalents = (run.sum("flow_seconds") + run.sum("gradient_seconds")) / first->second;
 }
 
+// What has to be known of the best design's flows on the run's own mesh.
+void add_warnings(const DesignRun& run, DesignResult& result) {
+  for (std::size_t i = 0; i < run.points.size(); ++i) {
+    const auto found =
+        result.search.outputs.find("total_pressure" + (i == 0 ? "" : "_" + std::to_string(i + 1)));
+    if (found == result.search.outputs.end()) continue;
+    const std::string warning = total_pressure_warning(
+        found->second, entering_total_pressure(run.points[i], run.space->walls(run.best_design())));
+    if (!warning.empty()) result.detail += (result.detail.empty() ? "" : "; ") + warning;
+  }
+}
+
 void add_run(const DesignRun& run, DesignResult& result) {
   result.constraints = run.violations();
   add_cost(run, result);
+  add_warnings(run, result);
   if (!run.has_best())
     result.detail = run.why_no_design() + "; best.json is the start" +
                     (result.detail.empty() ? "" : "; " + result.detail);
@@ -202,6 +230,8 @@ std::string fresh_json(const std::vector<FreshFlow>& flows) {
                     {"mach_max", flow.mach_max}});
     if (flow.cd_pressure) list.back()["cd_pressure"] = *flow.cd_pressure;
     if (flow.cd_friction) list.back()["cd_friction"] = *flow.cd_friction;
+    for (const NamedNumber& number : flow.outlets) list.back()[number.name] = number.value;
+    if (!flow.warning.empty()) list.back()["warning"] = flow.warning;
     if (flow.error)
       list.back()["error"] = {{"cl", flow.error->cl},
                               {"cd", flow.error->cd},
@@ -215,12 +245,13 @@ CrewWork design_work(const DesignProblem& problem) {
   if (workers_of(problem) == 1) return flow_points_work(problem);
   struct Parts {
     explicit Parts(const DesignProblem& of)
-        : space(design_space(of)),
-          evaluator(flow_evaluator(of, *space)),
-          options(options_of(of, {.threads = 1}, silent)),
-          work(optimise_work(*space, *evaluator, options, make_designer(of, *space)->population())) {}
+        : parts(resolved(of, "design problem")),
+          evaluator(flow_evaluator(of, *parts.space)),
+          options(options_of(of, parts, {.threads = 1}, silent)),
+          work(optimise_work(*parts.space, *evaluator, options,
+                             make_designer(of, *parts.space)->population())) {}
     StepObserver silent;
-    std::unique_ptr<FlowSpace> space;
+    ResolvedProblem parts;
     std::unique_ptr<Evaluator> evaluator;
     OptimiseOptions options;
     CrewWork work;
@@ -231,8 +262,10 @@ CrewWork design_work(const DesignProblem& problem) {
   };
 }
 
-DesignResult run_design(const DesignProblem& problem, const DesignRunOptions& options,
-                        OptimiseObserver* observer) {
+namespace {
+
+SearchOnMesh search_on_mesh(const DesignProblem& problem, const DesignRunOptions& options,
+                            const std::string& carried, OptimiseObserver* observer) {
   const ResolvedProblem parts = resolved(problem, "design problem");
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
   const std::size_t threads = options.threads != 0 ? options.threads : cores, workers = workers_of(problem);
@@ -240,10 +273,11 @@ DesignResult run_design(const DesignProblem& problem, const DesignRunOptions& op
       flow_evaluator(problem, *parts.space, std::max<std::size_t>(1, threads / workers),
                      workers == 1 ? options.ranks : nullptr);
   const std::unique_ptr<Designer> designer = make_designer(problem, *parts.space);
+  if (!carried.empty()) designer->carry(carried, "designer");
   AskingObserver asking(observer);
   DesignResult result;
   result.search =
-      optimise(*parts.space, *designer, *evaluator, options_of(problem, options, asking), observer);
+      optimise(*parts.space, *designer, *evaluator, options_of(problem, parts, options, asking), observer);
   const bool is_found = std::isfinite(result.search.objective);
   Stopped fresh = Stopped::done;
   if (result.search.stopped == OptimiseStopped::done && is_found) {
@@ -260,7 +294,20 @@ DesignResult run_design(const DesignProblem& problem, const DesignRunOptions& op
   result.named = parts.space->named(result.search.best_design);
   result.best = parts.space->text(result.search.best_design);
   if (result.search.evaluations != 0) add_run(read_design_run(options.directory), result);
-  return result;
+  return {std::move(result), designer->state()};
+}
+
+}  // namespace
+
+DesignResult run_design(const DesignProblem& problem, const DesignRunOptions& options,
+                        OptimiseObserver* observer) {
+  validate(problem);
+  if (!problem.coarse_points.empty())
+    return search_coarse_to_fine(problem, options, search_on_mesh, observer);
+  AtFirstDesign watched(observer, [&] {
+    if (options.overwrite) remove_stages(options.directory, 1);
+  });
+  return search_on_mesh(problem, options, {}, &watched).result;
 }
 
 }  // namespace remodel

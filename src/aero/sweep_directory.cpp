@@ -86,7 +86,7 @@ SweepDirectory::SweepDirectory(fs::path directory, SweepProblem problem)
 SweepDirectory::SweepDirectory(fs::path directory) : directory_(std::move(directory)) {
   const fs::path file = directory_ / sweep_name;
   require_there(directory_);
-  const Json json = parse_design_json(read_text(file, most_bytes), file.string());
+  const Json json = parse_design_json(read_text(file, most_bytes), file.string(), "a sweep");
   if (!json.is_object() || !json.contains("sweep") || !json.contains("plans"))
     throw Error(ErrorCode::format, file.string(), "found no sweep, expected the keys 'sweep' and 'plans'");
   problem_ = sweep_problem_from(json.at("sweep"), file.string());

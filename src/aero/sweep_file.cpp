@@ -351,7 +351,7 @@ SweepProblem read_sweep(const std::string& file) {
 }
 
 SweepProblem parse_sweep(const std::string& text, const std::string& file) {
-  const Json json = parse_design_json(text, file);
+  const Json json = parse_design_json(text, file, "a sweep");
   const Keys keys(json, file,
                   {"sections", "degree", "conditions", "model", "transition", "mesh", "surface_stations",
                    "fields", "template", "chain", "order", "seed", "tolerance", "max_steps"});

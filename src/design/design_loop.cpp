@@ -210,8 +210,7 @@ OptimiseStopped Run::stop_within(std::vector<Sample>& samples, std::vector<Job>&
   }
   if (options_.keep_finished) keep_finished(jobs, first);
   if (unfinished->stopped != Stopped::interrupted)
-    limit_ = "evaluation " + std::to_string(evaluations() + 1) +
-             ": a mesh of this design ended at its limit, " + name_of(unfinished->stopped);
+    limit_ = "evaluation " + std::to_string(evaluations() + 1) + ": " + at_limit(unfinished->stopped);
   return unfinished->stopped == Stopped::interrupted ? OptimiseStopped::interrupted
                                                      : OptimiseStopped::mesh_limit;
 }
@@ -361,24 +360,6 @@ bool has_evaluations(const fs::path& history) {
   return any;
 }
 
-void refuse_other_run(const OptimiseOptions& options) {
-  if (options.overwrite) return;
-  if (!has_checkpoint(options.directory)) {
-    if (has_evaluations(options.directory / "history.sqlite"))
-      throw Error(
-          ErrorCode::argument, options.directory.string(),
-          "holds the history of a run without its checkpoint: expected another directory, or --overwrite "
-          "to replace it");
-    return;
-  }
-  const Checkpoint other = read_checkpoint(options.directory);
-  throw Error(ErrorCode::argument, options.directory.string(),
-              "holds " + std::string(other.finished ? "a finished run" : "an unfinished run") + " of " +
-                  std::to_string(other.evaluation) +
-                  " evaluations: expected another directory, --resume to go on with it, or --overwrite to "
-                  "replace it");
-}
-
 // The start of a run, complete on the disk before it replaces what the directory holds.
 Progress begin(const LoopParts& problem, const Evaluating& evaluating, RunDirectory directory,
                const Mesh& mesh) {
@@ -496,6 +477,23 @@ OptimiseResult without_start(const LoopParts& problem, const OptimiseOptions& op
 
 }  // namespace
 
+void require_no_other_run(const fs::path& directory) {
+  if (!has_checkpoint(directory)) {
+    if (has_evaluations(directory / "history.sqlite"))
+      throw Error(
+          ErrorCode::argument, directory.string(),
+          "holds the history of a run without its checkpoint: expected another directory, or --overwrite "
+          "to replace it");
+    return;
+  }
+  const Checkpoint other = read_checkpoint(directory);
+  throw Error(ErrorCode::argument, directory.string(),
+              "holds " + std::string(other.finished ? "a finished run" : "an unfinished run") + " of " +
+                  std::to_string(other.evaluation) +
+                  " evaluations: expected another directory, --resume to go on with it, or --overwrite to "
+                  "replace it");
+}
+
 OptimiseResult run_design_loop(const LoopParts& problem, const OptimiseOptions& options,
                                OptimiseObserver* observer) {
   require_good(options);
@@ -516,12 +514,12 @@ OptimiseResult run_design_loop(const LoopParts& problem, const OptimiseOptions& 
   std::optional<RunDirectory> directory;
   if (fs::exists(options.directory)) {
     directory.emplace(options.directory);
-    refuse_other_run(options);
+    if (!options.overwrite) require_no_other_run(options.directory);
   }
   const GenerateResult first = first_mesh(problem.space, options, &question);
   if (first.stopped != Stopped::done) return without_start(problem, options, first.stopped);
   if (!directory) directory.emplace(options.directory);
-  refuse_other_run(options);
+  if (!options.overwrite) require_no_other_run(options.directory);
   Run run(begin(problem, evaluating, std::move(*directory), first.mesh), problem, options);
   return run.finish(run.evaluate_all(listener));
 }

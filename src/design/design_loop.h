@@ -3,6 +3,7 @@
 // The loop of a run: ask, feasible?, mesh, evaluate, tell; with its directory, its history and its
 // checkpoints. It knows nothing of what designs, designers and evaluators are.
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
@@ -24,5 +25,8 @@ struct LoopParts {
 
 OptimiseResult run_design_loop(const LoopParts& problem, const OptimiseOptions& options,
                                OptimiseObserver* observer);
+
+// Throws Error (argument) where the directory holds a run.
+void require_no_other_run(const std::filesystem::path& directory);
 
 }  // namespace remodel

@@ -71,11 +71,15 @@ Stopped judge(const Evaluating& evaluating, const LivingMesh& living, std::uniqu
   }
   state.reset();
   if (observer.told()) return Stopped::interrupted;
+  fail(job, "evaluation failed: " + problem);
+  return Stopped::done;
+}
+
+void fail(Job& job, const std::string& reason) {
   job.evaluation = {};
   record(job.evaluation, job.record);
   std::string& detail = job.record.detail;
-  detail += (detail.empty() ? "" : "; ") + ("evaluation failed: " + problem);
-  return Stopped::done;
+  detail += (detail.empty() ? "" : "; ") + reason;
 }
 
 }  // namespace remodel

@@ -14,5 +14,7 @@ namespace remodel {
 // told that the run is cancelled.
 Stopped judge(const Evaluating& evaluating, const LivingMesh& living, std::unique_ptr<EvaluatorState>& state,
               Job& job);
+// The job's design has failed, for this reason.
+void fail(Job& job, const std::string& reason);
 
 }  // namespace remodel

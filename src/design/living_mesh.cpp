@@ -66,6 +66,10 @@ Checked checked_named(const std::string& name) {
   return static_cast<Checked>(found - std::begin(checked_names));
 }
 
+std::string at_limit(Stopped stopped) {
+  return std::string("the mesh of this design ended at its limit, ") + name_of(stopped);
+}
+
 std::span<const MeshStrategyInfo> mesh_strategies() {
   return mesh_infos;
 }
@@ -97,8 +101,12 @@ QualityOptions quality_of(const OptimiseOptions& options) {
   return quality;
 }
 
+std::vector<double> first_design(const DesignSpace& space, const OptimiseOptions& options) {
+  return options.first_design.empty() ? space.start() : options.first_design;
+}
+
 GenerateResult first_mesh(const DesignSpace& space, const OptimiseOptions& options, StepObserver* observer) {
-  const Domain domain = space.domain(space.start());
+  const Domain domain = space.domain(first_design(space, options));
   RemodelOptions step = step_options(options);
   step.observer = observer;
   if (options.start) {
@@ -164,6 +172,16 @@ Stopped LivingMesh::step(std::span<const double> design, const StepTasks& tasks,
   const FreshMesh fresh = fresh_mesh(*space_, quality_, *tasks.compare);
   add_comparison(fresh, mesh().gradation_error(), record);
   return fresh.stopped;
+}
+
+void LivingMesh::take_back(Mesh&& before, MeshStep& record) {
+  put(std::move(before));
+  const double seconds = record.remodel_seconds;
+  record = {};
+  record.remodel_seconds = seconds;
+  record.triangles_before = record.triangles = record.preserved = record.connected = mesh().triangle_count();
+  record.preserved_percent = record.connectivity_percent = 100.0;
+  record.min_angle_deg = check_whole(mesh()).min_angle_deg;
 }
 
 StepCheck LivingMesh::checked(const Domain& domain, Checked how) const {

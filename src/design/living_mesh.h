@@ -24,10 +24,16 @@ struct StepTasks {
   bool generate = false;                         // the mesh is generated, not remodelled
 };
 
+// What history says of a design whose mesh met this limit.
+std::string at_limit(Stopped stopped);
+
 // The quality that a run's meshes promise.
 QualityOptions quality_of(const OptimiseOptions& options);
 
-// The mesh of the space's start, as a run begins with it. Anything but Stopped::done: a limit, or the
+// The design of a run's first mesh.
+std::vector<double> first_design(const DesignSpace& space, const OptimiseOptions& options);
+
+// The mesh of the first design, as a run begins with it. Anything but Stopped::done: a limit, or the
 // observer, has kept it from being finished.
 GenerateResult first_mesh(const DesignSpace& space, const OptimiseOptions& options,
                           StepObserver* observer = nullptr);
@@ -43,6 +49,8 @@ class LivingMesh {
   // Remodels to the design and records what that came to. Stopped::done, or the limit that kept the mesh from
   // being finished.
   Stopped step(std::span<const double> design, const StepTasks& tasks, MeshStep& record);
+  // Puts back the mesh from before a step that met a limit, and records that there was none.
+  void take_back(Mesh&& before, MeshStep& record);
   // The mesh of the last design.
   virtual const Mesh& mesh() const { return mesh_; }
   // The mesh of the design before, if this one was made from it.

@@ -1,6 +1,7 @@
 #include "remodel/replay.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -159,7 +160,12 @@ void replay_run(const fs::path& directory, const DesignSpace& space, std::option
       // What the criterion of `regenerate` chose lies in the history.
       const bool generate = options.strategy == MeshStrategy::regenerate && record.refreshed;
       // A mesh that failed a check was generated afresh: it is validated as the run did.
-      living->step(record.coefficients, {.check = record.checked, .generate = generate}, step);
+      const bool may_have_met_limit = !std::isfinite(record.objective);
+      std::optional<Mesh> before;
+      if (may_have_met_limit) before = living->mesh();
+      const Stopped stopped =
+          living->step(record.coefficients, {.check = record.checked, .generate = generate}, step);
+      if (before && stopped != Stopped::done) living->take_back(*std::move(before), step);
       require_same_mesh(record, living->mesh(), file);
       visit(record, living->mesh());
     }

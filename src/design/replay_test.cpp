@@ -39,6 +39,26 @@ TEST_F(Replay, EndsWithTheRunsLastMeshToTheLastBit) {
   }
 }
 
+// A design whose mesh meets a limit has failed, and the next one goes on from the mesh before it.
+TEST_F(Replay, OfARunWhoseMeshesMeetALimitGoesOnBehindThem) {
+  for (const MeshStrategy strategy : {MeshStrategy::reference, MeshStrategy::chain}) {
+    OptimiseOptions given = options(info_of(strategy).name);
+    given.strategy = strategy;
+    const Mesh first = generate(airfoil_domain(from_, given.domain), given.quality).mesh;
+    given.quality.max_vertices = static_cast<std::uint32_t>(first.statistics().vertices + 4);
+    given.keep_finished = given.fail_at_limits = true;
+    const OptimiseResult result = optimise(from_, to_, given);
+    EXPECT_EQ(result.stopped, OptimiseStopped::done);
+    EXPECT_EQ(result.evaluations, 60u);
+    EXPECT_GT(result.failed_evaluations, 0u);
+    EXPECT_LT(result.failed_evaluations, 60u);
+    EXPECT_NE(result.detail.find("its limit, vertex-budget"), std::string::npos) << result.detail;
+    const auto [last, shown] = last_of(given.directory, 1);
+    EXPECT_EQ(shown, 60u);
+    EXPECT_TRUE(last == read_mesh(given.directory / "last.vtkhdf").state());
+  }
+}
+
 TEST_F(Replay, HasEachWorkersMeshes) {
   OptimiseOptions given = options("run", 44);
   given.workers = 3;

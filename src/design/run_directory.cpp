@@ -18,12 +18,12 @@ namespace fs = std::filesystem;
 
 constexpr const char* start_name = ".remodel-start";
 constexpr const char* evaluations_name = "evaluations";  // that a command leaves
-// Everything that a run leaves, and what programs say of it (the last two), in the order in which it is
+// Everything that a run leaves, and what programs say of it (the last three), in the order in which it is
 // removed; then the files of checkpoints.
-constexpr std::array<std::string_view, 10> run_files = {
+constexpr std::array<std::string_view, 11> run_files = {
     "checkpoint.json", "result.json",  "best.json",      "middle.vtkhdf",
     "last.vtkhdf",     "first.vtkhdf", "history.sqlite", "history.sqlite-journal",
-    "fresh.json",      "report.html"};
+    "stages.json",     "fresh.json",   "report.html"};
 // What a run starts with, in the order in which it appears: with the checkpoint the run is there.
 constexpr std::array<std::string_view, 4> start_files = {"first.vtkhdf", "history.sqlite",
                                                          first_checkpoint_mesh, "checkpoint.json"};

@@ -87,6 +87,7 @@ std::string settings_of(const DesignSpace& space, const Designer& designer, cons
                           {"compare_every", options.compare_every},
                           {"full_check_every", options.full_check_every}});
   if (options.constraint_tolerance != 0.0) json["constraint_tolerance"] = options.constraint_tolerance;
+  if (!options.first_design.empty()) json["first_design"] = options.first_design;
   if (options.start) {
     json["refine_angle_deg"] = quality.refine_angle_deg;
     json["start_mesh"] = identity_of(options.start->mesh);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "base/checked_json.h"
 #include "design/quadratic_program.h"
@@ -54,8 +55,7 @@ Evaluation known_evaluation(const SqpJson& json) {
 
 // Of the worst violation, beside the objective over its first value: at first, and the most that it grows to.
 constexpr double first_penalty = 1000.0, most_penalty = 1e5;
-constexpr double first_shift = 0.02;    // of the objective's first value: before any was seen
-constexpr double least_promise = 1e-6;  // likewise: a model that promises less is at its end
+constexpr double first_shift = 0.02;  // of the objective's first value: before any was seen
 
 // Constraints are kept by this much more than they ask for, so that rounding does not violate them.
 constexpr double margin = 1e-9;
@@ -161,6 +161,7 @@ void SqpDesigner::propose() {
     step = search();
   }
   promised_ = -model(step);
+  constexpr double part_of_first = 1e-3;  // a small first box is no reason to end
   // A first box in which the model promises next to nothing is too small, and says nothing of the start.
   constexpr double largest_trust = 1e6, next_to_nothing = 1e-4, worth_a_step = 1e-2, nearly = 0.99;
   const auto is_held_by_box = [&] {
@@ -173,7 +174,8 @@ void SqpDesigner::propose() {
     step = search();
     promised_ = -model(step);
   }
-  finished_ = trust_ < options_.least_trust || !(promised_ > least_promise);
+  finished_ = trust_ < std::min(options_.least_trust, part_of_first * options_.trust) ||
+              !(promised_ > options_.least_promise);
   pending_ = best_.design;
   for (std::size_t i = 0; i < n; ++i) pending_[i] += step[i];
 }
@@ -231,7 +233,7 @@ void SqpDesigner::judge(const Known& trial, bool failed) {
   ++steps_;
   propose();
   constexpr double worth = 1e-3;
-  if (!finished_ || !(begun_at_ - merit(best_.evaluation) > worth)) return;
+  if (!finished_ || options_.least_promise >= worth || !(begun_at_ - merit(best_.evaluation) > worth)) return;
   // What was gathered may have come to say that nothing leads on: once more without it.
   trust_ = options_.trust;
   begin_model();
@@ -269,6 +271,10 @@ void SqpDesigner::tell(const Proposal& proposal, const Evaluation& evaluation) {
     finished_ = failed;  // the start failed: there is nothing to go on from
     if (failed) return;
     best_ = known;
+    if (std::exchange(carried_, false)) {
+      begun_at_ = merit(best_.evaluation);
+      return propose();
+    }
     scale_ = std::max(std::fabs(evaluation.objective), 1e-12);
     return begin_model();
   }
@@ -291,19 +297,13 @@ void SqpDesigner::tell(const Proposal& proposal, const Evaluation& evaluation) {
 }
 
 std::string SqpDesigner::state() const {
-  SqpJson json = {{"pending", pending_},
-                  {"curvature", curvature_},
-                  {"learnt", learnt_},
-                  {"scale", scale_},
-                  {"trust", trust_},
-                  {"promised", promised_},
-                  {"penalty", penalty_},
-                  {"shift", shift_},
-                  {"begun_at", begun_at_},
-                  {"steps", steps_},
-                  {"started", started_},
-                  {"finished", finished_},
-                  {"best", known_json(best_.design, best_.evaluation)},
+  SqpJson json = {{"pending", pending_},   {"curvature", curvature_},
+                  {"learnt", learnt_},     {"carried", carried_},
+                  {"scale", scale_},       {"trust", trust_},
+                  {"promised", promised_}, {"penalty", penalty_},
+                  {"shift", shift_},       {"begun_at", begun_at_},
+                  {"steps", steps_},       {"started", started_},
+                  {"finished", finished_}, {"best", known_json(best_.design, best_.evaluation)},
                   {"waiting", nullptr}};
   if (waiting_) json["waiting"] = known_json(waiting_->design, waiting_->evaluation);
   return json.dump();
@@ -316,7 +316,7 @@ void SqpDesigner::restore(const std::string& state, const std::string& source) {
     if (json.at("pending").size() != n || json.at("best").at("design").size() != n)
       throw Error(ErrorCode::format, source, "found another number of variables");
     json.at("pending").get_to(pending_), json.at("curvature").get_to(curvature_);
-    json.at("learnt").get_to(learnt_);
+    json.at("learnt").get_to(learnt_), carried_ = json.value("carried", false);
     constexpr double least = std::numeric_limits<double>::min(), most = std::numeric_limits<double>::max();
     scale_ = number_at(json, "scale", least, most), trust_ = number_at(json, "trust", 0.0, most);
     penalty_ = number_at(json, "penalty", 0.0, most);
@@ -332,6 +332,7 @@ void SqpDesigner::restore(const std::string& state, const std::string& source) {
     if (!json.at("waiting").is_null()) waiting_ = known(json.at("waiting"));
     const bool goes_on = started_ && !finished_;
     if ((waiting_ && (waiting_->design.size() != n || waiting_->evaluation.gradient.size() != n)) ||
+        (carried_ && curvature_.size() != n * n) ||
         (goes_on && (curvature_.size() != n * n || best_.evaluation.gradient.size() != n)))
       throw std::invalid_argument("found a model of another number of variables");
   } catch (const Error&) {
@@ -340,6 +341,17 @@ void SqpDesigner::restore(const std::string& state, const std::string& source) {
     throw Error(ErrorCode::format, source,
                 std::string("found no state of a search by gradients: ") + problem.what());
   }
+}
+
+void SqpDesigner::carry(const std::string& state, const std::string& source) {
+  constexpr double least_part = 0.25;
+  SqpDesigner other = *this;
+  other.restore(state, source);
+  if (!other.learnt_) return;
+  curvature_ = std::move(other.curvature_);
+  learnt_ = carried_ = true;
+  scale_ = other.scale_, penalty_ = other.penalty_;
+  trust_ = std::max(other.trust_, least_part * options_.trust);
 }
 
 std::string SqpDesigner::description() const {

@@ -106,6 +106,36 @@ TEST(Sqp, GoesOnFromItsStateToTheSameBits) {
   EXPECT_NEAR(designer.centre()[1], 0.0, 1e-3);
 }
 
+// A steep bowl: f = 1000 (x - .3)^2 + (y + .2)^2. The second search needs no step to learn what the first
+// knows.
+TEST(Sqp, GoesOnWithWhatAnotherSearchHasLearnt) {
+  const auto steep = [](const std::vector<double>& x, double shift) {
+    return Evaluation{
+        .objective = 10 + shift + 1000 * (x[0] - 0.3) * (x[0] - 0.3) + (x[1] + 0.2) * (x[1] + 0.2),
+        .gradient = {2000 * (x[0] - 0.3), 2 * (x[1] + 0.2)}};
+  };
+  const SqpOptions options{.trust = 0.2, .low = {-2, -2}, .high = {2, 2}};
+  const auto search = [&](SqpDesigner& designer, double shift) {
+    int designs = 0;
+    for (; designs < 100 && !designer.finished(); ++designs) {
+      const Proposal proposal = designer.ask();
+      designer.tell(proposal, steep(proposal.design, shift));
+    }
+    return designs;
+  };
+  SqpDesigner coarse({-1.0, 1.0}, options);
+  search(coarse, 0.0);
+  SqpDesigner cold({0.4, 0.1}, options), warm({0.4, 0.1}, options);
+  warm.carry(coarse.state(), "state");
+  SqpDesigner resumed({0.4, 0.1}, options);  // before its first design was told
+  resumed.restore(warm.state(), "state");
+  const int without = search(cold, 5.0), with = search(warm, 5.0);
+  EXPECT_LT(with, without);
+  EXPECT_EQ(search(resumed, 5.0), with);
+  EXPECT_EQ(resumed.state(), warm.state());
+  EXPECT_NEAR(warm.centre()[0], 0.3, 1e-4);
+}
+
 TEST(Sqp, RefusesStatesOfAnotherNumberOfVariables) {
   SqpDesigner two({0.0, 0.0}, {.low = {-1, -1}, .high = {1, 1}});
   two.tell(two.ask(), bowl({0.0, 0.0}));

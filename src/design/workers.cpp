@@ -83,6 +83,7 @@ struct Workers::Crew {
   void evaluate(Worker& worker, Job& job) const;
   void evaluate_elsewhere(Worker& worker, Job& job) const;
   void evaluate_next(Worker& worker, Job& job) const;
+  void fail_at_limit(Worker& worker, Job& job) const;
 
   Evaluating evaluating;
   const OptimiseOptions& options;
@@ -234,14 +235,25 @@ void Workers::Crew::evaluate_next(Worker& worker, Job& job) const {
     worker.before.emplace(
         Before{worker.living->mesh(), worker.state.row, worker.state.checked, bytes_of(worker.evaluator)});
   options.ranks != nullptr ? evaluate_elsewhere(worker, job) : evaluate(worker, job);
+  const bool is_limit = job.stopped != Stopped::done && job.stopped != Stopped::interrupted;
+  if (is_limit && worker.before && options.fail_at_limits) fail_at_limit(worker, job);
   job.finished = job.stopped == Stopped::done;
   if (job.finished) worker.before.reset();
+}
+
+// The next design goes on from the mesh before this one, of which no flow is known any more.
+void Workers::Crew::fail_at_limit(Worker& worker, Job& job) const {
+  worker.living->take_back(std::move(worker.before->mesh), job.record);
+  worker.state.row = worker.before->row, worker.state.checked = worker.before->checked;
+  worker.evaluator.reset();
+  fail(job, at_limit(job.stopped));
+  job.stopped = Stopped::done;
 }
 
 Workers::Workers(const Evaluating& evaluating, const Mesh& mesh) : crew_(std::make_unique<Crew>(evaluating)) {
   if (crew_->has_hub()) crew_->start_hub(mesh);
   for (std::size_t i = 0; i < worker_count(evaluating.options, evaluating.population); ++i)
-    crew_->add({.design = evaluating.space.start()}, mesh);
+    crew_->add({.design = first_design(evaluating.space, evaluating.options)}, mesh);
 }
 
 Workers::Workers(const Evaluating& evaluating, const WorkersState& state, std::vector<Mesh> meshes,

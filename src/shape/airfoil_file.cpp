@@ -150,6 +150,17 @@ void note_gap(double gap, std::vector<std::string>& notes) {
   notes.push_back("its trailing edge is crossed by " + said(-gap, 3) + " chords, and the fit closes it");
 }
 
+// Blunt trailing edges of the usual collections are a tenth of this or less, those of most flat backs less than it:
+// what is said of the others is true of them too.
+constexpr double notable_base = 0.03;
+
+// An outline that stops before its trailing edge looks as one with a base does, but for its length.
+void note_base(double gap, const std::string& element, std::vector<std::string>& notes) {
+  if (std::abs(gap) <= notable_base) return;
+  notes.push_back(element + "its ends are " + said(std::abs(gap), 3) +
+                  " chords apart, and a straight edge closes the outline there");
+}
+
 std::vector<std::string> with_source(std::vector<std::string> notes, const std::string& source) {
   for (std::string& note : notes) note.insert(0, source + ": ");
   return notes;
@@ -198,6 +209,9 @@ AirfoilOutlines parse_outlines(std::string_view text, const std::string& source)
     outline.frame = nose_of(without_base(loop).rows).frame;
     outline.frame.closed = loop.closed ? loop.gap / outline.frame.chord : 0.0;
     outline.gap = loop.closed ? 0.0 : loop.gap / outline.frame.chord;
+    note_base(outline.gap,
+              file.elements.size() == 1 ? "" : "element " + std::to_string(result.elements.size() + 1) + ": ",
+              file.notes);
     result.elements.push_back(std::move(outline));
   }
   result.warnings = with_source(std::move(file.notes), source);

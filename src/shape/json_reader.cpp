@@ -18,6 +18,15 @@ std::string message_of(const json::exception& e) {
   return message;
 }
 
+// Where the text is no JSON.
+[[noreturn]] void refuse_text(std::string_view text, std::size_t byte, const std::string& source) {
+  const std::string_view before = text.substr(0, std::min(text.size(), std::max<std::size_t>(byte, 1) - 1));
+  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  throw Error(ErrorCode::format, source + ":" + std::to_string(line),
+              "found no JSON at column " + std::to_string(before.size() - before.rfind('\n')) +
+                  ", expected a JSON object");
+}
+
 struct Watch {
   [[noreturn]] void too_deep() const {
     throw Error(ErrorCode::format, source, "found more than 64 brackets inside each other");
@@ -35,6 +44,8 @@ json parse_json(std::string_view text, const std::string& source) {
     StrictJson<json, Watch> strict(Watch{source});
     json::sax_parse(text, &strict);
     return json::parse(text);
+  } catch (const json::parse_error& e) {
+    refuse_text(text, e.byte, source);
   } catch (const json::exception& e) {
     throw Error(ErrorCode::format, source, message_of(e));
   }
