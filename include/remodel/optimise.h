@@ -79,7 +79,7 @@ struct OptimiseOptions {
   // that was not finished; those behind it that were are in the checkpoint, and are not evaluated again.
   bool keep_finished = false;
   // A design whose mesh meets a limit has failed, as one whose evaluation throws has, and the run goes on
-  // from the mesh before it. With keep_finished alone. Otherwise such a design ends the run.
+  // from the mesh before it. With keep_finished, and without compare_every. Otherwise it ends the run.
   bool fail_at_limits = false;
   std::size_t max_refused = 10000;    // infeasible samples in a row that end the run; at least 1
   bool resume = false;                // go on from the directory's checkpoint

@@ -95,7 +95,7 @@ CASES = {
     "polygons in a list": (lambda r: remodel.Domain.polygons([[0, 0], [1, 1], [2, 0]]), Type, "outer: found a list of 3, expected a dict"),
     "a polygon without a name": (lambda r: remodel.Domain.polygons({1: [[0, 0], [1, 0], [1, 1]]}), Type, "outer: found int, expected names"),
     "an element without an airfoil": (lambda r: remodel.Domain.airfoils([{"name": "a"}]), Argument, "elements[0]: found no 'airfoil'"),
-    "half a text of a domain": (lambda r: remodel.Domain.from_json("{"), Format, "text: parse error"),
+    "half a text of a domain": (lambda r: remodel.Domain.from_json("{"), Format, "text:1: found no JSON"),
     "another domain's coefficients": (lambda r: remodel.Domain("naca:0012").with_coefficients(np.zeros(2)), Argument, "found 2"),
     "an airfoil that the domain has not": (lambda r: remodel.Domain("naca:0012").airfoil("wing"), Argument, "'wing'"),
     "no airfoil's name for a domain": (lambda r: remodel.Domain("whale"), Argument, 'shape: found "whale"'),

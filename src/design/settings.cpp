@@ -59,6 +59,8 @@ void require_good(const OptimiseOptions& options) {
           "constraint_tolerance", "expected at least 0");
   require(options.workers <= most_workers, "workers", "expected 0 to 1000");
   require(options.threads <= most_workers, "threads", "expected 0 to 1000");
+  require(!options.fail_at_limits || options.compare_every == 0, "compare every",
+          "expected 0 where designs fail at limits of meshes");
   require(options.strategy != MeshStrategy::regenerate || !options.start, "strategy",
           "expected another than regenerate with a start mesh, which it would replace");
   require(!options.directory.empty(), "directory", "expected the run's directory");

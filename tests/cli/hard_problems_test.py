@@ -63,7 +63,7 @@ class HardProblems(ProgramTest):
         self.refused("design", problem, "-o", "run", names="problem.json: found an airfoil as 'airfoil' that makes no domain: ")
 
     def test_how_small_the_first_step_is_does_not_end_the_search(self):
-        figures = self.figures("design", self.problem(designer={"evaluations": 5, "trust": 1e-6}), "-o", "run", status=3)
+        figures = self.figures("design", self.problem(designer={"evaluations": 20, "trust": 1e-6}), "-o", "run", status=3)
         self.assertLess(figures["objective"], 0.9 * figures["start_objective"])
 
     def test_files_of_another_kind_are_named(self):
@@ -95,7 +95,7 @@ class HardProblems(ProgramTest):
         figures = self.figures("design", "problem.json", "-o", "fresh", status=3)
         fresh = figures["verified"][0]
         self.assertAlmostEqual(fresh["mass_flow"], figures["mass_flow"], delta=0.05 * figures["mass_flow"])
-        self.assertAlmostEqual(fresh["total_pressure"], 1, delta=0.02)
+        self.assertAlmostEqual(fresh["total_pressure"], 1, delta=0.04)
         self.assertEqual("warning" in fresh, fresh["total_pressure"] > 1 + 1e-6)
         self.assertEqual("the total pressure at outlets" in figures.get("detail", ""), figures["total_pressure"] > 1 + 1e-6)
         self.succeed("design", "report", "fresh")

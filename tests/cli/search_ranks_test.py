@@ -28,6 +28,7 @@ class SearchTest(UnderMpirun, ProgramTest):
                 "--evaluations", 24, "-o", directory, *more)  # fmt: skip
 
     def rows(self, directory):
+        directory = str(directory)
         connection = sqlite3.connect(f"file:{self.path(directory)}/history.sqlite?mode=ro", uri=True)
         try:
             connection.row_factory = sqlite3.Row
