@@ -182,6 +182,25 @@ TEST(Friction, LaminarFlowAroundASymmetricSectionHasNoLift) {
   EXPECT_NEAR(flow.friction->cd_pressure, 0.0226, 0.003);
 }
 
+// Faces as long as a million cells of the wall are high leave residuals that no step makes smaller: a flow is
+// found as far as rounding goes.
+TEST(Friction, AFlowIsFoundAsFarAsRoundingGoes) {
+  FlowOptions options = test::plate_options(FlowModel::laminar);
+  options.tolerance = 1e-13;
+  const test::QuadGrid grid = test::plate_grid({.start = -4.0,
+                                                .length = 4.0,
+                                                .height = 1e4,
+                                                .first = 5e-4,
+                                                .at_edge = 2e-3,
+                                                .before = 24,
+                                                .along = 64,
+                                                .up = 64});
+  const FlowResult flow = solve_flow(grid.frozen(), {.mach = 0.2, .reynolds = 1e5}, options, "plate");
+  ASSERT_TRUE(flow.converged()) << flow.reason;
+  EXPECT_GT(flow.residual, options.tolerance);
+  EXPECT_LT(flow.residual, 1e-8);
+}
+
 // Turbulent friction on a plate, Re 5e6 a unit: NASA's Turbulence Modeling Resource has 0.002706 (CFL3D) and
 // 0.002705 (FUN3D) on 545 x 385 points. This grid has 2,600, which grow by 1.27.
 TEST(Friction, ThePlatesTurbulentFrictionIsNearTheReference) {

@@ -182,6 +182,7 @@ void FrictionSearch<N>::run(BlockState<N>& state, double cfl) {
   record_.history.push_back(now.size);
   double least = now.size;
   int since_least = 0, returns = 0;
+  bool is_still = false;
   const auto end = [&](FlowStatus status, const char* reason) {
     record_.status = status, record_.reason = reason, record_.residual = now.size;
   };
@@ -190,6 +191,8 @@ void FrictionSearch<N>::run(BlockState<N>& state, double cfl) {
       return end(FlowStatus::interrupted, "interrupted");
     if (record_.newton_steps >= options_.max_steps)
       return end(FlowStatus::step_limit, "the number of steps has reached its limit");
+    if (since_least > FrictionPolicy::patience && now.size <= FrictionPolicy::most_rounding && is_still)
+      return end(FlowStatus::converged, "");
     if (since_least > FrictionPolicy::patience && returns < FrictionPolicy::most_returns) {
       ++returns, since_least = 0, least = std::numeric_limits<double>::infinity();
       cfl = FrictionPolicy::return_cfl;
@@ -201,6 +204,8 @@ void FrictionSearch<N>::run(BlockState<N>& state, double cfl) {
     BlockIncrement<N> step;
     const bool solved = solve(state, by_time, now, step);
     ++record_.newton_steps;
+    is_still =
+        solved && cfl >= FrictionPolicy::most_cfl && largest_change(state, step) <= FrictionPolicy::still;
     const double length = solved ? line_search(step, by_time, state, now) : 0.0;
     if (length == 1.0)
       cfl *= FrictionPolicy::full_growth * std::max(1.0, std::min(10.0, record_.history.back() / now.size));
