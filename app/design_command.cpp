@@ -123,10 +123,15 @@ void add_stages(Report& report, const std::vector<DesignStage>& stages) {
   report.data("stages", Json::parse(stages_json(stages)));
 }
 
-// Under mpirun.
-CrewWork work_of_ranks(const DesignCommand& command) {
+DesignProblem problem_of(const DesignCommand& command) {
   DesignProblem problem = read_design_problem(command.problem);
   if (command.start) problem.start = command.start, validate(problem, command.problem);
+  return problem;
+}
+
+// Under mpirun.
+CrewWork work_of_ranks(const DesignCommand& command) {
+  const DesignProblem problem = problem_of(command);
   if (!problem.coarse_points.empty())
     throw Error(ErrorCode::argument, command.problem,
                 "found meshes from coarse to fine, expected one mesh under mpirun");
@@ -141,8 +146,7 @@ CrewWork work_of_ranks(const DesignCommand& command) {
 
 Status run_search(DesignCommand& command, PostedJobs* jobs) {
   require_possible(command);
-  DesignProblem problem = read_design_problem(command.problem);
-  if (command.start) problem.start = command.start, validate(problem, command.problem);
+  const DesignProblem problem = problem_of(command);
   warn(problem.warnings);
   command.run.ranks = jobs;
   Progress progress(progress_style(command.quiet), problem.evaluations * (1 + problem.coarse_points.size()),

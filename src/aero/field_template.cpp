@@ -4,23 +4,9 @@
 #include <limits>
 
 #include "transfer/box_tree.h"
+#include "transfer/intersection.h"
 
 namespace remodel {
-namespace {
-
-double twice_area(Point a, Point b, Point c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
-// Of a point in a triangle; one below 0 by more than rounding: it is not within.
-std::array<double, 3> weights_in(Point a, Point b, Point c, Point p) {
-  const double whole = twice_area(a, b, c);
-  const double of_a = twice_area(p, b, c) / whole, of_b = twice_area(a, p, c) / whole;
-  return {of_a, of_b, 1.0 - of_a - of_b};
-}
-
-}  // namespace
-
 TemplatePlaces::TemplatePlaces(const FrozenMesh& mesh, std::span<const Point> points) {
   constexpr double rounding = 1e-12;
   places_.resize(points.size());
@@ -36,7 +22,7 @@ TemplatePlaces::TemplatePlaces(const FrozenMesh& mesh, std::span<const Point> po
     std::sort(near.begin(), near.end());
     for (const std::uint32_t t : near) {
       const auto& [a, b, c] = split.triangles[t];
-      const auto weights = weights_in(split.points[a], split.points[b], split.points[c], points[i]);
+      const auto weights = weights_at({split.points[a], split.points[b], split.points[c]}, points[i]);
       if (std::ranges::any_of(weights, [](double w) { return !(w >= -rounding); })) continue;
       places_[i] = {split.triangles[t], weights, true};
       break;

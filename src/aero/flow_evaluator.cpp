@@ -39,6 +39,7 @@ class FlowEvaluator final : public Evaluator {
         if (limit.point == i && std::find(asked.begin(), asked.end(), limit.function) == asked.end())
           asked.push_back(limit.function);
     }
+    if (ranks_ != nullptr) run_ = identity_of(space_, *this);
   }
 
   Evaluation evaluate(const EvaluationTask& task, std::unique_ptr<EvaluatorState>& state) override {
@@ -70,12 +71,12 @@ class FlowEvaluator final : public Evaluator {
         .dump();
   }
 
-  // One point of a design, for the crew of another evaluator. `states`: what this process has of earlier
-  // ones.
-  std::optional<std::string> point_for_crew(const std::string& bytes, PointStates& states,
-                                            const std::function<bool()>& cancelled) {
+  // One point of a design, for the crew of another evaluator, whose identity_of() is to be `run`. `states`:
+  // what this process has of earlier ones.
+  std::optional<std::string> point_for_crew(const std::string& bytes, const std::string& run,
+                                            PointStates& states, const std::function<bool()>& cancelled) {
     PostedPoint posted = decode_posted_point(bytes);
-    if (posted.run != identity_of(space_, *this))
+    if (posted.run != run)
       throw Error(ErrorCode::argument, "a rank",
                   "found another problem than rank 0 has, expected the same files on all hosts");
     std::unique_ptr<PointState> state = states.take(posted.point, posted.before);
@@ -149,9 +150,8 @@ class FlowEvaluator final : public Evaluator {
   std::vector<PointFlow> points_elsewhere(const EvaluationTask& task, FlowMemory& memory) const {
     std::vector<PointFlow> points(problem_.points.size());
     memory.tokens.resize(points.size());
-    const std::string run = identity_of(space_, *this);
     ThreadTeam(points.size()).run(points.size(), [&](std::size_t i) {
-      const PostedPoint posted{.run = run,
+      const PostedPoint posted{.run = run_,
                                .point = i,
                                .token = ranks_->new_token(),
                                .before = memory.tokens[i],
@@ -265,14 +265,16 @@ class FlowEvaluator final : public Evaluator {
   static void note(const PointFlow& point, std::size_t index, bool with_gradients,
                    std::map<std::string, double>& outputs) {
     const FlowResult& flow = point.flow;
-    const std::string suffix = index == 0 ? "" : "_" + std::to_string(index + 1);
-    outputs["cl" + suffix] = flow.cl, outputs["cd" + suffix] = flow.cd, outputs["cm" + suffix] = flow.cm;
-    outputs["alpha_deg" + suffix] = flow.alpha_deg;
+    const auto of_point = [&](const std::string& name) -> double& {
+      return outputs[output_name(name, index)];
+    };
+    of_point("cl") = flow.cl, of_point("cd") = flow.cd, of_point("cm") = flow.cm;
+    of_point("alpha_deg") = flow.alpha_deg;
     if (flow.friction) {
-      outputs["cd_pressure" + suffix] = flow.friction->cd_pressure;
-      outputs["cd_friction" + suffix] = flow.friction->cd_friction;
+      of_point("cd_pressure") = flow.friction->cd_pressure;
+      of_point("cd_friction") = flow.friction->cd_friction;
     }
-    for (const auto& [name, value] : point.of_outlets) outputs[name + suffix] = value;
+    for (const auto& [name, value] : point.of_outlets) of_point(name) = value;
     outputs["flow_seconds"] += flow.seconds;
     outputs["factorisations"] += flow.factorisations;
     if (with_gradients) outputs["gradient_seconds"] += point.gradient_seconds;
@@ -300,6 +302,7 @@ class FlowEvaluator final : public Evaluator {
   const FlowSpace& space_;
   std::size_t threads_;
   PostedJobs* ranks_;
+  std::string run_;                              // PostedPoint::run, where ranks find flows
   std::vector<std::vector<std::size_t>> asked_;  // of each point: functions
 };
 
@@ -318,8 +321,9 @@ CrewWork flow_points_work(const DesignProblem& problem) {
     PointStates states;
   };
   const auto parts = std::make_shared<Parts>(problem);
-  return [parts](const std::string& bytes, const std::function<bool()>& cancelled) {
-    return parts->evaluator.point_for_crew(bytes, parts->states, cancelled);
+  return [parts, run = identity_of(*parts->space, parts->evaluator)](const std::string& bytes,
+                                                                     const std::function<bool()>& cancelled) {
+    return parts->evaluator.point_for_crew(bytes, run, parts->states, cancelled);
   };
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 
-// What leaves a duct, for history and fresh meshes.
+// What leaves a duct, for history and fresh meshes, and what histories call a point's numbers.
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +11,11 @@
 #include "remodel/flow_function.h"
 
 namespace remodel {
+
+// As outputs of a design have them: "cl", and of the second point "cl_2".
+inline std::string output_name(const std::string& name, std::size_t point) {
+  return point == 0 ? name : name + "_" + std::to_string(point + 1);
+}
 
 // Of all outlets of a point together: "mass_flow", and where gas leaves by them "total_pressure", the mean by
 // mass flow as a part of the stream's. Nothing without outlets.

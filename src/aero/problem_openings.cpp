@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "aero/outlet_numbers.h"
 #include "aero/problem_keys.h"
 
 namespace remodel {
@@ -68,10 +69,9 @@ void require_symmetry(const DesignPoint& point, const Domain& domain, const Prob
 }
 
 // Gas leaves by no outlet whose pressure is that of the gas at rest, or more.
-void require_lower_pressures(const DesignPoint& point, bool has_farfield, const ProblemPlace& place) {
-  double total = has_farfield ? 1.0 : 0.0;
-  for (const FlowInlet& inlet : point.inlets) total = std::max(total, inlet.total_pressure);
-  total *= std::pow(1.0 + 0.2 * point.conditions.mach * point.conditions.mach, 3.5);
+void require_lower_pressures(const DesignPoint& point, const Domain& domain, const ProblemPlace& place) {
+  const double total = entering_total_pressure(point, domain) *
+                       std::pow(1.0 + 0.2 * point.conditions.mach * point.conditions.mach, 3.5);
   for (const FlowOutlet& outlet : point.outlets)
     if (!(outlet.pressure < total))
       place.fail("found " + shown(outlet.pressure) + " as the 'pressure' of the outlet '" + outlet.name +
@@ -146,7 +146,7 @@ void require_openings(const DesignPoint& point, const Domain& domain, const Prob
     place.fail("found no wall among the curves of the domain (" + listed(boundaries) +
                "), expected one that is no opening");
   require_symmetry(point, domain, place);
-  require_lower_pressures(point, has_farfield, place);
+  require_lower_pressures(point, domain, place);
 }
 
 }  // namespace remodel

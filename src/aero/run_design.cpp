@@ -184,8 +184,7 @@ void add_cost(const DesignRun& run, DesignResult& result) {
 // What has to be known of the best design's flows on the run's own mesh.
 void add_warnings(const DesignRun& run, DesignResult& result) {
   for (std::size_t i = 0; i < run.points.size(); ++i) {
-    const auto found =
-        result.search.outputs.find("total_pressure" + (i == 0 ? "" : "_" + std::to_string(i + 1)));
+    const auto found = result.search.outputs.find(output_name("total_pressure", i));
     if (found == result.search.outputs.end()) continue;
     const std::string warning = total_pressure_warning(
         found->second, entering_total_pressure(run.points[i], run.space->walls(run.best_design())));

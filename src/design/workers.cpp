@@ -68,7 +68,9 @@ struct Workers::Crew {
         options(given.options),
         at_work(std::min(worker_count(options, given.population), given.population)),
         share((given.population + at_work - 1) / at_work),
-        team(thread_count(options, worker_count(options, given.population))) {}
+        team(thread_count(options, worker_count(options, given.population))) {
+    if (options.ranks != nullptr) run = identity_of(given.space, given.evaluator);
+  }
 
   void start_hub(Mesh mesh);
   Worker& add(WorkerState state, Mesh mesh);
@@ -90,6 +92,7 @@ struct Workers::Crew {
   std::size_t at_work;  // at most, in a generation
   std::size_t share;    // the most designs of a generation that one worker takes
   ThreadTeam team;
+  std::string run{};  // PostedDesign::run, where ranks evaluate
   std::optional<Hub> hub;
   std::vector<Worker> workers;
   std::size_t last = 0;
@@ -163,7 +166,7 @@ void Workers::Crew::evaluate(Worker& worker, Job& job) const {
 
 // The worker's mesh, and what it knows, go to the process that does its jobs and come back.
 void Workers::Crew::evaluate_elsewhere(Worker& worker, Job& job) const {
-  PostedDesign design{.run = identity_of(evaluating.space, evaluating.evaluator),
+  PostedDesign design{.run = run,
                       .worker = job.record.worker,
                       .token = options.ranks->new_token(),
                       .before = worker.token,

@@ -115,7 +115,7 @@ TEST(Friction, ConstantStressLeavesInnerCellsInBalance) {
       const Point p = dual.points()[triangle.corner[i]];
       q[i] = {1.0, 0.3 * p.x + 0.5 * p.y, -0.2 * p.x + 0.1 * p.y, 1.0 / gas_gamma};
     }
-    const auto flux = terms.triangle<double, 4>(q, triangle, {{{1.0}, {1.0}, {1.0}}});
+    const auto flux = terms.triangle<double, 4>(q, triangle, {true, true, true});
     for (std::size_t i = 0; i < 3; ++i)
       for (const std::size_t k : {std::size_t{1}, std::size_t{2}}) sum[triangle.corner[i]][k] += flux[i][k];
     area += triangle.area;
@@ -187,15 +187,8 @@ TEST(Friction, LaminarFlowAroundASymmetricSectionHasNoLift) {
 TEST(Friction, AFlowIsFoundAsFarAsRoundingGoes) {
   FlowOptions options = test::plate_options(FlowModel::laminar);
   options.tolerance = 1e-13;
-  const test::QuadGrid grid = test::plate_grid({.start = -4.0,
-                                                .length = 4.0,
-                                                .height = 1e4,
-                                                .first = 5e-4,
-                                                .at_edge = 2e-3,
-                                                .before = 24,
-                                                .along = 64,
-                                                .up = 64});
-  const FlowResult flow = solve_flow(grid.frozen(), {.mach = 0.2, .reynolds = 1e5}, options, "plate");
+  const FrozenMesh mesh = test::laminar_plate(1e4, 64).frozen();
+  const FlowResult flow = solve_flow(mesh, {.mach = 0.2, .reynolds = 1e5}, options, "plate");
   ASSERT_TRUE(flow.converged()) << flow.reason;
   EXPECT_GT(flow.residual, options.tolerance);
   EXPECT_LT(flow.residual, 1e-8);

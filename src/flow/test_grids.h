@@ -94,15 +94,15 @@ inline QuadGrid plate_grid(const PlateSize& size) {
 
 // The plates whose friction is known: 5e-4 high cells for laminar flow at Re 1e5 a unit, 2e-6 for turbulent
 // flow at 5e6.
-inline QuadGrid laminar_plate() {
+inline QuadGrid laminar_plate(double height = 10.0, std::uint32_t up = 48) {
   return plate_grid({.start = -4.0,
                      .length = 4.0,
-                     .height = 10.0,
+                     .height = height,
                      .first = 5e-4,
                      .at_edge = 2e-3,
                      .before = 24,
                      .along = 64,
-                     .up = 48});
+                     .up = up});
 }
 inline QuadGrid turbulent_plate() {
   return plate_grid({.start = -0.33,

@@ -181,7 +181,7 @@ void FrictionSystem<N>::add_triangle_blocks(const BlockState<N>& state, std::spa
     std::array<std::array<All, N>, 3> q;
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t k = 0; k < N; ++k) q[i][k] = All::variable(state.q[triangle.corner[i]][k], N * i + k);
-    const auto flux = terms_.template triangle<All, N>(q, triangle, wall_places(triangle));
+    const auto flux = terms_.template triangle<All, N>(q, triangle, turbulent_corners(triangle));
     for (Rows& rows : all)
       for (std::size_t i = 0; i < 3; ++i) {
         const std::uint32_t row = rows.of[triangle.corner[i]];

@@ -134,7 +134,7 @@ void FrictionMesh::make_triangles() {
 
 void FrictionMesh::make_mean_gradients() {
   area_.assign(mesh_.size(), 0.0);
-  mean_gradient_.assign(mesh_.size() == 0 ? 0 : mesh_.ring_begin(mesh_.size()), {});
+  mean_gradient_.assign(mesh_.ring_begin(mesh_.size()), {});
   for (const CornerTriangle& triangle : triangles_)
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t v = triangle.corner[i];

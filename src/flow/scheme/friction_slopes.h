@@ -138,7 +138,7 @@ template <std::size_t N>
 void FrictionSystem<N>::add_triangle_slopes(const BlockState<N>& state,
                                             std::span<const BlockVector<N>> weights,
                                             std::span<ShapeSlope> results) const {
-  using T = Dual<9>;
+  using T = Dual<6>;
   std::vector<std::vector<double>> by_distance(weights.size(), std::vector<double>(dual_.size(), 0.0));
   const std::vector<SourceSlope> sources = source_slopes(state);
   for (std::size_t j = 0; N == 5 && j < weights.size(); ++j)
@@ -147,15 +147,13 @@ void FrictionSystem<N>::add_triangle_slopes(const BlockState<N>& state,
   for (const CornerTriangle& triangle : mesh_.triangles()) {
     std::array<std::array<T, N>, 3> q;
     std::array<PlaneVector<T>, 3> p;
-    std::array<WallPlace<T>, 3> wall;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t v = triangle.corner[i];
       for (std::size_t k = 0; k < N; ++k) q[i][k] = T(state.q[v][k]);
       p[i] = {T::variable(dual_.points()[v].x, 2 * i), T::variable(dual_.points()[v].y, 2 * i + 1)};
-      wall[i] = {T::variable(mesh_.distances()[v], 6 + i), mesh_.is_laminar(v)};
     }
     const TriangleShape<T> shape(p, triangle.of_quad);
-    auto flux = terms_.template triangle<T, N>(q, shape, wall);
+    auto flux = terms_.template triangle<T, N>(q, shape, turbulent_corners(triangle));
     if (N == 5) {
       const T turning = FrictionTerms::template vorticity<T, N>(q, shape);
       for (std::size_t i = 0; i < 3; ++i) {
@@ -164,7 +162,7 @@ void FrictionSystem<N>::add_triangle_slopes(const BlockState<N>& state,
       }
     }
     for (std::size_t j = 0; j < weights.size(); ++j) {
-      std::array<double, 9> by = {};
+      std::array<double, 6> by = {};
       for (std::size_t i = 0; i < 3; ++i) {
         const auto part = weighted_slope(weights[j][triangle.corner[i]], flux[i]);
         for (std::size_t z = 0; z < by.size(); ++z) by[z] += part[z];
@@ -172,7 +170,6 @@ void FrictionSystem<N>::add_triangle_slopes(const BlockState<N>& state,
       for (std::size_t i = 0; i < 3; ++i) {
         Point& at = results[j].points[triangle.corner[i]];
         at = at + Point{by[2 * i], by[2 * i + 1]};
-        by_distance[j][triangle.corner[i]] += by[6 + i];
       }
     }
   }

@@ -80,7 +80,7 @@ void FrictionSystem<N>::unbalanced(const BlockState<N>& state, BlockVector<N>& o
   }
   for (const CornerTriangle& triangle : mesh_.triangles()) {
     const auto flux = terms_.template triangle<double, N>(triangle_states(state.q, triangle), triangle,
-                                                          wall_places(triangle));
+                                                          turbulent_corners(triangle));
     for (std::size_t i = 0; i < 3; ++i) add(triangle.corner[i], 1.0, flux[i]);
   }
   for (std::size_t v = 0; N == 5 && v < dual_.size(); ++v)

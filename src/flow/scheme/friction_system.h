@@ -157,8 +157,9 @@ class FrictionSystem final : public BlockSystem<N> {
   std::array<Row, 3> triangle_states(const BlockVector<N>& q, const CornerTriangle& triangle) const {
     return {q[triangle.corner[0]], q[triangle.corner[1]], q[triangle.corner[2]]};
   }
-  std::array<WallPlace<double>, 3> wall_places(const CornerTriangle& triangle) const {
-    return {wall_place(triangle.corner[0]), wall_place(triangle.corner[1]), wall_place(triangle.corner[2])};
+  std::array<bool, 3> turbulent_corners(const CornerTriangle& triangle) const {
+    const auto& corner = triangle.corner;
+    return {has_turbulence(corner[0]), has_turbulence(corner[1]), has_turbulence(corner[2])};
   }
   WallPlace<double> wall_place(std::size_t v) const { return {mesh_.distances()[v], mesh_.is_laminar(v)}; }
   bool has_turbulence(std::size_t v) const { return mesh_.distances()[v] > 0.0; }

@@ -93,10 +93,10 @@ struct FrictionTerms {
   }
 
   // What leaves the dual cells of the corners by friction and conduction, less what turbulence makes there as
-  // it diffuses.
+  // it diffuses. has_turbulence: of the corners, false on walls.
   template <class T, std::size_t N, class G>
   std::array<Local<T, N>, 3> triangle(const std::array<Local<T, N>, 3>& q, const TriangleShape<G>& of,
-                                      const std::array<WallPlace<G>, 3>& wall) const;
+                                      const std::array<bool, 3>& has_turbulence) const;
 
   template <class T, std::size_t N, class G>
   static T vorticity(const std::array<Local<T, N>, 3>& q, const TriangleShape<G>& of) {
@@ -121,7 +121,7 @@ struct FrictionTerms {
 template <class T, std::size_t N, class G>
 std::array<Local<T, N>, 3> FrictionTerms::triangle(const std::array<Local<T, N>, 3>& q,
                                                    const TriangleShape<G>& of,
-                                                   const std::array<WallPlace<G>, 3>& wall) const {
+                                                   const std::array<bool, 3>& has_turbulence) const {
   const auto gradient = [&](const T& a, const T& b, const T& c) {
     return PlaneVector<T>(a * of.slope[0].x + b * of.slope[1].x + c * of.slope[2].x,
                           a * of.slope[0].y + b * of.slope[1].y + c * of.slope[2].y);
@@ -163,7 +163,7 @@ std::array<Local<T, N>, 3> FrictionTerms::triangle(const std::array<Local<T, N>,
     const T square = dw.x * dw.x + dw.y * dw.y, across = drho.x * dw.x + drho.y * dw.y;
     for (std::size_t i = 0; i < 3; ++i) {
       result[i][4] = spread * ((of.area * of.slope[i].x) * dw.x + (of.area * of.slope[i].y) * dw.y);
-      if (value_of(of.share[i]) == 0.0 || value_of(wall[i].distance) == 0.0) continue;
+      if (value_of(of.share[i]) == 0.0 || !has_turbulence[i]) continue;
       result[i][4] = result[i][4] - of.share[i] * ((SpalartAllmaras::cb2 / SpalartAllmaras::sigma * unit) *
                                                        (q[i][0] * square) -
                                                    (diffusion[i] / q[i][0]) * across);

@@ -191,14 +191,15 @@ void FrictionSearch<N>::run(BlockState<N>& state, double cfl) {
       return end(FlowStatus::interrupted, "interrupted");
     if (record_.newton_steps >= options_.max_steps)
       return end(FlowStatus::step_limit, "the number of steps has reached its limit");
-    if (since_least > FrictionPolicy::patience && now.size <= FrictionPolicy::most_rounding && is_still)
+    const bool falls_no_more = since_least > FrictionPolicy::patience;
+    if (falls_no_more && is_still && now.size <= FrictionPolicy::most_rounding)
       return end(FlowStatus::converged, "");
-    if (since_least > FrictionPolicy::patience && returns < FrictionPolicy::most_returns) {
+    if (falls_no_more && returns < FrictionPolicy::most_returns) {
       ++returns, since_least = 0, least = std::numeric_limits<double>::infinity();
       cfl = FrictionPolicy::return_cfl;
-    }
-    if (cfl < FrictionPolicy::least_cfl || since_least > FrictionPolicy::patience)
+    } else if (falls_no_more || cfl < FrictionPolicy::least_cfl) {
       return end(FlowStatus::stalled, "the residual falls no more");
+    }
     std::vector<double> by_time = system_.wave_speeds(state);
     for (double& x : by_time) x = cfl < FrictionPolicy::most_cfl ? x / cfl : 0.0;
     BlockIncrement<N> step;
