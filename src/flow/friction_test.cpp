@@ -482,6 +482,24 @@ TEST(Friction, AFlowIsGoneOnFromOnAnotherMesh) {
   EXPECT_THROW(solve_flow_from(before, without, mesh, conditions, options), Error);
 }
 
+TEST(Friction, AColdFlowLedToItsAngleIsTheOneCarriedThere) {
+  FlowOptions options;
+  options.model = FlowModel::sa, options.tolerance = 1e-9;
+  const FlowConditions conditions = {.mach = 0.15, .alpha_deg = -6.0, .reynolds = 1e6};
+  const FrozenMesh mesh = LayeredDesigns(1e6, 2e-5).mesh.freeze();
+  const FlowResult cold = solve_flow(mesh, conditions, options);
+  ASSERT_TRUE(cold.converged()) << cold.reason;
+  EXPECT_NEAR(cold.alpha_deg, -6.0, 1e-12);
+  EXPECT_EQ(cold.origin, FlowOrigin::undisturbed);
+  FlowConditions smaller = conditions;
+  smaller.alpha_deg = -4.0;
+  const FlowResult known = solve_flow(mesh, smaller, options);
+  const FlowResult carried = solve_flow_from(mesh, known, mesh, conditions, options);
+  ASSERT_TRUE(carried.converged()) << carried.reason;
+  EXPECT_NEAR(carried.cl, cold.cl, 1e-4);
+  EXPECT_NEAR(carried.cd, cold.cd, 1e-5);
+}
+
 TEST(Friction, ModelsWithFrictionAreRefusedWhereTheyAreNotKnown) {
   FlowOptions options;
   options.model = FlowModel::laminar;

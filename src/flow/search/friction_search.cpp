@@ -143,25 +143,44 @@ double FrictionSearch<N>::line_search(const BlockIncrement<N>& step, const std::
 
 template <std::size_t N>
 void FrictionSearch<N>::cold(BlockState<N>& state) {
-  state = system_.undisturbed();
   record_.origin = FlowOrigin::undisturbed;
   record_.in_vain += record_.newton_steps;
   record_.newton_steps = 0;
-  double cfl = FrictionPolicy::first_cfl;
-  Stream at_angle = system_.stream();
-  at_angle.lift.reset();
-  if constexpr (N == 5) {
-    Stream first_order = at_angle;
-    first_order.working_slopes = 0.0;
-    if (!found_rough(first_order, FrictionPolicy::first_order_tolerance, cfl, state)) return;
-    cfl = FrictionPolicy::second_order_cfl;
-  }
+  std::optional<double> cfl = rough_at_angle(state);
+  if (!cfl) return;
   // Undisturbed flow is too far from a flow of this lift for the angle to follow.
   if (system_.stream().lift) {
-    if (!found_rough(at_angle, SearchPolicy::first_angle_tolerance, cfl, state)) return;
+    Stream at_angle = system_.stream();
+    at_angle.lift.reset();
+    if (!found_rough(at_angle, SearchPolicy::first_angle_tolerance, *cfl, state)) return;
     cfl = SearchPolicy::with_angle_cfl;
   }
-  run(state, cfl);
+  run(state, *cfl);
+}
+
+// From undisturbed flow to a rough flow, with turbulence upwinded to first order at first, and by equal steps
+// of the angle of attack to the stream's own. The CFL number to go on from; nothing: none was found.
+template <std::size_t N>
+std::optional<double> FrictionSearch<N>::rough_at_angle(BlockState<N>& state) {
+  Stream stage = system_.stream();
+  stage.lift.reset();
+  const double angle = stage.alpha;
+  const int steps = std::max(1, static_cast<int>(std::ceil(std::fabs(angle) / FrictionPolicy::angle_step)));
+  stage.alpha = angle / steps;
+  state = FrictionSystem<N>(system_.friction_mesh(), stage, system_.terms().viscosity).undisturbed();
+  double cfl = FrictionPolicy::first_cfl;
+  if constexpr (N == 5) {
+    stage.working_slopes = 0.0;
+    if (!found_rough(stage, FrictionPolicy::first_order_tolerance, cfl, state)) return std::nullopt;
+    stage.working_slopes = 1.0;
+    cfl = FrictionPolicy::second_order_cfl;
+  }
+  for (int i = 1; i < steps; ++i) {
+    if (!found_rough(stage, FrictionPolicy::angle_tolerance, cfl, state)) return std::nullopt;
+    stage.alpha = state.augmented[1] = angle * (i + 1) / steps;
+    cfl = FrictionPolicy::angle_cfl;
+  }
+  return cfl;
 }
 
 template <std::size_t N>

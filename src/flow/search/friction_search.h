@@ -11,6 +11,7 @@
 // Linear systems: GMRES with the exact Jacobian, preconditioned by the first-order scheme of one ring,
 // friction and turbulence exact. Incomplete factors of the exact Jacobian are useless beside walls.
 
+#include <optional>
 #include <vector>
 
 #include "flow/linear/direct_solver.h"
@@ -32,6 +33,11 @@ struct FrictionPolicy {
   // From a flow that is near: two degrees more take 10, 8, 14 and 32 steps from 5, 50, 1e3 and 1e5, and from
   // 1e3 on there may be another flow at the end (docs/viscous.md).
   static constexpr double carried_cfl = 50.0;
+  // Cold flows at larger angles are led there by steps of the angle no larger than this, from rough flows of
+  // this residual, each from this CFL number. NACA 0012 at 10, 15 and -15 degrees (17,687 vertices) and 4412
+  // at 13.87 take 36, 45, 52 and 35 steps; from a CFL number of 50, 46, 54, 65 and 32; at once, 46, 142,
+  // 115 and 49.
+  static constexpr double angle_step = 5.0 * one_degree, angle_tolerance = 0.3, angle_cfl = 10.0;
   // Cold turbulent flows begin with the working variable upwinded to first order, to this residual, and go on
   // from there at this CFL number. NACA 0012 at 0, 4 and 10 degrees and RAE 2822 at Mach 0.734 take 23, 27,
   // 35 and 41 steps, NACA 0012 with transition at 0.6 41; from 1e3 on the last takes 88; with second order
@@ -67,6 +73,7 @@ class FrictionSearch {
 
  private:
   using Residuals = BlockResiduals<N>;
+  std::optional<double> rough_at_angle(BlockState<N>& state);
   // Goes to a rough flow of another stream through the same mesh; false: none was found.
   bool found_rough(const Stream& stream, double tolerance, double cfl, BlockState<N>& state);
   double unsteady_size(const BlockState<N>& before, const BlockState<N>& state,
