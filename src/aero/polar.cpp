@@ -50,6 +50,14 @@ FlowResult without_fields(FlowResult flow) {
   return flow;
 }
 
+// With friction a search from undisturbed flow takes long, and finds little where one from the last flow, by
+// halved steps, does not.
+FlowOptions options_of_row(const PolarOptions& options) {
+  FlowOptions flow = options.flow;
+  if (flow.model != FlowModel::euler && options.halvings > 0) flow.retry_cold = false;
+  return flow;
+}
+
 // The rows of one mesh.
 class PolarSearch {
  public:
@@ -58,7 +66,7 @@ class PolarSearch {
         name_(name),
         options_(options),
         values_(options.alphas_deg.empty() ? options.lifts : options.alphas_deg),
-        living_(options.flow) {}
+        living_(options_of_row(options)) {}
 
   PolarResult run() {
     const Stopwatch watch;

@@ -421,7 +421,8 @@ FlowResult solve_flow_from(const FrozenMesh& before, const FlowResult& known, co
   if (options.solver != FlowSolver::lu ||
       flow::steps_with_own_factors(measure, search, state) == flow::ChordEnd::slow)
     search.near(measure, state);
-  if (record.status == FlowStatus::stalled || record.status == FlowStatus::step_limit) {
+  if (options.retry_cold &&
+      (record.status == FlowStatus::stalled || record.status == FlowStatus::step_limit)) {
     start = FlowStart::cold;
     search.cold(measure, state);
   }

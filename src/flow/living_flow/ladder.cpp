@@ -52,7 +52,8 @@ void Ladder<N>::climb(LadderTask<N>& task) {
     task.start = FlowStart::refactored;
     task.near(task.state);
     const FlowStatus status = task.record.status;
-    if (status == FlowStatus::converged || status == FlowStatus::interrupted || status == FlowStatus::memory)
+    if (status == FlowStatus::converged || status == FlowStatus::interrupted ||
+        status == FlowStatus::memory || !options_.retry_cold)
       return;
   }
   task.start = FlowStart::cold;
