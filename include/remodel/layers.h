@@ -120,6 +120,23 @@ struct LayeredState {
   friend bool operator==(const LayeredState&, const LayeredState&) = default;
 };
 
+// What has changed of a layered mesh since a mark. Vertices are those of the whole, by the keys that the
+// frozen view has; triangles by id are those of the outer mesh. So same_connectivity() speaks of the whole:
+// where cells of the layer come or go, vertices do.
+struct LayeredChanges : Changes {
+  std::size_t layer_born = 0, layer_gone = 0;  // cells of the layer that join other vertices than before
+};
+// A moment in the life of a layered mesh, as Mark is one in that of a mesh.
+class LayerMark {
+ public:
+  LayerMark() = default;  // of no mesh
+
+ private:
+  friend class LayeredMesh;
+  struct Moment;
+  std::shared_ptr<const Moment> moment_;
+};
+
 class LayeredMeshDerivative;
 struct LayeredGenerateResult;
 struct LayeredRemodelResult;
@@ -151,6 +168,10 @@ class LayeredMesh {
   LayerTopology topology() const;
   LayerStatistics statistics() const;
 
+  // As those of Mesh.
+  LayerMark mark();
+  LayeredChanges changes_since(const LayerMark& mark) const;
+
   // The outer mesh's quick_check(); all cells strictly convex, by exact predicates; the tops are the outer
   // mesh's.
   std::string quick_check() const;
@@ -160,14 +181,17 @@ class LayeredMesh {
 
  private:
   struct Columns;
+  class Step;
   friend LayeredRemodelResult remodel(LayeredMesh&, const Domain&, const RemodelOptions&);
+  friend LayeredMesh mesh_at(const LayeredMesh&, const Domain&);
+  friend class LayeredTrial;
   friend LayeredMeshDerivative;
   friend class LayerFrame;
 
   Mesh outer_;
   Domain walls_;
   LayerOptions options_;
-  std::unique_ptr<Columns> columns_;
+  std::shared_ptr<const Columns> columns_;
 };
 
 struct LayeredGenerateResult {
@@ -232,7 +256,7 @@ class LayerFrame {
   LayeredMesh around(const Mesh& outer, const Domain& walls) const;
 
  private:
-  std::unique_ptr<LayeredMesh::Columns> columns_at(const Domain& walls) const;
+  std::shared_ptr<const LayeredMesh::Columns> columns_at(const Domain& walls) const;
 
   LayerOptions options_;
   std::vector<std::size_t> loops_;
@@ -246,5 +270,27 @@ class LayerFrame {
 // more than two sectors beyond them. Otherwise as remodel() of Mesh: where anything is refused, given up or
 // thrown, the mesh is as it was.
 LayeredRemodelResult remodel(LayeredMesh& mesh, const Domain& domain, const RemodelOptions& options = {});
+
+// Tries a design, as Trial does: the layered mesh returns to what it was, to the last bit, keys and marks
+// included, when the trial ends, unless it is kept. While it lasts the mesh stays where it is and may be read
+// and copied, but not remodelled.
+class LayeredTrial {
+ public:
+  // Throws as remodel() does.
+  LayeredTrial(LayeredMesh& mesh, const Domain& domain, const RemodelOptions& options = {});
+  LayeredTrial(const LayeredTrial&) = delete;
+  LayeredTrial& operator=(const LayeredTrial&) = delete;
+  ~LayeredTrial();
+
+  const LayeredRemodelResult& result() const;
+  void keep();  // the trial is over, the mesh stays as it is now
+
+ private:
+  std::unique_ptr<LayeredMesh::Step> step_;
+};
+
+// A copy of the layered mesh at another design, its connectivity and keys the same. Throws TopologyChanged
+// where there is no such mesh, and Error (geometry) as remodel() does.
+LayeredMesh mesh_at(const LayeredMesh& mesh, const Domain& design);
 
 }  // namespace remodel

@@ -15,7 +15,7 @@ class PythonEvaluator final : public Evaluator {
   PythonEvaluator(py::object evaluate, Watch& watch) : evaluate_(std::move(evaluate)), watch_(watch) {}
 
   Evaluation evaluate(const EvaluationTask& task, std::unique_ptr<EvaluatorState>&) override {
-    auto mesh = std::make_shared<FrozenMesh>(task.mesh.freeze());
+    auto mesh = std::make_shared<FrozenMesh>(task.freeze());
     const std::vector<double> design(task.design.begin(), task.design.end());
     try {
       return watch_.ask([&] {

@@ -56,14 +56,14 @@ LayerFrame::LayerFrame(const Domain& walls, const LayerOptions& options) : optio
   fans_ = fans_of(Walls(walls), loops_, options, {loops_.size(), nullptr});
 }
 
-std::unique_ptr<LayeredMesh::Columns> LayerFrame::columns_at(const Domain& walls) const {
+std::shared_ptr<const LayeredMesh::Columns> LayerFrame::columns_at(const Domain& walls) const {
   bool fits = layered_loops(walls, options_) == loops_;
   for (std::size_t r = 0; fits && r < loops_.size(); ++r)
     fits = walls.stations(loops_[r]).size() == fans_[r].size();
   if (!fits)
     throw Error(ErrorCode::argument, "walls",
                 "found other loops or stations, expected those that the layer began with");
-  auto columns = std::make_unique<LayeredMesh::Columns>();
+  auto columns = std::make_shared<LayeredMesh::Columns>();
   columns->loops = loops_, columns->levels = levels_, columns->fans = fans_;
   static_cast<LayerColumns&>(*columns) = columns_of(Walls(walls), loops_, fans_, options_, levels_);
   for (const ColumnRing& ring : columns->rings) {
