@@ -73,7 +73,8 @@ class Evaluator {
     static_cast<void>(bytes), static_cast<void>(mesh), static_cast<void>(source);
     return nullptr;
   }
-  // Likewise where the run has layers; unless it says more, of what lies beyond them.
+  // Runs with layers restore by this call, which, unless it says more, asks the one above with the outer
+  // mesh.
   virtual std::unique_ptr<EvaluatorState> restore_layered(const std::string& bytes, const LayeredMesh& mesh,
                                                           const std::string& source) {
     return restore(bytes, mesh.outer(), source);

@@ -70,6 +70,19 @@ std::vector<Parameters> wall_stations(const Loop& loop, const WallSpacing& spaci
 // These stations on all holes, or on the loops of those names (LayerOptions::walls).
 void space_walls(Domain& domain, const WallSpacing& spacing, const std::vector<std::string>& walls = {});
 
+// A line of fine triangles in the wake, from behind the point of the walls that lies farthest downstream.
+struct WakeLine {
+  double length = 1.0;        // more than 0
+  Point direction{1.0, 0.0};  // downstream; of any length but 0
+  double first = 0.005;       // of its edges, which grow by `growth` to `most`; all as WallSpacing has them
+  double growth = 1.1;
+  double most = 0.05;
+};
+// Adds it as an internal chain "wake", which every step keeps. It begins a little more than four thicknesses
+// of the layer behind that point: columns are as thick as they are without it. Throws Error (argument) for
+// values out of range and names that no closed loop has.
+void add_wake(Domain& domain, const WakeLine& wake, const LayerOptions& layers);
+
 // The cells of the frozen view: quadrilaterals with triangles where fans meet the wall and where top cells
 // are divided; or all of them triangles, by the diagonal that begins at the wall.
 enum class LayerCells : std::uint8_t { quadrilaterals, triangles };
@@ -120,7 +133,7 @@ struct LayeredState {
   friend bool operator==(const LayeredState&, const LayeredState&) = default;
 };
 
-// What has changed of a layered mesh since a mark. Vertices are those of the whole, by the keys that the
+// The changes of a layered mesh since a mark. Vertices are those of the whole, by the keys that the
 // frozen view has; triangles by id are those of the outer mesh. So same_connectivity() speaks of the whole:
 // where cells of the layer come or go, vertices do.
 struct LayeredChanges : Changes {
@@ -168,7 +181,7 @@ class LayeredMesh {
   LayerTopology topology() const;
   LayerStatistics statistics() const;
 
-  // As those of Mesh.
+  // These are as those of Mesh.
   LayerMark mark();
   LayeredChanges changes_since(const LayerMark& mark) const;
 
@@ -212,7 +225,7 @@ struct LayeredRemodelResult : RemodelResult {
   std::size_t layer_cells = 0;  // now
   std::size_t shrunk = 0;       // see LayerStatistics
   bool same_columns = true;     // false: columns have come or gone, as stations have, or fans have other
-                             // sectors; where stations are the same, all other columns stay
+                                // sectors; where stations are the same, all other columns stay
 };
 
 // The derivative of a layered mesh by its design, at fixed connectivity: walls by their curves at fixed

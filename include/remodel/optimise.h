@@ -42,8 +42,8 @@ struct MeshStart {
   // ReadNotes::su2_boxes of the mesh's file, without_surface_points(): first.vtkhdf, middle.vtkhdf and
   // last.vtkhdf keep them.
   std::string su2_boxes = {};
-  // Of a mesh with layers, whose outer mesh `mesh` is: its walls, in which the place is.
-  // OptimiseOptions::layers then has its layers' options.
+  // A mesh with layers has its walls here, in which the place is; `mesh` is its outer mesh, and
+  // OptimiseOptions::layers has its layers' options.
   std::optional<Domain> walls = {};
 };
 
@@ -98,9 +98,10 @@ struct OptimiseOptions {
   // The first mesh is of this design; none: of the space's start. Not with `start`.
   std::vector<double> first_design{};
   std::optional<MeshStart> start{};  // then domain and quality say nothing: the mesh has its own
-  // Of runs of airfoils. Living meshes are what lies beyond the layers, and so are the triangles of histories
-  // and figures. The meshes that a run leaves, and those of evaluators that are programs, have their layers.
-  // All designs have the same columns, with the fans of the start: layers are functions of the designs alone.
+  // Runs of airfoils may have these. Living meshes are what lies beyond the layers, and so are the triangles
+  // of histories and figures. The meshes that a run leaves, and those of evaluators that are programs, have
+  // their layers. All designs have the same columns, with the fans of the start: layers are functions of the
+  // designs alone.
   std::optional<RunLayers> layers{};
 };
 

@@ -16,7 +16,7 @@ bool has_names(const FrozenMesh& mesh) {
          mesh.triangle_ids.size() == triangles && mesh.birth.size() == triangles;
 }
 
-bool has_keys(const FrozenMesh& mesh) {
+bool carries_keys(const FrozenMesh& mesh) {
   return mesh.vertex_keys.size() == mesh.points.size();
 }
 
@@ -25,7 +25,7 @@ enum class NamedBy { ids, keys };
 
 NamedBy named_by(const FrozenMesh& before, const FrozenMesh& after) {
   if (has_names(before) && has_names(after)) return NamedBy::ids;
-  if (has_keys(before) && has_keys(after)) return NamedBy::keys;
+  if (carries_keys(before) && carries_keys(after)) return NamedBy::keys;
   throw Error(ErrorCode::argument, "fate", "a mesh without ids and births found, a native one expected");
 }
 
@@ -93,7 +93,7 @@ class Earlier {
   bool same_vertex(std::uint32_t p, const FrozenMesh& after, std::uint32_t q) const {
     if (named_ == NamedBy::keys) return mesh_.vertex_keys[p] == after.vertex_keys[q];
     if (mesh_.vertex_ids[p] != after.vertex_ids[q] || mesh_.curve[p] != after.curve[q]) return false;
-    if (mesh_.curve[p] < 0 && has_keys(mesh_) && has_keys(after))
+    if (mesh_.curve[p] < 0 && carries_keys(mesh_) && carries_keys(after))
       return mesh_.vertex_keys[p] == after.vertex_keys[q];
     return mesh_.curve[p] < 0 ? mesh_.points[p] == after.points[q] : mesh_.parameter[p] == after.parameter[q];
   }
