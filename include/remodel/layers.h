@@ -197,6 +197,8 @@ class LayeredMesh {
   class Step;
   friend LayeredRemodelResult remodel(LayeredMesh&, const Domain&, const RemodelOptions&);
   friend LayeredMesh mesh_at(const LayeredMesh&, const Domain&);
+  friend LayeredGenerateResult generate_layered(const Domain&, const LayerOptions&, const QualityOptions&,
+                                                StepObserver*);
   friend class LayeredTrial;
   friend LayeredMeshDerivative;
   friend class LayerFrame;
@@ -269,6 +271,8 @@ class LayerFrame {
   LayeredMesh around(const Mesh& outer, const Domain& walls) const;
 
  private:
+  friend LayeredGenerateResult generate_layered(const Domain&, const LayerOptions&, const QualityOptions&,
+                                                StepObserver*);
   std::shared_ptr<const LayeredMesh::Columns> columns_at(const Domain& walls) const;
 
   LayerOptions options_;

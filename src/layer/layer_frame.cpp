@@ -92,11 +92,14 @@ LayeredGenerateResult generate_layered(const Domain& domain, const LayerOptions&
   validate(domain);
   require_room_for(domain, layers, quality.max_vertices);
   const LayerFrame frame(domain, layers);
-  GenerateResult outer = generate(frame.outside(domain), quality, observer);
-  return {.mesh = frame.around(outer.mesh, domain),
-          .stopped = outer.stopped,
-          .small_angles = outer.small_angles,
-          .exempt_triangles = outer.exempt_triangles};
+  const std::shared_ptr<const LayeredMesh::Columns> columns = frame.columns_at(domain);
+  GenerateResult outer = generate(outside_of(domain, *columns, columns->levels), quality, observer);
+  LayeredGenerateResult result;
+  result.stopped = outer.stopped;
+  result.small_angles = outer.small_angles, result.exempt_triangles = outer.exempt_triangles;
+  result.mesh.outer_ = std::move(outer.mesh);
+  result.mesh.walls_ = domain, result.mesh.options_ = layers, result.mesh.columns_ = columns;
+  return result;
 }
 
 }  // namespace remodel
