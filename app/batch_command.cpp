@@ -6,17 +6,18 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <numeric>
 #include <optional>
 #include <set>
 
 #include "arguments.h"
+#include "batch_mesh.h"
 #include "command.h"
 #include "figures.h"
 #include "interrupt.h"
 #include "meshing_options.h"
-#include "new_airfoil.h"
 #include "outputs.h"
 #include "remodel/directory_lock.h"
 #include "remodel/error.h"
@@ -25,7 +26,6 @@
 #include "remodel_options.h"
 #include "report.h"
 #include "shape_input.h"
-#include "start_mesh.h"
 #include "timing.h"
 #include "warnings.h"
 
@@ -37,6 +37,7 @@ enum class Order { given, nearest };
 struct BatchCommand {
   std::string mesh;
   StartMeshOptions start;
+  LayerChoice layers;
   std::vector<std::string> shapes;
   std::filesystem::path directory;
   Order order = Order::nearest;
@@ -46,6 +47,7 @@ struct BatchCommand {
   bool inner_markers = false;
   bool overwrite = false;
   bool json = false;
+  std::function<bool(const std::string&)> given;  // on the command line
 };
 
 struct Design {
@@ -55,13 +57,13 @@ struct Design {
 };
 
 // Reads all designs and checks that each is a domain before the first is meshed.
-std::vector<Design> read_designs(const BatchCommand& command, const StartMesh& start,
+std::vector<Design> read_designs(const BatchCommand& command, const BatchMesh& start,
                                  std::vector<ShapeFit>& fits) {
   std::vector<Design> designs;
   for (const std::string& shape : command.shapes) {
     const CstAirfoil airfoil = fit_shape(shape, command.fit, fits).airfoil;
     try {
-      Domain domain = with_new_airfoil(start, command.start, airfoil);
+      Domain domain = start.with_airfoil(airfoil);
       validate(domain);
       designs.push_back({shape, airfoil, std::move(domain)});
     } catch (const Error& error) {
@@ -71,7 +73,7 @@ std::vector<Design> read_designs(const BatchCommand& command, const StartMesh& s
   return designs;
 }
 
-std::vector<std::size_t> order_of(const BatchCommand& command, const StartMesh& start,
+std::vector<std::size_t> order_of(const BatchCommand& command, const BatchMesh& start,
                                   const std::vector<Design>& designs) {
   if (command.order == Order::given) {
     std::vector<std::size_t> order(designs.size());
@@ -80,8 +82,7 @@ std::vector<std::size_t> order_of(const BatchCommand& command, const StartMesh& 
   }
   std::vector<CstAirfoil> airfoils;
   for (const Design& design : designs) airfoils.push_back(design.airfoil);
-  return order_designs(present_airfoil(start, command.start, command.fit.degree), airfoils,
-                       {.points = discretisation_of(start.mesh.domain()).points});
+  return order_designs(start.airfoil(command.fit.degree), airfoils, {.points = start.points()});
 }
 
 constexpr std::array mesh_extensions{"vtkhdf", "su2", "msh", "vtu"};
@@ -212,48 +213,45 @@ void begin_record(const BatchCommand& command) {
 // Remodels the mesh to one design after the other. Sums are over the designs so far.
 class Batch {
  public:
-  Batch(const BatchCommand& command, const StartMesh& start)
-      : command_(command), mesh_(start.mesh), su2_boxes_(start.su2_boxes), designs_(Json::array()) {
+  Batch(const BatchCommand& command, BatchMesh& mesh)
+      : command_(command), mesh_(mesh), designs_(Json::array()) {
     for (std::size_t i = 0; i < command.shapes.size(); ++i) designs_.push_back(nullptr);
   }
 
   // Returns false if a limit ended the mesh before it was finished.
   bool evaluate(const Design& design, std::size_t index) {
     const Stopwatch watch;
-    const RemodelResult result = remodel(mesh_, design.domain, command_.remodelling);
+    const RemodelResult result = mesh_.step(design.domain, command_.remodelling);
     const double seconds = watch.seconds();
     const std::string broken = mesh_.quick_check();
     const std::size_t lost = result.triangles_before - result.preserved;
-    Json entry = {{"design", index + 1},
-                  {"shape", design.shape},
-                  {"position", ++done_},
-                  {"triangles_before", result.triangles_before},
-                  {"triangles", result.triangles},
-                  {"preserved", result.preserved},
-                  {"preserved_percent", result.preserved_percent()},
-                  {"connected", result.connected},
-                  {"connectivity_percent", result.connectivity_percent()},
-                  {"born", result.born()},
-                  {"gone", result.gone()},
-                  {"flipped", result.flipped},
-                  {"morphed", result.morphed},
-                  {"lost", lost},
-                  {"moved", result.moved},
-                  {"inserted", result.inserted},
-                  {"removed", result.removed},
-                  {"full_adjustment", result.full_adjustment},
-                  {"refreshed", result.refreshed},
-                  {"regenerated", result.regenerated},
-                  {"valid", broken.empty()},
-                  {"min_angle_deg", smallest_angle(mesh_)},
-                  {"seconds", seconds},
-                  {"stopped", name_of(result.stopped)}};
+    Json entry = {{"design", index + 1}, {"shape", design.shape}, {"position", ++done_}};
+    add_counts(entry, result);
+    entry.update(Json{{"preserved", result.preserved},
+                      {"preserved_percent", result.preserved_percent()},
+                      {"connected", result.connected},
+                      {"connectivity_percent", result.connectivity_percent()},
+                      {"born", result.born()},
+                      {"gone", result.gone()},
+                      {"flipped", result.flipped},
+                      {"morphed", result.morphed},
+                      {"lost", lost},
+                      {"moved", result.moved},
+                      {"inserted", result.inserted},
+                      {"removed", result.removed},
+                      {"full_adjustment", result.full_adjustment},
+                      {"refreshed", result.refreshed},
+                      {"regenerated", result.regenerated},
+                      {"valid", broken.empty()},
+                      {"min_angle_deg", mesh_.smallest_angle()},
+                      {"seconds", seconds},
+                      {"stopped", name_of(result.stopped)}});
     if (!broken.empty()) entry["detail"] = broken;
     for (const std::string& extension : command_.meshes) {
       const std::string file = file_of(index + 1, extension);
-      write_mesh(mesh_, command_.directory / file,
-                 {.inner = command_.inner_markers ? InnerCurves::markers : InnerCurves::left_out,
-                  .su2_boxes = su2_boxes_});
+      mesh_.write(command_.directory / file,
+                  {.inner = command_.inner_markers ? InnerCurves::markers : InnerCurves::left_out,
+                   .su2_boxes = mesh_.su2_boxes()});
       if (!entry.contains("mesh")) entry["mesh"] = file;
       entry["meshes"].push_back(file);
       files_.push_back(file);
@@ -273,7 +271,7 @@ class Batch {
     report.figure("evaluations", "designs meshed", done_);
     report.figure("full_adjustments", "full adjustments", full_adjustments_);
     report.figure("preserved_percent", "preserved, mean", mean(preserved_percent_), "%");
-    report.figure("lost_mean", "lost, mean", mean(lost_), "triangles");
+    report.figure("lost_mean", "lost, mean", mean(lost_), mesh_.layered() ? "cells" : "triangles");
     report.figure("remodel_ms_mean", "remodelling, mean", mean(1e3 * seconds_), "ms");
     report.figure("invalid_meshes", "invalid meshes", invalid_);
     Json all = Json::array();  // those that were reached, in the order of the command line
@@ -285,34 +283,51 @@ class Batch {
   const std::vector<std::string>& files() const { return files_; }  // written, in their order
 
  private:
+  // Of a mesh with layers all other counts are of cells.
+  void add_counts(Json& entry, const RemodelResult& result) const {
+    const std::string cells = mesh_.layered() ? "cells" : "triangles";
+    entry[cells + "_before"] = result.triangles_before;
+    entry[cells] = result.triangles;
+    if (!mesh_.layered()) return;
+    const FrozenMesh view = mesh_.freeze();
+    entry["triangles"] = view.triangles.size();
+    entry["quadrilaterals"] = view.quads.size();
+    entry["cells"] = view.cell_count();
+  }
+
   const BatchCommand& command_;
-  Mesh mesh_;
-  const std::string su2_boxes_;
+  BatchMesh& mesh_;
   Json designs_;
   std::vector<std::string> files_;
   std::size_t done_ = 0, full_adjustments_ = 0, invalid_ = 0;
   double lost_ = 0.0, preserved_percent_ = 0.0, seconds_ = 0.0;
 };
 
-Status run(const BatchCommand& command) {
-  require_directory(command);
-  const StartMesh start = read_start_mesh(command.mesh, command.start);
+// Solvers with friction want their cells to stay joined.
+BatchCommand with_strategy_of(const BatchMesh& mesh, BatchCommand command) {
+  if (mesh.layered() && !command.given("--strategy")) command.remodelling.strategy = Strategy::morph;
+  return command;
+}
+
+Status run(const BatchCommand& given) {
+  require_directory(given);
+  const std::unique_ptr<BatchMesh> mesh = read_batch_mesh(given.mesh, given.start, given.layers);
+  const BatchCommand command = with_strategy_of(*mesh, given);
   std::vector<ShapeFit> fits;
-  const std::vector<Design> designs = read_designs(command, start, fits);
-  const std::vector<std::size_t> order = order_of(command, start, designs);
+  const std::vector<Design> designs = read_designs(command, *mesh, fits);
+  const std::vector<std::size_t> order = order_of(command, *mesh, designs);
   const DirectoryLock lock(command.directory);
   require_directory(command);  // another batch may have ended there meanwhile
   begin_record(command);
 
   if (std::count(command.meshes.begin(), command.meshes.end(), "su2") != 0 && !command.inner_markers)
-    warn_of_inner_curves(start.mesh.freeze(), (command.directory / "*.su2").string(),
-                         "--inner-markers writes it");
-  if (!start.su2_boxes.empty())
+    warn_of_inner_curves(mesh->freeze(), (command.directory / "*.su2").string(), "--inner-markers writes it");
+  if (!mesh->su2_boxes().empty())
     for (const std::string& extension : command.meshes)
       if (extension != "su2" && extension != "vtkhdf")
         warn((command.directory / ("*." + extension)).string() + boxes_left_out);
   const InterruptFlag interrupt;
-  Batch batch(command, start);
+  Batch batch(command, *mesh);
   bool finished = true;
   for (const std::size_t index : order) {
     finished = !interrupt.raised() && batch.evaluate(designs[index], index);
@@ -325,6 +340,7 @@ Status run(const BatchCommand& command) {
   report.figure("strategy", "strategy", name_of(command.remodelling.strategy));
   add_fit_figures(report, fits);
   batch.add_figures(report);
+  mesh->add_figures(report);
   report.data("files", batch.files());
   report.data("finished", finished);
   write_text_atomically(command.directory / report_name, report.json_text());
@@ -344,6 +360,8 @@ void add_batch_command(CLI::App& program, Action& action) {
            Presence::required, command->mesh);
   add_texts(app, {"shapes", "SHAPE", "", shape_help}, Presence::required, command->shapes);
   add_start_mesh_options(app, command->start);
+  add_layer_options(app, command->layers);
+  command->given = [&app](const std::string& name) { return given(app, name); };
   add_text(app, {"-o,--output", "DIR", "", "Directory for report.json and the meshes, made if it is missing"},
            Presence::required, command->directory);
   add_choice(

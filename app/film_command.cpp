@@ -68,12 +68,22 @@ std::string objective_text(const EvaluationRecord& record, bool is_design) {
   return text;
 }
 
+std::string cells_of(const FrozenMesh& mesh) {
+  return std::to_string(mesh.cell_count()) + (mesh.quads.empty() ? " triangles" : " cells");
+}
+
+// The mesh of a row's design, with its layers.
+FrozenMesh frozen_in(const DesignSpace& space, const EvaluationRecord& record, const Mesh& mesh) {
+  if (space.layers() == nullptr) return mesh.freeze();
+  return space.layers()->around(mesh, space.walls(record.coefficients)).freeze();
+}
+
 std::string caption(const EvaluationRecord& record, const FrozenMesh& mesh, bool is_design) {
   const auto kept = std::count(mesh.fate.begin(), mesh.fate.end(), Fate::kept);
   char text[160];
-  std::snprintf(text, sizeof text, "design %llu: %s; %zu triangles, %.1f %% kept since the last frame",
+  std::snprintf(text, sizeof text, "design %llu: %s; %s, %.1f %% kept since the last frame",
                 static_cast<unsigned long long>(record.evaluation), objective_text(record, is_design).c_str(),
-                mesh.triangles.size(),
+                cells_of(mesh).c_str(),
                 100.0 * static_cast<double>(kept) / static_cast<double>(mesh.cell_count()));
   return text;
 }
@@ -94,12 +104,14 @@ Status run(const FilmCommand& command) {
   FrozenMesh last = read_frozen_mesh(command.run / "first.vtkhdf");
   last.fate.assign(last.cell_count(), Fate::kept);
   const FrozenMesh first = shown(last);
-  film.add(first, "the start: " + std::to_string(first.triangles.size()) + " triangles");
+  film.add(first, "the start: " + cells_of(first));
   auto next = chosen.begin();
+  const std::unique_ptr<DesignSpace> own = design ? nullptr : replayed_space(command.run);
+  const DesignSpace& space = design ? static_cast<const DesignSpace&>(*design->space) : *own;
   const auto visit = [&](const EvaluationRecord& record, const Mesh& mesh) {
     if (next == chosen.end() || record.evaluation != *next) return;
     ++next;
-    FrozenMesh frame = mesh.freeze();
+    FrozenMesh frame = frozen_in(space, record, mesh);
     frame.fate = fates(last, frame);
     const FrozenMesh whole = shown(frame);
     film.add(whole, caption(record, whole, design.has_value()));

@@ -1,5 +1,7 @@
 #include "layer_options.h"
 
+#include <cmath>
+#include <numbers>
 #include <string>
 
 #include "arguments.h"
@@ -63,7 +65,28 @@ void add_layer_options(CLI::App& app, LayerChoice& choice) {
   add_layer_cells(app, choice.cells);
 }
 
+void add_wake_options(CLI::App& app, LayerChoice& choice) {
+  add_real(app,
+           {"--wake", "CHORDS", "none",
+            "With --layers: length of a line of fine triangles behind the trailing edge that lies farthest "
+            "downstream: above 0"},
+           {.low = 0.0, .high = 1e3, .above_low = true}, [&](double value) { choice.wake = value; });
+  add_real(
+      app,
+      {"--wake-angle", "DEGREES", "0", "Angle of the wake, counter-clockwise from the x axis: -90 to 90"},
+      {.low = -90.0, .high = 90.0}, [&](double value) { choice.wake_angle_deg = value; });
+}
+
+void add_wake_line(const LayerChoice& choice, double chord, const LayerOptions& layers, Domain& domain) {
+  if (!choice.wake) return;
+  const double angle = choice.wake_angle_deg.value_or(0.0) * std::numbers::pi / 180.0;
+  WakeLine wake{.length = *choice.wake, .direction = {std::cos(angle), std::sin(angle)}};
+  for (double* length : {&wake.length, &wake.first, &wake.most}) *length *= chord;
+  add_wake(domain, wake, layers);
+}
+
 void require_consistent(const LayerChoice& choice) {
+  refuse(choice.wake_angle_deg && !choice.wake, "--wake-angle", "given without --wake, expected both");
   if (!choice.layers) {
     constexpr const char* alone = "given without --layers, expected both";
     refuse(choice.reynolds.has_value(), "--reynolds", alone);
@@ -72,6 +95,7 @@ void require_consistent(const LayerChoice& choice) {
     refuse(choice.thickness.has_value(), "--layer-thickness", alone);
     refuse(choice.count.has_value(), "--layer-count", alone);
     refuse(choice.growth.has_value(), "--growth", alone);
+    refuse(choice.wake.has_value(), "--wake", alone);
     refuse(choice.spacing_given, "--wall-spacing, --te-spacing or --max-spacing", alone);
     return;
   }

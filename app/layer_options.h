@@ -20,6 +20,7 @@ struct LayerChoice {
   std::optional<double> growth;
   WallSpacing spacing;
   bool spacing_given = false;
+  std::optional<double> wake, wake_angle_deg;
   LayerCells cells = LayerCells::quadrilaterals;
 };
 
@@ -29,12 +30,16 @@ inline constexpr double gradation_with_layers = 8.0;
 // --layers, --reynolds, --y-plus, --first-height, --growth, --layer-thickness, --layer-count, --wall-spacing,
 // --te-spacing, --max-spacing.
 void add_layer_options(CLI::App& app, LayerChoice& choice);
+// --wake, --wake-angle.
+void add_wake_options(CLI::App& app, LayerChoice& choice);
 // --layer-cells.
 void add_layer_cells(CLI::App& app, LayerCells& cells);
 
 // Throws Error (argument) for options that exclude each other, or are given without --layers or what they
 // need.
 void require_consistent(const LayerChoice& choice);
+// Adds the line of the wake where one is asked for; a chord is so long.
+void add_wake_line(const LayerChoice& choice, double chord, const LayerOptions& layers, Domain& domain);
 // Precondition: --layers. Lengths are in units of the domain, in which a chord is so long.
 LayerOptions resolved(const LayerChoice& choice, double chord);
 // These distances are in chords; the result is in such units.

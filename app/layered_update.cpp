@@ -135,13 +135,18 @@ void print_report(const LayeredUpdate& update, const DomainInput& input, const L
 }  // namespace
 
 Domain walls_with_airfoil(const Domain& walls, const CstAirfoil& airfoil, const std::string& mesh) {
+  airfoil_of(walls, mesh);
   Domain result = walls;
-  const auto loop = std::find_if(result.loops.begin(), result.loops.end(), is_airfoil);
-  if (loop == result.loops.end())
+  replace_airfoil(*std::find_if(result.loops.begin(), result.loops.end(), is_airfoil), airfoil);
+  return result;
+}
+
+const Curve& airfoil_of(const Domain& walls, const std::string& mesh) {
+  const auto loop = std::find_if(walls.loops.begin(), walls.loops.end(), is_airfoil);
+  if (loop == walls.loops.end())
     throw Error(ErrorCode::argument, mesh,
                 "found a mesh without an airfoil of coefficients, expected one, or a whole domain for SHAPE");
-  replace_airfoil(*loop, airfoil);
-  return result;
+  return loop->curves.front();
 }
 
 Status run_layered_update(const LayeredUpdate& update) {

@@ -28,6 +28,8 @@ struct LayeredUpdate {
 // The walls with another airfoil in the place of theirs, on the same stations. Throws Error (argument) naming
 // the mesh where they have none of coefficients.
 Domain walls_with_airfoil(const Domain& walls, const CstAirfoil& airfoil, const std::string& mesh);
+// The curve of that airfoil. Throws likewise.
+const Curve& airfoil_of(const Domain& walls, const std::string& mesh);
 
 Status run_layered_update(const LayeredUpdate& update);
 

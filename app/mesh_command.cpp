@@ -69,6 +69,7 @@ Status run_layers(const MeshCommand& command) {
   DomainInput input = read_domain(command.shapes, meshing.discretisation, meshing.fit);
   space_input(command, input);
   const LayerOptions layers = resolved(command.layers, input.chord);
+  add_wake_line(command.layers, input.chord, layers, input.domain);
 
   InterruptObserver observer;
   LayeredGenerateResult result;
@@ -154,6 +155,7 @@ void add_mesh_command(CLI::App& program, Action& action) {
   command->outputs.add_options(app, Presence::optional);
   add_meshing_options(app, command->meshing);
   add_layer_options(app, command->layers);
+  add_wake_options(app, command->layers);
   command->given = [&app](const std::string& name) { return given(app, name); };
   add_real(
       app,

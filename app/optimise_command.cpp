@@ -96,10 +96,15 @@ OptimiseResult run_repeatedly(OptimiseCommand& command, const std::function<Opti
   return result;
 }
 
-// Reports how many triangles of the mesh that the run started from are left.
+// Reports how many triangles of the mesh that the run started from are left; of a mesh with layers what these
+// are like.
 void add_last_mesh_figures(Report& report, const OptimiseCommand& command) {
   const std::filesystem::path last = command.run.directory / "last.vtkhdf";
-  if (command.run.start && std::filesystem::exists(last)) add_part_figures(report, read_mesh(last));
+  if (!std::filesystem::exists(last)) return;
+  if (command.run.layers)
+    add_layer_figures(report, read_layered_mesh(last));
+  else if (command.run.start)
+    add_part_figures(report, read_mesh(last));
 }
 
 void require_one_evaluator(const OptimiseCommand& command) {
@@ -173,7 +178,7 @@ Status run_search(OptimiseCommand& command, PostedJobs* jobs) {
   progress.finish();
 
   Report report;
-  add_start_figures(report, command.start, start);
+  add_start_figures(report, command.start, start, command.run.layers.has_value());
   if (command.evaluate.command.empty())
     report.figure("to", "to", command.to);
   else

@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 
+#include "layer_options.h"
 #include "meshing_options.h"
 #include "remodel/optimise.h"
 #include "shape_input.h"
@@ -17,6 +18,7 @@ struct OptimiseStartOptions {
   std::string from;  // one of these two
   std::string mesh;
   StartMeshOptions start;
+  LayerChoice layers;
   std::function<bool(const std::string&)> given;  // whether an option is on the command line
 };
 
@@ -33,14 +35,15 @@ struct OptimiseStart {
   RemodelResult first;            // from the file's mesh to the fitted airfoil
 };
 
-// Reads the start and completes run.start, or run.domain and run.quality. Throws Error for options that do
-// not go together.
+// Reads the start and completes run.start, or run.domain and run.quality; run.layers and run.strategy where
+// there are layers. Throws Error for options that do not go together.
 OptimiseStart read_start(const OptimiseStartOptions& options, const MeshingOptions& meshing,
                          OptimiseOptions& run);
 
 // The resolved meshing options: all of them, or those that a start mesh leaves open.
 Json meshing_json(const MeshingOptions& meshing, const OptimiseOptions& run);
 // from, or mesh, boundary, import, fit{} and start{}.
-void add_start_figures(Report& report, const OptimiseStartOptions& options, const OptimiseStart& start);
+void add_start_figures(Report& report, const OptimiseStartOptions& options, const OptimiseStart& start,
+                       bool layered);
 
 }  // namespace remodel::app

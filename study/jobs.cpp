@@ -83,7 +83,7 @@ ReplayRows Replay::run(const StudyCancelQuestion& cancelled) {
 OptimiseStopped Replay::evaluate_all(const StudyCancelQuestion& cancelled) {
   GenerateResult first = first_mesh(space_, options_);
   if (first.stopped != Stopped::done) return OptimiseStopped::mesh_limit;
-  LivingMesh living(options_, space_, std::move(first.mesh));
+  LivingMesh living(options_, space_, std::move(first.mesh), space_.start());
   for (std::size_t index = 0; index < work_.path.evaluations(); ++index) {
     ask(cancelled);
     if (!evaluate(living, index)) {

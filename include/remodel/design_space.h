@@ -14,6 +14,8 @@
 
 namespace remodel {
 
+class LayerFrame;  // remodel/layers.h
+
 // Designs are points of this space. Called from several threads at once.
 class DesignSpace {
  public:
@@ -21,6 +23,10 @@ class DesignSpace {
 
   virtual std::vector<double> start() const = 0;  // the design whose mesh a run begins with
   virtual Domain domain(std::span<const double> design) const = 0;
+  // Layers of flat cells lie on the walls where this is not null: domain() is that of the mesh beyond them
+  // then, walls() that of the bodies. Otherwise both are the same.
+  virtual const LayerFrame* layers() const { return nullptr; }
+  virtual Domain walls(std::span<const double> design) const { return domain(design); }
   // True if the design can be meshed. By default: its domain passes validate().
   virtual bool feasible(std::span<const double> design) const;
   // Vertices that move with the design, as many for each: how far apart two designs are for a mesh is told by

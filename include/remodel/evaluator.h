@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -18,6 +19,7 @@
 
 #include "remodel/airfoil.h"
 #include "remodel/evaluation.h"
+#include "remodel/layers.h"
 #include "remodel/living_mesh.h"
 #include "remodel/mesh.h"
 
@@ -36,7 +38,7 @@ class EvaluatorState {
 // One design to be evaluated.
 struct EvaluationTask {
   std::span<const double> design;
-  const Mesh& mesh;      // of the design, valid
+  const Mesh& mesh;      // of the design, valid; where the run has layers, what lies beyond them
   const MeshStep& step;  // from the worker's design before to this one
   // mesh.changes_since(*before): what has changed since the worker's design before. Null where this mesh was
   // not made from that one's: it was generated instead, or is the hub's (MeshStrategy::hub).
@@ -48,6 +50,10 @@ struct EvaluationTask {
   std::uint64_t evaluation = 0;  // its number in the run, from 1
   // Proposal::from: whatever was evaluated in between, that design's solution is where this one's is near.
   std::span<const double> from = {};
+  // The mesh with its layers, made anew by every call; empty where the run has none.
+  std::function<LayeredMesh()> with_layers = {};
+  // The mesh as arrays, with its layers where it has some.
+  FrozenMesh freeze() const { return with_layers ? with_layers().freeze() : mesh.freeze(); }
 };
 
 class Evaluator {
@@ -66,6 +72,12 @@ class Evaluator {
                                                   const std::string& source) {
     static_cast<void>(bytes), static_cast<void>(mesh), static_cast<void>(source);
     return nullptr;
+  }
+  // Runs with layers restore by this call, which, unless it says more, asks the one above with the outer
+  // mesh.
+  virtual std::unique_ptr<EvaluatorState> restore_layered(const std::string& bytes, const LayeredMesh& mesh,
+                                                          const std::string& source) {
+    return restore(bytes, mesh.outer(), source);
   }
   // A JSON object says what evaluations depend on: a run can be resumed with the same alone.
   virtual std::string description() const = 0;

@@ -15,8 +15,6 @@
 
 namespace remodel {
 
-class LayerFrame;  // remodel/layers.h
-
 // The lowest and the highest value of each number of a design.
 struct DesignBounds {
   std::vector<double> low, high;
@@ -32,10 +30,6 @@ class FlowSpace : public DesignSpace {
  public:
   // True if the domain is the upper half of one whose flows are their own mirror images.
   virtual bool half() const { return false; }
-  // Layers lie on the walls where flows have friction: domain() is that of the mesh beyond them then,
-  // walls() that of the bodies. Otherwise both are the same.
-  virtual const LayerFrame* layers() const { return nullptr; }
-  virtual Domain walls(std::span<const double> design) const { return domain(design); }
   // walls() of a design with this number of points on each section, about so many where there are layers.
   virtual Domain domain_with(std::span<const double> design, int points) const = 0;
   // `coefficients`: how far a coefficient of a section may go from the start.

@@ -88,8 +88,9 @@ FrozenMesh with_split_quads(const FrozenMesh& mesh);
 // Exact between consecutive steps. Over many of them a vertex's id may have been given out again: it counts
 // as the same vertex in the interior if it has the same key (without keys, if it stands at the same point),
 // on a boundary if it has the same curve and parameter. Quadrilaterals, and the triangles of layers, have no
-// ids that would tell: they are kept where their vertices are the same and rest. O(cells). Throws Error
-// (argument) for a mesh without ids or births.
+// ids that would tell: they are kept where their vertices are the same and rest. So are all cells of meshes
+// with layers, whose vertices are known by their keys. O(cells). Throws Error (argument) for a mesh without
+// ids or births that has no keys either.
 std::vector<Fate> fates(const FrozenMesh& before, const FrozenMesh& after);
 
 // These numbers say what two meshes have in common, however either was made. RemodelResult has the same

@@ -90,6 +90,8 @@ void write_mesh(const LayeredMesh& mesh, const std::filesystem::path& file, cons
 bool holds_layers(const std::filesystem::path& file);
 // Throws Error as read_mesh() does, and for a native mesh without layers.
 LayeredMesh read_layered_mesh(const std::filesystem::path& file);
+// The outer mesh of a native file with layers; of any other, read_mesh().
+Mesh read_outer_mesh(const std::filesystem::path& file);
 
 // A written place is where writing to `file` puts its bytes.
 struct WrittenPlace {

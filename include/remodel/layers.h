@@ -70,6 +70,19 @@ std::vector<Parameters> wall_stations(const Loop& loop, const WallSpacing& spaci
 // These stations on all holes, or on the loops of those names (LayerOptions::walls).
 void space_walls(Domain& domain, const WallSpacing& spacing, const std::vector<std::string>& walls = {});
 
+// A line of fine triangles in the wake, from behind the point of the walls that lies farthest downstream.
+struct WakeLine {
+  double length = 1.0;        // more than 0
+  Point direction{1.0, 0.0};  // downstream; of any length but 0
+  double first = 0.005;       // of its edges, which grow by `growth` to `most`; all as WallSpacing has them
+  double growth = 1.1;
+  double most = 0.05;
+};
+// Adds it as an internal chain "wake", which every step keeps. It begins a little more than four thicknesses
+// of the layer behind that point: columns are as thick as they are without it. Throws Error (argument) for
+// values out of range and names that no closed loop has.
+void add_wake(Domain& domain, const WakeLine& wake, const LayerOptions& layers);
+
 // The cells of the frozen view: quadrilaterals with triangles where fans meet the wall and where top cells
 // are divided; or all of them triangles, by the diagonal that begins at the wall.
 enum class LayerCells : std::uint8_t { quadrilaterals, triangles };
@@ -120,6 +133,23 @@ struct LayeredState {
   friend bool operator==(const LayeredState&, const LayeredState&) = default;
 };
 
+// The changes of a layered mesh since a mark. Vertices are those of the whole, by the keys that the
+// frozen view has; triangles by id are those of the outer mesh. So same_connectivity() speaks of the whole:
+// where cells of the layer come or go, vertices do.
+struct LayeredChanges : Changes {
+  std::size_t layer_born = 0, layer_gone = 0;  // cells of the layer that join other vertices than before
+};
+// A moment in the life of a layered mesh, as Mark is one in that of a mesh.
+class LayerMark {
+ public:
+  LayerMark() = default;  // of no mesh
+
+ private:
+  friend class LayeredMesh;
+  struct Moment;
+  std::shared_ptr<const Moment> moment_;
+};
+
 class LayeredMeshDerivative;
 struct LayeredGenerateResult;
 struct LayeredRemodelResult;
@@ -151,6 +181,10 @@ class LayeredMesh {
   LayerTopology topology() const;
   LayerStatistics statistics() const;
 
+  // These are as those of Mesh.
+  LayerMark mark();
+  LayeredChanges changes_since(const LayerMark& mark) const;
+
   // The outer mesh's quick_check(); all cells strictly convex, by exact predicates; the tops are the outer
   // mesh's.
   std::string quick_check() const;
@@ -160,14 +194,19 @@ class LayeredMesh {
 
  private:
   struct Columns;
+  class Step;
   friend LayeredRemodelResult remodel(LayeredMesh&, const Domain&, const RemodelOptions&);
+  friend LayeredMesh mesh_at(const LayeredMesh&, const Domain&);
+  friend LayeredGenerateResult generate_layered(const Domain&, const LayerOptions&, const QualityOptions&,
+                                                StepObserver*);
+  friend class LayeredTrial;
   friend LayeredMeshDerivative;
   friend class LayerFrame;
 
   Mesh outer_;
   Domain walls_;
   LayerOptions options_;
-  std::unique_ptr<Columns> columns_;
+  std::shared_ptr<const Columns> columns_;
 };
 
 struct LayeredGenerateResult {
@@ -188,7 +227,7 @@ struct LayeredRemodelResult : RemodelResult {
   std::size_t layer_cells = 0;  // now
   std::size_t shrunk = 0;       // see LayerStatistics
   bool same_columns = true;     // false: columns have come or gone, as stations have, or fans have other
-                             // sectors; where stations are the same, all other columns stay
+                                // sectors; where stations are the same, all other columns stay
 };
 
 // The derivative of a layered mesh by its design, at fixed connectivity: walls by their curves at fixed
@@ -232,7 +271,9 @@ class LayerFrame {
   LayeredMesh around(const Mesh& outer, const Domain& walls) const;
 
  private:
-  std::unique_ptr<LayeredMesh::Columns> columns_at(const Domain& walls) const;
+  friend LayeredGenerateResult generate_layered(const Domain&, const LayerOptions&, const QualityOptions&,
+                                                StepObserver*);
+  std::shared_ptr<const LayeredMesh::Columns> columns_at(const Domain& walls) const;
 
   LayerOptions options_;
   std::vector<std::size_t> loops_;
@@ -246,5 +287,27 @@ class LayerFrame {
 // more than two sectors beyond them. Otherwise as remodel() of Mesh: where anything is refused, given up or
 // thrown, the mesh is as it was.
 LayeredRemodelResult remodel(LayeredMesh& mesh, const Domain& domain, const RemodelOptions& options = {});
+
+// Tries a design, as Trial does: the layered mesh returns to what it was, to the last bit, keys and marks
+// included, when the trial ends, unless it is kept. While it lasts the mesh stays where it is and may be read
+// and copied, but not remodelled.
+class LayeredTrial {
+ public:
+  // Throws as remodel() does.
+  LayeredTrial(LayeredMesh& mesh, const Domain& domain, const RemodelOptions& options = {});
+  LayeredTrial(const LayeredTrial&) = delete;
+  LayeredTrial& operator=(const LayeredTrial&) = delete;
+  ~LayeredTrial();
+
+  const LayeredRemodelResult& result() const;
+  void keep();  // the trial is over, the mesh stays as it is now
+
+ private:
+  std::unique_ptr<LayeredMesh::Step> step_;
+};
+
+// A copy of the layered mesh at another design, its connectivity and keys the same. Throws TopologyChanged
+// where there is no such mesh, and Error (geometry) as remodel() does.
+LayeredMesh mesh_at(const LayeredMesh& mesh, const Domain& design);
 
 }  // namespace remodel

@@ -27,6 +27,7 @@
 #include "remodel/evaluator.h"
 #include "remodel/history.h"
 #include "remodel/import.h"
+#include "remodel/layers.h"
 #include "remodel/mesh.h"
 #include "remodel/remodel.h"
 
@@ -41,6 +42,15 @@ struct MeshStart {
   // ReadNotes::su2_boxes of the mesh's file, without_surface_points(): first.vtkhdf, middle.vtkhdf and
   // last.vtkhdf keep them.
   std::string su2_boxes = {};
+  // A mesh with layers has its walls here, in which the place is; `mesh` is its outer mesh, and
+  // OptimiseOptions::layers has its layers' options.
+  std::optional<Domain> walls = {};
+};
+
+// Layers of flat cells on the walls of all designs.
+struct RunLayers {
+  LayerOptions options;
+  std::optional<WallSpacing> spacing = WallSpacing{};  // none: stations are the domain's own
 };
 
 struct OptimiseOptions {
@@ -88,6 +98,11 @@ struct OptimiseOptions {
   // The first mesh is of this design; none: of the space's start. Not with `start`.
   std::vector<double> first_design{};
   std::optional<MeshStart> start{};  // then domain and quality say nothing: the mesh has its own
+  // Runs of airfoils may have these. Living meshes are what lies beyond the layers, and so are the triangles
+  // of histories and figures. The meshes that a run leaves, and those of evaluators that are programs, have
+  // their layers. All designs have the same columns, with the fans of the start: layers are functions of the
+  // designs alone.
+  std::optional<RunLayers> layers{};
 };
 
 // Why a run ended. Whatever it is, what is finished is kept.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 
 #include "remodel/design_space.h"
 #include "remodel/history.h"
@@ -24,6 +25,8 @@ using ReplayVisit = std::function<void(const EvaluationRecord& record, const Mes
 // Throws Error (file, format) for a directory that holds no run, and where history and mesh do not belong
 // together. Error (argument) for a run by another version and for a worker that the run does not have.
 void replay(const std::filesystem::path& directory, std::uint64_t worker, const ReplayVisit& visit);
+// The design space of such a run.
+std::unique_ptr<DesignSpace> replayed_space(const std::filesystem::path& directory);
 // This replays a run in any design space, which has to be the run's. Its strategy cannot be
 // MeshStrategy::hub, whose mesh follows the designer as well: Error (argument).
 void replay(const std::filesystem::path& directory, const DesignSpace& space, std::uint64_t worker,

@@ -6,7 +6,7 @@ import tempfile
 import numpy as np
 
 from . import _bridges, _calls, _plot
-from ._core import FlowResult, FrozenMesh, LayeredMesh, Mesh, PotentialFlow, Step, Transfer, check
+from ._core import FlowResult, FrozenMesh, LayeredMesh, LayeredStep, Mesh, PotentialFlow, Step, Transfer, check
 from ._errors import ArgumentError
 
 _ARRAYS = {
@@ -27,7 +27,7 @@ _ARRAYS = {
 
 
 # Those that a mesh with layers has too.
-_LAYERED_ARRAYS = ("points", "triangles", "quads", "boundaries", "vertex_keys", "region", "region_names")
+_LAYERED_ARRAYS = ("points", "triangles", "quads", "boundaries", "vertex_keys", "length_scale", "curve", "parameter", "region", "region_names")
 
 
 def _array(name):
@@ -49,46 +49,6 @@ def _svg(mesh):
         frozen.draw(file, window=_plot.close_window(frozen), width=720)
         with open(file, encoding="utf-8") as text:
             return text.read()
-
-
-class LayeredTrial:
-    """A design that is tried inside a `with` block: the mesh returns to what it was, to the last bit, unless keep() is
-    called. `step` is the LayeredStep to the design."""
-
-    def __init__(self, mesh, shape, options):
-        self._mesh, self._shape, self._options = mesh, shape, options
-        self._before = self._step = None
-
-    def __enter__(self):
-        if self._step is not None:
-            raise ArgumentError("trial: was entered before, expected a new one for each block")
-        before = self._mesh.copy()
-        self._step = self._mesh.update(self._shape, **self._options)
-        self._before = before
-        return self
-
-    def __exit__(self, *_):
-        if self._before is not None:
-            self._mesh._become(self._before)
-        self._before = None
-
-    @property
-    def step(self):
-        if self._step is None:
-            raise ArgumentError("trial: has not begun, expected `with mesh.trial(...) as trial`")
-        return self._step
-
-    def keep(self):
-        """The mesh stays as it is now."""
-        if self._before is None:
-            raise ArgumentError("trial: is over or has not begun, expected to be kept inside its block")
-        self._before = None
-
-
-@_calls.python_call(boundary="str", strategy="str", regenerate="bool")
-def trial(mesh, shape, *, boundary="", strategy="renew", regenerate=True):
-    """Tries a design: `with mesh.trial(shape) as trial`. Arguments are those of update()."""
-    return LayeredTrial(mesh, shape, {"boundary": boundary, "strategy": strategy, "regenerate": regenerate})
 
 
 @_calls.python_call(place="str")
@@ -135,7 +95,6 @@ def extend():
         setattr(Mesh, name, _array(name))
     for name in _LAYERED_ARRAYS:
         setattr(LayeredMesh, name, _array(name))
-    LayeredMesh.trial = trial
     Mesh.draw = LayeredMesh.draw = _draw
     _check.__doc__ = check.__doc__
     FrozenMesh.check = _check
@@ -145,6 +104,6 @@ def extend():
         kind.to_pyvista = _bridges.to_pyvista
         kind._repr_svg_ = _svg
     Transfer.matrix = _matrix
-    Step.transfer = property(_step_transfer, doc=_step_transfer.__doc__)
+    Step.transfer = LayeredStep.transfer = property(_step_transfer, doc=_step_transfer.__doc__)
     FlowResult.plot_cp = PotentialFlow.plot_cp = _plot.plot_cp
-    Step.plot = _plot.plot_step
+    Step.plot = LayeredStep.plot = _plot.plot_step

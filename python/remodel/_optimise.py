@@ -34,7 +34,7 @@ class OptimiseResult(SimpleNamespace):
 @_calls.python_call(directory="path", points="int", sigma="float", seed="int", evaluations="int", tolerance="float",
                     strategy="str", workers="int", threads="int", resume="bool", overwrite="bool")  # fmt: skip
 def optimise(start, objective, *, directory=None, points=200, sigma=0.05, seed=1, evaluations=9000, tolerance=0.0,
-             strategy="renew", workers=0, threads=None, resume=False, overwrite=False, callback=None):  # fmt: skip
+             strategy="renew", workers=0, threads=None, resume=False, overwrite=False, layers=None, callback=None):  # fmt: skip
     """Searches an airfoil by CMA-ES; one living mesh follows the designs. Returns an OptimiseResult.
 
     objective: an Airfoil to be interpolated (the paper's case), or a function of (design, mesh, step): the
@@ -44,7 +44,9 @@ def optimise(start, objective, *, directory=None, points=200, sigma=0.05, seed=1
 
     callback: called after each evaluation with a dict of its figures; True ends the run. directory: keeps history,
     meshes and checkpoints, for resume=True. Ctrl-C ends the run with a checkpoint. strategy: 'renew', 'chain',
-    'pool', 'hub' or 'regenerate'. threads: all cores for an Airfoil, one for a function, unless given. Raises
+    'pool', 'hub', 'morph', 'reference' or 'regenerate'. layers: a dict of what generate_layered() is given, of reynolds,
+    model, first_height, thickness, growth and spacing; then the meshes have layers on their walls, `points` says
+    nothing, and the counts of rows are of triangles outside them. threads: all cores for an Airfoil, one for a function, unless given. Raises
     ArgumentError, FileError, FormatError.
     """
     if not isinstance(start, Airfoil):
@@ -62,11 +64,29 @@ def optimise(start, objective, *, directory=None, points=200, sigma=0.05, seed=1
         threads = 0 if isinstance(objective, Airfoil) else 1
     if not isinstance(objective, Airfoil):
         objective = _real(objective)
-    options = (points, sigma, seed, evaluations, tolerance, strategy, workers, threads, resume, overwrite, callback)
+    layers = None if layers is None else _layers(layers)
+    options = (points, sigma, seed, evaluations, tolerance, strategy, workers, threads, resume, overwrite, callback, layers)
     if directory is not None:
         return OptimiseResult(**_optimise(start, objective, directory, *options))
     with tempfile.TemporaryDirectory() as scratch:
         return OptimiseResult(**_optimise(start, objective, scratch, *options))
+
+
+_LAYERS = {"reynolds": None, "model": "sa", "first_height": None, "thickness": None, "growth": 1.2, "spacing": 1.0}
+
+
+def _layers(given):
+    if not isinstance(given, dict):
+        raise ArgumentTypeError(f"layers: found {_calls.shown(given)}, expected a dict")
+    for name, value in given.items():
+        if name not in _LAYERS:
+            raise ArgumentError(f"layers: found {name!r}, expected one of {', '.join(_LAYERS)}")
+        if name == "model" and not isinstance(value, str):
+            raise ArgumentTypeError(f"layers: found {_calls.shown(value)} for model, expected a string")
+        if name != "model" and value is not None and (isinstance(value, bool) or not isinstance(value, (int, float))):
+            raise ArgumentTypeError(f"layers: found {_calls.shown(value)} for {name}, expected a number")
+        _calls.finite(f"layers: {name}", value)
+    return tuple({**_LAYERS, **given}.values())
 
 
 def _is_number(answer):

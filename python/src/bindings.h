@@ -55,6 +55,8 @@ std::string type_of(const py::handle& object);
 Snapshot snapshot_of(const py::object& mesh);
 // Of a LayeredMesh; none of anything else.
 Snapshot layered_snapshot(const py::object& mesh);
+// After a LayeredStep; none of anything else.
+Snapshot after_layered_step(const py::object& step);
 
 // An array that owns a copy.
 template <class T>

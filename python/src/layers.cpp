@@ -5,39 +5,15 @@
 #include <optional>
 
 #include "apart.h"
-#include "living.h"
+#include "living_layers.h"
 #include "pickles.h"
 #include "remodel/check.h"
 #include "remodel/flow_layer.h"
 #include "remodel/generate.h"
 #include "remodel/io.h"
 
-namespace remodel {
-
-template <python::Is<LayeredRemodelResult> T>
-auto members(T& r) {
-  using Outer = std::conditional_t<std::is_const_v<T>, const RemodelResult, RemodelResult>;
-  return std::tuple_cat(members(static_cast<Outer&>(r)), std::tie(r.layer_cells, r.shrunk, r.same_columns));
-}
-
-}  // namespace remodel
-
 namespace remodel::python {
 namespace {
-
-// As LivingMesh.
-struct LivingLayers {
-  LayeredMesh mesh;
-  ThreadLock lock;
-  Snapshot frozen;
-
-  Snapshot snapshot() {
-    const ThreadLock::Held held(lock);
-    if (!frozen) frozen = std::make_shared<const FrozenMesh>(mesh.freeze());
-    return frozen;
-  }
-};
-using LayersPointer = std::shared_ptr<LivingLayers>;
 
 // The native state, for pickles: a mesh that was pickled goes on to the same bytes.
 py::dict layered_dict(const LayeredState& state) {
@@ -65,30 +41,10 @@ LayeredState layered_state_of(const py::dict& dict) {
   return state;
 }
 
-LayersPointer layers_alive(LayeredMesh mesh) {
-  auto living = std::make_shared<LivingLayers>();
-  living->mesh = std::move(mesh);
-  return living;
-}
-
 FlowModel friction_named(const std::string& model) {
   if (model == "laminar") return FlowModel::laminar;
   if (model == "sa") return FlowModel::sa;
   throw Error(ErrorCode::argument, "model", "found '" + model + "', expected 'laminar' or 'sa'");
-}
-
-// By the Reynolds number, unless heights are given.
-LayerOptions layer_of(const std::optional<double>& reynolds, const std::string& model,
-                      const std::optional<double>& first_height, const std::optional<double>& thickness,
-                      double growth, const std::vector<std::string>& walls) {
-  if (!reynolds && (!first_height || !thickness))
-    throw Error(ErrorCode::argument, "reynolds", "not given, expected it, or first_height and thickness");
-  LayerOptions layer;
-  if (reynolds) layer = layer_for_flow(friction_named(model), *reynolds);
-  if (first_height) layer.first_height = *first_height;
-  if (thickness) layer.thickness = *thickness;
-  layer.growth = growth, layer.walls = walls;
-  return layer;
 }
 
 LayersPointer layers_generated(const py::object& shape, const std::optional<double>& reynolds,
@@ -97,15 +53,9 @@ LayersPointer layers_generated(const py::object& shape, const std::optional<doub
                                const std::vector<std::string>& walls, double spacing, double gradation,
                                double farfield_radius, int farfield_points, std::uint32_t max_vertices) {
   const LayerOptions layer = layer_of(reynolds, model, first_height, thickness, growth, walls);
-  if (!(spacing > 0.0)) throw Error(ErrorCode::argument, "spacing", "expected more than 0");
+  const WallSpacing stations = wall_spacing(spacing);
   Domain domain = domain_of(shape, {.farfield_radius = farfield_radius, .farfield_points = farfield_points});
-  if (!py::isinstance<Domain>(shape)) {
-    const WallSpacing usual;
-    space_walls(domain, {.leading_edge = spacing * usual.leading_edge,
-                         .trailing_edge = spacing * usual.trailing_edge,
-                         .most = spacing * usual.most,
-                         .growth = usual.growth});
-  }
+  if (!py::isinstance<Domain>(shape)) space_walls(domain, stations);
   LayeredGenerateResult result = interruptible([&](StepObserver& observer) {
     return generate_layered(domain, layer, {.gradation = gradation, .max_vertices = max_vertices}, &observer);
   });
@@ -114,22 +64,6 @@ LayersPointer layers_generated(const py::object& shape, const std::optional<doub
         ErrorCode::argument, "max_vertices",
         std::string("the mesh is unfinished (") + name_of(result.stopped) + "), expected a whole one");
   return layers_alive(std::move(result.mesh));
-}
-
-using LayeredStepPointer = std::shared_ptr<LayeredRemodelResult>;
-
-LayeredStepPointer layers_updated(const LayersPointer& mesh, const py::object& shape,
-                                  const std::string& boundary, const std::string& strategy, bool regenerate) {
-  RemodelOptions options = remodel_options(RemodelOptions{}.distance, "auto", strategy, regenerate,
-                                           RemodelOptions{}.delaunay_slack_deg);
-  const ThreadLock::Held held(mesh->lock);
-  const Domain domain = next_domain(mesh->mesh.domain(), shape, boundary);
-  return interruptible([&](StepObserver& observer) {
-    options.observer = &observer;
-    auto result = std::make_shared<LayeredRemodelResult>(remodel(mesh->mesh, domain, options));
-    mesh->frozen.reset();
-    return result;
-  });
 }
 
 CheckResult layers_checked(LivingLayers& mesh) {
@@ -182,31 +116,6 @@ py::array_t<double> layers_vjp(LivingLayers& mesh, const py::object& by_points, 
   return copied(std::vector<double>(first, first + static_cast<std::ptrdiff_t>(way.count)));
 }
 
-void add_layered_step(py::module_& module) {
-  py::class_<LayeredRemodelResult, LayeredStepPointer> type(
-      module, "LayeredStep",
-      "What LayeredMesh.update() did. Cells are those of the whole: layer and outside.");
-  type.def_property_readonly(
-      "preserved_percent", &LayeredRemodelResult::preserved_percent,
-      "Cells that are there still, with all corners where they were, of those before.");
-  type.def_property_readonly("connectivity_percent", &LayeredRemodelResult::connectivity_percent,
-                             "Cells whose corners are joined still, moved or not, of those before.");
-  type.def_readonly("same_columns", &LayeredRemodelResult::same_columns,
-                    "Whether the layer's connectivity is what it was: no station or fan has changed.");
-  type.def_readonly("full_adjustment", &LayeredRemodelResult::full_adjustment,
-                    "Whether the outer mesh's connectivity is what it was.");
-  type.def_readonly("abandoned", &LayeredRemodelResult::abandoned,
-                    "With regenerate=False: the step could not be completed, and the mesh is as it was.");
-  type.def_readonly("reason", &LayeredRemodelResult::reason, "Why it was generated afresh or abandoned.");
-  type.def_readonly("moved", &LayeredRemodelResult::moved);
-  type.def_readonly("inserted", &LayeredRemodelResult::inserted);
-  type.def_readonly("removed", &LayeredRemodelResult::removed);
-  type.def(record_pickle<LayeredRemodelResult>());
-  type.def("__repr__", [](const LayeredRemodelResult& step) {
-    return "LayeredStep(preserved_percent=" + std::to_string(step.preserved_percent()) + ")";
-  });
-}
-
 void add_layered_mesh(py::module_& module) {
   py::class_<LivingLayers, LayersPointer> type(
       module, "LayeredMesh",
@@ -217,12 +126,7 @@ first, column by column.)");
   type.def(
       "freeze", [](LivingLayers& mesh) { return std::const_pointer_cast<FrozenMesh>(mesh.snapshot()); },
       "The mesh as it is now: read-only arrays, points of the layer first.");
-  type.def(
-      "update", &layers_updated, "shape"_a, py::kw_only(), "boundary"_a = "", "strategy"_a = "renew",
-      "regenerate"_a = true,
-      R"(Remodels to a Domain, or to an Airfoil (or the name of one) in the place of the one called `boundary`, on
-the same stations. strategy: 'renew', 'morph', 'reference' or another of Mesh.update(). Where anything is refused the
-mesh is as it was. Raises ArgumentError and GeometryError; Ctrl-C ends it.)");
+  add_layered_steps(type);
   type.def("jvp", &layers_jvp, "direction"_a, "boundary"_a = "", py::kw_only(), "interior"_a = "own",
            R"(How the points of freeze() move, of shape (n, 2), with an airfoil's coefficients in a direction
 (Airfoil.design's order), at fixed connectivity. interior: as vjp()'s.)");
@@ -237,11 +141,6 @@ stays. LivingFlow.gradients() has derivatives by points.)");
   type.def("copy", [](LivingLayers& mesh) {
     const ThreadLock::Held held(mesh.lock);
     return layers_alive(mesh.mesh);
-  });
-  type.def("_become", [](LivingLayers& mesh, LivingLayers& other) {  // of trial(); the other one is spent
-    const ThreadLock::Held held(mesh.lock);
-    mesh.mesh = std::move(other.mesh);
-    mesh.frozen.reset();
   });
   type.def(
       "save",
@@ -289,6 +188,29 @@ stays. LivingFlow.gradients() has derivatives by points.)");
   figure(
       "shrunk", [](const LayeredMesh& m) { return m.shrunk(); }, "Columns that had to give way.");
   figure(
+      "held", [](const LayeredMesh& m) { return m.outer().held(); },
+      "Whether the outer mesh is the morph of a reference mesh (update(strategy='reference')).");
+  figure(
+      "delaunay_slack", [](const LayeredMesh& m) { return m.outer().delaunay_slack_deg(); },
+      "By how much the angles opposite an inner edge outside may exceed 180 degrees; 0: Delaunay.");
+  figure(
+      "min_angle", [](const LayeredMesh& m) { return m.outer().statistics().min_angle_deg; },
+      "The smallest angle outside the layer, in degrees.");
+  figure(
+      "steps", [](const LayeredMesh& m) { return m.outer().step(); },
+      "How many steps the mesh has lived through.");
+  figure(
+      "gradation", [](const LayeredMesh& m) { return m.outer().options().gradation; }, "As generate()'s.");
+  type.def("__len__", [](LivingLayers& mesh) {
+    const ThreadLock::Held held(mesh.lock);
+    return mesh.mesh.cells();
+  });
+  type.def("__repr__", [](LivingLayers& mesh) {
+    const ThreadLock::Held held(mesh.lock);
+    return "LayeredMesh(" + std::to_string(mesh.mesh.cells()) + " cells, step " +
+           std::to_string(mesh.mesh.outer().step()) + ")";
+  });
+  figure(
       "first_height", [](const LayeredMesh& m) { return m.options().first_height; },
       "The height of the cells at the wall, in chords.");
   figure(
@@ -298,13 +220,41 @@ stays. LivingFlow.gradients() has derivatives by points.)");
 
 }  // namespace
 
+LayersPointer layers_alive(LayeredMesh mesh) {
+  auto living = std::make_shared<LivingLayers>();
+  living->mesh = std::move(mesh);
+  return living;
+}
+
+LayerOptions layer_of(const std::optional<double>& reynolds, const std::string& model,
+                      const std::optional<double>& first_height, const std::optional<double>& thickness,
+                      double growth, const std::vector<std::string>& walls) {
+  if (!reynolds && (!first_height || !thickness))
+    throw Error(ErrorCode::argument, "reynolds", "not given, expected it, or first_height and thickness");
+  LayerOptions layer;
+  if (reynolds) layer = layer_for_flow(friction_named(model), *reynolds);
+  if (first_height) layer.first_height = *first_height;
+  if (thickness) layer.thickness = *thickness;
+  layer.growth = growth, layer.walls = walls;
+  return layer;
+}
+
+WallSpacing wall_spacing(double factor) {
+  if (!(factor > 0.0)) throw Error(ErrorCode::argument, "spacing", "expected more than 0");
+  const WallSpacing usual;
+  return {.leading_edge = factor * usual.leading_edge,
+          .trailing_edge = factor * usual.trailing_edge,
+          .most = factor * usual.most,
+          .growth = usual.growth};
+}
+
 Snapshot layered_snapshot(const py::object& mesh) {
   if (!py::isinstance<LivingLayers>(mesh)) return nullptr;
   return mesh.cast<LayersPointer>()->snapshot();
 }
 
 void add_layers(py::module_& module) {
-  add_layered_step(module);
+  add_layered_changes(module);
   add_layered_mesh(module);
   const LayerOptions usual;
   module.def("generate_layered", &layers_generated, "shape"_a, py::kw_only(), "reynolds"_a = py::none(),

@@ -20,6 +20,10 @@ auto members(T& r) {
                   r.flipped, r.full_adjustment, r.morphed, r.held, r.method, r.refreshed, r.regenerated,
                   r.abandoned, r.reason, r.stopped);
 }
+template <python::Is<Changes> T>
+auto members(T& c) {
+  return std::tie(c.moved, c.inserted, c.removed, c.born, c.gone);
+}
 
 }  // namespace remodel
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "living_layers.h"
 #include "run_watch.h"
 
 namespace remodel::python {
@@ -15,7 +16,7 @@ class PythonEvaluator final : public Evaluator {
   PythonEvaluator(py::object evaluate, Watch& watch) : evaluate_(std::move(evaluate)), watch_(watch) {}
 
   Evaluation evaluate(const EvaluationTask& task, std::unique_ptr<EvaluatorState>&) override {
-    auto mesh = std::make_shared<FrozenMesh>(task.mesh.freeze());
+    auto mesh = std::make_shared<FrozenMesh>(task.freeze());
     const std::vector<double> design(task.design.begin(), task.design.end());
     try {
       return watch_.ask([&] {
@@ -74,6 +75,18 @@ OptimiseOptions options_of(const std::filesystem::path& directory, int points, d
   return options;
 }
 
+// layers: None, or what generate_layered() is given: reynolds, model, first_height, thickness, growth,
+// spacing.
+void add_layers_to(OptimiseOptions& options, const py::object& layers) {
+  if (layers.is_none()) return;
+  const auto [reynolds, model, first_height, thickness, growth, spacing] =
+      layers.cast<std::tuple<std::optional<double>, std::string, std::optional<double>, std::optional<double>,
+                             double, double>>();
+  options.layers =
+      RunLayers{layer_of(reynolds, model, first_height, thickness, growth, {}), wall_spacing(spacing)};
+  options.quality.gradation = 8.0;
+}
+
 py::dict optimised(const CstAirfoil& from, const py::object& objective, const OptimiseOptions& options,
                    const py::object& callback) {
   Watch watch(callback);
@@ -104,14 +117,15 @@ void add_optimise(py::module_& module) {
       [](const CstAirfoil& from, const py::object& objective, const std::filesystem::path& directory,
          int points, double sigma, std::uint64_t seed, std::size_t evaluations, double tolerance,
          const std::string& strategy, std::size_t workers, std::size_t threads, bool resume, bool overwrite,
-         const py::object& callback) {
-        return optimised(from, objective,
-                         options_of(directory, points, sigma, seed, evaluations, tolerance, strategy, workers,
-                                    threads, resume, overwrite),
-                         callback);
+         const py::object& callback, const py::object& layers) {
+        OptimiseOptions options = options_of(directory, points, sigma, seed, evaluations, tolerance, strategy,
+                                             workers, threads, resume, overwrite);
+        add_layers_to(options, layers);
+        return optimised(from, objective, options, callback);
       },
       "start"_a, "objective"_a, "directory"_a, "points"_a, "sigma"_a, "seed"_a, "evaluations"_a,
-      "tolerance"_a, "strategy"_a, "workers"_a, "threads"_a, "resume"_a, "overwrite"_a, "callback"_a);
+      "tolerance"_a, "strategy"_a, "workers"_a, "threads"_a, "resume"_a, "overwrite"_a, "callback"_a,
+      "layers"_a);
 }
 
 }  // namespace remodel::python

@@ -296,7 +296,9 @@ Snapshot snapshot_of(const py::object& mesh) {
   if (py::isinstance<LivingMesh>(mesh)) return mesh.cast<LivingMeshPointer>()->snapshot();
   if (py::isinstance<StepRecord>(mesh)) return after_step(mesh.cast<const StepRecord&>());
   if (const Snapshot layered = layered_snapshot(mesh)) return layered;
-  throw py::type_error("mesh: found " + type_of(mesh) + ", expected a Mesh, a LayeredMesh, a FrozenMesh or a Step");
+  if (const Snapshot layered = after_layered_step(mesh)) return layered;
+  throw py::type_error("mesh: found " + type_of(mesh) +
+                       ", expected a Mesh, a LayeredMesh, a FrozenMesh or a Step");
 }
 
 }  // namespace remodel::python

@@ -6,15 +6,6 @@
 #include "records.h"
 #include "remodel/import.h"
 
-namespace remodel {
-
-template <python::Is<Changes> T>
-auto members(T& c) {
-  return std::tie(c.moved, c.inserted, c.removed, c.born, c.gone);
-}
-
-}  // namespace remodel
-
 namespace remodel::python {
 namespace {
 

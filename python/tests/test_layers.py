@@ -67,6 +67,64 @@ def test_a_trial_leaves_the_mesh_as_it_was():
         pass
 
 
+def test_a_step_says_what_it_changed():
+    airfoil = remodel.Airfoil("naca:0012")
+    mesh = remodel.generate_layered(airfoil, reynolds=5000.0, model="laminar", **COARSE)
+    step = mesh.update(changed(airfoil, 0.02), strategy="morph", record=True)
+    assert (step.cells, step.cells_before) == (len(mesh), step.before.quads.shape[0] + step.before.triangles.shape[0])
+    then, now = dict(zip(step.before.vertex_keys, map(tuple, step.before.points))), dict(zip(mesh.vertex_keys, map(tuple, mesh.points)))
+    changes = step.changes
+    assert set(changes.inserted) == now.keys() - then.keys() and set(changes.removed) == then.keys() - now.keys()
+    assert set(changes.moved) == {key for key in now.keys() & then.keys() if now[key] != then[key]}
+    assert changes.layer_born == changes.layer_gone == 0 or not changes.same_connectivity
+    fates = step.fates
+    assert len(fates) == len(mesh) and (fates == 0).sum() == step.preserved
+    assert (fates < 2).sum() == step.connected
+    x = step.transfer.ride(step.before.points[:, 0].copy())
+    assert x.shape == (len(mesh.points),)
+    assert step.after.check(delaunay=False).valid and remodel.check(step, delaunay=False).valid
+    again = pickle.loads(pickle.dumps(step))
+    assert np.array_equal(again.changes.moved, changes.moved) and np.array_equal(again.after.quads, mesh.quads)
+    assert step.plot(ax=pytest.importorskip("matplotlib.pyplot").subplots()[1]) is not None
+    bare = mesh.update(airfoil)
+    with pytest.raises(remodel.ArgumentError, match="record=True"):
+        bare.fates
+    assert "LayeredStep(" in repr(bare) and "LayeredMesh(" in repr(mesh)
+    assert mesh.steps == 2 and mesh.min_angle >= 30.0 - 1e-9 and mesh.gradation == 8.0
+    for name in ("length_scale", "curve", "parameter"):
+        assert getattr(mesh, name).shape == (len(mesh.points),)
+
+
+def test_a_mesh_at_another_design_is_joined_as_it_is():
+    airfoil = remodel.Airfoil("naca:0012")
+    mesh = remodel.generate_layered(airfoil, reynolds=5000.0, model="laminar", **COARSE)
+    mesh.update(airfoil, strategy="reference")
+    near = mesh.at(changed(airfoil, 1e-3))
+    assert np.array_equal(near.quads, mesh.quads) and np.array_equal(near.triangles, mesh.triangles)
+    assert near.check().valid and not np.array_equal(near.points, mesh.points)
+    with pytest.raises(remodel.TopologyChanged):
+        mesh.at(remodel.Domain(airfoil, points=100))
+
+
+def test_a_run_has_layers(tmp_path):
+    layers = dict(reynolds=5000.0, model="laminar", growth=1.5, spacing=4.0)
+    seen = []
+
+    def objective(design, mesh, step):
+        seen.append((len(mesh.quads), mesh.check(delaunay=False).valid))
+        return float(np.sum(design**2))
+
+    result = remodel.optimise("naca:0012", objective, layers=layers, evaluations=12, strategy="morph", directory=tmp_path / "run")
+    assert result.failed_evaluations == 0 and len(seen) == 12 and all(quads > 0 and valid for quads, valid in seen)
+    last = remodel.LayeredMesh.load(tmp_path / "run" / "last.vtkhdf")
+    assert last.check().valid and len(last.quads) == seen[-1][0]
+    target = remodel.optimise("naca:0012", remodel.Airfoil("rae2822"), layers=layers, evaluations=12)
+    assert target.invalid_meshes == 0
+    for wrong, match in ((dict(reynolds="a"), "reynolds"), (dict(re=1.0), "'re'"), ({}, "reynolds"), (dict(layers, spacing=-1.0), "spacing")):
+        with pytest.raises(remodel.ArgumentError, match=match):
+            remodel.optimise("naca:0012", objective, layers=wrong, evaluations=2)
+
+
 def test_directions_of_a_design_are_differences_of_meshes():
     airfoil = remodel.Airfoil("naca:0012")
     mesh = remodel.generate_layered(airfoil, reynolds=5000.0, model="laminar", **COARSE)

@@ -375,7 +375,7 @@ std::string outcome(const DesignRun& run, const PageJson& cost) {
 // then that of the start is.
 Mesh mesh_of_best(const fs::path& directory, const DesignRun& run) {
   const fs::path last = directory / "last.vtkhdf";
-  Mesh mesh = read_mesh(fs::exists(last) ? last : directory / "first.vtkhdf");
+  Mesh mesh = read_outer_mesh(fs::exists(last) ? last : directory / "first.vtkhdf");
   remodel(mesh, run.space->domain(run.best_design()), {.strategy = info_of(design_strategy).step});
   return mesh;
 }
@@ -435,7 +435,7 @@ std::string page_of(const fs::path& directory, const DesignRun& run, const Shown
 
 std::string write_design_page(const fs::path& directory, const fs::path& page) {
   const DesignRun run = read_design_run(directory);
-  const Shown first = shown_of("first", run.first_design, read_mesh(directory / "first.vtkhdf"), run);
+  const Shown first = shown_of("first", run.first_design, read_outer_mesh(directory / "first.vtkhdf"), run);
   const Shown last = shown_of(name_of_best(run), run.best_design(), mesh_of_best(directory, run), run);
   const PageJson figures = cost_of(run, first, last);
   write_text_atomically(page, page_of(directory, run, first, last, figures));

@@ -54,12 +54,14 @@ void require(bool good, const char* problem) {
 
 Json to_json(const WorkersState& state) {
   Json workers = Json::array();
-  for (const WorkerState& worker : state.workers)
+  for (const WorkerState& worker : state.workers) {
     workers.push_back({{"design", worker.design},
                        {"evaluated", worker.evaluated},
                        {"full_adjustments", worker.full_adjustments},
                        {"row", worker.row},
                        {"checked", worker.checked}});
+    if (!worker.mesh_design.empty()) workers.back()["mesh_design"] = worker.mesh_design;
+  }
   return {{"last", state.last}, {"each", std::move(workers)}};
 }
 
@@ -73,6 +75,7 @@ WorkersState workers_from(const Json& json) {
     worker.full_adjustments = count_at(each, "full_adjustments");
     worker.row = count_at(each, "row");
     each.at("checked").get_to(worker.checked);
+    if (each.contains("mesh_design")) each.at("mesh_design").get_to(worker.mesh_design);
   }
   require(state.last < state.workers.size(), "it names a worker that there is not");
   return state;

@@ -270,6 +270,10 @@ class CommandEvaluator final : public Evaluator {
                                           const std::string& source) override {
     return SolverState::from(bytes, mesh.freeze(), source, options_.snapshots);
   }
+  std::unique_ptr<EvaluatorState> restore_layered(const std::string& bytes, const LayeredMesh& mesh,
+                                                  const std::string& source) override {
+    return SolverState::from(bytes, mesh.freeze(), source, options_.snapshots);
+  }
   std::string description() const override {
     Json description{{"command", command_}};
     if (options_.snapshots != 0) description["snapshots"] = options_.snapshots;
@@ -289,13 +293,20 @@ class CommandEvaluator final : public Evaluator {
   CommandFiles files_;
 };
 
+void write_mesh_of(const EvaluationTask& task, const fs::path& file, const WriteOptions& options) {
+  if (task.with_layers)
+    write_mesh(task.with_layers(), file, options);
+  else
+    write_mesh(task.mesh, file, options);
+}
+
 Evaluation CommandEvaluator::evaluate_in(const fs::path& directory, const EvaluationTask& task,
                                          std::unique_ptr<EvaluatorState>& state) const {
   for (const std::string& file : files_.names) {
-    if (file.starts_with("mesh.")) write_mesh(task.mesh, directory / file, {.su2_boxes = options_.su2_boxes});
+    if (file.starts_with("mesh.")) write_mesh_of(task, directory / file, {.su2_boxes = options_.su2_boxes});
     if (file == "case") {
       fs::create_directory(directory / file);
-      write_mesh(task.mesh, directory / file / "case.foam");
+      write_mesh_of(task, directory / file / "case.foam", {});
     }
     if (file == "design.json")
       write_text_atomically(directory / file,
@@ -305,7 +316,7 @@ Evaluation CommandEvaluator::evaluate_in(const fs::path& directory, const Evalua
   StartRecord start;
   auto* const before = dynamic_cast<SolverState*>(state.get());
   if (files_.state.any()) {
-    mesh = task.mesh.freeze();
+    mesh = task.freeze();
     if (before != nullptr) start = before->write(mesh, task.design, directory, files_.state);
   }
   const fs::path output = directory / "output";

@@ -12,6 +12,7 @@
 #include "design/living_mesh.h"
 #include "design/record_checksum.h"
 #include "design/run_directory.h"
+#include "design/run_mesh.h"
 #include "design/settings.h"
 #include "design/summary.h"
 #include "design/workers.h"
@@ -97,6 +98,7 @@ class Run {
   void keep_finished(std::span<const Job> jobs, std::size_t first);
   void write(const Checkpoint& checkpoint, std::span<const Mesh* const> meshes);
   void checkpoint();
+  void write_last_mesh(const char* name) const;
   std::uint64_t evaluations() const { return progress_.summary.evaluations(); }
   std::uint64_t middle() const { return (options_.evaluations + 1) / 2; }
   bool generation_ends() const { return evaluations() != 0 && evaluations() % population_ == 0; }
@@ -190,8 +192,7 @@ OptimiseStopped Run::evaluate_some(OptimiseObserver& observer) {
     progress_.refused += options_.max_refused;
     return OptimiseStopped::infeasible;
   }
-  if (is_middle())
-    write_mesh(progress_.workers.last_mesh(), options_.directory / "middle.vtkhdf", boxes_of(options_));
+  if (is_middle()) write_last_mesh("middle.vtkhdf");
   if (checkpoint_due()) checkpoint();
   return OptimiseStopped::done;
 }
@@ -326,16 +327,23 @@ void Run::checkpoint() {
   write(present_checkpoint(), progress_.workers.meshes());
 }
 
+void Run::write_last_mesh(const char* name) const {
+  write_run_mesh(problem_.space, progress_.workers.last_mesh(), progress_.workers.design_of_last_mesh(),
+                 options_.directory / name, boxes_of(options_));
+}
+
 // Where the meshes are not those of the last row, those kept before may be; otherwise the checkpoint before
 // is what can be gone on from.
 OptimiseResult Run::finish(OptimiseStopped stopped) {
   progress_.history.commit();
   if (mesh_is_of_last_row_) {
-    write_mesh(progress_.workers.last_mesh(), options_.directory / "last.vtkhdf", boxes_of(options_));
+    write_last_mesh("last.vtkhdf");
     checkpoint();
   } else if (kept_) {
-    write_mesh(*kept_->meshes[kept_->checkpoint.workers.last], options_.directory / "last.vtkhdf",
-               boxes_of(options_));
+    const WorkersState& workers = kept_->checkpoint.workers;
+    write_run_mesh(problem_.space, *kept_->meshes[workers.last],
+                   workers.workers[workers.last].design_of_mesh(), options_.directory / "last.vtkhdf",
+                   boxes_of(options_));
     write(kept_->checkpoint, kept_->meshes);
   }
   OptimiseResult result = progress_.summary.result();
@@ -372,7 +380,8 @@ Progress begin(const LoopParts& problem, const Evaluating& evaluating, RunDirect
   add(written, run);
   try {
     const fs::path start = directory.make_start();
-    write_mesh(mesh, start / "first.vtkhdf", boxes_of(options));
+    write_run_mesh(problem.space, mesh, first_design(problem.space, options), start / "first.vtkhdf",
+                   boxes_of(options));
     History::create(start / "history.sqlite", run);
     const std::vector<const Mesh*> everywhere(mesh_count(options, evaluating.population), &mesh);
     write_checkpoint(start,

@@ -63,7 +63,7 @@ class Judged : public testing::Test {
 
   AirfoilSpace space_{load_airfoil("naca:0012", 3), {.points = 50}};
   LivingMesh living_{OptimiseOptions(), space_,
-                     generate(space_.domain(space_.start()), {.gradation = 1.0}).mesh};
+                     generate(space_.domain(space_.start()), {.gradation = 1.0}).mesh, space_.start()};
   std::unique_ptr<EvaluatorState> state_;
   Job job_;
 };

@@ -22,8 +22,9 @@ bool Hub::follow(std::span<const double> mean, const Generation& before) {
   return result.refreshed;
 }
 
-TrialMesh::TrialMesh(const OptimiseOptions& options, const DesignSpace& space, const Hub& hub, Mesh solved_on)
-    : LivingMesh(options, space, Mesh()),
+TrialMesh::TrialMesh(const OptimiseOptions& options, const DesignSpace& space, const Hub& hub, Mesh solved_on,
+                     std::vector<double> design)
+    : LivingMesh(options, space, Mesh(), std::move(design)),
       hub_(hub),
       instead_(std::move(solved_on)),
       solved_on_(instead_->data()) {}

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "design/living_mesh.h"
 #include "design/triangle_snapshot.h"
@@ -45,8 +46,9 @@ class Hub {
 // A worker on a copy of the hub. Its losses are counted against the mesh that it solved on before.
 class TrialMesh : public LivingMesh {
  public:
-  // Space and hub must outlive it; solved_on is the mesh of its last design.
-  TrialMesh(const OptimiseOptions& options, const DesignSpace& space, const Hub& hub, Mesh solved_on);
+  // Space and hub must outlive it; solved_on is the mesh of its last design, which is `design`.
+  TrialMesh(const OptimiseOptions& options, const DesignSpace& space, const Hub& hub, Mesh solved_on,
+            std::vector<double> design);
 
   const Mesh& mesh() const override { return instead_ ? *instead_ : mesh_; }
   const Mark* before() const override { return nullptr; }

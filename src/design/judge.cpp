@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "design/run_mesh.h"
+
 namespace remodel {
 namespace {
 
@@ -57,10 +59,12 @@ Stopped judge(const Evaluating& evaluating, const LivingMesh& living, std::uniqu
   const Proposal& proposal = job.proposal;
   std::string problem;
   try {
-    job.evaluation =
-        evaluating.evaluator.evaluate({proposal.design, living.mesh(), job.record, living.before(),
-                                       proposal.gradient, observer, job.record.evaluation, proposal.from},
-                                      state);
+    EvaluationTask task{proposal.design,       living.mesh(),     job.record,
+                        living.before(),       proposal.gradient, observer,
+                        job.record.evaluation, proposal.from};
+    if (evaluating.space.layers() != nullptr)
+      task.with_layers = [&] { return with_layers(evaluating.space, living.mesh(), proposal.design); };
+    job.evaluation = evaluating.evaluator.evaluate(task, state);
     require_good(job.evaluation, proposal.design.size());
     record(job.evaluation, job.record);
     return Stopped::done;

@@ -8,6 +8,7 @@
 
 #include "base/stopwatch.h"
 #include "design/comparison.h"
+#include "design/run_mesh.h"
 #include "mesh/mesh_data.h"
 #include "mesh/renew_policy.h"
 #include "remodel/check.h"
@@ -122,8 +123,12 @@ GenerateResult first_mesh(const DesignSpace& space, const OptimiseOptions& optio
 }
 
 LivingMesh::LivingMesh(const OptimiseOptions& options, const DesignSpace& space, Mesh mesh,
-                       std::size_t meshes)
-    : mesh_(std::move(mesh)), space_(&space), quality_(quality_of(options)), remodel_(step_options(options)) {
+                       std::vector<double> design, std::size_t meshes)
+    : mesh_(std::move(mesh)),
+      space_(&space),
+      design_(std::move(design)),
+      quality_(quality_of(options)),
+      remodel_(step_options(options)) {
   remodel_.designs_a_step = static_cast<std::uint32_t>(meshes);
 }
 
@@ -154,6 +159,7 @@ Stopped LivingMesh::step(std::span<const double> design, const StepTasks& tasks,
   count_losses(result);
   copy_figures(result, record);
   if (result.stopped == Stopped::interrupted) return result.stopped;
+  design_.assign(design.begin(), design.end());
 
   const StepCheck check = checked(domain, tasks.check);
   record.checked = tasks.check == Checked::changes && check.whole ? Checked::quick : tasks.check;
@@ -174,8 +180,9 @@ Stopped LivingMesh::step(std::span<const double> design, const StepTasks& tasks,
   return fresh.stopped;
 }
 
-void LivingMesh::take_back(Mesh&& before, MeshStep& record) {
+void LivingMesh::take_back(Mesh&& before, std::vector<double> design, MeshStep& record) {
   put(std::move(before));
+  design_ = std::move(design);
   const double seconds = record.remodel_seconds;
   record = {};
   record.remodel_seconds = seconds;
@@ -188,12 +195,15 @@ StepCheck LivingMesh::checked(const Domain& domain, Checked how) const {
   if (how == Checked::changes) return check_last();
   StepCheck check = check_whole(mesh());
   if (!check.broken.empty() || how != Checked::full) return check;
-  const CheckResult full = remodel::check(mesh().freeze(), {.min_angle_deg = quality_.min_angle_deg,
-                                                            .max_gradation = mesh().promised_gradation(),
-                                                            .delaunay = !mesh().shows_file_triangles(),
-                                                            .delaunay_slack_deg = mesh().delaunay_slack_deg(),
-                                                            .design = &domain,
-                                                            .max_violations = 1});
+  const bool layered = space_->layers() != nullptr;
+  const Domain walls = layered ? space_->walls(design_) : domain;
+  const FrozenMesh view = layered ? with_layers(*space_, mesh(), design_).freeze() : mesh().freeze();
+  const CheckResult full = remodel::check(view, {.min_angle_deg = quality_.min_angle_deg,
+                                                 .max_gradation = mesh().promised_gradation(),
+                                                 .delaunay = !mesh().shows_file_triangles(),
+                                                 .delaunay_slack_deg = mesh().delaunay_slack_deg(),
+                                                 .design = &walls,
+                                                 .max_violations = 1});
   if (full.valid) return check;
   check.broken = full.violations.empty()
                      ? "check: not valid"

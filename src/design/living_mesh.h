@@ -40,8 +40,9 @@ GenerateResult first_mesh(const DesignSpace& space, const OptimiseOptions& optio
 
 class LivingMesh {
  public:
-  // The space must outlive it. One of so many meshes that share the designs.
-  LivingMesh(const OptimiseOptions& options, const DesignSpace& space, Mesh mesh, std::size_t meshes = 1);
+  // A mesh of this design. The space must outlive it. One of so many meshes that share the designs.
+  LivingMesh(const OptimiseOptions& options, const DesignSpace& space, Mesh mesh, std::vector<double> design,
+             std::size_t meshes = 1);
   virtual ~LivingMesh() = default;
   LivingMesh(LivingMesh&&) = default;
   LivingMesh& operator=(LivingMesh&&) = default;
@@ -50,7 +51,9 @@ class LivingMesh {
   // being finished.
   Stopped step(std::span<const double> design, const StepTasks& tasks, MeshStep& record);
   // Puts back the mesh from before a step that met a limit, and records that there was none.
-  void take_back(Mesh&& before, MeshStep& record);
+  void take_back(Mesh&& before, std::vector<double> design, MeshStep& record);
+  // That mesh() is of: mostly the last one.
+  const std::vector<double>& design() const { return design_; }
   // The mesh of the last design.
   virtual const Mesh& mesh() const { return mesh_; }
   // The mesh of the design before, if this one was made from it.
@@ -77,6 +80,7 @@ class LivingMesh {
   Stopped regenerate(const Domain& domain, MeshStep& record);
 
   const DesignSpace* space_;
+  std::vector<double> design_;
   QualityOptions quality_;
   RemodelOptions remodel_;
   std::optional<Mark> before_;  // the last advance()

@@ -10,6 +10,7 @@
 #include "design/design_loop.h"
 #include "design/design_search.h"
 #include "design/interpolation.h"
+#include "design/run_space.h"
 #include "design/workers.h"
 #include "remodel/error.h"
 
@@ -22,20 +23,14 @@ OptimiseResult optimise(const DesignSpace& space, Designer& designer, Evaluator&
 
 namespace {
 
-AirfoilSpace space_around(const CstAirfoil& from, const OptimiseOptions& options) {
-  return options.start ? AirfoilSpace(from, options.start->mesh.domain(), options.start->place)
-                       : AirfoilSpace(from, options.domain);
-}
-
 // Work of a crew, with what it needs.
 struct AirfoilWork {
-  AirfoilWork(const CstAirfoil& from, const OptimiseOptions& given)
-      : options(given), space(space_around(from, given)) {
+  AirfoilWork(const CstAirfoil& from, const OptimiseOptions& given) : options(given), space(from, given) {
     options.ranks = nullptr;
     options.threads = 1;
   }
   OptimiseOptions options;
-  AirfoilSpace space;
+  RunSpace space;
   std::unique_ptr<Evaluator> own;  // where it has one
   CrewWork work;
 };
@@ -45,9 +40,9 @@ CrewWork work_around(const CstAirfoil& from, Evaluator* evaluator, std::unique_p
   const auto parts = std::make_shared<AirfoilWork>(from, options);
   parts->own = std::move(own);
   const std::size_t population =
-      interpolation_designer(parts->space.start(), options.sigma, options.seed).population();
-  parts->work = optimise_work(parts->space, evaluator != nullptr ? *evaluator : *parts->own, parts->options,
-                              population);
+      interpolation_designer(parts->space.space().start(), options.sigma, options.seed).population();
+  parts->work = optimise_work(parts->space.space(), evaluator != nullptr ? *evaluator : *parts->own,
+                              parts->options, population);
   return [parts](const std::string& bytes, const std::function<bool()>& cancelled) {
     return parts->work(bytes, cancelled);
   };
@@ -65,7 +60,8 @@ OptimiseResult optimise_airfoil(const CstAirfoil& from, const CstAirfoil* target
                                 const OptimiseOptions& options, OptimiseObserver* observer) {
   if (!(options.sigma > 0.0 && std::isfinite(options.sigma)))
     throw Error(ErrorCode::argument, "sigma", "expected more than 0");
-  const AirfoilSpace space = space_around(from, options);
+  const RunSpace around(from, options);
+  const DesignSpace& space = around.space();
   using enum CmaesDesigner::AtConvergence;
   CmaesDesigner designer = interpolation_designer(space.start(), options.sigma, options.seed,
                                                   options.tolerance == 0.0 ? go_on : end);
@@ -80,7 +76,7 @@ OptimiseResult optimise_airfoil(const CstAirfoil& from, const CstAirfoil* target
   }
   problem.complete = [&](OptimiseResult& result) {
     result.seed = options.seed;
-    result.best = space.airfoil(result.best_design);
+    result.best = around.airfoils().airfoil(result.best_design);
     if (distance && result.evaluations > 0) result.max_error = distance->max_error(result.best);
   };
   return run_design_loop(problem, options, observer);

@@ -22,7 +22,8 @@ Json to_json(const WorkerState& state) {
           {"row", state.row},
           {"checked", state.checked},
           {"full_adjustments", state.full_adjustments},
-          {"evaluator", binary_json(state.evaluator)}};
+          {"evaluator", binary_json(state.evaluator)},
+          {"mesh_design", state.mesh_design}};
 }
 
 WorkerState worker_state_from(const Json& json) {
@@ -30,7 +31,8 @@ WorkerState worker_state_from(const Json& json) {
           .full_adjustments = json.at("full_adjustments").get<std::uint64_t>(),
           .row = json.at("row").get<RegenerationRule::Row>(),
           .checked = json.at("checked").get<bool>(),
-          .evaluator = bytes_in(json.at("evaluator"))};
+          .evaluator = bytes_in(json.at("evaluator")),
+          .mesh_design = json.at("mesh_design").get<std::vector<double>>()};
 }
 
 Json meshes_json(const std::vector<const Mesh*>& meshes) {

@@ -15,6 +15,7 @@
 #include "design/design_search.h"
 #include "design/hub.h"
 #include "design/living_mesh.h"
+#include "design/run_space.h"
 #include "remodel/domain.h"
 #include "remodel/error.h"
 #include "remodel/io.h"
@@ -140,15 +141,15 @@ void replay_run(const fs::path& directory, const DesignSpace& space, std::option
   const std::size_t population =
       designer ? designer->population() : interpolation_designer(start, 1.0, 1).population();
 
-  Mesh first = read_mesh(directory / "first.vtkhdf");
+  Mesh first = read_outer_mesh(directory / "first.vtkhdf");
   options.quality = first.options();
   std::unique_ptr<FollowedHub> followed;
   std::unique_ptr<LivingMesh> living;
   if (by_hub) {
     followed = std::make_unique<FollowedHub>(options, space, std::move(*designer), first);
-    living = std::make_unique<TrialMesh>(options, space, followed->hub(), std::move(first));
+    living = std::make_unique<TrialMesh>(options, space, followed->hub(), std::move(first), start);
   } else {
-    living = std::make_unique<LivingMesh>(options, space, std::move(first),
+    living = std::make_unique<LivingMesh>(options, space, std::move(first), start,
                                           std::min<std::size_t>(options.workers, population));
   }
   history.each([&](const EvaluationRecord& record) {
@@ -162,10 +163,12 @@ void replay_run(const fs::path& directory, const DesignSpace& space, std::option
       // A mesh that failed a check was generated afresh: it is validated as the run did.
       const bool may_have_met_limit = !std::isfinite(record.objective);
       std::optional<Mesh> before;
+      std::vector<double> of_before = living->design();
       if (may_have_met_limit) before = living->mesh();
       const Stopped stopped =
           living->step(record.coefficients, {.check = record.checked, .generate = generate}, step);
-      if (before && stopped != Stopped::done) living->take_back(*std::move(before), step);
+      if (before && stopped != Stopped::done)
+        living->take_back(*std::move(before), std::move(of_before), step);
       require_same_mesh(record, living->mesh(), file);
       visit(record, living->mesh());
     }
@@ -174,22 +177,24 @@ void replay_run(const fs::path& directory, const DesignSpace& space, std::option
 }
 
 // The space of a run of optimise() between airfoils.
-std::unique_ptr<AirfoilSpace> airfoil_space(const std::map<std::string, std::string>& run,
-                                            const Json& options, const fs::path& directory) {
+std::unique_ptr<RunSpace> run_space(const std::map<std::string, std::string>& run, const Json& options,
+                                    const fs::path& directory) {
   const CstAirfoil from = airfoil_from_json(run.at("from"), (directory / "history.sqlite").string());
+  const std::optional<RunLayers> layers = RunSpace::layers_in(run.at("options"));
   if (options.contains("start_mesh")) {
-    const Domain domain = read_mesh(directory / "first.vtkhdf").domain();
+    const fs::path first = directory / "first.vtkhdf";
+    const Domain domain = layers ? read_layered_mesh(first).domain() : read_mesh(first).domain();
     const AirfoilPlace place = place_from_json(run.at("place"));
     if (place.loop >= domain.loops.size())
       throw std::invalid_argument("place: found loop " + std::to_string(place.loop) + " of " +
                                   std::to_string(domain.loops.size()));
-    return std::make_unique<AirfoilSpace>(from, domain, place);
+    return std::make_unique<RunSpace>(std::make_unique<AirfoilSpace>(from, domain, place), layers);
   }
-  return std::make_unique<AirfoilSpace>(
-      from, AirfoilDomainOptions{
-                .points = static_cast<int>(count_at(options, "points", 8, 100000)),
-                .farfield_radius = number_at(options, "farfield_radius", 1.0, 1e6),
-                .farfield_points = static_cast<int>(count_at(options, "farfield_points", 8, 100000))});
+  const AirfoilDomainOptions alone{
+      .points = static_cast<int>(count_at(options, "points", 8, 100000)),
+      .farfield_radius = number_at(options, "farfield_radius", 1.0, 1e6),
+      .farfield_points = static_cast<int>(count_at(options, "farfield_points", 8, 100000))};
+  return std::make_unique<RunSpace>(std::make_unique<AirfoilSpace>(from, alone), layers);
 }
 
 }  // namespace
@@ -197,17 +202,25 @@ std::unique_ptr<AirfoilSpace> airfoil_space(const std::map<std::string, std::str
 void replay(const fs::path& directory, std::uint64_t worker, const ReplayVisit& visit) {
   const fs::path file = directory / "history.sqlite";
   struct Searched {
-    std::unique_ptr<AirfoilSpace> space;
+    std::unique_ptr<RunSpace> space;
     double sigma;
     std::uint64_t seed;
   };
   const Searched run = read_options(file, History::open(file), [&](const auto& facts, const Json& json) {
     require_this_version(json, directory);
-    return Searched{airfoil_space(facts, json, directory), number_at(json, "sigma", 0.0, 1e100),
+    return Searched{run_space(facts, json, directory), number_at(json, "sigma", 0.0, 1e100),
                     count_at(json, "seed", 0, UINT64_MAX)};
   });
-  replay_run(directory, *run.space, interpolation_designer(run.space->start(), run.sigma, run.seed), worker,
-             visit);
+  const DesignSpace& space = run.space->space();
+  replay_run(directory, space, interpolation_designer(space.start(), run.sigma, run.seed), worker, visit);
+}
+
+std::unique_ptr<DesignSpace> replayed_space(const fs::path& directory) {
+  const fs::path file = directory / "history.sqlite";
+  return read_options(file, History::open(file), [&](const auto& facts, const Json& json) {
+    require_this_version(json, directory);
+    return run_space(facts, json, directory)->release();
+  });
 }
 
 void replay(const fs::path& directory, const DesignSpace& space, std::uint64_t worker,

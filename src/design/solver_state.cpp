@@ -20,7 +20,7 @@ bool same_connectivity(const FrozenMesh& a, const FrozenMesh& b) {
   const auto same_edges = [](const FrozenBoundary& one, const FrozenBoundary& other) {
     return one.name == other.name && one.edges == other.edges;
   };
-  return a.vertex_keys == b.vertex_keys && a.triangles == b.triangles &&
+  return a.vertex_keys == b.vertex_keys && a.triangles == b.triangles && a.quads == b.quads &&
          std::equal(a.boundaries.begin(), a.boundaries.end(), b.boundaries.begin(), b.boundaries.end(),
                     same_edges);
 }

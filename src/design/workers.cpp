@@ -10,6 +10,7 @@
 #include "design/crew_states.h"
 #include "design/judge.h"
 #include "design/posted_design.h"
+#include "design/run_mesh.h"
 #include "remodel/error.h"
 
 namespace remodel {
@@ -18,6 +19,7 @@ namespace {
 // A worker as it was before the job under way, which may be interrupted.
 struct Before {
   Mesh mesh;
+  std::vector<double> design;  // of the mesh
   RegenerationRule::Row row;
   bool checked;
   std::string evaluator;
@@ -42,6 +44,11 @@ struct StateElsewhere final : EvaluatorState {
 
 std::string bytes_of(const std::unique_ptr<EvaluatorState>& state) {
   return state ? state->bytes() : std::string();
+}
+
+// WorkerState::mesh_design.
+std::vector<double> design_kept(const WorkerState& state, const std::vector<double>& design) {
+  return design == state.design ? std::vector<double>() : design;
 }
 
 std::size_t thread_count(const OptimiseOptions& options, std::size_t workers) {
@@ -79,7 +86,7 @@ struct Workers::Crew {
   }
   bool has_hub() const { return options.strategy == MeshStrategy::hub; }
   bool regenerates() const { return options.strategy == MeshStrategy::regenerate; }
-  std::unique_ptr<LivingMesh> living_around(Mesh mesh) const;
+  std::unique_ptr<LivingMesh> living_around(Mesh mesh, std::vector<double> design) const;
   Worker& nearest(const DesignProfile& design);
   void hand_out(std::vector<Job>& jobs);
   void evaluate(Worker& worker, Job& job) const;
@@ -107,14 +114,15 @@ void Workers::Crew::start_hub(Mesh mesh) {
 
 Worker& Workers::Crew::add(WorkerState state, Mesh mesh) {
   DesignProfile profile = profile_of(state.design);
-  return workers.emplace_back(Worker{
-      .living = living_around(std::move(mesh)), .state = std::move(state), .profile = std::move(profile)});
+  return workers.emplace_back(Worker{.living = living_around(std::move(mesh), state.design_of_mesh()),
+                                     .state = std::move(state),
+                                     .profile = std::move(profile)});
 }
 
-std::unique_ptr<LivingMesh> Workers::Crew::living_around(Mesh mesh) const {
+std::unique_ptr<LivingMesh> Workers::Crew::living_around(Mesh mesh, std::vector<double> design) const {
   const DesignSpace& space = evaluating.space;
-  return hub ? std::make_unique<TrialMesh>(options, space, *hub, std::move(mesh))
-             : std::make_unique<LivingMesh>(options, space, std::move(mesh), at_work);
+  return hub ? std::make_unique<TrialMesh>(options, space, *hub, std::move(mesh), std::move(design))
+             : std::make_unique<LivingMesh>(options, space, std::move(mesh), std::move(design), at_work);
 }
 
 Worker& Workers::Crew::nearest(const DesignProfile& design) {
@@ -191,7 +199,7 @@ void Workers::Crew::evaluate_elsewhere(Worker& worker, Job& job) const {
   job.record.worker = number;
   job.evaluation = std::move(evaluated.finished.evaluation);
   worker.token = design.token;
-  worker.living = living_around(std::move(evaluated.meshes.front()));
+  worker.living = living_around(std::move(evaluated.meshes.front()), evaluated.state.design_of_mesh());
   WorkerState& state = worker.state;
   state.row = evaluated.state.row, state.checked = evaluated.state.checked;
   state.full_adjustments = evaluated.state.full_adjustments;
@@ -216,7 +224,8 @@ CrewWork Workers::work_of_crew(const DesignSpace& space, Evaluator& evaluator, c
     Worker& worker = crew.add(std::move(design.state), std::move(design.meshes.front()));
     worker.evaluator = states->take(design.worker, design.before);
     if (!worker.evaluator && !kept.empty())
-      worker.evaluator = evaluator.restore(kept, worker.living->mesh(), "a design of another process");
+      worker.evaluator = restore_state(evaluator, space, kept, worker.living->mesh(), worker.living->design(),
+                                       "a design of another process");
     Job job{.proposal = std::move(design.proposal),
             .tasks = std::move(design.tasks),
             .record = std::move(design.record),
@@ -227,6 +236,7 @@ CrewWork Workers::work_of_crew(const DesignSpace& space, Evaluator& evaluator, c
                               .finished = {std::move(job.record), std::move(job.evaluation)},
                               .state = worker.state,
                               .meshes = {}};
+    evaluated.state.mesh_design = worker.living->design();
     evaluated.state.evaluator = bytes_of(worker.evaluator);
     states->put(design.worker, design.token, std::move(worker.evaluator));
     return encode(evaluated, worker.living->mesh());
@@ -235,8 +245,8 @@ CrewWork Workers::work_of_crew(const DesignSpace& space, Evaluator& evaluator, c
 
 void Workers::Crew::evaluate_next(Worker& worker, Job& job) const {
   if (options.keep_finished)
-    worker.before.emplace(
-        Before{worker.living->mesh(), worker.state.row, worker.state.checked, bytes_of(worker.evaluator)});
+    worker.before.emplace(Before{worker.living->mesh(), worker.living->design(), worker.state.row,
+                                 worker.state.checked, bytes_of(worker.evaluator)});
   options.ranks != nullptr ? evaluate_elsewhere(worker, job) : evaluate(worker, job);
   const bool is_limit = job.stopped != Stopped::done && job.stopped != Stopped::interrupted;
   if (is_limit && worker.before && options.fail_at_limits) fail_at_limit(worker, job);
@@ -246,7 +256,7 @@ void Workers::Crew::evaluate_next(Worker& worker, Job& job) const {
 
 // The next design goes on from the mesh before this one, of which no flow is known any more.
 void Workers::Crew::fail_at_limit(Worker& worker, Job& job) const {
-  worker.living->take_back(std::move(worker.before->mesh), job.record);
+  worker.living->take_back(std::move(worker.before->mesh), std::move(worker.before->design), job.record);
   worker.state.row = worker.before->row, worker.state.checked = worker.before->checked;
   worker.evaluator.reset();
   fail(job, at_limit(job.stopped));
@@ -266,7 +276,9 @@ Workers::Workers(const Evaluating& evaluating, const WorkersState& state, std::v
   for (std::size_t i = 0; i < state.workers.size(); ++i) {
     Worker& worker = crew_->add(state.workers[i], std::move(meshes[i]));
     const std::string& bytes = worker.state.evaluator;
-    if (!bytes.empty()) worker.evaluator = evaluating.evaluator.restore(bytes, worker.living->mesh(), source);
+    if (!bytes.empty())
+      worker.evaluator = restore_state(evaluating.evaluator, evaluating.space, bytes, worker.living->mesh(),
+                                       worker.living->design(), source);
   }
   crew_->last = state.last;
 }
@@ -310,6 +322,10 @@ const Mesh& Workers::last_mesh() const {
   return crew_->workers[crew_->last].living->mesh();
 }
 
+const std::vector<double>& Workers::design_of_last_mesh() const {
+  return crew_->workers[crew_->last].living->design();
+}
+
 std::vector<const Mesh*> Workers::meshes() const {
   std::vector<const Mesh*> result;
   for (const Worker& worker : crew_->workers) result.push_back(&worker.living->mesh());
@@ -322,6 +338,7 @@ WorkersState Workers::state() const {
   for (const Worker& worker : crew_->workers) {
     WorkerState& state = result.workers.emplace_back(worker.state);
     state.evaluator = bytes_of(worker.evaluator);
+    state.mesh_design = design_kept(state, worker.living->design());
   }
   return result;
 }
@@ -342,9 +359,11 @@ KeptWorkers Workers::kept(WorkersState before, std::span<const Job> first) const
       result.meshes[i] = &worker.before->mesh;
       state.row = worker.before->row, state.checked = worker.before->checked;
       state.evaluator = worker.before->evaluator;
+      state.mesh_design = design_kept(state, worker.before->design);
     } else {
       state.row = worker.state.row, state.checked = worker.state.checked;
       state.evaluator = bytes_of(worker.evaluator);
+      state.mesh_design = design_kept(state, worker.living->design());
     }
   }
   return result;

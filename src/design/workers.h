@@ -51,6 +51,9 @@ struct WorkerState {
   RegenerationRule::Row row = 0;
   bool checked = false;     // its mesh, as a whole, since the start
   std::string evaluator{};  // EvaluatorState::bytes() of its state
+  // Of its mesh, where that is not its last one, which failed at a limit or was interrupted; empty: it is.
+  std::vector<double> mesh_design{};
+  const std::vector<double>& design_of_mesh() const { return mesh_design.empty() ? design : mesh_design; }
 };
 
 struct WorkersState {
@@ -90,7 +93,8 @@ class Workers {
   // the first such worker's exception is thrown when all have ended. (Evaluations that throw are results.)
   void evaluate(std::vector<Job>& jobs);
 
-  const Mesh& last_mesh() const;            // of the last design
+  const Mesh& last_mesh() const;  // of the last design
+  const std::vector<double>& design_of_last_mesh() const;
   std::vector<const Mesh*> meshes() const;  // each worker's, then the hub
   WorkersState state() const;
   // Where evaluate() was interrupted and the options' keep_finished is set: with `before`, what state() gave

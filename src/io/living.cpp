@@ -41,11 +41,17 @@ bool holds_layers(const std::filesystem::path& file) {
 LayeredMesh read_layered_mesh(const std::filesystem::path& file) {
   const KeptPipes once;
   if (io::format_to_read(file) != MeshFormat::vtkhdf) {
-    throw Error(ErrorCode::argument, file.string(),
-                "another format found, a native mesh (.vtkhdf) with layers expected, as `remodel mesh --layers` "
-                "makes it");
+    throw Error(
+        ErrorCode::argument, file.string(),
+        "another format found, a native mesh (.vtkhdf) with layers expected, as `remodel mesh --layers` "
+        "makes it");
   }
   return LayeredMesh::restore(io::read_vtkhdf_layers(file), file.string());
+}
+
+Mesh read_outer_mesh(const std::filesystem::path& file) {
+  const KeptPipes once;
+  return holds_layers(file) ? read_layered_mesh(file).outer() : read_mesh(file);
 }
 
 }  // namespace remodel

@@ -56,14 +56,14 @@ LayerFrame::LayerFrame(const Domain& walls, const LayerOptions& options) : optio
   fans_ = fans_of(Walls(walls), loops_, options, {loops_.size(), nullptr});
 }
 
-std::unique_ptr<LayeredMesh::Columns> LayerFrame::columns_at(const Domain& walls) const {
+std::shared_ptr<const LayeredMesh::Columns> LayerFrame::columns_at(const Domain& walls) const {
   bool fits = layered_loops(walls, options_) == loops_;
   for (std::size_t r = 0; fits && r < loops_.size(); ++r)
     fits = walls.stations(loops_[r]).size() == fans_[r].size();
   if (!fits)
     throw Error(ErrorCode::argument, "walls",
                 "found other loops or stations, expected those that the layer began with");
-  auto columns = std::make_unique<LayeredMesh::Columns>();
+  auto columns = std::make_shared<LayeredMesh::Columns>();
   columns->loops = loops_, columns->levels = levels_, columns->fans = fans_;
   static_cast<LayerColumns&>(*columns) = columns_of(Walls(walls), loops_, fans_, options_, levels_);
   for (const ColumnRing& ring : columns->rings) {
@@ -92,11 +92,14 @@ LayeredGenerateResult generate_layered(const Domain& domain, const LayerOptions&
   validate(domain);
   require_room_for(domain, layers, quality.max_vertices);
   const LayerFrame frame(domain, layers);
-  GenerateResult outer = generate(frame.outside(domain), quality, observer);
-  return {.mesh = frame.around(outer.mesh, domain),
-          .stopped = outer.stopped,
-          .small_angles = outer.small_angles,
-          .exempt_triangles = outer.exempt_triangles};
+  const std::shared_ptr<const LayeredMesh::Columns> columns = frame.columns_at(domain);
+  GenerateResult outer = generate(outside_of(domain, *columns, columns->levels), quality, observer);
+  LayeredGenerateResult result;
+  result.stopped = outer.stopped;
+  result.small_angles = outer.small_angles, result.exempt_triangles = outer.exempt_triangles;
+  result.mesh.outer_ = std::move(outer.mesh);
+  result.mesh.walls_ = domain, result.mesh.options_ = layers, result.mesh.columns_ = columns;
+  return result;
 }
 
 }  // namespace remodel

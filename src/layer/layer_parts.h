@@ -47,6 +47,9 @@ struct RingTops {
 };
 std::vector<RingTops> tops_of(const Mesh& outer, const LayerColumns& columns);
 
+// The key of the vertex of a column, by the column's number, at a level.
+std::uint64_t layer_key(std::uint32_t column, std::uint32_t level, std::uint32_t levels);
+
 // Cells of a ring's layer, divided top cells by their triangles.
 std::size_t cell_count(const ColumnRing& ring, const RingTops& tops, std::uint32_t levels);
 // The triangles of a divided top cell.

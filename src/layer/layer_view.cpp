@@ -9,9 +9,6 @@ namespace remodel {
 
 namespace {
 
-// Keys of layers are of generations that living meshes, which count from 0, never reach.
-constexpr std::uint32_t layer_generation = 0x80000000U;
-
 LayerTopology topology_of(const LayerColumns& columns, std::uint32_t levels) {
   LayerTopology topology{.levels = levels, .wall = {}, .first = {}, .next = {}, .column = {}, .level = {}};
   for (const ColumnRing& ring : columns.rings) {
@@ -60,10 +57,6 @@ class LayerView {
   FrozenMesh take() { return std::move(mesh_); }
 
  private:
-  std::uint64_t key_of(std::uint32_t id, std::uint32_t level) const {
-    return (std::uint64_t{layer_generation} << 32) + std::uint64_t{id} * (levels_ + 1) + level;
-  }
-
   void add_layer_points(const std::vector<std::vector<std::uint32_t>>& ids) {
     std::uint32_t column = 0;
     for (std::size_t r = 0; r < columns_.rings.size(); ++r) {
@@ -73,7 +66,7 @@ class LayerView {
         const auto add = [&](Point p, std::uint32_t level, std::int32_t curve, double t) {
           mesh_.points.push_back(p);
           mesh_.length_scale.push_back(ring.spacing[c]);
-          mesh_.vertex_keys.push_back(key_of(ids[r][c], level));
+          mesh_.vertex_keys.push_back(layer_key(ids[r][c], level, levels_));
           mesh_.curve.push_back(curve);
           mesh_.parameter.push_back(t);
           mesh_.steiner.push_back(0);
@@ -261,6 +254,12 @@ class LayerView {
 };
 
 }  // namespace
+
+std::uint64_t layer_key(std::uint32_t column, std::uint32_t level, std::uint32_t levels) {
+  // Of generations that living meshes, which count from 0, never reach.
+  constexpr std::uint32_t layer_generation = 0x80000000U;
+  return (std::uint64_t{layer_generation} << 32) + std::uint64_t{column} * (levels + 1) + level;
+}
 
 LayerTopology LayeredMesh::topology() const {
   return empty() ? LayerTopology{} : topology_of(*columns_, levels());

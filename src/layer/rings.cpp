@@ -184,7 +184,9 @@ std::vector<std::size_t> layered_loops(const Domain& domain, const LayerOptions&
     if (options.walls.empty() ? loop.role == LoopRole::hole : is_named(loop, options.walls)) loops.push_back(l);
   }
   if (loops.empty())
-    throw Error(ErrorCode::argument, "walls", "found a domain without holes, expected a wall for the layer");
+    throw Error(ErrorCode::argument, "walls",
+                "found a domain without holes, expected a closed wall for the layer: the walls of a duct, which end at an inlet "
+                "or outlet, get none");
   require_no_chains(domain, loops);
   return loops;
 }

@@ -83,6 +83,8 @@ class Layers(ProgramTest):
             (("--layers",), "--reynolds"),
             (("--reynolds", 1e6), "--layers"),
             (("--layers", "--y-plus", 1), "--reynolds"),
+            (("--wake", 1), "--layers"),
+            ((*LAYERS, "--wake-angle", 3), "--wake"),
             (("--layers", "--first-height", 1e-5, "--y-plus", 1), "--first-height"),
             ((*LAYERS, "--layer-count", 3, "--layer-thickness", 0.1), "--layer-count"),
             ((*LAYERS, "--points", 100), "--points"),
@@ -92,7 +94,76 @@ class Layers(ProgramTest):
                 self.refused("mesh", "naca:0012", *options, "-o", "m.su2", names=word)
         self.make("-o", "a.vtkhdf")
         self.refused("update", "a.vtkhdf", "naca:0012", "--points", 100, "-o", "b.su2", names="--points")
-        self.refused("batch", "a.vtkhdf", "naca:0012", "-o", "run", names="a mesh with layers found")
+        for command, options in (("batch", ("--boundary", "airfoil")), ("batch", LAYERS), ("batch", ("--dissolve-layers",)),
+                                 ("optimise", LAYERS), ("optimise", ("--points", 100)), ("optimise", ("--gradation", 4))):
+            with self.subTest(command, options=options):
+                shapes = ("a.vtkhdf", "naca:0012") if command == "batch" else ("--mesh", "a.vtkhdf", "--to", "naca:0012")
+                self.refused(command, *shapes, *options, "-o", "run", names=options[0])
+        self.refused("optimise", "--from", "naca:0012", "--to", "rae2822", "--layers", "-o", "run", names="--reynolds")
+        self.refused("optimise", "--from", "naca:0012", "--to", "rae2822", *LAYERS, "--points", 60, "-o", "run", names="--points")
+        self.assertFalse(self.path("run").exists())
+
+    def test_a_batch_of_layered_meshes(self):
+        self.make("-o", "a.vtkhdf")
+        batch = self.figures("batch", "a.vtkhdf", "naca:2412", "naca:0012", "rae2822", "-o", "out", "--meshes", "vtkhdf,su2")
+        self.assertEqual(batch["strategy"], "morph")
+        self.assertEqual(batch["invalid_meshes"], 0)
+        in_order = sorted(batch["designs"], key=lambda design: design["position"])
+        for design in in_order:
+            for mesh in design["meshes"]:
+                checked = self.figures("check", f"out/{mesh}")
+                self.assertTrue(checked["valid"])
+                self.assertEqual((checked["triangles"], checked["quadrilaterals"]), (design["triangles"], design["quadrilaterals"]))
+            self.assertEqual(design["cells"], design["triangles"] + design["quadrilaterals"])
+            self.assertGreater(design["connectivity_percent"], 90)
+        for before, after in zip(in_order, in_order[1:]):
+            self.assertEqual(after["cells_before"], before["cells"])
+        # One step of it is what `update` makes.
+        self.succeed("update", "a.vtkhdf", in_order[0]["shape"], "--strategy", "morph", "-o", "u.vtkhdf")
+        self.assertEqual(self.path("u.vtkhdf").read_bytes(), self.path("out/" + in_order[0]["meshes"][0]).read_bytes())
+        triangles = self.figures("batch", "a.vtkhdf", "naca:0012", "-o", "triangles", "--layer-cells", "triangles")
+        self.assertEqual(triangles["designs"][0]["quadrilaterals"], 0)
+
+    def test_a_batch_puts_layers_on_a_mesh_without(self):
+        self.succeed("mesh", "naca:0012", "-o", "plain.vtkhdf")
+        batch = self.figures("batch", "plain.vtkhdf", "naca:0013", *LAYERS, "-o", "out", "--meshes", "vtkhdf")
+        self.assertGreater(batch["layers"]["columns"], 100)
+        self.assertTrue(self.figures("check", "out/001.vtkhdf")["valid"])
+
+    def test_a_run_around_layers(self):
+        run = ("optimise", "--from", "naca:0012", "--to", "rae2822", *LAYERS, "--evaluations", 30, "--checkpoint-every", 10)
+        figures = self.figures(*run, "-o", "run", "--quiet")
+        self.assertEqual((figures["invalid_meshes"], figures["evaluations"]), (0, 30))
+        self.assertEqual(figures["options"]["strategy"], "morph")
+        for name in ("first", "middle", "last"):
+            checked = self.figures("check", f"run/{name}.vtkhdf")
+            self.assertTrue(checked["valid"])
+            self.assertEqual(checked["layers"]["columns"], figures["layers"]["columns"])
+        self.succeed("film", "run", "--frames", 4, "-o", "film.webp")
+        on = self.figures("optimise", "--mesh", "run/last.vtkhdf", "--to", "rae2822", "--evaluations", 5, "-o", "on", "--quiet")
+        self.assertEqual(on["invalid_meshes"], 0)
+        self.assertEqual(on["start"]["cells"], self.figures("check", "run/last.vtkhdf")["quadrilaterals"] + checked["triangles"])
+        # What is not the run's own layer cannot be gone on with.
+        self.refused(*run[:-3], 40, "--resume", "--growth", 1.3, "-o", "run", "--quiet", names="layers")
+
+    def test_a_line_in_the_wake(self):
+        plain = self.make()
+        mesh = self.make("--wake", 1, "--wake-angle", 3, "-o", "a.vtkhdf")
+        self.assertEqual(mesh["layers"]["columns"], plain["layers"]["columns"])
+        self.assertEqual(mesh["layers"]["thickness"], plain["layers"]["thickness"])
+        self.assertGreater(mesh["boundary"]["wake"], 20)
+        for strategy in ("morph", "reference", "renew"):
+            with self.subTest(strategy):
+                step = self.figures("update", "a.vtkhdf", "naca:2412", "--strategy", strategy, "-o", "b.vtkhdf")
+                self.assertTrue(step["same_columns"])
+                check = self.figures("check", "b.vtkhdf")
+                self.assertTrue(check["valid"])
+                self.assertGreater(check["boundary"]["wake"], 20)
+
+    def test_fates_of_cells(self):
+        self.make("-o", "a.vtkhdf")
+        self.succeed("update", "a.vtkhdf", "naca:2412", "-o", "b.vtkhdf")
+        self.succeed("draw", "b.vtkhdf", "--color", "fate", "--since", "a.vtkhdf", "-o", "b.png")
 
 
 if __name__ == "__main__":

@@ -302,6 +302,22 @@ class OpenFoam(ProgramTest):
         self.assertIn("Mesh has 2 geometric (non-empty/wedge) directions (1 1 0)", said)
         self.foam("potentialFoam", "case")
 
+    def test_openfoam_finds_nothing_wrong_with_layers(self):
+        self.write("blunt.json", '{"degree": 2, "upper": [0.2, 0.2, 0.2], "lower": [-0.2, -0.2, -0.2],'
+                                 ' "te_upper": 0.004, "te_lower": -0.004}')
+        spaced = ("--max-spacing", 0.004)  # cells of an aspect below 1000
+        for shape, options in (("naca:0012", spaced), ("rae2822", ()), ("blunt.json", spaced),
+                               (SOURCE / "examples/domains/high_lift.json", spaced)):
+            with self.subTest(shape):
+                shutil.rmtree(self.path("case"), ignore_errors=True)
+                self.path("case").mkdir()
+                figures = self.figures("mesh", shape, "--layers", "--reynolds", 6e6, *options, "-o", "case/case.foam")
+                for name in ("system", "constant"):
+                    shutil.copytree(self.path(name), self.path("case") / name, dirs_exist_ok=True)
+                said = self.foam("checkMesh", "case")
+                self.assertIn("Mesh OK.", said)
+                self.assertIn(f"hexahedra:     {figures['quadrilaterals']}", said)
+
     def test_the_example_starts_from_the_design_before(self):
         figures = self.figures(
             "optimise", "--from", "naca:0012", "--evaluate", "./solve.py {case} {result}", "--points", 60, "--sigma",

@@ -1,0 +1,62 @@
+#pragma once
+
+// The design space of a run of airfoils, with layers on their walls where the run has some.
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "remodel/design_space.h"
+#include "remodel/layers.h"
+#include "remodel/optimise.h"
+
+namespace remodel {
+
+// Around the airfoils lie layers: the design's domain is what lies beyond them.
+class LayeredAirfoils final : public DesignSpace {
+ public:
+  // All designs have the fans of the start's walls. Where the layers have a spacing, they have the stations
+  // of the start's walls by that, at the same parameters. Throws Error as LayerFrame does.
+  LayeredAirfoils(std::unique_ptr<AirfoilSpace> airfoils, const RunLayers& layers);
+
+  const AirfoilSpace& airfoils() const { return *airfoils_; }
+
+  const LayerFrame* layers() const override { return &*frame_; }
+  Domain walls(std::span<const double> design) const override;
+  Domain domain(std::span<const double> design) const override { return frame_->outside(walls(design)); }
+  bool feasible(std::span<const double> design) const override;
+  std::vector<double> start() const override { return airfoils_->start(); }
+  std::vector<Point> outline(std::span<const double> design) const override {
+    return airfoils_->outline(design);
+  }
+  std::string text(std::span<const double> design) const override { return airfoils_->text(design); }
+  std::string description() const override;
+
+ private:
+  std::unique_ptr<AirfoilSpace> airfoils_;
+  std::optional<WallSpacing> spacing_;
+  std::vector<Parameters> stations_;  // of the curves of layered loops, where there is a spacing
+  std::optional<LayerFrame> frame_;
+};
+
+// One of the two.
+class RunSpace {
+ public:
+  RunSpace(std::unique_ptr<AirfoilSpace> airfoils, const std::optional<RunLayers>& layers);
+  // That of optimise() from this airfoil.
+  RunSpace(const CstAirfoil& from, const OptimiseOptions& options);
+  // By description(), which `options` has. Throws nlohmann's exceptions.
+  static std::optional<RunLayers> layers_in(const std::string& options);
+
+  const DesignSpace& space() const;
+  std::unique_ptr<DesignSpace> release();
+  const AirfoilSpace& airfoils() const { return layered_ ? layered_->airfoils() : *plain_; }
+
+ private:
+  std::unique_ptr<AirfoilSpace> plain_;
+  std::unique_ptr<LayeredAirfoils> layered_;
+};
+
+}  // namespace remodel

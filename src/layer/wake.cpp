@@ -1,0 +1,56 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "generate/require_option.h"
+#include "layer/rings.h"
+#include "remodel/layers.h"
+
+namespace remodel {
+
+namespace {
+
+// A ball between the wall and the line has half their distance as its radius, and a column takes half of
+// that.
+constexpr double thicknesses_to_the_wake = 4.2;
+
+void require_wake(const WakeLine& wake) {
+  require_option(wake.length > 0.0 && wake.length <= 1e3, "wake", wake.length,
+                 "more than 0 and at most 1000 chords");
+  require_option(wake.first >= 1e-6 && wake.first <= 1e3, "first spacing of the wake", wake.first,
+                 "1e-6 to 1000 chords");
+  require_option(wake.most >= wake.first && wake.most <= 1e3, "largest spacing of the wake", wake.most,
+                 "at least the first one and at most 1000 chords");
+  require_option(wake.growth >= 1.0 && wake.growth <= 2.0, "growth of the wake", wake.growth, "1 to 2");
+}
+
+Parameters stations_of_wake(const WakeLine& wake) {
+  std::vector<double> at{0.0};
+  for (double step = wake.first; at.back() + 1.5 * step < wake.length;
+       step = std::min(wake.growth * step, wake.most))
+    at.push_back(at.back() + step);
+  for (double& s : at) s /= wake.length;
+  return at;
+}
+
+}  // namespace
+
+void add_wake(Domain& domain, const WakeLine& wake, const LayerOptions& layers) {
+  require_wake(wake);
+  const double size = std::sqrt(dot(wake.direction, wake.direction));
+  require_option(size > 0.0, "direction of the wake", size, "one of a length above 0");
+  const Point along = (1.0 / size) * wake.direction;
+  const std::vector<std::size_t> loops = layered_loops(domain, layers);
+  Point edge = domain.points(loops.front()).front();
+  for (const std::size_t l : loops)
+    for (const Point p : domain.points(l))
+      if (dot(p, along) > dot(edge, along)) edge = p;
+  const Point from = edge + thicknesses_to_the_wake * layers.thickness * along;
+  domain.loops.push_back({.role = LoopRole::internal,
+                          .curves = {{.name = "wake",
+                                      .shape = Line{from, from + wake.length * along},
+                                      .parameters = stations_of_wake(wake)}},
+                          .open = true});
+}
+
+}  // namespace remodel
