@@ -1,6 +1,8 @@
 // Mesh.update(), Step and Trial.
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "living.h"
 #include "records.h"
