@@ -125,8 +125,9 @@ void add_stages(Report& report, const std::vector<DesignStage>& stages) {
 
 DesignProblem problem_of(const DesignCommand& command) {
   DesignProblem problem = read_design_problem(command.problem);
-  if (command.start) problem.start = command.start, validate(problem, command.problem);
-  return problem;
+  if (!command.start) return problem;
+  problem.start = command.start;
+  return with_first_design(std::move(problem), command.problem);
 }
 
 // Under mpirun.

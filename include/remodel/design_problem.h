@@ -187,6 +187,10 @@ std::vector<std::string> designer_names();
 // names the problem.
 void validate(const DesignProblem& problem, const std::string& source = "design problem");
 
+// Validates a problem and returns it with the numbers of `start` in that one's place: another run's history
+// is read once.
+DesignProblem with_first_design(DesignProblem problem, const std::string& source = "design problem");
+
 // Reads the file of a problem: docs/design.md describes it. Paths in it lead on from its directory. Throws
 // Error naming the file and the place in it.
 DesignProblem read_design_problem(const std::string& file);

@@ -4,6 +4,8 @@
 // gradients a step. Source: J. Nocedal and S. J. Wright, "Numerical Optimization", 2nd ed. (2006), sections
 // 18.5 (elastic constraints in a box) and 18.3 (procedure 18.2, damped BFGS).
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +22,9 @@ struct SqpOptions {
   double least_promise = 1e-6;
   // The lowest and highest value of each number of the design.
   std::vector<double> low{}, high{};
+  // So many designs around the start are tried in its place where its evaluation fails, ever farther from
+  // it.
+  std::size_t other_starts = 4;
   // Initial shape of the second derivatives, a symmetric positive matrix row by row; empty: the identity.
   std::vector<double> metric{};
 };
@@ -48,8 +53,8 @@ class SqpDesigner final : public Designer {
   std::vector<double> centre() const override { return best_.design; }
   std::string state() const override;
   void restore(const std::string& state, const std::string& source) override;
-  // Second derivatives, the penalty, a box no smaller than a part of the first, and the objective's first value,
-  // by which the search ends.
+  // Second derivatives, the penalty, a box no smaller than a part of the first, and the objective's first
+  // value, by which the search ends.
   void carry(const std::string& state, const std::string& source) override;
   std::string description() const override;
 
@@ -62,6 +67,7 @@ class SqpDesigner final : public Designer {
   double model(const std::vector<double>& step) const;  // less what it is without a step
   bool comparable(const Known& trial) const;
   void propose();
+  void propose_start();
   void begin_model();
   void judge(const Known& trial, bool failed);
   void learn(const Known& trial);
@@ -74,8 +80,8 @@ class SqpDesigner final : public Designer {
   bool learnt_ = false;            // from a step
   bool carried_ = false;           // the model is another search's, before the first design is told
   double scale_ = 1.0, trust_ = 0.0, penalty_ = 0.0, promised_ = 0.0, shift_ = 0.0;
-  double begun_at_ = 0.0;  // merit where the model began
-  std::uint64_t steps_ = 0;
+  double begun_at_ = 0.0;                 // merit where the model began
+  std::uint64_t steps_ = 0, starts_ = 0;  // designs that failed before any did not
   bool started_ = false, finished_ = false;
 };
 

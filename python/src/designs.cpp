@@ -138,7 +138,7 @@ py::dict designed(const std::string& text, const std::string& source,
   if (start) problem.start = start;
   add_functions(own, watch, problem);
   if (airfoil || target || !own.empty()) problem.text.clear();  // no text has these
-  validate(problem, source);
+  problem = with_first_design(std::move(problem), source);
   py::list warnings;
   for (const std::string& warning : problem.warnings) warnings.append(warning);
   std::optional<DesignResult> result;

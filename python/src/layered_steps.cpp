@@ -23,6 +23,7 @@ LayeredStepPointer layers_updated(const LayersPointer& mesh, const py::object& s
     LayeredRemodelResult result = remodel(mesh->mesh, domain, options);
     step->changes = mesh->mesh.changes_since(mark);
     mesh->changed();
+    if (!result.abandoned) mesh->follows = options.strategy == Strategy::reference;
     return result;
   });
   step->mesh = mesh;
@@ -77,6 +78,8 @@ class LayeredAttempt {
       step->changes = mesh_->mesh.changes_since(mark);
       step->result = trial->result();
       mesh_->changed();
+      followed_ = mesh_->follows;
+      if (!step->result.abandoned) mesh_->follows = options_.strategy == Strategy::reference;
       return trial;
     });
     step->mesh = mesh_;
@@ -95,6 +98,7 @@ class LayeredAttempt {
     if (!trial_) return;
     const ThreadLock::Held held(mesh_->lock);
     trial_.reset();
+    mesh_->follows = followed_;
     mesh_->changed();
   }
   const LayeredStepPointer& step() const {
@@ -108,6 +112,7 @@ class LayeredAttempt {
   py::object shape_;
   std::string boundary_;
   RemodelOptions options_;
+  bool followed_ = false;  // before
   std::unique_ptr<LayeredTrial> trial_;
   LayeredStepPointer step_;
 };
@@ -211,7 +216,7 @@ LayersPointer layers_at(LivingLayers& mesh, const py::object& shape, const std::
   const ThreadLock::Held held(mesh.lock);
   const Domain domain = next_domain(mesh.mesh.domain(), shape, boundary);
   py::gil_scoped_release released;
-  return layers_alive(mesh_at(mesh.mesh, domain));
+  return layers_alive(mesh_at(mesh.mesh, domain), mesh.follows);
 }
 
 }  // namespace

@@ -84,11 +84,12 @@ struct LayersWay {
   std::size_t first = 0, count = 0;  // the airfoil's coefficients, upper then lower
 };
 
-LayersWay layers_way(const LayeredMesh& mesh, const std::string& boundary, const std::string& interior) {
+LayersWay layers_way(const LivingLayers& living, const std::string& boundary, const std::string& interior) {
+  const LayeredMesh& mesh = living.mesh;
   if (interior != "own" && interior != "still")
     throw Error(ErrorCode::argument, "interior", "found '" + interior + "', expected own or still");
   const auto [loop, first, count] = airfoil_numbers(mesh.domain(), boundary);
-  if (interior == "own" && mesh.outer().held())
+  if (interior == "own" && (mesh.outer().held() || living.follows))
     return {LayeredMeshDerivative(mesh, moving_loops(mesh.outer(), {loop})), first, count};
   return {LayeredMeshDerivative(mesh), first, count};
 }
@@ -97,7 +98,7 @@ py::array layers_jvp(LivingLayers& mesh, const Reals& direction, const std::stri
                      const std::string& interior) {
   const std::vector<double> given = reals(direction, "direction");
   const ThreadLock::Held held(mesh.lock);
-  const LayersWay way = layers_way(mesh.mesh, boundary, interior);
+  const LayersWay way = layers_way(mesh, boundary, interior);
   if (given.size() != way.count)
     throw Error(ErrorCode::argument, "direction",
                 "found " + std::to_string(given.size()) + " numbers, expected " + std::to_string(way.count));
@@ -110,7 +111,7 @@ py::array_t<double> layers_vjp(LivingLayers& mesh, const py::object& by_points, 
                                const std::string& interior) {
   const std::vector<Point> weights = points(array_of(by_points, "by_points"), "by_points");
   const ThreadLock::Held held(mesh.lock);
-  const LayersWay way = layers_way(mesh.mesh, boundary, interior);
+  const LayersWay way = layers_way(mesh, boundary, interior);
   const std::vector<double> all = way.derivative.vjp(weights);
   const auto first = all.begin() + static_cast<std::ptrdiff_t>(way.first);
   return copied(std::vector<double>(first, first + static_cast<std::ptrdiff_t>(way.count)));
@@ -140,7 +141,7 @@ stays. LivingFlow.gradients() has derivatives by points.)");
            "Validates it: cells convex, conforming and counter-clockwise, the outer mesh as promised.");
   type.def("copy", [](LivingLayers& mesh) {
     const ThreadLock::Held held(mesh.lock);
-    return layers_alive(mesh.mesh);
+    return layers_alive(mesh.mesh, mesh.follows);
   });
   type.def(
       "save",
@@ -160,10 +161,14 @@ stays. LivingFlow.gradients() has derivatives by points.)");
   type.def(py::pickle(
       [](LivingLayers& mesh) {
         const ThreadLock::Held held(mesh.lock);
-        return layered_dict(mesh.mesh.state());
+        py::dict state = layered_dict(mesh.mesh.state());
+        state["follows"] = mesh.follows;
+        return state;
       },
       [](const py::dict& state) {
-        return layers_alive(LayeredMesh::restore(layered_state_of(state), "pickle"));
+        bool follows = false;
+        read_member(state, "follows", [&](const py::handle& object) { follows = object.cast<bool>(); });
+        return layers_alive(LayeredMesh::restore(layered_state_of(state), "pickle"), follows);
       }));
   const auto figure = [&](const char* name, auto read, const char* doc) {
     type.def_property_readonly(
@@ -220,9 +225,10 @@ stays. LivingFlow.gradients() has derivatives by points.)");
 
 }  // namespace
 
-LayersPointer layers_alive(LayeredMesh mesh) {
+LayersPointer layers_alive(LayeredMesh mesh, bool follows) {
   auto living = std::make_shared<LivingLayers>();
   living->mesh = std::move(mesh);
+  living->follows = follows;
   return living;
 }
 

@@ -27,6 +27,7 @@ namespace remodel::python {
 // As LivingMesh.
 struct LivingLayers {
   LayeredMesh mesh;
+  bool follows = false;  // whether its last step held it by its reference
   ThreadLock lock;
   Snapshot frozen;
   std::uint64_t version = 0;
@@ -47,7 +48,7 @@ struct LivingLayers {
 };
 using LayersPointer = std::shared_ptr<LivingLayers>;
 
-LayersPointer layers_alive(LayeredMesh mesh);
+LayersPointer layers_alive(LayeredMesh mesh, bool follows = false);
 
 // As StepRecord.
 struct LayeredStepRecord {

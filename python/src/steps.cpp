@@ -1,6 +1,8 @@
 // Mesh.update(), Step and Trial.
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "living.h"
 #include "records.h"
@@ -13,13 +15,17 @@ bool closed(const CstAirfoil& airfoil) {
   return airfoil.te_upper == airfoil.te_lower;
 }
 
-Loop with_curve(Loop loop, const CstAirfoil& airfoil) {
-  Curve curve = loop.curves.front();
-  curve.shape = airfoil;
-  Curve base{.name = curve.name, .shape = Line{airfoil.at(1.0), airfoil.at(0.0)}, .parameters = {0.0}};
-  if (loop.curves.size() > 1) base.parameters = loop.curves[1].parameters;
-  loop.curves = {std::move(curve)};
-  if (!closed(airfoil)) loop.curves.push_back(std::move(base));
+Loop with_curve(Loop loop, CstAirfoil airfoil) {
+  std::optional<Curve> base;
+  if (!closed(airfoil)) {
+    base = {.name = loop.curves.front().name,
+            .shape = Line{airfoil.at(1.0), airfoil.at(0.0)},
+            .parameters = {0.0}};
+    if (loop.curves.size() > 1) base->parameters = std::move(loop.curves[1].parameters);
+  }
+  loop.curves.resize(1);
+  loop.curves.front().shape = std::move(airfoil);
+  if (base) loop.curves.push_back(std::move(*base));
   return loop;
 }
 
@@ -272,7 +278,7 @@ Domain next_domain(const Domain& now, const py::object& shape, const std::string
   if (!py::isinstance<py::str>(shape) && !py::isinstance<CstAirfoil>(shape))
     throw py::type_error("shape: found " + type_of(shape) +
                          ", expected an Airfoil, a Domain or the name of an airfoil");
-  const CstAirfoil airfoil =
+  CstAirfoil airfoil =
       py::isinstance<py::str>(shape) ? named_airfoil(shape.cast<std::string>(), 5) : shape.cast<CstAirfoil>();
   Domain domain = now;
   const std::vector<std::size_t> loops = airfoil_loops(domain, boundary);
@@ -280,7 +286,8 @@ Domain next_domain(const Domain& now, const py::object& shape, const std::string
     throw Error(ErrorCode::argument, "boundary",
                 "not given, expected the name of one of " + std::to_string(loops.size()) + " airfoils");
   if (loops.size() == 1) {
-    domain.loops[loops[0]] = with_curve(domain.loops[loops[0]], airfoil);
+    Loop& loop = domain.loops[loops[0]];
+    loop = with_curve(std::move(loop), std::move(airfoil));
     return domain;
   }
   return with_airfoil(domain, find_airfoil(domain, boundary.empty() ? "airfoil" : boundary, "mesh"), airfoil);

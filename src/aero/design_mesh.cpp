@@ -5,10 +5,9 @@
 namespace remodel {
 namespace {
 
-std::optional<LayeredMesh> with_layers(const FlowSpace& space, const Mesh& mesh,
-                                       std::span<const double> design) {
+std::optional<LayeredMesh> with_layers(const FlowSpace& space, const Mesh& mesh, const Domain& walls) {
   if (space.layers() == nullptr) return std::nullopt;
-  return space.layers()->around(mesh, space.walls(design));
+  return space.layers()->around(mesh, walls);
 }
 
 // The loops of a domain that depend on the design.
@@ -34,8 +33,11 @@ std::vector<std::size_t> moving_loops(const FlowSpace& space, const Domain& wall
 }  // namespace
 
 DesignMesh::DesignMesh(const FlowSpace& space, const Mesh& mesh, std::span<const double> design)
+    : DesignMesh(space, mesh, space.layers() == nullptr ? Domain() : space.walls(design)) {}
+
+DesignMesh::DesignMesh(const FlowSpace& space, const Mesh& mesh, const Domain& walls)
     : mesh_(mesh),
-      layered_(with_layers(space, mesh, design)),
+      layered_(with_layers(space, mesh, walls)),
       frozen_(layered_ ? layered_->freeze() : mesh.freeze()) {}
 
 DesignDerivative::DesignDerivative(const FlowSpace& space, const DesignMesh& mesh) : space_(space) {

@@ -18,6 +18,8 @@ class DesignMesh {
  public:
   // `mesh` is one of space.domain(design), and outlives this.
   DesignMesh(const FlowSpace& space, const Mesh& mesh, std::span<const double> design);
+  // The same of walls that are of no design, like the space's walls(). Throws Error as LayerFrame does.
+  DesignMesh(const FlowSpace& space, const Mesh& mesh, const Domain& walls);
 
   const FrozenMesh& frozen() const { return frozen_; }
   const Domain& walls() const { return layered_ ? layered_->domain() : mesh_.domain(); }

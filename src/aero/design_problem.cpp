@@ -82,6 +82,12 @@ void validate(const DesignProblem& problem, const std::string& source) {
   resolved(problem, source);
 }
 
+DesignProblem with_first_design(DesignProblem problem, const std::string& source) {
+  std::vector<double> first = resolved(problem, source).first_design;
+  if (problem.start) problem.first_design = std::move(first), problem.start.reset();
+  return problem;
+}
+
 std::unique_ptr<FlowSpace> design_space(const DesignProblem& problem) {
   return std::move(resolved(problem, "design problem").space);
 }

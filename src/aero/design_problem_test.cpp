@@ -276,68 +276,6 @@ TEST(SymmetricSections, GradientsOfDragAndLiftAreThoseOfWholeFlows) {
   EXPECT_LT(relative(evaluation.constraint_gradients.at(0), task.differences(lift, 1e-6)), 1e-6);
 }
 
-DesignProblem viscous_problem() {
-  DesignProblem problem = problem_of(section("naca0012", 3));
-  problem.domain.points = 150;
-  problem.gradation = 2.5;
-  problem.layer = LayerOptions{.first_height = 3e-3, .growth = 1.3, .thickness = 0.05};
-  problem.points = {
-      {.conditions = {.mach = 0.5, .alpha_deg = 1.0, .reynolds = 5000.0}, .model = FlowModel::laminar}};
-  return problem;
-}
-
-// Of all that a design with friction is made of: pressure and friction, the layer's columns, and what lies
-// beyond them.
-TEST(Friction, GradientsAreThoseOfWholeFlowsOnMeshesOfOneReference) {
-  DesignProblem problem = viscous_problem();
-  problem.constraints = {{.kind = "lift", .at_least = 0.0},
-                         {.kind = "pressure_drag", .at_most = 1.0},
-                         {.kind = "friction_drag", .at_most = 1.0},
-                         {.kind = "moment", .at_most = 1.0}};
-  const Case task(problem);
-  const std::vector<double> start = task.space().start();
-  const Evaluation evaluation = task.evaluate(start);
-  EXPECT_NEAR(evaluation.objective,
-              evaluation.outputs.at("cd_pressure") + evaluation.outputs.at("cd_friction"), 1e-12);
-  std::vector<FlowResult> flows;  // of the differences, in their order
-  LivingFlow living([&] {
-    FlowOptions options = design_flow_options(task.space(), problem.points[0]);
-    options.tolerance = 1e-11;
-    return options;
-  }());
-  const auto drag = [&](const std::vector<double>& design) {
-    const Mesh mesh = task.mesh_of(design);
-    flows.push_back(DesignMesh(task.space(), mesh, design).solve(living, problem.points[0].conditions));
-    EXPECT_TRUE(flows.back().converged()) << flows.back().reason;
-    return flows.back().cd;
-  };
-  EXPECT_LT(relative(evaluation.gradient, task.differences(drag, 1e-4)), 2e-6);
-  const std::vector<double (*)(const FlowResult&)> limited = {
-      [](const FlowResult& flow) { return -flow.cl; },
-      [](const FlowResult& flow) { return flow.friction->cd_pressure; },
-      [](const FlowResult& flow) { return flow.friction->cd_friction; },
-      [](const FlowResult& flow) { return flow.cm; }};
-  for (std::size_t i = 0; i < limited.size(); ++i) {
-    auto next = flows.begin();
-    const auto value = [&](const std::vector<double>&) { return limited[i](*next++); };
-    EXPECT_LT(relative(evaluation.constraint_gradients.at(i), task.differences(value, 1e-4)), 2e-6) << i;
-  }
-}
-
-TEST(Friction, StationsAreThoseOfTheStart) {
-  const Case task(viscous_problem());
-  std::vector<double> design = task.space().start();
-  const Domain walls = task.space().walls(design);
-  EXPECT_NEAR(static_cast<double>(walls.stations(0).size()), 150.0, 3.0);
-  for (double& x : design) x *= 1.2;
-  const Domain thicker = task.space().walls(design);
-  EXPECT_EQ(thicker.curve(0).parameters, walls.curve(0).parameters);
-  EXPECT_NE(thicker.curve(0).shape, walls.curve(0).shape);
-  EXPECT_TRUE(task.space().feasible(design));
-  for (double& x : design) x *= -1.0;  // the surfaces cross each other
-  EXPECT_FALSE(task.space().feasible(design));
-}
-
 TEST(SeveralPoints, AreWorthTheSameOnAnyNumberOfThreads) {
   DesignProblem problem = problem_of(section("naca0012"), {{.kind = "suction", .at_most = 3.0, .point = 2},
                                                            {.kind = "moment", .at_least = -1.0, .point = 1}});

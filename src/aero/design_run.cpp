@@ -47,7 +47,9 @@ std::vector<NamedNumber> DesignRun::violations() const {
 }
 
 std::string DesignRun::why_no_design() const {
-  if (!has_flow) return "no flow was found for any design";
+  if (!has_flow)
+    return "no flow was found for any design: begin with a section, conditions and points for which `remodel "
+           "flow` finds one";
   const std::vector<NamedNumber> by = violations();
   const auto worst = std::max_element(
       by.begin(), by.end(), [](const NamedNumber& a, const NamedNumber& b) { return a.value < b.value; });

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "aero/design_mesh.h"
+#include "aero/first_flow.h"
 #include "aero/flow_memory.h"
 #include "aero/outlet_numbers.h"
 #include "aero/posted_point.h"
@@ -175,10 +176,18 @@ class FlowEvaluator final : public Evaluator {
     return design_flow_options(space_, problem_.points[point], &memory.observer);
   }
 
+  static FlowResult flow_of(const DesignMesh& mesh, LivingFlow& living, const FlowConditions& conditions) {
+    const bool is_first = living.keep().empty();
+    FlowResult flow = mesh.solve(living, conditions);
+    if (flow.converged() || !is_first) return flow;
+    return aero::by_easier_flows(conditions, std::move(flow),
+                                 [&](const FlowConditions& at) { return mesh.solve(living, at); });
+  }
+
   // Called from several threads. living: the point's flow; target: its pressures, of inverse design.
   PointFlow point_of(const Shared& shared, std::size_t index, LivingFlow& living,
                      const StationPressures* target) const {
-    PointFlow point{.flow = shared.mesh.solve(living, problem_.points[index].conditions), .slopes = {}};
+    PointFlow point{.flow = flow_of(shared.mesh, living, problem_.points[index].conditions), .slopes = {}};
     if (space_.half()) point.flow = whole_of(std::move(point.flow));
     if (!point.flow.converged()) throw std::runtime_error("no flow was found: " + point.flow.reason);
     if (!point.flow.lift_determined)
@@ -247,16 +256,20 @@ class FlowEvaluator final : public Evaluator {
     const bool is_aimed = memory.aimed_at == memory.connectivity;
     if (is_aimed && memory.is_like) return;
     Mesh mesh = task.mesh;
-    const RemodelResult step = remodel(mesh, *parts_.target, {.strategy = info_of(design_strategy).step});
+    const Domain& walls = *parts_.target;
+    const RemodelResult step =
+        remodel(mesh, space_.layers() == nullptr ? walls : space_.layers()->outside(walls),
+                {.strategy = info_of(design_strategy).step});
     const bool is_like = step.born() == 0 && step.gone() == 0;
     if (is_aimed && !is_like) return;
     if (is_aimed) ++memory.connectivity;
     memory.target.clear();
+    const DesignMesh target(space_, mesh, walls);
     for (std::size_t i = 0; i < problem_.points.size(); ++i) {
       if (memory.target_flows.size() == i) memory.target_flows.emplace_back(flow_options(i, memory));
-      const FlowResult flow = memory.target_flows[i].solve(mesh, problem_.points[i].conditions);
+      const FlowResult flow = flow_of(target, memory.target_flows[i], problem_.points[i].conditions);
       if (!flow.converged()) throw std::runtime_error("no flow was found around the target: " + flow.reason);
-      memory.target.push_back(at_stations(mesh.freeze(), pressure_coefficients(flow)));
+      memory.target.push_back(at_stations(target.frozen(), pressure_coefficients(flow)));
     }
     memory.aimed_at = memory.connectivity;
     memory.is_like = is_like;

@@ -58,7 +58,14 @@ void read_mesh_options(const Json& json, const std::string& file, DesignProblem&
   if (!mesh.has("layers")) return;
   if (!has_friction)
     mesh.fail("found 'layers' without friction, expected 'model' and 'reynolds' at all points");
-  problem.layer = layer_given(object.at("layers"), file + ", mesh, layers", layer_for_points(problem.points));
+  // Points that are no good are refused later, by their place.
+  const bool are_good =
+      std::all_of(problem.points.begin(), problem.points.end(), [](const DesignPoint& point) {
+        const double reynolds = point.conditions.reynolds;
+        return point.model != FlowModel::euler && reynolds >= 1.0 && reynolds <= 1e10;
+      });
+  problem.layer = layer_given(object.at("layers"), file + ", mesh, layers",
+                              are_good ? layer_for_points(problem.points) : LayerOptions());
 }
 
 // Unless the file says otherwise, the stations are those of the domain that is deformed.
@@ -199,7 +206,7 @@ DesignProblem parse_design_problem(const std::string& text, const std::string& f
                       {"name", "evaluations", "bounds", "trust", "sigma", "seed", "workers"});
   read_designer(designer, problem);
   if (keys.has("start")) problem.start = start_given(json.at("start"), file);
-  validate(problem, file);
+  problem = with_first_design(std::move(problem), file);
   require_keys_of_designer(designer, problem);
   return problem;
 }

@@ -228,8 +228,6 @@ class Resolver {
       place_.inner("mesh").fail("found " + shown(coarsest) + " as 'points' with friction, expected " +
                                 shown(least_points) + " or more; " + shown(usual_points_with_friction) +
                                 " are usual");
-    if (has_friction() && problem_.target)
-      place_.fail("found 'target' with friction, expected points without");
   }
 
   // Each function once: constraints of one kind share what it takes.
@@ -367,10 +365,29 @@ class Resolver {
 
   void make_space() {
     make_space_of_bodies();
-    if (has_friction())
+    if (!has_friction()) return;
+    try {
       resolved_.space = std::make_unique<LayeredSpace>(
           std::move(resolved_.space), problem_.layer.value_or(layer_for_points(problem_.points)),
           problem_.domain.points);
+    } catch (const Error& error) {
+      place_.inner("mesh").fail("found 'layers' that no walls can have: " + std::string(error.what()));
+    }
+    if (resolved_.target) put_layer_on_target();
+  }
+
+  // With the start's stations. What comes of it is not needed here but for whether there is any.
+  void put_layer_on_target() {
+    const Domain walls = resolved_.space->walls(resolved_.space->start());
+    LayeredSpace::Stations stations;
+    for (const Loop& loop : walls.loops)
+      for (const Curve& curve : loop.curves) stations.push_back(curve.parameters);
+    resolved_.target = LayeredSpace::with_stations(std::move(*resolved_.target), stations);
+    try {
+      resolved_.space->layers()->outside(*resolved_.target);
+    } catch (const Error& error) {
+      place_.fail("found a 'target' that has no layer: " + std::string(error.what()));
+    }
   }
 
   void make_space_of_bodies() {

@@ -26,7 +26,7 @@ struct ResolvedProblem {
   std::unique_ptr<FlowSpace> space;
   std::vector<FlowFunctionPtr> functions;  // each once; the first one is the objective
   double sense = 1.0;                      // of the objective: -1 made large
-  std::optional<Domain> target;            // of inverse design
+  std::optional<Domain> target;            // of inverse design: the walls
   std::vector<DomainLimit> domain;         // in the order of evaluations
   std::vector<FlowLimit> flow;             // behind them
   std::vector<double> first_design;        // of the search

@@ -298,9 +298,9 @@ SearchOnMesh search_on_mesh(const DesignProblem& problem, const DesignRunOptions
 
 }  // namespace
 
-DesignResult run_design(const DesignProblem& problem, const DesignRunOptions& options,
+DesignResult run_design(const DesignProblem& given, const DesignRunOptions& options,
                         OptimiseObserver* observer) {
-  validate(problem);
+  const DesignProblem problem = with_first_design(given);
   if (!problem.coarse_points.empty())
     return search_coarse_to_fine(problem, options, search_on_mesh, observer);
   AtFirstDesign watched(observer, [&] {

@@ -180,6 +180,21 @@ void SqpDesigner::propose() {
   for (std::size_t i = 0; i < n; ++i) pending_[i] += step[i];
 }
 
+// The start failed. Designs beside it are tried, in a box that doubles with each, within the bounds: points
+// of a sequence that fills boxes evenly, the fractions of k 2^(i / (n + 1)) (H. Niederreiter, "Random Number
+// Generation and Quasi-Monte Carlo Methods", 1992).
+void SqpDesigner::propose_start() {
+  finished_ = ++starts_ > options_.other_starts;
+  if (finished_) return;
+  const auto k = static_cast<double>(starts_), n = static_cast<double>(pending_.size());
+  const double half = options_.trust * std::exp2(k - 1.0);
+  for (std::size_t i = 0; i < pending_.size(); ++i) {
+    const double multiple = k * std::exp2(static_cast<double>(i + 1) / (n + 1.0));
+    const double place = 2.0 * (multiple - std::floor(multiple)) - 1.0;
+    pending_[i] = std::clamp(best_.design[i] + half * place, options_.low[i], options_.high[i]);
+  }
+}
+
 // Damped, so that the model's second derivatives stay positive. The first step says how large they are.
 void SqpDesigner::learn(const Known& trial) {
   const std::size_t n = best_.design.size();
@@ -267,9 +282,8 @@ void SqpDesigner::tell(const Proposal& proposal, const Evaluation& evaluation) {
   const bool failed = !std::isfinite(evaluation.objective) || evaluation.gradient.size() != n;
   const Known known{proposal.design, evaluation};
   if (!started_) {
+    if (failed) return propose_start();
     started_ = true;
-    finished_ = failed;  // the start failed: there is nothing to go on from
-    if (failed) return;
     best_ = known;
     if (std::exchange(carried_, false)) {
       begun_at_ = merit(best_.evaluation);
@@ -297,13 +311,21 @@ void SqpDesigner::tell(const Proposal& proposal, const Evaluation& evaluation) {
 }
 
 std::string SqpDesigner::state() const {
-  SqpJson json = {{"pending", pending_},   {"curvature", curvature_},
-                  {"learnt", learnt_},     {"carried", carried_},
-                  {"scale", scale_},       {"trust", trust_},
-                  {"promised", promised_}, {"penalty", penalty_},
-                  {"shift", shift_},       {"begun_at", begun_at_},
-                  {"steps", steps_},       {"started", started_},
-                  {"finished", finished_}, {"best", known_json(best_.design, best_.evaluation)},
+  SqpJson json = {{"pending", pending_},
+                  {"curvature", curvature_},
+                  {"learnt", learnt_},
+                  {"carried", carried_},
+                  {"scale", scale_},
+                  {"trust", trust_},
+                  {"promised", promised_},
+                  {"penalty", penalty_},
+                  {"shift", shift_},
+                  {"begun_at", begun_at_},
+                  {"steps", steps_},
+                  {"starts", starts_},
+                  {"started", started_},
+                  {"finished", finished_},
+                  {"best", known_json(best_.design, best_.evaluation)},
                   {"waiting", nullptr}};
   if (waiting_) json["waiting"] = known_json(waiting_->design, waiting_->evaluation);
   return json.dump();
@@ -323,6 +345,7 @@ void SqpDesigner::restore(const std::string& state, const std::string& source) {
     json.at("promised").get_to(promised_), json.at("shift").get_to(shift_),
         json.at("begun_at").get_to(begun_at_);
     steps_ = count_at(json, "steps"), json.at("started").get_to(started_);
+    starts_ = json.contains("starts") ? count_at(json, "starts") : 0;
     json.at("finished").get_to(finished_);
     const auto known = [](const SqpJson& of) {
       return Known{of.at("design").get<std::vector<double>>(), known_evaluation(of)};

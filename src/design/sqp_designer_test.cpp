@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -70,14 +72,25 @@ TEST(Sqp, KeepsConstraintsWhoseViolationWouldPay) {
   EXPECT_NEAR(last, 0.1, 1e-6);
 }
 
-TEST(Sqp, WhoseStartIsRefusedHasFinished) {
-  SqpOptions options;
+TEST(Sqp, WhoseStartIsRefusedTriesDesignsAroundItAndEnds) {
+  SqpOptions options{.trust = 0.1, .other_starts = 6};
   options.low = {0.0, 0.0}, options.high = {1.0, 1.0};
   SqpDesigner designer({0.1, 0.2}, options);
-  const Proposal start = designer.ask();
-  designer.refuse(start);
-  EXPECT_TRUE(designer.finished());
-  designer.refuse(start);
+  std::vector<std::vector<double>> tried;
+  while (!designer.finished()) {
+    SqpDesigner again({0.1, 0.2}, options);
+    again.restore(designer.state(), "state");
+    const Proposal proposal = designer.ask();
+    EXPECT_EQ(again.ask().design, proposal.design);
+    EXPECT_TRUE(std::find(tried.begin(), tried.end(), proposal.design) == tried.end());
+    const double box = tried.empty() ? 0.0 : 0.1 * std::exp2(static_cast<double>(tried.size()) - 1.0);
+    EXPECT_LE(std::fabs(proposal.design.at(0) - 0.1), box);
+    EXPECT_GE(proposal.design.at(0), 0.0);
+    tried.push_back(proposal.design);
+    designer.refuse(proposal);
+  }
+  EXPECT_EQ(tried.size(), 7u);
+  designer.refuse({.design = {0.1, 0.2}});
   EXPECT_TRUE(designer.finished());
 }
 
@@ -87,6 +100,21 @@ Evaluation bowl(const std::vector<double>& x) {
           .constraints = {x[0] - 0.5},
           .gradient = {2 * (x[0] - 1), 4 * x[1]},
           .constraint_gradients = {{1, 0}}};
+}
+
+// Nothing is known of the bowl for x + y < 0, where the start lies.
+TEST(Sqp, BeginsBesideAStartThatFails) {
+  SqpDesigner designer({-0.1, 0.05}, {.trust = 0.1, .low = {-2, -2}, .high = {2, 2}});
+  int failed = 0;
+  for (int i = 0; i < 60 && !designer.finished(); ++i) {
+    const Proposal proposal = designer.ask();
+    const bool is_known = proposal.design[0] + proposal.design[1] >= 0.0;
+    failed += !is_known;
+    designer.tell(proposal, is_known ? bowl(proposal.design) : Evaluation{});
+  }
+  EXPECT_GE(failed, 1);
+  EXPECT_NEAR(designer.centre()[0], 0.5, 1e-6);
+  EXPECT_NEAR(designer.centre()[1], 0.0, 1e-3);
 }
 
 TEST(Sqp, GoesOnFromItsStateToTheSameBits) {
