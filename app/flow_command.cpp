@@ -25,6 +25,7 @@ namespace {
 struct FlowCommand {
   DomainInputOptions input;
   MeshingOptions meshing;
+  LayerChoice layers;
   bool is_potential = false;
   FlowModel model = FlowModel::euler;
   bool has_friction() const { return model != FlowModel::euler; }
@@ -45,7 +46,7 @@ void refuse(const FlowCommand& command, std::initializer_list<const char*> optio
 MeshInput read_input(const FlowCommand& command) {
   // By a length of 1.
   const double reynolds = command.euler.conditions.reynolds / command.euler.conditions.reference_length;
-  return flow_mesh({command.input, command.meshing, command.model, reynolds, command.given});
+  return flow_mesh({command.input, command.meshing, command.model, reynolds, command.layers, command.given});
 }
 
 // Any number of parts of a chord.
@@ -194,6 +195,7 @@ void add_flow_command(CLI::App& program, Action& action) {
   add_duct_options(app, command->euler);
   command->outputs.add_options(app, Presence::optional);
   add_meshing_options(app, command->meshing);
+  add_layer_sizes(app, command->layers);
   add_json_flag(app, command->json);
   command->given = [&app](const char* option) { return given(app, option); };
 }

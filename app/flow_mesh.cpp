@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <utility>
 
-#include "layer_options.h"
 #include "remodel/error.h"
 #include "remodel/flow_layer.h"
 #include "remodel/generate.h"
@@ -21,13 +20,18 @@ void require_whole(const DomainInputOptions& input, Stopped stopped) {
 
 // A fresh mesh with a layer that the Reynolds number asks for, as mesh --layers makes it.
 MeshInput layered_input(const FlowMeshRequest& request) {
-  refuse_given(request.given, {"--points"},
-               "given with a model with friction, whose layer sets the stations of walls");
+  refuse_given(
+      request.given, {"--points"},
+      "given with a model with friction, expected --wall-spacing, --te-spacing and --max-spacing, which "
+      "set the stations");
+  require_compatible(request.layers);
   MeshingOptions meshing = request.meshing;
   meshing.gradation = meshing.gradation.value_or(gradation_with_layers);
   DomainInput domain = read_domain(request.input, meshing.discretisation, meshing.fit);
-  if (domain.in_farfield) space_walls(domain.domain, in_units(WallSpacing{}, domain.chord));
-  const LayerOptions layer = layer_for_flow(request.model, request.reynolds * domain.chord);
+  if (domain.in_farfield || request.layers.spacing_given)
+    space_walls(domain.domain, in_units(request.layers.spacing, domain.chord));
+  const double reynolds = request.reynolds * domain.chord;
+  const LayerOptions layer = adjusted(layer_for_flow(request.model, reynolds), request.layers, reynolds);
   LayeredGenerateResult result =
       generate_layered(domain.domain, in_units(layer, domain.chord), meshing.resolved_quality());
   require_whole(request.input, result.stopped);
@@ -36,6 +40,10 @@ MeshInput layered_input(const FlowMeshRequest& request) {
   input.layered = std::move(result.mesh);
   return input;
 }
+
+constexpr std::initializer_list<const char*> layer_sizes = {
+    "--y-plus",      "--first-height", "--growth",     "--layer-thickness",
+    "--layer-count", "--wall-spacing", "--te-spacing", "--max-spacing"};
 
 }  // namespace
 
@@ -61,12 +69,14 @@ std::optional<std::string> mesh_file(const DomainInputOptions& input,
                 "--farfield-radius", "--farfield-points", "--gradation", "--resolution", "--min-angle",
                 "--max-gradation", "--min-edge", "--max-vertices", "--cst-degree", "--close-trailing-edge"},
                "given with a mesh, which has its own, expected with a shape");
+  refuse_given(given, layer_sizes, "given with a mesh, which has its own, expected with a shape");
   return *file;
 }
 
 MeshInput flow_mesh(const FlowMeshRequest& request) {
   if (const auto file = mesh_file(request.input, request.given)) return read_any_mesh(*file);
   if (request.model != FlowModel::euler) return layered_input(request);
+  refuse_given(request.given, layer_sizes, "given without friction, expected --model laminar or sa");
   const DomainInput domain = read_domain(request.input, request.meshing.discretisation, request.meshing.fit);
   GenerateResult result = generate_input(request.input, domain.domain, request.meshing.resolved_quality());
   require_whole(request.input, result.stopped);

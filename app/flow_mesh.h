@@ -9,6 +9,7 @@
 #include <string>
 
 #include "domain_input.h"
+#include "layer_options.h"
 #include "mesh_input.h"
 #include "meshing_options.h"
 #include "remodel/flow.h"
@@ -21,6 +22,7 @@ struct FlowMeshRequest {
   FlowModel model = FlowModel::euler;
   // Of models with friction, by a chord of 1.
   double reynolds = 0.0;
+  LayerChoice layers;                      // its sizes, in place of those that the Reynolds number gives
   std::function<bool(const char*)> given;  // whether an option is on the command line
 };
 

@@ -19,7 +19,7 @@ void add_spacings(CLI::App& app, LayerChoice& choice) {
   const auto add = [&](const char* name, double& target, const std::string& where) {
     add_real(
         app,
-        {name, "CHORDS", short_text(target), "With --layers: distance of stations " + where + ": 1e-6 to 1"},
+        {name, "CHORDS", short_text(target), "With a layer: distance of stations " + where + ": 1e-6 to 1"},
         {.low = 1e-6, .high = 1.0}, [&](double value) { target = value, choice.spacing_given = true; });
   };
   add("--wall-spacing", choice.spacing.leading_edge, "at the leading edge");
@@ -45,6 +45,11 @@ void add_layer_options(CLI::App& app, LayerChoice& choice) {
   add_real(app,
            {"--reynolds", "RE", "", "Reynolds number, which the first height and the thickness follow from"},
            {.low = 1.0, .high = 1e12}, [&](double value) { choice.reynolds = value; });
+  add_layer_sizes(app, choice);
+  add_layer_cells(app, choice.cells);
+}
+
+void add_layer_sizes(CLI::App& app, LayerChoice& choice) {
   add_real(app,
            {"--y-plus", "Y", "1", "y+ of the first layer's height on a flat plate at --reynolds: above 0"},
            {.low = 0.0, .high = 1e4, .above_low = true}, [&](double value) { choice.y_plus = value; });
@@ -62,7 +67,6 @@ void add_layer_options(CLI::App& app, LayerChoice& choice) {
       {"--layer-count", "K", "", "Number of cells across the layer, in place of its thickness: 1 to 1000"},
       {.low = 1, .high = 1000}, [&](std::int64_t value) { choice.count = static_cast<int>(value); });
   add_spacings(app, choice);
-  add_layer_cells(app, choice.cells);
 }
 
 void add_wake_options(CLI::App& app, LayerChoice& choice) {
@@ -99,10 +103,14 @@ void require_consistent(const LayerChoice& choice) {
     refuse(choice.spacing_given, "--wall-spacing, --te-spacing or --max-spacing", alone);
     return;
   }
-  refuse(choice.first_height && choice.y_plus, "--first-height", "given with --y-plus, expected one of them");
   refuse(!choice.first_height && !choice.reynolds, "--layers",
          "given without --reynolds and --first-height, expected one of them");
   refuse(choice.y_plus && !choice.reynolds, "--y-plus", "given without --reynolds, expected both");
+  require_compatible(choice);
+}
+
+void require_compatible(const LayerChoice& choice) {
+  refuse(choice.first_height && choice.y_plus, "--first-height", "given with --y-plus, expected one of them");
   refuse(choice.thickness && choice.count, "--layer-count",
          "given with --layer-thickness, expected one of them");
 }
@@ -117,17 +125,26 @@ LayerOptions in_units(LayerOptions layer, double chord) {
   return layer;
 }
 
-LayerOptions resolved(const LayerChoice& choice, double chord) {
-  LayerOptions options{.first_height = 0.0, .growth = choice.growth.value_or(LayerOptions{}.growth)};
-  options.first_height = choice.first_height ? *choice.first_height
-                                             : first_height(choice.y_plus.value_or(1.0), *choice.reynolds);
+LayerOptions adjusted(LayerOptions layer, const LayerChoice& choice, std::optional<double> reynolds) {
+  if (choice.growth) layer.growth = *choice.growth;
+  if (choice.first_height)
+    layer.first_height = *choice.first_height;
+  else if (choice.y_plus)
+    layer.first_height = first_height(*choice.y_plus, *reynolds);
   if (choice.thickness)
-    options.thickness = *choice.thickness;
+    layer.thickness = *choice.thickness;
   else if (choice.count)
-    options.thickness = thickness_of(options.first_height, options.growth, *choice.count);
-  else if (choice.reynolds)
-    options.thickness = 1.2 * boundary_layer_thickness(*choice.reynolds);
-  return in_units(options, chord);
+    layer.thickness = thickness_of(layer.first_height, layer.growth, *choice.count);
+  return layer;
+}
+
+LayerOptions resolved(const LayerChoice& choice, double chord) {
+  LayerOptions layer{.first_height = 0.0};
+  if (choice.reynolds) {
+    layer.first_height = first_height(1.0, *choice.reynolds);
+    layer.thickness = 1.2 * boundary_layer_thickness(*choice.reynolds);
+  }
+  return in_units(adjusted(layer, choice, choice.reynolds), chord);
 }
 
 void add_layer_figures(Report& report, const LayeredMesh& mesh) {

@@ -27,9 +27,11 @@ struct LayerChoice {
 // G, where none is given: coarser away from the tops than a mesh without a layer is from its walls.
 inline constexpr double gradation_with_layers = 8.0;
 
-// --layers, --reynolds, --y-plus, --first-height, --growth, --layer-thickness, --layer-count, --wall-spacing,
-// --te-spacing, --max-spacing.
+// --layers, --reynolds, those of add_layer_sizes(), --layer-cells.
 void add_layer_options(CLI::App& app, LayerChoice& choice);
+// --y-plus, --first-height, --growth, --layer-thickness, --layer-count, --wall-spacing, --te-spacing,
+// --max-spacing.
+void add_layer_sizes(CLI::App& app, LayerChoice& choice);
 // --wake, --wake-angle.
 void add_wake_options(CLI::App& app, LayerChoice& choice);
 // --layer-cells.
@@ -38,10 +40,14 @@ void add_layer_cells(CLI::App& app, LayerCells& cells);
 // Throws Error (argument) for options that exclude each other, or are given without --layers or what they
 // need.
 void require_consistent(const LayerChoice& choice);
+// The former alone.
+void require_compatible(const LayerChoice& choice);
 // Adds the line of the wake where one is asked for; a chord is so long.
 void add_wake_line(const LayerChoice& choice, double chord, const LayerOptions& layers, Domain& domain);
 // Precondition: --layers. Lengths are in units of the domain, in which a chord is so long.
 LayerOptions resolved(const LayerChoice& choice, double chord);
+// A layer in chords, with what the choice says instead.
+LayerOptions adjusted(LayerOptions layer, const LayerChoice& choice, std::optional<double> reynolds);
 // These distances are in chords; the result is in such units.
 WallSpacing in_units(WallSpacing spacing, double chord);
 LayerOptions in_units(LayerOptions layer, double chord);

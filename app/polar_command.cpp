@@ -30,6 +30,7 @@ namespace {
 struct PolarCommand {
   DomainInputOptions input;
   MeshingOptions meshing;
+  LayerChoice layers;
   PolarOptions polar;
   std::vector<std::string> files;
   bool json = false;
@@ -78,7 +79,8 @@ void require_consistent(const PolarCommand& command) {
 std::vector<MeshInput> meshes_of(const PolarCommand& command) {
   std::vector<MeshInput> meshes;
   for (const std::string& shape : command.input.shapes) {
-    FlowMeshRequest request{command.input, command.meshing, command.polar.flow.model, 0.0, command.given};
+    FlowMeshRequest request{command.input, command.meshing, command.polar.flow.model,
+                            0.0,           command.layers,  command.given};
     request.input.shapes = {shape};
     // Lengths of layers are in chords of 1.
     request.reynolds = command.polar.conditions.reynolds / command.polar.conditions.reference_length;
@@ -330,6 +332,7 @@ void add_polar_command(CLI::App& program, Action& action) {
       Presence::optional, command->files);
   add_reading_options(app, command->input);
   add_meshing_options(app, command->meshing);
+  add_layer_sizes(app, command->layers);
   add_json_flag(app, command->json);
   // Shapes have no names and no places: each is alone in its mesh.
   command->given = [&app](const char* option) {

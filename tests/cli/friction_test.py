@@ -130,8 +130,24 @@ class Friction(ProgramTest):
         for part in (figures["cd_pressure"], figures["cd_friction"], fresh["cd_pressure"], fresh["cd_friction"]):
             self.assertIn(f"<td>{1e4 * part:.2f}</td>", page)
 
+    def test_a_flow_takes_the_sizes_of_its_layer(self):
+        sizes = LAYERS[3:]
+        conditions = ("--model", "laminar", "--mach", 0.5, "--reynolds", 5000, "--layer-thickness", 0.1, "--growth", 1.4,
+                      "--tolerance", 1e-4, "--json")  # fmt: skip
+        self.succeed("mesh", "naca:0012", *LAYERS, "--layer-thickness", 0.1, "--growth", 1.4, "-o", "a.vtkhdf")
+        of_a_mesh = self.succeed("flow", "a.vtkhdf", *conditions[:6], *conditions[10:]).json()
+        of_a_shape = self.succeed("flow", "naca:0012", *sizes, *conditions).json()
+        self.assertEqual(of_a_shape["cd"], of_a_mesh["cd"])
+        self.assertEqual(of_a_shape["vertices"], of_a_mesh["vertices"])
+        row = self.succeed("polar", "naca:0012", *sizes, *conditions, "--alpha", 0).json()["points"][0]
+        self.assertEqual(row["cd"], of_a_mesh["cd"])
+        self.refused("flow", "a.vtkhdf", *conditions, names="given with a mesh, which has its own")
+
     def test_what_does_not_fit_is_refused(self):
         for words, message in (
+            (("--growth", 1.3), "--growth: given without friction"),
+            (("--model", "potential", "--y-plus", 1), "--y-plus: given without friction"),
+            (("--model", "sa", "--reynolds", 1e6, "--y-plus", 1, "--first-height", 1e-5), "--first-height: given with --y-plus"),
             (("--model", "sa"), "--reynolds: not given"),
             (("--model", "laminar", "--reynolds", 1e6, "--transition", "0.1,0.2"), "--transition: given without turbulence"),
             (("--transition", "0.1,0.2"), "--transition: given without turbulence"),
