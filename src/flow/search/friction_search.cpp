@@ -152,31 +152,40 @@ void FrictionSearch<N>::cold(BlockState<N>& state) {
   if (system_.stream().lift) {
     Stream at_angle = system_.stream();
     at_angle.lift.reset();
-    if (!found_rough(at_angle, SearchPolicy::first_angle_tolerance, *cfl, state)) return;
+    if (!found_rough(system_.friction_mesh(), at_angle, SearchPolicy::first_angle_tolerance, *cfl, state))
+      return;
     cfl = SearchPolicy::with_angle_cfl;
   }
   run(state, *cfl);
 }
 
-// From undisturbed flow to a rough flow, with turbulence upwinded to first order at first, and by equal steps
-// of the angle of attack to the stream's own. The CFL number to go on from; nothing: none was found.
+// From undisturbed flow to a rough flow, with turbulence upwinded to first order at first (from the wall's
+// beginning, where a transition is given), and by equal steps of the angle of attack to the stream's own. The
+// CFL number to go on from; nothing: none was found.
 template <std::size_t N>
 std::optional<double> FrictionSearch<N>::rough_at_angle(BlockState<N>& state) {
   Stream stage = system_.stream();
   stage.lift.reset();
+  const FrictionMesh& mesh = system_.friction_mesh();
   const double angle = stage.alpha;
   const int steps = std::max(1, static_cast<int>(std::ceil(std::fabs(angle) / FrictionPolicy::angle_step)));
   stage.alpha = angle / steps;
-  state = FrictionSystem<N>(system_.friction_mesh(), stage, system_.terms().viscosity).undisturbed();
+  state = FrictionSystem<N>(mesh, stage, system_.terms().viscosity).undisturbed();
   double cfl = FrictionPolicy::first_cfl;
   if constexpr (N == 5) {
     stage.working_slopes = 0.0;
-    if (!found_rough(stage, FrictionPolicy::first_order_tolerance, cfl, state)) return std::nullopt;
+    if (stage.transition) {
+      const FrictionMesh turbulent(system_.mesh());
+      if (!found_rough(turbulent, stage, FrictionPolicy::first_order_tolerance, cfl, state))
+        return std::nullopt;
+      cfl = FrictionPolicy::carried_cfl;
+    }
+    if (!found_rough(mesh, stage, FrictionPolicy::first_order_tolerance, cfl, state)) return std::nullopt;
     stage.working_slopes = 1.0;
     cfl = FrictionPolicy::second_order_cfl;
   }
   for (int i = 1; i < steps; ++i) {
-    if (!found_rough(stage, FrictionPolicy::angle_tolerance, cfl, state)) return std::nullopt;
+    if (!found_rough(mesh, stage, FrictionPolicy::angle_tolerance, cfl, state)) return std::nullopt;
     stage.alpha = state.augmented[1] = angle * (i + 1) / steps;
     cfl = FrictionPolicy::angle_cfl;
   }
@@ -184,11 +193,11 @@ std::optional<double> FrictionSearch<N>::rough_at_angle(BlockState<N>& state) {
 }
 
 template <std::size_t N>
-bool FrictionSearch<N>::found_rough(const Stream& stream, double tolerance, double cfl,
-                                    BlockState<N>& state) {
+bool FrictionSearch<N>::found_rough(const FrictionMesh& mesh, const Stream& stream, double tolerance,
+                                    double cfl, BlockState<N>& state) {
   FlowOptions rough = options_;
   rough.tolerance = std::max(options_.tolerance, tolerance);
-  const FrictionSystem<N> system(system_.friction_mesh(), stream, system_.terms().viscosity);
+  const FrictionSystem<N> system(mesh, stream, system_.terms().viscosity);
   const BlockMeasure<N> measure(system);
   FrictionSearch(system, measure, rough, record_).run(state, cfl);
   return record_.status == FlowStatus::converged;

@@ -74,8 +74,9 @@ class FrictionSearch {
  private:
   using Residuals = BlockResiduals<N>;
   std::optional<double> rough_at_angle(BlockState<N>& state);
-  // Goes to a rough flow of another stream through the same mesh; false: none was found.
-  bool found_rough(const Stream& stream, double tolerance, double cfl, BlockState<N>& state);
+  // Goes to a rough flow of another stream, or with other transition; false: none was found.
+  bool found_rough(const FrictionMesh& mesh, const Stream& stream, double tolerance, double cfl,
+                   BlockState<N>& state);
   double unsteady_size(const BlockState<N>& before, const BlockState<N>& state,
                        const std::vector<double>& by_time, const Residuals& now) const;
   bool solve(const BlockState<N>& state, const std::vector<double>& by_time, const Residuals& now,
