@@ -103,10 +103,10 @@ void require_consistent(const LayerChoice& choice) {
     refuse(choice.spacing_given, "--wall-spacing, --te-spacing or --max-spacing", alone);
     return;
   }
+  require_compatible(choice);
   refuse(!choice.first_height && !choice.reynolds, "--layers",
          "given without --reynolds and --first-height, expected one of them");
   refuse(choice.y_plus && !choice.reynolds, "--y-plus", "given without --reynolds, expected both");
-  require_compatible(choice);
 }
 
 void require_compatible(const LayerChoice& choice) {

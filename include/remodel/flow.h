@@ -115,8 +115,7 @@ struct FlowOptions {
   double tolerance = 1e-10;
   int max_steps = 200;  // Newton steps of one flow, 1 or more
   bool vortex = true;   // in the far field
-  // Whether a flow that is not found from another one (LivingFlow, solve_flow_from()) is looked for from
-  // nothing.
+  // A flow that is not found from another one (LivingFlow, solve_flow_from()) is looked for from nothing.
   bool retry_cold = true;
   // K: differences along an edge of length h below (K h / extent)^(3/2) are not limited; more than 0. The
   // extent is the largest distance between two bends of one connected wall, so that flows through meshes of
