@@ -96,11 +96,6 @@ void refuse_options_of_imports(const std::string& file, const StartMeshOptions& 
   refuse(options.dissolve_layers, "--dissolve-layers");
 }
 
-std::string boxes_of_file(const std::string& file) {
-  std::size_t ignored = 0;
-  return without_surface_points(read_su2_boxes(file), ignored);
-}
-
 // The mesh that the same domain has with layers on its walls.
 std::unique_ptr<BatchMesh> with_new_layers(const StartMesh& start, const LayerChoice& layers) {
   if (start.imported || start.mesh.imported())
@@ -128,7 +123,7 @@ std::unique_ptr<BatchMesh> read_batch_mesh(const std::string& file, const StartM
       throw Error(ErrorCode::argument, "--layers",
                   "given for '" + file + "', a mesh with layers, expected a mesh without");
     refuse_options_of_imports(file, options);
-    return std::make_unique<LayeredBatchMesh>(read_layered_mesh(file), file, boxes_of_file(file),
+    return std::make_unique<LayeredBatchMesh>(read_layered_mesh(file), file, boxes_of_layered(file),
                                               layers.cells);
   }
   StartMesh start = read_start_mesh(file, options);

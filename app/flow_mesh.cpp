@@ -29,7 +29,7 @@ MeshInput layered_input(const FlowMeshRequest& request) {
   meshing.gradation = meshing.gradation.value_or(gradation_with_layers);
   DomainInput domain = read_domain(request.input, meshing.discretisation, meshing.fit);
   if (domain.in_farfield || request.layers.spacing_given)
-    space_walls(domain.domain, in_units(request.layers.spacing, domain.chord));
+    space_walls(domain.domain, request.layers.spacing.times(domain.chord));
   const double reynolds = request.reynolds * domain.chord;
   const LayerOptions layer = adjusted(layer_for_flow(request.model, reynolds), request.layers, reynolds);
   LayeredGenerateResult result =
@@ -44,6 +44,8 @@ MeshInput layered_input(const FlowMeshRequest& request) {
 constexpr std::initializer_list<const char*> layer_sizes = {
     "--y-plus",      "--first-height", "--growth",     "--layer-thickness",
     "--layer-count", "--wall-spacing", "--te-spacing", "--max-spacing"};
+
+constexpr const char* has_its_own = "given with a mesh, which has its own, expected with a shape";
 
 }  // namespace
 
@@ -68,8 +70,8 @@ std::optional<std::string> mesh_file(const DomainInputOptions& input,
                {"--name", "--as-given", "--keep-coordinates", "--crossings", "--join", "--points",
                 "--farfield-radius", "--farfield-points", "--gradation", "--resolution", "--min-angle",
                 "--max-gradation", "--min-edge", "--max-vertices", "--cst-degree", "--close-trailing-edge"},
-               "given with a mesh, which has its own, expected with a shape");
-  refuse_given(given, layer_sizes, "given with a mesh, which has its own, expected with a shape");
+               has_its_own);
+  refuse_given(given, layer_sizes, has_its_own);
   return *file;
 }
 

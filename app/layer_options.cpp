@@ -115,11 +115,6 @@ void require_compatible(const LayerChoice& choice) {
          "given with --layer-thickness, expected one of them");
 }
 
-WallSpacing in_units(WallSpacing spacing, double chord) {
-  for (double* distance : {&spacing.leading_edge, &spacing.trailing_edge, &spacing.most}) *distance *= chord;
-  return spacing;
-}
-
 LayerOptions in_units(LayerOptions layer, double chord) {
   layer.first_height *= chord, layer.thickness *= chord;
   return layer;

@@ -48,8 +48,7 @@ void add_wake_line(const LayerChoice& choice, double chord, const LayerOptions& 
 LayerOptions resolved(const LayerChoice& choice, double chord);
 // A layer in chords, with what the choice says instead.
 LayerOptions adjusted(LayerOptions layer, const LayerChoice& choice, std::optional<double> reynolds);
-// These distances are in chords; the result is in such units.
-WallSpacing in_units(WallSpacing spacing, double chord);
+// This layer is in chords; the result is in such units.
 LayerOptions in_units(LayerOptions layer, double chord);
 
 // Reports under layers{...} the figures of the layer.

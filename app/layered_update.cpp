@@ -87,8 +87,7 @@ DomainInput with_whole_domain(const LayeredUpdate& update, const Domain& walls) 
                                      [](const Loop& loop) { return loop.role == LoopRole::hole; }) > 1;
   for (Loop& loop : input.domain.loops) {
     if (loop.role != LoopRole::hole || take_stations(loop, walls)) continue;
-    const std::vector<Parameters> stations =
-        wall_stations(loop, in_units(WallSpacing{}, input.chord), several);
+    const std::vector<Parameters> stations = wall_stations(loop, WallSpacing{}.times(input.chord), several);
     for (std::size_t c = 0; c < loop.curves.size(); ++c) loop.curves[c].parameters = stations[c];
   }
   return input;
@@ -149,10 +148,15 @@ const Curve& airfoil_of(const Domain& walls, const std::string& mesh) {
   return loop->curves.front();
 }
 
+std::string boxes_of_layered(const std::string& file) {
+  std::size_t ignored = 0;
+  return without_surface_points(read_su2_boxes(file), ignored);
+}
+
 Status run_layered_update(const LayeredUpdate& update) {
   const LayeredMesh original = read_layered_mesh(update.mesh);
   const FrozenMesh before = original.freeze();
-  const std::string boxes = read_su2_boxes(update.mesh);
+  const std::string boxes = boxes_of_layered(update.mesh);
   Cargo cargo(update.mesh, before, update.carry);
   const DomainInput input = is_single_airfoil(update.shapes) ? with_single_airfoil(update, original.domain())
                                                              : with_whole_domain(update, original.domain());
@@ -172,9 +176,7 @@ Status run_layered_update(const LayeredUpdate& update) {
   if (!given_up) {
     const FrozenMesh after = mesh.freeze();
     cargo.carry(before, after);
-    std::size_t ignored = 0;
-    update.outputs.with_boxes(without_surface_points(boxes, ignored))
-        .write(mesh, update.cells, cargo.fields());
+    update.outputs.with_boxes(boxes).write(mesh, update.cells, cargo.fields());
     cargo.write_state(after);
   }
   warn_of_step(update, result);

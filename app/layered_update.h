@@ -31,6 +31,9 @@ Domain walls_with_airfoil(const Domain& walls, const CstAirfoil& airfoil, const 
 // The curve of that airfoil. Throws likewise.
 const Curve& airfoil_of(const Domain& walls, const std::string& mesh);
 
+// The boxes of a mesh's file, whose points are going to be others.
+std::string boxes_of_layered(const std::string& file);
+
 Status run_layered_update(const LayeredUpdate& update);
 
 }  // namespace remodel::app

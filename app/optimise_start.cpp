@@ -44,12 +44,10 @@ OptimiseStart read_layered_start(const OptimiseStartOptions& options, const Mesh
           "--dissolve-layers"},
          has_layers);
   const LayeredMesh mesh = read_layered_mesh(options.mesh);
-  std::size_t ignored = 0;
-  const std::string boxes = without_surface_points(read_su2_boxes(options.mesh), ignored);
   const std::string name = airfoil_of(mesh.domain(), options.mesh).name;
   MeshStart start{.mesh = mesh.outer(),
                   .place = find_airfoil(mesh.domain(), name, options.mesh),
-                  .su2_boxes = boxes,
+                  .su2_boxes = boxes_of_layered(options.mesh),
                   .walls = mesh.domain()};
   OptimiseStart result;
   result.fit = fit_airfoil(mesh.domain(), start.place, meshing.fit.degree);

@@ -27,7 +27,7 @@ class DesignSpace {
   // then, walls() that of the bodies. Otherwise both are the same.
   virtual const LayerFrame* layers() const { return nullptr; }
   virtual Domain walls(std::span<const double> design) const { return domain(design); }
-  // True if the design can be meshed. By default: its domain passes validate().
+  // True if the design can be meshed. By default: its domain passes validate(), and so do its walls.
   virtual bool feasible(std::span<const double> design) const;
   // Vertices that move with the design, as many for each: how far apart two designs are for a mesh is told by
   // these. Unless it says less, all stations of the domain.

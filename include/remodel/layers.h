@@ -60,6 +60,10 @@ struct WallSpacing {
   double trailing_edge = 0.0015;
   double most = 0.008;
   double growth = 0.11;
+
+  WallSpacing times(double factor) const {  // the distances; the growth has no unit
+    return {factor * leading_edge, factor * trailing_edge, factor * most, growth};
+  }
 };
 // The stations of a closed loop by these distances, a list for each of its curves, for Curve::parameters. The
 // nose is a station, of curves that are no airfoil the point farthest from where the loop begins. Polylines

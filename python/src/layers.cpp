@@ -247,11 +247,7 @@ LayerOptions layer_of(const std::optional<double>& reynolds, const std::string& 
 
 WallSpacing wall_spacing(double factor) {
   if (!(factor > 0.0)) throw Error(ErrorCode::argument, "spacing", "expected more than 0");
-  const WallSpacing usual;
-  return {.leading_edge = factor * usual.leading_edge,
-          .trailing_edge = factor * usual.trailing_edge,
-          .most = factor * usual.most,
-          .growth = usual.growth};
+  return WallSpacing{}.times(factor);
 }
 
 Snapshot layered_snapshot(const py::object& mesh) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// The objects behind Mesh, Step and Trial of the module.
+// The objects behind Mesh and Step of the module, and behind those of meshes with layers.
 
 #include <memory>
 #include <optional>
@@ -9,6 +9,7 @@
 #include "interrupts.h"
 #include "records.h"
 #include "remodel/changes.h"
+#include "remodel/error.h"
 #include "remodel/mesh.h"
 #include "remodel/remodel.h"
 
@@ -29,9 +30,11 @@ auto members(T& c) {
 
 namespace remodel::python {
 
-struct LivingMesh {
-  Mesh mesh;
-  Stopped stopped = Stopped::done;
+// A living mesh of either kind, which threads share.
+template <class AnyMesh>
+struct Living {
+  AnyMesh mesh;
+  Stopped stopped = Stopped::done;  // why generation ended
   // Whether the last step was by Strategy::reference: the next one of that strategy moves the interior along,
   // also where the mesh is a new reference and not held.
   bool follows = false;
@@ -55,18 +58,35 @@ struct LivingMesh {
     ++version;
   }
 };
+
+struct LivingMesh : Living<Mesh> {
+  using StepResult = RemodelResult;
+  using StepChanges = Changes;
+  using StepTrial = Trial;
+};
 using LivingMeshPointer = std::shared_ptr<LivingMesh>;
 
-struct StepRecord {
-  RemodelResult result;
-  Changes changes;
-  std::weak_ptr<LivingMesh> mesh;
+template <class AnyLiving>
+struct StepOf {
+  typename AnyLiving::StepResult result;
+  typename AnyLiving::StepChanges changes;
+  std::weak_ptr<AnyLiving> mesh;
   std::uint64_t version = 0;  // of the mesh after the step
   Snapshot before, after;     // where they were asked for
 };
+using StepRecord = StepOf<LivingMesh>;
 
 // The mesh after the step. Throws Error (argument) where it is gone and was not recorded.
-Snapshot after_step(const StepRecord& step);
+template <class AnyLiving>
+Snapshot after_step(const StepOf<AnyLiving>& step) {
+  if (step.after) return step.after;
+  if (const std::shared_ptr<AnyLiving> mesh = step.mesh.lock()) {
+    const ThreadLock::Held held(mesh->lock);
+    if (mesh->version == step.version) return mesh->freeze();
+  }
+  throw Error(ErrorCode::argument, "step",
+              "its mesh has changed since or is not here, expected update(..., record=True)");
+}
 
 // The domain that an update to a shape leads to: a Domain itself, or the mesh's own domain with an airfoil in
 // the place of the one called `boundary`.

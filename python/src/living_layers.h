@@ -24,40 +24,16 @@ auto members(T& c) {
 
 namespace remodel::python {
 
-// As LivingMesh.
-struct LivingLayers {
-  LayeredMesh mesh;
-  bool follows = false;  // whether its last step held it by its reference
-  ThreadLock lock;
-  Snapshot frozen;
-  std::uint64_t version = 0;
-
-  // Needs the lock.
-  Snapshot freeze() {
-    if (!frozen) frozen = std::make_shared<const FrozenMesh>(mesh.freeze());
-    return frozen;
-  }
-  Snapshot snapshot() {
-    const ThreadLock::Held held(lock);
-    return freeze();
-  }
-  void changed() {
-    frozen.reset();
-    ++version;
-  }
+struct LivingLayers : Living<LayeredMesh> {
+  using StepResult = LayeredRemodelResult;
+  using StepChanges = LayeredChanges;
+  using StepTrial = LayeredTrial;
 };
 using LayersPointer = std::shared_ptr<LivingLayers>;
 
 LayersPointer layers_alive(LayeredMesh mesh, bool follows = false);
 
-// As StepRecord.
-struct LayeredStepRecord {
-  LayeredRemodelResult result;
-  LayeredChanges changes;
-  std::weak_ptr<LivingLayers> mesh;
-  std::uint64_t version = 0;
-  Snapshot before, after;
-};
+using LayeredStepRecord = StepOf<LivingLayers>;
 
 // How layers are asked for. By the Reynolds number, unless heights are given.
 LayerOptions layer_of(const std::optional<double>& reynolds, const std::string& model,

@@ -9,14 +9,6 @@
 namespace remodel {
 namespace {
 
-WallSpacing times(double factor) {
-  const WallSpacing usual;
-  return {.leading_edge = factor * usual.leading_edge,
-          .trailing_edge = factor * usual.trailing_edge,
-          .most = factor * usual.most,
-          .growth = usual.growth};
-}
-
 std::size_t stations_on_sections(const Domain& domain) {
   std::size_t count = 0;
   for (const Loop& loop : domain.loops)
@@ -34,7 +26,8 @@ LayeredSpace::LayeredSpace(std::unique_ptr<FlowSpace> bodies, const LayerOptions
       frame_(walls(bodies_->start()), layer) {}
 
 // Distances are halved in on until the sections have as many stations as are asked for, or a few less.
-LayeredSpace::Stations LayeredSpace::stations_of(const Domain& start, int points) {
+Stations LayeredSpace::stations_of(const Domain& start, int points) {
+  const WallSpacing usual;
   constexpr double finest = 0.01, coarsest = 30.0;  // times the usual distances
   constexpr int halvings = 20;
   std::size_t sections = 0;
@@ -43,21 +36,11 @@ LayeredSpace::Stations LayeredSpace::stations_of(const Domain& start, int points
   Domain spaced = start;
   for (int i = 0; i < halvings; ++i) {
     const double middle = std::sqrt(fine * coarse);
-    space_walls(spaced, times(middle));
+    space_walls(spaced, usual.times(middle));
     (stations_on_sections(spaced) > sections * static_cast<std::size_t>(points) ? fine : coarse) = middle;
   }
-  space_walls(spaced, times(coarse));
-  Stations stations;
-  for (const Loop& loop : spaced.loops)
-    for (const Curve& curve : loop.curves) stations.push_back(curve.parameters);
-  return stations;
-}
-
-Domain LayeredSpace::with_stations(Domain walls, const Stations& stations) {
-  std::size_t next = 0;
-  for (Loop& loop : walls.loops)
-    for (Curve& curve : loop.curves) curve.parameters = stations[next++];
-  return walls;
+  space_walls(spaced, usual.times(coarse));
+  return remodel::stations_of(spaced);
 }
 
 Domain LayeredSpace::walls(std::span<const double> design) const {
@@ -70,14 +53,7 @@ Domain LayeredSpace::domain_with(std::span<const double> design, int points) con
 }
 
 bool LayeredSpace::feasible(std::span<const double> design) const {
-  if (!bodies_->feasible(design)) return false;
-  try {
-    validate(walls(design));
-    return FlowSpace::feasible(design);
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::geometry) throw;
-    return false;
-  }
+  return bodies_->feasible(design) && FlowSpace::feasible(design);
 }
 
 std::string LayeredSpace::description() const {

@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "layer/station_lists.h"
 #include "remodel/flow_space.h"
 #include "remodel/layers.h"
 
@@ -52,10 +53,8 @@ class LayeredSpace final : public FlowSpace {
   std::string text(std::span<const double> design) const override { return bodies_->text(design); }
   std::string description() const override;
 
-  using Stations = std::vector<Parameters>;  // of each curve of a domain
   // About so many on each section, as close to each other at noses and corners as wall_stations() has them.
   static Stations stations_of(const Domain& walls, int points);
-  static Domain with_stations(Domain walls, const Stations& stations);
 
  private:
   std::unique_ptr<FlowSpace> bodies_;

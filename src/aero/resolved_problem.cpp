@@ -379,10 +379,7 @@ class Resolver {
   // With the start's stations. What comes of it is not needed here but for whether there is any.
   void put_layer_on_target() {
     const Domain walls = resolved_.space->walls(resolved_.space->start());
-    LayeredSpace::Stations stations;
-    for (const Loop& loop : walls.loops)
-      for (const Curve& curve : loop.curves) stations.push_back(curve.parameters);
-    resolved_.target = LayeredSpace::with_stations(std::move(*resolved_.target), stations);
+    resolved_.target = with_stations(std::move(*resolved_.target), stations_of(walls));
     try {
       resolved_.space->layers()->outside(*resolved_.target);
     } catch (const Error& error) {

@@ -76,9 +76,9 @@ class ChainMesh {
 
   // Those of the first section, where it has as many curves: columns stand on the same stations then.
   void set_stations(Domain& walls) {
-    LayeredSpace::Stations& stations = stations_[walls.loops.front().curves.size()];
+    Stations& stations = stations_[walls.loops.front().curves.size()];
     if (stations.empty()) stations = LayeredSpace::stations_of(walls, problem_.domain.points);
-    walls = LayeredSpace::with_stations(std::move(walls), stations);
+    walls = with_stations(std::move(walls), stations);
   }
   void make_plain(const Domain& walls) {
     GenerateResult result = generate(walls, quality_, &observer_);
@@ -98,7 +98,7 @@ class ChainMesh {
   const SweepProblem& problem_;
   StepObserver& observer_;
   QualityOptions quality_;
-  std::map<std::size_t, LayeredSpace::Stations> stations_;  // by the number of the section's curves
+  std::map<std::size_t, Stations> stations_;  // by the number of the section's curves
   Mesh plain_;
   LayeredMesh layered_;
 };

@@ -8,6 +8,7 @@ namespace remodel {
 
 bool DesignSpace::feasible(std::span<const double> design) const {
   try {
+    if (layers() != nullptr) validate(walls(design));
     validate(domain(design));
     return true;
   } catch (const Error& error) {

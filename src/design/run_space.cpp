@@ -38,32 +38,20 @@ LayeredAirfoils::LayeredAirfoils(std::unique_ptr<AirfoilSpace> airfoils, const R
   if (spacing_) {
     Domain spaced = airfoils_->domain(start);
     space_walls(spaced, *spacing_, layers.options.walls);
-    for (const Loop& loop : spaced.loops)
-      for (const Curve& curve : loop.curves) stations_.push_back(curve.parameters);
+    stations_ = stations_of(spaced);
   }
   frame_.emplace(walls(start), layers.options);
 }
 
 Domain LayeredAirfoils::walls(std::span<const double> design) const {
   Domain domain = airfoils_->domain(design);
-  if (!spacing_) return domain;
-  auto next = stations_.begin();
-  for (Loop& loop : domain.loops)
-    for (Curve& curve : loop.curves) curve.parameters = *next++;
-  return domain;
+  return spacing_ ? with_stations(std::move(domain), stations_) : domain;
 }
 
 // Two surfaces that are apart at some stations may touch between them, and walls may have no room for a
 // layer.
 bool LayeredAirfoils::feasible(std::span<const double> design) const {
-  if (!airfoils_->feasible(design)) return false;
-  try {
-    validate(walls(design));
-    return DesignSpace::feasible(design);
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::geometry) throw;
-    return false;
-  }
+  return airfoils_->feasible(design) && DesignSpace::feasible(design);
 }
 
 std::string LayeredAirfoils::description() const {
@@ -78,11 +66,12 @@ std::string LayeredAirfoils::description() const {
   return json.dump();
 }
 
-RunSpace::RunSpace(std::unique_ptr<AirfoilSpace> airfoils, const std::optional<RunLayers>& layers) {
+RunSpace::RunSpace(std::unique_ptr<AirfoilSpace> airfoils, const std::optional<RunLayers>& layers)
+    : airfoils_(airfoils.get()) {
   if (layers)
-    layered_ = std::make_unique<LayeredAirfoils>(std::move(airfoils), *layers);
+    space_ = std::make_unique<LayeredAirfoils>(std::move(airfoils), *layers);
   else
-    plain_ = std::move(airfoils);
+    space_ = std::move(airfoils);
 }
 
 RunSpace::RunSpace(const CstAirfoil& from, const OptimiseOptions& options)
@@ -100,16 +89,6 @@ std::optional<RunLayers> RunSpace::layers_in(const std::string& options) {
   result.spacing.reset();
   if (layers.contains("spacing")) result.spacing = spacing_from(layers.at("spacing"));
   return result;
-}
-
-const DesignSpace& RunSpace::space() const {
-  if (layered_) return *layered_;
-  return *plain_;
-}
-
-std::unique_ptr<DesignSpace> RunSpace::release() {
-  if (layered_) return std::move(layered_);
-  return std::move(plain_);
 }
 
 }  // namespace remodel

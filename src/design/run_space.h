@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "layer/station_lists.h"
 #include "remodel/design_space.h"
 #include "remodel/layers.h"
 #include "remodel/optimise.h"
@@ -20,8 +21,6 @@ class LayeredAirfoils final : public DesignSpace {
   // All designs have the fans of the start's walls. Where the layers have a spacing, they have the stations
   // of the start's walls by that, at the same parameters. Throws Error as LayerFrame does.
   LayeredAirfoils(std::unique_ptr<AirfoilSpace> airfoils, const RunLayers& layers);
-
-  const AirfoilSpace& airfoils() const { return *airfoils_; }
 
   const LayerFrame* layers() const override { return &*frame_; }
   Domain walls(std::span<const double> design) const override;
@@ -37,11 +36,11 @@ class LayeredAirfoils final : public DesignSpace {
  private:
   std::unique_ptr<AirfoilSpace> airfoils_;
   std::optional<WallSpacing> spacing_;
-  std::vector<Parameters> stations_;  // of the curves of layered loops, where there is a spacing
+  Stations stations_;  // of the start's walls, where there is a spacing
   std::optional<LayerFrame> frame_;
 };
 
-// One of the two.
+// The airfoils alone, or with layers around them.
 class RunSpace {
  public:
   RunSpace(std::unique_ptr<AirfoilSpace> airfoils, const std::optional<RunLayers>& layers);
@@ -50,13 +49,13 @@ class RunSpace {
   // By description(), which `options` has. Throws nlohmann's exceptions.
   static std::optional<RunLayers> layers_in(const std::string& options);
 
-  const DesignSpace& space() const;
-  std::unique_ptr<DesignSpace> release();
-  const AirfoilSpace& airfoils() const { return layered_ ? layered_->airfoils() : *plain_; }
+  const DesignSpace& space() const { return *space_; }
+  std::unique_ptr<DesignSpace> release() { return std::move(space_); }
+  const AirfoilSpace& airfoils() const { return *airfoils_; }
 
  private:
-  std::unique_ptr<AirfoilSpace> plain_;
-  std::unique_ptr<LayeredAirfoils> layered_;
+  const AirfoilSpace* airfoils_;  // the space itself, or what it has its layers around
+  std::unique_ptr<DesignSpace> space_;
 };
 
 }  // namespace remodel

@@ -421,8 +421,7 @@ FlowResult solve_flow_from(const FrozenMesh& before, const FlowResult& known, co
   if (options.solver != FlowSolver::lu ||
       flow::steps_with_own_factors(measure, search, state) == flow::ChordEnd::slow)
     search.near(measure, state);
-  if (options.retry_cold &&
-      (record.status == FlowStatus::stalled || record.status == FlowStatus::step_limit)) {
+  if (flow::begins_again(record, options)) {
     start = FlowStart::cold;
     search.cold(measure, state);
   }

@@ -219,8 +219,7 @@ FlowResult found_from(const FlowMesh& old, const FlowResult& known, const FlowMe
   FrictionSearch<N> search(system, measure, options, record);
   if (options.solver != FlowSolver::lu || steps_with_own_factors(measure, with_own, state) == ChordEnd::slow)
     search.near(state);
-  if (options.retry_cold &&
-      (record.status == FlowStatus::stalled || record.status == FlowStatus::step_limit)) {
+  if (begins_again(record, options)) {
     start = FlowStart::cold;
     search.cold(state);
   }

@@ -51,8 +51,7 @@ OuterStep::OuterStep(Mesh& outer, const Domain& outside, const LayerColumns& col
 
 OuterStep::~OuterStep() {
   if (!before_) return;
-  before_->data().marked = std::move(outer_.data().marked);
-  outer_ = std::move(*before_);
+  exchange_back(outer_, *std::move(before_));
   outer_.data().marked.return_to(marked_before_);
 }
 
@@ -62,35 +61,20 @@ void OuterStep::keep() {
   before_.reset();
 }
 
-// The fresh mesh goes on with the steps and marks of the one before, with keys that were never given out.
 void OuterStep::exchange(const Domain& outside, const RemodelOptions& options, const char* reason) {
-  MeshData& old = outer_.data();
-  result_ = unchanged(old);
+  result_ = unchanged(outer_.data());
   result_.reason = reason;
   result_.abandoned = !options.regenerate;
   if (result_.abandoned) return;
   GenerateResult fresh = generate(outside, outer_.options(), options.observer);
   if (fresh.stopped == Stopped::interrupted) {
-    result_ = interrupted(old);
+    result_ = interrupted(outer_.data());
     return;
   }
-  MeshData& made = fresh.mesh.data();
-  made.keep = outer_.keep();
-  made.step = outer_.step() + 1;
-  for (std::uint32_t i = 0; i < made.triangulation.triangle_slots(); ++i)
-    made.triangulation.set_birth(TriangleId{i}, made.step);
-  made.triangulation.begin_generations_after(old.triangulation);
-  result_ = count_exchange(outer_, fresh.mesh);
-  result_.stopped = fresh.stopped;
+  fresh.mesh.data().keep = outer_.keep();
+  result_ = remodel::exchange(outer_, std::move(fresh), before_);
   result_.regenerated = true;
   result_.reason = reason;
-  old.marked.for_each([&](ChangeRecord& record) {
-    note_all(old.triangulation, made.triangulation, record);
-    record.note_exchange();
-  });
-  made.marked = std::move(old.marked);
-  before_ = std::move(outer_);
-  outer_ = std::move(fresh.mesh);
 }
 
 }  // namespace remodel

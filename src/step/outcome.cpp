@@ -88,13 +88,31 @@ RemodelResult count_replacement(MeshData& mesh, std::span<const VertexId> moved)
   return result;
 }
 
-RemodelResult count_exchange(const Mesh& before, const Mesh& fresh) {
+RemodelResult exchange(Mesh& mesh, GenerateResult&& fresh, std::optional<Mesh>& before) {
+  MeshData &old = mesh.data(), &made = fresh.mesh.data();
+  made.step = old.step + 1;
+  for (std::uint32_t i = 0; i < made.triangulation.triangle_slots(); ++i)
+    made.triangulation.set_birth(TriangleId{i}, made.step);
+  made.triangulation.begin_generations_after(old.triangulation);
   RemodelResult result;
-  result.removed = before.data().triangulation.vertex_count();
-  result.inserted = fresh.data().triangulation.vertex_count();
-  result.triangles_before = before.triangle_count();
-  result.triangles = fresh.triangle_count();
+  result.removed = old.triangulation.vertex_count();
+  result.inserted = made.triangulation.vertex_count();
+  result.triangles_before = mesh.triangle_count();
+  result.triangles = fresh.mesh.triangle_count();
+  result.stopped = fresh.stopped;
+  old.marked.for_each([&](ChangeRecord& record) {
+    note_all(old.triangulation, made.triangulation, record);
+    record.note_exchange();
+  });
+  made.marked = std::move(old.marked);
+  before = std::move(mesh);
+  mesh = std::move(fresh.mesh);
   return result;
+}
+
+void exchange_back(Mesh& mesh, Mesh&& before) {
+  before.data().marked = std::move(mesh.data().marked);
+  mesh = std::move(before);
 }
 
 }  // namespace remodel

@@ -99,10 +99,7 @@ Step::Step(Mesh& mesh, const Domain& domain, const RemodelOptions& options, Jour
 Step::~Step() {
   if (kept_) return;
   journal_.reset();
-  if (before_) {
-    before_->data().marked = std::move(data().marked);
-    mesh_ = std::move(*before_);
-  }
+  if (before_) exchange_back(mesh_, *std::move(before_));
   take_back();
   if (renaming_) renaming_->undo(data());
 }
@@ -484,26 +481,10 @@ RemodelResult Step::regenerate() {
   return result;
 }
 
-// A fresh mesh takes the place of the one from before the step, and goes on with its steps, its marks, and
-// keys of vertices that it never gave out.
 RemodelResult Step::exchange(GenerateResult&& fresh) {
   take_back();
-  MeshData &old = data(), &made = fresh.mesh.data();
-  made.step = old.step + 1;
-  made.imported.markers = old.imported.markers;
-  for (std::uint32_t i = 0; i < made.triangulation.triangle_slots(); ++i)
-    made.triangulation.set_birth(TriangleId{i}, made.step);
-  made.triangulation.begin_generations_after(old.triangulation);
-  RemodelResult result = count_exchange(mesh_, fresh.mesh);
-  result.stopped = fresh.stopped;
-  old.marked.for_each([&](ChangeRecord& record) {
-    note_all(old.triangulation, made.triangulation, record);
-    record.note_exchange();
-  });
-  made.marked = std::move(old.marked);
-  before_ = std::move(mesh_);
-  mesh_ = std::move(fresh.mesh);
-  return result;
+  fresh.mesh.data().imported.markers = data().imported.markers;
+  return remodel::exchange(mesh_, std::move(fresh), before_);
 }
 
 }  // namespace remodel

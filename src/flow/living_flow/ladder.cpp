@@ -51,10 +51,7 @@ void Ladder<N>::climb(LadderTask<N>& task) {
   if (task.from_last) {
     task.start = FlowStart::refactored;
     task.near(task.state);
-    const FlowStatus status = task.record.status;
-    if (status == FlowStatus::converged || status == FlowStatus::interrupted ||
-        status == FlowStatus::memory || !options_.retry_cold)
-      return;
+    if (!begins_again(task.record, options_)) return;
   }
   task.start = FlowStart::cold;
   task.cold(task.state);

@@ -28,6 +28,12 @@ struct SearchRecord {
   void end_without_factors(Factored outcome, double memory_mb_given);
 };
 
+// Whether a flow that was not found from another one is looked for from nothing.
+inline bool begins_again(const SearchRecord& record, const FlowOptions& options) {
+  return options.retry_cold &&
+         (record.status == FlowStatus::stalled || record.status == FlowStatus::step_limit);
+}
+
 // The kind of factors that serve for several solves.
 FactorKind lasting_kind(const FlowOptions& options);
 
