@@ -2,9 +2,10 @@
 MeshComponent and FlowComponent: the same in two, for geometry of other components, without friction.
 
 OpenMDAO is imported with this module, and nothing else is that remodel does not need. SectionComponent owns its mesh,
-whose connectivity changes where it must. That of the pair is fixed, as OpenMDAO's arrays are: the points of a design are those of the first mesh, its interior moved along with the walls
-(InteriorDisplacement), which is linear in the coefficients. What cannot be computed (triangles that turn over or walls
-that cross far from the first design, a flow that is not found) raises openmdao's AnalysisError. Drivers that do not catch it, as
+whose connectivity changes where it must. That of the pair is fixed, as OpenMDAO's arrays are: the points of a design are
+those of the first mesh, by whatever strategy it was made, its interior moved along with the walls (InteriorDisplacement),
+which is linear in the coefficients. What cannot be computed (triangles that turn over or walls that cross far from the
+first design, a flow that is not found) raises openmdao's AnalysisError. Drivers that do not catch it, as
 ScipyOptimizeDriver, end with it: give the design variables bounds, or take pyOptSparseDriver. `MeshComponent.renew()`
 makes a mesh for the present design, for a problem that is set up again.
 """
@@ -19,6 +20,7 @@ from ._core import Airfoil, FrozenMesh, InteriorDisplacement, LivingFlow, Mesh, 
 from ._errors import ArgumentError, ArgumentTypeError, Error
 from ._mesh import Validity
 
+_STRATEGIES = ("chain", "renew", "morph", "reference")
 _RECIPE = "; bound the design variables, or take a driver that catches AnalysisError, as pyOptSparseDriver"
 
 
@@ -32,6 +34,11 @@ def _require(flow):
         raise AnalysisError(f"flow: {flow.reason}" + _RECIPE)
     if not flow.lift_determined:
         raise AnalysisError("flow: the lift is not determined: a body has no edge that the flow leaves from")
+
+
+def _refuse_complex(component):
+    if component.under_complex_step:
+        raise ArgumentError("step: found a complex one, expected differences of real numbers (method='fd')")
 
 
 class MeshComponent(ExplicitComponent):
@@ -76,6 +83,7 @@ class MeshComponent(ExplicitComponent):
         return self._interior.jvp(self.reference.jvp(direction, self.options["boundary"], interior="still"))
 
     def compute(self, inputs, outputs):
+        _refuse_complex(self)
         self._present = np.array(inputs["design"])
         points = self.reference.points + self._moved(self._present - self._base)
         broken = self._validity.broken(self._frozen.with_points(points))
@@ -149,6 +157,7 @@ class FlowComponent(ExplicitComponent):
         return flow
 
     def compute(self, inputs, outputs):
+        _refuse_complex(self)
         flow = self._solve(inputs)
         outputs["cl"], outputs["cd"], outputs["cm"] = flow.cl, flow.cd, flow.cm
 
@@ -180,11 +189,15 @@ class SectionComponent(ExplicitComponent):
 
     Options: airfoil, the one to begin with, or its name; model, 'euler', 'laminar' or 'sa'; mach, alpha, lift, reynolds to
     begin with; transition, places of both sides (model 'sa'); thickness_at, x of stations; mesh, a dict of what generate()
-    or, with friction, generate_layered() takes; tolerance of flows.
+    or, with friction, generate_layered() takes; strategy, of Mesh.update(); tolerance of flows.
 
-    The mesh and the flow live from design to design. Each design's mesh is the morph of the first one, so that outputs are
-    smooth and partials are those of the very way that the mesh goes; where no morph is good enough, triangles are replaced
-    and outputs jump by the mesh's error. `flows` counts searches. AnalysisError: surfaces that cross, no mesh, no flow.
+    The mesh and the flow live from design to design, and partials are those of the way that the mesh goes from where it is.
+    By 'reference' each design's mesh is the morph of the first one, so that outputs are smooth; where no morph is good
+    enough, triangles are replaced and outputs jump by the mesh's error. By 'chain', 'renew' and 'morph' the walls of the mesh
+    at hand move, and it depends on the designs before. Differences that OpenMDAO takes are tried on the mesh at hand, which is
+    then what it was; AnalysisError where one would replace triangles.
+
+    `flows` counts searches. AnalysisError: surfaces that cross, no mesh, no flow.
     """
 
     def initialize(self):
@@ -198,6 +211,7 @@ class SectionComponent(ExplicitComponent):
         declare("transition", default=None)
         declare("thickness_at", default=())
         declare("mesh", default=None)
+        declare("strategy", default="reference")
         declare("tolerance", default=1e-10)
 
     def setup(self):
@@ -208,7 +222,13 @@ class SectionComponent(ExplicitComponent):
         reynolds = self.options["reynolds"]
         if self._has_friction != (reynolds is not None):
             raise ArgumentError(f"reynolds: found {reynolds!r} with the model {self.options['model']!r}, expected it with friction alone")
+        self._strategy = self.options["strategy"]
+        _require_type("strategy", self._strategy, str, "its name")
+        if self._strategy not in _STRATEGIES:
+            raise ArgumentError(f"strategy: found {self._strategy!r}, expected one of {', '.join(_STRATEGIES)}")
         self.mesh = self._mesh_of_start(reynolds)
+        self.mesh.update(self.start, strategy=self._strategy)  # from now on vjp() goes its way
+        self._design = self.start.design  # that the mesh has
         self.solver = LivingFlow(model=self.options["model"], tolerance=self.options["tolerance"])
         self._solved = self._gradients = None
         self.flows = 0  # that were looked for
@@ -234,6 +254,25 @@ class SectionComponent(ExplicitComponent):
             return generate(self.start, **options)
         return generate_layered(self.start, reynolds=float(np.ravel(reynolds)[0]), model=self.options["model"], **options)
 
+    def _flow(self, design, airfoil, conditions):
+        """The flow on the mesh, which follows to the design, or for a difference is lent to it."""
+        self.flows += 1
+        if np.array_equal(design, self._design):
+            return self.solver.solve(self.mesh, **conditions)
+        if self.under_finite_difference:
+            with self.mesh.trial(airfoil, strategy=self._strategy) as trial:
+                self._require_way(trial.step)
+                return self.solver.solve(self.mesh, **conditions)
+        self.mesh.update(airfoil, strategy=self._strategy)
+        self._design = design
+        return self.solver.solve(self.mesh, **conditions)
+
+    def _require_way(self, step):
+        """Differences are of what partials are of: the mesh goes with its triangles, its interior by the strategy."""
+        held = step.held if self._strategy == "reference" else step.full_adjustment and not step.morphed
+        if not (held and getattr(step, "same_columns", True)):
+            raise AnalysisError(f"design: a difference this large replaces triangles (strategy '{self._strategy}'), expected a smaller step")
+
     def _solve(self, inputs):
         """The flow at these inputs, found unless it was the last one."""
         at = {name: np.array(inputs[name], dtype=float) for name in ("design", *self._stream)}
@@ -249,16 +288,16 @@ class SectionComponent(ExplicitComponent):
         if self.options["transition"] is not None:
             conditions["transition"] = self.options["transition"]
         try:
-            self.mesh.update(airfoil, strategy="reference")
-            self.flows += 1
-            flow = self.solver.solve(self.mesh, **conditions)
+            flow = self._flow(at["design"], airfoil, conditions)
         except Error as error:
             raise AnalysisError(str(error) + _RECIPE) from error
         _require(flow)
-        self._solved = at, flow
+        if not self.under_finite_difference:
+            self._solved = at, flow
         return flow
 
     def compute(self, inputs, outputs):
+        _refuse_complex(self)
         flow = self._solve(inputs)
         for name in self._of_flow:
             outputs[name] = getattr(flow, name)

@@ -70,6 +70,27 @@ def test_the_derivative_of_a_step_that_holds_the_mesh(airfoil, designs, strategy
         mesh.jvp(direction, interior="x")
 
 
+@pytest.mark.parametrize("strategy", ["chain", "renew", "morph", "reference"])
+@pytest.mark.parametrize("layers", [False, True])
+def test_the_own_way_of_a_mesh_is_that_of_the_next_small_step(airfoil, designs, strategy, layers):
+    """By every strategy, wherever the mesh has come to: also where the last step replaced triangles."""
+    mesh = remodel.generate_layered(airfoil, reynolds=1000.0, model="laminar", spacing=6.0, growth=1.5) if layers else remodel.generate(airfoil, points=40)
+    direction, h = designs(1)[0].design - airfoil.design, 1e-4
+    for section in (airfoil.with_design(1.03 * airfoil.design), remodel.Airfoil("rae2822")):
+        mesh.update(section, strategy=strategy)
+        ends = []
+        for sign in (1.0, -1.0):
+            with mesh.trial(airfoil.with_design(section.design + sign * h * direction), strategy=strategy) as trial:
+                assert trial.step.changes.same_connectivity and (strategy != "reference" or trial.step.held)
+                ends.append(np.array(mesh.points))
+        moved, difference = mesh.jvp(direction), (ends[0] - ends[1]) / (2 * h)
+        assert np.allclose(moved, difference, atol=1e-6)
+        if not layers:  # points of columns move along by every strategy
+            assert np.any(moved[np.asarray(mesh.curve) < 0]) == (strategy == "reference")
+        weights = np.random.default_rng(2).standard_normal(moved.shape)
+        assert np.isclose(np.sum(weights * moved), mesh.vjp(weights) @ direction, rtol=1e-6)
+
+
 def test_gradients_of_another_mesh_are_refused(mesh, airfoil):
     solver = remodel.LivingFlow()
     solver.solve(mesh, mach=0.4, alpha=1.0)

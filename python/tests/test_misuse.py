@@ -292,6 +292,8 @@ COMPONENTS = {
     "a station that is a text": (lambda c: c.SectionComponent(thickness_at="nose", mesh={"points": 40}), Type, "thickness_at: found 'nose'"),
     "an option that no mesh has": (lambda c: c.SectionComponent(mesh={"colour": 1}), Type, "colour"),
     "a list for the options of a mesh": (lambda c: c.SectionComponent(mesh=[40]), Type, "mesh: found a list of 1, expected a dict"),
+    "a strategy that no step has": (lambda c: c.SectionComponent(strategy="hub", mesh={"points": 40}), Argument, "strategy: found 'hub', expected one of chain"),
+    "a number for a strategy": (lambda c: c.SectionComponent(strategy=2, mesh={"points": 40}), Type, "strategy: found 2"),
     "no airfoil": (lambda c: c.SectionComponent(airfoil=3), Type, "airfoil: found 3"),
     "a solver that is none": (lambda c: c.FlowComponent(mesh=remodel.generate("naca:0012", points=40), solver="lu"), Type, "solver: found 'lu'"),
 }  # fmt: skip

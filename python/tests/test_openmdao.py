@@ -18,6 +18,8 @@ class Options(dict):
 class ExplicitComponent:
     """What the components use of OpenMDAO's, which is not in Debian."""
 
+    under_finite_difference = under_complex_step = False
+
     def __init__(self, **options):
         self.options, self.inputs, self.outputs, self.partials = Options(), {}, {}, set()
         self.initialize()
@@ -96,7 +98,11 @@ def test_partials_are_those_of_the_inputs_although_the_solver_is_shared(api, mes
         assert np.allclose(partials[key], alone[key], rtol=1e-6, atol=1e-9), key
 
 
-def test_coefficients_to_lift(api, mesh, airfoil, designs):
+@pytest.mark.parametrize("strategy", ["chain", "renew", "morph", "reference"])
+def test_coefficients_to_lift(api, mesh, airfoil, designs, strategy):
+    """Of a mesh that steps of any strategy have made: held by its reference or not."""
+    mesh.update(designs(2)[1], strategy=strategy)
+    mesh.update(airfoil, strategy=strategy)
     geometry = api.components.MeshComponent(mesh=mesh, airfoil=airfoil)
     geometry.setup()
     flow = flow_of(api, geometry=geometry)
@@ -166,31 +172,57 @@ def test_check_partials_of_openmdao_itself(airfoil):
         assert np.allclose(row["J_fwd"] if "J_fwd" in row else row["J_rev"], row["J_fd"], rtol=1e-5, atol=1e-6), key
 
 
+FLOWS = {
+    "euler": {"mach": 0.4, "alpha": 1.0, "mesh": {"points": 40}},
+    "laminar": {"model": "laminar", "mach": 0.4, "alpha": 1.0, "reynolds": 1000.0, "mesh": {"spacing": 6.0, "growth": 1.5}},
+}
+STRATEGIES = ("chain", "renew", "morph", "reference")
+
+
+def designs_on_the_way(start):
+    """From NACA 2412 towards RAE 2822: the start, far, so that triangles are replaced, and near that, so that none are."""
+    far = remodel.Airfoil("rae2822", degree=start.degree).design
+    return [(1 - part) * start.design + part * far for part in (0.0, 0.5, 0.51)]
+
+
+def require_small(rows):
+    for key, row in rows.items():
+        exact = row["J_fwd"] if row.get("J_fwd") is not None else row["J_rev"]
+        assert np.abs(exact - row["J_fd"]).max() < 1e-5 * max(1.0, np.abs(row["J_fd"]).max()), key
+
+
 @pytest.mark.skipif(importlib.util.find_spec("openmdao") is None, reason="no OpenMDAO")
+@pytest.mark.parametrize("strategy", STRATEGIES)
 @pytest.mark.parametrize(
     "options",
     [
-        {"mach": 0.4, "alpha": 1.0, "mesh": {"points": 40}, "thickness_at": (0.3, 0.7)},
+        FLOWS["euler"] | {"thickness_at": (0.3, 0.7)},
         {"mach": 0.4, "lift": 0.2, "mesh": {"points": 40}},
-        {"model": "laminar", "mach": 0.4, "alpha": 1.0, "reynolds": 1000.0, "mesh": {"spacing": 6.0, "growth": 1.5}},
+        FLOWS["laminar"],
+        {"model": "sa", "mach": 0.4, "alpha": 1.0, "reynolds": 3e6, "mesh": {"spacing": 6.0}, "tolerance": 1e-10},
     ],
+    ids=["euler", "lift", "laminar", "sa"],
 )
-def test_check_partials_and_totals_of_sections(options):
+def test_check_partials_and_totals_of_sections(options, strategy):
     import openmdao.api as om
     from remodel.openmdao import SectionComponent
 
     problem = om.Problem()
-    problem.model.add_subsystem("section", SectionComponent(airfoil="naca:2412", tolerance=1e-12, **options), promotes=["*"])
+    section = SectionComponent(airfoil="naca:2412", strategy=strategy, **({"tolerance": 1e-12} | options))
+    problem.model.add_subsystem("section", section, promotes=["*"])
     problem.setup()
     problem.run_model()
+    first = section.mesh.freeze()
+    for design in designs_on_the_way(section.start):
+        problem.set_val("design", design)
+        problem.run_model()
+    last = section.mesh.freeze()
+    assert not np.array_equal(last.triangles, first.triangles)
     for rows in problem.check_partials(out_stream=None, method="fd", form="central", step=1e-5).values():
-        for (of, wrt), row in rows.items():
-            assert np.abs(row["J_fwd"] - row["J_fd"]).max() < 1e-5 * max(1.0, np.abs(row["J_fd"]).max()), (of, wrt)
+        require_small(rows)
     wrt = ["design", "mach", "alpha" if "alpha" in options else "lift"]
-    totals = problem.check_totals(of=["cd", "cm", "area"], wrt=wrt, out_stream=None, form="central", step=1e-5)
-    for key, row in totals.items():
-        exact = row["J_fwd"] if row.get("J_fwd") is not None else row["J_rev"]
-        assert np.abs(exact - row["J_fd"]).max() < 1e-5 * max(1.0, np.abs(row["J_fd"]).max()), key
+    require_small(problem.check_totals(of=["cd", "cm", "area"], wrt=wrt, out_stream=None, form="central", step=1e-5))
+    assert np.array_equal(section.mesh.points, last.points)  # differences were taken on a mesh that was lent
 
 
 @pytest.mark.skipif(importlib.util.find_spec("openmdao") is None, reason="no OpenMDAO")
@@ -259,6 +291,56 @@ def test_a_section_has_the_partials_of_the_way_that_its_mesh_goes(api, options):
             assert np.allclose(slope, difference, rtol=1e-5, atol=1e-7), (name, wrt, slope, difference)
 
 
+@pytest.mark.parametrize("model", FLOWS)
+@pytest.mark.parametrize("strategy", STRATEGIES)
+def test_partials_of_every_strategy_are_those_of_its_steps(api, strategy, model):
+    """Wherever the mesh has come to, by steps of a driver's own and by differences that OpenMDAO says it takes."""
+    section = section_of(api, airfoil="naca:2412", strategy=strategy, tolerance=1e-12, **FLOWS[model])
+    h, replaced = 1e-4, 0
+    for design in designs_on_the_way(section.start):
+        before = section.mesh.freeze()
+        section.inputs["design"] = design
+        section.compute(section.inputs, section.outputs)
+        replaced += not np.array_equal(before.triangles, section.mesh.triangles)
+        partials, points, steps = partials_of(section), section.mesh.points, section.mesh.steps
+        direction = np.random.default_rng(5).standard_normal(len(design))
+        for section.under_finite_difference in (True, False):
+            by = {}
+            for k in (-2, -1, 1, 2):
+                section.compute(section.inputs | {"design": design + k * h * direction}, section.outputs)
+                by[k] = {name: float(section.outputs[name]) for name in ("cl", "cd", "cm")}
+            for name in ("cl", "cd", "cm"):
+                difference = (8 * (by[1][name] - by[-1][name]) - (by[2][name] - by[-2][name])) / (12 * h)
+                slope = float(np.ravel(partials[name, "design"]) @ direction)
+                assert abs(slope - difference) < 1e-5 * max(1.0, abs(difference)), (name, slope, difference)
+            if section.under_finite_difference:  # the mesh was lent, and is what it was
+                assert np.array_equal(section.mesh.points, points) and section.mesh.steps == steps
+    assert replaced  # some of these partials are on a mesh whose triangles were replaced
+
+
+def test_a_stream_alone_moves_no_mesh_and_large_differences_are_refused(api):
+    section = section_of(api, airfoil="naca:2412", strategy="chain", **FLOWS["euler"])
+    section.compute(section.inputs, section.outputs)
+    steps, points = section.mesh.steps, section.mesh.points
+    section.compute(section.inputs | {"mach": np.array([0.41])}, section.outputs)
+    assert section.mesh.steps == steps
+    section.under_finite_difference = True
+    far = designs_on_the_way(section.start)[1]
+    with pytest.raises(api.AnalysisError, match=r"^design: a difference this large replaces triangles \(strategy 'chain'\), expected a smaller step$"):
+        section.compute(section.inputs | {"design": far}, section.outputs)
+    assert np.array_equal(section.mesh.points, points)
+    section.under_finite_difference = False
+    section.compute(section.inputs | {"design": far}, section.outputs)  # a design may
+
+
+def test_complex_steps_are_refused(api, mesh):
+    for component in (section_of(api, **FLOWS["euler"]), flow_of(api, mesh=mesh), api.components.MeshComponent(mesh=mesh)):
+        component.setup()
+        component.under_complex_step = True
+        with pytest.raises(remodel.ArgumentError, match="^step: found a complex one, expected differences of real numbers"):
+            component.compute(component.inputs, component.outputs)
+
+
 def test_a_section_goes_far_and_says_what_has_no_flow(api):
     section = section_of(api, airfoil="naca:0012", mach=0.4, alpha=1.0, mesh={"points": 40})
     far = remodel.Airfoil("rae2822", degree=section.start.degree)
@@ -275,6 +357,7 @@ def test_a_section_goes_far_and_says_what_has_no_flow(api):
 def test_sections_refuse_what_does_not_fit(api):
     for options, message in (({"reynolds": 1e6}, "reynolds: found 1000000.0 with the model 'euler'"),
                              ({"model": "sa"}, "reynolds: found None with the model 'sa'"),
+                             ({"strategy": "pool"}, "strategy: found 'pool', expected one of chain, renew, morph, reference"),
                              ({"thickness_at": (0.5, 1.0)}, "thickness_at: found")):  # fmt: skip
         with pytest.raises(remodel.ArgumentError, match=message):
             section_of(api, mesh={"points": 40}, **options)
