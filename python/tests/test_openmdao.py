@@ -10,6 +10,9 @@ import pytest
 import remodel
 
 
+STRATEGIES = ("chain", "renew", "morph", "reference")
+
+
 class Options(dict):
     def declare(self, name, default=None):
         self.setdefault(name, default)
@@ -98,7 +101,7 @@ def test_partials_are_those_of_the_inputs_although_the_solver_is_shared(api, mes
         assert np.allclose(partials[key], alone[key], rtol=1e-6, atol=1e-9), key
 
 
-@pytest.mark.parametrize("strategy", ["chain", "renew", "morph", "reference"])
+@pytest.mark.parametrize("strategy", STRATEGIES)
 def test_coefficients_to_lift(api, mesh, airfoil, designs, strategy):
     """Of a mesh that steps of any strategy have made: held by its reference or not."""
     mesh.update(designs(2)[1], strategy=strategy)
@@ -153,11 +156,13 @@ def test_connectivity_is_held_for_other_sections_and_failures_say_what_to_do(api
 
 
 @pytest.mark.skipif(importlib.util.find_spec("openmdao") is None, reason="no OpenMDAO")
-def test_check_partials_of_openmdao_itself(airfoil):
+@pytest.mark.parametrize("strategy", STRATEGIES)
+def test_check_partials_of_openmdao_itself(airfoil, strategy):
     import openmdao.api as om
     from remodel.openmdao import FlowComponent, MeshComponent
 
     mesh = remodel.generate(airfoil, points=20, farfield_radius=10, farfield_points=12)
+    mesh.update(airfoil.with_design(1.05 * airfoil.design), strategy=strategy)
     problem = om.Problem()
     geometry = problem.model.add_subsystem("geometry", MeshComponent(mesh=mesh), promotes_inputs=["design"])
     problem.model.add_subsystem("flow", FlowComponent(geometry=geometry, mach=0.4, alpha=2.0), promotes_inputs=["alpha", "mach"], promotes_outputs=["cl", "cd", "cm"])
@@ -176,7 +181,6 @@ FLOWS = {
     "euler": {"mach": 0.4, "alpha": 1.0, "mesh": {"points": 40}},
     "laminar": {"model": "laminar", "mach": 0.4, "alpha": 1.0, "reynolds": 1000.0, "mesh": {"spacing": 6.0, "growth": 1.5}},
 }
-STRATEGIES = ("chain", "renew", "morph", "reference")
 
 
 def designs_on_the_way(start):
