@@ -8,9 +8,8 @@ namespace remodel::flow {
 
 namespace {
 
-// Level 2 takes the least time (docs/flow.md, "Memory"). GMRES converges in less than 60 steps with it, and
-// is slow where it begins anew after less than 20.
-constexpr int highest_level = 2, longest_restart = 60, shortest_restart = 20;
+// GMRES is slow where it begins anew after less than 20 steps, and seldom takes more than 60.
+constexpr int longest_restart = 60, shortest_restart = 20;
 
 }  // namespace
 
@@ -19,6 +18,7 @@ Factored BlockFactors<N>::factor(const BlockMatrix<N>& matrix,
                                  std::array<BlockVector<N>, augmented_count> augmented, FactorKind kind,
                                  double memory_mb) {
   Factored outcome = Factored::out_of_memory;
+  restart_ = longest_restart;
   if (kind == FactorKind::whole && !too_large(matrix.rows.size())) {
     incomplete_.forget();
     outcome = lu_.factor(matrix, memory_mb);
@@ -36,11 +36,11 @@ Factored BlockFactors<N>::factor(const BlockMatrix<N>& matrix,
 
 template <std::size_t N>
 Factored BlockFactors<N>::factor_incompletely(const BlockMatrix<N>& matrix, double memory_mb) {
-  const double vector_mb = 1e-6 * gmres_bytes_of(N) * static_cast<double>(matrix.rows.size());
+  const double vector_mb = gmres_vector_mb(N, matrix.rows.size());
   // A level that served this pattern before serves again.
-  int level = incomplete_.is_of(matrix) ? incomplete_.level() : highest_level;
+  int level = incomplete_.is_of(matrix) ? incomplete_.level() : highest_level_;
   for (; level >= 0; --level) {
-    const double room = (memory_mb - incomplete_.analysed_mb(matrix, level)) / vector_mb;
+    const double room = (memory_mb - incomplete_.analysed_mb(matrix, level)) / vector_mb - gmres_kept;
     const int shortest = level > 0 ? longest_restart / 2 : shortest_restart;
     if (room < shortest) continue;
     restart_ = static_cast<int>(std::min(room, double{longest_restart}));
@@ -69,8 +69,7 @@ void BlockFactors<N>::solve_transposed(BlockVector<N>& right) {
 template <std::size_t N>
 double BlockFactors<N>::memory_mb() const {
   if (whole() || !incomplete_.ready()) return lu_.memory_mb();
-  return incomplete_.memory_mb() +
-         1e-6 * gmres_bytes_of(N) * restart_ * static_cast<double>(columns_[0].size());
+  return incomplete_.memory_mb() + (restart_ + gmres_kept) * gmres_vector_mb(N, columns_[0].size());
 }
 
 // Incomplete factors are made in the time of about ten solves.

@@ -18,8 +18,11 @@ enum class FactorKind { whole, incomplete };
 template <std::size_t N>
 class BlockFactors {
  public:
+  // Level 2 takes the least time with the exact Jacobian (docs/flow.md, "Memory").
+  explicit BlockFactors(int highest_level = 2) : highest_level_(highest_level) {}
+
   // Whole factors if memory_mb, the same in all calls, has room for them; otherwise, or if they are asked
-  // for, incomplete ones of the highest level of fill, 2 at most, that leaves room for the vectors of GMRES.
+  // for, incomplete ones of the highest level of fill that leaves room for the vectors of GMRES.
   // `augmented`: the two columns beside the matrix, which are solved for.
   Factored factor(const BlockMatrix<N>& matrix, std::array<BlockVector<N>, augmented_count> augmented,
                   FactorKind kind, double memory_mb);
@@ -48,7 +51,7 @@ class BlockFactors {
   IncompleteLu<N> incomplete_;
   // Meshes of so many vertices and more have been found to need more memory.
   std::size_t too_large_ = std::numeric_limits<std::size_t>::max();
-  int restart_ = 0;
+  int highest_level_, restart_ = 0;
   std::array<BlockVector<N>, augmented_count> columns_;
 };
 using Factors = BlockFactors<unknown_count>;

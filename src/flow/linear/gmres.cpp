@@ -69,10 +69,11 @@ GmresEnd gmres_of(const std::function<BlockIncrement<N>(const BlockIncrement<N>&
         end.in_time = false;
         return end;
       }
-      solved.push_back(basis.back());
-      precondition(solved.back());
+      Step direction = basis.back();
+      precondition(direction);
       ++end.iterations;
-      Step next = times(solved.back());
+      Step next = times(direction);
+      if (solved.size() < gmres_kept) solved.push_back(std::move(direction));
       std::vector<double> column;
       for (const Step& b : basis) {
         column.push_back(inner(b, next));
@@ -86,7 +87,13 @@ GmresEnd gmres_of(const std::function<BlockIncrement<N>(const BlockIncrement<N>&
       add_times(basis.back(), 1.0 / size, next);
     }
     const std::vector<double> y = triangle.solution();
-    for (std::size_t i = 0; i < y.size(); ++i) add_times(x, y[i], solved[i]);
+    for (std::size_t i = 0; i < std::min(y.size(), solved.size()); ++i) add_times(x, y[i], solved[i]);
+    if (y.size() > solved.size()) {
+      Step sum = zero_of<N>(right.q.size());
+      for (std::size_t i = solved.size(); i < y.size(); ++i) add_times(sum, y[i], basis[i]);
+      precondition(sum);
+      add_times(x, 1.0, sum);
+    }
     residual = right;
     add_times(residual, -1.0, times(x));
     end.residual = norm(residual);

@@ -1,8 +1,9 @@
 #pragma once
 
 // GMRES for augmented systems, preconditioned from the right, so that the residual is that of the system
-// itself. Sources: Y. Saad and M. H. Schultz, SIAM J. Sci. Stat. Comput. 7 (1986); it keeps the
-// preconditioned vectors too, as Y. Saad's flexible one does (SIAM J. Sci. Comput. 14 (1993)).
+// itself. Source: Y. Saad and M. H. Schultz, SIAM J. Sci. Stat. Comput. 7 (1986). It keeps the first
+// preconditioned vectors too, which spares a short solution by whole factors a solve; of the others their sum
+// is preconditioned once more.
 
 #include <functional>
 #include <limits>
@@ -38,10 +39,10 @@ inline GmresEnd gmres(const std::function<Increment(const Increment&)>& times,
   return gmres_of<unknown_count>(times, precondition, right, limits, x);
 }
 
-// What each step before a new beginning takes, for each vertex of so many unknowns.
-inline constexpr double gmres_bytes_of(std::size_t unknowns) {
-  return 2.0 * sizeof(double) * static_cast<double>(unknowns);
+// Its vectors: one for each step before a new beginning, and the preconditioned ones that it keeps.
+inline constexpr int gmres_kept = 8;
+inline constexpr double gmres_vector_mb(std::size_t unknowns, std::size_t vertices) {
+  return 1e-6 * static_cast<double>(sizeof(double) * unknowns * vertices);
 }
-inline constexpr double gmres_bytes = gmres_bytes_of(unknown_count);
 
 }  // namespace remodel::flow

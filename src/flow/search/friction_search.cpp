@@ -24,6 +24,35 @@ double longest(const BlockState<N>& state, const BlockIncrement<N>& step) {
   return std::min(1.0, FrictionPolicy::largest_part / largest);
 }
 
+// What rows count by in the norm that GMRES reduces. The plain norm does not see the errors of the tiny cells
+// at sharp edges, which Newton's method then needs steps for. Augmented equations count as much as all
+// others.
+class RowWeights {
+ public:
+  RowWeights(const std::vector<double>& waves, double of_augmented)
+      : of_rows_(waves), of_augmented_(of_augmented) {
+    double mean = 0.0;
+    for (const double wave : waves) mean += wave / static_cast<double>(waves.size());
+    for (double& wave : of_rows_) wave = std::sqrt(mean / wave);
+  }
+  template <std::size_t N>
+  void apply(BlockIncrement<N>& x) const {
+    for (std::size_t v = 0; v < of_rows_.size(); ++v)
+      for (double& z : x.q[v]) z *= of_rows_[v];
+    for (double& z : x.augmented) z *= of_augmented_;
+  }
+  template <std::size_t N>
+  void remove(BlockIncrement<N>& x) const {
+    for (std::size_t v = 0; v < of_rows_.size(); ++v)
+      for (double& z : x.q[v]) z /= of_rows_[v];
+    for (double& z : x.augmented) z /= of_augmented_;
+  }
+
+ private:
+  std::vector<double> of_rows_;
+  double of_augmented_;
+};
+
 }  // namespace
 
 // The residual of the implicit time step from `before`.
@@ -42,33 +71,20 @@ double FrictionSearch<N>::unsteady_size(const BlockState<N>& before, const Block
 }
 
 template <std::size_t N>
-bool FrictionSearch<N>::factor() {
+Factored FrictionSearch<N>::factor(const BlockState<N>& state) {
+  const bool whole = by_lu_ || options_.solver == FlowSolver::lu;
   ++record_.factorisations;
-  if (by_lu_ || (options_.solver && *options_.solver == FlowSolver::lu)) {
-    if (lu_.factor(jacobian_.first, options_.memory_mb) == Factored::done) {
-      record_.memory_mb = std::max(record_.memory_mb, lu_.memory_mb());
-      return record_.whole_factors = true;
-    }
-    lu_.forget();
-  }
-  record_.whole_factors = false;
-  constexpr int level = 1;
-  incomplete_.analysed_mb(jacobian_.first, level);
-  record_.memory_mb = std::max(record_.memory_mb, incomplete_.memory_mb());
-  return incomplete_.factor(jacobian_.first);
+  factored_ = factors_.factor(jacobian_.first, system_.augmented_columns(state),
+                              whole ? FactorKind::whole : FactorKind::incomplete, options_.memory_mb);
+  record_.memory_mb = std::max(record_.memory_mb, factors_.memory_mb());
+  record_.whole_factors = factors_.whole();
+  return factored_;
 }
 
 template <std::size_t N>
-void FrictionSearch<N>::precondition(BlockVector<N>& x) {
-  if (record_.whole_factors)
-    lu_.solve(x, 1);
-  else
-    incomplete_.solve(x);
-}
-
-template <std::size_t N>
-bool FrictionSearch<N>::solve(const BlockState<N>& state, const std::vector<double>& by_time,
-                              const Residuals& now, BlockIncrement<N>& step) {
+bool FrictionSearch<N>::solve(const BlockState<N>& state, const std::vector<double>& waves,
+                              const std::vector<double>& by_time, const Residuals& now,
+                              BlockIncrement<N>& step) {
   system_.jacobian(state, jacobian_);
   for (std::uint32_t v = 0; v < by_time.size(); ++v) {
     const SquareBlock<N> slope = FrictionSystem<N>::conserved_slope(state.q[v]);
@@ -78,37 +94,31 @@ bool FrictionSearch<N>::solve(const BlockState<N>& state, const std::vector<doub
         if (!system_.is_replaced(v, z / N)) block[z] += by_time[v] * slope[z];
     }
   }
-  if (!factor()) {
+  if (factor(state) != Factored::done) {
     note_failure(true);
     return false;
   }
-  auto columns = system_.augmented_columns(state), solved = columns;
-  for (BlockVector<N>& column : solved) precondition(column);
-  const BlockAugmentedMatrix<N> matrix(jacobian_.whole, std::move(columns), jacobian_.rows);
-  // Augmented equations count as much as all others.
-  const auto weighed = [&](BlockIncrement<N>& x, double by) {
-    for (double& z : x.augmented) z *= by;
-  };
-  const double scale = measure_.scale();
+  const BlockAugmentedMatrix<N> matrix(jacobian_.whole, system_.augmented_columns(state), jacobian_.rows);
+  const RowWeights weights(waves, measure_.scale());
   BlockIncrement<N> right = now.negated();
-  weighed(right, scale);
+  weights.apply(right);
   const double size = norm(right);
   const double part = std::clamp(now.size, FrictionPolicy::least_forcing, FrictionPolicy::most_forcing);
   step = {};
   const GmresEnd end = gmres_of<N>(
       [&](const BlockIncrement<N>& x) {
         BlockIncrement<N> result = matrix.times(x);
-        weighed(result, scale);
+        weights.apply(result);
         return result;
       },
       [&](BlockIncrement<N>& x) {
-        weighed(x, 1.0 / scale);
-        precondition(x.q);
-        x = close_augmented(std::move(x.q), solved, jacobian_.rows, x.augmented);
+        weights.remove(x);
+        factors_.solve(x.q);
+        x = close_augmented(std::move(x.q), factors_.columns(), jacobian_.rows, x.augmented);
       },
       right,
       {.wanted = part * size,
-       .restart = FrictionPolicy::restart,
+       .restart = factors_.restart(),
        .rounds = FrictionPolicy::rounds,
        .observer = options_.observer},
       step);
@@ -220,18 +230,23 @@ void FrictionSearch<N>::run(BlockState<N>& state, double cfl) {
     if (record_.newton_steps >= options_.max_steps)
       return end(FlowStatus::step_limit, "the number of steps has reached its limit");
     const bool falls_no_more = since_least > FrictionPolicy::patience;
-    if (falls_no_more && is_still && now.size <= FrictionPolicy::most_rounding)
-      return end(FlowStatus::converged, "");
-    if (falls_no_more && returns < FrictionPolicy::most_returns) {
+    const bool is_rounding = falls_no_more && now.size <= FrictionPolicy::most_rounding;
+    if (is_rounding && is_still) return end(FlowStatus::converged, "");
+    if (is_rounding && cfl < FrictionPolicy::most_cfl) {
+      cfl = FrictionPolicy::most_cfl;
+    } else if (falls_no_more && returns < FrictionPolicy::most_returns) {
       ++returns, since_least = 0, least = std::numeric_limits<double>::infinity();
       cfl = FrictionPolicy::return_cfl;
     } else if (falls_no_more || cfl < FrictionPolicy::least_cfl) {
       return end(FlowStatus::stalled, "the residual falls no more");
     }
-    std::vector<double> by_time = system_.wave_speeds(state);
+    const std::vector<double> waves = system_.wave_speeds(state);
+    std::vector<double> by_time = waves;
     for (double& x : by_time) x = cfl < FrictionPolicy::most_cfl ? x / cfl : 0.0;
     BlockIncrement<N> step;
-    const bool solved = solve(state, by_time, now, step);
+    const bool solved = solve(state, waves, by_time, now, step);
+    if (factored_ == Factored::out_of_memory)
+      return record_.end_without_factors(factored_, options_.memory_mb);
     ++record_.newton_steps;
     is_still =
         solved && cfl >= FrictionPolicy::most_cfl && largest_change(state, step) <= FrictionPolicy::still;
