@@ -141,8 +141,8 @@ TEST(Columns, RefuseWhatIsNoWall) {
   EXPECT_EQ(message(domain, {.first_height = 1e-5, .walls = {"wing"}}),
             "walls: found 'wing', expected a boundary of the domain");
   EXPECT_EQ(message(Domain{{box(1)}}, layer_options()),
-            "walls: found a domain without holes, expected a closed wall for the layer: the walls of a duct, which end at "
-            "an inlet or outlet, get none");
+            "walls: found a domain without holes, and without an outer loop of which some curves are called inlet, "
+            "outlet, symmetry or farfield, expected a wall for the layer, or the names of walls");
   EXPECT_NE(message(domain, {}).find("first layer height"), std::string::npos);
   EXPECT_NE(message(domain, {.first_height = 1e-5, .growth = 1.0}).find("growth"), std::string::npos);
   EXPECT_NE(message(domain, {.first_height = 0.1}).find("layer thickness"), std::string::npos);
