@@ -39,11 +39,11 @@ Stopped ended(const Mesh& mesh) {
 
 // The bounds of a mesh that a limit ended are a wish: what is beyond them is counted, unless the command line
 // asks for them. A native mesh is checked against its own design and options; any other mesh against the
-// rules of every triangulation and the options of the command line.
-CheckOptions rules_for(const CheckCommand& command, const MeshInput& input) {
+// rules of every triangulation and the options of the command line. `walls`: keeps the design of a layered one.
+CheckOptions rules_for(const CheckCommand& command, const MeshInput& input, Domain& walls) {
   CheckOptions options;
   const Mesh* triangles = triangles_of(input);
-  if (input.layered) options.design = &input.layered->domain();
+  if (input.layered) options.design = &(walls = input.layered->meshed_domain());
   if (input.living) options.design = &input.living->domain();
   if (triangles != nullptr) {
     options.min_angle_deg = triangles->options().min_angle_deg;
@@ -112,7 +112,8 @@ void warn_of_result(const CheckCommand& command, const MeshInput& input, const C
 
 Status run(const CheckCommand& command) {
   const MeshInput input = read_any_mesh(command.mesh);
-  const CheckOptions options = rules_for(command, input);
+  Domain walls;
+  const CheckOptions options = rules_for(command, input, walls);
   const CheckResult result = check(input.frozen, options);
 
   Report report;

@@ -182,6 +182,8 @@ class LayeredMesh {
   bool empty() const { return outer_.empty(); }
   const Mesh& outer() const { return outer_; }     // of what lies beyond the tops
   const Domain& domain() const { return walls_; }  // the walls, not the tops
+  // The walls with the stations of openings where they are in the mesh: CheckOptions::design.
+  Domain meshed_domain() const;
   const LayerOptions& options() const { return options_; }
   std::uint32_t levels() const;
   std::size_t columns() const;

@@ -189,7 +189,7 @@ void solve_cyclic(std::vector<double> diagonal, const std::vector<double>& link,
   for (std::size_t i = 0; i < n; ++i) right[i] = right[i] - corner[i] * part;
 }
 
-// The columns at the ends of a chain are straight, to points of the openings.
+// The columns at the ends of a chain follow the openings.
 void set_ends(ColumnRing& ring) {
   if (ring.closed()) return;
   const std::size_t last = ring.size() - 1;
@@ -255,14 +255,16 @@ void set_points(ColumnRing& ring, const LayerOptions& options, std::uint32_t lev
       ring.growth[c] = growth_of(options.first_height, options.growth, thickness, levels);
       level_heights(options.first_height, ring.growth[c], thickness, heights);
     }
+    if (!ring.closed() && (c == 0 || c + 1 == n)) {
+      const Opening& opening = ring.openings[c == 0 ? 0 : 1];
+      for (std::uint32_t j = 0; j < levels; ++j) ring.points[c * levels + j] = opening.at(heights[j]);
+      continue;
+    }
     const Point bend = (1.0 / thickness) * (ring.top[c] - ring.normal[c]);
     for (std::uint32_t j = 0; j < levels; ++j)
       ring.points[c * levels + j] =
           without_traces(ring.foot[c] + heights[j] * (ring.normal[c] + heights[j] * bend), thickness);
   }
-  if (ring.closed()) return;
-  ring.points[levels - 1] = ring.openings[0].at(ring.thickness.front());
-  ring.points.back() = ring.openings[1].at(ring.thickness.back());
 }
 
 void mark_pair(ColumnSet& marked, const std::vector<ColumnRing>& rings, std::size_t ring, std::size_t column) {

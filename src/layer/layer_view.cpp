@@ -1,8 +1,10 @@
 // The frozen view of a layered mesh: the layer's points and cells, and the outer mesh's behind them.
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
+#include "layer/heights.h"
 #include "layer/layer_parts.h"
 #include "layer/outside.h"
 
@@ -40,10 +42,11 @@ LayerTopology topology_of(const LayerColumns& columns, std::uint32_t levels) {
 class LayerView {
  public:
   LayerView(const Mesh& outer, const Domain& walls, const LayerColumns& columns, std::uint32_t levels,
-            const std::vector<std::vector<std::uint32_t>>& ids, LayerCells cells)
+            double first_height, const std::vector<std::vector<std::uint32_t>>& ids, LayerCells cells)
       : walls_(walls),
         columns_(columns),
         levels_(levels),
+        first_height_(first_height),
         cells_(cells),
         outside_(outer.freeze()),
         tops_(tops_of(outer, columns)),
@@ -78,21 +81,28 @@ class LayerView {
         const BoundaryStation& station = stations[ring.station[c]];
         if (topology_.wall[column] == mesh_.points.size())
           add(ring.foot[c], 0, static_cast<std::int32_t>(station.curve), station.t);
+        const std::vector<BoundaryStation> sides = places_on_opening(ring, c);
         for (std::uint32_t level = 1; level <= levels_; ++level) {
-          const Point p = ring.points[c * levels_ + level - 1];
-          const BoundaryStation side = place_on_opening(ring, c, distance(ring.foot[c], p));
-          add(p, level, side.curve == no_curve ? -1 : static_cast<std::int32_t>(side.curve), side.t);
+          if (sides.empty())
+            add(ring.points[c * levels_ + level - 1], level, -1, 0.0);
+          else
+            add(walls_.at(sides[level - 1]), level, static_cast<std::int32_t>(sides[level - 1].curve),
+                sides[level - 1].t);
         }
       }
     }
   }
 
-  // Where the point of a column at this height lies on an opening: no_curve but for the ends of chains.
-  BoundaryStation place_on_opening(const ColumnRing& ring, std::size_t column, double height) const {
-    if (ring.closed() || (column > 0 && column + 1 < ring.size())) return {no_curve, 0.0};
+  // Where the points of a column lie on an opening: none but at the ends of chains.
+  std::vector<BoundaryStation> places_on_opening(const ColumnRing& ring, std::size_t column) const {
+    std::vector<BoundaryStation> places;
+    if (ring.closed() || (column > 0 && column + 1 < ring.size())) return places;
     const Opening& opening = ring.openings[column == 0 ? 0 : 1];
-    const double part = opening.part(height);
-    return {first_curves_[ring.wall.loop] + opening.curve(), column == 0 ? 1.0 - part : part};
+    std::vector<double> heights(levels_);
+    level_heights(first_height_, ring.growth[column], ring.thickness[column], heights);
+    for (const double height : heights)
+      places.push_back({first_curves_[ring.wall.loop] + opening.curve(), opening.parameter(height)});
+    return places;
   }
 
   // A curve beyond the layer: which one of the walls it is, or no_curve, and how its parameters are those of that.
@@ -143,12 +153,14 @@ class LayerView {
       point_of_[p] = static_cast<std::uint32_t>(mesh_.points.size());
       const OwnCurve own = outside_.curve[p] < 0 ? OwnCurve{} : curves[static_cast<std::size_t>(outside_.curve[p])];
       const std::int32_t curve = own.curve == no_curve ? -1 : static_cast<std::int32_t>(own.curve);
-      mesh_.points.push_back(outside_.points[p]);
+      // What is left of an opening is the same place, but for the last bits.
+      const double t =
+          curve < 0 ? 0.0 : own.place.own_parameter(walls_.curve(own.curve).shape, outside_.parameter[p]);
+      mesh_.points.push_back(own.place.is_shorter() ? walls_.at({own.curve, t}) : outside_.points[p]);
       mesh_.length_scale.push_back(outside_.length_scale[p]);
       mesh_.vertex_keys.push_back(outside_.vertex_keys[p]);
       mesh_.curve.push_back(curve);
-      mesh_.parameter.push_back(
-          curve < 0 ? 0.0 : own.place.own_parameter(walls_.curve(own.curve).shape, outside_.parameter[p]));
+      mesh_.parameter.push_back(t);
       mesh_.steiner.push_back(curve < 0 ? 0 : outside_.steiner[p]);
     }
     for (auto& split : split_points_)
@@ -287,6 +299,40 @@ class LayerView {
         if (is_top(edge[0], edge[1])) continue;
         boundary(outer.name).edges.push_back({point_of_[edge[0]], point_of_[edge[1]]});
       }
+    for (std::size_t l = 0; l < walls_.loops.size(); ++l)
+      if (std::any_of(columns_.rings.begin(), columns_.rings.end(),
+                      [&](const ColumnRing& ring) { return ring.wall.loop == l && !ring.closed(); }))
+        order_edges(l);
+  }
+
+  // Puts the edges of a loop with chains into its order, which is that of other loops already.
+  void order_edges(std::size_t loop) {
+    const std::size_t first = first_curves_[loop], end = first + walls_.loops[loop].curves.size();
+    const auto is_on = [&](std::uint32_t p) {
+      const std::int32_t curve = mesh_.curve[p];
+      return curve >= 0 && static_cast<std::size_t>(curve) >= first && static_cast<std::size_t>(curve) < end;
+    };
+    struct Next {
+      std::size_t boundary;
+      std::uint32_t point;
+    };
+    std::map<std::uint32_t, Next> next;
+    for (std::size_t b = 0; b < mesh_.boundaries.size(); ++b)
+      std::erase_if(mesh_.boundaries[b].edges, [&](const std::array<std::uint32_t, 2>& edge) {
+        if (!is_on(edge[0]) || !is_on(edge[1])) return false;
+        next[edge[0]] = {b, edge[1]};
+        return true;
+      });
+    // From where a name begins.
+    const auto begin = std::find_if(next.begin(), next.end(), [&](const auto& edge) {
+      return next.at(edge.second.point).boundary != edge.second.boundary;
+    });
+    std::uint32_t at = begin == next.end() ? next.begin()->first : begin->second.point;
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      const Next to = next.at(at);
+      mesh_.boundaries[to.boundary].edges.push_back({at, to.point});
+      at = to.point;
+    }
   }
 
   static constexpr std::size_t no_curve = static_cast<std::size_t>(-1);
@@ -295,6 +341,7 @@ class LayerView {
   std::vector<std::size_t> first_curves_;  // per loop
   const LayerColumns& columns_;
   std::uint32_t levels_;
+  double first_height_;
   LayerCells cells_;
   FrozenMesh outside_;
   std::vector<RingTops> tops_;
@@ -322,7 +369,7 @@ LayerTopology LayeredMesh::topology() const {
 
 FrozenMesh LayeredMesh::freeze(LayerCells cells) const {
   if (empty()) return {};
-  return LayerView(outer_, walls_, *columns_, levels(), columns_->ids, cells).take();
+  return LayerView(outer_, walls_, *columns_, levels(), options_.first_height, columns_->ids, cells).take();
 }
 
 }  // namespace remodel

@@ -93,6 +93,10 @@ std::size_t LayeredMesh::layer_cells() const {
   return count;
 }
 
+Domain LayeredMesh::meshed_domain() const {
+  return empty() ? walls_ : with_moved_stations(walls_, columns_->rings);
+}
+
 std::string LayeredMesh::quick_check() const {
   if (std::string broken = outer_.quick_check(); !broken.empty() || empty()) return broken;
   const std::vector<RingTops> tops = tops_of(outer_, *columns_);

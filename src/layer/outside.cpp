@@ -62,9 +62,9 @@ std::vector<OutsideCurve> outside_curves(const Domain& walls, const std::vector<
     if ((curve.ring = ring[c]) != OutsideCurve::none) continue;
     curve.curve = c;
     if ((curve.begins = ring[before]) != OutsideCurve::none)
-      curve.from = rings[ring[before]].openings[1].part(rings[ring[before]].thickness.back());
+      curve.from = rings[ring[before]].openings[1].parameter(rings[ring[before]].thickness.back());
     if ((curve.ends = ring[after]) != OutsideCurve::none)
-      curve.to = 1.0 - rings[ring[after]].openings[0].part(rings[ring[after]].thickness.front());
+      curve.to = rings[ring[after]].openings[0].parameter(rings[ring[after]].thickness.front());
   }
   return curves;
 }
@@ -96,6 +96,19 @@ Shape outside_shape(const Shape& own, const OutsideCurve& curve, const std::vect
   if (curve.ends != OutsideCurve::none)
     (line != nullptr ? line->to : polyline->points.back()) = top_of(rings[curve.ends], 0, levels);
   return shape;
+}
+
+Domain with_moved_stations(Domain walls, const std::vector<ColumnRing>& rings) {
+  for (std::size_t l = 0; l < walls.loops.size(); ++l)
+    for (const OutsideCurve& curve : outside_curves(walls, rings, l)) {
+      if (curve.ring != OutsideCurve::none) continue;
+      Curve& own = walls.loops[l].curves[curve.curve];
+      std::vector<double> moved;
+      if (curve.begins != OutsideCurve::none) moved.push_back(0.0);
+      for (const double t : own.parameters) moved.push_back(curve.own_parameter(own.shape, t));
+      own.parameters = std::move(moved);
+    }
+  return walls;
 }
 
 Domain outside_of(const Domain& walls, const LayerColumns& columns, std::uint32_t levels) {

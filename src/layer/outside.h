@@ -19,6 +19,7 @@ struct OutsideCurve {
   std::size_t begins = none, ends = none;  // the rings that the own curve begins and ends at
   double from = 0.0, to = 1.0;             // its parameters there
 
+  bool is_shorter() const { return begins != none || ends != none; }
   // The own curve's parameter that the curve beyond the layer has this one for.
   double own_parameter(const Shape& own, double t) const;
 };
@@ -30,6 +31,8 @@ void number_outside_curves(const Domain& walls, std::vector<ColumnRing>& rings);
 // The shape of an own curve beyond the layer. All its parameters are valid there too.
 Shape outside_shape(const Shape& own, const OutsideCurve& curve, const std::vector<ColumnRing>& rings,
                     std::uint32_t levels);
+// The walls with the stations of openings where they are in the mesh; the tops of columns there are some, too.
+Domain with_moved_stations(Domain walls, const std::vector<ColumnRing>& rings);
 Domain outside_of(const Domain& walls, const LayerColumns& columns, std::uint32_t levels);
 
 }  // namespace remodel

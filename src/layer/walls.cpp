@@ -119,7 +119,7 @@ class LoopWalls {
         throw Error(ErrorCode::geometry, "layers",
                     "found an opening that is a spline or an airfoil, " + curve_text(walls_.domain, loop_, curve) +
                         ", expected a line, a polyline or an arc where a wall with a layer ends");
-    const Openings openings = openings_of(walls_, wall);
+    const Openings openings = openings_of(walls_.domain, wall);
     const std::size_t end = first_station_[last];
     require_angle(openings[0], wall.station, true);
     require_angle(openings[1], end, false);
@@ -225,33 +225,29 @@ std::vector<LayeredWall> layered_walls(const Domain& domain, const LayerOptions&
   return layered_walls(Walls(domain), options);
 }
 
-Opening::Opening(const Loop& loop, std::size_t curve, bool begins, Point corner)
-    : shape_(loop.curves[curve].shape), curve_(curve), begins_(begins), corner_(corner) {
+Opening::Opening(const Loop& loop, std::size_t curve, bool begins)
+    : shape_(loop.curves[curve].shape), curve_(curve), begins_(begins) {
+  if (const auto* arc = std::get_if<Arc>(&shape_)) length_ = arc->radius * std::abs(arc->sweep);
+  if (const auto* line = std::get_if<Line>(&shape_)) length_ = distance(line->from, line->to);
   if (const auto* polyline = std::get_if<Polyline>(&shape_)) {
     const std::vector<Point>& points = polyline->points;
     pieces_ = static_cast<double>(points.size() - 1);
-    shape_ = begins ? Line{points[0], points[1]} : Line{points[points.size() - 2], points.back()};
+    length_ = begins ? distance(points[0], points[1]) : distance(points[points.size() - 2], points.back());
   }
-  if (const auto* arc = std::get_if<Arc>(&shape_)) length_ = arc->radius * std::abs(arc->sweep);
-  if (const auto* line = std::get_if<Line>(&shape_)) length_ = distance(line->from, line->to);
 }
 
 Point Opening::at(double distance) const {
-  if (const auto* arc = std::get_if<Arc>(&shape_))
-    return begins_ ? point_at(without_beginning(*arc, part(distance)), 0.0)
-                   : point_at(*arc, 1.0 - part(distance));
-  const Line& line = std::get<Line>(shape_);
-  const Point along = (begins_ ? line.to : line.from) - corner_;
-  return corner_ + distance * ((1.0 / std::sqrt(dot(along, along))) * along);
+  // The bits of what is left of the arc, which begins there.
+  if (const auto* arc = std::get_if<Arc>(&shape_); arc != nullptr && begins_)
+    return point_at(without_beginning(*arc, part(distance)), 0.0);
+  return point_at(shape_, parameter(distance));
 }
 
-Openings openings_of(const Walls& walls, const LayeredWall& wall) {
-  const Loop& loop = walls.domain.loops[wall.loop];
-  const std::vector<Point>& points = walls.points[wall.loop];
+Openings openings_of(const Domain& domain, const LayeredWall& wall) {
+  const Loop& loop = domain.loops[wall.loop];
   const std::size_t n = loop.curves.size();
-  const Point first = points[wall.station], last = points[(wall.station + wall.stations - 1) % points.size()];
-  return {Opening(loop, wall.first == 0 ? n - 1 : wall.first - 1, false, first),
-          Opening(loop, (wall.first + wall.curves) % n, true, last)};
+  return {Opening(loop, wall.first == 0 ? n - 1 : wall.first - 1, false),
+          Opening(loop, (wall.first + wall.curves) % n, true)};
 }
 
 }  // namespace remodel

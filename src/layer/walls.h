@@ -40,26 +40,26 @@ class Opening {
  public:
   Opening() = default;
   // `begins`: the chain ends where the curve begins, and not where it ends.
-  Opening(const Loop& loop, std::size_t curve, bool begins, Point corner);
+  Opening(const Loop& loop, std::size_t curve, bool begins);
   std::size_t curve() const { return curve_; }  // in its loop
   // What a layer may take of it.
   double longest() const { return part_of_length * length_; }
-  // The point that lies so far along it, and the part of its parameters up to there.
+  // The point that lies so far along it, and its parameter.
   Point at(double distance) const;
-  double part(double distance) const { return distance / length_ / pieces_; }
+  double parameter(double distance) const { return begins_ ? part(distance) : 1.0 - part(distance); }
 
  private:
   static constexpr double part_of_length = 0.3;
+  double part(double distance) const { return distance / length_ / pieces_; }
 
   Shape shape_;
   std::size_t curve_ = 0;
   bool begins_ = true;
-  Point corner_;
   double length_ = 0.0, pieces_ = 1.0;  // of its first piece, and how many there are
 };
 using Openings = std::array<Opening, 2>;  // at a chain's beginning and its end
 
 // Precondition: a chain that layered_walls() has found.
-Openings openings_of(const Walls& walls, const LayeredWall& wall);
+Openings openings_of(const Domain& domain, const LayeredWall& wall);
 
 }  // namespace remodel
