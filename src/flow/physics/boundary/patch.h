@@ -40,6 +40,7 @@ struct Patch {
   const char* kind() const {
     return std::visit([](const auto& of) { return of.kind; }, condition);
   }
+  bool is_outlet() const { return std::holds_alternative<Outlet>(condition); }
   bool is_farfield() const { return std::holds_alternative<FarField>(condition); }
   template <class T>
   Fluxes<T> flux(const BoundaryInputs<T>& in, const Stream& stream) const {
