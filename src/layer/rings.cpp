@@ -196,7 +196,7 @@ std::vector<ColumnRing> rings_of(const Walls& walls, const std::vector<LayeredWa
     ring.left = walls.on_left(layered[r].loop);
     add_columns(ring, walls, sectors[r], options);
     if (!ring.closed()) {
-      ring.openings = openings_of(walls.domain, ring.wall);
+      ring.openings = openings_of(walls, ring.wall);
       lean_to_openings(ring, options);
     }
     ring.top = ring.normal;

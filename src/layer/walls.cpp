@@ -119,7 +119,7 @@ class LoopWalls {
         throw Error(ErrorCode::geometry, "layers",
                     "found an opening that is a spline or an airfoil, " + curve_text(walls_.domain, loop_, curve) +
                         ", expected a line, a polyline or an arc where a wall with a layer ends");
-    const Openings openings = openings_of(walls_.domain, wall);
+    const Openings openings = openings_of(walls_, wall);
     const std::size_t end = first_station_[last];
     require_angle(openings[0], wall.station, true);
     require_angle(openings[1], end, false);
@@ -225,8 +225,11 @@ std::vector<LayeredWall> layered_walls(const Domain& domain, const LayerOptions&
   return layered_walls(Walls(domain), options);
 }
 
-Opening::Opening(const Loop& loop, std::size_t curve, bool begins)
-    : shape_(loop.curves[curve].shape), curve_(curve), begins_(begins) {
+Opening::Opening(const Loop& loop, std::size_t curve, bool begins, Point corner)
+    : shape_(loop.curves[curve].shape),
+      curve_(curve),
+      begins_(begins),
+      beside_(corner - point_at(shape_, begins ? 0.0 : 1.0)) {
   if (const auto* arc = std::get_if<Arc>(&shape_)) length_ = arc->radius * std::abs(arc->sweep);
   if (const auto* line = std::get_if<Line>(&shape_)) length_ = distance(line->from, line->to);
   if (const auto* polyline = std::get_if<Polyline>(&shape_)) {
@@ -239,15 +242,17 @@ Opening::Opening(const Loop& loop, std::size_t curve, bool begins)
 Point Opening::at(double distance) const {
   // The bits of what is left of the arc, which begins there.
   if (const auto* arc = std::get_if<Arc>(&shape_); arc != nullptr && begins_)
-    return point_at(without_beginning(*arc, part(distance)), 0.0);
-  return point_at(shape_, parameter(distance));
+    return point_at(without_beginning(*arc, part(distance)), 0.0) + beside_;
+  return point_at(shape_, parameter(distance)) + beside_;
 }
 
-Openings openings_of(const Domain& domain, const LayeredWall& wall) {
-  const Loop& loop = domain.loops[wall.loop];
+Openings openings_of(const Walls& walls, const LayeredWall& wall) {
+  const Loop& loop = walls.domain.loops[wall.loop];
+  const std::vector<Point>& points = walls.points[wall.loop];
   const std::size_t n = loop.curves.size();
-  return {Opening(loop, wall.first == 0 ? n - 1 : wall.first - 1, false),
-          Opening(loop, (wall.first + wall.curves) % n, true)};
+  const Point first = points[wall.station], last = points[(wall.station + wall.stations - 1) % points.size()];
+  return {Opening(loop, wall.first == 0 ? n - 1 : wall.first - 1, false, first),
+          Opening(loop, (wall.first + wall.curves) % n, true, last)};
 }
 
 }  // namespace remodel

@@ -40,7 +40,7 @@ class Opening {
  public:
   Opening() = default;
   // `begins`: the chain ends where the curve begins, and not where it ends.
-  Opening(const Loop& loop, std::size_t curve, bool begins);
+  Opening(const Loop& loop, std::size_t curve, bool begins, Point corner);
   std::size_t curve() const { return curve_; }  // in its loop
   // What a layer may take of it.
   double longest() const { return part_of_length * length_; }
@@ -55,11 +55,12 @@ class Opening {
   Shape shape_;
   std::size_t curve_ = 0;
   bool begins_ = true;
+  Point beside_;  // from its end to the corner: nothing but rounding, unless one of the two is differenced
   double length_ = 0.0, pieces_ = 1.0;  // of its first piece, and how many there are
 };
 using Openings = std::array<Opening, 2>;  // at a chain's beginning and its end
 
 // Precondition: a chain that layered_walls() has found.
-Openings openings_of(const Domain& domain, const LayeredWall& wall);
+Openings openings_of(const Walls& walls, const LayeredWall& wall);
 
 }  // namespace remodel
