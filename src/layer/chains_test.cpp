@@ -185,6 +185,7 @@ TEST(Chains, OpeningsMayLean) {
     for (const double thickness : {0.02, 0.1}) {
       const LayeredMesh mesh = expect_whole(leaning(degrees), {.first_height = 1e-4, .thickness = thickness}, what);
       EXPECT_EQ(mesh.shrunk(), 0) << what;
+      EXPECT_EQ(mesh.statistics().thickness.least, thickness) << what;
       EXPECT_GT(mesh.statistics().corner_min_deg, 45.0) << what;
     }
   }

@@ -412,6 +412,7 @@ LayerColumns columns_of(const Walls& walls, const std::vector<LayeredWall>& laye
   LayerColumns columns{rings_of(walls, layered, sectors, options), 0};
   std::vector<ColumnRing>& rings = columns.rings;
   set_room(rings, walls, options.thickness);
+  for (ColumnRing& ring : rings) lean_to_openings(ring, options);
   number_outside_curves(walls.domain, rings);
   std::vector<std::vector<double>> room;
   for (const ColumnRing& ring : rings) room.push_back(ring.thickness);

@@ -146,28 +146,6 @@ void add_columns(ColumnRing& ring, const Walls& walls, const std::vector<std::ui
   }
 }
 
-// The columns near an end of a chain lean as the opening does: by less and less, up to some thicknesses away from it,
-// so that no column comes near the next one's top.
-void lean_to_openings(ColumnRing& ring, const LayerOptions& options) {
-  constexpr double thicknesses = 4.0;
-  const double reach = thicknesses * options.thickness;
-  const std::size_t n = ring.size();
-  const auto lean = [&](const Opening& opening, std::size_t end, bool forward) {
-    const Point along = unit(opening.at(std::min(options.thickness, opening.longest())) - ring.foot[end]);
-    const Point by = along - ring.normal[end];
-    double away = 0.0;
-    for (std::size_t k = 0, c = end; k < n && away < reach; ++k) {
-      const double left = 1.0 - away / reach;
-      ring.normal[c] = c == end ? along : unit(ring.normal[c] + (left * left * left) * by);
-      if (k + 1 == n) break;
-      away += forward ? ring.step[c] : ring.step[c - 1];
-      c = forward ? c + 1 : c - 1;
-    }
-  };
-  lean(ring.openings[0], 0, true);
-  lean(ring.openings[1], n - 1, false);
-}
-
 }  // namespace
 
 FanSectors fans_of(const Walls& walls, const std::vector<LayeredWall>& layered, const LayerOptions& options,
@@ -195,13 +173,31 @@ std::vector<ColumnRing> rings_of(const Walls& walls, const std::vector<LayeredWa
     ring.wall = layered[r];
     ring.left = walls.on_left(layered[r].loop);
     add_columns(ring, walls, sectors[r], options);
-    if (!ring.closed()) {
-      ring.openings = openings_of(walls, ring.wall);
-      lean_to_openings(ring, options);
-    }
+    if (!ring.closed()) ring.openings = openings_of(walls, ring.wall);
     ring.top = ring.normal;
   }
   return rings;
+}
+
+void lean_to_openings(ColumnRing& ring, const LayerOptions& options) {
+  if (ring.closed()) return;
+  constexpr double thicknesses = 4.0;
+  const double reach = thicknesses * options.thickness;
+  const std::size_t n = ring.size();
+  const auto lean = [&](const Opening& opening, std::size_t end, bool forward) {
+    const Point along = unit(opening.at(std::min(options.thickness, opening.longest())) - ring.foot[end]);
+    const Point by = along - ring.normal[end];
+    double away = 0.0;
+    for (std::size_t k = 0, c = end; k < n && away < reach; ++k) {
+      const double left = 1.0 - away / reach;
+      ring.normal[c] = c == end ? along : unit(ring.normal[c] + (left * left * left) * by);
+      if (k + 1 == n) break;
+      away += forward ? ring.step[c] : ring.step[c - 1];
+      c = forward ? c + 1 : c - 1;
+    }
+  };
+  lean(ring.openings[0], 0, true);
+  lean(ring.openings[1], n - 1, false);
 }
 
 std::string column_place(const Domain& domain, const ColumnRing& ring, std::size_t column) {

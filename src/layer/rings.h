@@ -51,6 +51,10 @@ FanSectors fans_of(const Walls& walls, const std::vector<LayeredWall>& layered, 
 std::vector<ColumnRing> rings_of(const Walls& walls, const std::vector<LayeredWall>& layered,
                                  const FanSectors& sectors, const LayerOptions& options);
 
+// The columns near an end of a chain lean as the opening does: by less and less, up to some thicknesses away from it,
+// so that no column comes near the next one's top.
+void lean_to_openings(ColumnRing& ring, const LayerOptions& options);
+
 // Where a column stands, for messages.
 std::string column_place(const Domain& domain, const ColumnRing& ring, std::size_t column);
 
