@@ -138,7 +138,7 @@ class LoopWalls {
     double degrees = std::atan2(sine, cosine) * (180.0 / std::numbers::pi);
     if (degrees < 0.0) degrees += 360.0;
     throw Error(ErrorCode::geometry, "layers",
-                "found an angle of " + exact_text(std::round(degrees)) + " degrees between the wall and " +
+                "found an angle of " + exact_text(std::round(10.0 * degrees) / 10.0) + " degrees between the wall and " +
                     curve_text(walls_.domain, loop_, opening.curve()) + ", at " + exact_text(corner.at) +
                     ", expected 60 to 120 where a layer ends, or 150 to 210 where it goes on");
   }
