@@ -39,7 +39,8 @@ Stopped ended(const Mesh& mesh) {
 
 // The bounds of a mesh that a limit ended are a wish: what is beyond them is counted, unless the command line
 // asks for them. A native mesh is checked against its own design and options; any other mesh against the
-// rules of every triangulation and the options of the command line. `walls`: keeps the design of a layered one.
+// rules of every triangulation and the options of the command line. `walls`: keeps the design of a layered
+// one.
 CheckOptions rules_for(const CheckCommand& command, const MeshInput& input, Domain& walls) {
   CheckOptions options;
   const Mesh* triangles = triangles_of(input);
@@ -54,8 +55,8 @@ CheckOptions rules_for(const CheckCommand& command, const MeshInput& input, Doma
     options.delaunay = false;
     options.unused_points = true;
   }
-  options.bounds =
-      triangles == nullptr || ended(*triangles) == Stopped::done || command.min_angle || command.max_gradation;
+  options.bounds = triangles == nullptr || ended(*triangles) == Stopped::done || command.min_angle ||
+                   command.max_gradation;
   options.delaunay_slack_deg = command.delaunay_slack.value_or(options.delaunay_slack_deg);
   options.min_angle_deg = command.min_angle.value_or(options.min_angle_deg);
   options.max_gradation = command.max_gradation.value_or(options.max_gradation);
@@ -87,9 +88,9 @@ void add_gradation(Report& report, const CheckResult& result, const MeshInput& i
   const Mesh* triangles = triangles_of(input);
   const double keep = triangles != nullptr ? triangles->keep() : 1.0;
   report.figure("max_gradation",
-                keep > 1.0     ? "largest r / (keep H mean LS)"
-                : triangles    ? "largest r / (H mean LS)"
-                               : "largest r / (H mean LS), H = sqrt(1/2) or as given",
+                keep > 1.0  ? "largest r / (keep H mean LS)"
+                : triangles ? "largest r / (H mean LS)"
+                            : "largest r / (H mean LS), H = sqrt(1/2) or as given",
                 result.max_gradation);
 }
 
@@ -118,8 +119,9 @@ Status run(const CheckCommand& command) {
 
   Report report;
   report.line("mesh", command.mesh);
-  report.figure("rules", "rules",
-                triangles_of(input) != nullptr ? "native: the design and the options in the file" : "topology");
+  report.figure(
+      "rules", "rules",
+      triangles_of(input) != nullptr ? "native: the design and the options in the file" : "topology");
   report.figure("valid", "valid", result.valid);
   add_violations(report, result.violations);
   warn_of_result(command, input, options, result);

@@ -43,8 +43,8 @@ MeshInput layered_input(const FlowMeshRequest& request) {
 }
 
 constexpr std::initializer_list<const char*> layer_sizes = {
-    "--y-plus",      "--first-height", "--growth",     "--layer-thickness",
-    "--layer-count", "--wall-spacing", "--te-spacing", "--max-spacing",   "--layer-wall"};
+    "--y-plus",       "--first-height", "--growth",      "--layer-thickness", "--layer-count",
+    "--wall-spacing", "--te-spacing",   "--max-spacing", "--layer-wall"};
 
 constexpr const char* has_its_own = "given with a mesh, which has its own, expected with a shape";
 

@@ -39,8 +39,7 @@ void add_layer_cells(CLI::App& app, LayerCells& cells) {
 }
 
 void add_layer_options(CLI::App& app, LayerChoice& choice) {
-  add_flag(app, "--layers",
-           "Put layers of flat quadrilaterals on walls, for flows with friction",
+  add_flag(app, "--layers", "Put layers of flat quadrilaterals on walls, for flows with friction",
            choice.layers);
   add_real(app,
            {"--reynolds", "RE", "", "Reynolds number, which the first height and the thickness follow from"},
@@ -67,10 +66,11 @@ void add_layer_sizes(CLI::App& app, LayerChoice& choice) {
       {"--layer-count", "K", "", "Number of cells across the layer, in place of its thickness: 1 to 1000"},
       {.low = 1, .high = 1000}, [&](std::int64_t value) { choice.count = static_cast<int>(value); });
   add_spacings(app, choice);
-  add_texts(app,
-            {"--layer-wall", "NAME", "all holes; of an outer loop with an inlet, outlet or symmetry plane all else",
-             "Boundary that gets a layer; may be given several times"},
-            Presence::optional, choice.walls);
+  add_texts(
+      app,
+      {"--layer-wall", "NAME", "all holes; of an outer loop with an inlet, outlet or symmetry plane all else",
+       "Boundary that gets a layer; may be given several times"},
+      Presence::optional, choice.walls);
 }
 
 void add_wake_options(CLI::App& app, LayerChoice& choice) {

@@ -21,8 +21,8 @@ namespace remodel {
 // model without friction and a Reynolds number that is not 1 to 1e12.
 LayerOptions layer_for_flow(FlowModel model, double reynolds);
 
-// LayerOptions::walls for a flow with these options: the names of closed loops' curves that are neither the far
-// field nor inlets, outlets and symmetry planes. Empty where there is nothing but a far field.
+// LayerOptions::walls for a flow with these options: the names of closed loops' curves that are neither the
+// far field nor inlets, outlets and symmetry planes. Empty where there is nothing but a far field.
 std::vector<std::string> walls_of_flow(const Domain& domain, const FlowOptions& options);
 
 }  // namespace remodel

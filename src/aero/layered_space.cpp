@@ -58,7 +58,8 @@ Domain LayeredSpace::walls(std::span<const double> design) const {
 
 Domain LayeredSpace::domain_with(std::span<const double> design, int points) const {
   const std::vector<double> start = bodies_->start();
-  return with_stations(bodies_->domain(design), stations_of(bodies_->domain(start), points, frame_.options().walls));
+  return with_stations(bodies_->domain(design),
+                       stations_of(bodies_->domain(start), points, frame_.options().walls));
 }
 
 bool LayeredSpace::feasible(std::span<const double> design) const {
@@ -79,12 +80,13 @@ std::string LayeredSpace::description() const {
 std::unique_ptr<FlowSpace> LayeredSpace::from_description(std::unique_ptr<FlowSpace> bodies,
                                                           const std::string& description) {
   const nlohmann::ordered_json layer = nlohmann::ordered_json::parse(description).at("layers");
-  return std::make_unique<LayeredSpace>(std::move(bodies),
-                                        LayerOptions{.first_height = layer.at("first_height"),
-                                                     .growth = layer.at("growth"),
-                                                     .thickness = layer.at("thickness"),
-                                                     .walls = layer.value("walls", std::vector<std::string>())},
-                                        layer.at("points").get<int>());
+  return std::make_unique<LayeredSpace>(
+      std::move(bodies),
+      LayerOptions{.first_height = layer.at("first_height"),
+                   .growth = layer.at("growth"),
+                   .thickness = layer.at("thickness"),
+                   .walls = layer.value("walls", std::vector<std::string>())},
+      layer.at("points").get<int>());
 }
 
 }  // namespace remodel

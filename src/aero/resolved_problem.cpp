@@ -368,9 +368,9 @@ class Resolver {
       LayerOptions layer = problem_.layer.value_or(layer_for_points(problem_.points));
       const DesignPoint& first = problem_.points.front();
       if (problem_.deformation)
-        layer.walls = walls_of_flow(
-            problem_.deformation->domain,
-            {.inlets = first.inlets, .outlets = first.outlets, .symmetry = first.symmetry});
+        layer.walls =
+            walls_of_flow(problem_.deformation->domain,
+                          {.inlets = first.inlets, .outlets = first.outlets, .symmetry = first.symmetry});
       resolved_.space =
           std::make_unique<LayeredSpace>(std::move(resolved_.space), layer, problem_.domain.points);
     } catch (const Error& error) {

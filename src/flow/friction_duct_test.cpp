@@ -17,11 +17,13 @@ LayeredMesh channel_mesh(double length) {
   const auto line = [](const std::string& name, Point from, Point to, std::size_t pieces) {
     return Curve{.name = name, .shape = Line{from, to}, .parameters = Parameters::uniform(pieces)};
   };
-  Domain domain{{{.role = LoopRole::outer,
-                  .curves = {line("wall", {0, 0}, {length, 0}, 1), line("outlet", {length, 0}, {length, 1}, 4),
-                             line("wall", {length, 1}, {0, 1}, 1), line("inlet", {0, 1}, {0, 0}, 4)}}}};
+  Domain domain{
+      {{.role = LoopRole::outer,
+        .curves = {line("wall", {0, 0}, {length, 0}, 1), line("outlet", {length, 0}, {length, 1}, 4),
+                   line("wall", {length, 1}, {0, 1}, 1), line("inlet", {0, 1}, {0, 0}, 4)}}}};
   space_walls(domain, {.trailing_edge = 0.05, .most = 0.1, .growth = 0.2});
-  return generate_layered(domain, {.first_height = 0.01, .growth = 1.3, .thickness = 0.2}, {.gradation = 8.0}).mesh;
+  return generate_layered(domain, {.first_height = 0.01, .growth = 1.3, .thickness = 0.2}, {.gradation = 8.0})
+      .mesh;
 }
 
 FlowOptions channel_options(double pressure) {
@@ -32,8 +34,8 @@ FlowOptions channel_options(double pressure) {
   return options;
 }
 
-// Between plates the flow becomes Poiseuille's: a parabola, whose friction is 12 / Re by mean speed and height. It
-// stays so up to the outlet, corners included.
+// Between plates the flow becomes Poiseuille's: a parabola, whose friction is 12 / Re by mean speed and
+// height. It stays so up to the outlet, corners included.
 TEST(FrictionInDucts, AChannelsFlowBecomesPoiseuilles) {
   const double mach = 0.03, reynolds = 20.0, length = 3.0;
   const FrozenMesh mesh = channel_mesh(length).freeze();

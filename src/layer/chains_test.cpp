@@ -50,20 +50,23 @@ Domain plate() {
 // The half of a body in a half circle: the circle is an arc, met at right angles.
 Domain half_circle() {
   constexpr double radius = 2.0;
-  return {{{.role = LoopRole::outer,
-            .curves = {line("symmetry", {-radius, 0}, {0, 0}, 40), bulge("body", 1.0, 0.05, 60),
-                       line("symmetry", {1, 0}, {radius, 0}, 40),
-                       {.name = "farfield",
-                        .shape = Arc{.centre = {0, 0}, .radius = radius, .start = 0.0, .sweep = std::numbers::pi},
-                        .parameters = Parameters::uniform(24)}}}}};
+  return {
+      {{.role = LoopRole::outer,
+        .curves = {line("symmetry", {-radius, 0}, {0, 0}, 40),
+                   bulge("body", 1.0, 0.05, 60),
+                   line("symmetry", {1, 0}, {radius, 0}, 40),
+                   {.name = "farfield",
+                    .shape = Arc{.centre = {0, 0}, .radius = radius, .start = 0.0, .sweep = std::numbers::pi},
+                    .parameters = Parameters::uniform(24)}}}}};
 }
 
 // A channel whose openings lean: so many degrees between them and the lower wall, at both ends.
 Domain leaning(double degrees) {
   const double shift = 1.0 / std::tan(degrees * std::numbers::pi / 180.0);
-  return {{{.role = LoopRole::outer,
-            .curves = {line("wall", {0, 0}, {4, 0}, 400), line("outlet", {4, 0}, {4 - shift, 1}, 5),
-                       line("farfield", {4 - shift, 1}, {shift, 1}, 20), line("inlet", {shift, 1}, {0, 0}, 5)}}}};
+  return {
+      {{.role = LoopRole::outer,
+        .curves = {line("wall", {0, 0}, {4, 0}, 400), line("outlet", {4, 0}, {4 - shift, 1}, 5),
+                   line("farfield", {4 - shift, 1}, {shift, 1}, 20), line("inlet", {shift, 1}, {0, 0}, 5)}}}};
 }
 
 Domain backwards(Domain domain) {
@@ -123,7 +126,8 @@ double length_of(const FrozenMesh& view, const std::string& name) {
 }
 
 TEST(Chains, WallsOfDuctsEndAtOpenings) {
-  for (const Domain& domain : {channel(), channel(0.3), backwards(channel()), rotated(channel(), 1), rotated(channel(), 3)}) {
+  for (const Domain& domain :
+       {channel(), channel(0.3), backwards(channel()), rotated(channel(), 1), rotated(channel(), 3)}) {
     const LayeredMesh mesh = expect_whole(domain, layer_options(1e-4), "channel");
     const FrozenMesh view = mesh.freeze();
     for (const char* name : {"bottom", "outlet", "top", "inlet"}) EXPECT_EQ(rows_of(view, name), 1) << name;
@@ -183,7 +187,8 @@ TEST(Chains, OpeningsMayLean) {
   for (const double degrees : {60.0, 75.0, 90.0, 105.0, 120.0}) {
     const std::string what = std::to_string(degrees);
     for (const double thickness : {0.02, 0.1}) {
-      const LayeredMesh mesh = expect_whole(leaning(degrees), {.first_height = 1e-4, .thickness = thickness}, what);
+      const LayeredMesh mesh =
+          expect_whole(leaning(degrees), {.first_height = 1e-4, .thickness = thickness}, what);
       EXPECT_EQ(mesh.shrunk(), 0) << what;
       EXPECT_EQ(mesh.statistics().thickness.least, thickness) << what;
       EXPECT_GT(mesh.statistics().corner_min_deg, 45.0) << what;
@@ -214,8 +219,8 @@ TEST(Chains, TheNamesOfWallsMayBeGiven) {
   const LayeredMesh mesh =
       expect_whole(channel(), {.first_height = 1e-4, .walls = {"bottom"}}, "the lower wall alone");
   EXPECT_EQ(mesh.columns(), 121);
-  const LayeredMesh corner =
-      expect_whole(channel(), {.first_height = 1e-4, .walls = {"bottom", "outlet", "top"}}, "a duct with a back");
+  const LayeredMesh corner = expect_whole(
+      channel(), {.first_height = 1e-4, .walls = {"bottom", "outlet", "top"}}, "a duct with a back");
   EXPECT_EQ(corner.columns(), 121 + 60 + 5);
 }
 
@@ -230,7 +235,8 @@ std::string refusal(const Domain& domain, const LayerOptions& options = layer_op
 
 TEST(Chains, RefuseHostileOpenings) {
   EXPECT_EQ(refusal(leaning(50)),
-            "layers: found an angle of 50 degrees between the wall and loop 0, curve \"inlet\", at (0, 0), expected 60 to "
+            "layers: found an angle of 50 degrees between the wall and loop 0, curve \"inlet\", at (0, 0), "
+            "expected 60 to "
             "120 where a layer ends, or 150 to 210 where it goes on");
   EXPECT_NE(refusal(leaning(130)).find("an angle of 130 degrees"), std::string::npos);
   Domain curved = channel();
@@ -240,9 +246,8 @@ TEST(Chains, RefuseHostileOpenings) {
   placed.loops[0].placement.chord = 2.0;
   EXPECT_NE(refusal(placed).find("found a placement"), std::string::npos);
   Domain joined = channel();
-  joined.loops.push_back({.role = LoopRole::internal,
-                          .curves = {line("probe", {3, 0.6}, {2, 0.5}, 4)},
-                          .open = true});
+  joined.loops.push_back(
+      {.role = LoopRole::internal, .curves = {line("probe", {3, 0.6}, {2, 0.5}, 4)}, .open = true});
   EXPECT_NE(refusal(joined).find("a chain that ends on loop 0"), std::string::npos);
 }
 

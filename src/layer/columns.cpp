@@ -1,8 +1,9 @@
 // Columns of a wall, in five steps: room, thickness, directions, points, validity.
 //
-// A column on a wall's point p leaves the wall along n and ends in the direction m: its point at the height h is
-// X(h) = p + h n + (h^2 / T)(m - n), T its thickness. n is the bisector of the wall's edges, so that cells stand
-// upright on the wall; m is n made smooth along the wall, so that the tops are a smooth polygon with even spacing.
+// A column on a wall's point p leaves the wall along n and ends in the direction m: its point at the height h
+// is X(h) = p + h n + (h^2 / T)(m - n), T its thickness. n is the bisector of the wall's edges, so that cells
+// stand upright on the wall; m is n made smooth along the wall, so that the tops are a smooth polygon with
+// even spacing.
 
 #include "layer/columns.h"
 
@@ -22,14 +23,16 @@ namespace remodel {
 
 namespace {
 
-// A column takes this part of its ball's radius, as long as a triangle fits between two layers, but at least that.
+// A column takes this part of its ball's radius, as long as a triangle fits between two layers, but at least
+// that.
 constexpr double part_of_radius = 0.5, least_part_of_radius = 0.3;
 // Thickness changes by at most this for each unit of length along the wall.
 constexpr double thickness_slope = 0.3;
-// Directions at the tops are smooth over this part of the thickness. Less leaves uneven tops, more tilts columns.
+// Directions at the tops are smooth over this part of the thickness. Less leaves uneven tops, more tilts
+// columns.
 constexpr double smoothing_length = 0.25;
-// What gives way beside cells that are not convex, and tops that meet: a column's tilt is halved twice, then its
-// thickness is reduced six times.
+// What gives way beside cells that are not convex, and tops that meet: a column's tilt is halved twice, then
+// its thickness is reduced six times.
 constexpr int tilt_rounds = 2, thickness_rounds = 6;
 constexpr double thickness_reduction = 0.7;
 // Meeting tops are found one pair at a time.
@@ -95,8 +98,8 @@ std::vector<bool> opening_edges(const Walls& walls, const ColumnRing& ring) {
   return edges;
 }
 
-// The stations of all loops, and points between those that lie far apart where a layer may come near; but for the
-// edges that are left out, of this loop, which bound no ball.
+// The stations of all loops, and points between those that lie far apart where a layer may come near; but for
+// the edges that are left out, of this loop, which bound no ball.
 std::vector<Point> boundary_samples(const Walls& walls, const Box& near, double thickness, std::size_t loop,
                                     const std::vector<bool>& left_out) {
   std::vector<Point> samples;
@@ -135,7 +138,8 @@ void limit_by_balls(ColumnRing& ring, const WallBalls& balls, double wanted) {
     const double spacing = ring.spacing[c];
     // Beyond this radius the ball is no bound: R / 2 and R - spacing are both more than what is wanted.
     const double radius = balls.radius(ring.foot[c], ring.normal[c], 2.0 * wanted + spacing);
-    const double room = std::max(least_part_of_radius * radius, std::min(part_of_radius * radius, radius - spacing));
+    const double room =
+        std::max(least_part_of_radius * radius, std::min(part_of_radius * radius, radius - spacing));
     ring.thickness[c] = std::min(wanted, room);
   }
 }
@@ -161,9 +165,9 @@ void set_room(std::vector<ColumnRing>& rings, const Walls& walls, double wanted)
   }
 }
 
-// Solves the cyclic tridiagonal system diagonal[i] x[i] - link[i-1] x[i-1] - link[i] x[i+1] = right[i], which is
-// symmetric and diagonally dominant, by elimination and the Sherman-Morrison formula for its two far corners. The
-// result is in `right`.
+// Solves the cyclic tridiagonal system diagonal[i] x[i] - link[i-1] x[i-1] - link[i] x[i+1] = right[i], which
+// is symmetric and diagonally dominant, by elimination and the Sherman-Morrison formula for its two far
+// corners. The result is in `right`.
 void solve_cyclic(std::vector<double> diagonal, const std::vector<double>& link, std::vector<Point>& right) {
   const std::size_t n = right.size();
   // The matrix is a tridiagonal one and u v^T, where u = (g, 0 ... 0, -a), v = (1, 0 ... 0, -a / g).
@@ -193,15 +197,16 @@ void solve_cyclic(std::vector<double> diagonal, const std::vector<double>& link,
 void set_ends(ColumnRing& ring) {
   if (ring.closed()) return;
   const std::size_t last = ring.size() - 1;
-  for (const auto& [end, opening] : {std::pair{std::size_t{0}, &ring.openings[0]}, {last, &ring.openings[1]}}) {
+  for (const auto& [end, opening] :
+       {std::pair{std::size_t{0}, &ring.openings[0]}, {last, &ring.openings[1]}}) {
     const Point along = opening->at(ring.thickness[end]) - ring.foot[end];
     ring.normal[end] = (1.0 / std::sqrt(dot(along, along))) * along;
   }
 }
 
-// The directions at the tops minimise sum l^2 |m_i - m_(i+1)|^2 / s_i + sum w_i |m_i - n_i|^2 over the ring, where
-// s_i is the distance of two neighbours at half the thickness, and w_i the half of both such distances. Those at the
-// ends of a chain are given.
+// The directions at the tops minimise sum l^2 |m_i - m_(i+1)|^2 / s_i + sum w_i |m_i - n_i|^2 over the ring,
+// where s_i is the distance of two neighbours at half the thickness, and w_i the half of both such distances.
+// Those at the ends of a chain are given.
 void set_tops(ColumnRing& ring, const std::vector<double>& tilt) {
   const std::size_t n = ring.size();
   std::vector<double> length(n, 0.0), link(n, 0.0), diagonal(n);
@@ -267,7 +272,8 @@ void set_points(ColumnRing& ring, const LayerOptions& options, std::uint32_t lev
   }
 }
 
-void mark_pair(ColumnSet& marked, const std::vector<ColumnRing>& rings, std::size_t ring, std::size_t column) {
+void mark_pair(ColumnSet& marked, const std::vector<ColumnRing>& rings, std::size_t ring,
+               std::size_t column) {
   marked[ring][column] = true;
   marked[ring][rings[ring].after(column)] = true;
 }
@@ -323,7 +329,8 @@ class OutsideSides {
     for (std::size_t l = 0; l < loops.size(); ++l) {
       const std::vector<OutsideCurve> curves = outside_curves(walls.domain, rings, l);
       if (curves.empty()) {
-        if (!is_single_point(loops[l])) add(walls.points[l], std::vector<Owner>(walls.points[l].size()), loops[l].open);
+        if (!is_single_point(loops[l]))
+          add(walls.points[l], std::vector<Owner>(walls.points[l].size()), loops[l].open);
         continue;
       }
       points_.clear(), of_loop_.clear();
@@ -369,7 +376,8 @@ class OutsideSides {
 };
 
 // The columns of tops that meet others, or a loop without a layer: one pair of sides at a time.
-bool mark_meeting(const Walls& walls, const std::vector<ColumnRing>& rings, std::uint32_t levels, ColumnSet& marked) {
+bool mark_meeting(const Walls& walls, const std::vector<ColumnRing>& rings, std::uint32_t levels,
+                  ColumnSet& marked) {
   const OutsideSides outside(walls, rings, levels);
   const std::optional<SidePair> meeting = find_meeting_sides(outside.sides());
   if (!meeting) return false;
@@ -379,7 +387,8 @@ bool mark_meeting(const Walls& walls, const std::vector<ColumnRing>& rings, std:
   return true;
 }
 
-[[noreturn]] void refuse_layer(const Domain& walls, const std::vector<ColumnRing>& rings, const ColumnSet& marked) {
+[[noreturn]] void refuse_layer(const Domain& walls, const std::vector<ColumnRing>& rings,
+                               const ColumnSet& marked) {
   for (std::size_t r = 0; r < rings.size(); ++r)
     for (std::size_t c = 0; c < rings[r].size(); ++c)
       if (marked[r][c])
@@ -407,8 +416,8 @@ bool is_convex(const CellPoints& cell) {
   return is_convex_quadrilateral(p[0], p[1], p[2], p[3]);
 }
 
-LayerColumns columns_of(const Walls& walls, const std::vector<LayeredWall>& layered, const FanSectors& sectors,
-                        const LayerOptions& options, std::uint32_t levels) {
+LayerColumns columns_of(const Walls& walls, const std::vector<LayeredWall>& layered,
+                        const FanSectors& sectors, const LayerOptions& options, std::uint32_t levels) {
   LayerColumns columns{rings_of(walls, layered, sectors, options), 0};
   std::vector<ColumnRing>& rings = columns.rings;
   set_room(rings, walls, options.thickness);

@@ -64,8 +64,8 @@ LayeredMeshDerivative::LayeredMeshDerivative(const LayeredMesh& mesh, const Mesh
     for (const auto& [times, factor] : {std::pair{-2, 1.0}, {-1, -8.0}, {1, 8.0}, {2, -1.0}}) {
       std::vector<double> coefficients = own;
       coefficients[i] += times * step;
-      const Places at = places_at(with_coefficients(mesh.domain(), coefficients), columns.layered, columns.fans,
-                                  mesh.options(), columns.levels);
+      const Places at = places_at(with_coefficients(mesh.domain(), coefficients), columns.layered,
+                                  columns.fans, mesh.options(), columns.levels);
       sum.layer.resize(at.layer.size()), sum.outside.resize(at.outside.size());
       const double by = factor / (12.0 * step);
       for (std::size_t v = 0; v < at.layer.size(); ++v) sum.layer[v] = sum.layer[v] + by * at.layer[v];

@@ -37,7 +37,8 @@ void measure_wall(const CellPoints& cell, LayerStatistics& statistics) {
   statistics.aspect_max = std::max(statistics.aspect_max, length * length / area);
 }
 
-// The larger area over the smaller one at each edge of the tops: of undivided cells, and of the triangles there.
+// The larger area over the smaller one at each edge of the tops: of undivided cells, and of the triangles
+// there.
 void measure_jumps(const Mesh& outer, const ColumnRing& ring, const RingTops& tops, std::uint32_t levels,
                    std::vector<double>& jumps) {
   const Triangulation& triangulation = outer.data().triangulation;

@@ -105,7 +105,8 @@ class LayerView {
     return places;
   }
 
-  // A curve beyond the layer: which one of the walls it is, or no_curve, and how its parameters are those of that.
+  // A curve beyond the layer: which one of the walls it is, or no_curve, and how its parameters are those of
+  // that.
   struct OwnCurve {
     std::size_t curve = no_curve;
     OutsideCurve place = {};
@@ -151,7 +152,8 @@ class LayerView {
     for (std::size_t p = 0; p < point_of_.size(); ++p) {
       if (point_of_[p] != no_index) continue;
       point_of_[p] = static_cast<std::uint32_t>(mesh_.points.size());
-      const OwnCurve own = outside_.curve[p] < 0 ? OwnCurve{} : curves[static_cast<std::size_t>(outside_.curve[p])];
+      const OwnCurve own =
+          outside_.curve[p] < 0 ? OwnCurve{} : curves[static_cast<std::size_t>(outside_.curve[p])];
       const std::int32_t curve = own.curve == no_curve ? -1 : static_cast<std::int32_t>(own.curve);
       // What is left of an opening is the same place, but for the last bits.
       const double t =
@@ -172,9 +174,10 @@ class LayerView {
     triangle_rings_.push_back(ring);
   }
 
-  // The polygon of a divided top cell: its lower edge from a to b, its upper one, whose points run from over b to
-  // over a. a == b where the cell is a triangle.
-  void add_divided(std::uint32_t a, std::uint32_t b, const std::vector<std::uint32_t>& upper, std::uint32_t ring) {
+  // The polygon of a divided top cell: its lower edge from a to b, its upper one, whose points run from over
+  // b to over a. a == b where the cell is a triangle.
+  void add_divided(std::uint32_t a, std::uint32_t b, const std::vector<std::uint32_t>& upper,
+                   std::uint32_t ring) {
     const std::size_t middle = upper.size() / 2;
     for (std::size_t i = 0; i + 1 < upper.size(); ++i) {
       if (i == middle && a != b) add_triangle(a, b, upper[middle], ring);
@@ -204,7 +207,8 @@ class LayerView {
         const std::uint32_t a = ring.left ? column : next, b = ring.left ? next : column;
         for (std::uint32_t level = 0; level < levels_; ++level) {
           const std::array<std::uint32_t, 4> quad{topology_.point(a, level), topology_.point(b, level),
-                                                  topology_.point(b, level + 1), topology_.point(a, level + 1)};
+                                                  topology_.point(b, level + 1),
+                                                  topology_.point(a, level + 1)};
           if (level + 1 == levels_ && !split_points_[column].empty()) {
             std::vector<std::uint32_t> upper = split_points_[column];
             if (ring.left) std::reverse(upper.begin(), upper.end());
@@ -283,7 +287,8 @@ class LayerView {
   bool is_top(std::uint32_t a, std::uint32_t b) const {
     const std::uint32_t ring = on_top_[a];
     if (ring == no_index || on_top_[b] != ring) return false;
-    const std::uint32_t least = std::min(along_top_[a], along_top_[b]), most = std::max(along_top_[a], along_top_[b]);
+    const std::uint32_t least = std::min(along_top_[a], along_top_[b]),
+                        most = std::max(along_top_[a], along_top_[b]);
     return most - least == 1 || (columns_.rings[ring].closed() && least == 0 && most + 1 == on_tops_[ring]);
   }
 
@@ -347,11 +352,12 @@ class LayerView {
   std::vector<RingTops> tops_;
   LayerTopology topology_;
   FrozenMesh mesh_;
-  std::vector<std::uint32_t> point_of_;  // per point outside: its number in the view
-  std::vector<std::uint32_t> on_top_;    // per point outside: the ring on whose tops it lies
+  std::vector<std::uint32_t> point_of_;   // per point outside: its number in the view
+  std::vector<std::uint32_t> on_top_;     // per point outside: the ring on whose tops it lies
   std::vector<std::uint32_t> along_top_;  // and its place in the order of the points there
   std::vector<std::uint32_t> on_tops_;    // per ring: how many there are
-  std::vector<std::vector<std::uint32_t>> split_points_;  // per column: points between its top and the next one's
+  std::vector<std::vector<std::uint32_t>>
+      split_points_;  // per column: points between its top and the next one's
   std::vector<std::uint32_t> triangle_rings_, quad_rings_;  // per cell of the layer
 };
 

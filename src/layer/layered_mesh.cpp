@@ -63,7 +63,8 @@ std::vector<RingTops> tops_of(const Mesh& outer, const LayerColumns& columns) {
     for (std::size_t c = 0; c < ring.size(); ++c) {
       const std::size_t station = (first + c) % all.top.size();
       tops.top.push_back(all.top[station]);
-      tops.splits.push_back(c < ring.pairs() ? std::move(all.splits[station]) : std::vector<RingTops::Split>{});
+      tops.splits.push_back(c < ring.pairs() ? std::move(all.splits[station])
+                                             : std::vector<RingTops::Split>{});
     }
   }
   return rings;

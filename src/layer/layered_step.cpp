@@ -5,8 +5,8 @@
 
 #include "layer/layer_count.h"
 #include "layer/layer_parts.h"
-#include "layer/outside.h"
 #include "layer/outer_step.h"
+#include "layer/outside.h"
 #include "mesh/mesh_data.h"
 #include "remodel/error.h"
 #include "step/correspondence.h"
@@ -38,13 +38,14 @@ NewWalls in_own_terms(const Domain& own, const Domain& wanted) {
 }
 
 // Per ring: the one of the same stations of its old loop, or no_column.
-std::vector<std::size_t> old_rings(const std::vector<LayeredWall>& walls, const std::vector<std::size_t>& from,
+std::vector<std::size_t> old_rings(const std::vector<LayeredWall>& walls,
+                                   const std::vector<std::size_t>& from,
                                    const std::vector<LayeredWall>& old_walls) {
   std::vector<std::size_t> rings;
   for (const LayeredWall& wall : walls) {
     const auto old = std::find_if(old_walls.begin(), old_walls.end(), [&](const LayeredWall& before) {
-      return before.loop == from[wall.loop] && before.closed == wall.closed && before.station == wall.station &&
-             (wall.closed || before.stations == wall.stations);
+      return before.loop == from[wall.loop] && before.closed == wall.closed &&
+             before.station == wall.station && (wall.closed || before.stations == wall.stations);
     });
     rings.push_back(old == old_walls.end() ? ColumnPlace::no_column
                                            : static_cast<std::size_t>(old - old_walls.begin()));
@@ -197,8 +198,7 @@ LayeredMesh mesh_at(const LayeredMesh& mesh, const Domain& design) {
     throw TopologyChanged(ErrorCode::argument, "design",
                           "found other loops or stations, expected those of the mesh");
   auto columns = std::make_shared<LayeredMesh::Columns>(own);
-  static_cast<LayerColumns&>(*columns) =
-      columns_of(walls, own.layered, own.fans, mesh.options_, own.levels);
+  static_cast<LayerColumns&>(*columns) = columns_of(walls, own.layered, own.fans, mesh.options_, own.levels);
   LayeredMesh result;
   result.outer_ = mesh_at(mesh.outer_, outside_of(design, *columns, own.levels));
   result.walls_ = design, result.options_ = mesh.options_, result.columns_ = std::move(columns);

@@ -18,7 +18,8 @@ Polyline tops_of_ring(const ColumnRing& ring, std::uint32_t levels) {
 }
 
 // The ring of a loop's curve.
-std::size_t ring_of(const std::vector<ColumnRing>& rings, std::size_t loop, std::size_t curve, std::size_t curves) {
+std::size_t ring_of(const std::vector<ColumnRing>& rings, std::size_t loop, std::size_t curve,
+                    std::size_t curves) {
   for (std::size_t r = 0; r < rings.size(); ++r) {
     const LayeredWall& wall = rings[r].wall;
     if (wall.loop == loop && (curve + curves - wall.first) % curves < wall.curves) return r;

@@ -43,18 +43,20 @@ double turns_between(Point a, Point b) {
 
 struct WallCorner {
   Point before, after;  // the normals of the edges that meet there, into the domain
-  // From one to the other, positive where the corner is convex, seen from the domain; 0 for small ones without a fan.
+  // From one to the other, positive where the corner is convex, seen from the domain; 0 for small ones
+  // without a fan.
   double turns = 0.0;
 };
 
-// One sector turns by about what a cell of the layer grows by: then the cells of fans are isotropic at the top.
+// One sector turns by about what a cell of the layer grows by: then the cells of fans are isotropic at the
+// top.
 double sector_turns(const LayerOptions& options) {
   return (options.growth - 1.0) / (2.0 * std::numbers::pi);
 }
 
-// Two corners with a fan each, and a short edge between them, such as the base of a trailing edge: their columns at
-// that edge lean apart so that its tops are as far from each other as those of a sector, and not as near as the edge
-// is short.
+// Two corners with a fan each, and a short edge between them, such as the base of a trailing edge: their
+// columns at that edge lean apart so that its tops are as far from each other as those of a sector, and not
+// as near as the edge is short.
 void lean_apart(WallCorner& from, WallCorner& to, double edge, bool left, const LayerOptions& options) {
   const double missing = (sector_turns(options) - edge / (2.0 * std::numbers::pi * options.thickness)) / 2.0;
   const double lean = std::min({missing, 0.25 * from.turns, 0.25 * to.turns});
@@ -65,7 +67,8 @@ void lean_apart(WallCorner& from, WallCorner& to, double edge, bool left, const 
   to.turns -= lean;
 }
 
-// Turns of stations without a fan are only compared with angles far larger than this: they need no exact ones.
+// Turns of stations without a fan are only compared with angles far larger than this: they need no exact
+// ones.
 constexpr double cosine_of_small_turn = 0.98;
 
 // The normal of each edge, into the domain.
@@ -80,7 +83,8 @@ std::vector<Point> edge_normals(const std::vector<Point>& points, bool closed, b
 
 // `sectors`: of fans at these stations, where there are any. The ends of a chain are no corners.
 std::vector<WallCorner> corners_of_wall(const std::vector<Point>& points, bool closed, bool left,
-                                        const LayerOptions& options, const std::vector<std::uint32_t>* sectors) {
+                                        const LayerOptions& options,
+                                        const std::vector<std::uint32_t>* sectors) {
   const std::size_t n = points.size();
   const std::vector<Point> normals = edge_normals(points, closed, left);
   std::vector<WallCorner> corners(n);
@@ -153,7 +157,8 @@ FanSectors fans_of(const Walls& walls, const std::vector<LayeredWall>& layered, 
   FanSectors fans;
   for (std::size_t r = 0; r < layered.size(); ++r) {
     const std::vector<Point> points = walls.points_of(layered[r]);
-    const std::vector<std::uint32_t>* own = kept[r] != nullptr && kept[r]->size() == points.size() ? kept[r] : nullptr;
+    const std::vector<std::uint32_t>* own =
+        kept[r] != nullptr && kept[r]->size() == points.size() ? kept[r] : nullptr;
     const auto corners =
         corners_of_wall(points, layered[r].closed, walls.on_left(layered[r].loop), options, own);
     std::vector<std::uint32_t>& sectors = fans.emplace_back(corners.size());

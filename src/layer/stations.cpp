@@ -1,8 +1,8 @@
 // Stations of walls by distances that grow from the nose and the corners.
 //
 // A loop is sampled densely. Each sample gets a distance: the given one at the nose and where curves join, in
-// between at most as much more as the growth allows. Stations then lie so that each piece, from one of these places
-// to the next, is divided into pieces of equal parts of the integral of 1 / distance.
+// between at most as much more as the growth allows. Stations then lie so that each piece, from one of these
+// places to the next, is divided into pieces of equal parts of the integral of 1 / distance.
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ struct WallSample {
   std::size_t curve;
   double t;
   Point p;
-  double s = 0.0;     // length from the loop's beginning
+  double s = 0.0;       // length from the loop's beginning
   double size = 0.0;    // the distance of stations there
   bool fixed = false;   // a station
   bool corner = false;  // with the spacing of corners
@@ -42,7 +42,8 @@ void require_spacing(const WallSpacing& spacing) {
   require(spacing.leading_edge, "spacing at the leading edge");
   require(spacing.trailing_edge, "spacing at the trailing edge");
   require(spacing.most, "largest spacing");
-  require_option(spacing.growth >= 0.01 && spacing.growth <= 1.0, "growth of spacings", spacing.growth, "0.01 to 1");
+  require_option(spacing.growth >= 0.01 && spacing.growth <= 1.0, "growth of spacings", spacing.growth,
+                 "0.01 to 1");
 }
 
 std::vector<double> sampled_parameters(const Shape& shape) {
@@ -98,7 +99,8 @@ std::size_t nose_of(const CurveRow& row, const std::vector<WallSample>& samples)
   const bool airfoil = std::holds_alternative<CstAirfoil>(row.curves.front()->shape);
   for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
     if (airfoil && samples[i].curve == 0 && samples[i].t == 0.5) return i;
-    if (squared_distance(samples[i].p, samples[0].p) > squared_distance(samples[nose].p, samples[0].p)) nose = i;
+    if (squared_distance(samples[i].p, samples[0].p) > squared_distance(samples[nose].p, samples[0].p))
+      nose = i;
   }
   return nose;
 }
@@ -120,7 +122,8 @@ void limit_by_bends(std::vector<WallSample>& samples, const WallSpacing& spacing
   }
 }
 
-void set_sizes(std::vector<WallSample>& samples, const CurveRow& row, const WallSpacing& spacing, bool bends) {
+void set_sizes(std::vector<WallSample>& samples, const CurveRow& row, const WallSpacing& spacing,
+               bool bends) {
   const std::size_t n = samples.size() - 1;
   for (std::size_t i = 0; i <= n; ++i) {
     const std::size_t curve = i < n ? samples[i].curve : samples[n - 1].curve;
@@ -149,7 +152,8 @@ void set_sizes(std::vector<WallSample>& samples, const CurveRow& row, const Wall
 }
 
 // Adds the stations from one fixed sample, included, to the next, not included.
-void divide(const std::vector<WallSample>& samples, std::size_t from, std::size_t to, std::vector<double>& stations) {
+void divide(const std::vector<WallSample>& samples, std::size_t from, std::size_t to,
+            std::vector<double>& stations) {
   std::vector<double> sum{0.0};
   for (std::size_t i = from + 1; i <= to; ++i) {
     const double mean = 0.5 * (1.0 / samples[i - 1].size + 1.0 / samples[i].size);
@@ -162,7 +166,8 @@ void divide(const std::vector<WallSample>& samples, std::size_t from, std::size_
     const double wanted = sum.back() * (k / pieces);
     while (i + 2 < sum.size() && sum[i + 1] < wanted) ++i;
     const double part = (wanted - sum[i]) / (sum[i + 1] - sum[i]);
-    const bool ends = from + i + 1 == samples.size() - 1 || samples[from + i + 1].curve != samples[from].curve;
+    const bool ends =
+        from + i + 1 == samples.size() - 1 || samples[from + i + 1].curve != samples[from].curve;
     const double end = ends ? 1.0 : samples[from + i + 1].t;
     const double t = samples[from + i].t + part * (end - samples[from + i].t);
     if (t > stations.back() && t < 1.0) stations.push_back(t);
@@ -188,7 +193,8 @@ std::vector<Parameters> row_stations(const CurveRow& row, const WallSpacing& spa
 std::vector<Parameters> wall_stations(const Loop& loop, const WallSpacing& spacing, bool bends) {
   require_spacing(spacing);
   require_option(!loop.open && !loop.curves.empty(), "loop", 0.0, "a closed loop of at least one curve");
-  CurveRow row{.curves = {}, .bounded = std::vector<bool>(loop.curves.size(), true), .placement = loop.placement};
+  CurveRow row{
+      .curves = {}, .bounded = std::vector<bool>(loop.curves.size(), true), .placement = loop.placement};
   for (const Curve& curve : loop.curves) row.curves.push_back(&curve);
   return row_stations(row, spacing, bends);
 }

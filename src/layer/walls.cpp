@@ -31,9 +31,10 @@ void require_names(const Domain& domain, const std::vector<std::string>& names) 
         if (curve.name != name) continue;
         found = true;
         if (loop.open || loop.role == LoopRole::internal)
-          throw Error(ErrorCode::argument, "walls",
-                      "found boundary '" + name +
-                          "', which is an open chain or lies inside the domain, expected curves of closed loops");
+          throw Error(
+              ErrorCode::argument, "walls",
+              "found boundary '" + name +
+                  "', which is an open chain or lies inside the domain, expected curves of closed loops");
       }
     if (!found)
       throw Error(ErrorCode::argument, "walls", "found '" + name + "', expected a boundary of the domain");
@@ -94,7 +95,8 @@ class LoopWalls {
     }
     for (std::size_t c = 0; c < curves_.size(); ++c) {
       if (!layered_[after(c)] || layered_[c]) continue;
-      LayeredWall wall{.loop = loop_, .first = after(c), .station = first_station_[after(c)], .closed = false};
+      LayeredWall wall{
+          .loop = loop_, .first = after(c), .station = first_station_[after(c)], .closed = false};
       for (std::size_t k = wall.first; layered_[k]; k = after(k)) {
         ++wall.curves;
         wall.stations += curves_[k].parameters.size();
@@ -117,7 +119,8 @@ class LoopWalls {
       if (const Shape& shape = curves_[curve].shape;
           std::holds_alternative<Spline>(shape) || std::holds_alternative<CstAirfoil>(shape))
         throw Error(ErrorCode::geometry, "layers",
-                    "found an opening that is a spline or an airfoil, " + curve_text(walls_.domain, loop_, curve) +
+                    "found an opening that is a spline or an airfoil, " +
+                        curve_text(walls_.domain, loop_, curve) +
                         ", expected a line, a polyline or an arc where a wall with a layer ends");
     const Openings openings = openings_of(walls_, wall);
     const std::size_t end = first_station_[last];
@@ -138,8 +141,9 @@ class LoopWalls {
     double degrees = std::atan2(sine, cosine) * (180.0 / std::numbers::pi);
     if (degrees < 0.0) degrees += 360.0;
     throw Error(ErrorCode::geometry, "layers",
-                "found an angle of " + exact_text(std::round(10.0 * degrees) / 10.0) + " degrees between the wall and " +
-                    curve_text(walls_.domain, loop_, opening.curve()) + ", at " + exact_text(corner.at) +
+                "found an angle of " + exact_text(std::round(10.0 * degrees) / 10.0) +
+                    " degrees between the wall and " + curve_text(walls_.domain, loop_, opening.curve()) +
+                    ", at " + exact_text(corner.at) +
                     ", expected 60 to 120 where a layer ends, or 150 to 210 where it goes on");
   }
 
@@ -197,14 +201,16 @@ bool Walls::on_left(std::size_t loop) const {
   return (role == LoopRole::outer) == (twice > 0.0);
 }
 
-bool is_wall(const Domain& domain, std::size_t loop, std::size_t curve, const std::vector<std::string>& names) {
+bool is_wall(const Domain& domain, std::size_t loop, std::size_t curve,
+             const std::vector<std::string>& names) {
   const Loop& of = domain.loops[loop];
   if (of.open || of.role == LoopRole::internal) return false;
   const Curve& one = of.curves[curve];
   if (!names.empty()) return std::find(names.begin(), names.end(), one.name) != names.end();
   if (of.role != LoopRole::hole && of.role != LoopRole::outer) return false;
   const auto openings = std::count_if(of.curves.begin(), of.curves.end(), is_known_opening);
-  if (openings == 0 || openings == static_cast<std::ptrdiff_t>(of.curves.size())) return of.role == LoopRole::hole;
+  if (openings == 0 || openings == static_cast<std::ptrdiff_t>(of.curves.size()))
+    return of.role == LoopRole::hole;
   return !is_known_opening(one);
 }
 
@@ -214,9 +220,10 @@ std::vector<LayeredWall> layered_walls(const Walls& walls, const LayerOptions& o
   for (std::size_t l = 0; l < walls.domain.loops.size(); ++l)
     for (const LayeredWall& wall : LoopWalls(walls, l, options).take()) layered.push_back(wall);
   if (layered.empty())
-    throw Error(ErrorCode::argument, "walls",
-                "found a domain without holes, and without an outer loop of which some curves are called inlet, "
-                "outlet, symmetry or farfield, expected a wall for the layer, or the names of walls");
+    throw Error(
+        ErrorCode::argument, "walls",
+        "found a domain without holes, and without an outer loop of which some curves are called inlet, "
+        "outlet, symmetry or farfield, expected a wall for the layer, or the names of walls");
   require_no_chains(walls, layered);
   return layered;
 }

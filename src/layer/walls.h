@@ -2,9 +2,10 @@
 
 // The walls of a domain that get a layer, and the openings where they end.
 //
-// A wall is a whole closed loop, or a *chain*: a row of curves that ends, on both sides, where a curve that is no wall
-// begins, its *opening*. The columns at the ends of a chain stand on the openings' lines. Where an opening goes on
-// from the wall without a corner, as a line of symmetry ahead of a plate does, it is *carried*: it has columns too.
+// A wall is a whole closed loop, or a *chain*: a row of curves that ends, on both sides, where a curve that
+// is no wall begins, its *opening*. The columns at the ends of a chain stand on the openings' lines. Where an
+// opening goes on from the wall without a corner, as a line of symmetry ahead of a plate does, it is
+// *carried*: it has columns too.
 
 #include <array>
 #include <cstddef>
@@ -33,7 +34,8 @@ std::vector<LayeredWall> layered_walls(const Walls& walls, const LayerOptions& o
 std::vector<LayeredWall> layered_walls(const Domain& domain, const LayerOptions& options);
 
 // Whether a curve is a wall by its name, and not one that is carried.
-bool is_wall(const Domain& domain, std::size_t loop, std::size_t curve, const std::vector<std::string>& names);
+bool is_wall(const Domain& domain, std::size_t loop, std::size_t curve,
+             const std::vector<std::string>& names);
 
 // The curve at the end of a chain, seen from there.
 class Opening {

@@ -15,9 +15,9 @@
 namespace remodel::flow {
 
 // Each has `kind`, what it is called in messages; `solid`, whether it is the wall of a body, whose
-// pressures are forces; `bent`, whether the mesh bends its edges; `one_sided`, whether gradients at it are too one-sided to
-// reconstruct with; `open`, whether the gas that passes it is reported; and `flux`, out of the domain through
-// the half of an edge.
+// pressures are forces; `bent`, whether the mesh bends its edges; `one_sided`, whether gradients at it are
+// too one-sided to reconstruct with; `open`, whether the gas that passes it is reported; and `flux`, out of
+// the domain through the half of an edge.
 using BoundaryCondition = std::variant<SlipWall, FarField, Inlet, Outlet, Symmetry, NoSlipWall>;
 
 struct Patch {
