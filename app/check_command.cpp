@@ -44,7 +44,8 @@ Stopped ended(const Mesh& mesh) {
 CheckOptions rules_for(const CheckCommand& command, const MeshInput& input, Domain& walls) {
   CheckOptions options;
   const Mesh* triangles = triangles_of(input);
-  if (input.layered) options.design = &(walls = input.layered->meshed_domain());
+  if (input.layered)
+    options.design = &(walls = input.layered->meshed_domain()), options.design_rounding = 1e-14;
   if (input.living) options.design = &input.living->domain();
   if (triangles != nullptr) {
     options.min_angle_deg = triangles->options().min_angle_deg;

@@ -83,11 +83,9 @@ class LayerView {
           add(ring.foot[c], 0, static_cast<std::int32_t>(station.curve), station.t);
         const std::vector<BoundaryStation> sides = places_on_opening(ring, c);
         for (std::uint32_t level = 1; level <= levels_; ++level) {
-          if (sides.empty())
-            add(ring.points[c * levels_ + level - 1], level, -1, 0.0);
-          else
-            add(walls_.at(sides[level - 1]), level, static_cast<std::int32_t>(sides[level - 1].curve),
-                sides[level - 1].t);
+          const BoundaryStation side = sides.empty() ? BoundaryStation{no_curve, 0.0} : sides[level - 1];
+          add(ring.points[c * levels_ + level - 1], level,
+              side.curve == no_curve ? -1 : static_cast<std::int32_t>(side.curve), side.t);
         }
       }
     }
@@ -155,10 +153,9 @@ class LayerView {
       const OwnCurve own =
           outside_.curve[p] < 0 ? OwnCurve{} : curves[static_cast<std::size_t>(outside_.curve[p])];
       const std::int32_t curve = own.curve == no_curve ? -1 : static_cast<std::int32_t>(own.curve);
-      // What is left of an opening is the same place, but for the last bits.
       const double t =
           curve < 0 ? 0.0 : own.place.own_parameter(walls_.curve(own.curve).shape, outside_.parameter[p]);
-      mesh_.points.push_back(own.place.is_shorter() ? walls_.at({own.curve, t}) : outside_.points[p]);
+      mesh_.points.push_back(outside_.points[p]);
       mesh_.length_scale.push_back(outside_.length_scale[p]);
       mesh_.vertex_keys.push_back(outside_.vertex_keys[p]);
       mesh_.curve.push_back(curve);

@@ -20,7 +20,6 @@ struct OutsideCurve {
   std::size_t begins = none, ends = none;  // the rings that the own curve begins and ends at
   double from = 0.0, to = 1.0;             // its parameters there
 
-  bool is_shorter() const { return begins != none || ends != none; }
   // The own curve's parameter that the curve beyond the layer has this one for.
   double own_parameter(const Shape& own, double t) const;
 };
