@@ -39,11 +39,13 @@ Stopped ended(const Mesh& mesh) {
 
 // The bounds of a mesh that a limit ended are a wish: what is beyond them is counted, unless the command line
 // asks for them. A native mesh is checked against its own design and options; any other mesh against the
-// rules of every triangulation and the options of the command line.
-CheckOptions rules_for(const CheckCommand& command, const MeshInput& input) {
+// rules of every triangulation and the options of the command line. `walls`: keeps the design of a layered
+// one.
+CheckOptions rules_for(const CheckCommand& command, const MeshInput& input, Domain& walls) {
   CheckOptions options;
   const Mesh* triangles = triangles_of(input);
-  if (input.layered) options.design = &input.layered->domain();
+  if (input.layered)
+    options.design = &(walls = input.layered->meshed_domain()), options.design_rounding = 1e-14;
   if (input.living) options.design = &input.living->domain();
   if (triangles != nullptr) {
     options.min_angle_deg = triangles->options().min_angle_deg;
@@ -54,8 +56,8 @@ CheckOptions rules_for(const CheckCommand& command, const MeshInput& input) {
     options.delaunay = false;
     options.unused_points = true;
   }
-  options.bounds =
-      triangles == nullptr || ended(*triangles) == Stopped::done || command.min_angle || command.max_gradation;
+  options.bounds = triangles == nullptr || ended(*triangles) == Stopped::done || command.min_angle ||
+                   command.max_gradation;
   options.delaunay_slack_deg = command.delaunay_slack.value_or(options.delaunay_slack_deg);
   options.min_angle_deg = command.min_angle.value_or(options.min_angle_deg);
   options.max_gradation = command.max_gradation.value_or(options.max_gradation);
@@ -87,9 +89,9 @@ void add_gradation(Report& report, const CheckResult& result, const MeshInput& i
   const Mesh* triangles = triangles_of(input);
   const double keep = triangles != nullptr ? triangles->keep() : 1.0;
   report.figure("max_gradation",
-                keep > 1.0     ? "largest r / (keep H mean LS)"
-                : triangles    ? "largest r / (H mean LS)"
-                               : "largest r / (H mean LS), H = sqrt(1/2) or as given",
+                keep > 1.0  ? "largest r / (keep H mean LS)"
+                : triangles ? "largest r / (H mean LS)"
+                            : "largest r / (H mean LS), H = sqrt(1/2) or as given",
                 result.max_gradation);
 }
 
@@ -112,13 +114,15 @@ void warn_of_result(const CheckCommand& command, const MeshInput& input, const C
 
 Status run(const CheckCommand& command) {
   const MeshInput input = read_any_mesh(command.mesh);
-  const CheckOptions options = rules_for(command, input);
+  Domain walls;
+  const CheckOptions options = rules_for(command, input, walls);
   const CheckResult result = check(input.frozen, options);
 
   Report report;
   report.line("mesh", command.mesh);
-  report.figure("rules", "rules",
-                triangles_of(input) != nullptr ? "native: the design and the options in the file" : "topology");
+  report.figure(
+      "rules", "rules",
+      triangles_of(input) != nullptr ? "native: the design and the options in the file" : "topology");
   report.figure("valid", "valid", result.valid);
   add_violations(report, result.violations);
   warn_of_result(command, input, options, result);

@@ -46,7 +46,9 @@ void refuse(const FlowCommand& command, std::initializer_list<const char*> optio
 MeshInput read_input(const FlowCommand& command) {
   // By a length of 1.
   const double reynolds = command.euler.conditions.reynolds / command.euler.conditions.reference_length;
-  return flow_mesh({command.input, command.meshing, command.model, reynolds, command.layers, command.given});
+  FlowOptions flow = options_of(command.euler);
+  flow.farfield = command.farfield, flow.model = command.model;
+  return flow_mesh({command.input, command.meshing, flow, reynolds, command.layers, command.given});
 }
 
 // Any number of parts of a chord.

@@ -28,10 +28,11 @@ MeshInput layered_input(const FlowMeshRequest& request) {
   MeshingOptions meshing = request.meshing;
   meshing.gradation = meshing.gradation.value_or(gradation_with_layers);
   DomainInput domain = read_domain(request.input, meshing.discretisation, meshing.fit);
+  LayerOptions usual = layer_for_flow(request.flow.model, request.reynolds * domain.chord);
+  usual.walls = walls_of_flow(domain.domain, request.flow);
+  const LayerOptions layer = adjusted(usual, request.layers, request.reynolds * domain.chord);
   if (domain.in_farfield || request.layers.spacing_given)
-    space_walls(domain.domain, request.layers.spacing.times(domain.chord));
-  const double reynolds = request.reynolds * domain.chord;
-  const LayerOptions layer = adjusted(layer_for_flow(request.model, reynolds), request.layers, reynolds);
+    space_walls(domain.domain, request.layers.spacing.times(domain.chord), layer.walls);
   LayeredGenerateResult result =
       generate_layered(domain.domain, in_units(layer, domain.chord), meshing.resolved_quality());
   require_whole(request.input, result.stopped);
@@ -42,8 +43,8 @@ MeshInput layered_input(const FlowMeshRequest& request) {
 }
 
 constexpr std::initializer_list<const char*> layer_sizes = {
-    "--y-plus",      "--first-height", "--growth",     "--layer-thickness",
-    "--layer-count", "--wall-spacing", "--te-spacing", "--max-spacing"};
+    "--y-plus",       "--first-height", "--growth",      "--layer-thickness", "--layer-count",
+    "--wall-spacing", "--te-spacing",   "--max-spacing", "--layer-wall"};
 
 constexpr const char* has_its_own = "given with a mesh, which has its own, expected with a shape";
 
@@ -77,7 +78,7 @@ std::optional<std::string> mesh_file(const DomainInputOptions& input,
 
 MeshInput flow_mesh(const FlowMeshRequest& request) {
   if (const auto file = mesh_file(request.input, request.given)) return read_any_mesh(*file);
-  if (request.model != FlowModel::euler) return layered_input(request);
+  if (request.flow.model != FlowModel::euler) return layered_input(request);
   refuse_given(request.given, layer_sizes, "given without friction, expected --model laminar or sa");
   const DomainInput domain = read_domain(request.input, request.meshing.discretisation, request.meshing.fit);
   GenerateResult result = generate_input(request.input, domain.domain, request.meshing.resolved_quality());

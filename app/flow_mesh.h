@@ -19,7 +19,7 @@ namespace remodel::app {
 struct FlowMeshRequest {
   DomainInputOptions input;
   MeshingOptions meshing;
-  FlowModel model = FlowModel::euler;
+  FlowOptions flow = {};  // its model, and which boundaries are open
   // Of models with friction, by a chord of 1.
   double reynolds = 0.0;
   LayerChoice layers;                      // its sizes, in place of those that the Reynolds number gives

@@ -39,8 +39,7 @@ void add_layer_cells(CLI::App& app, LayerCells& cells) {
 }
 
 void add_layer_options(CLI::App& app, LayerChoice& choice) {
-  add_flag(app, "--layers",
-           "Put layers of flat quadrilaterals on the walls of all holes, for flows with friction",
+  add_flag(app, "--layers", "Put layers of flat quadrilaterals on walls, for flows with friction",
            choice.layers);
   add_real(app,
            {"--reynolds", "RE", "", "Reynolds number, which the first height and the thickness follow from"},
@@ -67,6 +66,11 @@ void add_layer_sizes(CLI::App& app, LayerChoice& choice) {
       {"--layer-count", "K", "", "Number of cells across the layer, in place of its thickness: 1 to 1000"},
       {.low = 1, .high = 1000}, [&](std::int64_t value) { choice.count = static_cast<int>(value); });
   add_spacings(app, choice);
+  add_texts(
+      app,
+      {"--layer-wall", "NAME", "all holes; of an outer loop with an inlet, outlet or symmetry plane all else",
+       "Boundary that gets a layer; may be given several times"},
+      Presence::optional, choice.walls);
 }
 
 void add_wake_options(CLI::App& app, LayerChoice& choice) {
@@ -100,6 +104,7 @@ void require_consistent(const LayerChoice& choice) {
     refuse(choice.count.has_value(), "--layer-count", alone);
     refuse(choice.growth.has_value(), "--growth", alone);
     refuse(choice.wake.has_value(), "--wake", alone);
+    refuse(!choice.walls.empty(), "--layer-wall", alone);
     refuse(choice.spacing_given, "--wall-spacing, --te-spacing or --max-spacing", alone);
     return;
   }
@@ -121,6 +126,7 @@ LayerOptions in_units(LayerOptions layer, double chord) {
 }
 
 LayerOptions adjusted(LayerOptions layer, const LayerChoice& choice, std::optional<double> reynolds) {
+  if (!choice.walls.empty()) layer.walls = choice.walls;
   if (choice.growth) layer.growth = *choice.growth;
   if (choice.first_height)
     layer.first_height = *choice.first_height;

@@ -20,6 +20,7 @@ struct LayerChoice {
   std::optional<double> growth;
   WallSpacing spacing;
   bool spacing_given = false;
+  std::vector<std::string> walls;  // names; none: by LayerOptions' rule
   std::optional<double> wake, wake_angle_deg;
   LayerCells cells = LayerCells::quadrilaterals;
 };
@@ -30,7 +31,7 @@ inline constexpr double gradation_with_layers = 8.0;
 // --layers, --reynolds, those of add_layer_sizes(), --layer-cells.
 void add_layer_options(CLI::App& app, LayerChoice& choice);
 // --y-plus, --first-height, --growth, --layer-thickness, --layer-count, --wall-spacing, --te-spacing,
-// --max-spacing.
+// --max-spacing, --layer-wall.
 void add_layer_sizes(CLI::App& app, LayerChoice& choice);
 // --wake, --wake-angle.
 void add_wake_options(CLI::App& app, LayerChoice& choice);

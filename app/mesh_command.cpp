@@ -60,7 +60,7 @@ void space_input(const MeshCommand& command, DomainInput& input) {
                 "stations");
   if (!input.in_farfield && !command.layers.spacing_given) return;
   validate_input(command.shapes, input.domain);
-  space_walls(input.domain, command.layers.spacing.times(input.chord));
+  space_walls(input.domain, command.layers.spacing.times(input.chord), command.layers.walls);
 }
 
 Status run_layers(const MeshCommand& command) {

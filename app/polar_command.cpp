@@ -79,7 +79,7 @@ void require_consistent(const PolarCommand& command) {
 std::vector<MeshInput> meshes_of(const PolarCommand& command) {
   std::vector<MeshInput> meshes;
   for (const std::string& shape : command.input.shapes) {
-    FlowMeshRequest request{command.input, command.meshing, command.polar.flow.model,
+    FlowMeshRequest request{command.input, command.meshing, command.polar.flow,
                             0.0,           command.layers,  command.given};
     request.input.shapes = {shape};
     // Lengths of layers are in chords of 1.

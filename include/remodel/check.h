@@ -60,6 +60,9 @@ struct CheckOptions {
   // of their curve, the domain on the side that the loop's role says. Needs FrozenMesh::curve and
   // ::parameter.
   const Domain* design = nullptr;
+  // So far from there they may be, as a part of the mesh's largest coordinate: 0 to 1e-6. What a layer leaves
+  // of an opening's curve is the same place but for rounding (LayeredMesh::meshed_domain(), 1e-14).
+  double design_rounding = 0.0;
   std::size_t max_violations = 100;  // more are counted as invalid, but not listed
 };
 

@@ -2,6 +2,9 @@
 
 // The layer of cells that a flow with friction needs on walls.
 
+#include <string>
+#include <vector>
+
 #include "remodel/flow.h"
 #include "remodel/layers.h"
 
@@ -17,5 +20,9 @@ namespace remodel {
 // 0.3 of laminar flow, and its height is at most a tenth of the thickness. Throws Error (argument) for a
 // model without friction and a Reynolds number that is not 1 to 1e12.
 LayerOptions layer_for_flow(FlowModel model, double reynolds);
+
+// LayerOptions::walls for a flow with these options: the names of closed loops' curves that are neither the
+// far field nor inlets, outlets and symmetry planes. Empty where there is nothing but a far field.
+std::vector<std::string> walls_of_flow(const Domain& domain, const FlowOptions& options);
 
 }  // namespace remodel

@@ -34,11 +34,21 @@ struct LayerOptions {
   // columns are thinner: they take half the radius of the ball that touches the wall there and has no other
   // wall inside.
   double thickness = 0.02;
-  // The boundary names of the loops that get a layer, which every curve of such a loop has to have one of.
-  // Empty: all holes.
+  // The boundary names of the walls that get a layer. Empty: those of all holes, and of outer loops which
+  // have curves called inlet, outlet, symmetry or farfield (inflow, outflow, axis) the other ones.
   std::vector<std::string> walls = {};
   double fan_from_deg = 30.0;  // a convex corner that turns by more gets a fan of columns: 10 to 90
   friend bool operator==(const LayerOptions&, const LayerOptions&) = default;
+};
+
+// A wall with a layer: a whole closed loop, or a chain of its curves which ends, on both sides, at an
+// opening.
+struct LayeredWall {
+  std::size_t loop = 0;
+  std::size_t first = 0, curves = 0;      // the first curve, in the loop, and how many follow each other
+  std::size_t station = 0, stations = 0;  // likewise; a chain's last station is the opening's first one
+  bool closed = true;
+  friend bool operator==(const LayeredWall&, const LayeredWall&) = default;
 };
 
 // The height in chords at which y+ is what is given, on a flat plate of the chord's length with a turbulent
@@ -71,7 +81,9 @@ struct WallSpacing {
 // eighth of it, where that is not below a quarter of the nose's. Throws Error (argument) for distances that
 // are not positive, or below 1e-6, and a growth that is not 0.01 to 1.
 std::vector<Parameters> wall_stations(const Loop& loop, const WallSpacing& spacing, bool bends = false);
-// These stations on all holes, or on the loops of those names (LayerOptions::walls).
+// These stations on all walls that get a layer, of those names (LayerOptions::walls). Chains have the
+// corners' distances at both ends, and those of a nose nowhere. Lines on which a layer goes on beyond a wall
+// (see generate_layered()) have distances that grow without a bound.
 void space_walls(Domain& domain, const WallSpacing& spacing, const std::vector<std::string>& walls = {});
 
 // A line of fine triangles in the wake, from behind the point of the walls that lies farthest downstream.
@@ -94,10 +106,11 @@ enum class LayerCells : std::uint8_t { quadrilaterals, triangles };
 // The points of a layer stand in the frozen view before all others, column by column, from the wall upwards.
 // They never change their places as long as columns neither come nor go.
 struct LayerTopology {
-  std::uint32_t levels = 0;           // cells of a column
-  std::vector<std::uint32_t> wall;    // per column: its point on the wall; columns of one fan share it
-  std::vector<std::uint32_t> first;   // per column: its point at level 1; that of level j is first + j - 1
-  std::vector<std::uint32_t> next;    // per column: the next one in the order of the wall's stations
+  std::uint32_t levels = 0;          // cells of a column
+  std::vector<std::uint32_t> wall;   // per column: its point on the wall; columns of one fan share it
+  std::vector<std::uint32_t> first;  // per column: its point at level 1; that of level j is first + j - 1
+  std::vector<std::uint32_t>
+      next;  // per column: the next one along the wall; the last one of a chain: itself
   std::vector<std::uint32_t> column;  // per point of the layer: its column, the first one that it is in
   std::vector<std::uint32_t> level;   // per point of the layer: 0 on the wall
   std::uint32_t point(std::uint32_t of_column, std::uint32_t at_level) const {
@@ -129,8 +142,8 @@ struct LayeredState {
   LayerOptions options;
   std::uint32_t levels = 0;
   std::vector<std::vector<std::uint32_t>>
-      fans{};  // per layered loop and station: the sectors of its fan, or 0
-  // Each column of a layered loop has a number, which is never given out again in the life of a mesh. All are
+      fans{};  // per layered wall and station: the sectors of its fan, or 0
+  // Each column of a layered wall has a number, which is never given out again in the life of a mesh. All are
   // below next_column.
   std::vector<std::vector<std::uint32_t>> columns{};
   std::uint32_t next_column = 0;
@@ -171,6 +184,8 @@ class LayeredMesh {
   bool empty() const { return outer_.empty(); }
   const Mesh& outer() const { return outer_; }     // of what lies beyond the tops
   const Domain& domain() const { return walls_; }  // the walls, not the tops
+  // The walls with the stations of openings where they are in the mesh: CheckOptions::design.
+  Domain meshed_domain() const;
   const LayerOptions& options() const { return options_; }
   std::uint32_t levels() const;
   std::size_t columns() const;
@@ -220,8 +235,12 @@ struct LayeredGenerateResult {
   std::size_t exempt_triangles = 0;
 };
 
-// Throws Error (argument) for options out of range and names that no closed loop has; Error (geometry) for
-// what validate() refuses, for chains that end on a wall, and where no layer fits, with the place.
+// Walls that end at openings, as those of ducts do, have columns on the openings' lines at their ends: lines,
+// polylines or arcs at 60 to 120 degrees, of whose length a layer takes 0.3 at most. Stations of openings
+// move a little, to make room for it. Where an opening goes straight on from the wall, within 30 degrees, it
+// has columns too. Throws Error (argument) for options out of range and names that no closed loop has; Error
+// (geometry) for what validate() refuses, for internal chains that end on a wall or its openings, for
+// openings at other angles, and where no layer fits, with the place.
 LayeredGenerateResult generate_layered(const Domain& domain, const LayerOptions& layers,
                                        const QualityOptions& quality = {}, StepObserver* observer = nullptr);
 
@@ -280,9 +299,9 @@ class LayerFrame {
   std::shared_ptr<const LayeredMesh::Columns> columns_at(const Domain& walls) const;
 
   LayerOptions options_;
-  std::vector<std::size_t> loops_;
+  std::vector<LayeredWall> layered_;
   std::vector<std::vector<std::uint32_t>>
-      fans_;  // per layered loop and station: the sectors of its fan, or 0
+      fans_;  // per layered wall and station: the sectors of its fan, or 0
   std::uint32_t levels_ = 0;
 };
 

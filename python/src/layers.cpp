@@ -268,7 +268,8 @@ void add_layers(py::module_& module) {
 
 reynolds: of a chord; it gives heights and thickness for the model, 'laminar' or 'sa' (y+ 0.3 and 1 on a flat plate).
 first_height and thickness, in chords, are given instead or besides. growth: of a cell's height over that of the cell
-below, 1.02 to 2. walls: names of the loops that get a layer, all holes unless given. spacing: the distances between
+below, 1.02 to 2. walls: names of the walls that get a layer (unless given all holes, and of an outer loop that has an
+inlet, outlet or symmetry plane all else); they may end at such openings. spacing: the distances between
 stations over the usual ones (0.0015 chords at both edges, 0.008 at most); a Domain has its own stations. gradation: as
 generate()'s. docs/layers.md has what to choose. Raises ArgumentError and GeometryError; Ctrl-C ends it.)");
 }

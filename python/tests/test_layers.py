@@ -1,5 +1,6 @@
 """Layers on walls, and flows with friction."""
 
+import json
 import pickle
 
 import numpy as np
@@ -141,6 +142,29 @@ def test_directions_of_a_design_are_differences_of_meshes():
     assert np.abs((ends[0] - ends[1]) / 2e-4 - moved[layer]).max() < 1e-5
     with pytest.raises(remodel.ArgumentError, match="direction: found 2 numbers"):
         mesh.jvp([1.0, 2.0])
+
+
+def duct(height):
+    def line(name, start, end, stations):
+        return {"name": name, "shape": {"kind": "line", "from": start, "to": end}, "stations": stations}
+
+    bulge = {"kind": "spline", "points": [[0, 0], [0.8, 0.01], [1.5, height], [2.2, 0.01], [3, 0]]}
+    curves = [{"name": "floor", "shape": bulge, "stations": 60}, line("outlet", [3, 0], [3, 1], 5),
+              line("roof", [3, 1], [0, 1], 40), line("inlet", [0, 1], [0, 0], 5)]
+    return remodel.Domain.from_json(json.dumps({"loops": [{"role": "outer", "curves": curves}]}))
+
+
+def test_walls_of_a_duct_end_at_its_openings():
+    mesh = remodel.generate_layered(duct(0.1), reynolds=1000.0, model="laminar")
+    assert mesh.check().valid and mesh.columns == 61 + 41
+    again = pickle.loads(pickle.dumps(mesh))
+    assert np.array_equal(again.points, mesh.points)
+    step = mesh.update(duct(0.101))
+    assert step.same_columns and mesh.check().valid
+    assert remodel.generate_layered(duct(0.1), reynolds=1000.0, model="laminar", walls=["roof"]).columns == 41
+    options = dict(inlets={"inlet": (1.0, 1.0)}, outlets={"outlet": 0.98})
+    flow = remodel.solve_flow(mesh, model="laminar", mach=0.1, reynolds=100.0, **options)
+    assert flow.converged and np.all(flow.velocity_x[mesh.points[:, 1] == 1.0] == 0)
 
 
 def test_it_is_drawn_and_handed_on_as_any_mesh(tmp_path):

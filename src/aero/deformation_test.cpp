@@ -289,14 +289,7 @@ TEST(LoopSizes, AreThoseOfThePolygonWithTheirDerivatives) {
   }
 }
 
-TEST(Deformation, WithFrictionGradientsAreThoseOfWholeFlows) {
-  DesignProblem problem =
-      problem_of(coved_section(), {HicksHenneBumps{.on = "airfoil", .peaks = {0.3, 0.7}}});
-  problem.domain.points = 150;
-  problem.gradation = 2.5;
-  problem.layer = LayerOptions{.first_height = 3e-3, .growth = 1.3, .thickness = 0.03};
-  problem.points = {
-      {.conditions = {.mach = 0.4, .alpha_deg = 1.0, .reynolds = 2000.0}, .model = FlowModel::laminar}};
+void expect_drag_gradients_with_friction(const DesignProblem& problem, double h) {
   const Case task(problem);
   const std::vector<double> start = task.space().start();
   const Evaluation evaluation = task.evaluate(start);
@@ -310,7 +303,29 @@ TEST(Deformation, WithFrictionGradientsAreThoseOfWholeFlows) {
     EXPECT_TRUE(flow.converged()) << flow.reason;
     return flow.cd;
   };
-  EXPECT_LT(relative(evaluation.gradient, task.differences(drag, 1e-4)), 2e-6);
+  EXPECT_LT(relative(evaluation.gradient, task.differences(drag, h)), 2e-6);
+}
+
+TEST(Deformation, WithFrictionGradientsAreThoseOfWholeFlows) {
+  DesignProblem problem =
+      problem_of(coved_section(), {HicksHenneBumps{.on = "airfoil", .peaks = {0.3, 0.7}}});
+  problem.domain.points = 150;
+  problem.gradation = 2.5;
+  problem.layer = LayerOptions{.first_height = 3e-3, .growth = 1.3, .thickness = 0.03};
+  problem.points = {
+      {.conditions = {.mach = 0.4, .alpha_deg = 1.0, .reynolds = 2000.0}, .model = FlowModel::laminar}};
+  expect_drag_gradients_with_friction(problem, 1e-4);
+}
+
+// The layer ends at the inlet and the outlet.
+TEST(Deformation, WithFrictionGradientsOfANozzleAreThoseOfWholeFlows) {
+  DesignProblem problem = nozzle_problem();
+  problem.domain.points = 150;
+  problem.gradation = 4.0;
+  problem.layer = LayerOptions{.first_height = 4e-3, .growth = 1.3, .thickness = 0.05};
+  problem.points[0].conditions.reynolds = 1000.0, problem.points[0].model = FlowModel::laminar;
+  problem.points[0].symmetry = {"axis"};
+  expect_drag_gradients_with_friction(problem, 2e-5);
 }
 
 TEST(Deformation, SpaceIsToldFromItsDescription) {

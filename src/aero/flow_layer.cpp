@@ -20,4 +20,23 @@ LayerOptions layer_for_flow(FlowModel model, double reynolds) {
   return layer;
 }
 
+std::vector<std::string> walls_of_flow(const Domain& domain, const FlowOptions& options) {
+  if (options.inlets.empty() && options.outlets.empty() && options.symmetry.empty()) return {};
+  std::vector<std::string> openings = options.symmetry;
+  openings.push_back(options.farfield);
+  for (const FlowInlet& inlet : options.inlets) openings.push_back(inlet.name);
+  for (const FlowOutlet& outlet : options.outlets) openings.push_back(outlet.name);
+  std::vector<std::string> walls;
+  for (const Loop& loop : domain.loops) {
+    if (loop.open || loop.role == LoopRole::internal) continue;
+    for (const Curve& curve : loop.curves) {
+      const auto has = [&](const std::vector<std::string>& names) {
+        return std::find(names.begin(), names.end(), curve.name) != names.end();
+      };
+      if (!has(openings) && !has(walls)) walls.push_back(curve.name);
+    }
+  }
+  return walls;
+}
+
 }  // namespace remodel

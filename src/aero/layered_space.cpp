@@ -1,5 +1,6 @@
 #include "aero/layered_space.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -9,11 +10,20 @@
 namespace remodel {
 namespace {
 
-std::size_t stations_on_sections(const Domain& domain) {
-  std::size_t count = 0;
-  for (const Loop& loop : domain.loops)
-    if (loop.role == LoopRole::hole)
-      for (const Curve& curve : loop.curves) count += curve.parameters.size();
+// The stations on sections, or on walls of these names, and how many loops have some.
+struct StationCount {
+  std::size_t stations = 0, loops = 0;
+};
+StationCount count_stations(const Domain& domain, const std::vector<std::string>& names) {
+  StationCount count;
+  for (const Loop& loop : domain.loops) {
+    const std::size_t before = count.stations;
+    for (const Curve& curve : loop.curves)
+      if (names.empty() ? loop.role == LoopRole::hole
+                        : std::find(names.begin(), names.end(), curve.name) != names.end())
+        count.stations += curve.parameters.size();
+    count.loops += count.stations > before;
+  }
   return count;
 }
 
@@ -22,24 +32,23 @@ std::size_t stations_on_sections(const Domain& domain) {
 LayeredSpace::LayeredSpace(std::unique_ptr<FlowSpace> bodies, const LayerOptions& layer, int points)
     : bodies_(std::move(bodies)),
       points_(points),
-      stations_(stations_of(bodies_->domain(bodies_->start()), points)),
+      stations_(stations_of(bodies_->domain(bodies_->start()), points, layer.walls)),
       frame_(walls(bodies_->start()), layer) {}
 
-// Distances are halved in on until the sections have as many stations as are asked for, or a few less.
-Stations LayeredSpace::stations_of(const Domain& start, int points) {
+// Distances are halved in on until the walls have as many stations as are asked for, or a few less.
+Stations LayeredSpace::stations_of(const Domain& start, int points, const std::vector<std::string>& names) {
   const WallSpacing usual;
   constexpr double finest = 0.01, coarsest = 30.0;  // times the usual distances
   constexpr int halvings = 20;
-  std::size_t sections = 0;
-  for (const Loop& loop : start.loops) sections += loop.role == LoopRole::hole;
+  const std::size_t wanted = count_stations(start, names).loops * static_cast<std::size_t>(points);
   double fine = finest, coarse = coarsest;
   Domain spaced = start;
   for (int i = 0; i < halvings; ++i) {
     const double middle = std::sqrt(fine * coarse);
-    space_walls(spaced, usual.times(middle));
-    (stations_on_sections(spaced) > sections * static_cast<std::size_t>(points) ? fine : coarse) = middle;
+    space_walls(spaced, usual.times(middle), names);
+    (count_stations(spaced, names).stations > wanted ? fine : coarse) = middle;
   }
-  space_walls(spaced, usual.times(coarse));
+  space_walls(spaced, usual.times(coarse), names);
   return remodel::stations_of(spaced);
 }
 
@@ -49,7 +58,8 @@ Domain LayeredSpace::walls(std::span<const double> design) const {
 
 Domain LayeredSpace::domain_with(std::span<const double> design, int points) const {
   const std::vector<double> start = bodies_->start();
-  return with_stations(bodies_->domain(design), stations_of(bodies_->domain(start), points));
+  return with_stations(bodies_->domain(design),
+                       stations_of(bodies_->domain(start), points, frame_.options().walls));
 }
 
 bool LayeredSpace::feasible(std::span<const double> design) const {
@@ -63,17 +73,20 @@ std::string LayeredSpace::description() const {
                     {"first_height", layer.first_height},
                     {"growth", layer.growth},
                     {"thickness", layer.thickness}};
+  if (!layer.walls.empty()) json["layers"]["walls"] = layer.walls;
   return json.dump();
 }
 
 std::unique_ptr<FlowSpace> LayeredSpace::from_description(std::unique_ptr<FlowSpace> bodies,
                                                           const std::string& description) {
   const nlohmann::ordered_json layer = nlohmann::ordered_json::parse(description).at("layers");
-  return std::make_unique<LayeredSpace>(std::move(bodies),
-                                        LayerOptions{.first_height = layer.at("first_height"),
-                                                     .growth = layer.at("growth"),
-                                                     .thickness = layer.at("thickness")},
-                                        layer.at("points").get<int>());
+  return std::make_unique<LayeredSpace>(
+      std::move(bodies),
+      LayerOptions{.first_height = layer.at("first_height"),
+                   .growth = layer.at("growth"),
+                   .thickness = layer.at("thickness"),
+                   .walls = layer.value("walls", std::vector<std::string>())},
+      layer.at("points").get<int>());
 }
 
 }  // namespace remodel

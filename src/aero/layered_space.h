@@ -5,6 +5,9 @@
 
 #include <memory>
 
+#include <string>
+#include <vector>
+
 #include "layer/station_lists.h"
 #include "remodel/flow_space.h"
 #include "remodel/layers.h"
@@ -13,9 +16,9 @@ namespace remodel {
 
 class LayeredSpace final : public FlowSpace {
  public:
-  // Stations are those of the start, about `points` on each section, as close to each other at noses and
-  // corners as wall_stations() has them. All designs have stations at the same parameters. Throws Error as
-  // LayerFrame does.
+  // Stations are those of the start, about `points` on each section and duct, as close to each other at noses
+  // and corners as wall_stations() has them. All designs have stations at the same parameters. Throws Error
+  // as LayerFrame does.
   LayeredSpace(std::unique_ptr<FlowSpace> bodies, const LayerOptions& layer, int points);
 
   // What description() has, around the bodies that it has. Throws Json's exceptions.
@@ -53,8 +56,9 @@ class LayeredSpace final : public FlowSpace {
   std::string text(std::span<const double> design) const override { return bodies_->text(design); }
   std::string description() const override;
 
-  // About so many on each section, as close to each other at noses and corners as wall_stations() has them.
-  static Stations stations_of(const Domain& walls, int points);
+  // About so many on each section and duct, as close to each other at noses and corners as wall_stations()
+  // has them.
+  static Stations stations_of(const Domain& walls, int points, const std::vector<std::string>& names = {});
 
  private:
   std::unique_ptr<FlowSpace> bodies_;

@@ -210,8 +210,6 @@ class Resolver {
     const bool has_any = !point.inlets.empty() || !point.outlets.empty() || !point.symmetry.empty();
     if (has_any && !problem_.deformation)
       place.fail("found 'inlets', 'outlets' or 'symmetry', expected them with 'space'");
-    if (has_any && has_friction())
-      place.fail("found 'inlets', 'outlets' or 'symmetry' with friction, expected the model \"euler\"");
     if (problem_.deformation) require_openings(point, problem_.deformation->domain, place);
   }
 
@@ -367,9 +365,14 @@ class Resolver {
     make_space_of_bodies();
     if (!has_friction()) return;
     try {
-      resolved_.space = std::make_unique<LayeredSpace>(
-          std::move(resolved_.space), problem_.layer.value_or(layer_for_points(problem_.points)),
-          problem_.domain.points);
+      LayerOptions layer = problem_.layer.value_or(layer_for_points(problem_.points));
+      const DesignPoint& first = problem_.points.front();
+      if (problem_.deformation)
+        layer.walls =
+            walls_of_flow(problem_.deformation->domain,
+                          {.inlets = first.inlets, .outlets = first.outlets, .symmetry = first.symmetry});
+      resolved_.space =
+          std::make_unique<LayeredSpace>(std::move(resolved_.space), layer, problem_.domain.points);
     } catch (const Error& error) {
       place_.inner("mesh").fail("found 'layers' that no walls can have: " + std::string(error.what()));
     }
@@ -410,11 +413,6 @@ class Resolver {
   void make_deformed_space() {
     const ProblemPlace place = place_.inner("space");
     const Domain& start = problem_.deformation->domain;
-    const auto is_body = [](const Loop& loop) {
-      return loop.role == LoopRole::hole || loop.curves.front().name == "farfield";
-    };
-    if (has_friction() && !std::all_of(start.loops.begin(), start.loops.end(), is_body))
-      place.fail("found walls that are no holes with friction, expected the model \"euler\"");
     if (problem_.domain.points < 3 || problem_.domain.points > 100000)
       place_.inner("mesh").require_number(problem_.domain.points, "points", {3.0, 1e5});
     auto space = std::make_unique<DeformedSpace>(start, variables_of(*problem_.deformation, place),

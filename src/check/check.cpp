@@ -491,7 +491,7 @@ void check_readable(const FrozenMesh& mesh, const CheckOptions& options, CheckRe
   check_area(subject, report);
   check_structure(subject, oriented, options, result, report);
   if (options.design != nullptr && !mesh.region.empty()) check_regions(subject, report);
-  if (options.design != nullptr) check_design(subject, *options.design, report);
+  if (options.design != nullptr) check_design(subject, *options.design, options.design_rounding, report);
 }
 
 }  // namespace

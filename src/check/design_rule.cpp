@@ -1,6 +1,7 @@
 // The rule "design": the mesh's boundary is the discretised boundary of the design, refined on its curves.
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
@@ -19,8 +20,11 @@ Coordinates coordinates_of(Point p) {
 
 class DesignRule {
  public:
-  DesignRule(const Subject& subject, const Domain& design, Report& report)
+  DesignRule(const Subject& subject, const Domain& design, double rounding, Report& report)
       : subject_(subject), mesh_(subject.mesh), design_(design), report_(report) {
+    double largest = 0.0;
+    for (const Point p : subject.mesh.points) largest = std::max({largest, std::fabs(p.x), std::fabs(p.y)});
+    allowed_ = rounding * largest;
     for (std::size_t loop = 0; loop < design.loops.size(); ++loop)
       for (std::size_t c = 0; c < design.loops[loop].curves.size(); ++c) curves_.push_back({loop, c});
   }
@@ -94,7 +98,7 @@ class DesignRule {
     }
     const Point expected = Frame(loop_of(c).placement)(point_at(curve(c).shape, t));
     const Point found = mesh_.points[v];
-    if (found == expected) return;
+    if (found == expected || squared_distance(found, expected) < allowed_ * allowed_) return;
     report_.add("design", {v},
                 sentence("point ", v, " is (", found.x, ", ", found.y, "), but curve ", c, " at ", t, " is (",
                          expected.x, ", ", expected.y, ")"));
@@ -183,6 +187,7 @@ class DesignRule {
   const FrozenMesh& mesh_;
   const Domain& design_;
   Report& report_;
+  double allowed_ = 0.0;                                     // between a point and its place
   std::vector<std::pair<std::size_t, std::size_t>> curves_;  // by index over all loops: loop, curve in it
 };
 
@@ -200,8 +205,8 @@ std::vector<bool> joints_of(const FrozenMesh& mesh, const Domain& design) {
   return joints;
 }
 
-void check_design(const Subject& subject, const Domain& design, Report& report) {
-  DesignRule(subject, design, report).run();
+void check_design(const Subject& subject, const Domain& design, double rounding, Report& report) {
+  DesignRule(subject, design, rounding, report).run();
 }
 
 }  // namespace remodel::checker

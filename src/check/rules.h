@@ -59,6 +59,6 @@ std::vector<bool> joints_of(const FrozenMesh& mesh, const Domain& design);
 // Rule "design": boundary vertices are exactly the design's points at their curve and parameter, every
 // station of the design is there, and the edges of each loop join consecutive parameters, under the curve's
 // name and with the domain on the sides that the loop's role asks for.
-void check_design(const Subject& subject, const Domain& design, Report& report);
+void check_design(const Subject& subject, const Domain& design, double rounding, Report& report);
 
 }  // namespace remodel::checker

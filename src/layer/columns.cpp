@@ -1,8 +1,9 @@
 // Columns of a wall, in five steps: room, thickness, directions, points, validity.
 //
-// A column on a wall's point p leaves the wall along n and ends in the direction m: its point at the height h is
-// X(h) = p + h n + (h^2 / T)(m - n), T its thickness. n is the bisector of the wall's edges, so that cells stand
-// upright on the wall; m is n made smooth along the wall, so that the tops are a smooth polygon with even spacing.
+// A column on a wall's point p leaves the wall along n and ends in the direction m: its point at the height h
+// is X(h) = p + h n + (h^2 / T)(m - n), T its thickness. n is the bisector of the wall's edges, so that cells
+// stand upright on the wall; m is n made smooth along the wall, so that the tops are a smooth polygon with
+// even spacing.
 
 #include "layer/columns.h"
 
@@ -14,6 +15,7 @@
 #include "geometry/filters.h"
 #include "layer/ball.h"
 #include "layer/heights.h"
+#include "layer/outside.h"
 #include "remodel/error.h"
 #include "shape/segments.h"
 
@@ -21,14 +23,16 @@ namespace remodel {
 
 namespace {
 
-// A column takes this part of its ball's radius, as long as a triangle fits between two layers, but at least that.
+// A column takes this part of its ball's radius, as long as a triangle fits between two layers, but at least
+// that.
 constexpr double part_of_radius = 0.5, least_part_of_radius = 0.3;
 // Thickness changes by at most this for each unit of length along the wall.
 constexpr double thickness_slope = 0.3;
-// Directions at the tops are smooth over this part of the thickness. Less leaves uneven tops, more tilts columns.
+// Directions at the tops are smooth over this part of the thickness. Less leaves uneven tops, more tilts
+// columns.
 constexpr double smoothing_length = 0.25;
-// What gives way beside cells that are not convex, and tops that meet: a column's tilt is halved twice, then its
-// thickness is reduced six times.
+// What gives way beside cells that are not convex, and tops that meet: a column's tilt is halved twice, then
+// its thickness is reduced six times.
 constexpr int tilt_rounds = 2, thickness_rounds = 6;
 constexpr double thickness_reduction = 0.7;
 // Meeting tops are found one pair at a time.
@@ -83,16 +87,28 @@ struct Box {
   }
 };
 
-// The stations of all loops, and points between those that lie far apart where a layer may come near.
-std::vector<Point> boundary_samples(const Walls& walls, const std::vector<ColumnRing>& rings, double thickness) {
-  Box near;
-  for (const ColumnRing& ring : rings)
-    for (const Point p : ring.foot) near.take(p, 5.0 * thickness);
+// Which edges of a chain's loop are of its openings, by their first station. None of a closed ring.
+std::vector<bool> opening_edges(const Walls& walls, const ColumnRing& ring) {
+  if (ring.closed()) return {};
+  std::vector<bool> edges;
+  const std::vector<Curve>& curves = walls.domain.loops[ring.wall.loop].curves;
+  for (std::size_t c = 0; c < curves.size(); ++c)
+    edges.resize(edges.size() + curves[c].parameters.size(),
+                 c == ring.openings[0].curve() || c == ring.openings[1].curve());
+  return edges;
+}
+
+// The stations of all loops, and points between those that lie far apart where a layer may come near; but for
+// the edges that are left out, of this loop, which bound no ball.
+std::vector<Point> boundary_samples(const Walls& walls, const Box& near, double thickness, std::size_t loop,
+                                    const std::vector<bool>& left_out) {
   std::vector<Point> samples;
   for (std::size_t l = 0; l < walls.points.size(); ++l) {
     const std::vector<Point>& points = walls.points[l];
+    const auto is_out = [&](std::size_t i) { return l == loop && !left_out.empty() && left_out[i]; };
     for (std::size_t i = 0; i < points.size(); ++i) {
-      samples.push_back(points[i]);
+      if (!is_out(i) || !is_out(i == 0 ? points.size() - 1 : i - 1)) samples.push_back(points[i]);
+      if (is_out(i)) continue;
       if (i + 1 == points.size() && walls.domain.loops[l].open) break;
       const Point a = points[i], b = points[i + 1 == points.size() ? 0 : i + 1];
       if (!near.meets(a, b)) continue;
@@ -103,38 +119,55 @@ std::vector<Point> boundary_samples(const Walls& walls, const std::vector<Column
   return samples;
 }
 
-// Neighbours along a ring differ by no more than the slope allows. Twice around reaches all.
+// Neighbours along a ring differ by no more than the slope allows. Twice around reaches all, of a chain once.
 void limit_slope(ColumnRing& ring) {
-  const std::size_t n = ring.size();
-  for (std::size_t k = 0; k < 2 * n; ++k) {
+  const std::size_t n = ring.pairs(), times = ring.closed() ? 2 : 1;
+  for (std::size_t k = 0; k < times * n; ++k) {
     const std::size_t c = k % n, next = ring.after(c);
     ring.thickness[next] = std::min(ring.thickness[next], ring.thickness[c] + thickness_slope * ring.step[c]);
   }
-  for (std::size_t k = 2 * n; k-- > 0;) {
+  for (std::size_t k = times * n; k-- > 0;) {
     const std::size_t c = k % n, next = ring.after(c);
     ring.thickness[c] = std::min(ring.thickness[c], ring.thickness[next] + thickness_slope * ring.step[c]);
   }
 }
 
+void limit_by_balls(ColumnRing& ring, const WallBalls& balls, double wanted) {
+  ring.thickness.assign(ring.size(), wanted);
+  for (std::size_t c = 0; c < ring.size(); ++c) {
+    const double spacing = ring.spacing[c];
+    // Beyond this radius the ball is no bound: R / 2 and R - spacing are both more than what is wanted.
+    const double radius = balls.radius(ring.foot[c], ring.normal[c], 2.0 * wanted + spacing);
+    const double room =
+        std::max(least_part_of_radius * radius, std::min(part_of_radius * radius, radius - spacing));
+    ring.thickness[c] = std::min(wanted, room);
+  }
+}
+
 void set_room(std::vector<ColumnRing>& rings, const Walls& walls, double wanted) {
-  const WallBalls balls(boundary_samples(walls, rings, wanted));
+  Box near;
+  for (const ColumnRing& ring : rings)
+    for (const Point p : ring.foot) near.take(p, 5.0 * wanted);
+  std::optional<WallBalls> of_all;  // the same for all closed rings
   for (ColumnRing& ring : rings) {
-    ring.thickness.assign(ring.size(), wanted);
-    for (std::size_t c = 0; c < ring.size(); ++c) {
-      const double spacing = ring.spacing[c];
-      // Beyond this radius the ball is no bound: R / 2 and R - spacing are both more than what is wanted.
-      const double radius = balls.radius(ring.foot[c], ring.normal[c], 2.0 * wanted + spacing);
-      const double room =
-          std::max(least_part_of_radius * radius, std::min(part_of_radius * radius, radius - spacing));
-      ring.thickness[c] = std::min(wanted, room);
+    const auto balls = [&] {
+      return WallBalls(boundary_samples(walls, near, wanted, ring.wall.loop, opening_edges(walls, ring)));
+    };
+    if (ring.closed()) {
+      if (!of_all) of_all.emplace(balls());
+      limit_by_balls(ring, *of_all, wanted);
+    } else {
+      limit_by_balls(ring, balls(), wanted);
+      ring.thickness.front() = std::min(ring.thickness.front(), ring.openings[0].longest());
+      ring.thickness.back() = std::min(ring.thickness.back(), ring.openings[1].longest());
     }
     limit_slope(ring);
   }
 }
 
-// Solves the cyclic tridiagonal system diagonal[i] x[i] - link[i-1] x[i-1] - link[i] x[i+1] = right[i], which is
-// symmetric and diagonally dominant, by elimination and the Sherman-Morrison formula for its two far corners. The
-// result is in `right`.
+// Solves the cyclic tridiagonal system diagonal[i] x[i] - link[i-1] x[i-1] - link[i] x[i+1] = right[i], which
+// is symmetric and diagonally dominant, by elimination and the Sherman-Morrison formula for its two far
+// corners. The result is in `right`.
 void solve_cyclic(std::vector<double> diagonal, const std::vector<double>& link, std::vector<Point>& right) {
   const std::size_t n = right.size();
   // The matrix is a tridiagonal one and u v^T, where u = (g, 0 ... 0, -a), v = (1, 0 ... 0, -a / g).
@@ -160,12 +193,24 @@ void solve_cyclic(std::vector<double> diagonal, const std::vector<double>& link,
   for (std::size_t i = 0; i < n; ++i) right[i] = right[i] - corner[i] * part;
 }
 
-// The directions at the tops minimise sum l^2 |m_i - m_(i+1)|^2 / s_i + sum w_i |m_i - n_i|^2 over the ring, where
-// s_i is the distance of two neighbours at half the thickness, and w_i the half of both such distances.
+// The columns at the ends of a chain follow the openings.
+void set_ends(ColumnRing& ring) {
+  if (ring.closed()) return;
+  const std::size_t last = ring.size() - 1;
+  for (const auto& [end, opening] :
+       {std::pair{std::size_t{0}, &ring.openings[0]}, {last, &ring.openings[1]}}) {
+    const Point along = opening->at(ring.thickness[end]) - ring.foot[end];
+    ring.normal[end] = (1.0 / std::sqrt(dot(along, along))) * along;
+  }
+}
+
+// The directions at the tops minimise sum l^2 |m_i - m_(i+1)|^2 / s_i + sum w_i |m_i - n_i|^2 over the ring,
+// where s_i is the distance of two neighbours at half the thickness, and w_i the half of both such distances.
+// Those at the ends of a chain are given.
 void set_tops(ColumnRing& ring, const std::vector<double>& tilt) {
   const std::size_t n = ring.size();
-  std::vector<double> length(n), link(n), diagonal(n);
-  for (std::size_t c = 0; c < n; ++c) {
+  std::vector<double> length(n, 0.0), link(n, 0.0), diagonal(n);
+  for (std::size_t c = 0; c < ring.pairs(); ++c) {
     const std::size_t next = ring.after(c);
     const double thickness = 0.5 * (ring.thickness[c] + ring.thickness[next]);
     const Point turn = (0.5 * thickness) * (ring.normal[next] - ring.normal[c]);
@@ -180,11 +225,19 @@ void set_tops(ColumnRing& ring, const std::vector<double>& tilt) {
     diagonal[c] = weight + link[before] + link[c];
     top[c] = weight * ring.normal[c];
   }
+  if (!ring.closed()) {
+    const std::size_t last = n - 1;
+    top[1] = top[1] + link[0] * ring.normal[0];
+    top[last - 1] = top[last - 1] + link[last - 1] * ring.normal[last];
+    link[0] = link[last - 1] = 0.0;
+    for (const std::size_t end : {std::size_t{0}, last}) diagonal[end] = 1.0, top[end] = ring.normal[end];
+  }
   solve_cyclic(std::move(diagonal), link, top);
   for (std::size_t c = 0; c < n; ++c) {
     const Point smooth = (1.0 / std::sqrt(dot(top[c], top[c]))) * top[c];
     ring.top[c] = tilt[c] == 1.0 ? smooth : ring.normal[c] + tilt[c] * (smooth - ring.normal[c]);
   }
+  if (!ring.closed()) ring.top.front() = ring.normal.front(), ring.top.back() = ring.normal.back();
 }
 
 // What is left of a coordinate where a solve has made it vanish, on a line of symmetry, is nothing that exact
@@ -207,6 +260,11 @@ void set_points(ColumnRing& ring, const LayerOptions& options, std::uint32_t lev
       ring.growth[c] = growth_of(options.first_height, options.growth, thickness, levels);
       level_heights(options.first_height, ring.growth[c], thickness, heights);
     }
+    if (!ring.closed() && (c == 0 || c + 1 == n)) {
+      const Opening& opening = ring.openings[c == 0 ? 0 : 1];
+      for (std::uint32_t j = 0; j < levels; ++j) ring.points[c * levels + j] = opening.at(heights[j]);
+      continue;
+    }
     const Point bend = (1.0 / thickness) * (ring.top[c] - ring.normal[c]);
     for (std::uint32_t j = 0; j < levels; ++j)
       ring.points[c * levels + j] =
@@ -214,7 +272,8 @@ void set_points(ColumnRing& ring, const LayerOptions& options, std::uint32_t lev
   }
 }
 
-void mark_pair(ColumnSet& marked, const std::vector<ColumnRing>& rings, std::size_t ring, std::size_t column) {
+void mark_pair(ColumnSet& marked, const std::vector<ColumnRing>& rings, std::size_t ring,
+               std::size_t column) {
   marked[ring][column] = true;
   marked[ring][rings[ring].after(column)] = true;
 }
@@ -248,7 +307,7 @@ bool stand_well(const ColumnRing& ring, std::size_t column, std::uint32_t levels
 bool mark_folded(const std::vector<ColumnRing>& rings, std::uint32_t levels, ColumnSet& marked) {
   bool found = false;
   for (std::size_t r = 0; r < rings.size(); ++r)
-    for (std::size_t c = 0; c < rings[r].size(); ++c) {
+    for (std::size_t c = 0; c < rings[r].pairs(); ++c) {
       if (stand_well(rings[r], c, levels)) continue;
       mark_pair(marked, rings, r, c);
       found = true;
@@ -261,40 +320,75 @@ struct Owner {
   std::size_t ring = no_side, column = 0;
 };
 
-// The columns of tops that meet others, or a loop without a layer: one pair of sides at a time.
-bool mark_meeting(const Walls& walls, const std::vector<ColumnRing>& rings, std::uint32_t levels, ColumnSet& marked) {
-  std::vector<Side> sides;
-  std::vector<Owner> owners;
-  const auto add = [&](const std::vector<Point>& points, bool open, std::size_t ring) {
-    const std::size_t first = sides.size(), n = points.size();
+// The sides of the domain beyond the layer, and whose they are.
+class OutsideSides {
+ public:
+  OutsideSides(const Walls& walls, const std::vector<ColumnRing>& rings, std::uint32_t levels)
+      : rings_(rings), levels_(levels) {
+    const std::vector<Loop>& loops = walls.domain.loops;
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+      const std::vector<OutsideCurve> curves = outside_curves(walls.domain, rings, l);
+      if (curves.empty()) {
+        if (!is_single_point(loops[l]))
+          add(walls.points[l], std::vector<Owner>(walls.points[l].size()), loops[l].open);
+        continue;
+      }
+      points_.clear(), of_loop_.clear();
+      for (const OutsideCurve& curve : curves) add_curve(walls.domain, curve, l);
+      add(points_, of_loop_, false);
+    }
+  }
+  const std::vector<Side>& sides() const { return sides_; }
+  const Owner& owner(std::size_t side) const { return owners_[side]; }
+
+ private:
+  void add_curve(const Domain& walls, const OutsideCurve& curve, std::size_t loop) {
+    if (curve.ring != OutsideCurve::none) {
+      const ColumnRing& ring = rings_[curve.ring];
+      for (std::size_t c = 0; c < ring.pairs(); ++c) {
+        points_.push_back(ring.points[(c + 1) * levels_ - 1]);
+        of_loop_.push_back({curve.ring, c});
+      }
+      return;
+    }
+    const Curve& own = walls.loops[loop].curves[curve.curve];
+    const Shape shape = outside_shape(own.shape, curve, rings_, levels_);
+    for (const double t : own.parameters) points_.push_back(point_at(shape, t));
+    of_loop_.resize(points_.size());
+  }
+
+  void add(const std::vector<Point>& points, const std::vector<Owner>& owners, bool open) {
+    const std::size_t first = sides_.size(), n = points.size();
     for (std::size_t i = 0; i + (open ? 1 : 0) < n; ++i) {
       const bool last = open && i + 2 == n;
       const std::size_t next = i + 1 == n ? 0 : i + 1;
-      sides.push_back({points[i], points[next], last ? no_side : first + next, open && i == 0});
-      owners.push_back({ring, i});
+      sides_.push_back({points[i], points[next], last ? no_side : first + next, open && i == 0});
+      owners_.push_back(owners[i]);
     }
-  };
-  const std::vector<Loop>& loops = walls.domain.loops;
-  std::vector<std::size_t> ring_of(loops.size(), no_side);
-  for (std::size_t r = 0; r < rings.size(); ++r) ring_of[rings[r].loop] = r;
-  for (std::size_t l = 0; l < loops.size(); ++l) {
-    if (ring_of[l] == no_side) {
-      if (!is_single_point(loops[l])) add(walls.points[l], loops[l].open, no_side);
-      continue;
-    }
-    const ColumnRing& ring = rings[ring_of[l]];
-    std::vector<Point> tops(ring.size());
-    for (std::size_t c = 0; c < ring.size(); ++c) tops[c] = ring.points[(c + 1) * levels - 1];
-    add(tops, false, ring_of[l]);
   }
-  const std::optional<SidePair> meeting = find_meeting_sides(sides);
+
+  const std::vector<ColumnRing>& rings_;
+  std::uint32_t levels_;
+  std::vector<Side> sides_;
+  std::vector<Owner> owners_;
+  std::vector<Point> points_;   // of the loop under way
+  std::vector<Owner> of_loop_;  // of its sides
+};
+
+// The columns of tops that meet others, or a loop without a layer: one pair of sides at a time.
+bool mark_meeting(const Walls& walls, const std::vector<ColumnRing>& rings, std::uint32_t levels,
+                  ColumnSet& marked) {
+  const OutsideSides outside(walls, rings, levels);
+  const std::optional<SidePair> meeting = find_meeting_sides(outside.sides());
   if (!meeting) return false;
   for (const std::size_t side : {meeting->first, meeting->second})
-    if (owners[side].ring != no_side) mark_pair(marked, rings, owners[side].ring, owners[side].column);
+    if (const Owner& owner = outside.owner(side); owner.ring != no_side)
+      mark_pair(marked, rings, owner.ring, owner.column);
   return true;
 }
 
-[[noreturn]] void refuse_layer(const Domain& walls, const std::vector<ColumnRing>& rings, const ColumnSet& marked) {
+[[noreturn]] void refuse_layer(const Domain& walls, const std::vector<ColumnRing>& rings,
+                               const ColumnSet& marked) {
   for (std::size_t r = 0; r < rings.size(); ++r)
     for (std::size_t c = 0; c < rings[r].size(); ++c)
       if (marked[r][c])
@@ -322,11 +416,13 @@ bool is_convex(const CellPoints& cell) {
   return is_convex_quadrilateral(p[0], p[1], p[2], p[3]);
 }
 
-LayerColumns columns_of(const Walls& walls, const std::vector<std::size_t>& loops, const FanSectors& sectors,
-                        const LayerOptions& options, std::uint32_t levels) {
-  LayerColumns columns{rings_of(walls, loops, sectors, options), 0};
+LayerColumns columns_of(const Walls& walls, const std::vector<LayeredWall>& layered,
+                        const FanSectors& sectors, const LayerOptions& options, std::uint32_t levels) {
+  LayerColumns columns{rings_of(walls, layered, sectors, options), 0};
   std::vector<ColumnRing>& rings = columns.rings;
   set_room(rings, walls, options.thickness);
+  for (ColumnRing& ring : rings) lean_to_openings(ring, options);
+  number_outside_curves(walls.domain, rings);
   std::vector<std::vector<double>> room;
   for (const ColumnRing& ring : rings) room.push_back(ring.thickness);
   Concessions given(rings);
@@ -334,6 +430,7 @@ LayerColumns columns_of(const Walls& walls, const std::vector<std::size_t>& loop
   for (int round = 0; round < most_rounds; ++round) {
     marked.clear();
     for (std::size_t r = 0; r < rings.size(); ++r) {
+      set_ends(rings[r]);
       set_tops(rings[r], given.tilt(r));
       set_points(rings[r], options, levels);
       marked.emplace_back(rings[r].size());
@@ -351,20 +448,6 @@ LayerColumns columns_of(const Walls& walls, const std::vector<std::size_t>& loop
     }
   }
   refuse_layer(walls.domain, rings, marked);
-}
-
-Domain outside_of(const Domain& walls, const LayerColumns& columns, std::uint32_t levels) {
-  Domain outside = walls;
-  for (const ColumnRing& ring : columns.rings) {
-    Loop& loop = outside.loops[ring.loop];
-    Polyline tops;
-    for (std::size_t c = 0; c < ring.size(); ++c) tops.points.push_back(ring.points[(c + 1) * levels - 1]);
-    tops.points.push_back(tops.points.front());
-    const std::string name = loop.curves.front().name;
-    loop.curves = {{.name = name, .shape = std::move(tops), .parameters = Parameters::uniform(ring.size())}};
-    loop.placement = {};
-  }
-  return outside;
 }
 
 }  // namespace remodel

@@ -16,16 +16,14 @@ struct LayerColumns {
   std::size_t shrunk = 0;  // columns that had to give way
 };
 
-// The columns of these walls: a function of its arguments alone. Throws Error (geometry), with the place, where
-// they cannot be made valid.
-LayerColumns columns_of(const Walls& walls, const std::vector<std::size_t>& loops, const FanSectors& sectors,
-                        const LayerOptions& options, std::uint32_t levels);
+// The columns of these walls: a function of its arguments alone. Throws Error (geometry), with the place,
+// where they cannot be made valid.
+LayerColumns columns_of(const Walls& walls, const std::vector<LayeredWall>& layered,
+                        const FanSectors& sectors, const LayerOptions& options, std::uint32_t levels);
 
-// The domain beyond the layer: the walls' own, where polylines of tops have taken the places of layered loops.
-Domain outside_of(const Domain& walls, const LayerColumns& columns, std::uint32_t levels);
-
-// The cell at a level, 0 the one at the wall, between a column and the next one, counter-clockwise. Where the two
-// are of one fan, the first cell is a triangle, and corners 0 and 1 are the same point.
+// The cell at a level, 0 the one at the wall, between a column that has a next one and that,
+// counter-clockwise. Where the two are of one fan, the first cell is a triangle, and corners 0 and 1 are the
+// same point.
 struct CellPoints {
   Point corner[4];
   bool triangle = false;

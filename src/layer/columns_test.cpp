@@ -21,7 +21,8 @@ LayerStatistics expect_valid(const Domain& domain, const LayerOptions& options, 
   EXPECT_EQ(why_no_mesh(mesh.freeze(), domain), "") << what;
   EXPECT_EQ(why_no_mesh(mesh.freeze(LayerCells::triangles), domain), "") << what;
   EXPECT_EQ(mesh.shrunk(), 0) << what;
-  const CheckResult outside = check(mesh.outer().freeze(), {.min_angle_deg = 30.0, .max_gradation = 0.70710678118654752});
+  const CheckResult outside =
+      check(mesh.outer().freeze(), {.min_angle_deg = 30.0, .max_gradation = 0.70710678118654752});
   EXPECT_TRUE(outside.valid) << what;
   return mesh.statistics();
 }
@@ -45,9 +46,11 @@ Domain with_gurney_flap(double height) {
     const Point p = airfoil.at(i / 200.0);
     if (p.x < 0.992 || p.y > 0.0) outline.push_back(p);
   }
-  for (const Point p : {Point{0.996, -0.0006}, {0.997, -height}, {1.0, -height}, {1.0, 0.0}}) outline.push_back(p);
+  for (const Point p : {Point{0.996, -0.0006}, {0.997, -height}, {1.0, -height}, {1.0, 0.0}})
+    outline.push_back(p);
   Domain domain;
-  domain.loops = {{.role = LoopRole::hole, .curves = outline_of(outline, OutlineCurve::spline, "airfoil")}, box(20)};
+  domain.loops = {{.role = LoopRole::hole, .curves = outline_of(outline, OutlineCurve::spline, "airfoil")},
+                  box(20)};
   return domain;
 }
 
@@ -72,10 +75,12 @@ TEST(Columns, StudyAirfoilsAreAsGoodAsTheGuidePromises) {
 
 TEST(Columns, HeightsThicknessesAndGrowthsAreFree) {
   const Domain domain = spaced(airfoil_domain(named_airfoil("rae2822", 8)));
-  for (const double height : {3e-7, 1.3e-4, 1e-3}) expect_valid(domain, layer_options(height), std::to_string(height));
+  for (const double height : {3e-7, 1.3e-4, 1e-3})
+    expect_valid(domain, layer_options(height), std::to_string(height));
   for (const double thickness : {0.01, 0.05, 0.1})
     expect_valid(domain, {.first_height = 4.5e-6, .thickness = thickness}, std::to_string(thickness));
-  for (const double growth : {1.1, 1.5}) expect_valid(domain, {.first_height = 1e-5, .growth = growth}, "growth");
+  for (const double growth : {1.1, 1.5})
+    expect_valid(domain, {.first_height = 1e-5, .growth = growth}, "growth");
   expect_valid(domain, {.first_height = 0.01, .thickness = 0.01}, "a single cell");
 }
 
@@ -140,16 +145,18 @@ TEST(Columns, RefuseWhatIsNoWall) {
   };
   EXPECT_EQ(message(domain, {.first_height = 1e-5, .walls = {"wing"}}),
             "walls: found 'wing', expected a boundary of the domain");
-  EXPECT_EQ(message(Domain{{box(1)}}, layer_options()),
-            "walls: found a domain without holes, expected a closed wall for the layer: the walls of a duct, which end at "
-            "an inlet or outlet, get none");
+  EXPECT_EQ(
+      message(Domain{{box(1)}}, layer_options()),
+      "walls: found a domain without holes, and without an outer loop of which some curves are called inlet, "
+      "outlet, symmetry or farfield, expected a wall for the layer, or the names of walls");
   EXPECT_NE(message(domain, {}).find("first layer height"), std::string::npos);
   EXPECT_NE(message(domain, {.first_height = 1e-5, .growth = 1.0}).find("growth"), std::string::npos);
   EXPECT_NE(message(domain, {.first_height = 0.1}).find("layer thickness"), std::string::npos);
   Domain joined = domain;
-  joined.loops.push_back({.role = LoopRole::internal,
-                          .curves = {{.name = "wake", .shape = Line{domain.points(0)[0], {3, 0}}, .parameters = {0.0}}},
-                          .open = true});
+  joined.loops.push_back(
+      {.role = LoopRole::internal,
+       .curves = {{.name = "wake", .shape = Line{domain.points(0)[0], {3, 0}}, .parameters = {0.0}}},
+       .open = true});
   EXPECT_NE(message(joined, layer_options()).find("a chain that ends on loop 0"), std::string::npos);
 }
 

@@ -31,7 +31,7 @@ class LayerCounter {
     for (std::size_t r = 0; r < is.rings.size(); ++r) {
       counts_.now += cell_count(is.rings[r], tops_now[r], levels);
       compare_points(r);
-      for (std::size_t c = 0; c < is.rings[r].size(); ++c) compare_cells(r, c);
+      for (std::size_t c = 0; c < is.rings[r].pairs(); ++c) compare_cells(r, c);
     }
   }
   const LayerCounts& counts() const { return counts_; }
@@ -63,7 +63,7 @@ class LayerCounter {
     const ColumnRing& ring = is_.rings[r];
     const std::size_t next = ring.after(c);
     const ColumnPlace a = matches_[r][c], b = matches_[r][next];
-    if (!a.there() || !b.there() || was_.rings[a.ring].after(a.column) != b.column) return;
+    if (!a.there() || !b.there() || !was_.rings[a.ring].are_neighbours(a.column, b.column)) return;
     const std::size_t here = c * (levels_ + 1), there = next * (levels_ + 1);
     const auto stands = [&](std::uint32_t level) {
       return stays_[here + level] && stays_[here + level + 1] && stays_[there + level] &&

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "layer/layer_parts.h"
+#include "layer/outside.h"
 #include "remodel/error.h"
 
 namespace remodel {
@@ -18,9 +19,9 @@ struct Places {
   std::vector<double> outside;
 };
 
-Places places_at(const Domain& walls, const std::vector<std::size_t>& loops, const FanSectors& fans,
+Places places_at(const Domain& walls, const std::vector<LayeredWall>& layered, const FanSectors& fans,
                  const LayerOptions& options, std::uint32_t levels) {
-  const LayerColumns columns = columns_of(Walls(walls), loops, fans, options, levels);
+  const LayerColumns columns = columns_of(Walls(walls), layered, fans, options, levels);
   Places places;
   for (const ColumnRing& ring : columns.rings)
     for (std::size_t c = 0; c < ring.size(); ++c) {
@@ -63,8 +64,8 @@ LayeredMeshDerivative::LayeredMeshDerivative(const LayeredMesh& mesh, const Mesh
     for (const auto& [times, factor] : {std::pair{-2, 1.0}, {-1, -8.0}, {1, 8.0}, {2, -1.0}}) {
       std::vector<double> coefficients = own;
       coefficients[i] += times * step;
-      const Places at = places_at(with_coefficients(mesh.domain(), coefficients), columns.loops, columns.fans,
-                                  mesh.options(), columns.levels);
+      const Places at = places_at(with_coefficients(mesh.domain(), coefficients), columns.layered,
+                                  columns.fans, mesh.options(), columns.levels);
       sum.layer.resize(at.layer.size()), sum.outside.resize(at.outside.size());
       const double by = factor / (12.0 * step);
       for (std::size_t v = 0; v < at.layer.size(); ++v) sum.layer[v] = sum.layer[v] + by * at.layer[v];

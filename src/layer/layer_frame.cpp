@@ -7,6 +7,7 @@
 #include "generate/require_option.h"
 #include "layer/heights.h"
 #include "layer/layer_parts.h"
+#include "layer/outside.h"
 #include "remodel/error.h"
 #include "remodel/generate.h"
 
@@ -27,8 +28,7 @@ void require_room_for(const Domain& domain, const LayerOptions& layers, std::uin
   require_layer_options(layers);
   const std::uint32_t levels = levels_of(layers);
   std::size_t stations = 0;
-  for (const std::size_t loop : layered_loops(domain, layers))
-    for (const Curve& curve : domain.loops[loop].curves) stations += curve.parameters.size();
+  for (const LayeredWall& wall : layered_walls(domain, layers)) stations += wall.stations;
   if (stations * (std::size_t{levels} + 1) <= max_vertices) return;
   throw Error(ErrorCode::argument, "layers",
               "found " + std::to_string(stations) + " stations on walls and " + std::to_string(levels) +
@@ -51,21 +51,19 @@ void require_layer_options(const LayerOptions& options) {
 LayerFrame::LayerFrame(const Domain& walls, const LayerOptions& options) : options_(options) {
   require_layer_options(options);
   validate(walls);
-  loops_ = layered_loops(walls, options);
+  layered_ = layered_walls(walls, options);
   levels_ = levels_of(options);
-  fans_ = fans_of(Walls(walls), loops_, options, {loops_.size(), nullptr});
+  fans_ = fans_of(Walls(walls), layered_, options, {layered_.size(), nullptr});
 }
 
 std::shared_ptr<const LayeredMesh::Columns> LayerFrame::columns_at(const Domain& walls) const {
-  bool fits = layered_loops(walls, options_) == loops_;
-  for (std::size_t r = 0; fits && r < loops_.size(); ++r)
-    fits = walls.stations(loops_[r]).size() == fans_[r].size();
-  if (!fits)
+  const Walls evaluated(walls);
+  if (layered_walls(evaluated, options_) != layered_)
     throw Error(ErrorCode::argument, "walls",
                 "found other loops or stations, expected those that the layer began with");
   auto columns = std::make_shared<LayeredMesh::Columns>();
-  columns->loops = loops_, columns->levels = levels_, columns->fans = fans_;
-  static_cast<LayerColumns&>(*columns) = columns_of(Walls(walls), loops_, fans_, options_, levels_);
+  columns->layered = layered_, columns->levels = levels_, columns->fans = fans_;
+  static_cast<LayerColumns&>(*columns) = columns_of(evaluated, layered_, fans_, options_, levels_);
   for (const ColumnRing& ring : columns->rings) {
     std::vector<std::uint32_t>& ids = columns->ids.emplace_back(ring.size());
     std::iota(ids.begin(), ids.end(), columns->next_id);

@@ -10,7 +10,7 @@
 namespace remodel {
 
 struct LayeredMesh::Columns : LayerColumns {
-  std::vector<std::size_t> loops;  // that have a layer, as rings are
+  std::vector<LayeredWall> layered;  // that have a layer, as rings are
   FanSectors fans;
   std::uint32_t levels = 0;
   std::vector<std::vector<std::uint32_t>> ids;  // per ring and column: its number

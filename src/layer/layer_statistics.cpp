@@ -37,11 +37,12 @@ void measure_wall(const CellPoints& cell, LayerStatistics& statistics) {
   statistics.aspect_max = std::max(statistics.aspect_max, length * length / area);
 }
 
-// The larger area over the smaller one at each edge of the tops: of undivided cells, and of the triangles there.
+// The larger area over the smaller one at each edge of the tops: of undivided cells, and of the triangles
+// there.
 void measure_jumps(const Mesh& outer, const ColumnRing& ring, const RingTops& tops, std::uint32_t levels,
                    std::vector<double>& jumps) {
   const Triangulation& triangulation = outer.data().triangulation;
-  for (std::size_t c = 0; c < ring.size(); ++c) {
+  for (std::size_t c = 0; c < ring.pairs(); ++c) {
     if (!tops.splits[c].empty()) continue;
     const VertexId from = tops.top[c], to = tops.top[ring.after(c)];
     const auto corner = ring.left ? triangulation.find_edge(from, to) : triangulation.find_edge(to, from);
@@ -74,6 +75,7 @@ LayerStatistics LayeredMesh::statistics() const {
     for (std::size_t c = 0; c < ring.size(); ++c) {
       take(statistics.thickness, ring.thickness[c]);
       take(statistics.growth, ring.growth[c]);
+      if (c == ring.pairs()) break;
       statistics.split_tops += !tops[r].splits[c].empty();
       measure_wall(layer_cell(ring, c, 0, levels()), statistics);
       for (std::uint32_t level = 0; level < levels(); ++level)

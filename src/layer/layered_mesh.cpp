@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "layer/layer_parts.h"
+#include "layer/outside.h"
 #include "mesh/mesh_data.h"
 #include "remodel/error.h"
 
@@ -30,8 +31,8 @@ std::size_t parts_of_split(const ColumnRing& ring, std::size_t column, std::size
 }
 
 std::size_t cell_count(const ColumnRing& ring, const RingTops& tops, std::uint32_t levels) {
-  std::size_t count = ring.size() * levels;
-  for (std::size_t c = 0; c < ring.size(); ++c)
+  std::size_t count = ring.pairs() * levels;
+  for (std::size_t c = 0; c < ring.pairs(); ++c)
     if (!tops.splits[c].empty()) count += parts_of_split(ring, c, tops.splits[c].size(), levels) - 1;
   return count;
 }
@@ -40,16 +41,31 @@ std::vector<RingTops> tops_of(const Mesh& outer, const LayerColumns& columns) {
   const MeshData& data = outer.data();
   std::vector<RingTops> rings;
   for (const ColumnRing& ring : columns.rings) {
-    RingTops& tops = rings.emplace_back();
-    data.walk(data.loop_heads[ring.loop], [&](std::uint32_t k) {
+    // All stations of the loop, and what lies between each and the next one.
+    RingTops all;
+    data.walk(data.loop_heads[ring.wall.loop], [&](std::uint32_t k) {
       const VertexId v = data.at(k).vertex;
       if (!data.at(k).steiner) {
-        tops.top.push_back(v);
-        tops.splits.emplace_back();
+        all.top.push_back(v);
+        all.splits.emplace_back();
       } else {
-        tops.splits.back().push_back({{v, data.triangulation.generation(v)}, data.triangulation.point(v)});
+        all.splits.back().push_back({{v, data.triangulation.generation(v)}, data.triangulation.point(v)});
       }
     });
+    if (ring.closed()) {
+      rings.push_back(std::move(all));
+      continue;
+    }
+    RingTops& tops = rings.emplace_back();
+    std::size_t first = 0;
+    const std::vector<Curve>& curves = outer.domain().loops[ring.wall.loop].curves;
+    for (std::size_t c = 0; c < ring.outside_curve; ++c) first += curves[c].parameters.size();
+    for (std::size_t c = 0; c < ring.size(); ++c) {
+      const std::size_t station = (first + c) % all.top.size();
+      tops.top.push_back(all.top[station]);
+      tops.splits.push_back(c < ring.pairs() ? std::move(all.splits[station])
+                                             : std::vector<RingTops::Split>{});
+    }
   }
   return rings;
 }
@@ -78,6 +94,10 @@ std::size_t LayeredMesh::layer_cells() const {
   return count;
 }
 
+Domain LayeredMesh::meshed_domain() const {
+  return empty() ? walls_ : with_moved_stations(walls_, columns_->rings);
+}
+
 std::string LayeredMesh::quick_check() const {
   if (std::string broken = outer_.quick_check(); !broken.empty() || empty()) return broken;
   const std::vector<RingTops> tops = tops_of(outer_, *columns_);
@@ -88,7 +108,7 @@ std::string LayeredMesh::quick_check() const {
       const std::string place = "layer: ring " + std::to_string(r) + ", column " + std::to_string(c);
       if (outer_.data().triangulation.point(tops[r].top[c]) != ring.points[(c + 1) * levels() - 1])
         return place + ": its top is not the outer mesh's";
-      for (std::uint32_t level = 0; level < levels(); ++level)
+      for (std::uint32_t level = 0; c < ring.pairs() && level < levels(); ++level)
         if (!is_convex(layer_cell(ring, c, level, levels())))
           return place + ", level " + std::to_string(level) + ": the cell is not convex";
     }
@@ -109,19 +129,19 @@ LayeredMesh LayeredMesh::restore(const LayeredState& state, const std::string& s
   try {
     require_layer_options(state.options);
     validate(state.walls);
-    columns.loops = layered_loops(state.walls, state.options);
+    columns.layered = layered_walls(state.walls, state.options);
     if (state.levels < 1 || state.levels > 1000)
       refuse("found " + std::to_string(state.levels) + " levels of a layer, expected 1 to 1000");
-    bool fits = state.fans.size() == columns.loops.size();
-    for (std::size_t r = 0; fits && r < columns.loops.size(); ++r)
-      fits = state.fans[r].size() == state.walls.stations(columns.loops[r]).size() &&
+    bool fits = state.fans.size() == columns.layered.size();
+    for (std::size_t r = 0; fits && r < columns.layered.size(); ++r)
+      fits = state.fans[r].size() == columns.layered[r].stations &&
              std::all_of(state.fans[r].begin(), state.fans[r].end(), [](std::uint32_t n) { return n <= 64; });
     if (!fits)
       refuse("found fans of a layer that do not fit its walls, expected one number a station, at most 64");
     columns.levels = state.levels;
     columns.fans = state.fans;
     static_cast<LayerColumns&>(columns) =
-        columns_of(Walls(state.walls), columns.loops, columns.fans, state.options, columns.levels);
+        columns_of(Walls(state.walls), columns.layered, columns.fans, state.options, columns.levels);
     if (!are_numbers(state, columns))
       refuse("found numbers of a layer's columns that do not fit, expected different ones, one a column");
     columns.ids = state.columns;

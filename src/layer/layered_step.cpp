@@ -6,6 +6,7 @@
 #include "layer/layer_count.h"
 #include "layer/layer_parts.h"
 #include "layer/outer_step.h"
+#include "layer/outside.h"
 #include "mesh/mesh_data.h"
 #include "remodel/error.h"
 #include "step/correspondence.h"
@@ -36,15 +37,18 @@ NewWalls in_own_terms(const Domain& own, const Domain& wanted) {
   return walls;
 }
 
-// Per ring: the one of its old loop, or no_column.
-std::vector<std::size_t> old_rings(const std::vector<std::size_t>& loops,
+// Per ring: the one of the same stations of its old loop, or no_column.
+std::vector<std::size_t> old_rings(const std::vector<LayeredWall>& walls,
                                    const std::vector<std::size_t>& from,
-                                   const std::vector<std::size_t>& old_loops) {
+                                   const std::vector<LayeredWall>& old_walls) {
   std::vector<std::size_t> rings;
-  for (const std::size_t loop : loops) {
-    const auto old = std::find(old_loops.begin(), old_loops.end(), from[loop]);
-    rings.push_back(old == old_loops.end() ? ColumnPlace::no_column
-                                           : static_cast<std::size_t>(old - old_loops.begin()));
+  for (const LayeredWall& wall : walls) {
+    const auto old = std::find_if(old_walls.begin(), old_walls.end(), [&](const LayeredWall& before) {
+      return before.loop == from[wall.loop] && before.closed == wall.closed &&
+             before.station == wall.station && (wall.closed || before.stations == wall.stations);
+    });
+    rings.push_back(old == old_walls.end() ? ColumnPlace::no_column
+                                           : static_cast<std::size_t>(old - old_walls.begin()));
   }
   return rings;
 }
@@ -111,15 +115,15 @@ std::shared_ptr<LayeredMesh::Columns> LayeredMesh::Step::columns_on(const Domain
   const Columns& own = *mesh_.columns_;
   const Walls walls(of);
   auto columns = std::make_shared<Columns>();
-  columns->loops = layered_loops(of, mesh_.options_);
+  columns->layered = layered_walls(walls, mesh_.options_);
   columns->levels = own.levels;
-  const std::vector<std::size_t> old_ring = old_rings(columns->loops, from, own.loops);
+  const std::vector<std::size_t> old_ring = old_rings(columns->layered, from, own.layered);
   std::vector<const std::vector<std::uint32_t>*> kept;
   for (const std::size_t ring : old_ring)
     kept.push_back(ring == ColumnPlace::no_column ? nullptr : &own.fans[ring]);
-  columns->fans = fans_of(walls, columns->loops, mesh_.options_, kept);
+  columns->fans = fans_of(walls, columns->layered, mesh_.options_, kept);
   static_cast<LayerColumns&>(*columns) =
-      columns_of(walls, columns->loops, columns->fans, mesh_.options_, columns->levels);
+      columns_of(walls, columns->layered, columns->fans, mesh_.options_, columns->levels);
   matches_ = match_columns(own.fans, columns->fans, old_ring);
   columns->next_id = own.next_id;
   for (const std::vector<ColumnPlace>& ring : matches_) {
@@ -189,12 +193,12 @@ LayeredMesh mesh_at(const LayeredMesh& mesh, const Domain& design) {
     throw Error(ErrorCode::argument, "mesh", "found an empty one, expected one that was generated or read");
   validate(design);
   const LayeredMesh::Columns& own = *mesh.columns_;
-  if (!follows_by_index(mesh.walls_, design) || layered_loops(design, mesh.options_) != own.loops)
+  const Walls walls(design);
+  if (!follows_by_index(mesh.walls_, design) || layered_walls(walls, mesh.options_) != own.layered)
     throw TopologyChanged(ErrorCode::argument, "design",
                           "found other loops or stations, expected those of the mesh");
   auto columns = std::make_shared<LayeredMesh::Columns>(own);
-  static_cast<LayerColumns&>(*columns) =
-      columns_of(Walls(design), own.loops, own.fans, mesh.options_, own.levels);
+  static_cast<LayerColumns&>(*columns) = columns_of(walls, own.layered, own.fans, mesh.options_, own.levels);
   LayeredMesh result;
   result.outer_ = mesh_at(mesh.outer_, outside_of(design, *columns, own.levels));
   result.walls_ = design, result.options_ = mesh.options_, result.columns_ = std::move(columns);

@@ -15,9 +15,13 @@ namespace {
 bool same_tops(const Domain& outside, const Domain& expected, const LayerColumns& columns) {
   if (outside.loops.size() != expected.loops.size()) return false;
   return std::all_of(columns.rings.begin(), columns.rings.end(), [&](const ColumnRing& ring) {
-    const Loop &found = outside.loops[ring.loop], &wanted = expected.loops[ring.loop];
-    return found.curves.size() == 1 && found.curves[0].shape == wanted.curves[0].shape &&
-           found.curves[0].parameters == wanted.curves[0].parameters && found.placement == wanted.placement;
+    const Loop &found = outside.loops[ring.wall.loop], &wanted = expected.loops[ring.wall.loop];
+    const auto same = [](const Curve& a, const Curve& b) {
+      return a.shape == b.shape && a.parameters == b.parameters;
+    };
+    return found.placement == wanted.placement &&
+           std::equal(found.curves.begin(), found.curves.end(), wanted.curves.begin(), wanted.curves.end(),
+                      same);
   });
 }
 

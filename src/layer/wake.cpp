@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "generate/require_option.h"
-#include "layer/rings.h"
+#include "layer/walls.h"
 #include "remodel/layers.h"
 
 namespace remodel {
@@ -40,10 +40,11 @@ void add_wake(Domain& domain, const WakeLine& wake, const LayerOptions& layers) 
   const double size = std::sqrt(dot(wake.direction, wake.direction));
   require_option(size > 0.0, "direction of the wake", size, "one of a length above 0");
   const Point along = (1.0 / size) * wake.direction;
-  const std::vector<std::size_t> loops = layered_loops(domain, layers);
-  Point edge = domain.points(loops.front()).front();
-  for (const std::size_t l : loops)
-    for (const Point p : domain.points(l))
+  const Walls walls(domain);
+  const std::vector<LayeredWall> layered = layered_walls(walls, layers);
+  Point edge = walls.points_of(layered.front()).front();
+  for (const LayeredWall& wall : layered)
+    for (const Point p : walls.points_of(wall))
       if (dot(p, along) > dot(edge, along)) edge = p;
   const Point from = edge + thicknesses_to_the_wake * layers.thickness * along;
   domain.loops.push_back({.role = LoopRole::internal,

@@ -12,6 +12,20 @@ LAYERS = ("--layers", "--reynolds", 5000, "--y-plus", 0.5, "--max-spacing", 0.04
 
 
 class Friction(ProgramTest):
+    def test_a_duct_gets_its_layer_by_itself(self):
+        line = lambda name, a, b, n: {"name": name, "shape": {"kind": "line", "from": a, "to": b}, "stations": n}
+        self.write("channel.json", json.dumps({"loops": [{"role": "outer", "curves": [
+            line("floor", [0, 0], [3, 0], 60), line("behind", [3, 0], [3, 1], 4), line("roof", [3, 1], [0, 1], 60),
+            line("ahead", [0, 1], [0, 0], 4)]}]}))  # fmt: skip
+        flow = self.succeed("flow", "channel.json", "--model", "laminar", "--mach", 0.03, "--reynolds", 20, "--inlet", "ahead",
+                            "--outlet", "behind", "--pressure", 0.9976, "--wall-table", "wall.csv", "--json").json()
+        self.assertTrue(flow["converged"])
+        mean = -next(o["mass_flow"] for o in flow["openings"] if o["name"] == "behind") / 0.03
+        rows = [row for row in csv.DictReader(self.path("wall.csv").open()) if float(row["x"]) > 1.5]
+        self.assertEqual({row["wall"] for row in rows}, {"floor", "roof"})
+        for row in rows:  # Poiseuille's
+            self.assertAlmostEqual(float(row["cf"]) / (12 * mean / 20), 1.0, delta=0.04)
+
     def test_laminar_flow_on_a_mesh_with_a_layer(self):
         self.succeed("mesh", "naca:0012", *LAYERS, "-o", "a.vtkhdf")
         flow = self.succeed("flow", "a.vtkhdf", "--model", "laminar", "--mach", 0.5, "--reynolds", 5000,

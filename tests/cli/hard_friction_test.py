@@ -1,5 +1,6 @@
 """Design problems with friction that are mistakes, or cannot be solved: each gets one sentence, and nothing is lost."""
 
+import copy
 import json
 import sqlite3
 
@@ -75,9 +76,25 @@ class HardFriction(ProgramTest):
         self.write("duct.json", json.dumps(DUCT))
         problem = {key: value for key, value in PROBLEM.items() if key not in ("airfoil", "degree", "constraints", "mesh")}
         ends = {"inlets": [{"name": "inlet"}], "outlets": [{"name": "outlet", "pressure": 0.75}]}
-        for point, name in (({}, "expected"), (ends, "flow 1: found 'inlets', 'outlets' or 'symmetry' with friction")):
-            text = {**problem, "space": {"domain": "duct.json", "deformations": [POINTS]}, **flow(**point)}
+        leaning = copy.deepcopy(DUCT)
+        curves = leaning["loops"][0]["curves"]
+        at = next(i for i, curve in enumerate(curves) if curve["name"] == "inlet")
+        line = lambda a, b: {"name": "inlet", "shape": {"kind": "line", "from": a, "to": b}, "stations": 4}
+        curves[at : at + 1] = [line([-0.1, 0.4], [-0.3, 0.3]), line([-0.3, 0.3], [-0.1, 0])]
+        self.write("leaning.json", json.dumps(leaning))
+        for domain, point, name in (("duct.json", {}, "expected"),
+                                    ("leaning.json", ends, "found 'layers' that no walls can have: layers: found an angle of")):  # fmt: skip
+            text = {**problem, "space": {"domain": domain, "deformations": [POINTS]}, **flow(**point)}
             self.refused("design", self.write("problem.json", json.dumps(text)), "-o", "run", names=name)
+
+    def test_a_duct_is_designed_with_friction(self):
+        self.write("duct.json", json.dumps(DUCT))
+        problem = {key: value for key, value in PROBLEM.items() if key not in ("airfoil", "degree", "constraints", "mesh")}
+        ends = {"inlets": [{"name": "inlet"}], "outlets": [{"name": "outlet", "pressure": 0.75}]}
+        text = {**problem, "space": {"domain": "duct.json", "deformations": [POINTS]}, "objective": "mass_flow", **flow(**ends),
+                "mesh": {"points": 150, "gradation": 4}, "verify": []}  # fmt: skip
+        figures = self.figures("design", self.write("problem.json", json.dumps(text)), "-o", "run")
+        self.assertLess(figures["objective"], 1.02 * figures["start_objective"])  # made large: below 0
 
     def test_searches_without_a_solution_end_with_a_sentence(self):
         for changes, sentence in (

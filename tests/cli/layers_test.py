@@ -1,5 +1,6 @@
 """Layers on walls: made, remodelled, checked, converted and drawn by the program."""
 
+import json
 import unittest
 
 import shapes
@@ -70,6 +71,32 @@ class Layers(ProgramTest):
         given = self.succeed("mesh", "a.dat", "--as-given", "spline", *LAYERS, "-o", "g.vtkhdf", "--json").json()
         self.assertGreater(given["layers"]["columns"], 100)
         self.succeed("draw", "g.vtkhdf", "-o", "g.png")
+
+    def duct(self, height=0.1):
+        line = lambda name, a, b, n: {"name": name, "shape": {"kind": "line", "from": a, "to": b}, "stations": n}
+        wall = {"kind": "spline", "points": [[0, 0], [0.8, 0.01], [1.5, height], [2.2, 0.01], [3, 0]]}
+        self.write(f"duct{height}.json", json.dumps({"loops": [{"role": "outer", "curves": [
+            {"name": "wall", "shape": wall, "stations": 90}, line("outlet", [3, 0], [3, 1], 5),
+            line("roof", [3, 1], [0, 1], 40), line("inlet", [0, 1], [0, 0], 5)]}]}))
+        return f"duct{height}.json"
+
+    def test_walls_of_a_duct_end_at_its_inlet_and_outlet(self):
+        mesh = self.succeed("mesh", self.duct(), "--layers", "--reynolds", 1e5, "-o", "a.vtkhdf", "-o", "a.su2", "-o", "a.msh",
+                            "-o", "a.foam", "--json").json()
+        self.assertEqual(mesh["layers"]["columns"], 91 + 41)
+        for file in ("a.vtkhdf", "a.su2", "a.msh"):
+            check = self.succeed("check", file, "--json").json()
+            self.assertTrue(check["valid"], check["violations"])
+            self.assertEqual(check["quadrilaterals"], mesh["quadrilaterals"])
+            self.assertEqual(check["boundary"]["wall"], 90)
+            self.assertGreaterEqual(check["boundary"]["inlet"], 2 * mesh["layers"]["levels"] + 4)
+        self.succeed("draw", "a.vtkhdf", "--window=-0.01,-0.01,0.1,0.1", "-o", "corner.png")
+        for strategy in ("renew", "morph", "reference"):
+            step = self.succeed("update", "a.vtkhdf", self.duct(0.102), "--strategy", strategy, "-o", "b.vtkhdf", "--json").json()
+            self.assertTrue(step["same_columns"])
+            self.assertTrue(self.succeed("check", "b.vtkhdf", "--json").json()["valid"])
+        one = self.succeed("mesh", self.duct(), "--layers", "--reynolds", 1e5, "--layer-wall", "roof", "-o", "c.su2", "--json").json()
+        self.assertEqual(one["layers"]["columns"], 41)
 
     def test_a_count_of_cells_in_place_of_a_thickness(self):
         layers = self.succeed("mesh", "naca:0012", "--layers", "--first-height", 1e-4, "--layer-count", 12, "--growth",

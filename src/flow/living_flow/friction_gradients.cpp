@@ -48,12 +48,9 @@ std::vector<Total> totals_of(const FrictionSystem<N>& system, const BlockState<N
 template <std::size_t N>
 FlowGradients gradients_of(const LastFlow<N>& last, const Viscosity& viscosity,
                            const std::vector<FlowFunctional>& functions, const WantedGradients& wanted,
-                           const FlowOptions& options, BlockWholeMatrix<N>& matrix, Gradients<N>& gradients) {
+                           BlockWholeMatrix<N>& matrix, Gradients<N>& gradients) {
   const Stopwatch watch;
   require_gradients(last.found());
-  if (!options.inlets.empty() || !options.outlets.empty())
-    throw Error(ErrorCode::argument, "gradients",
-                "found inlets or outlets with friction, expected a far field alone");
   if (wanted.entropy_drag)
     throw Error(ErrorCode::argument, "entropy_drag", "asked for with friction, expected a flow without");
   const FrictionMesh mesh(*last.mesh, last.stream.transition);
@@ -110,9 +107,9 @@ FlowGradients gradients_of(const LastFlow<N>& last, const Viscosity& viscosity,
 
 template FlowGradients gradients_of<4>(const LastFlow<4>&, const Viscosity&,
                                        const std::vector<FlowFunctional>&, const WantedGradients&,
-                                       const FlowOptions&, BlockWholeMatrix<4>&, Gradients<4>&);
+                                       BlockWholeMatrix<4>&, Gradients<4>&);
 template FlowGradients gradients_of<5>(const LastFlow<5>&, const Viscosity&,
                                        const std::vector<FlowFunctional>&, const WantedGradients&,
-                                       const FlowOptions&, BlockWholeMatrix<5>&, Gradients<5>&);
+                                       BlockWholeMatrix<5>&, Gradients<5>&);
 
 }  // namespace remodel::flow

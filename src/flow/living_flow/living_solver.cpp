@@ -127,8 +127,7 @@ class LivingFriction final : public LivingOf<N> {
   using LivingOf<N>::LivingOf;
   FlowGradients gradients(const std::vector<FlowFunctional>& functions,
                           const WantedGradients& wanted) override {
-    return gradients_of<N>(this->last_, viscosity_, functions, wanted, this->options_, this->matrix_,
-                           gradients_);
+    return gradients_of<N>(this->last_, viscosity_, functions, wanted, this->matrix_, gradients_);
   }
 
  private:

@@ -15,7 +15,7 @@ FlowGradients gradients_of(const LastFlow<unknown_count>& last, const std::vecto
 template <std::size_t N>
 FlowGradients gradients_of(const LastFlow<N>& last, const Viscosity& viscosity,
                            const std::vector<FlowFunctional>& functions, const WantedGradients& wanted,
-                           const FlowOptions& options, BlockWholeMatrix<N>& matrix, Gradients<N>& gradients);
+                           BlockWholeMatrix<N>& matrix, Gradients<N>& gradients);
 
 // The derivatives that a function was given by, after a check of their sizes.
 struct GivenSlope {

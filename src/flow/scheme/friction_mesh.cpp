@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <utility>
 
 #include "flow/scheme/laminar_zone.h"
 
@@ -119,9 +121,16 @@ void FrictionMesh::make_upwind() {
 }
 
 void FrictionMesh::make_triangles() {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> outlets;
+  for (const BoundaryEdge& edge : mesh_.boundary())
+    if (mesh_.patch(edge).is_outlet()) outlets.insert(std::minmax(edge.a, edge.b));
   const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, bool of_quad) {
     const std::array<PlaneVector<double>, 3> p = {mesh_.points()[a], mesh_.points()[b], mesh_.points()[c]};
-    triangles_.push_back({TriangleShape<double>(p, of_quad), {a, b, c}, of_quad});
+    std::array<bool, 3> outlet = {};
+    if (!outlets.empty())
+      outlet = {outlets.contains(std::minmax(b, c)), outlets.contains(std::minmax(c, a)),
+                outlets.contains(std::minmax(a, b))};
+    triangles_.push_back({TriangleShape<double>(p, of_quad, outlet), {a, b, c}, of_quad, outlet});
   };
   for (const Cell& cell : mesh_.cells()) {
     const std::uint32_t n = cell.corners();

@@ -39,22 +39,30 @@ struct TriangleShape {
   PlaneVector<T> slope[3];  // gradients of the hat functions
   T area;                   // what it counts for: its own, or half of that where it is of a quadrilateral
   T share[3];               // of the area, for sources: which vertex they belong to
-  TriangleShape(const std::array<PlaneVector<T>, 3>& p, bool of_quad);
+  PlaneVector<T> face[3];   // of the corners' dual cells in the triangle, inwards; also along outlets
+  TriangleShape(const std::array<PlaneVector<T>, 3>& p, bool of_quad, const std::array<bool, 3>& outlet);
 };
 struct CornerTriangle : TriangleShape<double> {
   std::uint32_t corner[3];
   bool of_quad;
+  std::array<bool, 3> outlet;  // of the edges opposite to corners, where friction acts across the boundary
 };
 
 template <class T>
-TriangleShape<T>::TriangleShape(const std::array<PlaneVector<T>, 3>& p, bool of_quad) {
+TriangleShape<T>::TriangleShape(const std::array<PlaneVector<T>, 3>& p, bool of_quad,
+                                const std::array<bool, 3>& outlet) {
   const T twice = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x);
   area = (of_quad ? 0.25 : 0.5) * twice;
   for (std::size_t i = 0; i < 3; ++i) {
     const PlaneVector<T>&from = p[(i + 1) % 3], &to = p[(i + 2) % 3];
     slope[i] = {(from.y - to.y) / twice, (to.x - from.x) / twice};
     share[i] = !of_quad ? (1.0 / 3.0) * area : i == 0 ? area : T(0.0);
+    face[i] = {area * slope[i].x, area * slope[i].y};
   }
+  // The halves of an edge of an outlet are faces, too.
+  for (std::size_t k = 0; k < 3; ++k)
+    for (const std::size_t i : {(k + 1) % 3, (k + 2) % 3})
+      if (outlet[k]) face[i] = {face[i].x + area * slope[k].x, face[i].y + area * slope[k].y};
 }
 
 // What the turbulence model knows of a vertex.

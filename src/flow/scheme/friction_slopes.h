@@ -152,7 +152,7 @@ void FrictionSystem<N>::add_triangle_slopes(const BlockState<N>& state,
       for (std::size_t k = 0; k < N; ++k) q[i][k] = T(state.q[v][k]);
       p[i] = {T::variable(dual_.points()[v].x, 2 * i), T::variable(dual_.points()[v].y, 2 * i + 1)};
     }
-    const TriangleShape<T> shape(p, triangle.of_quad);
+    const TriangleShape<T> shape(p, triangle.of_quad, triangle.outlet);
     auto flux = terms_.template triangle<T, N>(q, shape, turbulent_corners(triangle));
     if (N == 5) {
       const T turning = FrictionTerms::template vorticity<T, N>(q, shape);

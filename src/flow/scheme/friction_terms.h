@@ -150,7 +150,7 @@ std::array<Local<T, N>, 3> FrictionTerms::triangle(const std::array<Local<T, N>,
       viscous_flux<T>(u, v, du, dv, gradient(warmth[0], warmth[1], warmth[2]), whole, conduction);
   std::array<Local<T, N>, 3> result;
   for (std::size_t i = 0; i < 3; ++i) {
-    const G x = of.area * of.slope[i].x, y = of.area * of.slope[i].y;
+    const G &x = of.face[i].x, &y = of.face[i].y;
     result[i][0] = T(0.0);
     result[i][1] = x * flux.momentum_x.x + y * flux.momentum_x.y;
     result[i][2] = x * flux.momentum_y.x + y * flux.momentum_y.y;
@@ -162,7 +162,7 @@ std::array<Local<T, N>, 3> FrictionTerms::triangle(const std::array<Local<T, N>,
     const T spread = mean(diffusion);
     const T square = dw.x * dw.x + dw.y * dw.y, across = drho.x * dw.x + drho.y * dw.y;
     for (std::size_t i = 0; i < 3; ++i) {
-      result[i][4] = spread * ((of.area * of.slope[i].x) * dw.x + (of.area * of.slope[i].y) * dw.y);
+      result[i][4] = spread * (of.face[i].x * dw.x + of.face[i].y * dw.y);
       if (value_of(of.share[i]) == 0.0 || !has_turbulence[i]) continue;
       result[i][4] = result[i][4] - of.share[i] * ((SpalartAllmaras::cb2 / SpalartAllmaras::sigma * unit) *
                                                        (q[i][0] * square) -

@@ -15,9 +15,9 @@
 namespace remodel::flow {
 
 // Each has `kind`, what it is called in messages; `solid`, whether it is the wall of a body, whose
-// pressures are forces; `bent`, whether the mesh bends its edges; `one_sided`, whether gradients at it are too one-sided to
-// reconstruct with; `open`, whether the gas that passes it is reported; and `flux`, out of the domain through
-// the half of an edge.
+// pressures are forces; `bent`, whether the mesh bends its edges; `one_sided`, whether gradients at it are
+// too one-sided to reconstruct with; `open`, whether the gas that passes it is reported; and `flux`, out of
+// the domain through the half of an edge.
 using BoundaryCondition = std::variant<SlipWall, FarField, Inlet, Outlet, Symmetry, NoSlipWall>;
 
 struct Patch {
@@ -40,6 +40,7 @@ struct Patch {
   const char* kind() const {
     return std::visit([](const auto& of) { return of.kind; }, condition);
   }
+  bool is_outlet() const { return std::holds_alternative<Outlet>(condition); }
   bool is_farfield() const { return std::holds_alternative<FarField>(condition); }
   template <class T>
   Fluxes<T> flux(const BoundaryInputs<T>& in, const Stream& stream) const {

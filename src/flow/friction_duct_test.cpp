@@ -1,0 +1,92 @@
+// Flows with friction in ducts: on layers that end at an inlet and an outlet.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "flow/living_flow/last_flow.h"
+#include "remodel/flow.h"
+#include "remodel/layers.h"
+
+namespace remodel::flow {
+namespace {
+
+// A channel of height 1 between two walls.
+LayeredMesh channel_mesh(double length) {
+  const auto line = [](const std::string& name, Point from, Point to, std::size_t pieces) {
+    return Curve{.name = name, .shape = Line{from, to}, .parameters = Parameters::uniform(pieces)};
+  };
+  Domain domain{
+      {{.role = LoopRole::outer,
+        .curves = {line("wall", {0, 0}, {length, 0}, 1), line("outlet", {length, 0}, {length, 1}, 4),
+                   line("wall", {length, 1}, {0, 1}, 1), line("inlet", {0, 1}, {0, 0}, 4)}}}};
+  space_walls(domain, {.trailing_edge = 0.05, .most = 0.1, .growth = 0.2});
+  return generate_layered(domain, {.first_height = 0.01, .growth = 1.3, .thickness = 0.2}, {.gradation = 8.0})
+      .mesh;
+}
+
+FlowOptions channel_options(double pressure) {
+  FlowOptions options;
+  options.model = FlowModel::laminar, options.temperature_k = 0.0, options.tolerance = 1e-11;
+  options.inlets = {{.name = "inlet"}};
+  options.outlets = {{.name = "outlet", .pressure = pressure}};
+  return options;
+}
+
+// Between plates the flow becomes Poiseuille's: a parabola, whose friction is 12 / Re by mean speed and
+// height. It stays so up to the outlet, corners included.
+TEST(FrictionInDucts, AChannelsFlowBecomesPoiseuilles) {
+  const double mach = 0.03, reynolds = 20.0, length = 3.0;
+  const FrozenMesh mesh = channel_mesh(length).freeze();
+  const FlowResult flow =
+      solve_flow(mesh, {.mach = mach, .reynolds = reynolds}, channel_options(0.9976), "channel");
+  ASSERT_TRUE(flow.converged()) << flow.reason;
+  ASSERT_EQ(flow.openings.size(), 2);
+  EXPECT_NEAR(flow.openings[0].mass_flow, -flow.openings[1].mass_flow, 1e-9);
+  const double mean = flow.openings[0].mass_flow / mach;  // over the stream's
+  int on_walls = 0, inside = 0;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    const Point p = mesh.points[v];
+    if (p.x < 1.5) continue;
+    if (p.y == 0.0 || p.y == 1.0) {
+      EXPECT_NEAR(flow.friction->cf[v] / (12.0 * mean / reynolds), 1.0, 0.035) << p.x << " " << p.y;
+      ++on_walls;
+    }
+    const double mass = flow.density[v] * flow.velocity_x[v] / (mach * mean);
+    EXPECT_NEAR(mass, 6.0 * p.y * (1.0 - p.y), 0.03) << p.x << " " << p.y;
+    ++inside;
+  }
+  EXPECT_GT(on_walls, 30);
+  EXPECT_GT(inside, 200);
+}
+
+// Against differences of whole flows along a smooth displacement of all points.
+TEST(FrictionInDucts, GradientsAreThoseOfWholeFlows) {
+  const FlowConditions conditions{.mach = 0.3, .reynolds = 40.0};
+  FlowOptions options = channel_options(0.9);
+  options.tolerance = 1e-12;
+  const FrozenMesh mesh = channel_mesh(1.0).freeze();
+  LivingFlow living(options);
+  ASSERT_TRUE(living.solve(mesh, conditions).converged());
+  const FlowGradients found = living.gradients();
+  const auto direction = [](Point p) {
+    return Point{0.2 * std::sin(3.0 * p.y + 1.0) * p.x, std::cos(2.0 * p.x - 0.5) * (p.y + 0.3)};
+  };
+  const auto drag = [&](double step) {
+    FrozenMesh moved = mesh;
+    for (Point& p : moved.points) p = p + step * direction(p);
+    const FlowResult flow = living.solve(moved, conditions);
+    EXPECT_TRUE(flow.converged()) << flow.reason;
+    return flow.cd;
+  };
+  const double h = 1e-5;
+  const double by_flows = (8.0 * (drag(h) - drag(-h)) - (drag(2 * h) - drag(-2 * h))) / (12.0 * h);
+  double by_adjoint = 0.0;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    by_adjoint += dot(found.cd.points[v], direction(mesh.points[v]));
+  EXPECT_NEAR(by_adjoint, by_flows, 1e-6 * std::fabs(by_flows) + 1e-8);
+}
+
+}  // namespace
+}  // namespace remodel::flow
