@@ -249,7 +249,7 @@ void FrictionSearch<N>::run(BlockState<N>& state, double cfl) {
       return record_.end_without_factors(factored_, options_.memory_mb);
     ++record_.newton_steps;
     is_still =
-        solved && cfl >= FrictionPolicy::still_cfl && largest_change(state, step) <= FrictionPolicy::still;
+        solved && cfl >= FrictionPolicy::most_cfl && largest_change(state, step) <= FrictionPolicy::still;
     const double length = solved ? line_search(step, by_time, state, now) : 0.0;
     if (length == 1.0)
       cfl *= FrictionPolicy::full_growth * std::max(1.0, std::min(10.0, record_.history.back() / now.size));

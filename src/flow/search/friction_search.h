@@ -55,8 +55,8 @@ struct FrictionPolicy {
   static constexpr int patience = 8, most_returns = 4;
   // A flow is found, too, where so small a residual falls no more and Newton's step changes no density or
   // pressure by more than that part: what is left is rounding, as on NASA's grid of 14,576 points around NACA
-  // 0012, whose largest cells are 100 chords long (2e-10). The CFL number is at least that then.
-  static constexpr double most_rounding = 1e-8, still = 1e-10, still_cfl = 1e9;
+  // 0012, whose largest cells are 100 chords long (2e-10).
+  static constexpr double most_rounding = 1e-8, still = 1e-10;
 };
 
 template <std::size_t N>
