@@ -214,12 +214,12 @@ bool FrictionSearch<N>::found_rough(const FrictionMesh& mesh, const Stream& stre
 }
 
 template <std::size_t N>
-void FrictionSearch<N>::run(BlockState<N>& state, double cfl) {
+void FrictionSearch<N>::run(BlockState<N>& state, double cfl, int patience) {
   record_.whole_factors = false;
   Residuals now = measure_(state);
   record_.history.push_back(now.size);
-  double least = now.size;
-  int since_least = 0, returns = 0;
+  double least = now.size, least_of_all = now.size;
+  int since_least = 0, since_least_of_all = 0, returns = 0;
   bool is_still = false;
   const auto end = [&](FlowStatus status, const char* reason) {
     record_.status = status, record_.reason = reason, record_.residual = now.size;
@@ -237,7 +237,7 @@ void FrictionSearch<N>::run(BlockState<N>& state, double cfl) {
     } else if (falls_no_more && returns < FrictionPolicy::most_returns) {
       ++returns, since_least = 0, least = std::numeric_limits<double>::infinity();
       cfl = FrictionPolicy::return_cfl;
-    } else if (falls_no_more || cfl < FrictionPolicy::least_cfl) {
+    } else if (falls_no_more || since_least_of_all >= patience || cfl < FrictionPolicy::least_cfl) {
       return end(FlowStatus::stalled, "the residual falls no more");
     }
     const std::vector<double> waves = system_.wave_speeds(state);
@@ -263,6 +263,8 @@ void FrictionSearch<N>::run(BlockState<N>& state, double cfl) {
     const bool has_fallen = now.size < FrictionPolicy::fall * least;
     since_least = has_fallen ? 0 : since_least + (cfl > 1e4 ? 1 : 0);
     if (has_fallen) least = now.size;
+    ++since_least_of_all;
+    if (now.size < FrictionPolicy::fall * least_of_all) least_of_all = now.size, since_least_of_all = 0;
     if (options_.on_step)
       options_.on_step({record_.newton_steps, now.size,
                         reported_length(system_.stream()) * (now.augmented[0] + state.augmented[0])});

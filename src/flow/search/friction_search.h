@@ -8,9 +8,10 @@
 // Ceze and K. J. Fidkowski, AIAA paper 2013-2686); it may rise somewhat itself. The CFL number grows with the
 // part of the step that was taken.
 //
-// Linear systems: GMRES with the exact Jacobian, preconditioned by the first-order scheme of one ring,
-// friction and turbulence exact. Incomplete factors of the exact Jacobian are useless beside walls.
+// Linear systems: GMRES with the exact Jacobian, preconditioned by factors of the first-order scheme of one
+// ring, friction and turbulence exact. Incomplete factors of the exact Jacobian are useless beside walls.
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -20,7 +21,8 @@
 
 namespace remodel::flow {
 
-// Numbers of the search, with where they come from: docs/viscous.md.
+// Numbers of the search, with where they come from: docs/viscous.md. Steps in comments were counted with
+// linear systems solved to a hundredth.
 struct FrictionPolicy {
   static constexpr double first_cfl = 5.0, most_cfl = 1e13, least_cfl = 1e-2;
   static constexpr double full_growth = 2.0, part_growth = 0.5, shortest_part = 0.3, retried_part = 0.05;
@@ -32,6 +34,9 @@ struct FrictionPolicy {
   // From a flow that is near: two degrees more take 10, 8, 14 and 32 steps from 5, 50, 1e3 and 1e5, and from
   // 1e3 on there may be another flow at the end (docs/viscous.md).
   static constexpr double carried_cfl = 50.0;
+  // Such a search ends after so many steps without a smaller residual than there was: there is a nearer flow
+  // to begin with, or a cold start.
+  static constexpr int carried_patience = 60;
   // Cold flows at larger angles are led there by steps of the angle no larger than this, from rough flows of
   // this residual, each from this CFL number. NACA 0012 at 10, 15 and -15 degrees (17,687 vertices) and 4412
   // at 13.87 take 36, 45, 52 and 35 steps; from a CFL number of 50, 46, 54, 65 and 32; at once, 46, 142,
@@ -70,9 +75,12 @@ class FrictionSearch {
   // From a stream that slows down towards walls.
   void cold(BlockState<N>& state);
   // From a flow that is near.
-  void near(BlockState<N>& state) { run(state, FrictionPolicy::carried_cfl); }
-  // Goes on from `state` to the flow, or to where the search ends.
-  void run(BlockState<N>& state, double cfl);
+  void near(BlockState<N>& state) {
+    run(state, FrictionPolicy::carried_cfl, FrictionPolicy::carried_patience);
+  }
+  // Goes on from `state` to the flow, or to where the search ends: at the latest after `patience` steps
+  // without a smaller residual than there was.
+  void run(BlockState<N>& state, double cfl, int patience = std::numeric_limits<int>::max());
 
  private:
   using Residuals = BlockResiduals<N>;
