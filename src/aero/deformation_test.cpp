@@ -15,6 +15,7 @@
 #include "aero/resolved_problem.h"
 #include "aero/test_designs.h"
 #include "remodel/design_run.h"
+#include "remodel/flow_layer.h"
 
 namespace remodel {
 namespace {
@@ -326,6 +327,28 @@ TEST(Deformation, WithFrictionGradientsOfANozzleAreThoseOfWholeFlows) {
   problem.points[0].conditions.reynolds = 1000.0, problem.points[0].model = FlowModel::laminar;
   problem.points[0].symmetry = {"axis"};
   expect_drag_gradients_with_friction(problem, 2e-5);
+  problem.points.push_back(problem.points[0]);
+  problem.points[1].symmetry.clear();  // the axis would be a wall
+  try {
+    validate(problem);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("points of flow with other walls than the first"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+// Walls are what is neither far field nor opening, whatever their names are.
+TEST(Deformation, WallsOfAFlowAreThoseOfItsOptions) {
+  const auto line = [](const char* name, Point from, Point to) {
+    return Curve{.name = name, .shape = Line{from, to}, .parameters = Parameters::uniform(4)};
+  };
+  const Domain half = {{{.role = LoopRole::outer,
+                         .curves = {line("hull", {0, 0}, {1, 0}), line("open", {1, 0}, {1, 1}),
+                                    line("open", {1, 1}, {0, 1}), line("open", {0, 1}, {0, 0})}}}};
+  EXPECT_EQ(walls_of_flow(half, {.farfield = "open"}), std::vector<std::string>{"hull"});
+  EXPECT_TRUE(walls_of_flow(airfoil_domain(named_airfoil("naca:0012", 5)), {}).empty());
 }
 
 TEST(Deformation, SpaceIsToldFromItsDescription) {

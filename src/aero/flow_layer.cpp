@@ -20,8 +20,21 @@ LayerOptions layer_for_flow(FlowModel model, double reynolds) {
   return layer;
 }
 
+namespace {
+
+// Whether an outer boundary is the far field alone, as around airfoils: walls are the holes then.
+bool is_around_bodies(const Domain& domain, const std::string& farfield) {
+  for (const Loop& loop : domain.loops)
+    if (!loop.open && loop.role == LoopRole::outer)
+      for (const Curve& curve : loop.curves)
+        if (curve.name != farfield) return false;
+  return true;
+}
+
+}  // namespace
+
 std::vector<std::string> walls_of_flow(const Domain& domain, const FlowOptions& options) {
-  if (options.inlets.empty() && options.outlets.empty() && options.symmetry.empty()) return {};
+  if (is_around_bodies(domain, options.farfield) && options.symmetry.empty()) return {};
   std::vector<std::string> openings = options.symmetry;
   openings.push_back(options.farfield);
   for (const FlowInlet& inlet : options.inlets) openings.push_back(inlet.name);

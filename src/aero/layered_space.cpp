@@ -3,24 +3,35 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
 
+#include "layer/walls.h"
 #include "remodel/error.h"
 
 namespace remodel {
 namespace {
 
-// The stations on sections, or on walls of these names, and how many loops have some.
+// The stations on the walls that get a layer by themselves, or on those of these names, and how many loops
+// have some.
 struct StationCount {
   std::size_t stations = 0, loops = 0;
 };
 StationCount count_stations(const Domain& domain, const std::vector<std::string>& names) {
   StationCount count;
+  if (names.empty()) {
+    std::set<std::size_t> loops;
+    for (const LayeredWall& wall : layered_walls(domain, {})) {
+      count.stations += wall.stations;
+      loops.insert(wall.loop);
+    }
+    count.loops = loops.size();
+    return count;
+  }
   for (const Loop& loop : domain.loops) {
     const std::size_t before = count.stations;
     for (const Curve& curve : loop.curves)
-      if (names.empty() ? loop.role == LoopRole::hole
-                        : std::find(names.begin(), names.end(), curve.name) != names.end())
+      if (std::find(names.begin(), names.end(), curve.name) != names.end())
         count.stations += curve.parameters.size();
     count.loops += count.stations > before;
   }

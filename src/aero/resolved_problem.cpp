@@ -361,16 +361,27 @@ class Resolver {
            std::all_of(resolved_.functions.begin(), resolved_.functions.end(), is_even);
   }
 
+  // All points have one mesh, and so the same walls.
+  std::vector<std::string> walls_of_points(const Domain& domain) const {
+    const auto walls_of = [&](const DesignPoint& point) {
+      return walls_of_flow(domain,
+                           {.inlets = point.inlets, .outlets = point.outlets, .symmetry = point.symmetry});
+    };
+    const std::vector<std::string> walls = walls_of(problem_.points.front());
+    for (const DesignPoint& point : problem_.points)
+      if (walls_of(point) != walls)
+        throw Error(ErrorCode::argument, "points",
+                    "found points of flow with other walls than the first, expected the same inlets, outlets "
+                    "and symmetry where there is friction");
+    return walls;
+  }
+
   void make_space() {
     make_space_of_bodies();
     if (!has_friction()) return;
     try {
       LayerOptions layer = problem_.layer.value_or(layer_for_points(problem_.points));
-      const DesignPoint& first = problem_.points.front();
-      if (problem_.deformation)
-        layer.walls =
-            walls_of_flow(problem_.deformation->domain,
-                          {.inlets = first.inlets, .outlets = first.outlets, .symmetry = first.symmetry});
+      if (problem_.deformation) layer.walls = walls_of_points(problem_.deformation->domain);
       resolved_.space =
           std::make_unique<LayeredSpace>(std::move(resolved_.space), layer, problem_.domain.points);
     } catch (const Error& error) {

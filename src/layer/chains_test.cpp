@@ -249,7 +249,14 @@ TEST(Chains, RefuseHostileOpenings) {
   Domain joined = channel();
   joined.loops.push_back(
       {.role = LoopRole::internal, .curves = {line("probe", {3, 0.6}, {2, 0.5}, 4)}, .open = true});
-  EXPECT_NE(refusal(joined).find("a chain that ends on loop 0"), std::string::npos);
+  EXPECT_NE(refusal(joined).find("an open line that ends on loop 0, curve \"outlet\""), std::string::npos);
+}
+
+// The wake leaves the trailing edge of a closed wall.
+TEST(Chains, HaveNoWake) {
+  Domain duct = channel();
+  EXPECT_THROW(add_wake(duct, {}, layer_options(1e-4)), Error);
+  EXPECT_EQ(duct.loops.size(), 1U);
 }
 
 TEST(Chains, LiveWithTheirShape) {

@@ -157,7 +157,7 @@ TEST(Columns, RefuseWhatIsNoWall) {
       {.role = LoopRole::internal,
        .curves = {{.name = "wake", .shape = Line{domain.points(0)[0], {3, 0}}, .parameters = {0.0}}},
        .open = true});
-  EXPECT_NE(message(joined, layer_options()).find("a chain that ends on loop 0"), std::string::npos);
+  EXPECT_NE(message(joined, layer_options()).find("an open line that ends on loop 0"), std::string::npos);
 }
 
 }  // namespace

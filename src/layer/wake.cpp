@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "generate/require_option.h"
 #include "layer/walls.h"
+#include "remodel/error.h"
 #include "remodel/layers.h"
 
 namespace remodel {
@@ -41,12 +43,16 @@ void add_wake(Domain& domain, const WakeLine& wake, const LayerOptions& layers) 
   require_option(size > 0.0, "direction of the wake", size, "one of a length above 0");
   const Point along = (1.0 / size) * wake.direction;
   const Walls walls(domain);
-  const std::vector<LayeredWall> layered = layered_walls(walls, layers);
-  Point edge = walls.points_of(layered.front()).front();
-  for (const LayeredWall& wall : layered)
+  std::optional<Point> edge;
+  for (const LayeredWall& wall : layered_walls(walls, layers)) {
+    if (!wall.closed) continue;
     for (const Point p : walls.points_of(wall))
-      if (dot(p, along) > dot(edge, along)) edge = p;
-  const Point from = edge + thicknesses_to_the_wake * layers.thickness * along;
+      if (!edge || dot(p, along) > dot(*edge, along)) edge = p;
+  }
+  if (!edge)
+    throw Error(ErrorCode::argument, "wake",
+                "found walls that all end at openings, expected a closed one, whose trailing edge it leaves");
+  const Point from = *edge + thicknesses_to_the_wake * layers.thickness * along;
   domain.loops.push_back({.role = LoopRole::internal,
                           .curves = {{.name = "wake",
                                       .shape = Line{from, from + wake.length * along},

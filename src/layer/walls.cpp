@@ -157,19 +157,24 @@ class LoopWalls {
   std::vector<LayeredWall> found_;
 };
 
-// A chain that ends on a wall would have to end on the tops, and stations of openings make room for them.
-void require_no_chains(const Walls& walls, const std::vector<LayeredWall>& layered) {
+// A line inside the domain that ends on a wall would have to end on the tops, and stations of openings make
+// room for them.
+void require_no_open_lines(const Walls& walls, const std::vector<LayeredWall>& layered) {
   std::vector<Point> ends;
   for (std::size_t l = 0; l < walls.points.size(); ++l)
     if (walls.domain.loops[l].open && !walls.points[l].empty())
       ends.insert(ends.end(), {walls.points[l].front(), walls.points[l].back()});
   if (ends.empty()) return;
-  for (const LayeredWall& wall : layered)
-    for (const Point p : walls.points[wall.loop])
-      if (std::find(ends.begin(), ends.end(), p) != ends.end())
-        throw Error(ErrorCode::geometry, "layers",
-                    "found a chain that ends on " + curve_text(walls.domain, wall.loop, 0) + ", at " +
-                        exact_text(p) + ", expected walls that no chain joins");
+  for (const LayeredWall& wall : layered) {
+    const std::vector<Point>& points = walls.points[wall.loop];
+    const auto joint = std::find_first_of(points.begin(), points.end(), ends.begin(), ends.end());
+    if (joint == points.end()) continue;
+    const auto station = static_cast<std::size_t>(joint - points.begin());
+    const Curve& curve = walls.domain.curve(walls.domain.stations(wall.loop)[station].curve);
+    throw Error(ErrorCode::geometry, "layers",
+                "found an open line that ends on loop " + std::to_string(wall.loop) + ", curve \"" +
+                    curve.name + "\", at " + exact_text(*joint) + ", expected walls that no line joins");
+  }
 }
 
 Arc without_beginning(Arc arc, double part) {
@@ -224,7 +229,7 @@ std::vector<LayeredWall> layered_walls(const Walls& walls, const LayerOptions& o
         ErrorCode::argument, "walls",
         "found a domain without holes, and without an outer loop of which some curves are called inlet, "
         "outlet, symmetry or farfield, expected a wall for the layer, or the names of walls");
-  require_no_chains(walls, layered);
+  require_no_open_lines(walls, layered);
   return layered;
 }
 

@@ -103,7 +103,8 @@ bool FrictionSearch<N>::solve(const BlockState<N>& state, const std::vector<doub
   BlockIncrement<N> right = now.negated();
   weights.apply(right);
   const double size = norm(right);
-  const double part = std::clamp(now.size, FrictionPolicy::least_forcing, FrictionPolicy::most_forcing);
+  const double part = std::clamp(FrictionPolicy::forcing * now.size, FrictionPolicy::least_forcing,
+                                 FrictionPolicy::most_forcing);
   step = {};
   const GmresEnd end = gmres_of<N>(
       [&](const BlockIncrement<N>& x) {
