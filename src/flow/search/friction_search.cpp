@@ -25,15 +25,16 @@ double longest(const BlockState<N>& state, const BlockIncrement<N>& step) {
 }
 
 // What rows count by in the norm that GMRES reduces. The plain norm does not see the errors of the tiny cells
-// at sharp edges, which Newton's method then needs steps for. Augmented equations count as much as all
-// others.
+// at sharp edges, which Newton's method then needs steps for. With the root of sizes, not the fourth one,
+// NACA 0012 at Mach 0.5, 1 degree and Re 1e6 with few cells is not found. Augmented equations count as much
+// as all others.
 class RowWeights {
  public:
   RowWeights(const std::vector<double>& waves, double of_augmented)
       : of_rows_(waves), of_augmented_(of_augmented) {
     double mean = 0.0;
     for (const double wave : waves) mean += wave / static_cast<double>(waves.size());
-    for (double& wave : of_rows_) wave = std::sqrt(mean / wave);
+    for (double& wave : of_rows_) wave = std::sqrt(std::sqrt(mean / wave));
   }
   template <std::size_t N>
   void apply(BlockIncrement<N>& x) const {
@@ -103,8 +104,7 @@ bool FrictionSearch<N>::solve(const BlockState<N>& state, const std::vector<doub
   BlockIncrement<N> right = now.negated();
   weights.apply(right);
   const double size = norm(right);
-  const double part = std::clamp(FrictionPolicy::forcing * now.size, FrictionPolicy::least_forcing,
-                                 FrictionPolicy::most_forcing);
+  const double part = std::clamp(now.size, FrictionPolicy::least_forcing, FrictionPolicy::most_forcing);
   step = {};
   const GmresEnd end = gmres_of<N>(
       [&](const BlockIncrement<N>& x) {

@@ -47,10 +47,9 @@ struct FrictionPolicy {
   // 35 and 41 steps, NACA 0012 with transition at 0.6 41; from 1e3 on the last takes 88; with second order
   // from the start the first takes 38.
   static constexpr double first_order_tolerance = 5e-2, second_order_cfl = 1e2;
-  // The part of a linear residual that GMRES may leave, by rows that count by their size (RowWeights): that
-  // part of the flow's own residual, within these. With all of it four hard flows take 7 % less time, and
-  // NACA 0012 at Mach 0.5, 1 degree and Re 1e6 with few cells is not found.
-  static constexpr double forcing = 0.1, least_forcing = 1e-3, most_forcing = 0.1;
+  // The part of a linear residual that GMRES may leave, by rows that count by their size (RowWeights): the
+  // flow's own residual, within these.
+  static constexpr double least_forcing = 1e-3, most_forcing = 0.1;
   static constexpr int rounds = 3;
   // Level of fill of the incomplete factors. Five hard flows of 16,000 to 18,000 vertices take 234, 218, 198
   // and 190 s with 1, 3, 4 and 5, easy ones the same; with 1 NACA 0012 with 97,371 vertices needs LU.
