@@ -1,9 +1,7 @@
 #include "aero/layered_space.h"
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <utility>
 
 #include "layer/walls.h"
@@ -12,27 +10,17 @@
 namespace remodel {
 namespace {
 
-// The stations on the walls that get a layer by themselves, or on those of these names, and how many loops
-// have some.
+// The stations on walls (is_wall()), and how many loops have some.
 struct StationCount {
   std::size_t stations = 0, loops = 0;
 };
 StationCount count_stations(const Domain& domain, const std::vector<std::string>& names) {
   StationCount count;
-  if (names.empty()) {
-    std::set<std::size_t> loops;
-    for (const LayeredWall& wall : layered_walls(domain, {})) {
-      count.stations += wall.stations;
-      loops.insert(wall.loop);
-    }
-    count.loops = loops.size();
-    return count;
-  }
-  for (const Loop& loop : domain.loops) {
+  for (std::size_t l = 0; l < domain.loops.size(); ++l) {
     const std::size_t before = count.stations;
-    for (const Curve& curve : loop.curves)
-      if (std::find(names.begin(), names.end(), curve.name) != names.end())
-        count.stations += curve.parameters.size();
+    const std::vector<Curve>& curves = domain.loops[l].curves;
+    for (std::size_t c = 0; c < curves.size(); ++c)
+      if (is_wall(domain, l, c, names)) count.stations += curves[c].parameters.size();
     count.loops += count.stations > before;
   }
   return count;

@@ -51,9 +51,10 @@ void require_layer_options(const LayerOptions& options) {
 LayerFrame::LayerFrame(const Domain& walls, const LayerOptions& options) : options_(options) {
   require_layer_options(options);
   validate(walls);
-  layered_ = layered_walls(walls, options);
+  const Walls evaluated(walls);
+  layered_ = layered_walls(evaluated, options);
   levels_ = levels_of(options);
-  fans_ = fans_of(Walls(walls), layered_, options, {layered_.size(), nullptr});
+  fans_ = fans_of(evaluated, layered_, options, {layered_.size(), nullptr});
 }
 
 std::shared_ptr<const LayeredMesh::Columns> LayerFrame::columns_at(const Domain& walls) const {

@@ -129,7 +129,8 @@ LayeredMesh LayeredMesh::restore(const LayeredState& state, const std::string& s
   try {
     require_layer_options(state.options);
     validate(state.walls);
-    columns.layered = layered_walls(state.walls, state.options);
+    const Walls walls(state.walls);
+    columns.layered = layered_walls(walls, state.options);
     if (state.levels < 1 || state.levels > 1000)
       refuse("found " + std::to_string(state.levels) + " levels of a layer, expected 1 to 1000");
     bool fits = state.fans.size() == columns.layered.size();
@@ -141,7 +142,7 @@ LayeredMesh LayeredMesh::restore(const LayeredState& state, const std::string& s
     columns.levels = state.levels;
     columns.fans = state.fans;
     static_cast<LayerColumns&>(columns) =
-        columns_of(Walls(state.walls), columns.layered, columns.fans, state.options, columns.levels);
+        columns_of(walls, columns.layered, columns.fans, state.options, columns.levels);
     if (!are_numbers(state, columns))
       refuse("found numbers of a layer's columns that do not fit, expected different ones, one a column");
     columns.ids = state.columns;

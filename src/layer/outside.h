@@ -14,9 +14,8 @@ namespace remodel {
 // A curve of a loop beyond the layer.
 struct OutsideCurve {
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
-  std::size_t ring = none;  // the tops of that one, or
-  std::size_t curve =
-      none;  // the walls' own curve, in the loop, from the tops of one ring to those of another
+  // The tops of a ring, or the walls' own curve, in the loop, from the tops of one ring to those of another.
+  std::size_t ring = none, curve = none;
   std::size_t begins = none, ends = none;  // the rings that the own curve begins and ends at
   double from = 0.0, to = 1.0;             // its parameters there
 

@@ -60,11 +60,6 @@ std::vector<double> sampled_parameters(const Shape& shape) {
   return t;
 }
 
-bool bends_by_30_degrees(Point before, Point at, Point after) {
-  const Point u = at - before, v = after - at;
-  return dot(u, v) < 0.5 * std::sqrt(3.0 * dot(u, u) * dot(v, v));
-}
-
 // All samples of a row in order; of a closed one the first one again at the end.
 std::vector<WallSample> sampled(const CurveRow& row) {
   std::vector<WallSample> samples;

@@ -41,20 +41,14 @@ void require_names(const Domain& domain, const std::vector<std::string>& names) 
   }
 }
 
-// A corner of a loop: where it lies and the directions in which its edges leave it.
+// A point of a loop and its neighbours.
 struct LoopCorner {
-  Point at, before, after;
+  Point before, at, after;
 };
 
 LoopCorner corner_at(const std::vector<Point>& points, std::size_t i) {
   const std::size_t n = points.size();
-  return {points[i], points[i == 0 ? n - 1 : i - 1] - points[i], points[i + 1 == n ? 0 : i + 1] - points[i]};
-}
-
-// Within 30 degrees of a straight line.
-bool goes_straight_on(const LoopCorner& corner) {
-  const double lengths = std::sqrt(dot(corner.before, corner.before) * dot(corner.after, corner.after));
-  return dot(corner.before, corner.after) <= -0.5 * std::numbers::sqrt3 * lengths;
+  return {points[i == 0 ? n - 1 : i - 1], points[i], points[i + 1 == n ? 0 : i + 1]};
 }
 
 // Which curves of a loop get a layer, and the walls that these make.
@@ -82,7 +76,8 @@ class LoopWalls {
       for (std::size_t c = 0; c < curves_.size(); ++c) {
         const std::size_t next = after(c);
         if (layered_[c] == layered_[next]) continue;
-        if (!goes_straight_on(corner_at(walls_.points[loop_], first_station_[next]))) continue;
+        const LoopCorner corner = corner_at(walls_.points[loop_], first_station_[next]);
+        if (bends_by_30_degrees(corner.before, corner.at, corner.after)) continue;
         layered_[c] = layered_[next] = changed = true;
       }
     }
@@ -132,11 +127,11 @@ class LoopWalls {
   void require_angle(const Opening& opening, std::size_t station, bool at_beginning) const {
     LoopCorner corner = corner_at(walls_.points[loop_], station);
     (at_beginning ? corner.before : corner.after) =
-        opening.at(std::min(options_.thickness, opening.longest())) - corner.at;
-    const bool left = walls_.on_left(loop_);
-    const double sine = (left ? 1.0 : -1.0) * cross(corner.after, corner.before);
-    const double cosine = dot(corner.after, corner.before);
-    const double lengths = std::sqrt(dot(corner.before, corner.before) * dot(corner.after, corner.after));
+        opening.at(std::min(options_.thickness, opening.longest()));
+    const Point before = corner.before - corner.at, after = corner.after - corner.at;
+    const double sine = (walls_.on_left(loop_) ? 1.0 : -1.0) * cross(after, before);
+    const double cosine = dot(after, before);
+    const double lengths = std::sqrt(dot(before, before) * dot(after, after));
     if (sine > 0.0 && std::abs(cosine) <= (0.5 + 1e-9) * lengths) return;
     double degrees = std::atan2(sine, cosine) * (180.0 / std::numbers::pi);
     if (degrees < 0.0) degrees += 360.0;
@@ -204,6 +199,11 @@ bool Walls::on_left(std::size_t loop) const {
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
     twice += cross(polygon[i] - polygon[0], polygon[i + 1] - polygon[0]);
   return (role == LoopRole::outer) == (twice > 0.0);
+}
+
+bool bends_by_30_degrees(Point before, Point at, Point after) {
+  const Point u = at - before, v = after - at;
+  return dot(u, v) < 0.5 * std::sqrt(3.0 * dot(u, u) * dot(v, v));
 }
 
 bool is_wall(const Domain& domain, std::size_t loop, std::size_t curve,

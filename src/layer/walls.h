@@ -37,6 +37,9 @@ std::vector<LayeredWall> layered_walls(const Domain& domain, const LayerOptions&
 bool is_wall(const Domain& domain, std::size_t loop, std::size_t curve,
              const std::vector<std::string>& names);
 
+// Whether a polygon turns by more than 30 degrees at a point, where lengths are not 0.
+bool bends_by_30_degrees(Point before, Point at, Point after);
+
 // The curve at the end of a chain, seen from there.
 class Opening {
  public:

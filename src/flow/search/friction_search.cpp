@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "flow/linear/gmres.h"
 #include "flow/search/policy.h"
@@ -72,10 +73,10 @@ double FrictionSearch<N>::unsteady_size(const BlockState<N>& before, const Block
 }
 
 template <std::size_t N>
-Factored FrictionSearch<N>::factor(const BlockState<N>& state) {
+Factored FrictionSearch<N>::factor(std::array<BlockVector<N>, augmented_count> columns) {
   const bool whole = by_lu_ || options_.solver == FlowSolver::lu;
   ++record_.factorisations;
-  factored_ = factors_.factor(jacobian_.first, system_.augmented_columns(state),
+  factored_ = factors_.factor(jacobian_.first, std::move(columns),
                               whole ? FactorKind::whole : FactorKind::incomplete, options_.memory_mb);
   record_.memory_mb = std::max(record_.memory_mb, factors_.memory_mb());
   record_.whole_factors = factors_.whole();
@@ -95,11 +96,12 @@ bool FrictionSearch<N>::solve(const BlockState<N>& state, const std::vector<doub
         if (!system_.is_replaced(v, z / N)) block[z] += by_time[v] * slope[z];
     }
   }
-  if (factor(state) != Factored::done) {
+  auto columns = system_.augmented_columns(state);
+  if (factor(columns) != Factored::done) {
     note_failure(true);
     return false;
   }
-  const BlockAugmentedMatrix<N> matrix(jacobian_.whole, system_.augmented_columns(state), jacobian_.rows);
+  const BlockAugmentedMatrix<N> matrix(jacobian_.whole, std::move(columns), jacobian_.rows);
   const RowWeights weights(waves, measure_.scale());
   BlockIncrement<N> right = now.negated();
   weights.apply(right);

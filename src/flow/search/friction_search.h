@@ -11,6 +11,7 @@
 // Linear systems: GMRES with the exact Jacobian, preconditioned by factors of the first-order scheme of one
 // ring, friction and turbulence exact. Incomplete factors of the exact Jacobian are useless beside walls.
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -94,7 +95,7 @@ class FrictionSearch {
   // waves: by vertices, wave speeds times faces; by_time: those over the CFL number.
   bool solve(const BlockState<N>& state, const std::vector<double>& waves, const std::vector<double>& by_time,
              const Residuals& now, BlockIncrement<N>& step);
-  Factored factor(const BlockState<N>& state);
+  Factored factor(std::array<BlockVector<N>, augmented_count> columns);
   void note_failure(bool failed);
   double line_search(const BlockIncrement<N>& step, const std::vector<double>& by_time, BlockState<N>& state,
                      Residuals& now) const;
