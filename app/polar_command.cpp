@@ -97,6 +97,19 @@ struct Polars {
   bool interrupted = false;
 };
 
+bool is_table(const std::string& file) {
+  return std::filesystem::path(file).extension() == ".csv";
+}
+
+// Tables have each row once it is known: hours of flows outlive a machine that does not.
+void write_tables(const PolarCommand& command, std::vector<PolarCurve> curves,
+                  const std::vector<PolarCurve>& next) {
+  if (std::none_of(command.files.begin(), command.files.end(), is_table)) return;
+  curves.insert(curves.end(), next.begin(), next.end());
+  for (const std::string& file : command.files)
+    if (is_table(file)) write_text_atomically(file, polar_table(curves));
+}
+
 Polars find_all(const PolarCommand& command, const std::vector<MeshInput>& meshes) {
   Polars polars;
   InterruptObserver observer;
@@ -108,6 +121,9 @@ Polars find_all(const PolarCommand& command, const std::vector<MeshInput>& meshe
     options.on_search = [&](double mach, double value) {
       progress.begin(shape + "  M " + short_text(mach) + (options.alphas_deg.empty() ? "  CL " : "  angle ") +
                      short_text(value) + "  ");
+    };
+    options.on_curves = [&](const std::vector<PolarCurve>& curves) {
+      write_tables(command, polars.curves, curves);
     };
     PolarResult result = meshes[i].living ? find_polar(*meshes[i].living, shape, options)
                                           : find_polar(meshes[i].frozen, shape, options);
@@ -231,9 +247,7 @@ void write_files(const PolarCommand& command, const Polars& polars, Report& repo
     if (is_picture(file))
       draw_plots(plots, in_a_row, file);
     else
-      write_text_atomically(file, std::filesystem::path(file).extension() == ".csv"
-                                      ? polar_table(polars.curves)
-                                      : report.json_text());
+      write_text_atomically(file, is_table(file) ? polar_table(polars.curves) : report.json_text());
   }
 }
 
@@ -325,11 +339,12 @@ void add_polar_command(CLI::App& program, Action& action) {
            {"--farfield", "NAME", "farfield", "Boundary that is open to the stream; all others are walls"},
            Presence::optional, command->polar.flow.farfield);
   add_solver_options(app, command->polar.conditions, command->polar.flow);
-  add_texts(
-      app,
-      {"-o,--output", "FILE", "",
-       "Rows as a table (.csv) or as the report (.json); plots of all shapes (.svg, .png); may be repeated"},
-      Presence::optional, command->files);
+  add_texts(app,
+            {"-o,--output", "FILE", "",
+             "Rows as a table (.csv), each of them once it is known, or as the report (.json); plots of all "
+             "shapes (.svg, "
+             ".png); may be repeated"},
+            Presence::optional, command->files);
   add_reading_options(app, command->input);
   add_meshing_options(app, command->meshing);
   add_layer_sizes(app, command->layers);

@@ -80,6 +80,8 @@ struct PolarOptions {
   int misses = 2;                       // in a row, after which the rest is not looked for: 1 or more
   // Called before each search, with the Mach number and the angle or lift.
   std::function<void(double mach, double value)> on_search = {};
+  // Called after each value, with the curves as far as they came.
+  std::function<void(const std::vector<PolarCurve>& curves)> on_curves = {};
 };
 
 struct PolarResult {

@@ -30,8 +30,6 @@ class Marcher {
     if (first_) search_.return_to_first(), last_ = values_[first];
     walk(down);
     if (stopped_ == FlowStatus::interrupted) result_.interrupted = true;
-    std::stable_sort(result_.flows.begin(), result_.flows.end(),
-                     [](const MarchedFlow& a, const MarchedFlow& b) { return a.value < b.value; });
     return std::move(result_);
   }
 
@@ -108,8 +106,16 @@ class Marcher {
   }
   // In place of an earlier search at the same value.
   void add(MarchedFlow flow) {
-    std::erase_if(result_.flows, [&](const MarchedFlow& earlier) { return earlier.value == flow.value; });
-    result_.flows.push_back(std::move(flow));
+    std::vector<MarchedFlow>& flows = result_.flows;
+    const auto place =
+        std::lower_bound(flows.begin(), flows.end(), flow.value,
+                         [](const MarchedFlow& earlier, double value) { return earlier.value < value; });
+    const bool tried = flow.tried;
+    if (place != flows.end() && place->value == flow.value)
+      *place = std::move(flow);
+    else
+      flows.insert(place, std::move(flow));
+    if (tried && search_.on_flow) search_.on_flow(flows);
   }
 
   std::span<const double> values_;

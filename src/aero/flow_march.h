@@ -46,6 +46,9 @@ struct MarchSearch {
   std::function<FlowResult(double value)> find;
   // The next flow is looked for from this one as if it had been the last one: the first that was found.
   std::function<void()> return_to_first;
+  // Called after each value that was looked for, with the flows as far as they came, by ascending value. May
+  // be empty.
+  std::function<void(std::span<const MarchedFlow> flows)> on_flow = {};
 };
 
 struct March {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <span>
 #include <utility>
 
 #include "aero/flow_march.h"
@@ -70,24 +71,38 @@ class PolarSearch {
 
   PolarResult run() {
     const Stopwatch watch;
-    PolarResult result;
     for (const double mach : options_.machs) {
+      begin_curve(mach);
       const aero::March row = march_at(mach);
-      PolarCurve& curve = result.curves.emplace_back();
-      curve.name = name_, curve.model = options_.flow.model, curve.mach = mach;
-      curve.over_lift = over_lift();
-      if (curve.model != FlowModel::euler) curve.reynolds = options_.conditions.reynolds;
-      for (const aero::MarchedFlow& flow : row.flows)
-        curve.points.push_back(aero::point_of(flow, curve.over_lift));
-      result.interrupted = row.interrupted;
+      set_points(row.flows);
+      result_.interrupted = row.interrupted;
       if (row.interrupted) break;
     }
-    result.seconds = watch.seconds();
-    return result;
+    result_.seconds = watch.seconds();
+    return std::move(result_);
   }
 
  private:
   bool over_lift() const { return options_.alphas_deg.empty(); }
+
+  void begin_curve(double mach) {
+    PolarCurve& curve = result_.curves.emplace_back();
+    curve.name = name_, curve.model = options_.flow.model, curve.mach = mach;
+    curve.over_lift = over_lift();
+    if (curve.model != FlowModel::euler) curve.reynolds = options_.conditions.reynolds;
+  }
+
+  void set_points(std::span<const aero::MarchedFlow> flows) {
+    std::vector<PolarPoint>& points = result_.curves.back().points;
+    points.clear();
+    for (const aero::MarchedFlow& flow : flows) points.push_back(aero::point_of(flow, over_lift()));
+  }
+
+  void show(std::span<const aero::MarchedFlow> flows) {
+    if (!options_.on_curves) return;
+    set_points(flows);
+    options_.on_curves(result_.curves);
+  }
 
   aero::March march_at(double mach) {
     living_.go_on_from(first_of_row_);  // of the Mach number before
@@ -95,7 +110,8 @@ class PolarSearch {
     alpha_deg_ = 0.0;
     return aero::march(values_, aero::nearest_to_zero(values_),
                        {.find = [&](double value) { return find(mach, value); },
-                        .return_to_first = [&] { living_.go_on_from(first_of_row_); }},
+                        .return_to_first = [&] { living_.go_on_from(first_of_row_); },
+                        .on_flow = [&](std::span<const aero::MarchedFlow> flows) { show(flows); }},
                        {.halvings = options_.halvings, .misses = options_.misses});
   }
 
@@ -118,6 +134,7 @@ class PolarSearch {
   LivingFlow living_;
   KeptFlow first_of_row_;
   double alpha_deg_ = 0.0;  // where the search for a lift begins
+  PolarResult result_;
 };
 
 }  // namespace

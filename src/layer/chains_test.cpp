@@ -6,11 +6,14 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <set>
 
+#include "layer/walls.h"
 #include "remodel/airfoil.h"
 #include "remodel/check.h"
 #include "remodel/error.h"
+#include "support.h"
 #include "test_layers.h"
 
 namespace remodel::test {
@@ -216,6 +219,20 @@ TEST(Chains, NarrowDuctsHaveThinLayers) {
   EXPECT_GT(s.thickness.least, 0.1 * 0.03);
 }
 
+TEST(Chains, OpeningsMayBeNumberedAndInUpperCase) {
+  const auto walls_with = [](const char* inlet, const char* outlet) {
+    Domain domain = channel();
+    domain.loops[0].curves[1].name = outlet;
+    domain.loops[0].curves[3].name = inlet;
+    return layered_walls(domain, layer_options(1e-4)).size();
+  };
+  for (const auto& [inlet, outlet] :
+       {std::pair{"Inlet", "OUTLET"}, {"inlet1", "outlet_2"}, {"inflow-01", "Outflow 2"}})
+    EXPECT_EQ(walls_with(inlet, outlet), 2) << inlet << ", " << outlet;
+  // What only begins like one is a wall: the whole loop but the inlet.
+  EXPECT_EQ(walls_with("inlet", "outlet_lip"), 1);
+}
+
 TEST(Chains, TheNamesOfWallsMayBeGiven) {
   const LayeredMesh mesh =
       expect_whole(channel(), {.first_height = 1e-4, .walls = {"bottom"}}, "the lower wall alone");
@@ -278,6 +295,34 @@ TEST(Chains, LiveWithTheirShape) {
       EXPECT_TRUE(mesh.freeze().points == before.points);
       EXPECT_TRUE(mesh.freeze().quads == before.quads);
     }
+  }
+}
+
+// A nearly straight wall bulges in and out: triangles between it and the convex hull turn over.
+TEST(Chains, DuctsKeepTheirConnectivity) {
+  const auto seed = test::seed(2207);
+  SCOPED_TRACE("REMODEL_TEST_SEED=" + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  for (const Strategy strategy : {Strategy::morph, Strategy::reference}) {
+    LayeredMesh mesh = generate_layered(channel(1e-3), layer_options(1e-4), steady_quality).mesh;
+    const auto triangles = mesh.outer().freeze().triangles;
+    for (int i = 0; i < 10; ++i) {
+      const Domain domain = channel(test::uniform(random, -1e-3, 1e-3));
+      const LayeredRemodelResult step = remodel(mesh, domain, {.strategy = strategy});
+      EXPECT_TRUE(step.morphed || step.full_adjustment) << name_of(strategy);
+      EXPECT_EQ(step.held, strategy == Strategy::reference);
+      EXPECT_EQ(why_no_mesh(mesh.freeze(), domain), "");
+      if (step.held) {
+        EXPECT_EQ(mesh.outer().freeze().triangles, triangles);
+      }
+      const LayeredState here = mesh.state();
+      EXPECT_EQ(LayeredMesh::restore(here, "state").state(), here);
+      { const LayeredTrial trial(mesh, channel(-0.01), {.strategy = strategy}); }
+      EXPECT_EQ(mesh.state(), here);
+    }
+    remodel(mesh, channel(0.1), {.strategy = Strategy::renew});  // replaces what is at the walls
+    EXPECT_EQ(mesh.quick_check(), "");
+    EXPECT_EQ(why_no_mesh(mesh.freeze(), channel(0.1)), "");
   }
 }
 

@@ -15,8 +15,14 @@ namespace {
 // Boundaries that a flow passes or glides along, where nothing says which are walls.
 constexpr std::array known_openings{"axis", "farfield", "inflow", "inlet", "outflow", "outlet", "symmetry"};
 
+// Upper case and numbers at the end are as good: Inlet, outlet_1, SYMMETRY-2.
 bool is_known_opening(const Curve& curve) {
-  return std::find(known_openings.begin(), known_openings.end(), curve.name) != known_openings.end();
+  std::string name = curve.name;
+  for (char& c : name)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const std::size_t end = name.find_last_not_of("0123456789");
+  if (end != std::string::npos && end + 1 < name.size()) name.resize(name.find_last_not_of("_-. ", end) + 1);
+  return std::find(known_openings.begin(), known_openings.end(), name) != known_openings.end();
 }
 
 std::string curve_text(const Domain& domain, std::size_t loop, std::size_t curve) {

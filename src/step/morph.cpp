@@ -26,6 +26,7 @@ class Morph {
   bool run(Interior interior) {
     note_start();
     restore_all_outside();
+    if (moves_outermost(mesh_, cache_.loops)) open_hull(mesh_);
     const bool done = interior == Interior::still ? walls_alone() : all();
     if (done) restore_all_outside();
     return done;

@@ -216,6 +216,28 @@ TEST(Hull, OfManyPointsIsConvexAgain) {
   EXPECT_EQ(t.check(), "");
 }
 
+// A star: the triangles between its tips come off the hull, and come back.
+TEST(Hull, OpensUpToConstrainedEdgesAndIsConvexAgain) {
+  Mesh mesh = generate({{test::polygon(LoopRole::outer, "star", star({0, 0}, 1.0))}}).mesh;
+  Triangulation& t = mesh.data().triangulation;
+  const auto outside = [&] {
+    int count = 0;
+    for (std::uint32_t i = 0; i < t.triangle_slots(); ++i)
+      if (const Triangle& one = t[TriangleId{i}]; one.alive() && !one.ghost())
+        count += one.region == Region::outside ? 1 : 0;
+    return count;
+  };
+  const int before = outside();
+  ASSERT_GE(before, 5);
+  EXPECT_TRUE(t.open_hull());
+  EXPECT_EQ(t.check_topology(), "");
+  EXPECT_EQ(outside(), 0);
+  EXPECT_FALSE(t.open_hull());
+  EXPECT_TRUE(t.restore_hull());
+  EXPECT_EQ(t.check(), "");
+  EXPECT_EQ(outside(), before);
+}
+
 // A corner of the outline moves in at once, and further than in place. Wherever the outline lies: no place
 // of a hull vertex is judged by the infinite one's.
 TEST(Hull, IsConvexWhereALostCornerMovedIn) {

@@ -46,4 +46,13 @@ void restore_outside(MeshData& mesh) {
   triangulation.restore_delaunay(outside);
 }
 
+bool moves_outermost(const MeshData& mesh, std::span<const std::size_t> moving) {
+  return std::ranges::any_of(
+      moving, [&](std::size_t loop) { return mesh.domain.loops[loop].role == LoopRole::outer; });
+}
+
+void open_hull(MeshData& mesh) {
+  if (mesh.triangulation.open_hull()) mesh.outside_restored = false;
+}
+
 }  // namespace remodel

@@ -208,6 +208,10 @@ std::optional<RemodelResult> Step::follow() {
     choose_method();
   }
   if (options_.strategy == Strategy::reference && plan_.moving) {
+    if (moves_outermost(mesh, *plan_.moving)) {
+      if (!journal_) begin_journal();
+      open_hull(mesh);
+    }
     RemodelResult result = follow_reference(mesh, domain(), *plan_.moving, options_.delaunay_slack_deg);
     if (result.held) {
       result.stopped = what_still_stops();

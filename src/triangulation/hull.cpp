@@ -1,4 +1,4 @@
-// Restores the convexity of the hull, which vertices that moved in place may have dented.
+// Restores the convexity of the hull, which vertices that moved in place may have dented, and dents it.
 //
 //      o---o                 o---o
 //     /     \               /     \        Ghosts (inf, x, y) and (inf, y, z) stand on hull edges that turn
@@ -6,6 +6,8 @@
 //     \     /               \     /        infinity, fills the dent with (x, y, z).
 //      \   /                 \   /
 //        y                     y
+//
+// The flip back takes it off.
 
 #include <algorithm>
 #include <utility>
@@ -90,6 +92,30 @@ bool Triangulation::restore_hull() {
   }
   restore_delaunay(filled);
   return dents_left == 0;
+}
+
+// A vertex that is on the hull already stays so once: two parts of the mesh that only the outside joins, as
+// two outer loops are, go on being joined by it.
+bool Triangulation::open_hull() {
+  std::size_t size = 0, since_opened = 0;
+  for_each_corner(infinite_vertex, [&](Corner) { ++size; });
+  bool opened = false;
+  Corner c = star(infinite_vertex);
+  while (since_opened < size) {
+    const Link edge = link(c);
+    const bool leaves =
+        !edge.constrained() && triangles_[edge.triangle().index].region == Region::outside &&
+        !any_corner(apex(edge), [&](Corner at) { return triangles_[at.triangle.index].ghost(); });
+    if (!leaves) {
+      ++since_opened;
+      c = counterclockwise(c);
+      continue;
+    }
+    flip(c);  // writes the infinite vertex as the first one
+    c = {c.triangle, 0};
+    opened = true, since_opened = 0, ++size;
+  }
+  return opened;
 }
 
 }  // namespace remodel

@@ -216,6 +216,9 @@ class Triangulation {
   // Fills dents of the hull with triangles, Delaunay among what is around them, as long as its edges do not
   // cross. False where a dent is left.
   bool restore_hull();
+  // The opposite: takes off the hull's triangles of the outside, up to constrained edges, so that none of
+  // them turns over where these edges move. False, and nothing has changed, where there is none.
+  bool open_hull();
 
   // Attributes kept for the layers above.
   void set_length_scale(VertexId v, double value) { edit(v).length_scale = value; }

@@ -107,7 +107,8 @@ class Deformations(ProgramTest):
         self.assertEqual(figures["evaluations"], 8)
 
     def test_a_throat_is_widened_by_points_of_its_wall(self):
-        figures = self.figures("design", self.duct(), "-o", "run", status=3)
+        figures = self.figures("design", self.duct(), "-o", "run")
+        self.assertTrue(figures["converged"])  # the mesh holds its connectivity
         self.assertLess(figures["objective"], 1.005 * figures["start_objective"])  # made large: below 0
         self.assertGreater(figures["wall[3].y"], 0.005)
         page = self.figures("design", "report", "run")

@@ -7,6 +7,7 @@ import os
 import pty
 import signal
 import subprocess
+import time
 import unittest
 
 import harness
@@ -110,6 +111,19 @@ class Polars(ProgramTest):
                 self.refused("polar", "naca:0012", *words, names=message)
         # The last shape is read before the first flow.
         self.refused("polar", "naca:0012", "missing.dat", *mach, *alpha, "-o", "a.csv", names="missing.dat")
+
+    def test_a_killed_run_leaves_the_rows_so_far(self):
+        table = self.path("a.csv")
+        with subprocess.Popen([harness.PROGRAM, "polar", "naca:0012", "--mach", "0.4", "--alpha", "0:90:0.1", "-o", "a.csv", *map(str, SMALL)],
+                              cwd=self.directory, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL) as process:
+            ends = time.monotonic() + 60
+            while not (table.exists() and table.read_text().count("\n") > 2) and time.monotonic() < ends:
+                time.sleep(0.01)
+            process.kill()
+        rows = list(csv.DictReader(io.StringIO(table.read_text())))
+        self.assertGreaterEqual(len(rows), 2)
+        self.assertEqual([float(row["alpha_deg"]) for row in rows[:2]], [0, 0.1])
+        self.assertEqual({row["converged"] for row in rows}, {"1"})
 
     def test_an_interrupt_leaves_the_rows_so_far(self):
         ours, terminal = pty.openpty()
