@@ -162,6 +162,32 @@ TEST_P(Outside, IsDelaunayAfterEveryReplacement) {
   EXPECT_GT(replaced, 20);
 }
 
+// Steps that keep connectivity take what lies outside of the domain off the hull; others put it back.
+TEST_P(Outside, IsATriangulationWhateverTheStrategies) {
+  const auto seed = test::seed(613);
+  SCOPED_TRACE("REMODEL_TEST_SEED=" + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  int held = 0;
+  for (int chain = 0; chain < 4 * test::effort(); ++chain) {
+    Designs designs(random, {0, 0});
+    outside_cases[GetParam()].parts(designs);
+    Mesh mesh = test::generated(designs.domain(), {.gradation = 2.0, .refine_angle_deg = 32.0});
+    for (int step = 0; step < 40; ++step) {
+      SCOPED_TRACE("chain " + std::to_string(chain) + ", step " + std::to_string(step));
+      designs.next();
+      const RemodelOptions options{.strategy = strategies()[random() % strategies().size()].strategy};
+      try {
+        held += remodel(mesh, designs.domain(), options).held;
+      } catch (const Error&) {
+        break;  // corners were moved across each other
+      }
+      ASSERT_EQ(mesh.quick_check(), "");
+      ASSERT_EQ(mesh.data().triangulation.check_topology(), "");
+    }
+  }
+  EXPECT_GT(held, 10);
+}
+
 INSTANTIATE_TEST_SUITE_P(Of, Outside, testing::Range(std::size_t{0}, outside_cases.size()),
                          [](const auto& tested) { return outside_cases[tested.param].name; });
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "generate/recovery_error.h"
 #include "mesh/renew_policy.h"
@@ -47,8 +48,14 @@ void restore_outside(MeshData& mesh) {
 }
 
 bool moves_outermost(const MeshData& mesh, std::span<const std::size_t> moving) {
-  return std::ranges::any_of(
-      moving, [&](std::size_t loop) { return mesh.domain.loops[loop].role == LoopRole::outer; });
+  std::optional<std::size_t> outer;
+  for (std::size_t i = 0; i < mesh.domain.loops.size(); ++i) {
+    const LoopRole role = mesh.domain.loops[i].role;
+    if (role == LoopRole::hole || role == LoopRole::internal) continue;
+    if (outer || role != LoopRole::outer) return false;
+    outer = i;
+  }
+  return outer && std::ranges::find(moving, *outer) != moving.end();
 }
 
 void open_hull(MeshData& mesh) {

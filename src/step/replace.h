@@ -33,8 +33,9 @@ double lost_vertex_radius(const ReplaceOptions& options, double pair_distance, P
 // at all boundary vertices but the ones that are marked in mesh.seen_vertices, or that join one. Nothing is
 // left to do where mesh.outside_restored says so. Throws RecoveryError where the hull crosses itself.
 void restore_outside(MeshData& mesh);
-// Whether an outer loop is among these. Where it is straight, triangles between it and the hull turn over as
-// soon as it moves, and would stand in the way of steps that keep connectivity: open_hull() takes them off.
+// Whether the domain has a single outer loop, and it is among these. Where it is straight, triangles between
+// it and the hull turn over as soon as it moves, and would stand in the way of steps that keep connectivity:
+// open_hull() takes them off. With several outer loops the hull would touch itself, and not be restored.
 bool moves_outermost(const MeshData& mesh, std::span<const std::size_t> moving);
 void open_hull(MeshData& mesh);
 
