@@ -58,6 +58,14 @@ bool moves_outermost(const MeshData& mesh, std::span<const std::size_t> moving) 
   return outer && std::ranges::find(moving, *outer) != moving.end();
 }
 
+bool hull_is_open(const MeshData& mesh) {
+  const Triangulation& triangulation = mesh.triangulation;
+  return !triangulation.any_corner(infinite_vertex, [&](Corner c) {
+    const Link edge = triangulation[c.triangle].link[c.index];
+    return !edge.constrained() && triangulation[edge.triangle()].region == Region::outside;
+  });
+}
+
 void open_hull(MeshData& mesh) {
   if (mesh.triangulation.open_hull()) mesh.outside_restored = false;
 }

@@ -38,5 +38,6 @@ void restore_outside(MeshData& mesh);
 // open_hull() takes them off. With several outer loops the hull would touch itself, and not be restored.
 bool moves_outermost(const MeshData& mesh, std::span<const std::size_t> moving);
 void open_hull(MeshData& mesh);
+bool hull_is_open(const MeshData& mesh);
 
 }  // namespace remodel

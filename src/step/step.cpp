@@ -170,6 +170,7 @@ RemodelResult Step::remodel() {
   if (journalling_ == Journal::always) begin_journal();
   plan_.renews = renews(data(), options_);
   if (plan_.renews) data().keep = std::max(data().keep, resolved_keep(options_, data().options));
+  open_hull_that_moves();
   std::optional<RemodelResult> followed = follow();
   RemodelResult result = followed ? *std::move(followed) : adjust_or_replace();
   result.method = attempt_.method;
@@ -199,6 +200,14 @@ void Step::begin_journal() {
   if (places_before_ && data().reference) return_to_reference(data());
 }
 
+// So that vertices of the outer boundary can be moved in place. The paper's method does without.
+void Step::open_hull_that_moves() {
+  if (options_.strategy == Strategy::chain || attempt_.method != Method::specialised || !plan_.moving) return;
+  if (!moves_outermost(data(), *plan_.moving) || hull_is_open(data())) return;
+  if (!journal_) begin_journal();
+  open_hull(data());
+}
+
 // As Strategy::reference has it. Nothing where the design's mesh is no morph of the reference: then the step
 // starts from that.
 std::optional<RemodelResult> Step::follow() {
@@ -208,10 +217,6 @@ std::optional<RemodelResult> Step::follow() {
     choose_method();
   }
   if (options_.strategy == Strategy::reference && plan_.moving) {
-    if (moves_outermost(mesh, *plan_.moving)) {
-      if (!journal_) begin_journal();
-      open_hull(mesh);
-    }
     RemodelResult result = follow_reference(mesh, domain(), *plan_.moving, options_.delaunay_slack_deg);
     if (result.held) {
       result.stopped = what_still_stops();

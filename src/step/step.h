@@ -102,6 +102,7 @@ class Step {
 
   void compare_domains();
   void choose_method();
+  void open_hull_that_moves();
   std::optional<RemodelResult> follow();
   void leave_reference();
   List<VertexId> moved_since_before() const;
