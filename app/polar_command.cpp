@@ -46,6 +46,10 @@ bool is_picture(const std::string& file) {
   return extension == ".svg" || extension == ".png";
 }
 
+bool is_table(const std::string& file) {
+  return std::filesystem::path(file).extension() == ".csv";
+}
+
 void require_possible_files(const PolarCommand& command) {
   std::set<std::filesystem::path> places;
   for (const std::string& file : command.files) {
@@ -96,10 +100,6 @@ struct Polars {
   double seconds = 0.0;
   bool interrupted = false;
 };
-
-bool is_table(const std::string& file) {
-  return std::filesystem::path(file).extension() == ".csv";
-}
 
 // Tables have each row once it is known: hours of flows outlive a machine that does not.
 void write_tables(const PolarCommand& command, std::vector<PolarCurve> curves,
@@ -342,8 +342,7 @@ void add_polar_command(CLI::App& program, Action& action) {
   add_texts(app,
             {"-o,--output", "FILE", "",
              "Rows as a table (.csv), each of them once it is known, or as the report (.json); plots of all "
-             "shapes (.svg, "
-             ".png); may be repeated"},
+             "shapes (.svg, .png); may be repeated"},
             Presence::optional, command->files);
   add_reading_options(app, command->input);
   add_meshing_options(app, command->meshing);
