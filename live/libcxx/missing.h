@@ -59,6 +59,10 @@ constexpr bool any_of(const Range& range, Predicate predicate) {
   return ranges::count_if(range, predicate) != 0;
 }
 template <class Range, class T>
+constexpr auto find(const Range& range, const T& value) {
+  return std::find(std::begin(range), std::end(range), value);
+}
+template <class Range, class T>
 constexpr bool binary_search(const Range& range, const T& value) {
   return std::binary_search(std::begin(range), std::end(range), value);
 }
