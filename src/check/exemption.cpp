@@ -14,6 +14,14 @@ double squared_length(Point p) {
   return p.x * p.x + p.y * p.y;
 }
 
+// Between the layer on a wall and the triangles beyond it.
+bool is_top(const FrozenMesh& mesh, const Edge& edge) {
+  const auto is_layer = [&](std::uint32_t cell) {
+    return cell < mesh.layer_triangles || cell >= mesh.triangles.size();
+  };
+  return !edge.is_boundary() && is_layer(edge.left) != is_layer(edge.right);
+}
+
 }  // namespace
 
 Exemption::Exemption(const FrozenMesh& mesh, const Topology& topology,
@@ -21,7 +29,7 @@ Exemption::Exemption(const FrozenMesh& mesh, const Topology& topology,
     : mesh_(mesh), neighbours_(mesh.points.size()), corners_(mesh.points.size()) {
   for (std::size_t e = 0; e < topology.edges().size(); ++e) {
     const Edge& edge = topology.edges()[e];
-    if (!edge.is_boundary() && name_of_edge[e] == none) continue;
+    if (!edge.is_boundary() && name_of_edge[e] == none && !is_top(mesh, edge)) continue;
     neighbours_[edge.from].push_back(edge.to);
     neighbours_[edge.to].push_back(edge.from);
   }

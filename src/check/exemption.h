@@ -3,7 +3,7 @@
 // Small input angles: which triangles may break the bounds on quality. A triangle is exempt if its shortest
 // edge joins two points of the boundary that lie at the same distance from one corner of less than 60 degrees
 // inside the domain, each on another of the corner's two sides (Shewchuk 2002: refinement cannot do better
-// there).
+// there). The top of a layer counts as boundary: triangles beyond it were refined with it given.
 
 #include <array>
 #include <vector>
