@@ -104,7 +104,9 @@ std::unique_ptr<BatchMesh> with_new_layers(const StartMesh& start, const LayerCh
                     "', a mesh of another program's, expected one that `remodel mesh` made");
   Domain walls = start.mesh.domain();
   space_walls(walls, layers.spacing);
-  LayeredGenerateResult made = generate_layered(walls, resolved(layers, 1.0), start.mesh.options());
+  const LayerOptions layer = resolved(layers, 1.0);
+  add_wake_line(layers, 1.0, layer, walls);
+  LayeredGenerateResult made = generate_layered(walls, layer, start.mesh.options());
   if (made.stopped != Stopped::done)
     throw Error(ErrorCode::argument, start.source,
                 std::string("its mesh with layers ended at its limit, ") + name_of(made.stopped));

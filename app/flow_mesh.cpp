@@ -33,8 +33,9 @@ MeshInput layered_input(const FlowMeshRequest& request) {
   const LayerOptions layer = adjusted(usual, request.layers, request.reynolds * domain.chord);
   if (domain.in_farfield || request.layers.spacing_given)
     space_walls(domain.domain, request.layers.spacing.times(domain.chord), layer.walls);
-  LayeredGenerateResult result =
-      generate_layered(domain.domain, in_units(layer, domain.chord), meshing.resolved_quality());
+  const LayerOptions in_place = in_units(layer, domain.chord);
+  add_wake_line(request.layers, domain.chord, in_place, domain.domain);
+  LayeredGenerateResult result = generate_layered(domain.domain, in_place, meshing.resolved_quality());
   require_whole(request.input, result.stopped);
   MeshInput input;
   input.frozen = result.mesh.freeze();
@@ -43,8 +44,8 @@ MeshInput layered_input(const FlowMeshRequest& request) {
 }
 
 constexpr std::initializer_list<const char*> layer_sizes = {
-    "--y-plus",       "--first-height", "--growth",      "--layer-thickness", "--layer-count",
-    "--wall-spacing", "--te-spacing",   "--max-spacing", "--layer-wall"};
+    "--y-plus",       "--first-height", "--growth",      "--layer-thickness", "--layer-count", "--wake",
+    "--wall-spacing", "--te-spacing",   "--max-spacing", "--layer-wall",      "--wake-angle"};
 
 constexpr const char* has_its_own = "given with a mesh, which has its own, expected with a shape";
 

@@ -27,6 +27,18 @@ void add_spacings(CLI::App& app, LayerChoice& choice) {
   add("--max-spacing", choice.spacing.most, "where it is largest");
 }
 
+void add_wake_options(CLI::App& app, LayerChoice& choice) {
+  add_real(app,
+           {"--wake", "CHORDS", "none",
+            "With a layer: length of a line of fine triangles behind the trailing edge that lies farthest "
+            "downstream: above 0"},
+           {.low = 0.0, .high = 1e3, .above_low = true}, [&](double value) { choice.wake = value; });
+  add_real(
+      app,
+      {"--wake-angle", "DEGREES", "0", "Angle of the wake, counter-clockwise from the x axis: -90 to 90"},
+      {.low = -90.0, .high = 90.0}, [&](double value) { choice.wake_angle_deg = value; });
+}
+
 }  // namespace
 
 void add_layer_cells(CLI::App& app, LayerCells& cells) {
@@ -65,6 +77,7 @@ void add_layer_sizes(CLI::App& app, LayerChoice& choice) {
       app,
       {"--layer-count", "K", "", "Number of cells across the layer, in place of its thickness: 1 to 1000"},
       {.low = 1, .high = 1000}, [&](std::int64_t value) { choice.count = static_cast<int>(value); });
+  add_wake_options(app, choice);
   add_spacings(app, choice);
   add_texts(
       app,
@@ -73,28 +86,19 @@ void add_layer_sizes(CLI::App& app, LayerChoice& choice) {
       Presence::optional, choice.walls);
 }
 
-void add_wake_options(CLI::App& app, LayerChoice& choice) {
-  add_real(app,
-           {"--wake", "CHORDS", "none",
-            "With --layers: length of a line of fine triangles behind the trailing edge that lies farthest "
-            "downstream: above 0"},
-           {.low = 0.0, .high = 1e3, .above_low = true}, [&](double value) { choice.wake = value; });
-  add_real(
-      app,
-      {"--wake-angle", "DEGREES", "0", "Angle of the wake, counter-clockwise from the x axis: -90 to 90"},
-      {.low = -90.0, .high = 90.0}, [&](double value) { choice.wake_angle_deg = value; });
-}
-
-void add_wake_line(const LayerChoice& choice, double chord, const LayerOptions& layers, Domain& domain) {
-  if (!choice.wake) return;
+std::optional<WakeLine> wake_of(const LayerChoice& choice, double chord) {
+  if (!choice.wake) return std::nullopt;
   const double angle = choice.wake_angle_deg.value_or(0.0) * std::numbers::pi / 180.0;
   WakeLine wake{.length = *choice.wake, .direction = {std::cos(angle), std::sin(angle)}};
   for (double* length : {&wake.length, &wake.first, &wake.most}) *length *= chord;
-  add_wake(domain, wake, layers);
+  return wake;
+}
+
+void add_wake_line(const LayerChoice& choice, double chord, const LayerOptions& layers, Domain& domain) {
+  if (const auto wake = wake_of(choice, chord)) add_wake(domain, *wake, layers);
 }
 
 void require_consistent(const LayerChoice& choice) {
-  refuse(choice.wake_angle_deg && !choice.wake, "--wake-angle", "given without --wake, expected both");
   if (!choice.layers) {
     constexpr const char* alone = "given without --layers, expected both";
     refuse(choice.reynolds.has_value(), "--reynolds", alone);
@@ -104,6 +108,7 @@ void require_consistent(const LayerChoice& choice) {
     refuse(choice.count.has_value(), "--layer-count", alone);
     refuse(choice.growth.has_value(), "--growth", alone);
     refuse(choice.wake.has_value(), "--wake", alone);
+    refuse(choice.wake_angle_deg.has_value(), "--wake-angle", alone);
     refuse(!choice.walls.empty(), "--layer-wall", alone);
     refuse(choice.spacing_given, "--wall-spacing, --te-spacing or --max-spacing", alone);
     return;
@@ -118,6 +123,7 @@ void require_compatible(const LayerChoice& choice) {
   refuse(choice.first_height && choice.y_plus, "--first-height", "given with --y-plus, expected one of them");
   refuse(choice.thickness && choice.count, "--layer-count",
          "given with --layer-thickness, expected one of them");
+  refuse(choice.wake_angle_deg && !choice.wake, "--wake-angle", "given without --wake, expected both");
 }
 
 LayerOptions in_units(LayerOptions layer, double chord) {

@@ -30,11 +30,9 @@ inline constexpr double gradation_with_layers = 8.0;
 
 // --layers, --reynolds, those of add_layer_sizes(), --layer-cells.
 void add_layer_options(CLI::App& app, LayerChoice& choice);
-// --y-plus, --first-height, --growth, --layer-thickness, --layer-count, --wall-spacing, --te-spacing,
-// --max-spacing, --layer-wall.
+// --y-plus, --first-height, --growth, --layer-thickness, --layer-count, --wake, --wake-angle, --wall-spacing,
+// --te-spacing, --max-spacing, --layer-wall.
 void add_layer_sizes(CLI::App& app, LayerChoice& choice);
-// --wake, --wake-angle.
-void add_wake_options(CLI::App& app, LayerChoice& choice);
 // --layer-cells.
 void add_layer_cells(CLI::App& app, LayerCells& cells);
 
@@ -43,7 +41,8 @@ void add_layer_cells(CLI::App& app, LayerCells& cells);
 void require_consistent(const LayerChoice& choice);
 // The former alone.
 void require_compatible(const LayerChoice& choice);
-// Adds the line of the wake where one is asked for; a chord is so long.
+// The line of the wake, if one is asked for; a chord is so long.
+std::optional<WakeLine> wake_of(const LayerChoice& choice, double chord);
 void add_wake_line(const LayerChoice& choice, double chord, const LayerOptions& layers, Domain& domain);
 // Precondition: --layers. Lengths are in units of the domain, in which a chord is so long.
 LayerOptions resolved(const LayerChoice& choice, double chord);

@@ -155,7 +155,6 @@ void add_mesh_command(CLI::App& program, Action& action) {
   command->outputs.add_options(app, Presence::optional);
   add_meshing_options(app, command->meshing);
   add_layer_options(app, command->layers);
-  add_wake_options(app, command->layers);
   command->given = [&app](const std::string& name) { return given(app, name); };
   add_real(
       app,

@@ -85,6 +85,7 @@ Json layers_json(const RunLayers& layers) {
     json["spacing"] = {{"leading_edge", layers.spacing->leading_edge},
                        {"trailing_edge", layers.spacing->trailing_edge},
                        {"most", layers.spacing->most}};
+  if (layers.wake) json["wake"] = layers.wake->length;
   return json;
 }
 
@@ -119,7 +120,8 @@ OptimiseStart read_start(const OptimiseStartOptions& options, const MeshingOptio
   if (layered) {
     refuse(options, {"--points"}, with_layers);
     with_gradation.gradation = meshing.gradation.value_or(gradation_with_layers);
-    run.layers = RunLayers{resolved(options.layers, 1.0), options.layers.spacing};
+    run.layers =
+        RunLayers{resolved(options.layers, 1.0), options.layers.spacing, wake_of(options.layers, 1.0)};
   }
   run.quality = with_gradation.resolved_quality();
   OptimiseStart start;

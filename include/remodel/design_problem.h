@@ -138,6 +138,7 @@ struct DesignProblem {
   // All sections have this layer in flows with friction; none: of what layer_for_flow() has for the points,
   // the least first height and the largest thickness.
   std::optional<LayerOptions> layer = {};
+  std::optional<WakeLine> wake = {};     // with friction: behind the start's walls, where it stays
   std::vector<DesignPoint> points = {};  // of flow: one or more
   // A name of objective_names(): the sum over points, by their weights, of drag, pressure_drag,
   // friction_drag, lift (made large), lift_over_drag (made large), moment (made large), mass_flow (made

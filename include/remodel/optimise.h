@@ -51,6 +51,8 @@ struct MeshStart {
 struct RunLayers {
   LayerOptions options;
   std::optional<WallSpacing> spacing = WallSpacing{};  // none: stations are the domain's own
+  // Behind the start's walls; it stays there in all designs. None: a wake is what the domain has.
+  std::optional<WakeLine> wake = {};
 };
 
 struct OptimiseOptions {

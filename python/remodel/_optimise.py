@@ -45,7 +45,7 @@ def optimise(start, objective, *, directory=None, points=200, sigma=0.05, seed=1
     callback: called after each evaluation with a dict of its figures; True ends the run. directory: keeps history,
     meshes and checkpoints, for resume=True. Ctrl-C ends the run with a checkpoint. strategy: 'renew', 'chain',
     'pool', 'hub', 'morph', 'reference' or 'regenerate'. layers: a dict of what generate_layered() is given, of reynolds,
-    model, first_height, thickness, growth and spacing; then the meshes have layers on their walls, `points` says
+    model, first_height, thickness, growth, spacing, wake and wake_angle; then the meshes have layers on their walls, `points` says
     nothing, and the counts of rows are of triangles outside them. threads: all cores for an Airfoil, one for a function, unless given. Raises
     ArgumentError, FileError, FormatError.
     """
@@ -72,7 +72,7 @@ def optimise(start, objective, *, directory=None, points=200, sigma=0.05, seed=1
         return OptimiseResult(**_optimise(start, objective, scratch, *options))
 
 
-_LAYERS = {"reynolds": None, "model": "sa", "first_height": None, "thickness": None, "growth": 1.2, "spacing": 1.0}
+_LAYERS = {"reynolds": None, "model": "sa", "first_height": None, "thickness": None, "growth": 1.2, "spacing": 1.0, "wake": None, "wake_angle": 0.0}
 
 
 def _layers(given):

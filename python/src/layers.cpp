@@ -2,6 +2,8 @@
 
 #include "remodel/layers.h"
 
+#include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "apart.h"
@@ -51,11 +53,13 @@ LayersPointer layers_generated(const py::object& shape, const std::optional<doub
                                const std::string& model, const std::optional<double>& first_height,
                                const std::optional<double>& thickness, double growth,
                                const std::vector<std::string>& walls, double spacing, double gradation,
-                               double farfield_radius, int farfield_points, std::uint32_t max_vertices) {
+                               double farfield_radius, int farfield_points, std::uint32_t max_vertices,
+                               const std::optional<double>& wake, double wake_angle) {
   const LayerOptions layer = layer_of(reynolds, model, first_height, thickness, growth, walls);
   const WallSpacing stations = wall_spacing(spacing);
   Domain domain = domain_of(shape, {.farfield_radius = farfield_radius, .farfield_points = farfield_points});
   if (!py::isinstance<Domain>(shape)) space_walls(domain, stations);
+  if (wake) add_wake(domain, wake_line(*wake, wake_angle), layer);
   LayeredGenerateResult result = interruptible([&](StepObserver& observer) {
     return generate_layered(domain, layer, {.gradation = gradation, .max_vertices = max_vertices}, &observer);
   });
@@ -250,6 +254,12 @@ WallSpacing wall_spacing(double factor) {
   return WallSpacing{}.times(factor);
 }
 
+WakeLine wake_line(double length, double angle_deg) {
+  if (!(std::abs(angle_deg) <= 90.0)) throw Error(ErrorCode::argument, "wake_angle", "expected -90 to 90");
+  const double angle = angle_deg * std::numbers::pi / 180.0;
+  return {.length = length, .direction = {std::cos(angle), std::sin(angle)}};
+}
+
 Snapshot layered_snapshot(const py::object& mesh) {
   if (!py::isinstance<LivingLayers>(mesh)) return nullptr;
   return mesh.cast<LayersPointer>()->snapshot();
@@ -263,7 +273,7 @@ void add_layers(py::module_& module) {
              "model"_a = "sa", "first_height"_a = py::none(), "thickness"_a = py::none(),
              "growth"_a = usual.growth, "walls"_a = std::vector<std::string>(), "spacing"_a = 1.0,
              "gradation"_a = 8.0, "farfield_radius"_a = 25.0, "farfield_points"_a = 50,
-             "max_vertices"_a = QualityOptions{}.max_vertices,
+             "max_vertices"_a = QualityOptions{}.max_vertices, "wake"_a = py::none(), "wake_angle"_a = 0.0,
              R"(A mesh with layers on its walls, of a Domain or around an Airfoil (or the name of one).
 
 reynolds: of a chord; it gives heights and thickness for the model, 'laminar' or 'sa' (y+ 0.3 and 1 on a flat plate).
@@ -271,7 +281,8 @@ first_height and thickness, in chords, are given instead or besides. growth: of 
 below, 1.02 to 2. walls: names of the walls that get a layer (unless given all holes, and of an outer loop that has an
 inlet, outlet or symmetry plane all else); they may end at such openings. spacing: the distances between
 stations over the usual ones (0.0015 chords at both edges, 0.008 at most); a Domain has its own stations. gradation: as
-generate()'s. docs/layers.md has what to choose. Raises ArgumentError and GeometryError; Ctrl-C ends it.)");
+generate()'s. wake: the length of a line of fine triangles behind the trailing edge, in chords, and wake_angle its angle
+in degrees; updates leave it where it is. docs/layers.md has what to choose. Raises ArgumentError and GeometryError; Ctrl-C ends it.)");
 }
 
 }  // namespace remodel::python

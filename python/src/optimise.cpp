@@ -76,14 +76,15 @@ OptimiseOptions options_of(const std::filesystem::path& directory, int points, d
 }
 
 // layers: None, or what generate_layered() is given: reynolds, model, first_height, thickness, growth,
-// spacing.
+// spacing, wake, wake_angle.
 void add_layers_to(OptimiseOptions& options, const py::object& layers) {
   if (layers.is_none()) return;
-  const auto [reynolds, model, first_height, thickness, growth, spacing] =
+  const auto [reynolds, model, first_height, thickness, growth, spacing, wake, wake_angle] =
       layers.cast<std::tuple<std::optional<double>, std::string, std::optional<double>, std::optional<double>,
-                             double, double>>();
+                             double, double, std::optional<double>, double>>();
   options.layers =
       RunLayers{layer_of(reynolds, model, first_height, thickness, growth, {}), wall_spacing(spacing)};
+  if (wake) options.layers->wake = wake_line(*wake, wake_angle);
   options.quality.gradation = 8.0;
 }
 

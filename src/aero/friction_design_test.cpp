@@ -9,6 +9,8 @@
 #include <string>
 
 #include "aero/design_mesh.h"
+#include "aero/layered_space.h"
+#include "aero/section_space.h"
 #include "aero/test_designs.h"
 #include "remodel/error.h"
 
@@ -32,10 +34,11 @@ DesignProblem viscous_problem() {
   return problem;
 }
 
-// Of all that a design with friction is made of: pressure and friction, the layer's columns, and what lies
-// beyond them.
+// Of all that a design with friction is made of: pressure and friction, the layer's columns, what lies beyond
+// them, and a wake that stays.
 TEST(Friction, GradientsAreThoseOfWholeFlowsOnMeshesOfOneReference) {
   DesignProblem problem = viscous_problem();
+  problem.wake = WakeLine{.length = 0.5};
   problem.constraints = {{.kind = "lift", .at_least = 0.0},
                          {.kind = "pressure_drag", .at_most = 1.0},
                          {.kind = "friction_drag", .at_most = 1.0},
@@ -82,6 +85,27 @@ TEST(Friction, StationsAreThoseOfTheStart) {
   EXPECT_TRUE(task.space().feasible(design));
   for (double& x : design) x *= -1.0;  // the surfaces cross each other
   EXPECT_FALSE(task.space().feasible(design));
+}
+
+TEST(Friction, TheWakeIsThatOfTheStart) {
+  DesignProblem problem = viscous_problem();
+  problem.wake = WakeLine{.length = 0.7, .direction = {1.0, 0.1}};
+  const Case task(problem);
+  std::vector<double> design = task.space().start();
+  const Loop wake = task.space().walls(design).loops.back();
+  EXPECT_EQ(wake.curves.at(0).name, "wake");
+  EXPECT_NEAR(distance(std::get<Line>(wake.curves[0].shape).from, std::get<Line>(wake.curves[0].shape).to),
+              0.7, 1e-12);
+  for (double& x : design) x *= 1.2;
+  EXPECT_EQ(task.space().walls(design).loops.back(), wake);
+  EXPECT_EQ(task.space().domain_with(design, 200).loops.back(), wake);
+  const auto again = LayeredSpace::from_description(
+      std::make_unique<SectionSpace>(problem.airfoil, SectionSpaceOptions{.domain = problem.domain}),
+      task.space().description());
+  EXPECT_EQ(again->walls(design), task.space().walls(design));
+  problem.points[0].model = FlowModel::euler;
+  problem.layer.reset();
+  EXPECT_THROW(design_space(problem), Error);
 }
 
 // Of a row of designs, as a search has them.

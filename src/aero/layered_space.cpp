@@ -4,8 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "design/wake_json.h"
 #include "layer/walls.h"
 #include "remodel/error.h"
+#include "remodel/mesh_derivative.h"
 
 namespace remodel {
 namespace {
@@ -28,11 +30,27 @@ StationCount count_stations(const Domain& domain, const std::vector<std::string>
 
 }  // namespace
 
-LayeredSpace::LayeredSpace(std::unique_ptr<FlowSpace> bodies, const LayerOptions& layer, int points)
+LayeredSpace::LayeredSpace(std::unique_ptr<FlowSpace> bodies, const LayerOptions& layer, int points,
+                           const std::optional<WakeLine>& wake)
     : bodies_(std::move(bodies)),
       points_(points),
       stations_(stations_of(bodies_->domain(bodies_->start()), points, layer.walls)),
+      wake_(wake),
+      wake_loop_(wake ? std::optional(wake_behind(with_stations(bodies_->domain(bodies_->start()), stations_),
+                                                  *wake, layer))
+                      : std::nullopt),
       frame_(walls(bodies_->start()), layer) {}
+
+Domain LayeredSpace::with_wake(Domain bodies) const {
+  if (wake_loop_) bodies.loops.push_back(*wake_loop_);
+  return bodies;
+}
+
+// The wake's numbers, which are the last ones, follow nothing.
+std::vector<double> LayeredSpace::gradient_of_domain(std::span<const double> by_numbers) const {
+  const std::size_t of_wake = wake_loop_ ? coefficients_of({{*wake_loop_}}).size() : 0;
+  return bodies_->gradient_of_domain(by_numbers.first(by_numbers.size() - of_wake));
+}
 
 // Distances are halved in on until the walls have as many stations as are asked for, or a few less.
 Stations LayeredSpace::stations_of(const Domain& start, int points, const std::vector<std::string>& names) {
@@ -52,13 +70,13 @@ Stations LayeredSpace::stations_of(const Domain& start, int points, const std::v
 }
 
 Domain LayeredSpace::walls(std::span<const double> design) const {
-  return with_stations(bodies_->domain(design), stations_);
+  return with_wake(with_stations(bodies_->domain(design), stations_));
 }
 
 Domain LayeredSpace::domain_with(std::span<const double> design, int points) const {
   const std::vector<double> start = bodies_->start();
-  return with_stations(bodies_->domain(design),
-                       stations_of(bodies_->domain(start), points, frame_.options().walls));
+  return with_wake(with_stations(bodies_->domain(design),
+                                 stations_of(bodies_->domain(start), points, frame_.options().walls)));
 }
 
 bool LayeredSpace::feasible(std::span<const double> design) const {
@@ -73,6 +91,7 @@ std::string LayeredSpace::description() const {
                     {"growth", layer.growth},
                     {"thickness", layer.thickness}};
   if (!layer.walls.empty()) json["layers"]["walls"] = layer.walls;
+  if (wake_) json["layers"]["wake"] = to_json(*wake_);
   return json.dump();
 }
 
@@ -85,7 +104,8 @@ std::unique_ptr<FlowSpace> LayeredSpace::from_description(std::unique_ptr<FlowSp
                    .growth = layer.at("growth"),
                    .thickness = layer.at("thickness"),
                    .walls = layer.value("walls", std::vector<std::string>())},
-      layer.at("points").get<int>());
+      layer.at("points").get<int>(),
+      layer.contains("wake") ? std::optional(wake_from(layer.at("wake"))) : std::nullopt);
 }
 
 }  // namespace remodel

@@ -4,7 +4,7 @@
 // is what lies beyond the layers (LayerFrame), so that the living mesh of a run is their outer mesh.
 
 #include <memory>
-
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,12 +14,19 @@
 
 namespace remodel {
 
+// The loop that add_wake() adds.
+inline Loop wake_behind(Domain walls, const WakeLine& wake, const LayerOptions& layer) {
+  add_wake(walls, wake, layer);
+  return std::move(walls.loops.back());
+}
+
 class LayeredSpace final : public FlowSpace {
  public:
   // Stations are those of the start, about `points` on each section and duct, as close to each other at noses
-  // and corners as wall_stations() has them. All designs have stations at the same parameters. Throws Error
-  // as LayerFrame does.
-  LayeredSpace(std::unique_ptr<FlowSpace> bodies, const LayerOptions& layer, int points);
+  // and corners as wall_stations() has them. All designs have stations at the same parameters, and the wake
+  // of the start. Throws Error as LayerFrame and add_wake() do.
+  LayeredSpace(std::unique_ptr<FlowSpace> bodies, const LayerOptions& layer, int points,
+               const std::optional<WakeLine>& wake = {});
 
   // What description() has, around the bodies that it has. Throws Json's exceptions.
   static std::unique_ptr<FlowSpace> from_description(std::unique_ptr<FlowSpace> bodies,
@@ -45,9 +52,7 @@ class LayeredSpace final : public FlowSpace {
   std::vector<NamedNumber> named(std::span<const double> design) const override {
     return bodies_->named(design);
   }
-  std::vector<double> gradient_of_domain(std::span<const double> by_numbers) const override {
-    return bodies_->gradient_of_domain(by_numbers);
-  }
+  std::vector<double> gradient_of_domain(std::span<const double> by_numbers) const override;
   std::vector<double> gradient_of_section(std::size_t index,
                                           std::span<const double> by_coefficients) const override {
     return bodies_->gradient_of_section(index, by_coefficients);
@@ -61,9 +66,14 @@ class LayeredSpace final : public FlowSpace {
   static Stations stations_of(const Domain& walls, int points, const std::vector<std::string>& names = {});
 
  private:
+  // The bodies' loops and behind them that of the wake, if there is one.
+  Domain with_wake(Domain bodies) const;
+
   std::unique_ptr<FlowSpace> bodies_;
   int points_;
   Stations stations_;
+  std::optional<WakeLine> wake_;
+  std::optional<Loop> wake_loop_;
   LayerFrame frame_;
 };
 

@@ -1,6 +1,8 @@
 #include "remodel/design_problem.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "aero/deformed_space.h"
 #include "aero/problem_elements.h"
@@ -47,14 +49,26 @@ void read_points_of_meshes(const Keys& mesh, const Json& given, bool may_be_odd,
   problem.coarse_points = std::move(points);
 }
 
+std::optional<WakeLine> wake_given(const Keys& mesh) {
+  const auto length = mesh.find<double>("wake"), degrees = mesh.find<double>("wake_angle_deg");
+  if (!length && degrees) mesh.fail("found 'wake_angle_deg' without 'wake', expected both");
+  if (!length) return std::nullopt;
+  if (degrees && !(std::abs(*degrees) <= 90.0))
+    mesh.fail("found " + shown(*degrees) + " as 'wake_angle_deg', expected -90 to 90");
+  const double angle = degrees.value_or(0.0) * std::numbers::pi / 180.0;
+  return WakeLine{.length = *length, .direction = {std::cos(angle), std::sin(angle)}};
+}
+
 void read_mesh_options(const Json& json, const std::string& file, DesignProblem& problem) {
   const Json object = object_of(json, "mesh");
-  const Keys mesh(object, file + ", mesh", {"points", "gradation", "farfield_radius", "layers"});
+  const Keys mesh(object, file + ", mesh",
+                  {"points", "gradation", "farfield_radius", "layers", "wake", "wake_angle_deg"});
   const bool has_friction = problem.points.front().model != FlowModel::euler;
   problem.domain.points = has_friction ? usual_points_with_friction : 100;
   if (mesh.has("points")) read_points_of_meshes(mesh, object.at("points"), json.contains("space"), problem);
   problem.domain.farfield_radius = mesh.get<double>("farfield_radius", 25.0);
   problem.gradation = mesh.find<double>("gradation");
+  problem.wake = wake_given(mesh);
   if (!mesh.has("layers")) return;
   if (!has_friction)
     mesh.fail("found 'layers' without friction, expected 'model' and 'reynolds' at all points");

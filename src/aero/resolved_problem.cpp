@@ -216,9 +216,9 @@ class Resolver {
   bool has_friction() const { return problem_.points.front().model != FlowModel::euler; }
 
   void require_layer() const {
-    if (problem_.layer && !has_friction())
-      place_.inner("mesh").fail(
-          "found 'layers' without friction, expected 'model' and 'reynolds' at all points");
+    if ((problem_.layer || problem_.wake) && !has_friction())
+      place_.inner("mesh").fail(std::string("found '") + (problem_.layer ? "layers" : "wake") +
+                                "' without friction, expected 'model' and 'reynolds' at all points");
     constexpr int least_points = 150;
     const int coarsest =
         problem_.coarse_points.empty() ? problem_.domain.points : problem_.coarse_points.front();
@@ -382,18 +382,19 @@ class Resolver {
     try {
       LayerOptions layer = problem_.layer.value_or(layer_for_points(problem_.points));
       if (problem_.deformation) layer.walls = walls_of_points(problem_.deformation->domain);
-      resolved_.space =
-          std::make_unique<LayeredSpace>(std::move(resolved_.space), layer, problem_.domain.points);
+      resolved_.space = std::make_unique<LayeredSpace>(std::move(resolved_.space), layer,
+                                                       problem_.domain.points, problem_.wake);
     } catch (const Error& error) {
       place_.inner("mesh").fail("found 'layers' that no walls can have: " + std::string(error.what()));
     }
     if (resolved_.target) put_layer_on_target();
   }
 
-  // With the start's stations. What comes of it is not needed here but for whether there is any.
+  // With the start's stations and wake. What comes of it is not needed here but for whether there is any.
   void put_layer_on_target() {
     const Domain walls = resolved_.space->walls(resolved_.space->start());
     resolved_.target = with_stations(std::move(*resolved_.target), stations_of(walls));
+    if (problem_.wake) resolved_.target->loops.push_back(walls.loops.back());
     try {
       resolved_.space->layers()->outside(*resolved_.target);
     } catch (const Error& error) {

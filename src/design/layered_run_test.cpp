@@ -97,7 +97,8 @@ TEST_F(LayeredRun, DoesNotDependOnTheNumberOfThreads) {
 }
 
 TEST_F(LayeredRun, IsReplayed) {
-  const OptimiseOptions given = layered("run");
+  OptimiseOptions given = layered("run");
+  given.layers->wake = WakeLine{.length = 0.5, .direction = {1.0, 0.05}};
   optimise(from_, to_, given);
   const std::unique_ptr<DesignSpace> space = replayed_space(given.directory);
   ASSERT_NE(space->layers(), nullptr);
@@ -106,6 +107,7 @@ TEST_F(LayeredRun, IsReplayed) {
     last = space->layers()->around(mesh, space->walls(record.coefficients));
   });
   EXPECT_TRUE(last.state() == read_layered_mesh(given.directory / "last.vtkhdf").state());
+  EXPECT_EQ(last.domain().loops.back().curves.at(0).name, "wake");
 }
 
 TEST_F(LayeredRun, BeginsWithALayeredMesh) {

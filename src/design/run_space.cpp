@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "design/wake_json.h"
 #include "remodel/error.h"
 
 namespace remodel {
@@ -33,19 +34,26 @@ std::unique_ptr<AirfoilSpace> airfoils_of(const CstAirfoil& from, const Optimise
 }  // namespace
 
 LayeredAirfoils::LayeredAirfoils(std::unique_ptr<AirfoilSpace> airfoils, const RunLayers& layers)
-    : airfoils_(std::move(airfoils)), spacing_(layers.spacing) {
+    : airfoils_(std::move(airfoils)), spacing_(layers.spacing), wake_(layers.wake) {
   const std::vector<double> start = airfoils_->start();
   if (spacing_) {
     Domain spaced = airfoils_->domain(start);
     space_walls(spaced, *spacing_, layers.options.walls);
     stations_ = stations_of(spaced);
   }
+  if (wake_) {
+    Domain with_wake = walls(start);
+    add_wake(with_wake, *wake_, layers.options);
+    wake_loop_ = std::move(with_wake.loops.back());
+  }
   frame_.emplace(walls(start), layers.options);
 }
 
 Domain LayeredAirfoils::walls(std::span<const double> design) const {
   Domain domain = airfoils_->domain(design);
-  return spacing_ ? with_stations(std::move(domain), stations_) : domain;
+  if (spacing_) domain = with_stations(std::move(domain), stations_);
+  if (wake_loop_) domain.loops.push_back(*wake_loop_);
+  return domain;
 }
 
 // Two surfaces that are apart at some stations may touch between them, and walls may have no room for a
@@ -63,6 +71,7 @@ std::string LayeredAirfoils::description() const {
                     {"walls", layer.walls},
                     {"fan_from_deg", layer.fan_from_deg}};
   if (spacing_) json["layers"]["spacing"] = to_json(*spacing_);
+  if (wake_) json["layers"]["wake"] = to_json(*wake_);
   return json.dump();
 }
 
@@ -88,6 +97,7 @@ std::optional<RunLayers> RunSpace::layers_in(const std::string& options) {
                                .fan_from_deg = layers.at("fan_from_deg")}};
   result.spacing.reset();
   if (layers.contains("spacing")) result.spacing = spacing_from(layers.at("spacing"));
+  if (layers.contains("wake")) result.wake = wake_from(layers.at("wake"));
   return result;
 }
 

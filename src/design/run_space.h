@@ -19,7 +19,8 @@ namespace remodel {
 class LayeredAirfoils final : public DesignSpace {
  public:
   // All designs have the fans of the start's walls. Where the layers have a spacing, they have the stations
-  // of the start's walls by that, at the same parameters. Throws Error as LayerFrame does.
+  // of the start's walls by that, at the same parameters, and where these have a wake the line behind them.
+  // Throws Error as LayerFrame and add_wake() do.
   LayeredAirfoils(std::unique_ptr<AirfoilSpace> airfoils, const RunLayers& layers);
 
   const LayerFrame* layers() const override { return &*frame_; }
@@ -36,7 +37,9 @@ class LayeredAirfoils final : public DesignSpace {
  private:
   std::unique_ptr<AirfoilSpace> airfoils_;
   std::optional<WallSpacing> spacing_;
+  std::optional<WakeLine> wake_;
   Stations stations_;  // of the start's walls, where there is a spacing
+  std::optional<Loop> wake_loop_;
   std::optional<LayerFrame> frame_;
 };
 

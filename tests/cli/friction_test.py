@@ -145,10 +145,10 @@ class Friction(ProgramTest):
             self.assertIn(f"<td>{1e4 * part:.2f}</td>", page)
 
     def test_a_flow_takes_the_sizes_of_its_layer(self):
-        sizes = LAYERS[3:]
+        sizes = (*LAYERS[3:], "--wake", 0.5, "--wake-angle", 2)
         conditions = ("--model", "laminar", "--mach", 0.5, "--reynolds", 5000, "--layer-thickness", 0.1, "--growth", 1.4,
                       "--tolerance", 1e-4, "--json")  # fmt: skip
-        self.succeed("mesh", "naca:0012", *LAYERS, "--layer-thickness", 0.1, "--growth", 1.4, "-o", "a.vtkhdf")
+        self.succeed("mesh", "naca:0012", *LAYERS, *sizes[8:], "--layer-thickness", 0.1, "--growth", 1.4, "-o", "a.vtkhdf")
         of_a_mesh = self.succeed("flow", "a.vtkhdf", *conditions[:6], *conditions[10:]).json()
         of_a_shape = self.succeed("flow", "naca:0012", *sizes, *conditions).json()
         self.assertEqual(of_a_shape["cd"], of_a_mesh["cd"])
@@ -160,6 +160,8 @@ class Friction(ProgramTest):
     def test_what_does_not_fit_is_refused(self):
         for words, message in (
             (("--growth", 1.3), "--growth: given without friction"),
+            (("--wake", 1), "--wake: given without friction"),
+            (("--model", "sa", "--reynolds", 1e6, "--wake-angle", 3), "--wake-angle: given without --wake"),
             (("--model", "potential", "--y-plus", 1), "--y-plus: given without friction"),
             (("--model", "sa", "--reynolds", 1e6, "--y-plus", 1, "--first-height", 1e-5), "--first-height: given with --y-plus"),
             (("--model", "sa"), "--reynolds: not given"),

@@ -112,6 +112,7 @@ class Layers(ProgramTest):
             (("--layers", "--y-plus", 1), "--reynolds"),
             (("--wake", 1), "--layers"),
             ((*LAYERS, "--wake-angle", 3), "--wake"),
+            (("--wake-angle", 3), "--layers"),
             (("--layers", "--first-height", 1e-5, "--y-plus", 1), "--first-height"),
             ((*LAYERS, "--layer-count", 3, "--layer-thickness", 0.1), "--layer-count"),
             ((*LAYERS, "--points", 100), "--points"),
@@ -153,12 +154,14 @@ class Layers(ProgramTest):
 
     def test_a_batch_puts_layers_on_a_mesh_without(self):
         self.succeed("mesh", "naca:0012", "-o", "plain.vtkhdf")
-        batch = self.figures("batch", "plain.vtkhdf", "naca:0013", *LAYERS, "-o", "out", "--meshes", "vtkhdf")
+        batch = self.figures("batch", "plain.vtkhdf", "naca:0013", *LAYERS, "--wake", 1, "-o", "out", "--meshes", "vtkhdf")
         self.assertGreater(batch["layers"]["columns"], 100)
-        self.assertTrue(self.figures("check", "out/001.vtkhdf")["valid"])
+        checked = self.figures("check", "out/001.vtkhdf")
+        self.assertTrue(checked["valid"])
+        self.assertGreater(checked["boundary"]["wake"], 20)
 
     def test_a_run_around_layers(self):
-        run = ("optimise", "--from", "naca:0012", "--to", "rae2822", *LAYERS, "--evaluations", 30, "--checkpoint-every", 10)
+        run = ("optimise", "--from", "naca:0012", "--to", "rae2822", *LAYERS, "--wake", 1, "--evaluations", 30, "--checkpoint-every", 10)
         figures = self.figures(*run, "-o", "run", "--quiet")
         self.assertEqual((figures["invalid_meshes"], figures["evaluations"]), (0, 30))
         self.assertEqual(figures["options"]["strategy"], "morph")
@@ -166,6 +169,7 @@ class Layers(ProgramTest):
             checked = self.figures("check", f"run/{name}.vtkhdf")
             self.assertTrue(checked["valid"])
             self.assertEqual(checked["layers"]["columns"], figures["layers"]["columns"])
+            self.assertGreater(checked["boundary"]["wake"], 20)
         self.succeed("film", "run", "--frames", 4, "-o", "film.webp")
         on = self.figures("optimise", "--mesh", "run/last.vtkhdf", "--to", "rae2822", "--evaluations", 5, "-o", "on", "--quiet")
         self.assertEqual(on["invalid_meshes"], 0)
