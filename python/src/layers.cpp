@@ -255,7 +255,9 @@ WallSpacing wall_spacing(double factor) {
 }
 
 WakeLine wake_line(double length, double angle_deg) {
-  if (!(std::abs(angle_deg) <= 90.0)) throw Error(ErrorCode::argument, "wake_angle", "expected -90 to 90");
+  if (!(std::abs(angle_deg) <= 90.0))
+    throw Error(ErrorCode::argument, "wake_angle",
+                "found " + std::to_string(angle_deg) + ", expected -90 to 90");
   const double angle = angle_deg * std::numbers::pi / 180.0;
   return {.length = length, .direction = {std::cos(angle), std::sin(angle)}};
 }

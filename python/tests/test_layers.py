@@ -108,7 +108,7 @@ def test_a_mesh_at_another_design_is_joined_as_it_is():
 
 
 def test_a_run_has_layers(tmp_path):
-    layers = dict(reynolds=5000.0, model="laminar", growth=1.5, spacing=4.0)
+    layers = dict(reynolds=5000.0, model="laminar", growth=1.5, spacing=4.0, wake=0.5, wake_angle=2)
     seen = []
 
     def objective(design, mesh, step):
@@ -118,7 +118,7 @@ def test_a_run_has_layers(tmp_path):
     result = remodel.optimise("naca:0012", objective, layers=layers, evaluations=12, strategy="morph", directory=tmp_path / "run")
     assert result.failed_evaluations == 0 and len(seen) == 12 and all(quads > 0 and valid for quads, valid in seen)
     last = remodel.LayeredMesh.load(tmp_path / "run" / "last.vtkhdf")
-    assert last.check().valid and len(last.quads) == seen[-1][0]
+    assert last.check().valid and len(last.quads) == seen[-1][0] and len(last.boundaries["wake"]) > 10
     target = remodel.optimise("naca:0012", remodel.Airfoil("rae2822"), layers=layers, evaluations=12)
     assert target.invalid_meshes == 0
     for wrong, match in ((dict(reynolds="a"), "reynolds"), (dict(re=1.0), "'re'"), ({}, "reynolds"), (dict(layers, spacing=-1.0), "spacing")):
@@ -277,6 +277,8 @@ def test_a_pickled_mesh_goes_on_as_a_copy_does(tmp_path):
         (lambda: remodel.generate_layered("naca:0012", reynolds=6e6, model="euler"), "model: found 'euler'"),
         (lambda: remodel.generate_layered("naca:0012", reynolds=6e6, growth=9.0), "growth"),
         (lambda: remodel.generate_layered("naca:0012", reynolds=6e6, spacing=0.0), "spacing"),
+        (lambda: remodel.generate_layered("naca:0012", reynolds=6e6, wake=0.0), "wake: found 0"),
+        (lambda: remodel.generate_layered("naca:0012", reynolds=6e6, wake=1.0, wake_angle=95), "wake_angle: found 95"),
         (lambda: remodel.generate_layered("naca:0012", reynolds=6e6, walls=["none"]), "none"),
         (lambda: remodel.generate_layered("naca:0012", reynolds=float("nan")), "reynolds: found nan"),
         (lambda: remodel.LivingFlow(model="les"), "model: found 'les'"),
