@@ -81,6 +81,7 @@ void FrictionSystem<N>::jacobian(const BlockState<N>& state, Jacobian& result) c
     result.whole = pattern();
     result.first = pattern(result.whole.rows, Order::first);
   }
+  result.first.block.resize(result.first.column.size());
   Rows rows[] = {rows_of_vertices(result.whole, Order::whole), rows_of_vertices(result.first, Order::first)};
   add_fluxes(state, rows);
   result.rows = augmented_rows(state, result.whole);
@@ -143,13 +144,15 @@ void FrictionSystem<N>::add_face_blocks(const BlockState<N>& state, Rows& rows) 
     const auto [flux, reconstructed, limited] = face_dual<2 * N>(state, e, rows.order);
     SquareBlock<N> by_end[2] = {{}, {}}, by_upwind[2] = {{}, {}};
     Row by_limited = {};
-    for (std::size_t z = 0; z < N * N; ++z)
-      for (std::size_t side = 0; side < 2; ++side) {
-        const double slope = flux[z / N].slope[N * side + z % N];
-        const std::array<double, 5>& of = reconstructed[side][z % N].slope;
-        by_limited[z / N] += slope * of[3];
-        by_end[0][z] += slope * of[0], by_end[1][z] += slope * of[1], by_upwind[side][z] = slope * of[2];
-      }
+    for (std::size_t i = 0; i < N; ++i)
+      for (std::size_t k = 0; k < N; ++k)
+        for (std::size_t side = 0; side < 2; ++side) {
+          const double slope = flux[i].slope[N * side + k];
+          const std::array<double, 5>& of = reconstructed[side][k].slope;
+          by_limited[i] += slope * of[3];
+          by_end[0][N * i + k] += slope * of[0], by_end[1][N * i + k] += slope * of[1];
+          by_upwind[side][N * i + k] = slope * of[2];
+        }
     for (std::size_t i = 0; limited.value > 0.0 && i < N; ++i)
       for (std::size_t k = 0; k < 2 * unknown_count; ++k)
         by_end[k / unknown_count][N * i + k % unknown_count] += by_limited[i] * limited.slope[k];
@@ -187,7 +190,8 @@ void FrictionSystem<N>::add_triangle_blocks(const BlockState<N>& state, std::spa
         const std::uint32_t row = rows.of[triangle.corner[i]];
         for (std::size_t j = 0; row != no_index && j < 3; ++j) {
           SquareBlock<N>& block = rows.matrix.at(row, triangle.corner[j]);
-          for (std::size_t z = 0; z < N * N; ++z) block[z] += flux[i][z / N].slope[N * j + z % N];
+          for (std::size_t m = 0; m < N; ++m)
+            for (std::size_t k = 0; k < N; ++k) block[N * m + k] += flux[i][m].slope[N * j + k];
         }
       }
   }

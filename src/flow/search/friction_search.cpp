@@ -101,6 +101,7 @@ bool FrictionSearch<N>::solve(const BlockState<N>& state, const std::vector<doub
     note_failure(true);
     return false;
   }
+  jacobian_.first.block = std::vector<SquareBlock<N>>();  // makes room for GMRES's vectors
   const BlockAugmentedMatrix<N> matrix(jacobian_.whole, std::move(columns), jacobian_.rows);
   const RowWeights weights(waves, measure_.scale());
   BlockIncrement<N> right = now.negated();
