@@ -223,7 +223,7 @@ void FrictionSearch<N>::run(BlockState<N>& state, double cfl, int patience) {
   Residuals now = measure_(state);
   record_.history.push_back(now.size);
   double least = now.size, least_of_all = now.size;
-  int since_least = 0, since_least_of_all = 0, returns = 0;
+  int since_least = 0, since_least_of_all = 0, returns = 0, steps_in_time = 0;
   bool is_still = false;
   const auto end = [&](FlowStatus status, const char* reason) {
     record_.status = status, record_.reason = reason, record_.residual = now.size;
@@ -240,7 +240,7 @@ void FrictionSearch<N>::run(BlockState<N>& state, double cfl, int patience) {
       cfl = FrictionPolicy::most_cfl;
     } else if (falls_no_more && returns < FrictionPolicy::most_returns) {
       ++returns, since_least = 0, least = std::numeric_limits<double>::infinity();
-      cfl = FrictionPolicy::return_cfl;
+      cfl = FrictionPolicy::return_cfl, steps_in_time = returns * FrictionPolicy::steps_of_return;
     } else if (falls_no_more || since_least_of_all >= patience || cfl < FrictionPolicy::least_cfl) {
       return end(FlowStatus::stalled, "the residual falls no more");
     }
@@ -263,6 +263,7 @@ void FrictionSearch<N>::run(BlockState<N>& state, double cfl, int patience) {
       cfl = 0.1 * std::min(cfl, 1e6);
     else
       cfl *= 0.5;
+    if (steps_in_time-- > 0) cfl = std::min(cfl, FrictionPolicy::return_cfl);
     record_.history.push_back(now.size);
     const bool has_fallen = now.size < FrictionPolicy::fall * least;
     since_least = has_fallen ? 0 : since_least + (cfl > 1e4 ? 1 : 0);
