@@ -500,6 +500,29 @@ TEST(Friction, AColdFlowLedToItsAngleIsTheOneCarriedThere) {
   EXPECT_NEAR(carried.cd, cold.cd, 1e-5);
 }
 
+// Newton's method cycles in them at residuals of 1e-6: turbulence sets in at the nose in one column of cells,
+// or in the next.
+TEST(Friction, SearchesThatCycleGoOnInTime) {
+  struct Section {
+    double shift, mach, alpha_deg;
+  };
+  for (const Section& of : {Section{1.0, 0.62, -2.0}, Section{5.0, 0.5, 8.0}}) {
+    CstAirfoil airfoil = named_airfoil("clarky", 5);
+    double i = 0.0;
+    for (auto* surface : {&airfoil.upper, &airfoil.lower})
+      for (double& coefficient : *surface) coefficient += 0.012 * std::sin(2.0 * i++ + of.shift);
+    Domain walls = airfoil_domain(airfoil);
+    space_walls(walls, {.leading_edge = 0.008, .trailing_edge = 0.008, .most = 0.04, .growth = 0.4});
+    const LayerOptions layer = {.first_height = first_height(1.0, 5e5),
+                                .growth = 1.4,
+                                .thickness = 1.2 * boundary_layer_thickness(5e5)};
+    const FrozenMesh mesh = generate_layered(walls, layer, {.gradation = 2.5}).mesh.freeze();
+    const FlowConditions conditions = {.mach = of.mach, .alpha_deg = of.alpha_deg, .reynolds = 5e5};
+    const FlowResult flow = solve_flow(mesh, conditions, {.tolerance = 1e-8, .model = FlowModel::sa});
+    EXPECT_TRUE(flow.converged()) << of.mach << ": " << flow.reason;
+  }
+}
+
 TEST(Friction, ModelsWithFrictionAreRefusedWhereTheyAreNotKnown) {
   FlowOptions options;
   options.model = FlowModel::laminar;
