@@ -240,7 +240,7 @@ void FrictionSearch<N>::run(BlockState<N>& state, double cfl, int patience) {
       cfl = FrictionPolicy::most_cfl;
     } else if (falls_no_more && returns < FrictionPolicy::most_returns) {
       ++returns, since_least = 0, least = std::numeric_limits<double>::infinity();
-      cfl = FrictionPolicy::return_cfl, steps_in_time = returns * FrictionPolicy::steps_of_return;
+      cfl = FrictionPolicy::return_cfl, steps_in_time = FrictionPolicy::steps_of_return;
     } else if (falls_no_more || since_least_of_all >= patience || cfl < FrictionPolicy::least_cfl) {
       return end(FlowStatus::stalled, "the residual falls no more");
     }
