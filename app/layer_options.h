@@ -41,7 +41,7 @@ void add_layer_cells(CLI::App& app, LayerCells& cells);
 void require_consistent(const LayerChoice& choice);
 // The former alone.
 void require_compatible(const LayerChoice& choice);
-// The line of the wake, if one is asked for; a chord is so long.
+// The line of the wake, if one is asked for. chord: in the domain's units.
 std::optional<WakeLine> wake_of(const LayerChoice& choice, double chord);
 void add_wake_line(const LayerChoice& choice, double chord, const LayerOptions& layers, Domain& domain);
 // Precondition: --layers. Lengths are in units of the domain, in which a chord is so long.

@@ -85,7 +85,9 @@ Json layers_json(const RunLayers& layers) {
     json["spacing"] = {{"leading_edge", layers.spacing->leading_edge},
                        {"trailing_edge", layers.spacing->trailing_edge},
                        {"most", layers.spacing->most}};
-  if (layers.wake) json["wake"] = layers.wake->length;
+  if (layers.wake)
+    json["wake"] = {{"length", layers.wake->length},
+                    {"direction", {layers.wake->direction.x, layers.wake->direction.y}}};
   return json;
 }
 

@@ -30,6 +30,8 @@ class FlowSpace : public DesignSpace {
  public:
   // True if the domain is the upper half of one whose flows are their own mirror images.
   virtual bool half() const { return false; }
+  // walls() without the line of a wake, where they have one.
+  virtual Domain bodies(std::span<const double> design) const { return walls(design); }
   // walls() of a design with this number of points on each section, about so many where there are layers.
   virtual Domain domain_with(std::span<const double> design, int points) const = 0;
   // `coefficients`: how far a coefficient of a section may go from the start.

@@ -83,6 +83,8 @@ def _layers(given):
             raise ArgumentError(f"layers: found {name!r}, expected one of {', '.join(_LAYERS)}")
         if name == "model" and not isinstance(value, str):
             raise ArgumentTypeError(f"layers: found {_calls.shown(value)} for model, expected a string")
+        if value is None and _LAYERS[name] is not None:
+            raise ArgumentTypeError(f"layers: found None for {name}, expected a number")
         if name != "model" and value is not None and (isinstance(value, bool) or not isinstance(value, (int, float))):
             raise ArgumentTypeError(f"layers: found {_calls.shown(value)} for {name}, expected a number")
         _calls.finite(f"layers: {name}", value)

@@ -59,7 +59,7 @@ LayersPointer layers_generated(const py::object& shape, const std::optional<doub
   const WallSpacing stations = wall_spacing(spacing);
   Domain domain = domain_of(shape, {.farfield_radius = farfield_radius, .farfield_points = farfield_points});
   if (!py::isinstance<Domain>(shape)) space_walls(domain, stations);
-  if (wake) add_wake(domain, wake_line(*wake, wake_angle), layer);
+  if (const auto line = wake_line(wake, wake_angle)) add_wake(domain, *line, layer);
   LayeredGenerateResult result = interruptible([&](StepObserver& observer) {
     return generate_layered(domain, layer, {.gradation = gradation, .max_vertices = max_vertices}, &observer);
   });
@@ -254,12 +254,15 @@ WallSpacing wall_spacing(double factor) {
   return WallSpacing{}.times(factor);
 }
 
-WakeLine wake_line(double length, double angle_deg) {
+std::optional<WakeLine> wake_line(const std::optional<double>& length, double angle_deg) {
   if (!(std::abs(angle_deg) <= 90.0))
     throw Error(ErrorCode::argument, "wake_angle",
                 "found " + std::to_string(angle_deg) + ", expected -90 to 90");
+  if (!length && angle_deg != 0.0)
+    throw Error(ErrorCode::argument, "wake_angle", "given without wake, expected both");
+  if (!length) return std::nullopt;
   const double angle = angle_deg * std::numbers::pi / 180.0;
-  return {.length = length, .direction = {std::cos(angle), std::sin(angle)}};
+  return WakeLine{.length = *length, .direction = {std::cos(angle), std::sin(angle)}};
 }
 
 Snapshot layered_snapshot(const py::object& mesh) {

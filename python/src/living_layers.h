@@ -41,8 +41,8 @@ LayerOptions layer_of(const std::optional<double>& reynolds, const std::string& 
                       double growth, const std::vector<std::string>& walls);
 // The usual distances between stations, times `factor`. Throws Error (argument) unless that is positive.
 WallSpacing wall_spacing(double factor);
-// Throws Error (argument) for an angle beyond 90 degrees.
-WakeLine wake_line(double length, double angle_deg);
+// None without a length. Throws Error (argument) for an angle without one, and beyond 90 degrees.
+std::optional<WakeLine> wake_line(const std::optional<double>& length, double angle_deg);
 
 // update(), trial(), LayeredStep and LayeredTrial.
 void add_layered_changes(py::module_& module);

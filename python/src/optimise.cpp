@@ -84,7 +84,7 @@ void add_layers_to(OptimiseOptions& options, const py::object& layers) {
                              double, double, std::optional<double>, double>>();
   options.layers =
       RunLayers{layer_of(reynolds, model, first_height, thickness, growth, {}), wall_spacing(spacing)};
-  if (wake) options.layers->wake = wake_line(*wake, wake_angle);
+  options.layers->wake = wake_line(wake, wake_angle);
   options.quality.gradation = 8.0;
 }
 

@@ -279,6 +279,8 @@ def test_a_pickled_mesh_goes_on_as_a_copy_does(tmp_path):
         (lambda: remodel.generate_layered("naca:0012", reynolds=6e6, spacing=0.0), "spacing"),
         (lambda: remodel.generate_layered("naca:0012", reynolds=6e6, wake=0.0), "wake: found 0"),
         (lambda: remodel.generate_layered("naca:0012", reynolds=6e6, wake=1.0, wake_angle=95), "wake_angle: found 95"),
+        (lambda: remodel.generate_layered("naca:0012", reynolds=6e6, wake_angle=5), "wake_angle: given without wake"),
+        (lambda: remodel.optimise("naca:0012", remodel.Airfoil("rae2822"), layers={"reynolds": 1e6, "growth": None}), "None for growth"),
         (lambda: remodel.generate_layered("naca:0012", reynolds=6e6, walls=["none"]), "none"),
         (lambda: remodel.generate_layered("naca:0012", reynolds=float("nan")), "reynolds: found nan"),
         (lambda: remodel.LivingFlow(model="les"), "model: found 'les'"),

@@ -177,7 +177,7 @@ std::vector<std::vector<Point>> outlines_of(const Domain& domain) {
 
 std::vector<std::vector<Point>> outlines(const FlowSpace& space, std::span<const double> design) {
   constexpr int pieces = 400;
-  if (space.sections() == 0) return outlines_of(space.walls(design));
+  if (space.sections() == 0) return outlines_of(space.bodies(design));
   std::vector<std::vector<Point>> result;
   for (std::size_t index = 0; index < space.sections(); ++index) {
     const CstAirfoil section = space.section(design, index);

@@ -22,7 +22,7 @@ std::vector<double> shape_numbers(const FlowSpace& space, std::span<const double
       numbers.push_back(x);
   }
   if (space.sections() != 0) return numbers;
-  Domain walls = space.walls(design);
+  Domain walls = space.bodies(design);
   std::erase_if(walls.loops, [](const Loop& loop) { return loop.curves.front().name == "farfield"; });
   return coefficients_of(walls);
 }

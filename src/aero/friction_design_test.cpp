@@ -99,6 +99,7 @@ TEST(Friction, TheWakeIsThatOfTheStart) {
   for (double& x : design) x *= 1.2;
   EXPECT_EQ(task.space().walls(design).loops.back(), wake);
   EXPECT_EQ(task.space().domain_with(design, 200).loops.back(), wake);
+  EXPECT_EQ(task.space().bodies(design).loops.size() + 1, task.space().walls(design).loops.size());
   const auto again = LayeredSpace::from_description(
       std::make_unique<SectionSpace>(problem.airfoil, SectionSpaceOptions{.domain = problem.domain}),
       task.space().description());

@@ -36,8 +36,7 @@ LayeredSpace::LayeredSpace(std::unique_ptr<FlowSpace> bodies, const LayerOptions
       points_(points),
       stations_(stations_of(bodies_->domain(bodies_->start()), points, layer.walls)),
       wake_(wake),
-      wake_loop_(wake ? std::optional(wake_behind(with_stations(bodies_->domain(bodies_->start()), stations_),
-                                                  *wake, layer))
+      wake_loop_(wake ? std::optional(wake_behind(this->bodies(bodies_->start()), *wake, layer))
                       : std::nullopt),
       frame_(walls(bodies_->start()), layer) {}
 
@@ -67,10 +66,6 @@ Stations LayeredSpace::stations_of(const Domain& start, int points, const std::v
   }
   space_walls(spaced, usual.times(coarse), names);
   return remodel::stations_of(spaced);
-}
-
-Domain LayeredSpace::walls(std::span<const double> design) const {
-  return with_wake(with_stations(bodies_->domain(design), stations_));
 }
 
 Domain LayeredSpace::domain_with(std::span<const double> design, int points) const {

@@ -33,7 +33,10 @@ class LayeredSpace final : public FlowSpace {
                                                      const std::string& description);
 
   const LayerFrame* layers() const override { return &frame_; }
-  Domain walls(std::span<const double> design) const override;
+  Domain walls(std::span<const double> design) const override { return with_wake(bodies(design)); }
+  Domain bodies(std::span<const double> design) const override {
+    return with_stations(bodies_->domain(design), stations_);
+  }
   Domain domain(std::span<const double> design) const override { return frame_.outside(walls(design)); }
   // Of sections and walls that have a layer.
   bool feasible(std::span<const double> design) const override;

@@ -53,6 +53,8 @@ std::optional<WakeLine> wake_given(const Keys& mesh) {
   const auto length = mesh.find<double>("wake"), degrees = mesh.find<double>("wake_angle_deg");
   if (!length && degrees) mesh.fail("found 'wake_angle_deg' without 'wake', expected both");
   if (!length) return std::nullopt;
+  if (!(*length > 0.0 && *length <= 1e3))
+    mesh.fail("found " + shown(*length) + " as 'wake', expected more than 0 and at most 1000 chords");
   if (degrees && !(std::abs(*degrees) <= 90.0))
     mesh.fail("found " + shown(*degrees) + " as 'wake_angle_deg', expected -90 to 90");
   const double angle = degrees.value_or(0.0) * std::numbers::pi / 180.0;

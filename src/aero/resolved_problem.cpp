@@ -385,7 +385,10 @@ class Resolver {
       resolved_.space = std::make_unique<LayeredSpace>(std::move(resolved_.space), layer,
                                                        problem_.domain.points, problem_.wake);
     } catch (const Error& error) {
-      place_.inner("mesh").fail("found 'layers' that no walls can have: " + std::string(error.what()));
+      const std::string why = error.what();
+      const bool by_wake = problem_.wake && why.find("wake") != std::string::npos;
+      place_.inner("mesh").fail(std::string("found ") + (by_wake ? "a 'wake'" : "'layers'") +
+                                " that no walls can have: " + why);
     }
     if (resolved_.target) put_layer_on_target();
   }
@@ -393,8 +396,8 @@ class Resolver {
   // With the start's stations and wake. What comes of it is not needed here but for whether there is any.
   void put_layer_on_target() {
     const Domain walls = resolved_.space->walls(resolved_.space->start());
-    resolved_.target = with_stations(std::move(*resolved_.target), stations_of(walls));
     if (problem_.wake) resolved_.target->loops.push_back(walls.loops.back());
+    resolved_.target = with_stations(std::move(*resolved_.target), stations_of(walls));
     try {
       resolved_.space->layers()->outside(*resolved_.target);
     } catch (const Error& error) {

@@ -60,6 +60,9 @@ TEST(CheckCells, TopsAreSidesOfSmallAngles) {
   mesh.triangles = {{3, 2, 4}};
   mesh.quads = {{0, 1, 2, 3}};
   mesh.boundaries = {{"wall", {{0, 1}}}, {"outlet", {{1, 2}, {2, 4}}}, {"inlet", {{4, 3}, {3, 0}}}};
+  EXPECT_EQ(broken(mesh, {.min_angle_deg = 45}), Names{"angle"});  // another program's quadrilateral
+  mesh.vertex_ids = {0, 1, 2, 3, 4};
+  mesh.vertex_keys = {0, 1, 2, 3, 4};
   const CheckResult result = check(mesh, {.min_angle_deg = 45});
   EXPECT_TRUE(result.valid) << (result.valid ? "" : result.violations[0].detail);
   EXPECT_EQ(result.exempt_triangles, 1U);

@@ -14,8 +14,10 @@ double squared_length(Point p) {
   return p.x * p.x + p.y * p.y;
 }
 
-// Between the layer on a wall and the triangles beyond it.
+// Between the layer on a wall and the triangles beyond it. Quadrilaterals of another program's mesh, which
+// has no keys, are no layer.
 bool is_top(const FrozenMesh& mesh, const Edge& edge) {
+  if (mesh.vertex_keys.empty()) return false;
   const auto is_layer = [&](std::uint32_t cell) {
     return cell < mesh.layer_triangles || cell >= mesh.triangles.size();
   };

@@ -15,14 +15,15 @@ namespace {
 // A ball between the wall and the line has half their distance as its radius, and a column takes half of
 // that.
 constexpr double thicknesses_to_the_wake = 4.2;
+constexpr double most_spacings = 1e6;  // the line has no more stations
 
 void require_wake(const WakeLine& wake) {
-  require_option(wake.length > 0.0 && wake.length <= 1e3, "wake", wake.length,
-                 "more than 0 and at most 1000 chords");
-  require_option(wake.first >= 1e-6 && wake.first <= 1e3, "first spacing of the wake", wake.first,
-                 "1e-6 to 1000 chords");
-  require_option(wake.most >= wake.first && wake.most <= 1e3, "largest spacing of the wake", wake.most,
-                 "at least the first one and at most 1000 chords");
+  require_option(wake.first > 0.0 && std::isfinite(wake.first), "first spacing of the wake", wake.first,
+                 "more than 0");
+  require_option(wake.length > 0.0 && wake.length <= most_spacings * wake.first, "wake", wake.length,
+                 "more than 0 and at most a million times its first spacing");
+  require_option(wake.most >= wake.first && std::isfinite(wake.most), "largest spacing of the wake",
+                 wake.most, "at least the first one");
   require_option(wake.growth >= 1.0 && wake.growth <= 2.0, "growth of the wake", wake.growth, "1 to 2");
 }
 

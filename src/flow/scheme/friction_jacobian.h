@@ -81,7 +81,7 @@ void FrictionSystem<N>::jacobian(const BlockState<N>& state, Jacobian& result) c
     result.whole = pattern();
     result.first = pattern(result.whole.rows, Order::first);
   }
-  result.first.block.resize(result.first.column.size());
+  result.first.block.resize(result.first.column.size());  // whoever factors it may have taken its blocks
   Rows rows[] = {rows_of_vertices(result.whole, Order::whole), rows_of_vertices(result.first, Order::first)};
   add_fluxes(state, rows);
   result.rows = augmented_rows(state, result.whole);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "flow/linear/gmres.h"
@@ -24,6 +26,55 @@ double longest(const BlockState<N>& state, const BlockIncrement<N>& step) {
   if (!std::isfinite(largest)) return 0.0;
   return std::min(1.0, FrictionPolicy::largest_part / largest);
 }
+
+// After a step of which this part was taken; `fall` is by how many times the residual is less.
+double next_cfl(double cfl, double part, double fall) {
+  if (part == 1.0) return cfl * (FrictionPolicy::full_growth * std::max(1.0, std::min(10.0, fall)));
+  if (part >= FrictionPolicy::shortest_part) return cfl * (1.0 + FrictionPolicy::part_growth * part);
+  return part > 0.0 ? 0.5 * cfl : 0.1 * std::min(cfl, 1e6);
+}
+
+// Whether a search leads on, and what it does where it does not.
+class Lead {
+ public:
+  explicit Lead(double residual) : least_(residual), least_of_all_(residual) {}
+
+  void note(double residual, double cfl, double lift) {
+    const bool has_fallen = residual < FrictionPolicy::fall * least_;
+    since_least_ = has_fallen ? 0 : since_least_ + (cfl > 1e4 ? 1 : 0);
+    if (has_fallen) least_ = residual;
+    ++since_least_of_all_;
+    if (residual < FrictionPolicy::fall * least_of_all_) least_of_all_ = residual, since_least_of_all_ = 0;
+    if (returns_ > 0) low_ = std::min(low_, lift), high_ = std::max(high_, lift);
+  }
+  bool falls_no_more() const { return since_least_ > FrictionPolicy::patience; }
+  int since_least_of_all() const { return since_least_of_all_; }
+
+  // Back to steps in time; false: that has been done often enough.
+  bool returns() {
+    if (returns_ == FrictionPolicy::most_returns) return false;
+    ++returns_, since_least_ = 0, least_ = std::numeric_limits<double>::infinity();
+    steps_in_time_ = FrictionPolicy::steps_of_return;
+    return true;
+  }
+  double limited(double cfl) {
+    return --steps_in_time_ > 0 ? std::min(cfl, FrictionPolicy::return_cfl) : cfl;
+  }
+
+  std::string reason() const {
+    const std::string falls_no_more = "the residual falls no more";
+    if (!(high_ - low_ >= 1e-4)) return falls_no_more;
+    char lifts[80];
+    std::snprintf(lifts, sizeof lifts, ", and the lift coefficient has been from %.4f to %.4f", low_, high_);
+    return falls_no_more + lifts;
+  }
+
+ private:
+  double least_, least_of_all_;
+  int since_least_ = 0, since_least_of_all_ = 0, returns_ = 0, steps_in_time_ = 0;
+  // Of the lift since the first return.
+  double low_ = std::numeric_limits<double>::infinity(), high_ = -std::numeric_limits<double>::infinity();
+};
 
 // What rows count by in the norm that GMRES reduces. The plain norm does not see the errors of the tiny cells
 // at sharp edges, which Newton's method then needs steps for. With the root of sizes, not the fourth one,
@@ -222,10 +273,9 @@ void FrictionSearch<N>::run(BlockState<N>& state, double cfl, int patience) {
   record_.whole_factors = false;
   Residuals now = measure_(state);
   record_.history.push_back(now.size);
-  double least = now.size, least_of_all = now.size;
-  int since_least = 0, since_least_of_all = 0, returns = 0, steps_in_time = 0;
+  Lead lead(now.size);
   bool is_still = false;
-  const auto end = [&](FlowStatus status, const char* reason) {
+  const auto end = [&](FlowStatus status, const std::string& reason) {
     record_.status = status, record_.reason = reason, record_.residual = now.size;
   };
   while (!(now.size <= options_.tolerance)) {
@@ -233,17 +283,14 @@ void FrictionSearch<N>::run(BlockState<N>& state, double cfl, int patience) {
       return end(FlowStatus::interrupted, "interrupted");
     if (record_.newton_steps >= options_.max_steps)
       return end(FlowStatus::step_limit, "the number of steps has reached its limit");
-    const bool falls_no_more = since_least > FrictionPolicy::patience;
-    const bool is_rounding = falls_no_more && now.size <= FrictionPolicy::most_rounding;
+    const bool is_rounding = lead.falls_no_more() && now.size <= FrictionPolicy::most_rounding;
     if (is_rounding && is_still) return end(FlowStatus::converged, "");
-    if (is_rounding && cfl < FrictionPolicy::most_cfl) {
+    if (is_rounding && cfl < FrictionPolicy::most_cfl)
       cfl = FrictionPolicy::most_cfl;
-    } else if (falls_no_more && returns < FrictionPolicy::most_returns) {
-      ++returns, since_least = 0, least = std::numeric_limits<double>::infinity();
-      cfl = FrictionPolicy::return_cfl, steps_in_time = FrictionPolicy::steps_of_return;
-    } else if (falls_no_more || since_least_of_all >= patience || cfl < FrictionPolicy::least_cfl) {
-      return end(FlowStatus::stalled, "the residual falls no more");
-    }
+    else if (lead.falls_no_more() && lead.returns())
+      cfl = FrictionPolicy::return_cfl;
+    else if (lead.falls_no_more() || lead.since_least_of_all() >= patience || cfl < FrictionPolicy::least_cfl)
+      return end(FlowStatus::stalled, lead.reason());
     const std::vector<double> waves = system_.wave_speeds(state);
     std::vector<double> by_time = waves;
     for (double& x : by_time) x = cfl < FrictionPolicy::most_cfl ? x / cfl : 0.0;
@@ -255,24 +302,11 @@ void FrictionSearch<N>::run(BlockState<N>& state, double cfl, int patience) {
     is_still =
         solved && cfl >= FrictionPolicy::most_cfl && largest_change(state, step) <= FrictionPolicy::still;
     const double length = solved ? line_search(step, by_time, state, now) : 0.0;
-    if (length == 1.0)
-      cfl *= FrictionPolicy::full_growth * std::max(1.0, std::min(10.0, record_.history.back() / now.size));
-    else if (length >= FrictionPolicy::shortest_part)
-      cfl *= 1.0 + FrictionPolicy::part_growth * length;
-    else if (length == 0.0)
-      cfl = 0.1 * std::min(cfl, 1e6);
-    else
-      cfl *= 0.5;
-    if (steps_in_time-- > 0) cfl = std::min(cfl, FrictionPolicy::return_cfl);
+    cfl = lead.limited(next_cfl(cfl, length, record_.history.back() / now.size));
     record_.history.push_back(now.size);
-    const bool has_fallen = now.size < FrictionPolicy::fall * least;
-    since_least = has_fallen ? 0 : since_least + (cfl > 1e4 ? 1 : 0);
-    if (has_fallen) least = now.size;
-    ++since_least_of_all;
-    if (now.size < FrictionPolicy::fall * least_of_all) least_of_all = now.size, since_least_of_all = 0;
-    if (options_.on_step)
-      options_.on_step({record_.newton_steps, now.size,
-                        reported_length(system_.stream()) * (now.augmented[0] + state.augmented[0])});
+    const double lift = reported_length(system_.stream()) * (now.augmented[0] + state.augmented[0]);
+    lead.note(now.size, cfl, lift);
+    if (options_.on_step) options_.on_step({record_.newton_steps, now.size, lift});
   }
   end(FlowStatus::converged, "");
 }
