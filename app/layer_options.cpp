@@ -1,12 +1,11 @@
 #include "layer_options.h"
 
-#include <cmath>
-#include <numbers>
 #include <string>
 
 #include "arguments.h"
 #include "number_text.h"
 #include "remodel/error.h"
+#include "remodel/flow_layer.h"
 
 namespace remodel::app {
 namespace {
@@ -88,8 +87,7 @@ void add_layer_sizes(CLI::App& app, LayerChoice& choice) {
 
 std::optional<WakeLine> wake_of(const LayerChoice& choice, double chord) {
   if (!choice.wake) return std::nullopt;
-  const double angle = choice.wake_angle_deg.value_or(0.0) * std::numbers::pi / 180.0;
-  WakeLine wake{.length = *choice.wake, .direction = {std::cos(angle), std::sin(angle)}};
+  WakeLine wake = wake_at(*choice.wake, choice.wake_angle_deg.value_or(0.0));
   for (double* length : {&wake.length, &wake.first, &wake.most}) *length *= chord;
   return wake;
 }

@@ -21,6 +21,9 @@ namespace remodel {
 // model without friction and a Reynolds number that is not 1 to 1e12.
 LayerOptions layer_for_flow(FlowModel model, double reynolds);
 
+// So long a wake, in chords, at an angle counter-clockwise from the x axis.
+WakeLine wake_at(double length, double angle_deg);
+
 // LayerOptions::walls for a flow with these options: the names of closed loops' curves that are neither the
 // far field nor inlets, outlets and symmetry planes. Empty where there is nothing but a far field.
 std::vector<std::string> walls_of_flow(const Domain& domain, const FlowOptions& options);

@@ -3,7 +3,6 @@
 #include "remodel/layers.h"
 
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "apart.h"
@@ -261,8 +260,7 @@ std::optional<WakeLine> wake_line(const std::optional<double>& length, double an
   if (!length && angle_deg != 0.0)
     throw Error(ErrorCode::argument, "wake_angle", "given without wake, expected both");
   if (!length) return std::nullopt;
-  const double angle = angle_deg * std::numbers::pi / 180.0;
-  return WakeLine{.length = *length, .direction = {std::cos(angle), std::sin(angle)}};
+  return wake_at(*length, angle_deg);
 }
 
 Snapshot layered_snapshot(const py::object& mesh) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "remodel/error.h"
 
@@ -18,6 +19,11 @@ LayerOptions layer_for_flow(FlowModel model, double reynolds) {
   layer.first_height =
       std::min(first_height(turbulent ? turbulent_y_plus : laminar_y_plus, reynolds), 0.1 * layer.thickness);
   return layer;
+}
+
+WakeLine wake_at(double length, double angle_deg) {
+  const double angle = angle_deg * std::numbers::pi / 180.0;
+  return {.length = length, .direction = {std::cos(angle), std::sin(angle)}};
 }
 
 namespace {

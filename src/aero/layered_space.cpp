@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "design/wake_json.h"
 #include "layer/walls.h"
 #include "remodel/error.h"
 #include "remodel/mesh_derivative.h"
@@ -35,19 +34,12 @@ LayeredSpace::LayeredSpace(std::unique_ptr<FlowSpace> bodies, const LayerOptions
     : bodies_(std::move(bodies)),
       points_(points),
       stations_(stations_of(bodies_->domain(bodies_->start()), points, layer.walls)),
-      wake_(wake),
-      wake_loop_(wake ? std::optional(wake_behind(this->bodies(bodies_->start()), *wake, layer))
-                      : std::nullopt),
+      wake_(start_wake(this->bodies(bodies_->start()), wake, layer)),
       frame_(walls(bodies_->start()), layer) {}
-
-Domain LayeredSpace::with_wake(Domain bodies) const {
-  if (wake_loop_) bodies.loops.push_back(*wake_loop_);
-  return bodies;
-}
 
 // The wake's numbers, which are the last ones, follow nothing.
 std::vector<double> LayeredSpace::gradient_of_domain(std::span<const double> by_numbers) const {
-  const std::size_t of_wake = wake_loop_ ? coefficients_of({{*wake_loop_}}).size() : 0;
+  const std::size_t of_wake = wake_ ? coefficients_of({{wake_->loop}}).size() : 0;
   return bodies_->gradient_of_domain(by_numbers.first(by_numbers.size() - of_wake));
 }
 
@@ -71,7 +63,8 @@ Stations LayeredSpace::stations_of(const Domain& start, int points, const std::v
 Domain LayeredSpace::domain_with(std::span<const double> design, int points) const {
   const std::vector<double> start = bodies_->start();
   return with_wake(with_stations(bodies_->domain(design),
-                                 stations_of(bodies_->domain(start), points, frame_.options().walls)));
+                                 stations_of(bodies_->domain(start), points, frame_.options().walls)),
+                   wake_);
 }
 
 bool LayeredSpace::feasible(std::span<const double> design) const {
@@ -86,7 +79,7 @@ std::string LayeredSpace::description() const {
                     {"growth", layer.growth},
                     {"thickness", layer.thickness}};
   if (!layer.walls.empty()) json["layers"]["walls"] = layer.walls;
-  if (wake_) json["layers"]["wake"] = to_json(*wake_);
+  if (wake_) json["layers"]["wake"] = to_json(wake_->line);
   return json.dump();
 }
 
@@ -99,8 +92,7 @@ std::unique_ptr<FlowSpace> LayeredSpace::from_description(std::unique_ptr<FlowSp
                    .growth = layer.at("growth"),
                    .thickness = layer.at("thickness"),
                    .walls = layer.value("walls", std::vector<std::string>())},
-      layer.at("points").get<int>(),
-      layer.contains("wake") ? std::optional(wake_from(layer.at("wake"))) : std::nullopt);
+      layer.at("points").get<int>(), wake_in(layer));
 }
 
 }  // namespace remodel

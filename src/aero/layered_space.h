@@ -8,17 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "design/start_wake.h"
 #include "layer/station_lists.h"
 #include "remodel/flow_space.h"
 #include "remodel/layers.h"
 
 namespace remodel {
-
-// The loop that add_wake() adds.
-inline Loop wake_behind(Domain walls, const WakeLine& wake, const LayerOptions& layer) {
-  add_wake(walls, wake, layer);
-  return std::move(walls.loops.back());
-}
 
 class LayeredSpace final : public FlowSpace {
  public:
@@ -33,7 +28,7 @@ class LayeredSpace final : public FlowSpace {
                                                      const std::string& description);
 
   const LayerFrame* layers() const override { return &frame_; }
-  Domain walls(std::span<const double> design) const override { return with_wake(bodies(design)); }
+  Domain walls(std::span<const double> design) const override { return with_wake(bodies(design), wake_); }
   Domain bodies(std::span<const double> design) const override {
     return with_stations(bodies_->domain(design), stations_);
   }
@@ -69,14 +64,10 @@ class LayeredSpace final : public FlowSpace {
   static Stations stations_of(const Domain& walls, int points, const std::vector<std::string>& names = {});
 
  private:
-  // The bodies' loops and behind them that of the wake, if there is one.
-  Domain with_wake(Domain bodies) const;
-
   std::unique_ptr<FlowSpace> bodies_;
   int points_;
   Stations stations_;
-  std::optional<WakeLine> wake_;
-  std::optional<Loop> wake_loop_;
+  std::optional<StartWake> wake_;
   LayerFrame frame_;
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "aero/deformed_space.h"
 #include "aero/problem_elements.h"
@@ -11,6 +10,7 @@
 #include "aero/problem_openings.h"
 #include "aero/problem_space.h"
 #include "aero/resolved_problem.h"
+#include "remodel/flow_layer.h"
 
 namespace remodel {
 
@@ -57,8 +57,7 @@ std::optional<WakeLine> wake_given(const Keys& mesh) {
     mesh.fail("found " + shown(*length) + " as 'wake', expected more than 0 and at most 1000 chords");
   if (degrees && !(std::abs(*degrees) <= 90.0))
     mesh.fail("found " + shown(*degrees) + " as 'wake_angle_deg', expected -90 to 90");
-  const double angle = degrees.value_or(0.0) * std::numbers::pi / 180.0;
-  return WakeLine{.length = *length, .direction = {std::cos(angle), std::sin(angle)}};
+  return wake_at(*length, degrees.value_or(0.0));
 }
 
 void read_mesh_options(const Json& json, const std::string& file, DesignProblem& problem) {

@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "design/wake_json.h"
 #include "remodel/error.h"
 
 namespace remodel {
@@ -34,26 +33,21 @@ std::unique_ptr<AirfoilSpace> airfoils_of(const CstAirfoil& from, const Optimise
 }  // namespace
 
 LayeredAirfoils::LayeredAirfoils(std::unique_ptr<AirfoilSpace> airfoils, const RunLayers& layers)
-    : airfoils_(std::move(airfoils)), spacing_(layers.spacing), wake_(layers.wake) {
+    : airfoils_(std::move(airfoils)), spacing_(layers.spacing) {
   const std::vector<double> start = airfoils_->start();
   if (spacing_) {
     Domain spaced = airfoils_->domain(start);
     space_walls(spaced, *spacing_, layers.options.walls);
     stations_ = stations_of(spaced);
   }
-  if (wake_) {
-    Domain with_wake = walls(start);
-    add_wake(with_wake, *wake_, layers.options);
-    wake_loop_ = std::move(with_wake.loops.back());
-  }
+  wake_ = start_wake(walls(start), layers.wake, layers.options);
   frame_.emplace(walls(start), layers.options);
 }
 
 Domain LayeredAirfoils::walls(std::span<const double> design) const {
   Domain domain = airfoils_->domain(design);
   if (spacing_) domain = with_stations(std::move(domain), stations_);
-  if (wake_loop_) domain.loops.push_back(*wake_loop_);
-  return domain;
+  return with_wake(std::move(domain), wake_);
 }
 
 // Two surfaces that are apart at some stations may touch between them, and walls may have no room for a
@@ -71,7 +65,7 @@ std::string LayeredAirfoils::description() const {
                     {"walls", layer.walls},
                     {"fan_from_deg", layer.fan_from_deg}};
   if (spacing_) json["layers"]["spacing"] = to_json(*spacing_);
-  if (wake_) json["layers"]["wake"] = to_json(*wake_);
+  if (wake_) json["layers"]["wake"] = to_json(wake_->line);
   return json.dump();
 }
 
@@ -97,7 +91,7 @@ std::optional<RunLayers> RunSpace::layers_in(const std::string& options) {
                                .fan_from_deg = layers.at("fan_from_deg")}};
   result.spacing.reset();
   if (layers.contains("spacing")) result.spacing = spacing_from(layers.at("spacing"));
-  if (layers.contains("wake")) result.wake = wake_from(layers.at("wake"));
+  result.wake = wake_in(layers);
   return result;
 }
 

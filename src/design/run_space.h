@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "design/start_wake.h"
 #include "layer/station_lists.h"
 #include "remodel/design_space.h"
 #include "remodel/layers.h"
@@ -37,9 +38,8 @@ class LayeredAirfoils final : public DesignSpace {
  private:
   std::unique_ptr<AirfoilSpace> airfoils_;
   std::optional<WallSpacing> spacing_;
-  std::optional<WakeLine> wake_;
   Stations stations_;  // of the start's walls, where there is a spacing
-  std::optional<Loop> wake_loop_;
+  std::optional<StartWake> wake_;
   std::optional<LayerFrame> frame_;
 };
 
