@@ -22,8 +22,10 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "remodel/frozen_mesh.h"
 #include "remodel/mesh.h"
 #include "remodel/point.h"
 
@@ -36,11 +38,16 @@ class InteriorDisplacement {
   // of the whole mesh, and MeshDerivative::vjp() of vjp() its transpose. The mesh need not live on. `moving`:
   // the loops of its domain that move, by index. Throws Error (argument) for an index that there is not.
   InteriorDisplacement(const Mesh& mesh, std::span<const std::size_t> moving);
+  // The mesh may be any, with layers on its walls too, whose cells then go along: not as they are made for
+  // another design (LayeredMeshDerivative has that), but as meshes of other programs are warped. `moving` are
+  // the names of boundaries that move; points that they share with others move with them. Throws Error
+  // (argument) for a name that there is not.
+  InteriorDisplacement(const FrozenMesh& mesh, std::span<const std::string> moving);
   ~InteriorDisplacement();
   InteriorDisplacement(InteriorDisplacement&&) noexcept;
   InteriorDisplacement& operator=(InteriorDisplacement&&) noexcept;
 
-  std::size_t points() const;  // of the mesh's frozen view
+  std::size_t points() const;  // of the frozen mesh
   // One displacement for each point of the frozen mesh. `walls` has as many: the displacements of boundary
   // points stay as they are (those of walls that do not move have to be zero), those of others are not read.
   // Throws Error (argument) for another size, as vjp() does.

@@ -13,7 +13,7 @@ surface of shape (n, 3). Surfaces may be flat where they are handed in. The meth
 weighting with rotations (E. Luke, E. Collins and E. Blades, J. Comput. Phys. 231, 2012), of edges, in the plane, and
 linear: warpDeriv() and warpDerivFwd() are exact at every surface. Connectivity stays, so that triangles get worse with
 the distance; where one turns over, or walls cross, warpMesh() raises TopologyChanged, and the grid is as it was. Mesh.update() goes on
-from there.
+from there. Grids with quadrilaterals, as layers on walls have them, are warped too: cells of a layer go with the wall.
 """
 
 import os
@@ -22,7 +22,7 @@ import warnings
 import numpy as np
 
 from . import _calls
-from ._core import FrozenMesh, InteriorDisplacement, Mesh, import_mesh, read_frozen
+from ._core import FrozenMesh, InteriorDisplacement, LayeredMesh, Mesh, import_mesh, read_frozen
 from ._errors import ArgumentError, ArgumentTypeError, TopologyChanged
 from ._mesh import Validity
 
@@ -36,7 +36,7 @@ _NEAR = 1e-9  # of the grid's size: a point of a surface definition is a vertex 
 
 
 class USMesh:
-    """Warps a mesh. options: a dict of IDWarp's options, or a Mesh or FrozenMesh. comm: of one process. debug: has no
+    """Warps a mesh. options: a dict of IDWarp's options, or a Mesh, LayeredMesh or FrozenMesh. comm: of one process. debug: has no
     effect. surface: names of the boundaries that move, as the option specifiedSurfaces; unless given, all but
     `farfield`."""
 
@@ -45,7 +45,7 @@ class USMesh:
             raise ArgumentTypeError(f"comm: found {_calls.shown(comm)}, expected a communicator of MPI, or None")
         if comm is not None and comm.size != 1:
             raise ArgumentError(f"comm: found {comm.size} processes, expected one: a mesh is whole in each process")
-        mesh = options if isinstance(options, (Mesh, FrozenMesh)) else None
+        mesh = options if isinstance(options, (Mesh, LayeredMesh, FrozenMesh)) else None
         self._options = {**_FILE_OPTIONS, **_METHOD_OPTIONS}
         for name, value in ({} if mesh is not None else self._dict(options)).items():
             self.setOption(name, value)
@@ -57,7 +57,7 @@ class USMesh:
     @staticmethod
     def _dict(options):
         if not isinstance(options, dict):
-            raise ArgumentTypeError(f"options: found {_calls.shown(options)}, expected a dict of options, or a Mesh")
+            raise ArgumentTypeError(f"options: found {_calls.shown(options)}, expected a dict of options, or a mesh")
         return options
 
     def getOption(self, name):
@@ -91,12 +91,13 @@ class USMesh:
                 raise ArgumentTypeError(f"gridFile: found {_calls.shown(file)}, expected the name of a file")
             if os.path.splitext(file)[1].lower() == ".cgns":
                 raise ArgumentError(f"gridFile: found {file}, expected .vtkhdf, .vtu, .msh or .su2 (meshio reads CGNS; USMesh(remodel.from_meshio(...)))")
-            mesh = Mesh.load(file)
-            self._grid = np.array(read_frozen(file).points)
+            grid = read_frozen(file)
+            mesh = grid if len(grid.quads) else Mesh.load(file)
         else:
-            self._grid = np.array(mesh.points)
-            mesh = import_mesh(mesh) if isinstance(mesh, FrozenMesh) else mesh.copy()
-        self._mesh, self._start = mesh, mesh.freeze()
+            grid = mesh if isinstance(mesh, FrozenMesh) else mesh.freeze()
+            mesh = import_mesh(grid) if mesh is grid and not len(grid.quads) else mesh
+        self._grid = np.array(grid.points)
+        self._mesh, self._start = (grid, grid) if len(grid.quads) else (mesh.copy(), mesh.freeze())
         self._validity = Validity(self._start)
         self._size = float(np.ptp(self._grid, axis=0).max())
         self._external = None

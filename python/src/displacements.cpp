@@ -17,21 +17,12 @@ bool of_loop(const Loop& loop, const std::string& name) {
 
 class Displacement {
  public:
-  Displacement(const LivingMeshPointer& mesh, const std::optional<std::vector<std::string>>& names)
-      : names_(names) {
-    const ThreadLock::Held held(mesh->lock);
-    mesh_ = std::make_shared<LivingMesh>();
-    mesh_->mesh = mesh->mesh;
-    mesh_->stopped = mesh->stopped;
-    const std::vector<std::size_t> moving = loops(mesh->mesh.domain());
-    field_ = std::make_unique<InteriorDisplacement>(mesh->mesh, moving);
-    const Snapshot frozen = mesh->freeze();
-    std::vector<bool> moves;  // per curve
-    for (std::size_t i = 0; i < mesh->mesh.domain().loops.size(); ++i)
-      moves.insert(moves.end(), mesh->mesh.domain().loops[i].curves.size(),
-                   std::find(moving.begin(), moving.end(), i) != moving.end());
-    for (const std::int32_t curve : frozen->curve)
-      still_.push_back(curve >= 0 && !moves[static_cast<std::size_t>(curve)]);
+  // Of a Mesh by its loops, which it is copied for; of any other mesh by its arrays, as they are now.
+  Displacement(const py::object& mesh, const std::optional<std::vector<std::string>>& names) : names_(names) {
+    if (py::isinstance<LivingMesh>(mesh))
+      of_loops(mesh.cast<LivingMeshPointer>());
+    else
+      of_arrays(snapshot_of(mesh));
   }
 
   py::array jvp(const Reals& walls) const {
@@ -47,9 +38,38 @@ class Displacement {
   }
   std::size_t size() const { return field_->points(); }
 
-  py::tuple state() const { return py::make_tuple(mesh_, names_); }
+  py::tuple state() const { return py::make_tuple(kept_, names_); }
 
  private:
+  void of_loops(const LivingMeshPointer& mesh) {
+    const ThreadLock::Held held(mesh->lock);
+    const auto own = std::make_shared<LivingMesh>();
+    own->mesh = mesh->mesh;
+    own->stopped = mesh->stopped;
+    kept_ = py::cast(own);
+    const std::vector<std::size_t> moving = loops(mesh->mesh.domain());
+    field_ = std::make_unique<InteriorDisplacement>(mesh->mesh, moving);
+    const Snapshot frozen = mesh->freeze();
+    std::vector<bool> moves;  // per curve
+    for (std::size_t i = 0; i < mesh->mesh.domain().loops.size(); ++i)
+      moves.insert(moves.end(), mesh->mesh.domain().loops[i].curves.size(),
+                   std::find(moving.begin(), moving.end(), i) != moving.end());
+    for (const std::int32_t curve : frozen->curve)
+      still_.push_back(curve >= 0 && !moves[static_cast<std::size_t>(curve)]);
+  }
+  void of_arrays(const Snapshot& mesh) {
+    kept_ = py::cast(std::const_pointer_cast<FrozenMesh>(mesh));
+    std::vector<std::string> moving;
+    for (const FrozenBoundary& boundary : mesh->boundaries)
+      if (boundary.name != "farfield") moving.push_back(boundary.name);
+    if (names_) moving = *names_;
+    field_ = std::make_unique<InteriorDisplacement>(*mesh, moving);
+    still_.assign(mesh->points.size(), false);
+    for (const bool moves : {false, true})
+      for (const FrozenBoundary& boundary : mesh->boundaries)
+        if (moves == (std::find(moving.begin(), moving.end(), boundary.name) != moving.end()))
+          for (const auto& [a, b] : boundary.edges) still_[a] = still_[b] = !moves;
+  }
   std::vector<Point> of_all_points(const Reals& values, const char* name) const {
     std::vector<Point> result = points(values, name);
     if (result.size() != size())
@@ -75,7 +95,7 @@ class Displacement {
   }
 
   std::optional<std::vector<std::string>> names_;
-  LivingMeshPointer mesh_;
+  py::object kept_;  // the mesh, for pickles
   std::unique_ptr<InteriorDisplacement> field_;
   std::vector<bool> still_;  // per point
 };
@@ -88,10 +108,12 @@ void add_displacements(py::module_& module) {
       R"(The displacement of a mesh's interior that goes with one of its walls: smooth, linear, local.
 
 InteriorDisplacement(mesh, moving): moving are the names of the boundaries that move, all but `farfield` unless given.
-It is the field of E. Luke, E. Collins and E. Blades (J. Comput. Phys. 231, 2012), of edges instead of nodes, at the
-places that the mesh has now, or if it is held at those of its reference. The mesh need not live on.)")
-      .def(py::init<const LivingMeshPointer&, const std::optional<std::vector<std::string>>&>(),
-           py::arg("mesh").none(false), "moving"_a = py::none())
+mesh is a Mesh, a LayeredMesh or a FrozenMesh of any origin; layers on walls go along as all else does, which is not how
+a LayeredMesh follows its design (LayeredMesh.jvp). It is the field of E. Luke, E. Collins and E. Blades (J. Comput. Phys.
+231, 2012), of edges instead of nodes, at the places that the mesh has now, or if it is a Mesh that is held at those of
+its reference. The mesh need not live on.)")
+      .def(py::init<const py::object&, const std::optional<std::vector<std::string>>&>(), "mesh"_a,
+           "moving"_a = py::none())
       .def("jvp", &Displacement::jvp, "walls"_a,
            "The displacement of every point, of shape (n, 2). walls: of the same shape, that of boundary "
            "points; those of other points are not read, those of walls that rest have to be zero.")
@@ -100,10 +122,11 @@ places that the mesh has now, or if it is held at those of its reference. The me
       .def("__len__", &Displacement::size)
       .def(py::pickle([](const Displacement& d) { return d.state(); },
                       [](const py::tuple& state) {
-                        if (state.size() != 2 || state[0].is_none())
+                        if (state.size() != 2 ||
+                            !(py::isinstance<LivingMesh>(state[0]) || py::isinstance<FrozenMesh>(state[0])))
                           throw Error(ErrorCode::format, "pickle", "expected an InteriorDisplacement");
                         return std::make_unique<Displacement>(
-                            state[0].cast<LivingMeshPointer>(),
+                            py::reinterpret_borrow<py::object>(state[0]),
                             state[1].cast<std::optional<std::vector<std::string>>>());
                       }));
 }

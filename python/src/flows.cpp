@@ -15,7 +15,7 @@ namespace remodel {
 
 template <python::Is<FlowBody> T>
 auto members(T& b) {
-  return std::tie(b.name, b.cl, b.cd, b.cm);
+  return std::tie(b.name, b.cl, b.cd, b.cm, b.cd_pressure, b.cd_friction, b.y_plus_max);
 }
 template <python::Is<FlowOpening> T>
 auto members(T& o) {
@@ -279,9 +279,14 @@ double if_determined(const FlowResult& flow, double value) {
 
 py::dict bodies_of(const FlowResult& flow) {
   py::dict result;
-  for (const FlowBody& body : flow.bodies)
-    result[py::str(body.name)] = py::dict("cl"_a = if_determined(flow, body.cl), "cd"_a = body.cd,
-                                          "cm"_a = if_determined(flow, body.cm));
+  for (const FlowBody& body : flow.bodies) {
+    py::dict entry("cl"_a = if_determined(flow, body.cl), "cd"_a = body.cd,
+                   "cm"_a = if_determined(flow, body.cm));
+    if (flow.friction)
+      entry = py::dict("cd_pressure"_a = body.cd_pressure, "cd_friction"_a = body.cd_friction,
+                       "y_plus_max"_a = body.y_plus_max, **entry);
+    result[py::str(body.name)] = entry;
+  }
   return result;
 }
 
@@ -317,7 +322,9 @@ void add_figures(py::class_<FlowResult, FlowPointer>& type) {
   type.def_property_readonly(
       "cm", [](const FlowResult& f) { return if_determined(f, f.cm); },
       "The moment coefficient, positive nose up; nan where lift_determined is false.");
-  type.def_property_readonly("bodies", &bodies_of, "The parts of each wall, by name: cl, cd, cm.");
+  type.def_property_readonly("bodies", &bodies_of,
+                             "The parts of each wall, by name: cl, cd, cm; with friction also cd_pressure, "
+                             "cd_friction and y_plus_max.");
   type.def_property_readonly("openings", &openings_of,
                              "What enters through each inlet and outlet, by name: density times speed of "
                              "sound of the stream times length.");

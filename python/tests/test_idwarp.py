@@ -112,3 +112,32 @@ def test_what_cannot_be_warped_is_refused_and_leaves_the_grid(mesh, file):
     USMesh(options={"gridFile": str(file), "symmetryPlanes": [[[0, 0, 0], [0, 0, 1]]]})
     with pytest.warns(UserWarning, match="aExp: has no effect"):
         USMesh(options={"gridFile": str(file), "aExp": 2.0})
+
+
+@pytest.mark.parametrize("kind", ["plunge", "pitch", "inflate", "shear", "bump"])
+def test_layers_on_walls_go_with_them(tmp_path, kind):
+    mesh = remodel.generate_layered("naca:0012", reynolds=1e6, growth=1.4)
+    mesh.freeze().save(tmp_path / "grid.su2")
+    for warp in (USMesh(options={"gridFile": str(tmp_path / "grid.su2")}), USMesh(mesh)):
+        first = warp.getSurfaceCoordinates()
+        warp.setSurfaceCoordinates(0.5 * (first + moved_by(kind, first)))
+        warp.warpMesh()
+        frozen = mesh.freeze()
+        there = frozen.with_points(warp.getWarpGrid().reshape(-1, 3)[:, :2])
+        assert len(there.quads) == len(frozen.quads) and there.check(delaunay=False).valid
+        before, after = (first_heights(m) for m in (frozen, there))
+        assert np.all(np.abs(after / before - 1.0) < (0.01 if kind in ("plunge", "pitch") else 0.15))
+        weights = np.random.default_rng(5).standard_normal(3 * len(frozen.points))
+        step = np.random.default_rng(6).standard_normal(first.shape)
+        warp.warpDeriv(weights)
+        assert np.isclose(np.sum(warp.getdXs() * step), weights @ warp.warpDerivFwd(step), rtol=1e-10)
+
+
+def first_heights(mesh):
+    """The distance of the second points of the columns on the airfoil from their feet."""
+    wall, p = np.unique(mesh.boundaries["airfoil"]), mesh.points
+    on_wall = np.zeros(len(p), dtype=bool)
+    on_wall[wall] = True
+    sides = np.concatenate([mesh.quads[:, [k, (k + 1) % 4]] for k in range(4)])
+    up = sides[on_wall[sides[:, 0]] & ~on_wall[sides[:, 1]]]
+    return np.hypot(*(p[up[:, 1]] - p[up[:, 0]]).T)

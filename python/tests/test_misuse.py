@@ -111,7 +111,7 @@ CASES = {
     "a direction of too few numbers": (lambda r: r.mesh.jvp(np.zeros(3)), Argument, "direction: found 3 numbers, expected 12"),
     "displacements of too few points": (lambda r: remodel.InteriorDisplacement(r.mesh).jvp(np.zeros((3, 2))), Argument, "walls: found 3"),
     "a boundary for a list of them": (lambda r: remodel.InteriorDisplacement(r.mesh, "airfoil"), Type, "moving: found 'airfoil' of type str, expected a list"),
-    "None for a mesh that moves": (lambda r: remodel.InteriorDisplacement(None), Type, "mesh: found None, expected a Mesh"),
+    "None for a mesh that moves": (lambda r: remodel.InteriorDisplacement(None), Type, "mesh: found NoneType, expected a Mesh"),
     "a method of nothing": (lambda r: remodel.Mesh.copy(None), Type, "self: found None"),
     "a trial outside its block": (lambda r: r.mesh.trial("naca:0012").step, Argument, "trial: has not begun"),
     "a trial kept outside its block": (lambda r: r.mesh.trial("naca:0012").keep(), Argument, "trial: is over or has not begun"),

@@ -22,28 +22,51 @@ Point quotient(Point a, Point b) {
   return squared > 0.0 ? (1.0 / squared) * product(a, conjugate(b)) : Point{};
 }
 
-}  // namespace
-
-WallField::WallField(const MeshData& mesh, std::span<const std::size_t> moving,
-                     std::span<const Point> points) {
+std::vector<WallField::Run> runs_of(const MeshData& mesh, std::span<const std::size_t> moving,
+                                    std::span<const Point> points) {
   const auto at = [&](std::uint32_t k) {
     return points.empty() ? mesh.point(k) : points[mesh.at(k).vertex.index];
   };
-  double extent = 0.0, length = 0.0;  // squared; of all moving edges
+  std::vector<WallField::Run> runs;
   for (std::size_t loop = 0; loop < mesh.loop_heads.size(); ++loop) {
-    const bool moves = std::ranges::binary_search(moving, loop);
-    const std::size_t first = edges_.size();
-    add_loop(mesh, loop, moves, at);
-    if (!moves) continue;
+    const std::uint32_t head = mesh.loop_heads[loop];
+    WallField::Run& run = runs.emplace_back();
+    run.moving = std::ranges::binary_search(moving, loop);
+    mesh.walk_edges(head, [&](std::uint32_t k, std::uint32_t next) {
+      const Point from = at(k), to = at(next);
+      run.edges.push_back(
+          {mesh.at(k).vertex, mesh.at(next).vertex, from, to, std::sqrt(squared_distance(from, to))});
+    });
+    if (run.edges.empty()) {
+      const VertexId v = mesh.at(head).vertex;
+      run.edges.push_back({v, v, at(head), at(head), mesh.length_scale(head)});
+    }
+  }
+  return runs;
+}
+
+}  // namespace
+
+WallField::WallField(const MeshData& mesh, std::span<const std::size_t> moving, std::span<const Point> points)
+    : WallField(runs_of(mesh, moving, points)) {}
+
+WallField::WallField(const std::vector<Run>& runs) {
+  double extent = 0.0, length = 0.0;  // squared; of all moving edges
+  for (const Run& run : runs) {
+    const auto first = static_cast<std::uint32_t>(edges_.size());
+    edges_.insert(edges_.end(), run.edges.begin(), run.edges.end());
+    moving_.resize(edges_.size(), run.moving);
+    add_nodes(first, static_cast<std::uint32_t>(edges_.size()));
+    if (!run.moving) continue;
     Box box;
-    for (std::size_t i = first; i < edges_.size(); ++i) {
-      box.add(edges_[i].from), box.add(edges_[i].to);
-      length += edges_[i].length;
+    for (const Edge& edge : run.edges) {
+      box.add(edge.from), box.add(edge.to);
+      length += edge.length;
     }
     box_.add(box);
     // A single point has its length scale for an extent; no edge is longer than its loop's.
-    extent =
-        std::max({extent, squared_distance(box.low, box.high), edges_[first].length * edges_[first].length});
+    const double first_length = run.edges.front().length;
+    extent = std::max({extent, squared_distance(box.low, box.high), first_length * first_length});
   }
   affine_.resize(nodes_.size());
   of_edges_.resize(edges_.size());
@@ -53,27 +76,11 @@ WallField::WallField(const MeshData& mesh, std::span<const std::size_t> moving,
   squared_reach_ = std::sqrt(length / least_);
 }
 
-template <class At>
-void WallField::add_loop(const MeshData& mesh, std::size_t loop, bool moving, At at) {
-  const auto first = static_cast<std::uint32_t>(edges_.size());
-  const std::uint32_t head = mesh.loop_heads[loop];
-  mesh.walk_edges(head, [&](std::uint32_t k, std::uint32_t next) {
-    const Point from = at(k), to = at(next);
-    edges_.push_back(
-        {mesh.at(k).vertex, mesh.at(next).vertex, from, to, std::sqrt(squared_distance(from, to)), moving});
-  });
-  if (edges_.size() == first) {
-    const Point p = at(head);
-    edges_.push_back({mesh.at(head).vertex, mesh.at(head).vertex, p, p, mesh.length_scale(head), moving});
-  }
-  add_nodes(first, static_cast<std::uint32_t>(edges_.size()));
-}
-
 // The depth of the recursion is the logarithm of the number of edges.
 void WallField::add_nodes(std::uint32_t first, std::uint32_t last) {
   const std::size_t n = nodes_.size();
   Node node;
-  node.first = first, node.last = last, node.moving = edges_[first].moving;
+  node.first = first, node.last = last, node.moving = moving_[first];
   for (std::uint32_t i = first; i < last; ++i) {
     node.centre = node.centre + 0.5 * edges_[i].length * (edges_[i].from + edges_[i].to);
     node.length += edges_[i].length;

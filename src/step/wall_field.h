@@ -23,15 +23,27 @@ class WallField {
   static constexpr double radius = 0.5;
   static constexpr double opening = 0.35;
 
-  // At these places of the vertices, by slot; where none are given, at those that they have now. `moving`
-  // ascends.
+  struct Edge {
+    VertexId a, b;
+    Point from, to;
+    double length;
+  };
+  // A wall or a part of it: edges one behind the other, or a single point, which is an edge of no extent with
+  // its length scale for a length.
+  struct Run {
+    std::vector<Edge> edges;
+    bool moving;
+  };
+  explicit WallField(const std::vector<Run>& runs);
+  // The loops of a mesh, at these places of its vertices, by slot; where none are given, at those that they
+  // have now. `moving` ascends.
   WallField(const MeshData& mesh, std::span<const std::size_t> moving, std::span<const Point> points = {});
 
   // Sets the displacements of the walls' vertices: of(vertex).
   template <class Of>
   void displace(Of of) {
     for (std::size_t i = 0; i < edges_.size(); ++i)
-      if (edges_[i].moving) set(i, of(edges_[i].a), of(edges_[i].b));
+      if (moving_[i]) set(i, of(edges_[i].a), of(edges_[i].b));
     gather();
   }
   // The displacement at x. Exactly zero beyond reach of the walls that move.
@@ -50,7 +62,7 @@ class WallField {
   void scatter(Add add) {
     spread();
     for (std::size_t i = 0; i < edges_.size(); ++i) {
-      if (!edges_[i].moving) continue;
+      if (!moving_[i]) continue;
       const auto [a, b] = ends(i);
       add(edges_[i].a, a);
       add(edges_[i].b, b);
@@ -58,12 +70,6 @@ class WallField {
   }
 
  private:
-  struct Edge {
-    VertexId a, b;
-    Point from, to;
-    double length;
-    bool moving;
-  };
   // u_e + a_e (x - m_e) = constant + slope x, in complex numbers; of a node: times lengths, summed.
   struct Affine {
     Point constant{}, slope{};
@@ -77,8 +83,6 @@ class WallField {
     bool moving = false;
   };
 
-  template <class At>
-  void add_loop(const MeshData& mesh, std::size_t loop, bool moving, At at);
   void add_nodes(std::uint32_t first, std::uint32_t last);
   void set(std::size_t edge, Point a, Point b);
   void gather();
@@ -91,6 +95,7 @@ class WallField {
   double see(Point x, Visit visit) const;
 
   std::vector<Edge> edges_;
+  std::vector<bool> moving_;  // of edges
   std::vector<Node> nodes_;
   std::vector<Affine> affine_;  // of nodes; derivatives by them while they are pulled
   std::vector<Affine> of_edges_;
