@@ -77,7 +77,21 @@ bool take_stations(Loop& loop, const Domain& walls) {
   return false;
 }
 
-DomainInput with_whole_domain(const LayeredUpdate& update, const Domain& walls) {
+// The wake line of the mesh behind the new walls: as long as it was, in its direction, with its stations.
+void keep_wake(const LayeredMesh& mesh, Domain& domain) {
+  for (const Loop& loop : mesh.domain().loops) {
+    const Curve& wake = loop.curves.front();
+    const Line* line = std::get_if<Line>(&wake.shape);
+    if (loop.role != LoopRole::internal || wake.name != "wake" || !line) continue;
+    const double length = distance(line->from, line->to);
+    add_wake(domain, {.length = length, .direction = line->to - line->from, .first = length, .most = length},
+             mesh.options());
+    domain.loops.back().curves.front().parameters = wake.parameters;
+  }
+}
+
+DomainInput with_whole_domain(const LayeredUpdate& update, const LayeredMesh& mesh) {
+  const Domain& walls = mesh.domain();
   DomainInputOptions shapes = update.shapes;
   shapes.farfield_stays = true;
   DomainInput input = read_domain(shapes, discretisation_of(walls), update.fit);
@@ -90,6 +104,7 @@ DomainInput with_whole_domain(const LayeredUpdate& update, const Domain& walls) 
     const std::vector<Parameters> stations = wall_stations(loop, WallSpacing{}.times(input.chord), several);
     for (std::size_t c = 0; c < loop.curves.size(); ++c) loop.curves[c].parameters = stations[c];
   }
+  keep_wake(mesh, input.domain);
   return input;
 }
 
@@ -114,7 +129,7 @@ void print_report(const LayeredUpdate& update, const DomainInput& input, const L
   add_findings(report, input);
   report.figure("strategy", "strategy", name_of(update.remodelling.strategy));
   add_step_figures(report, result, "cells");
-  const FrozenMesh view = mesh.freeze(update.cells);
+  const FrozenMesh view = mesh.freeze();  // whose cells the step counts, whatever files have
   add_cell_counts(report, view.triangles.size(), view.quads.size());
   report.figure("vertices", "vertices", view.points.size());
   report.figure("same_columns", "columns as before", result.same_columns);
@@ -159,7 +174,7 @@ Status run_layered_update(const LayeredUpdate& update) {
   const std::string boxes = boxes_of_layered(update.mesh);
   Cargo cargo(update.mesh, before, update.carry);
   const DomainInput input = is_single_airfoil(update.shapes) ? with_single_airfoil(update, original.domain())
-                                                             : with_whole_domain(update, original.domain());
+                                                             : with_whole_domain(update, original);
   InterruptObserver observer;
   RemodelOptions options = update.remodelling;
   options.observer = &observer;

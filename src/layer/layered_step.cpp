@@ -10,6 +10,7 @@
 #include "mesh/mesh_data.h"
 #include "remodel/error.h"
 #include "step/correspondence.h"
+#include "step/station_links.h"
 
 namespace remodel {
 
@@ -21,9 +22,20 @@ struct NewWalls {
   Domain domain;
   std::vector<std::size_t> from;  // per loop: the old one that it is station for station, or no_link
 };
+
+// Whether a loop is another one by no more than the rounding of its points. The outer mesh keeps its own
+// then, and the walls have to, or the columns would not end at its tops.
+bool differs_by_rounding(const Domain& own, const Domain& wanted) {
+  for (std::size_t l = 0; l < wanted.loops.size(); ++l)
+    if (!(own.loops[l] == wanted.loops[l]) &&
+        !same_stations(outline_of_loop(own, l), outline_of_loop(wanted, l)).station.empty())
+      return true;
+  return false;
+}
+
 NewWalls in_own_terms(const Domain& own, const Domain& wanted) {
   NewWalls walls{wanted, {}};
-  if (follows_by_index(own, wanted)) {
+  if (follows_by_index(own, wanted) && !differs_by_rounding(own, wanted)) {
     for (std::size_t l = 0; l < wanted.loops.size(); ++l) walls.from.push_back(l);
     return walls;
   }

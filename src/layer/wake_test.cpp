@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "remodel/airfoil.h"
 #include "remodel/error.h"
@@ -20,6 +21,22 @@ std::size_t edges_of_wake(const FrozenMesh& mesh) {
   const auto wake = std::find_if(mesh.boundaries.begin(), mesh.boundaries.end(),
                                  [](const FrozenBoundary& boundary) { return boundary.name == "wake"; });
   return wake == mesh.boundaries.end() ? 0 : wake->edges.size();
+}
+
+// The outer mesh keeps a loop that is its own but for rounding: so have the walls to.
+TEST(Wake, ALineThatIsOffByARoundingStaysTheOneOfTheMesh) {
+  const LayerOptions layers{.first_height = 1e-4, .growth = 1.4, .thickness = 0.02};
+  LayeredMesh mesh =
+      generate_layered(section_with("rae2822", layers.thickness), layers, {.gradation = 8.0}).mesh;
+  Domain design = section_with("naca:2412", layers.thickness);
+  design.loops.back() = mesh.domain().loops.back();
+  const Loop own = design.loops.back();
+  Point& end = std::get<Line>(design.loops.back().curves.front().shape).to;
+  end.x = std::nextafter(end.x, 3.0), end.y = std::nextafter(end.y, 1.0);
+  remodel(mesh, design);
+  EXPECT_EQ(mesh.domain().loops.back(), own);
+  EXPECT_EQ(mesh.outer().domain().loops.back(), own);
+  EXPECT_NO_THROW(LayeredMesh::restore(mesh.state(), "mesh"));
 }
 
 TEST(Wake, LiesBehindTheEdgeAndLeavesTheLayerAsItIs) {

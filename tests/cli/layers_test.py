@@ -191,6 +191,24 @@ class Layers(ProgramTest):
                 self.assertTrue(check["valid"])
                 self.assertGreater(check["boundary"]["wake"], 20)
 
+    def test_a_line_in_the_wake_goes_with_its_airfoil(self):
+        self.make("--wake", 1, "--wake-angle", 3, "-o", "a.vtkhdf")
+        wake = self.figures("check", "a.vtkhdf")["boundary"]["wake"]
+        for place in ("1,0,0,0", "1.3,0,0,0", "0.7,5,0.1,0.2"):
+            with self.subTest(place):
+                self.figures("update", "a.vtkhdf", "naca:2412", "--place", place, "-o", "b.vtkhdf")
+                check = self.figures("check", "b.vtkhdf")
+                self.assertTrue(check["valid"])
+                self.assertAlmostEqual(check["boundary"]["wake"], wake, delta=0.5 * wake)
+
+    def test_a_step_counts_its_own_cells_whatever_files_hold(self):
+        self.make("-o", "a.vtkhdf")
+        counts = [self.figures("update", "a.vtkhdf", "naca:2412", "--layer-cells", cells, "-o", "b.su2")
+                  for cells in ("quads", "triangles")]  # fmt: skip
+        for key in ("cells_before", "cells", "triangles", "quadrilaterals", "born", "gone"):
+            self.assertEqual(counts[0][key], counts[1][key], key)
+        self.assertEqual(counts[0]["cells"], counts[0]["cells_before"] + counts[0]["born"] - counts[0]["gone"])
+
     def test_fates_of_cells(self):
         self.make("-o", "a.vtkhdf")
         self.succeed("update", "a.vtkhdf", "naca:2412", "-o", "b.vtkhdf")
