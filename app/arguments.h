@@ -77,6 +77,7 @@ void add_strategy_choice(CLI::App& app, const char* usual, const Infos& infos, S
     names.emplace_back(info.name);
     help += (help.empty() ? "" : "; ") + names.back() + ": " + info.description;
   }
+  help += ". Unless this is given meshes with layers go by morph";
   add_choice(app, {"--strategy", "STRATEGY", usual, help}, names,
              [infos, set](std::size_t choice) { set(infos[choice].strategy); });
 }

@@ -44,11 +44,10 @@ void refuse(const FlowCommand& command, std::initializer_list<const char*> optio
 }
 
 MeshInput read_input(const FlowCommand& command) {
-  // By a length of 1.
-  const double reynolds = command.euler.conditions.reynolds / command.euler.conditions.reference_length;
   FlowOptions flow = options_of(command.euler);
   flow.farfield = command.farfield, flow.model = command.model;
-  return flow_mesh({command.input, command.meshing, flow, reynolds, command.layers, command.given});
+  return flow_mesh(
+      {command.input, command.meshing, flow, command.euler.conditions, command.layers, command.given});
 }
 
 // Any number of parts of a chord.
@@ -132,7 +131,9 @@ Status run(const FlowCommand& command) {
       !euler.wall_table.empty() || !euler.profiles.empty() || !euler.history.empty())
     throw Error(ErrorCode::argument, "--series",
                 "given with a file to write, expected no file: there are many flows");
-  if (!command.has_friction()) return run_series(euler, start_mesh(command));
+  const std::optional<std::string> file = mesh_file(command.input, command.given);
+  if (!command.has_friction() && !(file && holds_layers(*file)))
+    return run_series(euler, start_mesh(command));
   MeshInput input = read_input(command);
   if (!input.layered)
     throw Error(

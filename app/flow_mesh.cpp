@@ -28,9 +28,12 @@ MeshInput layered_input(const FlowMeshRequest& request) {
   MeshingOptions meshing = request.meshing;
   meshing.gradation = meshing.gradation.value_or(gradation_with_layers);
   DomainInput domain = read_domain(request.input, meshing.discretisation, meshing.fit);
-  LayerOptions usual = layer_for_flow(request.flow.model, request.reynolds * domain.chord);
+  // What airfoils have a chord for, a domain of a file has the reference length for.
+  if (!domain.in_farfield) domain.chord = request.conditions.reference_length;
+  const double reynolds = request.conditions.reynolds * (domain.chord / request.conditions.reference_length);
+  LayerOptions usual = layer_for_flow(request.flow.model, reynolds);
   usual.walls = walls_of_flow(domain.domain, request.flow);
-  const LayerOptions layer = adjusted(usual, request.layers, request.reynolds * domain.chord);
+  const LayerOptions layer = adjusted(usual, request.layers, reynolds);
   if (domain.in_farfield || request.layers.spacing_given)
     space_walls(domain.domain, request.layers.spacing.times(domain.chord), layer.walls);
   const LayerOptions in_place = in_units(layer, domain.chord);

@@ -19,9 +19,8 @@ namespace remodel::app {
 struct FlowMeshRequest {
   DomainInputOptions input;
   MeshingOptions meshing;
-  FlowOptions flow = {};  // its model, and which boundaries are open
-  // Of models with friction, by a chord of 1.
-  double reynolds = 0.0;
+  FlowOptions flow = {};                   // its model, and which boundaries are open
+  FlowConditions conditions = {};          // of models with friction: the Reynolds number and its length
   LayerChoice layers;                      // its sizes, in place of those that the Reynolds number gives
   std::function<bool(const char*)> given;  // whether an option is on the command line
 };

@@ -67,7 +67,11 @@ void add_bodies(Report& report, const FlowResult& flow) {
   Json bodies = Json::array();
   for (const FlowBody& body : flow.bodies) {
     const Json cl = if_determined(flow, body.cl), cm = if_determined(flow, body.cm);
-    bodies.push_back({{"name", body.name}, {"cl", cl}, {"cd", body.cd}, {"cm", cm}});
+    Json& entry = bodies.emplace_back(Json{{"name", body.name}, {"cl", cl}, {"cd", body.cd}, {"cm", cm}});
+    if (flow.friction) {
+      entry["cd_pressure"] = body.cd_pressure, entry["cd_friction"] = body.cd_friction;
+      entry["y_plus_max"] = body.y_plus_max;
+    }
     if (flow.bodies.size() > 1)
       report.line("body " + body.name, "CL " + (cl.is_null() ? not_determined : cl.dump()) + ", CD " +
                                            Json(body.cd).dump() + (flow.converged() ? "" : not_converged));

@@ -61,7 +61,8 @@ void add_layer_options(CLI::App& app, LayerChoice& choice) {
 
 void add_layer_sizes(CLI::App& app, LayerChoice& choice) {
   add_real(app,
-           {"--y-plus", "Y", "1", "y+ of the first layer's height on a flat plate at --reynolds: above 0"},
+           {"--y-plus", "Y", "1, or 0.3 with --model laminar",
+            "y+ of the first layer's height on a flat plate at --reynolds: above 0"},
            {.low = 0.0, .high = 1e4, .above_low = true}, [&](double value) { choice.y_plus = value; });
   add_real(app,
            {"--first-height", "CHORDS", "", "The first layer's height itself, in place of --y-plus: above 0"},

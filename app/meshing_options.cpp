@@ -7,7 +7,9 @@ namespace remodel::app {
 namespace {
 
 void add_discretisation(CLI::App& app, AirfoilDomainOptions& options) {
-  add_integer(app, {"--points", "I", "200", "Vertices on the airfoil before refinement: even, 8 to 100000"},
+  add_integer(app,
+              {"--points", "I", "200",
+               "Vertices on the airfoil before refinement, without layers: even, 8 to 100000"},
               {.low = 8, .high = 100000, .even = true}, options.points);
   add_real(
       app,
@@ -21,7 +23,7 @@ void add_discretisation(CLI::App& app, AirfoilDomainOptions& options) {
 void add_quality(CLI::App& app, MeshingOptions& options) {
   QualityOptions& quality = options.quality;
   add_real(app,
-           {"--gradation", "G", "I/50, or 8 with --layers",
+           {"--gradation", "G", "I/50, or 8 with layers",
             "Triangle size grows by distance/G away from the boundary: above 0 up to 1e6, no unit"},
            {.low = 0.0, .high = 1e6, .above_low = true}, options.gradation);
   add_real(app,

@@ -83,11 +83,9 @@ void require_consistent(const PolarCommand& command) {
 std::vector<MeshInput> meshes_of(const PolarCommand& command) {
   std::vector<MeshInput> meshes;
   for (const std::string& shape : command.input.shapes) {
-    FlowMeshRequest request{command.input, command.meshing, command.polar.flow,
-                            0.0,           command.layers,  command.given};
+    FlowMeshRequest request{command.input,  command.meshing, command.polar.flow, command.polar.conditions,
+                            command.layers, command.given};
     request.input.shapes = {shape};
-    // Lengths of layers are in chords of 1.
-    request.reynolds = command.polar.conditions.reynolds / command.polar.conditions.reference_length;
     meshes.push_back(flow_mesh(request));
   }
   return meshes;

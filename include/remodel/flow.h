@@ -175,6 +175,8 @@ const char* name_of(FlowOrigin origin);  // "last-flow", "potential", "coarser-m
 struct FlowBody {
   std::string name;  // of the boundary
   double cl = 0.0, cd = 0.0, cm = 0.0;
+  // With friction: the parts of its drag, and the largest y+ of the cells at it.
+  double cd_pressure = 0.0, cd_friction = 0.0, y_plus_max = 0.0;
 };
 
 // An opening says what enters through an inlet or outlet, in density times speed of sound of the stream times

@@ -79,8 +79,9 @@ void read_mesh_options(const Json& json, const std::string& file, DesignProblem&
         const double reynolds = point.conditions.reynolds;
         return point.model != FlowModel::euler && reynolds >= 1.0 && reynolds <= 1e10;
       });
-  problem.layer = layer_given(object.at("layers"), file + ", mesh, layers",
-                              are_good ? layer_for_points(problem.points) : LayerOptions());
+  problem.layer =
+      layer_given(object.at("layers"), file + ", mesh, layers",
+                  are_good ? layer_for_points(problem.points, json.contains("space")) : LayerOptions());
 }
 
 // Unless the file says otherwise, the stations are those of the domain that is deformed.

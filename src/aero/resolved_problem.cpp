@@ -380,7 +380,8 @@ class Resolver {
     make_space_of_bodies();
     if (!has_friction()) return;
     try {
-      LayerOptions layer = problem_.layer.value_or(layer_for_points(problem_.points));
+      LayerOptions layer =
+          problem_.layer.value_or(layer_for_points(problem_.points, problem_.deformation.has_value()));
       if (problem_.deformation) layer.walls = walls_of_points(problem_.deformation->domain);
       resolved_.space = std::make_unique<LayeredSpace>(std::move(resolved_.space), layer,
                                                        problem_.domain.points, problem_.wake);
@@ -555,11 +556,12 @@ class Resolver {
 
 }  // namespace
 
-LayerOptions layer_for_points(const std::vector<DesignPoint>& points) {
+LayerOptions layer_for_points(const std::vector<DesignPoint>& points, bool of_domain) {
   std::optional<LayerOptions> layer;
   for (const DesignPoint& point : points) {
-    const LayerOptions own =
-        layer_for_flow(point.model, point.conditions.reynolds / point.conditions.reference_length);
+    const double reference = point.conditions.reference_length, chord = of_domain ? reference : 1.0;
+    LayerOptions own = layer_for_flow(point.model, point.conditions.reynolds * (chord / reference));
+    own.first_height *= chord, own.thickness *= chord;
     if (!layer) layer = own;
     layer->first_height = std::min(layer->first_height, own.first_height);
     layer->thickness = std::max(layer->thickness, own.thickness);

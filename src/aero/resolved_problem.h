@@ -34,8 +34,9 @@ struct ResolvedProblem {
   std::vector<std::string> names() const;  // of each function of an evaluation
 };
 
-// The layer that serves all of these points, which have friction.
-LayerOptions layer_for_points(const std::vector<DesignPoint>& points);
+// The layer that serves all of these points, which have friction: on sections, whose chord is 1, or on the
+// walls of a domain, for which the reference length stands.
+LayerOptions layer_for_points(const std::vector<DesignPoint>& points, bool of_domain);
 
 // Throws Error (argument), as validate() does.
 ResolvedProblem resolved(const DesignProblem& problem, const std::string& source);

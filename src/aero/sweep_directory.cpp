@@ -97,10 +97,12 @@ void SweepDirectory::extend(const SweepProblem& by) {
   const Json own = settings_of(problem_), other = settings_of(by);
   for (const auto& [key, value] : other.items())
     if (!own.contains(key) || own.at(key) != value)
-      throw Error(ErrorCode::argument, directory_.string(),
-                  "holds a sweep with " + (own.contains(key) ? own.at(key).dump() : std::string("none")) +
-                      " as '" + key + "', found " + value.dump() +
-                      ": expected the same, or another directory");
+      throw Error(
+          ErrorCode::argument, directory_.string(),
+          "holds a sweep with " + (own.contains(key) ? own.at(key).dump() : std::string("none")) + " as '" +
+              key + "', found " + value.dump() + ": expected the same, or another directory" +
+              (key == "layer" ? " (unless the file has 'layers', they follow from all Reynolds numbers)"
+                              : ""));
   for (const SweepSection& section : by.sections)
     if (std::ranges::count(problem_.sections, section) == 0) problem_.sections.push_back(section);
   for (const SweepRow& row : by.rows) add_row(problem_.rows, row);

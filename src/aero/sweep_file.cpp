@@ -343,7 +343,7 @@ LayerOptions sweep_layer(const SweepProblem& problem) {
   std::vector<DesignPoint> points;
   for (const SweepRow& row : problem.rows)
     points.push_back({.conditions = {.mach = row.mach, .reynolds = row.reynolds}, .model = problem.model});
-  return layer_for_points(points);
+  return layer_for_points(points, false);
 }
 
 SweepProblem read_sweep(const std::string& file) {

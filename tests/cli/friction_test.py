@@ -108,6 +108,49 @@ class Friction(ProgramTest):
         # The gas recovers about 1.04 of the stream's temperature: 0.16 below the warm wall's, 0.14 above the cold one's.
         self.assertAlmostEqual(heat[1.2] / heat[0.9], -0.16 / 0.14, delta=0.15)
 
+    def test_a_domain_in_other_units_has_the_same_flow(self):
+        """The layer of a domain's walls, too, is that of its reference length."""
+        flows = []
+        for chord in (1, 1024):
+            self.write("a.json", json.dumps({"loops": [
+                {"airfoil": "naca:0012", "stations": 80, "placement": {"chord": chord, "rotation_deg": 0, "position": [0, 0]}},
+                {"role": "outer", "curves": [{"name": "farfield", "stations": 40, "shape": {
+                    "kind": "arc", "centre": [chord / 2, 0], "radius": 15 * chord, "start": 0, "sweep": 2 * math.pi}}]}]}))  # fmt: skip
+            flows.append(self.figures("flow", "a.json", "--model", "laminar", "--mach", 0.3, "--reynolds", 2000, "--alpha", 2,
+                                      "--growth", 1.4, "--reference-length", chord, "--reference", f"{chord / 4},0"))  # fmt: skip
+        for key in ("cl", "cd", "cd_friction", "cm", "y_plus_max"):
+            self.assertAlmostEqual(flows[1][key] / flows[0][key], 1.0, delta=1e-3, msg=key)
+
+    def test_cells_too_high_are_told_of_in_every_model(self):
+        options = ("--mach", 0.3, "--reynolds", 1e5, "--first-height", 0.01, "--layer-thickness", 0.05, "--max-spacing", 0.06,
+                   "--wall-spacing", 0.015, "--te-spacing", 0.015)  # fmt: skip
+        for model in ("laminar", "sa"):
+            flow = self.succeed("flow", "naca:0012", "--model", model, *options, "--json")
+            self.assertIn("y+ of the cells at the wall", " ".join(flow.json()["warnings"]) + flow.stderr, model)
+
+    def test_each_body_has_its_parts_of_the_drag(self):
+        self.succeed("mesh", "naca:0012", "naca:0012", "--place", "0.7,0,0,0", "--place", "0.3,-10,0.72,-0.02", *LAYERS,
+                     "-o", "a.vtkhdf")  # fmt: skip
+        flow = self.figures("flow", "a.vtkhdf", "--model", "laminar", "--mach", 0.3, "--reynolds", 2000)
+        self.assertEqual(len(flow["bodies"]), 2)
+        for key in ("cd", "cd_pressure", "cd_friction"):
+            self.assertAlmostEqual(sum(body[key] for body in flow["bodies"]), flow[key], places=12)
+        self.assertEqual(max(body["y_plus_max"] for body in flow["bodies"]), flow["y_plus_max"])
+
+    def test_a_row_of_designs_on_layers_without_friction(self):
+        self.succeed("mesh", "naca:0012", *LAYERS, "-o", "a.vtkhdf")
+        designs = []
+        for shape in ("naca:0012", "naca:1412"):
+            fitted = self.succeed("fit", shape, "--json").json()
+            designs.append({key: fitted[key] for key in ("degree", "upper", "lower")})
+        self.write("designs.json", json.dumps(designs))
+        row = self.figures("flow", "a.vtkhdf", "--mach", 0.3, "--alpha", 1, "--series", "designs.json")
+        self.assertEqual((row["flows"], row["not_converged"]), (2, 0))
+        for shape, entry in zip(("naca:0012", "naca:1412"), row["designs"]):
+            self.succeed("update", "a.vtkhdf", shape, "--strategy", "renew", "-o", "b.vtkhdf")
+            alone = self.figures("flow", "b.vtkhdf", "--mach", 0.3, "--alpha", 1)
+            self.assertAlmostEqual(entry["cl"], alone["cl"], delta=2e-3)
+
     def test_rows_of_designs_and_gradients(self):
         """The slope of CD along a line of designs, by the adjoint, is that of the row's flows."""
         self.succeed("mesh", "naca:0012", "--cst-degree", 3, *LAYERS, "-o", "a.vtkhdf")
@@ -179,6 +222,7 @@ class Friction(ProgramTest):
             (("--model", "sa", "--reynolds", 1e6, "--profiles-at", "0.5"), "--profiles-at: given without --profiles"),
             (("--model", "sa", "--reynolds", 1e6, "--profiles", "a.csv", "--profiles-at", "1.5"), "--profiles-at: found '1.5'"),
             (("--model", "sa", "--reynolds", 1e6, "--cf-plot", "a.svg", "--series", "x.json"), "--series: given with a file"),
+            (("--model", "sa", "--reynolds", 1e6, "--error", "--series", "designs.json"), "--error: given with --series"),
             (("--model", "sa", "--reynolds", 1e6, "--points", 100), "--points: given with a model with friction"),
         ):
             with self.subTest(message):
