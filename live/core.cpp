@@ -323,7 +323,7 @@ LIVE const std::uint32_t* live_triangles() {
   return session.frozen.triangles.data()->data();
 }
 LIVE const std::uint32_t* live_quads() {
-  return session.frozen.quads.data()->data();
+  return session.frozen.quads.empty() ? nullptr : session.frozen.quads.front().data();
 }
 LIVE const std::uint8_t* live_fates() {
   return reinterpret_cast<const std::uint8_t*>(session.frozen.fate.data());

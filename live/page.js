@@ -409,7 +409,12 @@ function listenToControls() {
     });
   }
   $("reynolds").addEventListener("change", () => takeReynolds($("reynolds").value));
-  for (const name of LINK_SWITCHES) $(name).addEventListener("change", () => change({ [name]: $(name).checked }));
+  for (const name of LINK_SWITCHES) {
+    $(name).addEventListener("change", () => {
+      if (name === "layers") stopSearch();
+      change({ [name]: $(name).checked });
+    });
+  }
   for (const model of MODELS) $(`model-${model}`).addEventListener("change", () => chooseModel(model));
   $("colour").addEventListener("change", () => change({ colour: $("colour").value }));
   $("airfoil").addEventListener("change", () => $("airfoil").value && takeDesign("named", { name: $("airfoil").value }));
