@@ -3,7 +3,7 @@
 file(READ ${PARTS}/page.html page)
 file(READ ${PARTS}/page.css style)
 set(script "")
-foreach(name picture charts euler files page)
+foreach(name picture charts solver files page)
   file(READ ${PARTS}/${name}.js part)
   string(APPEND script "${part}")
 endforeach()

@@ -7,11 +7,15 @@
 let strip = [];
 let textsWaiting = false;
 
+const cellsOf = ({ figures }) => figures[0] + figures[14]; // triangles and quadrilaterals
+const nameOfCells = () => (shown.layers ? "cells" : "triangles");
+
 function addToStrip(frame, times) {
-  const [triangles, , kept, , , , fresh] = frame.figures;
-  const surplus = fresh ? triangles / fresh - 1 : NaN;
+  const [, , kept, , , , fresh] = frame.figures;
+  const cells = cellsOf(frame);
+  const surplus = fresh ? cells / fresh - 1 : NaN;
   const { step, flow, design } = frame;
-  const entry = { step, flow: flow || NaN, ...times, kept: kept / triangles, surplus, design };
+  const entry = { step, flow: flow || NaN, ...times, kept: kept / cells, surplus, design };
   strip = [...strip.slice(1 - STRIP_LENGTH), entry];
 }
 
@@ -87,7 +91,7 @@ const sentenceOfNoPressure = () =>
   (wish.flow ? "The pressure follows when the shape rests." : "The pressure is not asked for.");
 
 // Of the design that is shown, not of an earlier one.
-const pressureIsCurrent = () => Boolean(shown.pressure) || pressure?.model === "euler";
+const pressureIsCurrent = () => Boolean(shown.pressure) || isSolved(pressure);
 
 function drawCp(context, width, height) {
   if (!pressure) return drawNote(context, width, height, sentenceOfNoPressure());
@@ -150,7 +154,7 @@ function drawCharts() {
 }
 
 function sentenceOfLift() {
-  if (pressure.model === "euler") return sentenceOfForces(pressure);
+  if (isSolved(pressure)) return sentenceOfForces(pressure);
   const isSupersonic = pressure.wall.some((value, i) => i % 2 && value < pressure.sonic);
   const lift = `lift coefficient ${signed(pressure.lift, 3)}${pressureIsCurrent() ? "" : ", of an earlier shape"}`;
   return isSupersonic ? `${lift}; faster than sound: beyond this model` : lift;
@@ -163,6 +167,7 @@ function showTexts() {
   $("median-step").textContent = milliseconds(step);
   $("median-flow").textContent = milliseconds(flow);
   $("median-latency").textContent = milliseconds(latency);
+  $("name-kept").textContent = nameOfCells();
   $("median-kept").textContent = strip.length ? percent(kept) : "–";
   $("median-surplus").textContent = Number.isFinite(surplus) ? percent(surplus) : "not counted";
   showLift();
@@ -174,20 +179,23 @@ function showLift() {
   $("lift").classList.toggle("stale", pressure !== null && !pressureIsCurrent());
 }
 
-function showFigures({ figures: [triangles, , kept, moved, made, angle], isFirst, going }) {
+function showFigures({ figures, isFirst, going, layers }) {
+  const [, , kept, moved, made, angle] = figures;
+  const cells = cellsOf({ figures });
   const bold = (text) => element("b", {}, text);
-  const share = (count) => bold(percent(count / triangles));
+  const share = (count) => bold(percent(count / cells));
   const fates = [": ", share(kept), " kept, ", share(moved), " moved, ", share(made), " new",
     ...(going === undefined ? [] : [", ", share(going), " about to go"])];
-  $("figures").replaceChildren(bold(triangles.toLocaleString("en")), " triangles", ...(isFirst ? [] : fates),
-    " · smallest angle ", bold(`${angle.toFixed(1)}°`));
+  const ofLayers = layers ? [` (${figures[15].toLocaleString("en")} in layers)`] : [];
+  $("figures").replaceChildren(bold(cells.toLocaleString("en")), ` ${nameOfCells()}`, ...ofLayers, ...(isFirst ? [] : fates),
+    ` · smallest angle ${layers ? "outside the layers " : ""}`, bold(`${angle.toFixed(1)}°`));
 }
 
 // For those who cannot see the charts.
 function describeCharts() {
   const { step, kept } = medians();
   $("strips").setAttribute("aria-label", strip.length === 0 ? "No design yet" :
-    `The last ${strip.length} designs: median ${milliseconds(step)} a step, ${percent(kept)} of the triangles kept`);
+    `The last ${strip.length} designs: median ${milliseconds(step)} a step, ${percent(kept)} of the ${nameOfCells()} kept`);
   if (!pressure) return $("cp").setAttribute("aria-label", sentenceOfNoPressure());
   const values = pressure.wall.filter((_, i) => i % 2);
   const range = `${signed(Math.min(...values), 2)} to ${signed(Math.max(...values), 2)}`;

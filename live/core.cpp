@@ -13,13 +13,11 @@
 #include <vector>
 
 #include "base/checksum.h"
+#include "live/page_mesh.h"
 #include "remodel/airfoil.h"
 #include "remodel/check.h"
 #include "remodel/cmaes.h"
-#include "remodel/domain.h"
 #include "remodel/error.h"
-#include "remodel/generate.h"
-#include "remodel/mesh.h"
 #include "remodel/potential_flow.h"
 #include "remodel/remodel.h"
 
@@ -35,11 +33,9 @@ struct Search {
 struct Session {
   std::string error, text;
   std::vector<double> scratch, design, outline;
-  AirfoilDomainOptions domain;
-  QualityOptions quality;
-  CstAirfoil airfoil;  // of the present mesh
-  Mesh mesh;
+  PageMesh mesh;
   FrozenMesh frozen;
+  std::vector<std::uint32_t> births;  // per cell
   std::vector<double> angles, sizes;
   std::vector<std::uint32_t> wall, keys, edges;
   std::uint32_t meshes = 0;  // that were generated
@@ -87,32 +83,27 @@ std::uint32_t give(CstAirfoil airfoil) {
   return static_cast<std::uint32_t>(session.design.size());
 }
 
-Domain domain_of(const CstAirfoil& airfoil) {
-  if (!surfaces_apart(airfoil))
-    throw Error(ErrorCode::geometry, "airfoil", "its upper and its lower side cross, expected them apart");
-  return airfoil_domain(airfoil, session.domain);
-}
-
-double smallest_angle_deg(const std::array<std::uint32_t, 3>& triangle) {
+double smallest_angle_deg(std::span<const std::uint32_t> cell) {
   double smallest = std::numbers::pi;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Point at = session.frozen.points[triangle[i]];
-    const Point a = session.frozen.points[triangle[(i + 1) % 3]] - at;
-    const Point b = session.frozen.points[triangle[(i + 2) % 3]] - at;
+  for (std::size_t i = 0; i < cell.size(); ++i) {
+    const Point at = session.frozen.points[cell[i]];
+    const Point a = session.frozen.points[cell[(i + 1) % cell.size()]] - at;
+    const Point b = session.frozen.points[cell[(i + cell.size() - 1) % cell.size()]] - at;
     smallest = std::min(smallest, std::atan2(cross(a, b), dot(a, b)));
   }
   return smallest * 180.0 / std::numbers::pi;
 }
 
-void measure_triangles() {
+void measure_cells() {
   const FrozenMesh& mesh = session.frozen;
   session.angles.clear();
   session.sizes.clear();
-  for (const auto& triangle : mesh.triangles) {
-    session.angles.push_back(smallest_angle_deg(triangle));
+  for (std::size_t i = 0; i < mesh.cell_count(); ++i) {
+    const auto cell = mesh.cell(i);
+    session.angles.push_back(smallest_angle_deg(cell));
     double sum = 0.0;
-    for (const std::uint32_t v : triangle) sum += mesh.length_scale[v];
-    session.sizes.push_back(sum / 3.0);
+    for (const std::uint32_t v : cell) sum += mesh.length_scale[v];
+    session.sizes.push_back(sum / static_cast<double>(cell.size()));
   }
 }
 
@@ -143,33 +134,43 @@ void find_edges() {
           session.edges.insert(session.edges.end(), edge.begin(), edge.end());
 }
 
+// A layered mesh's frozen view has no births.
+std::vector<std::uint32_t> births_since(const FrozenMesh* before) {
+  if (!session.mesh.has_layers()) return session.frozen.birth;
+  const std::uint32_t step = session.mesh.outer().step();
+  if (before == nullptr) return std::vector<std::uint32_t>(session.frozen.cell_count(), step);
+  return births_by_corners(*before, session.births, session.frozen, step);
+}
+
 // The arrays and figures of the mesh as it is now. `before` is its state before the step, if there was one.
 void show(const FrozenMesh* before) {
   session.solver.reset();
   session.frozen = session.mesh.freeze();
+  session.births = births_since(before);
   FrozenMesh& mesh = session.frozen;
-  mesh.fate = before != nullptr ? fates(*before, mesh) : std::vector<Fate>(mesh.triangles.size(), Fate::made);
-  measure_triangles();
+  mesh.fate = before != nullptr ? fates(*before, mesh) : std::vector<Fate>(mesh.cell_count(), Fate::made);
+  measure_cells();
   find_wall();
   const auto count = [&](Fate fate) {
     return static_cast<double>(std::count(mesh.fate.begin(), mesh.fate.end(), fate));
   };
   auto& figures = session.figures;
-  const MeshStatistics statistics = session.mesh.statistics();
+  const MeshStatistics statistics = session.mesh.outer().statistics();
   figures[live_triangle_count] = static_cast<double>(mesh.triangles.size());
+  figures[live_quad_count] = static_cast<double>(mesh.quads.size());
+  figures[live_layer_cells] = static_cast<double>(mesh.quads.size() + mesh.layer_triangles);
   figures[live_vertex_count] = static_cast<double>(mesh.points.size());
   figures[live_kept] = count(Fate::kept);
   figures[live_moved] = count(Fate::moved);
   figures[live_made] = count(Fate::made);
   figures[live_smallest_angle] = statistics.min_angle_deg;
   figures[live_largest_gradation] = statistics.max_gradation;
-  figures[live_fresh_triangles] = 0.0;
-  figures[live_step] = session.mesh.step();
+  figures[live_fresh_cells] = 0.0;
+  figures[live_step] = session.mesh.outer().step();
 }
 
-void take(Mesh mesh, const CstAirfoil& airfoil) {
+void take(PageMesh mesh) {
   session.mesh = std::move(mesh);
-  session.airfoil = airfoil;
   ++session.meshes;
   auto& figures = session.figures;
   figures[live_full_adjustment] = figures[live_vertices_moved] = figures[live_vertices_inserted] =
@@ -268,29 +269,18 @@ LIVE double* live_outline(const double* design, std::uint32_t count, std::uint32
 // ---- The mesh ----
 
 LIVE std::uint32_t live_generate(const double* design, std::uint32_t count, std::uint32_t points,
-                                 double gradation) {
+                                 double gradation, double reynolds) {
   return attempt([&] {
-    const CstAirfoil airfoil = airfoil_of(design, count);
-    const auto domain_before = std::exchange(session.domain, {.points = static_cast<int>(points)});
-    const auto quality_before =
-        std::exchange(session.quality, {.gradation = gradation, .max_vertices = 1'000'000});
-    try {
-      take(generate(domain_of(airfoil), session.quality).mesh, airfoil);
-    } catch (...) {
-      session.domain = domain_before;
-      session.quality = quality_before;
-      throw;
-    }
+    const PageMeshOptions options{
+        .points = static_cast<int>(points), .gradation = gradation, .reynolds = reynolds};
+    take(PageMesh(airfoil_of(design, count), options));
   });
 }
 
 LIVE std::uint32_t live_update(const double* design, std::uint32_t count) {
   return attempt([&] {
-    const CstAirfoil airfoil = airfoil_of(design, count);
-    const Domain domain = domain_of(airfoil);
     const FrozenMesh before = session.frozen;
-    const RemodelResult result = remodel::remodel(session.mesh, domain, {.strategy = Strategy::renew});
-    session.airfoil = airfoil;
+    const RemodelResult result = session.mesh.step(airfoil_of(design, count));
     auto& figures = session.figures;
     figures[live_full_adjustment] = result.full_adjustment;
     figures[live_regenerated] = result.regenerated || result.refreshed;
@@ -302,24 +292,19 @@ LIVE std::uint32_t live_update(const double* design, std::uint32_t count) {
 }
 
 LIVE std::uint32_t live_regenerate() {
-  return attempt([&] { take(generate(domain_of(session.airfoil), session.quality).mesh, session.airfoil); });
+  return attempt([&] { take(PageMesh(session.mesh.airfoil(), session.mesh.options())); });
 }
 
 LIVE std::uint32_t live_fresh() {
   return attempt([&] {
-    const Mesh fresh = generate(domain_of(session.airfoil), session.quality).mesh;
-    session.figures[live_fresh_triangles] = static_cast<double>(fresh.triangle_count());
+    const PageMesh fresh(session.mesh.airfoil(), session.mesh.options());
+    session.figures[live_fresh_cells] = static_cast<double>(fresh.cells());
   });
 }
 
 LIVE std::uint32_t live_outlook(const double* design, std::uint32_t count) {
   return attempt([&] {
-    const Domain domain = domain_of(airfoil_of(design, count));
-    FrozenMesh then;
-    {
-      const Trial trial(session.mesh, domain, {.strategy = Strategy::renew});
-      then = session.mesh.freeze();
-    }
+    const FrozenMesh then = session.mesh.tried(airfoil_of(design, count));
     session.going.clear();
     for (const Fate fate : fates(then, session.frozen)) session.going.push_back(fate == Fate::made);
   });
@@ -337,11 +322,14 @@ LIVE const double* live_points() {
 LIVE const std::uint32_t* live_triangles() {
   return session.frozen.triangles.data()->data();
 }
+LIVE const std::uint32_t* live_quads() {
+  return session.frozen.quads.empty() ? nullptr : session.frozen.quads.front().data();
+}
 LIVE const std::uint8_t* live_fates() {
   return reinterpret_cast<const std::uint8_t*>(session.frozen.fate.data());
 }
 LIVE const std::uint32_t* live_births() {
-  return session.frozen.birth.data();
+  return session.births.data();
 }
 LIVE double* live_angles() {
   return session.angles.data();
@@ -373,9 +361,10 @@ LIVE std::uint32_t live_farfield_edges() {
 LIVE const char* live_check() {
   session.text.clear();
   const std::uint32_t done = attempt([&] {
-    const Domain domain = domain_of(session.airfoil);
-    const CheckResult result = check(session.frozen, {.min_angle_deg = session.quality.min_angle_deg,
-                                                      .max_gradation = session.mesh.promised_gradation(),
+    const PageMesh& mesh = session.mesh;
+    const Domain domain = mesh.domain_of(mesh.airfoil());
+    const CheckResult result = check(session.frozen, {.min_angle_deg = mesh.least_angle_deg(),
+                                                      .max_gradation = mesh.outer().promised_gradation(),
                                                       .design = &domain});
     if (!result.valid) session.text = result.violations.front().detail;
   });
@@ -391,6 +380,8 @@ LIVE const char* live_hash() {
   }
   for (const auto& triangle : session.frozen.triangles)
     for (const std::uint32_t v : triangle) sum.add(std::uint64_t{v});
+  for (const auto& quad : session.frozen.quads)
+    for (const std::uint32_t v : quad) sum.add(std::uint64_t{v});
   session.text = sum.text();
   return session.text.c_str();
 }

@@ -95,12 +95,22 @@ function save(name, blob) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
-// The edges that have a triangle on one side only, as the triangles turn: those far away are the far field's.
-function boundaryEdges({ points, triangles }) {
+// The corners of each cell, triangles first.
+function cellsOfMesh({ triangles, quads }) {
+  const cells = [];
+  for (let i = 0; i < triangles.length; i += 3) cells.push(triangles.subarray(i, i + 3));
+  for (let i = 0; i < quads.length; i += 4) cells.push(quads.subarray(i, i + 4));
+  return cells;
+}
+
+// The edges that have a cell on one side only, as the cells turn: those far away are the far field's.
+function boundaryEdges(cells, points) {
   const open = new Map();
-  for (let i = 0; i < triangles.length; ++i) {
-    const [a, b] = [triangles[i], triangles[i % 3 === 2 ? i - 2 : i + 1]];
-    if (!open.delete(`${b} ${a}`)) open.set(`${a} ${b}`, [a, b]);
+  for (const cell of cells) {
+    cell.forEach((a, i) => {
+      const b = cell[(i + 1) % cell.length];
+      if (!open.delete(`${b} ${a}`)) open.set(`${a} ${b}`, [a, b]);
+    });
   }
   const edges = { airfoil: [], farfield: [] };
   for (const [a, b] of open.values()) {
@@ -110,15 +120,16 @@ function boundaryEdges({ points, triangles }) {
   return edges;
 }
 
+const SU2_TYPES = { 3: 5, 4: 9 }; // of cells, by their corners
+
 function su2Text(mesh) {
-  const { points, triangles } = mesh;
-  const lines = ["NDIME= 2", `NELEM= ${triangles.length / 3}`];
-  for (let i = 0; i < triangles.length; i += 3) {
-    lines.push(`5 ${triangles[i]} ${triangles[i + 1]} ${triangles[i + 2]} ${i / 3}`);
-  }
+  const { points } = mesh;
+  const cells = cellsOfMesh(mesh);
+  const lines = ["NDIME= 2", `NELEM= ${cells.length}`];
+  cells.forEach((cell, i) => lines.push(`${SU2_TYPES[cell.length]} ${cell.join(" ")} ${i}`));
   lines.push(`NPOIN= ${points.length / 2}`);
   for (let i = 0; i < points.length; i += 2) lines.push(`${points[i]} ${points[i + 1]} ${i / 2}`);
-  const edges = boundaryEdges(mesh);
+  const edges = boundaryEdges(cells, points);
   lines.push("NMARK= 2");
   for (const [name, list] of Object.entries(edges)) {
     lines.push(`MARKER_TAG= ${name}`, `MARKER_ELEMS= ${list.length}`, ...list);
@@ -152,18 +163,26 @@ async function copyLink() {
   }
 }
 
+function sentenceOfSoundness({ figures, layers }) {
+  const angle = figures[5].toFixed(1);
+  return layers ? `The mesh is valid: the layers’ cells are convex, the triangles beyond are Delaunay, from ${angle}° and graded.`
+                : `The mesh is valid: Delaunay, graded, and every angle is at least ${angle}°.`;
+}
+
 async function checkMesh() {
   await settled();
   const broken = await call("check");
   if (broken) sayTrouble(new Error(`The mesh is not valid: ${broken}`));
-  else say(`The mesh is valid: Delaunay, graded, and every angle is at least ${shown.figures[5].toFixed(1)}°.`);
+  else say(sentenceOfSoundness(shown));
   return broken;
 }
 
 // ---------------------------------------------------------------------------------------------- the link
 
-const LINK_NUMBERS = { points: [20, 1000], gradation: [1, 20], alpha: [-10, 15], mach: [0, 0.85] };
-const LINK_SWITCHES = ["flow", "regenerate", "fresh"];
+const LINK_NUMBERS = {
+  points: [20, 1000], gradation: [1, 20], alpha: [-10, 15], mach: [0, 0.85], reynolds: REYNOLDS,
+};
+const LINK_SWITCHES = ["flow", "layers", "regenerate", "fresh"];
 let linkTimer = 0;
 
 function linkText() {
@@ -198,6 +217,7 @@ function readLink() {
   if (COLOURS.includes(link.get("colour"))) wish.colour = link.get("colour");
   if (MODELS.includes(link.get("model"))) wish.model = link.get("model");
   for (const name of LINK_SWITCHES) if (link.has(name)) wish[name] = link.get(name) === "1";
+  if (wish.model === "laminar") wish.layers = true;
   const [x, y, scale] = numbersOf(link.get("view"));
   if (scale > 0) view = { x, y, scale };
   const design = numbersOf(link.get("design"));

@@ -1,7 +1,7 @@
 // Prints a walk of designs and the hash of the living mesh after each: a line for a step, the coefficients
 // (exact, as JSON), the hash, and the milliseconds of the step and of a flow. hashes.mjs takes the same walk
 // in WebAssembly.
-//   live_hashes [POINTS [STEPS [SIGMA]]]
+//   live_hashes [POINTS [STEPS [SIGMA [REYNOLDS]]]]    with a Reynolds number: of a mesh with layers for it
 
 #include <chrono>
 #include <cmath>
@@ -17,7 +17,8 @@ namespace {
 struct Walk {
   std::uint32_t points = 60;
   int steps = 1000;
-  double sigma = 0.02;  // of each coefficient, a step
+  double sigma = 0.02;    // of each coefficient, a step
+  double reynolds = 0.0;  // that the layers are for; 0: none
   double gradation() const { return points / 50.0; }
 };
 
@@ -33,8 +34,9 @@ void print_step(const Walk& walk, const std::vector<double>& design, double step
   std::printf("{\"design\": [");
   for (std::size_t i = 0; i < design.size(); ++i) std::printf("%s%.17g", i == 0 ? "" : ", ", design[i]);
   std::printf(
-      "], \"points\": %u, \"gradation\": %.17g, \"hash\": \"%s\", \"step_ms\": %.4f, \"flow_ms\": %.4f}\n",
-      walk.points, walk.gradation(), live_hash(), step, flow);
+      "], \"points\": %u, \"gradation\": %.17g, \"reynolds\": %.17g, \"hash\": \"%s\", \"step_ms\": %.4f, "
+      "\"flow_ms\": %.4f}\n",
+      walk.points, walk.gradation(), walk.reynolds, live_hash(), step, flow);
 }
 
 int fail(const char* what) {
@@ -49,13 +51,14 @@ int main(int count, char** arguments) {
   if (count > 1) walk.points = static_cast<std::uint32_t>(std::atoi(arguments[1]));
   if (count > 2) walk.steps = std::atoi(arguments[2]);
   if (count > 3) walk.sigma = std::atof(arguments[3]);
+  if (count > 4) walk.reynolds = std::atof(arguments[4]);
   remodel::portable::Generator random(7);
   const std::vector<double> design = {0.17,  0.15,  0.16,  0.13,  0.15,  0.14, -0.17,
                                       -0.15, -0.16, -0.13, -0.15, -0.14, 0,    0};
   const auto length = static_cast<std::uint32_t>(design.size());
   std::uint32_t done = 0;
-  const double first =
-      milliseconds([&] { done = live_generate(design.data(), length, walk.points, walk.gradation()); });
+  const double first = milliseconds(
+      [&] { done = live_generate(design.data(), length, walk.points, walk.gradation(), walk.reynolds); });
   if (done == 0) return fail("generate");
   print_step(walk, design, first);
   for (int k = 0; k < walk.steps; ++k) {

@@ -26,9 +26,9 @@ const median = (values) => [...values].sort((a, b) => a - b)[values.length >> 1]
 function walk(steps) {
   if (steps.length < 100) throw new Error(`${steps.length} steps found, expected 100 at least`);
   const times = { step: [], flow: [] };
-  steps.forEach(({ design, points, gradation, hash }, step) => {
+  steps.forEach(({ design, points, gradation, reynolds, hash }, step) => {
     const [milliseconds, done] = timed(() => step === 0
-      ? live._live_generate(passed(design), design.length, points, gradation)
+      ? live._live_generate(passed(design), design.length, points, gradation, reynolds)
       : live._live_update(passed(design), design.length));
     times.step.push(milliseconds);
     times.flow.push(timed(() => live._live_flow(2, 0))[0]);

@@ -12,12 +12,12 @@ const SEARCH_SIGMA = 0.02;
 const LEAST_SCALE = 120; // pixels per chord below which handles would cover each other
 const LONGEST_HISTORY = 500; // designs that can be undone
 const COLOURS = ["fate", "quality", "size", "age", "pressure", "mach"];
-const MODELS = ["potential", "euler"];
+const MODELS = ["potential", "euler", "laminar"];
 const LONG_STEP = 8; // milliseconds: while a handle is held no step that takes longer is tried ahead
 
 const FIRST = {
-  design: null, points: 200, gradation: 4, alpha: 2, mach: 0, model: "potential", colour: "fate", flow: true,
-  regenerate: false, fresh: false,
+  design: null, points: 200, gradation: 4, alpha: 2, mach: 0, reynolds: 5000, model: "potential", colour: "fate",
+  flow: true, layers: false, regenerate: false, fresh: false,
 };
 
 const wish = { ...FIRST };
@@ -139,7 +139,7 @@ function change(changes, timeStamp = 0) {
 // A flow that was left out for its slowness is made up for once the shape rests.
 function makeUpFlow() {
   clearTimeout(restTimer);
-  if (wish.flow && !shown.pressure && !shown.notice && !eulerShown()) restTimer = setTimeout(refresh, REST);
+  if (wish.flow && !shown.pressure && !shown.notice && !solvedFlow()) restTimer = setTimeout(refresh, REST);
 }
 
 // Asks for pictures until the last one shows what is wished. A design that is refused gives way to the one shown.
@@ -156,6 +156,9 @@ async function refresh() {
   settle();
 }
 
+// What the mesh is made by, beside its design.
+const settingsOf = ({ points, gradation, layers, reynolds }) => ({ points, gradation, layers, reynolds });
+
 async function showWish() {
   const rests = performance.now() - lastChange > REST || (shown && wish.design === shown.design);
   const asked = { ...wish, flow: wish.flow && (rests || flowTime < SLOW_FLOW), since: stamp, heard: lastChange };
@@ -165,7 +168,8 @@ async function showWish() {
     showFrame(await call("show", asked), asked);
   } catch (error) {
     if (shown && wish.design === asked.design) wish.design = shown.design;
-    if (shown) Object.assign(wish, { points: shown.points, gradation: shown.gradation });
+    if (shown) Object.assign(wish, settingsOf(shown));
+    if (!wish.layers && wish.model === "laminar") wish.model = "potential";
     sayTrouble(error);
     showControls();
   }
@@ -178,13 +182,15 @@ async function lookAhead() {
   if (!wasStep || shown.colour !== "fate" || (gesture && shown.step > LONG_STEP)) return;
   const outlook = await call("outlook");
   if (!outlook.going || outlook.state !== shown.state || shown.colour !== "fate") return;
+  const { vertices, triangles, going } = { ...shown, ...outlook };
   shown.going = 0;
-  outlook.going.forEach((isGoing, triangle) => {
+  going.forEach((isGoing, cell) => {
     if (!isGoing) return;
     ++shown.going;
-    for (const corner of [2, 5, 8]) shown.vertices[9 * triangle + corner] = 7 / 8; // the last of four colours
+    const [first, end] = cell < triangles ? [cell, cell + 1] : [2 * cell - triangles, 2 * cell - triangles + 2];
+    for (let at = 9 * first + 2; at < 9 * end; at += 3) vertices[at] = 7 / 8; // the last of four colours
   });
-  uploadMesh(shown.vertices);
+  uploadMesh(shown);
   if (isPainting) paint();
   showFigures(shown);
 }
@@ -204,11 +210,11 @@ function settle() {
   while (idle.length) idle.pop()();
 }
 
-function showFrame(frame, { points, gradation, since = 0, heard = 0 }) {
-  shown = { ...frame, points, gradation };
+function showFrame(frame, { since = 0, heard = 0, ...settings }) {
+  shown = { ...frame, ...settingsOf(settings) };
   makeHandles();
   makeSliders();
-  uploadMesh(frame.vertices);
+  uploadMesh(frame);
   colourByFlow();
   showLegend();
   if (isPainting) paint();
@@ -216,7 +222,7 @@ function showFrame(frame, { points, gradation, since = 0, heard = 0 }) {
   const now = performance.now();
   const times = since ? { latency: now - since, answer: now - heard } : { latency: NaN, answer: NaN };
   const potential = frame.pressure ?? (wish.flow ? pressure : null);
-  pressure = eulerShown() ?? (potential?.model === "euler" ? null : potential);
+  pressure = solvedFlow() ?? (isSolved(potential) ? null : potential);
   showLift(); // at once: that of another flow or shape must not stay as if it were this one's
   if (frame.flow && !frame.isFirst) flowTime = frame.flow; // the first one waits for the code to be compiled
   if (frame.stepped && !frame.isFirst) addToStrip(frame, times);
@@ -234,7 +240,7 @@ let isPainting = true; // false where they leave painting out
 
 function sentenceOfStep({ figures, isFirst }) {
   if (isFirst) return "The mesh is there: drag a handle, or move one with the arrow keys.";
-  if (figures[8]) return "Every triangle is new: this mesh was generated.";
+  if (figures[8]) return "Every cell is new: this mesh was generated.";
   if (figures[7]) return `A full adjustment: ${figures[10]} vertices moved, and nothing else changed.`;
   return `One step: ${figures[10]} vertices moved, ${figures[11]} inserted, ${figures[12]} removed.`;
 }
@@ -375,7 +381,22 @@ function showControls() {
   }
   for (const name of LINK_SWITCHES) $(name).checked = wish[name];
   $("colour").value = wish.colour;
+  $("reynolds").value = wish.reynolds;
+  $("layers").disabled = wish.model === "laminar"; // which needs them
   for (const model of MODELS) $(`model-${model}`).checked = wish.model === model;
+}
+
+// A number that is refused gives way to the one before.
+function takeReynolds(text) {
+  const value = text.trim() === "" ? NaN : Number(text);
+  const [least, most] = REYNOLDS;
+  if (value >= least && value <= most) {
+    if (wish.layers) stopSearch();
+    change({ reynolds: value });
+  } else {
+    sayTrouble(new Error(`The Reynolds number is a number from ${least} to ${most.toLocaleString("en")}; found “${text}”.`));
+  }
+  showControls();
 }
 
 function listenToControls() {
@@ -387,7 +408,13 @@ function listenToControls() {
       showControls();
     });
   }
-  for (const name of LINK_SWITCHES) $(name).addEventListener("change", () => change({ [name]: $(name).checked }));
+  $("reynolds").addEventListener("change", () => takeReynolds($("reynolds").value));
+  for (const name of LINK_SWITCHES) {
+    $(name).addEventListener("change", () => {
+      if (name === "layers") stopSearch();
+      change({ [name]: $(name).checked });
+    });
+  }
   for (const model of MODELS) $(`model-${model}`).addEventListener("change", () => chooseModel(model));
   $("colour").addEventListener("change", () => change({ colour: $("colour").value }));
   $("airfoil").addEventListener("change", () => $("airfoil").value && takeDesign("named", { name: $("airfoil").value }));
@@ -473,7 +500,7 @@ globalThis.live = {
   get shown() { return shown; },
   get view() { return view; },
   get busy() { return busy; },
-  get flow() { return eulerShown(); },
+  get flow() { return solvedFlow(); },
   get flowSearch() { return flowSearch; },
   get times() { return strip; },
   measure(upTo) {

@@ -67,7 +67,7 @@ function listenToContext() {
     makePainter();
     say("The picture is back.");
     if (!shown) return;
-    uploadMesh(shown.vertices);
+    uploadMesh(shown);
     showLegend(true);
     paint();
   });
@@ -75,13 +75,16 @@ function listenToContext() {
 
 const VERTEX_SHADER = `#version 300 es
 layout(location = 0) in vec3 corner;
-layout(location = 1) in vec3 barycentric;
 uniform vec2 centre, scale;
+uniform int halves;
 uniform sampler2D palette;
 out vec3 weights;
 out vec3 shade;
 void main() {
-  weights = barycentric;
+  int place = gl_VertexID % 3;
+  weights = vec3(place == 0, place == 1, place == 2);
+  // Halves of quadrilaterals, a b c and a c d, have no line on the diagonal a c: it is too far from b and from d.
+  if (gl_VertexID >= halves) weights[1 + (gl_VertexID / 3 - halves / 3) % 2] = 1.0;
   shade = texture(palette, vec2(corner.z, 0.5)).rgb;
   gl_Position = vec4((corner.xy - centre) * scale, 0.0, 1.0);
 }`;
@@ -96,7 +99,7 @@ uniform float width;
 out vec4 colour;
 void main() {
   highp vec3 slope = fwidth(weights);
-  highp vec3 distance = weights / slope;
+  highp vec3 distance = weights / max(slope, 1e-9);
   float nearest = min(distance.x, min(distance.y, distance.z));
   float steepest = max(slope.x, max(slope.y, slope.z));
   float share = clamp(width - nearest, 0.0, 1.0) * clamp(0.9 - 2.5 * steepest, 0.1, 0.65);
@@ -126,35 +129,22 @@ function makePainter() {
   const place = (name) => gl.getUniformLocation(program, name);
   painter = {
     corners: gl.createBuffer(),
-    weights: gl.createBuffer(),
-    weightsFor: 0, // triangles that the buffer of weights serves
     count: 0,
-    ...Object.fromEntries(["centre", "scale", "line", "width"].map((name) => [name, place(name)])),
+    ...Object.fromEntries(["centre", "scale", "halves", "line", "width"].map((name) => [name, place(name)])),
   };
   gl.enableVertexAttribArray(0);
-  gl.enableVertexAttribArray(1);
   gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
   gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
   gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
 }
 
-// The barycentric coordinates of corners are the same for every mesh: their buffer only grows.
-function growWeights(triangles) {
-  if (triangles <= painter.weightsFor) return;
-  painter.weightsFor = Math.ceil(1.5 * triangles);
-  const weights = new Uint8Array(9 * painter.weightsFor);
-  for (let i = 0; i < weights.length; i += 9) weights[i] = weights[i + 4] = weights[i + 8] = 1;
-  gl.bindBuffer(gl.ARRAY_BUFFER, painter.weights);
-  gl.bufferData(gl.ARRAY_BUFFER, weights, gl.STATIC_DRAW);
-  gl.vertexAttribPointer(1, 3, gl.UNSIGNED_BYTE, false, 0, 0);
-}
-
-function uploadMesh(vertices) {
+// Three corners of each triangle, then those of halves of quadrilaterals.
+function uploadMesh({ vertices, triangles }) {
   painter.count = vertices.length / 3;
-  growWeights(vertices.length / 9);
   gl.bindBuffer(gl.ARRAY_BUFFER, painter.corners);
   gl.bufferData(gl.ARRAY_BUFFER, vertices, gl.DYNAMIC_DRAW);
   gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 0, 0);
+  gl.uniform1i(painter.halves, 3 * triangles);
 }
 
 function fitCanvas(canvas, { width, height }) {

@@ -39,16 +39,16 @@ std::vector<std::vector<double>> read_designs() {
 }
 
 std::uint32_t solve_euler(double alpha_deg, double mach) {
-  const auto vertices = static_cast<std::uint32_t>(live_figures()[live_vertex_count]);
-  const auto triangles = static_cast<std::uint32_t>(live_figures()[live_triangle_count]);
-  std::vector<std::uint32_t> numbers(live_triangles(), live_triangles() + 3 * triangles);
-  numbers.insert(numbers.end(), live_keys(), live_keys() + 2 * vertices);
+  const double* figures = live_figures();
+  const auto count = [&](LiveFigure figure) { return static_cast<std::uint32_t>(figures[figure]); };
+  const std::uint32_t vertices = count(live_vertex_count), triangles = count(live_triangle_count);
   const std::uint32_t* edges = live_edges();
+  std::vector<std::uint32_t> numbers{vertices, triangles, 0, live_airfoil_edges(), live_farfield_edges()};
+  numbers.insert(numbers.end(), live_triangles(), live_triangles() + 3 * triangles);
   numbers.insert(numbers.end(), edges, edges + 2 * (live_airfoil_edges() + live_farfield_edges()));
-  if (live_euler_mesh(live_points(), numbers.data(), vertices, triangles, live_airfoil_edges(),
-                      live_farfield_edges()) == 0)
-    return 0;
-  return live_euler(alpha_deg, mach);
+  numbers.insert(numbers.end(), live_keys(), live_keys() + 2 * vertices);
+  if (live_solver_mesh(live_points(), numbers.data()) == 0) return 0;
+  return live_solve(live_euler, alpha_deg, mach, 0.0);
 }
 
 int fail(const char* what, const char* why) {
@@ -69,14 +69,14 @@ int main(int count, char** arguments) {
     const auto length = static_cast<std::uint32_t>(design.size());
     std::uint32_t done = 0;
     const double step = milliseconds([&] {
-      done = is_first ? live_generate(design.data(), length, points, points / 50.0)
+      done = is_first ? live_generate(design.data(), length, points, points / 50.0, 0.0)
                       : live_update(design.data(), length);
     });
     if (done == 0) return fail("design", live_error());
     const double flow = milliseconds([&] { done = live_flow(alpha_deg, mach); });
     if (done == 0) return fail("flow", live_error());
     const double euler = mach > 0.0 ? milliseconds([&] { done = solve_euler(alpha_deg, mach); }) : 0.0;
-    if (done == 0) return fail("Euler's flow", live_euler_reason());
+    if (done == 0) return fail("Euler's flow", live_solver_reason());
     if (is_first) {
       cold = euler;
     } else {
