@@ -14,9 +14,11 @@ namespace remodel {
 // boundaries. The field's vertices are slots of a living mesh, or indices of points.
 struct InteriorDisplacement::Impl {
   WallField field;
-  std::vector<Point> places{};
-  std::vector<bool> on_boundary{};
-  std::vector<std::uint32_t> positions{};  // of the field's vertices, in that order
+  std::vector<Point> places;
+  std::vector<bool> on_boundary;
+  std::vector<std::uint32_t> positions;  // of the field's vertices, in that order
+
+  explicit Impl(WallField of) : field(std::move(of)) {}
 
   void add(std::uint32_t vertex, Point place, bool boundary) {
     positions[vertex] = static_cast<std::uint32_t>(places.size());
