@@ -91,13 +91,14 @@ class USMesh:
                 raise ArgumentTypeError(f"gridFile: found {_calls.shown(file)}, expected the name of a file")
             if os.path.splitext(file)[1].lower() == ".cgns":
                 raise ArgumentError(f"gridFile: found {file}, expected .vtkhdf, .vtu, .msh or .su2 (meshio reads CGNS; USMesh(remodel.from_meshio(...)))")
-            grid = read_frozen(file)
-            mesh = grid if len(grid.quads) else Mesh.load(file)
+            grid, alive = read_frozen(file), lambda: Mesh.load(file)
+        elif isinstance(mesh, FrozenMesh):
+            grid, alive = mesh, lambda: import_mesh(mesh)
         else:
-            grid = mesh if isinstance(mesh, FrozenMesh) else mesh.freeze()
-            mesh = import_mesh(grid) if mesh is grid and not len(grid.quads) else mesh
+            grid, alive = mesh.freeze(), mesh.copy
         self._grid = np.array(grid.points)
-        self._mesh, self._start = (grid, grid) if len(grid.quads) else (mesh.copy(), mesh.freeze())
+        self._mesh = grid if len(grid.quads) else alive()
+        self._start = grid if len(grid.quads) else self._mesh.freeze()
         self._validity = Validity(self._start)
         self._size = float(np.ptp(self._grid, axis=0).max())
         self._external = None
