@@ -102,7 +102,7 @@ def test_a_wrong_type_is_named_in_one_short_line(mesh, airfoil):
         "shape": [lambda: remodel.generate(rows), lambda: mesh.update(rows), lambda: mesh.at(7), lambda: remodel.Domain(rows), lambda: remodel.Airfoil(rows)],
         "points": [lambda: remodel.generate(airfoil, points="200"), lambda: remodel.generate(airfoil, points=200.5), lambda: remodel.FrozenMesh("x", mesh.triangles)],
         "triangles": [lambda: remodel.FrozenMesh(mesh.points, mesh.triangles + 0.5), lambda: remodel.FrozenMesh(mesh.points, "x"), lambda: remodel.FrozenMesh(mesh.points, mesh.points)],
-        "mesh": [lambda: remodel.check(rows), lambda: remodel.LivingFlow().solve(rows), lambda: remodel.solve_flow("m.su2"), lambda: remodel.PotentialSolver(None), lambda: remodel.InteriorDisplacement(mesh.freeze())],
+        "mesh": [lambda: remodel.check(rows), lambda: remodel.LivingFlow().solve(rows), lambda: remodel.solve_flow("m.su2"), lambda: remodel.PotentialSolver(None), lambda: remodel.InteriorDisplacement(rows)],
         "design": [lambda: airfoil.with_design("x"), lambda: airfoil.with_design(None), lambda: airfoil.with_design({"a": 1})],
         "strategy": [lambda: mesh.update(airfoil, strategy=3)],
         "record": [lambda: mesh.update(airfoil, record=rows)],
