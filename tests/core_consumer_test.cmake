@@ -9,8 +9,9 @@ include(${SOURCE}/tests/run.cmake)
 file(REMOVE_RECURSE ${SCRATCH})
 file(MAKE_DIRECTORY ${SCRATCH})
 set(consumer ${SOURCE}/tests/consumer/core)
-# Not optimised: core is built for its own sake. File by file, as a consumer does: unity builds hide includes that lack.
-set(bare -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_TOOLCHAIN_FILE=${consumer}/bare.cmake
+# Not optimised: core is built for its own sake. The release build that scripts/long-tests makes is the one file by file,
+# which finds includes that lack.
+set(bare -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_UNITY_BUILD=ON -DCMAKE_TOOLCHAIN_FILE=${consumer}/bare.cmake
          -DBARE_SCRATCH=${SCRATCH}/bare)
 find_program(CCACHE ccache)
 if(CCACHE)

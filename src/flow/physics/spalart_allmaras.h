@@ -3,8 +3,10 @@
 // The turbulence model of P. R. Spalart and S. R. Allmaras (AIAA paper 92-0439, 1992) in its negative
 // variant: S. R. Allmaras, F. T. Johnson and P. R. Spalart, "Modifications and clarifications for the
 // implementation of the Spalart-Allmaras turbulence model", ICCFD7-1902, 2012. Equation numbers are theirs.
-// No trip term: a laminar zone has no production, as is usual (FUN3D, CFL3D, SU2). C. L. Rumsey and P. R.
-// Spalart, AIAA J. 47 (2009), on what the model does where production is left to itself.
+// No trip term: a laminar zone has no production, as is usual (FUN3D, CFL3D, SU2). No laminar suppression
+// (ft2), which would keep a laminar boundary layer so ahead of a trip: "SA-neg-noft2" of NASA's Turbulence
+// Modeling Resource, also what SU2 means by SA. With it turbulence may set in at one column of cells or at the
+// next, and Newton's method went to and fro between the two (docs/viscous.md).
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +18,7 @@ namespace remodel::flow {
 struct SpalartAllmaras {
   static constexpr double cb1 = 0.1355, cb2 = 0.622, sigma = 2.0 / 3.0, karman = 0.41;
   static constexpr double cw1 = cb1 / (karman * karman) + (1.0 + cb2) / sigma, cw2 = 0.3, cw3 = 2.0;
-  static constexpr double cv1 = 7.1, cv2 = 0.7, cv3 = 0.9, ct3 = 1.2, ct4 = 0.5, cn1 = 16.0;
+  static constexpr double cv1 = 7.1, cv2 = 0.7, cv3 = 0.9, ct3 = 1.2, cn1 = 16.0;
   static constexpr double stream_ratio = 3.0;  // working variable over viscosity in the stream
 
   // Turbulent viscosity over molecular viscosity, by chi, the working variable over kinematic viscosity (9).
@@ -38,16 +40,13 @@ struct SpalartAllmaras {
   // from walls (13 to 17, 22). There is no production in laminar zones.
   template <class T>
   static T source(const T& w, const T& viscosity, const T& vorticity, const T& distance, bool is_laminar) {
-    using std::exp;
     const T by_distance = w / (distance * distance);
     const double production = is_laminar ? 0.0 : cb1;
     if (value_of(w) < 0.0) return production * (1.0 - ct3) * vorticity * w + cw1 * (w * by_distance);
     const T chi = w / viscosity;
-    const T laminar = ct3 * exp(-ct4 * (chi * chi));
     const T shear = modified_vorticity(chi, vorticity, by_distance);
     const T wall = wall_function(by_distance, shear);
-    return production * (1.0 - laminar) * (shear * w) -
-           (cw1 * wall - (cb1 / (karman * karman)) * laminar) * (w * by_distance);
+    return production * (shear * w) - cw1 * wall * (w * by_distance);
   }
 
  private:
