@@ -5,8 +5,8 @@
 // implementation of the Spalart-Allmaras turbulence model", ICCFD7-1902, 2012. Equation numbers are theirs.
 // No trip term: a laminar zone has no production, as is usual (FUN3D, CFL3D, SU2). No laminar suppression
 // (ft2), which would keep a laminar boundary layer so ahead of a trip: "SA-neg-noft2" of NASA's Turbulence
-// Modeling Resource, also what SU2 means by SA. With it turbulence may set in at one column of cells or at the
-// next, and Newton's method went to and fro between the two (docs/viscous.md).
+// Modeling Resource, also what SU2 means by SA. With it turbulence may set in at one column of cells or at
+// the next, and Newton's method went to and fro between the two (docs/viscous.md).
 
 #include <algorithm>
 #include <cmath>
