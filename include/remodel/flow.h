@@ -56,8 +56,8 @@ namespace remodel {
 enum class FlowModel {
   euler,    // without friction
   laminar,  // viscous and heat-conducting: the Navier-Stokes equations
-  sa,  // the same in the mean of a turbulent flow, with the model of Spalart and Allmaras in its negative
-       // variant (ICCFD7-1902), fully turbulent: the stream's working variable is 3 times its viscosity
+  sa,  // the same in the mean of a turbulent flow, with the model of Spalart and Allmaras (SA-neg-noft2:
+       // ICCFD7-1902 without ft2), fully turbulent: the stream's working variable is 3 times its viscosity
 };
 const char* name_of(FlowModel model);  // "euler", "laminar", "sa"
 
