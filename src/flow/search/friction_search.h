@@ -55,10 +55,10 @@ struct FrictionPolicy {
   // Level of fill of the incomplete factors. Five hard flows of 16,000 to 18,000 vertices take 234, 218, 198
   // and 190 s with 1, 3, 4 and 5, easy ones the same; with 1 NACA 0012 with 97,371 vertices needs LU.
   static constexpr int fill_level = 4;
-  // Newton's method cycles where a flow has just ceased to be, as when turbulence sets in a column of cells
-  // further on: after so many steps of full CFL in which the residual has not fallen by that part, the search
-  // goes on in time, at this CFL number or less for so many steps: where it grew at once, the cycle was there
-  // again (docs/viscous.md). A search from a flow that is near returns once or twice within its patience.
+  // Newton's method may cycle far from the flow: after so many steps of full CFL in which the residual has
+  // not fallen by that part, the search goes on in time, at this CFL number or less for so many steps: where
+  // it grew at once, the cycle was there again (docs/viscous.md). A search from a flow that is near returns
+  // once or twice within its patience.
   static constexpr double fall = 0.9, return_cfl = 100.0;
   static constexpr int patience = 8, most_returns = 4, steps_of_return = 20;
   // A flow is found, too, where so small a residual falls no more and Newton's step changes no density or
