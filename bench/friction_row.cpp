@@ -1,11 +1,12 @@
-// Cost of a turbulent flow per design on a row of designs: cold; on fresh outer meshes, from the interpolated flow
-// before ("rival"); on the living mesh by Newton's method from the last flow ("warm"); by the solver that outlives its
-// mesh ("living").
+// Cost of a turbulent flow per design on a row of designs: cold; on fresh outer meshes, from the interpolated
+// flow before ("rival"); on the living mesh by Newton's method from the last flow ("warm"); by the solver
+// that outlives its mesh ("living").
 //
-//     friction_row [renew|morph|reference] [MACH ALPHA SIGMA DESIGNS]
+//     friction_row [renew|morph|reference] [MACH ALPHA SIGMA DESIGNS [SECTION]]
 //
-// Designs are a random walk from NACA 0012, SIGMA the standard deviation of each step in all coefficients. Re 6e6, the
-// layer that the program makes, flows to a residual of 1e-8; processor time, that of meshing left out.
+// Designs are a random walk from SECTION (naca:0012), SIGMA the standard deviation of each step in all
+// coefficients. Re 6e6, the layer that the program makes, flows to a residual of 1e-8; processor time, that
+// of meshing left out.
 
 #include <time.h>
 
@@ -101,7 +102,7 @@ int main(int count, char** arguments) {
                               .thickness = 1.2 * boundary_layer_thickness(conditions.reynolds)};
   const QualityOptions quality = {.gradation = 8.0};
   std::mt19937_64 random(1);
-  CstAirfoil airfoil = named_airfoil("naca:0012", 5);
+  CstAirfoil airfoil = named_airfoil(given.size() > 4 ? given[4] : "naca:0012", 5);
   LayeredMesh mesh = generate_layered(domain_of(airfoil), layer, quality).mesh;
   Row cold = {"cold"}, rival = {"rival"}, warm = {"warm"}, living = {"living"};
   LivingFlow outlives(options), from_last(by_gmres);
