@@ -23,7 +23,7 @@
 namespace remodel::flow {
 
 // Numbers of the search, with where they come from: docs/viscous.md. Steps in comments were counted with
-// linear systems solved to a hundredth.
+// linear systems solved to a hundredth, and with ft2 in the model of turbulence.
 struct FrictionPolicy {
   static constexpr double first_cfl = 5.0, most_cfl = 1e13, least_cfl = 1e-2;
   static constexpr double full_growth = 2.0, part_growth = 0.5, shortest_part = 0.3, retried_part = 0.05;

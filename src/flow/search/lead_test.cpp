@@ -8,9 +8,9 @@ namespace {
 constexpr double full_cfl = 1e6;
 
 // Notes steps of full CFL at one residual until it says that they do not lead on; how many they were.
-int steps_that_lead(Lead& lead, double residual, double lift = 0.5) {
+int steps_that_lead(Lead& lead, double residual) {
   for (int step = 1; step < 100; ++step) {
-    lead.note(residual, full_cfl, lift);
+    lead.note(residual, full_cfl, 0.5);
     if (lead.falls_no_more()) return step;
   }
   return 100;
