@@ -113,7 +113,8 @@ void require_openings(const FlowConditions& conditions, const FlowOptions& optio
             inlet.total_pressure, "more than 0");
     require(inlet.total_temperature > 0.0 && std::isfinite(inlet.total_temperature), "total temperature",
             inlet.total_temperature, "more than 0");
-    require(conditions.mach < 1.0, "mach", conditions.mach, "less than 1 where there is an inlet");
+    require(conditions.mach < 1.0, "mach", conditions.mach,
+            "less than 1 where there is an inlet (gas enters faster than sound through a far field)");
   }
   for (const FlowOutlet& outlet : options.outlets)
     require(outlet.pressure > 0.0 && std::isfinite(outlet.pressure), "pressure", outlet.pressure,
