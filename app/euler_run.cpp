@@ -114,10 +114,11 @@ void add_euler_options(CLI::App& app, EulerRun& run) {
             "JSON array of airfoils: the mesh is remodelled to one after the other, each flow found from the "
             "last"},
            Presence::optional, run.series);
-  add_flag(
-      app, "--gradient",
-      "Also derivatives of the coefficients by the shape's numbers, the Mach number and the angle (or lift)",
-      run.gradient);
+  add_flag(app, "--gradient",
+           "Also derivatives of the coefficients by the shape's numbers, with the mesh's interior along, the "
+           "Mach number "
+           "and the angle (or lift)",
+           run.gradient);
   add_flag(
       app, "--error",
       "Also how far the coefficients are from those of an infinitely fine mesh: an estimate by one more mesh "
@@ -235,7 +236,8 @@ Status run_euler(const EulerRun& run, const MeshInput& input, const std::string&
     const FlowProgressLine progress(options);
     LivingFlow living(options);
     flow = solve(run, input, source, living, options);
-    if (run.gradient && flow.converged()) gradients = gradients_json(living, input, flow, run.conditions);
+    if (run.gradient && flow.converged())
+      gradients = gradients_json(living, input, flow, run.conditions, options.farfield);
     if (run.error && flow.converged()) error = error_of(run, input, options, source, flow);
   }
   const std::vector<std::string> files = write_files(run, input, source, outputs, options, flow);

@@ -131,6 +131,7 @@ Status run(const FlowCommand& command) {
       !euler.wall_table.empty() || !euler.profiles.empty() || !euler.history.empty())
     throw Error(ErrorCode::argument, "--series",
                 "given with a file to write, expected no file: there are many flows");
+  refuse(command, {"--gradient", "--error"}, "given with --series, expected a single flow");
   const std::optional<std::string> file = mesh_file(command.input, command.given);
   if (!command.has_friction() && !(file && holds_layers(*file)))
     return run_series(euler, start_mesh(command));

@@ -1,5 +1,6 @@
 #include "flow_report.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <functional>
 #include <limits>
@@ -137,23 +138,36 @@ struct ShapeNumbers {
   std::function<std::vector<double>(std::span<const Point>)> vjp;
 };
 
-ShapeNumbers shape_numbers(const MeshInput& input) {
-  if (input.layered) {
-    auto layered = std::make_shared<LayeredMeshDerivative>(*input.layered);
-    return {coefficient_names(input.layered->domain()),
-            [=](auto by_points) { return layered->vjp(by_points); }};
+// The loops that the interior moves along with: all closed ones but the far field.
+std::vector<std::size_t> loops_of_walls(const Domain& domain, const std::string& farfield) {
+  std::vector<std::size_t> loops;
+  for (std::size_t l = 0; l < domain.loops.size(); ++l) {
+    const Loop& loop = domain.loops[l];
+    const auto is_far = [&](const Curve& curve) { return curve.name == farfield; };
+    if (!loop.open && !std::all_of(loop.curves.begin(), loop.curves.end(), is_far)) loops.push_back(l);
   }
-  auto plain = std::make_shared<MeshDerivative>(*input.living);
-  return {coefficient_names(input.living->domain()), [=](auto by_points) { return plain->vjp(by_points); }};
+  return loops;
+}
+
+ShapeNumbers shape_numbers(const MeshInput& input, const std::string& farfield) {
+  const Domain& domain = input.layered ? input.layered->domain() : input.living->domain();
+  const std::vector<std::size_t> moving = loops_of_walls(domain, farfield);
+  const std::vector<std::string> names = coefficient_names(domain);
+  if (input.layered) {
+    auto layered = std::make_shared<LayeredMeshDerivative>(*input.layered, moving);
+    return {names, [=](auto by_points) { return layered->vjp(by_points); }};
+  }
+  auto plain = std::make_shared<MeshDerivative>(*input.living, moving);
+  return {names, [=](auto by_points) { return plain->vjp(by_points); }};
 }
 
 }  // namespace
 
 Json gradients_json(LivingFlow& living, const MeshInput& input, const FlowResult& flow,
-                    const FlowConditions& conditions) {
+                    const FlowConditions& conditions, const std::string& farfield) {
   const FlowGradients gradients = living.gradients();
   if (gradients.interrupted) return nullptr;
-  const ShapeNumbers shape = shape_numbers(input);
+  const ShapeNumbers shape = shape_numbers(input, farfield);
   const std::vector<std::string>& names = shape.names;
   Json sections = Json::object(), others = Json::object(), mach = Json::object(), reynolds = Json::object();
   const auto place_of = [&](std::size_t i) -> Json& { return is_of_section(names[i]) ? sections : others; };

@@ -198,9 +198,6 @@ class Row {
 
 Status run_row(const EulerRun& run, SeriesMesh& mesh, const std::string& source) {
   require_mach(run);
-  if (run.gradient)
-    throw Error(ErrorCode::argument, "--gradient", "given with --series, expected a single flow");
-  if (run.error) throw Error(ErrorCode::argument, "--error", "given with --series, expected a single flow");
   InterruptObserver observer;
   FlowOptions options = options_of(run);
   options.observer = &observer;

@@ -61,7 +61,7 @@ void add_layer_options(CLI::App& app, LayerChoice& choice) {
 
 void add_layer_sizes(CLI::App& app, LayerChoice& choice) {
   add_real(app,
-           {"--y-plus", "Y", "1, or 0.3 with --model laminar",
+           {"--y-plus", "Y", "1; with --model laminar the first height is 0.01 Re^(-1/2)",
             "y+ of the first layer's height on a flat plate at --reynolds: above 0"},
            {.low = 0.0, .high = 1e4, .above_low = true}, [&](double value) { choice.y_plus = value; });
   add_real(app,
@@ -70,7 +70,9 @@ void add_layer_sizes(CLI::App& app, LayerChoice& choice) {
   add_real(app, {"--growth", "RATIO", "1.2", "Height of a cell over that of the cell below it: 1.02 to 2"},
            {.low = 1.02, .high = 2.0}, [&](double value) { choice.growth = value; });
   add_real(app,
-           {"--layer-thickness", "CHORDS", "1.2 times 0.37 Re^(-1/5), or 0.02 without --reynolds",
+           {"--layer-thickness", "CHORDS",
+            "1.2 times 0.37 Re^(-1/5), with --model laminar 5 Re^(-1/2) where that is more, or 0.02 without "
+            "--reynolds",
             "Thickness of the whole layer, which is thinner in gaps and corners: above 0"},
            {.low = 0.0, .high = 1e3, .above_low = true}, [&](double value) { choice.thickness = value; });
   add_integer(

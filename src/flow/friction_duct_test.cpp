@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "flow/living_flow/last_flow.h"
+#include "flow/scheme/friction_mesh.h"
+#include "flow/solution.h"
 #include "remodel/flow.h"
+#include "remodel/generate.h"
 #include "remodel/layers.h"
 
 namespace remodel::flow {
@@ -86,6 +90,34 @@ TEST(FrictionInDucts, GradientsAreThoseOfWholeFlows) {
   for (std::size_t v = 0; v < mesh.points.size(); ++v)
     by_adjoint += dot(found.cd.points[v], direction(mesh.points[v]));
   EXPECT_NEAR(by_adjoint, by_flows, 1e-6 * std::fabs(by_flows) + 1e-8);
+}
+
+// Whichever way a wall bulges, gas lies above the floor and below the ceiling.
+TEST(FrictionInDucts, FloorsAreUpperSidesAndCeilingsLowerOnes) {
+  for (const double bulge : {-0.01, 0.0, 0.01}) {
+    const auto wall = [](Point from, Point middle, Point to) {
+      return Curve{
+          .name = "wall", .shape = spline_through({from, middle, to}), .parameters = Parameters::uniform(24)};
+    };
+    const auto line = [](const char* name, Point from, Point to) {
+      return Curve{.name = name, .shape = Line{from, to}, .parameters = Parameters::uniform(8)};
+    };
+    const Domain domain{
+        {{.role = LoopRole::outer,
+          .curves = {wall({0, 0}, {1.5, bulge}, {3, 0}), line("outlet", {3, 0}, {3, 1}),
+                     wall({3, 1}, {1.5, 1 + bulge}, {0, 1}), line("inlet", {0, 1}, {0, 0})}}}};
+    FlowOptions options = channel_options(1.0);
+    options.model = FlowModel::sa;
+    const FlowMesh mesh =
+        dual_of(generate(domain).mesh.freeze(), {.mach = 0.2, .reynolds = 1e6}, options, "duct");
+    const FrictionMesh friction(mesh, std::array{0.5, 0.2});
+    for (std::size_t v = 0; v < mesh.size(); ++v) {
+      const Point p = mesh.points()[v];
+      const double transition = p.y < 0.5 ? 1.5 : 0.6;
+      if (std::abs(p.y - 0.5) < 0.1 || std::abs(p.x - transition) < 0.1) continue;
+      EXPECT_EQ(friction.is_laminar(v), p.x < transition) << bulge << ": " << p.x << " " << p.y;
+    }
+  }
 }
 
 }  // namespace

@@ -122,11 +122,23 @@ class Friction(ProgramTest):
             self.assertAlmostEqual(flows[1][key] / flows[0][key], 1.0, delta=1e-3, msg=key)
 
     def test_cells_too_high_are_told_of_in_every_model(self):
-        options = ("--mach", 0.3, "--reynolds", 1e5, "--first-height", 0.01, "--layer-thickness", 0.05, "--max-spacing", 0.06,
-                   "--wall-spacing", 0.015, "--te-spacing", 0.015)  # fmt: skip
-        for model in ("laminar", "sa"):
-            flow = self.succeed("flow", "naca:0012", "--model", model, *options, "--json")
-            self.assertIn("y+ of the cells at the wall", " ".join(flow.json()["warnings"]) + flow.stderr, model)
+        options = ("--mach", 0.3, "--reynolds", 1e5, "--layer-thickness", 0.05, "--max-spacing", 0.06, "--wall-spacing", 0.015,
+                   "--te-spacing", 0.015)  # fmt: skip
+        for model, height, sentence in (("laminar", 0.002, "of the friction acts across the wall"), ("sa", 0.01, "y+ of the cells at the wall")):
+            flow = self.succeed("flow", "naca:0012", "--model", model, *options, "--first-height", height, "--json")
+            self.assertIn(sentence, " ".join(flow.json()["warnings"]) + flow.stderr, model)
+
+    def test_laminar_friction_is_told_from_pressure_at_low_reynolds_and_mach_numbers(self):
+        options = ("--model", "laminar", "--reynolds", 500, "--mach", 0.03, "--max-spacing", 0.06, "--wall-spacing", 0.004,
+                   "--te-spacing", 0.01, "--growth", 1.4)  # fmt: skip
+        parts = {}
+        for name, height in (("usual", ()), ("fine", ("--first-height", 1e-4)), ("high", ("--first-height", 8e-3))):
+            flow = self.figures("flow", "naca:0012", *options, *height)
+            parts[name] = flow["cd_pressure"] / flow["cd"]
+            told = any("acts across the wall" in warning for warning in flow["warnings"])
+            self.assertEqual(told, name == "high", name)
+        self.assertAlmostEqual(parts["usual"], parts["fine"], delta=0.03 * parts["fine"])
+        self.assertGreater(parts["high"], 1.3 * parts["fine"])
 
     def test_each_body_has_its_parts_of_the_drag(self):
         self.succeed("mesh", "naca:0012", "naca:0012", "--place", "0.7,0,0,0", "--place", "0.3,-10,0.72,-0.02", *LAYERS,
@@ -169,7 +181,8 @@ class Friction(ProgramTest):
         self.assertEqual(gradient["names"][0], "airfoil.upper[0]")
         for key in ("cd", "cd_pressure"):
             slope = (row["designs"][2][key] - row["designs"][0][key]) / (2 * step)
-            self.assertAlmostEqual(gradient[key][0], slope, delta=1e-4 * abs(slope))
+            # The row's interior, by `morph`, moves a little otherwise than the gradient's.
+            self.assertAlmostEqual(gradient[key][0], slope, delta=1e-3 * abs(slope))
         self.assertLess(gradient["reynolds"]["cd"], 0)
 
     def test_the_page_of_a_design_parts_its_drag(self):

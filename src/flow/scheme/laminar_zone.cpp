@@ -26,8 +26,6 @@ class WallSides {
  private:
   std::vector<std::uint32_t> connected_with(std::uint32_t edge) const;
   void add_wall(const std::vector<std::uint32_t>& edges);
-  // How far the edges are above the chord, times their lengths.
-  double above(const Chord& chord, std::uint32_t edge) const;
 
   const FlowMesh& mesh_;
   std::vector<std::uint32_t> next_, previous_;  // edges that begin and end at a vertex
@@ -70,23 +68,16 @@ void WallSides::add_wall(const std::vector<std::uint32_t>& edges) {
   const auto front = std::max_element(p.begin(), p.end(), [&](Point a, Point b) {
     return squared_distance(a, *rear) < squared_distance(b, *rear);
   });
-  const Chord chord{*front, *rear};
-  const auto [from, to] = std::minmax({front - p.begin(), rear - p.begin()});
-  double first_part = 0.0, second_part = 0.0;
-  for (std::ptrdiff_t i = 0; i < std::ssize(edges); ++i)
-    (i >= from && i < to ? first_part : second_part) += above(chord, edges[static_cast<std::size_t>(i)]);
+  // Gas lies to the left of the edges: above those that lead from the front to the rear, below those back.
+  const auto from = front - p.begin(), to = rear - p.begin();
+  const bool closed = mesh_.boundary()[edges.front()].a == mesh_.boundary()[edges.back()].b;
   for (std::ptrdiff_t i = 0; i < std::ssize(edges); ++i) {
     const std::uint32_t e = edges[static_cast<std::size_t>(i)];
     wall_[e] = static_cast<std::uint32_t>(chords_.size());
-    lower_[e] = (i >= from && i < to) == (first_part < second_part);
+    const bool leads_back = from < to ? i < from || i >= to : i >= to && i < from;
+    lower_[e] = closed ? leads_back : from > to;
   }
-  chords_.push_back(chord);
-}
-
-double WallSides::above(const Chord& chord, std::uint32_t edge) const {
-  const Point a = mesh_.points()[mesh_.boundary()[edge].a], b = mesh_.points()[mesh_.boundary()[edge].b];
-  const Point along = chord.trailing - chord.leading, to = 0.5 * (a + b) - chord.leading;
-  return (along.x * to.y - along.y * to.x) * std::sqrt(squared_distance(a, b));
+  chords_.push_back({*front, *rear});
 }
 
 }  // namespace

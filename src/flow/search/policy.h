@@ -38,8 +38,12 @@ struct SearchPolicy {
   static constexpr double nearly_found = 1e-3, short_cfl = 20.0;
 
   // From potential flow. CFL 5, 20, 100 and 1000 take 7, 6, 5 and 5 steps around NACA 0012 at Mach .5, where
-  // undisturbed flow takes 10; at 20 three elements have another flow, of more drag (docs/notebook/flow_walls.md).
+  // undisturbed flow takes 10; at 20 three elements have another flow, of more drag
+  // (docs/notebook/flow_walls.md).
   static constexpr double potential_cfl = 100.0;
+  // Up to this Mach number: beyond it the shocks are too strong. 28 flows at Mach .78 and .83 (I = 200) take
+  // a quarter less time from undisturbed flow, and 28 at .65 and .72 a sixth less from potential flow.
+  static constexpr double most_mach_of_potential = 0.75;
   static constexpr int potential_patience = 15;
 
   // From a flow that is near, below this residual, Newton's method needs no pseudo-time; what is near enough
@@ -99,9 +103,9 @@ struct SearchPolicy {
   // by: from 50 naca:4412 took 109 steps. With a given lift the residual has to rise while the angle goes: no
   // bound then (notebook).
   static constexpr double interpolated_cfl = 20.0, interpolated_cfl_with_lift = 50.0;
-  // From this Mach number on there may be shocks: meshes begin on coarser ones rather than with potential flow.
-  // Below it coarser meshes gain little, and around several elements they may lead to another flow, of less lift
-  // (notebook).
+  // From this Mach number on there may be shocks: meshes begin on coarser ones rather than with potential
+  // flow. Below it coarser meshes gain little, and around several elements they may lead to another flow, of
+  // less lift (notebook).
   static constexpr double mach_of_shocks = 0.6;
   // Meshes of at least this many vertices begin on a coarser one.
   static std::size_t least_vertices(double mach) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flow/search/policy.h"
 #include "remodel/error.h"
 #include "remodel/potential_flow.h"
 
@@ -12,7 +13,8 @@ namespace {
 
 bool may_be_potential(const FlowSystem& system) {
   const Stream& stream = system.stream();
-  if (!(stream.mach < 1.0) || stream.prescribed || !stream.source.empty()) return false;
+  if (stream.mach > SearchPolicy::most_mach_of_potential || stream.prescribed || !stream.source.empty())
+    return false;
   return system.mesh().has_farfield() &&
          std::all_of(system.mesh().patches().begin(), system.mesh().patches().end(),
                      [](const Patch& patch) { return patch.is_farfield() || patch.solid(); });
