@@ -184,7 +184,14 @@ class Row {
     const std::string figures = "CL " + cl + ", CD " + design["cd"].dump() + ", " +
                                 design["warm"].get<std::string>() + ", " +
                                 design["status"].get<std::string>();
-    return design["converged"].get<bool>() ? figures : "not converged: " + figures;
+    return (design["converged"].get<bool>() ? figures : "not converged: " + figures) + compared_text(design);
+  }
+  static std::string compared_text(const Json& design) {
+    for (const std::string kind : {"cold", "rival"})
+      if (design.contains(kind + "_cl"))
+        return "; " + kind + ": CL " + design[kind + "_cl"].dump() + ", " + design[kind + "_seconds"].dump() +
+               " s for " + design["seconds"].dump();
+    return {};
   }
 
   std::string source_;

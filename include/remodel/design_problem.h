@@ -42,7 +42,7 @@ struct DesignPoint {
   double weight = 1.0;        // of the objective; 0: the point is there for its constraints alone
   FlowModel model =
       FlowModel::euler;  // with friction of all points, or of none: `conditions` has its `reynolds`
-  // A deformed domain may have these without friction: they are FlowOptions of the same names.
+  // A deformed domain may have these, with friction too: they are FlowOptions of the same names.
   std::vector<FlowInlet> inlets = {};
   std::vector<FlowOutlet> outlets = {};
   std::vector<std::string> symmetry = {};
