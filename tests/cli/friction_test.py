@@ -140,6 +140,15 @@ class Friction(ProgramTest):
         self.assertAlmostEqual(parts["usual"], parts["fine"], delta=0.03 * parts["fine"])
         self.assertGreater(parts["high"], 1.3 * parts["fine"])
 
+    def test_a_section_and_a_stream_that_turn_together_have_the_same_flow(self):
+        options = ("--model", "sa", "--mach", 0.2, "--reynolds", 1e6, "--max-spacing", 0.06, "--wall-spacing", 0.01, "--te-spacing", 0.01,
+                   "--growth", 1.4, "--farfield-radius", 15)  # fmt: skip
+        level = self.figures("flow", "naca:2412", *options, "--alpha", 2)
+        turned = self.figures("flow", "naca:2412", *options, "--place", "1,60,0,0", "--alpha", 62)
+        self.assertAlmostEqual(turned["cl"], level["cl"], delta=0.02 * level["cl"])
+        self.assertAlmostEqual(turned["cd"], level["cd"], delta=0.02 * level["cd"])
+        self.assertLess(turned["newton_steps"], level["newton_steps"] + 10)
+
     def test_each_body_has_its_parts_of_the_drag(self):
         self.succeed("mesh", "naca:0012", "naca:0012", "--place", "0.7,0,0,0", "--place", "0.3,-10,0.72,-0.02", *LAYERS,
                      "-o", "a.vtkhdf")  # fmt: skip

@@ -63,6 +63,18 @@ class RowWeights {
   double of_augmented_;
 };
 
+// The angle of attack that is looked for first: 0, or that along the chord of the largest section where it is
+// nearer to the stream's by a step.
+double easy_angle(const FlowMesh& mesh, double angle) {
+  const Extent& chord = mesh.extent();
+  if (chord.a == no_index || chord.b == no_index) return 0.0;
+  Point along = mesh.points()[chord.b] - mesh.points()[chord.a];
+  if (along.x * std::cos(angle) + along.y * std::sin(angle) < 0.0) along = -1.0 * along;
+  const double of_chord = std::atan2(along.y, along.x);
+  const bool nearer = std::fabs(angle - of_chord) + FrictionPolicy::angle_step < std::fabs(angle);
+  return nearer ? of_chord : 0.0;
+}
+
 }  // namespace
 
 // The residual of the implicit time step from `before`.
@@ -182,16 +194,18 @@ void FrictionSearch<N>::cold(BlockState<N>& state) {
 }
 
 // From undisturbed flow to a rough flow, with turbulence upwinded to first order at first (from the wall's
-// beginning, where a transition is given), and by equal steps of the angle of attack to the stream's own. The
-// CFL number to go on from; nothing: none was found.
+// beginning, where a transition is given), and by equal steps of the angle of attack from an easy one to the
+// stream's own. The CFL number to go on from; nothing: none was found.
 template <std::size_t N>
 std::optional<double> FrictionSearch<N>::rough_at_angle(BlockState<N>& state) {
   Stream stage = system_.stream();
   stage.lift.reset();
   const FrictionMesh& mesh = system_.friction_mesh();
-  const double angle = stage.alpha;
-  const int steps = std::max(1, static_cast<int>(std::ceil(std::fabs(angle) / FrictionPolicy::angle_step)));
-  stage.alpha = angle / steps;
+  const double angle = stage.alpha, easy = easy_angle(mesh.dual(), angle);
+  const int steps =
+      std::max(1, static_cast<int>(std::ceil(std::fabs(angle - easy) / FrictionPolicy::angle_step)));
+  const auto angle_after = [&](int step) { return easy + (angle - easy) * step / steps; };
+  stage.alpha = angle_after(1);
   state = FrictionSystem<N>(mesh, stage, system_.terms().viscosity).undisturbed();
   double cfl = FrictionPolicy::first_cfl;
   if constexpr (N == 5) {
@@ -208,7 +222,7 @@ std::optional<double> FrictionSearch<N>::rough_at_angle(BlockState<N>& state) {
   }
   for (int i = 1; i < steps; ++i) {
     if (!found_rough(mesh, stage, FrictionPolicy::angle_tolerance, cfl, state)) return std::nullopt;
-    stage.alpha = state.augmented[1] = angle * (i + 1) / steps;
+    stage.alpha = state.augmented[1] = angle_after(i + 1);
     cfl = FrictionPolicy::angle_cfl;
   }
   return cfl;
