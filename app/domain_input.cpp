@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "arguments.h"
 #include "figures.h"
@@ -226,10 +227,13 @@ void add_outline_figures(Report& report, const std::vector<ShapeOutline>& outlin
   if (!list.empty()) report.data("outlines", std::move(list));
 }
 
-void require_alone(const DomainInputOptions& options, const std::string& shape) {
-  if (options.as_given)
-    throw Error(ErrorCode::argument, "--as-given",
-                "given for '" + shape + "', a whole domain, expected for coordinate files");
+void require_alone(const DomainInputOptions& options, const FitOptions& fit, const std::string& shape) {
+  for (const auto& [given, option] : {std::pair{options.as_given.has_value(), "--as-given"},
+                                      {options.keep_coordinates, "--keep-coordinates"},
+                                      {fit.close_trailing_edge, "--close-trailing-edge"}})
+    if (given)
+      throw Error(ErrorCode::argument, option,
+                  "given for '" + shape + "', a whole domain, expected for coordinate files");
   if (options.shapes.size() == 1 && options.places.empty() && options.names.empty()) return;
   throw Error(ErrorCode::argument, shape,
               "holds a whole domain, expected it alone and without --place and --name");
@@ -290,7 +294,7 @@ DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOp
   DomainInput input;
   for (const std::string& shape : options.shapes) {
     if (holds_graph(shape)) {
-      require_alone(options, shape);
+      require_alone(options, fit, shape);
       input.findings.emplace();
       const PlanarGraph graph = read_poly(shape);
       input.domain = planar_domain(graph, shape, options.crossings, &*input.findings, options.join);
@@ -301,7 +305,7 @@ DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOp
       return input;
     }
     if (is_domain_file(shape)) {
-      require_alone(options, shape);
+      require_alone(options, fit, shape);
       Joins joins;
       std::vector<std::string> warnings;
       input.domain = load_domain(shape, options.join, &joins, &warnings);

@@ -61,7 +61,7 @@ void add_layer_options(CLI::App& app, LayerChoice& choice) {
 
 void add_layer_sizes(CLI::App& app, LayerChoice& choice) {
   add_real(app,
-           {"--y-plus", "Y", "1; with --model laminar the first height is 0.01 Re^(-1/2)",
+           {"--y-plus", "Y", "1, at most 0.033 Re^(-1/2) high; with --model laminar 0.01 Re^(-1/2)",
             "y+ of the first layer's height on a flat plate at --reynolds: above 0"},
            {.low = 0.0, .high = 1e4, .above_low = true}, [&](double value) { choice.y_plus = value; });
   add_real(app,

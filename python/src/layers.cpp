@@ -280,7 +280,7 @@ void add_layers(py::module_& module) {
              R"(A mesh with layers on its walls, of a Domain or around an Airfoil (or the name of one).
 
 reynolds: of a chord; it gives heights and thickness for the model, 'laminar' (the first cell a 500th of 5 / sqrt(Re)) or
-'sa' (y+ 1 on a flat plate).
+'sa' (y+ 1 on a flat plate, a 150th of that at most).
 first_height and thickness, in chords, are given instead or besides. growth: of a cell's height over that of the cell
 below, 1.02 to 2. walls: names of the walls that get a layer (unless given all holes, and of an outer loop that has an
 inlet, outlet or symmetry plane all else); they may end at such openings. spacing: the distances between

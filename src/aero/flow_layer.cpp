@@ -10,10 +10,10 @@ namespace remodel {
 
 LayerOptions layer_for_flow(FlowModel model, double reynolds) {
   constexpr double y_plus = 1.0;
-  // Of a laminar boundary layer's thickness: at a nose it is a tenth as thick as at the end of a plate. With
-  // 1/100 friction and pressure are told apart within 20 %, with this within 2 % (NACA 0012, Re 500, Mach
-  // 0.01).
-  constexpr double laminar_part = 1.0 / 500.0;
+  // Of a laminar boundary layer's thickness at the end of a plate; at a nose it is a tenth as thick. With
+  // 1/100 friction and pressure are told apart within 20 %, with 1/500 within 2 % (NACA 0012, Re 500, Mach
+  // 0.01). Turbulent layers have lower cells by their y+ from Re 5e5 on.
+  constexpr double laminar_part = 1.0 / 500.0, turbulent_part = 1.0 / 150.0;
   if (model == FlowModel::euler)
     throw Error(ErrorCode::argument, "model", "found euler, expected a model with friction: laminar or sa");
   const bool turbulent = model == FlowModel::sa;
@@ -22,7 +22,8 @@ LayerOptions layer_for_flow(FlowModel model, double reynolds) {
   const double laminar = 5.0 / std::sqrt(reynolds);
   if (!turbulent) layer.thickness = std::max(layer.thickness, 1.2 * std::min(laminar, 0.5));
   layer.first_height =
-      std::min(turbulent ? first_height(y_plus, reynolds) : laminar_part * laminar, 0.1 * layer.thickness);
+      turbulent ? std::min(first_height(y_plus, reynolds), turbulent_part * laminar) : laminar_part * laminar;
+  layer.first_height = std::min(layer.first_height, 0.1 * layer.thickness);
   return layer;
 }
 

@@ -210,6 +210,7 @@ TEST(LayersOfFlows, FollowTheReynoldsNumberAndTheModel) {
   const LayerOptions turbulent = layer_for_flow(FlowModel::sa, 6e6);
   EXPECT_DOUBLE_EQ(turbulent.thickness, 1.2 * boundary_layer_thickness(6e6));
   EXPECT_DOUBLE_EQ(turbulent.first_height, first_height(1.0, 6e6));
+  EXPECT_DOUBLE_EQ(layer_for_flow(FlowModel::sa, 1e4).first_height, 0.05 / 150.0);
   const LayerOptions laminar = layer_for_flow(FlowModel::laminar, 100);
   EXPECT_DOUBLE_EQ(laminar.thickness, 1.2 * 0.5);
   EXPECT_DOUBLE_EQ(laminar.first_height, 0.001);

@@ -4,6 +4,7 @@ import json
 import math
 import pathlib
 
+import harness
 import shapes
 from harness import ProgramTest, main
 
@@ -236,6 +237,9 @@ class Airfoils(ProgramTest):
         self.assertFalse(updated["regenerated"])
         self.assertTrue(self.figures("check", "x.vtkhdf")["valid"])
         self.refused("mesh", "naca:0012", "--as-given", "spline", "-o", "x.vtkhdf", names="--as-given")
+        domain = harness.SOURCE / "examples/domains/duct.json"
+        for option in (("--as-given", "spline"), ("--keep-coordinates",), ("--close-trailing-edge",)):
+            self.refused("mesh", domain, *option, "-o", "x.vtkhdf", names=option[0])
 
     def test_remarks_around_the_coordinates(self):
         rows = shapes.selig().split("\n", 1)[1]
