@@ -138,7 +138,7 @@ struct ShapeNumbers {
   std::function<std::vector<double>(std::span<const Point>)> vjp;
 };
 
-// The loops that the interior moves along with: all closed ones but the far field.
+// The loops that the interior moves along with: all closed ones but those of the far field alone.
 std::vector<std::size_t> loops_of_walls(const Domain& domain, const std::string& farfield) {
   std::vector<std::size_t> loops;
   for (std::size_t l = 0; l < domain.loops.size(); ++l) {

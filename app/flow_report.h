@@ -19,8 +19,8 @@ void add_flow_figures(Report& report, const FlowResult& flow, const FlowConditio
 // Derivatives by coefficients_of() the mesh's domain, which `names` has the names of, the Mach number and
 // what is given of angle and lift. Null where they were interrupted; those of lift, moment and, with a lift
 // given, the angle are null where the flow's lift is not determined.
-// The input is a native mesh or one of a shape. Its interior moves along with all loops but the far field. With friction CD of pressure and the Reynolds number are
-// there too.
+// The input is a native mesh or one of a shape. Its interior moves along with all closed loops but those of the
+// far field alone. With friction CD of pressure and the Reynolds number are there too.
 Json gradients_json(LivingFlow& living, const MeshInput& input, const FlowResult& flow,
                     const FlowConditions& conditions, const std::string& farfield);
 void add_gradients(Report& report, const Json& gradients);

@@ -109,9 +109,10 @@ class Comparison {
     const bool cold = kind_ == Compare::cold || !flow_;
     FlowResult flow = cold ? series_.cold(conditions_, options_)
                            : solve_flow_from(mesh_, *flow_, mesh, conditions_, options_);
-    entry[kind_ == Compare::cold ? "cold_seconds" : "rival_seconds"] = flow.seconds;
-    entry[kind_ == Compare::cold ? "cold_cl" : "rival_cl"] =
-        flow.lift_determined ? Json(flow.cl) : Json(nullptr);
+    const std::string name = kind_ == Compare::cold ? "cold" : "rival";
+    entry[name + "_seconds"] = flow.seconds;
+    entry[name + "_cl"] = flow.lift_determined ? Json(flow.cl) : Json(nullptr);
+    entry[name + "_converged"] = flow.converged();
     if (!flow.converged()) return;
     flow_ = std::move(flow), mesh_ = std::move(mesh);
   }
@@ -187,10 +188,13 @@ class Row {
     return (design["converged"].get<bool>() ? figures : "not converged: " + figures) + compared_text(design);
   }
   static std::string compared_text(const Json& design) {
-    for (const std::string kind : {"cold", "rival"})
-      if (design.contains(kind + "_cl"))
-        return "; " + kind + ": CL " + design[kind + "_cl"].dump() + ", " + design[kind + "_seconds"].dump() +
-               " s for " + design["seconds"].dump();
+    for (const std::string kind : {"cold", "rival"}) {
+      if (!design.contains(kind + "_cl")) continue;
+      const Json& cl = design[kind + "_cl"];
+      return "; " + kind + ": CL " + (cl.is_null() ? not_determined : cl.dump()) +
+             (design[kind + "_converged"].get<bool>() ? "" : " (not converged)") + ", " +
+             design[kind + "_seconds"].dump() + " s for " + design["seconds"].dump();
+    }
     return {};
   }
 

@@ -55,13 +55,15 @@ void add_layer_options(CLI::App& app, LayerChoice& choice) {
   add_real(app,
            {"--reynolds", "RE", "", "Reynolds number, which the first height and the thickness follow from"},
            {.low = 1.0, .high = 1e12}, [&](double value) { choice.reynolds = value; });
-  add_layer_sizes(app, choice);
+  add_layer_sizes(app, choice, LayerDefaults::of_y_plus);
   add_layer_cells(app, choice.cells);
 }
 
-void add_layer_sizes(CLI::App& app, LayerChoice& choice) {
+void add_layer_sizes(CLI::App& app, LayerChoice& choice, LayerDefaults defaults) {
+  const bool of_flow = defaults == LayerDefaults::of_flow;
   add_real(app,
-           {"--y-plus", "Y", "1, at most 0.033 Re^(-1/2) high; with --model laminar 0.01 Re^(-1/2)",
+           {"--y-plus", "Y",
+            of_flow ? "1, at most 0.033 Re^(-1/2) high; with --model laminar 0.01 Re^(-1/2)" : "1",
             "y+ of the first layer's height on a flat plate at --reynolds: above 0"},
            {.low = 0.0, .high = 1e4, .above_low = true}, [&](double value) { choice.y_plus = value; });
   add_real(app,
@@ -69,12 +71,13 @@ void add_layer_sizes(CLI::App& app, LayerChoice& choice) {
            {.low = 0.0, .high = 1e3, .above_low = true}, [&](double value) { choice.first_height = value; });
   add_real(app, {"--growth", "RATIO", "1.2", "Height of a cell over that of the cell below it: 1.02 to 2"},
            {.low = 1.02, .high = 2.0}, [&](double value) { choice.growth = value; });
-  add_real(app,
-           {"--layer-thickness", "CHORDS",
-            "1.2 times 0.37 Re^(-1/5), with --model laminar 5 Re^(-1/2) where that is more, or 0.02 without "
-            "--reynolds",
-            "Thickness of the whole layer, which is thinner in gaps and corners: above 0"},
-           {.low = 0.0, .high = 1e3, .above_low = true}, [&](double value) { choice.thickness = value; });
+  add_real(
+      app,
+      {"--layer-thickness", "CHORDS",
+       of_flow ? "1.2 times 0.37 Re^(-1/5), with --model laminar 5 Re^(-1/2), at most 0.5, where that is more"
+               : "1.2 times 0.37 Re^(-1/5), or 0.02 without --reynolds",
+       "Thickness of the whole layer, which is thinner in gaps and corners: above 0"},
+      {.low = 0.0, .high = 1e3, .above_low = true}, [&](double value) { choice.thickness = value; });
   add_integer(
       app,
       {"--layer-count", "K", "", "Number of cells across the layer, in place of its thickness: 1 to 1000"},

@@ -31,8 +31,10 @@ inline constexpr double gradation_with_layers = 8.0;
 // --layers, --reynolds, those of add_layer_sizes(), --layer-cells.
 void add_layer_options(CLI::App& app, LayerChoice& choice);
 // --y-plus, --first-height, --growth, --layer-thickness, --layer-count, --wake, --wake-angle, --wall-spacing,
-// --te-spacing, --max-spacing, --layer-wall.
-void add_layer_sizes(CLI::App& app, LayerChoice& choice);
+// --te-spacing, --max-spacing, --layer-wall. The defaults of height and thickness, as the help has them, are those
+// of layers by y+ alone, or of a flow's (layer_for_flow()).
+enum class LayerDefaults { of_y_plus, of_flow };
+void add_layer_sizes(CLI::App& app, LayerChoice& choice, LayerDefaults defaults);
 // --layer-cells.
 void add_layer_cells(CLI::App& app, LayerCells& cells);
 

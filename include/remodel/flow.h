@@ -260,7 +260,8 @@ std::vector<double> entropy_errors(const FlowResult& flow);
 // viscosity_ratio and (with a temperature of walls) ch, for files and pictures.
 std::vector<Field> fields_of(const FlowResult& flow);
 
-// The flow through a mesh, found from potential flow where there is one, otherwise from undisturbed flow.
+// The flow through a mesh, found from potential flow where there is one and up to Mach .75, otherwise from
+// undisturbed flow.
 // `source` names the mesh in messages.
 FlowResult solve_flow(const FrozenMesh& mesh, const FlowConditions& conditions,
                       const FlowOptions& options = {}, const std::string& source = "mesh");

@@ -18,8 +18,7 @@ namespace remodel {
 // (boundary_layer_thickness()), for laminar flow 1.2 times the larger one of that and Blasius's, 5 /
 // sqrt(Re), which counts up to half a chord. The first cell of laminar flow is a 500th of Blasius's
 // thickness high. That of turbulent flow is as high as y+ = 1 on a flat plate, and a 150th of that thickness
-// at most. Both are at most a tenth of the layer. Throws Error (argument) for a model without friction and a
-// Reynolds number that is not 1 to 1e12.
+// at most. Throws Error (argument) for a model without friction and a Reynolds number that is not 1 to 1e12.
 LayerOptions layer_for_flow(FlowModel model, double reynolds);
 
 // So long a wake, in chords, at an angle counter-clockwise from the x axis.

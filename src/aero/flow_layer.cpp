@@ -23,7 +23,6 @@ LayerOptions layer_for_flow(FlowModel model, double reynolds) {
   if (!turbulent) layer.thickness = std::max(layer.thickness, 1.2 * std::min(laminar, 0.5));
   layer.first_height =
       turbulent ? std::min(first_height(y_plus, reynolds), turbulent_part * laminar) : laminar_part * laminar;
-  layer.first_height = std::min(layer.first_height, 0.1 * layer.thickness);
   return layer;
 }
 

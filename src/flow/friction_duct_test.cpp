@@ -120,5 +120,35 @@ TEST(FrictionInDucts, FloorsAreUpperSidesAndCeilingsLowerOnes) {
   }
 }
 
+// A section whose base is an outlet has both sides all the same.
+TEST(FrictionInDucts, ABodyWithAnOpeningHasTwoSides) {
+  const auto line = [](const char* name, Point from, Point to) {
+    return Curve{.name = name, .shape = Line{from, to}, .parameters = Parameters::uniform(10)};
+  };
+  const Domain domain{
+      {{.role = LoopRole::hole,
+        .curves = {line("wall", {0, 0}, {1, 0.1}), line("base", {1, 0.1}, {1, -0.1}),
+                   line("wall", {1, -0.1}, {0, 0})}},
+       {.role = LoopRole::outer,
+        .curves = {{.name = "farfield",
+                    .shape = Arc{.centre = {0, 0}, .radius = 5, .start = 0, .sweep = 6.283185307179586},
+                    .parameters = Parameters::uniform(20)}}}}};
+  FlowOptions options;
+  options.model = FlowModel::sa;
+  options.outlets = {{.name = "base"}};
+  const FlowMesh mesh =
+      dual_of(generate(domain).mesh.freeze(), {.mach = 0.2, .reynolds = 1e6}, options, "body");
+  const FrictionMesh friction(mesh, std::array{0.7, 0.2});
+  int seen = 0;
+  for (std::size_t v = 0; v < mesh.size(); ++v) {
+    const Point p = mesh.points()[v];
+    const double transition = p.y > 0.0 ? 0.7 : 0.2;
+    if (!friction.sticks(v) || std::abs(p.x - transition) < 0.05) continue;
+    EXPECT_EQ(friction.is_laminar(v), p.x < transition) << p.x << " " << p.y;
+    ++seen;
+  }
+  EXPECT_GT(seen, 12);
+}
+
 }  // namespace
 }  // namespace remodel::flow

@@ -99,15 +99,17 @@ double part_across_walls(const FrictionSystem<N>& system, const BlockVector<N>& 
   const FlowMesh& dual = system.mesh();
   std::vector<Point> along(dual.size());
   std::vector<double> length(dual.size(), 0.0);
+  std::vector<int> edges(dual.size(), 0);
   for (const BoundaryEdge& edge : dual.boundary()) {
     if (!dual.patch(edge).sticks()) continue;
     const Point d = dual.points()[edge.b] - dual.points()[edge.a];
-    for (const std::uint32_t v : {edge.a, edge.b}) along[v] = along[v] + d, length[v] += std::sqrt(dot(d, d));
+    for (const std::uint32_t v : {edge.a, edge.b})
+      along[v] = along[v] + d, length[v] += std::sqrt(dot(d, d)), ++edges[v];
   }
   double across = 0.0, whole = 0.0;
   for (std::uint32_t v = 0; v < dual.size(); ++v) {
     const double size = std::sqrt(dot(along[v], along[v]));
-    if (size <= least_cosine * length[v]) continue;
+    if (edges[v] < 2 || size <= least_cosine * length[v]) continue;  // ends at openings, and corners
     const Point force = system.friction_force(unbalanced, v);
     across += std::abs(cross(along[v], force)) / size;
     whole += std::sqrt(dot(force, force));

@@ -77,6 +77,19 @@ class Flows(ProgramTest):
         self.assertAlmostEqual(half["cl"], 2 * one["cl"], delta=1e-14)
         self.assertAlmostEqual(half["cm"], 4 * one["cm"], delta=1e-14)
 
+    def test_moving_a_section_changes_nothing_and_turning_it_turns_the_stream(self):
+        gradient = self.figures("flow", "naca:0012", "--points", 100, "--mach", 0.5, "--alpha", 1.25, "--gradient")["gradient"]
+        others, by_angle = gradient["others"], gradient["names"].index("alpha_deg")
+        lift = dict(zip(others["names"], others["cl"]))
+        self.assertAlmostEqual(lift["airfoil.rotation_deg"], -gradient["cl"][by_angle], delta=1e-3)
+        for place in ("airfoil.x", "airfoil.y"):
+            self.assertAlmostEqual(lift[place], 0, delta=0.03, msg=place)
+
+    def test_strong_shocks_are_not_looked_for_from_potential_flow(self):
+        for mach, origin in ((0.75, "potential"), (0.76, "undisturbed")):
+            flow = self.figures("flow", "naca:0012", "--points", 60, "--mach", mach)
+            self.assertEqual((flow["converged"], flow["origin"]), (True, origin))
+
     def test_gradients_have_names(self):
         shape = ("flow", "naca:2412", "--points", 40, "--mach", 0.4, "--gradient")
         gradient = self.figures(*shape, "--alpha", 1)["gradient"]

@@ -70,12 +70,10 @@ void WallSides::add_wall(const std::vector<std::uint32_t>& edges) {
   });
   // Gas lies to the left of the edges: above those that lead from the front to the rear, below those back.
   const auto from = front - p.begin(), to = rear - p.begin();
-  const bool closed = mesh_.boundary()[edges.front()].a == mesh_.boundary()[edges.back()].b;
   for (std::ptrdiff_t i = 0; i < std::ssize(edges); ++i) {
     const std::uint32_t e = edges[static_cast<std::size_t>(i)];
     wall_[e] = static_cast<std::uint32_t>(chords_.size());
-    const bool leads_back = from < to ? i < from || i >= to : i >= to && i < from;
-    lower_[e] = closed ? leads_back : from > to;
+    lower_[e] = from < to ? i < from || i >= to : i >= to && i < from;
   }
   chords_.push_back({*front, *rear});
 }

@@ -28,7 +28,7 @@
 //     |              \__
 //     +-----------------\-> steps              The hump is a shock on its way: the residual has to rise.
 //
-// cold() begins with potential flow, where there is one, and else with undisturbed flow.
+// cold() begins with potential flow, where there is one (potential_start.h), and else with undisturbed flow.
 // from_undisturbed_flow() finds by fallbacks what run() does not find from there, in this order:
 //
 //   a. run() from CFL 5.
