@@ -20,8 +20,11 @@ double rounded(double value) {
   return std::strtod(text.data(), nullptr);
 }
 
+// Cells at the wall are higher than layer_for_flow() has them, so that a drag takes no longer and Euler's flow is
+// found on the same mesh: y+ 0.3 on a flat plate.
 LayerOptions layer_for(double reynolds) {
   LayerOptions layer = layer_for_flow(FlowModel::laminar, reynolds);
+  layer.first_height = std::min(first_height(0.3, reynolds), 0.1 * layer.thickness);
   layer.first_height = rounded(layer.first_height);
   layer.thickness = rounded(layer.thickness);
   return layer;
