@@ -116,8 +116,7 @@ void add_euler_options(CLI::App& app, EulerRun& run) {
            Presence::optional, run.series);
   add_flag(app, "--gradient",
            "Also derivatives of the coefficients by the shape's numbers, with the mesh's interior along, the "
-           "Mach number "
-           "and the angle (or lift)",
+           "Mach number and the angle (or lift)",
            run.gradient);
   add_flag(
       app, "--error",

@@ -24,7 +24,7 @@ double rounded(double value) {
 // found on the same mesh: y+ 0.3 on a flat plate.
 LayerOptions layer_for(double reynolds) {
   LayerOptions layer = layer_for_flow(FlowModel::laminar, reynolds);
-  layer.first_height = std::min(first_height(0.3, reynolds), 0.1 * layer.thickness);
+  layer.first_height = first_height(0.3, reynolds);
   layer.first_height = rounded(layer.first_height);
   layer.thickness = rounded(layer.thickness);
   return layer;

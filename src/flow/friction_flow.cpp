@@ -18,6 +18,8 @@ namespace {
 struct WallVertex {
   double length = 0.0;
   Point along;  // downstream
+  Point chord;  // from its neighbour before along the wall to that after it
+  int edges = 0;
 };
 std::vector<WallVertex> wall_vertices_of(const FlowMesh& dual, Point stream) {
   std::vector<WallVertex> walls(dual.size());
@@ -26,6 +28,7 @@ std::vector<WallVertex> wall_vertices_of(const FlowMesh& dual, Point stream) {
     const Point d = dual.points()[edge.b] - dual.points()[edge.a];
     for (const std::uint32_t v : {edge.a, edge.b}) {
       walls[v].length += 0.5 * std::sqrt(dot(d, d));
+      walls[v].chord = walls[v].chord + d, ++walls[v].edges;
       walls[v].along = walls[v].along + (dot(d, stream) < 0.0 ? -1.0 : 1.0) * d;
     }
   }
@@ -36,8 +39,8 @@ std::vector<WallVertex> wall_vertices_of(const FlowMesh& dual, Point stream) {
 }
 
 template <std::size_t N>
-FlowFriction friction_of(const FrictionSystem<N>& system, const BlockState<N>& state,
-                         const BlockVector<N>& unbalanced) {
+FlowFriction friction_of(const FrictionSystem<N>& system, const std::vector<WallVertex>& walls,
+                         const BlockState<N>& state, const BlockVector<N>& unbalanced) {
   const FlowMesh& dual = system.mesh();
   const Viscosity& viscosity = system.terms().viscosity;
   const double mach = system.stream().mach;
@@ -48,8 +51,6 @@ FlowFriction friction_of(const FrictionSystem<N>& system, const BlockState<N>& s
   if (friction.wall_temperature) friction.ch.assign(dual.size(), 0.0);
   const double heat_scale = (gas_gamma - 1.0) / mach;  // over the stream's enthalpy, of a unit of length
   friction.cf.assign(dual.size(), 0.0), friction.y_plus.assign(dual.size(), 0.0);
-  const std::vector<WallVertex> walls =
-      wall_vertices_of(dual, {std::cos(state.augmented[1]), std::sin(state.augmented[1])});
   for (std::uint32_t v = 0; v < dual.size(); ++v) {
     const Unknowns<double> q = FrictionTerms::gas(state.q[v]);
     const double molecular = viscosity.at(temperature(q));
@@ -94,24 +95,17 @@ std::optional<std::uint32_t> separated_ahead_of_transition(const FrictionMesh& m
 // What part of friction acts across the wall, where that does not turn. There is none at a wall without slip:
 // it is pressure, of which the cells at the wall are too high to tell, as at a nose.
 template <std::size_t N>
-double part_across_walls(const FrictionSystem<N>& system, const BlockVector<N>& unbalanced) {
+double part_across_walls(const FrictionSystem<N>& system, const std::vector<WallVertex>& walls,
+                         const BlockVector<N>& unbalanced) {
   constexpr double least_cosine = 0.95;  // of half of what an edge turns by
-  const FlowMesh& dual = system.mesh();
-  std::vector<Point> along(dual.size());
-  std::vector<double> length(dual.size(), 0.0);
-  std::vector<int> edges(dual.size(), 0);
-  for (const BoundaryEdge& edge : dual.boundary()) {
-    if (!dual.patch(edge).sticks()) continue;
-    const Point d = dual.points()[edge.b] - dual.points()[edge.a];
-    for (const std::uint32_t v : {edge.a, edge.b})
-      along[v] = along[v] + d, length[v] += std::sqrt(dot(d, d)), ++edges[v];
-  }
   double across = 0.0, whole = 0.0;
-  for (std::uint32_t v = 0; v < dual.size(); ++v) {
-    const double size = std::sqrt(dot(along[v], along[v]));
-    if (edges[v] < 2 || size <= least_cosine * length[v]) continue;  // ends at openings, and corners
+  for (std::uint32_t v = 0; v < walls.size(); ++v) {
+    const WallVertex& wall = walls[v];
+    const double size = std::sqrt(dot(wall.chord, wall.chord));
+    if (wall.edges < 2 || size <= least_cosine * 2.0 * wall.length)
+      continue;  // ends at openings, and corners
     const Point force = system.friction_force(unbalanced, v);
-    across += std::abs(cross(along[v], force)) / size;
+    across += std::abs(cross(wall.chord, force)) / size;
     whole += std::sqrt(dot(force, force));
   }
   return whole > 0.0 ? across / whole : 0.0;
@@ -190,7 +184,9 @@ FlowResult result_of(const FrictionSystem<N>& system, const BlockState<N>& state
   const WallForces sum = system.forces(state, unbalanced);
   result.cl = scale * sum.lift, result.cd = scale * sum.drag, result.cm = scale * scale * sum.moment;
   const std::vector<Patch>& patches = system.mesh().patches();
-  result.friction = friction_of(system, state, unbalanced);
+  const std::vector<WallVertex> walls =
+      wall_vertices_of(system.mesh(), {std::cos(state.augmented[1]), std::sin(state.augmented[1])});
+  result.friction = friction_of(system, walls, state, unbalanced);
   for (std::uint32_t i = 0; i < patches.size(); ++i) {
     if (patches[i].open()) result.openings.push_back({patches[i].name, system.mass_flow(state, i)});
     if (!patches[i].solid()) continue;
@@ -213,7 +209,7 @@ FlowResult result_of(const FrictionSystem<N>& system, const BlockState<N>& state
   }
   if (result.converged())
     result.warnings = friction_warnings(system.friction_mesh(), *result.friction,
-                                        part_across_walls(system, unbalanced), result.model);
+                                        part_across_walls(system, walls, unbalanced), result.model);
   return result;
 }
 
