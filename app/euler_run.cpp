@@ -41,6 +41,8 @@ FrozenMesh without_openings(const FrozenMesh& mesh, const FlowOptions& options) 
   std::vector<std::string> names;
   for (const FlowInlet& inlet : options.inlets) names.push_back(inlet.name);
   for (const FlowOutlet& outlet : options.outlets) names.push_back(outlet.name);
+  for (const FlowPeriod& pair : options.periodic) names.push_back(pair.name), names.push_back(pair.moved);
+  for (const auto& pair : mesh.periodic) names.insert(names.end(), pair.begin(), pair.end());
   return without_boundaries(mesh, names);
 }
 

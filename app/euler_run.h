@@ -26,6 +26,7 @@ struct EulerRun {
   std::vector<double> profiles_at = {0.25, 0.5, 0.75, 0.95};
   std::string history;  // likewise
   std::vector<std::string> inlets, outlets;
+  std::vector<std::string> periodic;  // pairs of names
   FlowInlet inlet;    // what is given at all inlets
   FlowOutlet outlet;  // likewise
   Compare compare = Compare::none;
@@ -41,7 +42,8 @@ void add_friction_options(CLI::App& app, FlowConditions& conditions);
 // --mach, those of add_solver_options(), --series, --compare, --gradient, --error.
 void add_euler_options(CLI::App& app, EulerRun& run);
 
-// --inlet, --total-pressure, --total-temperature, --outlet, --pressure, --symmetry, --history.
+// --inlet, --total-pressure, --total-temperature, --inlet-angle, --outlet, --pressure, --symmetry,
+// --periodic, --history.
 void add_duct_options(CLI::App& app, EulerRun& run);
 // The solver's options with the inlets and outlets of the command line. Throws Error (argument) for pressures
 // that no inlet or outlet has.

@@ -113,8 +113,8 @@ Status run(const FlowCommand& command) {
   if (command.is_potential) {
     refuse(command,
            {"--tolerance", "--max-steps", "--memory", "--solver", "--limiter", "--series", "--gradient",
-            "--compare", "--inlet", "--total-pressure", "--total-temperature", "--outlet", "--pressure",
-            "--symmetry", "--history", "--error"},
+            "--compare", "--inlet", "--total-pressure", "--total-temperature", "--inlet-angle", "--outlet",
+            "--pressure", "--symmetry", "--periodic", "--history", "--error"},
            "given with --model potential, expected --model euler");
     return run_potential_flow(command, read_input(command));
   }

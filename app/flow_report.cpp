@@ -80,9 +80,15 @@ void add_bodies(Report& report, const FlowResult& flow) {
   report.data("bodies", bodies);
   Json openings = Json::array();
   for (const FlowOpening& opening : flow.openings) {
-    openings.push_back({{"name", opening.name}, {"mass_flow", opening.mass_flow}});
-    report.line("boundary " + opening.name,
-                "mass flow " + Json(opening.mass_flow).dump() + (flow.converged() ? "" : not_converged));
+    openings.push_back({{"name", opening.name},
+                        {"mass_flow", opening.mass_flow},
+                        {"flow_angle_deg", opening.flow_angle_deg},
+                        {"total_pressure", opening.total_pressure}});
+    report.line("boundary " + opening.name, "mass flow " + Json(opening.mass_flow).dump() + ", at " +
+                                                Json(opening.flow_angle_deg).dump() +
+                                                " degrees, total pressure " +
+                                                Json(opening.total_pressure).dump() +
+                                                (flow.converged() ? "" : not_converged));
   }
   if (!openings.empty()) report.data("openings", openings);
 }

@@ -155,8 +155,18 @@ struct BoundaryStation {
   friend bool operator==(const BoundaryStation&, const BoundaryStation&) = default;
 };
 
+// The names of two curves of which one is the other moved, by a period, as below and above the passage between
+// two blades of a row. Where several curves have the names, they correspond in their order or in the reverse
+// one. They have corresponding stations, and refinement splits them alike, so that every vertex on one of
+// them has its counterpart on the other.
+struct PeriodicPair {
+  std::string name, moved;
+  friend bool operator==(const PeriodicPair&, const PeriodicPair&) = default;
+};
+
 struct Domain {
   std::vector<Loop> loops;
+  std::vector<PeriodicPair> periodic = {};
 
   std::size_t curve_count() const;
   const Curve& curve(std::size_t index) const;  // by index over all loops
@@ -169,6 +179,17 @@ struct Domain {
   friend bool operator==(const Domain&, const Domain&) = default;
 };
 
+// One curve and its counterpart.
+struct PeriodicCurve {
+  std::size_t curve, moved;  // indices over all curves
+  bool reversed;             // they run against each other, as those of one outer loop do
+  Point period;
+  double parameter(double t) const { return reversed ? 1.0 - t : t; }  // on the counterpart
+};
+// Those of all pairs. Throws Error (geometry) where a name is missing, a curve is not the other one moved (to
+// 1e-9), or stations do not correspond.
+std::vector<PeriodicCurve> periodic_curves(const Domain& domain);
+
 // Throws Error (geometry) unless there is a loop, every closed loop has at least three distinct consecutive
 // points, parameters begin with 0 and increase strictly below 1, every curve ends where the next one of its
 // loop begins (up to rounding), coordinates are finite and in the range of predicates.h, and no two segments
@@ -176,7 +197,8 @@ struct Domain {
 // (exactly decided; names the loop, the curve and the place). Airfoils must have their surfaces apart. Among
 // outer loops and holes roles take turns from the outside in: outermost loops are outer, what lies directly
 // inside an outer loop is a hole, what lies directly inside a hole is outer again. Where boundaries are made
-// of chains (left, right), it is generate() that finds sides that contradict each other. Loops may run either
+// of chains (left, right), it is generate() that finds sides that contradict each other. Periodic curves are each
+// other's counterparts (periodic_curves()). Loops may run either
 // way round. About n log n: 0.2 ms for 700 airfoil points.
 void validate(const Domain& domain);
 // This is validate(domain), but its errors begin with the file that the domain is from.

@@ -17,9 +17,10 @@
 // positive nose up.
 //
 // Boundaries: the one called `farfield` is open to the stream, those named as inlets and outlets are open too
-// (FlowOptions), those named as symmetry planes have the flow's mirror image on their other side, all others
-// are walls that the flow slips along. Ducts need no far field: the stream is then
-// what pressures and temperatures are measured in, and where the search for the flow begins. The stream far
+// (FlowOptions), those named as symmetry planes have the flow's mirror image on their other side, periodic
+// ones belong together, all others are walls that the flow slips along. Ducts and cascades need no far field:
+// the stream is then what pressures and temperatures are measured in, and where the search for the flow
+// begins. The stream far
 // away has a vortex of the sum of all walls' lift, at the reference point (J. L. Thomas and M. D. Salas, AIAA
 // J. 24, 1986), so that 25 chords are far enough.
 //
@@ -35,7 +36,7 @@
 // verification.
 //
 // Errors: Error (argument) for conditions and options out of range, for symmetry planes that are not straight
-// or not along the stream, and for a mesh without a far field or another way in and out, without a wall, with
+// or not along the stream, for periodic boundaries that do not fit each other, and for a mesh without a far field or another way in and out, without a wall, with
 // unnamed boundary edges, with triangles that are clockwise or have no area, or with a far field that is the
 // boundary of a hole. A flow that is not found is no error: FlowResult::status and reason say so, and no
 // coefficient of it should be used.
@@ -79,12 +80,21 @@ struct FlowConditions {
   std::optional<double> wall_temperature = {};
 };
 
-// A boundary through which gas enters at a right angle, with a given total pressure and total temperature:
-// parts of the stream's, which are p (1 + 0.2 M^2)^3.5 and T (1 + 0.2 M^2). Below Mach 1 only.
+// A boundary through which gas enters with a given total pressure and total temperature: parts of the
+// stream's, which are p (1 + 0.2 M^2)^3.5 and T (1 + 0.2 M^2). Below Mach 1 only.
 struct FlowInlet {
   std::string name;
   double total_pressure = 1.0;     // more than 0
   double total_temperature = 1.0;  // likewise
+  // The direction that gas enters in, as an angle to the x axis: it leads into the domain everywhere, at less
+  // than 89 degrees to the normal. None: at a right angle to the boundary.
+  std::optional<double> angle_deg = {};
+};
+
+// Two boundaries of which one is the other moved, vertex for vertex: what leaves the domain by one enters it
+// by the other. Between them lies one passage of an endless row (a cascade).
+struct FlowPeriod {
+  std::string name, moved;
 };
 
 // A boundary through which gas leaves against a given pressure, a part of the stream's. Where it leaves
@@ -136,6 +146,9 @@ struct FlowOptions {
   // forces, which are those of the bodies in the mesh. No lift can be asked for, and the far field has no
   // vortex. Names as those of outlets.
   std::vector<std::string> symmetry = {};
+  // Beside those that the mesh is known to have (FrozenMesh::periodic). Inlets and outlets alone may end at
+  // periodic boundaries; there are three rows of cells between them or more, and no far field.
+  std::vector<FlowPeriod> periodic = {};
   std::function<void(const FlowProgress&)> on_step = {};  // called after each Newton step
   // With friction gas sticks to all walls, through which no heat passes where no temperature is given
   // (FlowConditions). Meshes should have layers of flat quadrilaterals there (remodel/layers.h).
@@ -179,11 +192,14 @@ struct FlowBody {
   double cd_pressure = 0.0, cd_friction = 0.0, y_plus_max = 0.0;
 };
 
-// An opening says what enters through an inlet or outlet, in density times speed of sound of the stream times
-// length (of the mesh): negative where gas leaves.
+// What passes an inlet or outlet. Means are by mass flow, over the edges of the opening.
 struct FlowOpening {
   std::string name;
+  // What enters, in density times speed of sound of the stream times length (of the mesh): negative where gas
+  // leaves.
   double mass_flow = 0.0;
+  double flow_angle_deg = 0.0;  // the direction of the mean momentum, to the x axis
+  double total_pressure = 0.0;  // the mean, a part of the stream's
 };
 
 // This is what friction does.

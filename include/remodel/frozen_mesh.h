@@ -45,6 +45,9 @@ struct FrozenMesh {
   // The highest generation of a key so far, of a vertex that is there or is not: import_mesh() goes on above
   // it.
   std::uint32_t last_generation = 0;
+  // Pairs of names of boundaries, of which the second is the first one moved (Domain::periodic). Native files
+  // have them.
+  std::vector<std::array<std::string, 2>> periodic{};
   // Each point has 1 on a boundary where refinement put it, 0 if it is the design's (or an imported file's).
   // Every format keeps it, so that an imported mesh has the design's own points.
   std::vector<std::uint8_t> steiner{};

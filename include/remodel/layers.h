@@ -35,8 +35,8 @@ struct LayerOptions {
   // wall inside.
   double thickness = 0.02;
   // The boundary names of the walls that get a layer. Empty: those of all holes, and of outer loops which
-  // have curves called inlet, outlet, symmetry or farfield (inflow, outflow, axis; Inlet, outlet_2) the other
-  // ones.
+  // have curves called inlet, outlet, symmetry or farfield (inflow, outflow, axis; Inlet, outlet_2) or
+  // are periodic the other ones.
   std::vector<std::string> walls = {};
   double fan_from_deg = 30.0;  // a convex corner that turns by more gets a fan of columns: 10 to 90
   friend bool operator==(const LayerOptions&, const LayerOptions&) = default;

@@ -19,7 +19,7 @@ auto members(T& b) {
 }
 template <python::Is<FlowOpening> T>
 auto members(T& o) {
-  return std::tie(o.name, o.mass_flow);
+  return std::tie(o.name, o.mass_flow, o.flow_angle_deg, o.total_pressure);
 }
 template <python::Is<FlowFriction> T>
 auto members(T& f) {
@@ -56,8 +56,9 @@ FlowConditions conditions_of(double mach, double alpha, const std::optional<doub
           .wall_temperature = wall_temperature};
 }
 
-using Inlets = std::map<std::string, std::array<double, 2>>;  // total pressure and total temperature
-using Outlets = std::map<std::string, double>;                // pressure
+using Inlets = std::map<std::string, std::vector<double>>;  // total pressure, total temperature, maybe an angle
+using Outlets = std::map<std::string, double>;              // pressure
+using Pairs = std::vector<std::pair<std::string, std::string>>;  // of periodic boundaries
 
 FlowSolver solver_named(const std::string& name) {
   for (const FlowSolver solver : {FlowSolver::lu, FlowSolver::gmres})
@@ -73,13 +74,21 @@ FlowModel model_named(const std::string& name) {
 
 FlowOptions options_of(const std::string& farfield, double tolerance, int max_steps, double memory_mb,
                        const std::optional<std::string>& solver, const Inlets& inlets, const Outlets& outlets,
-                       const std::string& model) {
+                       const std::string& model, const Pairs& periodic) {
   FlowOptions options{
       .farfield = farfield, .tolerance = tolerance, .max_steps = max_steps, .memory_mb = memory_mb};
   options.model = model_named(model);
   if (solver) options.solver = solver_named(*solver);
-  for (const auto& [name, total] : inlets)
-    options.inlets.push_back({.name = name, .total_pressure = total[0], .total_temperature = total[1]});
+  for (const auto& [name, given] : inlets) {
+    if (given.size() != 2 && given.size() != 3)
+      throw Error(ErrorCode::argument, "inlets",
+                  "found " + std::to_string(given.size()) + " numbers for '" + name +
+                      "', expected a total pressure, a total temperature and, if it is not along the normal, the "
+                      "angle of the flow");
+    options.inlets.push_back({.name = name, .total_pressure = given[0], .total_temperature = given[1]});
+    if (given.size() == 3) options.inlets.back().angle_deg = given[2];
+  }
+  for (const auto& [name, moved] : periodic) options.periodic.push_back({name, moved});
   for (const auto& [name, pressure] : outlets)
     options.outlets.push_back({.name = name, .pressure = pressure});
   return options;
@@ -102,11 +111,12 @@ py::object solved(const py::object& mesh, double mach, double alpha, const std::
                   const std::string& farfield, double tolerance, int max_steps, double memory_mb,
                   const std::optional<std::string>& solver, const Inlets& inlets, const Outlets& outlets,
                   double reynolds, const std::string& model, const Transition& transition,
-                  const std::optional<double>& wall_temperature) {
+                  const std::optional<double>& wall_temperature, const Pairs& periodic) {
   const Snapshot frozen = snapshot_of(mesh);
   const FlowConditions conditions =
       conditions_of(mach, alpha, cl, reference, reference_length, reynolds, transition, wall_temperature);
-  FlowOptions options = options_of(farfield, tolerance, max_steps, memory_mb, solver, inlets, outlets, model);
+  FlowOptions options =
+      options_of(farfield, tolerance, max_steps, memory_mb, solver, inlets, outlets, model, periodic);
   require_reynolds_with_friction(options.model, reynolds);
   const auto stop = std::make_shared<Stop>();
   options.observer = stop.get();
@@ -290,9 +300,9 @@ py::dict bodies_of(const FlowResult& flow) {
   return result;
 }
 
-py::dict openings_of(const FlowResult& flow) {
+py::dict of_openings(const FlowResult& flow, double FlowOpening::*member) {
   py::dict result;
-  for (const FlowOpening& opening : flow.openings) result[py::str(opening.name)] = opening.mass_flow;
+  for (const FlowOpening& opening : flow.openings) result[py::str(opening.name)] = opening.*member;
   return result;
 }
 
@@ -325,9 +335,16 @@ void add_figures(py::class_<FlowResult, FlowPointer>& type) {
   type.def_property_readonly("bodies", &bodies_of,
                              "The parts of each wall, by name: cl, cd, cm; with friction also cd_pressure, "
                              "cd_friction and y_plus_max.");
-  type.def_property_readonly("openings", &openings_of,
+  type.def_property_readonly("openings",
+                             [](const FlowResult& f) { return of_openings(f, &FlowOpening::mass_flow); },
                              "What enters through each inlet and outlet, by name: density times speed of "
                              "sound of the stream times length.");
+  type.def_property_readonly(
+      "flow_angles", [](const FlowResult& f) { return of_openings(f, &FlowOpening::flow_angle_deg); },
+      "The direction of the mean momentum through each inlet and outlet, by name: degrees to the x axis.");
+  type.def_property_readonly(
+      "total_pressures", [](const FlowResult& f) { return of_openings(f, &FlowOpening::total_pressure); },
+      "The mean total pressure at each inlet and outlet, by mass flow and by name: parts of the stream's.");
   type.def_property_readonly(
       "model", [](const FlowResult& f) { return name_of(f.model); }, "'euler', 'laminar' or 'sa'.");
   const auto friction = [&](const char* name, double FlowFriction::*member, const char* doc) {
@@ -462,21 +479,25 @@ void add_result(py::module_& module) {
 py::tuple state_of(const Flows& flows) {
   const FlowOptions& o = flows.options();
   Inlets inlets;
-  for (const FlowInlet& inlet : o.inlets)
+  for (const FlowInlet& inlet : o.inlets) {
     inlets[inlet.name] = {inlet.total_pressure, inlet.total_temperature};
+    if (inlet.angle_deg) inlets[inlet.name].push_back(*inlet.angle_deg);
+  }
+  Pairs periodic;
+  for (const FlowPeriod& pair : o.periodic) periodic.emplace_back(pair.name, pair.moved);
   Outlets outlets;
   for (const FlowOutlet& outlet : o.outlets) outlets[outlet.name] = outlet.pressure;
   return py::make_tuple(o.farfield, o.tolerance, o.max_steps, o.memory_mb,
                         o.solver ? py::object(py::str(name_of(*o.solver))) : py::none(), inlets, outlets,
-                        py::str(name_of(o.model)));
+                        py::str(name_of(o.model)), periodic);
 }
 
 std::unique_ptr<Flows> flows_of(const py::tuple& state) {
-  require_pickle(state.size() == 8, "a LivingFlow");
+  require_pickle(state.size() == 9, "a LivingFlow");
   return std::make_unique<Flows>(
       options_of(state[0].cast<std::string>(), state[1].cast<double>(), state[2].cast<int>(),
                  state[3].cast<double>(), state[4].cast<std::optional<std::string>>(),
-                 state[5].cast<Inlets>(), state[6].cast<Outlets>(), state[7].cast<std::string>()));
+                 state[5].cast<Inlets>(), state[6].cast<Outlets>(), state[7].cast<std::string>(), state[8].cast<Pairs>()));
 }
 
 constexpr const char* solver_text =
@@ -490,7 +511,9 @@ static temperature, more than 0; None: no heat passes through walls.
 
 mach: 0.01 to 3; alpha: degrees, or where cl is given the angle that the search for this lift begins with;
 reference: the moment's point. inlets: total pressure and total temperature of each by name, outlets: the pressure
-of each, all as parts of the stream's; below Mach 1. tolerance: residual over that of undisturbed flow, 1e-13 to 1e-2. Raises
+of each, all as parts of the stream's; below Mach 1. A third number of an inlet is the angle to the x axis that gas
+enters at; without it, it enters at a right angle to the boundary. periodic: pairs of names of boundaries of which one
+is the other moved, beside those that a mesh knows from its domain. tolerance: residual over that of undisturbed flow, 1e-13 to 1e-2. Raises
 ArgumentError; a flow that is not found is a result: FlowResult.converged, .reason. Ctrl-C ends it.
 docs/flow.md has method and sources.)";
 
@@ -505,7 +528,8 @@ void add_flows(py::module_& module) {
              "farfield"_a = "farfield", "tolerance"_a = defaults.tolerance,
              "max_steps"_a = defaults.max_steps, "memory_mb"_a = defaults.memory_mb, "solver"_a = py::none(),
              "inlets"_a = Inlets(), "outlets"_a = Outlets(), "reynolds"_a = 0.0, "model"_a = "euler",
-             "transition"_a = py::none(), "wall_temperature"_a = py::none(), solver_text);
+             "transition"_a = py::none(), "wall_temperature"_a = py::none(), "periodic"_a = Pairs(),
+             solver_text);
   py::class_<Flows>(
       module, "LivingFlow",
       R"(A flow solver that outlives its mesh: each flow is found from the one before and the factors that are
@@ -514,13 +538,13 @@ the tolerance. Meshes are living ones, frozen ones (also of arrays) or what an u
 the same options, and begins cold. After Ctrl-C the next call waits until a factorisation that was under way has ended.)")
       .def(py::init([](const std::string& farfield, double tolerance, int max_steps, double memory_mb,
                        const std::optional<std::string>& solver, const Inlets& inlets, const Outlets& outlets,
-                       const std::string& model) {
+                       const std::string& model, const Pairs& periodic) {
              return std::make_unique<Flows>(
-                 options_of(farfield, tolerance, max_steps, memory_mb, solver, inlets, outlets, model));
+                 options_of(farfield, tolerance, max_steps, memory_mb, solver, inlets, outlets, model, periodic));
            }),
            py::kw_only(), "farfield"_a = "farfield", "tolerance"_a = defaults.tolerance,
            "max_steps"_a = defaults.max_steps, "memory_mb"_a = defaults.memory_mb, "solver"_a = py::none(),
-           "inlets"_a = Inlets(), "outlets"_a = Outlets(), "model"_a = "euler")
+           "inlets"_a = Inlets(), "outlets"_a = Outlets(), "model"_a = "euler", "periodic"_a = Pairs())
       .def("solve", &Flows::solve, "mesh"_a, py::kw_only(), "mach"_a = 0.5, "alpha"_a = 0.0,
            "cl"_a = py::none(), "reference"_a = quarter, "reference_length"_a = 1.0, "reynolds"_a = 0.0,
            "transition"_a = py::none(), "wall_temperature"_a = py::none(), solver_text)

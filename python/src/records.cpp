@@ -12,7 +12,7 @@ template <python::Is<FrozenMesh> T>
 auto members(T& m) {
   return std::tie(m.points, m.triangles, m.boundaries, m.length_scale, m.vertex_ids, m.triangle_ids, m.birth,
                   m.curve, m.parameter, m.vertex_keys, m.last_generation, m.steiner, m.region, m.region_names,
-                  m.gradation_error, m.fate, m.delaunay_slack_deg, m.quads, m.layer_triangles);
+                  m.gradation_error, m.fate, m.delaunay_slack_deg, m.quads, m.layer_triangles, m.periodic);
 }
 
 namespace python {

@@ -104,6 +104,7 @@ FrozenMesh walls_alone(const FrozenMesh& mesh, const DesignPoint& point) {
   std::vector<std::string> names = point.symmetry;
   for (const FlowInlet& inlet : point.inlets) names.push_back(inlet.name);
   for (const FlowOutlet& outlet : point.outlets) names.push_back(outlet.name);
+  for (const auto& pair : mesh.periodic) names.insert(names.end(), pair.begin(), pair.end());
   return without_boundaries(mesh, names);
 }
 

@@ -50,6 +50,8 @@ std::vector<std::string> walls_of_flow(const Domain& domain, const FlowOptions& 
   openings.push_back(options.farfield);
   for (const FlowInlet& inlet : options.inlets) openings.push_back(inlet.name);
   for (const FlowOutlet& outlet : options.outlets) openings.push_back(outlet.name);
+  for (const FlowPeriod& pair : options.periodic) openings.insert(openings.end(), {pair.name, pair.moved});
+  for (const PeriodicPair& pair : domain.periodic) openings.insert(openings.end(), {pair.name, pair.moved});
   std::vector<std::string> walls;
   for (const Loop& loop : domain.loops) {
     if (loop.open || loop.role == LoopRole::internal) continue;

@@ -1,5 +1,5 @@
-// What leaves a duct through its outlets: how much gas, and with which total pressure. Both by the
-// trapezoidal rule over the edges of the outlets, of states at vertices.
+// What leaves a duct through its outlets: how much gas, with which total pressure, and in which direction. All
+// by the trapezoidal rule over the edges of the outlets, of states at vertices.
 
 #include <algorithm>
 #include <cmath>
@@ -42,6 +42,18 @@ AtVertex pressure_flow_at(const FlowResult& flow, std::uint32_t v, Point normal)
                         by_square * 2.0 * rho * y / (gamma * p), total / p - by_square * square / p};
   AtVertex result{mass.value * total, {}, total * mass.by_normal};
   for (std::size_t k = 0; k < 4; ++k) result.by[k] = mass.by[k] * total + mass.value * by[k];
+  return result;
+}
+
+// The momentum that passes, along x or y.
+template <double Point::*Along>
+AtVertex momentum_at(const FlowResult& flow, std::uint32_t v, Point normal) {
+  const AtVertex mass = mass_at(flow, v, normal);
+  const bool is_x = Along == &Point::x;
+  const double speed = is_x ? flow.velocity_x[v] : flow.velocity_y[v];
+  AtVertex result{mass.value * speed, {}, speed * mass.by_normal};
+  for (std::size_t k = 0; k < 4; ++k) result.by[k] = mass.by[k] * speed;
+  result.by[is_x ? 1 : 2] += mass.value;
   return result;
 }
 
@@ -113,6 +125,23 @@ class TotalPressure final : public FlowFunction {
   bool needs_outlets() const override { return true; }
 };
 
+// The direction of the momentum, degrees to the x axis.
+class FlowAngle final : public FlowFunction {
+ public:
+  FlowValue at(const FlowView& of) const override {
+    const FlowValue x = over_outlets(of, momentum_at<&Point::x>), y = over_outlets(of, momentum_at<&Point::y>);
+    const double square = x.value * x.value + y.value * y.value;
+    if (!(square > 0.0)) throw std::runtime_error("no gas leaves through outlets");
+    constexpr double degree = 0.017453292519943295;
+    FlowValue result = nothing_of(of);
+    result.value = std::atan2(y.value, x.value) / degree;
+    add_scaled(*result.by_flow, -y.value / (square * degree), *x.by_flow);
+    add_scaled(*result.by_flow, x.value / (square * degree), *y.by_flow);
+    return result;
+  }
+  bool needs_outlets() const override { return true; }
+};
+
 template <class Function>
 FlowFunctionPtr opening_function(std::optional<std::size_t>) {
   return std::make_shared<Function>();
@@ -124,7 +153,9 @@ std::vector<std::pair<std::string, double>> outlet_numbers(const DesignPoint& po
   if (point.outlets.empty()) return {};
   const double mass = over_outlets(of, mass_at).value;
   if (!(mass > 0.0)) return {{"mass_flow", mass}};
-  return {{"mass_flow", mass}, {"total_pressure", TotalPressure().at(of).value}};
+  return {{"mass_flow", mass},
+          {"total_pressure", TotalPressure().at(of).value},
+          {"flow_angle", FlowAngle().at(of).value}};
 }
 
 double entering_total_pressure(const DesignPoint& point, const Domain& walls) {
@@ -158,5 +189,10 @@ extern constinit const FlowKind total_pressure_kind = {.name = "total_pressure",
                                                        .at_least = Limits{0.0, 1e3},
                                                        .at_most = Limits{0.0, 1e3},
                                                        .make = opening_function<TotalPressure>};
+extern constinit const FlowKind flow_angle_kind = {.name = "flow_angle",
+                                                   .objective = 1.0,
+                                                   .at_least = Limits{-180.0, 180.0},
+                                                   .at_most = Limits{-180.0, 180.0},
+                                                   .make = opening_function<FlowAngle>};
 
 }  // namespace remodel

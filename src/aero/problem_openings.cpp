@@ -85,10 +85,11 @@ void read_openings(const Json& point, const std::string& where, DesignPoint& to)
   const Keys keys(point, where);
   for (const Json& entry : keys.list("inlets", most_openings)) {
     const Keys inlet(entry, numbered(where, "inlet", to.inlets.size()),
-                     {"name", "total_pressure", "total_temperature"});
+                     {"name", "total_pressure", "total_temperature", "angle_deg"});
     to.inlets.push_back({.name = inlet.get<std::string>("name"),
                          .total_pressure = inlet.get<double>("total_pressure", 1.0),
                          .total_temperature = inlet.get<double>("total_temperature", 1.0)});
+    if (entry.contains("angle_deg")) to.inlets.back().angle_deg = inlet.get<double>("angle_deg");
   }
   for (const Json& entry : keys.list("outlets", most_openings)) {
     const Keys outlet(entry, numbered(where, "outlet", to.outlets.size()), {"name", "pressure"});
@@ -99,10 +100,12 @@ void read_openings(const Json& point, const std::string& where, DesignPoint& to)
 }
 
 void write_openings(const DesignPoint& point, Json& to) {
-  for (const FlowInlet& inlet : point.inlets)
+  for (const FlowInlet& inlet : point.inlets) {
     to["inlets"].push_back({{"name", inlet.name},
                             {"total_pressure", inlet.total_pressure},
                             {"total_temperature", inlet.total_temperature}});
+    if (inlet.angle_deg) to["inlets"].back()["angle_deg"] = *inlet.angle_deg;
+  }
   for (const FlowOutlet& outlet : point.outlets)
     to["outlets"].push_back({{"name", outlet.name}, {"pressure", outlet.pressure}});
   if (!point.symmetry.empty()) to["symmetry"] = point.symmetry;
@@ -127,6 +130,7 @@ void require_openings(const DesignPoint& point, const Domain& domain, const Prob
     require_name(inlet.name, "an inlet");
     place.require_number(inlet.total_pressure, "total_pressure", part);
     place.require_number(inlet.total_temperature, "total_temperature", part);
+    if (inlet.angle_deg) place.require_number(*inlet.angle_deg, "angle_deg", {-180.0, 180.0});
   }
   for (const FlowOutlet& outlet : point.outlets) {
     require_name(outlet.name, "an outlet");
@@ -135,6 +139,8 @@ void require_openings(const DesignPoint& point, const Domain& domain, const Prob
   for (const std::string& name : point.symmetry) require_name(name, "a symmetry plane");
   if (!point.inlets.empty() && point.conditions.mach >= 1.0)
     place.fail("found 'inlets' with a 'mach' of 1 or more, expected less");
+  for (const PeriodicPair& pair : domain.periodic)
+    for (const std::string& name : {pair.name, pair.moved}) require_name(name, "a periodic boundary");
   const bool has_farfield = is_boundary("farfield");
   if (!has_farfield && (point.inlets.empty() || point.outlets.empty()))
     place.fail(std::string("found no curve 'farfield' in the domain and no ") +

@@ -102,17 +102,21 @@ void require_openings(const FlowConditions& conditions, const FlowOptions& optio
   for (const FlowInlet& inlet : options.inlets) names.push_back(inlet.name);
   for (const FlowOutlet& outlet : options.outlets) names.push_back(outlet.name);
   names.insert(names.end(), options.symmetry.begin(), options.symmetry.end());
+  for (const FlowPeriod& pair : options.periodic) names.push_back(pair.name), names.push_back(pair.moved);
   std::sort(names.begin(), names.end());
   const auto twice = std::adjacent_find(names.begin(), names.end());
   if (twice != names.end())
     throw Error(ErrorCode::argument, "boundary '" + *twice + "'",
                 "named twice, expected it to be far field, inlet or outlet" +
-                    std::string(options.symmetry.empty() ? "" : ", or symmetry plane"));
+                    std::string(options.symmetry.empty() ? "" : ", or symmetry plane") +
+                    (options.periodic.empty() ? "" : ", or one of two periodic boundaries"));
   for (const FlowInlet& inlet : options.inlets) {
     require(inlet.total_pressure > 0.0 && std::isfinite(inlet.total_pressure), "total pressure",
             inlet.total_pressure, "more than 0");
     require(inlet.total_temperature > 0.0 && std::isfinite(inlet.total_temperature), "total temperature",
             inlet.total_temperature, "more than 0");
+    require(!inlet.angle_deg || std::fabs(*inlet.angle_deg) <= 180.0, "inlet angle", inlet.angle_deg.value_or(0.0),
+            "-180 to 180 degrees");
     require(conditions.mach < 1.0, "mach", conditions.mach,
             "less than 1 where there is an inlet (gas enters faster than sound through a far field)");
   }
@@ -172,13 +176,38 @@ void require_known(const FlowResult& known, const FlowMesh& mesh, FlowModel mode
                 std::string("found a flow of the model ") + name_of(known.model) + ", expected one of sa");
 }
 
+namespace {
+
+// Those that were named, and those of the mesh that no option gives another part.
+std::vector<FlowPeriod> periodic_pairs(const FrozenMesh& mesh, const FlowOptions& options) {
+  std::vector<std::string> names = options.symmetry;
+  for (const FlowInlet& inlet : options.inlets) names.push_back(inlet.name);
+  for (const FlowOutlet& outlet : options.outlets) names.push_back(outlet.name);
+  for (const FlowPeriod& pair : options.periodic) names.push_back(pair.name), names.push_back(pair.moved);
+  std::vector<FlowPeriod> pairs = options.periodic;
+  const auto is_named = [&](const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  for (const auto& [name, moved] : mesh.periodic)
+    if (!is_named(name) && !is_named(moved)) pairs.push_back({name, moved});
+  return pairs;
+}
+
+}  // namespace
+
 FlowMesh dual_of(const FrozenMesh& mesh, const FlowConditions& conditions, const FlowOptions& options,
                  const std::string& source) {
   std::vector<Patch> patches = {{options.farfield, FarField{}}};
   for (const FlowInlet& inlet : options.inlets)
-    patches.push_back({inlet.name, Inlet{inlet.total_pressure, inlet.total_temperature}});
+    patches.push_back(
+        {inlet.name, Inlet{inlet.total_pressure, inlet.total_temperature,
+                           inlet.angle_deg ? std::optional(*inlet.angle_deg * one_degree) : std::nullopt}});
   for (const FlowOutlet& outlet : options.outlets) patches.push_back({outlet.name, Outlet{outlet.pressure}});
   for (const std::string& name : options.symmetry) patches.push_back({name, Symmetry{}});
+  for (const FlowPeriod& pair : periodic_pairs(mesh, options)) {
+    patches.push_back({pair.name, Periodic{pair.moved}});
+    patches.push_back({pair.moved, Periodic{}});
+  }
   FlowMesh dual(mesh, std::move(patches), source);
   dual.require_walls(source);
   dual.require_farfield_around(source);
@@ -231,11 +260,32 @@ void require_symmetry(const FlowMesh& dual, const FlowConditions& conditions, co
   }
 }
 
+// Gas enters at less than this angle to the normal: at 90 degrees none does.
+void require_inlet_angles(const FlowMesh& dual, const std::string& source) {
+  constexpr double steepest = 89.0;
+  for (const BoundaryEdge& edge : dual.boundary()) {
+    const Inlet* inlet = std::get_if<Inlet>(&dual.patch(edge).condition);
+    if (inlet == nullptr || !inlet->angle) continue;
+    const Point along = {std::cos(*inlet->angle), std::sin(*inlet->angle)};
+    const double inwards = -dot(along, edge.normal) / std::sqrt(dot(edge.normal, edge.normal));
+    if (inwards > std::cos(steepest * one_degree)) continue;
+    throw Error(ErrorCode::argument, source,
+                "found gas to enter by '" + dual.patch(edge).name + "' at " +
+                    shortest_text(*inlet->angle / one_degree) + " degrees, which does not lead into the domain between points " +
+                    std::to_string(edge.place[0]) + " and " + std::to_string(edge.place[1]) +
+                    ", expected less than 89 degrees to the normal");
+  }
+}
+
 }  // namespace
 
 void require_ways(const FlowMesh& dual, const FlowConditions& conditions, const FlowOptions& options,
                   const std::string& source) {
   require_symmetry(dual, conditions, options, source);
+  require_inlet_angles(dual, source);
+  if (dual.has_images() && dual.has_farfield())
+    throw Error(ErrorCode::argument, source,
+                "found periodic boundaries and a far field, expected an inlet and an outlet in its place");
   require_lower_pressures(dual.has_farfield(), conditions, options);
   if (dual.has_farfield()) return;
   if (options.inlets.empty() || options.outlets.empty())
@@ -277,6 +327,27 @@ void note_search(const SearchRecord& record, FlowResult& result) {
   result.memory_mb = record.memory_mb;
 }
 
+FlowOpening opening_of(const FlowMesh& dual, std::uint32_t patch, double mass_flow,
+                       const FlowResult& result) {
+  double mass = 0.0, weighted = 0.0;
+  Point momentum = {};
+  for (const BoundaryEdge& edge : dual.boundary()) {
+    if (edge.patch != patch) continue;
+    for (const std::uint32_t v : edge.place) {
+      const Point velocity = {result.velocity_x[v], result.velocity_y[v]};
+      const double through = 0.5 * result.density[v] * dot(velocity, edge.normal);
+      const double square = result.density[v] * dot(velocity, velocity) / (gas_gamma * result.pressure[v]);
+      mass += through, momentum = momentum + through * velocity;
+      weighted += through * result.pressure[v] * std::pow(1.0 + 0.2 * square, 3.5);
+    }
+  }
+  if (mass < 0.0) momentum = -1.0 * momentum;
+  return {.name = dual.patches()[patch].name,
+          .mass_flow = mass_flow,
+          .flow_angle_deg = std::atan2(momentum.y, momentum.x) / one_degree,
+          .total_pressure = mass == 0.0 ? 0.0 : weighted / mass / total_state(result.mach).pressure};
+}
+
 double largest_mach(const FlowResult& flow) {
   const std::vector<double> mach = mach_numbers(flow);
   return *std::max_element(mach.begin(), mach.end());
@@ -296,7 +367,6 @@ FlowResult result_of(const FlowSystem& system, const State& state, const SearchR
   const std::vector<double> mass_flows = system.mass_flows(state);
   for (std::uint32_t i = 0; i < mass_flows.size(); ++i) {
     const Patch& patch = system.mesh().patches()[i];
-    if (patch.open()) result.openings.push_back({patch.name, mass_flows[i]});
     if (!patch.solid()) continue;
     const Coefficients part = coefficients(system, state, i);
     result.bodies.push_back({patch.name, scale * part.lift, scale * part.drag, scale * scale * part.moment});
@@ -310,6 +380,9 @@ FlowResult result_of(const FlowSystem& system, const State& state, const SearchR
     result.velocity_y.push_back(velocity_y(q));
     result.pressure.push_back(pressure(q));
   }
+  for (std::uint32_t i = 0; i < mass_flows.size(); ++i)
+    if (system.mesh().patches()[i].open())
+      result.openings.push_back(opening_of(system.mesh(), i, mass_flows[i], result));
   if (system.mesh().has_farfield() && result.converged()) {
     const std::string spurious = spurious_drag_warning(result.cd, scale, largest_mach(result));
     if (!spurious.empty()) result.warnings.push_back(spurious);

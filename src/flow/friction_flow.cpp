@@ -84,7 +84,7 @@ std::optional<std::uint32_t> separated_ahead_of_transition(const FrictionMesh& m
                                                            const FlowFriction& friction) {
   std::optional<std::uint32_t> first;
   if (!friction.transition) return first;
-  const std::vector<bool> nose = laminar_zone(mesh.dual(), mesh.nearest(), {0.2, 0.2});
+  const std::vector<bool> nose = laminar_zone(mesh.dual(), mesh.nearest(), mesh.nearest_from(), {0.2, 0.2});
   for (std::uint32_t v = 0; v < mesh.dual().size(); ++v)
     if (mesh.sticks(v) && mesh.is_laminar(v) && !nose[v] && friction.cf[v] < 0.0 &&
         (!first || mesh.dual().points()[v].x < mesh.dual().points()[*first].x))
@@ -188,7 +188,6 @@ FlowResult result_of(const FrictionSystem<N>& system, const BlockState<N>& state
       wall_vertices_of(system.mesh(), {std::cos(state.augmented[1]), std::sin(state.augmented[1])});
   result.friction = friction_of(system, walls, state, unbalanced);
   for (std::uint32_t i = 0; i < patches.size(); ++i) {
-    if (patches[i].open()) result.openings.push_back({patches[i].name, system.mass_flow(state, i)});
     if (!patches[i].solid()) continue;
     const WallForces part = system.forces(state, unbalanced, i);
     FlowBody body{patches[i].name, scale * part.lift, scale * part.drag, scale * scale * part.moment};
@@ -207,6 +206,9 @@ FlowResult result_of(const FrictionSystem<N>& system, const BlockState<N>& state
     result.velocity_x.push_back(q[1]), result.velocity_y.push_back(q[2]);
     result.pressure.push_back(q[3]);
   }
+  for (std::uint32_t i = 0; i < patches.size(); ++i)
+    if (patches[i].open())
+      result.openings.push_back(opening_of(system.mesh(), i, system.mass_flow(state, i), result));
   if (result.converged())
     result.warnings = friction_warnings(system.friction_mesh(), *result.friction,
                                         part_across_walls(system, walls, unbalanced), result.model);

@@ -23,6 +23,8 @@ void require_ways(const FlowMesh& dual, const FlowConditions& conditions, const 
 Stream stream_of(const FlowConditions& conditions, const FlowOptions& options, const FlowMesh& dual);
 // What a search has done, as its result tells it.
 void note_search(const SearchRecord& record, FlowResult& result);
+// The opening of a patch, with means of the result's states.
+FlowOpening opening_of(const FlowMesh& dual, std::uint32_t patch, double mass_flow, const FlowResult& result);
 double largest_mach(const FlowResult& flow);
 FlowResult result_of(const FlowSystem& system, const State& state, const SearchRecord& record,
                      FlowStart start);

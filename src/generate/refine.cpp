@@ -28,6 +28,7 @@ Refiner::Refiner(MeshData& mesh, StepObserver* observer)
       slack_(mesh.promised_bounds()),
       inverse_gradation_(1.0 / mesh.options.gradation),
       small_angles_(mesh),
+      periodic_(periodic_curves(mesh.domain)),
       cavity_(mesh.cavity),
       scales_(mesh.ring_scales),
       segments_(&mesh.arena),
@@ -120,9 +121,10 @@ Stopped Refiner::run() {
       split(segments_[next_segment_++], 0);
       continue;
     }
-    const TriangleId t = next_bad();
-    if (!t) break;
-    refine(t);
+    if (const TriangleId t = next_bad())
+      refine(t);
+    else if (!queue_counterparts())
+      break;
   }
   waiting_ = false;
   return refused_ ? Stopped::minimum_edge : Stopped::done;
@@ -208,7 +210,32 @@ bool Refiner::split_blocking_segments(Point p) {
   return false;
 }
 
+bool Refiner::queue_counterparts() {
+  for (const PeriodicCurve& pair : periodic_) {
+    queue_counterparts(pair.curve, pair.moved, pair);
+    queue_counterparts(pair.moved, pair.curve, pair);
+  }
+  return segments_wait();
+}
+
+// Of those on the curve `other` that have none at their parameters yet. One of a segment at a time.
+void Refiner::queue_counterparts(std::size_t curve, std::size_t other, const PeriodicCurve& pair) {
+  constexpr double same = 1e-9;
+  std::vector<double> wanted;
+  mesh_.walk_edges(mesh_.loop_heads[mesh_.domain.loop_of(other)], [&](std::uint32_t k, std::uint32_t) {
+    if (mesh_.at(k).curve == other) wanted.push_back(pair.parameter(mesh_.at(k).t));
+  });
+  std::sort(wanted.begin(), wanted.end());
+  mesh_.walk_edges(mesh_.loop_heads[mesh_.domain.loop_of(curve)], [&](std::uint32_t k, std::uint32_t next) {
+    if (mesh_.at(k).curve != curve || is_refused(mesh_.at(k).vertex, mesh_.at(next).vertex)) return;
+    const double t0 = mesh_.at(k).t, t1 = mesh_.end_parameter(k);
+    const auto t = std::upper_bound(wanted.begin(), wanted.end(), t0 + same);
+    if (t != wanted.end() && *t < t1 - same) segments_.push_back({k, next, *t});
+  });
+}
+
 double Refiner::split_parameter(Segment segment) const {
+  if (segment.t) return *segment.t;
   const double t0 = mesh_.at(segment.from).t, t1 = mesh_.end_parameter(segment.from);
   const bool corner_first = small_angles_.is_corner(mesh_.at(segment.from).vertex);
   const bool corner_last = small_angles_.is_corner(mesh_.at(segment.to).vertex);

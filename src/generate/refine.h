@@ -25,7 +25,8 @@
 //           triangle again, instead of p;
 //        b. otherwise fill the cavity by the star of p (picture in triangulation/insert.cpp). p gets the
 //           length scale min over the ring of LS(u) + |up| / G. The new triangles are judged.
-//   3. End when nothing is queued, or at a limit: the number of vertices, or edges shorter than the shortest
+//   3. When nothing is queued: split periodic curves where their counterparts were split, and go on.
+//   4. End when nothing is left, or at a limit: the number of vertices, or edges shorter than the shortest
 //      that is allowed.
 //
 // Why it ends: no vertex is nearer to a circumcentre than r, so that for B >= sqrt(2) new edges are no
@@ -45,6 +46,7 @@
 #include <array>
 #include <cstdint>
 #include <memory_resource>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -88,6 +90,7 @@ class Refiner {
   // A segment by its first entry in the boundary table and what followed it when it was queued.
   struct Segment {
     std::uint32_t from, to;
+    std::optional<double> t = {};  // where it is to be split, if that is given
   };
 
   void consider(TriangleId t, const QualityBounds& bounds);
@@ -109,6 +112,9 @@ class Refiner {
   void refuse(Segment segment);
   bool is_refused(VertexId a, VertexId b) const;
   void split(Segment segment, int depth);
+  // Queues splits of periodic curves at the vertices of their counterparts. True if there are any.
+  bool queue_counterparts();
+  void queue_counterparts(std::size_t curve, std::size_t moved, const PeriodicCurve& pair);
   double split_parameter(Segment segment) const;
   std::uint32_t add_split(Segment segment, VertexId v, double t);
   double scale_between(VertexId v, VertexId a, VertexId b) const;
@@ -127,6 +133,7 @@ class Refiner {
   QualityBounds bounds_, promised_, slack_;  // of new triangles; of kept ones; of morphed ones
   double inverse_gradation_;
   SmallAngles small_angles_;
+  std::vector<PeriodicCurve> periodic_;
   // Candidates on their way from memory: a pass jumps about in a large mesh, so what it will need is fetched
   // a few triangles ahead.
   static constexpr std::size_t look_ahead = 32;

@@ -58,6 +58,7 @@ class LayerView {
     add_layer_cells();
     add_outer_cells();
     add_boundaries();
+    mesh_.periodic = outside_.periodic;
     mesh_.delaunay_slack_deg = outside_.delaunay_slack_deg;
     mesh_.last_generation = outside_.last_generation;
   }

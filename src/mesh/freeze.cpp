@@ -225,6 +225,7 @@ FrozenMesh Mesh::freeze() const {
   frozen.parameter.assign(frozen.points.size(), 0.0);
   frozen.steiner.assign(frozen.points.size(), 0);
   freeze_boundary(data(), point_of, frozen);
+  for (const PeriodicPair& pair : data().domain.periodic) frozen.periodic.push_back({pair.name, pair.moved});
   if (made_of_chains(data().domain)) LoopOrder(data(), point_of, frozen).run();
   if (has_regions(data().domain)) Regions(data(), frozen).run();
   return frozen;

@@ -221,17 +221,26 @@ class DomainReader {
 std::string domain_to_json(const Domain& domain) {
   ordered_json loops = ordered_json::array();
   for (const Loop& loop : domain.loops) loops.push_back(json_of(loop));
-  return ordered_json{{"loops", std::move(loops)}}.dump();
+  ordered_json result = {{"loops", std::move(loops)}};
+  for (const PeriodicPair& pair : domain.periodic)
+    result["periodic"].push_back(ordered_json::array({pair.name, pair.moved}));
+  return result.dump();
 }
 
 Domain domain_from_json(std::string_view text, const std::string& source, const AirfoilResolver& resolve) {
   const nlohmann::json parsed = parse_json(text, source);
   const JsonReader reader(parsed, source);
-  reader.expect_keys({"loops"});
+  reader.expect_keys({"loops"}, {"periodic"});
   const DomainReader domain_reader(resolve);
   Domain domain;
   for (const JsonReader& element : reader["loops"].elements())
     domain.loops.push_back(domain_reader.loop_of(element));
+  if (reader.has("periodic"))
+    for (const JsonReader& element : reader["periodic"].elements()) {
+      const std::vector<JsonReader> names = element.elements();
+      if (names.size() != 2) element.refuse("expected the names of two curves");
+      domain.periodic.push_back({names[0].text(), names[1].text()});
+    }
   return domain;
 }
 

@@ -220,6 +220,7 @@ void validate(const Domain& domain) {
            place_of_side(domain, polygons, pair->second), " touch or cross");
   }
   check_nesting(domain, polygons);
+  periodic_curves(domain);
 }
 
 Error from_file(const Error& error, const std::string& source) {

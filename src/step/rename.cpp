@@ -32,6 +32,7 @@ Domain renamed(const Domain& domain, const Correspondence& to) {
     for (std::size_t c = 0; c < loop.curves.size(); ++c) loop.curves[c].name = names.curves[c].name;
     result.loops.push_back(std::move(loop));
   }
+  result.periodic = to.domain.periodic;
   return result;
 }
 

@@ -158,6 +158,11 @@ RemodelResult Step::run() {
 }
 
 RemodelResult Step::remodel() {
+  if (wanted_.periodic != data().domain.periodic) {
+    validate(domain());
+    failure_ = "the domain has other periodic curves than the mesh";
+    return options_.regenerate ? regenerate() : abandon();
+  }
   if (plan_.moving && plan_.moving->empty()) {
     RemodelResult result = unchanged(data());
     result.full_adjustment = true;

@@ -60,12 +60,14 @@ FlowMesh::FlowMesh(std::vector<Point> points, std::vector<Cell> cells,
                    const std::string& source)
     : points_(std::move(points)), cells_(std::move(cells)), patches_(std::move(patches)) {
   require_cells(source);
-  make_edges();
+  periodic_ = periodic_vertices(points_, boundaries, patches_, source);
+  make_edges(source);
   for (std::size_t v = 0; v < size(); ++v)
-    if (ring(v).empty())
+    if (ring(v).empty() && !is_image(v))
       throw Error(ErrorCode::argument, source,
                   "point " + std::to_string(v) + " is of no triangle, expected every point to be of one");
   make_boundary(boundaries, source);
+  require_free_ends(source);
   link_walls();
   measure();
 }
@@ -82,7 +84,7 @@ void FlowMesh::move(std::span<const Point> points) {
 }
 
 // Edges are numbered by their ends, whatever the order of the triangles.
-void FlowMesh::make_edges() {
+void FlowMesh::make_edges(const std::string& source) {
   struct Side {
     std::uint32_t a, b, cell, corner;
   };
@@ -91,7 +93,7 @@ void FlowMesh::make_edges() {
   for (std::uint32_t t = 0; t < cells_.size(); ++t)
     for (std::uint32_t i = 0, n = cells_[t].corners(); i < n; ++i) {
       const std::uint32_t p = cells_[t][i], q = cells_[t][(i + 1) % n];
-      sides.push_back({std::min(p, q), std::max(p, q), t, i});
+      sides.push_back({std::min(original(p), original(q)), std::max(original(p), original(q)), t, i});
     }
   std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
     if (x.a != y.a) return x.a < y.a;
@@ -101,8 +103,12 @@ void FlowMesh::make_edges() {
   cell_edges_.assign(cells_.size(), {no_index, no_index, no_index, no_index});
   edges_.clear();
   for (const Side& side : sides) {
+    const Cell& cell = cells_[side.cell];
+    std::uint32_t p = cell[side.corner], q = cell[(side.corner + 1) % cell.corners()];
+    if (original(p) != side.a) std::swap(p, q);
     if (edges_.empty() || edges_.back().a != side.a || edges_.back().b != side.b)
-      edges_.push_back({side.a, side.b, {}});
+      edges_.push_back({side.a, side.b, {}, {p, q}});
+    if (has_images()) require_apart(edges_.back(), p, q, source);
     cell_edges_[side.cell][side.corner] = static_cast<std::uint32_t>(edges_.size() - 1);
   }
 
@@ -114,6 +120,35 @@ void FlowMesh::make_edges() {
   // In the order of edges the smaller neighbours of a vertex come before the larger ones, and both ascend.
   for (std::uint32_t e = 0; e < edges_.size(); ++e) ring_[fill[edges_[e].b]++] = {edges_[e].a, e, {}};
   for (std::uint32_t e = 0; e < edges_.size(); ++e) ring_[fill[edges_[e].a]++] = {edges_[e].b, e, {}};
+}
+
+// Whether the edge between these two vertices is the one that its place says: vertices are joined once.
+void FlowMesh::require_apart(const DualEdge& edge, std::uint32_t p, std::uint32_t q,
+                             const std::string& source) const {
+  const Point d = vector(edge), other = points_[q] - points_[p];
+  if (edge.a != edge.b && squared_distance(d, other) <= 1e-4 * dot(d, d)) return;
+  throw Error(ErrorCode::argument, source,
+              "the cells between periodic boundaries are too large at point " + std::to_string(p) +
+                  ", which is a neighbour of both, expected three rows of cells or more");
+}
+
+// Walls and planes of symmetry end at no periodic boundary: what they are made of goes on beyond it.
+void FlowMesh::require_free_ends(const std::string& source) const {
+  if (!has_images()) return;
+  for (const BoundaryEdge& edge : boundary_) {
+    if (patch(edge).is_periodic())
+      throw Error(ErrorCode::argument, source,
+                  "the edge from point " + std::to_string(edge.place[0]) + " to " +
+                      std::to_string(edge.place[1]) + " of the periodic boundary '" + patch(edge).name +
+                      "' has no counterpart, expected one at the other boundary");
+    if (patch(edge).open()) continue;
+    for (const std::uint32_t v : edge.place)
+      if (periodic_.at[v])
+        throw Error(ErrorCode::argument, source,
+                    "the " + std::string(patch(edge).kind()) + " '" + patch(edge).name +
+                        "' meets a periodic boundary at point " + std::to_string(v) +
+                        ", expected inlets and outlets alone to do so");
+  }
 }
 
 void FlowMesh::make_boundary(const std::vector<FrozenBoundary>& boundaries, const std::string& source) {
@@ -148,11 +183,11 @@ void FlowMesh::make_boundary(const std::vector<FrozenBoundary>& boundaries, cons
                         " bounds the domain and has no name, expected a named boundary");
       std::uint32_t& patch = patch_of[found->boundary];
       if (patch == no_index) patch = patch_of_name(boundaries[found->boundary].name);
-      boundary_.push_back({a, b, {}, patch, n == 3});
+      boundary_.push_back({original(a), original(b), {}, patch, n == 3, {}, {a, b}});
     }
   // Ducts need no far field.
   for (std::size_t i = 0; i < given; ++i)
-    if (!found_patch[i] && (!patches_[i].is_farfield() || given == 1)) {
+    if (!found_patch[i] && !patches_[i].is_periodic() && (!patches_[i].is_farfield() || given == 1)) {
       const std::string kind = patches_[i].kind();
       throw Error(ErrorCode::argument, source,
                   "found boundaries " + list_of_names(boundaries) + ", expected " +
@@ -239,7 +274,7 @@ void FlowMesh::link_walls() {
 void FlowMesh::bend_walls() {
   for (std::size_t i = 0; i < boundary_.size(); ++i) {
     BoundaryEdge& edge = boundary_[i];
-    const Point d = points_[edge.b] - points_[edge.a];
+    const Point d = points_[edge.place[1]] - points_[edge.place[0]];
     edge.normal = {d.y, -d.x};
     edge.half[0] = edge.half[1] = 0.5 * edge.normal;
     if (!patch(edge).bent()) continue;
@@ -267,16 +302,17 @@ void FlowMesh::measure() {
       const std::uint32_t j = (i + 1) % n, before = (i + n - 1) % n, after = (j + 1) % n;
       const std::uint32_t e = cell_edges_[t][i];
       const Point d = centre - 0.5 * (p[i] + p[j]);
-      const double sign = cell[i] == edges_[e].a ? 1.0 : -1.0;
+      const std::uint32_t v = original(cell[i]), w = original(cell[j]);
+      const double sign = v == edges_[e].a ? 1.0 : -1.0;
       edges_[e].normal = edges_[e].normal + sign * Point{d.y, -d.x};
-      around_[cell[i]] += corner_area(cell, i);
-      areas_[cell[i]] += n == 3 ? corner_area(cell, i) / 3.0 : 0.25 * cross(centre - p[i], p[before] - p[j]);
+      around_[v] += corner_area(cell, i);
+      areas_[v] += n == 3 ? corner_area(cell, i) / 3.0 : 0.25 * cross(centre - p[i], p[before] - p[j]);
       // The hat function of corner j rises along the inner normal of the opposite side, `before` to i; that
       // of i likewise.
       const Point side_j = p[i] - p[before], side_i = p[after] - p[j];
-      RingEntry& at_i = ring_[ring_entry(cell[i], e)];
+      RingEntry& at_i = ring_[ring_entry(v, e)];
       at_i.weight = at_i.weight + 0.5 * Point{-side_j.y, side_j.x};
-      RingEntry& at_j = ring_[ring_entry(cell[j], e)];
+      RingEntry& at_j = ring_[ring_entry(w, e)];
       at_j.weight = at_j.weight + 0.5 * Point{-side_i.y, side_i.x};
     }
   }

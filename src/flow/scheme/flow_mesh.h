@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "flow/physics/boundary/patch.h"
+#include "flow/scheme/periodic.h"
 #include "flow/scheme/wall_bulge.h"
 #include "remodel/frozen_mesh.h"
 #include "remodel/ids.h"
@@ -21,6 +22,7 @@ namespace remodel::flow {
 struct DualEdge {
   std::uint32_t a, b;  // a < b
   Point normal;        // of the dual face between them, from a to b; its length is the face's
+  std::uint32_t place[2];  // where the edge lies: a and b, or images of them
 };
 
 // One neighbour of a vertex.
@@ -38,6 +40,7 @@ struct BoundaryEdge {
   // Outer normals of the halves at a and at b, which meet in the edge's middle or, on walls, beside it: see
   // wall_bulge.h.
   Point half[2] = {};
+  std::uint32_t place[2] = {a, b};  // likewise
 };
 
 // The largest distance between two vertices of a set, and which these are.
@@ -56,7 +59,8 @@ class FlowMesh {
   // Every boundary edge of the mesh belongs to a named boundary: to one of `patches`, or else to a wall that
   // the flow slips along. Edges with the domain on both sides are no boundary. Throws Error (argument) naming
   // `source` where the mesh lacks the boundary of a patch (it may do without a far field if there are other
-  // patches), an edge has no name, a point is of no cell, or a cell is not counter-clockwise and convex.
+  // patches), an edge has no name, a point is of no cell, a cell is not counter-clockwise and convex, or periodic
+  // boundaries do not fit.
   FlowMesh(std::vector<Point> points, std::vector<Cell> cells, const std::vector<FrozenBoundary>& boundaries,
            std::vector<Patch> patches, const std::string& source);
   FlowMesh(const FrozenMesh& mesh, std::vector<Patch> patches, const std::string& source)
@@ -71,6 +75,20 @@ class FlowMesh {
   void require_cells(const std::string& source) const;
   // Walls that the flow slips along become walls that it sticks to.
   void stick_to_walls();
+  // Whether periodic boundaries make the vertex the same as another one, its original (periodic.h). Images
+  // have no edges, no area and no neighbours; cells() and points() have them as the mesh does.
+  bool is_image(std::size_t v) const { return original(static_cast<std::uint32_t>(v)) != v; }
+  std::uint32_t original(std::uint32_t v) const {
+    return periodic_.original.empty() ? v : periodic_.original[v];
+  }
+  // The other one of an image and its original; the vertex itself where there is none.
+  std::uint32_t counterpart(std::uint32_t v) const {
+    return periodic_.counterpart.empty() ? v : periodic_.counterpart[v];
+  }
+  bool has_images() const { return !periodic_.original.empty(); }
+  const std::vector<Point>& periods() const { return periodic_.periods; }
+  // From its first end to its second.
+  Point vector(const DualEdge& edge) const { return points_[edge.place[1]] - points_[edge.place[0]]; }
   // The same cells with vertices elsewhere.
   void move(std::span<const Point> points);
 
@@ -109,7 +127,9 @@ class FlowMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles() const;  // quadrilaterals in halves
 
  private:
-  void make_edges();
+  void make_edges(const std::string& source);
+  void require_apart(const DualEdge& edge, std::uint32_t p, std::uint32_t q, const std::string& source) const;
+  void require_free_ends(const std::string& source) const;
   void make_boundary(const std::vector<FrozenBoundary>& boundaries, const std::string& source);
   void link_walls();
   void measure();
@@ -124,6 +144,7 @@ class FlowMesh {
 
   std::vector<Point> points_;
   std::vector<Cell> cells_;
+  PeriodicVertices periodic_;
   std::vector<std::array<std::uint32_t, 4>> cell_edges_;  // edge i joins corner i and the next one
   std::vector<DualEdge> edges_;
   std::vector<std::uint32_t> ring_start_;

@@ -40,7 +40,8 @@ void FlowMesh::add_boundary_slopes(const Slopes& slopes, std::vector<Point>& poi
               points[corners[k]] + by_bulge * Point{turn.slope[2 * k], turn.slope[2 * k + 1]};
       by_d = by_d + turn.value * by_turn;
     }
-    points[edge.a] = points[edge.a] - by_d, points[edge.b] = points[edge.b] + by_d;
+    Point &from = points[edge.place[0]], &to = points[edge.place[1]];
+    from = from - by_d, to = to + by_d;
   }
 }
 
@@ -60,17 +61,18 @@ void FlowMesh::add_inner_slopes(const Slopes& slopes, std::vector<Point>& points
     for (std::uint32_t i = 0; i < n; ++i) {
       const std::uint32_t j = (i + 1) % n, before = (i + n - 1) % n, after = (j + 1) % n;
       // The area of the triangle before, i, j.
-      const double by_area = 0.5 * by_around[cell[i]];
+      const std::uint32_t v = original(cell[i]), w = original(cell[j]);
+      const double by_area = 0.5 * by_around[v];
       const auto turned = [&](Point d) { return by_area * Point{d.y, -d.x}; };
       by[i] = by[i] + turned(p[j] - p[before]), by[j] = by[j] + turned(p[before] - p[i]);
       by[before] = by[before] + turned(p[i] - p[j]);
       const std::uint32_t e = cell_edges_[t][i];
-      const double sign = cell[i] == edges_[e].a ? 1.0 : -1.0;
+      const double sign = v == edges_[e].a ? 1.0 : -1.0;
       const Point by_d = sign * turned_back(slopes.normal[e]);
       for (std::uint32_t k = 0; k < n; ++k) by[k] = by[k] + (1.0 / n) * by_d;
       by[i] = by[i] - 0.5 * by_d, by[j] = by[j] - 0.5 * by_d;
       // weights are half of {-side.y, side.x}
-      const Point at_i = by_sum[ring_entry(cell[i], e)], at_j = by_sum[ring_entry(cell[j], e)];
+      const Point at_i = by_sum[ring_entry(v, e)], at_j = by_sum[ring_entry(w, e)];
       const Point by_side_j = {0.5 * at_i.y, -0.5 * at_i.x}, by_side_i = {0.5 * at_j.y, -0.5 * at_j.x};
       by[i] = by[i] + by_side_j, by[before] = by[before] - by_side_j;
       by[after] = by[after] + by_side_i, by[j] = by[j] - by_side_i;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "flow/scheme/friction_system.h"
+#include "flow/scheme/image_rows.h"
 
 namespace remodel::flow {
 
@@ -14,7 +15,7 @@ namespace remodel::flow {
 template <std::size_t N>
 template <class Visit>
 void FrictionSystem<N>::for_each_dependence(Order order, Visit visit) const {
-  for (std::uint32_t v = 0; v < dual_.size(); ++v) visit(v, v);
+  for (std::uint32_t v = 0; v < dual_.size(); ++v) visit(v, v), visit(v, dual_.counterpart(v));
   for (std::size_t e = 0; e < dual_.edges().size(); ++e) {
     const DualEdge& edge = dual_.edges()[e];
     visit(edge.a, edge.b), visit(edge.b, edge.a);
@@ -73,6 +74,7 @@ void FrictionSystem<N>::jacobian(const BlockState<N>& state, BlockMatrix<N>& mat
   Rows rows[] = {rows_of_vertices(matrix, Order::whole)};
   add_fluxes(state, rows);
   make_walls_strong(matrix);
+  set_image_rows(dual_, matrix);
 }
 
 template <std::size_t N>
@@ -85,7 +87,8 @@ void FrictionSystem<N>::jacobian(const BlockState<N>& state, Jacobian& result) c
   Rows rows[] = {rows_of_vertices(result.whole, Order::whole), rows_of_vertices(result.first, Order::first)};
   add_fluxes(state, rows);
   result.rows = augmented_rows(state, result.whole);
-  make_walls_strong(result.whole), make_walls_strong(result.first);
+  for (BlockMatrix<N>* matrix : {&result.whole, &result.first})
+    make_walls_strong(*matrix), set_image_rows(dual_, *matrix);
 }
 
 // A reconstructed value depends on that unknown at both ends, on its upwind difference, and by the limiter on
@@ -107,7 +110,7 @@ typename FrictionSystem<N>::template FaceDual<V> FrictionSystem<N>::face_dual(co
   }
   if (order == Order::whole) face.limited = limited_part<Dual<2 * n>>(end[0], end[1]);
   const One limited = One::variable(face.limited.value, 3);
-  const One width = One::variable(terms_.limiter_width(dual_.points()[edge.b] - dual_.points()[edge.a]), 4);
+  const One width = One::variable(terms_.limiter_width(dual_.vector(edge)), 4);
   std::array<T, N> value[2];
   for (std::size_t side = 0; side < 2; ++side) {
     Row upwind = {};

@@ -36,7 +36,7 @@ FrictionMesh::FrictionMesh(const FlowMesh& mesh, const std::optional<std::array<
   make_triangles();
   make_mean_gradients();
   measure_distances();
-  if (transition) laminar_ = laminar_zone(mesh, nearest_, *transition);
+  if (transition) laminar_ = laminar_zone(mesh, nearest_, from_, *transition);
 }
 
 void FrictionMesh::count_cells() {
@@ -52,8 +52,9 @@ void FrictionMesh::count_cells() {
     const Cell& cell = mesh_.cells()[t];
     const std::uint32_t n = cell.corners();
     for (std::uint32_t i = 0; i < n; ++i) {
-      ++(n == 4 ? around_[cell[i]].quads : around_[cell[i]].triangles);
-      const std::uint32_t e = edge_between(cell[i], cell[(i + 1) % n]);
+      const std::uint32_t v = mesh_.original(cell[i]);
+      ++(n == 4 ? around_[v].quads : around_[v].triangles);
+      const std::uint32_t e = edge_between(v, mesh_.original(cell[(i + 1) % n]));
       if (n == 4) ++quads_of_edge_[e];
       edge_cells_[2 * e + (edge_cells_[2 * e] == no_index ? 0 : 1)] = t;
     }
@@ -64,11 +65,11 @@ void FrictionMesh::count_cells() {
 
 // The other edge at v that has no cell in common with this one, where four cells of a layer meet, or two at
 // its end.
-std::uint32_t FrictionMesh::opposite(std::uint32_t v, std::uint32_t edge) const {
+const RingEntry* FrictionMesh::opposite(std::uint32_t v, std::uint32_t edge) const {
   const Around& at = around_[v];
   const bool is_inside = at.quads == 4 && at.triangles == 0 && !at.boundary;
   const bool is_end = at.quads == 2 && quads_of_edge_[edge] == 1;
-  if (!is_inside && !is_end) return no_index;
+  if (!is_inside && !is_end) return nullptr;
   const auto shares_cell = [&](std::uint32_t e, std::uint32_t f) {
     for (const std::uint32_t c : {edge_cells_[2 * e], edge_cells_[2 * e + 1]})
       if (c != no_index && mesh_.cells()[c].corners() == 4 &&
@@ -79,29 +80,27 @@ std::uint32_t FrictionMesh::opposite(std::uint32_t v, std::uint32_t edge) const 
   for (const RingEntry& entry : mesh_.ring(v)) {
     if (entry.edge == edge || shares_cell(edge, entry.edge)) continue;
     if (is_end && quads_of_edge_[entry.edge] != 1) continue;
-    return entry.vertex;
+    return &entry;
   }
-  return no_index;
+  return nullptr;
 }
 
 void FrictionMesh::make_upwind() {
   upwind_start_.assign(1, 0);
   for (std::uint32_t e = 0; e < mesh_.edges().size(); ++e) {
     const DualEdge& edge = mesh_.edges()[e];
-    const Point d = mesh_.points()[edge.b] - mesh_.points()[edge.a];
+    const Point d = mesh_.vector(edge);
     for (std::size_t side = 0; side < 2; ++side) {
       const std::uint32_t here = side == 0 ? edge.a : edge.b, there = side == 0 ? edge.b : edge.a;
       const double sign = side == 0 ? 1.0 : -1.0;
-      const std::uint32_t behind = opposite(here, e);
-      const double ratio =
-          behind == no_index
-              ? 0.0
-              : std::sqrt(dot(d, d) / squared_distance(mesh_.points()[here], mesh_.points()[behind]));
-      if (behind != no_index && ratio <= largest_ratio) {
+      const RingEntry* behind = opposite(here, e);
+      const Point back = behind == nullptr ? Point{} : mesh_.vector(mesh_.edges()[behind->edge]);
+      const double ratio = behind == nullptr ? 0.0 : std::sqrt(dot(d, d) / dot(back, back));
+      if (behind != nullptr && ratio <= largest_ratio) {
         upwind_.push_back({here, sign * ratio});
-        upwind_.push_back({behind, -sign * ratio});
-        kinds_.push_back({Upwind::opposite, behind});
-      } else if (behind != no_index || around_[here].triangles == 0 || mesh_.one_sided(here)) {
+        upwind_.push_back({behind->vertex, -sign * ratio});
+        kinds_.push_back({Upwind::opposite, behind->vertex, behind->edge});
+      } else if (behind != nullptr || around_[here].triangles == 0 || mesh_.one_sided(here)) {
         upwind_.push_back({there, sign});
         upwind_.push_back({here, -sign});
         kinds_.push_back({Upwind::central});
@@ -123,14 +122,19 @@ void FrictionMesh::make_upwind() {
 void FrictionMesh::make_triangles() {
   std::set<std::pair<std::uint32_t, std::uint32_t>> outlets;
   for (const BoundaryEdge& edge : mesh_.boundary())
-    if (mesh_.patch(edge).is_outlet()) outlets.insert(std::minmax(edge.a, edge.b));
+    if (mesh_.patch(edge).is_outlet()) outlets.insert(std::minmax(edge.place[0], edge.place[1]));
   const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, bool of_quad) {
     const std::array<PlaneVector<double>, 3> p = {mesh_.points()[a], mesh_.points()[b], mesh_.points()[c]};
     std::array<bool, 3> outlet = {};
-    if (!outlets.empty())
-      outlet = {outlets.contains(std::minmax(b, c)), outlets.contains(std::minmax(c, a)),
-                outlets.contains(std::minmax(a, b))};
-    triangles_.push_back({TriangleShape<double>(p, of_quad, outlet), {a, b, c}, of_quad, outlet});
+    const auto is_outlet = [&](std::uint32_t from, std::uint32_t to) {
+      return outlets.contains(std::minmax(from, to));
+    };
+    if (!outlets.empty()) outlet = {is_outlet(b, c), is_outlet(c, a), is_outlet(a, b)};
+    triangles_.push_back({TriangleShape<double>(p, of_quad, outlet),
+                          {mesh_.original(a), mesh_.original(b), mesh_.original(c)},
+                          {a, b, c},
+                          of_quad,
+                          outlet});
   };
   for (const Cell& cell : mesh_.cells()) {
     const std::uint32_t n = cell.corners();
@@ -164,13 +168,19 @@ void FrictionMesh::make_mean_gradients() {
 void FrictionMesh::measure_distances() {
   distance_.assign(mesh_.size(), std::numeric_limits<double>::infinity());
   nearest_.assign(mesh_.size(), no_index);
+  from_ = mesh_.points();
+  std::vector<Point> periods = {Point{}};
+  for (const Point period : mesh_.periods()) periods.insert(periods.end(), {period, -1.0 * period});
   for (std::uint32_t e = 0; e < mesh_.boundary().size(); ++e) {
     const BoundaryEdge& edge = mesh_.boundary()[e];
     if (!mesh_.patch(edge).sticks()) continue;
     const Point a = mesh_.points()[edge.a], b = mesh_.points()[edge.b];
     for (std::size_t v = 0; v < mesh_.size(); ++v)
-      if (const double square = squared_distance_to_segment(mesh_.points()[v], a, b); square < distance_[v])
-        distance_[v] = square, nearest_[v] = e;
+      for (const Point period : periods) {
+        const Point p = mesh_.points()[v] + period;
+        if (const double square = squared_distance_to_segment(p, a, b); square < distance_[v])
+          distance_[v] = square, nearest_[v] = e, from_[v] = p;
+      }
   }
   for (std::size_t v = 0; v < mesh_.size(); ++v) distance_[v] = sticks_[v] ? 0.0 : std::sqrt(distance_[v]);
 }
@@ -181,7 +191,7 @@ void FrictionMesh::add_distance_slopes(const std::vector<double>& by_distance,
   for (std::size_t v = 0; v < mesh_.size(); ++v) {
     if (by_distance[v] == 0.0 || nearest_[v] == no_index || sticks_[v]) continue;
     const BoundaryEdge& edge = mesh_.boundary()[nearest_[v]];
-    const Point p = mesh_.points()[v], a = mesh_.points()[edge.a], b = mesh_.points()[edge.b];
+    const Point p = from_[v], a = mesh_.points()[edge.a], b = mesh_.points()[edge.b];
     const double t = nearest_part(p, a, b);
     const Point by = (by_distance[v] / distance_[v]) * (p - (a + t * (b - a)));
     points[v] = points[v] + by;

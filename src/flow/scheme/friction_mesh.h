@@ -44,6 +44,7 @@ struct TriangleShape {
 };
 struct CornerTriangle : TriangleShape<double> {
   std::uint32_t corner[3];
+  std::uint32_t place[3];  // where these lie: themselves, or images of them
   bool of_quad;
   std::array<bool, 3> outlet;  // of the edges opposite to corners, where friction acts across the boundary
 };
@@ -89,7 +90,7 @@ class FrictionMesh {
   enum class Upwind : std::uint8_t { opposite, central, gradient };
   struct UpwindKind {
     Upwind kind;
-    std::uint32_t behind = no_index;
+    std::uint32_t behind = no_index, edge_behind = no_index;  // and the edge to it
   };
   UpwindKind upwind_kind(std::size_t e, std::size_t side) const { return kinds_[2 * e + side]; }
   const std::vector<CornerTriangle>& triangles() const { return triangles_; }
@@ -101,10 +102,13 @@ class FrictionMesh {
   }
   // Adds derivatives of a function by coordinates, given those by distances.
   void add_distance_slopes(const std::vector<double>& by_distance, std::vector<Point>& points) const;
-  const std::vector<double>& distances() const { return distance_; }  // from walls that gas sticks to
+  // From walls that gas sticks to, also those beyond periodic boundaries.
+  const std::vector<double>& distances() const { return distance_; }
   bool sticks(std::size_t v) const { return sticks_[v]; }
   // The boundary edge of such walls that is nearest, of each vertex; no_index: there is none.
   const std::vector<std::uint32_t>& nearest() const { return nearest_; }
+  // Where the vertex lies to be that near: its own place, or that moved by a period.
+  const std::vector<Point>& nearest_from() const { return from_; }
   // Before the transition. Derivatives by the shape hold it.
   bool is_laminar(std::size_t v) const { return !laminar_.empty() && laminar_[v]; }
 
@@ -113,7 +117,7 @@ class FrictionMesh {
     std::uint8_t quads = 0, triangles = 0;
     bool boundary = false;
   };
-  std::uint32_t opposite(std::uint32_t v, std::uint32_t edge) const;
+  const RingEntry* opposite(std::uint32_t v, std::uint32_t edge) const;
   void count_cells();
   void make_upwind();
   void make_triangles();
@@ -132,6 +136,7 @@ class FrictionMesh {
   std::vector<Point> mean_gradient_;  // as the rings of all vertices, one after the other
   std::vector<double> distance_;
   std::vector<std::uint32_t> nearest_;
+  std::vector<Point> from_;
   std::vector<bool> sticks_;
   std::vector<bool> laminar_;  // empty: none is
 };

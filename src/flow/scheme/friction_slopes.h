@@ -60,7 +60,7 @@ void FrictionSystem<N>::add_face_slopes(const BlockState<N>& state, std::span<co
                                                              std::vector<std::array<Point, N>>(dual_.size()));
   for (std::size_t e = 0; e < dual_.edges().size(); ++e) {
     const DualEdge& edge = dual_.edges()[e];
-    const Point d = dual_.points()[edge.b] - dual_.points()[edge.a];
+    const Point d = dual_.vector(edge);
     const auto [flux, reconstructed, limited] = face_dual<2 * N + 2>(state, e, Order::whole);
     const double by_square = 3.0 * terms_.limiter_width(d) / dot(d, d);  // the limiter's width
     for (std::size_t j = 0; j < weights.size(); ++j) {
@@ -69,13 +69,13 @@ void FrictionSystem<N>::add_face_slopes(const BlockState<N>& state, std::span<co
       const auto by = weighted_slope(w, flux);
       slopes[j].normal[e] = {by[2 * N], by[2 * N + 1]};
       std::vector<Point>& points = results[j].points;
+      Point &from = points[edge.place[0]], &to = points[edge.place[1]];
       for (std::size_t side = 0; side < 2; ++side) {
-        const auto [kind, behind] = mesh_.upwind_kind(e, side);
+        const auto [kind, behind, edge_behind] = mesh_.upwind_kind(e, side);
         if (limited.value > 0.0) {
           double by_width = 0.0;
           for (std::size_t k = 0; k < N; ++k) by_width += by[N * side + k] * reconstructed[side][k].slope[4];
-          points[edge.a] = points[edge.a] - by_width * by_square * d;
-          points[edge.b] = points[edge.b] + by_width * by_square * d;
+          from = from - by_width * by_square * d, to = to + by_width * by_square * d;
           results[j].length -= by_width * by_square * dot(d, d) / terms_.extent;
         }
         if (kind == Kind::central) continue;
@@ -84,21 +84,24 @@ void FrictionSystem<N>::add_face_slopes(const BlockState<N>& state, std::span<co
         for (std::size_t k = 0; k < N; ++k) by_upwind[k] = by[N * side + k] * reconstructed[side][k].slope[2];
         Point by_d;
         if (kind == Kind::opposite) {
-          const Point back = dual_.points()[here] - dual_.points()[behind];
+          const DualEdge& before = dual_.edges()[edge_behind];
+          const std::size_t end = before.a == here ? 0 : 1;
+          const Point back = (end == 0 ? -1.0 : 1.0) * dual_.vector(before);
           const double length = std::sqrt(dot(d, d)), length_back = std::sqrt(dot(back, back));
           double by_ratio = 0.0;
           for (std::size_t k = 0; k < N; ++k)
             by_ratio += (side == 0 ? 1.0 : -1.0) * by_upwind[k] * (gas(here, k) - gas(behind, k));
           by_d = (by_ratio / (length * length_back)) * d;
           const Point by_back = (-by_ratio * length / (length_back * length_back * length_back)) * back;
-          points[here] = points[here] + by_back, points[behind] = points[behind] - by_back;
+          Point &at = points[before.place[end]], &at_behind = points[before.place[1 - end]];
+          at = at + by_back, at_behind = at_behind - by_back;
         } else {
           for (std::size_t k = 0; k < N; ++k) {
             by_gradient[j][here][k] = by_gradient[j][here][k] + 2.0 * by_upwind[k] * d;
             by_d = by_d + 2.0 * by_upwind[k] * gradient[here][k];
           }
         }
-        points[edge.a] = points[edge.a] - by_d, points[edge.b] = points[edge.b] + by_d;
+        from = from - by_d, to = to + by_d;
       }
     }
   }
@@ -150,7 +153,8 @@ void FrictionSystem<N>::add_triangle_slopes(const BlockState<N>& state,
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t v = triangle.corner[i];
       for (std::size_t k = 0; k < N; ++k) q[i][k] = T(state.q[v][k]);
-      p[i] = {T::variable(dual_.points()[v].x, 2 * i), T::variable(dual_.points()[v].y, 2 * i + 1)};
+      const Point place = dual_.points()[triangle.place[i]];
+      p[i] = {T::variable(place.x, 2 * i), T::variable(place.y, 2 * i + 1)};
     }
     const TriangleShape<T> shape(p, triangle.of_quad, triangle.outlet);
     auto flux = terms_.template triangle<T, N>(q, shape, turbulent_corners(triangle));
@@ -168,7 +172,7 @@ void FrictionSystem<N>::add_triangle_slopes(const BlockState<N>& state,
         for (std::size_t z = 0; z < by.size(); ++z) by[z] += part[z];
       }
       for (std::size_t i = 0; i < 3; ++i) {
-        Point& at = results[j].points[triangle.corner[i]];
+        Point& at = results[j].points[triangle.place[i]];
         at = at + Point{by[2 * i], by[2 * i + 1]};
       }
     }
@@ -197,7 +201,7 @@ void FrictionSystem<N>::add_boundary_slopes(const BlockState<N>& state, const Bl
       of_edge.half[i] = {by[0], by[1]};
       of_edge.normal = of_edge.normal + Point{by[2], by[3]};
       for (std::size_t k = 0; k < 2; ++k) {
-        Point& place = result.points[end[k == 0 ? i : 1 - i]];
+        Point& place = result.points[edge.place[k == 0 ? i : 1 - i]];
         place = place + Point{by[4 + 2 * k], by[5 + 2 * k]};
       }
     }

@@ -5,6 +5,7 @@
 
 #include "flow/scheme/friction_jacobian.h"
 #include "flow/scheme/friction_slopes.h"
+#include "flow/scheme/image_rows.h"
 
 namespace remodel::flow {
 
@@ -34,6 +35,7 @@ BlockState<N> FrictionSystem<N>::start(double thickness) const {
                  FrictionTerms::working_unit;
     }
   }
+  copy_to_images(dual_, state.q);
   return state;
 }
 
@@ -45,7 +47,7 @@ std::array<double, N> FrictionSystem<N>::step(const BlockVector<N>& q, std::size
   const DualEdge& edge = dual_.edges()[e];
   const double limited = limited_part<double>(FrictionTerms::gas(q[edge.a]), FrictionTerms::gas(q[edge.b]));
   const double width =
-      limited > 0.0 ? terms_.limiter_width(dual_.points()[edge.b] - dual_.points()[edge.a]) : 0.0;
+      limited > 0.0 ? terms_.limiter_width(dual_.vector(edge)) : 0.0;
   Row upwind = {};
   for (const WeightedVertex& of : mesh_.upwind(e, side))
     for (std::size_t k = 0; k < N; ++k) upwind[k] += of.weight * q[of.vertex][k];
@@ -115,6 +117,7 @@ void FrictionSystem<N>::residuals(const BlockState<N>& state, BlockVector<N>& of
   augmented = {forces(state, of_vertices).lift - state.augmented[0],
                stream_.lift ? state.augmented[0] - *stream_.lift : state.augmented[1] - stream_.alpha};
   make_walls_strong(state, of_vertices);
+  set_image_rows(dual_, state.q, of_vertices);
 }
 
 template <std::size_t N>
@@ -180,6 +183,7 @@ std::vector<double> FrictionSystem<N>::wave_speeds(const BlockState<N>& state) c
     sum[edge.a] += 0.25 * speed(edge.a, edge.normal);
     sum[edge.b] += 0.25 * speed(edge.b, edge.normal);
   }
+  copy_to_images(dual_, sum);
   return sum;
 }
 

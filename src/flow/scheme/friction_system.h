@@ -98,7 +98,9 @@ class FrictionSystem final : public BlockSystem<N> {
   WallForces forces(const BlockState<N>& state, const BlockVector<N>& unbalanced,
                     std::uint32_t patch = no_index) const;
   // Whether the row says that the wall stands still, or how warm it is.
-  bool is_replaced(std::size_t v, std::size_t k) const { return mesh_.sticks(v) && is_strong(k); }
+  bool is_replaced(std::size_t v, std::size_t k) const {
+    return (mesh_.sticks(v) && is_strong(k)) || dual_.is_image(v);
+  }
   // The force of friction on the vertex, by its unbalanced momentum: what it receives less the pressure.
   Point friction_force(const BlockVector<N>& unbalanced, std::size_t v) const {
     return {-unbalanced[v][1], -unbalanced[v][2]};
@@ -162,7 +164,7 @@ class FrictionSystem final : public BlockSystem<N> {
     return {has_turbulence(corner[0]), has_turbulence(corner[1]), has_turbulence(corner[2])};
   }
   WallPlace<double> wall_place(std::size_t v) const { return {mesh_.distances()[v], mesh_.is_laminar(v)}; }
-  bool has_turbulence(std::size_t v) const { return mesh_.distances()[v] > 0.0; }
+  bool has_turbulence(std::size_t v) const { return mesh_.distances()[v] > 0.0 && !dual_.is_image(v); }
   // The mean over what belongs to the vertex.
   double vorticity(const BlockVector<N>& q, std::size_t v) const {
     double sum = 0.0;

@@ -107,8 +107,7 @@ FunctionalSlope slope_of(const FlowSystem& system, const State& state, const Fun
     FlowMesh::Slopes::OfBoundary& of_edge = slopes.boundary[e];
     of_edge.half[half] = {by[0], by[1]};
     of_edge.normal = of_edge.normal + Point{by[2], by[3]};
-    Point &here = result.shape.points[half == 0 ? edge.a : edge.b],
-          &there = result.shape.points[half == 0 ? edge.b : edge.a];
+    Point &here = result.shape.points[edge.place[half]], &there = result.shape.points[edge.place[1 - half]];
     here = here + Point{by[4], by[5]}, there = there + Point{by[6], by[7]};
     result.shape.mach += by[8], result.augmented[0] += by[9], result.augmented[1] += by[10];
   });

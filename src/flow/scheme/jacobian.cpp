@@ -4,6 +4,7 @@
 
 #include "flow/scheme/flow_system.h"
 #include "flow/scheme/forces.h"
+#include "flow/scheme/image_rows.h"
 
 namespace remodel::flow {
 
@@ -20,6 +21,7 @@ BlockRows FlowSystem::pattern(std::vector<std::uint32_t> rows) const {
       columns.push_back(v);
     };
     note(matrix.rows[r]);
+    note(mesh_.counterpart(matrix.rows[r]));  // either way: the pattern is symmetric
     for (const RingEntry& first : mesh_.ring(matrix.rows[r])) {
       note(first.vertex);
       for (const RingEntry& second : mesh_.ring(first.vertex)) note(second.vertex);
@@ -59,7 +61,7 @@ void FlowSystem::jacobian(const State& state, BlockRows& matrix, std::vector<Fac
       const FaceDerivative& flux = derivative(entry.edge);
       const DualEdge& edge = mesh_.edges()[entry.edge];
       const double sign = here == edge.a ? 1.0 : -1.0;
-      const Point d = mesh_.points()[edge.b] - mesh_.points()[edge.a];
+      const Point d = mesh_.vector(edge);
       add(matrix.block[place[edge.a]], sign, flux.by_state[0]);
       add(matrix.block[place[edge.b]], sign, flux.by_state[1]);
       const std::array<std::uint32_t, 2> source = gradient_sources(mesh_, edge);
@@ -75,6 +77,7 @@ void FlowSystem::jacobian(const State& state, BlockRows& matrix, std::vector<Fac
     }
   }
   add_boundary_blocks(state, matrix, row_of);
+  set_image_rows(mesh_, matrix);
 }
 
 void FlowSystem::add_boundary_blocks(const State& state, BlockRows& matrix,

@@ -81,7 +81,7 @@ void WallSides::add_wall(const std::vector<std::uint32_t>& edges) {
 }  // namespace
 
 std::vector<bool> laminar_zone(const FlowMesh& mesh, const std::vector<std::uint32_t>& nearest,
-                               std::array<double, 2> transition) {
+                               const std::vector<Point>& from, std::array<double, 2> transition) {
   const WallSides sides(mesh);
   std::vector<bool> laminar(mesh.size(), false);
   for (std::size_t v = 0; v < mesh.size(); ++v) {
@@ -89,7 +89,7 @@ std::vector<bool> laminar_zone(const FlowMesh& mesh, const std::vector<std::uint
     if (e == no_index) continue;
     const BoundaryEdge& edge = mesh.boundary()[e];
     const Point a = mesh.points()[edge.a], b = mesh.points()[edge.b];
-    const Point place = a + nearest_part(mesh.points()[v], a, b) * (b - a);
+    const Point place = a + nearest_part(from[v], a, b) * (b - a);
     laminar[v] = sides.chord(e).fraction(place) < transition[sides.lower(e) ? 1 : 0];
   }
   return laminar;

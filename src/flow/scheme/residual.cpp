@@ -1,5 +1,6 @@
 #include "flow/scheme/flow_system.h"
 #include "flow/scheme/forces.h"
+#include "flow/scheme/image_rows.h"
 
 namespace remodel::flow {
 
@@ -27,7 +28,7 @@ std::vector<Unknowns<Point>> FlowSystem::gradients(const State& state) const {
 
 FaceInputs<double, double> FlowSystem::face_inputs(const State& state, const DualEdge& edge,
                                                    std::span<const Unknowns<Point>> gradients) const {
-  const Point d = mesh_.points()[edge.b] - mesh_.points()[edge.a];
+  const Point d = mesh_.vector(edge);
   FaceInputs<double, double> in = {.end = {end_of(mesh_, edge.a, edge.b), end_of(mesh_, edge.b, edge.a)},
                                    .q = {state.q[edge.a], state.q[edge.b]},
                                    .along = {},
@@ -64,6 +65,7 @@ void FlowSystem::residual(const State& state, Vector& out) const {
     }
   for (std::size_t v = 0; v < stream_.source.size(); ++v)
     for (std::size_t k = 0; k < unknown_count; ++k) out[v][k] -= stream_.source[v][k];
+  set_image_rows(mesh_, state.q, out);
 }
 
 Augmented FlowSystem::augmented_residual(const State& state) const {
@@ -89,6 +91,7 @@ std::vector<double> FlowSystem::wave_speeds(const State& state) const {
     sum[edge.a] += 0.25 * wave_speed(state.q[edge.a], edge.normal);
     sum[edge.b] += 0.25 * wave_speed(state.q[edge.b], edge.normal);
   }
+  copy_to_images(mesh_, sum);
   return sum;
 }
 

@@ -67,7 +67,8 @@ std::vector<ShapeSlope> FlowSystem::residual_slopes(const State& state, std::spa
           by_d = by_d + by_along * gradient[source[side]][k];
         }
       std::vector<Point>& points = results[j].points;
-      points[edge.a] = points[edge.a] - by_d, points[edge.b] = points[edge.b] + by_d;
+      Point &from = points[edge.place[0]], &to = points[edge.place[1]];
+      from = from - by_d, to = to + by_d;
     }
   }
   for (std::size_t j = 0; j < weights.size(); ++j) {
@@ -103,7 +104,7 @@ void FlowSystem::add_boundary_slopes(const State& state, const Vector& weight, F
       of_edge.half[i] = {by[0], by[1]};
       of_edge.normal = of_edge.normal + Point{by[2], by[3]};
       for (std::size_t k = 0; k < 2; ++k) {
-        Point& place = result.points[end[k == 0 ? i : 1 - i]];
+        Point& place = result.points[edge.place[k == 0 ? i : 1 - i]];
         place = place + Point{by[4 + 2 * k], by[5 + 2 * k]};
       }
       result.mach += by[8];

@@ -22,6 +22,7 @@ void add_pseudo_time(const FlowSystem& system, const State& state, double cfl, B
   const std::vector<double> speeds = system.wave_speeds(state);
   for (std::size_t r = 0; r < matrix.rows.size(); ++r) {
     const std::uint32_t v = matrix.rows[r];
+    if (system.mesh().is_image(v)) continue;
     Unknowns<Dual<n>> q;
     for (std::size_t k = 0; k < n; ++k) q[k] = Dual<n>::variable(state.q[v][k], k);
     const auto by_unknowns = conserved(q);

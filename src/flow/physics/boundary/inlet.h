@@ -1,7 +1,10 @@
 #pragma once
 
-// Gas enters along the normal with a given total pressure and total temperature. Source: J.-R. Carlson,
-// "Inflow/outflow boundary conditions with application to FUN3D", NASA TM-2011-217181.
+// Gas enters with a given total pressure and total temperature, along the normal or at a given angle. Source:
+// J.-R. Carlson, "Inflow/outflow boundary conditions with application to FUN3D", NASA TM-2011-217181.
+
+#include <cmath>
+#include <optional>
 
 #include "flow/physics/boundary/inputs.h"
 
@@ -11,6 +14,7 @@ struct Inlet {
   static constexpr const char* kind = "inlet or outlet";
   static constexpr bool solid = false, bent = false, one_sided = false, open = true;
   double total_pressure = 1.0, total_temperature = 1.0;  // parts of the stream's
+  std::optional<double> angle = {};                      // to the x axis, radians; none: along the normal
 
   template <class T>
   Fluxes<T> flux(const BoundaryInputs<T>& in, const Stream&) const {
@@ -23,7 +27,7 @@ struct Inlet {
   template <class T>
   Unknowns<T> state(const BoundaryInputs<T>& in) const {
     using std::pow, std::sqrt;
-    constexpr double g = gas_gamma - 1.0, a = 1.0 + 2.0 / g;
+    constexpr double g = gas_gamma - 1.0;
     const Unknowns<T> inside = in.mean();
     const TotalState<T> total = total_state(in.mach);
     const T whole_pressure = total_pressure * total.pressure;
@@ -31,13 +35,17 @@ struct Inlet {
     const auto [nx, ny] = in.unit_normal();
     const T wave = velocity_x(inside) * nx + velocity_y(inside) * ny +
                    (2.0 / g) * sqrt(gas_gamma * pressure(inside) / density(inside));
-    // c^2 + g/2 v^2 = sound_square where -v + 2 c / g = wave.
+    const PlaneVector<T> along =
+        angle ? PlaneVector<T>{T(std::cos(*angle)), T(std::sin(*angle))} : PlaneVector<T>{-nx, -ny};
+    const T inwards = angle ? -(along.x * nx + along.y * ny) : T(1.0);
+    // c^2 + g/2 v^2 = sound_square where -v * inwards + 2 c / g = wave.
+    const T a = inwards * inwards + 2.0 / g;
     T root = a * sound_square - 0.5 * g * (wave * wave);
     if (!(value_of(root) > 0.0)) root = 1e-12 * sound_square;
-    const T c = (wave + sqrt(root)) / a;
-    const T speed = (2.0 / g) * c - wave;
+    const T c = (wave + inwards * sqrt(root)) / a;
+    const T speed = ((2.0 / g) * c - wave) / inwards;
     const T p = whole_pressure * pow(c * c / sound_square, gas_gamma / g);
-    return {gas_gamma * p / (c * c), -nx * speed, -ny * speed, p};
+    return {gas_gamma * p / (c * c), along.x * speed, along.y * speed, p};
   }
 };
 

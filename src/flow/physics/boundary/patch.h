@@ -9,6 +9,7 @@
 #include "flow/physics/boundary/inlet.h"
 #include "flow/physics/boundary/no_slip_wall.h"
 #include "flow/physics/boundary/outlet.h"
+#include "flow/physics/boundary/periodic.h"
 #include "flow/physics/boundary/slip_wall.h"
 #include "flow/physics/boundary/symmetry.h"
 
@@ -18,7 +19,7 @@ namespace remodel::flow {
 // pressures are forces; `bent`, whether the mesh bends its edges; `one_sided`, whether gradients at it are
 // too one-sided to reconstruct with; `open`, whether the gas that passes it is reported; and `flux`, out of
 // the domain through the half of an edge.
-using BoundaryCondition = std::variant<SlipWall, FarField, Inlet, Outlet, Symmetry, NoSlipWall>;
+using BoundaryCondition = std::variant<SlipWall, FarField, Inlet, Outlet, Symmetry, NoSlipWall, Periodic>;
 
 struct Patch {
   std::string name;
@@ -41,6 +42,7 @@ struct Patch {
     return std::visit([](const auto& of) { return of.kind; }, condition);
   }
   bool is_outlet() const { return std::holds_alternative<Outlet>(condition); }
+  bool is_periodic() const { return std::holds_alternative<Periodic>(condition); }
   bool is_farfield() const { return std::holds_alternative<FarField>(condition); }
   template <class T>
   Fluxes<T> flux(const BoundaryInputs<T>& in, const Stream& stream) const {
