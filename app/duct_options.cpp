@@ -1,4 +1,5 @@
-// Inlets, outlets, symmetry planes, periodic boundaries and the residual's history: options of `remodel flow`.
+// Inlets, outlets, symmetry planes, periodic boundaries and the residual's history: options of `remodel
+// flow`.
 
 #include "arguments.h"
 #include "euler_run.h"
@@ -31,11 +32,12 @@ void add_duct_options(CLI::App& app, EulerRun& run) {
        "Straight boundary along the stream with the flow's mirror image beyond it; may be given several "
        "times"},
       Presence::optional, run.options.symmetry);
-  add_texts(app,
-            {"--periodic", "NAME,NAME", "those of the domain file",
-             "Two boundaries of which one is the other moved, as below and above the passage between two blades; "
-             "may be given several times"},
-            Presence::optional, run.periodic);
+  add_texts(
+      app,
+      {"--periodic", "NAME,NAME", "those of the domain file",
+       "Two boundaries of which one is the other moved, as below and above the passage between two blades; "
+       "may be given several times"},
+      Presence::optional, run.periodic);
   add_text(app,
            {"--history", "FILE", "",
             "Residual at each step, also of a flow that is not found: .csv, .svg or .png"},
@@ -48,8 +50,7 @@ FlowOptions options_of(const EulerRun& run) {
                           : run.inlet.angle_deg                ? "--inlet-angle"
                                                                : nullptr;
   if (run.inlets.empty() && of_inlets != nullptr)
-    throw Error(ErrorCode::argument, of_inlets,
-                "given without --inlet, expected the name of a boundary");
+    throw Error(ErrorCode::argument, of_inlets, "given without --inlet, expected the name of a boundary");
   if (run.outlets.empty() && run.outlet.pressure != 1.0)
     throw Error(ErrorCode::argument, "--pressure", "given without --outlet, expected the name of a boundary");
   FlowOptions options = run.options;

@@ -84,11 +84,10 @@ void add_bodies(Report& report, const FlowResult& flow) {
                         {"mass_flow", opening.mass_flow},
                         {"flow_angle_deg", opening.flow_angle_deg},
                         {"total_pressure", opening.total_pressure}});
-    report.line("boundary " + opening.name, "mass flow " + Json(opening.mass_flow).dump() + ", at " +
-                                                Json(opening.flow_angle_deg).dump() +
-                                                " degrees, total pressure " +
-                                                Json(opening.total_pressure).dump() +
-                                                (flow.converged() ? "" : not_converged));
+    report.line("boundary " + opening.name,
+                "mass flow " + Json(opening.mass_flow).dump() + ", at " +
+                    Json(opening.flow_angle_deg).dump() + " degrees, total pressure " +
+                    Json(opening.total_pressure).dump() + (flow.converged() ? "" : not_converged));
   }
   if (!openings.empty()) report.data("openings", openings);
 }

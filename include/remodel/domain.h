@@ -155,10 +155,10 @@ struct BoundaryStation {
   friend bool operator==(const BoundaryStation&, const BoundaryStation&) = default;
 };
 
-// The names of two curves of which one is the other moved, by a period, as below and above the passage between
-// two blades of a row. Where several curves have the names, they correspond in their order or in the reverse
-// one. They have corresponding stations, and refinement splits them alike, so that every vertex on one of
-// them has its counterpart on the other.
+// The names of two curves of which one is the other moved, by a period, as below and above the passage
+// between two blades of a row. Where several curves have the names, they correspond in their order or in the
+// reverse one. They have corresponding stations, and refinement splits them alike, so that every vertex on
+// one of them has its counterpart on the other.
 struct PeriodicPair {
   std::string name, moved;
   friend bool operator==(const PeriodicPair&, const PeriodicPair&) = default;
@@ -186,8 +186,8 @@ struct PeriodicCurve {
   Point period;
   double parameter(double t) const { return reversed ? 1.0 - t : t; }  // on the counterpart
 };
-// Those of all pairs. Throws Error (geometry) where a name is missing, a curve is not the other one moved (to
-// 1e-9), or stations do not correspond.
+// periodic_curves() has those of all pairs. It throws Error (geometry) where a name is missing, a curve is
+// not the other one moved (to 1e-9), or stations do not correspond.
 std::vector<PeriodicCurve> periodic_curves(const Domain& domain);
 
 // Throws Error (geometry) unless there is a loop, every closed loop has at least three distinct consecutive
@@ -197,9 +197,9 @@ std::vector<PeriodicCurve> periodic_curves(const Domain& domain);
 // (exactly decided; names the loop, the curve and the place). Airfoils must have their surfaces apart. Among
 // outer loops and holes roles take turns from the outside in: outermost loops are outer, what lies directly
 // inside an outer loop is a hole, what lies directly inside a hole is outer again. Where boundaries are made
-// of chains (left, right), it is generate() that finds sides that contradict each other. Periodic curves are each
-// other's counterparts (periodic_curves()). Loops may run either
-// way round. About n log n: 0.2 ms for 700 airfoil points.
+// of chains (left, right), it is generate() that finds sides that contradict each other. Periodic curves are
+// each other's counterparts (periodic_curves()). Loops may run either way round. About n log n: 0.2 ms for
+// 700 airfoil points.
 void validate(const Domain& domain);
 // This is validate(domain), but its errors begin with the file that the domain is from.
 void validate(const Domain& domain, const std::string& source);

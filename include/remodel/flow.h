@@ -36,10 +36,10 @@
 // verification.
 //
 // Errors: Error (argument) for conditions and options out of range, for symmetry planes that are not straight
-// or not along the stream, for periodic boundaries that do not fit each other, and for a mesh without a far field or another way in and out, without a wall, with
-// unnamed boundary edges, with triangles that are clockwise or have no area, or with a far field that is the
-// boundary of a hole. A flow that is not found is no error: FlowResult::status and reason say so, and no
-// coefficient of it should be used.
+// or not along the stream, for periodic boundaries that do not fit each other, and for a mesh without a far
+// field or another way in and out, without a wall, with unnamed boundary edges, with triangles that are
+// clockwise or have no area, or with a far field that is the boundary of a hole. A flow that is not found is
+// no error: FlowResult::status and reason say so, and no coefficient of it should be used.
 
 #include <functional>
 #include <memory>
@@ -57,7 +57,7 @@ namespace remodel {
 enum class FlowModel {
   euler,    // without friction
   laminar,  // viscous and heat-conducting: the Navier-Stokes equations
-  sa,  // the same in the mean of a turbulent flow, with the model of Spalart and Allmaras (SA-neg-noft2:
+  sa,       // the same in the mean of a turbulent flow, with the model of Spalart and Allmaras (SA-neg-noft2:
        // ICCFD7-1902 without ft2), fully turbulent: the stream's working variable is 3 times its viscosity
 };
 const char* name_of(FlowModel model);  // "euler", "laminar", "sa"
@@ -192,11 +192,11 @@ struct FlowBody {
   double cd_pressure = 0.0, cd_friction = 0.0, y_plus_max = 0.0;
 };
 
-// What passes an inlet or outlet. Means are by mass flow, over the edges of the opening.
+// An opening says what passes an inlet or outlet. Means are by mass flow, over the edges of the opening.
 struct FlowOpening {
   std::string name;
-  // What enters, in density times speed of sound of the stream times length (of the mesh): negative where gas
-  // leaves.
+  // `mass_flow` is what enters, in density times speed of sound of the stream times length (of the mesh):
+  // negative where gas leaves.
   double mass_flow = 0.0;
   double flow_angle_deg = 0.0;  // the direction of the mean momentum, to the x axis
   double total_pressure = 0.0;  // the mean, a part of the stream's

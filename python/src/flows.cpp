@@ -56,8 +56,9 @@ FlowConditions conditions_of(double mach, double alpha, const std::optional<doub
           .wall_temperature = wall_temperature};
 }
 
-using Inlets = std::map<std::string, std::vector<double>>;  // total pressure, total temperature, maybe an angle
-using Outlets = std::map<std::string, double>;              // pressure
+using Inlets =
+    std::map<std::string, std::vector<double>>;  // total pressure, total temperature, maybe an angle
+using Outlets = std::map<std::string, double>;   // pressure
 using Pairs = std::vector<std::pair<std::string, std::string>>;  // of periodic boundaries
 
 FlowSolver solver_named(const std::string& name) {
@@ -81,10 +82,11 @@ FlowOptions options_of(const std::string& farfield, double tolerance, int max_st
   if (solver) options.solver = solver_named(*solver);
   for (const auto& [name, given] : inlets) {
     if (given.size() != 2 && given.size() != 3)
-      throw Error(ErrorCode::argument, "inlets",
-                  "found " + std::to_string(given.size()) + " numbers for '" + name +
-                      "', expected a total pressure, a total temperature and, if it is not along the normal, the "
-                      "angle of the flow");
+      throw Error(
+          ErrorCode::argument, "inlets",
+          "found " + std::to_string(given.size()) + " numbers for '" + name +
+              "', expected a total pressure, a total temperature and, if it is not along the normal, the "
+              "angle of the flow");
     options.inlets.push_back({.name = name, .total_pressure = given[0], .total_temperature = given[1]});
     if (given.size() == 3) options.inlets.back().angle_deg = given[2];
   }
@@ -335,10 +337,10 @@ void add_figures(py::class_<FlowResult, FlowPointer>& type) {
   type.def_property_readonly("bodies", &bodies_of,
                              "The parts of each wall, by name: cl, cd, cm; with friction also cd_pressure, "
                              "cd_friction and y_plus_max.");
-  type.def_property_readonly("openings",
-                             [](const FlowResult& f) { return of_openings(f, &FlowOpening::mass_flow); },
-                             "What enters through each inlet and outlet, by name: density times speed of "
-                             "sound of the stream times length.");
+  type.def_property_readonly(
+      "openings", [](const FlowResult& f) { return of_openings(f, &FlowOpening::mass_flow); },
+      "What enters through each inlet and outlet, by name: density times speed of "
+      "sound of the stream times length.");
   type.def_property_readonly(
       "flow_angles", [](const FlowResult& f) { return of_openings(f, &FlowOpening::flow_angle_deg); },
       "The direction of the mean momentum through each inlet and outlet, by name: degrees to the x axis.");
@@ -494,10 +496,10 @@ py::tuple state_of(const Flows& flows) {
 
 std::unique_ptr<Flows> flows_of(const py::tuple& state) {
   require_pickle(state.size() == 9, "a LivingFlow");
-  return std::make_unique<Flows>(
-      options_of(state[0].cast<std::string>(), state[1].cast<double>(), state[2].cast<int>(),
-                 state[3].cast<double>(), state[4].cast<std::optional<std::string>>(),
-                 state[5].cast<Inlets>(), state[6].cast<Outlets>(), state[7].cast<std::string>(), state[8].cast<Pairs>()));
+  return std::make_unique<Flows>(options_of(
+      state[0].cast<std::string>(), state[1].cast<double>(), state[2].cast<int>(), state[3].cast<double>(),
+      state[4].cast<std::optional<std::string>>(), state[5].cast<Inlets>(), state[6].cast<Outlets>(),
+      state[7].cast<std::string>(), state[8].cast<Pairs>()));
 }
 
 constexpr const char* solver_text =
@@ -539,8 +541,8 @@ the same options, and begins cold. After Ctrl-C the next call waits until a fact
       .def(py::init([](const std::string& farfield, double tolerance, int max_steps, double memory_mb,
                        const std::optional<std::string>& solver, const Inlets& inlets, const Outlets& outlets,
                        const std::string& model, const Pairs& periodic) {
-             return std::make_unique<Flows>(
-                 options_of(farfield, tolerance, max_steps, memory_mb, solver, inlets, outlets, model, periodic));
+             return std::make_unique<Flows>(options_of(farfield, tolerance, max_steps, memory_mb, solver,
+                                                       inlets, outlets, model, periodic));
            }),
            py::kw_only(), "farfield"_a = "farfield", "tolerance"_a = defaults.tolerance,
            "max_steps"_a = defaults.max_steps, "memory_mb"_a = defaults.memory_mb, "solver"_a = py::none(),

@@ -6,11 +6,14 @@ import subprocess
 import sys
 import textwrap
 import threading
+from pathlib import Path
 
 import numpy as np
 import pytest
 import remodel
 from conftest import interrupt_inside
+
+SOURCE = Path(os.environ.get("REMODEL_PYTHON_TEST_SOURCE", Path(__file__).resolve().parents[2]))
 
 
 @pytest.fixture(scope="module")
@@ -101,6 +104,26 @@ def test_potential_flow_knows_the_mach_number(flowing):
     assert abs(fast.lift / slow.lift - (1 - 0.5**2) ** -0.5) < 1e-12
     assert fast.cp.min() < slow.cp.min() and not fast.supersonic and solver.at(2.0, mach=0.8).supersonic
     assert abs(solver.alpha_for(fast.lift, mach=0.5) - 2.0) < 1e-9
+
+
+def test_a_row_of_blades_is_found_by_its_mesh_or_by_names():
+    passage = remodel.Domain.from_json((SOURCE / "examples/domains/cascade.json").read_text())
+    mesh = remodel.generate(passage)
+    given = dict(mach=0.5, alpha=40.0, inlets={"inlet": (1.0, 1.0, 40.0)}, outlets={"outlet": 1.07})
+    flow = remodel.solve_flow(mesh, **given)
+    assert flow.converged
+    assert flow.flow_angles["inlet"] == pytest.approx(40.0, abs=0.01)
+    assert flow.flow_angles["outlet"] < 25.0
+    assert flow.total_pressures["outlet"] == pytest.approx(1.0, abs=1e-3)
+    frozen = mesh.freeze()
+    arrays = remodel.FrozenMesh(frozen.points, frozen.triangles, frozen.boundaries)
+    solver = remodel.LivingFlow(
+        inlets=given["inlets"], outlets=given["outlets"], periodic=[("below", "above")]
+    )
+    again = pickle.loads(pickle.dumps(solver)).solve(arrays, mach=0.5, alpha=40.0)
+    assert again.cl == pytest.approx(flow.cl, rel=1e-9)
+    with pytest.raises(remodel.ArgumentError, match="found 1 numbers for 'inlet'"):
+        remodel.LivingFlow(inlets={"inlet": (1.0,)}, outlets={"outlet": 1.0})
 
 
 def test_a_duct_takes_in_what_it_lets_out():

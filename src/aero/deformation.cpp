@@ -120,6 +120,9 @@ class PartReader {
         names.push_back(curve.curve->name);
     }
     if (found.empty()) place_.require_word(name, "on", names);
+    for (const PeriodicPair& pair : domain_.periodic)
+      if (name == pair.name || name == pair.moved)
+        place_.fail("found the periodic curve '" + name + "' as 'on', expected one that may move alone");
     for (const CurveNodes* curve : found)
       if (std::holds_alternative<CstAirfoil>(curve->curve->shape))
         place_.fail("found the airfoil '" + name + "' as 'on', expected splines, polylines or lines");

@@ -7,6 +7,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 #include <random>
 
@@ -201,6 +203,20 @@ TEST(Deformation, EndsOfNeighboursFollow) {
   EXPECT_NO_THROW(validate(moved));
 }
 
+// A passage of a row of blades, each of 40 stations.
+DesignProblem cascade_problem() {
+  std::ifstream file(std::string(REMODEL_SOURCE_DIR) + "/examples/domains/cascade.json");
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  DesignProblem problem = problem_of(
+      domain_from_json(text, "cascade.json"),
+      {FreeFormBox{.on = "blade", .low = {-0.02, -0.1}, .high = {1.02, 0.2}, .columns = 3, .rows = 2}});
+  problem.gradation = 3.0;
+  problem.points = {{.conditions = {.mach = 0.4, .alpha_deg = 40.0},
+                     .inlets = {{.name = "inlet", .angle_deg = 40.0}},
+                     .outlets = {{.name = "outlet", .pressure = 1.03}}}};
+  return problem;
+}
+
 // Of the objective and of each constraint, at a design beside the start.
 void expect_gradients_of_whole_flows(DesignProblem problem, double h,
                                      const std::function<double(const FlowResult&)>& objective) {
@@ -230,6 +246,33 @@ TEST(Deformation, GradientsOfANozzleAreThoseOfWholeFlows) {
   expect_gradients_of_whole_flows(nozzle_problem(), 1e-5, [](const FlowResult& flow) { return flow.cd; });
 }
 
+double value_at_outlets(const std::string& kind, const Case& task, Flows& flow,
+                        const std::vector<double>& design) {
+  const Mesh mesh = task.mesh_of(design);
+  const FlowResult result = flow(design);
+  return find_flow_kind(kind)->make(std::nullopt)->at({mesh.domain(), mesh.freeze(), result}).value;
+}
+
+TEST(Openings, FunctionsOfARowOfBladesHaveTheDerivativesOfWholeFlows) {
+  for (const std::string objective : {"flow_angle", "total_pressure", "lift"}) {
+    DesignProblem problem = cascade_problem();
+    problem.objective = objective;
+    const Case task(problem);
+    const std::vector<double> start = task.space().start();
+    const Evaluation evaluation = task.evaluate(start);
+    Flows flow(task);
+    const double sign = find_flow_kind(objective)->objective;
+    const auto value = [&](const std::vector<double>& design) {
+      return sign * value_at_outlets(objective, task, flow, design);
+    };
+    EXPECT_NEAR(evaluation.objective, value(start), 1e-8);
+    EXPECT_LT(relative(evaluation.gradient, task.differences(value, 1e-5)), 1e-6) << objective;
+    if (objective == "flow_angle") {
+      EXPECT_NEAR(evaluation.objective, flow(start).openings.at(1).flow_angle_deg, 1e-9);
+    }
+  }
+}
+
 // What leaves through the outlet is what the scheme says to its order; derivatives are its own, with a shock
 // as well.
 TEST(Openings, FunctionsHaveTheDerivativesOfWholeFlows) {
@@ -242,11 +285,8 @@ TEST(Openings, FunctionsHaveTheDerivativesOfWholeFlows) {
       const std::vector<double> start = task.space().start();
       const Evaluation evaluation = task.evaluate(start);
       Flows flow(task);
-      const FlowFunctionPtr function = find_flow_kind(objective)->make(std::nullopt);
       const auto value = [&](const std::vector<double>& design) {
-        const Mesh mesh = task.mesh_of(design);
-        const FlowResult result = flow(design);
-        return -function->at({mesh.domain(), mesh.freeze(), result}).value;
+        return -value_at_outlets(objective, task, flow, design);
       };
       const FlowResult result = flow(start);
       EXPECT_NEAR(evaluation.objective, value(start), 1e-8);
@@ -337,6 +377,14 @@ TEST(Deformation, WithFrictionGradientsOfANozzleAreThoseOfWholeFlows) {
               std::string::npos)
         << error.what();
   }
+}
+
+TEST(Deformation, WithFrictionGradientsOfARowOfBladesAreThoseOfWholeFlows) {
+  DesignProblem problem = cascade_problem();
+  problem.gradation = 2.0;
+  problem.layer = LayerOptions{.first_height = 3e-3, .growth = 1.3, .thickness = 0.03};
+  problem.points[0].conditions.reynolds = 2000.0, problem.points[0].model = FlowModel::laminar;
+  expect_drag_gradients_with_friction(problem, 2e-5);
 }
 
 // Walls are what is neither far field nor opening, whatever their names are.

@@ -1,5 +1,5 @@
-// What leaves a duct through its outlets: how much gas, with which total pressure, and in which direction. All
-// by the trapezoidal rule over the edges of the outlets, of states at vertices.
+// What leaves a duct through its outlets: how much gas, with which total pressure, and in which direction.
+// All by the trapezoidal rule over the edges of the outlets, of states at vertices.
 
 #include <algorithm>
 #include <cmath>
@@ -129,7 +129,8 @@ class TotalPressure final : public FlowFunction {
 class FlowAngle final : public FlowFunction {
  public:
   FlowValue at(const FlowView& of) const override {
-    const FlowValue x = over_outlets(of, momentum_at<&Point::x>), y = over_outlets(of, momentum_at<&Point::y>);
+    const FlowValue x = over_outlets(of, momentum_at<&Point::x>),
+                    y = over_outlets(of, momentum_at<&Point::y>);
     const double square = x.value * x.value + y.value * y.value;
     if (!(square > 0.0)) throw std::runtime_error("no gas leaves through outlets");
     constexpr double degree = 0.017453292519943295;

@@ -18,7 +18,8 @@ inline std::string output_name(const std::string& name, std::size_t point) {
 }
 
 // Of all outlets of a point together: "mass_flow", and where gas leaves by them "total_pressure", the mean by
-// mass flow as a part of the stream's, and "flow_angle", that of the momentum to the x axis in degrees. Nothing without outlets.
+// mass flow as a part of the stream's, and "flow_angle", that of the momentum to the x axis in degrees.
+// Nothing without outlets.
 std::vector<std::pair<std::string, double>> outlet_numbers(const DesignPoint& point, const FlowView& of);
 
 // The largest total pressure that gas enters with, a part of the stream's.

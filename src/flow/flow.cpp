@@ -115,8 +115,8 @@ void require_openings(const FlowConditions& conditions, const FlowOptions& optio
             inlet.total_pressure, "more than 0");
     require(inlet.total_temperature > 0.0 && std::isfinite(inlet.total_temperature), "total temperature",
             inlet.total_temperature, "more than 0");
-    require(!inlet.angle_deg || std::fabs(*inlet.angle_deg) <= 180.0, "inlet angle", inlet.angle_deg.value_or(0.0),
-            "-180 to 180 degrees");
+    require(!inlet.angle_deg || std::fabs(*inlet.angle_deg) <= 180.0, "inlet angle",
+            inlet.angle_deg.value_or(0.0), "-180 to 180 degrees");
     require(conditions.mach < 1.0, "mach", conditions.mach,
             "less than 1 where there is an inlet (gas enters faster than sound through a far field)");
   }
@@ -271,7 +271,8 @@ void require_inlet_angles(const FlowMesh& dual, const std::string& source) {
     if (inwards > std::cos(steepest * one_degree)) continue;
     throw Error(ErrorCode::argument, source,
                 "found gas to enter by '" + dual.patch(edge).name + "' at " +
-                    shortest_text(*inlet->angle / one_degree) + " degrees, which does not lead into the domain between points " +
+                    shortest_text(*inlet->angle / one_degree) +
+                    " degrees, which does not lead into the domain between points " +
                     std::to_string(edge.place[0]) + " and " + std::to_string(edge.place[1]) +
                     ", expected less than 89 degrees to the normal");
   }

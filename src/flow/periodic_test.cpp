@@ -48,8 +48,10 @@ class Passage {
     const auto add = [&](std::size_t boundary, std::uint32_t a, std::uint32_t b) {
       mesh.boundaries[boundary].edges.push_back({a, b});
     };
-    for (std::uint32_t i = 0; i < columns; ++i) add(0, at(i, 0), at(i + 1, 0)), add(1, at(i + 1, rows), at(i, rows));
-    for (std::uint32_t j = 0; j < rows; ++j) add(2, at(0, j + 1), at(0, j)), add(3, at(columns, j), at(columns, j + 1));
+    for (std::uint32_t i = 0; i < columns; ++i)
+      add(0, at(i, 0), at(i + 1, 0)), add(1, at(i + 1, rows), at(i, rows));
+    for (std::uint32_t j = 0; j < rows; ++j)
+      add(2, at(0, j + 1), at(0, j)), add(3, at(columns, j), at(columns, j + 1));
     for (std::uint32_t k = 0; k < 3; ++k) {
       const std::uint32_t bottom = (4 + rows - cut) % rows;
       add(4, at(6 + k, bottom), at(5 + k, bottom)), add(4, at(5 + k, bottom + 3), at(6 + k, bottom + 3));
@@ -149,7 +151,8 @@ TEST(Periodic, ResidualsDoNotDependOnWhereARowIsCut) {
     const Passage& passage = i == 0 ? low : high;
     Augmented augmented;
     Vector q;
-    FlowSystem(dual[i], {.mach = 0.4, .alpha = 0.3, .length = 0.3}).residuals(state_of<4>(passage), q, augmented);
+    FlowSystem(dual[i], {.mach = 0.4, .alpha = 0.3, .length = 0.3})
+        .residuals(state_of<4>(passage), q, augmented);
     gas[i] = by_node(passage, dual[i], q);
     FlowMesh sticking = dual[i];
     sticking.stick_to_walls();
@@ -170,7 +173,10 @@ TEST(Periodic, UniformFlowAtTheInletsAngleHasNoResidual) {
   passage.mesh.boundaries[4].name = "out";  // of a block that gas passes
   const double mach = 0.5, angle = 0.4;
   const FlowMesh dual(passage.mesh,
-                      {{"below", Periodic{"above"}}, {"above", Periodic{}}, {"in", Inlet{1.0, 1.0, angle}}, {"out", Outlet{}}},
+                      {{"below", Periodic{"above"}},
+                       {"above", Periodic{}},
+                       {"in", Inlet{1.0, 1.0, angle}},
+                       {"out", Outlet{}}},
                       "passage");
   const FlowSystem system(dual, {.mach = mach, .alpha = angle, .length = 1.0});
   Vector residual;
@@ -211,7 +217,8 @@ void expect_exact_jacobian(const BlockSystem<N>& system, BlockState<N> state) {
 TEST(Periodic, JacobiansAreThoseOfDifferences) {
   const Passage passage(2);
   FlowMesh dual = passage.dual();
-  expect_exact_jacobian<4>(FlowSystem(dual, {.mach = 0.4, .alpha = 0.3, .length = 0.3}), state_of<4>(passage));
+  expect_exact_jacobian<4>(FlowSystem(dual, {.mach = 0.4, .alpha = 0.3, .length = 0.3}),
+                           state_of<4>(passage));
   dual.stick_to_walls();
   const FrictionMesh mesh(dual);
   expect_exact_jacobian<4>(*friction_system<4>(mesh), state_of<4>(passage));
@@ -297,10 +304,10 @@ TEST(Periodic, BoundariesThatDoNotFitAreRefusedWithTheirNames) {
 }
 
 // Flow of an incompressible fluid through a row of blades, exact, by a conformal map of the outside of a
-// circle: z = s / (2 pi) (e^-il ln((t + k) / (k - t)) + e^il ln((t + 1/k) / (t - 1/k))), in which t = -k and k
-// are the two ends of the row. Circles around the unit circle, through the point of it where dz/dt = 0, are
-// blades with a cusp, as Joukowski's are. Source: the map, R. C. Pankhurst et al. in J. P. Gostelow, "Cascade
-// Aerodynamics", 1984, chapter 3; the flow, the circle theorem of L. M. Milne-Thomson.
+// circle: z = s / (2 pi) (e^-il ln((t + k) / (k - t)) + e^il ln((t + 1/k) / (t - 1/k))), in which t = -k and
+// k are the two ends of the row. Circles around the unit circle, through the point of it where dz/dt = 0, are
+// blades with a cusp, as Joukowski's are. Sources: W. Merchant and A. R. Collar, ARC R&M 1893, 1941, who made
+// ovals by it; the circle theorem of L. M. Milne-Thomson, Proc. Camb. Phil. Soc. 36, 1940.
 class ExactRow {
  public:
   using Complex = std::complex<double>;
@@ -372,18 +379,22 @@ class ExactRow {
 
 // A passage around one blade: periodic curves half a pitch below and above its ends.
 Domain passage_of(const std::vector<Point>& blade, std::size_t stations) {
-  const auto [nose, rear] = std::minmax_element(blade.begin(), blade.end(),
-                                                [](Point a, Point b) { return a.x < b.x; });
-  const Polyline below{{{nose->x - 1.2, nose->y - 0.5}, {nose->x, nose->y - 0.5}, {rear->x, rear->y - 0.5},
+  const auto [nose, rear] =
+      std::minmax_element(blade.begin(), blade.end(), [](Point a, Point b) { return a.x < b.x; });
+  const Polyline below{{{nose->x - 1.2, nose->y - 0.5},
+                        {nose->x, nose->y - 0.5},
+                        {rear->x, rear->y - 0.5},
                         {rear->x + 1.5, rear->y - 0.5}}};
   Polyline above = below;
   for (Point& p : above.points) p.y += 1.0;
   std::reverse(above.points.begin(), above.points.end());
   Loop hole{.role = LoopRole::hole, .curves = outline_of(blade, OutlineCurve::spline, "blade")};
   return {.loops = {{.curves = {{"below", below, Parameters::uniform(3 * stations)},
-                                {"outlet", Line{below.points.back(), above.points.front()}, Parameters::uniform(stations)},
+                                {"outlet", Line{below.points.back(), above.points.front()},
+                                 Parameters::uniform(stations)},
                                 {"above", above, Parameters::uniform(3 * stations)},
-                                {"inlet", Line{above.points.back(), below.points.front()}, Parameters::uniform(stations)}}},
+                                {"inlet", Line{above.points.back(), below.points.front()},
+                                 Parameters::uniform(stations)}}},
                     hole},
           .periodic = {{"below", "above"}}};
 }
@@ -405,7 +416,9 @@ TEST(Periodic, FlowTurnsInARowAsTheoryHasIt) {
   for (const Case& row : {Case{1.35, 30.0, 45.0, {-0.04, -0.05}}, Case{1.3, -40.0, -25.0, {-0.08, 0.05}}}) {
     const ExactRow exact(row.k, row.stagger_deg * degree, row.offset);
     const ExactRow::Flow theory = exact.flow(row.angle_deg * degree);
-    double error[2];
+    const Point along = {std::cos(row.angle_deg * degree), std::sin(row.angle_deg * degree)};
+    const double lift = 2.0 * cross(along, theory.force);
+    double error[2], lift_error[2];
     for (int fine = 0; fine < 2; ++fine) {
       const Domain domain = passage_of(exact.blade(100 << fine), 10u << fine);
       const Mesh mesh = generate(domain, {.gradation = 2.0 * (1 << fine)}).mesh;
@@ -417,10 +430,13 @@ TEST(Periodic, FlowTurnsInARowAsTheoryHasIt) {
       EXPECT_EQ(flow.openings.size(), 2u);
       EXPECT_NEAR(flow.openings[0].mass_flow + flow.openings[1].mass_flow, 0.0, 1e-9);
       error[fine] = std::fabs(flow.openings[1].flow_angle_deg - theory.angle / degree);
+      lift_error[fine] = std::fabs(flow.cl / lift - 1.0);
     }
-    EXPECT_LT(error[0], 1.0) << row.stagger_deg;
-    EXPECT_LT(error[1], 0.3) << row.stagger_deg;
-    std::printf("errors %g %g\n", error[0], error[1]);
+    // The curvature of the nose shows where there are few stations; at 400 it is .04 degrees and .1 %.
+    EXPECT_LT(error[0], 0.6) << row.stagger_deg;
+    EXPECT_LT(error[1], 0.2) << row.stagger_deg;
+    EXPECT_LT(lift_error[0], 0.08) << row.stagger_deg;
+    EXPECT_LT(lift_error[1], 0.5 * lift_error[0]) << row.stagger_deg;
   }
 }
 

@@ -11,7 +11,8 @@ namespace remodel::flow {
 
 // Throws Error (argument) for what is out of range.
 void require_possible(const FlowConditions& conditions, const FlowOptions& options);
-// Throws Error (argument) where that is no flow through this mesh, or has no state that the model can begin with.
+// Throws Error (argument) where that is no flow through this mesh, or has no state that the model can begin
+// with.
 void require_known(const FlowResult& known, const FlowMesh& mesh, FlowModel model, const std::string& source);
 // The mesh as the solver sees it, with far field, inlets and outlets as the options name them. Throws Error
 // (argument), naming `source`, where it has no wall, or nothing that gas enters or leaves by.

@@ -221,9 +221,8 @@ bool is_wall(const Domain& domain, std::size_t loop, std::size_t curve,
   if (of.role != LoopRole::hole && of.role != LoopRole::outer) return false;
   const auto is_opening = [&](const Curve& c) {
     return is_known_opening(c) ||
-           std::any_of(domain.periodic.begin(), domain.periodic.end(), [&](const PeriodicPair& pair) {
-             return c.name == pair.name || c.name == pair.moved;
-           });
+           std::any_of(domain.periodic.begin(), domain.periodic.end(),
+                       [&](const PeriodicPair& pair) { return c.name == pair.name || c.name == pair.moved; });
   };
   const auto openings = std::count_if(of.curves.begin(), of.curves.end(), is_opening);
   if (openings == 0 || openings == static_cast<std::ptrdiff_t>(of.curves.size()))

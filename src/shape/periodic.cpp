@@ -43,8 +43,8 @@ void require_moved(const Domain& domain, const PeriodicPair& pair, const Periodi
     const Point wanted = domain.at({curve.curve, t}) + curve.period;
     const Point found = domain.at({curve.moved, curve.parameter(t)});
     if (!(size_of(found - wanted) <= tolerance * (size_of(wanted) + size_of(curve.period))))
-      refuse(pair, "found " + text_of(found) + ", expected " + text_of(wanted) +
-                       ", the first one moved by " + text_of(curve.period));
+      refuse(pair, "found " + text_of(found) + ", expected " + text_of(wanted) + ", the first one moved by " +
+                       text_of(curve.period));
   }
 }
 

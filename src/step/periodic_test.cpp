@@ -73,7 +73,8 @@ TEST(PeriodicCurves, AreSplitAlikeFromGenerationOnUnderEveryStrategy) {
     for (int step = 0; step < 30; ++step) {
       walk.next();
       // Up and down the passage, far enough for replacements.
-      const Domain design = passage(walk.airfoil(), 0.2 * std::sin(0.4 * step), 25.0 + 5.0 * std::sin(0.3 * step));
+      const Domain design =
+          passage(walk.airfoil(), 0.2 * std::sin(0.4 * step), 25.0 + 5.0 * std::sin(0.3 * step));
       const RemodelResult result = remodel(mesh, design, {.strategy = strategy});
       EXPECT_EQ(result.stopped, Stopped::done) << result.reason;
       const std::size_t count = matched(mesh);

@@ -217,6 +217,10 @@ class Deformations(ProgramTest):
             ({"objective": "inverse"}, "problem.json: found the objective 'inverse' with 'space', expected 'airfoil'"),
         ):  # fmt: skip
             self.refused("design", self.duct(**changes), "-o", "run", names=message)
+        cascade = json.loads((SOURCE / "examples/domains/cascade.json").read_text())
+        wall = {"kind": "points", "on": "below", "points": [3], "bounds": [-0.01, 0.01]}
+        flow = [{"mach": 0.3, "inlets": [{"name": "inlet", "angle_deg": 40}], "outlets": [{"name": "outlet"}]}]
+        self.refused("design", self.duct(wall, domain=cascade, flow=flow), "-o", "run", names="found the periodic curve 'below' as 'on'")
         self.refused("design", self.duct(mesh={"farfield_radius": 9}), "-o", "run", names="found 'farfield_radius' in 'mesh' with a 'domain'")
         self.refused("design", self.duct(designer={"bounds": 0.1}), "-o", "run", names="designer: found the key 'bounds', which deformations have of their own")
         for deformation, message in (

@@ -8,7 +8,7 @@ import subprocess
 import threading
 
 import harness
-from harness import ProgramTest, read_terminal
+from harness import SOURCE, ProgramTest, read_terminal
 
 KEYS = "cl cd cm alpha_deg mach converged residual newton_steps factorisations krylov_iterations seconds warm"
 
@@ -231,6 +231,32 @@ class Ducts(ProgramTest):
         self.assertTrue(flow["converged"])
         self.assertAlmostEqual(flow["openings"][0]["mass_flow"], 0.3, delta=1e-8)
         self.assertEqual([body["name"] for body in flow["bodies"]], ["floor"])
+
+    def test_a_row_of_blades_turns_the_flow_in_every_format(self):
+        passage = SOURCE / "examples/domains/cascade.json"
+        given = ("--mach", 0.5, "--alpha", 40, "--inlet", "inlet", "--inlet-angle", 40, "--outlet", "outlet", "--pressure", 1.07)
+        flow = self.figures("flow", passage, *given, "--cp-plot", "cp.svg")
+        self.assertTrue(flow["converged"])
+        self.assertEqual([body["name"] for body in flow["bodies"]], ["blade"])
+        enters, leaves = flow["openings"]
+        self.assertAlmostEqual(enters["mass_flow"], -leaves["mass_flow"], delta=1e-9)
+        self.assertAlmostEqual(enters["flow_angle_deg"], 40, delta=0.01)
+        self.assertLess(leaves["flow_angle_deg"], 25)
+        self.assertAlmostEqual(leaves["total_pressure"], 1, delta=1e-3)
+        self.succeed("mesh", passage, "-o", "row.vtkhdf")
+        self.assertEqual(self.figures("flow", "row.vtkhdf", *given)["cl"], flow["cl"])
+        self.succeed("convert", "row.vtkhdf", "-o", "row.su2")
+        self.assertEqual(self.figures("flow", "row.su2", *given, "--periodic", "below,above")["cl"], flow["cl"])
+        for options, message in (
+            (given[:4], "the wall 'inlet' meets a periodic boundary"),
+            ((*given, "--periodic", "below"), "--periodic: found 'below', expected the names of two boundaries"),
+            ((*given, "--periodic", "below,blade"), "the periodic boundaries 'below' and 'blade' have"),
+            ((*given[:4], "--inlet-angle", 40), "--inlet-angle: given without --inlet"),
+            ((*given[:6], "--inlet-angle", 95, *given[8:]), "found gas to enter by 'inlet' at 95 degrees"),
+            ((*given[:6], "--inlet-angle", 200), "--inlet-angle"),
+        ):  # fmt: skip
+            self.refused("flow", "row.vtkhdf", *options, names=message)
+        self.refused("flow", "row.vtkhdf", "--model", "potential", "--periodic", "below,above", names="--periodic")
 
     def test_the_history_is_a_table_or_a_plot(self):
         duct = self.duct()

@@ -20,8 +20,8 @@
 namespace remodel::flow {
 
 struct DualEdge {
-  std::uint32_t a, b;  // a < b
-  Point normal;        // of the dual face between them, from a to b; its length is the face's
+  std::uint32_t a, b;      // a < b
+  Point normal;            // of the dual face between them, from a to b; its length is the face's
   std::uint32_t place[2];  // where the edge lies: a and b, or images of them
 };
 
@@ -59,8 +59,8 @@ class FlowMesh {
   // Every boundary edge of the mesh belongs to a named boundary: to one of `patches`, or else to a wall that
   // the flow slips along. Edges with the domain on both sides are no boundary. Throws Error (argument) naming
   // `source` where the mesh lacks the boundary of a patch (it may do without a far field if there are other
-  // patches), an edge has no name, a point is of no cell, a cell is not counter-clockwise and convex, or periodic
-  // boundaries do not fit.
+  // patches), an edge has no name, a point is of no cell, a cell is not counter-clockwise and convex, or
+  // periodic boundaries do not fit.
   FlowMesh(std::vector<Point> points, std::vector<Cell> cells, const std::vector<FrozenBoundary>& boundaries,
            std::vector<Patch> patches, const std::string& source);
   FlowMesh(const FrozenMesh& mesh, std::vector<Patch> patches, const std::string& source)

@@ -46,8 +46,7 @@ std::array<double, N> FrictionSystem<N>::step(const BlockVector<N>& q, std::size
   Row result = {};
   const DualEdge& edge = dual_.edges()[e];
   const double limited = limited_part<double>(FrictionTerms::gas(q[edge.a]), FrictionTerms::gas(q[edge.b]));
-  const double width =
-      limited > 0.0 ? terms_.limiter_width(dual_.vector(edge)) : 0.0;
+  const double width = limited > 0.0 ? terms_.limiter_width(dual_.vector(edge)) : 0.0;
   Row upwind = {};
   for (const WeightedVertex& of : mesh_.upwind(e, side))
     for (std::size_t k = 0; k < N; ++k) upwind[k] += of.weight * q[of.vertex][k];

@@ -30,8 +30,9 @@ Line line_of(const std::string& name, std::span<const Point> points,
       line.shortest = std::min(line.shortest, std::sqrt(squared_distance(points[a], points[b])));
     }
   }
-  std::sort(line.vertices.begin(), line.vertices.end(),
-            [&](std::uint32_t i, std::uint32_t j) { return points[i].x != points[j].x ? points[i].x < points[j].x : i < j; });
+  std::sort(line.vertices.begin(), line.vertices.end(), [&](std::uint32_t i, std::uint32_t j) {
+    return points[i].x != points[j].x ? points[i].x < points[j].x : i < j;
+  });
   line.vertices.erase(std::unique(line.vertices.begin(), line.vertices.end()), line.vertices.end());
   for (const std::uint32_t v : line.vertices)
     line.centre = line.centre + (1.0 / static_cast<double>(line.vertices.size())) * points[v];
@@ -89,7 +90,8 @@ PeriodicVertices periodic_vertices(std::span<const Point> points,
       if (image == no_index)
         throw Error(ErrorCode::argument, source,
                     both + " differ: found no vertex of the second at " + text_of(place) +
-                        ", where the first one's point " + std::to_string(v) + " comes to lie, expected one to be the other moved, vertex for vertex");
+                        ", where the first one's point " + std::to_string(v) +
+                        " comes to lie, expected one to be the other moved, vertex for vertex");
       if (found.at[v] || found.at[image])
         throw Error(ErrorCode::argument, source,
                     both + " meet another pair, or each other, at point " +

@@ -18,8 +18,8 @@ namespace remodel::flow {
 struct PeriodicVertices {
   std::vector<std::uint32_t> original;  // of each vertex, itself where it is no image; empty: there are none
   std::vector<std::uint32_t> counterpart;  // likewise; of an image its original, and the other way round
-  std::vector<bool> at;                 // whether a vertex lies on a periodic boundary, likewise
-  std::vector<Point> periods;           // from each first boundary to its moved one
+  std::vector<bool> at;                    // whether a vertex lies on a periodic boundary, likewise
+  std::vector<Point> periods;              // from each first boundary to its moved one
 };
 
 // Throws Error (argument) naming `source` where one boundary of a pair is not the other one moved, vertex for
