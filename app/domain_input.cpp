@@ -8,6 +8,7 @@
 
 #include "arguments.h"
 #include "figures.h"
+#include "flow_mesh.h"
 #include "number_text.h"
 #include "remodel/error.h"
 #include "remodel/io.h"
@@ -328,6 +329,14 @@ DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOp
   input.in_farfield = true;
   input.chord = airfoils.chord();
   return input;
+}
+
+void require_used(const DomainInput& input, const std::function<bool(const char*)>& given) {
+  if (!input.in_farfield)
+    refuse_given(given, {"--points", "--farfield-radius", "--farfield-points", "--cst-degree"},
+                 "given for a whole domain, which has its own, expected for airfoils");
+  if (!input.findings)
+    refuse_given(given, {"--crossings"}, "given without a planar graph, expected a .poly file");
 }
 
 void validate_input(const DomainInputOptions& options, const Domain& domain) {

@@ -3,6 +3,7 @@
 // Reads the input of `mesh` and `update`: an airfoil in its farfield, several airfoils with their places, a
 // domain file or a planar graph.
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -60,6 +61,10 @@ struct DomainInput {
 // shapes.
 DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOptions& discretisation,
                         const FitOptions& fit);
+
+// Throws Error (argument) for options that were given and have no part in what was read: those of far fields
+// and fits in a whole domain, and how segments cross where there is no planar graph.
+void require_used(const DomainInput& input, const std::function<bool(const char*)>& given);
 
 // Validates the domain of a single SHAPE, whose file errors name. Of several it is known as a "domain".
 void validate_input(const DomainInputOptions& options, const Domain& domain);

@@ -18,6 +18,18 @@ void require_whole(const DomainInputOptions& input, Stopped stopped) {
               std::string("the mesh is unfinished (") + name_of(stopped) + "), expected a whole one");
 }
 
+// A domain whose curves are to be periodic has to know before it is meshed.
+DomainInput domain_of_flow(const FlowMeshRequest& request, const MeshingOptions& meshing) {
+  DomainInput input = read_domain(request.input, meshing.discretisation, meshing.fit);
+  require_used(input, request.given);
+  for (const FlowPeriod& pair : request.flow.periodic) {
+    const PeriodicPair wanted = {pair.name, pair.moved};
+    std::vector<PeriodicPair>& known = input.domain.periodic;
+    if (std::find(known.begin(), known.end(), wanted) == known.end()) known.push_back(wanted);
+  }
+  return input;
+}
+
 // A fresh mesh with a layer that the Reynolds number asks for, as mesh --layers makes it.
 MeshInput layered_input(const FlowMeshRequest& request) {
   refuse_given(
@@ -27,7 +39,7 @@ MeshInput layered_input(const FlowMeshRequest& request) {
   require_compatible(request.layers);
   MeshingOptions meshing = request.meshing;
   meshing.gradation = meshing.gradation.value_or(gradation_with_layers);
-  DomainInput domain = read_domain(request.input, meshing.discretisation, meshing.fit);
+  DomainInput domain = domain_of_flow(request, meshing);
   // What airfoils have a chord for, a domain of a file has the reference length for.
   if (!domain.in_farfield) domain.chord = request.conditions.reference_length;
   const double reynolds = request.conditions.reynolds * (domain.chord / request.conditions.reference_length);
@@ -84,7 +96,7 @@ MeshInput flow_mesh(const FlowMeshRequest& request) {
   if (const auto file = mesh_file(request.input, request.given)) return read_any_mesh(*file);
   if (request.flow.model != FlowModel::euler) return layered_input(request);
   refuse_given(request.given, layer_sizes, "given without friction, expected --model laminar or sa");
-  const DomainInput domain = read_domain(request.input, request.meshing.discretisation, request.meshing.fit);
+  const DomainInput domain = domain_of_flow(request, request.meshing);
   GenerateResult result = generate_input(request.input, domain.domain, request.meshing.resolved_quality());
   require_whole(request.input, result.stopped);
   MeshInput input;

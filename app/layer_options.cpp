@@ -84,11 +84,11 @@ void add_layer_sizes(CLI::App& app, LayerChoice& choice, LayerDefaults defaults)
       {.low = 1, .high = 1000}, [&](std::int64_t value) { choice.count = static_cast<int>(value); });
   add_wake_options(app, choice);
   add_spacings(app, choice);
-  add_texts(
-      app,
-      {"--layer-wall", "NAME", "all holes; of an outer loop with an inlet, outlet or symmetry plane all else",
-       "Boundary that gets a layer; may be given several times"},
-      Presence::optional, choice.walls);
+  add_texts(app,
+            {"--layer-wall", "NAME",
+             "all holes; of an outer loop with an inlet, outlet, symmetry plane or periodic curves all else",
+             "Boundary that gets a layer; may be given several times"},
+            Presence::optional, choice.walls);
 }
 
 std::optional<WakeLine> wake_of(const LayerChoice& choice, double chord) {

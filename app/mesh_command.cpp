@@ -67,6 +67,7 @@ Status run_layers(const MeshCommand& command) {
   MeshingOptions meshing = command.meshing;
   meshing.gradation = meshing.gradation.value_or(gradation_with_layers);
   DomainInput input = read_domain(command.shapes, meshing.discretisation, meshing.fit);
+  require_used(input, command.given);
   space_input(command, input);
   const LayerOptions layers = resolved(command.layers, input.chord);
   add_wake_line(command.layers, input.chord, layers, input.domain);
@@ -112,6 +113,7 @@ Status run(const MeshCommand& command) {
   require_consistent(command.layers);
   if (command.layers.layers) return run_layers(command);
   const DomainInput input = read_domain(command.shapes, command.meshing.discretisation, command.meshing.fit);
+  require_used(input, command.given);
   const QualityOptions quality = command.meshing.resolved_quality();
 
   InterruptObserver observer;

@@ -117,7 +117,8 @@ void MeshOutputs::require_possible() const {
 }
 
 template <class Freeze, class Write>
-void MeshOutputs::write_each(std::span<const Field> fields, Freeze freeze, Write write_file) const {
+void MeshOutputs::write_each(std::span<const Field> fields, bool is_periodic, Freeze freeze,
+                             Write write_file) const {
   const auto warn_of_losses = [&](const FrozenMesh& frozen, const std::string& file, MeshFormat format) {
     if (format == MeshFormat::foam)
       say_left_out(inner_curves(frozen), file, "as OpenFOAM has no patches inside a mesh");
@@ -135,6 +136,8 @@ void MeshOutputs::write_each(std::span<const Field> fields, Freeze freeze, Write
       options.fields = fields;
     else
       warn_of_losses(freeze(), file, format);
+    if (is_periodic && format != MeshFormat::vtkhdf && format != MeshFormat::vtu)
+      warn(file + ": left out that boundaries are periodic: `remodel flow --periodic` says it again");
     write_file(file, options);
   }
 }
@@ -147,17 +150,17 @@ MeshOutputs MeshOutputs::with_boxes(const std::string& su2_boxes) const {
 
 void MeshOutputs::write(const Mesh& mesh, std::span<const Field> fields) const {
   write_each(
-      fields, [&] { return mesh.freeze(); },
+      fields, !mesh.domain().periodic.empty(), [&] { return mesh.freeze(); },
       [&](const std::string& file, const WriteOptions& options) { write_mesh(mesh, file, options); });
 }
 void MeshOutputs::write(const FrozenMesh& mesh, std::span<const Field> fields) const {
   write_each(
-      fields, [&]() -> const FrozenMesh& { return mesh; },
+      fields, !mesh.periodic.empty(), [&]() -> const FrozenMesh& { return mesh; },
       [&](const std::string& file, const WriteOptions& options) { write_mesh(mesh, file, options); });
 }
 void MeshOutputs::write(const LayeredMesh& mesh, LayerCells cells, std::span<const Field> fields) const {
   write_each(
-      fields, [&] { return mesh.freeze(cells); },
+      fields, !mesh.outer().domain().periodic.empty(), [&] { return mesh.freeze(cells); },
       [&](const std::string& file, const WriteOptions& options) { write_mesh(mesh, file, options, cells); });
 }
 void MeshOutputs::write(const Mesh& mesh) const {

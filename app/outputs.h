@@ -36,7 +36,7 @@ class MeshOutputs {
  private:
   // freeze() gives the frozen view, write(file, options) writes a file.
   template <class Freeze, class Write>
-  void write_each(std::span<const Field> fields, Freeze freeze, Write write) const;
+  void write_each(std::span<const Field> fields, bool is_periodic, Freeze freeze, Write write) const;
 
   std::vector<std::string> files_;
   bool inner_markers_ = false;

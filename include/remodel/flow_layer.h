@@ -25,7 +25,8 @@ LayerOptions layer_for_flow(FlowModel model, double reynolds);
 WakeLine wake_at(double length, double angle_deg);
 
 // LayerOptions::walls for a flow with these options: the names of closed loops' curves that are neither the
-// far field nor inlets, outlets and symmetry planes. Empty where there is nothing but a far field.
+// far field nor inlets, outlets, symmetry planes and periodic curves. Empty where there is nothing but a far
+// field.
 std::vector<std::string> walls_of_flow(const Domain& domain, const FlowOptions& options);
 
 }  // namespace remodel

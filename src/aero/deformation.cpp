@@ -229,6 +229,9 @@ DeformationVariable variable_of(const Displacement& of, const DeformationRange& 
       place.fail("found the variable '" + of.name + "', which moves the point " +
                  shown(std::array{node.at.x, node.at.y}) + ", where an arc or a section ends");
     most = std::max({most, std::fabs(by.x), std::fabs(by.y)});
+    if (node.is_periodic)
+      place.fail("found the variable '" + of.name + "', which moves the point " +
+                 shown(std::array{node.at.x, node.at.y}) + " of a periodic curve, expected these to rest");
     for (const std::size_t number : node.numbers) {
       if (by.x != 0.0) result.moves.push_back({number, by.x});
       if (by.y != 0.0) result.moves.push_back({number + 1, by.y});

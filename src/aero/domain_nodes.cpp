@@ -73,6 +73,10 @@ class Collector {
 DomainNodes nodes_of(const Domain& domain) {
   Collector collector;
   for (std::size_t l = 0; l < domain.loops.size(); ++l) collector.add(domain.loops[l], l);
+  for (const PeriodicPair& pair : domain.periodic)
+    for (const CurveNodes& curve : collector.result.curves)
+      if (curve.curve->name == pair.name || curve.curve->name == pair.moved)
+        for (const std::size_t node : curve.nodes) collector.result.nodes[node].is_periodic = true;
   return std::move(collector.result);
 }
 

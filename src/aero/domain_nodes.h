@@ -14,6 +14,7 @@ namespace remodel {
 struct DomainNode {
   Point at;
   std::vector<std::size_t> numbers;  // of x, among coefficients_of(Domain); y is the next one
+  bool is_periodic = false;          // of a periodic curve
   bool is_stiff = false;  // the end of an arc or a section as well, which has no numbers of its own
 };
 

@@ -132,7 +132,7 @@ class FlowAngle final : public FlowFunction {
     const FlowValue x = over_outlets(of, momentum_at<&Point::x>),
                     y = over_outlets(of, momentum_at<&Point::y>);
     const double square = x.value * x.value + y.value * y.value;
-    if (!(square > 0.0)) throw std::runtime_error("no gas leaves through outlets");
+    if (!(over_outlets(of, mass_at).value > 0.0)) throw std::runtime_error("no gas leaves through outlets");
     constexpr double degree = 0.017453292519943295;
     FlowValue result = nothing_of(of);
     result.value = std::atan2(y.value, x.value) / degree;

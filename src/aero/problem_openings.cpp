@@ -38,17 +38,26 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-// From station to station, of all curves of this name.
+// Whether the domain lies to the left of the loop's direction.
+bool has_domain_on_left(const Domain& domain, std::size_t loop) {
+  const LoopRole role = domain.loops[loop].role;
+  if (role == LoopRole::outer || role == LoopRole::hole)
+    return (signed_area(domain, loop) > 0.0) == (role == LoopRole::outer);
+  return role == LoopRole::left;
+}
+
+// From station to station, of all curves of this name, with the domain on their left.
 std::vector<Point> edges_named(const Domain& domain, const std::string& name) {
   std::vector<Point> edges;
   for (std::size_t i = 0; i < domain.loops.size(); ++i) {
     const Loop& loop = domain.loops[i];
     const std::vector<Point> points = domain.points(i);
+    const bool is_on_left = has_domain_on_left(domain, i);
     std::size_t at = 0;
     for (const Curve& curve : loop.curves)
       for (std::size_t k = 0; k < curve.parameters.size(); ++k, ++at)
         if (curve.name == name && at + (loop.open ? 1 : 0) < points.size())
-          edges.push_back(points[(at + 1) % points.size()] - points[at]);
+          edges.push_back((is_on_left ? 1.0 : -1.0) * (points[(at + 1) % points.size()] - points[at]));
   }
   return edges;
 }
@@ -66,6 +75,19 @@ void require_symmetry(const DesignPoint& point, const Domain& domain, const Prob
         place.fail("found '" + name +
                    "' as the name of a symmetry plane, expected a straight line along the " + "stream of " +
                    shown(point.conditions.alpha_deg) + " degrees");
+}
+
+// Gas enters at less than 89 degrees to the normal, as a flow asks of it.
+void require_inlet_angles(const DesignPoint& point, const Domain& domain, const ProblemPlace& place) {
+  constexpr double degree = 0.017453292519943295;
+  for (const FlowInlet& inlet : point.inlets) {
+    if (!inlet.angle_deg) continue;
+    const Point along = {std::cos(*inlet.angle_deg * degree), std::sin(*inlet.angle_deg * degree)};
+    for (const Point edge : edges_named(domain, inlet.name))
+      if (!(cross(edge, along) > std::cos(89.0 * degree) * std::sqrt(dot(edge, edge))))
+        place.fail("found " + shown(*inlet.angle_deg) + " as the 'angle_deg' of the inlet '" + inlet.name +
+                   "', expected a direction into the domain, at less than 89 degrees to the normal");
+  }
 }
 
 // Gas leaves by no outlet whose pressure is that of the gas at rest, or more.
@@ -152,6 +174,7 @@ void require_openings(const DesignPoint& point, const Domain& domain, const Prob
     place.fail("found no wall among the curves of the domain (" + listed(boundaries) +
                "), expected one that is no opening");
   require_symmetry(point, domain, place);
+  require_inlet_angles(point, domain, place);
   require_lower_pressures(point, domain, place);
 }
 

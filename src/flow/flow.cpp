@@ -178,9 +178,12 @@ void require_known(const FlowResult& known, const FlowMesh& mesh, FlowModel mode
 
 namespace {
 
-// Those that were named, and those of the mesh that no option gives another part.
-std::vector<FlowPeriod> periodic_pairs(const FrozenMesh& mesh, const FlowOptions& options) {
+// Those that were named, and those of the mesh that no option gives another part. Throws Error (argument)
+// where one gives it to half a pair.
+std::vector<FlowPeriod> periodic_pairs(const FrozenMesh& mesh, const FlowOptions& options,
+                                       const std::string& source) {
   std::vector<std::string> names = options.symmetry;
+  names.push_back(options.farfield);
   for (const FlowInlet& inlet : options.inlets) names.push_back(inlet.name);
   for (const FlowOutlet& outlet : options.outlets) names.push_back(outlet.name);
   for (const FlowPeriod& pair : options.periodic) names.push_back(pair.name), names.push_back(pair.moved);
@@ -188,8 +191,13 @@ std::vector<FlowPeriod> periodic_pairs(const FrozenMesh& mesh, const FlowOptions
   const auto is_named = [&](const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
-  for (const auto& [name, moved] : mesh.periodic)
-    if (!is_named(name) && !is_named(moved)) pairs.push_back({name, moved});
+  for (const auto& [name, moved] : mesh.periodic) {
+    if (is_named(name) != is_named(moved))
+      throw Error(ErrorCode::argument, source,
+                  "found '" + (is_named(name) ? name : moved) + "' named alone, expected '" + name +
+                      "' and '" + moved + "', which are periodic, to be named both or not at all");
+    if (!is_named(name)) pairs.push_back({name, moved});
+  }
   return pairs;
 }
 
@@ -204,7 +212,7 @@ FlowMesh dual_of(const FrozenMesh& mesh, const FlowConditions& conditions, const
                            inlet.angle_deg ? std::optional(*inlet.angle_deg * one_degree) : std::nullopt}});
   for (const FlowOutlet& outlet : options.outlets) patches.push_back({outlet.name, Outlet{outlet.pressure}});
   for (const std::string& name : options.symmetry) patches.push_back({name, Symmetry{}});
-  for (const FlowPeriod& pair : periodic_pairs(mesh, options)) {
+  for (const FlowPeriod& pair : periodic_pairs(mesh, options, source)) {
     patches.push_back({pair.name, Periodic{pair.moved}});
     patches.push_back({pair.moved, Periodic{}});
   }

@@ -231,9 +231,13 @@ void expect_shape_slope(const Passage& passage, const std::vector<Point>& by_poi
   std::mt19937_64 random(17);
   std::vector<Point> of_node(Passage::rows * (Passage::columns + 1)), step;
   for (Point& p : of_node) p = {test::uniform(random, -1, 1), test::uniform(random, -1, 1)};
+  const FlowMesh dual = passage.dual();
+  const Point of_period = {0.4, -0.7};  // images move with their originals, and with the period
   double along = 0.0;
-  for (std::size_t v = 0; v < by_points.size(); ++v)
-    step.push_back(of_node[passage.node_of[v]]), along += dot(by_points[v], step[v]);
+  for (std::size_t v = 0; v < by_points.size(); ++v) {
+    step.push_back(of_node[passage.node_of[v]] + (dual.is_image(v) ? of_period : Point{}));
+    along += dot(by_points[v], step[v]);
+  }
   const auto at = [&](double h) {
     Passage moved = passage;
     for (std::size_t v = 0; v < step.size(); ++v) moved.mesh.points[v] = moved.mesh.points[v] + h * step[v];
@@ -274,6 +278,45 @@ TEST(Periodic, DerivativesByPlacesAreThoseOfDifferences) {
     return inner<5>(weight5, residual);
   };
   expect_shape_slope<5>(passage, system.slopes_of_unbalanced(turbulent, {{weight5}})[0].points, friction);
+}
+
+// Beside walls that lie periods away as in the passage's own cut.
+TEST(Periodic, DistancesAreThoseFromTheWholeRow) {
+  for (const std::uint32_t cut : {0u, 8u}) {
+    const Passage passage(cut);
+    FlowMesh dual = passage.dual();
+    dual.stick_to_walls();
+    const FrictionMesh mesh(dual);
+    const Point period = dual.periodic_pairs().at(0).period;
+    for (std::uint32_t v = 0; v < dual.size(); ++v) {
+      double nearest = 1e9;
+      for (int k = -5; k <= 5; ++k)
+        for (const BoundaryEdge& edge : dual.boundary()) {
+          if (!dual.patch(edge).sticks()) continue;
+          const Point p = dual.points()[v] + k * period, a = dual.points()[edge.a], b = dual.points()[edge.b];
+          const Point d = p - (a + nearest_part(p, a, b) * (b - a));
+          nearest = std::min(nearest, std::sqrt(dot(d, d)));
+        }
+      EXPECT_NEAR(mesh.distances()[v], nearest, 1e-12) << v;
+    }
+  }
+}
+
+// A mesh that moves keeps its pairs while these fit.
+TEST(Periodic, MovedMeshesHaveTheirOwnPeriodOrAreRefused) {
+  const Passage passage(2);
+  FlowMesh dual = passage.dual();
+  std::vector<Point> points = passage.mesh.points;
+  for (std::uint32_t v = 0; v < points.size(); ++v)
+    if (dual.is_image(v)) points[v].y += 0.02;
+  dual.move(points);
+  EXPECT_NEAR(dual.periodic_pairs().at(0).period.y, 1.22, 1e-12);
+  for (std::uint32_t v = 0; v < points.size(); ++v)
+    if (dual.is_image(v)) {
+      points[v].y += 0.01;
+      break;
+    }
+  EXPECT_THROW(dual.move(points), Error);
 }
 
 std::string error_of(const FrozenMesh& mesh, std::vector<Patch> patches) {

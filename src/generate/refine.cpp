@@ -13,6 +13,7 @@ namespace remodel {
 namespace {
 
 constexpr int max_depth = 12;  // of splits that other splits ask for: see split_far()
+constexpr double same = 1e-9;  // parameters of counterparts
 
 bool is_finite(Point p) {
   return std::isfinite(p.x) && std::isfinite(p.y);
@@ -220,7 +221,6 @@ bool Refiner::queue_counterparts() {
 
 // Of those on the curve `other` that have none at their parameters yet. One of a segment at a time.
 void Refiner::queue_counterparts(std::size_t curve, std::size_t other, const PeriodicCurve& pair) {
-  constexpr double same = 1e-9;
   std::vector<double> wanted;
   mesh_.walk_edges(mesh_.loop_heads[mesh_.domain.loop_of(other)], [&](std::uint32_t k, std::uint32_t) {
     if (mesh_.at(k).curve == other) wanted.push_back(pair.parameter(mesh_.at(k).t));
@@ -234,11 +234,32 @@ void Refiner::queue_counterparts(std::size_t curve, std::size_t other, const Per
   });
 }
 
+bool Refiner::is_corner(VertexId v, std::uint32_t curve, double t) const {
+  if (small_angles_.is_corner(v)) return true;
+  return std::any_of(periodic_.begin(), periodic_.end(), [&](const PeriodicCurve& pair) {
+    return (pair.curve == curve && is_corner_at(pair.moved, pair.parameter(t))) ||
+           (pair.moved == curve && is_corner_at(pair.curve, pair.parameter(t)));
+  });
+}
+
+bool Refiner::is_corner_at(std::size_t curve, double t) const {
+  bool found = false;
+  mesh_.walk_edges(mesh_.loop_heads[mesh_.domain.loop_of(curve)], [&](std::uint32_t k, std::uint32_t next) {
+    if (mesh_.at(k).curve != curve) return;
+    if (std::fabs(mesh_.at(k).t - t) <= same)
+      found = found || small_angles_.is_corner(mesh_.at(k).vertex);
+    else if (std::fabs(mesh_.end_parameter(k) - t) <= same)
+      found = found || small_angles_.is_corner(mesh_.at(next).vertex);
+  });
+  return found;
+}
+
 double Refiner::split_parameter(Segment segment) const {
   if (segment.t) return *segment.t;
   const double t0 = mesh_.at(segment.from).t, t1 = mesh_.end_parameter(segment.from);
-  const bool corner_first = small_angles_.is_corner(mesh_.at(segment.from).vertex);
-  const bool corner_last = small_angles_.is_corner(mesh_.at(segment.to).vertex);
+  const std::uint32_t own = mesh_.at(segment.from).curve;
+  const bool corner_first = is_corner(mesh_.at(segment.from).vertex, own, t0);
+  const bool corner_last = is_corner(mesh_.at(segment.to).vertex, own, t1);
   if (corner_first == corner_last) return 0.5 * (t0 + t1);
   // On a shell about the small corner. Bisection for the distance, which grows along a segment's piece of
   // curve.
@@ -246,11 +267,10 @@ double Refiner::split_parameter(Segment segment) const {
   const Point other = mesh_.point(corner_first ? segment.to : segment.from);
   const double length = std::sqrt(squared_distance(corner, other));
   const double target = SmallAngles::shell_fraction(length) * length;
-  const std::uint32_t curve = mesh_.at(segment.from).curve;
   double near = corner_first ? t0 : t1, far = corner_first ? t1 : t0;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (near + far);
-    (squared_distance(corner, mesh_.on_curve(curve, middle)) < target * target ? near : far) = middle;
+    (squared_distance(corner, mesh_.on_curve(own, middle)) < target * target ? near : far) = middle;
   }
   return far;
 }

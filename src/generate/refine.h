@@ -114,7 +114,10 @@ class Refiner {
   void split(Segment segment, int depth);
   // Queues splits of periodic curves at the vertices of their counterparts. True if there are any.
   bool queue_counterparts();
-  void queue_counterparts(std::size_t curve, std::size_t moved, const PeriodicCurve& pair);
+  void queue_counterparts(std::size_t curve, std::size_t other, const PeriodicCurve& pair);
+  // Whether there is a small corner at this place of a curve, or at its counterpart: both are split alike.
+  bool is_corner(VertexId v, std::uint32_t curve, double t) const;
+  bool is_corner_at(std::size_t curve, double t) const;
   double split_parameter(Segment segment) const;
   std::uint32_t add_split(Segment segment, VertexId v, double t);
   double scale_between(VertexId v, VertexId a, VertexId b) const;

@@ -51,6 +51,11 @@ class GridReader {
     mesh_.curve = grid_.curve;
     mesh_.parameter = grid_.parameter;
     mesh_.steiner = grid_.steiner;
+    if (grid_.periodic_names.size() % 2 != 0)
+      fail(periodic_names_array,
+           "found " + std::to_string(grid_.periodic_names.size()) + " names, pairs expected");
+    for (std::size_t i = 0; i < grid_.periodic_names.size(); i += 2)
+      mesh_.periodic.push_back({grid_.periodic_names[i], grid_.periodic_names[i + 1]});
     regions_.finish(mesh_);
     adopt_conventions(mesh_, file_);
     return std::move(mesh_);
@@ -233,6 +238,8 @@ VtkGrid to_vtk_grid(const FrozenMesh& mesh, std::span<const Field> fields) {
     grid.region.resize(grid.types.size(), -1);
     grid.region_names = mesh.region_names;
   }
+  for (const auto& pair : mesh.periodic)
+    grid.periodic_names.insert(grid.periodic_names.end(), pair.begin(), pair.end());
   grid.length_scale = mesh.length_scale;
   grid.parameter = mesh.parameter;
   grid.vertex_id = mesh.vertex_ids;

@@ -31,8 +31,9 @@ struct VtkGrid {
   std::vector<std::int64_t> offsets;  // one more than cells, from 0
   std::vector<std::uint8_t> types;
   std::vector<std::string> boundary_names, region_names;
-  bool foreign_region = false;        // region is another program's array, which lines have too
-  std::uint32_t last_generation = 0;  // of vertex_key
+  std::vector<std::string> periodic_names;  // of boundaries, in pairs
+  bool foreign_region = false;              // region is another program's array, which lines have too
+  std::uint32_t last_generation = 0;        // of vertex_key
 
   // Per cell. boundary: index into boundary_names, -1 for cells of the domain. The others are empty or hold 0
   // where they say nothing.
@@ -51,6 +52,7 @@ struct VtkGrid {
 
 inline constexpr std::string_view boundary_names_array = "boundary_names";
 inline constexpr std::string_view region_names_array = "region_names";
+inline constexpr std::string_view periodic_names_array = "periodic_boundaries";
 inline constexpr std::string_view last_generation_array = "last_generation";
 // What other programs call the array that says which part of the domain a cell is in.
 inline constexpr const char* foreign_region_arrays[] = {"gmsh:physical", "CellEntityIds", "MaterialIds"};

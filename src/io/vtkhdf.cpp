@@ -94,6 +94,8 @@ void write_grid(Hdf5Writer& out, const VtkGrid& grid, const std::string& boxes) 
   if (!grid.region_names.empty()) {
     out.texts("/VTKHDF/FieldData/" + std::string(region_names_array), grid.region_names);
   }
+  if (!grid.periodic_names.empty())
+    out.texts("/VTKHDF/FieldData/" + std::string(periodic_names_array), grid.periodic_names);
   if (!boxes.empty()) out.texts(boxes_path, {boxes});
   if (!grid.vertex_key.empty()) {
     out.array("/VTKHDF/FieldData/" + std::string(last_generation_array), std::vector{grid.last_generation});
@@ -198,6 +200,8 @@ VtkGrid read_grid(const Hdf5Reader& in) {
   if (in.exists(names)) grid.boundary_names = in.texts(names);
   const std::string regions = "/VTKHDF/FieldData/" + std::string(region_names_array);
   if (in.exists(regions)) grid.region_names = in.texts(regions);
+  const std::string periodic = "/VTKHDF/FieldData/" + std::string(periodic_names_array);
+  if (in.exists(periodic)) grid.periodic_names = in.texts(periodic);
   std::vector<std::uint32_t> last_generation;
   read_optional(in, "/VTKHDF/FieldData/" + std::string(last_generation_array), last_generation);
   if (!last_generation.empty()) grid.last_generation = last_generation.front();

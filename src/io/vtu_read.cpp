@@ -51,6 +51,7 @@ class VtuReader {
     expect_count("Cells/types", grid.types.size(), cells_);
     grid.boundary_names = names(boundary_names_array);
     grid.region_names = names(region_names_array);
+    grid.periodic_names = names(periodic_names_array);
     std::vector<std::uint32_t> last_generation;
     read_optional("FieldData/", std::string(last_generation_array).c_str(), last_generation);
     if (!last_generation.empty()) grid.last_generation = last_generation.front();
@@ -92,7 +93,7 @@ class VtuReader {
       else if (key.starts_with("CellData/"))
         for_each_cell_array(none, compare);
       else if (!key.starts_with("FieldData/") || name == boundary_names_array || name == region_names_array ||
-               name == last_generation_array)
+               name == periodic_names_array || name == last_generation_array)
         continue;
       for (const char* region : foreign_region_arrays) known = known || name == region;
       const bool is_field = !key.starts_with("FieldData/") && array.type().starts_with("Float") &&

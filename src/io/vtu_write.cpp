@@ -97,10 +97,13 @@ class VtuWriter {
   }
 
   void field_data() {
-    if (grid_.boundary_names.empty() && grid_.region_names.empty() && grid_.vertex_key.empty()) return;
+    if (grid_.boundary_names.empty() && grid_.region_names.empty() && grid_.vertex_key.empty() &&
+        grid_.periodic_names.empty())
+      return;
     out_ << "<FieldData>\n";
     names(boundary_names_array, grid_.boundary_names);
     names(region_names_array, grid_.region_names);
+    names(periodic_names_array, grid_.periodic_names);
     if (!grid_.vertex_key.empty())
       out_ << "<DataArray type=\"UInt32\" Name=\"" << last_generation_array
            << "\" NumberOfTuples=\"1\" format=\"ascii\">" << grid_.last_generation << "</DataArray>\n";

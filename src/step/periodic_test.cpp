@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "mesh/mesh_data.h"
@@ -87,6 +88,32 @@ TEST(PeriodicCurves, AreSplitAlikeFromGenerationOnUnderEveryStrategy) {
   }
 }
 
+// A passage along the flow, whose inlet and outlet make sharp corners with one of both curves each.
+Domain staggered(double angle_deg, std::size_t along, std::size_t across, bool periodic = true) {
+  const double slope = std::tan(angle_deg * std::numbers::pi / 180.0);
+  const auto line = [](const char* name, Point from, Point to, std::size_t stations) {
+    return Curve{name, Line{from, to}, Parameters::uniform(stations)};
+  };
+  const Point a = {-1.0, -slope - 0.5}, b = {2.0, 2.0 * slope - 0.5}, up = {0.0, 1.0};
+  Domain domain = {
+      .loops = {{.curves = {line("below", a, b, along), line("outlet", b, b + up, across),
+                            line("above", b + up, a + up, along), line("inlet", a + up, a, across)}},
+                test::circle_hole(0.5, 0.5 * slope, 0.1)}};
+  if (periodic) domain.periodic = {{"below", "above"}};
+  return domain;
+}
+
+TEST(PeriodicCurves, AreSplitAlikeAtSharpCorners) {
+  for (const double angle_deg : {45.0, 58.0, 62.0, 66.0, 70.0, 75.0})
+    for (const std::size_t along : {24u, 31u}) {
+      SCOPED_TRACE(std::to_string(angle_deg) + " degrees, " + std::to_string(along));
+      const Mesh mesh = test::generated(staggered(angle_deg, along, 8), {});
+      matched(mesh);
+      const Mesh alone = test::generated(staggered(angle_deg, along, 8, false), {});
+      EXPECT_LT(mesh.statistics().triangles, 4 * alone.statistics().triangles);
+    }
+}
+
 TEST(PeriodicCurves, AreSplitAlikeWhereLoopsComeAndGo) {
   const CstAirfoil blade = airfoil_catalogue()[0].airfoil();
   const Domain one = passage(blade);
@@ -134,6 +161,41 @@ TEST(PeriodicCurves, HaveToBeEachOtherMoved) {
   points[1].y += 0.01;
   spline = spline_through(points);
   EXPECT_NE(error_of(other).find("the first one moved by"), std::string::npos) << error_of(other);
+  other = good;
+  other.periodic = {{"below", "below"}};
+  EXPECT_NE(error_of(other).find("found one name twice"), std::string::npos);
+  // One point of many that is off.
+  other = staggered(45.0, 24, 8);
+  std::vector<Point> below, above;
+  for (int i = 0; i <= 48; ++i) {
+    const double t = i / 48.0;
+    below.push_back({-1.0 + 3.0 * t, -1.5 + 3.0 * t}), above.push_back({-1.0 + 3.0 * t, -0.5 + 3.0 * t});
+  }
+  above[13].y += 0.02;
+  std::reverse(above.begin(), above.end());
+  other.loops[0].curves[0].shape = Polyline{below}, other.loops[0].curves[2].shape = Polyline{above};
+  EXPECT_NE(error_of(other).find("the first one moved by"), std::string::npos) << error_of(other);
+  // Two holes have the domain on the same side.
+  const Loop hole = test::rectangle(LoopRole::hole, "a", {0.2, 0.2}, {0.4, 0.4});
+  Loop same = test::rectangle(LoopRole::hole, "b", {0.6, 0.2}, {0.8, 0.4});
+  other = test::with_holes({hole, same});
+  other.periodic = {{"a", "b"}};
+  EXPECT_NE(error_of(other).find("on the same side"), std::string::npos) << error_of(other);
+}
+
+// A loop may begin in the middle of a periodic curve's name.
+TEST(PeriodicCurves, MayBeginAnywhereInALoop) {
+  Domain domain = staggered(45.0, 24, 8);
+  std::vector<Curve>& curves = domain.loops[0].curves;
+  const Point middle = {0.5, 0.0};
+  const Point a = {-1.0, -1.5}, b = {2.0, 1.5}, up = {0.0, 1.0};
+  const auto line = [](const char* name, Point from, Point to) {
+    return Curve{name, Line{from, to}, Parameters::uniform(12)};
+  };
+  curves = {line("below", middle, b),           curves[1], line("above", b + up, middle + up),
+            line("above", middle + up, a + up), curves[3], line("below", a, middle)};
+  domain.loops.pop_back();
+  EXPECT_EQ(periodic_curves(domain).size(), 2u);
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ std::shared_ptr<const FlowMesh> LivingOf<N>::mesh_of(const FrozenMesh& frozen, c
   if (!last_.found() || last_.mesh->cells() != FlowMesh::cells_of(frozen) || last_.keys != keys)
     return std::make_shared<FlowMesh>(dual_of(frozen, conditions, options_, "mesh"));
   auto moved = std::make_shared<FlowMesh>(*last_.mesh);
-  moved->move(frozen.points);
+  moved->move(frozen.points, "mesh");
   moved->require_cells("mesh");
   require_ways(*moved, conditions, options_, "mesh");
   return moved;

@@ -66,6 +66,7 @@ FlowMesh::FlowMesh(std::vector<Point> points, std::vector<Cell> cells,
     if (ring(v).empty() && !is_image(v))
       throw Error(ErrorCode::argument, source,
                   "point " + std::to_string(v) + " is of no triangle, expected every point to be of one");
+  if (has_images()) require_sides(source);
   make_boundary(boundaries, source);
   require_free_ends(source);
   link_walls();
@@ -78,7 +79,8 @@ void FlowMesh::stick_to_walls() {
   measure();
 }
 
-void FlowMesh::move(std::span<const Point> points) {
+void FlowMesh::move(std::span<const Point> points, const std::string& source) {
+  periodic_.move(points, source);
   points_.assign(points.begin(), points.end());
   measure();
 }
@@ -132,6 +134,23 @@ void FlowMesh::require_apart(const DualEdge& edge, std::uint32_t p, std::uint32_
                   ", which is a neighbour of both, expected three rows of cells or more");
 }
 
+// Two cells at most meet at an edge, one on either side: periodic boundaries have the domain on one side
+// each, and not on the same one.
+void FlowMesh::require_sides(const std::string& source) const {
+  std::vector<std::array<int, 2>> cells(edges_.size(), {0, 0});
+  for (std::size_t t = 0; t < cells_.size(); ++t)
+    for (std::uint32_t i = 0; i < cells_[t].corners(); ++i) {
+      const std::uint32_t e = cell_edges_[t][i];
+      ++cells[e][original(cells_[t][i]) == edges_[e].a ? 0 : 1];
+    }
+  for (std::size_t e = 0; e < edges_.size(); ++e)
+    if (cells[e][0] > 1 || cells[e][1] > 1)
+      throw Error(ErrorCode::argument, source,
+                  "the periodic boundaries at the edge from point " + std::to_string(edges_[e].place[0]) +
+                      " to " + std::to_string(edges_[e].place[1]) +
+                      " have cells on the same side, expected the domain to lie between them");
+}
+
 // Walls and planes of symmetry end at no periodic boundary: what they are made of goes on beyond it.
 void FlowMesh::require_free_ends(const std::string& source) const {
   if (!has_images()) return;
@@ -143,7 +162,7 @@ void FlowMesh::require_free_ends(const std::string& source) const {
                       "' has no counterpart, expected one at the other boundary");
     if (patch(edge).open()) continue;
     for (const std::uint32_t v : edge.place)
-      if (periodic_.at[v])
+      if (periodic_.at(v))
         throw Error(ErrorCode::argument, source,
                     "the " + std::string(patch(edge).kind()) + " '" + patch(edge).name +
                         "' meets a periodic boundary at point " + std::to_string(v) +
@@ -198,7 +217,7 @@ void FlowMesh::make_boundary(const std::vector<FrozenBoundary>& boundaries, cons
 
 void FlowMesh::require_walls(const std::string& source) const {
   if (std::none_of(patches_.begin(), patches_.end(), [](const Patch& patch) { return patch.solid(); }))
-    throw Error(ErrorCode::argument, source, "found no boundary but the far field, expected a wall");
+    throw Error(ErrorCode::argument, source, "found no wall among the boundaries, expected one");
 }
 
 void FlowMesh::require_cells(const std::string& source) const {

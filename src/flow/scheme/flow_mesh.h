@@ -40,7 +40,7 @@ struct BoundaryEdge {
   // Outer normals of the halves at a and at b, which meet in the edge's middle or, on walls, beside it: see
   // wall_bulge.h.
   Point half[2] = {};
-  std::uint32_t place[2] = {a, b};  // likewise
+  std::uint32_t place[2] = {a, b};  // where the edge lies: a and b, or images of them
 };
 
 // The largest distance between two vertices of a set, and which these are.
@@ -86,11 +86,12 @@ class FlowMesh {
     return periodic_.counterpart.empty() ? v : periodic_.counterpart[v];
   }
   bool has_images() const { return !periodic_.original.empty(); }
-  const std::vector<Point>& periods() const { return periodic_.periods; }
+  const std::vector<PeriodicPairing>& periodic_pairs() const { return periodic_.pairs; }
   // From its first end to its second.
   Point vector(const DualEdge& edge) const { return points_[edge.place[1]] - points_[edge.place[0]]; }
-  // The same cells with vertices elsewhere.
-  void move(std::span<const Point> points);
+  // The same cells with vertices elsewhere. Throws Error (argument) naming `source` where periodic boundaries
+  // do not fit any more.
+  void move(std::span<const Point> points, const std::string& source = "mesh");
 
   bool has_farfield() const { return has_farfield_; }
   std::size_t size() const { return points_.size(); }
@@ -130,6 +131,7 @@ class FlowMesh {
   void make_edges(const std::string& source);
   void require_apart(const DualEdge& edge, std::uint32_t p, std::uint32_t q, const std::string& source) const;
   void require_free_ends(const std::string& source) const;
+  void require_sides(const std::string& source) const;
   void make_boundary(const std::vector<FrozenBoundary>& boundaries, const std::string& source);
   void link_walls();
   void measure();

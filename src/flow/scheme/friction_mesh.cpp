@@ -164,30 +164,67 @@ void FrictionMesh::make_mean_gradients() {
       mean_gradient_[k] = (1.0 / area_[v]) * mean_gradient_[k];
 }
 
-// The distance from every segment: exact, and quick beside one Jacobian.
+// As often as fits into the mesh, either way.
+std::vector<FrictionMesh::Turns> FrictionMesh::possible_turns() const {
+  std::vector<Turns> turns = {{}};
+  for (std::uint32_t j = 0; j < mesh_.periodic_pairs().size(); ++j) {
+    const Point period = mesh_.periodic_pairs()[j].period;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Point p : mesh_.points()) {
+      const double along = dot(p, period) / dot(period, period);
+      low = std::min(low, along), high = std::max(high, along);
+    }
+    for (int k = 1; k <= static_cast<int>(std::ceil(high - low)); ++k)
+      turns.push_back({j, k}), turns.push_back({j, -k});
+  }
+  return turns;
+}
+
+// The distance from every segment: exact, and quick beside one Jacobian. Moved places that are farther from
+// the box of all walls than the nearest wall need no look.
 void FrictionMesh::measure_distances() {
   distance_.assign(mesh_.size(), std::numeric_limits<double>::infinity());
   nearest_.assign(mesh_.size(), no_index);
+  turns_.assign(mesh_.size(), {});
   from_ = mesh_.points();
-  std::vector<Point> periods = {Point{}};
-  for (const Point period : mesh_.periods()) periods.insert(periods.end(), {period, -1.0 * period});
+  std::vector<std::uint32_t> walls;
+  Point low = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()},
+        high = -1.0 * low;
   for (std::uint32_t e = 0; e < mesh_.boundary().size(); ++e) {
     const BoundaryEdge& edge = mesh_.boundary()[e];
     if (!mesh_.patch(edge).sticks()) continue;
-    const Point a = mesh_.points()[edge.a], b = mesh_.points()[edge.b];
-    for (std::size_t v = 0; v < mesh_.size(); ++v)
-      for (const Point period : periods) {
-        const Point p = mesh_.points()[v] + period;
-        if (const double square = squared_distance_to_segment(p, a, b); square < distance_[v])
-          distance_[v] = square, nearest_[v] = e, from_[v] = p;
-      }
+    walls.push_back(e);
+    for (const Point p : {mesh_.points()[edge.a], mesh_.points()[edge.b]}) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
   }
-  for (std::size_t v = 0; v < mesh_.size(); ++v) distance_[v] = sticks_[v] ? 0.0 : std::sqrt(distance_[v]);
+  const auto from_box = [&](Point p) {
+    const double x = std::max({low.x - p.x, p.x - high.x, 0.0}),
+                 y = std::max({low.y - p.y, p.y - high.y, 0.0});
+    return x * x + y * y;
+  };
+  const std::vector<Turns> turns = possible_turns();
+  for (std::size_t v = 0; v < mesh_.size(); ++v) {
+    for (const Turns turn : turns) {
+      const Point p = turn.count == 0 ? mesh_.points()[v]
+                                      : mesh_.points()[v] + static_cast<double>(turn.count) *
+                                                                mesh_.periodic_pairs()[turn.pair].period;
+      if (turn.count != 0 && from_box(p) >= distance_[v]) continue;
+      for (const std::uint32_t e : walls) {
+        const BoundaryEdge& edge = mesh_.boundary()[e];
+        const double square = squared_distance_to_segment(p, mesh_.points()[edge.a], mesh_.points()[edge.b]);
+        if (square < distance_[v]) distance_[v] = square, nearest_[v] = e, turns_[v] = turn, from_[v] = p;
+      }
+    }
+    distance_[v] = sticks_[v] ? 0.0 : std::sqrt(distance_[v]);
+  }
 }
 
 // The nearest place on a segment moves along it alone, or not at all.
 void FrictionMesh::add_distance_slopes(const std::vector<double>& by_distance,
                                        std::vector<Point>& points) const {
+  std::vector<Point> by_period(mesh_.periodic_pairs().size());
   for (std::size_t v = 0; v < mesh_.size(); ++v) {
     if (by_distance[v] == 0.0 || nearest_[v] == no_index || sticks_[v]) continue;
     const BoundaryEdge& edge = mesh_.boundary()[nearest_[v]];
@@ -196,7 +233,15 @@ void FrictionMesh::add_distance_slopes(const std::vector<double>& by_distance,
     const Point by = (by_distance[v] / distance_[v]) * (p - (a + t * (b - a)));
     points[v] = points[v] + by;
     points[edge.a] = points[edge.a] - (1.0 - t) * by, points[edge.b] = points[edge.b] - t * by;
+    if (turns_[v].count != 0)
+      by_period[turns_[v].pair] = by_period[turns_[v].pair] + static_cast<double>(turns_[v].count) * by;
   }
+  for (std::size_t j = 0; j < by_period.size(); ++j)
+    for (const std::uint32_t image : mesh_.periodic_pairs()[j].images) {
+      const Point by = (1.0 / static_cast<double>(mesh_.periodic_pairs()[j].images.size())) * by_period[j];
+      Point& original = points[mesh_.original(image)];
+      points[image] = points[image] + by, original = original - by;
+    }
 }
 
 }  // namespace remodel::flow

@@ -102,7 +102,7 @@ class FrictionMesh {
   }
   // Adds derivatives of a function by coordinates, given those by distances.
   void add_distance_slopes(const std::vector<double>& by_distance, std::vector<Point>& points) const;
-  // From walls that gas sticks to, also those beyond periodic boundaries.
+  // From walls that gas sticks to, also those that periods move them to.
   const std::vector<double>& distances() const { return distance_; }
   bool sticks(std::size_t v) const { return sticks_[v]; }
   // The boundary edge of such walls that is nearest, of each vertex; no_index: there is none.
@@ -113,6 +113,11 @@ class FrictionMesh {
   bool is_laminar(std::size_t v) const { return !laminar_.empty() && laminar_[v]; }
 
  private:
+  // How often which pair's period moves a vertex to where it is nearest to a wall.
+  struct Turns {
+    std::uint32_t pair = 0;
+    int count = 0;
+  };
   struct Around {
     std::uint8_t quads = 0, triangles = 0;
     bool boundary = false;
@@ -123,6 +128,7 @@ class FrictionMesh {
   void make_triangles();
   void make_mean_gradients();
   void measure_distances();
+  std::vector<Turns> possible_turns() const;
 
   const FlowMesh& mesh_;
   std::vector<Around> around_;               // each vertex
@@ -136,6 +142,7 @@ class FrictionMesh {
   std::vector<Point> mean_gradient_;  // as the rings of all vertices, one after the other
   std::vector<double> distance_;
   std::vector<std::uint32_t> nearest_;
+  std::vector<Turns> turns_;
   std::vector<Point> from_;
   std::vector<bool> sticks_;
   std::vector<bool> laminar_;  // empty: none is

@@ -103,7 +103,7 @@ template <std::size_t N>
 void FrictionSystem<N>::make_walls_strong(const BlockState<N>& state, BlockVector<N>& unbalanced) const {
   for (std::size_t v = 0; v < dual_.size(); ++v)
     for (std::size_t k = 0; k < N; ++k)
-      if (is_replaced(v, k)) {
+      if (mesh_.sticks(v) && is_strong(k)) {
         unbalanced[v][k] = state.q[v][k];
         if (k == 3) unbalanced[v][k] -= *stream_.wall_temperature / gas_gamma * state.q[v][0];
       }

@@ -97,7 +97,7 @@ class FrictionSystem final : public BlockSystem<N> {
   // patch: of this wall, no_index: of all.
   WallForces forces(const BlockState<N>& state, const BlockVector<N>& unbalanced,
                     std::uint32_t patch = no_index) const;
-  // Whether the row says that the wall stands still, or how warm it is.
+  // Whether the row says that the wall stands still, how warm it is, or what an image's unknowns are.
   bool is_replaced(std::size_t v, std::size_t k) const {
     return (mesh_.sticks(v) && is_strong(k)) || dual_.is_image(v);
   }

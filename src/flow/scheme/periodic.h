@@ -15,11 +15,23 @@
 
 namespace remodel::flow {
 
+// A boundary and the one that it is when it is moved.
+struct PeriodicPairing {
+  std::string names;  // of both, for messages
+  Point period;       // from the first to the moved one: the mean over all images
+  std::vector<std::uint32_t> images;
+};
+
 struct PeriodicVertices {
   std::vector<std::uint32_t> original;  // of each vertex, itself where it is no image; empty: there are none
   std::vector<std::uint32_t> counterpart;  // likewise; of an image its original, and the other way round
-  std::vector<bool> at;                    // whether a vertex lies on a periodic boundary, likewise
-  std::vector<Point> periods;              // from each first boundary to its moved one
+  std::vector<PeriodicPairing> pairs;
+
+  // Whether the vertex lies on a periodic boundary.
+  bool at(std::uint32_t v) const { return !counterpart.empty() && counterpart[v] != v; }
+  // The same vertices at other places. Throws Error (argument) naming `source` where a boundary is not the
+  // other one moved any more.
+  void move(std::span<const Point> points, const std::string& source);
 };
 
 // Throws Error (argument) naming `source` where one boundary of a pair is not the other one moved, vertex for

@@ -28,6 +28,16 @@ std::optional<Domain> coarsened(const Domain& domain) {
       curve.parameters = std::move(kept);
     }
   }
+  for (const PeriodicCurve& pair : periodic_curves(domain)) {
+    const std::vector<double>& kept = coarse.curve(pair.curve).parameters;
+    std::vector<double> of_moved = {0.0};
+    for (std::size_t i = 1; i < kept.size(); ++i)
+      of_moved.push_back(pair.parameter(kept[pair.reversed ? kept.size() - i : i]));
+    const std::size_t loop = coarse.loop_of(pair.moved);
+    std::size_t first = 0;
+    for (std::size_t l = 0; l < loop; ++l) first += coarse.loops[l].curves.size();
+    coarse.loops[loop].curves[pair.moved - first].parameters = std::move(of_moved);
+  }
   return coarse;
 }
 
