@@ -149,7 +149,7 @@ CASES = {
     "friction without a Reynolds number": (lambda r: remodel.LivingFlow(model="laminar").solve(r.layered), Argument, "reynolds: found 0, expected 1 to 1e10"),
     "the length of nothing": (lambda r: r.solve(reference_length=0.0), Argument, "reference_length: found 0"),
     "one coordinate for a point": (lambda r: r.solve(reference=[0.25]), Type, "reference: found a list of 1, expected 2 numbers"),
-    "one number for an inlet": (lambda r: remodel.LivingFlow(inlets={"in": 3.0}), Type, "inlets['in']: found 3.0 of type float, expected 2 numbers"),
+    "one number for an inlet": (lambda r: remodel.LivingFlow(inlets={"in": 3.0}), Type, "inlets['in']: found 3.0 of type float, expected a list, each part a number"),
     "a text for an outlet": (lambda r: remodel.LivingFlow(outlets={"out": "low"}), Type, "outlets['out']: found 'low' of type str, expected a number"),
     "a far field that the mesh has not": (lambda r: remodel.LivingFlow(farfield="sky").solve(r.mesh), Argument, "'sky'"),
     "a file's name for a mesh": (lambda r: remodel.LivingFlow().solve("mesh.su2"), Type, "mesh: found str, expected a Mesh"),

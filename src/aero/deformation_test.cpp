@@ -18,6 +18,7 @@
 #include "aero/test_designs.h"
 #include "remodel/design_run.h"
 #include "remodel/flow_layer.h"
+#include "support.h"
 
 namespace remodel {
 namespace {
@@ -25,6 +26,7 @@ namespace {
 using test::Case;
 using test::Flows;
 using test::relative;
+using test::uniform;
 
 // A section as it is given, with a cove below and a flat back.
 Domain coved_section() {
@@ -381,10 +383,42 @@ TEST(Deformation, WithFrictionGradientsOfANozzleAreThoseOfWholeFlows) {
 
 TEST(Deformation, WithFrictionGradientsOfARowOfBladesAreThoseOfWholeFlows) {
   DesignProblem problem = cascade_problem();
-  problem.gradation = 2.0;
+  problem.domain.points = 150;
+  problem.gradation = 3.0;
   problem.layer = LayerOptions{.first_height = 3e-3, .growth = 1.3, .thickness = 0.03};
   problem.points[0].conditions.reynolds = 2000.0, problem.points[0].model = FlowModel::laminar;
   expect_drag_gradients_with_friction(problem, 2e-5);
+}
+
+// Each point turns the walls beside it by its move over their distance; of a smooth move little is left of
+// that.
+TEST(Deformation, LayersFollowPointsThatLieCloseTogether) {
+  const DesignProblem row = cascade_problem();
+  DesignProblem problem =
+      problem_of(airfoils_domain({{.airfoil = {}, .outline = {row.deformation->domain.loops[1].curves}}},
+                                 {.farfield_radius = 15.0, .farfield_points = 24}),
+                 row.deformation->parts);
+  problem.domain.points = 150;
+  problem.gradation = 3.0;
+  problem.layer = LayerOptions{.first_height = 3e-3, .growth = 1.3, .thickness = 0.03};
+  problem.points = {{.conditions = {.mach = 0.4, .reynolds = 2000.0}, .model = FlowModel::laminar}};
+  const Case task(problem);
+  const std::vector<double> start = task.space().start();
+  std::mt19937_64 random(7);
+  std::vector<Point> weight;
+  const auto weighted = [&](const std::vector<double>& design) {
+    const Mesh mesh = task.mesh_of(design);
+    const DesignMesh at(task.space(), mesh, design);
+    double sum = 0.0;
+    for (std::size_t v = 0; v < weight.size(); ++v) sum += dot(weight[v], at.frozen().points[v]);
+    return sum;
+  };
+  const Mesh mesh = task.mesh_of(start);
+  const DesignMesh at(task.space(), mesh, start);
+  for (std::size_t v = 0; v < at.frozen().points.size(); ++v)
+    weight.push_back({uniform(random, -1, 1), uniform(random, -1, 1)});
+  const std::vector<double> gradient = DesignDerivative(task.space(), at).vjp(weight);
+  EXPECT_LT(relative(gradient, task.differences(weighted, 1e-5)), 1e-7);
 }
 
 // Walls are what is neither far field nor opening, whatever their names are.

@@ -274,16 +274,17 @@ class Resolver {
       place.fail("found '" + kind + "' with inlets or outlets, expected a far field alone");
   }
 
-  // Lift of a duct's walls is that of half of them, or none.
+  // Lift of a duct's walls is that of half of them, or none; that of a blade in a row is its own.
   void require_farfield_for(const FlowFunction& function, const ProblemPlace& place,
                             const std::string& kind) const {
     if (!function.needs_farfield() || !problem_.deformation) return;
+    if (!problem_.deformation->domain.periodic.empty()) return;
     for (const Loop& loop : problem_.deformation->domain.loops)
       for (const Curve& curve : loop.curves)
         if (curve.name == "farfield") return;
     place.fail("found '" + kind +
-               "' with a domain without a curve 'farfield', expected drag, moment, mass_flow or "
-               "total_pressure");
+               "' with a domain without a curve 'farfield', expected drag, moment, mass_flow, "
+               "total_pressure or flow_angle");
   }
 
   void require_friction(const FlowFunction& function, const ProblemPlace& place,

@@ -170,7 +170,7 @@ TEST(Flow, BadInputIsOneSentence) {
   EXPECT_NE(message_of(stray, {}).find("is of no triangle, expected every point to be of one"),
             std::string::npos);
   for (FrozenBoundary& boundary : mesh.boundaries) boundary.name = "farfield";
-  EXPECT_EQ(message_of(mesh, {}), "file.su2: found no boundary but the far field, expected a wall");
+  EXPECT_EQ(message_of(mesh, {}), "file.su2: found no wall among the boundaries, expected one");
 }
 
 TEST(Flow, TrianglesThatAreNotCounterClockwiseAreRefused) {

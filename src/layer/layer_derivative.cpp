@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "layer/layer_parts.h"
@@ -33,6 +34,35 @@ Places places_at(const Domain& walls, const std::vector<LayeredWall>& layered, c
   return places;
 }
 
+double shortest_spacing(const Domain& walls, const std::vector<LayeredWall>& layered) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const LayeredWall& wall : layered) {
+    const std::vector<Point> points = walls.points(wall.loop);
+    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+      shortest = std::min(shortest, squared_distance(points[i], points[i + 1]));
+  }
+  return std::sqrt(shortest);
+}
+
+// How far each coefficient goes for a difference. Those of sections and placements are in chords or near 1,
+// or degrees, and move all stations smoothly. A point that a curve goes through moves the stations beside it
+// alone, and turns what is between them by its move over their distance: the sum over a smooth move of many
+// points is far less than its parts.
+std::vector<double> steps_of(const Domain& walls, double spacing) {
+  constexpr double smooth = 1e-4, part_of_spacing = 1e-3;
+  constexpr std::size_t of_placement = 4;
+  std::vector<double> steps;
+  for (const Loop& loop : walls.loops) {
+    for (const Curve& curve : loop.curves)
+      steps.insert(steps.end(), coefficients_of(Domain{{Loop{.curves = {curve}}}}).size() - of_placement,
+                   std::holds_alternative<CstAirfoil>(curve.shape)
+                       ? smooth
+                       : std::min(smooth, part_of_spacing * spacing));
+    steps.insert(steps.end(), of_placement, smooth);
+  }
+  return steps;
+}
+
 void require_size(std::size_t found, std::size_t expected, const char* what) {
   if (found == expected) return;
   throw Error(ErrorCode::argument, what,
@@ -48,7 +78,6 @@ LayeredMeshDerivative::LayeredMeshDerivative(const LayeredMesh& mesh, std::span<
     : LayeredMeshDerivative(mesh, MeshDerivative(mesh.outer(), moving)) {}
 
 LayeredMeshDerivative::LayeredMeshDerivative(const LayeredMesh& mesh, const MeshDerivative& beyond) {
-  constexpr double step = 1e-4;  // of the coefficients, which are in chords or near 1, and of degrees
   const LayeredMesh::Columns& columns = *mesh.columns_;
   const FrozenMesh outside = mesh.outer().freeze();
   // The tops are points of the layer; all others of the outer mesh follow these.
@@ -59,7 +88,9 @@ LayeredMeshDerivative::LayeredMeshDerivative(const LayeredMesh& mesh, const Mesh
       is_top[static_cast<std::size_t>(at - outside.vertex_ids.begin())] = true;
     }
   const std::vector<double> own = coefficients_of(mesh.domain());
+  const std::vector<double> steps = steps_of(mesh.domain(), shortest_spacing(mesh.domain(), columns.layered));
   for (std::size_t i = 0; i < own.size(); ++i) {
+    const double step = steps[i];
     Places sum;
     for (const auto& [times, factor] : {std::pair{-2, 1.0}, {-1, -8.0}, {1, 8.0}, {2, -1.0}}) {
       std::vector<double> coefficients = own;

@@ -245,12 +245,14 @@ class Ducts(ProgramTest):
         self.assertAlmostEqual(leaves["total_pressure"], 1, delta=1e-3)
         self.succeed("mesh", passage, "-o", "row.vtkhdf")
         self.assertEqual(self.figures("flow", "row.vtkhdf", *given)["cl"], flow["cl"])
-        self.succeed("convert", "row.vtkhdf", "-o", "row.su2")
+        said = self.succeed("convert", "row.vtkhdf", "-o", "row.su2", "-o", "row.vtu").stderr
+        self.assertEqual([line.split(":")[1].strip() for line in said.splitlines() if "periodic" in line], ["row.su2"])
+        self.assertEqual(self.figures("flow", "row.vtu", *given)["cl"], flow["cl"])
         self.assertEqual(self.figures("flow", "row.su2", *given, "--periodic", "below,above")["cl"], flow["cl"])
         for options, message in (
             (given[:4], "the wall 'inlet' meets a periodic boundary"),
             ((*given, "--periodic", "below"), "--periodic: found 'below', expected the names of two boundaries"),
-            ((*given, "--periodic", "below,blade"), "the periodic boundaries 'below' and 'blade' have"),
+            ((*given, "--periodic", "below,blade"), "found 'below' named alone"),
             ((*given[:4], "--inlet-angle", 40), "--inlet-angle: given without --inlet"),
             ((*given[:6], "--inlet-angle", 95, *given[8:]), "found gas to enter by 'inlet' at 95 degrees"),
             ((*given[:6], "--inlet-angle", 200), "--inlet-angle"),
@@ -418,7 +420,7 @@ class Warnings(ProgramTest):
         self.domain("sail.json", loops=[sail])
         self.domain("nothing.json")
         for name in ("sail.json", "nothing.json"):
-            self.refused("flow", name, "--mach", 0.3, names="found no boundary but the far field")
+            self.refused("flow", name, "--mach", 0.3, names="found no wall among the boundaries")
             self.refused("flow", name, "--model", "potential", "-o", "a.vtu", names="found no boundary but the far field")
 
     def test_a_coarse_edge_carries_its_condition(self):
