@@ -529,7 +529,7 @@ TEST(Problems, ThatMakeNoSenseAreRefusedWithTheirPlace) {
             "it, flow 1: found null as 'mach', expected 0.01 to 3.0");
   EXPECT_EQ(refused([](DesignProblem& p) { p.objective = "beauty"; }),
             "it: found 'beauty' as 'objective', expected drag, pressure_drag, friction_drag, lift, "
-            "lift_over_drag, moment, mass_flow, total_pressure, flow_angle, inverse");
+            "lift_over_drag, moment, mass_flow, total_pressure, pressure_loss, flow_angle, inverse");
   EXPECT_EQ(refused([](DesignProblem& p) { p.objective = "inverse"; }), "it: the key 'target' is missing");
   EXPECT_EQ(refused([](DesignProblem& p) { p.designer = "mma"; }),
             "it, designer: found 'mma' as 'name', expected sqp, cmaes");

@@ -5,7 +5,8 @@
 namespace remodel {
 
 extern const FlowKind drag_kind, pressure_drag_kind, friction_drag_kind, lift_kind, lift_over_drag_kind,
-    moment_kind, mass_flow_kind, total_pressure_kind, flow_angle_kind, inverse_kind, suction_kind;
+    moment_kind, mass_flow_kind, total_pressure_kind, pressure_loss_kind, flow_angle_kind, inverse_kind,
+    suction_kind;
 extern const DomainKind gap_kind, area_kind, tank_kind, thickness_kind, box_kind, camber_kind, contains_kind,
     trailing_edge_angle_kind, leading_edge_radius_kind;
 
@@ -20,6 +21,7 @@ constexpr const FlowKind* all_of_flows[] = {
     &moment_kind,          //
     &mass_flow_kind,       //
     &total_pressure_kind,  //
+    &pressure_loss_kind,   //
     &flow_angle_kind,      //
     &inverse_kind,         //
     &suction_kind,         //

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <stdexcept>
 
 #include "aero/kinds.h"
@@ -125,6 +126,23 @@ class TotalPressure final : public FlowFunction {
   bool needs_outlets() const override { return true; }
 };
 
+// The loss coefficient of a row of blades: what total pressure lacks of the stream's, over the stream's
+// dynamic pressure (its total less its static one).
+class PressureLoss final : public FlowFunction {
+ public:
+  FlowValue at(const FlowView& of) const override {
+    FlowValue total = TotalPressure().at(of);
+    const double mach = of.flow.mach, base = 1.0 + 0.2 * mach * mach;
+    const double dynamic = 1.0 - std::pow(base, -3.5), by_mach = 1.4 * mach * std::pow(base, -4.5);
+    FlowValue result = nothing_of(of);
+    result.value = (1.0 - total.value) / dynamic;
+    add_scaled(*result.by_flow, -1.0 / dynamic, *total.by_flow);
+    result.by_flow->mach = -(total.by_flow->mach + result.value * by_mach) / dynamic;
+    return result;
+  }
+  bool needs_outlets() const override { return true; }
+};
+
 // The direction of the momentum, degrees to the x axis.
 class FlowAngle final : public FlowFunction {
  public:
@@ -141,6 +159,7 @@ class FlowAngle final : public FlowFunction {
     return result;
   }
   bool needs_outlets() const override { return true; }
+  double unit(double) const override { return 180.0 / std::numbers::pi; }  // violations are in radians
 };
 
 template <class Function>
@@ -190,6 +209,11 @@ extern constinit const FlowKind total_pressure_kind = {.name = "total_pressure",
                                                        .at_least = Limits{0.0, 1e3},
                                                        .at_most = Limits{0.0, 1e3},
                                                        .make = opening_function<TotalPressure>};
+extern constinit const FlowKind pressure_loss_kind = {.name = "pressure_loss",
+                                                      .objective = 1.0,
+                                                      .at_least = Limits{-1e3, 1e3},
+                                                      .at_most = Limits{-1e3, 1e3},
+                                                      .make = opening_function<PressureLoss>};
 extern constinit const FlowKind flow_angle_kind = {.name = "flow_angle",
                                                    .objective = 1.0,
                                                    .at_least = Limits{-180.0, 180.0},

@@ -284,7 +284,7 @@ class Resolver {
         if (curve.name == "farfield") return;
     place.fail("found '" + kind +
                "' with a domain without a curve 'farfield', expected drag, moment, mass_flow, "
-               "total_pressure or flow_angle");
+               "total_pressure, pressure_loss or flow_angle");
   }
 
   void require_friction(const FlowFunction& function, const ProblemPlace& place,

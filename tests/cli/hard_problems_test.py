@@ -52,7 +52,7 @@ class HardProblems(ProgramTest):
         ):
             line = self.refused("design", self.duct(**problem), "-o", "run", names=name)
             self.assertIn("problem.json, flow 1: ", line)
-        no_lift = "with a domain without a curve 'farfield', expected drag, moment, mass_flow, total_pressure or flow_angle"
+        no_lift = "with a domain without a curve 'farfield', expected drag, moment, mass_flow, total_pressure, pressure_loss or flow_angle"
         for problem, name in (({"objective": "lift"}, f"problem.json: found 'lift' {no_lift}"),
                               ({"constraints": [{"kind": "lift", "at_least": 0}]}, f"problem.json, constraint 1: found 'lift' {no_lift}")):  # fmt: skip
             self.refused("design", self.duct(**problem), "-o", "run", names=name)
