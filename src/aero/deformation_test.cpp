@@ -381,12 +381,17 @@ TEST(Deformation, WithFrictionGradientsOfANozzleAreThoseOfWholeFlows) {
   }
 }
 
-TEST(Deformation, WithFrictionGradientsOfARowOfBladesAreThoseOfWholeFlows) {
-  DesignProblem problem = cascade_problem();
+// With a layer of few cells.
+void make_laminar(DesignProblem& problem) {
   problem.domain.points = 150;
   problem.gradation = 3.0;
   problem.layer = LayerOptions{.first_height = 3e-3, .growth = 1.3, .thickness = 0.03};
   problem.points[0].conditions.reynolds = 2000.0, problem.points[0].model = FlowModel::laminar;
+}
+
+TEST(Deformation, WithFrictionGradientsOfARowOfBladesAreThoseOfWholeFlows) {
+  DesignProblem problem = cascade_problem();
+  make_laminar(problem);
   expect_drag_gradients_with_friction(problem, 2e-5);
 }
 
@@ -398,10 +403,7 @@ TEST(Deformation, LayersFollowPointsThatLieCloseTogether) {
       problem_of(airfoils_domain({{.airfoil = {}, .outline = {row.deformation->domain.loops[1].curves}}},
                                  {.farfield_radius = 15.0, .farfield_points = 24}),
                  row.deformation->parts);
-  problem.domain.points = 150;
-  problem.gradation = 3.0;
-  problem.layer = LayerOptions{.first_height = 3e-3, .growth = 1.3, .thickness = 0.03};
-  problem.points = {{.conditions = {.mach = 0.4, .reynolds = 2000.0}, .model = FlowModel::laminar}};
+  make_laminar(problem);
   const Case task(problem);
   const std::vector<double> start = task.space().start();
   std::mt19937_64 random(7);

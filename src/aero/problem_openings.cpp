@@ -6,6 +6,7 @@
 
 #include "aero/outlet_numbers.h"
 #include "aero/problem_keys.h"
+#include "shape/loop_side.h"
 
 namespace remodel {
 namespace {
@@ -38,21 +39,13 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-// Whether the domain lies to the left of the loop's direction.
-bool has_domain_on_left(const Domain& domain, std::size_t loop) {
-  const LoopRole role = domain.loops[loop].role;
-  if (role == LoopRole::outer || role == LoopRole::hole)
-    return (signed_area(domain, loop) > 0.0) == (role == LoopRole::outer);
-  return role == LoopRole::left;
-}
-
 // From station to station, of all curves of this name, with the domain on their left.
 std::vector<Point> edges_named(const Domain& domain, const std::string& name) {
   std::vector<Point> edges;
   for (std::size_t i = 0; i < domain.loops.size(); ++i) {
     const Loop& loop = domain.loops[i];
     const std::vector<Point> points = domain.points(i);
-    const bool is_on_left = has_domain_on_left(domain, i);
+    const bool is_on_left = has_domain_on_left(domain, i).value_or(true);
     std::size_t at = 0;
     for (const Curve& curve : loop.curves)
       for (std::size_t k = 0; k < curve.parameters.size(); ++k, ++at)

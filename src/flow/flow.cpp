@@ -97,13 +97,19 @@ std::array<double, 3> weights_at(const FlowMesh& mesh, const std::array<std::uin
   return {1.0 - second - third, second, third};
 }
 
-void require_openings(const FlowConditions& conditions, const FlowOptions& options) {
+// All boundaries that the options say something of, ascending.
+std::vector<std::string> named_boundaries(const FlowOptions& options) {
   std::vector<std::string> names = {options.farfield};
   for (const FlowInlet& inlet : options.inlets) names.push_back(inlet.name);
   for (const FlowOutlet& outlet : options.outlets) names.push_back(outlet.name);
   names.insert(names.end(), options.symmetry.begin(), options.symmetry.end());
   for (const FlowPeriod& pair : options.periodic) names.push_back(pair.name), names.push_back(pair.moved);
   std::sort(names.begin(), names.end());
+  return names;
+}
+
+void require_openings(const FlowConditions& conditions, const FlowOptions& options) {
+  const std::vector<std::string> names = named_boundaries(options);
   const auto twice = std::adjacent_find(names.begin(), names.end());
   if (twice != names.end())
     throw Error(ErrorCode::argument, "boundary '" + *twice + "'",
@@ -182,15 +188,11 @@ namespace {
 // where one gives it to half a pair.
 std::vector<FlowPeriod> periodic_pairs(const FrozenMesh& mesh, const FlowOptions& options,
                                        const std::string& source) {
-  std::vector<std::string> names = options.symmetry;
-  names.push_back(options.farfield);
-  for (const FlowInlet& inlet : options.inlets) names.push_back(inlet.name);
-  for (const FlowOutlet& outlet : options.outlets) names.push_back(outlet.name);
-  for (const FlowPeriod& pair : options.periodic) names.push_back(pair.name), names.push_back(pair.moved);
-  std::vector<FlowPeriod> pairs = options.periodic;
+  const std::vector<std::string> names = named_boundaries(options);
   const auto is_named = [&](const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
+    return std::binary_search(names.begin(), names.end(), name);
   };
+  std::vector<FlowPeriod> pairs = options.periodic;
   for (const auto& [name, moved] : mesh.periodic) {
     if (is_named(name) != is_named(moved))
       throw Error(ErrorCode::argument, source,

@@ -84,7 +84,7 @@ std::optional<std::uint32_t> separated_ahead_of_transition(const FrictionMesh& m
                                                            const FlowFriction& friction) {
   std::optional<std::uint32_t> first;
   if (!friction.transition) return first;
-  const std::vector<bool> nose = laminar_zone(mesh.dual(), mesh.nearest(), mesh.nearest_from(), {0.2, 0.2});
+  const std::vector<bool> nose = laminar_zone(mesh, {0.2, 0.2});
   for (std::uint32_t v = 0; v < mesh.dual().size(); ++v)
     if (mesh.sticks(v) && mesh.is_laminar(v) && !nose[v] && friction.cf[v] < 0.0 &&
         (!first || mesh.dual().points()[v].x < mesh.dual().points()[*first].x))

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <sstream>
 
 #include "remodel/domain.h"
 #include "remodel/error.h"
+#include "shape/loop_side.h"
 
 namespace remodel {
 
@@ -35,26 +35,9 @@ std::vector<std::size_t> curves_called(const Domain& domain, const std::string& 
   return curves;
 }
 
-// Whether the domain lies to the left of the curve's direction, or to the right. Nothing: on both sides.
-std::optional<bool> has_domain_on_left(const Domain& domain, std::size_t curve) {
-  const std::size_t l = domain.loop_of(curve);
-  switch (domain.loops[l].role) {
-    case LoopRole::outer:
-      return signed_area(domain, l) > 0.0;
-    case LoopRole::hole:
-      return signed_area(domain, l) < 0.0;
-    case LoopRole::left:
-      return true;
-    case LoopRole::right:
-      return false;
-    case LoopRole::internal:
-      break;
-  }
-  return std::nullopt;
-}
-
 void require_opposite_sides(const Domain& domain, const PeriodicPair& pair, const PeriodicCurve& curve) {
-  const auto first = has_domain_on_left(domain, curve.curve), moved = has_domain_on_left(domain, curve.moved);
+  const auto first = has_domain_on_left(domain, domain.loop_of(curve.curve)),
+             moved = has_domain_on_left(domain, domain.loop_of(curve.moved));
   if (!first || !moved) refuse_pair(pair, "found a curve inside the domain, expected two that bound it");
   if ((*first == *moved) != curve.reversed)
     refuse_pair(pair, "found the domain on the same side of both, expected it between them");

@@ -36,7 +36,7 @@ FrictionMesh::FrictionMesh(const FlowMesh& mesh, const std::optional<std::array<
   make_triangles();
   make_mean_gradients();
   measure_distances();
-  if (transition) laminar_ = laminar_zone(mesh, nearest_, from_, *transition);
+  if (transition) laminar_ = laminar_zone(*this, *transition);
 }
 
 void FrictionMesh::count_cells() {
@@ -180,13 +180,17 @@ std::vector<FrictionMesh::Turns> FrictionMesh::possible_turns() const {
   return turns;
 }
 
+Point FrictionMesh::moved(std::size_t v, Turns turns) const {
+  if (turns.count == 0) return mesh_.points()[v];
+  return mesh_.points()[v] + static_cast<double>(turns.count) * mesh_.periodic_pairs()[turns.pair].period;
+}
+
 // The distance from every segment: exact, and quick beside one Jacobian. Moved places that are farther from
 // the box of all walls than the nearest wall need no look.
 void FrictionMesh::measure_distances() {
   distance_.assign(mesh_.size(), std::numeric_limits<double>::infinity());
   nearest_.assign(mesh_.size(), no_index);
   turns_.assign(mesh_.size(), {});
-  from_ = mesh_.points();
   std::vector<std::uint32_t> walls;
   Point low = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()},
         high = -1.0 * low;
@@ -207,14 +211,12 @@ void FrictionMesh::measure_distances() {
   const std::vector<Turns> turns = possible_turns();
   for (std::size_t v = 0; v < mesh_.size(); ++v) {
     for (const Turns turn : turns) {
-      const Point p = turn.count == 0 ? mesh_.points()[v]
-                                      : mesh_.points()[v] + static_cast<double>(turn.count) *
-                                                                mesh_.periodic_pairs()[turn.pair].period;
+      const Point p = moved(v, turn);
       if (turn.count != 0 && from_box(p) >= distance_[v]) continue;
       for (const std::uint32_t e : walls) {
         const BoundaryEdge& edge = mesh_.boundary()[e];
         const double square = squared_distance_to_segment(p, mesh_.points()[edge.a], mesh_.points()[edge.b]);
-        if (square < distance_[v]) distance_[v] = square, nearest_[v] = e, turns_[v] = turn, from_[v] = p;
+        if (square < distance_[v]) distance_[v] = square, nearest_[v] = e, turns_[v] = turn;
       }
     }
     distance_[v] = sticks_[v] ? 0.0 : std::sqrt(distance_[v]);
@@ -228,7 +230,7 @@ void FrictionMesh::add_distance_slopes(const std::vector<double>& by_distance,
   for (std::size_t v = 0; v < mesh_.size(); ++v) {
     if (by_distance[v] == 0.0 || nearest_[v] == no_index || sticks_[v]) continue;
     const BoundaryEdge& edge = mesh_.boundary()[nearest_[v]];
-    const Point p = from_[v], a = mesh_.points()[edge.a], b = mesh_.points()[edge.b];
+    const Point p = nearest_from(v), a = mesh_.points()[edge.a], b = mesh_.points()[edge.b];
     const double t = nearest_part(p, a, b);
     const Point by = (by_distance[v] / distance_[v]) * (p - (a + t * (b - a)));
     points[v] = points[v] + by;

@@ -108,7 +108,7 @@ class FrictionMesh {
   // The boundary edge of such walls that is nearest, of each vertex; no_index: there is none.
   const std::vector<std::uint32_t>& nearest() const { return nearest_; }
   // Where the vertex lies to be that near: its own place, or that moved by a period.
-  const std::vector<Point>& nearest_from() const { return from_; }
+  Point nearest_from(std::size_t v) const { return moved(v, turns_[v]); }
   // Before the transition. Derivatives by the shape hold it.
   bool is_laminar(std::size_t v) const { return !laminar_.empty() && laminar_[v]; }
 
@@ -129,6 +129,7 @@ class FrictionMesh {
   void make_mean_gradients();
   void measure_distances();
   std::vector<Turns> possible_turns() const;
+  Point moved(std::size_t v, Turns turns) const;
 
   const FlowMesh& mesh_;
   std::vector<Around> around_;               // each vertex
@@ -143,7 +144,6 @@ class FrictionMesh {
   std::vector<double> distance_;
   std::vector<std::uint32_t> nearest_;
   std::vector<Turns> turns_;
-  std::vector<Point> from_;
   std::vector<bool> sticks_;
   std::vector<bool> laminar_;  // empty: none is
 };

@@ -80,16 +80,16 @@ void WallSides::add_wall(const std::vector<std::uint32_t>& edges) {
 
 }  // namespace
 
-std::vector<bool> laminar_zone(const FlowMesh& mesh, const std::vector<std::uint32_t>& nearest,
-                               const std::vector<Point>& from, std::array<double, 2> transition) {
+std::vector<bool> laminar_zone(const FrictionMesh& friction_mesh, std::array<double, 2> transition) {
+  const FlowMesh& mesh = friction_mesh.dual();
   const WallSides sides(mesh);
   std::vector<bool> laminar(mesh.size(), false);
   for (std::size_t v = 0; v < mesh.size(); ++v) {
-    const std::uint32_t e = nearest[v];
+    const std::uint32_t e = friction_mesh.nearest()[v];
     if (e == no_index) continue;
     const BoundaryEdge& edge = mesh.boundary()[e];
     const Point a = mesh.points()[edge.a], b = mesh.points()[edge.b];
-    const Point place = a + nearest_part(from[v], a, b) * (b - a);
+    const Point place = a + nearest_part(friction_mesh.nearest_from(v), a, b) * (b - a);
     laminar[v] = sides.chord(e).fraction(place) < transition[sides.lower(e) ? 1 : 0];
   }
   return laminar;

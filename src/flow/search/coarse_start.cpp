@@ -17,26 +17,22 @@ Pace pace_from_coarser(const Stream& stream) {
   return {.cfl = SearchPolicy::interpolated_cfl, .most = SearchPolicy::interpolated_cfl};
 }
 
-// Every second station of every curve. Nothing where chains may end on a station that would be gone.
+// Every second station of every curve, counted from its end where its counterpart runs the other way. Nothing
+// where chains may end on a station that would be gone.
 std::optional<Domain> coarsened(const Domain& domain) {
   Domain coarse = domain;
+  std::vector<bool> from_its_end(domain.curve_count(), false);
+  for (const PeriodicCurve& pair : periodic_curves(domain)) from_its_end[pair.moved] = pair.reversed;
+  std::size_t index = 0;
   for (Loop& loop : coarse.loops) {
     if (loop.open) return std::nullopt;
     for (Curve& curve : loop.curves) {
-      std::vector<double> kept;
-      for (std::size_t i = 0; i < curve.parameters.size(); i += 2) kept.push_back(curve.parameters[i]);
+      const std::size_t n = curve.parameters.size();
+      std::vector<double> kept = {0.0};
+      for (std::size_t i = from_its_end[index++] && n % 2 != 0 ? 1 : 2; i < n; i += 2)
+        kept.push_back(curve.parameters[i]);
       curve.parameters = std::move(kept);
     }
-  }
-  for (const PeriodicCurve& pair : periodic_curves(domain)) {
-    const std::vector<double>& kept = coarse.curve(pair.curve).parameters;
-    std::vector<double> of_moved = {0.0};
-    for (std::size_t i = 1; i < kept.size(); ++i)
-      of_moved.push_back(pair.parameter(kept[pair.reversed ? kept.size() - i : i]));
-    const std::size_t loop = coarse.loop_of(pair.moved);
-    std::size_t first = 0;
-    for (std::size_t l = 0; l < loop; ++l) first += coarse.loops[l].curves.size();
-    coarse.loops[loop].curves[pair.moved - first].parameters = std::move(of_moved);
   }
   return coarse;
 }
