@@ -52,6 +52,7 @@ std::unique_ptr<Designer> make_sqp(const DesignProblem& problem, const FlowSpace
   return std::make_unique<SqpDesigner>(first_design_of(problem, space, ProblemPlace("design problem")),
                                        SqpOptions{.trust = problem.trust,
                                                   .least_promise = problem.least_promise,
+                                                  .constraint_tolerance = problem.constraint_tolerance,
                                                   .low = std::move(bounds.low),
                                                   .high = std::move(bounds.high),
                                                   .metric = space.metric()});

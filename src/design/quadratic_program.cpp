@@ -13,7 +13,9 @@ using Eigen::ArrayXd, Eigen::MatrixXd, Eigen::VectorXd;
 // In units in which ranges, rows and the objective's slopes are about 1; bounds are rows as well.
 struct Scaled {
   MatrixXd h, a;
-  VectorXd g, b, unit;
+  VectorXd g, b;
+  VectorXd unit, size;  // of variables, of rows but bounds
+  double slope;         // of the objective
 };
 
 Scaled scaled(const QuadraticProgram& program) {
@@ -22,8 +24,13 @@ Scaled scaled(const QuadraticProgram& program) {
   const auto at = [](const std::vector<double>& list, Eigen::Index i) {
     return list[static_cast<std::size_t>(i)];
   };
-  Scaled result{MatrixXd(n, n), MatrixXd::Zero(rows + 2 * n, n), VectorXd(n), VectorXd(rows + 2 * n),
-                VectorXd(n)};
+  Scaled result{MatrixXd(n, n),
+                MatrixXd::Zero(rows + 2 * n, n),
+                VectorXd(n),
+                VectorXd(rows + 2 * n),
+                VectorXd(n),
+                VectorXd(rows),
+                0.0};
   for (Eigen::Index i = 0; i < n; ++i)
     result.unit(i) = std::max({std::fabs(at(program.low, i)), std::fabs(at(program.high, i)), 1e-300});
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -36,12 +43,12 @@ Scaled scaled(const QuadraticProgram& program) {
   for (Eigen::Index r = 0; r < rows; ++r) {
     for (Eigen::Index i = 0; i < n; ++i)
       result.a(r, i) = program.a[static_cast<std::size_t>(r)][static_cast<std::size_t>(i)] * result.unit(i);
-    const double size = std::max(result.a.row(r).norm(), 1e-300);
-    result.a.row(r) /= size;
-    result.b(r) = at(program.b, r) / size;
+    result.size(r) = std::max(result.a.row(r).norm(), 1e-300);
+    result.a.row(r) /= result.size(r);
+    result.b(r) = at(program.b, r) / result.size(r);
   }
-  const double slope = std::max(result.g.cwiseAbs().maxCoeff(), 1e-300);
-  result.g /= slope, result.h /= slope;
+  result.slope = std::max(result.g.cwiseAbs().maxCoeff(), 1e-300);
+  result.g /= result.slope, result.h /= result.slope;
   return result;
 }
 
@@ -55,7 +62,7 @@ double longest(const ArrayXd& x, const ArrayXd& dx) {
 
 }  // namespace
 
-std::vector<double> solved(const QuadraticProgram& program) {
+QuadraticSolution solved(const QuadraticProgram& program) {
   constexpr int most_steps = 100;
   constexpr double accuracy = 1e-11, back_off = 0.995;
   const Scaled within = scaled(program);
@@ -85,11 +92,13 @@ std::vector<double> solved(const QuadraticProgram& program) {
     if (!dx.allFinite() || !(length > 0.0)) break;
     x += length * dx, slack += length * ds, price += length * dp;
   }
-  std::vector<double> result;
+  QuadraticSolution result;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
-    result.push_back(std::clamp(x(i) * within.unit(i), program.low[k], program.high[k]));
+    result.x.push_back(std::clamp(x(i) * within.unit(i), program.low[k], program.high[k]));
   }
+  for (Eigen::Index r = 0; r < within.size.size(); ++r)
+    result.multipliers.push_back(price(r) * within.slope / within.size(r));
   return result;
 }
 

@@ -16,8 +16,13 @@ struct QuadraticProgram {
   std::vector<double> low, high;  // finite
 };
 
+struct QuadraticSolution {
+  std::vector<double> x;
+  std::vector<double> multipliers;  // of the rows of A, 0 or more: H x + g + A' multipliers is what bounds hold
+};
+
 // The solution to about ten digits of the largest variable's range. There has to be a point that satisfies
-// all constraints; otherwise what is returned is between the bounds and nothing more.
-std::vector<double> solved(const QuadraticProgram& program);
+// all constraints; otherwise x is between the bounds and nothing more is known of it.
+QuadraticSolution solved(const QuadraticProgram& program);
 
 }  // namespace remodel

@@ -53,12 +53,14 @@ Evaluation known_evaluation(const SqpJson& json) {
   return result;
 }
 
-// Of the worst violation, beside the objective over its first value: at first, and the most that it grows to.
-constexpr double first_penalty = 1000.0, most_penalty = 1e5;
+// Of the worst violation that a step leaves, beside the objective over its first value: at first, and the
+// most that it grows to.
+constexpr double first_elastic = 1000.0, most_elastic = 1e5;
 constexpr double first_shift = 0.02;  // of the objective's first value: before any was seen
 
-// Constraints are kept by this much more than they ask for, so that rounding does not violate them.
-constexpr double margin = 1e-9;
+// Constraints are kept by this much more than they ask for, so that rounding does not violate them. Linear
+// ones hold after a step that violates them by no more than rounding.
+constexpr double margin = 1e-9, linear_rounding = 1e-7;
 
 double product(const double* a, const std::vector<double>& b) {
   return std::inner_product(b.begin(), b.end(), a, 0.0);
@@ -85,14 +87,14 @@ double quadratic_value(const Evaluation& at, const std::vector<double>& curvatur
 struct Model {
   const Evaluation& at;
   const std::vector<double>& curvature;
-  double scale, penalty;
+  double scale, elastic;
 };
 
 // The step in the box that makes the model small, with one variable more, by which all constraints may be
 // violated: at most by twice as much as they are now.
-std::vector<double> small_step(const Model& model, const std::vector<double>& low,
-                               const std::vector<double>& high) {
-  const auto& [at, curvature, scale, penalty] = model;
+QuadraticSolution small_step(const Model& model, const std::vector<double>& low,
+                             const std::vector<double>& high) {
+  const auto& [at, curvature, scale, elastic] = model;
   const std::size_t n = low.size();
   QuadraticProgram program{
       .h = std::vector<double>((n + 1) * (n + 1), 0.0), .g = {}, .a = {}, .b = {}, .low = low, .high = high};
@@ -101,7 +103,7 @@ std::vector<double> small_step(const Model& model, const std::vector<double>& lo
                 program.h.begin() + static_cast<std::ptrdiff_t>(i * (n + 1)));
     program.g.push_back(at.gradient[i] / scale);
   }
-  program.g.push_back(penalty);
+  program.g.push_back(elastic);
   program.low.push_back(0.0);
   program.high.push_back(2.0 * worst_after(at, std::vector<double>(n, 0.0)) + margin);
   for (std::size_t i = 0; i < at.constraints.size(); ++i) {
@@ -109,9 +111,9 @@ std::vector<double> small_step(const Model& model, const std::vector<double>& lo
     program.a.back().push_back(-1.0);
     program.b.push_back(-at.constraints[i] - margin);
   }
-  std::vector<double> x = solved(program);
-  x.pop_back();
-  return x;
+  QuadraticSolution solution = solved(program);
+  solution.x.pop_back();
+  return solution;
 }
 
 }  // namespace
@@ -119,8 +121,8 @@ std::vector<double> small_step(const Model& model, const std::vector<double>& lo
 SqpDesigner::SqpDesigner(std::vector<double> start, SqpOptions options)
     : options_(std::move(options)),
       pending_(std::move(start)),
+      elastic_(first_elastic),
       trust_(options_.trust),
-      penalty_(first_penalty),
       shift_(first_shift) {
   if (options_.low.size() != pending_.size() || options_.high.size() != pending_.size())
     throw Error(ErrorCode::argument, "designer", "expected bounds for each variable");
@@ -141,6 +143,26 @@ double SqpDesigner::model(const std::vector<double>& step) const {
   return quadratic_value(best_.evaluation, curvature_, scale_, step) + penalty_ * violated;
 }
 
+// The penalty follows the multipliers (M. J. D. Powell, "A fast algorithm for nonlinearly constrained
+// optimization calculations", 1978): with much more than they ask for, steps along a curved constraint would
+// be short. Where the box is too small to satisfy all, a fall of the violation pays for what the objective
+// rises by.
+void SqpDesigner::settle_penalty(const QuadraticSolution& solution) {
+  constexpr double safety = 2.0;
+  const double after = worst_after(best_.evaluation, solution.x);
+  const double fall = violation_of(best_.evaluation.constraints) - after;
+  double wanted = 0.0;
+  if (after <= linear_rounding) {
+    multipliers_ = solution.multipliers;
+    wanted = safety * std::accumulate(multipliers_.begin(), multipliers_.end(), 0.0);
+  }
+  if (fall > 0.0) {
+    const double rise = quadratic_value(best_.evaluation, curvature_, scale_, solution.x);
+    wanted = std::max(wanted, safety * rise / fall);
+  }
+  penalty_ = std::max(wanted, 0.5 * (penalty_ + wanted));
+}
+
 void SqpDesigner::propose() {
   const std::size_t n = best_.design.size();
   std::vector<double> low(n), high(n);
@@ -151,15 +173,17 @@ void SqpDesigner::propose() {
     }
   };
   box();
-  const auto search = [&] { return small_step({best_.evaluation, curvature_, scale_, penalty_}, low, high); };
-  std::vector<double> step = search();
-  // Where the objective's fall pays for a violation that need not be, the penalty is too small.
-  constexpr double rounding = 1e-7, worth_it = 0.9, growth = 10.0;
-  const double violated = std::max(rounding, worth_it * violation_of(best_.evaluation.constraints));
-  while (worst_after(best_.evaluation, step) > violated && penalty_ < most_penalty) {
-    penalty_ *= growth;
-    step = search();
+  const auto search = [&] { return small_step({best_.evaluation, curvature_, scale_, elastic_}, low, high); };
+  QuadraticSolution solution = search();
+  std::vector<double>& step = solution.x;
+  // Where the objective's fall pays for a violation that need not be, too little is asked for it.
+  constexpr double worth_it = 0.9, growth = 10.0;
+  const double violated = std::max(linear_rounding, worth_it * violation_of(best_.evaluation.constraints));
+  while (worst_after(best_.evaluation, step) > violated && elastic_ < most_elastic) {
+    elastic_ *= growth;
+    solution = search();
   }
+  settle_penalty(solution);
   promised_ = -model(step);
   constexpr double part_of_first = 1e-3;  // a small first box is no reason to end
   // A first box in which the model promises next to nothing is too small, and says nothing of the start.
@@ -171,11 +195,13 @@ void SqpDesigner::propose() {
   while (is_too_small && promised_ < worth_a_step && trust_ < largest_trust && is_held_by_box()) {
     trust_ *= growth;
     box();
-    step = search();
+    solution = search();
+    settle_penalty(solution);
     promised_ = -model(step);
   }
   finished_ = trust_ < std::min(options_.least_trust, part_of_first * options_.trust) ||
-              !(promised_ > options_.least_promise);
+              (!(promised_ > options_.least_promise) &&
+               violation_of(best_.evaluation.constraints) <= options_.constraint_tolerance);
   pending_ = best_.design;
   for (std::size_t i = 0; i < n; ++i) pending_[i] += step[i];
 }
@@ -195,7 +221,8 @@ void SqpDesigner::propose_start() {
   }
 }
 
-// Damped, so that the model's second derivatives stay positive. The first step says how large they are.
+// Second derivatives of the Lagrangian, damped, so that they stay positive. The first step says how large
+// they are.
 void SqpDesigner::learn(const Known& trial) {
   const std::size_t n = best_.design.size();
   std::vector<double> s(n), y(n), bend(n, 0.0);
@@ -203,6 +230,9 @@ void SqpDesigner::learn(const Known& trial) {
   for (std::size_t i = 0; i < n; ++i) {
     s[i] = trial.design[i] - best_.design[i];
     y[i] = (trial.evaluation.gradient[i] - best_.evaluation.gradient[i]) / scale_;
+    for (std::size_t k = 0; k < multipliers_.size(); ++k)
+      y[i] += multipliers_[k] *
+              (trial.evaluation.constraint_gradients[k][i] - best_.evaluation.constraint_gradients[k][i]);
     ss += s[i] * s[i], sy += s[i] * y[i];
   }
   if (ss == 0.0) return;
@@ -279,7 +309,9 @@ void SqpDesigner::refuse(const Proposal& proposal) {
 void SqpDesigner::tell(const Proposal& proposal, const Evaluation& evaluation) {
   if (finished_) return;
   const std::size_t n = proposal.design.size();
-  const bool failed = !std::isfinite(evaluation.objective) || evaluation.gradient.size() != n;
+  const bool failed = !std::isfinite(evaluation.objective) || evaluation.gradient.size() != n ||
+                      !std::isfinite(violation_of(evaluation.constraints)) ||
+                      evaluation.constraint_gradients.size() != evaluation.constraints.size();
   const Known known{proposal.design, evaluation};
   if (!started_) {
     if (failed) return propose_start();
@@ -318,7 +350,9 @@ std::string SqpDesigner::state() const {
                   {"scale", scale_},
                   {"trust", trust_},
                   {"promised", promised_},
+                  {"elastic", elastic_},
                   {"penalty", penalty_},
+                  {"multipliers", multipliers_},
                   {"shift", shift_},
                   {"begun_at", begun_at_},
                   {"steps", steps_},
@@ -342,6 +376,8 @@ void SqpDesigner::restore(const std::string& state, const std::string& source) {
     constexpr double least = std::numeric_limits<double>::min(), most = std::numeric_limits<double>::max();
     scale_ = number_at(json, "scale", least, most), trust_ = number_at(json, "trust", 0.0, most);
     penalty_ = number_at(json, "penalty", 0.0, most);
+    elastic_ = json.contains("elastic") ? number_at(json, "elastic", 0.0, most) : first_elastic;
+    multipliers_ = json.value("multipliers", std::vector<double>{});
     json.at("promised").get_to(promised_), json.at("shift").get_to(shift_),
         json.at("begun_at").get_to(begun_at_);
     steps_ = count_at(json, "steps"), json.at("started").get_to(started_);
@@ -354,6 +390,8 @@ void SqpDesigner::restore(const std::string& state, const std::string& source) {
     waiting_.reset();
     if (!json.at("waiting").is_null()) waiting_ = known(json.at("waiting"));
     const bool goes_on = started_ && !finished_;
+    if (!multipliers_.empty() && multipliers_.size() != best_.evaluation.constraints.size())
+      throw std::invalid_argument("found multipliers of another number of constraints");
     if ((waiting_ && (waiting_->design.size() != n || waiting_->evaluation.gradient.size() != n)) ||
         (carried_ && curvature_.size() != n * n) ||
         (goes_on && (curvature_.size() != n * n || best_.evaluation.gradient.size() != n)))
@@ -373,7 +411,7 @@ void SqpDesigner::carry(const std::string& state, const std::string& source) {
   if (!other.learnt_) return;
   curvature_ = std::move(other.curvature_);
   learnt_ = carried_ = true;
-  scale_ = other.scale_, penalty_ = other.penalty_;
+  scale_ = other.scale_, elastic_ = other.elastic_, penalty_ = other.penalty_;
   trust_ = std::max(other.trust_, least_part * options_.trust);
 }
 

@@ -14,26 +14,29 @@ namespace {
 
 // J. Nocedal and S. J. Wright, "Numerical Optimization", 2nd ed. (2006), example 16.4.
 TEST(QuadraticPrograms, OfABookHaveItsSolution) {
-  const std::vector<double> x = solved({.h = {2, 0, 0, 2},
-                                        .g = {-2, -5},
-                                        .a = {{-1, 2}, {1, 2}, {1, -2}},
-                                        .b = {2, 6, 2},
-                                        .low = {0, 0},
-                                        .high = {1e3, 1e3}});
-  EXPECT_NEAR(x.at(0), 1.4, 1e-7);
-  EXPECT_NEAR(x.at(1), 1.7, 1e-7);
+  const QuadraticSolution solution = solved({.h = {2, 0, 0, 2},
+                                             .g = {-2, -5},
+                                             .a = {{-1, 2}, {1, 2}, {1, -2}},
+                                             .b = {2, 6, 2},
+                                             .low = {0, 0},
+                                             .high = {1e3, 1e3}});
+  EXPECT_NEAR(solution.x.at(0), 1.4, 1e-7);
+  EXPECT_NEAR(solution.x.at(1), 1.7, 1e-7);
+  EXPECT_NEAR(solution.multipliers.at(0), 0.8, 1e-7);  // of the only row that holds x
+  EXPECT_NEAR(solution.multipliers.at(1), 0.0, 1e-7);
+  EXPECT_NEAR(solution.multipliers.at(2), 0.0, 1e-7);
 }
 
 TEST(QuadraticPrograms, WithoutCurvatureEndInACorner) {
-  const std::vector<double> x = solved({.h = std::vector<double>(9, 0.0),
-                                        .g = {1e-6, -1e-6, 1e-9},
-                                        .a = {{0, 1, 1}},
-                                        .b = {1e-4},
-                                        .low = {-1e-3, -1e-3, -1e-3},
-                                        .high = {1e-3, 1e-3, 1e-3}});
-  EXPECT_NEAR(x.at(0), -1e-3, 1e-12);
-  EXPECT_NEAR(x.at(1), 1e-3, 1e-12);
-  EXPECT_NEAR(x.at(2), -1e-3, 1e-10);
+  const QuadraticSolution solution = solved({.h = std::vector<double>(9, 0.0),
+                                             .g = {1e-6, -1e-6, 1e-9},
+                                             .a = {{0, 1, 1}},
+                                             .b = {1e-4},
+                                             .low = {-1e-3, -1e-3, -1e-3},
+                                             .high = {1e-3, 1e-3, 1e-3}});
+  EXPECT_NEAR(solution.x.at(0), -1e-3, 1e-12);
+  EXPECT_NEAR(solution.x.at(1), 1e-3, 1e-12);
+  EXPECT_NEAR(solution.x.at(2), -1e-3, 1e-10);
 }
 
 // A long bent valley beside a constraint: f = 100 (y - x^2)^2 + (1 - x)^2 with x + y <= 1.
@@ -70,6 +73,45 @@ TEST(Sqp, KeepsConstraintsWhoseViolationWouldPay) {
                              .constraint_gradients = {{1.0}}});
   }
   EXPECT_NEAR(last, 0.1, 1e-6);
+}
+
+// Rosen and Suzuki's problem: two of three curved constraints hold the solution (0, 1, 2, -1). Source: W.
+// Hock and K. Schittkowski, "Test Examples for Nonlinear Programming Codes" (1981), problem 43. The objective
+// is 1 + size f / 20, the constraints are in the given unit.
+Evaluation rosen_suzuki(const std::vector<double>& x, double size, double unit) {
+  const double a = x[0], b = x[1], c = x[2], d = x[3], k = size / 20;
+  const double f = a * a + b * b + 2 * c * c + d * d - 5 * a - 5 * b - 21 * c + 7 * d;
+  Evaluation result{.objective = 1 + k * f,
+                    .constraints = {a * a + b * b + c * c + d * d + a - b + c - d - 8,
+                                    a * a + 2 * b * b + c * c + 2 * d * d - a - d - 10,
+                                    2 * a * a + b * b + c * c + 2 * a - b - d - 5},
+                    .gradient = {k * (2 * a - 5), k * (2 * b - 5), k * (4 * c - 21), k * (2 * d + 7)},
+                    .constraint_gradients = {{2 * a + 1, 2 * b - 1, 2 * c + 1, 2 * d - 1},
+                                             {2 * a - 1, 4 * b, 2 * c, 4 * d - 1},
+                                             {4 * a + 2, 2 * b - 1, 2 * c, -1}}};
+  for (double& constraint : result.constraints) constraint *= unit;
+  for (std::vector<double>& row : result.constraint_gradients)
+    for (double& slope : row) slope *= unit;
+  return result;
+}
+
+TEST(Sqp, FollowsCurvedConstraintsWhateverTheirUnitsAndTheObjectivesSize) {
+  for (const double size : {0.01, 1.0})
+    for (const double unit : {0.01, 1.0, 100.0}) {
+      SqpDesigner designer({0, 0, 0, 0}, {.trust = 0.2,
+                                          .constraint_tolerance = 1e-7 * unit,
+                                          .low = std::vector<double>(4, -9.0),
+                                          .high = std::vector<double>(4, 9.0)});
+      int designs = 0;
+      for (; designs < 100 && !designer.finished(); ++designs) {
+        const Proposal proposal = designer.ask();
+        designer.tell(proposal, rosen_suzuki(proposal.design, size, unit));
+      }
+      EXPECT_LE(designs, 20) << size << ' ' << unit;
+      const Evaluation found = rosen_suzuki(designer.centre(), size, unit);
+      EXPECT_NEAR(found.objective, 1 - size * 44 / 20, 1e-5 * size);
+      EXPECT_LE(violation_of(found.constraints), 1e-7 * unit);
+    }
 }
 
 TEST(Sqp, WhoseStartIsRefusedTriesDesignsAroundItAndEnds) {
