@@ -1,8 +1,8 @@
 # Builds and runs a consumer of remodel::core where HDF5, SQLite, cairo, MUMPS, the libraries of tests, MPI, threads and
 # pkg-config cannot be found: from Remodel's sources, and from what that installs, core alone, where not even the
 # header-only libraries are left that core is built with.
-# The core that is built there has no optimisation and no vector clones: its meshes are the bytes of the build's own
-# (tests/determinism), which TRACE prints.
+# The core that is built there is of another compiler, where clang++ is there, without optimisation and vector clones:
+# its meshes are the bytes of the build's own (tests/determinism), which TRACE prints.
 #   cmake -DSOURCE=... -DSCRATCH=... -DTRACE=... -P core_consumer_test.cmake
 include(${SOURCE}/tests/run.cmake)
 
@@ -13,6 +13,8 @@ set(consumer ${SOURCE}/tests/consumer/core)
 # which finds includes that lack.
 set(bare -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_UNITY_BUILD=ON -DCMAKE_TOOLCHAIN_FILE=${consumer}/bare.cmake
          -DBARE_SCRATCH=${SCRATCH}/bare)
+find_program(COMPILER NAMES clang++ c++ REQUIRED)
+list(APPEND bare -DCMAKE_CXX_COMPILER=${COMPILER})
 find_program(CCACHE ccache)
 if(CCACHE)
   list(APPEND bare -DCMAKE_CXX_COMPILER_LAUNCHER=${CCACHE})
@@ -41,7 +43,7 @@ run(${CMAKE_COMMAND} -S ${consumer} -B ${SCRATCH}/sources ${bare} -DREMODEL_SOUR
     -DREMODEL_DISPATCH=OFF)
 run_consumer(${SCRATCH}/sources)
 file(GLOB_RECURSE core ${SCRATCH}/sources/remodel/libremodel_core.a)
-run(c++ -std=c++20 -ffp-contract=off -fno-math-errno -fno-trapping-math -w -I${SOURCE}/include -I${SOURCE}/src
+run(${COMPILER} -std=c++20 -ffp-contract=off -fno-math-errno -fno-trapping-math -w -I${SOURCE}/include -I${SOURCE}/src
     ${SOURCE}/tests/determinism/trace.cpp ${core} -pthread -o ${SCRATCH}/trace)
 foreach(program ${TRACE} ${SCRATCH}/trace)
   string(MD5 name ${program})
