@@ -3,6 +3,6 @@
 // The library's version, by https://semver.org: until 1.0 a new minor version may change interfaces and files.
 
 #define REMODEL_VERSION_MAJOR 0
-#define REMODEL_VERSION_MINOR 2
+#define REMODEL_VERSION_MINOR 3
 #define REMODEL_VERSION_PATCH 0
-#define REMODEL_VERSION "0.2.0"
+#define REMODEL_VERSION "0.3.0"
