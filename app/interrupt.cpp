@@ -10,7 +10,7 @@
 namespace remodel::app {
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;
+volatile std::sig_atomic_t signalled = 0;
 bool on_terminal = false;
 bool outlives_terminal = false;  // started by nohup
 
@@ -24,7 +24,7 @@ void clear_line() {
 }
 
 void note(int signal) {
-  interrupted = 1;
+  signalled = 1;
   clear_line();
   std::signal(signal, SIG_DFL);
 }
@@ -49,7 +49,7 @@ void end_at_interrupt() {
 }
 
 InterruptFlag::InterruptFlag() {
-  interrupted = 0;
+  signalled = 0;
   std::signal(SIGINT, note);
   std::signal(SIGTERM, note);
   at_hang_up(note);
@@ -62,7 +62,7 @@ InterruptFlag::~InterruptFlag() {
 }
 
 bool InterruptFlag::raised() const {
-  return interrupted != 0;
+  return signalled != 0;
 }
 
 }  // namespace remodel::app
