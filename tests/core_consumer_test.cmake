@@ -14,7 +14,7 @@ set(consumer ${SOURCE}/tests/consumer/core)
 set(bare -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_UNITY_BUILD=ON -DCMAKE_TOOLCHAIN_FILE=${consumer}/bare.cmake
          -DBARE_SCRATCH=${SCRATCH}/bare)
 find_program(COMPILER NAMES clang++ c++ REQUIRED)
-list(APPEND bare -DCMAKE_CXX_COMPILER=${COMPILER})
+list(APPEND bare -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=-w)
 find_program(CCACHE ccache)
 if(CCACHE)
   list(APPEND bare -DCMAKE_CXX_COMPILER_LAUNCHER=${CCACHE})

@@ -13,10 +13,7 @@ namespace {
 class ChainMaker {
  public:
   explicit ChainMaker(const SoundMesh& mesh)
-      : mesh_(mesh),
-        edges_(mesh.inner),
-        taken_(edges_.size(), false),
-        on_boundary_(mesh.points.size(), false) {
+      : edges_(mesh.inner), taken_(edges_.size(), false), on_boundary_(mesh.points.size(), false) {
     std::sort(edges_.begin(), edges_.end(),
               [](const InnerEdge& a, const InnerEdge& b) { return a.place < b.place; });
     for (std::uint32_t i = 0; i < edges_.size(); ++i) {
@@ -88,7 +85,6 @@ class ChainMaker {
     chains_.push_back(std::move(chain));
   }
 
-  const SoundMesh& mesh_;
   std::vector<InnerEdge> edges_;
   std::vector<End> ends_;  // sorted
   std::vector<bool> taken_;
