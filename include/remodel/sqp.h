@@ -15,8 +15,6 @@
 
 namespace remodel {
 
-struct QuadraticSolution;
-
 struct SqpOptions {
   double trust = 0.02;        // first half-width of the trust box, in the design's numbers; > 0
   double least_trust = 1e-5;  // the search ends below
@@ -74,7 +72,7 @@ class SqpDesigner final : public Designer {
   double model(const std::vector<double>& step) const;  // less what it is without a step
   bool comparable(const Known& trial) const;
   void propose();
-  void settle_penalty(const QuadraticSolution& solution);
+  void settle_penalty(const std::vector<double>& step, const std::vector<double>& multipliers);
   void propose_start();
   void begin_model();
   void judge(const Known& trial, bool failed);

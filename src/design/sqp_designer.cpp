@@ -147,17 +147,17 @@ double SqpDesigner::model(const std::vector<double>& step) const {
 // optimization calculations", 1978): with much more than they ask for, steps along a curved constraint would
 // be short. Where the box is too small to satisfy all, a fall of the violation pays for what the objective
 // rises by.
-void SqpDesigner::settle_penalty(const QuadraticSolution& solution) {
+void SqpDesigner::settle_penalty(const std::vector<double>& step, const std::vector<double>& multipliers) {
   constexpr double safety = 2.0;
-  const double after = worst_after(best_.evaluation, solution.x);
+  const double after = worst_after(best_.evaluation, step);
   const double fall = violation_of(best_.evaluation.constraints) - after;
   double wanted = 0.0;
   if (after <= linear_rounding) {
-    multipliers_ = solution.multipliers;
+    multipliers_ = multipliers;
     wanted = safety * std::accumulate(multipliers_.begin(), multipliers_.end(), 0.0);
   }
   if (fall > 0.0) {
-    const double rise = quadratic_value(best_.evaluation, curvature_, scale_, solution.x);
+    const double rise = quadratic_value(best_.evaluation, curvature_, scale_, step);
     wanted = std::max(wanted, safety * rise / fall);
   }
   penalty_ = std::max(wanted, 0.5 * (penalty_ + wanted));
@@ -183,8 +183,11 @@ void SqpDesigner::propose() {
     elastic_ *= growth;
     solution = search();
   }
-  settle_penalty(solution);
-  promised_ = -model(step);
+  const auto judge_model = [&] {
+    settle_penalty(step, solution.multipliers);
+    promised_ = -model(step);
+  };
+  judge_model();
   constexpr double part_of_first = 1e-3;  // a small first box is no reason to end
   // A first box in which the model promises next to nothing is too small, and says nothing of the start.
   constexpr double largest_trust = 1e6, next_to_nothing = 1e-4, worth_a_step = 1e-2, nearly = 0.99;
@@ -196,8 +199,7 @@ void SqpDesigner::propose() {
     trust_ *= growth;
     box();
     solution = search();
-    settle_penalty(solution);
-    promised_ = -model(step);
+    judge_model();
   }
   finished_ = trust_ < std::min(options_.least_trust, part_of_first * options_.trust) ||
               (!(promised_ > options_.least_promise) &&
