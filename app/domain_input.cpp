@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <filesystem>
 #include <utility>
 
 #include "arguments.h"
@@ -11,17 +9,10 @@
 #include "flow_mesh.h"
 #include "number_text.h"
 #include "remodel/error.h"
-#include "remodel/io.h"
-#include "remodel/shape_files.h"
 #include "warnings.h"
 
 namespace remodel::app {
 namespace {
-
-bool is_domain_file(const std::string& shape) {
-  const std::filesystem::path file(shape);
-  return (file.extension() == ".json" || is_pipe(file)) && holds_domain(file);
-}
 
 Placement placement_of(const std::string& text) {
   const std::vector<double> values = parse_reals("--place", text, 4);
@@ -31,35 +22,6 @@ Placement placement_of(const std::string& text) {
   return {.chord = values[0], .rotation_deg = values[1], .position = {values[2], values[3]}};
 }
 
-using Airfoils = std::vector<PlacedAirfoil>;
-
-bool is_taken(const std::string& name, const Airfoils& before) {
-  return name == "farfield" || std::any_of(before.begin(), before.end(), [&](const PlacedAirfoil& airfoil) {
-           return airfoil.name == name;
-         });
-}
-
-// "flap" for some/flap.dat, "naca2412" for naca:2412 (to solvers a bare number is a tag, not a name); a
-// number is appended to a name that is already taken.
-std::string name_of(const std::string& shape, const Airfoils& before) {
-  std::string name = std::filesystem::path(shape).stem().string();
-  std::erase(name, ':');
-  if (name.find_first_not_of("0123456789.+-") == std::string::npos) name.insert(0, "airfoil");
-  std::string candidate = name;
-  for (int i = 2; is_taken(candidate, before); ++i) candidate = name + "_" + std::to_string(i);
-  return candidate;
-}
-
-// The user's own name, or one by its file.
-std::string name_of(const DomainInputOptions& options, std::size_t i, const Airfoils& before) {
-  if (i >= options.names.size()) return name_of(options.shapes[i], before);
-  const std::string& name = options.names[i];
-  if (name.empty() || is_taken(name, before))
-    throw Error(ErrorCode::argument, "--name",
-                "found '" + name + "', expected a name of its own for each airfoil, and not 'farfield'");
-  return name;
-}
-
 void require_at_most_one_each(const char* option, std::size_t found, std::size_t airfoils) {
   if (found > airfoils)
     throw Error(ErrorCode::argument, option,
@@ -67,149 +29,33 @@ void require_at_most_one_each(const char* option, std::size_t found, std::size_t
                     std::to_string(airfoils) + " airfoils");
 }
 
-// Below, an incidence is what digits and the choice of a nose leave of none.
-constexpr double least_incidence_deg = 0.1;
+// The library names the members of what it is given, a user knows the options behind them.
+std::string with_options(std::string text) {
+  if (text.starts_with("place: ") || text.starts_with("name: ")) text.insert(0, "--");
+  for (const auto& [member, option] : {std::pair<std::string, const char*>{"as_given", "--as-given"},
+                                       {"keep_coordinates", "--keep-coordinates"},
+                                       {"close_trailing_edge", "--close-trailing-edge"}})
+    for (std::size_t at = text.find(member); at != text.npos; at = text.find(member))
+      text.replace(at, member.size(), option);
+  return text;
+}
 
-// The box of all noses and trailing edges, which a farfield goes around.
-struct Extent {
-  Point least{HUGE_VAL, HUGE_VAL}, largest{-HUGE_VAL, -HUGE_VAL};
-  void add(Point p) {
-    least = {std::min(least.x, p.x), std::min(least.y, p.y)};
-    largest = {std::max(largest.x, p.x), std::max(largest.y, p.y)};
-  }
-  void add(const AirfoilFrame& frame) {
-    add(frame.nose);
-    add(frame.nose + frame.chord * frame.axis);
-  }
-  Point centre() const { return 0.5 * (least + largest); }
-  double size() const { return std::max(largest.x - least.x, largest.y - least.y); }
-};
-
-// Reads what is given as airfoils, and says what became of their files.
-class AirfoilInput {
- public:
-  AirfoilInput(const DomainInputOptions& options, const FitOptions& fit, DomainInput& input)
-      : options_(options), fit_(fit), input_(input) {}
-
-  void read() {
-    for (std::size_t i = 0; i < options_.shapes.size(); ++i) {
-      if (is_coordinate_file(options_.shapes[i]))
-        read_file(i);
-      else
-        add_named(i);
+std::vector<ShapeOfDomain> shapes_of(const DomainInputOptions& options) {
+  require_at_most_one_each("--place", options.places.size(), options.shapes.size());
+  require_at_most_one_each("--name", options.names.size(), options.shapes.size());
+  std::vector<ShapeOfDomain> shapes;
+  for (std::size_t i = 0; i < options.shapes.size(); ++i) {
+    ShapeOfDomain shape{.shape = options.shapes[i]};
+    if (i < options.places.size()) shape.place = placement_of(options.places[i]);
+    if (i < options.names.size()) {
+      if (options.names[i].empty())
+        throw Error(ErrorCode::argument, "--name", "found '', expected a name for an airfoil");
+      shape.name = options.names[i];
     }
-    if (keeps_ && !lies_in_chords({.chord = longest_}))
-      warn("the longest chord is " + short_text(longest_) +
-           " in the coordinates of the files, which are kept: coefficients of a flow are of the reference "
-           "length "
-           "that is given, or of 1");
+    shapes.push_back(std::move(shape));
   }
-
-  const Airfoils& airfoils() const { return airfoils_; }
-  double chord() const { return keeps_ ? longest_ : 1.0; }
-  // The farfield around what stays in the coordinates of its files.
-  AirfoilDomainOptions farfield(AirfoilDomainOptions discretisation) const {
-    if (!keeps_ || options_.farfield_stays) return discretisation;
-    discretisation.farfield_radius *= extent_.size();
-    discretisation.farfield_centre = extent_.centre();
-    return discretisation;
-  }
-
- private:
-  std::string name_for(std::size_t i) const {
-    const bool alone = options_.shapes.size() == 1 && options_.names.empty() && elements_ < 2;
-    return alone ? "airfoil" : name_of(options_, i, airfoils_);
-  }
-
-  void add_named(std::size_t i) {
-    const std::string& shape = options_.shapes[i];
-    if (options_.as_given)
-      throw Error(ErrorCode::argument, "--as-given",
-                  "given for '" + shape + "', expected for coordinate files");
-    if (options_.keep_coordinates)
-      throw Error(ErrorCode::argument, "--keep-coordinates",
-                  "given for '" + shape + "', expected for coordinate files");
-    elements_ = 1;
-    PlacedAirfoil placed{.name = name_for(i), .airfoil = fit_shape(shape, fit_, input_.fits).airfoil};
-    if (i < options_.places.size()) placed.placement = placement_of(options_.places[i]);
-    airfoils_.push_back(std::move(placed));
-  }
-
-  void read_file(std::size_t i) {
-    const std::string& shape = options_.shapes[i];
-    const AirfoilOutlines file = read_outlines(shape);
-    elements_ = file.elements.size();
-    const bool place = i < options_.places.size();
-    if (place && elements_ > 1)
-      throw Error(ErrorCode::argument, "--place",
-                  "given for '" + shape + "', which has " + std::to_string(elements_) +
-                      " elements in common coordinates, expected for a file of one");
-    if (elements_ > 1)
-      warn(shape + ": has " + std::to_string(elements_) + " elements, whose common coordinates are kept");
-    if (options_.as_given || elements_ > 1) warn(file.warnings);
-    for (const AirfoilOutline& outline : file.elements) {
-      const bool keep = options_.keep_coordinates || elements_ > 1;
-      keeps_ = keeps_ || keep;
-      if (keep) extent_.add(outline.frame), longest_ = std::max(longest_, outline.frame.chord);
-      PlacedAirfoil placed = options_.as_given ? as_given(i, outline, keep, place) : fitted(i, outline, keep);
-      if (place) placed.placement = placement_of(options_.places[i]);
-      airfoils_.push_back(std::move(placed));
-    }
-  }
-
-  PlacedAirfoil as_given(std::size_t i, const AirfoilOutline& outline, bool keep, bool place) {
-    const std::string& shape = options_.shapes[i];
-    const bool stays = keep || (!place && lies_in_chords(outline.frame));
-    PlacedAirfoil placed;
-    placed.name = name_for(i);
-    placed.outline =
-        outline_of(stays ? outline.points : moved_to_origin(outline), *options_.as_given, placed.name);
-    const bool closed = outline.points.front() == outline.points.back();
-    input_.outlines.push_back({.shape = shape,
-                               .points = outline.points.size() - (closed ? 1 : 0),
-                               .gap = outline.gap,
-                               .kept = stays,
-                               .frame = outline.frame});
-    if (!stays && !place)
-      warn(shape + ": its chord of " + short_text(outline.frame.chord) +
-           " is scaled to 1 and its nose moved from " + short_text(outline.frame.nose.x) + "," +
-           short_text(outline.frame.nose.y) + " to the origin; --keep-coordinates leaves them");
-    return placed;
-  }
-
-  // Several elements of a file are fitted one by one; a file of one by itself, with what is said of it.
-  CstFit fit_of(std::size_t i, const AirfoilOutline& outline, bool keep) {
-    const std::string& shape = options_.shapes[i];
-    if (elements_ == 1 && !keep) return fit_shape(shape, fit_, input_.fits);
-    const CstFit fit = fit_cst_apart(surfaces_of(outline, shape), fit_.degree, fit_.trailing_edge());
-    warn(fit.warnings);
-    input_.fits.push_back({shape, fit});
-    return fit;
-  }
-
-  PlacedAirfoil fitted(std::size_t i, const AirfoilOutline& outline, bool keep) {
-    const CstFit fit = fit_of(i, outline, keep);
-    PlacedAirfoil placed{.name = name_for(i), .airfoil = fit.airfoil};
-    const AirfoilFrame& frame = fit.frame;
-    const double incidence = frame.incidence_deg();
-    if (keep) {
-      placed.placement = {.chord = frame.chord, .rotation_deg = -incidence, .position = frame.nose};
-    } else if (std::abs(incidence) >= least_incidence_deg && i >= options_.places.size()) {
-      placed.placement.rotation_deg = -incidence;
-      warn(options_.shapes[i] + ": the section is placed at the incidence that it is drawn at");
-    }
-    return placed;
-  }
-
-  const DomainInputOptions& options_;
-  const FitOptions& fit_;
-  DomainInput& input_;
-  Airfoils airfoils_;
-  Extent extent_;
-  std::size_t elements_ = 1;  // of the file that is read
-  double longest_ = 0.0;      // chord that is kept
-  bool keeps_ = false;
-};
+  return shapes;
+}
 
 void add_outline_figures(Report& report, const std::vector<ShapeOutline>& outlines) {
   Json list = Json::array();
@@ -226,18 +72,6 @@ void add_outline_figures(Report& report, const std::vector<ShapeOutline>& outlin
     report.line("outline of " + outline.shape, text);
   }
   if (!list.empty()) report.data("outlines", std::move(list));
-}
-
-void require_alone(const DomainInputOptions& options, const FitOptions& fit, const std::string& shape) {
-  for (const auto& [given, option] : {std::pair{options.as_given.has_value(), "--as-given"},
-                                      {options.keep_coordinates, "--keep-coordinates"},
-                                      {fit.close_trailing_edge, "--close-trailing-edge"}})
-    if (given)
-      throw Error(ErrorCode::argument, option,
-                  "given for '" + shape + "', a whole domain, expected for coordinate files");
-  if (options.shapes.size() == 1 && options.places.empty() && options.names.empty()) return;
-  throw Error(ErrorCode::argument, shape,
-              "holds a whole domain, expected it alone and without --place and --name");
 }
 
 }  // namespace
@@ -287,53 +121,33 @@ void add_reading_options(CLI::App& app, DomainInputOptions& options) {
 
 bool is_single_airfoil(const DomainInputOptions& options) {
   return options.shapes.size() == 1 && options.places.empty() && options.names.empty() && !options.as_given &&
-         !options.keep_coordinates && !holds_graph(options.shapes[0]) && !is_domain_file(options.shapes[0]);
+         !options.keep_coordinates && !is_whole_domain(options.shapes[0]);
 }
 
-DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOptions& discretisation,
-                        const FitOptions& fit) {
-  DomainInput input;
-  for (const std::string& shape : options.shapes) {
-    if (holds_graph(shape)) {
-      require_alone(options, fit, shape);
-      input.findings.emplace();
-      const PlanarGraph graph = read_poly(shape);
-      input.domain = planar_domain(graph, shape, options.crossings, &*input.findings, options.join);
-      warn_of(input.findings->joins, shape);
-      for (const std::string& sentence : graph.left_out) warn(sentence);
-      for (const std::string& sentence : input.findings->left_out) warn(shape + ": " + sentence);
-      validate(input.domain, shape);
-      return input;
-    }
-    if (is_domain_file(shape)) {
-      require_alone(options, fit, shape);
-      Joins joins;
-      std::vector<std::string> warnings;
-      input.domain = load_domain(shape, options.join, &joins, &warnings);
-      warn_of(joins, shape);
-      warn(warnings);
-      return input;
-    }
+ShapesDomain read_domain(const DomainInputOptions& options, const AirfoilDomainOptions& discretisation,
+                         const FitOptions& fit) {
+  const std::vector<ShapeOfDomain> shapes = shapes_of(options);
+  try {
+    ShapesDomain input = domain_of_shapes(shapes, discretisation,
+                                          {.degree = fit.degree,
+                                           .close_trailing_edge = fit.close_trailing_edge,
+                                           .as_given = options.as_given,
+                                           .keep_coordinates = options.keep_coordinates,
+                                           .farfield_stays = options.farfield_stays,
+                                           .crossings = options.crossings,
+                                           .join = options.join});
+    warn(input.warnings);
+    return input;
+  } catch (const Error& error) {
+    const std::string text = with_options(error.what());
+    const std::size_t colon = text.find(": ");
+    throw Error(error.code(), text.substr(0, colon), text.substr(colon + 2));
   }
-  require_at_most_one_each("--place", options.places.size(), options.shapes.size());
-  require_at_most_one_each("--name", options.names.size(), options.shapes.size());
-  if (options.as_given && fit.close_trailing_edge)
-    throw Error(ErrorCode::argument, "--close-trailing-edge",
-                "given with --as-given, which leaves the outline as it is, expected one of them");
-  if (options.keep_coordinates && !options.places.empty())
-    throw Error(ErrorCode::argument, "--place",
-                "given with --keep-coordinates, which leaves airfoils where they are, expected one of them");
-  AirfoilInput airfoils(options, fit, input);
-  airfoils.read();
-  input.domain = airfoils_domain(airfoils.airfoils(), airfoils.farfield(discretisation));
-  input.in_farfield = true;
-  input.chord = airfoils.chord();
-  return input;
 }
 
-void require_used(const DomainInput& input, const std::function<bool(const char*)>& given) {
+void require_used(const ShapesDomain& input, const std::function<bool(const char*)>& given) {
   if (!input.in_farfield)
-    refuse_given(given, {"--points", "--farfield-radius", "--farfield-points", "--cst-degree"},
+    refuse_given(given, {"--points", "--turning-share", "--farfield-radius", "--farfield-points", "--cst-degree"},
                  "given for a whole domain, which has its own, expected for airfoils");
   if (!input.findings)
     refuse_given(given, {"--crossings"}, "given without a planar graph, expected a .poly file");
@@ -353,7 +167,7 @@ GenerateResult generate_input(const DomainInputOptions& options, const Domain& d
   }
 }
 
-void add_findings(Report& report, const DomainInput& input) {
+void add_findings(Report& report, const ShapesDomain& input) {
   add_fit_figures(report, input.fits);
   add_outline_figures(report, input.outlines);
   if (!input.findings) return;

@@ -12,6 +12,7 @@
 #include "remodel/generate.h"
 #include "remodel/join.h"
 #include "remodel/planar.h"
+#include "remodel/shape_domain.h"
 #include "report.h"
 #include "shape_input.h"
 
@@ -40,31 +41,13 @@ void add_reading_options(CLI::App& app, DomainInputOptions& options);
 // True if the input is one airfoil without a place and a name, as opposed to a domain or an outline as given.
 bool is_single_airfoil(const DomainInputOptions& options);
 
-// The points of a coordinate file as given, or of one of its elements.
-struct ShapeOutline {
-  std::string shape;
-  std::size_t points = 0;
-  double gap = 0.0;  // of the trailing edge, in chords
-  bool kept = true;  // in the coordinates of the file, and not moved to the origin and scaled to a chord of 1
-  AirfoilFrame frame = {};
-};
-
-struct DomainInput {
-  Domain domain;
-  std::optional<PlanarFindings> findings = std::nullopt;  // of a planar graph
-  std::vector<ShapeFit> fits = {};                        // of coordinate files
-  std::vector<ShapeOutline> outlines = {};                // of those that are not fitted
-  bool in_farfield = false;                               // airfoils in the farfield of the options
-  double chord = 1.0;  // in units of the domain: the longest, of files whose coordinates are kept
-};
-// Warns of what was joined and left out. Throws Error as the readers do, and for more places or names than
-// shapes.
-DomainInput read_domain(const DomainInputOptions& options, const AirfoilDomainOptions& discretisation,
+// Its warnings are said. Throws Error as domain_of_shapes() does, and for more places or names than shapes.
+ShapesDomain read_domain(const DomainInputOptions& options, const AirfoilDomainOptions& discretisation,
                         const FitOptions& fit);
 
 // Throws Error (argument) for options that were given and have no part in what was read: those of far fields
 // and fits in a whole domain, and how segments cross where there is no planar graph.
-void require_used(const DomainInput& input, const std::function<bool(const char*)>& given);
+void require_used(const ShapesDomain& input, const std::function<bool(const char*)>& given);
 
 // Validates the domain of a single SHAPE, whose file errors name. Of several it is known as a "domain".
 void validate_input(const DomainInputOptions& options, const Domain& domain);
@@ -74,6 +57,6 @@ GenerateResult generate_input(const DomainInputOptions& options, const Domain& d
 
 // Reports under input{...} the defects of a planar graph that were found and resolved, under fits[] how well
 // coordinate files were fitted, and under outlines[] those that were taken as given.
-void add_findings(Report& report, const DomainInput& input);
+void add_findings(Report& report, const ShapesDomain& input);
 
 }  // namespace remodel::app

@@ -199,6 +199,7 @@ void add_flow_command(CLI::App& program, Action& action) {
   add_duct_options(app, command->euler);
   command->outputs.add_options(app, Presence::optional);
   add_meshing_options(app, command->meshing);
+  add_turning_share(app, command->meshing.discretisation);
   add_layer_sizes(app, command->layers, LayerDefaults::of_flow);
   add_json_flag(app, command->json);
   command->given = [&app](const char* option) { return given(app, option); };

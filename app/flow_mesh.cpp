@@ -19,8 +19,8 @@ void require_whole(const DomainInputOptions& input, Stopped stopped) {
 }
 
 // A domain whose curves are to be periodic has to know before it is meshed.
-DomainInput domain_of_flow(const FlowMeshRequest& request, const MeshingOptions& meshing) {
-  DomainInput input = read_domain(request.input, meshing.discretisation, meshing.fit);
+ShapesDomain domain_of_flow(const FlowMeshRequest& request, const MeshingOptions& meshing) {
+  ShapesDomain input = read_domain(request.input, meshing.discretisation, meshing.fit);
   require_used(input, request.given);
   for (const FlowPeriod& pair : request.flow.periodic) {
     const PeriodicPair wanted = {pair.name, pair.moved};
@@ -33,13 +33,13 @@ DomainInput domain_of_flow(const FlowMeshRequest& request, const MeshingOptions&
 // A fresh mesh with a layer that the Reynolds number asks for, as mesh --layers makes it.
 MeshInput layered_input(const FlowMeshRequest& request) {
   refuse_given(
-      request.given, {"--points"},
+      request.given, {"--points", "--turning-share"},
       "given with a model with friction, expected --wall-spacing, --te-spacing and --max-spacing, which "
       "set the stations");
   require_compatible(request.layers);
   MeshingOptions meshing = request.meshing;
   meshing.gradation = meshing.gradation.value_or(gradation_with_layers);
-  DomainInput domain = domain_of_flow(request, meshing);
+  ShapesDomain domain = domain_of_flow(request, meshing);
   // What airfoils have a chord for, a domain of a file has the reference length for.
   if (!domain.in_farfield) domain.chord = request.conditions.reference_length;
   const double reynolds = request.conditions.reynolds * (domain.chord / request.conditions.reference_length);
@@ -83,11 +83,12 @@ std::optional<std::string> mesh_file(const DomainInputOptions& input,
   if (file == input.shapes.end()) return std::nullopt;
   if (input.shapes.size() > 1 || !input.places.empty())
     throw Error(ErrorCode::argument, *file, "holds a mesh, expected it alone and without --place");
-  refuse_given(given,
-               {"--name", "--as-given", "--keep-coordinates", "--crossings", "--join", "--points",
-                "--farfield-radius", "--farfield-points", "--gradation", "--resolution", "--min-angle",
-                "--max-gradation", "--min-edge", "--max-vertices", "--cst-degree", "--close-trailing-edge"},
-               has_its_own);
+  refuse_given(
+      given,
+      {"--name", "--as-given", "--keep-coordinates", "--crossings", "--join", "--points", "--turning-share",
+       "--farfield-radius", "--farfield-points", "--gradation", "--resolution", "--min-angle",
+       "--max-gradation", "--min-edge", "--max-vertices", "--cst-degree", "--close-trailing-edge"},
+      has_its_own);
   refuse_given(given, layer_sizes, has_its_own);
   return *file;
 }
@@ -96,7 +97,7 @@ MeshInput flow_mesh(const FlowMeshRequest& request) {
   if (const auto file = mesh_file(request.input, request.given)) return read_any_mesh(*file);
   if (request.flow.model != FlowModel::euler) return layered_input(request);
   refuse_given(request.given, layer_sizes, "given without friction, expected --model laminar or sa");
-  const DomainInput domain = domain_of_flow(request, request.meshing);
+  const ShapesDomain domain = domain_of_flow(request, request.meshing);
   GenerateResult result = generate_input(request.input, domain.domain, request.meshing.resolved_quality());
   require_whole(request.input, result.stopped);
   MeshInput input;

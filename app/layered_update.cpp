@@ -43,38 +43,12 @@ bool is_airfoil(const Loop& loop) {
   return std::holds_alternative<CstAirfoil>(loop.curves.front().shape) && loop.curves.size() <= 2;
 }
 
-DomainInput with_single_airfoil(const LayeredUpdate& update, const Domain& walls) {
+ShapesDomain with_single_airfoil(const LayeredUpdate& update, const Domain& walls) {
   const std::string& shape = update.shapes.shapes.front();
-  DomainInput input;
+  ShapesDomain input;
   const CstFit fit = fit_shape(shape, update.fit, input.fits);
   input.domain = walls_with_airfoil(walls, fit.airfoil, update.mesh);
   return input;
-}
-
-// Whether the same parameters are the same points: those of polylines and splines are counted by their
-// points.
-bool has_parameters_of(const Shape& a, const Shape& b) {
-  if (a.index() != b.index()) return false;
-  const auto count = [](const Shape& shape) {
-    if (const auto* polyline = std::get_if<Polyline>(&shape)) return polyline->points.size();
-    if (const auto* spline = std::get_if<Spline>(&shape)) return spline->points.size();
-    return std::size_t{0};
-  };
-  return count(a) == count(b);
-}
-
-// New outlines keep the stations of old ones of their name, where these have curves of the same kinds.
-bool take_stations(Loop& loop, const Domain& walls) {
-  for (const Loop& old : walls.loops) {
-    const auto alike = [](const Curve& a, const Curve& b) {
-      return a.name == b.name && has_parameters_of(a.shape, b.shape);
-    };
-    if (!std::equal(loop.curves.begin(), loop.curves.end(), old.curves.begin(), old.curves.end(), alike))
-      continue;
-    for (std::size_t c = 0; c < loop.curves.size(); ++c) loop.curves[c].parameters = old.curves[c].parameters;
-    return true;
-  }
-  return false;
 }
 
 // The wake line of the mesh behind the new walls: as long as it was, in its direction, with its stations.
@@ -90,11 +64,11 @@ void keep_wake(const LayeredMesh& mesh, Domain& domain) {
   }
 }
 
-DomainInput with_whole_domain(const LayeredUpdate& update, const LayeredMesh& mesh) {
+ShapesDomain with_whole_domain(const LayeredUpdate& update, const LayeredMesh& mesh) {
   const Domain& walls = mesh.domain();
   DomainInputOptions shapes = update.shapes;
   shapes.farfield_stays = true;
-  DomainInput input = read_domain(shapes, discretisation_of(walls), update.fit);
+  ShapesDomain input = read_domain(shapes, discretisation_of(walls), update.fit);
   validate_input(shapes, input.domain);
   if (!input.in_farfield) return input;
   const bool several = std::count_if(input.domain.loops.begin(), input.domain.loops.end(),
@@ -121,7 +95,7 @@ void warn_of_step(const LayeredUpdate& update, const LayeredRemodelResult& resul
          ": the layer has other columns than before, as its walls have other stations or corners");
 }
 
-void print_report(const LayeredUpdate& update, const DomainInput& input, const LayeredMesh& mesh,
+void print_report(const LayeredUpdate& update, const ShapesDomain& input, const LayeredMesh& mesh,
                   const LayeredRemodelResult& result, double seconds, const Cargo& cargo, bool written) {
   Report report;
   report.line("mesh", update.mesh);
@@ -173,7 +147,7 @@ Status run_layered_update(const LayeredUpdate& update) {
   const FrozenMesh before = original.freeze();
   const std::string boxes = boxes_of_layered(update.mesh);
   Cargo cargo(update.mesh, before, update.carry);
-  const DomainInput input = is_single_airfoil(update.shapes) ? with_single_airfoil(update, original.domain())
+  const ShapesDomain input = is_single_airfoil(update.shapes) ? with_single_airfoil(update, original.domain())
                                                              : with_whole_domain(update, original);
   InterruptObserver observer;
   RemodelOptions options = update.remodelling;

@@ -9,6 +9,7 @@
 #include "command.h"
 #include "domain_input.h"
 #include "figures.h"
+#include "flow_mesh.h"
 #include "interrupt.h"
 #include "layer_options.h"
 #include "meshing_options.h"
@@ -44,7 +45,7 @@ void add_counts(Report& report, const MeshCounts& counts) {
     report.data(key, nullptr);
 }
 
-void report_input(Report& report, const MeshCommand& command, const DomainInput& input) {
+void report_input(Report& report, const MeshCommand& command, const ShapesDomain& input) {
   for (const std::string& shape : command.shapes.shapes) report.line("shape", shape);
   report.data("shape", command.shapes.shapes.size() == 1 ? Json(command.shapes.shapes[0])
                                                          : Json(command.shapes.shapes));
@@ -53,11 +54,10 @@ void report_input(Report& report, const MeshCommand& command, const DomainInput&
 
 // The stations of airfoils are those of the layer's spacings; a domain file has its own, unless spacings are
 // given.
-void space_input(const MeshCommand& command, DomainInput& input) {
-  if (command.given("--points"))
-    throw Error(ErrorCode::argument, "--points",
-                "given with --layers, expected --wall-spacing, --te-spacing and --max-spacing, which set the "
-                "stations");
+void space_input(const MeshCommand& command, ShapesDomain& input) {
+  refuse_given(command.given, {"--points", "--turning-share"},
+               "given with --layers, expected --wall-spacing, --te-spacing and --max-spacing, which set the "
+               "stations");
   if (!input.in_farfield && !command.layers.spacing_given) return;
   validate_input(command.shapes, input.domain);
   space_walls(input.domain, command.layers.spacing.times(input.chord), command.layers.walls);
@@ -66,7 +66,7 @@ void space_input(const MeshCommand& command, DomainInput& input) {
 Status run_layers(const MeshCommand& command) {
   MeshingOptions meshing = command.meshing;
   meshing.gradation = meshing.gradation.value_or(gradation_with_layers);
-  DomainInput input = read_domain(command.shapes, meshing.discretisation, meshing.fit);
+  ShapesDomain input = read_domain(command.shapes, meshing.discretisation, meshing.fit);
   require_used(input, command.given);
   space_input(command, input);
   const LayerOptions layers = resolved(command.layers, input.chord);
@@ -112,7 +112,7 @@ Status run(const MeshCommand& command) {
   command.outputs.require_possible();
   require_consistent(command.layers);
   if (command.layers.layers) return run_layers(command);
-  const DomainInput input = read_domain(command.shapes, command.meshing.discretisation, command.meshing.fit);
+  const ShapesDomain input = read_domain(command.shapes, command.meshing.discretisation, command.meshing.fit);
   require_used(input, command.given);
   const QualityOptions quality = command.meshing.resolved_quality();
 
@@ -156,6 +156,7 @@ void add_mesh_command(CLI::App& program, Action& action) {
   add_domain_input(app, command->shapes);
   command->outputs.add_options(app, Presence::optional);
   add_meshing_options(app, command->meshing);
+  add_turning_share(app, command->meshing.discretisation);
   add_layer_options(app, command->layers);
   command->given = [&app](const std::string& name) { return given(app, name); };
   add_real(

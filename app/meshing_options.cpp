@@ -56,6 +56,15 @@ QualityOptions MeshingOptions::resolved_quality() const {
   return resolved;
 }
 
+void add_turning_share(CLI::App& app, AirfoilDomainOptions& options) {
+  add_real(
+      app,
+      {"--turning-share", "PART", "0, of several airfoils 0.2",
+       "Part of the vertices on airfoils, without layers, that follows how the surface turns, most of it "
+       "at noses; the others have cosine spacing: 0 to 0.9"},
+      {.low = 0.0, .high = 0.9}, [&options](double part) { options.turning_share = part; });
+}
+
 void add_fit_options(CLI::App& app, FitOptions& options) {
   add_integer(
       app,
@@ -92,6 +101,7 @@ Json to_json(const MeshingOptions& options) {
             {"min_edge", quality.min_edge},
             {"close_trailing_edge", options.fit.close_trailing_edge},
             {"max_vertices", quality.max_vertices}};
+  if (const auto& share = options.discretisation.turning_share) json["turning_share"] = *share;
   if (quality.refine_angle_deg > quality.min_angle_deg) json["refine_angle_deg"] = quality.refine_angle_deg;
   return json;
 }

@@ -33,6 +33,8 @@ struct MeshingOptions {
 };
 
 void add_meshing_options(CLI::App& app, MeshingOptions& options);
+// --turning-share, where stations are not those of a design that changes.
+void add_turning_share(CLI::App& app, AirfoilDomainOptions& options);
 void add_fit_options(CLI::App& app, FitOptions& options);
 void add_repeat(CLI::App& app, int& repeat);
 

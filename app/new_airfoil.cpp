@@ -1,5 +1,7 @@
 #include "new_airfoil.h"
 
+#include <algorithm>
+
 #include "remodel/error.h"
 #include "remodel/import.h"
 
@@ -48,6 +50,18 @@ bool generated_here(const StartMesh& start, const StartMeshOptions& options) {
   return !start.imported && !start.mesh.imported() && options.boundary.empty() && !options.points;
 }
 
+// Whether the same parameters are the same points: those of polylines and splines are counted by their
+// points.
+bool has_parameters_of(const Shape& a, const Shape& b) {
+  if (a.index() != b.index()) return false;
+  const auto count = [](const Shape& shape) {
+    if (const auto* polyline = std::get_if<Polyline>(&shape)) return polyline->points.size();
+    if (const auto* spline = std::get_if<Spline>(&shape)) return spline->points.size();
+    return std::size_t{0};
+  };
+  return count(a) == count(b);
+}
+
 }  // namespace
 
 AirfoilDomainOptions discretisation_of(const Domain& domain) {
@@ -63,6 +77,19 @@ AirfoilDomainOptions discretisation_of(const Domain& domain) {
     }
   }
   return options;
+}
+
+bool take_stations(Loop& loop, const Domain& before) {
+  for (const Loop& old : before.loops) {
+    const auto alike = [](const Curve& a, const Curve& b) {
+      return a.name == b.name && has_parameters_of(a.shape, b.shape);
+    };
+    if (!std::equal(loop.curves.begin(), loop.curves.end(), old.curves.begin(), old.curves.end(), alike))
+      continue;
+    for (std::size_t c = 0; c < loop.curves.size(); ++c) loop.curves[c].parameters = old.curves[c].parameters;
+    return true;
+  }
+  return false;
 }
 
 Domain with_new_airfoil(const StartMesh& start, const StartMeshOptions& options, const CstAirfoil& airfoil) {

@@ -344,6 +344,7 @@ void add_polar_command(CLI::App& program, Action& action) {
             Presence::optional, command->files);
   add_reading_options(app, command->input);
   add_meshing_options(app, command->meshing);
+  add_turning_share(app, command->meshing.discretisation);
   add_layer_sizes(app, command->layers, LayerDefaults::of_flow);
   add_json_flag(app, command->json);
   // Shapes have no names and no places: each is alone in its mesh.

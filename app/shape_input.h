@@ -5,6 +5,7 @@
 
 #include "meshing_options.h"
 #include "remodel/airfoil.h"
+#include "remodel/shape_domain.h"
 #include "report.h"
 
 namespace remodel::app {
@@ -12,10 +13,6 @@ namespace remodel::app {
 // load_fit() of a SHAPE; its warnings are said. Throws Error as it does.
 CstFit fit_shape(const std::string& shape, const FitOptions& options);
 
-struct ShapeFit {
-  std::string shape;
-  CstFit fit;
-};
 // The same, and adds the fit of a file of coordinates to those to be reported.
 CstFit fit_shape(const std::string& shape, const FitOptions& options, std::vector<ShapeFit>& fits);
 // The frame of a coordinate file, as JSON: turned_deg, sheared (y per x), scaled, moved, closed, and place as

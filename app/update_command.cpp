@@ -94,10 +94,10 @@ void warn_of_losses(const UpdateCommand& command, const StartMesh& start, const 
 }
 
 // A single airfoil replaces the mesh's own; several airfoils, or a domain, replace the whole domain.
-DomainInput new_domain(const StartMesh& start, const UpdateCommand& command) {
+ShapesDomain new_domain(const StartMesh& start, const UpdateCommand& command) {
   if (is_single_airfoil(command.shapes)) {
     const std::string& shape = command.shapes.shapes[0];
-    DomainInput input;
+    ShapesDomain input;
     const CstFit fit = fit_shape(shape, command.fit, input.fits);
     input.domain = with_new_airfoil(start, command.start, fit.airfoil);
     validate_input(command.shapes, input.domain);
@@ -111,7 +111,9 @@ DomainInput new_domain(const StartMesh& start, const UpdateCommand& command) {
   if (command.start.points) discretisation.points = *command.start.points;
   DomainInputOptions shapes = command.shapes;
   shapes.farfield_stays = true;
-  DomainInput input = read_domain(shapes, discretisation, command.fit);
+  ShapesDomain input = read_domain(shapes, discretisation, command.fit);
+  if (input.in_farfield && !command.start.points)
+    for (Loop& loop : input.domain.loops) take_stations(loop, start.mesh.domain());
   validate_input(shapes, input.domain);
   return input;
 }
@@ -187,7 +189,7 @@ std::vector<double> remodel_timed(const UpdateCommand& command, const Mesh& orig
   return seconds;
 }
 
-void add_settings(Report& report, const UpdateCommand& command, const DomainInput& input) {
+void add_settings(Report& report, const UpdateCommand& command, const ShapesDomain& input) {
   report.line("mesh", command.mesh);
   for (const std::string& shape : command.shapes.shapes) report.line("shape", shape);
   add_findings(report, input);
@@ -223,7 +225,7 @@ Status run(const UpdateCommand& command) {
   const Origin origin = read_origin(command);
   const StartMesh& start = origin.start;
   Cargo cargo = cargo_of(command, origin);
-  const DomainInput input = new_domain(start, command);
+  const ShapesDomain input = new_domain(start, command);
 
   Mesh mesh;
   RemodelResult result;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "number_text.h"
 #include "remodel/limits.h"
 
 namespace remodel::app {
@@ -41,15 +40,6 @@ const std::vector<std::string>& warnings() {
 
 void warn_of(const ReadNotes& notes) {
   for (const std::string& sentence : notes.warnings) warn(sentence);
-}
-
-void warn_of(const Joins& joins, const std::string& file) {
-  if (joins.count == 0) return;
-  warn(file + ": " + std::to_string(joins.count) +
-       (joins.count == 1 ? " place that differs from another by rounding was joined with it, "
-                         : " places that differ from others by rounding were joined with them, at most ") +
-       short_text(joins.largest) + " apart (--join 0 does not; tolerance " + short_text(joins.tolerance) +
-       "); the first: " + joins.first);
 }
 
 void warn_of_limit(Stopped stopped, const Mesh& mesh) {

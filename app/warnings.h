@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "remodel/io.h"
-#include "remodel/join.h"
 #include "remodel/mesh.h"
 
 namespace remodel::app {
@@ -19,8 +18,6 @@ const std::vector<std::string>& warnings();
 void print_warnings();
 
 void warn_of(const ReadNotes& notes);
-// That points or ends of the file were joined; nothing where none were.
-void warn_of(const Joins& joins, const std::string& file);
 // That a limit ended refinement, and where; nothing where none did.
 void warn_of_limit(Stopped stopped, const Mesh& mesh);
 

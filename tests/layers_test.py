@@ -23,7 +23,7 @@ LAYERS = [
     {"name": "transfer", "headers": ["transfer.h", "snapshots.h"]},
     {"name": "check", "headers": ["check.h"]},
     {"name": "flow", "headers": ["flow.h", "flow_error.h", "potential_flow.h"]},
-    {"name": "io", "headers": ["foam.h", "io.h", "shape_files.h", "su2_restart.h"]},
+    {"name": "io", "headers": ["foam.h", "io.h", "shape_domain.h", "shape_files.h", "su2_restart.h"]},
     {"name": "draw", "headers": ["draw.h", "film.h", "plot.h"]},
     {
         "name": "design",

@@ -15,6 +15,7 @@
 #include "remodel/domain.h"
 #include "remodel/error.h"
 #include "remodel/frozen_mesh.h"
+#include "remodel/shape_domain.h"
 
 namespace remodel::python {
 
@@ -46,7 +47,10 @@ std::vector<double> reals(const Reals& values, const char* name);
 Reals array_of(const py::handle& object, const std::string& name);
 // Rows of x and y. Throws Error (argument) for another shape.
 std::vector<Point> points(const Reals& values, const std::string& name);
-Domain domain_of(const py::object& shape, const AirfoilDomainOptions& options);
+// An Airfoil, a Domain, or whatever domain_of_shapes() takes by a name or the path of a file; what it warns
+// of is a UserWarning. Throws TypeError for anything else.
+ShapesDomain domain_of(const py::object& shape, const AirfoilDomainOptions& options,
+                       const ShapeReading& reading = {});
 
 // The name of an object's type, for messages.
 std::string type_of(const py::handle& object);

@@ -56,8 +56,10 @@ LayersPointer layers_generated(const py::object& shape, const std::optional<doub
                                const std::optional<double>& wake, double wake_angle) {
   const LayerOptions layer = layer_of(reynolds, model, first_height, thickness, growth, walls);
   const WallSpacing stations = wall_spacing(spacing);
-  Domain domain = domain_of(shape, {.farfield_radius = farfield_radius, .farfield_points = farfield_points});
-  if (!py::isinstance<Domain>(shape)) space_walls(domain, stations);
+  ShapesDomain given =
+      domain_of(shape, {.farfield_radius = farfield_radius, .farfield_points = farfield_points});
+  Domain& domain = given.domain;
+  if (given.in_farfield) space_walls(domain, stations.times(given.chord));
   if (const auto line = wake_line(wake, wake_angle)) add_wake(domain, *line, layer);
   LayeredGenerateResult result = interruptible([&](StepObserver& observer) {
     return generate_layered(domain, layer, {.gradation = gradation, .max_vertices = max_vertices}, &observer);

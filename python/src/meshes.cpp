@@ -21,9 +21,13 @@ LivingMeshPointer alive(Mesh mesh, Stopped stopped = Stopped::done, bool follows
 
 LivingMeshPointer generated(const py::object& shape, int points, const std::optional<double>& gradation,
                             double resolution, double min_angle, double max_gradation, double farfield_radius,
-                            int farfield_points, std::uint32_t max_vertices, double refine_angle) {
-  const Domain domain = domain_of(
-      shape, {.points = points, .farfield_radius = farfield_radius, .farfield_points = farfield_points});
+                            int farfield_points, std::uint32_t max_vertices, double refine_angle,
+                            const std::optional<double>& turning_share) {
+  const Domain domain = domain_of(shape, {.points = points,
+                                          .farfield_radius = farfield_radius,
+                                          .farfield_points = farfield_points,
+                                          .turning_share = turning_share})
+                            .domain;
   QualityOptions quality{.min_angle_deg = min_angle,
                          .max_gradation = max_gradation,
                          .resolution = resolution,
@@ -185,14 +189,16 @@ alive by whoever holds them. Threads may share a mesh: they take turns. Copies a
         return alive(Mesh::restore(state_of(state[0].cast<py::dict>()), "pickle"),
                      static_cast<Stopped>(stopped), state.size() == 3 && state[2].cast<bool>());
       }));
-  module.def("generate", &generated, "shape"_a, py::kw_only(), "points"_a = 200, "gradation"_a = py::none(),
-             "resolution"_a = 1.0, "min_angle"_a = 30.0, "max_gradation"_a = QualityOptions{}.max_gradation,
-             "farfield_radius"_a = 25.0, "farfield_points"_a = 50,
-             "max_vertices"_a = QualityOptions{}.max_vertices, "refine_angle"_a = 0.0,
-             R"(A mesh of a Domain, or around an Airfoil (or the name of one) in a circular far field.
+  module.def(
+      "generate", &generated, "shape"_a, py::kw_only(), "points"_a = 200, "gradation"_a = py::none(),
+      "resolution"_a = 1.0, "min_angle"_a = 30.0, "max_gradation"_a = QualityOptions{}.max_gradation,
+      "farfield_radius"_a = 25.0, "farfield_points"_a = 50, "max_vertices"_a = QualityOptions{}.max_vertices,
+      "refine_angle"_a = 0.0, "turning_share"_a = py::none(),
+      R"(A mesh of a Domain, or around an Airfoil in a circular far field; shape may also be a name or a file, as
+for Domain().
 
-points: vertices on the airfoil, even, 8 to 100000; farfield_radius in chords. A Domain has its own and ignores
-these. gradation: how slowly triangles grow away from boundaries; points / 50 unless given, 4 for a Domain.
+points: vertices on the airfoil, even, 8 to 100000; farfield_radius in chords; turning_share: see Domain(). A
+Domain has its own and ignores these. gradation: how slowly triangles grow away from boundaries; points / 50 unless given, 4 for a Domain.
 min_angle: degrees, 0 to 34; refine_angle: what refinement works to where it is more, 0 to 34: two degrees more
 than min_angle let update(strategy='reference') hold the connectivity longer. Mesh.stopped tells a limit that was
 reached (max_vertices). Sources: J. Ruppert, 1995; J. R. Shewchuk, 2002. Raises ArgumentError and GeometryError;

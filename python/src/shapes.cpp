@@ -41,18 +41,23 @@ CstAirfoil cst_airfoil(const Reals& upper, const Reals& lower, double e1, double
   return airfoil;
 }
 
+void warn(const std::vector<std::string>& sentences) {
+  for (const std::string& sentence : sentences)
+    if (PyErr_WarnEx(PyExc_UserWarning, sentence.c_str(), 1) < 0) throw py::error_already_set();
+}
+
 CstAirfoil new_airfoil(const std::optional<std::filesystem::path>& shape, int degree,
                        const std::optional<Reals>& upper, const std::optional<Reals>& lower, double e1,
-                       double e2, double te_upper, double te_lower) {
+                       double e2, double te_upper, double te_lower, bool close_trailing_edge) {
   if (shape.has_value() == upper.has_value() || upper.has_value() != lower.has_value())
     throw Error(ErrorCode::argument, "Airfoil",
                 "expected a name or a file, or else the coefficients upper and lower");
   if (shape && *shape == standard_input)
     throw Error(ErrorCode::argument, "Airfoil", "found '-', expected a name or a file");
   if (!shape) return cst_airfoil(*upper, *lower, e1, e2, te_upper, te_lower);
-  const CstFit fit = load_fit(shape->string(), degree);
-  for (const std::string& warning : fit.warnings)
-    if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) < 0) throw py::error_already_set();
+  const CstFit fit =
+      load_fit(shape->string(), degree, close_trailing_edge ? TrailingEdge::closed : TrailingEdge::kept);
+  warn(fit.warnings);
   return fit.airfoil;
 }
 
@@ -89,10 +94,11 @@ void add_airfoil(py::module_& module) {
 Airfoil("naca:2412"), Airfoil("rae2822"), Airfoil("section.dat", degree=6), Airfoil("design.json") or
 Airfoil(upper=[...], lower=[...]): y(x) = x**e1 * (1 - x)**e2 * sum(c[i] * Bernstein[i](x)) + x * te.
 Coordinate files and NACA sections are fitted with `degree`, 2 to 12. A file is moved, turned and scaled to its
-chord: a UserWarning says so where that is more than rounding. Raises FileError, FormatError, ArgumentError.)");
+chord: a UserWarning says so where that is more than rounding. Its blunt trailing edge is kept, unless
+close_trailing_edge is True. Raises FileError, FormatError, ArgumentError.)");
   airfoil.def(py::init(&new_airfoil), "shape"_a = py::none(), "degree"_a = 5, py::kw_only(),
               "upper"_a = py::none(), "lower"_a = py::none(), "e1"_a = 0.5, "e2"_a = 1.0, "te_upper"_a = 0.0,
-              "te_lower"_a = 0.0);
+              "te_lower"_a = 0.0, "close_trailing_edge"_a = false);
   airfoil.def_property_readonly(
       "upper", [](const CstAirfoil& a) { return copied(a.upper); },
       "Coefficients of the upper surface, a copy of shape (degree + 1,).");
@@ -224,14 +230,17 @@ PlacedAirfoil placed_airfoil(const py::handle& item, const std::string& place) {
   return placed;
 }
 
-Domain placed(const py::iterable& list, int points, double radius, int farfield_points) {
+Domain placed(const py::iterable& list, int points, double radius, int farfield_points,
+              double turning_share) {
   std::vector<PlacedAirfoil> airfoils;
   for (const py::handle& item : list)
     airfoils.push_back(placed_airfoil(item, "elements[" + std::to_string(airfoils.size()) + "]"));
   if (airfoils.empty())
     throw Error(ErrorCode::argument, "elements", "found none, expected at least one airfoil");
-  Domain domain = airfoils_domain(
-      airfoils, {.points = points, .farfield_radius = radius, .farfield_points = farfield_points});
+  Domain domain = airfoils_domain(airfoils, {.points = points,
+                                             .farfield_radius = radius,
+                                             .farfield_points = farfield_points,
+                                             .turning_share = turning_share});
   validate(domain);
   return domain;
 }
@@ -257,42 +266,72 @@ CstAirfoil airfoil_of(const Domain& domain, const std::string& boundary) {
   return std::get<CstAirfoil>(domain.loops[loops[0]].curves.front().shape);
 }
 
-std::filesystem::path path_of(const py::object& shape) {
-  if (py::isinstance<py::str>(shape) || py::hasattr(shape, "__fspath__"))
-    return shape.cast<std::filesystem::path>();
-  throw py::type_error("shape: found " + type_of(shape) + ", expected an Airfoil or the name of a file");
-}
-
-// "naca:2412", "rae2822": no file.
-bool is_name_of_airfoil(const py::object& shape) {
-  if (!py::isinstance<py::str>(shape)) return false;
-  const auto name = shape.cast<std::string>();
-  return name.starts_with("naca:") ||
-         (!name.empty() && name.find_first_of("./\\") == std::string::npos &&
-          name.find('\0') == std::string::npos && !std::filesystem::exists(name));
+Domain new_domain(const py::object& shape, int points, double radius, int farfield_points, int degree,
+                  bool close_trailing_edge, const std::optional<std::string>& as_given, bool keep_coordinates,
+                  const std::string& crossings, double join, const std::optional<double>& turning_share) {
+  ShapeReading reading{.degree = degree,
+                       .close_trailing_edge = close_trailing_edge,
+                       .keep_coordinates = keep_coordinates,
+                       .join = join};
+  if (as_given) {
+    if (*as_given != "spline" && *as_given != "polyline")
+      throw Error(ErrorCode::argument, "as_given",
+                  "found '" + *as_given + "', expected 'spline' or 'polyline'");
+    reading.as_given = *as_given == "spline" ? OutlineCurve::spline : OutlineCurve::polyline;
+  }
+  if (py::isinstance<CstAirfoil>(shape) || py::isinstance<Domain>(shape))
+    for (const auto& [is_set, argument] : {std::pair{as_given.has_value(), "as_given"},
+                                           {keep_coordinates, "keep_coordinates"},
+                                           {close_trailing_edge, "close_trailing_edge"}})
+      if (is_set)
+        throw Error(ErrorCode::argument, argument,
+                    "given for " + type_of(shape) + ", expected for a file of coordinates");
+  if (crossings != "insert" && crossings != "refuse")
+    throw Error(ErrorCode::argument, "crossings", "found '" + crossings + "', expected 'insert' or 'refuse'");
+  reading.crossings = crossings == "insert" ? Crossings::insert : Crossings::refuse;
+  return domain_of(shape,
+                   {.points = points,
+                    .farfield_radius = radius,
+                    .farfield_points = farfield_points,
+                    .turning_share = turning_share},
+                   reading)
+      .domain;
 }
 
 void add_domain(py::module_& module) {
   py::class_<Domain> domain(module, "Domain",
                             R"(The part of the plane to be meshed: closed loops of named curves.
 
-Domain(airfoil, points=200, farfield_radius=25, farfield_points=50), Domain("file.json") (docs/domains.md
-has the layout), Domain.polygons(...) or Domain.airfoils(...). Raises GeometryError for curves that cross or
-touch, with the loop and the place.)");
-  domain.def(py::init([](const py::object& shape, int points, double radius, int farfield_points) {
-               if (!py::isinstance<CstAirfoil>(shape) && !is_name_of_airfoil(shape))
-                 return load_domain(path_of(shape));
-               return domain_of(
-                   shape, {.points = points, .farfield_radius = radius, .farfield_points = farfield_points});
-             }),
-             "shape"_a, py::kw_only(), "points"_a = 200, "farfield_radius"_a = 25.0,
-             "farfield_points"_a = 50);
+Domain(airfoil, points=200, farfield_radius=25, farfield_points=50), where airfoil is an Airfoil, a name or a
+file of coordinates; Domain("file.json") (docs/domains.md has the layout); Domain("graph.poly"), Triangle's
+planar graph; Domain.polygons(...) or Domain.airfoils(...).
+
+A file of several elements keeps their common coordinates, with the far field around all of them. A file of
+one section is fitted with `degree`, moved, turned and scaled to its chord, and its blunt trailing edge is kept
+(close_trailing_edge). as_given="spline" or "polyline" takes the points as they are, as vertices, in chords from
+the leading edge; keep_coordinates=True leaves files where they lie, in their units. A UserWarning says what was
+moved, joined, mended or left out. crossings="refuse" refuses a planar graph whose segments cross, "insert"
+splits them. Places of a graph or a domain file that differ by rounding, at most `join` of their size, are
+joined; 0 joins nothing.
+
+turning_share is the part of the points on airfoils, 0 to 0.9, that follows how the surface turns, most of it at
+noses; the others have cosine spacing. None: 0, and 0.2 in files of several elements, whose suction peaks need
+it.
+
+Raises FileError, FormatError; ArgumentError for options that do not go together; GeometryError for curves that
+cross or touch, with the loop and the place.)");
+  domain.def(py::init(&new_domain), "shape"_a, py::kw_only(), "points"_a = 200, "farfield_radius"_a = 25.0,
+             "farfield_points"_a = 50, "degree"_a = 5, "close_trailing_edge"_a = false,
+             "as_given"_a = py::none(), "keep_coordinates"_a = false, "crossings"_a = "insert",
+             "join"_a = default_join, "turning_share"_a = py::none());
   domain.def_static("polygons", &polygons, "outer"_a, "holes"_a = py::dict(),
                     "Closed polygons by name, arrays of shape (n, 2): outer boundaries and holes.");
   domain.def_static("airfoils", &placed, "elements"_a, py::kw_only(), "points"_a = 200,
-                    "farfield_radius"_a = 25.0, "farfield_points"_a = 50,
+                    "farfield_radius"_a = 25.0, "farfield_points"_a = 50, "turning_share"_a = 0.0,
                     "Several airfoils in one far field. Each element is a dict: name, airfoil, and where it "
-                    "lies: chord, rotation (degrees, counter-clockwise), position (of its leading edge).");
+                    "lies: chord, rotation (degrees, counter-clockwise), position (of its leading edge). "
+                    "turning_share as for Domain(): designs of one mesh keep 0, or one domain and "
+                    "with_coefficients().");
   domain.def_static(
       "from_json", [](const std::string& text) { return domain_from_json(text, "text"); }, "text"_a);
   domain.def("to_json", &domain_to_json, "The domain as JSON text, exact.");
@@ -333,13 +372,20 @@ std::vector<std::size_t> airfoil_loops(const Domain& domain, const std::string& 
   return loops;
 }
 
-Domain domain_of(const py::object& shape, const AirfoilDomainOptions& options) {
-  if (py::isinstance<Domain>(shape)) return shape.cast<Domain>();
-  if (py::isinstance<CstAirfoil>(shape)) return airfoil_domain(shape.cast<const CstAirfoil&>(), options);
-  if (py::isinstance<py::str>(shape))
-    return airfoil_domain(load_airfoil(shape.cast<std::string>(), 5), options);
-  throw py::type_error("shape: found " + type_of(shape) +
-                       ", expected an Airfoil, a Domain or the name of an airfoil");
+ShapesDomain domain_of(const py::object& shape, const AirfoilDomainOptions& options,
+                       const ShapeReading& reading) {
+  if (py::isinstance<Domain>(shape)) return {.domain = shape.cast<Domain>()};
+  if (py::isinstance<CstAirfoil>(shape))
+    return {.domain = airfoil_domain(shape.cast<const CstAirfoil&>(), options), .in_farfield = true};
+  if (!py::isinstance<py::str>(shape) && !py::hasattr(shape, "__fspath__"))
+    throw py::type_error("shape: found " + type_of(shape) +
+                         ", expected an Airfoil, a Domain, or the name of an airfoil or a file");
+  const std::string name = shape.cast<std::filesystem::path>().string();
+  if (name == standard_input)
+    throw Error(ErrorCode::argument, "shape", "found '-', expected a name or a file");
+  ShapesDomain result = domain_of_shapes({{.shape = name}}, options, reading);
+  warn(result.warnings);
+  return result;
 }
 
 void add_shapes(py::module_& module) {

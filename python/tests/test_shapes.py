@@ -53,6 +53,47 @@ def test_domains_are_polygons_airfoils_and_files(airfoil, tmp_path):
     assert set(two.loops) == {"main", "flap", "farfield"}
 
 
+def rows(airfoil, chord, x, y):
+    return "\n".join(f"{x + chord * px:.8f} {y + chord * py:.8f}" for px, py in airfoil.coordinates(61))
+
+
+def test_a_domain_is_made_of_any_file_that_the_program_takes(airfoil, tmp_path):
+    two = tmp_path / "two.dat"
+    two.write_text("two\n" + rows(airfoil, 2.0, 0.0, 0.0) + "\n999.0 999.0\n" + rows(airfoil, 0.6, 2.04, -0.06))
+    with pytest.warns(UserWarning, match="has 2 elements"):
+        domain = remodel.Domain(two, points=60)
+    assert list(domain.loops) == ["two", "two_2", "farfield"]
+    assert abs(domain.loops["two_2"][:, 0].min() - 2.04) < 1e-4
+    far = tmp_path / "far.dat"
+    far.write_text("far\n" + rows(airfoil, 3.0, 5.0, 1.0))
+    with pytest.warns(UserWarning, match="scaled to 1"):
+        moved = remodel.Domain(far, as_given="polyline")
+    with pytest.warns(UserWarning, match="longest chord is 3"):
+        kept = remodel.Domain(far, as_given="polyline", keep_coordinates=True)
+    assert abs(moved.loops["airfoil"][:, 0].min()) < 1e-6 and abs(kept.loops["airfoil"][:, 0].min() - 5) < 1e-6
+    assert len(moved.loops["airfoil"]) == 60  # the file's points are the vertices
+    graph = tmp_path / "square.poly"
+    graph.write_text("4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n")
+    assert abs(remodel.generate(graph).check().area - 1) < 1e-12
+    with pytest.raises(remodel.ArgumentError, match="as_given: given for"):
+        remodel.Domain(graph, as_given="spline")
+    with pytest.raises(remodel.ArgumentError, match="as_given: found 'circle'"):
+        remodel.Domain(far, as_given="circle")
+    with pytest.raises(remodel.ArgumentError, match="keep_coordinates: given for Airfoil"):
+        remodel.Domain(airfoil, keep_coordinates=True)
+
+
+def test_a_trailing_edge_is_closed_where_asked_to(tmp_path):
+    blunt = remodel.Airfoil("naca:2412")
+    points = blunt.coordinates(81)
+    points[:, 1] += 0.004 * points[:, 0] * np.where(np.arange(81) < 40, 1, -1)
+    (tmp_path / "blunt.dat").write_text("blunt\n" + "\n".join(f"{x:.8f} {y:.8f}" for x, y in points))
+    kept = remodel.Airfoil(tmp_path / "blunt.dat")
+    assert abs(kept.te_upper - kept.te_lower - 0.008) < 1e-6
+    closed = remodel.Airfoil(tmp_path / "blunt.dat", close_trailing_edge=True)
+    assert closed.te_upper == closed.te_lower
+
+
 def test_bad_shapes_are_errors_with_their_place(tmp_path):
     with pytest.raises(remodel.ArgumentError):
         remodel.Airfoil("no such section")

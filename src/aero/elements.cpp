@@ -84,7 +84,10 @@ ElementSpace space_of_elements(const DesignProblem& problem, const ProblemPlace&
   }
   Domain start;
   try {
-    start = airfoils_domain(placed, problem.domain);
+    AirfoilDomainOptions discretisation = problem.domain;
+    if (!discretisation.turning_share && placed.size() > 1)
+      discretisation.turning_share = turning_share_of_elements;
+    start = airfoils_domain(placed, discretisation);
     validate(start);
   } catch (const Error& error) {
     place.fail("found 'elements' that make no domain: " + std::string(error.what()));

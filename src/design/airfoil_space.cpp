@@ -127,6 +127,9 @@ struct AirfoilSpace::Impl {
 
 AirfoilSpace::AirfoilSpace(const CstAirfoil& start, const AirfoilDomainOptions& options) {
   airfoil_domain(start, options);  // throws for options out of range
+  if (options.turning_share.value_or(0.0) > 0.0)
+    throw Error(ErrorCode::argument, "turning share",
+                "given for designs of a section, expected none: their stations keep their parameters");
   auto impl = std::make_unique<Impl>(Impl{.like = start, .options = options});
   impl->alone.emplace(start, options);
   impl->add_stations(Parameters::uniform(static_cast<std::size_t>(options.points)));

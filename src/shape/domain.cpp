@@ -9,6 +9,7 @@
 
 #include "remodel/error.h"
 #include "turn.h"
+#include "turning_stations.h"
 
 namespace remodel {
 namespace {
@@ -77,6 +78,8 @@ void check_options(const AirfoilDomainOptions& options) {
          options.farfield_points, "a number from 8 to 100000");
   expect(options.farfield_radius > 1.0 && options.farfield_radius <= 1e6, "farfield radius",
          options.farfield_radius, "more than 1 and at most 1e6 chords");
+  const double share = options.turning_share.value_or(0.0);
+  expect(share >= 0.0 && share <= 0.9, "turning share", share, "a part from 0 to 0.9");
 }
 
 // No point of the airfoil is farther from the farfield's centre: x / chord is in [0, 1], and where the
@@ -116,7 +119,7 @@ bool all_finite(const CstAirfoil& airfoil) {
          finite(airfoil.te_lower);
 }
 
-Loop airfoil_loop(const PlacedAirfoil& placed, int points) {
+Loop airfoil_loop(const PlacedAirfoil& placed, int points, double turning_share) {
   const CstAirfoil& airfoil = placed.airfoil;
   if (!placed.outline.empty())
     return {.role = LoopRole::hole, .curves = placed.outline, .placement = placed.placement};
@@ -127,8 +130,10 @@ Loop airfoil_loop(const PlacedAirfoil& placed, int points) {
                 "found one that is not finite, expected numbers");
   expect(placed.placement.chord > 0.0 && std::isfinite(placed.placement.chord), "chord",
          placed.placement.chord, "more than 0");
+  const Parameters stations =
+      turning_share > 0.0 ? turning_stations(airfoil, points, turning_share) : mirrored_fractions(points);
   Loop body{.role = LoopRole::hole,
-            .curves = {{.name = placed.name, .shape = airfoil, .parameters = mirrored_fractions(points)}},
+            .curves = {{.name = placed.name, .shape = airfoil, .parameters = stations}},
             .placement = placed.placement};
   if (airfoil.te_upper != airfoil.te_lower) {
     const Line trailing_edge{.from = airfoil.at(1.0), .to = airfoil.at(0.0)};
@@ -256,7 +261,8 @@ Frame::Frame(const Placement& placement)
 Domain airfoils_domain(const std::vector<PlacedAirfoil>& airfoils, const AirfoilDomainOptions& options) {
   check_options(options);
   Domain domain;
-  for (const PlacedAirfoil& airfoil : airfoils) domain.loops.push_back(airfoil_loop(airfoil, options.points));
+  for (const PlacedAirfoil& airfoil : airfoils)
+    domain.loops.push_back(airfoil_loop(airfoil, options.points, options.turning_share.value_or(0.0)));
   const Arc circle{.centre = options.farfield_centre, .radius = options.farfield_radius};
   domain.loops.push_back({.role = LoopRole::outer,
                           .curves = {{.name = "farfield",

@@ -115,13 +115,16 @@ class DomainReader {
   }
 
  private:
-  // {"airfoil": SHAPE, "name": ..., "stations": I, "cst_degree": N}: a hole of that shape.
+  // {"airfoil": SHAPE, "name": ..., "stations": I, "turning_share": S, "cst_degree": N}: a hole of that
+  // shape.
   Loop airfoil_loop(const JsonReader& reader) const {
-    reader.expect_keys({"airfoil", "stations"}, {"name", "cst_degree", "placement"});
+    reader.expect_keys({"airfoil", "stations"}, {"name", "turning_share", "cst_degree", "placement"});
     const int stations = whole_number(reader, "stations", 8, 100000);
     if (stations % 2 != 0) reader["stations"].refuse("expected an even number");
-    Domain domain =
-        airfoil_domain(named_airfoil(reader, "airfoil", TrailingEdge::kept), {.points = stations});
+    const double share = reader.number_or("turning_share", 0.0);
+    if (!(share >= 0.0 && share <= 0.9)) reader["turning_share"].refuse("expected a part from 0 to 0.9");
+    Domain domain = airfoil_domain(named_airfoil(reader, "airfoil", TrailingEdge::kept),
+                                   {.points = stations, .turning_share = share});
     Loop loop = std::move(domain.loops.front());
     if (reader.has("name"))
       for (Curve& curve : loop.curves) curve.name = reader["name"].text();
