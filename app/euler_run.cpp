@@ -15,6 +15,7 @@
 #include "remodel/flow_error.h"
 #include "remodel/flow_plots.h"
 #include "remodel/io.h"
+#include "shape_input.h"
 
 namespace remodel::app {
 
@@ -245,6 +246,7 @@ Status run_euler(const EulerRun& run, const MeshInput& input, const std::string&
   print_warnings(source, flow.warnings);
   Report report;
   add_flow_mesh(report, source, name_of(options.model), input.frozen);
+  add_fit_figures(report, input.fits);
   add_flow_figures(report, flow, run.conditions);
   if (!gradients.is_null()) add_gradients(report, gradients);
   if (error) add_error(report, *error);

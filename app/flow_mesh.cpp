@@ -55,6 +55,7 @@ MeshInput layered_input(const FlowMeshRequest& request) {
   MeshInput input;
   input.frozen = result.mesh.freeze();
   input.layered = std::move(result.mesh);
+  input.fits = std::move(domain.fits);
   return input;
 }
 
@@ -97,12 +98,13 @@ MeshInput flow_mesh(const FlowMeshRequest& request) {
   if (const auto file = mesh_file(request.input, request.given)) return read_any_mesh(*file);
   if (request.flow.model != FlowModel::euler) return layered_input(request);
   refuse_given(request.given, layer_sizes, "given without friction, expected --model laminar or sa");
-  const ShapesDomain domain = domain_of_flow(request, request.meshing);
+  ShapesDomain domain = domain_of_flow(request, request.meshing);
   GenerateResult result = generate_input(request.input, domain.domain, request.meshing.resolved_quality());
   require_whole(request.input, result.stopped);
   MeshInput input;
   input.frozen = result.mesh.freeze();
   input.living = std::move(result.mesh);
+  input.fits = std::move(domain.fits);
   return input;
 }
 

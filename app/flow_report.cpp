@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 
+#include "number_text.h"
 #include "remodel/mesh_derivative.h"
 
 namespace remodel::app {
@@ -74,8 +75,9 @@ void add_bodies(Report& report, const FlowResult& flow) {
       entry["y_plus_max"] = body.y_plus_max;
     }
     if (flow.bodies.size() > 1)
-      report.line("body " + body.name, "CL " + (cl.is_null() ? not_determined : cl.dump()) + ", CD " +
-                                           Json(body.cd).dump() + (flow.converged() ? "" : not_converged));
+      report.line("body " + body.name, "CL " + (cl.is_null() ? not_determined : short_text(body.cl)) +
+                                           ", CD " + short_text(body.cd) +
+                                           (flow.converged() ? "" : not_converged));
   }
   report.data("bodies", bodies);
   Json openings = Json::array();
@@ -83,13 +85,19 @@ void add_bodies(Report& report, const FlowResult& flow) {
     openings.push_back({{"name", opening.name},
                         {"mass_flow", opening.mass_flow},
                         {"flow_angle_deg", opening.flow_angle_deg},
-                        {"total_pressure", opening.total_pressure}});
+                        {"total_pressure", opening.total_pressure},
+                        {"pressure", opening.pressure},
+                        {"mach", opening.mach}});
     report.line("boundary " + opening.name,
-                "mass flow " + Json(opening.mass_flow).dump() + ", at " +
-                    Json(opening.flow_angle_deg).dump() + " degrees, total pressure " +
-                    Json(opening.total_pressure).dump() + (flow.converged() ? "" : not_converged));
+                "mass flow " + short_text(opening.mass_flow) + ", Mach " + short_text(opening.mach) + " at " +
+                    short_text(opening.flow_angle_deg) + " degrees, pressure " +
+                    short_text(opening.pressure) + ", total " + short_text(opening.total_pressure) +
+                    (flow.converged() ? "" : not_converged));
   }
-  if (!openings.empty()) report.data("openings", openings);
+  if (openings.empty()) return;
+  report.data("openings", openings);
+  if (const auto loss = loss_coefficient(flow); loss && flow.converged())
+    report.figure("loss_coefficient", "loss coefficient", *loss);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "remodel/frozen_mesh.h"
 #include "remodel/layers.h"
 #include "remodel/mesh.h"
+#include "remodel/shape_domain.h"
 
 namespace remodel::app {
 
@@ -19,6 +20,7 @@ struct MeshInput {
   std::optional<LayeredMesh> layered;  // of one with layers
   FrozenMesh frozen;
   std::string su2_boxes = {};  // ReadNotes::su2_boxes
+  std::vector<ShapeFit> fits = {};  // of coordinate files that a fresh mesh is of
 };
 
 // Warns of what the reader left out. Throws Error as the readers of io.h do. A native file whose state is

@@ -22,6 +22,7 @@
 #include "remodel/error.h"
 #include "remodel/io.h"
 #include "remodel/polar.h"
+#include "shape_input.h"
 #include "warnings.h"
 
 namespace remodel::app {
@@ -152,6 +153,7 @@ Json to_json(const PolarCurve& curve, const PolarPoint& point) {
             {"seconds", point.seconds}};
   if (curve.model != FlowModel::euler) json["y_plus_max"] = point.y_plus_max;
   if (!point.reason.empty()) json["reason"] = point.reason;
+  if (!point.warnings.empty()) json["warnings"] = point.warnings;
   return json;
 }
 
@@ -269,6 +271,9 @@ Status run(const PolarCommand& command) {
     for (const std::string& warning : polar_warnings(curve))
       warn(curve.name + ", M " + short_text(curve.mach) + ": " + warning);
   Report report = report_of(command, polars);
+  std::vector<ShapeFit> fits;
+  for (const MeshInput& mesh : meshes) fits.insert(fits.end(), mesh.fits.begin(), mesh.fits.end());
+  add_fit_figures(report, fits);
   write_files(command, polars, report);
   report.print(command.json);
   return status_of(polars);

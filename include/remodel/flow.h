@@ -200,6 +200,8 @@ struct FlowOpening {
   double mass_flow = 0.0;
   double flow_angle_deg = 0.0;  // the direction of the mean momentum, to the x axis
   double total_pressure = 0.0;  // the mean, a part of the stream's
+  double pressure = 0.0;        // likewise, of static pressure
+  double mach = 0.0;            // the mean
 };
 
 // This is what friction does.
@@ -266,6 +268,10 @@ struct FlowResult {
   FlowModel model = FlowModel::euler;
   std::optional<FlowFriction> friction = {};  // of models with it
 };
+
+// The loss coefficient of what passes from the only inlet to the only outlet: what total pressure falls by,
+// over total less static pressure at the inlet, all means by mass flow. None where there are other openings.
+std::optional<double> loss_coefficient(const FlowResult& flow);
 
 // Each has one value for each point: the local Mach number; the pressure coefficient; p / rho^gamma over the
 // stream's, minus 1, which is 0 where nothing is lost.

@@ -64,9 +64,10 @@ struct PolarCurve {
   std::string name;  // of the shape
   FlowModel model = FlowModel::euler;
   double mach = 0.0;
-  double reynolds = 0.0;           // of models with friction
-  bool over_lift = false;          // lifts were asked for, not angles
-  std::vector<PolarPoint> points;  // ascending
+  double reynolds = 0.0;                                 // of models with friction
+  std::optional<std::array<double, 2>> transition = {};  // as FlowConditions has it
+  bool over_lift = false;                                // lifts were asked for, not angles
+  std::vector<PolarPoint> points;                        // ascending
 };
 
 struct PolarOptions {
@@ -110,9 +111,9 @@ std::optional<LargestLift> largest_lift(const PolarCurve& curve);
 std::vector<std::string> polar_warnings(const PolarCurve& curve);
 
 // A row for each point, with a header: shape, mach, reynolds, asked, alpha_deg, cl, cd, cm, cd_pressure,
-// cd_friction, y_plus_max, converged, status, newton_steps, residual, reason. What is not a number is empty.
-// Numbers read as the same doubles. Lines end with a line feed; texts with commas or quotes are quoted (RFC
-// 4180).
+// cd_friction, y_plus_max, converged, status, newton_steps, residual, reason, warnings. What is not a number
+// is empty. Numbers read as the same doubles. Lines end with a line feed; texts with commas or quotes are
+// quoted (RFC 4180).
 std::string polar_table(const std::vector<PolarCurve>& curves);
 
 // Plots of flows that were found: lift over angle, lift over drag coefficient, moment over angle and, with

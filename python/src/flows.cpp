@@ -19,7 +19,7 @@ auto members(T& b) {
 }
 template <python::Is<FlowOpening> T>
 auto members(T& o) {
-  return std::tie(o.name, o.mass_flow, o.flow_angle_deg, o.total_pressure);
+  return std::tie(o.name, o.mass_flow, o.flow_angle_deg, o.total_pressure, o.pressure, o.mach);
 }
 template <python::Is<FlowFriction> T>
 auto members(T& f) {
@@ -347,6 +347,16 @@ void add_figures(py::class_<FlowResult, FlowPointer>& type) {
   type.def_property_readonly(
       "total_pressures", [](const FlowResult& f) { return of_openings(f, &FlowOpening::total_pressure); },
       "The mean total pressure at each inlet and outlet, by mass flow and by name: parts of the stream's.");
+  type.def_property_readonly(
+      "static_pressures", [](const FlowResult& f) { return of_openings(f, &FlowOpening::pressure); },
+      "The mean static pressure there, likewise.");
+  type.def_property_readonly(
+      "opening_mach", [](const FlowResult& f) { return of_openings(f, &FlowOpening::mach); },
+      "The mean Mach number there, by mass flow and by name.");
+  type.def_property_readonly(
+      "loss_coefficient", &loss_coefficient,
+      "What total pressure falls by from the only inlet to the only outlet, over total "
+      "less static pressure at the inlet; None where there are other openings.");
   type.def_property_readonly(
       "model", [](const FlowResult& f) { return name_of(f.model); }, "'euler', 'laminar' or 'sa'.");
   const auto friction = [&](const char* name, double FlowFriction::*member, const char* doc) {

@@ -90,6 +90,7 @@ class PolarSearch {
     curve.name = name_, curve.model = options_.flow.model, curve.mach = mach;
     curve.over_lift = over_lift();
     if (curve.model != FlowModel::euler) curve.reynolds = options_.conditions.reynolds;
+    curve.transition = options_.conditions.transition;
   }
 
   void set_points(std::span<const aero::MarchedFlow> flows) {

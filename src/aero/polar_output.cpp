@@ -28,7 +28,8 @@ std::string row_of(const PolarCurve& curve, const PolarPoint& point) {
                                point.status ? name_of(*point.status) : "not-looked-for",
                                std::to_string(point.newton_steps),
                                table_cell(point.residual),
-                               table_cell(point.reason)};
+                               table_cell(point.reason),
+                               table_cell(joined(point.warnings))};
   std::string row;
   for (const std::string& cell : cells) row += cell + ',';
   row.back() = '\n';
@@ -54,6 +55,8 @@ struct PlotNames {
     if (!several_machs) add("M " + short_number(curve.mach));
     if (curve.model != FlowModel::euler) add("Re " + short_number(curve.reynolds));
     add(name_of(curve.model));
+    if (const auto& at = curve.transition)
+      add("transition at " + short_number((*at)[0]) + ", " + short_number((*at)[1]));
     return text;
   }
   static std::string short_number(double value) {
@@ -96,7 +99,7 @@ Plot plot_of(const std::vector<PolarCurve>& curves, const PlotNames& names, cons
 std::string polar_table(const std::vector<PolarCurve>& curves) {
   std::string table =
       "shape,mach,reynolds,asked,alpha_deg,cl,cd,cm,cd_pressure,cd_friction,y_plus_max,converged,status,"
-      "newton_steps,residual,reason\n";
+      "newton_steps,residual,reason,warnings\n";
   for (const PolarCurve& curve : curves)
     for (const PolarPoint& point : curve.points) table += row_of(curve, point);
   return table;

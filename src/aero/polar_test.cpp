@@ -176,9 +176,9 @@ TEST(Polars, AreTables) {
   EXPECT_EQ(
       polar_table({curve_of("a,b", {{0.3, 0.1}, {18, PolarPoint::none}})}),
       "shape,mach,reynolds,asked,alpha_deg,cl,cd,cm,cd_pressure,cd_friction,y_plus_max,converged,status,"
-      "newton_steps,residual,reason\n"
-      "\"a,b\",0.15,6e+06,1,0.3,0.1,0.01,-0.1,0.004,0.006,,1,converged,0,,\n"
-      "\"a,b\",0.15,6e+06,1,18,,,,,,,0,not-looked-for,0,,\"stalled, \"\"really\"\"\"\n");
+      "newton_steps,residual,reason,warnings\n"
+      "\"a,b\",0.15,6e+06,1,0.3,0.1,0.01,-0.1,0.004,0.006,,1,converged,0,,,\n"
+      "\"a,b\",0.15,6e+06,1,18,,,,,,,0,not-looked-for,0,,\"stalled, \"\"really\"\"\",\n");
 }
 
 TEST(Polars, ArePlotsThatNameWhatDiffers) {

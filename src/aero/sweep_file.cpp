@@ -67,7 +67,10 @@ class SectionReader {
       problem_.warnings.insert(problem_.warnings.end(), fit.warnings.begin(), fit.warnings.end());
       add({.name = name, .airfoil = fit.airfoil});
     } catch (const Error& error) {
-      if (error.code() != ErrorCode::format) throw Error(error.code(), where, error.what());
+      std::error_code ignored;
+      const bool is_file =
+          fs::is_regular_file(directory_ / name, ignored) || fs::is_regular_file(name, ignored);
+      if (!is_file || error.code() == ErrorCode::file) throw Error(error.code(), where, error.what());
       add({.name = name, .problem = error.what()});
     }
   }

@@ -121,6 +121,7 @@ std::string polars(const Scratch& scratch, const Swept& swept) {
       PolarCurve& curve = curves.emplace_back();
       curve.name = swept.problem.sections[section].name;
       curve.model = swept.problem.model, curve.mach = stream.first, curve.reynolds = stream.second;
+      curve.transition = swept.problem.transition;
       for (const SweepFlow& flow : swept.flows)
         if (flow.section == section && stream_of(flow) == stream) curve.points.push_back(flow.point);
     }

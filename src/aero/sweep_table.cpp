@@ -42,12 +42,6 @@ std::string start_of(const SweepFlow& flow) {
   return flow.point.status ? name_of(flow.point.start) : "";
 }
 
-std::string joined(const std::vector<std::string>& sentences) {
-  std::string text;
-  for (const std::string& sentence : sentences) text += (text.empty() ? "" : "; ") + sentence;
-  return text;
-}
-
 std::string row_of(const SweepProblem& problem, const SweepFlow& flow) {
   std::string row = std::to_string(flow.section) + ',' + table_cell(problem.sections[flow.section].name);
   for (const NumberColumn& column : number_columns) row += ',' + table_cell(column.of(flow));

@@ -19,4 +19,10 @@ std::string table_cell(const std::string& text) {
   return quoted + '"';
 }
 
+std::string joined(const std::vector<std::string>& sentences) {
+  std::string text;
+  for (const std::string& sentence : sentences) text += (text.empty() ? "" : "; ") + sentence;
+  return text;
+}
+
 }  // namespace remodel

@@ -3,6 +3,7 @@
 // Cells of a table of values between commas (RFC 4180).
 
 #include <string>
+#include <vector>
 
 namespace remodel {
 
@@ -10,5 +11,7 @@ namespace remodel {
 std::string table_cell(double value);
 // Quoted where it has a comma, a quote or a line's end.
 std::string table_cell(const std::string& text);
+// Sentences as one, with "; " between them.
+std::string joined(const std::vector<std::string>& sentences);
 
 }  // namespace remodel

@@ -340,7 +340,7 @@ void note_search(const SearchRecord& record, FlowResult& result) {
 
 FlowOpening opening_of(const FlowMesh& dual, std::uint32_t patch, double mass_flow,
                        const FlowResult& result) {
-  double mass = 0.0, weighted = 0.0;
+  double mass = 0.0, total = 0.0, statical = 0.0, mach = 0.0;
   Point momentum = {};
   for (const BoundaryEdge& edge : dual.boundary()) {
     if (edge.patch != patch) continue;
@@ -349,14 +349,18 @@ FlowOpening opening_of(const FlowMesh& dual, std::uint32_t patch, double mass_fl
       const double through = 0.5 * result.density[v] * dot(velocity, edge.normal);
       const double square = result.density[v] * dot(velocity, velocity) / (gas_gamma * result.pressure[v]);
       mass += through, momentum = momentum + through * velocity;
-      weighted += through * result.pressure[v] * std::pow(1.0 + 0.2 * square, 3.5);
+      total += through * result.pressure[v] * std::pow(1.0 + 0.2 * square, 3.5);
+      statical += through * result.pressure[v], mach += through * std::sqrt(square);
     }
   }
+  FlowOpening opening{.name = dual.patches()[patch].name, .mass_flow = mass_flow};
+  if (mass == 0.0) return opening;
   if (mass < 0.0) momentum = -1.0 * momentum;
-  return {.name = dual.patches()[patch].name,
-          .mass_flow = mass_flow,
-          .flow_angle_deg = std::atan2(momentum.y, momentum.x) / one_degree,
-          .total_pressure = mass == 0.0 ? 0.0 : weighted / mass / total_state(result.mach).pressure};
+  opening.flow_angle_deg = std::atan2(momentum.y, momentum.x) / one_degree;
+  opening.total_pressure = total / mass / total_state(result.mach).pressure;
+  opening.pressure = gas_gamma * statical / mass;
+  opening.mach = mach / mass;
+  return opening;
 }
 
 double largest_mach(const FlowResult& flow) {
@@ -398,6 +402,7 @@ FlowResult result_of(const FlowSystem& system, const State& state, const SearchR
     const std::string spurious = spurious_drag_warning(result.cd, scale, largest_mach(result));
     if (!spurious.empty()) result.warnings.push_back(spurious);
   }
+  if (result.converged()) add_stream_warnings(system.mesh(), system.stream(), result);
   return result;
 }
 
@@ -439,6 +444,16 @@ template BlockVector<4> interpolated<4>(const FlowMesh&, const BlockVector<4>&, 
 template BlockVector<5> interpolated<5>(const FlowMesh&, const BlockVector<5>&, std::span<const Point>);
 
 }  // namespace flow
+
+std::optional<double> loss_coefficient(const FlowResult& result) {
+  if (result.openings.size() != 2) return std::nullopt;
+  const bool first_is_inlet = result.openings[0].mass_flow > result.openings[1].mass_flow;
+  const FlowOpening& in = result.openings[first_is_inlet ? 0 : 1];
+  const FlowOpening& out = result.openings[first_is_inlet ? 1 : 0];
+  if (!(in.mass_flow > 0.0 && out.mass_flow < 0.0)) return std::nullopt;
+  const double total = std::pow(1.0 + 0.2 * result.mach * result.mach, 3.5);  // over static, of the stream
+  return (in.total_pressure - out.total_pressure) * total / (in.total_pressure * total - in.pressure);
+}
 
 namespace {
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "flow/potential/trailing_edge.h"
+#include "flow/solution.h"
 
 namespace remodel::flow {
 
@@ -102,8 +103,62 @@ std::string spurious_drag_warning(double drag, double scale, double largest_mach
   constexpr double count = 1e-4, least = 10.0 * count;
   if (largest_mach >= 1.0 || std::abs(drag) <= least * scale) return {};
   return "the drag of " + short_text(drag / count) +
-         " counts is made by mesh and scheme: without friction and shocks there is none, and lift is off too; a "
+         " counts is made by mesh and scheme: without friction and shocks there is none, and lift is off "
+         "too; a "
          "finer mesh has less (--points, --error)";
+}
+
+namespace {
+
+void add_size_warnings(const FlowMesh& mesh, const Stream& stream, FlowResult& result) {
+  constexpr double most = 3.0, least_turbulent = 1e4;
+  const double extent = mesh.extent().length, ratio = extent / stream.reference_length;
+  const bool has_bodies = mesh.has_farfield() || mesh.has_images();
+  if (has_bodies && (ratio > most || ratio < 1.0 / most))
+    result.warnings.push_back("the reference length is " + short_text(stream.reference_length) +
+                              " and the largest wall is " + short_text(extent) + " long: coefficients" +
+                              (result.friction ? " and the Reynolds number" : "") + " are by the former");
+  if (result.model != FlowModel::sa) return;
+  const double reynolds = result.friction->reynolds * (has_bodies ? ratio : 1.0);
+  if (reynolds < least_turbulent)
+    result.warnings.push_back(
+        "the model is of turbulent flow, and the Reynolds number by the walls' length is " +
+        short_text(reynolds) + ", where boundary layers are laminar (--model laminar)");
+}
+
+// In a duct the stream is no more than a unit.
+void add_row_warnings(FlowResult& result) {
+  constexpr double most_mach = 0.05, most_degrees = 2.0;
+  for (const FlowOpening& opening : result.openings) {
+    if (opening.mass_flow <= 0.0) continue;
+    if (std::abs(opening.mach - result.mach) > most_mach * result.mach)
+      result.warnings.push_back("gas enters by '" + opening.name + "' at Mach " + short_text(opening.mach) +
+                                ", and coefficients are by a stream of Mach " + short_text(result.mach) +
+                                ": the outlets' pressure decides how much enters");
+    if (std::abs(std::remainder(opening.flow_angle_deg - result.alpha_deg, 360.0)) > most_degrees)
+      result.warnings.push_back("gas enters by '" + opening.name + "' at " +
+                                short_text(opening.flow_angle_deg) +
+                                " degrees, and lift and drag are across and along " +
+                                short_text(result.alpha_deg) + " degrees (--inlet-angle, --alpha)");
+  }
+}
+
+void add_loss_warning(FlowResult& result) {
+  constexpr double least = 0.02;
+  if (result.friction || largest_mach(result) >= 1.0) return;
+  if (const auto loss = loss_coefficient(result); loss && std::abs(*loss) > least)
+    result.warnings.push_back(
+        "the loss coefficient of " + short_text(*loss) +
+        " is made by mesh and scheme: without friction and shocks no total pressure is lost; "
+        "a finer mesh has less, and so may an inlet angle that suits the blades");
+}
+
+}  // namespace
+
+void add_stream_warnings(const FlowMesh& mesh, const Stream& stream, FlowResult& result) {
+  add_size_warnings(mesh, stream, result);
+  if (mesh.has_images()) add_row_warnings(result);
+  add_loss_warning(result);
 }
 
 Warnings warnings_of(const std::vector<PotentialOutline>& bodies, const PotentialFlow& flow,

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "flow/scheme/flow_mesh.h"
+#include "flow/scheme/flow_system.h"
+#include "remodel/flow.h"
 #include "remodel/potential_flow.h"
 
 namespace remodel::flow {
@@ -18,9 +20,15 @@ struct Warnings {
 // Of a compressible flow: the lift of bodies without an edge below Mach 1 (closed walls inside the domain,
 // see edge_faces_downstream()).
 Warnings warnings_of(const FlowMesh& mesh, double mach, double alpha_deg);
-// Drag where there is none: a sentence where it is more than ten counts (by the walls' extent, which is `scale` of
-// the reference length) in an unbounded stream in which nothing is faster than sound; otherwise empty.
+// Drag where there is none: a sentence where it is more than ten counts (by the walls' extent, which is
+// `scale` of the reference length) in an unbounded stream in which nothing is faster than sound; otherwise
+// empty.
 std::string spurious_drag_warning(double drag, double scale, double largest_mach);
+
+// What the stream that coefficients are of has to do with walls and openings: a reference length far from the
+// walls' extent, turbulence where the Reynolds number has none, a row of blades whose gas enters otherwise
+// than the stream, total pressure that is lost without friction and shocks. Adds to the result's warnings.
+void add_stream_warnings(const FlowMesh& mesh, const Stream& stream, FlowResult& result);
 
 // A body of a potential flow: its outline, clockwise, that begins with the `base` vertices of its trailing
 // edge (0: there is none).

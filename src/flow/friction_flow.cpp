@@ -6,7 +6,8 @@
 #include <limits>
 
 #include "base/stopwatch.h"
-#include "flow/scheme/laminar_zone.h"
+#include "flow/flow_warnings.h"
+#include "flow/friction_warnings.h"
 #include "flow/search/chord.h"
 #include "flow/solution.h"
 
@@ -32,9 +33,13 @@ std::vector<WallVertex> wall_vertices_of(const FlowMesh& dual, Point stream) {
       walls[v].along = walls[v].along + (dot(d, stream) < 0.0 ? -1.0 : 1.0) * d;
     }
   }
-  for (WallVertex& wall : walls)
+  for (WallVertex& wall : walls) {
+    // Where the wall turns by less than a right angle, as at a nose, it lies along its chord.
+    if (wall.edges == 2 && dot(wall.chord, wall.chord) > 2.0 * wall.length * wall.length)
+      wall.along = (dot(wall.chord, stream) < 0.0 ? -1.0 : 1.0) * wall.chord;
     if (const double size = std::sqrt(dot(wall.along, wall.along)); size > 0.0)
       wall.along = (1.0 / size) * wall.along;
+  }
   return walls;
 }
 
@@ -78,20 +83,6 @@ FlowFriction friction_of(const FrictionSystem<N>& system, const std::vector<Wall
   return friction;
 }
 
-// The vertex of least x where gas flows back along a wall ahead of the transition that was given, but not at
-// the nose, where it flows around that.
-std::optional<std::uint32_t> separated_ahead_of_transition(const FrictionMesh& mesh,
-                                                           const FlowFriction& friction) {
-  std::optional<std::uint32_t> first;
-  if (!friction.transition) return first;
-  const std::vector<bool> nose = laminar_zone(mesh, {0.2, 0.2});
-  for (std::uint32_t v = 0; v < mesh.dual().size(); ++v)
-    if (mesh.sticks(v) && mesh.is_laminar(v) && !nose[v] && friction.cf[v] < 0.0 &&
-        (!first || mesh.dual().points()[v].x < mesh.dual().points()[*first].x))
-      first = v;
-  return first;
-}
-
 // What part of friction acts across the wall, where that does not turn. There is none at a wall without slip:
 // it is pressure, of which the cells at the wall are too high to tell, as at a nose.
 template <std::size_t N>
@@ -109,62 +100,6 @@ double part_across_walls(const FrictionSystem<N>& system, const std::vector<Wall
     whole += std::sqrt(dot(force, force));
   }
   return whole > 0.0 ? across / whole : 0.0;
-}
-
-// The least distance of a vertex from the wall.
-double height_at_walls(const FrictionMesh& mesh) {
-  double height = std::numeric_limits<double>::infinity();
-  for (const double d : mesh.distances())
-    if (d > 0.0) height = std::min(height, d);
-  return height;
-}
-
-// Whether the cells at the wall are low enough: for the turbulence, and for telling friction from pressure.
-std::vector<std::string> height_warnings(const FrictionMesh& mesh, const FlowFriction& friction,
-                                         double part_across, FlowModel model) {
-  constexpr double wanted = 1.0, tolerated = 2.0;
-  // The part falls with the height to the power of 3/2 (NACA 0012, laminar, Re 500 and 5,000, Mach 0.01 to
-  // 0.3).
-  constexpr double wanted_across = 0.01, tolerated_across = 0.02;
-  std::vector<std::string> warnings;
-  char text[200];
-  if (model == FlowModel::sa && friction.y_plus_max > tolerated) {
-    std::snprintf(
-        text, sizeof text,
-        "y+ of the cells at the wall is up to %.3g, expected about %.0f: cells that are %.2g high would do",
-        friction.y_plus_max, wanted, height_at_walls(mesh) * wanted / friction.y_plus_max);
-    warnings.push_back(text);
-  }
-  if (part_across > tolerated_across) {
-    std::snprintf(
-        text, sizeof text,
-        "%.2g %% of the friction acts across the wall, as pressure does, expected none: the two are told "
-        "apart by cells at the wall that are %.2g high",
-        100.0 * part_across, height_at_walls(mesh) * std::pow(wanted_across / part_across, 2.0 / 3.0));
-    warnings.push_back(text);
-  }
-  return warnings;
-}
-
-// What has to be known about the cells at the wall, and about the transition.
-std::vector<std::string> friction_warnings(const FrictionMesh& mesh, const FlowFriction& friction,
-                                           double part_across, FlowModel model) {
-  std::vector<std::string> warnings = height_warnings(mesh, friction, part_across, model);
-  const auto is_quad = [](const Cell& cell) { return cell.corners() == 4; };
-  if (std::none_of(mesh.dual().cells().begin(), mesh.dual().cells().end(), is_quad))
-    warnings.push_back(
-        "the mesh has no layer of quadrilaterals on its walls, which friction is not accurate without");
-  if (const auto v = separated_ahead_of_transition(mesh, friction)) {
-    char text[160];
-    const Point p = mesh.dual().points()[*v];
-    std::snprintf(
-        text, sizeof text,
-        "the laminar boundary layer separates at (%.3g, %.3g), ahead of the given transition, where a "
-        "free one would come before long",
-        p.x, p.y);
-    warnings.push_back(text);
-  }
-  return warnings;
 }
 
 }  // namespace
@@ -209,9 +144,15 @@ FlowResult result_of(const FrictionSystem<N>& system, const BlockState<N>& state
   for (std::uint32_t i = 0; i < patches.size(); ++i)
     if (patches[i].open())
       result.openings.push_back(opening_of(system.mesh(), i, system.mass_flow(state, i), result));
-  if (result.converged())
-    result.warnings = friction_warnings(system.friction_mesh(), *result.friction,
-                                        part_across_walls(system, walls, unbalanced), result.model);
+  if (result.converged()) {
+    std::vector<double> vorticity;
+    for (std::size_t v = 0; v < system.mesh().size(); ++v) vorticity.push_back(system.vorticity(state.q, v));
+    result.warnings = friction_warnings(
+        {system.friction_mesh(), result, part_across_walls(system, walls, unbalanced), vorticity});
+    add_stream_warnings(system.mesh(), system.stream(), result);
+  } else if (result.friction->transition) {
+    result.reason += "; a given transition behind where the laminar layer separates may have no steady flow";
+  }
   return result;
 }
 

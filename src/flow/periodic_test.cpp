@@ -470,7 +470,11 @@ TEST(Periodic, FlowTurnsInARowAsTheoryHasIt) {
       const FlowResult flow = solve_flow(mesh, {.mach = mach, .alpha_deg = row.angle_deg},
                                          cascade_options(row.angle_deg, pressure));
       ASSERT_TRUE(flow.converged()) << flow.reason;
+      EXPECT_EQ(flow.warnings.size(), fine == 0 ? 1u : 0u);  // of total pressure that the coarse mesh loses
       EXPECT_EQ(flow.openings.size(), 2u);
+      EXPECT_NEAR(flow.openings[0].mach, mach, 0.03 * mach);
+      EXPECT_NEAR(flow.openings[1].pressure, pressure, 1e-3);
+      EXPECT_NEAR(loss_coefficient(flow).value(), 0.0, fine == 0 ? 0.06 : 0.02);
       EXPECT_NEAR(flow.openings[0].mass_flow + flow.openings[1].mass_flow, 0.0, 1e-9);
       error[fine] = std::fabs(flow.openings[1].flow_angle_deg - theory.angle / degree);
       lift_error[fine] = std::fabs(flow.cl / lift - 1.0);
@@ -481,6 +485,24 @@ TEST(Periodic, FlowTurnsInARowAsTheoryHasIt) {
     EXPECT_LT(lift_error[0], 0.08) << row.stagger_deg;
     EXPECT_LT(lift_error[1], 0.5 * lift_error[0]) << row.stagger_deg;
   }
+}
+
+// Whoever forgets the angle or the pressure gets coefficients of another stream than the one that enters.
+TEST(Periodic, ARowWhoseGasEntersOtherwiseSaysSo) {
+  const ExactRow exact(1.35, 30.0 * pi / 180.0, {-0.04, -0.05});
+  const Mesh mesh = generate(passage_of(exact.blade(100), 10), {.gradation = 2.0}).mesh;
+  const auto warnings = [&](double alpha_deg, double inlet_angle_deg, double pressure) {
+    const FlowResult flow =
+        solve_flow(mesh, {.mach = 0.2, .alpha_deg = alpha_deg}, cascade_options(inlet_angle_deg, pressure));
+    EXPECT_TRUE(flow.converged()) << flow.reason;
+    std::string text;
+    for (const std::string& warning : flow.warnings) text += warning + "\n";
+    return text;
+  };
+  EXPECT_EQ(warnings(45.0, 45.0, 1.008).find("gas enters"), std::string::npos);
+  EXPECT_NE(warnings(0.0, 45.0, 1.008).find("gas enters by 'inlet' at 45 degrees"), std::string::npos);
+  EXPECT_NE(warnings(45.0, 45.0, 0.99).find("and coefficients are by a stream of Mach 0.2"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -197,7 +197,8 @@ class AirfoilShapes {
     } else if (std::abs(incidence) >= least_incidence_deg && !shape.place) {
       placed.placement.rotation_deg = -incidence;
       result_.warnings.push_back(shape.shape +
-                                 ": the section is placed at the incidence that it is drawn at");
+                                 ": the section is placed at the incidence that it is drawn at, and angles "
+                                 "are from the file's axis");
     }
     return placed;
   }

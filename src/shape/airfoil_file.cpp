@@ -127,8 +127,10 @@ std::string with_decimal(double degrees) {
 void note_turn(const AirfoilFrame& frame, std::vector<std::string>& notes) {
   const double degrees = frame.incidence_deg();
   if (std::abs(degrees) < notable_degrees) return;
-  notes.push_back("its chord is drawn nose " + std::string(degrees > 0.0 ? "up" : "down") + " by " +
-                  with_decimal(std::abs(degrees)) + " degrees, and the fit is turned by that to its chord");
+  notes.push_back(
+      "its chord is drawn nose " + std::string(degrees > 0.0 ? "up" : "down") + " by " +
+      with_decimal(std::abs(degrees)) +
+      " degrees; the fit lies along its chord, which angles are from unless it is placed as drawn");
 }
 
 void note_size(const AirfoilFrame& frame, std::vector<std::string>& notes) {
@@ -150,8 +152,8 @@ void note_gap(double gap, std::vector<std::string>& notes) {
   notes.push_back("its trailing edge is crossed by " + said(-gap, 3) + " chords, and the fit closes it");
 }
 
-// Blunt trailing edges of the usual collections are a tenth of this or less, those of most flat backs less than it:
-// what is said of the others is true of them too.
+// Blunt trailing edges of the usual collections are a tenth of this or less, those of most flat backs less
+// than it: what is said of the others is true of them too.
 constexpr double notable_base = 0.03;
 
 // An outline that stops before its trailing edge looks as one with a base does, but for its length.

@@ -1,0 +1,216 @@
+#include "flow/friction_warnings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+
+#include "flow/physics/euler.h"
+
+namespace remodel::flow {
+
+namespace {
+
+// The least distance of a vertex from the wall.
+double height_at_walls(const FrictionMesh& mesh) {
+  double height = std::numeric_limits<double>::infinity();
+  for (const double d : mesh.distances())
+    if (d > 0.0) height = std::min(height, d);
+  return height;
+}
+
+// Whether the cells at the wall are low enough: for the turbulence, and for telling friction from pressure.
+void add_height_warnings(const FrictionWarningInputs& of, std::vector<std::string>& warnings) {
+  constexpr double wanted = 1.0, tolerated = 2.0;
+  // The part falls with the height to the power of 3/2 (NACA 0012, laminar, Re 500 and 5,000, Mach 0.01 to
+  // 0.3).
+  constexpr double wanted_across = 0.01, tolerated_across = 0.02;
+  char text[200];
+  const double y_plus = of.flow.friction->y_plus_max;
+  if (of.flow.model == FlowModel::sa && y_plus > tolerated) {
+    std::snprintf(
+        text, sizeof text,
+        "y+ of the cells at the wall is up to %.3g, expected about %.0f: cells that are %.2g high would do",
+        y_plus, wanted, height_at_walls(of.mesh) * wanted / y_plus);
+    warnings.push_back(text);
+  }
+  if (of.part_across > tolerated_across) {
+    std::snprintf(
+        text, sizeof text,
+        "%.2g %% of the friction acts across the wall, as pressure does, expected none: the two are told "
+        "apart by cells at the wall that are %.2g high",
+        100.0 * of.part_across,
+        height_at_walls(of.mesh) * std::pow(wanted_across / of.part_across, 2.0 / 3.0));
+    warnings.push_back(text);
+  }
+}
+
+bool is_quadrilateral(const Cell& cell) {
+  return cell.corners() == 4;
+}
+
+// The part of the layers' tops that lies within boundary layers, or wakes and what has separated: there the
+// speed is less than nine tenths of what the stream's total pressure has at the pressure of that place.
+double part_of_tops_within(const FrictionWarningInputs& of) {
+  constexpr double outer = 0.9;
+  const FlowMesh& dual = of.mesh.dual();
+  std::vector<bool> at_layer(dual.size()), outside(dual.size());
+  for (const Cell& cell : dual.cells())
+    for (std::uint32_t k = 0; k < cell.corners(); ++k)
+      (is_quadrilateral(cell) ? at_layer : outside)[cell[k]] = true;
+  double total = std::pow(1.0 + 0.2 * of.flow.mach * of.flow.mach, 3.5) / gas_gamma;
+  if (!dual.has_farfield())
+    for (const FlowOpening& opening : of.flow.openings)
+      if (opening.mass_flow > 0.0) total *= opening.total_pressure;
+  std::size_t tops = 0, within = 0;
+  for (std::uint32_t v = 0; v < dual.size(); ++v) {
+    if (!at_layer[v] || !outside[v] || of.mesh.sticks(v) || dual.is_image(v)) continue;
+    const double pressure = of.flow.pressure[v], density = of.flow.density[v];
+    const Point velocity = {of.flow.velocity_x[v], of.flow.velocity_y[v]};
+    const double here = density * dot(velocity, velocity) / (gas_gamma * pressure);  // Mach number squared
+    const double of_stream = 5.0 * (std::pow(std::max(total / pressure, 1.0), 2.0 / 7.0) - 1.0);
+    ++tops;
+    if (here < outer * outer * of_stream) ++within;
+  }
+  return tops == 0 ? 0.0 : static_cast<double>(within) / static_cast<double>(tops);
+}
+
+void add_layer_warnings(const FrictionWarningInputs& of, std::vector<std::string>& warnings) {
+  // NACA 0012, 4412 and RAE 2822 have 11 to 34 %, up to the largest lift; layers three times too thin 47 %
+  // and more.
+  constexpr double most_within = 0.4;
+  const std::vector<Cell>& cells = of.mesh.dual().cells();
+  if (std::none_of(cells.begin(), cells.end(), is_quadrilateral)) {
+    warnings.push_back(
+        "the mesh has no layer of quadrilaterals on its walls, which friction is not accurate without");
+    return;
+  }
+  const double within = part_of_tops_within(of);
+  if (within <= most_within) return;
+  char text[240];
+  std::snprintf(
+      text, sizeof text,
+      "%.0f %% of the layer's top lies within the boundary layer, expected at most %.0f: unless the "
+      "flow has separated, a thicker layer, as one made for this Reynolds number, has other "
+      "coefficients",
+      100.0 * within, 100.0 * most_within);
+  warnings.push_back(text);
+}
+
+Point stream_direction(const FlowResult& flow) {
+  const double alpha = flow.alpha_deg * std::numbers::pi / 180.0;
+  return {std::cos(alpha), std::sin(alpha)};
+}
+
+// The vertices of one connected wall in order, the gas on their left; a closed one begins anywhere.
+struct WallChain {
+  std::vector<std::uint32_t> vertices;
+  bool closed = false;
+};
+
+std::vector<WallChain> wall_chains(const FrictionMesh& mesh) {
+  const FlowMesh& dual = mesh.dual();
+  std::vector<std::uint32_t> next(dual.size(), no_index), previous(dual.size(), no_index);
+  for (const BoundaryEdge& edge : dual.boundary())
+    if (dual.patch(edge).sticks()) next[edge.a] = edge.b, previous[edge.b] = edge.a;
+  std::vector<WallChain> chains;
+  std::vector<bool> seen(dual.size(), false);
+  for (std::uint32_t v = 0; v < dual.size(); ++v) {
+    if (next[v] == no_index || seen[v]) continue;
+    std::uint32_t first = v;
+    while (previous[first] != no_index && previous[first] != v) first = previous[first];
+    WallChain chain{.vertices = {}, .closed = previous[first] != no_index};
+    if (chain.closed) first = v;
+    for (std::uint32_t w = first; w != no_index && !seen[w]; w = next[w])
+      seen[w] = true, chain.vertices.push_back(w);
+    chains.push_back(std::move(chain));
+  }
+  return chains;
+}
+
+// The two sides of a chain: from the stagnation point to the rearmost one, the former first.
+std::vector<std::vector<std::uint32_t>> sides_of(const WallChain& chain, const FlowMesh& dual,
+                                                 const FlowResult& flow) {
+  const std::vector<std::uint32_t>& all = chain.vertices;
+  const Point stream = stream_direction(flow);
+  const auto by_pressure = [&](std::uint32_t a, std::uint32_t b) {
+    return flow.pressure[a] < flow.pressure[b];
+  };
+  const auto by_place = [&](std::uint32_t a, std::uint32_t b) {
+    return dot(dual.points()[a], stream) < dot(dual.points()[b], stream);
+  };
+  const auto rear =
+      static_cast<std::size_t>(std::max_element(all.begin(), all.end(), by_place) - all.begin());
+  const auto front =
+      static_cast<std::size_t>(std::max_element(all.begin(), all.end(), by_pressure) - all.begin());
+  const std::size_t count = all.size();
+  std::vector<std::vector<std::uint32_t>> sides(2);
+  for (const bool ahead : {true, false})
+    for (std::size_t k = 0; k < count; ++k) {
+      if (!chain.closed && k > (ahead ? count - 1 - front : front)) break;
+      const std::size_t at = (front + (ahead ? k : count - k)) % count;
+      sides[ahead ? 0 : 1].push_back(all[at]);
+      if (at == rear) break;
+    }
+  return sides;
+}
+
+}  // namespace
+
+std::vector<LaminarSeparation> laminar_separations(const FrictionMesh& mesh, const FlowResult& flow) {
+  std::vector<LaminarSeparation> all;
+  if (!flow.friction || !flow.friction->transition) return all;
+  const FlowMesh& dual = mesh.dual();
+  const Point stream = stream_direction(flow);
+  for (const WallChain& chain : wall_chains(mesh))
+    for (const std::vector<std::uint32_t>& side : sides_of(chain, dual, flow)) {
+      bool attached = false;
+      LaminarSeparation found;
+      for (std::size_t i = 1; i + 1 < side.size(); ++i) {
+        // cf is positive along the stream.
+        const Point along = dual.points()[side[i + 1]] - dual.points()[side[i - 1]];
+        const double forward =
+            dot(along, stream) < 0.0 ? -flow.friction->cf[side[i]] : flow.friction->cf[side[i]];
+        if (found.vertex == no_index) {
+          if (!mesh.is_laminar(side[i])) break;
+          if (forward < 0.0 && attached) found.vertex = side[i];
+          attached = attached || forward > 0.0;
+        } else if (forward > 0.0) {
+          found.reattached = side[i];
+          break;
+        }
+      }
+      if (found.vertex != no_index) all.push_back(found);
+    }
+  return all;
+}
+
+std::vector<std::string> friction_warnings(const FrictionWarningInputs& of) {
+  constexpr double longest_bubble = 0.3;  // of the walls' extent
+  std::vector<std::string> warnings;
+  add_height_warnings(of, warnings);
+  add_layer_warnings(of, warnings);
+  for (const LaminarSeparation& separation : laminar_separations(of.mesh, of.flow)) {
+    const Point from = of.mesh.dual().points()[separation.vertex];
+    char text[300];
+    int length = std::snprintf(text, sizeof text,
+                               "the laminar boundary layer separates at (%.3g, %.3g), ahead of the given "
+                               "transition, where a free one would come before long",
+                               from.x, from.y);
+    const auto rest = static_cast<std::size_t>(length);
+    bool is_stall = separation.reattached == no_index;
+    if (is_stall) {
+      std::snprintf(text + rest, sizeof text - rest, "; it does not come back to the wall");
+    } else {
+      const Point to = of.mesh.dual().points()[separation.reattached];
+      const double extent = of.mesh.dual().extent().length;
+      is_stall = squared_distance(from, to) > longest_bubble * longest_bubble * extent * extent;
+      std::snprintf(text + rest, sizeof text - rest, "; it comes back at (%.3g, %.3g)", to.x, to.y);
+    }
+    warnings.push_back(std::string(text) + (is_stall ? ": lift and drag are those of this stall" : ""));
+  }
+  return warnings;
+}
+
+}  // namespace remodel::flow
