@@ -197,13 +197,14 @@ class Flows {
     const FlowPointer result = calls_.run(solver_->stop, [solver = solver_, frozen, conditions] {
       return std::make_shared<FlowResult>(solver->flow.solve(*frozen, conditions));
     });
-    if (result->converged()) last_ = given;
+    last_ = result->converged() ? given : nullptr;
+    why_none_ = result->converged() ? "" : result->reason;
     return with_mesh(result, given);
   }
-  // Gradients of the last flow: by the points of its mesh, and by Mach number and angle.
+  // Gradients of the flow of the last solve(): by the points of its mesh, and by Mach number and angle.
   py::dict gradients(const py::dict& functions) {
     const ThreadLock::Held held(lock_);
-    if (!last_) throw Error(ErrorCode::argument, "gradients", "no flow was found yet, expected one");
+    require_flow();
     const std::vector<FlowFunctional> wanted = functionals_of(functions, last_->points.size());
     FlowGradients found =
         calls_.run(solver_->stop, [solver = solver_, wanted] { return solver->flow.gradients(wanted); });
@@ -222,6 +223,7 @@ class Flows {
     const ThreadLock::Held held(lock_);
     calls_.settle();
     solver_->flow.forget();
+    last_.reset(), why_none_.clear();
   }
 
  private:
@@ -234,11 +236,20 @@ class Flows {
     return result;
   }
 
+  // The solver itself still has the flow before, which nobody who asks now means.
+  void require_flow() const {
+    if (last_) return;
+    const std::string found =
+        why_none_.empty() ? "no flow was found yet" : "the last flow was not found (" + why_none_ + ")";
+    throw Error(ErrorCode::argument, "gradients", found + ", expected one");
+  }
+
   ThreadLock lock_;
   const FlowOptions options_;
   std::shared_ptr<Solver> solver_;
   Apart calls_;
-  Snapshot last_;  // the mesh of the last flow that was found
+  Snapshot last_;         // the mesh of the last flow; none if that was not found
+  std::string why_none_;  // why not; empty before the first one
 };
 
 // Arrays by name, a value for each station.
@@ -558,7 +569,8 @@ was given), and reynolds; with friction cd_pressure too.
 
 functions: functions of one's own, a dict of names and the derivatives of each at fixed others: a dict with any of
 pressure, density, velocity_x, velocity_y (of shape (n,), by the fields of the flow), points (of shape (n, 2)) and mach.
-The result has their total derivatives by name. Raises ArgumentError before the first flow.)")
+The result has their total derivatives by name. Raises ArgumentError before the first flow, and where the last one was
+not found.)")
       .def(py::pickle(&state_of, &flows_of))
       .def("forget", &Flows::forget, "The next flow is found cold.");
 }

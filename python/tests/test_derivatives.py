@@ -119,7 +119,22 @@ def test_gradients_of_another_mesh_are_refused(mesh, airfoil):
     assert other.vjp(np.asarray(gradient)) is not None  # an array that knows nothing is the caller's own affair
 
 
-def test_a_flow_that_was_not_found_leaves_the_gradients_of_the_last_one(mesh, airfoil):
+def test_a_flow_that_was_not_found_has_no_gradients(mesh):
+    """Not those of the flow before, which is what the solver goes on from."""
+    solver = remodel.LivingFlow()
+    first = solver.solve(mesh, mach=0.5, alpha=1.0)
+    expected = solver.gradients()["cl"]["mach"]
+    assert not solver.solve(mesh, mach=0.5, cl=6.0).converged
+    with pytest.raises(remodel.ArgumentError, match=r"^gradients: the last flow was not found \(.*\), expected one$"):
+        solver.gradients()
+    assert np.isclose(solver.solve(mesh, mach=0.5, alpha=1.0).cl, first.cl, rtol=1e-7)
+    assert np.isclose(solver.gradients()["cl"]["mach"], expected, rtol=1e-5)
+    solver.forget()
+    with pytest.raises(remodel.ArgumentError, match="^gradients: no flow was found yet"):
+        solver.gradients()
+
+
+def test_conditions_that_are_refused_leave_the_gradients_of_the_last_flow(mesh, airfoil):
     solver = remodel.LivingFlow()
     solver.solve(mesh, mach=0.4, alpha=1.0)
     first = solver.gradients()["cl"]["points"]
