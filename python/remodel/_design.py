@@ -77,7 +77,8 @@ def design(problem, *, directory=None, resume=False, overwrite=False, threads=0,
     Domain. Each returns a value, or a pair: the value and its derivatives. Those of a flow are a dict with any of cl, cd,
     cm, cd_pressure (by those coefficients) and points, pressure, density, velocity_x, velocity_y, mach (by those values, at
     fixed coefficients); those of a design are an array. The designer 'sqp' needs derivatives. A function may raise
-    EvaluationFailed for a design; any other exception ends the run and is raised here.
+    EvaluationFailed for a design (that of a function of a design at the start is raised here, since nobody then knows how
+    many constraints it is); any other exception ends the run and is raised here.
 
     directory: keeps history, meshes and checkpoints, for resume=True; a temporary one unless given. callback: called
     after each design with a dict of its figures; True ends the run. Ctrl-C ends it with a checkpoint. threads: flows of

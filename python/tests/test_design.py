@@ -99,6 +99,27 @@ def test_what_a_function_raises_is_raised_and_a_failure_is_of_one_design():
     assert remodel.design(problem(objective=lambda flow: flow.cd, designer=cmaes)).evaluations == 3
 
 
+@pytest.mark.parametrize("error", [KeyError("no"), KeyboardInterrupt(), SystemExit(3), remodel.ArgumentError("of my own"), ZeroDivisionError("no"), remodel.EvaluationFailed("no")])
+@pytest.mark.parametrize("later", [False, True])
+def test_what_a_function_of_a_design_raises_is_raised_and_a_failure_is_of_one_design(error, later):
+    starts = []
+
+    def of_design(design, domain):
+        starts.append(design)
+        if not later or not np.array_equal(design, starts[0]):
+            raise error
+        return -1.0, np.zeros(len(design))
+
+    asked = problem(constraints=[{"kind": "area", "of_start": 1}, {"design_function": of_design}])
+    if later and isinstance(error, remodel.EvaluationFailed):
+        result = remodel.design(asked)
+        assert [row["detail"].partition(": ")[2] or row["detail"] for row in result.rows[1:]] == ["no"] * (len(result.rows) - 1)
+        return
+    with pytest.raises(type(error)) as raised:
+        remodel.design(asked)
+    assert raised.value is error or (isinstance(error, remodel.EvaluationFailed) and str(raised.value) == "no")
+
+
 def test_ends_by_the_callback_and_by_what_it_raises():
     assert remodel.design(problem(), callback=lambda row: True).stopped == "interrupted"
 
