@@ -127,7 +127,7 @@ py::array_t<double> vjp(LivingMesh& mesh, const py::object& by_points, const std
 
 LivingMeshPointer at(LivingMesh& mesh, const py::object& shape, const std::string& boundary) {
   const ThreadLock::Held held(mesh.lock);
-  const Domain domain = next_domain(mesh, shape, boundary);
+  const Domain domain = next_domain(mesh.mesh, shape, boundary);
   py::gil_scoped_release released;
   auto result = std::make_shared<LivingMesh>();
   result->mesh = mesh_at(mesh.mesh, domain);

@@ -41,11 +41,6 @@ CstAirfoil cst_airfoil(const Reals& upper, const Reals& lower, double e1, double
   return airfoil;
 }
 
-void warn(const std::vector<std::string>& sentences) {
-  for (const std::string& sentence : sentences)
-    if (PyErr_WarnEx(PyExc_UserWarning, sentence.c_str(), 1) < 0) throw py::error_already_set();
-}
-
 CstAirfoil new_airfoil(const std::optional<std::filesystem::path>& shape, int degree,
                        const std::optional<Reals>& upper, const std::optional<Reals>& lower, double e1,
                        double e2, double te_upper, double te_lower, bool close_trailing_edge) {
@@ -372,18 +367,27 @@ std::vector<std::size_t> airfoil_loops(const Domain& domain, const std::string& 
   return loops;
 }
 
-ShapesDomain domain_of(const py::object& shape, const AirfoilDomainOptions& options,
-                       const ShapeReading& reading) {
-  if (py::isinstance<Domain>(shape)) return {.domain = shape.cast<Domain>()};
-  if (py::isinstance<CstAirfoil>(shape))
-    return {.domain = airfoil_domain(shape.cast<const CstAirfoil&>(), options), .in_farfield = true};
+void warn(const std::vector<std::string>& sentences) {
+  for (const std::string& sentence : sentences)
+    if (PyErr_WarnEx(PyExc_UserWarning, sentence.c_str(), 1) < 0) throw py::error_already_set();
+}
+
+std::string name_of_shape(const py::object& shape) {
   if (!py::isinstance<py::str>(shape) && !py::hasattr(shape, "__fspath__"))
     throw py::type_error("shape: found " + type_of(shape) +
                          ", expected an Airfoil, a Domain, or the name of an airfoil or a file");
   const std::string name = shape.cast<std::filesystem::path>().string();
   if (name == standard_input)
     throw Error(ErrorCode::argument, "shape", "found '-', expected a name or a file");
-  ShapesDomain result = domain_of_shapes({{.shape = name}}, options, reading);
+  return name;
+}
+
+ShapesDomain domain_of(const py::object& shape, const AirfoilDomainOptions& options,
+                       const ShapeReading& reading) {
+  if (py::isinstance<Domain>(shape)) return {.domain = shape.cast<Domain>()};
+  if (py::isinstance<CstAirfoil>(shape))
+    return {.domain = airfoil_domain(shape.cast<const CstAirfoil&>(), options), .in_farfield = true};
+  ShapesDomain result = domain_of_shapes({{.shape = name_of_shape(shape)}}, options, reading);
   warn(result.warnings);
   return result;
 }
