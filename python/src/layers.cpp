@@ -94,7 +94,7 @@ LayersWay layers_way(const LivingLayers& living, const std::string& boundary, co
   if (interior != "own" && interior != "still")
     throw Error(ErrorCode::argument, "interior", "found '" + interior + "', expected own or still");
   const auto [loop, first, count] = airfoil_numbers(mesh.domain(), boundary);
-  if (interior == "own" && (mesh.outer().held() || living.follows))
+  if (interior == "own" && own_strategy(mesh.outer(), living.follows) == Strategy::reference)
     return {LayeredMeshDerivative(mesh, moving_loops(mesh.outer(), {loop})), first, count};
   return {LayeredMeshDerivative(mesh), first, count};
 }

@@ -101,6 +101,10 @@ Domain next_domain(const LayeredMesh& mesh, const py::object& shape, const std::
 // of a mesh that is held.
 std::vector<std::size_t> moving_loops(const Mesh& mesh, const std::vector<std::size_t>& loops);
 
+// The strategy of whose small steps derivatives and at() are, unless they are asked for another: reference,
+// which moves the interior along, of meshes that are held or follow; otherwise chain, which leaves it.
+Strategy own_strategy(const Mesh& mesh, bool follows);
+
 // Where the upper and lower coefficients of the airfoil of that name, or the only one, are in
 // coefficients_of(): its loop, the first and how many. Throws Error (argument) where there is not one such
 // airfoil.
