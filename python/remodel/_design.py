@@ -69,9 +69,9 @@ def design(problem, *, directory=None, resume=False, overwrite=False, threads=0,
     """Searches the section of least drag, or another objective, by flows and their gradients. Returns a DesignResult.
 
     problem: a dict with the keys of a problem file (docs/design.md), or the path of one. In a dict 'airfoil' and
-    'target' may be an Airfoil. 'objective' may be a function of a flow, made small; an entry of 'constraints' may have
-    'flow_function', a function of the flow of 'point', with at_least or at_most, or 'design_function', a function of
-    the design, which is to be at most 0; and a 'name'.
+    'target' may be an Airfoil ('airfoil' gets the 'degree' of the problem, if it has one). 'objective' may be a function of
+    a flow, made small; an entry of 'constraints' may have 'flow_function', a function of the flow of 'point', with at_least
+    or at_most, or 'design_function', a function of the design, which is to be at most 0; and a 'name'.
 
     A function of a flow gets a FlowResult, with its mesh. A function of a design gets the design, an array, and its
     Domain. Each returns a value, or a pair: the value and its derivatives. Those of a flow are a dict with any of cl, cd,
@@ -123,7 +123,7 @@ def _parts_of(problem):
     airfoils = []
     for key in ("airfoil", "target"):
         given = problem.get(key)
-        airfoils.append(given if isinstance(given, Airfoil) else None)
+        airfoils.append(_of_degree(given, problem.get("degree") if key == "airfoil" else None) if isinstance(given, Airfoil) else None)
         if isinstance(given, Airfoil):
             problem[key] = "naca:0012"
     designer = problem.get("designer")
@@ -144,6 +144,12 @@ def _parts_of(problem):
 
 
 def _start_of(given):
+def _of_degree(airfoil, degree):
+    """With the degree of the problem, where it has one: what is none is refused with the rest of the text."""
+    given = isinstance(degree, (int, np.integer)) and not isinstance(degree, bool) and 1 <= degree <= 30
+    return airfoil.with_degree(int(degree)) if given else airfoil
+
+
     """The run that a search begins with a design of, and its number: None for the best one."""
     if given is None:
         return None, None

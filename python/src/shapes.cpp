@@ -6,6 +6,7 @@
 #include <pybind11/operators.h>
 #include "bindings.h"
 #include "living.h"
+#include "remodel/airfoil_degree.h"
 #include "remodel/io.h"
 #include "remodel/mesh_derivative.h"
 #include "remodel/shape_files.h"
@@ -49,11 +50,16 @@ CstAirfoil new_airfoil(const std::optional<std::filesystem::path>& shape, int de
                 "expected a name or a file, or else the coefficients upper and lower");
   if (shape && *shape == standard_input)
     throw Error(ErrorCode::argument, "Airfoil", "found '-', expected a name or a file");
-  if (!shape) return cst_airfoil(*upper, *lower, e1, e2, te_upper, te_lower);
-  const CstFit fit =
-      load_fit(shape->string(), degree, close_trailing_edge ? TrailingEdge::closed : TrailingEdge::kept);
+  if (!shape) {
+    if (degree)
+      throw Error(ErrorCode::argument, "degree",
+                  "given with coefficients, which have their own, expected with_degree()");
+    return cst_airfoil(*upper, *lower, e1, e2, te_upper, te_lower);
+  }
+  const CstFit fit = load_fit(shape->string(), degree.value_or(usual_degree),
+                              close_trailing_edge ? TrailingEdge::closed : TrailingEdge::kept);
   warn(fit.warnings);
-  return fit.airfoil;
+  return degree && shape->extension() == ".json" ? with_degree(fit.airfoil, *degree) : fit.airfoil;
 }
 
 py::array_t<double> coordinates(const CstAirfoil& airfoil, int count) {
@@ -88,10 +94,11 @@ void add_airfoil(py::module_& module) {
 
 Airfoil("naca:2412"), Airfoil("rae2822"), Airfoil("section.dat", degree=6), Airfoil("design.json") or
 Airfoil(upper=[...], lower=[...]): y(x) = x**e1 * (1 - x)**e2 * sum(c[i] * Bernstein[i](x)) + x * te.
-Coordinate files and NACA sections are fitted with `degree`, 2 to 12. A file is moved, turned and scaled to its
+Coordinate files and NACA sections are fitted with `degree`, 2 to 12, or 5. Names of the catalogue and .json files have
+their own degree, unless it is given: with_degree(). A file is moved, turned and scaled to its
 chord: a UserWarning says so where that is more than rounding. Its blunt trailing edge is kept, unless
 close_trailing_edge is True. Raises FileError, FormatError, ArgumentError.)");
-  airfoil.def(py::init(&new_airfoil), "shape"_a = py::none(), "degree"_a = 5, py::kw_only(),
+  airfoil.def(py::init(&new_airfoil), "shape"_a = py::none(), "degree"_a = py::none(), py::kw_only(),
               "upper"_a = py::none(), "lower"_a = py::none(), "e1"_a = 0.5, "e2"_a = 1.0, "te_upper"_a = 0.0,
               "te_lower"_a = 0.0, "close_trailing_edge"_a = false);
   airfoil.def_property_readonly(
@@ -126,6 +133,9 @@ close_trailing_edge is True. Raises FileError, FormatError, ArgumentError.)");
       "design"_a, "The same airfoil with other coefficients, in the order of `design`.");
   airfoil.def_readonly("e1", &CstAirfoil::e1);
   airfoil.def_readonly("e2", &CstAirfoil::e2);
+  airfoil.def("with_degree", &with_degree, "degree"_a,
+              "The section with surfaces of another degree, 1 to 50: exactly the same with a higher one, the "
+              "nearest in the least squares with a lower one. Raises ArgumentError.");
   airfoil.def_readonly("te_upper", &CstAirfoil::te_upper, "y of the upper surface's trailing edge.");
   airfoil.def_readonly("te_lower", &CstAirfoil::te_lower, "y of the lower surface's trailing edge.");
   airfoil.def_property_readonly("degree", &CstAirfoil::degree);

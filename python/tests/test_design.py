@@ -1,4 +1,5 @@
 import json
+import os
 import pickle
 
 import numpy as np
@@ -42,6 +43,18 @@ def test_a_section_of_ones_own_and_its_verification():
     assert np.allclose(result.best_design, airfoil.design[:5], atol=1e-12)
     (fresh,) = result.verified
     assert fresh["converged"] and np.isclose(fresh["cd"], result.objective, rtol=0.1)  # of half a mesh
+
+
+def test_a_section_of_ones_own_and_one_by_name_have_the_degree_of_the_problem(tmp_path):
+    own = remodel.Airfoil("rae2822", degree=7)
+    own.save(tmp_path / "own.json")
+    for airfoil in (own, "rae2822", os.fspath(tmp_path / "own.json")):
+        for degree in (3, 9):
+            asked = problem(airfoil=airfoil, degree=degree, symmetric=False, flow=[{"mach": 0.5}], designer={"evaluations": 1})
+            assert remodel.design(asked).designs.shape == (1, 2 * degree + 2)
+    without = {key: value for key, value in problem(airfoil=own, symmetric=False, flow=[{"mach": 0.5}], designer={"evaluations": 1}).items() if key != "degree"}
+    for airfoil in (own, os.fspath(tmp_path / "own.json")):
+        assert np.array_equal(remodel.design({**without, "airfoil": airfoil}).best_design, own.design)
 
 
 def half_drag(flow):

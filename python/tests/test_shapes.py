@@ -17,6 +17,23 @@ def test_an_airfoil_comes_from_a_name_arrays_and_files(tmp_path):
     assert "rae2822" in remodel.catalogue()
 
 
+def test_an_airfoil_has_the_degree_that_is_asked_for(tmp_path):
+    """Of the catalogue, files of coefficients and a given section too: exactly above their own degree."""
+    own = remodel.Airfoil("rae2822")
+    own.save(tmp_path / "own.json")
+    assert own.degree == 5 and remodel.Airfoil(tmp_path / "own.json") == own
+    for shape in ("rae2822", tmp_path / "own.json"):
+        for degree, off in ((3, 3e-3), (5, 1e-15), (8, 1e-15)):
+            other = remodel.Airfoil(shape, degree=degree)
+            assert other.degree == degree and len(other.design) == 2 * degree + 2 and other == own.with_degree(degree)
+            assert abs(other.coordinates() - own.coordinates()).max() < off
+    with pytest.raises(remodel.ArgumentError, match="^degree: given with coefficients"):
+        remodel.Airfoil(upper=own.upper, lower=own.lower, degree=3)
+    for call in (lambda: remodel.Airfoil("rae2822", degree=13), lambda: own.with_degree(0)):
+        with pytest.raises(remodel.ArgumentError, match="^degree: found"):
+            call()
+
+
 def test_an_airfoil_has_the_figures_of_its_section(airfoil):
     assert abs(airfoil.thickness - 0.12) < 1e-3 and abs(airfoil.thickness_at - 0.3) < 0.01
     assert abs(airfoil.camber) < 1e-6
