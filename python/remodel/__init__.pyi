@@ -73,9 +73,10 @@ class Airfoil:
 
 class Domain:
     def __init__(
-        self, shape: Union[Airfoil, Domain, _Path], *, points: int = 200, farfield_radius: float = 25.0, farfield_points: int = 50,
-        degree: int = 5, close_trailing_edge: bool = False, as_given: Optional[Literal["spline", "polyline"]] = None,
-        keep_coordinates: bool = False, crossings: Literal["insert", "refuse"] = "insert", join: float = 1e-11, turning_share: Optional[float] = None,
+        self, shape: Union[Airfoil, Domain, _Path], *, points: Optional[int] = None, farfield_radius: Optional[float] = None,
+        farfield_points: Optional[int] = None, degree: Optional[int] = None, close_trailing_edge: bool = False,
+        as_given: Optional[Literal["spline", "polyline"]] = None, keep_coordinates: bool = False,
+        crossings: Optional[Literal["insert", "refuse"]] = None, join: Optional[float] = None, turning_share: Optional[float] = None,
     ) -> None: ...
     @staticmethod
     def polygons(outer: Mapping[str, ArrayLike], holes: Mapping[str, ArrayLike] = ...) -> Domain: ...

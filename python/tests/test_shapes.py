@@ -130,6 +130,29 @@ def test_bad_shapes_are_errors_with_their_place(tmp_path):
         remodel.Domain.polygons({"a": square, "b": square})
 
 
+def test_options_that_a_shape_has_no_use_for_are_refused(airfoil, tmp_path):
+    section, whole, graph, coefficients = (tmp_path / name for name in ("one.dat", "whole.json", "square.poly", "own.json"))
+    section.write_text("one\n" + rows(airfoil, 1.0, 0.0, 0.0))
+    domain = remodel.Domain(airfoil, points=60, turning_share=0.1)
+    whole.write_text(domain.to_json())
+    graph.write_text("4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n")
+    airfoil.save(coefficients)
+    of_airfoils = {"points": 60, "farfield_radius": 20.0, "farfield_points": 40, "turning_share": 0.1}
+    all_options = {**of_airfoils, "degree": 6, "crossings": "refuse", "join": 1e-10}
+    for shape, more, used in (
+        (domain, {}, ()), (airfoil, {}, of_airfoils), (coefficients, {}, of_airfoils), ("naca:0012", {}, [*of_airfoils, "degree"]),
+        ("rae2822", {}, [*of_airfoils, "degree"]), (section, {}, [*of_airfoils, "degree"]),
+        (section, {"as_given": "polyline"}, ["farfield_radius", "farfield_points"]), (whole, {}, ["join"]), (graph, {}, ["crossings", "join"]),
+    ):  # fmt: skip
+        for option, value in all_options.items():
+            if option in used:
+                remodel.Domain(shape, **more, **{option: value})
+                continue
+            with pytest.raises(remodel.ArgumentError, match=f"^{option}: given for .*, expected "):
+                remodel.Domain(shape, **more, **{option: value})
+    assert remodel.Domain("rae2822", degree=7).airfoil().degree == 7
+
+
 def test_a_mesh_follows_to_any_file_that_it_could_be_made_of(airfoil, tmp_path):
     """update(), trial() and at() take what generate() takes: a section takes the place of the mesh's own."""
     one, blunt, two, whole, graph = (tmp_path / name for name in ("one.dat", "blunt.dat", "two.dat", "whole.json", "square.poly"))
