@@ -80,7 +80,8 @@ def design(problem, *, directory=None, resume=False, overwrite=False, threads=0,
     EvaluationFailed for a design (that of a function of a design at the start is raised here, since nobody then knows how
     many constraints it is); any other exception ends the run and is raised here.
 
-    directory: keeps history, meshes and checkpoints, for resume=True; a temporary one unless given. callback: called
+    directory: keeps history, meshes and checkpoints, for resume=True; a temporary one unless given. Whether a function
+    is that of the run is told by its name alone ('name', or its own): a lambda without one is refused. callback: called
     after each design with a dict of its figures; True ends the run. Ctrl-C ends it with a checkpoint. threads: flows of
     points at the same time, 0 for all cores; the result does not depend on it. Raises ArgumentError, FileError,
     FormatError.
@@ -94,7 +95,7 @@ def design(problem, *, directory=None, resume=False, overwrite=False, threads=0,
     if isinstance(problem, (str, os.PathLike)):
         parts = (_text_of(problem), os.fspath(problem), None, None, [], None, None)
     elif isinstance(problem, dict):
-        parts = _parts_of(problem)
+        parts = _parts_of(problem, resume)
     else:
         raise ArgumentTypeError(f"problem: found {_calls.shown(problem)}, expected a dict or the path of a problem file")
     if directory is not None:
@@ -116,7 +117,7 @@ def _text_of(file):
         raise FileError(f"{os.fspath(file)!r}: {error}, expected the name of a file") from None
 
 
-def _parts_of(problem):
+def _parts_of(problem, resume):
     """The problem as text, with placeholders for what no text has, and what stands there."""
     problem = dict(problem)
     start = _start_of(problem.pop("start", None))
@@ -131,11 +132,11 @@ def _parts_of(problem):
     functions = []
     if callable(problem.get("objective")):
         call = problem["objective"]
-        name = getattr(call, "__name__", "own")
+        name = _calls.name_of_function(f"{_SOURCE}, objective", call, None, resume)
         functions.append((None, False, _of_flow(call, name, needs_gradient), name))
         problem["objective"] = "drag"
     if isinstance(problem.get("constraints"), (list, tuple)):
-        problem["constraints"] = [_entry_of(entry, i, functions, needs_gradient) for i, entry in enumerate(problem["constraints"])]
+        problem["constraints"] = [_entry_of(entry, i, functions, needs_gradient, resume) for i, entry in enumerate(problem["constraints"])]
     try:
         text = json.dumps(problem, default=_plain, allow_nan=False)
     except (TypeError, ValueError) as error:
@@ -143,13 +144,13 @@ def _parts_of(problem):
     return text, _SOURCE, *airfoils, functions, *start
 
 
-def _start_of(given):
 def _of_degree(airfoil, degree):
     """With the degree of the problem, where it has one: what is none is refused with the rest of the text."""
     given = isinstance(degree, (int, np.integer)) and not isinstance(degree, bool) and 1 <= degree <= 30
     return airfoil.with_degree(int(degree)) if given else airfoil
 
 
+def _start_of(given):
     """The run that a search begins with a design of, and its number: None for the best one."""
     if given is None:
         return None, None
@@ -175,7 +176,7 @@ def _plain(value):
     raise TypeError(f"found {_calls.shown(value)}")
 
 
-def _entry_of(entry, index, functions, needs_gradient):
+def _entry_of(entry, index, functions, needs_gradient, resume):
     if not isinstance(entry, dict):
         return entry
     place = f"{_SOURCE}, constraint {index + 1}"
@@ -187,7 +188,7 @@ def _entry_of(entry, index, functions, needs_gradient):
     key, call = own[0], entry[own[0]]
     if not callable(call):
         raise ArgumentTypeError(f"{place}, {key}: found {_calls.shown(call)}, expected a function")
-    name = entry.get("name", getattr(call, "__name__", "own"))
+    name = _calls.name_of_function(f"{place}, {key}", call, entry.get("name"), resume)
     if not isinstance(name, str) or not name:
         raise ArgumentTypeError(f"{place}, name: found {_calls.shown(name)}, expected a text")
     known = ("flow_function", "at_least", "at_most", "point", "name") if key == "flow_function" else ("design_function", "name")

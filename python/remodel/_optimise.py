@@ -43,8 +43,9 @@ def optimise(start, objective, *, directory=None, points=200, sigma=0.05, seed=1
     EvaluationFailed for a design; any other exception ends the run and is raised here.
 
     callback: called after each evaluation with a dict of its figures; True ends the run. directory: keeps history,
-    meshes and checkpoints, for resume=True. Ctrl-C ends the run with a checkpoint. strategy: 'renew', 'chain',
-    'pool', 'hub', 'morph', 'reference' or 'regenerate'. layers: a dict of what generate_layered() is given, of reynolds,
+    meshes and checkpoints, for resume=True. Whether a function is that of the run is told by its name alone: a lambda is
+    refused. A UserWarning says where no design has an objective. Ctrl-C ends the run with a checkpoint. strategy: 'renew',
+    'chain', 'pool', 'hub', 'morph', 'reference' or 'regenerate'. layers: a dict of what generate_layered() is given, of reynolds,
     model, first_height, thickness, growth, spacing, wake and wake_angle; then the meshes have layers on their walls, `points` says
     nothing, and the counts of rows are of triangles outside them. threads: all cores for an Airfoil, one for a function, unless given. Raises
     ArgumentError, FileError, FormatError.
@@ -64,6 +65,9 @@ def optimise(start, objective, *, directory=None, points=200, sigma=0.05, seed=1
         threads = 0 if isinstance(objective, Airfoil) else 1
     if not isinstance(objective, Airfoil):
         objective = _real(objective)
+        name = _calls.name_of_function("objective", objective, None, resume)
+        objective = _real(objective)
+        objective.__name__ = name
     layers = None if layers is None else _layers(layers)
     options = (points, sigma, seed, evaluations, tolerance, strategy, workers, threads, resume, overwrite, callback, layers)
     if directory is not None:

@@ -133,6 +133,28 @@ def test_what_a_function_of_a_design_raises_is_raised_and_a_failure_is_of_one_de
     assert raised.value is error or (isinstance(error, remodel.EvaluationFailed) and str(raised.value) == "no")
 
 
+def test_a_run_is_gone_on_with_by_functions_of_its_names_alone(tmp_path):
+    few, run = {"evaluations": 1, "bounds": 0.2, "trust": 0.02}, tmp_path / "run"
+    remodel.design(problem(objective=lambda flow: (flow.cd, {"cd": 1.0}), designer=few), directory=run)
+    for changes, place in (
+        ({"objective": lambda flow: (flow.cl, {"cl": 1.0})}, "problem, objective: found a lambda with resume"),
+        ({"constraints": [{"design_function": lambda design, domain: (-1.0, 0 * design)}]}, "problem, constraint 1, design_function: found a lambda"),
+    ):
+        with pytest.raises(remodel.ArgumentError, match=place):
+            remodel.design(problem(**changes), directory=run, resume=True)
+    named = [{"design_function": lambda design, domain: (-1.0, 0 * design), "name": "never"}]
+    remodel.design(problem(constraints=named, designer=few), directory=tmp_path / "named")
+    assert remodel.design(problem(constraints=named), directory=tmp_path / "named", resume=True).evaluations == 6
+    remodel.design(problem(objective=half_drag, designer=few), directory=tmp_path / "half")
+    assert remodel.design(problem(objective=half_drag), directory=tmp_path / "half", resume=True).evaluations == 6
+
+    def other(flow):
+        return flow.cl, {"cl": 1.0}
+
+    with pytest.raises(remodel.ArgumentError, match="others: "):
+        remodel.design(problem(objective=other), directory=tmp_path / "half", resume=True)
+
+
 def test_ends_by_the_callback_and_by_what_it_raises():
     assert remodel.design(problem(), callback=lambda row: True).stopped == "interrupted"
 
