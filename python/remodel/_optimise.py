@@ -1,6 +1,7 @@
 """optimise(): the library's own loop around living meshes."""
 
 import tempfile
+import warnings
 from types import SimpleNamespace
 
 import numpy as np
@@ -64,16 +65,24 @@ def optimise(start, objective, *, directory=None, points=200, sigma=0.05, seed=1
     if threads is None:
         threads = 0 if isinstance(objective, Airfoil) else 1
     if not isinstance(objective, Airfoil):
-        objective = _real(objective)
         name = _calls.name_of_function("objective", objective, None, resume)
         objective = _real(objective)
         objective.__name__ = name
     layers = None if layers is None else _layers(layers)
     options = (points, sigma, seed, evaluations, tolerance, strategy, workers, threads, resume, overwrite, callback, layers)
     if directory is not None:
-        return OptimiseResult(**_optimise(start, objective, directory, *options))
+        return _result(_optimise(start, objective, directory, *options))
     with tempfile.TemporaryDirectory() as scratch:
-        return OptimiseResult(**_optimise(start, objective, scratch, *options))
+        return _result(_optimise(start, objective, scratch, *options))
+
+
+def _result(figures):
+    result = OptimiseResult(**figures)
+    if result.rows and not np.isfinite(result.objective):
+        details = [row["detail"] for row in result.rows if row["detail"]]
+        why = f"; the first: {details[0]}" if details else ""
+        warnings.warn(f"objective: no design of {len(result.rows)} has one that is a finite number{why}", stacklevel=4)
+    return result
 
 
 _LAYERS = {"reynolds": None, "model": "sa", "first_height": None, "thickness": None, "growth": 1.2, "spacing": 1.0, "wake": None, "wake_angle": 0.0}

@@ -40,7 +40,10 @@ Range airfoil_range(const Domain& domain, const std::string& boundary) {
   if (airfoils != 1)
     throw Error(ErrorCode::argument, "boundary",
                 "found '" + boundary + "', which names " + std::to_string(airfoils) +
-                    " airfoils by coefficients, expected one");
+                    " airfoils by coefficients, expected one" +
+                    (airfoils == 0 ? ": an imported mesh has polygons, and coefficients after "
+                                     "update(Domain(airfoil))"
+                                   : ""));
   return found;
 }
 

@@ -160,6 +160,10 @@ stays. LivingFlow.gradients() has derivatives by points.)");
       "load",
       [](const std::filesystem::path& file) {
         py::gil_scoped_release released;
+        const KeptPipes once;
+        if (!holds_layers(file))
+          throw Error(ErrorCode::format, file.string(),
+                      "found no layers, expected a native mesh with them: Mesh.load() reads others");
         return layers_alive(read_layered_mesh(file));
       },
       "file"_a, "A native file (.vtkhdf) of a layered mesh. Raises FileError and FormatError.");

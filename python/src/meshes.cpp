@@ -75,6 +75,10 @@ LivingMeshPointer loaded(const std::filesystem::path& file) {
   Snapshot foreign;
   {
     py::gil_scoped_release released;
+    const KeptPipes once;
+    if (holds_layers(file))
+      throw Error(ErrorCode::format, file.string(),
+                  "found a mesh with layers, expected one without: LayeredMesh.load() reads it");
     try {
       return alive(read_mesh(file));
     } catch (const Error& error) {

@@ -95,11 +95,18 @@ void add_changes(py::module_& module) {
       "The changes of one step: vertices by key (Mesh.vertex_keys), triangles by id (Mesh.triangle_ids); all "
       "ascend.")
       .def(record_pickle<Changes>())
-      .def_property_readonly("moved", [](const Changes& c) { return copied(values(c.moved)); })
-      .def_property_readonly("inserted", [](const Changes& c) { return copied(values(c.inserted)); })
-      .def_property_readonly("removed", [](const Changes& c) { return copied(values(c.removed)); })
-      .def_property_readonly("born", [](const Changes& c) { return copied(values(c.born)); })
-      .def_property_readonly("gone", [](const Changes& c) { return copied(values(c.gone)); })
+      .def_property_readonly(
+          "moved", [](const Changes& c) { return copied(values(c.moved)); },
+          "Keys of vertices at another place.")
+      .def_property_readonly(
+          "inserted", [](const Changes& c) { return copied(values(c.inserted)); }, "Keys of new vertices.")
+      .def_property_readonly(
+          "removed", [](const Changes& c) { return copied(values(c.removed)); },
+          "Keys of vertices that are gone.")
+      .def_property_readonly(
+          "born", [](const Changes& c) { return copied(values(c.born)); }, "Ids of new triangles.")
+      .def_property_readonly(
+          "gone", [](const Changes& c) { return copied(values(c.gone)); }, "Ids of triangles that are gone.")
       .def_property_readonly("same_connectivity", &Changes::same_connectivity,
                              "Whether the same triangles join the same vertices.");
 }
