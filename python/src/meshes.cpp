@@ -216,8 +216,8 @@ points: vertices on the airfoil, even, 8 to 100000; farfield_radius in chords; t
 Domain has its own and ignores these. gradation: how slowly triangles grow away from boundaries; points / 50 unless given, 4 for a Domain.
 min_angle: degrees, 0 to 34; refine_angle: what refinement works to where it is more, 0 to 34: two degrees more
 than min_angle let update(strategy='reference') hold the connectivity longer. Where a limit was reached (max_vertices)
-a UserWarning says so, and Mesh.stopped. Sources: J. Ruppert, 1995; J. R. Shewchuk, 2002. Raises ArgumentError and GeometryError;
-Ctrl-C ends it.)");
+a UserWarning says so, and Mesh.stopped. Sources: J. Ruppert, 1995; J. R. Shewchuk, 2002. Raises ArgumentError and
+GeometryError; Ctrl-C ends it.)");
   module.def("import_mesh", &imported, "mesh"_a, py::kw_only(), "refine_angle"_a = 30.0, "gradation"_a = 0.0,
              "unnamed"_a = "boundary", "dissolve_layers"_a = false,
              "Another program's mesh (FrozenMesh) as a living one; its triangles stay until a step comes "

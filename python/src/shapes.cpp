@@ -369,8 +369,8 @@ file of coordinates; Domain("file.json") (docs/domains.md has the layout); Domai
 planar graph; Domain.polygons(...) or Domain.airfoils(...).
 
 A file of several elements keeps their common coordinates, with the far field around all of them. A file of
-one section is fitted with `degree`, 5 unless given, moved, turned and scaled to its chord, and its blunt trailing edge is kept
-(close_trailing_edge). as_given="spline" or "polyline" takes the points as they are, as vertices, in chords from
+one section is fitted with `degree`, 5 unless given, moved, turned and scaled to its chord, and its blunt trailing edge
+is kept (close_trailing_edge). as_given="spline" or "polyline" takes the points as they are, as vertices, in chords from
 the leading edge; keep_coordinates=True leaves files where they lie, in their units. A UserWarning says what was
 moved, joined, mended or left out. crossings="refuse" refuses a planar graph whose segments cross, "insert",
 as unless given, splits them. Places of a graph or a domain file that differ by rounding, at most `join` (1e-11) of
