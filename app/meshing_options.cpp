@@ -69,8 +69,8 @@ void add_fit_options(CLI::App& app, FitOptions& options) {
   add_integer(
       app,
       {"--cst-degree", "N", "5",
-       "Bernstein degree of a fit, 2 to 12, or the next one whose surfaces do not cross; catalogue names "
-       "and .json files have their own"},
+       "Bernstein degree of a fit, 2 to 12, or the next one whose surfaces do not cross; names of the "
+       "catalogue get it exactly from 5 on; .json files have their own"},
       {.low = 2, .high = 12}, options.degree);
   add_flag(app, "--close-trailing-edge",
            "Closes the trailing edge of a coordinate file; if not given, an open one is kept as it is",

@@ -13,7 +13,7 @@ LAYERS = [
     {"name": "base", "headers": []},
     {"name": "geometry", "headers": ["point.h", "predicates.h", "error.h", "version.h"]},
     {"name": "triangulation", "headers": ["ids.h"]},
-    {"name": "shape", "headers": ["airfoil.h", "domain.h", "join.h"]},
+    {"name": "shape", "headers": ["airfoil.h", "airfoil_degree.h", "domain.h", "join.h"]},
     {"name": "planar", "headers": ["planar.h"]},
     {"name": "mesh", "headers": ["mesh.h", "mesh_state.h", "changes.h", "frozen_mesh.h", "field.h"]},
     {"name": "generate", "headers": ["generate.h", "limits.h"]},

@@ -164,9 +164,9 @@ struct CatalogueEntry {
 };
 const std::vector<CatalogueEntry>& airfoil_catalogue();
 
-// A section by name: "naca:2412" or a name of the catalogue. degree is used where a fit is needed, so not for
-// the catalogue. Throws Error (argument), which lists the names. load_airfoil() of remodel/shape_files.h
-// takes files too.
+// A section by name: "naca:2412", fitted with that degree, 2 to 12, or a name of the catalogue, whose own
+// degree is 5, as with_degree() has it. Throws Error (argument), which lists the names. load_airfoil() of
+// remodel/shape_files.h takes files too.
 CstAirfoil named_airfoil(const std::string& name, int degree);
 // The .json of `remodel fit`: degree, upper[], lower[], e1, e2, te_upper, te_lower (the last four optional),
 // exact. from_json ignores name, max_error, rms_error, thickness and camber, which `remodel fit` reports

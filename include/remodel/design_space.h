@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "remodel/airfoil.h"
+#include "remodel/airfoil_degree.h"
 #include "remodel/domain.h"
 #include "remodel/import.h"
 
@@ -65,8 +66,5 @@ class AirfoilSpace final : public DesignSpace {
   struct Impl;
   std::unique_ptr<const Impl> impl_;
 };
-
-// The result is the same airfoil with shape functions of a higher degree: exact but for rounding.
-CstAirfoil raise_degree(const CstAirfoil& airfoil, int degree);
 
 }  // namespace remodel

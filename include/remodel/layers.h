@@ -216,7 +216,7 @@ class LayeredMesh {
   struct Columns;
   class Step;
   friend LayeredRemodelResult remodel(LayeredMesh&, const Domain&, const RemodelOptions&);
-  friend LayeredMesh mesh_at(const LayeredMesh&, const Domain&);
+  friend LayeredMesh mesh_at(const LayeredMesh&, const Domain&, Strategy);
   friend LayeredGenerateResult generate_layered(const Domain&, const LayerOptions&, const QualityOptions&,
                                                 StepObserver*);
   friend class LayeredTrial;
@@ -331,7 +331,9 @@ class LayeredTrial {
 };
 
 // A copy of the layered mesh at another design, its connectivity and keys the same. Throws TopologyChanged
-// where there is no such mesh, and Error (geometry) as remodel() does.
+// where there is no such mesh, and Error (geometry) as remodel() does. The outer mesh goes as those of
+// mesh_derivative.h.
 LayeredMesh mesh_at(const LayeredMesh& mesh, const Domain& design);
+LayeredMesh mesh_at(const LayeredMesh& mesh, const Domain& design, Strategy strategy);
 
 }  // namespace remodel

@@ -20,6 +20,7 @@
 #include "remodel/domain.h"
 #include "remodel/error.h"
 #include "remodel/mesh.h"
+#include "remodel/remodel.h"
 
 namespace remodel {
 
@@ -78,8 +79,12 @@ class TopologyChanged : public Error {
   using Error::Error;
 };
 // A copy of the mesh at another design, its connectivity, ids and parameters the same: valid, Delaunay, of
-// the quality promised. Throws TopologyChanged where there is no such mesh, and Error (geometry) as remodel()
-// does.
+// the quality promised; of a held mesh the morph of its reference, with the slack that it has. Throws
+// TopologyChanged where there is no such mesh, and Error (geometry) as remodel() does.
 Mesh mesh_at(const Mesh& mesh, const Domain& design);
+// By a strategy, as the table above has the interior: along by Strategy::reference, whether the mesh is held
+// or a reference itself; still by any other, which a held mesh's interior is only where it lies as the
+// reference's.
+Mesh mesh_at(const Mesh& mesh, const Domain& design, Strategy strategy);
 
 }  // namespace remodel

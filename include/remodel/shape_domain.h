@@ -67,4 +67,11 @@ ShapesDomain domain_of_shapes(const std::vector<ShapeOfDomain>& shapes,
 // True if a shape is a whole domain: a domain file, or a planar graph.
 bool is_whole_domain(const std::string& shape);
 
+// For the next domain of a mesh. The discretisation that airfoil_domain() was given, read back from its
+// result.
+AirfoilDomainOptions discretisation_of(const Domain& domain);
+// A new outline keeps the stations of the old one of its name, where that has curves of the same kinds. False
+// where there is none.
+bool take_stations(Loop& loop, const Domain& before);
+
 }  // namespace remodel

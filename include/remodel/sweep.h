@@ -96,7 +96,7 @@ struct SweepFlow {
   double mach = 0.0, reynolds = 0.0;
   double asked = 0.0;     // the angle or the lift
   bool refused = false;   // there is no section, or no mesh: point.reason says why
-  PolarPoint point = {};  // its seconds are of all searches
+  PolarPoint point = {};  // its seconds are of all searches; without a flow it has no lift, `asked` has that
   // At the stations of the upper surface from nose to trailing edge, then of the lower one: the pressure
   // coefficient and, with friction, the friction coefficient. Empty where there is no flow.
   std::vector<double> cp = {}, cf = {};

@@ -267,6 +267,15 @@ def python_call(**kinds):
     return decorate
 
 
+def name_of_function(place, function, given, resume):
+    """What a run knows a function by: a name that was given, or its own. Throws ArgumentError where a run is gone on with
+    by a function without one, since nobody could say whether it is another."""
+    name = getattr(function, "__name__", "own") if given is None else given
+    if resume and given is None and (name == "<lambda>" or not hasattr(function, "__name__")):
+        raise ArgumentError(f"{place}: found {'a lambda' if name == '<lambda>' else shown(function)} with resume, expected a function with a name, which is all that a run knows it by")
+    return name
+
+
 def _no_constructor(name):
     def __init__(self, *args, **options):
         raise ArgumentTypeError(f"{name}: has no constructor, expected one that a call returns (help(remodel) names them)")

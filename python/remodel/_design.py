@@ -69,17 +69,19 @@ def design(problem, *, directory=None, resume=False, overwrite=False, threads=0,
     """Searches the section of least drag, or another objective, by flows and their gradients. Returns a DesignResult.
 
     problem: a dict with the keys of a problem file (docs/design.md), or the path of one. In a dict 'airfoil' and
-    'target' may be an Airfoil. 'objective' may be a function of a flow, made small; an entry of 'constraints' may have
-    'flow_function', a function of the flow of 'point', with at_least or at_most, or 'design_function', a function of
-    the design, which is to be at most 0; and a 'name'.
+    'target' may be an Airfoil ('airfoil' gets the 'degree' of the problem, if it has one). 'objective' may be a function of
+    a flow, made small; an entry of 'constraints' may have 'flow_function', a function of the flow of 'point', with at_least
+    or at_most, or 'design_function', a function of the design, which is to be at most 0; and a 'name'.
 
     A function of a flow gets a FlowResult, with its mesh. A function of a design gets the design, an array, and its
     Domain. Each returns a value, or a pair: the value and its derivatives. Those of a flow are a dict with any of cl, cd,
     cm, cd_pressure (by those coefficients) and points, pressure, density, velocity_x, velocity_y, mach (by those values, at
     fixed coefficients); those of a design are an array. The designer 'sqp' needs derivatives. A function may raise
-    EvaluationFailed for a design; any other exception ends the run and is raised here.
+    EvaluationFailed for a design (that of a function of a design at the start is raised here, since nobody then knows how
+    many constraints it is); any other exception ends the run and is raised here.
 
-    directory: keeps history, meshes and checkpoints, for resume=True; a temporary one unless given. callback: called
+    directory: keeps history, meshes and checkpoints, for resume=True; a temporary one unless given. Whether a function
+    is that of the run is told by its name alone ('name', or its own): a lambda without one is refused. callback: called
     after each design with a dict of its figures; True ends the run. Ctrl-C ends it with a checkpoint. threads: flows of
     points at the same time, 0 for all cores; the result does not depend on it. Raises ArgumentError, FileError,
     FormatError.
@@ -93,7 +95,7 @@ def design(problem, *, directory=None, resume=False, overwrite=False, threads=0,
     if isinstance(problem, (str, os.PathLike)):
         parts = (_text_of(problem), os.fspath(problem), None, None, [], None, None)
     elif isinstance(problem, dict):
-        parts = _parts_of(problem)
+        parts = _parts_of(problem, resume)
     else:
         raise ArgumentTypeError(f"problem: found {_calls.shown(problem)}, expected a dict or the path of a problem file")
     if directory is not None:
@@ -115,14 +117,14 @@ def _text_of(file):
         raise FileError(f"{os.fspath(file)!r}: {error}, expected the name of a file") from None
 
 
-def _parts_of(problem):
+def _parts_of(problem, resume):
     """The problem as text, with placeholders for what no text has, and what stands there."""
     problem = dict(problem)
     start = _start_of(problem.pop("start", None))
     airfoils = []
     for key in ("airfoil", "target"):
         given = problem.get(key)
-        airfoils.append(given if isinstance(given, Airfoil) else None)
+        airfoils.append(_of_degree(given, problem.get("degree") if key == "airfoil" else None) if isinstance(given, Airfoil) else None)
         if isinstance(given, Airfoil):
             problem[key] = "naca:0012"
     designer = problem.get("designer")
@@ -130,16 +132,22 @@ def _parts_of(problem):
     functions = []
     if callable(problem.get("objective")):
         call = problem["objective"]
-        name = getattr(call, "__name__", "own")
+        name = _calls.name_of_function(f"{_SOURCE}, objective", call, None, resume)
         functions.append((None, False, _of_flow(call, name, needs_gradient), name))
         problem["objective"] = "drag"
     if isinstance(problem.get("constraints"), (list, tuple)):
-        problem["constraints"] = [_entry_of(entry, i, functions, needs_gradient) for i, entry in enumerate(problem["constraints"])]
+        problem["constraints"] = [_entry_of(entry, i, functions, needs_gradient, resume) for i, entry in enumerate(problem["constraints"])]
     try:
         text = json.dumps(problem, default=_plain, allow_nan=False)
     except (TypeError, ValueError) as error:
         raise ArgumentTypeError(f"problem: {error}, expected what a problem file may have, or an Airfoil or a function where docs say so") from None
     return text, _SOURCE, *airfoils, functions, *start
+
+
+def _of_degree(airfoil, degree):
+    """With the degree of the problem, where it has one: what is none is refused with the rest of the text."""
+    given = isinstance(degree, (int, np.integer)) and not isinstance(degree, bool) and 1 <= degree <= 30
+    return airfoil.with_degree(int(degree)) if given else airfoil
 
 
 def _start_of(given):
@@ -168,7 +176,7 @@ def _plain(value):
     raise TypeError(f"found {_calls.shown(value)}")
 
 
-def _entry_of(entry, index, functions, needs_gradient):
+def _entry_of(entry, index, functions, needs_gradient, resume):
     if not isinstance(entry, dict):
         return entry
     place = f"{_SOURCE}, constraint {index + 1}"
@@ -180,7 +188,7 @@ def _entry_of(entry, index, functions, needs_gradient):
     key, call = own[0], entry[own[0]]
     if not callable(call):
         raise ArgumentTypeError(f"{place}, {key}: found {_calls.shown(call)}, expected a function")
-    name = entry.get("name", getattr(call, "__name__", "own"))
+    name = _calls.name_of_function(f"{place}, {key}", call, entry.get("name"), resume)
     if not isinstance(name, str) or not name:
         raise ArgumentTypeError(f"{place}, name: found {_calls.shown(name)}, expected a text")
     known = ("flow_function", "at_least", "at_most", "point", "name") if key == "flow_function" else ("design_function", "name")

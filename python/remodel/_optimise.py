@@ -1,6 +1,7 @@
 """optimise(): the library's own loop around living meshes."""
 
 import tempfile
+import warnings
 from types import SimpleNamespace
 
 import numpy as np
@@ -43,8 +44,9 @@ def optimise(start, objective, *, directory=None, points=200, sigma=0.05, seed=1
     EvaluationFailed for a design; any other exception ends the run and is raised here.
 
     callback: called after each evaluation with a dict of its figures; True ends the run. directory: keeps history,
-    meshes and checkpoints, for resume=True. Ctrl-C ends the run with a checkpoint. strategy: 'renew', 'chain',
-    'pool', 'hub', 'morph', 'reference' or 'regenerate'. layers: a dict of what generate_layered() is given, of reynolds,
+    meshes and checkpoints, for resume=True. Whether a function is that of the run is told by its name alone: a lambda is
+    refused. A UserWarning says where no design has an objective. Ctrl-C ends the run with a checkpoint. strategy: 'renew',
+    'chain', 'pool', 'hub', 'morph', 'reference' or 'regenerate'. layers: a dict of what generate_layered() is given, of reynolds,
     model, first_height, thickness, growth, spacing, wake and wake_angle; then the meshes have layers on their walls, `points` says
     nothing, and the counts of rows are of triangles outside them. threads: all cores for an Airfoil, one for a function, unless given. Raises
     ArgumentError, FileError, FormatError.
@@ -63,13 +65,24 @@ def optimise(start, objective, *, directory=None, points=200, sigma=0.05, seed=1
     if threads is None:
         threads = 0 if isinstance(objective, Airfoil) else 1
     if not isinstance(objective, Airfoil):
+        name = _calls.name_of_function("objective", objective, None, resume)
         objective = _real(objective)
+        objective.__name__ = name
     layers = None if layers is None else _layers(layers)
     options = (points, sigma, seed, evaluations, tolerance, strategy, workers, threads, resume, overwrite, callback, layers)
     if directory is not None:
-        return OptimiseResult(**_optimise(start, objective, directory, *options))
+        return _result(_optimise(start, objective, directory, *options))
     with tempfile.TemporaryDirectory() as scratch:
-        return OptimiseResult(**_optimise(start, objective, scratch, *options))
+        return _result(_optimise(start, objective, scratch, *options))
+
+
+def _result(figures):
+    result = OptimiseResult(**figures)
+    if result.rows and not np.isfinite(result.objective):
+        details = [row["detail"] for row in result.rows if row["detail"]]
+        why = f"; the first: {details[0]}" if details else ""
+        warnings.warn(f"objective: no design of {len(result.rows)} has one that is a finite number{why}", stacklevel=4)
+    return result
 
 
 _LAYERS = {"reynolds": None, "model": "sa", "first_height": None, "thickness": None, "growth": 1.2, "spacing": 1.0, "wake": None, "wake_angle": 0.0}

@@ -52,6 +52,11 @@ std::vector<Point> points(const Reals& values, const std::string& name);
 ShapesDomain domain_of(const py::object& shape, const AirfoilDomainOptions& options,
                        const ShapeReading& reading = {});
 
+// The name or path that a shape is given by. Throws TypeError for what is none, Error (argument) for '-'.
+std::string name_of_shape(const py::object& shape);
+// Each sentence as a UserWarning.
+void warn(const std::vector<std::string>& sentences);
+
 // The name of an object's type, for messages.
 std::string type_of(const py::handle& object);
 

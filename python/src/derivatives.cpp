@@ -40,7 +40,10 @@ Range airfoil_range(const Domain& domain, const std::string& boundary) {
   if (airfoils != 1)
     throw Error(ErrorCode::argument, "boundary",
                 "found '" + boundary + "', which names " + std::to_string(airfoils) +
-                    " airfoils by coefficients, expected one");
+                    " airfoils by coefficients, expected one" +
+                    (airfoils == 0 ? ": an imported mesh has polygons, and coefficients after "
+                                     "update(Domain(airfoil))"
+                                   : ""));
   return found;
 }
 
@@ -64,7 +67,7 @@ struct Way {
     const Mesh& mesh = living.mesh;
     if (how != "own" && how != "still" && how != "along")
       throw Error(ErrorCode::argument, "interior", "found '" + how + "', expected own, still or along");
-    if (how == "still" || (how == "own" && !mesh.held() && !living.follows)) return;
+    if (how == "still" || (how == "own" && own_strategy(mesh, living.follows) != Strategy::reference)) return;
     interior.emplace(mesh, moving_loops(mesh, range.loops));
   }
 
@@ -127,11 +130,12 @@ py::array_t<double> vjp(LivingMesh& mesh, const py::object& by_points, const std
 
 LivingMeshPointer at(LivingMesh& mesh, const py::object& shape, const std::string& boundary) {
   const ThreadLock::Held held(mesh.lock);
-  const Domain domain = next_domain(mesh, shape, boundary);
+  const Domain domain = next_domain(mesh.mesh, shape, boundary);
   py::gil_scoped_release released;
   auto result = std::make_shared<LivingMesh>();
-  result->mesh = mesh_at(mesh.mesh, domain);
+  result->mesh = mesh_at(mesh.mesh, domain, own_strategy(mesh.mesh, mesh.follows));
   result->stopped = mesh.stopped;
+  result->follows = mesh.follows;
   return result;
 }
 
@@ -145,6 +149,10 @@ std::vector<std::size_t> moving_loops(const Mesh& mesh, const std::vector<std::s
         !(mesh.domain().loops[i] == reference.loops[i]))
       moving.push_back(i);
   return moving;
+}
+
+Strategy own_strategy(const Mesh& mesh, bool follows) {
+  return mesh.held() || follows ? Strategy::reference : Strategy::chain;
 }
 
 AirfoilNumbers airfoil_numbers(const Domain& domain, const std::string& boundary) {
@@ -165,9 +173,11 @@ InteriorDisplacement; 'own': as the last step would, along after update(strategy
       "Transposed: derivatives by points, of shape (n, 2), become derivatives by the coefficients. Raises "
       "ArgumentError for LivingFlow.gradients() of a flow on another mesh, or on this one before it was "
       "changed.");
-  type.def("at", &at, "shape"_a, py::kw_only(), "boundary"_a = "",
-           "A copy at another design with the same connectivity. Raises TopologyChanged where there is no "
-           "valid one.");
+  type.def(
+      "at", &at, "shape"_a, py::kw_only(), "boundary"_a = "",
+      "A copy at another design with the same connectivity; shape and boundary as update()'s. Its interior "
+      "goes as jvp(interior='own') says: along after update(strategy='reference'), otherwise it stays. "
+      "Raises TopologyChanged where there is no valid one.");
 }
 
 }  // namespace remodel::python

@@ -138,16 +138,15 @@ py::dict designed(const std::string& text, const std::string& source,
   if (start) problem.start = start;
   add_functions(own, watch, problem);
   if (airfoil || target || !own.empty()) problem.text.clear();  // no text has these
-  problem = with_first_design(std::move(problem), source);
+  problem = watch.raising([&] { return with_first_design(std::move(problem), source); });
   py::list warnings;
   for (const std::string& warning : problem.warnings) warnings.append(warning);
-  std::optional<DesignResult> result;
-  {
+  const DesignResult result = watch.raising([&] {
     py::gil_scoped_release released;
-    result = run_design(problem, options, &watch);
-  }
+    return run_design(problem, options, &watch);
+  });
   watch.interrupts.rethrow();
-  py::dict figures = dict_of(*result, options.directory);
+  py::dict figures = dict_of(result, options.directory);
   figures["warnings"] = warnings;
   return figures;
 }

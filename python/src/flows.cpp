@@ -197,13 +197,14 @@ class Flows {
     const FlowPointer result = calls_.run(solver_->stop, [solver = solver_, frozen, conditions] {
       return std::make_shared<FlowResult>(solver->flow.solve(*frozen, conditions));
     });
-    if (result->converged()) last_ = given;
+    last_ = result->converged() ? given : nullptr;
+    why_none_ = result->converged() ? "" : result->reason;
     return with_mesh(result, given);
   }
-  // Gradients of the last flow: by the points of its mesh, and by Mach number and angle.
+  // Gradients of the flow of the last solve(): by the points of its mesh, and by Mach number and angle.
   py::dict gradients(const py::dict& functions) {
     const ThreadLock::Held held(lock_);
-    if (!last_) throw Error(ErrorCode::argument, "gradients", "no flow was found yet, expected one");
+    require_flow();
     const std::vector<FlowFunctional> wanted = functionals_of(functions, last_->points.size());
     FlowGradients found =
         calls_.run(solver_->stop, [solver = solver_, wanted] { return solver->flow.gradients(wanted); });
@@ -222,6 +223,7 @@ class Flows {
     const ThreadLock::Held held(lock_);
     calls_.settle();
     solver_->flow.forget();
+    last_.reset(), why_none_.clear();
   }
 
  private:
@@ -234,11 +236,20 @@ class Flows {
     return result;
   }
 
+  // The solver itself still has the flow before, which nobody who asks now means.
+  void require_flow() const {
+    if (last_) return;
+    const std::string found =
+        why_none_.empty() ? "no flow was found yet" : "the last flow was not found (" + why_none_ + ")";
+    throw Error(ErrorCode::argument, "gradients", found + ", expected one");
+  }
+
   ThreadLock lock_;
   const FlowOptions options_;
   std::shared_ptr<Solver> solver_;
   Apart calls_;
-  Snapshot last_;  // the mesh of the last flow that was found
+  Snapshot last_;         // the mesh of the last flow; none if that was not found
+  std::string why_none_;  // why not; empty before the first one
 };
 
 // Arrays by name, a value for each station.
@@ -311,7 +322,9 @@ py::dict of_openings(const FlowResult& flow, double FlowOpening::*member) {
 void add_figures(py::class_<FlowResult, FlowPointer>& type) {
   type.def_property_readonly("converged", &FlowResult::converged,
                              "Whether the flow was found; otherwise no coefficient should be used.");
-  type.def_property_readonly("status", [](const FlowResult& f) { return name_of(f.status); });
+  type.def_property_readonly(
+      "status", [](const FlowResult& f) { return name_of(f.status); },
+      "'converged', or why not: 'step-limit', 'stalled', 'memory' or 'interrupted'.");
   type.def_readonly("reason", &FlowResult::reason, "Why it did not converge; empty if it did.");
   type.def_readonly("warnings", &FlowResult::warnings,
                     "What has to be known before a coefficient is used: a list of sentences.");
@@ -323,7 +336,7 @@ void add_figures(py::class_<FlowResult, FlowPointer>& type) {
   type.def_property_readonly(
       "origin", [](const FlowResult& f) { return name_of(f.origin); },
       "'potential', 'coarser-mesh', 'undisturbed' or 'last-flow': the state that the search began with.");
-  type.def_readonly("mach", &FlowResult::mach);
+  type.def_readonly("mach", &FlowResult::mach, "The Mach number of the stream.");
   type.def_readonly("alpha", &FlowResult::alpha_deg, "The angle of attack, in degrees.");
   type.def_property_readonly(
       "cl", [](const FlowResult& f) { return if_determined(f, f.cl); },
@@ -405,17 +418,19 @@ void add_figures(py::class_<FlowResult, FlowPointer>& type) {
 at each place, a part of its chord from 0 to 1. Each has wall, place, vertex (the nearest station) and arrays from the
 wall on: height (in units of the mesh), speed along the wall, density and temperature (over the stream's),
 viscosity_ratio (of turbulence over the molecular one), y_plus and u_plus. Raises ArgumentError.)");
-  type.def_readonly("residual", &FlowResult::residual);
-  type.def_readonly("newton_steps", &FlowResult::newton_steps);
-  type.def_readonly("factorisations", &FlowResult::factorisations);
-  type.def_readonly("krylov_iterations", &FlowResult::krylov_iterations);
+  type.def_readonly(
+      "residual", &FlowResult::residual,
+      "Of the last state, over that of undisturbed flow: below `tolerance` where it was found.");
+  type.def_readonly("newton_steps", &FlowResult::newton_steps, "Steps with a Jacobian of their own.");
+  type.def_readonly("factorisations", &FlowResult::factorisations, "Of the whole matrix.");
+  type.def_readonly("krylov_iterations", &FlowResult::krylov_iterations, "Steps with older factors.");
   type.def_property_readonly(
       "solver", [](const FlowResult& f) { return name_of(f.solver); },
       "'lu' or 'gmres': how the linear systems of the last step were solved.");
-  type.def_readonly("gmres_iterations", &FlowResult::gmres_iterations);
+  type.def_readonly("gmres_iterations", &FlowResult::gmres_iterations, "Of all Newton steps.");
   type.def_readonly("memory_mb", &FlowResult::memory_mb,
                     "What the factors and GMRES's vectors took, the most.");
-  type.def_readonly("seconds", &FlowResult::seconds);
+  type.def_readonly("seconds", &FlowResult::seconds, "Wall time of the search.");
   type.def_property_readonly(
       "history", [](const FlowPointer& f) { return view(f, f->history); },
       "The residuals, from the first state on.");
@@ -446,10 +461,17 @@ void add_result(py::module_& module) {
       module, "FlowResult", py::dynamic_attr(),
       "A flow: coefficients, and values per point of `mesh` as read-only arrays of shape (n,).");
   add_figures(type);
-  type.def_property_readonly("density", [](const FlowPointer& f) { return view(f, f->density); });
-  type.def_property_readonly("velocity_x", [](const FlowPointer& f) { return view(f, f->velocity_x); });
-  type.def_property_readonly("velocity_y", [](const FlowPointer& f) { return view(f, f->velocity_y); });
-  type.def_property_readonly("pressure", [](const FlowPointer& f) { return view(f, f->pressure); });
+  type.def_property_readonly(
+      "density", [](const FlowPointer& f) { return view(f, f->density); }, "Density over the stream's.");
+  type.def_property_readonly(
+      "velocity_x", [](const FlowPointer& f) { return view(f, f->velocity_x); },
+      "Velocity along x over the stream's speed of sound: the stream's own is mach * cos(alpha).");
+  type.def_property_readonly(
+      "velocity_y", [](const FlowPointer& f) { return view(f, f->velocity_y); },
+      "Velocity along y over the stream's speed of sound: the stream's own is mach * sin(alpha).");
+  type.def_property_readonly(
+      "pressure", [](const FlowPointer& f) { return view(f, f->pressure); },
+      "Pressure over the stream's density times its speed of sound squared: 1 / 1.4 in the stream.");
   const auto on_walls = [&](const char* name, std::vector<double> FlowFriction::*member, const char* doc) {
     type.def_property_readonly(
         name,
@@ -470,7 +492,9 @@ void add_result(py::module_& module) {
            "y+ of the lowest cells on walls, 0 elsewhere; None without friction.");
   on_walls("viscosity_ratio", &FlowFriction::viscosity_ratio,
            "Turbulent viscosity over molecular viscosity; None of flows that are not turbulent.");
-  type.def_property_readonly("local_mach", [](const FlowResult& f) { return copied(mach_numbers(f)); });
+  type.def_property_readonly(
+      "local_mach", [](const FlowResult& f) { return copied(mach_numbers(f)); },
+      "The local Mach number: speed over the local speed of sound.");
   type.def_property_readonly(
       "cp", [](const FlowResult& f) { return copied(pressure_coefficients(f)); }, "Pressure coefficients.");
   type.def_property_readonly(
@@ -568,7 +592,8 @@ was given), and reynolds; with friction cd_pressure too.
 
 functions: functions of one's own, a dict of names and the derivatives of each at fixed others: a dict with any of
 pressure, density, velocity_x, velocity_y (of shape (n,), by the fields of the flow), points (of shape (n, 2)) and mach.
-The result has their total derivatives by name. Raises ArgumentError before the first flow.)")
+The result has their total derivatives by name. Raises ArgumentError before the first flow, and where the last one was
+not found.)")
       .def(py::pickle(&state_of, &flows_of))
       .def("forget", &Flows::forget, "The next flow is found cold.");
 }

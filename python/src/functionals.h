@@ -7,11 +7,15 @@
 
 namespace remodel::python {
 
+inline std::string shape_of(const py::array& array) {
+  return py::str(array.attr("shape")).cast<std::string>();
+}
+
 inline std::vector<double> numbers_of(const py::handle& values, const std::string& name, std::size_t size) {
   const Reals array = array_of(values, name);
   if (array.ndim() != 1 || static_cast<std::size_t>(array.size()) != size)
     throw Error(ErrorCode::argument, name,
-                "found " + std::to_string(array.size()) + " numbers, expected " + std::to_string(size));
+                "found an array of shape " + shape_of(array) + ", expected (" + std::to_string(size) + ",)");
   return {array.data(), array.data() + array.size()};
 }
 

@@ -64,9 +64,10 @@ void add_layered_step(py::module_& module) {
 
 LayersPointer layers_at(LivingLayers& mesh, const py::object& shape, const std::string& boundary) {
   const ThreadLock::Held held(mesh.lock);
-  const Domain domain = next_domain(mesh.mesh.domain(), shape, boundary);
+  const Domain domain = next_domain(mesh.mesh, shape, boundary);
   py::gil_scoped_release released;
-  return layers_alive(mesh_at(mesh.mesh, domain), mesh.follows);
+  return layers_alive(mesh_at(mesh.mesh, domain, own_strategy(mesh.mesh.outer(), mesh.follows)),
+                      mesh.follows);
 }
 
 }  // namespace
@@ -92,13 +93,15 @@ void add_layered_changes(py::module_& module) {
 void add_layered_steps(py::class_<LivingLayers, LayersPointer>& type) {
   add_update(
       type,
-      R"(Remodels to a Domain, or to an Airfoil (or the name of one) in the place of the one called `boundary`, on
-the same stations; returns a LayeredStep. strategy: 'renew', 'morph', 'reference' or another of Mesh.update(), which
+      R"(Remodels to a Domain, or to an Airfoil (or the name or file of one) in the place of the one called `boundary`,
+on the same stations; returns a LayeredStep. strategy: 'renew', 'morph', 'reference' or another of Mesh.update(), which
 has the other arguments too. Where anything is refused the mesh is as it was. Raises ArgumentError and GeometryError;
 Ctrl-C ends it.)");
-  type.def("at", &layers_at, "shape"_a, py::kw_only(), "boundary"_a = "",
-           "A copy at another design with the same connectivity. Raises TopologyChanged where there is no "
-           "valid one.");
+  type.def(
+      "at", &layers_at, "shape"_a, py::kw_only(), "boundary"_a = "",
+      "A copy at another design with the same connectivity; shape and boundary as update()'s. Its interior "
+      "goes as jvp(interior='own') says: along after update(strategy='reference'), otherwise it stays. "
+      "Raises TopologyChanged where there is no valid one.");
 }
 
 }  // namespace remodel::python

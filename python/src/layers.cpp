@@ -94,7 +94,7 @@ LayersWay layers_way(const LivingLayers& living, const std::string& boundary, co
   if (interior != "own" && interior != "still")
     throw Error(ErrorCode::argument, "interior", "found '" + interior + "', expected own or still");
   const auto [loop, first, count] = airfoil_numbers(mesh.domain(), boundary);
-  if (interior == "own" && (mesh.outer().held() || living.follows))
+  if (interior == "own" && own_strategy(mesh.outer(), living.follows) == Strategy::reference)
     return {LayeredMeshDerivative(mesh, moving_loops(mesh.outer(), {loop})), first, count};
   return {LayeredMeshDerivative(mesh), first, count};
 }
@@ -160,6 +160,10 @@ stays. LivingFlow.gradients() has derivatives by points.)");
       "load",
       [](const std::filesystem::path& file) {
         py::gil_scoped_release released;
+        const KeptPipes once;
+        if (!holds_layers(file))
+          throw Error(ErrorCode::format, file.string(),
+                      "found no layers, expected a native mesh with them: Mesh.load() reads others");
         return layers_alive(read_layered_mesh(file));
       },
       "file"_a, "A native file (.vtkhdf) of a layered mesh. Raises FileError and FormatError.");

@@ -15,6 +15,8 @@
 
 namespace remodel {
 
+class LayeredMesh;
+
 template <python::Is<RemodelResult> T>
 auto members(T& r) {
   return std::tie(r.triangles_before, r.triangles, r.preserved, r.connected, r.moved, r.inserted, r.removed,
@@ -89,15 +91,19 @@ Snapshot after_step(const StepOf<AnyLiving>& step) {
 }
 
 // The domain that an update to a shape leads to: a Domain itself, or the mesh's own domain with an airfoil in
-// the place of the one called `boundary`.
+// the place of the one called `boundary`. Names and files are as domain_of() takes them.
 Domain next_domain(const Domain& now, const py::object& shape, const std::string& boundary);
-inline Domain next_domain(const LivingMesh& mesh, const py::object& shape, const std::string& boundary) {
-  return next_domain(mesh.mesh.domain(), shape, boundary);
-}
+Domain next_domain(const Mesh& mesh, const py::object& shape, const std::string& boundary);
+// Throws Error (argument) for a file of several elements, whose stations are none for layers.
+Domain next_domain(const LayeredMesh& mesh, const py::object& shape, const std::string& boundary);
 
 // The loops whose movement the interior goes along with: those, and all that have moved since the reference
 // of a mesh that is held.
 std::vector<std::size_t> moving_loops(const Mesh& mesh, const std::vector<std::size_t>& loops);
+
+// The strategy of whose small steps derivatives and at() are, unless they are asked for another: reference,
+// which moves the interior along, of meshes that are held or follow; otherwise chain, which leaves it.
+Strategy own_strategy(const Mesh& mesh, bool follows);
 
 // Where the upper and lower coefficients of the airfoil of that name, or the only one, are in
 // coefficients_of(): its loop, the first and how many. Throws Error (argument) where there is not one such

@@ -36,7 +36,7 @@ std::shared_ptr<StepOf<AnyLiving>> updated(const std::shared_ptr<AnyLiving>& mes
   auto step = std::make_shared<StepOf<AnyLiving>>();
   RemodelOptions options = remodel_options(distance, method, strategy, regenerate, delaunay_slack);
   const ThreadLock::Held held(mesh->lock);
-  const Domain domain = next_domain(mesh->mesh.domain(), shape, boundary);
+  const Domain domain = next_domain(mesh->mesh, shape, boundary);
   if (record) step->before = mesh->freeze();
   step->result = interruptible([&](StepObserver& observer) {
     options.observer = &observer;
@@ -121,7 +121,7 @@ class Attempt {
       throw Error(ErrorCode::argument, "trial", "was entered before, expected a new one for each block");
     auto step = std::make_shared<Step>();
     const ThreadLock::Held held(mesh_->lock);
-    const Domain domain = next_domain(mesh_->mesh.domain(), shape_, boundary_);
+    const Domain domain = next_domain(mesh_->mesh, shape_, boundary_);
     stopped_ = mesh_->stopped;
     follows_ = mesh_->follows;
     trial_ = interruptible([&](StepObserver& observer) {

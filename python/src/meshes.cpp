@@ -7,6 +7,7 @@
 #include "remodel/generate.h"
 #include "remodel/import.h"
 #include "remodel/io.h"
+#include "remodel/limits.h"
 
 namespace remodel::python {
 namespace {
@@ -17,6 +18,15 @@ LivingMeshPointer alive(Mesh mesh, Stopped stopped = Stopped::done, bool follows
   living->stopped = stopped;
   living->follows = follows;
   return living;
+}
+
+void warn_of_limit(const GenerateResult& result) {
+  if (result.stopped != Stopped::vertex_budget && result.stopped != Stopped::minimum_edge) return;
+  const std::string limit = result.stopped == Stopped::vertex_budget
+                                ? "max_vertices, " + std::to_string(result.mesh.options().max_vertices) + ","
+                                : "the limit on the shortest edge";
+  warn({limit + " ended refinement, the mesh is valid but below its quality; triangles are smallest " +
+        crowded_place(result.mesh)});
 }
 
 LivingMeshPointer generated(const py::object& shape, int points, const std::optional<double>& gradation,
@@ -39,6 +49,7 @@ LivingMeshPointer generated(const py::object& shape, int points, const std::opti
     quality.gradation = points / 50.0;
   GenerateResult result =
       interruptible([&](StepObserver& observer) { return generate(domain, quality, &observer); });
+  warn_of_limit(result);
   return alive(std::move(result.mesh), result.stopped);
 }
 
@@ -64,6 +75,10 @@ LivingMeshPointer loaded(const std::filesystem::path& file) {
   Snapshot foreign;
   {
     py::gil_scoped_release released;
+    const KeptPipes once;
+    if (holds_layers(file))
+      throw Error(ErrorCode::format, file.string(),
+                  "found a mesh with layers, expected one without: LayeredMesh.load() reads it");
     try {
       return alive(read_mesh(file));
     } catch (const Error& error) {
@@ -200,9 +215,9 @@ for Domain().
 points: vertices on the airfoil, even, 8 to 100000; farfield_radius in chords; turning_share: see Domain(). A
 Domain has its own and ignores these. gradation: how slowly triangles grow away from boundaries; points / 50 unless given, 4 for a Domain.
 min_angle: degrees, 0 to 34; refine_angle: what refinement works to where it is more, 0 to 34: two degrees more
-than min_angle let update(strategy='reference') hold the connectivity longer. Mesh.stopped tells a limit that was
-reached (max_vertices). Sources: J. Ruppert, 1995; J. R. Shewchuk, 2002. Raises ArgumentError and GeometryError;
-Ctrl-C ends it.)");
+than min_angle let update(strategy='reference') hold the connectivity longer. Where a limit was reached (max_vertices)
+a UserWarning says so, and Mesh.stopped. Sources: J. Ruppert, 1995; J. R. Shewchuk, 2002. Raises ArgumentError and
+GeometryError; Ctrl-C ends it.)");
   module.def("import_mesh", &imported, "mesh"_a, py::kw_only(), "refine_angle"_a = 30.0, "gradation"_a = 0.0,
              "unnamed"_a = "boundary", "dissolve_layers"_a = false,
              "Another program's mesh (FrozenMesh) as a living one; its triangles stay until a step comes "

@@ -13,7 +13,11 @@ namespace {
 // An objective in Python: evaluate(design, mesh, step) -> number, or a dict with what Evaluation has.
 class PythonEvaluator final : public Evaluator {
  public:
-  PythonEvaluator(py::object evaluate, Watch& watch) : evaluate_(std::move(evaluate)), watch_(watch) {}
+  // Needs the GIL.
+  PythonEvaluator(py::object evaluate, Watch& watch) : evaluate_(std::move(evaluate)), watch_(watch) {
+    const py::dict description("evaluator"_a = "python", "function"_a = evaluate_.attr("__name__"));
+    description_ = py::module_::import("json").attr("dumps")(description).cast<std::string>();
+  }
 
   Evaluation evaluate(const EvaluationTask& task, std::unique_ptr<EvaluatorState>&) override {
     auto mesh = std::make_shared<FrozenMesh>(task.freeze());
@@ -28,7 +32,7 @@ class PythonEvaluator final : public Evaluator {
       throw;
     }
   }
-  std::string description() const override { return R"({"evaluator": "python"})"; }
+  std::string description() const override { return description_; }
 
  private:
   static Evaluation evaluation_of(const py::object& answer) {
@@ -54,6 +58,7 @@ class PythonEvaluator final : public Evaluator {
 
   py::object evaluate_;
   Watch& watch_;
+  std::string description_;  // with the function's name, which is all that a run knows it by
 };
 
 OptimiseOptions options_of(const std::filesystem::path& directory, int points, double sigma,

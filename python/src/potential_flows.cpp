@@ -73,35 +73,46 @@ void add_potential_flows(py::module_& module) {
       "A potential flow; the free stream has speed 1, coefficients are per half chord.")
       .def(record_pickle<PotentialFlow>())
       .def_readonly("alpha", &PotentialFlow::alpha_deg, "The angle of attack, in degrees.")
-      .def_readonly("mach", &PotentialFlow::mach)
+      .def_readonly("mach", &PotentialFlow::mach,
+                    "The Mach number that pressures and lift are corrected for.")
       .def_readonly(
           "supersonic", &PotentialFlow::supersonic,
           "Whether some pressure is below that of sonic speed, where the rule for mach does not hold.")
       .def_property_readonly(
           "lift", [](const PotentialFlow& f) { return if_determined(f, f.lift); },
           "The lift coefficient of all bodies, by circulation; nan where lift_determined is false.")
-      .def_property_readonly("lift_by_pressure",
-                             [](const PotentialFlow& f) { return if_determined(f, f.lift_by_pressure); })
+      .def_property_readonly(
+          "lift_by_pressure", [](const PotentialFlow& f) { return if_determined(f, f.lift_by_pressure); },
+          "The lift coefficient by pressures on walls; nan where lift_determined is false.")
       .def_readonly("drag_by_pressure", &PotentialFlow::drag_by_pressure, "An error of the mesh.")
-      .def_property_readonly("moment", [](const PotentialFlow& f) { return if_determined(f, f.moment); })
+      .def_property_readonly(
+          "moment", [](const PotentialFlow& f) { return if_determined(f, f.moment); },
+          "The moment coefficient by pressures on walls about (0.25, 0), positive nose up; nan where "
+          "lift_determined is false.")
       .def_readonly("warnings", &PotentialFlow::warnings,
                     "What has to be known before a coefficient is used: a list of sentences.")
       .def_readonly("lift_determined", &PotentialFlow::lift_determined,
                     "Whether every body has an edge that the flow leaves from.")
       .def_property_readonly("bodies", &bodies_of,
                              "By name: points, vertices, cp and speed along the wall; lift, drag, moment.")
-      .def_property_readonly("stream_function",
-                             [](const PotentialPointer& f) { return view(f, f->stream_function); })
-      .def_property_readonly("velocity",
-                             [](const PotentialPointer& f) {
-                               return view(f, f->velocity.empty() ? nullptr : &f->velocity.front().x,
-                                           {static_cast<py::ssize_t>(f->velocity.size()), 2});
-                             })
-      .def_property_readonly("cp", [](const PotentialFlow& f) {
-        std::vector<double> cp;
-        for (const Point v : f.velocity) cp.push_back(compressible_cp(1.0 - dot(v, v), f.mach));
-        return copied(cp);
-      });
+      .def_property_readonly(
+          "stream_function", [](const PotentialPointer& f) { return view(f, f->stream_function); },
+          "The stream function at each point, of shape (n,), of the incompressible flow.")
+      .def_property_readonly(
+          "velocity",
+          [](const PotentialPointer& f) {
+            return view(f, f->velocity.empty() ? nullptr : &f->velocity.front().x,
+                        {static_cast<py::ssize_t>(f->velocity.size()), 2});
+          },
+          "The velocity at each point over the stream's speed, of shape (n, 2), of the incompressible flow.")
+      .def_property_readonly(
+          "cp",
+          [](const PotentialFlow& f) {
+            std::vector<double> cp;
+            for (const Point v : f.velocity) cp.push_back(compressible_cp(1.0 - dot(v, v), f.mach));
+            return copied(cp);
+          },
+          "The pressure coefficient at each point, of shape (n,), by the rule for mach.");
   py::class_<Potential>(
       module, "PotentialSolver",
       R"(Plane potential flow around the bodies of a mesh, by one factorisation: lift and pressures in

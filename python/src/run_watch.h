@@ -34,6 +34,12 @@ inline py::list rows_of(const std::filesystem::path& file) {
   return rows;
 }
 
+// What EvaluationFailed says, raised by a function of Python's.
+class DesignFailed : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 // Whether Ctrl-C was pressed, or a function or the callback raised.
 class Watch final : public OptimiseObserver {
  public:
@@ -61,13 +67,33 @@ class Watch final : public OptimiseObserver {
     }
   }
 
+  // Runs what asks functions before there is a design that could fail. What a function raised is raised as it
+  // was, whatever has become of it on the way. Needs the GIL.
+  template <class Work>
+  auto raising(Work&& work) {
+    try {
+      return work();
+    } catch (const DesignFailed& error) {
+      interrupts.rethrow();
+      PyErr_SetString(evaluation_failed().ptr(), error.what());
+      throw py::error_already_set();
+    } catch (const std::exception&) {
+      interrupts.rethrow();
+      throw;
+    }
+  }
+
   Interrupts interrupts;
 
  private:
+  static py::object evaluation_failed() {
+    return py::module_::import("remodel._errors").attr("EvaluationFailed");
+  }
   [[noreturn]] void fail(py::error_already_set error) {
+    if (error.matches(evaluation_failed()))
+      throw DesignFailed(py::str(error.value()).attr("encode")("utf-8", "replace").cast<std::string>());
     const std::string message = error.what();
-    if (!error.matches(py::module_::import("remodel._errors").attr("EvaluationFailed")))
-      interrupts.keep(std::move(error));
+    interrupts.keep(std::move(error));
     throw std::runtime_error(message);
   }
 

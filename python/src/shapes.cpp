@@ -6,6 +6,7 @@
 #include <pybind11/operators.h>
 #include "bindings.h"
 #include "living.h"
+#include "remodel/airfoil_degree.h"
 #include "remodel/io.h"
 #include "remodel/mesh_derivative.h"
 #include "remodel/shape_files.h"
@@ -41,12 +42,9 @@ CstAirfoil cst_airfoil(const Reals& upper, const Reals& lower, double e1, double
   return airfoil;
 }
 
-void warn(const std::vector<std::string>& sentences) {
-  for (const std::string& sentence : sentences)
-    if (PyErr_WarnEx(PyExc_UserWarning, sentence.c_str(), 1) < 0) throw py::error_already_set();
-}
+constexpr int usual_degree = 5;  // of fits
 
-CstAirfoil new_airfoil(const std::optional<std::filesystem::path>& shape, int degree,
+CstAirfoil new_airfoil(const std::optional<std::filesystem::path>& shape, const std::optional<int>& degree,
                        const std::optional<Reals>& upper, const std::optional<Reals>& lower, double e1,
                        double e2, double te_upper, double te_lower, bool close_trailing_edge) {
   if (shape.has_value() == upper.has_value() || upper.has_value() != lower.has_value())
@@ -54,11 +52,16 @@ CstAirfoil new_airfoil(const std::optional<std::filesystem::path>& shape, int de
                 "expected a name or a file, or else the coefficients upper and lower");
   if (shape && *shape == standard_input)
     throw Error(ErrorCode::argument, "Airfoil", "found '-', expected a name or a file");
-  if (!shape) return cst_airfoil(*upper, *lower, e1, e2, te_upper, te_lower);
-  const CstFit fit =
-      load_fit(shape->string(), degree, close_trailing_edge ? TrailingEdge::closed : TrailingEdge::kept);
+  if (!shape) {
+    if (degree)
+      throw Error(ErrorCode::argument, "degree",
+                  "given with coefficients, which have their own, expected with_degree()");
+    return cst_airfoil(*upper, *lower, e1, e2, te_upper, te_lower);
+  }
+  const CstFit fit = load_fit(shape->string(), degree.value_or(usual_degree),
+                              close_trailing_edge ? TrailingEdge::closed : TrailingEdge::kept);
   warn(fit.warnings);
-  return fit.airfoil;
+  return degree && shape->extension() == ".json" ? with_degree(fit.airfoil, *degree) : fit.airfoil;
 }
 
 py::array_t<double> coordinates(const CstAirfoil& airfoil, int count) {
@@ -93,10 +96,11 @@ void add_airfoil(py::module_& module) {
 
 Airfoil("naca:2412"), Airfoil("rae2822"), Airfoil("section.dat", degree=6), Airfoil("design.json") or
 Airfoil(upper=[...], lower=[...]): y(x) = x**e1 * (1 - x)**e2 * sum(c[i] * Bernstein[i](x)) + x * te.
-Coordinate files and NACA sections are fitted with `degree`, 2 to 12. A file is moved, turned and scaled to its
+Coordinate files and NACA sections are fitted with `degree`, 2 to 12, or 5. Names of the catalogue and .json files have
+their own degree, unless it is given: with_degree(). A file is moved, turned and scaled to its
 chord: a UserWarning says so where that is more than rounding. Its blunt trailing edge is kept, unless
 close_trailing_edge is True. Raises FileError, FormatError, ArgumentError.)");
-  airfoil.def(py::init(&new_airfoil), "shape"_a = py::none(), "degree"_a = 5, py::kw_only(),
+  airfoil.def(py::init(&new_airfoil), "shape"_a = py::none(), "degree"_a = py::none(), py::kw_only(),
               "upper"_a = py::none(), "lower"_a = py::none(), "e1"_a = 0.5, "e2"_a = 1.0, "te_upper"_a = 0.0,
               "te_lower"_a = 0.0, "close_trailing_edge"_a = false);
   airfoil.def_property_readonly(
@@ -129,6 +133,9 @@ close_trailing_edge is True. Raises FileError, FormatError, ArgumentError.)");
         return result;
       },
       "design"_a, "The same airfoil with other coefficients, in the order of `design`.");
+  airfoil.def("with_degree", &with_degree, "degree"_a,
+              "The section with surfaces of another degree, 1 to 50: exactly the same with a higher one, the "
+              "nearest in the least squares with a lower one. Raises ArgumentError.");
   airfoil.def_readonly("e1", &CstAirfoil::e1);
   airfoil.def_readonly("e2", &CstAirfoil::e2);
   airfoil.def_readonly("te_upper", &CstAirfoil::te_upper, "y of the upper surface's trailing edge.");
@@ -266,13 +273,65 @@ CstAirfoil airfoil_of(const Domain& domain, const std::string& boundary) {
   return std::get<CstAirfoil>(domain.loops[loops[0]].curves.front().shape);
 }
 
-Domain new_domain(const py::object& shape, int points, double radius, int farfield_points, int degree,
-                  bool close_trailing_edge, const std::optional<std::string>& as_given, bool keep_coordinates,
-                  const std::string& crossings, double join, const std::optional<double>& turning_share) {
-  ShapeReading reading{.degree = degree,
+using Given = std::initializer_list<std::pair<bool, const char*>>;  // whether an argument was
+
+void refuse_given(const Given& arguments, const std::string& what) {
+  for (const auto& [is_given, argument] : arguments)
+    if (is_given) throw Error(ErrorCode::argument, argument, "given for " + what);
+}
+
+// What a domain can be asked for, each of some shapes alone.
+struct DomainArguments {
+  std::optional<int> points;
+  std::optional<double> radius;
+  std::optional<int> farfield_points, degree;
+  std::optional<std::string> crossings;
+  std::optional<double> join, turning_share;
+
+  // Throws Error (argument) for what this shape has no use for. `made`: the domain of it.
+  void require_used(const py::object& shape, const ShapesDomain& made, bool as_given) const {
+    const std::string name = py::isinstance<Domain>(shape)       ? "a Domain"
+                             : py::isinstance<CstAirfoil>(shape) ? "an Airfoil"
+                                                                 : "'" + name_of_shape(shape) + "'";
+    const Given stations = {{points.has_value(), "points"}, {turning_share.has_value(), "turning_share"}};
+    if (!made.in_farfield) {
+      const std::string whole = name + ", a whole domain, which has its own, expected for airfoils";
+      refuse_given(stations, whole);
+      refuse_given(
+          {{radius.has_value(), "farfield_radius"}, {farfield_points.has_value(), "farfield_points"}}, whole);
+      refuse_given({{degree.has_value(), "degree"}}, whole);
+    }
+    if (as_given)
+      refuse_given(stations, name + " as it is given, whose points are the vertices, expected with a fit");
+    const bool fitted = !as_given && (!made.fits.empty() || !has_coefficients(shape));
+    if (!fitted)
+      refuse_given({{degree.has_value(), "degree"}}, name + ", which is not fitted, expected for a fit");
+    if (!made.findings)
+      refuse_given({{crossings.has_value(), "crossings"}}, name + ", expected for a planar graph (.poly)");
+    if (made.in_farfield || py::isinstance<Domain>(shape))
+      refuse_given({{join.has_value(), "join"}},
+                   name + ", expected for a planar graph or the file of a domain");
+  }
+
+ private:
+  // Of its own: not by a name, which has any degree.
+  static bool has_coefficients(const py::object& shape) {
+    return py::isinstance<Domain>(shape) || py::isinstance<CstAirfoil>(shape) ||
+           std::filesystem::path(name_of_shape(shape)).extension() == ".json";
+  }
+};
+
+Domain new_domain(const py::object& shape, const std::optional<int>& points,
+                  const std::optional<double>& radius, const std::optional<int>& farfield_points,
+                  const std::optional<int>& degree, bool close_trailing_edge,
+                  const std::optional<std::string>& as_given, bool keep_coordinates,
+                  const std::optional<std::string>& crossings, const std::optional<double>& join,
+                  const std::optional<double>& turning_share) {
+  const DomainArguments given{points, radius, farfield_points, degree, crossings, join, turning_share};
+  ShapeReading reading{.degree = degree.value_or(usual_degree),
                        .close_trailing_edge = close_trailing_edge,
                        .keep_coordinates = keep_coordinates,
-                       .join = join};
+                       .join = join.value_or(default_join)};
   if (as_given) {
     if (*as_given != "spline" && *as_given != "polyline")
       throw Error(ErrorCode::argument, "as_given",
@@ -286,16 +345,19 @@ Domain new_domain(const py::object& shape, int points, double radius, int farfie
       if (is_set)
         throw Error(ErrorCode::argument, argument,
                     "given for " + type_of(shape) + ", expected for a file of coordinates");
-  if (crossings != "insert" && crossings != "refuse")
-    throw Error(ErrorCode::argument, "crossings", "found '" + crossings + "', expected 'insert' or 'refuse'");
-  reading.crossings = crossings == "insert" ? Crossings::insert : Crossings::refuse;
-  return domain_of(shape,
-                   {.points = points,
-                    .farfield_radius = radius,
-                    .farfield_points = farfield_points,
-                    .turning_share = turning_share},
-                   reading)
-      .domain;
+  if (crossings && *crossings != "insert" && *crossings != "refuse")
+    throw Error(ErrorCode::argument, "crossings",
+                "found '" + *crossings + "', expected 'insert' or 'refuse'");
+  reading.crossings = crossings == "refuse" ? Crossings::refuse : Crossings::insert;
+  const AirfoilDomainOptions usual;
+  ShapesDomain made = domain_of(shape,
+                                {.points = points.value_or(usual.points),
+                                 .farfield_radius = radius.value_or(usual.farfield_radius),
+                                 .farfield_points = farfield_points.value_or(usual.farfield_points),
+                                 .turning_share = turning_share},
+                                reading);
+  given.require_used(shape, made, as_given.has_value());
+  return std::move(made.domain);
 }
 
 void add_domain(py::module_& module) {
@@ -307,12 +369,12 @@ file of coordinates; Domain("file.json") (docs/domains.md has the layout); Domai
 planar graph; Domain.polygons(...) or Domain.airfoils(...).
 
 A file of several elements keeps their common coordinates, with the far field around all of them. A file of
-one section is fitted with `degree`, moved, turned and scaled to its chord, and its blunt trailing edge is kept
-(close_trailing_edge). as_given="spline" or "polyline" takes the points as they are, as vertices, in chords from
+one section is fitted with `degree`, 5 unless given, moved, turned and scaled to its chord, and its blunt trailing edge
+is kept (close_trailing_edge). as_given="spline" or "polyline" takes the points as they are, as vertices, in chords from
 the leading edge; keep_coordinates=True leaves files where they lie, in their units. A UserWarning says what was
-moved, joined, mended or left out. crossings="refuse" refuses a planar graph whose segments cross, "insert"
-splits them. Places of a graph or a domain file that differ by rounding, at most `join` of their size, are
-joined; 0 joins nothing.
+moved, joined, mended or left out. crossings="refuse" refuses a planar graph whose segments cross, "insert",
+as unless given, splits them. Places of a graph or a domain file that differ by rounding, at most `join` (1e-11) of
+their size, are joined; 0 joins nothing. What the shape has no use for is refused where it is given.
 
 turning_share is the part of the points on airfoils, 0 to 0.9, that follows how the surface turns, most of it at
 noses; the others have cosine spacing. None: 0, and 0.2 in files of several elements, whose suction peaks need
@@ -320,10 +382,10 @@ it.
 
 Raises FileError, FormatError; ArgumentError for options that do not go together; GeometryError for curves that
 cross or touch, with the loop and the place.)");
-  domain.def(py::init(&new_domain), "shape"_a, py::kw_only(), "points"_a = 200, "farfield_radius"_a = 25.0,
-             "farfield_points"_a = 50, "degree"_a = 5, "close_trailing_edge"_a = false,
-             "as_given"_a = py::none(), "keep_coordinates"_a = false, "crossings"_a = "insert",
-             "join"_a = default_join, "turning_share"_a = py::none());
+  domain.def(py::init(&new_domain), "shape"_a, py::kw_only(), "points"_a = py::none(),
+             "farfield_radius"_a = py::none(), "farfield_points"_a = py::none(), "degree"_a = py::none(),
+             "close_trailing_edge"_a = false, "as_given"_a = py::none(), "keep_coordinates"_a = false,
+             "crossings"_a = py::none(), "join"_a = py::none(), "turning_share"_a = py::none());
   domain.def_static("polygons", &polygons, "outer"_a, "holes"_a = py::dict(),
                     "Closed polygons by name, arrays of shape (n, 2): outer boundaries and holes.");
   domain.def_static("airfoils", &placed, "elements"_a, py::kw_only(), "points"_a = 200,
@@ -372,18 +434,27 @@ std::vector<std::size_t> airfoil_loops(const Domain& domain, const std::string& 
   return loops;
 }
 
-ShapesDomain domain_of(const py::object& shape, const AirfoilDomainOptions& options,
-                       const ShapeReading& reading) {
-  if (py::isinstance<Domain>(shape)) return {.domain = shape.cast<Domain>()};
-  if (py::isinstance<CstAirfoil>(shape))
-    return {.domain = airfoil_domain(shape.cast<const CstAirfoil&>(), options), .in_farfield = true};
+void warn(const std::vector<std::string>& sentences) {
+  for (const std::string& sentence : sentences)
+    if (PyErr_WarnEx(PyExc_UserWarning, sentence.c_str(), 1) < 0) throw py::error_already_set();
+}
+
+std::string name_of_shape(const py::object& shape) {
   if (!py::isinstance<py::str>(shape) && !py::hasattr(shape, "__fspath__"))
     throw py::type_error("shape: found " + type_of(shape) +
                          ", expected an Airfoil, a Domain, or the name of an airfoil or a file");
   const std::string name = shape.cast<std::filesystem::path>().string();
   if (name == standard_input)
     throw Error(ErrorCode::argument, "shape", "found '-', expected a name or a file");
-  ShapesDomain result = domain_of_shapes({{.shape = name}}, options, reading);
+  return name;
+}
+
+ShapesDomain domain_of(const py::object& shape, const AirfoilDomainOptions& options,
+                       const ShapeReading& reading) {
+  if (py::isinstance<Domain>(shape)) return {.domain = shape.cast<Domain>()};
+  if (py::isinstance<CstAirfoil>(shape))
+    return {.domain = airfoil_domain(shape.cast<const CstAirfoil&>(), options), .in_farfield = true};
+  ShapesDomain result = domain_of_shapes({{.shape = name_of_shape(shape)}}, options, reading);
   warn(result.warnings);
   return result;
 }

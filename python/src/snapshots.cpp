@@ -160,23 +160,26 @@ FrozenPointer with_points(const FrozenPointer& mesh, const Reals& coordinates) {
 
 void add_check(py::module_& module) {
   py::class_<Violation>(module, "Violation", "A broken rule, with the points or cells concerned.")
-      .def_readonly("rule", &Violation::rule)
-      .def_readonly("ids", &Violation::ids)
-      .def_readonly("detail", &Violation::detail)
+      .def_readonly("rule", &Violation::rule, "The name of the rule (include/remodel/check.h).")
+      .def_readonly("ids", &Violation::ids, "The points or cells concerned, by their indices.")
+      .def_readonly("detail", &Violation::detail, "One sentence.")
       .def(record_pickle<Violation>())
       .def("__repr__", [](const Violation& v) { return "Violation(" + v.rule + ": " + v.detail + ")"; });
   py::class_<CheckResult>(module, "CheckResult",
                           "The verdict of the independent validator, which works in rational arithmetic.")
-      .def_readonly("valid", &CheckResult::valid)
-      .def_readonly("violations", &CheckResult::violations)
-      .def_readonly("triangles", &CheckResult::triangles)
-      .def_readonly("quadrilaterals", &CheckResult::quadrilaterals)
-      .def_readonly("vertices", &CheckResult::vertices)
-      .def_readonly("min_angle_deg", &CheckResult::min_angle_deg)
-      .def_readonly("max_gradation", &CheckResult::max_gradation)
-      .def_readonly("delaunay", &CheckResult::delaunay)
-      .def_readonly("boundary", &CheckResult::boundary)
-      .def_readonly("area", &CheckResult::area)
+      .def_readonly("valid", &CheckResult::valid, "Whether no rule is broken.")
+      .def_readonly("violations", &CheckResult::violations, "The broken rules: a list of Violation.")
+      .def_readonly("triangles", &CheckResult::triangles, "How many there are.")
+      .def_readonly("quadrilaterals", &CheckResult::quadrilaterals, "How many there are.")
+      .def_readonly("vertices", &CheckResult::vertices, "How many points are of cells.")
+      .def_readonly("min_angle_deg", &CheckResult::min_angle_deg,
+                    "The smallest angle of all triangles but those of layers, in degrees.")
+      .def_readonly("max_gradation", &CheckResult::max_gradation,
+                    "The largest circumradius over what the length scales allow; nan without any.")
+      .def_readonly("delaunay", &CheckResult::delaunay,
+                    "Whether the mesh is constrained Delaunay, without any slack.")
+      .def_readonly("boundary", &CheckResult::boundary, "The number of edges of each boundary, by name.")
+      .def_readonly("area", &CheckResult::area, "Of all cells, in square chords.")
       .def(record_pickle<CheckResult>())
       .def("__bool__", [](const CheckResult& r) { return r.valid; })
       .def("__repr__", [](const CheckResult& r) {

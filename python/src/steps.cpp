@@ -4,8 +4,11 @@
 #include <optional>
 #include <utility>
 
+#include "living_layers.h"
 #include "living_steps.h"
 #include "remodel/import.h"
+#include "remodel/io.h"
+#include "remodel/shape_files.h"
 
 namespace remodel::python {
 namespace {
@@ -26,6 +29,36 @@ Loop with_curve(Loop loop, CstAirfoil airfoil) {
   loop.curves.front().shape = std::move(airfoil);
   if (base) loop.curves.push_back(std::move(*base));
   return loop;
+}
+
+// The domain with an airfoil in the place of its own, or of the one called `boundary`.
+Domain with_section(const Domain& now, const CstAirfoil& airfoil, const std::string& boundary) {
+  Domain domain = now;
+  const std::vector<std::size_t> loops = airfoil_loops(domain, boundary);
+  if (loops.size() > 1)
+    throw Error(ErrorCode::argument, "boundary",
+                "not given, expected the name of one of " + std::to_string(loops.size()) + " airfoils");
+  if (loops.size() == 1) {
+    Loop& loop = domain.loops[loops[0]];
+    loop = with_curve(std::move(loop), airfoil);
+    return domain;
+  }
+  return with_airfoil(domain, find_airfoil(domain, boundary.empty() ? "airfoil" : boundary, "mesh"), airfoil);
+}
+
+// Elements of a coordinate file; 1 of other shapes.
+std::size_t elements_in(const std::string& shape) {
+  return is_coordinate_file(shape) && !is_whole_domain(shape) ? read_outlines(shape).elements.size() : 1;
+}
+
+// A file of several elements or of a whole domain. Elements have as many points and the far field that the
+// mesh has, and the stations of its outlines of their names.
+Domain domain_in_place(const Domain& now, const std::string& file) {
+  ShapesDomain next = domain_of_shapes({{.shape = file}}, discretisation_of(now), {.farfield_stays = true});
+  warn(next.warnings);
+  if (next.in_farfield)
+    for (Loop& loop : next.domain.loops) take_stations(loop, now);
+  return std::move(next.domain);
 }
 
 std::vector<std::uint64_t> values(const std::vector<VertexKey>& keys) {
@@ -62,11 +95,18 @@ void add_changes(py::module_& module) {
       "The changes of one step: vertices by key (Mesh.vertex_keys), triangles by id (Mesh.triangle_ids); all "
       "ascend.")
       .def(record_pickle<Changes>())
-      .def_property_readonly("moved", [](const Changes& c) { return copied(values(c.moved)); })
-      .def_property_readonly("inserted", [](const Changes& c) { return copied(values(c.inserted)); })
-      .def_property_readonly("removed", [](const Changes& c) { return copied(values(c.removed)); })
-      .def_property_readonly("born", [](const Changes& c) { return copied(values(c.born)); })
-      .def_property_readonly("gone", [](const Changes& c) { return copied(values(c.gone)); })
+      .def_property_readonly(
+          "moved", [](const Changes& c) { return copied(values(c.moved)); },
+          "Keys of vertices at another place.")
+      .def_property_readonly(
+          "inserted", [](const Changes& c) { return copied(values(c.inserted)); }, "Keys of new vertices.")
+      .def_property_readonly(
+          "removed", [](const Changes& c) { return copied(values(c.removed)); },
+          "Keys of vertices that are gone.")
+      .def_property_readonly(
+          "born", [](const Changes& c) { return copied(values(c.born)); }, "Ids of new triangles.")
+      .def_property_readonly(
+          "gone", [](const Changes& c) { return copied(values(c.gone)); }, "Ids of triangles that are gone.")
       .def_property_readonly("same_connectivity", &Changes::same_connectivity,
                              "Whether the same triangles join the same vertices.");
 }
@@ -116,22 +156,31 @@ void add_step(py::module_& module) {
 
 Domain next_domain(const Domain& now, const py::object& shape, const std::string& boundary) {
   if (py::isinstance<Domain>(shape)) return shape.cast<Domain>();
-  if (!py::isinstance<py::str>(shape) && !py::isinstance<CstAirfoil>(shape))
-    throw py::type_error("shape: found " + type_of(shape) +
-                         ", expected an Airfoil, a Domain or the name of an airfoil");
-  CstAirfoil airfoil =
-      py::isinstance<py::str>(shape) ? named_airfoil(shape.cast<std::string>(), 5) : shape.cast<CstAirfoil>();
-  Domain domain = now;
-  const std::vector<std::size_t> loops = airfoil_loops(domain, boundary);
-  if (loops.size() > 1)
-    throw Error(ErrorCode::argument, "boundary",
-                "not given, expected the name of one of " + std::to_string(loops.size()) + " airfoils");
-  if (loops.size() == 1) {
-    Loop& loop = domain.loops[loops[0]];
-    loop = with_curve(std::move(loop), std::move(airfoil));
-    return domain;
+  if (py::isinstance<CstAirfoil>(shape)) return with_section(now, shape.cast<CstAirfoil>(), boundary);
+  const std::string name = name_of_shape(shape);
+  const KeptPipes once;
+  if (is_whole_domain(name) || elements_in(name) > 1) {
+    if (!boundary.empty())
+      throw Error(ErrorCode::argument, "boundary",
+                  "given with '" + name + "', a whole domain, expected one airfoil to put there");
+    return domain_in_place(now, name);
   }
-  return with_airfoil(domain, find_airfoil(domain, boundary.empty() ? "airfoil" : boundary, "mesh"), airfoil);
+  const CstFit fit = load_fit(name, 5);
+  warn(fit.warnings);
+  return with_section(now, fit.airfoil, boundary);
+}
+
+Domain next_domain(const Mesh& mesh, const py::object& shape, const std::string& boundary) {
+  return next_domain(mesh.domain(), shape, boundary);
+}
+
+Domain next_domain(const LayeredMesh& mesh, const py::object& shape, const std::string& boundary) {
+  if (!py::isinstance<Domain>(shape) && !py::isinstance<CstAirfoil>(shape))
+    if (const std::string name = name_of_shape(shape); elements_in(name) > 1)
+      throw Error(ErrorCode::argument, "shape",
+                  "found '" + name + "', a file of " + std::to_string(elements_in(name)) +
+                      " elements, expected one section, or a Domain with stations for layers");
+  return next_domain(mesh.domain(), shape, boundary);
 }
 
 RemodelOptions remodel_options(double distance, const std::string& method, const std::string& strategy,
@@ -151,6 +200,9 @@ void add_steps(py::module_& module) {
   add_update(
       type,
       R"(Remodels the mesh, in place, to an Airfoil in the place of its own, or to another Domain; returns a Step.
+shape may also be a name or a file, as for Domain(): one section takes the place of the mesh's own, as an Airfoil does;
+a file of several elements, of a domain or of a planar graph is another Domain, whose elements have as many points as
+the mesh's airfoils. A UserWarning says what was moved, joined, mended or left out.
 
 boundary: the airfoil's name, where there are several. distance: D, the removal radius over the distance of old and
 new vertices. strategy: 'renew' keeps long runs in order, 'chain' is the paper's method to the

@@ -168,7 +168,7 @@ def test_every_call_has_a_signature():
                     assert inspect.signature(call) is not None, f"{name}.{member}"
         elif callable(thing):
             assert inspect.signature(thing) is not None, name
-    assert str(inspect.signature(remodel.Airfoil)) == "(shape=None, degree=5, *, upper=None, lower=None, e1=0.5, e2=1.0, te_upper=0.0, te_lower=0.0, close_trailing_edge=False)"
+    assert str(inspect.signature(remodel.Airfoil)) == "(shape=None, degree=None, *, upper=None, lower=None, e1=0.5, e2=1.0, te_upper=0.0, te_lower=0.0, close_trailing_edge=False)"
     assert list(inspect.signature(remodel.Mesh.update).parameters)[:2] == ["self", "shape"]
 
 

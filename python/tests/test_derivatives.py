@@ -91,6 +91,26 @@ def test_the_own_way_of_a_mesh_is_that_of_the_next_small_step(airfoil, designs, 
         assert np.isclose(np.sum(weights * moved), mesh.vjp(weights) @ direction, rtol=1e-6)
 
 
+@pytest.mark.parametrize("layers", [False, True])
+def test_a_held_mesh_is_at_another_design_where_the_reference_has_it(layers):
+    """A change of rounding moves nothing but by rounding, and differences by at() are vjp()'s."""
+    random = np.random.default_rng(0)
+    first = remodel.Airfoil("naca:2412", degree=4)
+    second = first.with_design(first.design + (0.002 if layers else 0.01) * random.standard_normal(10))
+    direction, h = random.standard_normal(10), 1e-5
+    mesh = remodel.generate_layered(first, reynolds=1000.0, model="laminar", spacing=6.0, growth=1.5) if layers else remodel.generate(first, points=80)
+    points = (lambda m: np.array(m.freeze().points)) if layers else (lambda m: np.array(m.points))
+    assert mesh.update(second, strategy="reference").held
+    assert abs(points(mesh.at(second.with_design(second.design + 1e-12))) - points(mesh)).max() < 1e-10
+    stepped, at = mesh.copy(), mesh.at(second.with_design(second.design * 1.001))
+    stepped.update(second.with_design(second.design * 1.001), strategy="reference")
+    assert np.array_equal(points(at), points(stepped))
+    ahead, behind = (points(mesh.at(second.with_design(second.design + s * direction))) for s in (h, -h))
+    weights = random.standard_normal(ahead.shape)
+    assert np.isclose(np.sum(weights * (ahead - behind)) / (2 * h), mesh.vjp(weights) @ direction, rtol=1e-5)
+    assert np.allclose(at.jvp(direction), stepped.jvp(direction), atol=1e-9)  # it goes on in the same way
+
+
 def test_gradients_of_another_mesh_are_refused(mesh, airfoil):
     solver = remodel.LivingFlow()
     solver.solve(mesh, mach=0.4, alpha=1.0)
@@ -119,7 +139,22 @@ def test_gradients_of_another_mesh_are_refused(mesh, airfoil):
     assert other.vjp(np.asarray(gradient)) is not None  # an array that knows nothing is the caller's own affair
 
 
-def test_a_flow_that_was_not_found_leaves_the_gradients_of_the_last_one(mesh, airfoil):
+def test_a_flow_that_was_not_found_has_no_gradients(mesh):
+    """Not those of the flow before, which is what the solver goes on from."""
+    solver = remodel.LivingFlow()
+    first = solver.solve(mesh, mach=0.5, alpha=1.0)
+    expected = solver.gradients()["cl"]["mach"]
+    assert not solver.solve(mesh, mach=0.5, cl=6.0).converged
+    with pytest.raises(remodel.ArgumentError, match=r"^gradients: the last flow was not found \(.*\), expected one$"):
+        solver.gradients()
+    assert np.isclose(solver.solve(mesh, mach=0.5, alpha=1.0).cl, first.cl, rtol=1e-7)
+    assert np.isclose(solver.gradients()["cl"]["mach"], expected, rtol=1e-5)
+    solver.forget()
+    with pytest.raises(remodel.ArgumentError, match="^gradients: no flow was found yet"):
+        solver.gradients()
+
+
+def test_conditions_that_are_refused_leave_the_gradients_of_the_last_flow(mesh, airfoil):
     solver = remodel.LivingFlow()
     solver.solve(mesh, mach=0.4, alpha=1.0)
     first = solver.gradients()["cl"]["points"]

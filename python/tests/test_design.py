@@ -1,4 +1,5 @@
 import json
+import os
 import pickle
 
 import numpy as np
@@ -42,6 +43,18 @@ def test_a_section_of_ones_own_and_its_verification():
     assert np.allclose(result.best_design, airfoil.design[:5], atol=1e-12)
     (fresh,) = result.verified
     assert fresh["converged"] and np.isclose(fresh["cd"], result.objective, rtol=0.1)  # of half a mesh
+
+
+def test_a_section_of_ones_own_and_one_by_name_have_the_degree_of_the_problem(tmp_path):
+    own = remodel.Airfoil("rae2822", degree=7)
+    own.save(tmp_path / "own.json")
+    for airfoil in (own, "rae2822", os.fspath(tmp_path / "own.json")):
+        for degree in (3, 9):
+            asked = problem(airfoil=airfoil, degree=degree, symmetric=False, flow=[{"mach": 0.5}], designer={"evaluations": 1})
+            assert remodel.design(asked).designs.shape == (1, 2 * degree + 2)
+    without = {key: value for key, value in problem(airfoil=own, symmetric=False, flow=[{"mach": 0.5}], designer={"evaluations": 1}).items() if key != "degree"}
+    for airfoil in (own, os.fspath(tmp_path / "own.json")):
+        assert np.array_equal(remodel.design({**without, "airfoil": airfoil}).best_design, own.design)
 
 
 def half_drag(flow):
@@ -97,6 +110,49 @@ def test_what_a_function_raises_is_raised_and_a_failure_is_of_one_design():
     # CMA-ES needs no derivatives.
     cmaes = {"name": "cmaes", "evaluations": 3, "sigma": 0.005}
     assert remodel.design(problem(objective=lambda flow: flow.cd, designer=cmaes)).evaluations == 3
+
+
+@pytest.mark.parametrize("error", [KeyError("no"), KeyboardInterrupt(), SystemExit(3), remodel.ArgumentError("of my own"), ZeroDivisionError("no"), remodel.EvaluationFailed("no")])
+@pytest.mark.parametrize("later", [False, True])
+def test_what_a_function_of_a_design_raises_is_raised_and_a_failure_is_of_one_design(error, later):
+    starts = []
+
+    def of_design(design, domain):
+        starts.append(design)
+        if not later or not np.array_equal(design, starts[0]):
+            raise error
+        return -1.0, np.zeros(len(design))
+
+    asked = problem(constraints=[{"kind": "area", "of_start": 1}, {"design_function": of_design}])
+    if later and isinstance(error, remodel.EvaluationFailed):
+        result = remodel.design(asked)
+        assert [row["detail"].partition(": ")[2] or row["detail"] for row in result.rows[1:]] == ["no"] * (len(result.rows) - 1)
+        return
+    with pytest.raises(type(error)) as raised:
+        remodel.design(asked)
+    assert raised.value is error or (isinstance(error, remodel.EvaluationFailed) and str(raised.value) == "no")
+
+
+def test_a_run_is_gone_on_with_by_functions_of_its_names_alone(tmp_path):
+    few, run = {"evaluations": 1, "bounds": 0.2, "trust": 0.02}, tmp_path / "run"
+    remodel.design(problem(objective=lambda flow: (flow.cd, {"cd": 1.0}), designer=few), directory=run)
+    for changes, place in (
+        ({"objective": lambda flow: (flow.cl, {"cl": 1.0})}, "problem, objective: found a lambda with resume"),
+        ({"constraints": [{"design_function": lambda design, domain: (-1.0, 0 * design)}]}, "problem, constraint 1, design_function: found a lambda"),
+    ):
+        with pytest.raises(remodel.ArgumentError, match=place):
+            remodel.design(problem(**changes), directory=run, resume=True)
+    named = [{"design_function": lambda design, domain: (-1.0, 0 * design), "name": "never"}]
+    remodel.design(problem(constraints=named, designer=few), directory=tmp_path / "named")
+    assert remodel.design(problem(constraints=named), directory=tmp_path / "named", resume=True).evaluations == 6
+    remodel.design(problem(objective=half_drag, designer=few), directory=tmp_path / "half")
+    assert remodel.design(problem(objective=half_drag), directory=tmp_path / "half", resume=True).evaluations == 6
+
+    def other(flow):
+        return flow.cl, {"cl": 1.0}
+
+    with pytest.raises(remodel.ArgumentError, match="others: "):
+        remodel.design(problem(objective=other), directory=tmp_path / "half", resume=True)
 
 
 def test_ends_by_the_callback_and_by_what_it_raises():

@@ -4,6 +4,8 @@ import os
 import re
 from pathlib import Path
 
+import remodel
+
 SOURCE = Path(os.environ.get("REMODEL_PYTHON_TEST_SOURCE", Path(__file__).resolve().parents[2]))
 
 
@@ -15,6 +17,14 @@ def blocks_of_readme():
     blocks = blocks_of("README.md")
     assert len(blocks) == 3
     return blocks
+
+
+def test_values_of_a_flow_say_their_units_and_every_property_what_it_is():
+    for name, of_stream in (("density", "the stream's"), ("velocity_x", "speed of sound"), ("velocity_y", "speed of sound"), ("pressure", "1 / 1.4 in the stream")):
+        assert of_stream in getattr(remodel.FlowResult, name).__doc__
+    for kind in (remodel.FlowResult, remodel.PotentialFlow, remodel.CheckResult, remodel.Changes, remodel.Violation):
+        for name, member in vars(kind).items():
+            assert not isinstance(member, property) or (member.__doc__ or "").strip(), f"{kind.__name__}.{name}"
 
 
 def test_the_loop_of_the_page_on_python_loses_drag(capsys):

@@ -34,6 +34,31 @@ def test_another_programs_mesh_comes_alive(mesh, designs, tmp_path):
         assert step.preserved > 0 and one.check().valid
 
 
+def test_a_mesh_with_coefficients_is_made_of_another_programs(mesh, airfoil):
+    imported = remodel.import_mesh(remodel.FrozenMesh(mesh.points, mesh.triangles, mesh.boundaries))
+    weights = np.ones(mesh.points.shape)
+    imported.update(airfoil, boundary="airfoil")
+    with pytest.raises(remodel.ArgumentError, match=r"names 0 airfoils by coefficients, expected one: an imported mesh has polygons, and coefficients after update\(Domain\(airfoil\)\)$"):
+        imported.vjp(weights[: len(imported.points)], "airfoil")
+    imported.update(remodel.Domain(airfoil, points=60))
+    assert imported.vjp(np.ones(imported.points.shape), "airfoil").shape == (12,)
+
+
+def test_each_kind_of_mesh_says_who_reads_the_other(mesh, airfoil, tmp_path):
+    layered = remodel.generate_layered(airfoil, reynolds=1000.0, model="laminar", spacing=6.0)
+    mesh.save(tmp_path / "m.vtkhdf"), layered.save(tmp_path / "l.vtkhdf"), mesh.save(tmp_path / "m.su2")
+    with pytest.raises(remodel.FormatError, match=r"l.vtkhdf: found a mesh with layers, expected one without: LayeredMesh.load\(\) reads it$"):
+        remodel.Mesh.load(tmp_path / "l.vtkhdf")
+    for other in ("m.vtkhdf", "m.su2"):
+        with pytest.raises(remodel.FormatError, match=rf"{other}: found no layers, expected a native mesh with them: Mesh.load\(\) reads others$"):
+            remodel.LayeredMesh.load(tmp_path / other)
+    for read in (remodel.read_fields, remodel.Mesh.load, remodel.LayeredMesh.load):
+        for name in ("none.su2", "none.vtkhdf"):
+            if read is not remodel.LayeredMesh.load or name == "none.vtkhdf":
+                with pytest.raises(remodel.FileError, match=f"{name}"):
+                    read(tmp_path / name)
+
+
 def test_fields_go_with_the_mesh(mesh, tmp_path):
     fields = {"height": mesh.points[:, 1], "number": np.arange(len(mesh.triangles), dtype=float), "place": mesh.points}
     mesh.freeze().save(tmp_path / "m.vtu", fields)

@@ -19,7 +19,7 @@ NASTY = [None, 0, -1, 2**70, 3.5, np.nan, np.inf, "", "\0", "../..", b"bytes", [
 @pytest.mark.parametrize("value", NASTY, ids=lambda value: type(value).__name__)
 def test_every_argument_of_every_call(mesh, value):
     calls = [
-        lambda: remodel.Airfoil(value), lambda: remodel.Airfoil("naca:0012", value), lambda: remodel.Airfoil(upper=value, lower=value),
+        lambda: remodel.Airfoil(value), lambda: remodel.Airfoil("naca:0012").with_degree(value), lambda: remodel.Airfoil(upper=value, lower=value),
         lambda: remodel.Domain(value), lambda: remodel.Domain.polygons({"a": value}), lambda: remodel.Domain.polygons(value),
         lambda: remodel.Domain.airfoils(value), lambda: remodel.Domain.from_json(value), lambda: remodel.generate(value),
         lambda: remodel.FrozenMesh(value, value, {}), lambda: remodel.FrozenMesh(value, mesh.triangles), lambda: remodel.import_mesh(value),

@@ -22,8 +22,9 @@ def test_a_generated_mesh_is_valid(mesh):
     assert mesh.triangles.max() == len(mesh.points) - 1
 
 
-def test_a_limit_is_in_the_result(airfoil):
-    assert remodel.generate(airfoil, points=60, max_vertices=150).stopped == "vertex-budget"
+def test_a_limit_is_in_the_result_and_a_warning(airfoil):
+    with pytest.warns(UserWarning, match="^max_vertices, 150, ended refinement, the mesh is valid but below its quality"):
+        assert remodel.generate(airfoil, points=60, max_vertices=150).stopped == "vertex-budget"
 
 
 def test_arrays_are_views_of_one_memory_and_read_only(mesh):

@@ -140,6 +140,7 @@ CASES = {
     # Flows.
     "gradients before a flow": (lambda r: remodel.LivingFlow().gradients(), Argument, "gradients: no flow was found yet"),
     "a function by a field that no flow has": (lambda r: r.flow.gradients({"a": {"colour": 1.0}}), Argument, "functions, a: found 'colour'"),
+    "a column for a row": (lambda r: r.flow.gradients({"a": {"pressure": np.ones((len(r.mesh.points), 1))}}), Argument, "functions, a, pressure: found an array of shape ("),
     "functions in a list": (lambda r: r.flow.gradients(["cd"]), Type, "functions: found a list of 1, expected a dict"),
     "a model that is not there": (lambda r: remodel.LivingFlow(model="les"), Argument, "model: found 'les'"),
     "a tolerance below zero": (lambda r: remodel.LivingFlow(tolerance=-1.0).solve(r.mesh), Argument, "tolerance: found -1"),

@@ -94,6 +94,27 @@ def test_an_evaluation_that_failed_is_a_row(airfoil):
     assert result.failed_evaluations == 5 and np.isinf(result.column("objective")).sum() == 5
 
 
+def test_a_run_is_gone_on_with_by_a_function_of_its_name_alone(airfoil, tmp_path):
+    def first(design, mesh, step):
+        return float(design[0])
+
+    def other(design, mesh, step):
+        return float(design[1])
+
+    options = dict(directory=tmp_path / "run", points=40)
+    remodel.optimise(airfoil, first, evaluations=5, **options)
+    assert remodel.optimise(airfoil, first, evaluations=9, resume=True, **options).evaluations == 9
+    for function, message in ((other, "others: function"), (lambda *_: 1.0, "^objective: found a lambda with resume")):
+        with pytest.raises(remodel.ArgumentError, match=message):
+            remodel.optimise(airfoil, function, evaluations=12, resume=True, **options)
+
+
+def test_a_run_without_an_objective_says_so(airfoil):
+    with pytest.warns(UserWarning, match="^objective: no design of 5 has one that is a finite number; the first: .*finite"):
+        result = remodel.optimise(airfoil, lambda *_: float("nan"), points=40, evaluations=5)
+    assert not np.isfinite(result.objective) and result.failed_evaluations == 5
+
+
 def test_a_callback_ends_the_run(airfoil):
     assert remodel.optimise(airfoil, remodel.Airfoil("rae2822"), points=40, evaluations=500, callback=lambda row: row["evaluation"] >= 20).stopped == "interrupted"
 

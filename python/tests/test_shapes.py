@@ -17,6 +17,23 @@ def test_an_airfoil_comes_from_a_name_arrays_and_files(tmp_path):
     assert "rae2822" in remodel.catalogue()
 
 
+def test_an_airfoil_has_the_degree_that_is_asked_for(tmp_path):
+    """Of the catalogue, files of coefficients and a given section too: exactly above their own degree."""
+    own = remodel.Airfoil("rae2822")
+    own.save(tmp_path / "own.json")
+    assert own.degree == 5 and remodel.Airfoil(tmp_path / "own.json") == own
+    for shape in ("rae2822", tmp_path / "own.json"):
+        for degree, off in ((3, 3e-3), (5, 1e-15), (8, 1e-15)):
+            other = remodel.Airfoil(shape, degree=degree)
+            assert other.degree == degree and len(other.design) == 2 * degree + 2 and other == own.with_degree(degree)
+            assert abs(other.coordinates() - own.coordinates()).max() < off
+    with pytest.raises(remodel.ArgumentError, match="^degree: given with coefficients"):
+        remodel.Airfoil(upper=own.upper, lower=own.lower, degree=3)
+    for call in (lambda: remodel.Airfoil("rae2822", degree=13), lambda: own.with_degree(0)):
+        with pytest.raises(remodel.ArgumentError, match="^degree: found"):
+            call()
+
+
 def test_an_airfoil_has_the_figures_of_its_section(airfoil):
     assert abs(airfoil.thickness - 0.12) < 1e-3 and abs(airfoil.thickness_at - 0.3) < 0.01
     assert abs(airfoil.camber) < 1e-6
@@ -111,3 +128,73 @@ def test_bad_shapes_are_errors_with_their_place(tmp_path):
         remodel.Domain.polygons({"flat": np.zeros((4, 3))})
     with pytest.raises(remodel.GeometryError):
         remodel.Domain.polygons({"a": square, "b": square})
+
+
+def test_options_that_a_shape_has_no_use_for_are_refused(airfoil, tmp_path):
+    section, whole, graph, coefficients = (tmp_path / name for name in ("one.dat", "whole.json", "square.poly", "own.json"))
+    section.write_text("one\n" + rows(airfoil, 1.0, 0.0, 0.0))
+    domain = remodel.Domain(airfoil, points=60, turning_share=0.1)
+    whole.write_text(domain.to_json())
+    graph.write_text("4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n")
+    airfoil.save(coefficients)
+    of_airfoils = {"points": 60, "farfield_radius": 20.0, "farfield_points": 40, "turning_share": 0.1}
+    all_options = {**of_airfoils, "degree": 6, "crossings": "refuse", "join": 1e-10}
+    for shape, more, used in (
+        (domain, {}, ()), (airfoil, {}, of_airfoils), (coefficients, {}, of_airfoils), ("naca:0012", {}, [*of_airfoils, "degree"]),
+        ("rae2822", {}, [*of_airfoils, "degree"]), (section, {}, [*of_airfoils, "degree"]),
+        (section, {"as_given": "polyline"}, ["farfield_radius", "farfield_points"]), (whole, {}, ["join"]), (graph, {}, ["crossings", "join"]),
+    ):  # fmt: skip
+        for option, value in all_options.items():
+            if option in used:
+                remodel.Domain(shape, **more, **{option: value})
+                continue
+            with pytest.raises(remodel.ArgumentError, match=f"^{option}: given for .*, expected "):
+                remodel.Domain(shape, **more, **{option: value})
+    assert remodel.Domain("rae2822", degree=7).airfoil().degree == 7
+
+
+def test_a_mesh_follows_to_any_file_that_it_could_be_made_of(airfoil, tmp_path):
+    """update(), trial() and at() take what generate() takes: a section takes the place of the mesh's own."""
+    one, blunt, two, whole, graph = (tmp_path / name for name in ("one.dat", "blunt.dat", "two.dat", "whole.json", "square.poly"))
+    section = remodel.Airfoil("naca:2412")
+    one.write_text("one\n" + rows(section, 1.0, 0.0, 0.0))
+    mesh = remodel.generate(airfoil, points=60)
+    by_file, by_airfoil = mesh.copy(), mesh.copy()
+    by_file.update(one), by_airfoil.update(remodel.Airfoil(one))
+    assert by_file.domain == by_airfoil.domain and np.array_equal(by_file.points, by_airfoil.points)
+    with mesh.trial(str(one)) as trial:
+        assert trial.step.triangles == len(by_file)
+    assert np.array_equal(by_file.at(one).points, by_file.points)
+    section.save(tmp_path / "one.json")
+    by_file.update(tmp_path / "one.json")
+    assert by_file.domain.airfoil() == section
+    blunt.write_text("blunt\n" + rows(section, 2.0, 5.0, 0.0))
+    with pytest.warns(UserWarning, match="blunt.dat"):
+        by_file.update(blunt, boundary="airfoil")
+    two.write_text("two\n" + rows(airfoil, 1.0, 0.0, 0.0) + "\n999.0 999.0\n" + rows(airfoil, 0.3, 1.02, -0.03))
+    with pytest.warns(UserWarning, match="has 2 elements"):
+        elements = remodel.Domain(two, points=80, farfield_radius=10)
+        pair = remodel.generate(elements)
+    with pytest.warns(UserWarning, match="has 2 elements"):
+        assert pair.update(two).triangles == len(pair) and pair.domain.loops.keys() == elements.loops.keys()
+    assert all(np.allclose(pair.domain.loops[name], elements.loops[name], atol=1e-3) for name in ("two", "two_2"))
+    whole.write_text(by_airfoil.domain.to_json())
+    mesh.update(whole)
+    assert mesh.domain == by_airfoil.domain
+    graph.write_text("4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n")
+    assert abs(mesh.update(graph).triangles - len(remodel.generate(graph))) < 20
+    for wrong, match in ((two, "^boundary: given with .*two.dat', a whole domain"), ("-", "^shape: found '-'"), (3, "^shape: found int"), (tmp_path / "none.dat", "none.dat: cannot be read")):
+        with pytest.raises(remodel.Error, match=match):
+            remodel.generate(airfoil, points=40).update(wrong, boundary="airfoil")
+
+
+def test_layers_follow_to_the_section_of_a_file(airfoil, tmp_path):
+    file = tmp_path / "one.dat"
+    file.write_text("one\n" + rows(remodel.Airfoil("naca:1312"), 1.0, 0.0, 0.0))
+    mesh = remodel.generate_layered(airfoil, reynolds=1000.0, model="laminar", spacing=6.0)
+    expected = mesh.copy()
+    mesh.update(file), expected.update(remodel.Airfoil(file))
+    assert np.array_equal(mesh.freeze().points, expected.freeze().points)
+    file.write_text("two\n" + rows(airfoil, 1.0, 0.0, 0.0) + "\n999.0 999.0\n" + rows(airfoil, 0.3, 1.02, -0.03))
+    with pytest.raises(remodel.ArgumentError, match="^shape: found .*, a file of 2 elements, expected one section"):
+        mesh.update(file)

@@ -40,6 +40,22 @@ def test_sections_may_be_airfoils_and_their_outlines_come_with_the_rows():
     assert (np.abs(thickness[:, [0, -1]]) < 1e-12).all()
 
 
+def test_rows_without_a_flow_have_what_was_asked_for_and_nothing_else(tmp_path):
+    lifts = remodel.sweep(PROBLEM | {"sections": ["naca:0012"], "conditions": {"mach": 0.5, "cl": [1, 3]}}, directory=tmp_path / "s")
+    np.testing.assert_array_equal(lifts.asked, [1, 3])
+    np.testing.assert_array_equal(lifts.converged, [True, False])
+    of_a_flow = ("alpha", "cl", "cd", "cm", "cd_pressure", "cd_friction")
+    assert all(np.isfinite(getattr(lifts, name)[0]) and np.isnan(getattr(lifts, name)[1]) for name in of_a_flow)
+    assert np.isnan(lifts.y_plus_max).all()
+    header, _, last = (tmp_path / "s" / "table.csv").read_text().splitlines()
+    row = dict(zip(header.split(","), last.split(",")))
+    assert row["asked"] == "3" and not any(row[name] for name in ("alpha_deg", "cl", "cd", "cm", "cd_pressure", "cd_friction", "y_plus_max"))
+    crossing = remodel.Airfoil(upper=[-0.1, 0.1], lower=[0.1, -0.1])
+    angles = remodel.sweep(PROBLEM | {"sections": [crossing, "naca:0012"], "conditions": {"mach": 0.5, "alpha_deg": [0, 2]}})
+    np.testing.assert_array_equal(angles.alpha, [0, 2, 0, 2])  # which were given
+    assert np.isnan(angles.cl[:2]).all() and np.isfinite(angles.cl[2:]).all() and angles.status[0] == "refused"
+
+
 def test_a_directory_is_gone_on_with_and_extended(tmp_path):
     seen = []
     first = remodel.sweep(PROBLEM | {"chain": 1}, directory=tmp_path / "s", threads=1, callback=lambda figures: seen.append(figures) or True)

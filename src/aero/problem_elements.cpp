@@ -31,19 +31,22 @@ void read_variables(const Json& json, const std::string& where, DesignElement& e
   element.y = range_of(keys, json, where, "y");
 }
 
-DesignElement element_of(const Json& entry, const std::string& where, int degree,
+DesignElement element_of(const Json& entry, const std::string& where, const std::optional<int>& degree,
                          const std::filesystem::path& directory, std::vector<std::string>& warnings) {
   const Keys keys(entry, where, {"name", "airfoil", "placement", "variables"});
-  DesignElement element{.name = keys.get<std::string>("name"),
-                        .airfoil = section_named(keys, "airfoil", degree, directory, warnings)};
+  DesignElement element{.name = keys.get<std::string>("name"), .airfoil = {}};
   if (keys.has("placement")) element.placement = placement_of(entry.at("placement"), where + ", placement");
   if (keys.has("variables")) read_variables(entry.at("variables"), where + ", variables", element);
+  element.airfoil = element.coefficients
+                        ? start_named(keys, "airfoil", degree, usual_degree, directory, warnings)
+                        : section_named(keys, "airfoil", degree.value_or(usual_degree), directory, warnings);
   return element;
 }
 
 }  // namespace
 
-std::vector<DesignElement> read_elements(const Keys& problem, const std::string& file, int degree,
+std::vector<DesignElement> read_elements(const Keys& problem, const std::string& file,
+                                         const std::optional<int>& degree,
                                          std::vector<std::string>& warnings) {
   std::vector<DesignElement> elements;
   for (const Json& entry : problem.list("elements", 20))

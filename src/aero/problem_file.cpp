@@ -197,18 +197,19 @@ DesignProblem parse_design_problem(const std::string& text, const std::string& f
                    "target", "constraints", "constraint_tolerance", "designer", "start", "verify"});
   const std::filesystem::path directory = std::filesystem::path(file).parent_path();
   DesignProblem problem{.text = json.dump()};
-  const int degree = keys.whole<int>("degree", 5, 1, 30);
+  const int degree = keys.whole<int>("degree", usual_degree, 1, 30);
+  const std::optional<int> given = keys.has("degree") ? std::optional(degree) : std::nullopt;
   if (keys.has("airfoil") + keys.has("elements") + keys.has("space") != 1)
     keys.fail("expected one of 'airfoil', 'elements' and 'space'");
   if (keys.has("airfoil")) {
-    problem.airfoil = section_named(keys, "airfoil", degree, directory, problem.warnings);
+    problem.airfoil = start_named(keys, "airfoil", given, degree, directory, problem.warnings);
     problem.symmetric = keys.get<bool>("symmetric", false);
   }
   read_points(keys, file, problem);
   read_mesh_options(json, file, problem);
   if (keys.has("elements")) {
     if (keys.has("symmetric")) keys.fail("found 'symmetric' with 'elements', expected 'airfoil'");
-    problem.elements = read_elements(keys, file, degree, problem.warnings);
+    problem.elements = read_elements(keys, file, given, problem.warnings);
   }
   if (keys.has("space")) read_deformation(keys, json, file, problem);
   problem.objective = keys.get<std::string>("objective");

@@ -108,6 +108,8 @@ class Keys {
   std::string where_;
 };
 
+constexpr int usual_degree = 5;  // of a design problem's sections
+
 // The airfoil that a design problem in this directory calls by this name: a path leads on from the directory,
 // whatever the program's own is.
 inline CstFit airfoil_beside(const std::filesystem::path& directory, const std::string& name, int degree) {
@@ -121,7 +123,7 @@ inline CstFit airfoil_beside(const std::filesystem::path& directory, const std::
 }
 
 // The section that a key names; `warnings` gets what its file lost. Fits are of degree 8 at most; what is
-// beyond is raised, exactly.
+// beyond is raised, exactly. Coefficients of a higher degree stay as they are.
 inline CstAirfoil section_named(const Keys& keys, const char* key, int degree,
                                 const std::filesystem::path& directory, std::vector<std::string>& warnings) {
   const std::string name = keys.get<std::string>(key);
@@ -132,6 +134,16 @@ inline CstAirfoil section_named(const Keys& keys, const char* key, int degree,
   } catch (const Error& error) {
     keys.fail("as '" + std::string(key) + "', " + error.what());
   }
+}
+
+// The same of a start, of which a design has as many numbers: coefficients of a file have the degree that the
+// problem gives, if it does.
+inline CstAirfoil start_named(const Keys& keys, const char* key, const std::optional<int>& given, int usual,
+                              const std::filesystem::path& directory, std::vector<std::string>& warnings) {
+  const CstAirfoil start = section_named(keys, key, given.value_or(usual), directory, warnings);
+  const bool by_coefficients =
+      std::filesystem::path(keys.get<std::string>(key)).extension() == ".json";  // fits may have another one
+  return given && by_coefficients ? with_degree(start, *given) : start;
 }
 
 // The object of a key, empty where there is none.

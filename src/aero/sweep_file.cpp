@@ -27,10 +27,12 @@ Sampling sampling_of(const Keys& keys) {
   return choice(keys, "method", {Sampling::sobol, Sampling::latin_hypercube});
 }
 
+constexpr int usual_sweep_degree = 8;
+
 // Sections, one entry of the file after the other.
 class SectionReader {
  public:
-  SectionReader(const std::string& file, int degree, SweepProblem& problem)
+  SectionReader(const std::string& file, std::optional<int> degree, SweepProblem& problem)
       : file_(file), directory_(fs::path(file).parent_path()), degree_(degree), problem_(problem) {}
 
   void read(const Json& entry) {
@@ -63,7 +65,7 @@ class SectionReader {
   // A file that is no airfoil is a section that is not there; a name that nothing has is a mistake.
   void add_named(const std::string& name, const std::string& where) {
     try {
-      const CstFit fit = airfoil_beside(directory_, name, degree_);
+      const CstFit fit = airfoil_beside(directory_, name, degree_.value_or(usual_sweep_degree));
       problem_.warnings.insert(problem_.warnings.end(), fit.warnings.begin(), fit.warnings.end());
       add({.name = name, .airfoil = fit.airfoil});
     } catch (const Error& error) {
@@ -118,7 +120,8 @@ class SectionReader {
   void add_samples(const Keys& keys) {
     const auto count = keys.whole<std::size_t>("samples", {}, 1, most_sections);
     const std::string around = keys.get<std::string>("around");
-    const CstAirfoil start = section_named(keys, "around", degree_, directory_, problem_.warnings);
+    const CstAirfoil start =
+        start_named(keys, "around", degree_, usual_sweep_degree, directory_, problem_.warnings);
     const double range = keys.get<double>("range");
     if (!(range > 0.0 && range <= 1.0))
       keys.fail("found " + shown(range) + " as 'range', expected a number above 0, at most 1");
@@ -136,7 +139,7 @@ class SectionReader {
 
   const std::string& file_;
   fs::path directory_;
-  int degree_;
+  std::optional<int> degree_;
   SweepProblem& problem_;
   std::size_t number_ = 0;
 };
@@ -332,7 +335,9 @@ std::vector<Point> read_template(const Keys& keys, const Json& json, const std::
 
 void read_sections(const Keys& keys, const std::string& file, SweepProblem& problem) {
   keys.require("sections");
-  SectionReader reader(file, keys.whole<int>("degree", 8, 1, 30), problem);
+  std::optional<int> degree;
+  if (keys.has("degree")) degree = keys.whole<int>("degree", {}, 1, 30);
+  SectionReader reader(file, degree, problem);
   for (const Json& entry : keys.list("sections", most_entries)) reader.read(entry);
   if (problem.sections.empty()) keys.fail("found no sections, expected one at least");
   if (std::ranges::none_of(problem.sections, [](const SweepSection& s) { return s.problem.empty(); }))

@@ -112,6 +112,7 @@ SweepFlow flow_from(const Json& json) {
   p.reason = take().get<std::string>();
   for (double* value : {&p.alpha_deg, &p.cl, &p.cd, &p.cm, &p.cd_pressure, &p.cd_friction, &p.y_plus_max})
     *value = number_or_none(take());
+  if (!p.converged) p.cl = PolarPoint::none;  // the lift that was asked for is in `asked`
   p.newton_steps = take().get<int>();
   p.residual = number_or_none(take());
   p.start = named(take().get<std::string>(), {FlowStart::cold, FlowStart::carried, FlowStart::refactored});

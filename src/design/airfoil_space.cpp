@@ -13,22 +13,6 @@
 #include "remodel/error.h"
 
 namespace remodel {
-namespace {
-
-// Bernstein degree elevation by one: b_i = i/(n+1) a_{i-1} + (1 - i/(n+1)) a_i.
-void raise(std::vector<double>& coefficients) {
-  const std::size_t n = coefficients.size();  // degree + 1 of the old and the degree of the new
-  std::vector<double> raised(n + 1);
-  raised.front() = coefficients.front();
-  raised.back() = coefficients.back();
-  for (std::size_t i = 1; i < n; ++i) {
-    const double share = static_cast<double>(i) / static_cast<double>(n);
-    raised[i] = share * coefficients[i - 1] + (1.0 - share) * coefficients[i];
-  }
-  coefficients = std::move(raised);
-}
-
-}  // namespace
 
 void require_same_family(const CstAirfoil& from, const CstAirfoil& to) {
   if (from.e1 != to.e1 || from.e2 != to.e2 || from.te_upper != to.te_upper || from.te_lower != to.te_lower)
@@ -37,15 +21,6 @@ void require_same_family(const CstAirfoil& from, const CstAirfoil& to) {
   for (const auto& [airfoil, name] : {std::pair{&from, "start airfoil"}, std::pair{&to, "target airfoil"}}) {
     if (!surfaces_apart(*airfoil)) throw Error(ErrorCode::geometry, name, "its surfaces touch or cross");
   }
-}
-
-CstAirfoil raise_degree(const CstAirfoil& airfoil, int degree) {
-  CstAirfoil result = airfoil;
-  while (result.degree() < degree) {
-    raise(result.upper);
-    raise(result.lower);
-  }
-  return result;
 }
 
 std::vector<double> coefficients_of(const CstAirfoil& airfoil) {

@@ -74,6 +74,7 @@ TEST(FieldFiles, AFileWithoutFieldsHasNoneAndTheSameBytesAsBefore) {
   }
   write_mesh(mesh, scratch / "m.su2");
   EXPECT_TRUE(read_fields(scratch / "m.su2").empty());
+  EXPECT_THROW(read_fields(scratch / "none.su2"), Error);
 }
 
 TEST(FieldFiles, TwoComponentsAreThreeInGmshFilesAndTwoElsewhere) {

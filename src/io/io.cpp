@@ -103,6 +103,7 @@ std::vector<Field> read_fields(const std::filesystem::path& file) {
     case MeshFormat::foam:
       break;
     case MeshFormat::su2:
+      read_text(file);  // which has none, but has to be there
       return {};
     case MeshFormat::msh:
       return io::parse_msh_fields(read_text(file), name);

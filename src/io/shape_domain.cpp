@@ -253,10 +253,50 @@ ShapesDomain file_domain(const std::string& file, const ShapeReading& reading) {
   return result;
 }
 
+// Whether the same parameters are the same points: those of polylines and splines are counted by their
+// points.
+bool has_parameters_of(const Shape& a, const Shape& b) {
+  if (a.index() != b.index()) return false;
+  const auto count = [](const Shape& shape) {
+    if (const auto* polyline = std::get_if<Polyline>(&shape)) return polyline->points.size();
+    if (const auto* spline = std::get_if<Spline>(&shape)) return spline->points.size();
+    return std::size_t{0};
+  };
+  return count(a) == count(b);
+}
+
 }  // namespace
 
 bool is_whole_domain(const std::string& shape) {
   return holds_graph(shape) || is_domain_file(shape);
+}
+
+AirfoilDomainOptions discretisation_of(const Domain& domain) {
+  AirfoilDomainOptions options;
+  for (std::size_t i = 0; i < domain.curve_count(); ++i) {
+    const Curve& curve = domain.curve(i);
+    const int points = static_cast<int>(curve.parameters.size());
+    if (std::holds_alternative<CstAirfoil>(curve.shape)) options.points = points;
+    if (const auto* circle = std::get_if<Arc>(&curve.shape)) {
+      options.farfield_radius = circle->radius;
+      options.farfield_centre = circle->centre;
+      options.farfield_points = points;
+    }
+  }
+  return options;
+}
+
+bool take_stations(Loop& loop, const Domain& before) {
+  for (const Loop& old : before.loops) {
+    const auto alike = [](const Curve& a, const Curve& b) {
+      return a.name == b.name && has_parameters_of(a.shape, b.shape);
+    };
+    if (!std::equal(loop.curves.begin(), loop.curves.end(), old.curves.begin(), old.curves.end(), alike))
+      continue;
+    for (std::size_t c = 0; c < loop.curves.size(); ++c) loop.curves[c].parameters = old.curves[c].parameters;
+    return true;
+  }
+  return false;
 }
 
 ShapesDomain domain_of_shapes(const std::vector<ShapeOfDomain>& shapes, const AirfoilDomainOptions& options,

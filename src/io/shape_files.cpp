@@ -1,5 +1,6 @@
 #include "remodel/shape_files.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "remodel/error.h"
@@ -12,6 +13,21 @@ namespace {
 constexpr std::size_t largest_airfoil_file = std::size_t{16} << 20;
 
 constexpr std::string_view naca_prefix = "naca:";
+
+// Of the catalogue's own fit, and of a lower degree's to that.
+void add_errors(const CatalogueEntry& entry, CstFit& fit) {
+  fit.max_error = entry.fit_max_error, fit.rms_error = entry.fit_rms_error;
+  if (fit.airfoil.degree() >= entry.degree) return;
+  constexpr int stations = 400;
+  double largest = 0.0, squares = 0.0;
+  const CstAirfoil own = entry.airfoil();
+  for (int i = 0; i <= stations; ++i) {
+    const double t = static_cast<double>(i) / stations, off = fit.airfoil.at(t).y - own.at(t).y;
+    largest = std::max(largest, std::abs(off)), squares += off * off;
+  }
+  fit.max_error += largest;
+  fit.rms_error = std::hypot(fit.rms_error, std::sqrt(squares / (stations + 1)));
+}
 
 // By extension, or what comes through a pipe without one by its content.
 bool is_json(const std::filesystem::path& file) {
@@ -60,7 +76,7 @@ CstFit load_fit(const std::string& shape, int degree, TrailingEdge trailing_edge
   if (!names_a_file(shape)) {
     CstFit fit{.airfoil = named_airfoil(shape, degree)};
     for (const CatalogueEntry& entry : airfoil_catalogue())
-      if (entry.name == shape) fit.max_error = entry.fit_max_error, fit.rms_error = entry.fit_rms_error;
+      if (entry.name == shape) add_errors(entry, fit);
     return fit;
   }
   const std::filesystem::path file(shape);

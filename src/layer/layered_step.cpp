@@ -201,6 +201,10 @@ void LayeredTrial::keep() {
 }
 
 LayeredMesh mesh_at(const LayeredMesh& mesh, const Domain& design) {
+  return mesh_at(mesh, design, mesh.outer().held() ? Strategy::reference : Strategy::chain);
+}
+
+LayeredMesh mesh_at(const LayeredMesh& mesh, const Domain& design, Strategy strategy) {
   if (mesh.empty())
     throw Error(ErrorCode::argument, "mesh", "found an empty one, expected one that was generated or read");
   validate(design);
@@ -212,7 +216,7 @@ LayeredMesh mesh_at(const LayeredMesh& mesh, const Domain& design) {
   auto columns = std::make_shared<LayeredMesh::Columns>(own);
   static_cast<LayerColumns&>(*columns) = columns_of(walls, own.layered, own.fans, mesh.options_, own.levels);
   LayeredMesh result;
-  result.outer_ = mesh_at(mesh.outer_, outside_of(design, *columns, own.levels));
+  result.outer_ = mesh_at(mesh.outer_, outside_of(design, *columns, own.levels), strategy);
   result.walls_ = design, result.options_ = mesh.options_, result.columns_ = std::move(columns);
   return result;
 }

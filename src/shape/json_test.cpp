@@ -151,7 +151,7 @@ TEST(LoadAirfoil, TellsFilesSectionsAndNamesApart) {
   EXPECT_EQ(load_airfoil(file.string(), 5), design);
   std::filesystem::remove(file);
   EXPECT_EQ(load_airfoil("naca:2412", 6), fit_cst(naca_airfoil("2412"), 6).airfoil);
-  EXPECT_EQ(load_airfoil("rae2822", 6).degree(), 5);
+  EXPECT_EQ(load_airfoil("rae2822", 6).degree(), 6);
 }
 
 TEST(LoadAirfoil, SaysWhatItKnowsWhereTheNameIsUnknown) {

@@ -140,15 +140,27 @@ std::vector<double> MeshDerivative::vjp(std::span<const Point> by_points) const 
   return result;
 }
 
-Mesh mesh_at(const Mesh& mesh, const Domain& design) {
+Mesh mesh_at(const Mesh& mesh, const Domain& design, Strategy strategy) {
   Mesh result = mesh;
-  if (!one_to_one(mesh.domain(), design) ||
-      !remodel(result, design, {.method = Method::specialised, .strategy = Strategy::chain}).full_adjustment)
+  const bool along = strategy == Strategy::reference;
+  RemodelOptions options{.method = Method::specialised,
+                         .strategy = along ? Strategy::reference : Strategy::chain,
+                         .regenerate = !along};
+  if (mesh.held()) options.delaunay_slack_deg = mesh.delaunay_slack_deg();
+  const auto follows = [&] {
+    const RemodelResult step = remodel(result, design, options);
+    return along ? step.held : step.full_adjustment;
+  };
+  if (!one_to_one(mesh.domain(), design) || !follows())
     throw TopologyChanged(
         ErrorCode::geometry, "design",
         "the mesh cannot follow with the connectivity that it has, expected a design nearer "
         "to the mesh's own");
   return result;
+}
+
+Mesh mesh_at(const Mesh& mesh, const Domain& design) {
+  return mesh_at(mesh, design, mesh.held() ? Strategy::reference : Strategy::chain);
 }
 
 }  // namespace remodel

@@ -238,5 +238,26 @@ TEST(MeshAt, KeepsTheConnectivityOrSaysThatItCannot) {
   EXPECT_THROW(mesh_at(mesh, airfoil_domain(near, {.points = 62})), TopologyChanged);
 }
 
+TEST(MeshAt, OfAHeldMeshIsTheMorphOfItsReference) {
+  const CstAirfoil airfoil = named_airfoil("naca:0012", 5);
+  Mesh mesh = generate(airfoil_domain(airfoil, {.points = 60}), {.gradation = 1.2}).mesh;
+  CstAirfoil now = airfoil, next = airfoil;
+  now.upper[2] += 0.02, now.lower[1] -= 0.01;
+  next = now, next.upper[1] += 1e-3;
+  const Domain design = airfoil_domain(next, {.points = 60});
+  const RemodelOptions reference{.strategy = Strategy::reference};
+  Mesh own = mesh;
+  ASSERT_TRUE(remodel(own, design, reference).held);  // it is a reference itself
+  EXPECT_EQ(mesh_at(mesh, design, Strategy::reference).freeze().points, own.freeze().points);
+  ASSERT_TRUE(remodel(mesh, airfoil_domain(now, {.points = 60}), reference).held);
+  Mesh stepped = mesh;
+  ASSERT_TRUE(remodel(stepped, design, reference).held);
+  const Mesh at = mesh_at(mesh, design);
+  EXPECT_EQ(at.freeze().points, stepped.freeze().points);
+  EXPECT_EQ(at.freeze().vertex_keys, mesh.freeze().vertex_keys);
+  EXPECT_TRUE(at.held());
+  EXPECT_THROW(mesh_at(mesh, airfoil_domain(named_airfoil("naca:6640", 5), {.points = 60})), TopologyChanged);
+}
+
 }  // namespace
 }  // namespace remodel
