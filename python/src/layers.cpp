@@ -53,14 +53,22 @@ LayersPointer layers_generated(const py::object& shape, const std::optional<doub
                                const std::optional<double>& thickness, double growth,
                                const std::vector<std::string>& walls, double spacing, double gradation,
                                double farfield_radius, int farfield_points, std::uint32_t max_vertices,
-                               const std::optional<double>& wake, double wake_angle) {
-  const LayerOptions layer = layer_of(reynolds, model, first_height, thickness, growth, walls);
+                               const std::optional<double>& wake, double wake_angle,
+                               const std::optional<double>& reference_length) {
+  LayerOptions layer = layer_of(reynolds, model, first_height, thickness, growth, walls);
   const WallSpacing stations = wall_spacing(spacing);
   ShapesDomain given =
       domain_of(shape, {.farfield_radius = farfield_radius, .farfield_points = farfield_points});
   Domain& domain = given.domain;
-  if (given.in_farfield) space_walls(domain, stations.times(given.chord));
-  if (const auto line = wake_line(wake, wake_angle)) add_wake(domain, *line, layer);
+  const double chord = reference_length.value_or(given.chord);
+  if (!(chord > 0.0 && std::isfinite(chord)))
+    throw Error(ErrorCode::argument, "reference_length", "expected more than 0");
+  layer.first_height *= chord, layer.thickness *= chord;
+  if (given.in_farfield) space_walls(domain, stations.times(chord));
+  if (auto line = wake_line(wake, wake_angle)) {
+    line->length *= chord, line->first *= chord, line->most *= chord;
+    add_wake(domain, *line, layer);
+  }
   LayeredGenerateResult result = interruptible([&](StepObserver& observer) {
     return generate_layered(domain, layer, {.gradation = gradation, .max_vertices = max_vertices}, &observer);
   });
@@ -278,12 +286,13 @@ void add_layers(py::module_& module) {
   add_layered_changes(module);
   add_layered_mesh(module);
   const LayerOptions usual;
-  module.def("generate_layered", &layers_generated, "shape"_a, py::kw_only(), "reynolds"_a = py::none(),
-             "model"_a = "sa", "first_height"_a = py::none(), "thickness"_a = py::none(),
-             "growth"_a = usual.growth, "walls"_a = std::vector<std::string>(), "spacing"_a = 1.0,
-             "gradation"_a = 8.0, "farfield_radius"_a = 25.0, "farfield_points"_a = 50,
-             "max_vertices"_a = QualityOptions{}.max_vertices, "wake"_a = py::none(), "wake_angle"_a = 0.0,
-             R"(A mesh with layers on its walls, of a Domain or around an Airfoil (or the name of one).
+  module.def(
+      "generate_layered", &layers_generated, "shape"_a, py::kw_only(), "reynolds"_a = py::none(),
+      "model"_a = "sa", "first_height"_a = py::none(), "thickness"_a = py::none(), "growth"_a = usual.growth,
+      "walls"_a = std::vector<std::string>(), "spacing"_a = 1.0, "gradation"_a = 8.0,
+      "farfield_radius"_a = 25.0, "farfield_points"_a = 50, "max_vertices"_a = QualityOptions{}.max_vertices,
+      "wake"_a = py::none(), "wake_angle"_a = 0.0, "reference_length"_a = py::none(),
+      R"(A mesh with layers on its walls, of a Domain or around an Airfoil (or the name or file of one).
 
 reynolds: of a chord; it gives heights and thickness for the model, 'laminar' (the first cell a 500th of 5 / sqrt(Re)) or
 'sa' (y+ 1 on a flat plate, a 150th of that at most).
@@ -292,7 +301,8 @@ below, 1.02 to 2. walls: names of the walls that get a layer (unless given all h
 inlet, outlet or symmetry plane all else); they may end at such openings. spacing: the distances between
 stations over the usual ones (0.0015 chords at both edges, 0.008 at most); a Domain has its own stations. gradation: as
 generate()'s. wake: the length of a line of fine triangles behind the trailing edge, in chords, and wake_angle its angle
-in degrees; updates leave it where it is. docs/layers.md has what to choose. Raises ArgumentError and GeometryError; Ctrl-C ends it.)");
+in degrees; updates leave it where it is. reference_length: the chord that all of these are by, in units of the domain,
+as solve_flow() has it: 1 unless given, of files in their own coordinates the longest chord. docs/layers.md has what to choose. Raises ArgumentError and GeometryError; Ctrl-C ends it.)");
 }
 
 }  // namespace remodel::python

@@ -290,3 +290,23 @@ def test_a_pickled_mesh_goes_on_as_a_copy_does(tmp_path):
 def test_misuse_is_answered_by_one_of_our_exceptions(call, message):
     with pytest.raises(remodel.Error, match=message):
         call()
+
+
+def test_a_layer_is_by_the_reference_length(tmp_path):
+    section = remodel.Airfoil("rae2822")
+    (tmp_path / "big.dat").write_text("big\n" + "\n".join(f"{10 + 250 * x:.6f} {5 + 250 * y:.6f}" for x, y in section.coordinates(121)))
+    with pytest.warns(UserWarning, match="longest chord"):
+        domain = remodel.Domain(tmp_path / "big.dat", points=150, keep_coordinates=True)
+    small = remodel.generate_layered(section, reynolds=2000, model="laminar", growth=1.3)
+    big = remodel.generate_layered(domain, reynolds=2000, model="laminar", growth=1.3, reference_length=250)
+    assert abs(big.first_height / small.first_height - 250) < 1e-6
+    assert abs(big.thickness / small.thickness - 250) < 5
+    with pytest.raises(remodel.ArgumentError, match="reference_length"):
+        remodel.generate_layered(section, reynolds=2000, reference_length=0)
+
+
+def test_cells_that_lie_on_each_other_are_refused():
+    mesh = remodel.generate("naca:2412", points=60).freeze()
+    doubled = remodel.FrozenMesh(mesh.points, np.r_[mesh.triangles, mesh.triangles[:1]], mesh.boundaries)
+    with pytest.raises(remodel.ArgumentError, match="lie on each other"):
+        remodel.solve_flow(doubled, mach=0.5)

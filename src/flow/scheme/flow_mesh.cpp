@@ -66,7 +66,7 @@ FlowMesh::FlowMesh(std::vector<Point> points, std::vector<Cell> cells,
     if (ring(v).empty() && !is_image(v))
       throw Error(ErrorCode::argument, source,
                   "point " + std::to_string(v) + " is of no triangle, expected every point to be of one");
-  if (has_images()) require_sides(source);
+  require_sides(source);
   make_boundary(boundaries, source);
   require_free_ends(source);
   link_walls();
@@ -134,8 +134,8 @@ void FlowMesh::require_apart(const DualEdge& edge, std::uint32_t p, std::uint32_
                   ", which is a neighbour of both, expected three rows of cells or more");
 }
 
-// Two cells at most meet at an edge, one on either side: periodic boundaries have the domain on one side
-// each, and not on the same one.
+// Two cells at most meet at an edge, one on either side: cells do not lie on each other, and periodic
+// boundaries have the domain on one side each, and not on the same one.
 void FlowMesh::require_sides(const std::string& source) const {
   std::vector<std::array<int, 2>> cells(edges_.size(), {0, 0});
   for (std::size_t t = 0; t < cells_.size(); ++t)
@@ -144,11 +144,15 @@ void FlowMesh::require_sides(const std::string& source) const {
       ++cells[e][original(cells_[t][i]) == edges_[e].a ? 0 : 1];
     }
   for (std::size_t e = 0; e < edges_.size(); ++e)
-    if (cells[e][0] > 1 || cells[e][1] > 1)
+    if (cells[e][0] > 1 || cells[e][1] > 1) {
+      const std::string ends =
+          "from point " + std::to_string(edges_[e].place[0]) + " to " + std::to_string(edges_[e].place[1]);
       throw Error(ErrorCode::argument, source,
-                  "the periodic boundaries at the edge from point " + std::to_string(edges_[e].place[0]) +
-                      " to " + std::to_string(edges_[e].place[1]) +
-                      " have cells on the same side, expected the domain to lie between them");
+                  has_images()
+                      ? "the periodic boundaries at the edge " + ends +
+                            " have cells on the same side, expected the domain to lie between them"
+                      : "cells lie on each other at the edge " + ends + ", expected one on each side");
+    }
 }
 
 // Walls and planes of symmetry end at no periodic boundary: what they are made of goes on beyond it.
