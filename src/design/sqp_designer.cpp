@@ -183,7 +183,9 @@ void SqpDesigner::propose() {
     elastic_ *= growth;
     solution = search();
   }
+  const double of_last_design = penalty_;  // it falls once a design, however many boxes are tried
   const auto judge_model = [&] {
+    penalty_ = of_last_design;
     settle_penalty(step, solution.multipliers);
     promised_ = -model(step);
   };
