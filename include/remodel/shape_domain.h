@@ -19,8 +19,8 @@ struct ShapeReading {
   int degree = 5;                    // of the fits of coordinate files and named sections, 2 to 12
   bool close_trailing_edge = false;  // of a coordinate file, as fit_cst_apart() does
   std::optional<OutlineCurve> as_given = std::nullopt;  // no fit: a curve through the points of the file
-  // Of coordinate files: their place, incidence and units, with the far field around all of them. Otherwise a
-  // file of one section is moved to the origin and scaled to a chord of 1; one of several elements is not.
+  // Coordinate files keep their place, incidence and units, with the far field around all of them. Otherwise
+  // a file of one section is moved to the origin and scaled to a chord of 1; one of several elements is not.
   bool keep_coordinates = false;
   bool farfield_stays = false;              // as it is given, around kept coordinates too
   Crossings crossings = Crossings::insert;  // of a planar graph
