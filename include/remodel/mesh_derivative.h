@@ -82,9 +82,8 @@ class TopologyChanged : public Error {
 // the quality promised; of a held mesh the morph of its reference, with the slack that it has. Throws
 // TopologyChanged where there is no such mesh, and Error (geometry) as remodel() does.
 Mesh mesh_at(const Mesh& mesh, const Domain& design);
-// The same by a strategy, as the table above has the interior. By Strategy::reference it moves along, whether
-// the mesh is held or a reference itself. By any other it stays, which a held mesh has only where its interior
-// lies as the reference's.
+// This goes the way of a strategy, as the table above has it. With Strategy::reference the interior moves
+// along, whether the mesh is held or a reference itself. With any other one it stays where it is.
 Mesh mesh_at(const Mesh& mesh, const Domain& design, Strategy strategy);
 
 }  // namespace remodel

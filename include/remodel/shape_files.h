@@ -25,12 +25,13 @@ std::vector<Point> moved_to_origin(const AirfoilOutline& outline);
 
 // SHAPE of the command line: a coordinate file, a .json file of CST coefficients, or what named_airfoil()
 // takes. What exists as a file, contains '/' or '.', or is '-' (standard input) is a file. degree and
-// trailing_edge are used for coordinate files, as fit_cst_apart() takes them; degree as named_airfoil() does too.
+// trailing_edge are used for coordinate files, as fit_cst_apart() takes them; degree as named_airfoil() does
+// too.
 CstAirfoil load_airfoil(const std::string& shape, int degree,
                         TrailingEdge trailing_edge = TrailingEdge::kept);
 // This is load_airfoil() with what is known of the fit: its errors, the frame of a coordinate file, and
-// warnings, which begin with the file's name. Errors are those of the catalogue's table for its names, with what
-// a lower degree adds, and 0 for a .json file.
+// warnings, which begin with the file's name. Errors are those of the catalogue's table for its names, with
+// what a lower degree adds, and 0 for a .json file.
 CstFit load_fit(const std::string& shape, int degree, TrailingEdge trailing_edge = TrailingEdge::kept);
 // True if a SHAPE is a coordinate file: by its name, or what comes through a pipe by its content.
 bool is_coordinate_file(const std::string& shape);
