@@ -22,7 +22,8 @@ double height_at_walls(const FrictionMesh& mesh) {
 
 // Whether the cells at the wall are low enough: for the turbulence, and for telling friction from pressure.
 void add_height_warnings(const FrictionWarningInputs& of, std::vector<std::string>& warnings) {
-  constexpr double wanted = 1.0, tolerated = 2.0;
+  // Up to 4 drag is .6 % too much (docs/viscous.md); a sublayer ends at 5.
+  constexpr double wanted = 1.0, tolerated = 5.0;
   // The part falls with the height to the power of 3/2 (NACA 0012, laminar, Re 500 and 5,000, Mach 0.01 to
   // 0.3).
   constexpr double wanted_across = 0.01, tolerated_across = 0.02;
