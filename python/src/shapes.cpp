@@ -435,8 +435,9 @@ std::vector<std::size_t> airfoil_loops(const Domain& domain, const std::string& 
 }
 
 void warn(const std::vector<std::string>& sentences) {
+  // Level 2: of whoever called the function of remodel/_calls.py that stands before every call.
   for (const std::string& sentence : sentences)
-    if (PyErr_WarnEx(PyExc_UserWarning, sentence.c_str(), 1) < 0) throw py::error_already_set();
+    if (PyErr_WarnEx(PyExc_UserWarning, sentence.c_str(), 2) < 0) throw py::error_already_set();
 }
 
 std::string name_of_shape(const py::object& shape) {

@@ -77,8 +77,9 @@ def rows(airfoil, chord, x, y):
 def test_a_domain_is_made_of_any_file_that_the_program_takes(airfoil, tmp_path):
     two = tmp_path / "two.dat"
     two.write_text("two\n" + rows(airfoil, 2.0, 0.0, 0.0) + "\n999.0 999.0\n" + rows(airfoil, 0.6, 2.04, -0.06))
-    with pytest.warns(UserWarning, match="has 2 elements"):
+    with pytest.warns(UserWarning, match="has 2 elements") as said:
         domain = remodel.Domain(two, points=60)
+    assert {warning.filename for warning in said} == {__file__}  # the user's line, not one of the package
     assert list(domain.loops) == ["two", "two_2", "farfield"]
     assert abs(domain.loops["two_2"][:, 0].min() - 2.04) < 1e-4
     far = tmp_path / "far.dat"
