@@ -106,6 +106,7 @@ std::string text_of(const FreshFlow& fresh) {
       "CL " + Json(fresh.cl).dump() + ", CD " + Json(fresh.cd).dump() + ", CM " + Json(fresh.cm).dump();
   for (const NamedNumber& number : fresh.outlets)
     text += ", " + number.name + " " + Json(number.value).dump();
+  text += ", on " + std::to_string(fresh.vertices) + " vertices";
   if (!fresh.warning.empty()) text += " (" + fresh.warning + ")";
   for (const auto& [name, excess] : fresh.violated)
     text += ", violates '" + name + "' by " + short_text(excess);

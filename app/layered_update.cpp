@@ -69,6 +69,7 @@ ShapesDomain with_whole_domain(const LayeredUpdate& update, const LayeredMesh& m
   DomainInputOptions shapes = update.shapes;
   shapes.farfield_stays = true;
   ShapesDomain input = read_domain(shapes, discretisation_of(walls), update.fit);
+  if (input.in_farfield && shapes.names.empty()) take_names(input.domain, walls);
   validate_input(shapes, input.domain);
   if (!input.in_farfield) return input;
   const bool several = std::count_if(input.domain.loops.begin(), input.domain.loops.end(),
@@ -148,7 +149,7 @@ Status run_layered_update(const LayeredUpdate& update) {
   const std::string boxes = boxes_of_layered(update.mesh);
   Cargo cargo(update.mesh, before, update.carry);
   const ShapesDomain input = is_single_airfoil(update.shapes) ? with_single_airfoil(update, original.domain())
-                                                             : with_whole_domain(update, original);
+                                                              : with_whole_domain(update, original);
   InterruptObserver observer;
   RemodelOptions options = update.remodelling;
   options.observer = &observer;

@@ -112,6 +112,7 @@ ShapesDomain new_domain(const StartMesh& start, const UpdateCommand& command) {
   DomainInputOptions shapes = command.shapes;
   shapes.farfield_stays = true;
   ShapesDomain input = read_domain(shapes, discretisation, command.fit);
+  if (input.in_farfield && shapes.names.empty()) take_names(input.domain, start.mesh.domain());
   if (input.in_farfield && !command.start.points)
     for (Loop& loop : input.domain.loops) take_stations(loop, start.mesh.domain());
   validate_input(shapes, input.domain);

@@ -19,8 +19,8 @@ struct ShapeReading {
   int degree = 5;                    // of the fits of coordinate files and named sections, 2 to 12
   bool close_trailing_edge = false;  // of a coordinate file, as fit_cst_apart() does
   std::optional<OutlineCurve> as_given = std::nullopt;  // no fit: a curve through the points of the file
-  // Coordinate files keep their place, incidence and units, with the far field around all of them. Otherwise a
-  // file of one section is moved to the origin and scaled to a chord of 1; one of several elements is not.
+  // Coordinate files keep their place, incidence and units, with the far field around all of them. Otherwise
+  // a file of one section is moved to the origin and scaled to a chord of 1; one of several elements is not.
   bool keep_coordinates = false;
   bool farfield_stays = false;              // as it is given, around kept coordinates too
   Crossings crossings = Crossings::insert;  // of a planar graph
@@ -70,6 +70,8 @@ bool is_whole_domain(const std::string& shape);
 // For the next domain of a mesh. The discretisation that airfoil_domain() was given, read back from its
 // result.
 AirfoilDomainOptions discretisation_of(const Domain& domain);
+// Where both have as many holes, those of `domain` get the names of the holes of `before`, in their order.
+void take_names(Domain& domain, const Domain& before);
 // A new outline keeps the stations of the old one of its name, where that has curves of the same kinds. False
 // where there is none.
 bool take_stations(Loop& loop, const Domain& before);

@@ -9,6 +9,7 @@
 #include "aero/design_stages.h"
 #include "aero/outlet_numbers.h"
 #include "aero/resolved_problem.h"
+#include "aero/table_cell.h"
 #include "flow/solution.h"
 #include "remodel/design_run.h"
 #include "remodel/flow_error.h"
@@ -129,8 +130,9 @@ void add_errors(std::size_t points, std::vector<FreshFlow>& verified) {
 void add_outlets(const DesignPoint& point, const FlowView& of, FreshFlow& fresh) {
   for (const auto& [name, value] : outlet_numbers(point, of)) {
     fresh.outlets.push_back({name, value});
-    if (name == "total_pressure")
-      fresh.warning = total_pressure_warning(value, entering_total_pressure(point, of.domain));
+    if (name != "total_pressure") continue;
+    const std::string warning = total_pressure_warning(value, entering_total_pressure(point, of.domain));
+    if (!warning.empty()) fresh.warning += (fresh.warning.empty() ? "" : "; ") + warning;
   }
 }
 
@@ -157,7 +159,7 @@ Stopped verify(const DesignProblem& problem, const ResolvedProblem& parts, std::
            .cd_pressure = flow.friction ? std::optional(flow.friction->cd_pressure) : std::nullopt,
            .cd_friction = flow.friction ? std::optional(flow.friction->cd_friction) : std::nullopt,
            .outlets = {},
-           .warning = {},
+           .warning = joined(flow.warnings),
            .converged = flow.converged(),
            .violated = violated_by(parts, problem.constraint_tolerance, i, walls, mesh.frozen, flow),
            .seconds = flow.seconds,

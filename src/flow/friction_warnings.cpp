@@ -159,58 +159,68 @@ std::vector<std::vector<std::uint32_t>> sides_of(const WallChain& chain, const F
 
 }  // namespace
 
-std::vector<LaminarSeparation> laminar_separations(const FrictionMesh& mesh, const FlowResult& flow) {
-  std::vector<LaminarSeparation> all;
-  if (!flow.friction || !flow.friction->transition) return all;
+std::vector<Separation> separations(const FrictionMesh& mesh, const FlowResult& flow) {
+  std::vector<Separation> all;
   const FlowMesh& dual = mesh.dual();
   const Point stream = stream_direction(flow);
   for (const WallChain& chain : wall_chains(mesh))
     for (const std::vector<std::uint32_t>& side : sides_of(chain, dual, flow)) {
-      bool attached = false;
-      LaminarSeparation found;
+      bool attached = false, apart = false;
       for (std::size_t i = 1; i + 1 < side.size(); ++i) {
         // cf is positive along the stream.
         const Point along = dual.points()[side[i + 1]] - dual.points()[side[i - 1]];
-        const double forward =
-            dot(along, stream) < 0.0 ? -flow.friction->cf[side[i]] : flow.friction->cf[side[i]];
-        if (found.vertex == no_index) {
-          if (!mesh.is_laminar(side[i])) break;
-          if (forward < 0.0 && attached) found.vertex = side[i];
-          attached = attached || forward > 0.0;
-        } else if (forward > 0.0) {
-          found.reattached = side[i];
-          break;
+        const double cf = flow.friction->cf[side[i]];
+        const double forward = dot(along, stream) < 0.0 ? -cf : cf;
+        if (apart) all.back().length += 0.5 * std::sqrt(dot(along, along));
+        if (apart && forward > 0.0) all.back().to = side[i], apart = false;
+        if (!apart && attached && forward < 0.0) {
+          all.push_back({.from = side[i], .laminar = mesh.is_laminar(side[i])});
+          apart = true;
         }
+        attached = attached || forward > 0.0;
       }
-      if (found.vertex != no_index) all.push_back(found);
     }
   return all;
 }
 
+namespace {
+
+std::string place_text(Point p) {
+  char text[60];
+  std::snprintf(text, sizeof text, "(%.3g, %.3g)", p.x, p.y);
+  return text;
+}
+
+void add_separation_warnings(const FrictionWarningInputs& of, std::vector<std::string>& warnings) {
+  // Of the walls' extent. Up to the largest lift a turbulent layer leaves less of a section.
+  constexpr double longest_bubble = 0.3, longest_turbulent = 0.25;
+  const FlowMesh& dual = of.mesh.dual();
+  const double extent = dual.extent().length;
+  for (const Separation& separation : separations(of.mesh, of.flow)) {
+    const Point from = dual.points()[separation.from];
+    const bool is_closed = separation.to != no_index;
+    const Point to = is_closed ? dual.points()[separation.to] : Point{};
+    const std::string end = is_closed ? "comes back at " + place_text(to) : "does not come back to the wall";
+    if (separation.laminar)
+      warnings.push_back("the laminar boundary layer separates at " + place_text(from) +
+                         ", ahead of the given transition, where a free one would come before long; it " +
+                         end +
+                         (!is_closed || separation.length > longest_bubble * extent
+                              ? ": lift and drag are those of this stall"
+                              : ""));
+    else if (of.flow.model == FlowModel::sa && separation.length > longest_turbulent * extent)
+      warnings.push_back("the turbulent boundary layer separates at " + place_text(from) + " and " + end +
+                         ": nature's flow may not be steady there, and the model is least sure of it");
+  }
+}
+
+}  // namespace
+
 std::vector<std::string> friction_warnings(const FrictionWarningInputs& of) {
-  constexpr double longest_bubble = 0.3;  // of the walls' extent
   std::vector<std::string> warnings;
   add_height_warnings(of, warnings);
   add_layer_warnings(of, warnings);
-  for (const LaminarSeparation& separation : laminar_separations(of.mesh, of.flow)) {
-    const Point from = of.mesh.dual().points()[separation.vertex];
-    char text[300];
-    int length = std::snprintf(text, sizeof text,
-                               "the laminar boundary layer separates at (%.3g, %.3g), ahead of the given "
-                               "transition, where a free one would come before long",
-                               from.x, from.y);
-    const auto rest = static_cast<std::size_t>(length);
-    bool is_stall = separation.reattached == no_index;
-    if (is_stall) {
-      std::snprintf(text + rest, sizeof text - rest, "; it does not come back to the wall");
-    } else {
-      const Point to = of.mesh.dual().points()[separation.reattached];
-      const double extent = of.mesh.dual().extent().length;
-      is_stall = squared_distance(from, to) > longest_bubble * longest_bubble * extent * extent;
-      std::snprintf(text + rest, sizeof text - rest, "; it comes back at (%.3g, %.3g)", to.x, to.y);
-    }
-    warnings.push_back(std::string(text) + (is_stall ? ": lift and drag are those of this stall" : ""));
-  }
+  add_separation_warnings(of, warnings);
   return warnings;
 }
 

@@ -20,13 +20,14 @@ struct FrictionWarningInputs {
 
 std::vector<std::string> friction_warnings(const FrictionWarningInputs& of);
 
-// Where gas begins to flow back along a wall ahead of the transition that was given, walking from a wall's
-// stagnation point along either side, and where along that side it flows forward again; at the nose gas runs
-// either way without being separated.
-struct LaminarSeparation {
-  std::uint32_t vertex = no_index;
-  std::uint32_t reattached = no_index;  // none: nowhere
+// A stretch of a wall along which gas flows back, walking from the wall's stagnation point along either side:
+// at the nose gas runs either way without being separated.
+struct Separation {
+  std::uint32_t from = no_index;
+  std::uint32_t to = no_index;  // where gas flows forward again; none: nowhere
+  double length = 0.0;          // along the wall
+  bool laminar = false;         // it begins ahead of the transition that was given
 };
-std::vector<LaminarSeparation> laminar_separations(const FrictionMesh& mesh, const FlowResult& flow);
+std::vector<Separation> separations(const FrictionMesh& mesh, const FlowResult& flow);
 
 }  // namespace remodel::flow

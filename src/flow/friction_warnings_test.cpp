@@ -65,7 +65,7 @@ class Incidence {
       if (p.y < 0.0) flow_.pressure[v] = 1.0 - std::abs(p.x - 0.02);
     }
   }
-  std::vector<LaminarSeparation> found() const { return laminar_separations(friction_, flow_); }
+  std::vector<Separation> found() const { return separations(friction_, flow_); }
   double x(std::uint32_t v) const { return dual_.points()[v].x; }
 
  private:
@@ -80,13 +80,18 @@ TEST(FrictionWarnings, KnowASeparationFromTheNose) {
   const Incidence bubble(0.05, 0.12);
   const auto found = bubble.found();
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_NEAR(bubble.x(found[0].vertex), 0.05, 0.02);
-  ASSERT_NE(found[0].reattached, no_index);
-  EXPECT_NEAR(bubble.x(found[0].reattached), 0.12, 0.02);
+  EXPECT_NEAR(bubble.x(found[0].from), 0.05, 0.02);
+  ASSERT_NE(found[0].to, no_index);
+  EXPECT_NEAR(bubble.x(found[0].to), 0.12, 0.02);
+  EXPECT_NEAR(found[0].length, 0.08, 0.03);
+  EXPECT_TRUE(found[0].laminar);
   const auto stalled = Incidence(0.05, 2.0).found();
   ASSERT_EQ(stalled.size(), 1u);
-  EXPECT_EQ(stalled[0].reattached, no_index);
-  EXPECT_TRUE(Incidence(0.5, 0.8).found().empty());  // behind the transition
+  EXPECT_EQ(stalled[0].to, no_index);
+  EXPECT_NEAR(stalled[0].length, 0.95, 0.06);
+  const auto turbulent = Incidence(0.5, 0.8).found();
+  ASSERT_EQ(turbulent.size(), 1u);
+  EXPECT_FALSE(turbulent[0].laminar);
 }
 
 }  // namespace

@@ -286,6 +286,20 @@ AirfoilDomainOptions discretisation_of(const Domain& domain) {
   return options;
 }
 
+void take_names(Domain& domain, const Domain& before) {
+  const auto holes_of = [](auto& loops) {
+    std::vector<decltype(&loops[0])> holes;
+    for (auto& loop : loops)
+      if (loop.role == LoopRole::hole) holes.push_back(&loop);
+    return holes;
+  };
+  const auto holes = holes_of(domain.loops);
+  const auto named = holes_of(before.loops);
+  if (holes.size() != named.size()) return;
+  for (std::size_t i = 0; i < holes.size(); ++i)
+    for (Curve& curve : holes[i]->curves) curve.name = named[i]->curves.front().name;
+}
+
 bool take_stations(Loop& loop, const Domain& before) {
   for (const Loop& old : before.loops) {
     const auto alike = [](const Curve& a, const Curve& b) {
