@@ -30,14 +30,22 @@ void require_at_most_one_each(const char* option, std::size_t found, std::size_t
 }
 
 // The library names the members of what it is given, a user knows the options behind them.
-std::string with_options(std::string text) {
-  if (text.starts_with("place: ") || text.starts_with("name: ")) text.insert(0, "--");
-  for (const auto& [member, option] : {std::pair<std::string, const char*>{"as_given", "--as-given"},
-                                       {"keep_coordinates", "--keep-coordinates"},
-                                       {"close_trailing_edge", "--close-trailing-edge"}})
-    for (std::size_t at = text.find(member); at != text.npos; at = text.find(member))
-      text.replace(at, member.size(), option);
-  return text;
+constexpr std::pair<const char*, const char*> members[] = {{"place", "--place"},
+                                                           {"name", "--name"},
+                                                           {"as_given", "--as-given"},
+                                                           {"keep_coordinates", "--keep-coordinates"},
+                                                           {"close_trailing_edge", "--close-trailing-edge"}};
+Error with_options(const Error& error) {
+  std::string text = error.what();
+  for (const auto& [member, option] : members) {
+    if (!text.starts_with(std::string(member) + ": ")) continue;
+    std::string problem = text.substr(std::string(member).size() + 2);
+    for (const auto& [other, its_option] : members)
+      if (const std::string words = std::string("given with ") + other; problem.starts_with(words))
+        problem = std::string("given with ") + its_option + problem.substr(words.size());
+    return {error.code(), option, problem};
+  }
+  return error;
 }
 
 std::vector<ShapeOfDomain> shapes_of(const DomainInputOptions& options) {
@@ -139,15 +147,14 @@ ShapesDomain read_domain(const DomainInputOptions& options, const AirfoilDomainO
     warn(input.warnings);
     return input;
   } catch (const Error& error) {
-    const std::string text = with_options(error.what());
-    const std::size_t colon = text.find(": ");
-    throw Error(error.code(), text.substr(0, colon), text.substr(colon + 2));
+    throw with_options(error);
   }
 }
 
 void require_used(const ShapesDomain& input, const std::function<bool(const char*)>& given) {
   if (!input.in_farfield)
-    refuse_given(given, {"--points", "--turning-share", "--farfield-radius", "--farfield-points", "--cst-degree"},
+    refuse_given(given,
+                 {"--points", "--turning-share", "--farfield-radius", "--farfield-points", "--cst-degree"},
                  "given for a whole domain, which has its own, expected for airfoils");
   if (!input.findings)
     refuse_given(given, {"--crossings"}, "given without a planar graph, expected a .poly file");

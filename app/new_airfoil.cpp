@@ -39,8 +39,10 @@ Domain generated_with_airfoil(const Domain& old, const CstAirfoil& airfoil, cons
         "loop to replace");
   }
   if (!closed_trailing_edge(*place.airfoil) || !closed_trailing_edge(airfoil)) {
-    return airfoils_domain({{.name = place.name, .airfoil = airfoil, .placement = place.placement}},
-                           discretisation_of(old));
+    Domain anew = airfoils_domain({{.name = place.name, .airfoil = airfoil, .placement = place.placement}},
+                                  discretisation_of(old));
+    take_stations(anew.loops.front(), old);
+    return anew;
   }
   *place.airfoil = airfoil;
   return domain;

@@ -270,7 +270,8 @@ struct FlowResult {
 };
 
 // The loss coefficient of what passes from the only inlet to the only outlet: what total pressure falls by,
-// over total less static pressure at the inlet, all means by mass flow. None where there are other openings.
+// over total less static pressure at the inlet, all means by mass flow. None where there are other openings,
+// or the two mass flows differ by a thousandth, as with a far field.
 std::optional<double> loss_coefficient(const FlowResult& flow);
 
 // Each has one value for each point: the local Mach number; the pressure coefficient; p / rho^gamma over the

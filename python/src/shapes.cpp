@@ -357,6 +357,7 @@ Domain new_domain(const py::object& shape, const std::optional<int>& points,
                                  .turning_share = turning_share},
                                 reading);
   given.require_used(shape, made, as_given.has_value());
+  validate(made.domain, "domain");
   return std::move(made.domain);
 }
 

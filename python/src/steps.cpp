@@ -176,6 +176,7 @@ Domain next_domain(const Mesh& mesh, const py::object& shape, const std::string&
 }
 
 Domain next_domain(const LayeredMesh& mesh, const py::object& shape, const std::string& boundary) {
+  const KeptPipes once;
   if (!py::isinstance<Domain>(shape) && !py::isinstance<CstAirfoil>(shape))
     if (const std::string name = name_of_shape(shape); elements_in(name) > 1)
       throw Error(ErrorCode::argument, "shape",

@@ -70,8 +70,7 @@ class SectionReader {
       add({.name = name, .airfoil = fit.airfoil});
     } catch (const Error& error) {
       std::error_code ignored;
-      const bool is_file =
-          fs::is_regular_file(directory_ / name, ignored) || fs::is_regular_file(name, ignored);
+      const bool is_file = fs::is_regular_file(directory_ / name, ignored);
       if (!is_file || error.code() == ErrorCode::file) throw Error(error.code(), where, error.what());
       add({.name = name, .problem = error.what()});
     }

@@ -123,7 +123,7 @@ void add_size_warnings(const FlowMesh& mesh, const Stream& stream, FlowResult& r
   if (reynolds < least_turbulent)
     result.warnings.push_back(
         "the model is of turbulent flow, and the Reynolds number by the walls' length is " +
-        short_text(reynolds) + ", where boundary layers are laminar (--model laminar)");
+        short_text(reynolds) + ", where boundary layers are laminar");
 }
 
 // In a duct the stream is no more than a unit.
@@ -139,7 +139,7 @@ void add_row_warnings(FlowResult& result) {
       result.warnings.push_back("gas enters by '" + opening.name + "' at " +
                                 short_text(opening.flow_angle_deg) +
                                 " degrees, and lift and drag are across and along " +
-                                short_text(result.alpha_deg) + " degrees (--inlet-angle, --alpha)");
+                                short_text(result.alpha_deg) + " degrees, as the angle of attack has it");
   }
 }
 

@@ -145,12 +145,12 @@ FlowResult result_of(const FrictionSystem<N>& system, const BlockState<N>& state
     if (patches[i].open())
       result.openings.push_back(opening_of(system.mesh(), i, system.mass_flow(state, i), result));
   if (result.converged()) {
-    std::vector<double> vorticity;
-    for (std::size_t v = 0; v < system.mesh().size(); ++v) vorticity.push_back(system.vorticity(state.q, v));
-    result.warnings = friction_warnings(
-        {system.friction_mesh(), result, part_across_walls(system, walls, unbalanced), vorticity});
+    result.warnings =
+        friction_warnings({system.friction_mesh(), result, part_across_walls(system, walls, unbalanced)});
     add_stream_warnings(system.mesh(), system.stream(), result);
-  } else if (result.friction->transition) {
+  } else if (const auto& at = result.friction->transition;
+             at && std::max((*at)[0], (*at)[1]) > 0.0 &&
+             (result.status == FlowStatus::stalled || result.status == FlowStatus::step_limit)) {
     result.reason += "; a given transition behind where the laminar layer separates may have no steady flow";
   }
   return result;

@@ -13,9 +13,8 @@ namespace remodel::flow {
 
 struct FrictionWarningInputs {
   const FrictionMesh& mesh;
-  const FlowResult& flow;                // with its friction
-  double part_across = 0.0;              // of the friction, across walls
-  const std::vector<double>& vorticity;  // at vertices
+  const FlowResult& flow;    // with its friction
+  double part_across = 0.0;  // of the friction, across walls
 };
 
 std::vector<std::string> friction_warnings(const FrictionWarningInputs& of);

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "flow/solution.h"
 #include "remodel/layers.h"
 
@@ -92,6 +94,36 @@ TEST(FrictionWarnings, KnowASeparationFromTheNose) {
   const auto turbulent = Incidence(0.5, 0.8).found();
   ASSERT_EQ(turbulent.size(), 1u);
   EXPECT_FALSE(turbulent[0].laminar);
+}
+
+// Two walls that touch at a point: what goes on there is not known, and the walk ends. A grid of 4 by 4 cells
+// without two that have a corner in common.
+TEST(FrictionWarnings, EndWhereWallsTouch) {
+  FrozenMesh mesh;
+  const auto at = [](std::uint32_t i, std::uint32_t j) { return 5 * j + i; };
+  for (std::uint32_t j = 0; j < 5; ++j)
+    for (std::uint32_t i = 0; i < 5; ++i) mesh.points.push_back({1.0 * i, 1.0 * j});
+  FrozenBoundary walls{.name = "wall", .edges = {}}, farfield{.name = "farfield", .edges = {}};
+  for (std::uint32_t j = 0; j < 4; ++j)
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      const std::array<std::uint32_t, 4> cell = {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+      if (i == j && (i == 1 || i == 2))
+        for (std::size_t k = 0; k < 4; ++k) walls.edges.push_back({cell[(k + 1) % 4], cell[k]});
+      else
+        mesh.quads.push_back(cell);
+    }
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    farfield.edges.push_back({at(k, 0), at(k + 1, 0)}), farfield.edges.push_back({at(4, k), at(4, k + 1)});
+    farfield.edges.push_back({at(k + 1, 4), at(k, 4)}), farfield.edges.push_back({at(0, k + 1), at(0, k)});
+  }
+  mesh.boundaries = {walls, farfield};
+  const FlowMesh dual = dual_of(mesh, {.mach = 0.3, .reynolds = 1e3}, {.model = FlowModel::sa}, "mesh");
+  const FrictionMesh friction(dual, {{0.5, 0.5}});
+  FlowResult flow;
+  flow.friction.emplace();
+  flow.friction->cf.assign(dual.size(), 0.01);
+  flow.pressure.assign(dual.size(), 0.5);
+  EXPECT_LE(separations(friction, flow).size(), 4u);
 }
 
 }  // namespace

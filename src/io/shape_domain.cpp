@@ -276,7 +276,7 @@ AirfoilDomainOptions discretisation_of(const Domain& domain) {
   for (std::size_t i = 0; i < domain.curve_count(); ++i) {
     const Curve& curve = domain.curve(i);
     const int points = static_cast<int>(curve.parameters.size());
-    if (std::holds_alternative<CstAirfoil>(curve.shape)) options.points = points;
+    if (std::holds_alternative<CstAirfoil>(curve.shape)) options.points = points + points % 2;  // even
     if (const auto* circle = std::get_if<Arc>(&curve.shape)) {
       options.farfield_radius = circle->radius;
       options.farfield_centre = circle->centre;
@@ -295,7 +295,12 @@ void take_names(Domain& domain, const Domain& before) {
   };
   const auto holes = holes_of(domain.loops);
   const auto named = holes_of(before.loops);
-  if (holes.size() != named.size()) return;
+  const auto has_name = [&](const auto* hole) {
+    return std::any_of(named.begin(), named.end(), [&](const auto* known) {
+      return known->curves.front().name == hole->curves.front().name;
+    });
+  };
+  if (holes.size() != named.size() || std::any_of(holes.begin(), holes.end(), has_name)) return;
   for (std::size_t i = 0; i < holes.size(); ++i)
     for (Curve& curve : holes[i]->curves) curve.name = named[i]->curves.front().name;
 }
@@ -316,6 +321,7 @@ bool take_stations(Loop& loop, const Domain& before) {
 ShapesDomain domain_of_shapes(const std::vector<ShapeOfDomain>& shapes, const AirfoilDomainOptions& options,
                               const ShapeReading& reading) {
   if (shapes.empty()) throw Error(ErrorCode::argument, "shapes", "found none, expected at least one");
+  const KeptPipes once;
   for (const auto& [shape, place, name] : shapes) {
     if (!is_whole_domain(shape)) continue;
     require_alone(shapes, reading, shape);

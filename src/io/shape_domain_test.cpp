@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <optional>
 
 #include "io/test_meshes.h"
 
@@ -94,6 +95,37 @@ TEST(ShapeDomain, WhatDoesNotGoTogetherIsRefused) {
   expect_refused({{.shape = two_elements(scratch), .place = Placement{}}}, {}, "place: given for");
   expect_refused({{.shape = "naca:0012", .name = "a"}, {.shape = "naca:2412", .name = "a"}}, {},
                  "name: found 'a'");
+}
+
+TEST(ShapeDomain, SeveralElementsHaveMoreStationsAtTheirNoses) {
+  const Scratch scratch;
+  const auto largest_step_at_nose = [&](const std::optional<double>& share) {
+    const ShapesDomain found =
+        domain_of_shapes({{.shape = two_elements(scratch)}}, {.points = 60, .turning_share = share});
+    const Parameters& stations = found.domain.loops[0].curves[0].parameters;
+    return stations[30] - stations[29];
+  };
+  EXPECT_NEAR(largest_step_at_nose(0.0), 1.0 / 60, 1e-12);
+  EXPECT_LT(largest_step_at_nose({}), 0.7 / 60);
+  EXPECT_EQ(largest_step_at_nose({}), largest_step_at_nose(turning_share_of_elements));
+}
+
+TEST(ShapeDomain, TheNextDomainOfAMeshKeepsNamesAndStations) {
+  const Scratch scratch;
+  const Domain before =
+      domain_of_shapes({{.shape = "naca:2412", .name = "main"},
+                        {.shape = "naca:0012", .place = Placement{0.3, -20, {1.1, -0.1}}, .name = "flap"}},
+                       {.points = 60, .turning_share = 0.5})
+          .domain;
+  Domain next = domain_of_shapes({{.shape = "naca:2412"},
+                                  {.shape = "naca:0012", .place = Placement{0.3, -21, {1.1, -0.1}}}},
+                                 discretisation_of(before))
+                    .domain;
+  EXPECT_EQ(next.loops[1].curves[0].name, "naca0012");
+  take_names(next, before);
+  EXPECT_EQ(next.loops[1].curves[0].name, "flap");
+  for (Loop& loop : next.loops) EXPECT_TRUE(take_stations(loop, before));
+  EXPECT_EQ(next.loops[1].curves[0].parameters, before.loops[1].curves[0].parameters);
 }
 
 }  // namespace

@@ -22,7 +22,9 @@ CstAirfoil named_airfoil(const std::string& name, int degree) {
   for (const CatalogueEntry& entry : airfoil_catalogue()) {
     if (entry.name == name) {
       require_fit_degree(degree);
-      return with_degree(entry.airfoil(), degree);
+      CstAirfoil airfoil = with_degree(entry.airfoil(), degree);
+      while (!surfaces_apart(airfoil)) airfoil = with_degree(entry.airfoil(), ++degree);
+      return airfoil;
     }
     names.append(" ").append(entry.name);
   }

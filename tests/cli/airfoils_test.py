@@ -215,6 +215,19 @@ class Airfoils(ProgramTest):
             self.assertTrue(self.figures("check", "x.vtkhdf")["valid"])
             self.assertAlmostEqual(self.gap_of("x.vtkhdf"), gap, places=12)
 
+    def test_stations_by_turning_stay_and_several_elements_keep_their_names(self):
+        pair = ("naca:2412", "naca:0012", "--place", "1,0,0,0", "--place", "0.3,-20,1.02,-0.05")
+        self.succeed("mesh", *pair, "--name", "main", "--name", "flap", "--turning-share", 0.5, "--points", 60, "-o", "a.vtkhdf")
+        moved = [word.replace("-20", "-21") for word in pair]
+        figures = self.figures("update", "a.vtkhdf", *moved, "-o", "b.su2")
+        self.assertGreater(figures["preserved"], 0.8 * figures["triangles"])
+        self.assertIn("MARKER_TAG= flap", self.path("b.su2").read_text())
+        even, turned = (self.figures("mesh", "naca:2408", "--points", 60, "--turning-share", share, "-o", f"{share}.vtkhdf") for share in (0, 0.3))
+        self.assertNotEqual(even["vertices"], turned["vertices"])
+        self.refused("mesh", "naca:0012", "--turning-share", 1, names="--turning-share")
+        self.refused("mesh", harness.SOURCE / "examples/domains/duct.json", "--turning-share", 0.2, names="--turning-share")
+        self.refused("flow", "as_given_missing.dat", "--mach", 0.5, names="as_given_missing.dat: cannot be read")
+
     def test_the_outline_as_given(self):
         for gap in (0.0, 0.02):
             points = blunt(gap, incline=0.1)

@@ -108,17 +108,6 @@ class FrictionSystem final : public BlockSystem<N> {
   // The heat that the wall takes from the gas at the vertex, likewise.
   double heat(const BlockVector<N>& unbalanced, std::size_t v) const { return -unbalanced[v][3]; }
 
-  // The mean over what belongs to the vertex.
-  double vorticity(const BlockVector<N>& q, std::size_t v) const {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < dual_.ring(v).size(); ++k) {
-      const Row& there = q[dual_.ring(v)[k].vertex];
-      const Point weight = mesh_.mean_gradient(v)[k];
-      sum += weight.x * (there[2] - q[v][2]) - weight.y * (there[1] - q[v][1]);
-    }
-    return sum;
-  }
-
  private:
   using Row = std::array<double, N>;
   template <class T>
@@ -176,6 +165,16 @@ class FrictionSystem final : public BlockSystem<N> {
   }
   WallPlace<double> wall_place(std::size_t v) const { return {mesh_.distances()[v], mesh_.is_laminar(v)}; }
   bool has_turbulence(std::size_t v) const { return mesh_.distances()[v] > 0.0 && !dual_.is_image(v); }
+  // The mean over what belongs to the vertex.
+  double vorticity(const BlockVector<N>& q, std::size_t v) const {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < dual_.ring(v).size(); ++k) {
+      const Row& there = q[dual_.ring(v)[k].vertex];
+      const Point weight = mesh_.mean_gradient(v)[k];
+      sum += weight.x * (there[2] - q[v][2]) - weight.y * (there[1] - q[v][1]);
+    }
+    return sum;
+  }
   // Whether the k-th row of a wall's vertex is replaced: of energy by the wall's temperature, the others by
   // "this unknown is 0".
   bool is_strong(std::size_t k) const {

@@ -1,6 +1,7 @@
 #include "flow/scheme/laminar_zone.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "flow/scheme/friction_mesh.h"
 
@@ -42,8 +43,16 @@ WallSides::WallSides(const FlowMesh& mesh)
       lower_(mesh.boundary().size()) {
   const auto count = static_cast<std::uint32_t>(mesh.boundary().size());
   const auto is_wall = [&](std::uint32_t e) { return mesh.patch(mesh.boundary()[e]).sticks(); };
-  for (std::uint32_t e = 0; e < count; ++e)
-    if (is_wall(e)) next_[mesh.boundary()[e].a] = previous_[mesh.boundary()[e].b] = e;
+  std::vector<bool> is_shared(mesh.size(), false);  // by walls that touch: what goes on there is not known
+  for (std::uint32_t e = 0; e < count; ++e) {
+    if (!is_wall(e)) continue;
+    const auto [a, b] = std::pair(mesh.boundary()[e].a, mesh.boundary()[e].b);
+    if (next_[a] != no_index) is_shared[a] = true;
+    if (previous_[b] != no_index) is_shared[b] = true;
+    next_[a] = previous_[b] = e;
+  }
+  for (std::size_t v = 0; v < mesh.size(); ++v)
+    if (is_shared[v]) next_[v] = previous_[v] = no_index;
   for (std::uint32_t e = 0; e < count; ++e)
     if (is_wall(e) && wall_[e] == no_index) add_wall(connected_with(e));
 }
