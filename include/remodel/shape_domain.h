@@ -70,8 +70,8 @@ bool is_whole_domain(const std::string& shape);
 // For the next domain of a mesh. The discretisation that airfoil_domain() was given, read back from its
 // result.
 AirfoilDomainOptions discretisation_of(const Domain& domain);
-// Where both have as many holes and no name in common, those of `domain` get the names of the holes of
-// `before`, in their order.
+// The holes of `domain` get the names of those of `before`, in their order, where there are as many and no
+// name is in both.
 void take_names(Domain& domain, const Domain& before);
 // A new outline keeps the stations of the old one of its name, where that has curves of the same kinds. False
 // where there is none.
