@@ -15,10 +15,19 @@ FlowResult find_at(LivingFlow& living, const RowSolve& solve, FlowConditions con
   conditions.cl.reset();
   conditions.alpha_deg = over_lift ? alpha_deg : value;
   if (!over_lift) return solve(living, conditions);
-  if (living.keep().empty())
-    if (FlowResult start = solve(living, conditions); !start.converged()) return start;
+  if (!living.keep().empty()) {
+    conditions.cl = value;
+    return solve(living, conditions);
+  }
+  FlowResult start = solve(living, conditions);
+  if (!start.converged()) return start;
   conditions.cl = value;
-  return solve(living, conditions);
+  FlowResult flow = solve(living, conditions);
+  // Both are what it took to find this flow from nothing.
+  flow.start = start.start;
+  flow.newton_steps += start.newton_steps, flow.coarse_steps += start.coarse_steps;
+  flow.seconds += start.seconds;
+  return flow;
 }
 
 PolarPoint point_of(const MarchedFlow& marched, bool over_lift) {

@@ -17,7 +17,7 @@ std::size_t nearest_to_zero(const std::vector<double>& values);
 using RowSolve = std::function<FlowResult(LivingFlow&, const FlowConditions&)>;
 // The flow at an angle, or at a lift whose angle is looked for from alpha_deg on. From nothing that may be
 // one far beyond the largest lift, where the same lift is found again: a living flow that knows none begins
-// with the flow at alpha_deg.
+// with the flow at alpha_deg, whose start, steps and seconds the result has too.
 FlowResult find_at(LivingFlow& living, const RowSolve& solve, FlowConditions conditions, double value,
                    bool over_lift, double alpha_deg);
 

@@ -86,7 +86,8 @@ TEST(Polars, FindAnglesForLifts) {
   EXPECT_NEAR(curve.points[0].cl, 0.2, 1e-8);
   EXPECT_NEAR(curve.points[1].cl, 0.4, 1e-8);
   EXPECT_LT(curve.points[0].alpha_deg, curve.points[1].alpha_deg);
-  EXPECT_NE(curve.points[0].start, FlowStart::cold);
+  EXPECT_EQ(curve.points[0].start, FlowStart::cold);
+  EXPECT_NE(curve.points[1].start, FlowStart::cold);
 }
 
 TEST(Polars, SayWhatIsNotFound) {
