@@ -350,22 +350,21 @@ void add_figures(py::class_<FlowResult, FlowPointer>& type) {
   type.def_property_readonly("bodies", &bodies_of,
                              "The parts of each wall, by name: cl, cd, cm; with friction also cd_pressure, "
                              "cd_friction and y_plus_max.");
-  type.def_property_readonly(
-      "openings", [](const FlowResult& f) { return of_openings(f, &FlowOpening::mass_flow); },
-      "What enters through each inlet and outlet, by name: density times speed of "
-      "sound of the stream times length.");
-  type.def_property_readonly(
-      "flow_angles", [](const FlowResult& f) { return of_openings(f, &FlowOpening::flow_angle_deg); },
+  const auto opening = [&](const char* name, double FlowOpening::*member, const char* doc) {
+    type.def_property_readonly(
+        name, [member](const FlowResult& f) { return of_openings(f, member); }, doc);
+  };
+  opening("openings", &FlowOpening::mass_flow,
+          "What enters through each inlet and outlet, by name: density times speed of "
+          "sound of the stream times length.");
+  opening(
+      "flow_angles", &FlowOpening::flow_angle_deg,
       "The direction of the mean momentum through each inlet and outlet, by name: degrees to the x axis.");
-  type.def_property_readonly(
-      "total_pressures", [](const FlowResult& f) { return of_openings(f, &FlowOpening::total_pressure); },
+  opening(
+      "total_pressures", &FlowOpening::total_pressure,
       "The mean total pressure at each inlet and outlet, by mass flow and by name: parts of the stream's.");
-  type.def_property_readonly(
-      "static_pressures", [](const FlowResult& f) { return of_openings(f, &FlowOpening::pressure); },
-      "The mean static pressure there, likewise.");
-  type.def_property_readonly(
-      "opening_mach", [](const FlowResult& f) { return of_openings(f, &FlowOpening::mach); },
-      "The mean Mach number there, by mass flow and by name.");
+  opening("static_pressures", &FlowOpening::pressure, "The mean static pressure there, likewise.");
+  opening("opening_mach", &FlowOpening::mach, "The mean Mach number there, by mass flow and by name.");
   type.def_property_readonly(
       "loss_coefficient", &loss_coefficient,
       "What total pressure falls by from the only inlet to the only outlet, over total "

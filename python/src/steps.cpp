@@ -56,9 +56,10 @@ std::size_t elements_in(const std::string& shape) {
 Domain domain_in_place(const Domain& now, const std::string& file) {
   ShapesDomain next = domain_of_shapes({{.shape = file}}, discretisation_of(now), {.farfield_stays = true});
   warn(next.warnings);
-  if (next.in_farfield) take_names(next.domain, now);
-  if (next.in_farfield)
+  if (next.in_farfield) {
+    take_names(next.domain, now);
     for (Loop& loop : next.domain.loops) take_stations(loop, now);
+  }
   return std::move(next.domain);
 }
 

@@ -250,8 +250,7 @@ void require_symmetry(const FlowMesh& dual, const FlowConditions& conditions, co
   if (!options.symmetry.empty() && conditions.cl)
     throw Error(ErrorCode::argument, "cl",
                 "given for a mesh with a symmetry plane, expected an angle of attack");
-  const Point stream = {std::cos(conditions.alpha_deg * one_degree),
-                        std::sin(conditions.alpha_deg * one_degree)};
+  const Point stream = stream_direction(conditions.alpha_deg);
   std::vector<Point> first(dual.patches().size());
   for (const BoundaryEdge& edge : dual.boundary()) {
     const Patch& patch = dual.patch(edge);
@@ -363,6 +362,11 @@ FlowOpening opening_of(const FlowMesh& dual, std::uint32_t patch, double mass_fl
   return opening;
 }
 
+Point stream_direction(double alpha_deg) {
+  const double alpha = alpha_deg * one_degree;
+  return {std::cos(alpha), std::sin(alpha)};
+}
+
 double largest_mach(const FlowResult& flow) {
   const std::vector<double> mach = mach_numbers(flow);
   return *std::max_element(mach.begin(), mach.end());
@@ -454,7 +458,8 @@ std::optional<double> loss_coefficient(const FlowResult& result) {
   constexpr double least_balance = 1e-3;
   if (!(in.mass_flow > 0.0 && std::abs(in.mass_flow + out.mass_flow) < least_balance * in.mass_flow))
     return std::nullopt;
-  const double total = std::pow(1.0 + 0.2 * result.mach * result.mach, 3.5);  // over static, of the stream
+  const double total =
+      flow::gas_gamma * flow::total_state(result.mach).pressure;  // over static, of the stream
   return (in.total_pressure - out.total_pressure) * total / (in.total_pressure * total - in.pressure);
 }
 

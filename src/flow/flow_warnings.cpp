@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include "flow/potential/trailing_edge.h"
 #include "flow/solution.h"
@@ -11,11 +10,6 @@
 namespace remodel::flow {
 
 namespace {
-
-Point stream_at(double alpha_deg) {
-  const double alpha = alpha_deg * std::numbers::pi / 180.0;
-  return {std::cos(alpha), std::sin(alpha)};
-}
 
 std::string short_text(double value) {
   char text[32];
@@ -91,7 +85,7 @@ Warnings warnings_of(const FlowMesh& mesh, double mach, double alpha_deg) {
   Warnings warnings;
   if (mach >= 1.0) return warnings;
   for (const Outline& body : bodies_of(mesh))
-    if (!edge_faces_downstream(body.points, stream_at(alpha_deg))) {
+    if (!edge_faces_downstream(body.points, stream_direction(alpha_deg))) {
       warnings.lift_determined = false;
       warnings.sentences.push_back(undetermined(body.name) +
                                    "this one is chosen by the errors of mesh and scheme");
@@ -104,8 +98,7 @@ std::string spurious_drag_warning(double drag, double scale, double largest_mach
   if (largest_mach >= 1.0 || std::abs(drag) <= least * scale) return {};
   return "the drag of " + short_text(drag / count) +
          " counts is made by mesh and scheme: without friction and shocks there is none, and lift is off "
-         "too; a "
-         "finer mesh has less (--points, --error)";
+         "too; a finer mesh has less (--points, --error)";
 }
 
 namespace {
@@ -145,8 +138,9 @@ void add_row_warnings(FlowResult& result) {
 
 void add_loss_warning(FlowResult& result) {
   constexpr double least = 0.02;
-  if (result.friction || largest_mach(result) >= 1.0) return;
-  if (const auto loss = loss_coefficient(result); loss && std::abs(*loss) > least)
+  if (result.friction) return;
+  if (const auto loss = loss_coefficient(result);
+      loss && std::abs(*loss) > least && largest_mach(result) < 1.0)
     result.warnings.push_back(
         "the loss coefficient of " + short_text(*loss) +
         " is made by mesh and scheme: without friction and shocks no total pressure is lost; "
@@ -167,8 +161,8 @@ Warnings warnings_of(const std::vector<PotentialOutline>& bodies, const Potentia
   Warnings warnings;
   for (const PotentialOutline& body : bodies) {
     const bool no_edge = body.base == 0;
-    const bool faces_stream =
-        !no_edge && dot(edge_direction(body.points, body.base), stream_at(flow.alpha_deg)) < least_cosine;
+    const bool faces_stream = !no_edge && dot(edge_direction(body.points, body.base),
+                                              stream_direction(flow.alpha_deg)) < least_cosine;
     warnings.lift_determined = warnings.lift_determined && !no_edge && !faces_stream;
     if (no_edge) warnings.sentences.push_back(undetermined(body.name) + "this one has none");
     if (faces_stream)

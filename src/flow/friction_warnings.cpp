@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <numbers>
 
 #include "flow/physics/euler.h"
 #include "flow/physics/stream.h"
+#include "flow/scheme/wall_chains.h"
 #include "flow/solution.h"
 
 namespace remodel::flow {
@@ -82,8 +82,8 @@ bool may_have_thin_layers(const FrictionWarningInputs& of) {
   constexpr double weak_shocks = 1.4, least_reynolds = 300.0;
   const FlowMesh& dual = of.mesh.dual();
   const bool is_outside = dual.has_farfield() || dual.has_images();
-  return is_outside && of.flow.mach < 1.0 && largest_mach(of.flow) < weak_shocks &&
-         of.flow.friction->reynolds >= least_reynolds;
+  return is_outside && of.flow.mach < 1.0 && of.flow.friction->reynolds >= least_reynolds &&
+         largest_mach(of.flow) < weak_shocks;
 }
 
 void add_layer_warnings(const FrictionWarningInputs& of, std::vector<std::string>& warnings) {
@@ -108,50 +108,13 @@ void add_layer_warnings(const FrictionWarningInputs& of, std::vector<std::string
   warnings.push_back(text);
 }
 
-Point stream_direction(const FlowResult& flow) {
-  const double alpha = flow.alpha_deg * std::numbers::pi / 180.0;
-  return {std::cos(alpha), std::sin(alpha)};
-}
-
-// The vertices of one connected wall in order, the gas on their left; a closed one begins anywhere.
-struct WallChain {
-  std::vector<std::uint32_t> vertices;
-  bool closed = false;
-};
-
-std::vector<WallChain> wall_chains(const FrictionMesh& mesh) {
-  const FlowMesh& dual = mesh.dual();
-  std::vector<std::uint32_t> next(dual.size(), no_index), previous(dual.size(), no_index);
-  std::vector<bool> is_shared(dual.size(), false);  // by walls that touch: what goes on there is not known
-  for (const BoundaryEdge& edge : dual.boundary()) {
-    if (!dual.patch(edge).sticks()) continue;
-    if (next[edge.a] != no_index) is_shared[edge.a] = true;
-    if (previous[edge.b] != no_index) is_shared[edge.b] = true;
-    next[edge.a] = edge.b, previous[edge.b] = edge.a;
-  }
-  for (const BoundaryEdge& edge : dual.boundary())
-    if (dual.patch(edge).sticks() && (is_shared[edge.a] || is_shared[edge.b]))
-      next[edge.a] = previous[edge.b] = no_index;
-  std::vector<WallChain> chains;
-  std::vector<bool> seen(dual.size(), false);
-  for (std::uint32_t v = 0; v < dual.size(); ++v) {
-    if (next[v] == no_index || seen[v]) continue;
-    std::uint32_t first = v;
-    while (previous[first] != no_index && previous[first] != v) first = previous[first];
-    WallChain chain{.vertices = {}, .closed = previous[first] != no_index};
-    if (chain.closed) first = v;
-    for (std::uint32_t w = first; w != no_index && !seen[w]; w = next[w])
-      seen[w] = true, chain.vertices.push_back(w);
-    chains.push_back(std::move(chain));
-  }
-  return chains;
-}
-
 // The two sides of a chain: from the stagnation point to the rearmost one, the former first.
 std::vector<std::vector<std::uint32_t>> sides_of(const WallChain& chain, const FlowMesh& dual,
                                                  const FlowResult& flow) {
-  const std::vector<std::uint32_t>& all = chain.vertices;
-  const Point stream = stream_direction(flow);
+  std::vector<std::uint32_t> all;
+  for (const std::uint32_t e : chain.edges) all.push_back(dual.boundary()[e].a);
+  if (!chain.closed) all.push_back(dual.boundary()[chain.edges.back()].b);
+  const Point stream = stream_direction(flow.alpha_deg);
   const auto by_pressure = [&](std::uint32_t a, std::uint32_t b) {
     return flow.pressure[a] < flow.pressure[b];
   };
@@ -174,10 +137,6 @@ std::vector<std::vector<std::uint32_t>> sides_of(const WallChain& chain, const F
   return sides;
 }
 
-}  // namespace
-
-namespace {
-
 // A corner behind the middle of a side: beyond it lies a base, along which gas flows back.
 bool is_rear_corner(const FlowMesh& dual, const std::vector<std::uint32_t>& side, std::size_t i,
                     Point stream) {
@@ -194,8 +153,8 @@ bool is_rear_corner(const FlowMesh& dual, const std::vector<std::uint32_t>& side
 std::vector<Separation> separations(const FrictionMesh& mesh, const FlowResult& flow) {
   std::vector<Separation> all;
   const FlowMesh& dual = mesh.dual();
-  const Point stream = stream_direction(flow);
-  for (const WallChain& chain : wall_chains(mesh))
+  const Point stream = stream_direction(flow.alpha_deg);
+  for (const WallChain& chain : wall_chains(dual))
     for (const std::vector<std::uint32_t>& side : sides_of(chain, dual, flow)) {
       bool attached = false, apart = false;
       for (std::size_t i = 1; i + 1 < side.size(); ++i) {

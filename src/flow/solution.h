@@ -27,6 +27,8 @@ void note_search(const SearchRecord& record, FlowResult& result);
 // The opening of a patch, with means of the result's states.
 FlowOpening opening_of(const FlowMesh& dual, std::uint32_t patch, double mass_flow, const FlowResult& result);
 double largest_mach(const FlowResult& flow);
+// Where the stream goes, of length 1.
+Point stream_direction(double alpha_deg);
 FlowResult result_of(const FlowSystem& system, const State& state, const SearchRecord& record,
                      FlowStart start);
 

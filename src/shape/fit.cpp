@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "cst_row.h"
+#include "fit_degree.h"
 #include "remodel/airfoil.h"
 #include "remodel/error.h"
 
 namespace remodel {
 namespace {
 
-constexpr int lowest_degree = 2, highest_degree = 12;
 // Files have five or six digits.
 constexpr double least_gap = 1e-5;
 // In chords: what a user should know of a fit. Of 2,172 files of the UIUC, 23 fits are farther off.
@@ -85,9 +85,7 @@ void check_points(const std::vector<Point>& surface, const std::string& where) {
 }  // namespace
 
 CstFit fit_cst(const AirfoilCoordinates& coordinates, int degree, TrailingEdge trailing_edge) {
-  if (degree < lowest_degree || degree > highest_degree) {
-    throw Error(ErrorCode::argument, "CST degree", "found " + std::to_string(degree) + ", expected 2 to 12");
-  }
+  require_fit_degree(degree);
   const std::string where = name_of(coordinates);
   check_points(coordinates.upper, where);
   check_points(coordinates.lower, where);

@@ -1,19 +1,10 @@
 // Sections by name: the catalogue's, and NACA designations.
 
+#include "fit_degree.h"
 #include "remodel/airfoil_degree.h"
 #include "remodel/error.h"
 
 namespace remodel {
-namespace {
-
-// As fit_cst() does, so that all names take the same degrees.
-void require_fit_degree(int degree) {
-  if (degree < 2 || degree > 12)
-    throw Error(ErrorCode::argument, "CST degree", "found " + std::to_string(degree) + ", expected 2 to 12");
-}
-
-}  // namespace
-
 CstAirfoil named_airfoil(const std::string& name, int degree) {
   constexpr std::string_view naca_prefix = "naca:";
   if (name.starts_with(naca_prefix))

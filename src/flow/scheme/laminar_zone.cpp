@@ -1,9 +1,9 @@
 #include "flow/scheme/laminar_zone.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "flow/scheme/friction_mesh.h"
+#include "flow/scheme/wall_chains.h"
 
 namespace remodel::flow {
 
@@ -25,48 +25,17 @@ class WallSides {
   bool lower(std::uint32_t edge) const { return lower_[edge]; }
 
  private:
-  std::vector<std::uint32_t> connected_with(std::uint32_t edge) const;
   void add_wall(const std::vector<std::uint32_t>& edges);
 
   const FlowMesh& mesh_;
-  std::vector<std::uint32_t> next_, previous_;  // edges that begin and end at a vertex
   std::vector<Chord> chords_;
   std::vector<std::uint32_t> wall_;  // of each edge; no_index: of none
   std::vector<bool> lower_;
 };
 
 WallSides::WallSides(const FlowMesh& mesh)
-    : mesh_(mesh),
-      next_(mesh.size(), no_index),
-      previous_(mesh.size(), no_index),
-      wall_(mesh.boundary().size(), no_index),
-      lower_(mesh.boundary().size()) {
-  const auto count = static_cast<std::uint32_t>(mesh.boundary().size());
-  const auto is_wall = [&](std::uint32_t e) { return mesh.patch(mesh.boundary()[e]).sticks(); };
-  std::vector<bool> is_shared(mesh.size(), false);  // by walls that touch: what goes on there is not known
-  for (std::uint32_t e = 0; e < count; ++e) {
-    if (!is_wall(e)) continue;
-    const auto [a, b] = std::pair(mesh.boundary()[e].a, mesh.boundary()[e].b);
-    if (next_[a] != no_index) is_shared[a] = true;
-    if (previous_[b] != no_index) is_shared[b] = true;
-    next_[a] = previous_[b] = e;
-  }
-  for (std::size_t v = 0; v < mesh.size(); ++v)
-    if (is_shared[v]) next_[v] = previous_[v] = no_index;
-  for (std::uint32_t e = 0; e < count; ++e)
-    if (is_wall(e) && wall_[e] == no_index) add_wall(connected_with(e));
-}
-
-std::vector<std::uint32_t> WallSides::connected_with(std::uint32_t edge) const {
-  std::uint32_t first = edge;
-  for (std::uint32_t e = previous_[mesh_.boundary()[edge].a]; e != no_index && e != edge;
-       e = previous_[mesh_.boundary()[e].a])
-    first = e;
-  std::vector<std::uint32_t> edges = {first};
-  for (std::uint32_t e = next_[mesh_.boundary()[first].b]; e != no_index && e != first;
-       e = next_[mesh_.boundary()[e].b])
-    edges.push_back(e);
-  return edges;
+    : mesh_(mesh), wall_(mesh.boundary().size(), no_index), lower_(mesh.boundary().size()) {
+  for (const WallChain& chain : wall_chains(mesh)) add_wall(chain.edges);
 }
 
 void WallSides::add_wall(const std::vector<std::uint32_t>& edges) {
