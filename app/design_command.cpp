@@ -114,6 +114,15 @@ std::string text_of(const FreshFlow& fresh) {
   return text;
 }
 
+void add_fresh(Report& report, const DesignResult& result) {
+  for (const FreshFlow& fresh : result.verified_start)
+    report.line("start on a fresh mesh, I = " + std::to_string(fresh.points), text_of(fresh));
+  for (const FreshFlow& fresh : result.verified)
+    report.line("fresh mesh, I = " + std::to_string(fresh.points), text_of(fresh));
+  report.data("verified", Json::parse(fresh_json(result.verified)));
+  report.data("verified_start", Json::parse(fresh_json(result.verified_start)));
+}
+
 // The meshes of a search from coarse to fine.
 void add_stages(Report& report, const std::vector<DesignStage>& stages) {
   for (const DesignStage& stage : stages)
@@ -153,6 +162,7 @@ Status run_search(DesignCommand& command, PostedJobs* jobs) {
   command.run.ranks = jobs;
   Progress progress(progress_style(command.quiet), problem.evaluations * (1 + problem.coarse_points.size()),
                     "problem: " + command.problem);
+  command.run.on_flow_step = [&](const FlowProgress& at) { progress.flow_step(at); };
   const DesignResult result = run_design(problem, command.run, &progress);
   progress.finish();
 
@@ -167,10 +177,8 @@ Status run_search(DesignCommand& command, PostedJobs* jobs) {
   report.figure("seconds", "wall time", result.search.seconds, "seconds");
   report.figure("stopped", "stopped", result.stopped);
   report.figure("converged", "converged", result.converged);
-  for (const FreshFlow& fresh : result.verified)
-    report.line("fresh mesh, I = " + std::to_string(fresh.points), text_of(fresh));
+  add_fresh(report, result);
   if (!result.stages.empty()) add_stages(report, result.stages);
-  report.data("verified", Json::parse(fresh_json(result.verified)));
   report.data("best", Json::parse(result.best));
   report.figure("directory", "run directory", command.run.directory.string());
   report.print(command.json);

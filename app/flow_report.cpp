@@ -63,23 +63,29 @@ Json to_json(const FlowResult& flow, const FlowConditions& conditions) {
   return json;
 }
 
+Json bodies_json(const std::vector<FlowBody>& bodies, bool lift_determined, bool has_friction) {
+  Json list = Json::array();
+  for (const FlowBody& body : bodies) {
+    Json& entry = list.emplace_back(Json{{"name", body.name},
+                                         {"cl", lift_determined ? Json(body.cl) : Json(nullptr)},
+                                         {"cd", body.cd},
+                                         {"cm", lift_determined ? Json(body.cm) : Json(nullptr)}});
+    if (!has_friction) continue;
+    entry["cd_pressure"] = body.cd_pressure, entry["cd_friction"] = body.cd_friction;
+    entry["y_plus_max"] = body.y_plus_max;
+  }
+  return list;
+}
+
 namespace {
 
 void add_bodies(Report& report, const FlowResult& flow) {
-  Json bodies = Json::array();
-  for (const FlowBody& body : flow.bodies) {
-    const Json cl = if_determined(flow, body.cl), cm = if_determined(flow, body.cm);
-    Json& entry = bodies.emplace_back(Json{{"name", body.name}, {"cl", cl}, {"cd", body.cd}, {"cm", cm}});
-    if (flow.friction) {
-      entry["cd_pressure"] = body.cd_pressure, entry["cd_friction"] = body.cd_friction;
-      entry["y_plus_max"] = body.y_plus_max;
-    }
-    if (flow.bodies.size() > 1)
-      report.line("body " + body.name, "CL " + (cl.is_null() ? not_determined : short_text(body.cl)) +
+  if (flow.bodies.size() > 1)
+    for (const FlowBody& body : flow.bodies)
+      report.line("body " + body.name, "CL " + (flow.lift_determined ? short_text(body.cl) : not_determined) +
                                            ", CD " + short_text(body.cd) +
                                            (flow.converged() ? "" : not_converged));
-  }
-  report.data("bodies", bodies);
+  report.data("bodies", bodies_json(flow.bodies, flow.lift_determined, flow.friction.has_value()));
   Json openings = Json::array();
   for (const FlowOpening& opening : flow.openings) {
     openings.push_back({{"name", opening.name},

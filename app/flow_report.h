@@ -11,6 +11,8 @@ namespace remodel::app {
 
 // Lift and moment are null where they are not determined; so is the angle where lift was given.
 Json to_json(const FlowResult& flow, const FlowConditions& conditions);
+// The parts of each wall.
+Json bodies_json(const std::vector<FlowBody>& bodies, bool lift_determined, bool has_friction);
 inline constexpr const char* not_determined = "not determined";
 // Not a number where it is not determined.
 double determined_lift(const FlowResult& flow);

@@ -16,6 +16,7 @@
 #include "figures.h"
 #include "flow_mesh.h"
 #include "flow_progress.h"
+#include "flow_report.h"
 #include "interrupt.h"
 #include "number_text.h"
 #include "outputs.h"
@@ -152,6 +153,8 @@ Json to_json(const PolarCurve& curve, const PolarPoint& point) {
             {"warm", name_of(point.start)},
             {"seconds", point.seconds}};
   if (curve.model != FlowModel::euler) json["y_plus_max"] = point.y_plus_max;
+  if (point.bodies.size() > 1)
+    json["bodies"] = bodies_json(point.bodies, !std::isnan(point.cl), curve.model != FlowModel::euler);
   if (!point.reason.empty()) json["reason"] = point.reason;
   if (!point.warnings.empty()) json["warnings"] = point.warnings;
   return json;

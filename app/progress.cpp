@@ -47,16 +47,31 @@ void StatusLine::end() const {
 }
 
 void Progress::evaluated(const EvaluationRecord& record) {
+  const std::scoped_lock lock(mutex_);
   if (at_first_) std::exchange(at_first_, nullptr)();
+  last_ = record.evaluation;
   if (line_.style() == ProgressStyle::none) return;
-  if (first_ == 0) {
-    // Nothing is printed before the first evaluation: a refusal may still come, and it has to be the only
-    // line.
-    std::fprintf(stderr, "%s\n", one_line(heading_).c_str());
-    first_ = record.evaluation;
-  }
+  begin();
+  if (first_ == 0) first_ = record.evaluation;
   preserved_sum_ += record.preserved_percent;
   if (line_.is_due(record.evaluation == evaluations_)) show(record);
+}
+
+void Progress::flow_step(const FlowProgress& progress) {
+  const std::scoped_lock lock(mutex_);
+  if (line_.style() == ProgressStyle::none || !line_.is_due(false)) return;
+  begin();
+  std::array<char, 200> figures{};
+  std::snprintf(figures.data(), figures.size(), "%zu/%zu  finding a flow: step %d, residual %.1e", last_,
+                evaluations_, progress.newton_step, progress.residual);
+  line_.show(static_cast<double>(last_) / static_cast<double>(evaluations_), figures.data());
+}
+
+// Nothing is printed before the first evaluation or flow: a refusal may still come, and it has to be the only
+// line.
+void Progress::begin() {
+  if (std::exchange(begun_, true)) return;
+  std::fprintf(stderr, "%s\n", one_line(heading_).c_str());
 }
 
 void Progress::show(const EvaluationRecord& record) const {
@@ -71,7 +86,7 @@ void Progress::show(const EvaluationRecord& record) const {
 }
 
 void Progress::finish() {
-  if (first_ != 0) line_.end();
+  if (begun_) line_.end();
 }
 
 }  // namespace remodel::app

@@ -4,10 +4,12 @@
 
 #include <cstddef>
 #include <functional>
+#include <mutex>
 #include <string>
 #include <utility>
 
 #include "interrupt.h"
+#include "remodel/flow.h"
 #include "remodel/optimise.h"
 #include "timing.h"
 
@@ -52,6 +54,8 @@ class Progress : public OptimiseObserver {
   // What is to be said when the first evaluation shows that the run was not refused.
   void say_at_first(std::function<void()> say) { at_first_ = std::move(say); }
   void evaluated(const EvaluationRecord& record) override;
+  // Says how far the flow under way is, where designs take long. From any thread.
+  void flow_step(const FlowProgress& progress);
   bool cancelled() override { return interrupt_.cancelled(); }
   // The same question for steps and flows.
   StepObserver& step_observer() { return interrupt_; }
@@ -59,14 +63,18 @@ class Progress : public OptimiseObserver {
   void finish();
 
  private:
+  void begin();  // says the heading, once
   void show(const EvaluationRecord& record) const;
 
+  std::mutex mutex_;
   StatusLine line_;
   std::size_t evaluations_;
   std::string heading_;
   std::function<void()> at_first_;
   InterruptObserver interrupt_;
+  bool begun_ = false;
   std::size_t first_ = 0;  // the first evaluation of this session: not 1 in a resumed run
+  std::size_t last_ = 0;
   double preserved_sum_ = 0.0;
 };
 

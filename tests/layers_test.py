@@ -32,7 +32,7 @@ LAYERS = [
             "replay.h", "batch.h", "noise.h", "directory_lock.h", "cmaes.h", "sqp.h", "history.h", "soak.h", "crew.h",
         ],
     },
-    {"name": "aero", "headers": ["boundary_layer.h", "deformation.h", "design_problem.h", "design_run.h", "flow_function.h", "flow_layer.h", "flow_plots.h", "flow_space.h", "polar.h", "sweep.h"]},
+    {"name": "aero", "headers": ["boundary_layer.h", "deformation.h", "design_problem.h", "design_run.h", "flow_function.h", "flow_layer.h", "flow_noise.h", "flow_plots.h", "flow_space.h", "polar.h", "sweep.h"]},
     {"name": "python", "headers": []},
     {"name": "study", "headers": []},
     {"name": "app", "headers": []},

@@ -211,9 +211,10 @@ std::vector<std::string> constraint_names(const DesignProblem& problem);
 // layers. Outputs: cl, cd, cm, with friction cd_pressure and cd_friction, alpha_deg (of the second point cl_2
 // ...), connectivity, factorisations, flow_seconds, gradient_seconds. The space must outlive it. The flows of
 // the points are found on so many threads at most; times alone depend on it. `ranks`: by the crew that works
-// on these, which does flow_points_work().
+// on these, which does flow_points_work(). `on_step`: DesignRunOptions::on_flow_step.
 std::unique_ptr<Evaluator> flow_evaluator(const DesignProblem& problem, const FlowSpace& space,
-                                          std::size_t threads = 1, PostedJobs* ranks = nullptr);
+                                          std::size_t threads = 1, PostedJobs* ranks = nullptr,
+                                          std::function<void(const FlowProgress&)> on_step = {});
 CrewWork flow_points_work(const DesignProblem& problem);
 std::unique_ptr<Designer> make_designer(const DesignProblem& problem, const FlowSpace& space);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -29,10 +30,12 @@ struct DesignRunOptions {
   // The crew that works on these, which does design_work(), finds the flows: each of its processes those of
   // some points, or, where the problem has several workers, those of the designs of some.
   PostedJobs* ranks = nullptr;
+  // Called after each Newton step of every flow that this process looks for, from several threads: first
+  // flows can take minutes.
+  std::function<void(const FlowProgress&)> on_flow_step = {};
 };
 
-// The best design's flow at one point, on a fresh mesh, which no search has seen. cl, cm: nan if
-// undetermined.
+// A design's flow at one point, on a fresh mesh, which no search has seen. cl, cm: nan if undetermined.
 struct FreshFlow {
   // This is what figures lack of those of an infinitely fine mesh, to be added to them: Richardson's estimate
   // by this mesh and the next coarser one (remodel/flow_error.h). Where lift is given that of cl is 0.
@@ -87,7 +90,8 @@ struct DesignResult {
 
   // There is one for each number in DesignProblem::verify, of each point; none where the verification was
   // interrupted.
-  std::vector<FreshFlow> verified;
+  std::vector<FreshFlow> verified;        // the best design's
+  std::vector<FreshFlow> verified_start;  // those of the design that the search began with, likewise
   // One for each mesh, where the problem has several (DesignProblem::coarse_points): all else here is of the
   // last one, and so are the files in the run's directory but stages.json and stage-1, stage-2 ..., the
   // directories of the coarse meshes' runs.

@@ -10,6 +10,8 @@
 // a shock. Source: P. J. Roache, "Perspective: a method for uniform reporting of grid refinement studies", J.
 // Fluids Eng. 116 (1994).
 
+#include <algorithm>
+
 #include "remodel/flow.h"
 #include "remodel/layers.h"
 
@@ -18,6 +20,12 @@ namespace remodel {
 // p, as above, of errors of coefficients, by the largest local Mach number.
 inline double order_of_errors(double mach_max) {
   return mach_max > 1.0 ? 1.0 : 2.0;
+}
+
+// The value is what a drag coefficient lacks by such an estimate. In a free stream, without inlets and
+// outlets, no body has thrust: then the estimate takes away no more than there is.
+inline double lacking_drag(double estimate, double cd, bool free_stream) {
+  return free_stream && cd > 0.0 ? std::max(estimate, -cd) : estimate;
 }
 
 struct FlowError {

@@ -53,6 +53,7 @@ struct PolarPoint {
   double alpha_deg = none, cl = none, cd = none, cm = none;
   double cd_pressure = none, cd_friction = none;  // cd's parts; without friction all of it is of pressure
   double y_plus_max = none;                       // of models with friction
+  std::vector<FlowBody> bodies = {};              // of flows that were found: the parts of each wall
   int newton_steps = 0;
   double residual = none;
   FlowStart start = FlowStart::cold;

@@ -10,6 +10,7 @@
 Shapes: Airfoil, Domain, catalogue(). Meshes: generate(), import_mesh(), Mesh, FrozenMesh, check(). Steps:
 Mesh.update() returns a Step, Mesh.trial() tries a design. Layers on walls: generate_layered(), LayeredMesh. Values carried from mesh to mesh: Transfer. Flow:
 solve_flow(), LivingFlow, PotentialSolver. Optimisers: design(), optimise(), CMAES. Many flows: sweep().
+How smooth an objective is: noise().
 
 Lengths are in chords and angles in degrees. Every mesh is constrained Delaunay; a step keeps what it can. Bad
 input raises an Error: ArgumentError, FileError, FormatError or GeometryError, with the place and what was
@@ -61,6 +62,7 @@ from ._designers import CMAES
 from ._errors import ArgumentError, ArgumentTypeError, Error, EvaluationFailed, FileError, FormatError, GeometryError, TopologyChanged
 from ._gradients import PointGradient
 from ._mesh import extend as _extend
+from ._noise import NoiseResult, noise
 from ._optimise import OptimiseResult, optimise
 from ._sweep import SweepResult, sweep
 
@@ -69,9 +71,9 @@ _extend()
 __all__ = [
     "Airfoil", "ArgumentError", "ArgumentTypeError", "CMAES", "Changes", "CheckResult", "DesignResult", "Domain", "Error",
     "EvaluationFailed", "FileError", "FlowResult", "FormatError", "FrozenMesh", "GeometryError",
-    "InteriorDisplacement", "LayeredChanges", "LayeredMesh", "LayeredStep", "LayeredTrial", "LivingFlow", "Mesh", "OptimiseResult", "PointGradient", "PotentialFlow",
+    "InteriorDisplacement", "LayeredChanges", "LayeredMesh", "LayeredStep", "LayeredTrial", "LivingFlow", "Mesh", "NoiseResult", "OptimiseResult", "PointGradient", "PotentialFlow",
     "PotentialSolver", "Step", "SweepResult", "TopologyChanged", "Transfer", "Trial", "Violation", "__version__", "catalogue",
-    "check", "design", "from_meshio", "from_pyvista", "generate", "generate_layered", "import_mesh", "optimise", "read_fields", "read_frozen",
+    "check", "design", "from_meshio", "from_pyvista", "generate", "generate_layered", "import_mesh", "noise", "optimise", "read_fields", "read_frozen",
     "solve_flow", "sweep",
 ]  # fmt: skip
 

@@ -643,6 +643,7 @@ class DesignResult:
     named: dict[str, float]
     constraints: dict[str, float]
     verified: list[dict[str, Any]]
+    verified_start: list[dict[str, Any]]
     stages: list[dict[str, Any]]
     rows: list[dict[str, Any]]
     warnings: list[str]
@@ -700,5 +701,25 @@ def from_pyvista(grid: Any, *, split_quadrilaterals: bool = False) -> FrozenMesh
 def generate_layered(shape: Union[str, Airfoil, Domain], *, reynolds: Optional[float] = None, model: str = "sa", first_height: Optional[float] = None, thickness: Optional[float] = None, growth: float = 1.2, walls: Sequence[str] = ..., spacing: float = 1.0, gradation: float = 8.0, farfield_radius: float = 25.0, farfield_points: int = 50, max_vertices: int = ..., wake: Optional[float] = None, wake_angle: float = 0.0, reference_length: Optional[float] = None) -> LayeredMesh: ...
 def solve_flow(mesh: _AnyMesh, *, mach: float = 0.5, alpha: float = 0.0, cl: Optional[float] = None, reference: Sequence[float] = ..., reference_length: float = 1.0, farfield: str = "farfield", tolerance: float = 1e-10, max_steps: int = 200, memory_mb: float = 4096.0, solver: Optional[str] = None, inlets: Mapping[str, Sequence[float]] = ..., outlets: Mapping[str, float] = ..., reynolds: float = 0.0, model: str = "euler", transition: Optional[Sequence[float]] = None, wall_temperature: Optional[float] = None, periodic: Sequence[tuple[str, str]] = ...) -> FlowResult: ...
 def optimise(start: Union[str, Airfoil], objective: Union[Airfoil, Callable[[np.ndarray, FrozenMesh, dict[str, Any]], Any]], *, directory: Optional[_Path] = None, points: int = 200, sigma: float = 0.05, seed: int = 1, evaluations: int = 9000, tolerance: float = 0.0, strategy: str = "renew", workers: int = 0, threads: Optional[int] = None, resume: bool = False, overwrite: bool = False, layers: Optional[Mapping[str, Any]] = None, callback: Optional[Callable[[dict[str, Any]], Any]] = None) -> OptimiseResult: ...
+class NoiseSeries:
+    values: dict[str, np.ndarray]
+    rms: dict[str, float]
+    slope: dict[str, float]
+    slope_error: dict[str, float]
+    step: dict[str, float]
+    step_error: dict[str, float]
+    adjoint: dict[str, float]
+    failures: list[str]
+
+class NoiseResult:
+    names: list[str]
+    places: np.ndarray
+    stopped: str
+    fresh: NoiseSeries
+    living: NoiseSeries
+    hub: NoiseSeries
+    reference: NoiseSeries
+
+def noise(shape: Union[str, Airfoil], objective: Optional[Callable[[np.ndarray, FrozenMesh, dict[str, Any]], Any]] = None, *, mach: Optional[float] = None, alpha: float = 0.0, direction: Optional[Sequence[float]] = None, spacing: float = 1e-3, count: int = 21, degree: int = 3, points: int = 200, tolerance: float = 1e-12) -> NoiseResult: ...
 def sweep(problem: Union[_Path, dict[str, Any]], *, directory: Optional[_Path] = None, resume: bool = False, threads: int = 0, callback: Optional[Callable[[dict[str, Any]], Any]] = None) -> SweepResult: ...
 def design(problem: Union[_Path, dict[str, Any]], *, directory: Optional[_Path] = None, resume: bool = False, overwrite: bool = False, threads: int = 0, callback: Optional[Callable[[dict[str, Any]], Any]] = None) -> DesignResult: ...

@@ -19,7 +19,8 @@ _SOURCE = "problem"  # what messages call a problem that is no file
 class DesignResult(SimpleNamespace):
     """What a search found: objective and start_objective (None without a flow), best_design (an array), best (a dict as
     best.json has it), converged, stopped, detail, constraints (by how much each is violated, 0 within the tolerance),
-    outputs (cl, cd, ... of the best design), stages (a dict for each mesh, where there are several), verified (its flows on fresh meshes, a dict each), evaluations, flows,
+    outputs (cl, cd, ... of the best design), stages (a dict for each mesh, where there are several), verified and
+    verified_start (flows of the best and of the first design on fresh meshes, a dict each), evaluations, flows,
     gradients, cold_equivalents, warnings, directory (None: it was a temporary one).
 
     rows: a dict for each design. `result.column(name)` is one figure, or one output, of all of them.

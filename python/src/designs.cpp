@@ -116,6 +116,7 @@ py::dict dict_of(const DesignResult& result, const std::filesystem::path& direct
   figures["replacements"] = result.replacements;
   figures["cold_equivalents"] = py::cast(result.cold_equivalents);
   figures["verified"] = json.attr("loads")(fresh_json(result.verified));
+  figures["verified_start"] = json.attr("loads")(fresh_json(result.verified_start));
   figures["stages"] = json.attr("loads")(stages_json(result.stages));
   figures["rows"] = rows_of(directory / "history.sqlite");
   return figures;

@@ -73,6 +73,7 @@ PYBIND11_MODULE(_core, module) {
   add_flows(module);
   add_potential_flows(module);
   add_designers(module);
+  add_noise(module);
   add_optimise(module);
   add_designs(module);
   add_sweeps(module);

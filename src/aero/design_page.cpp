@@ -298,45 +298,59 @@ std::string constraints_table(const PageJson& by) {
   return table + "</table>\n";
 }
 
-// The best design on fresh meshes, as the command left it: nothing where the file is that of another design.
+// Columns that flows on fresh meshes have where these are of friction, or of a duct.
+struct FreshColumns {
+  bool friction = false, duct = false;
+  int behind_mach() const { return 7 + 2 * friction + 2 * duct; }
+};
+
+std::string fresh_row(const std::string& name, const PageJson& entry, const FreshColumns& columns) {
+  std::string row = "<tr><th>" + name + "</th>" +
+                    cells({entry.at("points").dump(), entry.at("vertices").dump(), number(entry.at("mach"))});
+  if (entry.at("converged") != true)
+    return row + "<td colspan=\"" + std::to_string(columns.behind_mach()) +
+           "\">no flow was found</td></tr>\n";
+  std::string violated;
+  for (const auto& [constraint, excess] : entry.at("violated").items())
+    violated += (violated.empty() ? "" : ", ") + escaped(constraint) + " by " + number(excess.get<double>());
+  row += cells(
+      {number(entry.at("alpha_deg"), "%.3f") + "°", number(entry.at("cl"), "%.4f"), counts(entry.at("cd"))});
+  if (columns.friction)
+    for (const char* part : {"cd_pressure", "cd_friction"})
+      row += cells({entry.contains(part) ? counts(entry.at(part)) : ""});
+  if (columns.duct)
+    for (const char* part : {"mass_flow", "total_pressure"})
+      row += cells({entry.contains(part) ? number(entry.at(part), "%.6g") : ""});
+  return row +
+         cells({entry.contains("error") ? counts(entry.at("error").at("cd")) : "",
+                number(entry.at("cm"), "%.4f"), violated.empty() ? "none" : violated,
+                number(entry.at("seconds"), "%.1f")}) +
+         "</tr>\n";
+}
+
+// The first and the best design on fresh meshes, as the command left them: nothing where the file is that of
+// another design.
 std::string fresh_table(const fs::path& directory, const DesignRun& run) {
   const fs::path file = directory / "fresh.json";
   const PageJson fresh = fs::exists(file) ? PageJson::parse(read_text(file), nullptr, false) : PageJson();
   if (!run.has_best() || !fresh.is_object() || fresh.at("design") != PageJson(run.best_design())) return {};
-  const PageJson& entries = fresh.at("verified");
-  const bool friction = std::any_of(entries.begin(), entries.end(),
-                                    [](const PageJson& e) { return e.contains("cd_friction"); });
+  const PageJson& best = fresh.at("verified");
+  const PageJson first = fresh.value("verified_start", PageJson::array());
+  const auto any_has = [&](const char* key) {
+    return std::any_of(best.begin(), best.end(), [&](const PageJson& entry) { return entry.contains(key); });
+  };
+  const FreshColumns columns{.friction = any_has("cd_friction"), .duct = any_has("mass_flow")};
   std::string table =
-      "<h2>On fresh meshes</h2>\n<p>The best section on meshes that the search has not seen, flows found "
-      "cold. What the finest lacks of an infinitely fine mesh is estimated by it and the "
-      "next.</p>\n<table>\n<tr><th>points</th><th>vertices</th><th>Mach</th><th>CL</th><th>CD, counts</th>";
-  if (friction) table += "<th>of pressure</th><th>of friction</th>";
-  const bool duct =
-      std::any_of(entries.begin(), entries.end(), [](const PageJson& e) { return e.contains("mass_flow"); });
-  if (duct) table += "<th>mass flow</th><th>total pressure</th>";
+      "<h2>On fresh meshes</h2>\n<p>The first and the best design on meshes that the search has not seen, "
+      "flows found cold. What the finest lacks of an infinitely fine mesh is estimated by it and the "
+      "next.</p>\n<table>\n<tr><th></th><th>points</th><th>vertices</th><th>Mach</th><th>α</th><th>CL</th>"
+      "<th>CD, counts</th>";
+  if (columns.friction) table += "<th>of pressure</th><th>of friction</th>";
+  if (columns.duct) table += "<th>mass flow</th><th>total pressure</th>";
   table += "<th>CD lacks about</th><th>CM</th><th>constraints violated</th><th>seconds</th></tr>\n";
-  for (const PageJson& entry : entries) {
-    table +=
-        "<tr>" + cells({entry.at("points").dump(), entry.at("vertices").dump(), number(entry.at("mach"))});
-    if (entry.at("converged") != true) {
-      table +=
-          "<td colspan=\"" + std::to_string(6 + 2 * friction + 2 * duct) + "\">no flow was found</td></tr>\n";
-      continue;
-    }
-    std::string violated;
-    for (const auto& [name, excess] : entry.at("violated").items())
-      violated += (violated.empty() ? "" : ", ") + escaped(name) + " by " + number(excess.get<double>());
-    table += cells({number(entry.at("cl"), "%.4f"), counts(entry.at("cd"))});
-    if (friction)
-      for (const char* part : {"cd_pressure", "cd_friction"})
-        table += cells({entry.contains(part) ? counts(entry.at(part)) : ""});
-    if (duct)
-      for (const char* part : {"mass_flow", "total_pressure"})
-        table += cells({entry.contains(part) ? number(entry.at(part), "%.6g") : ""});
-    table += cells({entry.contains("error") ? counts(entry.at("error").at("cd")) : ""});
-    table += cells({number(entry.at("cm"), "%.4f"), violated.empty() ? "none" : violated,
-                    number(entry.at("seconds"), "%.1f")}) +
-             "</tr>\n";
+  for (std::size_t i = 0; i < best.size(); ++i) {
+    if (i < first.size()) table += fresh_row("start", first[i], columns);
+    table += fresh_row("best", best[i], columns);
   }
   return table + "</table>\n";
 }

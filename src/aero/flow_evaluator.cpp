@@ -28,12 +28,14 @@ void add(std::vector<double>& to, double factor, const std::vector<double>& from
 class FlowEvaluator final : public Evaluator {
  public:
   // ranks: have the flows of points found by a crew; null: by threads.
-  FlowEvaluator(const DesignProblem& problem, const FlowSpace& space, std::size_t threads, PostedJobs* ranks)
+  FlowEvaluator(const DesignProblem& problem, const FlowSpace& space, std::size_t threads, PostedJobs* ranks,
+                std::function<void(const FlowProgress&)> on_step)
       : problem_(problem),
         parts_(resolved(problem, "design problem")),
         space_(space),
         threads_(ranks == nullptr ? threads : problem.points.size()),
-        ranks_(ranks) {
+        ranks_(ranks),
+        on_step_(std::move(on_step)) {
     for (std::size_t i = 0; i < problem_.points.size(); ++i) {
       std::vector<std::size_t>& asked = asked_.emplace_back(1, 0);  // the objective is of each point
       for (const ResolvedProblem::FlowLimit& limit : parts_.flow)
@@ -173,7 +175,9 @@ class FlowEvaluator final : public Evaluator {
   }
 
   FlowOptions flow_options(std::size_t point, FlowMemory& memory) const {
-    return design_flow_options(space_, problem_.points[point], &memory.observer);
+    FlowOptions options = design_flow_options(space_, problem_.points[point], &memory.observer);
+    options.on_step = on_step_;
+    return options;
   }
 
   static FlowResult flow_of(const DesignMesh& mesh, LivingFlow& living, const FlowConditions& conditions) {
@@ -315,6 +319,7 @@ class FlowEvaluator final : public Evaluator {
   const FlowSpace& space_;
   std::size_t threads_;
   PostedJobs* ranks_;
+  std::function<void(const FlowProgress&)> on_step_;
   std::string run_;                              // PostedPoint::run, where ranks find flows
   std::vector<std::vector<std::size_t>> asked_;  // of each point: functions
 };
@@ -322,13 +327,15 @@ class FlowEvaluator final : public Evaluator {
 }  // namespace
 
 std::unique_ptr<Evaluator> flow_evaluator(const DesignProblem& problem, const FlowSpace& space,
-                                          std::size_t threads, PostedJobs* ranks) {
-  return std::make_unique<FlowEvaluator>(problem, space, threads, ranks);
+                                          std::size_t threads, PostedJobs* ranks,
+                                          std::function<void(const FlowProgress&)> on_step) {
+  return std::make_unique<FlowEvaluator>(problem, space, threads, ranks, std::move(on_step));
 }
 
 CrewWork flow_points_work(const DesignProblem& problem) {
   struct Parts {
-    explicit Parts(const DesignProblem& of) : space(design_space(of)), evaluator(of, *space, 1, nullptr) {}
+    explicit Parts(const DesignProblem& of)
+        : space(design_space(of)), evaluator(of, *space, 1, nullptr, {}) {}
     std::unique_ptr<FlowSpace> space;
     FlowEvaluator evaluator;
     PointStates states;

@@ -54,6 +54,7 @@ PolarPoint point_of(const MarchedFlow& marched, bool over_lift) {
   point.cd_pressure = flow.friction ? flow.friction->cd_pressure : flow.cd;
   point.cd_friction = flow.friction ? flow.friction->cd_friction : 0.0;
   if (flow.friction) point.y_plus_max = flow.friction->y_plus_max;
+  point.bodies = flow.bodies;
   return point;
 }
 

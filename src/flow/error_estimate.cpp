@@ -67,7 +67,8 @@ FlowError error_beside(const Made& made, const FrozenMesh& mesh, const FlowResul
   error.order = order_of_errors(remodel::flow::largest_mach(error.finer));
   const double whole = 1.0 / (1.0 - std::pow(2.0, -error.order));
   error.cl = conditions.cl ? 0.0 : whole * (error.finer.cl - flow.cl);
-  error.cd = whole * (error.finer.cd - flow.cd);
+  error.cd = lacking_drag(whole * (error.finer.cd - flow.cd), flow.cd,
+                          options.inlets.empty() && options.outlets.empty());
   error.cm = whole * (error.finer.cm - flow.cm);
   error.alpha_deg = conditions.cl ? whole * (error.finer.alpha_deg - flow.alpha_deg) : 0.0;
   return error;

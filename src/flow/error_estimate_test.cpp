@@ -11,7 +11,9 @@ namespace remodel {
 namespace {
 
 Mesh section_mesh(int points) {
-  return generate(airfoil_domain(named_airfoil("naca:0012", 5), {.points = points}), {.gradation = points / 50.0}).mesh;
+  return generate(airfoil_domain(named_airfoil("naca:0012", 5), {.points = points}),
+                  {.gradation = points / 50.0})
+      .mesh;
 }
 
 // The estimate at I = 60 is compared with what I = 240 has, which is sixteen times nearer to the limit.
@@ -35,6 +37,13 @@ TEST(ErrorEstimate, IsOfTheAngleWhereLiftIsGiven) {
   EXPECT_EQ(error.cl, 0.0);
   EXPECT_NE(error.alpha_deg, 0.0);
   EXPECT_LT(std::fabs(error.alpha_deg), 0.2);
+}
+
+TEST(ErrorEstimate, TakesAwayNoMoreDragThanThereIsInAFreeStream) {
+  EXPECT_EQ(lacking_drag(-11e-4, 2e-4, true), -2e-4);
+  EXPECT_EQ(lacking_drag(-1e-4, 2e-4, true), -1e-4);
+  EXPECT_EQ(lacking_drag(-11e-4, 2e-4, false), -11e-4);  // the walls of a duct may have thrust
+  EXPECT_EQ(lacking_drag(1e-4, -2e-4, true), 1e-4);
 }
 
 TEST(ErrorEstimate, AsksForAFlow) {

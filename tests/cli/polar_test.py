@@ -11,6 +11,7 @@ import time
 import unittest
 
 import harness
+import shapes
 from harness import ProgramTest
 
 SMALL = ("--points", 40, "--farfield-radius", 10)
@@ -62,6 +63,17 @@ class Polars(ProgramTest):
             mesh = self.figures("polar", name, *row)
             for a, b in zip(shape["points"], mesh["points"]):
                 self.assertAlmostEqual(a["cl"], b["cl"], delta=1e-8)
+
+    def test_forces_of_each_body(self):
+        self.write("front.dat", shapes.selig())
+        rows = [line.split() for line in shapes.selig().splitlines()[1:]]
+        self.write("rear.dat", "rear\n" + "".join(f"{float(x) + 1.2} {float(y) - 0.1}\n" for x, y in rows))
+        self.succeed("mesh", "front.dat", "rear.dat", "--as-given", "spline", "--keep-coordinates", *SMALL, "-o", "two.vtkhdf")
+        figures = self.figures("polar", "two.vtkhdf", "--mach", 0.3, "--alpha", "0:2:1")
+        for point in figures["points"]:
+            self.assertEqual([body["name"] for body in point["bodies"]], ["front", "rear"])
+            for key in ("cl", "cd", "cm"):
+                self.assertAlmostEqual(sum(body[key] for body in point["bodies"]), point[key], delta=1e-12)
 
     def test_a_flow_that_is_not_found_is_a_row_that_says_so(self):
         outcome = self.succeed(*ROW, "--max-steps", 1, "-o", "a.csv", "-o", "a.svg", "--json", status=3)
