@@ -1,4 +1,4 @@
-"""A polar: lift, drag and moment over angles of attack, each flow from the last one.
+"""A polar: lift, drag and moment over angles of attack, each flow from the last one, past the largest lift.
 
     python3 polar.py [SECTION]
 """
@@ -12,16 +12,10 @@ import remodel
 
 def main(section="naca:2412", angles=np.arange(-2.0, 8.1, 2.0), points=200, mach=0.3):
     mesh = remodel.generate(section, points=points)
-    flow = remodel.LivingFlow(tolerance=1e-8)
-    rows = []
-    for alpha in angles:
-        result = flow.solve(mesh, mach=mach, alpha=float(alpha))
-        if not result.converged:
-            print(f"{alpha:6.2f} degrees: {result.reason}")
-            break
-        rows.append((alpha, result.cl, result.cd, result.cm))
-        print(f"{alpha:6.2f} degrees  CL {result.cl:7.4f}  CD {result.cd:.5f}  CM {result.cm:7.4f}  {result.start}")
-    return np.array(rows)
+    row = remodel.polar(mesh, mach=mach, alpha=angles, tolerance=1e-8)
+    for alpha, cl, cd, cm, why in zip(row.alpha, row.cl, row.cd, row.cm, row.reason):
+        print(f"{alpha:6.2f} degrees: {why}" if why else f"{alpha:6.2f} degrees  CL {cl:7.4f}  CD {cd:.5f}  CM {cm:7.4f}")
+    return np.column_stack([row.alpha, row.cl, row.cd, row.cm])
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@
 
 Shapes: Airfoil, Domain, catalogue(). Meshes: generate(), import_mesh(), Mesh, FrozenMesh, check(). Steps:
 Mesh.update() returns a Step, Mesh.trial() tries a design. Layers on walls: generate_layered(), LayeredMesh. Values carried from mesh to mesh: Transfer. Flow:
-solve_flow(), LivingFlow, PotentialSolver. Optimisers: design(), optimise(), CMAES. Many flows: sweep().
+solve_flow(), LivingFlow, PotentialSolver. Optimisers: design(), optimise(), CMAES. Many flows: polar(), sweep().
 How smooth an objective is: noise().
 
 Lengths are in chords and angles in degrees. Every mesh is constrained Delaunay; a step keeps what it can. Bad
@@ -64,6 +64,7 @@ from ._gradients import PointGradient
 from ._mesh import extend as _extend
 from ._noise import NoiseResult, noise
 from ._optimise import OptimiseResult, optimise
+from ._polar import PolarCurve, polar
 from ._sweep import SweepResult, sweep
 
 _extend()
@@ -71,9 +72,9 @@ _extend()
 __all__ = [
     "Airfoil", "ArgumentError", "ArgumentTypeError", "CMAES", "Changes", "CheckResult", "DesignResult", "Domain", "Error",
     "EvaluationFailed", "FileError", "FlowResult", "FormatError", "FrozenMesh", "GeometryError",
-    "InteriorDisplacement", "LayeredChanges", "LayeredMesh", "LayeredStep", "LayeredTrial", "LivingFlow", "Mesh", "NoiseResult", "OptimiseResult", "PointGradient", "PotentialFlow",
+    "InteriorDisplacement", "LayeredChanges", "LayeredMesh", "LayeredStep", "LayeredTrial", "LivingFlow", "Mesh", "NoiseResult", "OptimiseResult", "PointGradient", "PolarCurve", "PotentialFlow",
     "PotentialSolver", "Step", "SweepResult", "TopologyChanged", "Transfer", "Trial", "Violation", "__version__", "catalogue",
-    "check", "design", "from_meshio", "from_pyvista", "generate", "generate_layered", "import_mesh", "noise", "optimise", "read_fields", "read_frozen",
+    "check", "design", "from_meshio", "from_pyvista", "generate", "generate_layered", "import_mesh", "noise", "optimise", "polar", "read_fields", "read_frozen",
     "solve_flow", "sweep",
 ]  # fmt: skip
 

@@ -701,6 +701,31 @@ def from_pyvista(grid: Any, *, split_quadrilaterals: bool = False) -> FrozenMesh
 def generate_layered(shape: Union[str, Airfoil, Domain], *, reynolds: Optional[float] = None, model: str = "sa", first_height: Optional[float] = None, thickness: Optional[float] = None, growth: float = 1.2, walls: Sequence[str] = ..., spacing: float = 1.0, gradation: float = 8.0, farfield_radius: float = 25.0, farfield_points: int = 50, max_vertices: int = ..., wake: Optional[float] = None, wake_angle: float = 0.0, reference_length: Optional[float] = None) -> LayeredMesh: ...
 def solve_flow(mesh: _AnyMesh, *, mach: float = 0.5, alpha: float = 0.0, cl: Optional[float] = None, reference: Sequence[float] = ..., reference_length: float = 1.0, farfield: str = "farfield", tolerance: float = 1e-10, max_steps: int = 200, memory_mb: float = 4096.0, solver: Optional[str] = None, inlets: Mapping[str, Sequence[float]] = ..., outlets: Mapping[str, float] = ..., reynolds: float = 0.0, model: str = "euler", transition: Optional[Sequence[float]] = None, wall_temperature: Optional[float] = None, periodic: Sequence[tuple[str, str]] = ...) -> FlowResult: ...
 def optimise(start: Union[str, Airfoil], objective: Union[Airfoil, Callable[[np.ndarray, FrozenMesh, dict[str, Any]], Any]], *, directory: Optional[_Path] = None, points: int = 200, sigma: float = 0.05, seed: int = 1, evaluations: int = 9000, tolerance: float = 0.0, strategy: str = "renew", workers: int = 0, threads: Optional[int] = None, resume: bool = False, overwrite: bool = False, layers: Optional[Mapping[str, Any]] = None, callback: Optional[Callable[[dict[str, Any]], Any]] = None) -> OptimiseResult: ...
+class PolarCurve:
+    COLUMNS: tuple[str, ...]
+    mach: float
+    alpha: np.ndarray
+    cl: np.ndarray
+    cd: np.ndarray
+    cm: np.ndarray
+    cd_pressure: np.ndarray
+    cd_friction: np.ndarray
+    y_plus_max: np.ndarray
+    converged: np.ndarray
+    asked: np.ndarray
+    status: list[str]
+    reason: list[str]
+    warnings_of: list[list[str]]
+    bodies: dict[str, dict[str, np.ndarray]]
+    cl_max: float
+    alpha_of_cl_max: float
+    cl_max_passed: bool
+    warnings: list[str]
+    @property
+    def columns(self) -> dict[str, Any]: ...
+    def __len__(self) -> int: ...
+
+def polar(mesh: _AnyMesh, *, mach: Union[float, Sequence[float]] = 0.5, alpha: Optional[Sequence[float]] = None, cl: Optional[Sequence[float]] = None, model: str = "euler", reynolds: float = 0.0, transition: Optional[Sequence[float]] = None, wall_temperature: Optional[float] = None, reference: Sequence[float] = (0.25, 0.0), reference_length: float = 1.0, farfield: Union[str, Sequence[str]] = "farfield", tolerance: float = 1e-10, max_steps: int = 200, memory_mb: float = 4096.0, halvings: int = 3, misses: int = 2) -> Union[PolarCurve, list[PolarCurve]]: ...
 class NoiseSeries:
     values: dict[str, np.ndarray]
     rms: dict[str, float]

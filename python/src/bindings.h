@@ -39,6 +39,7 @@ void add_potential_flows(py::module_& module);
 void add_designers(py::module_& module);
 void add_noise(py::module_& module);
 void add_optimise(py::module_& module);
+void add_polars(py::module_& module);
 void add_designs(py::module_& module);
 void add_sweeps(py::module_& module);
 

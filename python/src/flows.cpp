@@ -9,6 +9,7 @@
 #include "bindings.h"
 #include "functionals.h"
 #include "living.h"
+#include "living_flow.h"
 #include "records.h"
 
 namespace remodel {
@@ -38,10 +39,6 @@ auto members(T& f) {
 }  // namespace remodel
 
 namespace remodel::python {
-namespace {
-
-using FlowPointer = std::shared_ptr<FlowResult>;
-using Transition = std::optional<std::array<double, 2>>;
 
 FlowConditions conditions_of(double mach, double alpha, const std::optional<double>& cl,
                              const std::array<double, 2>& reference, double reference_length, double reynolds,
@@ -56,6 +53,14 @@ FlowConditions conditions_of(double mach, double alpha, const std::optional<doub
           .wall_temperature = wall_temperature};
 }
 
+void require_reynolds_with_friction(FlowModel model, double reynolds) {
+  if (model == FlowModel::euler && reynolds != 0.0)
+    throw Error(ErrorCode::argument, "reynolds", "given with the model euler, expected one with friction");
+}
+
+namespace {
+
+using FlowPointer = std::shared_ptr<FlowResult>;
 using Inlets =
     std::map<std::string, std::vector<double>>;  // total pressure, total temperature, maybe an angle
 using Outlets = std::map<std::string, double>;   // pressure
@@ -94,11 +99,6 @@ FlowOptions options_of(const std::string& farfield, double tolerance, int max_st
   for (const auto& [name, pressure] : outlets)
     options.outlets.push_back({.name = name, .pressure = pressure});
   return options;
-}
-
-void require_reynolds_with_friction(FlowModel model, double reynolds) {
-  if (model == FlowModel::euler && reynolds != 0.0)
-    throw Error(ErrorCode::argument, "reynolds", "given with the model euler, expected one with friction");
 }
 
 // A flow knows the mesh that its values are on.
@@ -553,6 +553,10 @@ ArgumentError; a flow that is not found is a result: FlowResult.converged, .reas
 docs/flow.md has method and sources.)";
 
 }  // namespace
+
+FlowOptions flow_options_of(const py::object& living_flow) {
+  return living_flow.cast<const Flows&>().options();
+}
 
 void add_flows(py::module_& module) {
   add_result(module);

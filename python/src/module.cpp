@@ -72,6 +72,7 @@ PYBIND11_MODULE(_core, module) {
   add_layers(module);
   add_flows(module);
   add_potential_flows(module);
+  add_polars(module);
   add_designers(module);
   add_noise(module);
   add_optimise(module);

@@ -93,6 +93,7 @@ struct Chain {
   int steps;
   Method method;
   Strategy strategy = Strategy::chain;
+  double turning_share = 0.0;
 };
 
 CstAirfoil design_about(const CstAirfoil& centre, Chance& chance, double size) {
@@ -106,7 +107,7 @@ CstAirfoil design_about(const CstAirfoil& centre, Chance& chance, double size) {
 // for the first mesh and after every step.
 Mesh run(const Chain& chain, const std::function<void(const Mesh&)>& each) {
   const std::vector<CatalogueEntry>& airfoils = airfoil_catalogue();
-  const AirfoilDomainOptions options{.points = chain.points};
+  const AirfoilDomainOptions options{.points = chain.points, .turning_share = chain.turning_share};
   Chance chance(chain.seed);
   CstAirfoil centre = airfoils[chain.seed % airfoils.size()].airfoil();
   Mesh mesh = generate(airfoil_domain(centre, options), {.gradation = chain.points / 50.0}).mesh;
@@ -125,7 +126,8 @@ Mesh run(const Chain& chain, const std::function<void(const Mesh&)>& each) {
 int print_chains() {
   for (const Chain& chain : {Chain{1, 100, 200, Method::automatic}, Chain{5, 60, 60, Method::general},
                              Chain{3, 80, 120, Method::automatic, Strategy::renew},
-                             Chain{4, 50, 60, Method::general, Strategy::renew}}) {
+                             Chain{4, 50, 60, Method::general, Strategy::renew},
+                             Chain{2, 60, 40, Method::automatic, Strategy::chain, 0.3}}) {
     bool first = true;
     const Mesh last = run(chain, [&](const Mesh& mesh) {
       const MeshState state = mesh.state();
