@@ -78,4 +78,9 @@ struct Deformation {
   std::vector<DeformationPart> parts;
 };
 
+// Puts splines in the place of the airfoils (CstAirfoil) of that name, so that deformations can move them:
+// each goes through its airfoil's stations, which stay, and through points between them, 200 or more in all.
+// Says whether there was one.
+bool splines_for_airfoils(Domain& domain, const std::string& name);
+
 }  // namespace remodel

@@ -205,6 +205,29 @@ TEST(Deformation, EndsOfNeighboursFollow) {
   EXPECT_NO_THROW(validate(moved));
 }
 
+// A spline in the place of an airfoil goes through its stations, and is nowhere far from it.
+TEST(Deformation, AirfoilsOfADomainBecomeSplines) {
+  CstAirfoil blunt = named_airfoil("naca:2412", 5);
+  blunt.te_upper = 0.002, blunt.te_lower = -0.002;
+  for (const CstAirfoil& airfoil : {named_airfoil("rae2822", 5), blunt}) {
+    const Domain before = airfoil_domain(airfoil, {.points = 60});
+    Domain after = before;
+    EXPECT_FALSE(splines_for_airfoils(after, "farfield"));
+    EXPECT_TRUE(splines_for_airfoils(after, "airfoil"));
+    ASSERT_TRUE(std::holds_alternative<Spline>(after.loops[0].curves[0].shape));
+    const std::vector<Point> was = stations_of(before), is = stations_of(after);
+    ASSERT_EQ(was.size(), is.size());
+    for (std::size_t i = 0; i < was.size(); ++i) EXPECT_LT(squared_distance(was[i], is[i]), 1e-24);
+    for (int i = 1; i < 1000; ++i) {
+      const Point p = point_at(after.loops[0].curves[0].shape, i / 1000.0);
+      if (p.x < 0.001 || p.x > 0.999) continue;
+      const double t = std::acos(2.0 * p.x - 1.0) / (2.0 * M_PI);
+      const double off = std::min(std::fabs(p.y - airfoil.at(t).y), std::fabs(p.y - airfoil.at(1.0 - t).y));
+      EXPECT_LT(off, 1e-6) << p.x;
+    }
+  }
+}
+
 // A passage of a row of blades, each of 40 stations.
 DesignProblem cascade_problem() {
   std::ifstream file(std::string(REMODEL_SOURCE_DIR) + "/examples/domains/cascade.json");

@@ -175,6 +175,11 @@ Deformation read_space(const Keys& problem_keys, const Json& problem, const std:
   for (const Json& entry : keys.list("deformations", most_parts)) {
     const std::string where = source.where + ", deformation " + std::to_string(result.parts.size() + 1);
     result.parts.push_back(part_of(entry, where, is_outline));
+    const std::string& on =
+        std::visit([](const auto& part) -> const std::string& { return part.on; }, result.parts.back());
+    if (splines_for_airfoils(result.domain, on))
+      warnings.push_back(where + ": the airfoil '" + on +
+                         "' is a spline through points of its own from here on");
     if (const auto* points = std::get_if<CurvePoints>(&result.parts.back()))
       say_places(*points, outline, where, warnings);
   }

@@ -114,6 +114,22 @@ class Deformations(ProgramTest):
         page = self.figures("design", "report", "run")
         self.assertEqual(page["objective"], figures["objective"])
 
+    def test_an_airfoil_in_a_tunnel_is_deformed_as_a_spline(self):
+        """A domain file's airfoil has coefficients and no points: a spline takes its place."""
+        corners = {"floor": (-2, -1), "outlet": (3, -1), "roof": (3, 1), "inlet": (-2, 1)}
+        ends = list(corners.values())
+        walls = [{"name": name, "stations": 12, "shape": {"kind": "line", "from": ends[i], "to": ends[(i + 1) % 4]}} for i, name in enumerate(corners)]
+        tunnel = {"loops": [{"role": "outer", "curves": walls}, {"airfoil": "naca:2412", "name": "wing", "stations": 40}]}
+        flow = [{"mach": 0.3, "alpha_deg": 0, "inlets": [{"name": "inlet"}], "outlets": [{"name": "outlet", "pressure": 0.98}]}]
+        bumps = {"kind": "bumps", "on": "wing", "surface": "upper", "x": [0.3, 0.6], "bounds": [-0.02, 0.02]}
+        problem = self.duct(bumps, domain=tunnel, flow=flow, objective="mass_flow", mesh={}, verify=[],
+                            designer={"evaluations": 6})  # fmt: skip
+        outcome = self.run_program("design", problem, "-o", "run", "--json")
+        self.assertIn("deformation 1: the airfoil 'wing' is a spline through points of its own", outcome.stderr)
+        figures = json.loads(outcome.stdout)
+        self.assertLess(figures["objective"], figures["start_objective"])  # made large: below 0
+        self.assertNotEqual(figures["wing.upper[0.3]"], 0)
+
     def test_examples_run(self):
         for name, points in (("ffd", 50), ("bumps", 40), ("nozzle", 60), ("ramp", 80)):
             problem = json.loads((SOURCE / f"examples/design/{name}.json").read_text())
