@@ -4,6 +4,8 @@
 #include <array>
 #include <tuple>
 
+#include "io/plane_vectors.h"
+
 namespace remodel::io {
 
 // The first text of the section.
@@ -23,6 +25,7 @@ std::string MshFields::read_name() {
 
 void MshFields::read(FieldPlace place, bool binary,
                      const std::unordered_map<std::int64_t, std::uint32_t>& indices, std::size_t count) {
+  const bool in_plane = plane_.contains(++sections_);
   const std::string name = read_name();
   for (auto left = scan_.count("a number of reals"); left > 0; --left) scan_.real("a real, a time say,");
   const std::size_t integers = scan_.count("a number of integers");
@@ -51,7 +54,8 @@ void MshFields::read(FieldPlace place, bool binary,
       !std::all_of(given.begin(), given.end(), [](bool is) { return is; }))
     return;
   known_.emplace(place, name);
-  fields_.push_back({name, place, static_cast<int>(components), std::move(values)});
+  const bool is_plane = in_plane && components == 3 && take_third_component(values);
+  fields_.push_back({name, place, is_plane ? 2 : static_cast<int>(components), std::move(values)});
 }
 
 std::vector<Field> MshFields::take() {

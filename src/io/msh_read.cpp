@@ -16,6 +16,7 @@
 #include "io/msh.h"
 #include "io/msh_fields.h"
 #include "io/msh_numbers.h"
+#include "io/plane_vectors.h"
 #include "io/scanner.h"
 #include "io/steiner_note.h"
 #include "remodel/error.h"
@@ -38,7 +39,11 @@ struct HashOfNodes {
 class MshReader {
  public:
   MshReader(std::string_view text, const std::string& file, const Warnings& warnings)
-      : scan_(text, file), numbers_(scan_), fields_(scan_, numbers_), file_(file), warnings_(warnings) {}
+      : scan_(text, file),
+        numbers_(scan_),
+        fields_(scan_, numbers_, sections_in_plane(text)),
+        file_(file),
+        warnings_(warnings) {}
 
   FrozenMesh read() {
     read_format();

@@ -5,6 +5,7 @@
 #include "io/assemble.h"
 #include "io/formats.h"
 #include "io/msh.h"
+#include "io/plane_vectors.h"
 #include "io/scanner.h"
 #include "io/steiner_note.h"
 #include "io/text_writer.h"
@@ -62,7 +63,7 @@ class MshWriter {
   }
 
   void comments() {
-    const std::string note = steiner_note(mesh_, "") + generation_note(mesh_);
+    const std::string note = steiner_note(mesh_, "") + generation_note(mesh_) + plane_note(in_plane_);
     if (!note.empty()) out_ << "$Comments\n" << note << "$EndComments\n";
   }
 
@@ -187,6 +188,8 @@ class MshWriter {
   // A view of Gmsh's: time 0, time step 0. Gmsh expects one, three or nine components, and meshio values of
   // all elements: a boundary edge has that of its cell.
   void data(const Field& field) {
+    ++sections_;
+    if (field.components == 2) in_plane_.push_back(sections_);
     if (field.name.find('"') != std::string::npos) {
       throw Error(ErrorCode::argument, file_,
                   "field " + in_quotes(field.name) + " found, Gmsh expects a name without quotes");
@@ -212,6 +215,8 @@ class MshWriter {
   std::span<const Field> fields_;
   std::vector<std::string> regions_;
   std::size_t edge_count_ = 0;
+  std::size_t sections_ = 0;           // of data, written so far
+  std::vector<std::size_t> in_plane_;  // those of them that a third component was added to
   TextWriter out_;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/assemble.h"
+#include "io/plane_vectors.h"
 #include "io/scanner.h"
 #include "remodel/error.h"
 
@@ -213,6 +214,9 @@ void add_fields(VtkGrid& grid, const FrozenMesh& mesh, std::span<const Field> fi
         values.push_back(mesh.cell_count() == 0 ? 0.0 : field.values[components * cell + k]);
     }
   }
+  for (auto* arrays : {&grid.point_fields, &grid.cell_fields})
+    for (VtkArray& array : *arrays)
+      if (array.components == 2) array = {array.name, 3, with_third_component(array.values), true};
 }
 
 }  // namespace
@@ -252,6 +256,7 @@ VtkGrid to_vtk_grid(const FrozenMesh& mesh, std::span<const Field> fields) {
 }
 
 std::optional<Field> to_field(VtkArray array, FieldPlace place, std::span<const std::uint8_t> types) {
+  if (array.in_plane && array.components == 3 && take_third_component(array.values)) array.components = 2;
   const std::size_t components = array.components;
   if (components < 1 || components > 3 || is_of_the_mesh(array.name, place)) return std::nullopt;
   Field field{array.name, place, static_cast<int>(components), {}};

@@ -13,6 +13,7 @@
 #include "io/base64.h"
 #include "io/formats.h"
 #include "io/inflate.h"
+#include "io/plane_vectors.h"
 #include "io/scanner.h"
 #include "io/vtk_grid.h"
 #include "remodel/error.h"
@@ -113,7 +114,8 @@ class VtuReader {
                                          ? 1
                                          : attribute_count(array.tag, "NumberOfComponents");
       if (components < 1 || components > 3) continue;
-      VtkArray found{key.substr(section.size()), components, values<double>(array)};
+      VtkArray found{key.substr(section.size()), components, values<double>(array),
+                     array.attribute(plane_mark) == "2"};
       expect_count(key, found.values.size(), components * places);
       if (auto field = to_field(std::move(found), place, types)) fields.push_back(std::move(*field));
     }
