@@ -490,8 +490,7 @@ FrozenMesh parse_msh(std::string_view text, const std::string& file, ReadNotes* 
   const std::vector<Field> fields = MshReader(text, file, unheard).read_fields();
   const Field* keys = find_field(fields, std::string(vertex_keys_name));
   if (keys == nullptr || keys->values.size() != mesh.points.size()) return mesh;
-  for (const double key : keys->values)
-    mesh.vertex_keys.push_back(key >= 0.0 && key < 0x1p53 ? static_cast<std::uint64_t>(key) : 0);
+  for (const double key : keys->values) mesh.vertex_keys.push_back(key_of_real(key));
   take_generation_note(text, mesh);
   return mesh;
 }

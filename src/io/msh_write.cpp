@@ -51,13 +51,13 @@ class MshWriter {
   }
 
  private:
-  // As doubles: exact up to two million regenerations.
   void keys() {
     if (mesh_.vertex_keys.empty()) return;
     Field field{std::string(vertex_keys_name), FieldPlace::vertices, 1, {}};
     for (const std::uint64_t key : mesh_.vertex_keys) {
-      if (key >= std::uint64_t{1} << 53) return;
-      field.values.push_back(static_cast<double>(key));
+      const std::optional<double> real = real_of_key(key);
+      if (!real) return;
+      field.values.push_back(*real);
     }
     data(field);
   }

@@ -31,5 +31,21 @@ class Vectors(ProgramTest):
             self.assertEqual(abs(velocity[:, 2]).max(), 0)
 
 
+class Keys(ProgramTest):
+    def test_layered_meshes_have_them_in_every_format_that_holds_them(self):
+        layers = ("--layers", "--reynolds", 6e6, "--max-spacing", 0.05)
+        for cells in ("quads", "triangles"):
+            outputs = [word for end in ("msh", "vtu", "vtkhdf") for word in ("-o", f"a.{end}")]
+            self.succeed("mesh", "naca:0012", *layers, "--layer-cells", cells, *outputs)
+            self.succeed("mesh", "naca:0012", *layers, "--layer-cells", cells, "--msh-version", "2.2", "-o", "old.msh")
+            keys = vtu_array(self.path("a.vtu"), "vertex_key", int)
+            self.assertEqual(len(set(keys)), len(keys))
+            self.assertGreater(max(keys), 2**63)
+            self.assertIn('"vertex_key"', self.path("a.msh").read_text())
+            for file in ("a.msh", "old.msh", "a.vtkhdf"):
+                self.succeed("convert", file, "-o", "b.vtu")
+                self.assertEqual(vtu_array(self.path("b.vtu"), "vertex_key", int), keys, file)
+
+
 if __name__ == "__main__":
     unittest.main()
