@@ -63,6 +63,12 @@ struct ReadNotes {
   // Triangles that Gmsh's version 2 lists once for each of their physical groups: taken once, in the first
   // one.
   std::size_t repeated_triangles = 0;
+  // Points that no cell uses (Gmsh saves the centres of arcs, and more with Mesh.SaveAll). The view leaves
+  // them out, with the edges of boundaries that end there and a warning, and read_fields() their values.
+  // kept_points has the file's number of each point of the view, from 0 on; it is empty where none is left
+  // out.
+  std::size_t unused_points = 0;
+  std::vector<std::uint32_t> kept_points;
 };
 // Reads the frozen view of any format: triangles and quadrilaterals of first order, boundary by marker or
 // physical name. What comes through a pipe without an extension is known by how it begins.

@@ -194,6 +194,21 @@ class Su2Reader {
 
 }  // namespace
 
+namespace {
+
+// Surface points are known by numbers, which points have no more where some are left out.
+std::string boxes_of_used(std::string boxes, const ReadNotes& notes, const Warnings& warnings) {
+  std::size_t surface_points = 0;
+  if (notes.unused_points == 0) return boxes;
+  boxes = without_surface_points(boxes, surface_points);
+  if (surface_points > 0)
+    warnings.add("with them " + std::to_string(surface_points) +
+                 " surface points of FFD boxes, which SU2_DEF with DV_KIND= FFD_SETTING finds anew");
+  return boxes;
+}
+
+}  // namespace
+
 std::string su2_text(const FrozenMesh& whole, const std::string& file, InnerCurves inner,
                      const std::string& boxes) {
   const FrozenMesh mesh = inner == InnerCurves::left_out ? without_inner_edges(whole) : whole;
@@ -219,10 +234,13 @@ std::string su2_text(const FrozenMesh& whole, const std::string& file, InnerCurv
 }
 
 FrozenMesh parse_su2(std::string_view text, const std::string& file, ReadNotes* notes) {
-  Su2Reader reader(text, file, Warnings(notes, file));
+  const Warnings warnings(notes, file);
+  Su2Reader reader(text, file, warnings);
   FrozenMesh mesh = reader.read();
-  if (notes != nullptr) notes->su2_boxes = reader.take_boxes();
   take_steiner_notes(text, mesh);
+  const std::vector<bool> used = used_points(mesh, mesh.points.size());
+  warnings.note_unused_points(used, keep_used_points(mesh, used));
+  if (notes != nullptr) notes->su2_boxes = boxes_of_used(reader.take_boxes(), *notes, warnings);
   return mesh;
 }
 

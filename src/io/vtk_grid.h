@@ -85,10 +85,14 @@ VtkGrid to_vtk_grid(const FrozenMesh& mesh, std::span<const Field> fields = {});
 // in_plane loses its third component, unless it holds something by now.
 std::optional<Field> to_field(VtkArray array, FieldPlace place, std::span<const std::uint8_t> types);
 
+// Which points triangles and quadrilaterals have. What is out of range is passed over.
+std::vector<bool> used_points(const VtkGrid& cells, std::size_t points);
+
 // place names an array of the file for messages ("FILE:LINE", "FILE:/VTKHDF/Types").
 using ArrayPlace = std::function<std::string(std::string_view array)>;
 
-// Checks sizes and indices, takes triangles, quadrilaterals and lines, and brings them into our conventions.
+// Checks sizes and indices, takes triangles, quadrilaterals and lines, leaves out points that none of them
+// has, and brings the mesh into our conventions.
 FrozenMesh from_vtk_grid(const VtkGrid& grid, const std::string& file, const ArrayPlace& place,
                          const Warnings& warnings);
 

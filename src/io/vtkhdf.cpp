@@ -1,6 +1,7 @@
 #include "io/vtkhdf.h"
 
 #include "base/checksum.h"
+#include "io/assemble.h"
 #include "io/hdf5_file.h"
 #include "io/plane_vectors.h"
 #include "io/scanner.h"
@@ -315,12 +316,18 @@ std::string read_vtkhdf_boxes(const std::filesystem::path& file) {
 std::vector<Field> read_vtkhdf_fields(const std::filesystem::path& file) {
   const Hdf5Reader in(file);
   check_header(in);
-  const auto types = in.array<std::uint8_t>(grid_group + "Types");
+  VtkGrid grid;
+  grid.connectivity = in.array<std::int64_t>(grid_group + "Connectivity");
+  grid.offsets = in.array<std::int64_t>(grid_group + "Offsets");
+  grid.types = in.array<std::uint8_t>(grid_group + "Types");
   const auto points = in.array<std::int64_t>(grid_group + "NumberOfPoints");
   if (points.size() != 1 || points.front() < 0) in.fail(grid_group + "NumberOfPoints", "one number expected");
   std::vector<Field> fields;
-  add_fields(fields, in, FieldPlace::vertices, static_cast<std::size_t>(points.front()), types);
-  add_fields(fields, in, FieldPlace::triangles, types.size(), types);
+  const auto count = static_cast<std::size_t>(points.front());
+  add_fields(fields, in, FieldPlace::vertices, count, grid.types);
+  add_fields(fields, in, FieldPlace::triangles, grid.types.size(), grid.types);
+  if (!fields.empty() && fields.front().place == FieldPlace::vertices)
+    keep_used_points(fields, used_points(grid, count));
   return fields;
 }
 

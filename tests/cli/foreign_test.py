@@ -3,7 +3,81 @@
 import unittest
 
 from harness import ProgramTest
+from import_test import read_su2
 from transfer_test import ascii_restart, gas, read_ascii, su2_points, vtu_array
+
+def with_stray_points(text):
+    """An .su2 file with a point before all others and one behind them, which no cell uses."""
+    lines, result, section = text.splitlines(), [], None
+    for line in lines:
+        key, equals, value = line.partition("=")
+        if equals:
+            section = key
+            if key == "NPOIN":
+                count = int(value)
+                result += [f"NPOIN= {count + 2}", "5 5"]
+                continue
+            if key == "NMARK":
+                result.append("6 6")
+            result.append(line)
+            continue
+        words = line.split()
+        if section == "NPOIN":
+            words = words[:2]
+        elif words and words[0] != "%":
+            corners = {"3": 2, "5": 3, "9": 4}[words[0]]
+            words = [words[0], *(str(int(v) + 1) for v in words[1 : 1 + corners])]
+        result.append(" ".join(words))
+    return "\n".join(result) + "\n"
+
+
+class StrayPoints(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.succeed("mesh", "naca:0012", "--points", 40, "-o", "a.su2", "-o", "a.msh")
+        self.write("stray.su2", with_stray_points(self.path("a.su2").read_text()))
+        text = self.path("a.msh").read_text()
+        count = len(su2_points(self.path("a.su2").read_text()))
+        head = f"$Nodes\n1 {count} 1 {count}\n2 1 0 {count}\n"
+        self.assertIn(head, text)
+        more = f"$Nodes\n2 {count + 1} 1 {count + 1}\n0 1 0 1\n{count + 1}\n0.5 0 0\n2 1 0 {count}\n"
+        self.write("stray.msh", text.replace(head, more))
+
+    def assertSaid(self, outcome, sentence):
+        self.assertIn(sentence, outcome.stderr)
+        self.assertEqual(outcome.stderr.count(sentence), 1, outcome)
+
+    def test_flows_are_found_and_the_points_counted(self):
+        flow = ("--mach", 0.4, "--alpha", 1, "--json")
+        expected = self.succeed("flow", "a.su2", *flow).json()
+        for file, sentence in (("stray.su2", "stray.su2: 2 points that no cell uses are left out"),
+                               ("stray.msh", "stray.msh: a point that no cell uses is left out")):  # fmt: skip
+            outcome = self.succeed("flow", file, *flow)
+            self.assertSaid(outcome, sentence)
+            self.assertEqual([outcome.json()[key] for key in ("cl", "cd", "cm")], [expected[key] for key in ("cl", "cd", "cm")])
+            check = self.succeed("check", file, "--json")
+            self.assertTrue(check.json()["valid"])
+            self.assertEqual(check.json()["unused_points"], 2 if file == "stray.su2" else 1)
+            self.assertSaid(check, sentence)
+            update = self.succeed("update", file, "naca:0013", "--boundary", "airfoil", "-o", "b.su2", "--json")
+            self.assertEqual(update.json()["import"]["unused_points"], check.json()["unused_points"])
+        self.assertTrue(self.figures("flow", "stray.msh", "--model", "potential")["lift_determined"])
+
+    def test_the_mesh_without_them_is_written(self):
+        for file in ("stray.su2", "stray.msh"):
+            self.succeed("convert", file, "-o", "back.su2")
+            self.assertEqual(read_su2(self.path("back.su2")), read_su2(self.path("a.su2")))
+
+    def test_states_have_a_row_for_each_point_of_the_file(self):
+        points = su2_points(self.path("stray.su2").read_text())
+        self.write("stray.csv", ascii_restart(points, [gas(*p) for p in points]))
+        self.write("a.csv", ascii_restart(points[1:-1], [gas(*p) for p in points[1:-1]]))
+        self.succeed("update", "a.su2", "naca:0013", "--boundary", "airfoil", "-o", "new.su2")
+        for name in ("a", "stray"):
+            self.succeed("transfer", f"{name}.su2", "new.su2", "--state", f"{name}.csv", "--state-out", f"{name}_new.csv")
+        self.assertEqual(self.path("stray_new.csv").read_bytes(), self.path("a_new.csv").read_bytes())
+        self.assertEqual(len(read_ascii(self.path("a_new.csv").read_text())[1]), len(su2_points(self.path("new.su2").read_text())))
+
 
 class Vectors(ProgramTest):
     def test_velocities_have_three_components_and_come_back_as_they_were(self):
