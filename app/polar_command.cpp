@@ -338,9 +338,7 @@ void add_polar_command(CLI::App& program, Action& action) {
              std::string(shape_help) + "; or a domain file (.json), a .poly file, or a mesh of any format"},
             Presence::required, command->input.shapes);
   add_conditions(app, *command);
-  add_text(app,
-           {"--farfield", "NAME", "farfield", "Boundary that is open to the stream; all others are walls"},
-           Presence::optional, command->polar.flow.farfield);
+  add_farfield(app, command->polar.flow.farfield);
   add_solver_options(app, command->polar.conditions, command->polar.flow);
   add_texts(app,
             {"-o,--output", "FILE", "",

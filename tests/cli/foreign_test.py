@@ -121,5 +121,41 @@ class Keys(ProgramTest):
                 self.assertEqual(vtu_array(self.path("b.vtu"), "vertex_key", int), keys, file)
 
 
+class FarFields(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.succeed("mesh", "naca:0012", "--points", 40, "-o", "a.su2")
+        head, tail = self.path("a.su2").read_text().split("MARKER_TAG= farfield\n")
+        count, *edges = tail.splitlines()
+        edges, rest = edges[:50], edges[50:]
+        self.assertTrue(count.endswith("= 50") and len(edges) == 50)
+        parts = [("inflow", edges[:20]), ("far out", edges[20:35]), ("sides", edges[35:])]
+        text = head.replace("NMARK= 2", "NMARK= 4")
+        for name, lines in parts:
+            text += f"MARKER_TAG= {name}\nMARKER_ELEMS= {len(lines)}\n" + "".join(line + "\n" for line in lines)
+        self.write("parts.su2", text + "\n".join(rest) + "\n")
+        self.far = [word for name in ("inflow", "far out", "sides") for word in ("--farfield", name)]
+
+    def test_a_far_field_of_several_parts_is_one(self):
+        for model in ([], ["--model", "potential"]):
+            flow = ("--mach", 0.4, "--alpha", 2, *model)
+            whole = self.figures("flow", "a.su2", *flow)
+            parts = self.figures("flow", "parts.su2", *flow, *self.far, *([] if model else ["--cp-plot", "cp.svg"]))
+            self.assertEqual([body["name"] for body in parts["bodies"]], ["airfoil"])
+            for key in ("cl", "cm") if model else ("cl", "cd", "cm"):
+                self.assertAlmostEqual(parts[key], whole[key], delta=1e-9)
+        row = self.figures("polar", "parts.su2", "--mach", 0.4, "--alpha", "2:2:1", *self.far)
+        self.assertAlmostEqual(row["points"][0]["cl"], self.figures("flow", "a.su2", "--mach", 0.4, "--alpha", 2)["cl"], delta=1e-8)
+
+    def test_refusals(self):
+        flow = ("flow", "parts.su2", "--mach", 0.4)
+        self.refused(*flow, *self.far[:4], "--farfield", "sky", names="expected a far field of the name 'sky'")
+        self.refused(*flow, *self.far, "--farfield", "inflow", names="'inflow'")
+        self.refused(*flow, *self.far[:4], "--outlet", "sides", "--farfield", "sky", names="expected a far field of the name 'sky'")
+        potential = (*flow, "--model", "potential")
+        self.refused(*potential, *self.far, "--farfield", "sky", names="a far field of the name 'sky' expected")
+        self.refused(*potential, *self.far[:4], names="a far field apart from all walls expected")
+
+
 if __name__ == "__main__":
     unittest.main()
