@@ -322,6 +322,10 @@ Status run(const BatchCommand& given) {
 
   if (std::count(command.meshes.begin(), command.meshes.end(), "su2") != 0 && !command.inner_markers)
     warn_of_inner_curves(mesh->freeze(), (command.directory / "*.su2").string(), "--inner-markers writes it");
+  for (const std::string& extension : command.meshes)
+    if (extension == "su2")
+      warn_of_names(mesh->freeze(), (command.directory / "*.su2").string(), MeshFormat::su2,
+                    command.inner_markers ? InnerCurves::markers : InnerCurves::left_out);
   if (!mesh->su2_boxes().empty())
     for (const std::string& extension : command.meshes)
       if (extension != "su2" && extension != "vtkhdf")

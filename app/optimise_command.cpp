@@ -171,8 +171,9 @@ Status run_search(OptimiseCommand& command, PostedJobs* jobs) {
   Progress progress(progress_style(command.quiet), command.run.evaluations, "options: " + options.dump());
   if (!command.evaluate.command.empty() && command.run.start)
     progress.say_at_first([&] {
-      warn_of_inner_curves(command.run.start->mesh.freeze(), "mesh.su2 of the evaluator",
-                           "no marker of its is a curve inside the mesh");
+      const FrozenMesh mesh = command.run.start->mesh.freeze();
+      warn_of_inner_curves(mesh, "mesh.su2 of the evaluator", "no marker of its is a curve inside the mesh");
+      warn_of_names(mesh, "mesh.su2 of the evaluator", MeshFormat::su2, InnerCurves::left_out);
     });
   const OptimiseResult result = run_repeatedly(command, once(command, start, progress));
   progress.finish();

@@ -92,6 +92,16 @@ void warn_of_inner_curves(const FrozenMesh& mesh, const std::string& file, const
   say_left_out(inner_curves(mesh), file, "which SU2 would take for a wall (" + remedy + ")");
 }
 
+void warn_of_names(const FrozenMesh& mesh, const std::string& file, MeshFormat format, InnerCurves inner) {
+  const bool all = inner == InnerCurves::markers && format == MeshFormat::su2;
+  const std::vector<std::string> left_out = all ? std::vector<std::string>() : inner_curves(mesh);
+  for (const FrozenBoundary& boundary : mesh.boundaries)
+    if (const std::string name = name_in(format, boundary.name);
+        name != boundary.name && std::find(left_out.begin(), left_out.end(), boundary.name) == left_out.end())
+      warn(file + ": boundary '" + boundary.name + "' is called '" + name +
+           "' there: names of the format have no blanks");
+}
+
 void MeshOutputs::add_options(CLI::App& app, Presence presence) {
   add_texts(app,
             {"-o,--output", "MESH", "",
@@ -125,6 +135,7 @@ void MeshOutputs::write_each(std::span<const Field> fields, bool is_periodic, Fr
     else if (!inner_markers_)
       warn_of_inner_curves(frozen, file, "--inner-markers writes it");
     warn_of_regions(frozen, file);
+    warn_of_names(frozen, file, format, inner_markers_ ? InnerCurves::markers : InnerCurves::left_out);
   };
   for (const std::string& file : files_) {
     WriteOptions options = options_;

@@ -45,6 +45,9 @@ class MeshOutputs {
 
 // Says on standard error which curves inside the mesh a .su2 file leaves out, and how to have them there.
 void warn_of_inner_curves(const FrozenMesh& mesh, const std::string& file, const std::string& remedy);
+// Says which boundaries have another name there, as the format knows no blanks in names. inner: whether curves
+// inside the mesh are written.
+void warn_of_names(const FrozenMesh& mesh, const std::string& file, MeshFormat format, InnerCurves inner);
 // Throws Error (file) if the file is a directory, or its directory is missing or not writable.
 void require_writable(const std::filesystem::path& file);
 // Throws Error (file) where a directory with files of a run cannot be made, or written to.

@@ -29,6 +29,10 @@ enum class MeshFormat { vtkhdf, su2, msh, vtu, foam };
 // The extension says the format. Throws Error (argument) for another, listing those that are known.
 MeshFormat mesh_format(const std::filesystem::path& file);
 
+// The name of a boundary in a file of the format. SU2 and OpenFOAM end a name at a blank: they have '_' in
+// the place of each. Two names that would be one are refused when the file is written.
+std::string name_in(MeshFormat format, const std::string& boundary);
+
 // Named edges with cells on both sides, in .su2 files: SU2 takes every edge of a marker for a boundary,
 // and computes the flow around a wall that is none.
 enum class InnerCurves { left_out, markers };

@@ -10,6 +10,7 @@
 #include "io/steiner_note.h"
 #include "io/text_writer.h"
 #include "io/vtkhdf.h"
+#include "io/words.h"
 #include "remodel/error.h"
 
 namespace remodel::io {
@@ -30,8 +31,9 @@ constexpr int su2_quadrilateral = 9;
 void check_marker(const std::string& name, const std::string& file) {
   const auto bad = [](char c) { return static_cast<unsigned char>(c) <= ' ' || c == '%'; };
   if (name.empty() || std::any_of(name.begin(), name.end(), bad)) {
-    throw Error(ErrorCode::argument, file,
-                "boundary name " + in_quotes(name) + " found, SU2 expects one without blanks and '%'");
+    throw Error(
+        ErrorCode::argument, file,
+        "boundary name " + in_quotes(name) + " found, SU2 expects one without '%' and control characters");
   }
 }
 
@@ -223,10 +225,12 @@ std::string su2_text(const FrozenMesh& whole, const std::string& file, InnerCurv
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {
     out << mesh.points[i].x << ' ' << mesh.points[i].y << ' ' << i << '\n';
   }
+  require_different_words(mesh.boundaries, file);
   out << "NMARK= " << mesh.boundaries.size() << '\n';
   for (const auto& boundary : mesh.boundaries) {
-    check_marker(boundary.name, file);
-    out << "MARKER_TAG= " << boundary.name << "\nMARKER_ELEMS= " << boundary.edges.size() << '\n';
+    const std::string name = as_word(boundary.name);
+    check_marker(name, file);
+    out << "MARKER_TAG= " << name << "\nMARKER_ELEMS= " << boundary.edges.size() << '\n';
     for (const auto& [from, to] : boundary.edges) out << su2_line << ' ' << from << ' ' << to << '\n';
   }
   out << boxes << steiner_note(mesh, "% ");

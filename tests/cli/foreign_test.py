@@ -1,10 +1,19 @@
 """What programs beside ours write and read: points that no cell uses, vectors, keys, names with blanks, a far field of several parts."""
 
+import json
 import unittest
 
 from harness import ProgramTest
 from import_test import read_su2
 from transfer_test import ascii_restart, gas, read_ascii, su2_points, vtu_array
+
+# A wall and a tunnel around it, with blanks in their names.
+TUNNEL = {"loops": [
+    {"role": "outer", "curves": [{"name": "tunnel wall", "shape": {"kind": "polyline",
+     "points": [[-2, -2], [3, -2], [3, 2], [-2, 2], [-2, -2]]}, "stations": 24}]},
+    {"role": "hole", "curves": [{"name": "body", "shape": {"kind": "arc", "centre": [0.5, 0], "radius": 0.5, "start": 0,
+                                                           "sweep": 6.283185307179586}, "stations": 24}]}]}  # fmt: skip
+
 
 def with_stray_points(text):
     """An .su2 file with a point before all others and one behind them, which no cell uses."""
@@ -119,6 +128,26 @@ class Keys(ProgramTest):
             for file in ("a.msh", "old.msh", "a.vtkhdf"):
                 self.succeed("convert", file, "-o", "b.vtu")
                 self.assertEqual(vtu_array(self.path("b.vtu"), "vertex_key", int), keys, file)
+
+
+class Names(ProgramTest):
+    def test_blanks_are_underscores_where_they_have_to_be(self):
+        self.write("d.json", json.dumps(TUNNEL))
+        outcome = self.succeed("mesh", "d.json", "-o", "a.su2", "-o", "a.msh", "-o", "case.foam")
+        self.assertEqual(outcome.stderr.splitlines(), [
+            f"remodel: {file}: boundary 'tunnel wall' is called 'tunnel_wall' there: names of the format have no blanks"
+            for file in ("a.su2", "case.foam")])
+        self.assertEqual(set(self.figures("check", "a.su2")["boundary"]), {"tunnel_wall", "body"})
+        self.assertEqual(set(self.figures("check", "a.msh")["boundary"]), {"tunnel wall", "body"})
+        self.assertIn("tunnel_wall", self.path("constant/polyMesh/boundary").read_text())
+
+    def test_two_names_that_would_be_one_are_refused(self):
+        domain = json.loads(json.dumps(TUNNEL))
+        domain["loops"][1]["curves"][0]["name"] = "tunnel_wall"
+        self.write("d.json", json.dumps(domain))
+        for file in ("a.su2", "case.foam"):
+            names = f"{file}: boundaries 'tunnel wall' and 'tunnel_wall' found, which would both be 'tunnel_wall'"
+            self.refused("mesh", "d.json", "-o", file, names=names)
 
 
 class FarFields(ProgramTest):
