@@ -333,6 +333,7 @@ Status run(const NoiseCommand& command) {
     throw Error(ErrorCode::argument, "--count",
                 "found " + std::to_string(command.count) + ", expected at least two more than --degree, " +
                     std::to_string(command.degree + 2));
+  require_coordinate_file({command.shape}, command.meshing.fit);
   const CstFit fit = fit_shape(command.shape, command.meshing.fit);
   const AirfoilSpace space(fit.airfoil, command.meshing.discretisation);
   const DesignLine line = line_of(command, space);

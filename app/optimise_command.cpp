@@ -167,6 +167,8 @@ Status run_search(OptimiseCommand& command, PostedJobs* jobs) {
   command.run.keep_finished = !command.evaluate.command.empty();
   command.run.ranks = jobs;
   OptimiseStart start = read_start(command.start, command.meshing, command.run);
+  require_used(command.start.given, info_of(command.run.strategy).step,
+               command.run.start && command.run.start->mesh.imported(), command.start.mesh);
   const Json options = options_json(command);
   Progress progress(progress_style(command.quiet), command.run.evaluations, "options: " + options.dump());
   if (!command.evaluate.command.empty() && command.run.start)
@@ -198,6 +200,10 @@ Status run_search(OptimiseCommand& command, PostedJobs* jobs) {
 
 Status run(OptimiseCommand& command) {
   require_one_evaluator(command);
+  std::vector<std::string> shapes;
+  for (const std::string& shape : {command.start.from, command.to})
+    if (!shape.empty()) shapes.push_back(shape);
+  require_coordinate_file(shapes, command.meshing.fit);
   return with_posted_jobs(
       command.ranks, [&] { return work_of_ranks(command); },
       [&](PostedJobs* jobs) { return run_search(command, jobs); });

@@ -21,7 +21,8 @@ class MeshOutputs {
  public:
   // -o (repeatable), --msh-version and --inner-markers.
   void add_options(CLI::App& app, Presence presence);
-  // Throws Error for an unknown extension, a file named twice, and what require_writable() refuses.
+  // Throws Error for an unknown extension, a file named twice, what require_writable() refuses, and options of
+  // formats that no file has.
   void require_possible() const;
   void write(const Mesh& mesh) const;
   void write(const FrozenMesh& mesh) const;
@@ -38,8 +39,11 @@ class MeshOutputs {
   template <class Freeze, class Write>
   void write_each(std::span<const Field> fields, bool is_periodic, Freeze freeze, Write write) const;
 
+  void require_format(MeshFormat format, const char* option, const char* extension) const;
+
   std::vector<std::string> files_;
   bool inner_markers_ = false;
+  bool msh_version_given_ = false;
   WriteOptions options_;
 };
 

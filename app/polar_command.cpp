@@ -22,6 +22,7 @@
 #include "remodel/error.h"
 #include "remodel/io.h"
 #include "remodel/polar.h"
+#include "remodel/shape_files.h"
 #include "shape_input.h"
 #include "warnings.h"
 
@@ -82,11 +83,13 @@ void require_consistent(const PolarCommand& command) {
 
 // A mesh each, all of them before the first flow: what is wrong with the last shape is said at once.
 std::vector<MeshInput> meshes_of(const PolarCommand& command) {
+  require_coordinate_file(command.input.shapes, command.meshing.fit);
   std::vector<MeshInput> meshes;
   for (const std::string& shape : command.input.shapes) {
     FlowMeshRequest request{command.input,  command.meshing, command.polar.flow, command.polar.conditions,
                             command.layers, command.given};
     request.input.shapes = {shape};
+    if (!is_pipe(shape) && !is_coordinate_file(shape)) request.meshing.fit.close_trailing_edge = false;
     meshes.push_back(flow_mesh(request));
   }
   return meshes;

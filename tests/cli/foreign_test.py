@@ -3,6 +3,8 @@
 import json
 import unittest
 
+import shapes
+from airfoils_test import blunt
 from harness import ProgramTest
 from import_test import read_su2
 from transfer_test import ascii_restart, gas, read_ascii, su2_points, vtu_array
@@ -184,6 +186,59 @@ class FarFields(ProgramTest):
         potential = (*flow, "--model", "potential")
         self.refused(*potential, *self.far, "--farfield", "sky", names="a far field of the name 'sky' expected")
         self.refused(*potential, *self.far[:4], names="a far field apart from all walls expected")
+
+
+class Options(ProgramTest):
+    """What would have no effect is refused."""
+
+    def test_of_formats_that_are_not_written(self):
+        self.succeed("mesh", "naca:0012", "--points", 20, "-o", "a.vtkhdf")
+        for command in (("mesh", "naca:0012", "--points", 20), ("convert", "a.vtkhdf"), ("update", "a.vtkhdf", "naca:0013")):
+            self.refused(*command, "--msh-version", "2.2", "-o", "b.vtu", names="--msh-version: given without a .msh file")
+            self.refused(*command, "--inner-markers", "-o", "b.vtu", names="--inner-markers: given without a .su2 file")
+        self.refused("flow", "naca:0012", "--mach", 0.4, "--msh-version", "2.2", names="--msh-version")
+        self.refused("batch", "a.vtkhdf", "naca:0013", "-o", "out", "--inner-markers", names="--inner-markers")
+        self.succeed("convert", "a.vtkhdf", "--msh-version", "2.2", "-o", "b.vtu", "-o", "b.msh")
+
+    def test_of_layers_that_are_not_there(self):
+        self.succeed("mesh", "naca:0012", "--points", 20, "-o", "a.vtkhdf")
+        cells = ("--layer-cells", "triangles")
+        self.refused("mesh", "naca:0012", *cells, "-o", "b.vtu", names="--layer-cells: given without --layers")
+        self.refused("batch", "a.vtkhdf", "naca:0013", *cells, "-o", "out", names="--layer-cells: given for 'a.vtkhdf'")
+        search = ("optimise", "--from", "naca:0012", "--to", "naca:0013", "--evaluations", 3, "-o", "run")
+        self.refused(*search, *cells, names="--layer-cells: given without layers")
+        self.refused(*search, *cells, "--layers", "--reynolds", 1e6, names="--layer-cells: found 'triangles'")
+
+    def test_of_coordinate_files_for_names(self):
+        close = "--close-trailing-edge"
+        self.succeed("mesh", "naca:0012", "--points", 20, "-o", "a.vtkhdf")
+        self.succeed("fit", "naca:0012", "-o", "a.json")
+        for shape in ("naca:0012", "rae2822", "a.json"):
+            named = f"{close}: given for '{shape}', expected for coordinate files"
+            self.refused("mesh", shape, close, "-o", "b.vtu", names=named)
+            self.refused("fit", shape, close, names=named)
+            self.refused("update", "a.vtkhdf", shape, close, names=named)
+            self.refused("flow", shape, close, "--mach", 0.4, names=named)
+            self.refused("polar", shape, close, "--mach", 0.4, "--alpha", "0:1:1", names=named)
+            self.refused("batch", "a.vtkhdf", shape, close, "-o", "out", names=named)
+            self.refused("optimise", "--from", shape, "--to", "naca:0013", close, "-o", "run", names=named)
+            self.refused("noise", shape, "--mach", 0.4, close, names=named)
+        self.write("blunt.dat", shapes.text_of(blunt(0.02)))
+        self.succeed("mesh", "blunt.dat", "naca:0012", "--place", "1,0,0,0", "--place", "1,0,0,2", "--points", 20, close, "-o", "b.vtu")
+
+    def test_of_strategies_that_are_not_chosen(self):
+        self.succeed("mesh", "naca:0012", "--points", 20, "-o", "a.vtkhdf", "-o", "a.su2")
+        update = ("update", "a.vtkhdf", "naca:0013")
+        self.refused(*update, "--strategy", "chain", "--keep", 1.2, names="--keep: given with the strategy chain")
+        self.refused(*update, "--delaunay-slack", 10, names="--delaunay-slack: given with the strategy renew, expected reference")
+        self.refused("update", "a.su2", "naca:0013", "--boundary", "airfoil", "--keep", 1.2, names="--keep: given for 'a.su2'")
+        self.refused("batch", "a.vtkhdf", "naca:0013", "-o", "out", "--strategy", "chain", "--keep", 1.2, names="--keep")
+        search = ("optimise", "--from", "naca:0012", "--to", "naca:0013", "--points", 20, "--evaluations", 3, "--quiet", "-o", "run")
+        for strategy in ("chain", "regenerate"):
+            self.refused(*search, "--strategy", strategy, "--keep", 1.2, names="--keep: given with the strategy chain")
+        self.refused(*search, "--delaunay-slack", 10, names="--delaunay-slack")
+        self.succeed(*update, "--strategy", "reference", "--delaunay-slack", 10, "--keep", 1.3, "-o", "b.vtkhdf")
+        self.succeed(*search, "--strategy", "morph", "--keep", 1.3)
 
 
 if __name__ == "__main__":
