@@ -311,8 +311,16 @@ BatchCommand with_strategy_of(const BatchMesh& mesh, BatchCommand command) {
 
 Status run(const BatchCommand& given) {
   require_directory(given);
+  if (given.inner_markers && std::count(given.meshes.begin(), given.meshes.end(), "su2") == 0)
+    throw Error(ErrorCode::argument, "--inner-markers",
+                "given without .su2 files to write, expected --meshes su2");
+  require_coordinate_file(given.shapes, given.fit);
   const std::unique_ptr<BatchMesh> mesh = read_batch_mesh(given.mesh, given.start, given.layers);
+  if (!mesh->layered() && given.given("--layer-cells"))
+    throw Error(ErrorCode::argument, "--layer-cells",
+                "given for '" + given.mesh + "', expected a mesh with layers, or --layers");
   const BatchCommand command = with_strategy_of(*mesh, given);
+  require_used(command.given, command.remodelling.strategy, mesh->imported(), command.mesh);
   std::vector<ShapeFit> fits;
   const std::vector<Design> designs = read_designs(command, *mesh, fits);
   const std::vector<std::size_t> order = order_of(command, *mesh, designs);
@@ -322,6 +330,10 @@ Status run(const BatchCommand& given) {
 
   if (std::count(command.meshes.begin(), command.meshes.end(), "su2") != 0 && !command.inner_markers)
     warn_of_inner_curves(mesh->freeze(), (command.directory / "*.su2").string(), "--inner-markers writes it");
+  for (const std::string& extension : command.meshes)
+    if (extension == "su2")
+      warn_of_names(mesh->freeze(), (command.directory / "*.su2").string(), MeshFormat::su2,
+                    command.inner_markers ? InnerCurves::markers : InnerCurves::left_out);
   if (!mesh->su2_boxes().empty())
     for (const std::string& extension : command.meshes)
       if (extension != "su2" && extension != "vtkhdf")

@@ -32,6 +32,7 @@ class PlainBatchMesh final : public BatchMesh {
   }
   const std::string& su2_boxes() const override { return start_.su2_boxes; }
   bool layered() const override { return false; }
+  bool imported() const override { return mesh_.imported(); }
   void add_figures(Report& report) const override { static_cast<void>(report); }
 
  private:
@@ -73,6 +74,7 @@ class LayeredBatchMesh final : public BatchMesh {
   }
   const std::string& su2_boxes() const override { return su2_boxes_; }
   bool layered() const override { return true; }
+  bool imported() const override { return false; }
   void add_figures(Report& report) const override { add_layer_figures(report, mesh_); }
 
  private:

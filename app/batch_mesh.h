@@ -28,6 +28,7 @@ class BatchMesh {
   virtual void write(const std::filesystem::path& file, const WriteOptions& options) const = 0;
   virtual const std::string& su2_boxes() const = 0;
   virtual bool layered() const = 0;
+  virtual bool imported() const = 0;
   virtual void add_figures(Report& report) const = 0;  // of layers
 };
 

@@ -71,6 +71,21 @@ std::vector<double> integrals_of(const Field& field, const FrozenMesh& mesh) {
   return result;
 }
 
+// SU2 writes a row for each point of its mesh, also for those that no cell uses and our view leaves out.
+void keep_rows_of_view(Su2Restart& restart, const FrozenMesh& mesh, const std::string& file) {
+  if (restart.points() <= mesh.points.size()) return;
+  ReadNotes notes;
+  read_frozen_mesh(file, &notes);
+  if (restart.points() != mesh.points.size() + notes.unused_points) return;
+  std::vector<double> kept;
+  const std::size_t columns = restart.names.size();
+  for (const std::uint32_t point : notes.kept_points) {
+    const auto row = restart.values.begin() + static_cast<std::ptrdiff_t>(point * columns);
+    kept.insert(kept.end(), row, row + static_cast<std::ptrdiff_t>(columns));
+  }
+  restart.values = std::move(kept);
+}
+
 void require_time_out(const std::string& directory) {
   const std::string extension = std::filesystem::path(directory).extension().string();
   if (extension == ".csv" || extension == ".dat")
@@ -124,6 +139,7 @@ Cargo::Cargo(const std::string& file, const FrozenMesh& mesh, const CarryOptions
   }
   if (options.state.empty() || is_time) return;
   state_ = read_su2_restart(options.state);
+  keep_rows_of_view(*state_, mesh, file);
   require_coordinates(*state_, mesh, options.state);
   set_coordinates(*state_, mesh, options.state);
 }

@@ -101,6 +101,15 @@ void add_corner_angles(Report& report, const CheckResult& result) {
   report.figure("corner_max_deg", "largest corner of quadrilaterals", result.largest_corner_deg, "degrees");
 }
 
+// Those that the reader left out, and those that edges of a boundary have without a cell.
+void add_unused_points(Report& report, const CheckResult& result, const MeshInput& input) {
+  const std::size_t unused = input.unused_points + result.unused_points;
+  report.data("unused_points", unused);
+  if (unused == 0) return;
+  report.line("left out", std::to_string(unused) +
+                              (result.quadrilaterals > 0 ? " points of no cell" : " points of no triangle"));
+}
+
 void warn_of_result(const CheckCommand& command, const MeshInput& input, const CheckOptions& options,
                     const CheckResult& result) {
   if (result.touching_points > 0)
@@ -129,11 +138,7 @@ Status run(const CheckCommand& command) {
   add_cell_counts(report, result.triangles, result.quadrilaterals);
   add_corner_angles(report, result);
   report.figure("vertices", "vertices", result.vertices);
-  report.data("unused_points", result.unused_points);
-  if (result.unused_points > 0)
-    report.line("left out",
-                std::to_string(result.unused_points) +
-                    (result.quadrilaterals > 0 ? " points of no cell" : " points of no triangle"));
+  add_unused_points(report, result, input);
   if (std::isnan(result.min_angle_deg))
     report.data("min_angle_deg", nullptr);
   else

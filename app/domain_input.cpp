@@ -9,6 +9,7 @@
 #include "flow_mesh.h"
 #include "number_text.h"
 #include "remodel/error.h"
+#include "shape_input.h"
 #include "warnings.h"
 
 namespace remodel::app {
@@ -135,6 +136,7 @@ bool is_single_airfoil(const DomainInputOptions& options) {
 ShapesDomain read_domain(const DomainInputOptions& options, const AirfoilDomainOptions& discretisation,
                          const FitOptions& fit) {
   const std::vector<ShapeOfDomain> shapes = shapes_of(options);
+  require_coordinate_file(options.shapes, fit);
   try {
     ShapesDomain input = domain_of_shapes(shapes, discretisation,
                                           {.degree = fit.degree,

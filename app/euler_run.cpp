@@ -49,6 +49,13 @@ FrozenMesh without_openings(const FrozenMesh& mesh, const FlowOptions& options) 
 
 }  // namespace
 
+void add_farfield(CLI::App& app, std::vector<std::string>& names) {
+  add_texts(app,
+            {"--farfield", "NAME", "farfield",
+             "Boundary that is open to the stream; may be given several times; all others are walls"},
+            Presence::optional, names);
+}
+
 void add_solver_options(CLI::App& app, FlowConditions& conditions, FlowOptions& options) {
   add_real(app,
            {"--tolerance", "PART", "1e-10",

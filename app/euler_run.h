@@ -35,6 +35,8 @@ struct EulerRun {
   bool json = false;
 };
 
+// --farfield, which may be given several times.
+void add_farfield(CLI::App& app, std::vector<std::string>& names);
 // --tolerance, --max-steps, --memory, --solver, --limiter, --reference, --reference-length.
 void add_solver_options(CLI::App& app, FlowConditions& conditions, FlowOptions& options);
 // --transition, of turbulent flow, and --wall-temperature, of flows with friction.

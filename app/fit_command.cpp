@@ -44,6 +44,7 @@ void add_frame_line(Report& report, const AirfoilFrame& frame) {
 
 Status run(const FitCommand& command) {
   require_possible(command);
+  require_coordinate_file({command.shape}, command.fit);
   const CstFit fit = fit_shape(command.shape, command.fit);
   const bool apart = surfaces_apart(fit.airfoil);
   if (!command.output.empty()) {

@@ -31,7 +31,7 @@ struct FlowCommand {
   bool has_friction() const { return model != FlowModel::euler; }
   double alpha_deg = 0.0;
   std::optional<double> lift;
-  std::string farfield = "farfield";
+  std::vector<std::string> farfield = FlowOptions().farfield;
   std::string cp_plot;
   bool json = false;
   EulerRun euler;
@@ -173,9 +173,7 @@ void add_flow_command(CLI::App& program, Action& action) {
            command->alpha_deg);
   add_real(app, {"--cl", "CL", "", "Lift coefficient that the angle of attack is found for: -10 to 10"},
            {.low = -10, .high = 10}, command->lift);
-  add_text(app,
-           {"--farfield", "NAME", "farfield", "Boundary that is open to the stream; all others are walls"},
-           Presence::optional, command->farfield);
+  add_farfield(app, command->farfield);
   add_text(app, {"--cp-plot", "FILE", "", "Plot of the pressure coefficient along every body: .svg or .png"},
            Presence::optional, command->cp_plot);
   add_text(app,

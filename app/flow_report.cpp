@@ -158,17 +158,19 @@ struct ShapeNumbers {
 };
 
 // The loops that the interior moves along with: all closed ones but those of the far field alone.
-std::vector<std::size_t> loops_of_walls(const Domain& domain, const std::string& farfield) {
+std::vector<std::size_t> loops_of_walls(const Domain& domain, const std::vector<std::string>& farfield) {
   std::vector<std::size_t> loops;
   for (std::size_t l = 0; l < domain.loops.size(); ++l) {
     const Loop& loop = domain.loops[l];
-    const auto is_far = [&](const Curve& curve) { return curve.name == farfield; };
+    const auto is_far = [&](const Curve& curve) {
+      return std::find(farfield.begin(), farfield.end(), curve.name) != farfield.end();
+    };
     if (!loop.open && !std::all_of(loop.curves.begin(), loop.curves.end(), is_far)) loops.push_back(l);
   }
   return loops;
 }
 
-ShapeNumbers shape_numbers(const MeshInput& input, const std::string& farfield) {
+ShapeNumbers shape_numbers(const MeshInput& input, const std::vector<std::string>& farfield) {
   const Domain& domain = input.layered ? input.layered->domain() : input.living->domain();
   const std::vector<std::size_t> moving = loops_of_walls(domain, farfield);
   const std::vector<std::string> names = coefficient_names(domain);
@@ -183,7 +185,7 @@ ShapeNumbers shape_numbers(const MeshInput& input, const std::string& farfield) 
 }  // namespace
 
 Json gradients_json(LivingFlow& living, const MeshInput& input, const FlowResult& flow,
-                    const FlowConditions& conditions, const std::string& farfield) {
+                    const FlowConditions& conditions, const std::vector<std::string>& farfield) {
   const FlowGradients gradients = living.gradients();
   if (gradients.interrupted) return nullptr;
   const ShapeNumbers shape = shape_numbers(input, farfield);

@@ -24,7 +24,7 @@ void add_flow_figures(Report& report, const FlowResult& flow, const FlowConditio
 // The input is a native mesh or one of a shape. Its interior moves along with all closed loops but those of the
 // far field alone. With friction CD of pressure and the Reynolds number are there too.
 Json gradients_json(LivingFlow& living, const MeshInput& input, const FlowResult& flow,
-                    const FlowConditions& conditions, const std::string& farfield);
+                    const FlowConditions& conditions, const std::vector<std::string>& farfield);
 void add_gradients(Report& report, const Json& gradients);
 // In text as bars around the coefficients; null where the finer mesh has no flow.
 void add_error(Report& report, const FlowError& error);

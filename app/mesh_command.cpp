@@ -112,6 +112,7 @@ Status run(const MeshCommand& command) {
   command.outputs.require_possible();
   require_consistent(command.layers);
   if (command.layers.layers) return run_layers(command);
+  refuse_given(command.given, {"--layer-cells"}, "given without --layers, expected both");
   const ShapesDomain input = read_domain(command.shapes, command.meshing.discretisation, command.meshing.fit);
   require_used(input, command.given);
   const QualityOptions quality = command.meshing.resolved_quality();

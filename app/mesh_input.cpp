@@ -27,6 +27,7 @@ MeshInput read_any_mesh(const std::filesystem::path& file) {
     ReadNotes notes;
     input.frozen = read_frozen_mesh(file, &notes);
     input.su2_boxes = std::move(notes.su2_boxes);
+    input.unused_points = notes.unused_points;
     warn_of(notes);
   }
   return input;

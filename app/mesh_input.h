@@ -20,6 +20,7 @@ struct MeshInput {
   std::optional<LayeredMesh> layered;  // of one with layers
   FrozenMesh frozen;
   std::string su2_boxes = {};  // ReadNotes::su2_boxes
+  std::size_t unused_points = 0;  // ReadNotes::unused_points
   std::vector<ShapeFit> fits = {};  // of coordinate files that a fresh mesh is of
 };
 

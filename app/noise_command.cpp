@@ -102,6 +102,7 @@ void say_failures(const NoiseResult& result) {
 }
 
 NoiseResult measured(const NoiseCommand& command, StepObserver& observer) {
+  require_coordinate_file({command.shape}, command.meshing.fit);
   const CstFit fit = fit_shape(command.shape, command.meshing.fit);
   const AirfoilSpace space(fit.airfoil, command.meshing.discretisation);
   NoiseOptions options = command.line;

@@ -167,12 +167,15 @@ Status run_search(OptimiseCommand& command, PostedJobs* jobs) {
   command.run.keep_finished = !command.evaluate.command.empty();
   command.run.ranks = jobs;
   OptimiseStart start = read_start(command.start, command.meshing, command.run);
+  require_used(command.start.given, info_of(command.run.strategy).step,
+               command.run.start && command.run.start->mesh.imported(), command.start.mesh);
   const Json options = options_json(command);
   Progress progress(progress_style(command.quiet), command.run.evaluations, "options: " + options.dump());
   if (!command.evaluate.command.empty() && command.run.start)
     progress.say_at_first([&] {
-      warn_of_inner_curves(command.run.start->mesh.freeze(), "mesh.su2 of the evaluator",
-                           "no marker of its is a curve inside the mesh");
+      const FrozenMesh mesh = command.run.start->mesh.freeze();
+      warn_of_inner_curves(mesh, "mesh.su2 of the evaluator", "no marker of its is a curve inside the mesh");
+      warn_of_names(mesh, "mesh.su2 of the evaluator", MeshFormat::su2, InnerCurves::left_out);
     });
   const OptimiseResult result = run_repeatedly(command, once(command, start, progress));
   progress.finish();
@@ -197,6 +200,10 @@ Status run_search(OptimiseCommand& command, PostedJobs* jobs) {
 
 Status run(OptimiseCommand& command) {
   require_one_evaluator(command);
+  std::vector<std::string> shapes;
+  for (const std::string& shape : {command.start.from, command.to})
+    if (!shape.empty()) shapes.push_back(shape);
+  require_coordinate_file(shapes, command.meshing.fit);
   return with_posted_jobs(
       command.ranks, [&] { return work_of_ranks(command); },
       [&](PostedJobs* jobs) { return run_search(command, jobs); });

@@ -92,6 +92,16 @@ void warn_of_inner_curves(const FrozenMesh& mesh, const std::string& file, const
   say_left_out(inner_curves(mesh), file, "which SU2 would take for a wall (" + remedy + ")");
 }
 
+void warn_of_names(const FrozenMesh& mesh, const std::string& file, MeshFormat format, InnerCurves inner) {
+  const bool all = inner == InnerCurves::markers && format == MeshFormat::su2;
+  const std::vector<std::string> left_out = all ? std::vector<std::string>() : inner_curves(mesh);
+  for (const FrozenBoundary& boundary : mesh.boundaries)
+    if (const std::string name = name_in(format, boundary.name);
+        name != boundary.name && std::find(left_out.begin(), left_out.end(), boundary.name) == left_out.end())
+      warn(file + ": boundary '" + boundary.name + "' is called '" + name +
+           "' there: names of the format have no blanks");
+}
+
 void MeshOutputs::add_options(CLI::App& app, Presence presence) {
   add_texts(app,
             {"-o,--output", "MESH", "",
@@ -99,7 +109,10 @@ void MeshOutputs::add_options(CLI::App& app, Presence presence) {
              "the mesh of the case whose directory it lies in); may be repeated"},
             presence, files_);
   add_choice(app, {"--msh-version", "VERSION", "4.1", "Version of .msh files: 4.1 or 2.2"}, {"4.1", "2.2"},
-             [this](std::size_t choice) { options_.msh_version = choice == 0 ? 41 : 22; });
+             [this](std::size_t choice) {
+               options_.msh_version = choice == 0 ? 41 : 22;
+               msh_version_given_ = true;
+             });
   add_flag(app, "--inner-markers",
            "Write curves inside the mesh as markers of .su2 files too, where SU2 takes them for walls",
            inner_markers_);
@@ -114,6 +127,15 @@ void MeshOutputs::require_possible() const {
       throw Error(ErrorCode::argument, "-o", "found '" + files_[i] + "' twice, expected different files");
     }
   }
+  if (msh_version_given_) require_format(MeshFormat::msh, "--msh-version", ".msh");
+  if (inner_markers_) require_format(MeshFormat::su2, "--inner-markers", ".su2");
+}
+
+void MeshOutputs::require_format(MeshFormat format, const char* option, const char* extension) const {
+  const auto has_format = [&](const std::string& file) { return mesh_format(file) == format; };
+  if (std::none_of(files_.begin(), files_.end(), has_format))
+    throw Error(ErrorCode::argument, option,
+                std::string("given without a ") + extension + " file to write, expected one by -o");
 }
 
 template <class Freeze, class Write>
@@ -125,6 +147,7 @@ void MeshOutputs::write_each(std::span<const Field> fields, bool is_periodic, Fr
     else if (!inner_markers_)
       warn_of_inner_curves(frozen, file, "--inner-markers writes it");
     warn_of_regions(frozen, file);
+    warn_of_names(frozen, file, format, inner_markers_ ? InnerCurves::markers : InnerCurves::left_out);
   };
   for (const std::string& file : files_) {
     WriteOptions options = options_;

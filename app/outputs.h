@@ -21,7 +21,8 @@ class MeshOutputs {
  public:
   // -o (repeatable), --msh-version and --inner-markers.
   void add_options(CLI::App& app, Presence presence);
-  // Throws Error for an unknown extension, a file named twice, and what require_writable() refuses.
+  // Throws Error for an unknown extension, a file named twice, what require_writable() refuses, and options of
+  // formats that no file has.
   void require_possible() const;
   void write(const Mesh& mesh) const;
   void write(const FrozenMesh& mesh) const;
@@ -38,13 +39,19 @@ class MeshOutputs {
   template <class Freeze, class Write>
   void write_each(std::span<const Field> fields, bool is_periodic, Freeze freeze, Write write) const;
 
+  void require_format(MeshFormat format, const char* option, const char* extension) const;
+
   std::vector<std::string> files_;
   bool inner_markers_ = false;
+  bool msh_version_given_ = false;
   WriteOptions options_;
 };
 
 // Says on standard error which curves inside the mesh a .su2 file leaves out, and how to have them there.
 void warn_of_inner_curves(const FrozenMesh& mesh, const std::string& file, const std::string& remedy);
+// Says which boundaries have another name there, as the format knows no blanks in names. inner: whether curves
+// inside the mesh are written.
+void warn_of_names(const FrozenMesh& mesh, const std::string& file, MeshFormat format, InnerCurves inner);
 // Throws Error (file) if the file is a directory, or its directory is missing or not writable.
 void require_writable(const std::filesystem::path& file);
 // Throws Error (file) where a directory with files of a run cannot be made, or written to.

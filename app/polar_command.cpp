@@ -23,6 +23,7 @@
 #include "remodel/error.h"
 #include "remodel/io.h"
 #include "remodel/polar.h"
+#include "remodel/shape_files.h"
 #include "shape_input.h"
 #include "warnings.h"
 
@@ -83,11 +84,13 @@ void require_consistent(const PolarCommand& command) {
 
 // A mesh each, all of them before the first flow: what is wrong with the last shape is said at once.
 std::vector<MeshInput> meshes_of(const PolarCommand& command) {
+  require_coordinate_file(command.input.shapes, command.meshing.fit);
   std::vector<MeshInput> meshes;
   for (const std::string& shape : command.input.shapes) {
     FlowMeshRequest request{command.input,  command.meshing, command.polar.flow, command.polar.conditions,
                             command.layers, command.given};
     request.input.shapes = {shape};
+    if (!is_pipe(shape) && !is_coordinate_file(shape)) request.meshing.fit.close_trailing_edge = false;
     meshes.push_back(flow_mesh(request));
   }
   return meshes;
@@ -341,9 +344,7 @@ void add_polar_command(CLI::App& program, Action& action) {
              std::string(shape_help) + "; or a domain file (.json), a .poly file, or a mesh of any format"},
             Presence::required, command->input.shapes);
   add_conditions(app, *command);
-  add_text(app,
-           {"--farfield", "NAME", "farfield", "Boundary that is open to the stream; all others are walls"},
-           Presence::optional, command->polar.flow.farfield);
+  add_farfield(app, command->polar.flow.farfield);
   add_solver_options(app, command->polar.conditions, command->polar.flow);
   add_texts(app,
             {"-o,--output", "FILE", "",

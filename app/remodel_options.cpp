@@ -3,6 +3,7 @@
 #include <array>
 
 #include "arguments.h"
+#include "remodel/error.h"
 
 namespace remodel::app {
 
@@ -26,6 +27,23 @@ void add_remodel_options(CLI::App& app, RemodelOptions& options) {
            {"--delaunay-slack", "DEGREES", "20",
             "reference: the angles opposite an edge may sum up to 180 degrees and this: 0 to 60"},
            {.low = 0.0, .high = 60.0}, options.delaunay_slack_deg);
+}
+
+void require_used(const std::function<bool(const std::string&)>& given, Strategy strategy, bool imported,
+                  const std::string& mesh) {
+  if (given("--delaunay-slack") && strategy != Strategy::reference)
+    throw Error(ErrorCode::argument, "--delaunay-slack",
+                std::string("given with the strategy ") + name_of(strategy) + ", expected reference");
+  if (!given("--keep")) return;
+  if (strategy == Strategy::chain)
+    throw Error(
+        ErrorCode::argument, "--keep",
+        "given with the strategy chain, which keeps no triangle beyond --max-gradation, expected renew, "
+        "morph or reference");
+  if (imported)
+    throw Error(
+        ErrorCode::argument, "--keep",
+        "given for '" + mesh + "', a mesh of another program's, expected one that `remodel mesh` made");
 }
 
 void add_step_strategy(CLI::App& app, RemodelOptions& options) {

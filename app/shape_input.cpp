@@ -1,6 +1,10 @@
 #include "shape_input.h"
 
+#include <algorithm>
+
 #include "number_text.h"
+#include "remodel/error.h"
+#include "remodel/io.h"
 #include "remodel/shape_files.h"
 #include "warnings.h"
 
@@ -10,6 +14,18 @@ CstFit fit_shape(const std::string& shape, const FitOptions& options) {
   const CstFit fit = load_fit(shape, options.degree, options.trailing_edge());
   warn(fit.warnings);
   return fit;
+}
+
+void require_coordinate_file(const std::vector<std::string>& shapes, const FitOptions& options) {
+  if (!options.close_trailing_edge) return;
+  // What comes through a pipe is not known before it is read.
+  const auto may_be_one = [](const std::string& shape) {
+    return is_pipe(shape) || is_coordinate_file(shape);
+  };
+  if (std::any_of(shapes.begin(), shapes.end(), may_be_one)) return;
+  throw Error(ErrorCode::argument, "--close-trailing-edge",
+              shapes.empty() ? "given without a shape, expected a coordinate file"
+                             : "given for '" + shapes.front() + "', expected for coordinate files");
 }
 
 Json frame_json(const AirfoilFrame& frame) {

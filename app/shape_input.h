@@ -15,6 +15,8 @@ CstFit fit_shape(const std::string& shape, const FitOptions& options);
 
 // The same, and adds the fit of a file of coordinates to those to be reported.
 CstFit fit_shape(const std::string& shape, const FitOptions& options, std::vector<ShapeFit>& fits);
+// Throws Error (argument) where --close-trailing-edge is given and none of the shapes is a coordinate file.
+void require_coordinate_file(const std::vector<std::string>& shapes, const FitOptions& options);
 // The frame of a coordinate file, as JSON: turned_deg, sheared (y per x), scaled, moved, closed, and place as
 // --place takes it.
 Json frame_json(const AirfoilFrame& frame);

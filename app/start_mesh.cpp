@@ -120,6 +120,7 @@ StartMesh read_start_mesh(const std::string& file, const StartMeshOptions& optio
   ImportResult imported = import_mesh(read_frozen_mesh(file, &notes), file, import);
   warn_of(notes);
   imported.duplicate_triangles += notes.repeated_triangles;
+  imported.unused_points += notes.unused_points;
   StartMesh start{.mesh = std::move(imported.mesh),
                   .source = file,
                   .imported = std::nullopt,

@@ -26,6 +26,7 @@
 #include "remodel/io.h"
 #include "remodel/remodel.h"
 #include "remodel_options.h"
+#include "shape_input.h"
 #include "start_mesh.h"
 #include "timing.h"
 #include "warnings.h"
@@ -217,14 +218,20 @@ LayeredUpdate layered(const UpdateCommand& command) {
 
 Status run(const UpdateCommand& command) {
   command.outputs.require_possible();
+  require_coordinate_file(command.shapes.shapes, command.fit);
   const KeptPipes once;
-  if (holds_layers(command.mesh)) return run_layered_update(layered(command));
+  if (holds_layers(command.mesh)) {
+    const LayeredUpdate update = layered(command);
+    require_used(command.given, update.remodelling.strategy, false, command.mesh);
+    return run_layered_update(update);
+  }
   if (command.given("--layer-cells"))
     throw Error(ErrorCode::argument, "--layer-cells",
                 "given for '" + command.mesh + "', expected a native mesh with layers");
   require_reference_kept(command);
   const Origin origin = read_origin(command);
   const StartMesh& start = origin.start;
+  require_used(command.given, command.remodelling.strategy, start.mesh.imported(), command.mesh);
   Cargo cargo = cargo_of(command, origin);
   const ShapesDomain input = new_domain(start, command);
 

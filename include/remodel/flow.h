@@ -119,7 +119,9 @@ struct FlowProgress {
 };
 
 struct FlowOptions {
-  std::string farfield = "farfield";
+  // Boundaries that are open to the stream: the far field, which may have several parts. One alone need not
+  // be there where there are openings.
+  std::vector<std::string> farfield = {"farfield"};
   // Converged: the root of the sum of squares of all residuals is at most this part of what it is for
   // undisturbed flow through the same mesh, and lift and angle fit as well. 1e-13 to 1e-2.
   double tolerance = 1e-10;
@@ -141,7 +143,7 @@ struct FlowOptions {
   std::optional<FlowSolver> solver = {};
   StepObserver* observer = nullptr;      // asked at every step
   std::vector<FlowInlet> inlets = {};    // without a far field: at least one of each
-  std::vector<FlowOutlet> outlets = {};  // their names are not `farfield`, and not one twice
+  std::vector<FlowOutlet> outlets = {};  // their names are not of `farfield`, and not one twice
   // Boundaries beyond which the flow is its own mirror image: straight, along the stream, and no part of
   // forces, which are those of the bodies in the mesh. No lift can be asked for, and the far field has no
   // vortex. Names as those of outlets.

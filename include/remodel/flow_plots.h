@@ -4,6 +4,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "remodel/frozen_mesh.h"
 #include "remodel/plot.h"
@@ -20,14 +21,14 @@ std::string duct_caption(double mach);
 // symmetry.
 FrozenMesh without_boundaries(FrozenMesh mesh, std::span<const std::string> names);
 
-// The pressure coefficients of vertices along every boundary but the far field, smaller ones above, over x: a
-// curve for each body, or each piece of a wall, by the boundary's name and a number where there are several.
-// Throws Error (argument) naming `option` where there is no other boundary.
-Plot cp_plot(const FrozenMesh& mesh, const std::string& farfield, std::span<const double> cp,
+// The pressure coefficients of vertices along every boundary but those of the far field, smaller ones above,
+// over x: a curve for each body, or each piece of a wall, by the boundary's name and a number where there are
+// several. Throws Error (argument) naming `option` where there is no other boundary.
+Plot cp_plot(const FrozenMesh& mesh, const std::vector<std::string>& farfield, std::span<const double> cp,
              const std::string& caption, const std::string& option);
 
 // This plots the friction likewise, FlowFriction::cf, larger values above.
-Plot cf_plot(const FrozenMesh& mesh, const std::string& farfield, std::span<const double> cf,
+Plot cf_plot(const FrozenMesh& mesh, const std::vector<std::string>& farfield, std::span<const double> cf,
              const std::string& caption, const std::string& option);
 
 // Residuals over steps: a table (.csv) or a plot (.svg, .png), by the file's extension.

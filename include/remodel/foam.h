@@ -4,8 +4,9 @@
 // one mesh to the next. https://www.openfoam.com/documentation/user-guide/4-mesh-generation-and-conversion
 //
 // Cell i is cell i of the frozen mesh, from z = 0 to z = 1: triangles are prisms, quadrilaterals hexahedra. A
-// boundary becomes a patch of its name, of type `wall` unless it is called farfield, inlet or outlet; `front`
-// and `back` are of type `empty`. Curves inside the mesh and the names of regions are left out.
+// boundary becomes a patch of its name (name_in() of remodel/io.h), of type `wall` unless it is called
+// farfield, inlet or outlet; `front` and `back` are of type `empty`. Curves inside the mesh and the names of
+// regions are left out.
 
 #include <cstddef>
 #include <filesystem>

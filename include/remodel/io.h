@@ -29,6 +29,10 @@ enum class MeshFormat { vtkhdf, su2, msh, vtu, foam };
 // The extension says the format. Throws Error (argument) for another, listing those that are known.
 MeshFormat mesh_format(const std::filesystem::path& file);
 
+// The name of a boundary in a file of the format. SU2 and OpenFOAM end a name at a blank: they have '_' in
+// the place of each. Two names that would be one are refused when the file is written.
+std::string name_in(MeshFormat format, const std::string& boundary);
+
 // Named edges with cells on both sides, in .su2 files: SU2 takes every edge of a marker for a boundary,
 // and computes the flow around a wall that is none.
 enum class InnerCurves { left_out, markers };
@@ -36,7 +40,8 @@ struct WriteOptions {
   int msh_version = 41;  // 41: Gmsh 4.1, 22: Gmsh 2.2, both ASCII
   InnerCurves inner = InnerCurves::left_out;
   // Fields are written beside the mesh to .vtkhdf, .vtu and .msh files, as ParaView, meshio and Gmsh read
-  // them; a .su2 file has no place for fields. Gmsh knows no fields of two components: a third, 0, is added.
+  // them; a .su2 file has no place for fields. Fields of two components are written with a third one, 0:
+  // without it ParaView and Gmsh have no vectors. read_fields() takes it away again.
   // Throws Error (argument) unless they fit, see require_fit().
   std::span<const Field> fields = {};
   // The boxes for free-form deformation of .su2 files, see ReadNotes: for .su2 and .vtkhdf files. Others have
@@ -62,6 +67,12 @@ struct ReadNotes {
   // Triangles that Gmsh's version 2 lists once for each of their physical groups: taken once, in the first
   // one.
   std::size_t repeated_triangles = 0;
+  // Points that no cell uses (Gmsh saves the centres of arcs, and more with Mesh.SaveAll). The view leaves
+  // them out, with the edges of boundaries that end there and a warning, and read_fields() their values.
+  // kept_points has the file's number of each point of the view, from 0 on; it is empty where none is left
+  // out.
+  std::size_t unused_points = 0;
+  std::vector<std::uint32_t> kept_points;
 };
 // Reads the frozen view of any format: triangles and quadrilaterals of first order, boundary by marker or
 // physical name. What comes through a pipe without an extension is known by how it begins.
@@ -74,15 +85,16 @@ std::string without_surface_points(const std::string& su2_boxes, std::size_t& su
 // The fields of reals in a file, on the vertices and cells of read_frozen_mesh(): those on vertices
 // first, in alphabetical order, without what belongs to the mesh itself (length_scale, parameter, ...). Left
 // out are fields of more than three components, of integers or text, and in .msh files those that say nothing
-// of some vertex or cell. A .su2 file has none.
+// of some vertex or cell. A .su2 file has none. Vectors of other programs' files keep the third component,
+// which is 0 in the plane.
 std::vector<Field> read_fields(const std::filesystem::path& file);
-// Reads a native mesh. A .vtkhdf without state, or another format, is an Error that says what was expected; so is
-// (format) a mesh with layers, for which there are the calls below.
+// Reads a native mesh. A .vtkhdf without state, or another format, is an Error that says what was expected;
+// so is (format) a mesh with layers, for which there are the calls below.
 Mesh read_mesh(const std::filesystem::path& file);
 
-// A layered mesh in any format, as freeze(cells) has it; quadrilaterals where there is no choice. A .vtkhdf file holds the outer mesh's state, the walls and
-// the options of the layer too, and the rest is computed from these to the bit. Of that file read_frozen_mesh()
-// has the whole view.
+// A layered mesh in any format, as freeze(cells) has it; quadrilaterals where there is no choice. A .vtkhdf
+// file holds the outer mesh's state, the walls and the options of the layer too, and the rest is computed
+// from these to the bit. Of that file read_frozen_mesh() has the whole view.
 void write_mesh(const LayeredMesh& mesh, const std::filesystem::path& file, const WriteOptions& options,
                 LayerCells cells);
 void write_mesh(const LayeredMesh& mesh, const std::filesystem::path& file, const WriteOptions& options = {});

@@ -31,8 +31,9 @@
 namespace remodel {
 
 struct PotentialOptions {
-  std::string farfield = "farfield";  // name of the outer boundary; every other one is of a body
-  Point reference = {0.25, 0.0};      // the moment's
+  // The names of the outer boundary, which is one loop; every other one is of a body.
+  std::vector<std::string> farfield = {"farfield"};
+  Point reference = {0.25, 0.0};  // the moment's
   double reference_length = 1.0;
 };
 

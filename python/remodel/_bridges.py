@@ -191,6 +191,8 @@ def to_pyvista(mesh, fields=None):
         grid.cell_data[_REGION] = np.asarray(mesh.region)
         grid.field_data[_REGION_NAMES] = np.array(mesh.region_names)
     for name, (on_points, values) in _placed(mesh, fields).items():
+        if values.ndim == 2 and values.shape[1] == 2:  # VTK takes only arrays of three components for vectors
+            values = np.column_stack([values, np.zeros(len(values))])
         (grid.point_data if on_points else grid.cell_data)[name] = values
     return grid
 

@@ -9,6 +9,7 @@
 
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "remodel/airfoil.h"
@@ -23,6 +24,7 @@ namespace py = pybind11;
 using namespace pybind11::literals;
 
 using Snapshot = std::shared_ptr<const FrozenMesh>;
+using Names = std::variant<std::string, std::vector<std::string>>;  // of boundaries: one or several
 using Reals = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 void add_errors(py::module_& module);
@@ -56,6 +58,10 @@ ShapesDomain domain_of(const py::object& shape, const AirfoilDomainOptions& opti
 
 // The name or path that a shape is given by. Throws TypeError for what is none, Error (argument) for '-'.
 std::string name_of_shape(const py::object& shape);
+inline std::vector<std::string> list_of(const Names& names) {
+  const auto* one = std::get_if<std::string>(&names);
+  return one != nullptr ? std::vector{*one} : std::get<std::vector<std::string>>(names);
+}
 // Each sentence as a UserWarning.
 void warn(const std::vector<std::string>& sentences);
 

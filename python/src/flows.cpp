@@ -78,11 +78,11 @@ FlowModel model_named(const std::string& name) {
   throw Error(ErrorCode::argument, "model", "found '" + name + "', expected 'euler', 'laminar' or 'sa'");
 }
 
-FlowOptions options_of(const std::string& farfield, double tolerance, int max_steps, double memory_mb,
+FlowOptions options_of(const Names& farfield, double tolerance, int max_steps, double memory_mb,
                        const std::optional<std::string>& solver, const Inlets& inlets, const Outlets& outlets,
                        const std::string& model, const Pairs& periodic) {
   FlowOptions options{
-      .farfield = farfield, .tolerance = tolerance, .max_steps = max_steps, .memory_mb = memory_mb};
+      .farfield = list_of(farfield), .tolerance = tolerance, .max_steps = max_steps, .memory_mb = memory_mb};
   options.model = model_named(model);
   if (solver) options.solver = solver_named(*solver);
   for (const auto& [name, given] : inlets) {
@@ -109,11 +109,11 @@ py::object with_mesh(const FlowPointer& flow, const Snapshot& mesh) {
 }
 
 py::object solved(const py::object& mesh, double mach, double alpha, const std::optional<double>& cl,
-                  const std::array<double, 2>& reference, double reference_length,
-                  const std::string& farfield, double tolerance, int max_steps, double memory_mb,
-                  const std::optional<std::string>& solver, const Inlets& inlets, const Outlets& outlets,
-                  double reynolds, const std::string& model, const Transition& transition,
-                  const std::optional<double>& wall_temperature, const Pairs& periodic) {
+                  const std::array<double, 2>& reference, double reference_length, const Names& farfield,
+                  double tolerance, int max_steps, double memory_mb, const std::optional<std::string>& solver,
+                  const Inlets& inlets, const Outlets& outlets, double reynolds, const std::string& model,
+                  const Transition& transition, const std::optional<double>& wall_temperature,
+                  const Pairs& periodic) {
   const Snapshot frozen = snapshot_of(mesh);
   const FlowConditions conditions =
       conditions_of(mach, alpha, cl, reference, reference_length, reynolds, transition, wall_temperature);
@@ -530,7 +530,7 @@ py::tuple state_of(const Flows& flows) {
 std::unique_ptr<Flows> flows_of(const py::tuple& state) {
   require_pickle(state.size() == 9, "a LivingFlow");
   return std::make_unique<Flows>(options_of(
-      state[0].cast<std::string>(), state[1].cast<double>(), state[2].cast<int>(), state[3].cast<double>(),
+      state[0].cast<Names>(), state[1].cast<double>(), state[2].cast<int>(), state[3].cast<double>(),
       state[4].cast<std::optional<std::string>>(), state[5].cast<Inlets>(), state[6].cast<Outlets>(),
       state[7].cast<std::string>(), state[8].cast<Pairs>()));
 }
@@ -544,8 +544,8 @@ transition: with 'sa', where the boundary layers of upper and lower sides become
 0 to 1; None: at the leading edge. wall_temperature: with 'laminar' and 'sa', of all walls, as a part of the stream's
 static temperature, more than 0; None: no heat passes through walls.
 
-mach: 0.01 to 3; alpha: degrees, or where cl is given the angle that the search for this lift begins with;
-reference: the moment's point. inlets: total pressure and total temperature of each by name, outlets: the pressure
+farfield: the boundary open to the stream, or a list of its parts. mach: 0.01 to 3; alpha: degrees, or where cl is given
+the angle that the search for this lift begins with; reference: the moment's point. inlets: total pressure and total temperature of each by name, outlets: the pressure
 of each, all as parts of the stream's; below Mach 1. A third number of an inlet is the angle to the x axis that gas
 enters at; without it, it enters at a right angle to the boundary. periodic: pairs of names of boundaries of which one
 is the other moved, beside those that a mesh knows from its domain. tolerance: residual over that of undisturbed flow, 1e-13 to 1e-2. Raises
@@ -575,7 +575,7 @@ void add_flows(py::module_& module) {
 still good, whatever update() did to the mesh in between. The result depends on mesh and conditions alone, to
 the tolerance. Meshes are living ones, frozen ones (also of arrays) or what an update returns. A pickle goes on with
 the same options, and begins cold. After Ctrl-C the next call waits until a factorisation that was under way has ended.)")
-      .def(py::init([](const std::string& farfield, double tolerance, int max_steps, double memory_mb,
+      .def(py::init([](const Names& farfield, double tolerance, int max_steps, double memory_mb,
                        const std::optional<std::string>& solver, const Inlets& inlets, const Outlets& outlets,
                        const std::string& model, const Pairs& periodic) {
              return std::make_unique<Flows>(options_of(farfield, tolerance, max_steps, memory_mb, solver,

@@ -55,13 +55,14 @@ py::dict bodies_of(const PotentialFlow& flow) {
 
 // A solver and what it was made of, for pickles: the factors are made anew.
 struct Potential {
-  Potential(Snapshot from, std::string outer) : mesh(std::move(from)), farfield(std::move(outer)) {
+  Potential(Snapshot from, std::vector<std::string> outer)
+      : mesh(std::move(from)), farfield(std::move(outer)) {
     solver = Apart().run(std::make_shared<Stop>(), [mesh = mesh, farfield = farfield] {
       return std::make_shared<PotentialSolver>(*mesh, PotentialOptions{.farfield = farfield});
     });
   }
   Snapshot mesh;
-  std::string farfield;
+  std::vector<std::string> farfield;
   std::shared_ptr<PotentialSolver> solver;
 };
 
@@ -116,9 +117,9 @@ void add_potential_flows(py::module_& module) {
   py::class_<Potential>(
       module, "PotentialSolver",
       R"(Plane potential flow around the bodies of a mesh, by one factorisation: lift and pressures in
-milliseconds, without drag. Raises ArgumentError. docs/potential_flow.md has method and figures.)")
-      .def(py::init([](const py::object& mesh, const std::string& farfield) {
-             return std::make_unique<Potential>(snapshot_of(mesh), farfield);
+milliseconds, without drag. farfield: the outer boundary, or a list of its parts. Raises ArgumentError. docs/potential_flow.md has method and figures.)")
+      .def(py::init([](const py::object& mesh, const Names& farfield) {
+             return std::make_unique<Potential>(snapshot_of(mesh), list_of(farfield));
            }),
            "mesh"_a, py::kw_only(), "farfield"_a = "farfield")
       .def(
@@ -133,7 +134,7 @@ Tsien, lift by circulation by Glauert's.)")
                       [](const py::tuple& state) {
                         require_pickle(state.size() == 2 && !state[0].is_none(), "a PotentialSolver");
                         return std::make_unique<Potential>(unpacked_mesh(state[0]),
-                                                           state[1].cast<std::string>());
+                                                           list_of(state[1].cast<Names>()));
                       }))
       .def(
           "alpha_for",

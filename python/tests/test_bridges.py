@@ -141,10 +141,11 @@ def pyvista(monkeypatch):
 
 
 def test_pyvista_gets_cells_points_and_fields(mesh, pyvista):
-    grid = mesh.to_pyvista({"x": mesh.points[:, 0], "birth": mesh.birth})
+    grid = mesh.to_pyvista({"x": mesh.points[:, 0], "birth": mesh.birth, "u": mesh.points})
     assert np.array_equal(grid.cells.reshape(-1, 4)[:, 1:], mesh.triangles) and np.all(grid.cells[::4] == 3)
     assert np.all(grid.celltypes == 5) and grid.points.shape == (len(mesh.points), 3)
     assert "x" in grid.point_data and "birth" in grid.cell_data
+    assert np.array_equal(grid.point_data["u"], grid.points)  # vectors of the plane have three components
 
 
 def test_pyvista_keeps_names_and_regions(mesh, pyvista):

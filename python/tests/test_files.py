@@ -24,6 +24,16 @@ def test_arrays_come_back_from_every_format(mesh, tmp_path, name):
     assert set(read.boundaries) == {"airfoil", "farfield"}
 
 
+@pytest.mark.parametrize("name", ["m.vtu", "m.msh", "m.vtkhdf"])
+def test_vectors_and_stray_points(mesh, tmp_path, name):
+    more = remodel.FrozenMesh(np.vstack([mesh.points, [[9.0, 9.0]]]), mesh.triangles, mesh.boundaries)
+    fields = {"u": 2.0 * more.points, "c": np.arange(len(mesh.triangles), dtype=float)}
+    more.save(tmp_path / name, fields=fields)
+    assert np.array_equal(remodel.read_frozen(tmp_path / name).points, mesh.points)
+    found = remodel.read_fields(tmp_path / name)
+    assert np.array_equal(found["u"], 2.0 * mesh.points) and np.array_equal(found["c"], fields["c"])
+
+
 def test_another_programs_mesh_comes_alive(mesh, designs, tmp_path):
     mesh.save(tmp_path / "m.su2")
     loaded = remodel.Mesh.load(tmp_path / "m.su2")

@@ -34,6 +34,23 @@ def test_a_flow_has_coefficients_and_fields(flowing):
     assert np.array_equal(flow.mesh.points, mesh.points)
 
 
+def test_a_far_field_may_have_several_parts(flowing):
+    _, mesh = flowing
+    edges = mesh.boundaries["farfield"]
+    walls = {"airfoil": mesh.boundaries["airfoil"], "front": edges[:20], "back": edges[20:]}
+    parts = remodel.FrozenMesh(mesh.points, mesh.triangles, walls)
+    whole = remodel.solve_flow(mesh, mach=0.5, alpha=1.25)
+    solver = remodel.LivingFlow(farfield=["front", "back"])
+    for flow in (remodel.solve_flow(parts, mach=0.5, alpha=1.25, farfield=("front", "back")),
+                 pickle.loads(pickle.dumps(solver)).solve(parts, mach=0.5, alpha=1.25)):  # fmt: skip
+        assert list(flow.bodies) == ["airfoil"] and abs(flow.cl - whole.cl) < 1e-9
+    potential = remodel.PotentialSolver(parts, farfield=["back", "front"])
+    lift = remodel.PotentialSolver(mesh).at(2.0).lift
+    assert abs(pickle.loads(pickle.dumps(potential)).at(2.0).lift - lift) < 1e-9
+    with pytest.raises(remodel.ArgumentError, match="a far field of the name 'sky'"):
+        remodel.solve_flow(parts, mach=0.5, farfield=["front", "back", "sky"])
+
+
 def test_a_living_flow_goes_on_over_steps(flowing):
     airfoil, mesh = flowing
     mesh, solver = mesh.copy(), remodel.LivingFlow()

@@ -454,7 +454,7 @@ TEST(Deformation, WallsOfAFlowAreThoseOfItsOptions) {
   const Domain half = {{{.role = LoopRole::outer,
                          .curves = {line("hull", {0, 0}, {1, 0}), line("open", {1, 0}, {1, 1}),
                                     line("open", {1, 1}, {0, 1}), line("open", {0, 1}, {0, 0})}}}};
-  EXPECT_EQ(walls_of_flow(half, {.farfield = "open"}), std::vector<std::string>{"hull"});
+  EXPECT_EQ(walls_of_flow(half, {.farfield = {"open"}}), std::vector<std::string>{"hull"});
   EXPECT_TRUE(walls_of_flow(airfoil_domain(named_airfoil("naca:0012", 5)), {}).empty());
 }
 

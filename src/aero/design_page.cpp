@@ -147,7 +147,7 @@ std::string pressures(const Scratch& scratch, const Shown& first, const Shown& l
   for (std::size_t i = 0; i < first.flows.size(); ++i)
     pictures +=
         along_sections(scratch, first, last, sections, i, [&](const Shown& of, const std::string& caption) {
-          return cp_plot(walls_alone(of.mesh, of.points[i]), "farfield", of.cp[i], caption, "report");
+          return cp_plot(walls_alone(of.mesh, of.points[i]), {"farfield"}, of.cp[i], caption, "report");
         });
   return pictures;
 }
@@ -159,7 +159,7 @@ std::string frictions(const Scratch& scratch, const Shown& first, const Shown& l
   for (std::size_t i = 0; i < first.flows.size(); ++i)
     pictures +=
         along_sections(scratch, first, last, sections, i, [&](const Shown& of, const std::string& caption) {
-          return cf_plot(walls_alone(of.mesh, of.points[i]), "farfield", of.flows[i].friction->cf, caption,
+          return cf_plot(walls_alone(of.mesh, of.points[i]), {"farfield"}, of.flows[i].friction->cf, caption,
                          "report");
         });
   return pictures;

@@ -34,11 +34,11 @@ WakeLine wake_at(double length, double angle_deg) {
 namespace {
 
 // Whether an outer boundary is the far field alone, as around airfoils: walls are the holes then.
-bool is_around_bodies(const Domain& domain, const std::string& farfield) {
+bool is_around_bodies(const Domain& domain, const std::vector<std::string>& farfield) {
   for (const Loop& loop : domain.loops)
     if (!loop.open && loop.role == LoopRole::outer)
       for (const Curve& curve : loop.curves)
-        if (curve.name != farfield) return false;
+        if (std::find(farfield.begin(), farfield.end(), curve.name) == farfield.end()) return false;
   return true;
 }
 
@@ -47,7 +47,7 @@ bool is_around_bodies(const Domain& domain, const std::string& farfield) {
 std::vector<std::string> walls_of_flow(const Domain& domain, const FlowOptions& options) {
   if (is_around_bodies(domain, options.farfield) && options.symmetry.empty()) return {};
   std::vector<std::string> openings = options.symmetry;
-  openings.push_back(options.farfield);
+  openings.insert(openings.end(), options.farfield.begin(), options.farfield.end());
   for (const FlowInlet& inlet : options.inlets) openings.push_back(inlet.name);
   for (const FlowOutlet& outlet : options.outlets) openings.push_back(outlet.name);
   for (const FlowPeriod& pair : options.periodic) openings.insert(openings.end(), {pair.name, pair.moved});

@@ -37,11 +37,12 @@ FrozenMesh without_boundaries(FrozenMesh mesh, std::span<const std::string> name
 namespace {
 
 // Adds a curve of the values along each piece of a boundary but the far field.
-Plot along_bodies(Plot plot, const FrozenMesh& mesh, const std::string& farfield,
+Plot along_bodies(Plot plot, const FrozenMesh& mesh, const std::vector<std::string>& farfield,
                   std::span<const double> values, const std::string& option) {
   const auto point_of = [&](std::uint32_t v) { return Point{mesh.points[v].x, values[v]}; };
   for (const FrozenBoundary& boundary : mesh.boundaries) {
-    if (boundary.name == farfield || boundary.edges.empty()) continue;
+    const bool is_far = std::find(farfield.begin(), farfield.end(), boundary.name) != farfield.end();
+    if (is_far || boundary.edges.empty()) continue;
     const auto pieces = boundary_pieces(boundary);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       PlotCurve& curve = plot.curves.emplace_back();
@@ -55,13 +56,13 @@ Plot along_bodies(Plot plot, const FrozenMesh& mesh, const std::string& farfield
 
 }  // namespace
 
-Plot cp_plot(const FrozenMesh& mesh, const std::string& farfield, std::span<const double> cp,
+Plot cp_plot(const FrozenMesh& mesh, const std::vector<std::string>& farfield, std::span<const double> cp,
              const std::string& caption, const std::string& option) {
   return along_bodies({.x = {"x"}, .y = {.label = "Cp", .reversed = true}, .caption = caption}, mesh,
                       farfield, cp, option);
 }
 
-Plot cf_plot(const FrozenMesh& mesh, const std::string& farfield, std::span<const double> cf,
+Plot cf_plot(const FrozenMesh& mesh, const std::vector<std::string>& farfield, std::span<const double> cf,
              const std::string& caption, const std::string& option) {
   return along_bodies({.x = {"x"}, .y = {.label = "Cf"}, .caption = caption}, mesh, farfield, cf, option);
 }

@@ -99,7 +99,7 @@ std::array<double, 3> weights_at(const FlowMesh& mesh, const std::array<std::uin
 
 // All boundaries that the options say something of, ascending.
 std::vector<std::string> named_boundaries(const FlowOptions& options) {
-  std::vector<std::string> names = {options.farfield};
+  std::vector<std::string> names = options.farfield;
   for (const FlowInlet& inlet : options.inlets) names.push_back(inlet.name);
   for (const FlowOutlet& outlet : options.outlets) names.push_back(outlet.name);
   names.insert(names.end(), options.symmetry.begin(), options.symmetry.end());
@@ -207,7 +207,8 @@ std::vector<FlowPeriod> periodic_pairs(const FrozenMesh& mesh, const FlowOptions
 
 FlowMesh dual_of(const FrozenMesh& mesh, const FlowConditions& conditions, const FlowOptions& options,
                  const std::string& source) {
-  std::vector<Patch> patches = {{options.farfield, FarField{}}};
+  std::vector<Patch> patches;
+  for (const std::string& name : options.farfield) patches.push_back({name, FarField{}});
   for (const FlowInlet& inlet : options.inlets)
     patches.push_back(
         {inlet.name, Inlet{inlet.total_pressure, inlet.total_temperature,

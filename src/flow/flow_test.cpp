@@ -159,7 +159,7 @@ TEST(Flow, BadInputIsOneSentence) {
   EXPECT_EQ(message_of(mesh, {.mach = 1.5, .cl = 0.3}),
             "mach: found 1.5, expected less than 1 where a lift coefficient is given");
   EXPECT_EQ(message_of(mesh, {.reference_length = 0.0}), "reference length: found 0, expected more than 0");
-  EXPECT_EQ(message_of(mesh, {}, {.farfield = "outer"}),
+  EXPECT_EQ(message_of(mesh, {}, {.farfield = {"outer"}}),
             "file.su2: found boundaries 'airfoil', 'farfield', expected a far field of the name 'outer'");
   FrozenMesh open = mesh;
   open.boundaries[0].edges.pop_back();
@@ -190,7 +190,7 @@ TEST(Flow, TrianglesThatAreNotCounterClockwiseAreRefused) {
 
 TEST(Flow, TheFarFieldLiesAroundTheWalls) {
   const FrozenMesh mesh = test::airfoil_mesh("naca:0012", 40).freeze();
-  EXPECT_EQ(message_of(mesh, {}, {.farfield = "airfoil"}),
+  EXPECT_EQ(message_of(mesh, {}, {.farfield = {"airfoil"}}),
             "file.su2: the far field bounds a hole of the domain, expected it to lie around the walls");
 }
 

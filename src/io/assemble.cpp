@@ -111,7 +111,59 @@ class ChainWalker {
   std::vector<Edge> result_;
 };
 
+// Keeps the rows of those points; nothing where there are none.
+template <class Value>
+void keep_rows(std::vector<Value>& values, std::size_t width, const std::vector<bool>& used) {
+  if (values.size() != width * used.size()) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (used[i / width]) values[kept++] = values[i];
+  values.resize(kept);
+}
+
 }  // namespace
+
+std::vector<bool> used_points(const FrozenMesh& mesh, std::size_t points) {
+  std::vector<bool> used(points);
+  for (std::size_t i = 0; i < mesh.cell_count(); ++i)
+    for (const std::uint32_t corner : mesh.cell(i)) used[corner] = true;
+  return used;
+}
+
+std::size_t keep_used_points(FrozenMesh& mesh, const std::vector<bool>& used) {
+  if (std::find(used.begin(), used.end(), false) == used.end()) return 0;
+  std::size_t edges = 0;
+  std::erase_if(mesh.boundaries, [&](FrozenBoundary& boundary) {
+    const std::size_t loose =
+        std::erase_if(boundary.edges, [&](const Edge& edge) { return !used[edge[0]] || !used[edge[1]]; });
+    edges += loose;
+    return loose > 0 && boundary.edges.empty();
+  });
+  keep_rows(mesh.length_scale, 1, used);
+  keep_rows(mesh.vertex_ids, 1, used);
+  keep_rows(mesh.vertex_keys, 1, used);
+  keep_rows(mesh.curve, 1, used);
+  keep_rows(mesh.parameter, 1, used);
+  keep_rows(mesh.steiner, 1, used);
+  keep_rows(mesh.points, 1, used);
+  std::vector<std::uint32_t> index(used.size());
+  for (std::uint32_t i = 0, kept = 0; i < used.size(); ++i) index[i] = used[i] ? kept++ : kept;
+  const auto renumber = [&](auto& cells) {
+    for (auto& cell : cells)
+      for (std::uint32_t& corner : cell) corner = index[corner];
+  };
+  renumber(mesh.triangles);
+  renumber(mesh.quads);
+  for (FrozenBoundary& boundary : mesh.boundaries) renumber(boundary.edges);
+  return edges;
+}
+
+void keep_used_points(std::span<Field> fields, const std::vector<bool>& used) {
+  if (std::find(used.begin(), used.end(), false) == used.end()) return;
+  for (Field& field : fields)
+    if (field.place == FieldPlace::vertices)
+      keep_rows(field.values, static_cast<std::size_t>(field.components), used);
+}
 
 void adopt_conventions(FrozenMesh& mesh, const std::string& file) {
   if (mesh.cell_count() == 0)

@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "remodel/field.h"
 #include "remodel/frozen_mesh.h"
 
 namespace remodel::io {
@@ -21,6 +23,13 @@ void adopt_conventions(FrozenMesh& mesh, const std::string& file);
 // The mesh without named edges that have a cell on both sides, and without boundaries that have no
 // others.
 FrozenMesh without_inner_edges(const FrozenMesh& mesh);
+
+// Which of the points of a file a cell has. Indices must be in range.
+std::vector<bool> used_points(const FrozenMesh& mesh, std::size_t points);
+// Leaves the others out of the mesh, with what is said of them and the edges of boundaries that end there, of
+// which it gives the number; and out of fields on vertices.
+std::size_t keep_used_points(FrozenMesh& mesh, const std::vector<bool>& used);
+void keep_used_points(std::span<Field> fields, const std::vector<bool>& used);
 
 // Gives cells their regions by name, as they are read one after the other, triangles and quadrilaterals in
 // any order.

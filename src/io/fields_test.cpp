@@ -77,23 +77,51 @@ TEST(FieldFiles, AFileWithoutFieldsHasNoneAndTheSameBytesAsBefore) {
   EXPECT_THROW(read_fields(scratch / "none.su2"), Error);
 }
 
-TEST(FieldFiles, TwoComponentsAreThreeInGmshFilesAndTwoElsewhere) {
+// A vector of two components, one of three that lies in the plane, and one in cells.
+std::vector<Field> vectors_on(const FrozenMesh& mesh) {
+  std::vector<Field> fields = {{"u", FieldPlace::vertices, 2, {}},
+                               {"v", FieldPlace::vertices, 3, {}},
+                               {"w", FieldPlace::triangles, 2, {}}};
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    const double x = static_cast<double>(i);
+    fields[0].values.insert(fields[0].values.end(), {x, x + 0.5});
+    fields[1].values.insert(fields[1].values.end(), {x, x + 0.5, 0.0});
+  }
+  for (std::size_t i = 0; i < 2 * mesh.cell_count(); ++i)
+    fields[2].values.push_back(0.25 * static_cast<double>(i));
+  return fields;
+}
+
+TEST(FieldFiles, VectorsOfThePlaneAreArraysOfThreeComponentsAndComeBackAsTheyWere) {
+  for (const FrozenMesh& mesh : {test::square_ring(), test::mixed_ring(), test::full_square_ring()})
+    for (const auto& [name, version] : targets) {
+      SCOPED_TRACE(name);
+      const std::vector<Field> fields = vectors_on(mesh);
+      const Scratch scratch;
+      write_mesh(mesh, scratch / name, {.msh_version = version, .fields = fields});
+      EXPECT_EQ(read_fields(scratch / name), fields);
+    }
+  const std::string vtu = io::vtu_text(test::square_ring(), vectors_on(test::square_ring()));
+  EXPECT_EQ(vtu.find("NumberOfComponents=\"2\""), vtu.npos);
+  EXPECT_EQ(vtu.find("NumberOfComponents=\"1\""), vtu.npos);
+  EXPECT_NE(vtu.find("Name=\"u\" NumberOfComponents=\"3\" "), vtu.npos);
+  EXPECT_NE(vtu.find("\n0 0.5 0\n1 1.5 0\n"), vtu.npos);
+}
+
+TEST(FieldFiles, VectorsOfOtherProgramsKeepThreeComponents) {
+  const auto replaced = [](std::string text, const std::string& what, const std::string& by) {
+    const std::size_t at = text.find(what);
+    EXPECT_NE(at, text.npos) << what;
+    return at == text.npos ? text : text.replace(at, what.size(), by);
+  };
   const FrozenMesh mesh = test::square_ring();
-  std::vector<Field> fields = {{"v", FieldPlace::vertices, 2, {}}};
-  for (std::size_t i = 0; i < 16; ++i) fields[0].values.push_back(static_cast<double>(i));
-  const Scratch scratch;
-  for (const char* name : {"m.vtu", "m.vtkhdf"}) {
-    write_mesh(mesh, scratch / name, {.fields = fields});
-    EXPECT_EQ(read_fields(scratch / name), fields) << name;
-  }
-  write_mesh(mesh, scratch / "m.msh", {.fields = fields});
-  const auto back = read_fields(scratch / "m.msh");
-  ASSERT_EQ(back.size(), 1U);
-  EXPECT_EQ(back[0].components, 3);
-  for (std::size_t i = 0; i < 8; ++i) {
-    EXPECT_EQ(back[0].values[3 * i + 1], fields[0].values[2 * i + 1]);
-    EXPECT_EQ(back[0].values[3 * i + 2], 0.0);
-  }
+  const std::vector<Field> fields = {vectors_on(mesh).front()};
+  const std::string vtu = io::vtu_text(mesh, fields), msh = io::msh_text(mesh, 41, "m.msh", fields);
+  const auto components = [](const std::vector<Field>& found) { return found.at(0).components; };
+  EXPECT_EQ(components(io::parse_vtu_fields(replaced(vtu, "remodel_components=\"2\" ", ""), "m.vtu")), 3);
+  EXPECT_EQ(components(io::parse_vtu_fields(replaced(vtu, "\n1 1.5 0\n", "\n1 1.5 2\n"), "m.vtu")), 3);
+  EXPECT_EQ(components(io::parse_msh_fields(msh.substr(0, msh.find("$Comments")), "m.msh")), 3);
+  EXPECT_EQ(components(io::parse_msh_fields(replaced(msh, "\n2 1 1.5 0\n", "\n2 1 1.5 2\n"), "m.msh")), 3);
 }
 
 TEST(FieldFiles, ALivingMeshKeepsItsStateBesideTheFields) {

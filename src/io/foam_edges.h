@@ -39,7 +39,7 @@ inline std::vector<FoamEdge> edges_of_cells(const FrozenMesh& mesh) {
   return edges;
 }
 
-// Boundaries with cells on one side, by name; what no boundary names has the name "unnamed".
+// Boundaries with cells on one side, by name, see as_word(); what no boundary names has the name "unnamed".
 std::vector<FoamPatch> foam_patches(const FrozenMesh& mesh, const std::vector<FoamEdge>& edges);
 
 }  // namespace remodel::io

@@ -6,6 +6,7 @@
 #include "io/foam_edges.h"
 #include "io/scanner.h"
 #include "io/text_writer.h"
+#include "io/words.h"
 #include "remodel/error.h"
 #include "remodel/foam.h"
 #include "remodel/io.h"
@@ -132,7 +133,12 @@ std::string boundary_text(const FrozenMesh& mesh, std::size_t inner, const std::
   return out.take();
 }
 
-void require_names(const std::vector<FoamPatch>& patches, const std::string& file) {
+void require_names(const FrozenMesh& mesh, const std::vector<FoamPatch>& patches, const std::string& file) {
+  std::vector<FrozenBoundary> written;  // those with cells on both sides are no patches
+  for (const FrozenBoundary& boundary : mesh.boundaries)
+    if (std::ranges::find(patches, io::as_word(boundary.name), &FoamPatch::name) != patches.end())
+      written.push_back({boundary.name, {}});
+  io::require_different_words(written, file);
   for (const FoamPatch& patch : patches) {
     const auto bad = [](char c) {
       return static_cast<unsigned char>(c) <= ' ' ||
@@ -156,7 +162,7 @@ std::vector<FoamPatch> io::foam_patches(const FrozenMesh& mesh, const std::vecto
   std::vector<FoamPatch> patches;
   std::vector<bool> named(edges.size());
   for (const FrozenBoundary& boundary : mesh.boundaries) {
-    FoamPatch patch{boundary.name, {}};
+    FoamPatch patch{as_word(boundary.name), {}};
     for (const auto& [a, b] : boundary.edges) {
       const auto [first, last] = range({a, b, 0});
       if (last - first != 1) continue;
@@ -179,7 +185,7 @@ std::vector<FoamPatch> io::foam_patches(const FrozenMesh& mesh, const std::vecto
 void write_foam_mesh(const FrozenMesh& mesh, const fs::path& file) {
   const std::vector<FoamEdge> edges = io::edges_of_cells(mesh);
   const std::vector<FoamPatch> patches = io::foam_patches(mesh, edges);
-  require_names(patches, file.string());
+  require_names(mesh, patches, file.string());
   const std::vector<InnerFace> inner = inner_faces(edges);
   std::size_t faces = inner.size() + 2 * mesh.cell_count();
   for (const FoamPatch& patch : patches) faces += patch.edges.size();

@@ -23,6 +23,9 @@ class Warnings {
   void add(const std::string& sentence) const {
     if (notes_ != nullptr) notes_->warnings.push_back(file_ + ": " + sentence);
   }
+  // One that says how many points are left out, of which only those of `used` are kept, and how many edges
+  // of boundaries with them.
+  void note_unused_points(const std::vector<bool>& used, std::size_t edges) const;
 
  private:
   ReadNotes* notes_;
@@ -37,9 +40,9 @@ enum class CellKind { second_order, other };
 std::string_view advice_on(CellKind kind);
 
 // Points in space (3 numbers each, finite) of a mesh that lies in a plane, as points of that plane: x and y
-// where z is the same everywhere but for rounding, else x and z, or y and z. Warns unless it is z = 0. Throws
-// Error (format) naming a point that leaves the plane.
-std::vector<Point> in_their_plane(std::span<const double> coordinates, const std::string& place,
-                                  const Warnings& warnings);
+// where z is the same everywhere but for rounding, else x and z, or y and z. Points that are not `used` may
+// lie anywhere. Warns unless it is z = 0. Throws Error (format) naming a point that leaves the plane.
+std::vector<Point> in_their_plane(std::span<const double> coordinates, const std::vector<bool>& used,
+                                  const std::string& place, const Warnings& warnings);
 
 }  // namespace remodel::io

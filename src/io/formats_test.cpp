@@ -326,8 +326,30 @@ TEST(MeshFiles, BoundaryNamesWithMarkupSurviveVtuAndMsh) {
     write_mesh(mesh, scratch / name);
     EXPECT_EQ(read_frozen_mesh(scratch / name).boundaries[0].name, mesh.boundaries[0].name) << name;
   }
-  EXPECT_NE(error_of([&] { write_mesh(mesh, scratch / "m.su2"); }).find("SU2 expects one without blanks"),
+  mesh.boundaries[0].name = "50%";
+  EXPECT_NE(error_of([&] { write_mesh(mesh, scratch / "m.su2"); }).find("SU2 expects one without '%'"),
             std::string::npos);
+}
+
+TEST(MeshFiles, OfSu2AndOpenFoamHaveUnderscoresInThePlaceOfBlanksInNames) {
+  FrozenMesh mesh = test::square_ring();
+  mesh.boundaries[0].name = "upper  wall";
+  const Scratch scratch;
+  write_mesh(mesh, scratch / "m.su2");
+  EXPECT_EQ(read_frozen_mesh(scratch / "m.su2").boundaries[0].name, "upper__wall");
+  write_mesh(mesh, scratch / "m.foam");
+  const std::string patches = read_text(scratch / "constant" / "polyMesh" / "boundary");
+  EXPECT_NE(patches.find("    upper__wall\n"), patches.npos);
+  EXPECT_EQ(patches.find("upper  wall"), patches.npos);
+  EXPECT_EQ(name_in(MeshFormat::foam, "upper wall"), "upper_wall");
+  EXPECT_EQ(name_in(MeshFormat::msh, "upper wall"), "upper wall");
+  mesh.boundaries[1].name = "upper _wall";
+  for (const char* name : {"m.su2", "m.foam"})
+    EXPECT_NE(error_of([&] {
+                write_mesh(mesh, scratch / name);
+              }).find("boundaries 'upper  wall' and 'upper _wall' found, which would both be 'upper__wall'"),
+              std::string::npos)
+        << name;
 }
 
 TEST(ForeignMeshes, NamesOfBoundariesMayBeAnArrayOfTexts) {

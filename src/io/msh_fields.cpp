@@ -4,6 +4,8 @@
 #include <array>
 #include <tuple>
 
+#include "io/plane_vectors.h"
+
 namespace remodel::io {
 
 // The first text of the section.
@@ -22,7 +24,9 @@ std::string MshFields::read_name() {
 }
 
 void MshFields::read(FieldPlace place, bool binary,
-                     const std::unordered_map<std::int64_t, std::uint32_t>& indices, std::size_t count) {
+                     const std::unordered_map<std::int64_t, std::uint32_t>& indices,
+                     const std::vector<bool>& used) {
+  const bool in_plane = plane_.contains(++sections_);
   const std::string name = read_name();
   for (auto left = scan_.count("a number of reals"); left > 0; --left) scan_.real("a real, a time say,");
   const std::size_t integers = scan_.count("a number of integers");
@@ -35,8 +39,8 @@ void MshFields::read(FieldPlace place, bool binary,
 
   if (binary) numbers_.begin_binary();
   const bool wanted = components <= 3;
-  std::vector<double> values(wanted ? components * count : 0);
-  std::vector<bool> given(count);
+  std::vector<double> values(wanted ? components * used.size() : 0);
+  std::vector<bool> given(used.size());
   std::array<double, 9> entry{};
   for (std::size_t i = 0; i < entries; ++i) {
     const auto found = indices.find(numbers_.integer("the tag of a node or element"));
@@ -48,10 +52,12 @@ void MshFields::read(FieldPlace place, bool binary,
                   values.begin() + static_cast<std::ptrdiff_t>(components * found->second));
   }
   if (!wanted || name.empty() || known_.contains({place, name}) ||
-      !std::all_of(given.begin(), given.end(), [](bool is) { return is; }))
+      !std::equal(given.begin(), given.end(), used.begin(),
+                  [](bool is, bool has_to) { return is || !has_to; }))
     return;
   known_.emplace(place, name);
-  fields_.push_back({name, place, static_cast<int>(components), std::move(values)});
+  const bool is_plane = in_plane && components == 3 && take_third_component(values);
+  fields_.push_back({name, place, is_plane ? 2 : static_cast<int>(components), std::move(values)});
 }
 
 std::vector<Field> MshFields::take() {

@@ -18,13 +18,15 @@ namespace remodel::io {
 
 class MshFields {
  public:
-  MshFields(Scanner& scan, MshNumbers& numbers) : scan_(scan), numbers_(numbers) {}
+  // plane: the numbers of sections whose third component was added, see plane_vectors.h.
+  MshFields(Scanner& scan, MshNumbers& numbers, std::set<std::size_t> plane)
+      : scan_(scan), numbers_(numbers), plane_(std::move(plane)) {}
 
-  // Reads what stands between the section's name and its end. indices: by the tags of nodes or triangles,
-  // count of them in all; other elements' values are passed over. A field that does not say something of all
-  // of them is left out, and of several time steps the first one is taken.
+  // Reads what stands between the section's name and its end. indices: by the tags of nodes or triangles;
+  // other elements' values are passed over. A field that does not say something of all of them that are
+  // `used` is left out, and of several time steps the first one is taken.
   void read(FieldPlace place, bool binary, const std::unordered_map<std::int64_t, std::uint32_t>& indices,
-            std::size_t count);
+            const std::vector<bool>& used);
 
   // Those on vertices first, in alphabetical order.
   std::vector<Field> take();
@@ -34,6 +36,8 @@ class MshFields {
 
   Scanner& scan_;
   MshNumbers& numbers_;
+  std::set<std::size_t> plane_;
+  std::size_t sections_ = 0;  // read so far
   std::vector<Field> fields_;
   std::set<std::pair<FieldPlace, std::string>> known_;  // of fields_
 };

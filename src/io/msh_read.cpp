@@ -16,6 +16,7 @@
 #include "io/msh.h"
 #include "io/msh_fields.h"
 #include "io/msh_numbers.h"
+#include "io/plane_vectors.h"
 #include "io/scanner.h"
 #include "io/steiner_note.h"
 #include "remodel/error.h"
@@ -38,7 +39,11 @@ struct HashOfNodes {
 class MshReader {
  public:
   MshReader(std::string_view text, const std::string& file, const Warnings& warnings)
-      : scan_(text, file), numbers_(scan_), fields_(scan_, numbers_), file_(file), warnings_(warnings) {}
+      : scan_(text, file),
+        numbers_(scan_),
+        fields_(scan_, numbers_, sections_in_plane(text)),
+        file_(file),
+        warnings_(warnings) {}
 
   FrozenMesh read() {
     read_format();
@@ -46,11 +51,19 @@ class MshReader {
     if (!nodes_seen_) scan_.fail_found("", "$Nodes");
     if (!elements_seen_) scan_.fail_found("", "$Elements");
     say_what_is_left_out();
+    mesh_.points = in_their_plane(coordinates_, used(), file_, warnings_);
     regions_.finish(mesh_);
     adopt_conventions(mesh_, file_);
     return std::move(mesh_);
   }
 
+  // Which nodes a cell has; once all elements are read.
+  const std::vector<bool>& used() {
+    if (used_.empty()) used_ = used_points(mesh_, node_indices_.size());
+    return used_;
+  }
+
+  // On all nodes. What is said of those that are not used is 0 where the file says nothing.
   std::vector<Field> read_fields() {
     fields_wanted_ = true;
     read();
@@ -126,8 +139,9 @@ class MshReader {
       number_quads();
     } else if (fields_wanted_ && (name == "$NodeData" || name == "$ElementData")) {
       if (!elements_seen_) scan_.fail_found(name, "$Elements first");
-      name == "$NodeData" ? fields_.read(FieldPlace::vertices, binary_, node_indices_, mesh_.points.size())
-                          : fields_.read(FieldPlace::triangles, binary_, cell_indices_, mesh_.cell_count());
+      name == "$NodeData" ? fields_.read(FieldPlace::vertices, binary_, node_indices_, used())
+                          : fields_.read(FieldPlace::triangles, binary_, cell_indices_,
+                                         std::vector<bool>(mesh_.cell_count(), true));
     } else {
       skip_section(name, end);
       return;
@@ -235,11 +249,6 @@ class MshReader {
     for (int axis = 0; axis < 3; ++axis) coordinates_.push_back(numbers_.coordinate());
   }
 
-  void finish_points() {
-    mesh_.points = in_their_plane(coordinates_, file_, warnings_);
-    coordinates_ = {};
-  }
-
   // A block's entity: version 4.0 has its tag first.
   struct Entity {
     std::int64_t dimension, tag;
@@ -269,7 +278,6 @@ class MshReader {
       }
     }
     expect_total(node_indices_.size(), count, "nodes");
-    finish_points();
   }
 
   // The smallest and the largest tag, from version 4.1 on.
@@ -288,7 +296,6 @@ class MshReader {
       add_node_tag();
       add_point();
     }
-    finish_points();
   }
 
   void reserve_nodes(std::size_t count) {
@@ -307,7 +314,7 @@ class MshReader {
     const auto found = node_indices_.find(tag);
     if (found == node_indices_.end()) {
       scan_.fail("node " + std::to_string(tag) + " found, the tag of one of the " +
-                 std::to_string(mesh_.points.size()) + " nodes expected");
+                 std::to_string(node_indices_.size()) + " nodes expected");
     }
     return found->second;
   }
@@ -453,7 +460,8 @@ class MshReader {
   bool binary_ = false;
   bool nodes_seen_ = false;
   bool elements_seen_ = false;
-  std::vector<double> coordinates_;  // of the nodes, until they are points
+  std::vector<double> coordinates_;  // of the nodes
+  std::vector<bool> used_;           // likewise, see used()
   std::vector<std::string> sections_left_out_;
   std::vector<std::string> other_names_;                  // of physical points and volumes
   std::set<std::pair<int, std::int64_t>> groups_used_;    // by dimension and physical tag
@@ -477,22 +485,33 @@ class MshReader {
 
 }  // namespace
 
-FrozenMesh parse_msh(std::string_view text, const std::string& file, ReadNotes* notes) {
-  const Warnings unheard(nullptr, file);
-  FrozenMesh mesh = MshReader(text, file, Warnings(notes, file)).read();
-  take_steiner_notes(text, mesh);
-  if (text.find(vertex_keys_name) == std::string_view::npos) return mesh;
-  const std::vector<Field> fields = MshReader(text, file, unheard).read_fields();
+namespace {
+
+void take_keys(std::string_view text, const std::string& file, FrozenMesh& mesh) {
+  if (text.find(vertex_keys_name) == std::string_view::npos) return;
+  const std::vector<Field> fields = MshReader(text, file, Warnings(nullptr, file)).read_fields();
   const Field* keys = find_field(fields, std::string(vertex_keys_name));
-  if (keys == nullptr || keys->values.size() != mesh.points.size()) return mesh;
-  for (const double key : keys->values)
-    mesh.vertex_keys.push_back(key >= 0.0 && key < 0x1p53 ? static_cast<std::uint64_t>(key) : 0);
+  if (keys == nullptr || keys->values.size() != mesh.points.size()) return;
+  for (const double key : keys->values) mesh.vertex_keys.push_back(key_of_real(key));
   take_generation_note(text, mesh);
+}
+
+}  // namespace
+
+FrozenMesh parse_msh(std::string_view text, const std::string& file, ReadNotes* notes) {
+  const Warnings warnings(notes, file);
+  MshReader reader(text, file, warnings);
+  FrozenMesh mesh = reader.read();
+  take_steiner_notes(text, mesh);
+  take_keys(text, file, mesh);
+  warnings.note_unused_points(reader.used(), keep_used_points(mesh, reader.used()));
   return mesh;
 }
 
 std::vector<Field> parse_msh_fields(std::string_view text, const std::string& file) {
-  std::vector<Field> fields = MshReader(text, file, Warnings(nullptr, file)).read_fields();
+  MshReader reader(text, file, Warnings(nullptr, file));
+  std::vector<Field> fields = reader.read_fields();
+  keep_used_points(fields, reader.used());
   std::erase_if(fields, [](const Field& field) {
     return field.name == vertex_keys_name && field.place == FieldPlace::vertices;
   });

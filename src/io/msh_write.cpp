@@ -5,6 +5,7 @@
 #include "io/assemble.h"
 #include "io/formats.h"
 #include "io/msh.h"
+#include "io/plane_vectors.h"
 #include "io/scanner.h"
 #include "io/steiner_note.h"
 #include "io/text_writer.h"
@@ -50,19 +51,19 @@ class MshWriter {
   }
 
  private:
-  // As doubles: exact up to two million regenerations.
   void keys() {
     if (mesh_.vertex_keys.empty()) return;
     Field field{std::string(vertex_keys_name), FieldPlace::vertices, 1, {}};
     for (const std::uint64_t key : mesh_.vertex_keys) {
-      if (key >= std::uint64_t{1} << 53) return;
-      field.values.push_back(static_cast<double>(key));
+      const std::optional<double> real = real_of_key(key);
+      if (!real) return;
+      field.values.push_back(*real);
     }
     data(field);
   }
 
   void comments() {
-    const std::string note = steiner_note(mesh_, "") + generation_note(mesh_);
+    const std::string note = steiner_note(mesh_, "") + generation_note(mesh_) + plane_note(in_plane_);
     if (!note.empty()) out_ << "$Comments\n" << note << "$EndComments\n";
   }
 
@@ -187,6 +188,8 @@ class MshWriter {
   // A view of Gmsh's: time 0, time step 0. Gmsh expects one, three or nine components, and meshio values of
   // all elements: a boundary edge has that of its cell.
   void data(const Field& field) {
+    ++sections_;
+    if (field.components == 2) in_plane_.push_back(sections_);
     if (field.name.find('"') != std::string::npos) {
       throw Error(ErrorCode::argument, file_,
                   "field " + in_quotes(field.name) + " found, Gmsh expects a name without quotes");
@@ -212,6 +215,8 @@ class MshWriter {
   std::span<const Field> fields_;
   std::vector<std::string> regions_;
   std::size_t edge_count_ = 0;
+  std::size_t sections_ = 0;           // of data, written so far
+  std::vector<std::size_t> in_plane_;  // those of them that a third component was added to
   TextWriter out_;
 };
 

@@ -10,6 +10,7 @@
 #include "io/steiner_note.h"
 #include "io/text_writer.h"
 #include "io/vtkhdf.h"
+#include "io/words.h"
 #include "remodel/error.h"
 
 namespace remodel::io {
@@ -30,8 +31,9 @@ constexpr int su2_quadrilateral = 9;
 void check_marker(const std::string& name, const std::string& file) {
   const auto bad = [](char c) { return static_cast<unsigned char>(c) <= ' ' || c == '%'; };
   if (name.empty() || std::any_of(name.begin(), name.end(), bad)) {
-    throw Error(ErrorCode::argument, file,
-                "boundary name " + in_quotes(name) + " found, SU2 expects one without blanks and '%'");
+    throw Error(
+        ErrorCode::argument, file,
+        "boundary name " + in_quotes(name) + " found, SU2 expects one without '%' and control characters");
   }
 }
 
@@ -194,6 +196,21 @@ class Su2Reader {
 
 }  // namespace
 
+namespace {
+
+// Surface points are known by numbers, which points have no more where some are left out.
+std::string boxes_of_used(std::string boxes, const ReadNotes& notes, const Warnings& warnings) {
+  std::size_t surface_points = 0;
+  if (notes.unused_points == 0) return boxes;
+  boxes = without_surface_points(boxes, surface_points);
+  if (surface_points > 0)
+    warnings.add("with them " + std::to_string(surface_points) +
+                 " surface points of FFD boxes, which SU2_DEF with DV_KIND= FFD_SETTING finds anew");
+  return boxes;
+}
+
+}  // namespace
+
 std::string su2_text(const FrozenMesh& whole, const std::string& file, InnerCurves inner,
                      const std::string& boxes) {
   const FrozenMesh mesh = inner == InnerCurves::left_out ? without_inner_edges(whole) : whole;
@@ -208,10 +225,12 @@ std::string su2_text(const FrozenMesh& whole, const std::string& file, InnerCurv
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {
     out << mesh.points[i].x << ' ' << mesh.points[i].y << ' ' << i << '\n';
   }
+  require_different_words(mesh.boundaries, file);
   out << "NMARK= " << mesh.boundaries.size() << '\n';
   for (const auto& boundary : mesh.boundaries) {
-    check_marker(boundary.name, file);
-    out << "MARKER_TAG= " << boundary.name << "\nMARKER_ELEMS= " << boundary.edges.size() << '\n';
+    const std::string name = as_word(boundary.name);
+    check_marker(name, file);
+    out << "MARKER_TAG= " << name << "\nMARKER_ELEMS= " << boundary.edges.size() << '\n';
     for (const auto& [from, to] : boundary.edges) out << su2_line << ' ' << from << ' ' << to << '\n';
   }
   out << boxes << steiner_note(mesh, "% ");
@@ -219,10 +238,13 @@ std::string su2_text(const FrozenMesh& whole, const std::string& file, InnerCurv
 }
 
 FrozenMesh parse_su2(std::string_view text, const std::string& file, ReadNotes* notes) {
-  Su2Reader reader(text, file, Warnings(notes, file));
+  const Warnings warnings(notes, file);
+  Su2Reader reader(text, file, warnings);
   FrozenMesh mesh = reader.read();
-  if (notes != nullptr) notes->su2_boxes = reader.take_boxes();
   take_steiner_notes(text, mesh);
+  const std::vector<bool> used = used_points(mesh, mesh.points.size());
+  warnings.note_unused_points(used, keep_used_points(mesh, used));
+  if (notes != nullptr) notes->su2_boxes = boxes_of_used(reader.take_boxes(), *notes, warnings);
   return mesh;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/assemble.h"
+#include "io/plane_vectors.h"
 #include "io/scanner.h"
 #include "remodel/error.h"
 
@@ -33,13 +34,15 @@ class GridReader {
 
   FrozenMesh read() {
     check_sizes();
-    read_points();
+    check_points();
     for (const auto& name : grid_.boundary_names) {
       if (!names_.add(mesh_, name).second) {
         fail(boundary_names_array, in_quotes(name) + " found a second time, each name once expected");
       }
     }
     for (std::size_t cell = 0; cell < grid_.types.size(); ++cell) read_cell(cell);
+    const std::vector<bool> used = used_points(mesh_, point_count());
+    mesh_.points = in_their_plane(grid_.points, used, place_("Points"), warnings_);
     if (single_points_ > 0)
       warnings_.add(single_points_ == 1
                         ? "a cell of one point (type 1) is left out"
@@ -57,6 +60,7 @@ class GridReader {
     for (std::size_t i = 0; i < grid_.periodic_names.size(); i += 2)
       mesh_.periodic.push_back({grid_.periodic_names[i], grid_.periodic_names[i + 1]});
     regions_.finish(mesh_);
+    warnings_.note_unused_points(used, keep_used_points(mesh_, used));
     adopt_conventions(mesh_, file_);
     return std::move(mesh_);
   }
@@ -73,7 +77,7 @@ class GridReader {
 
   void check_sizes() const {
     if (grid_.points.size() % 3 != 0) fail("Points", "3 coordinates a point expected");
-    const std::size_t points = grid_.points.size() / 3;
+    const std::size_t points = point_count();
     const std::size_t cells = grid_.types.size();
     expect_size("Offsets", grid_.offsets.size(), cells + 1);
     for_each_point_array(grid_, [&](const char* name, const auto& values) {
@@ -87,7 +91,9 @@ class GridReader {
     }
   }
 
-  void read_points() {
+  std::size_t point_count() const { return grid_.points.size() / 3; }
+
+  void check_points() const {
     for (std::size_t i = 0; i + 2 < grid_.points.size(); i += 3) {
       for (std::size_t k = 0; k < 3; ++k) {
         if (!(std::abs(grid_.points[i + k]) <= largest_coordinate)) {
@@ -96,15 +102,14 @@ class GridReader {
         }
       }
     }
-    mesh_.points = in_their_plane(grid_.points, place_("Points"), warnings_);
   }
 
   std::uint32_t vertex(std::size_t cell, std::size_t corner) const {
     const auto at = static_cast<std::size_t>(grid_.offsets[cell]) + corner;
     const std::int64_t index = grid_.connectivity[at];
-    if (index < 0 || static_cast<std::uint64_t>(index) >= mesh_.points.size()) {
+    if (index < 0 || static_cast<std::uint64_t>(index) >= point_count()) {
       fail("Connectivity", "point " + std::to_string(index) + " found in cell " + std::to_string(cell) +
-                               ", an index below " + std::to_string(mesh_.points.size()) + " expected");
+                               ", an index below " + std::to_string(point_count()) + " expected");
     }
     return static_cast<std::uint32_t>(index);
   }
@@ -213,6 +218,9 @@ void add_fields(VtkGrid& grid, const FrozenMesh& mesh, std::span<const Field> fi
         values.push_back(mesh.cell_count() == 0 ? 0.0 : field.values[components * cell + k]);
     }
   }
+  for (auto* arrays : {&grid.point_fields, &grid.cell_fields})
+    for (VtkArray& array : *arrays)
+      if (array.components == 2) array = {array.name, 3, with_third_component(array.values), true};
 }
 
 }  // namespace
@@ -252,6 +260,7 @@ VtkGrid to_vtk_grid(const FrozenMesh& mesh, std::span<const Field> fields) {
 }
 
 std::optional<Field> to_field(VtkArray array, FieldPlace place, std::span<const std::uint8_t> types) {
+  if (array.in_plane && array.components == 3 && take_third_component(array.values)) array.components = 2;
   const std::size_t components = array.components;
   if (components < 1 || components > 3 || is_of_the_mesh(array.name, place)) return std::nullopt;
   Field field{array.name, place, static_cast<int>(components), {}};
@@ -269,6 +278,22 @@ std::optional<Field> to_field(VtkArray array, FieldPlace place, std::span<const 
   take([](std::uint8_t type) { return type == vtk_triangle; });
   take([](std::uint8_t type) { return type == vtk_quadrilateral || type == vtk_pixel; });
   return field;
+}
+
+std::vector<bool> used_points(const VtkGrid& cells, std::size_t points) {
+  constexpr std::uint8_t taken[] = {vtk_triangle, vtk_pixel, vtk_quadrilateral};
+  std::vector<bool> used(points);
+  const auto end = static_cast<std::int64_t>(cells.connectivity.size());
+  for (std::size_t cell = 0; cell < cells.types.size() && cell + 1 < cells.offsets.size(); ++cell) {
+    if (std::ranges::find(taken, cells.types[cell]) == std::end(taken)) continue;
+    const std::int64_t last = std::min(cells.offsets[cell + 1], end);
+    for (std::int64_t at = std::max<std::int64_t>(cells.offsets[cell], 0); at < last; ++at) {
+      const std::int64_t index = cells.connectivity[static_cast<std::size_t>(at)];
+      if (index >= 0 && static_cast<std::uint64_t>(index) < points)
+        used[static_cast<std::size_t>(index)] = true;
+    }
+  }
+  return used;
 }
 
 FrozenMesh from_vtk_grid(const VtkGrid& grid, const std::string& file, const ArrayPlace& place,

@@ -23,6 +23,7 @@ struct VtkArray {
   std::string name;
   std::size_t components;
   std::vector<double> values;
+  bool in_plane = false;  // it has plane_mark: the third component was added
 };
 
 struct VtkGrid {
@@ -80,13 +81,18 @@ void for_each_cell_array(Grid& grid, Visitor&& visit) {
 VtkGrid to_vtk_grid(const FrozenMesh& mesh, std::span<const Field> fields = {});
 
 // The field of an array in a file, on the vertices or cells of the frozen mesh that from_vtk_grid()
-// makes. Nothing if it is an array of the mesh itself or has more than three components.
+// makes. Nothing if it is an array of the mesh itself or has more than three components. An array that is
+// in_plane loses its third component, unless it holds something by now.
 std::optional<Field> to_field(VtkArray array, FieldPlace place, std::span<const std::uint8_t> types);
+
+// Which points triangles and quadrilaterals have. What is out of range is passed over.
+std::vector<bool> used_points(const VtkGrid& cells, std::size_t points);
 
 // place names an array of the file for messages ("FILE:LINE", "FILE:/VTKHDF/Types").
 using ArrayPlace = std::function<std::string(std::string_view array)>;
 
-// Checks sizes and indices, takes triangles, quadrilaterals and lines, and brings them into our conventions.
+// Checks sizes and indices, takes triangles, quadrilaterals and lines, leaves out points that none of them
+// has, and brings the mesh into our conventions.
 FrozenMesh from_vtk_grid(const VtkGrid& grid, const std::string& file, const ArrayPlace& place,
                          const Warnings& warnings);
 

@@ -1,7 +1,9 @@
 #include "io/vtkhdf.h"
 
 #include "base/checksum.h"
+#include "io/assemble.h"
 #include "io/hdf5_file.h"
+#include "io/plane_vectors.h"
 #include "io/scanner.h"
 #include "io/state_parts.h"
 #include "io/vtk_grid.h"
@@ -52,12 +54,13 @@ std::uint64_t checksum_of_layers(const LayeredState& state, const std::string& w
 // ------------------------------------------------------------------------------------------------ writing
 
 void write_fields(Hdf5Writer& out, const std::string& group, const std::vector<VtkArray>& arrays) {
-  for (const auto& [name, components, values] : arrays) {
+  for (const auto& [name, components, values, in_plane] : arrays) {
     if (name == "." || name.find('/') != std::string::npos) {
       throw Error(ErrorCode::argument, "field " + in_quotes(name),
                   "a name with '/' or the name '.' found, VTKHDF expects another");
     }
     out.array(group + name, values, components);
+    if (in_plane) out.attribute(group + name, plane_mark, std::vector<std::int32_t>{2});
   }
 }
 
@@ -208,6 +211,10 @@ VtkGrid read_grid(const Hdf5Reader& in) {
   return grid;
 }
 
+bool is_marked_plane(const Hdf5Reader& in, const std::string& path) {
+  return in.has_attribute(path, plane_mark) && in.attribute<std::int32_t>(path, plane_mark).front() == 2;
+}
+
 void add_fields(std::vector<Field>& fields, const Hdf5Reader& in, FieldPlace place, std::size_t places,
                 std::span<const std::uint8_t> types) {
   const std::string group = place == FieldPlace::vertices ? "/VTKHDF/PointData" : "/VTKHDF/CellData";
@@ -215,7 +222,7 @@ void add_fields(std::vector<Field>& fields, const Hdf5Reader& in, FieldPlace pla
     const std::string path = group + "/" + name;
     const std::size_t components = in.columns(path);
     if (components < 1 || components > 3) continue;
-    VtkArray array{name, components, in.array<double>(path)};
+    VtkArray array{name, components, in.array<double>(path), is_marked_plane(in, path)};
     if (array.values.size() != components * places) {
       in.fail(path, std::to_string(array.values.size()) + " values found, " +
                         std::to_string(components * places) + " expected");
@@ -309,12 +316,18 @@ std::string read_vtkhdf_boxes(const std::filesystem::path& file) {
 std::vector<Field> read_vtkhdf_fields(const std::filesystem::path& file) {
   const Hdf5Reader in(file);
   check_header(in);
-  const auto types = in.array<std::uint8_t>(grid_group + "Types");
+  VtkGrid grid;
+  grid.connectivity = in.array<std::int64_t>(grid_group + "Connectivity");
+  grid.offsets = in.array<std::int64_t>(grid_group + "Offsets");
+  grid.types = in.array<std::uint8_t>(grid_group + "Types");
   const auto points = in.array<std::int64_t>(grid_group + "NumberOfPoints");
   if (points.size() != 1 || points.front() < 0) in.fail(grid_group + "NumberOfPoints", "one number expected");
   std::vector<Field> fields;
-  add_fields(fields, in, FieldPlace::vertices, static_cast<std::size_t>(points.front()), types);
-  add_fields(fields, in, FieldPlace::triangles, types.size(), types);
+  const auto count = static_cast<std::size_t>(points.front());
+  add_fields(fields, in, FieldPlace::vertices, count, grid.types);
+  add_fields(fields, in, FieldPlace::triangles, grid.types.size(), grid.types);
+  if (!fields.empty() && fields.front().place == FieldPlace::vertices)
+    keep_used_points(fields, used_points(grid, count));
   return fields;
 }
 

@@ -10,9 +10,11 @@
 #include <type_traits>
 #include <utility>
 
+#include "io/assemble.h"
 #include "io/base64.h"
 #include "io/formats.h"
 #include "io/inflate.h"
+#include "io/plane_vectors.h"
 #include "io/scanner.h"
 #include "io/vtk_grid.h"
 #include "remodel/error.h"
@@ -41,14 +43,10 @@ class VtuReader {
 
   FrozenMesh read() {
     find_arrays();
-    VtkGrid grid;
-    grid.points = values<double>(required("Points/"));
-    grid.connectivity = values<std::int64_t>(required("Cells/connectivity"));
-    grid.offsets = values<std::int64_t>(required("Cells/offsets"));
-    grid.offsets.insert(grid.offsets.begin(), 0);
-    grid.types = values<std::uint8_t>(required("Cells/types"));
+    std::vector<double> points = values<double>(required("Points/"));
+    VtkGrid grid = read_cells();
+    grid.points = std::move(points);
     expect_count("Points/", grid.points.size(), 3 * points_);
-    expect_count("Cells/types", grid.types.size(), cells_);
     grid.boundary_names = names(boundary_names_array);
     grid.region_names = names(region_names_array);
     grid.periodic_names = names(periodic_names_array);
@@ -71,15 +69,25 @@ class VtuReader {
 
   std::vector<Field> read_fields() {
     find_arrays();
-    const auto types = values<std::uint8_t>(required("Cells/types"));
-    expect_count("Cells/types", types.size(), cells_);
+    const VtkGrid grid = read_cells();
     std::vector<Field> fields;
-    add_fields(fields, FieldPlace::vertices, points_, types);
-    add_fields(fields, FieldPlace::triangles, cells_, types);
+    add_fields(fields, FieldPlace::vertices, points_, grid.types);
+    add_fields(fields, FieldPlace::triangles, cells_, grid.types);
+    keep_used_points(fields, used_points(grid, points_));
     return fields;
   }
 
  private:
+  VtkGrid read_cells() {
+    VtkGrid grid;
+    grid.connectivity = values<std::int64_t>(required("Cells/connectivity"));
+    grid.offsets = values<std::int64_t>(required("Cells/offsets"));
+    grid.offsets.insert(grid.offsets.begin(), 0);
+    grid.types = values<std::uint8_t>(required("Cells/types"));
+    expect_count("Cells/types", grid.types.size(), cells_);
+    return grid;
+  }
+
   // Those that are neither the mesh's nor fields of reals, which read_fields() finds.
   void warn_of_arrays() const {
     std::vector<std::string> left_out;
@@ -113,7 +121,8 @@ class VtuReader {
                                          ? 1
                                          : attribute_count(array.tag, "NumberOfComponents");
       if (components < 1 || components > 3) continue;
-      VtkArray found{key.substr(section.size()), components, values<double>(array)};
+      VtkArray found{key.substr(section.size()), components, values<double>(array),
+                     array.attribute(plane_mark) == "2"};
       expect_count(key, found.values.size(), components * places);
       if (auto field = to_field(std::move(found), place, types)) fields.push_back(std::move(*field));
     }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "io/formats.h"
+#include "io/plane_vectors.h"
 #include "io/text_writer.h"
 #include "io/vtk_grid.h"
 
@@ -111,9 +112,11 @@ class VtuWriter {
   }
 
   void fields(const std::vector<VtkArray>& arrays) {
-    for (const auto& [name, components, values] : arrays) {
-      out_ << "<DataArray type=\"Float64\" Name=\"" << xml_escaped(name) << "\" NumberOfComponents=\""
-           << components << "\" format=\"ascii\">\n";
+    for (const auto& [name, components, values, in_plane] : arrays) {
+      out_ << "<DataArray type=\"Float64\" Name=\"" << xml_escaped(name) << "\" ";
+      if (components > 1) out_ << "NumberOfComponents=\"" << components << "\" ";
+      if (in_plane) out_ << plane_mark << "=\"2\" ";
+      out_ << "format=\"ascii\">\n";
       for (std::size_t i = 0; i < values.size(); ++i)
         out_ << values[i] << ((i + 1) % components == 0 ? '\n' : ' ');
       out_ << "</DataArray>\n";

@@ -10,7 +10,7 @@ namespace {
 
 class LoopFinder {
  public:
-  LoopFinder(const FrozenMesh& mesh, const std::string& farfield, const std::string& source)
+  LoopFinder(const FrozenMesh& mesh, const std::vector<std::string>& farfield, const std::string& source)
       : mesh_(mesh), farfield_(farfield), source_(source) {}
 
   WallLoops find() {
@@ -23,10 +23,10 @@ class LoopFinder {
       bool far = false;
       WallLoop loop = loop_from(start, far);
       const double area = area_of(loop);
-      if (far && far_found) fail("a second loop of '" + farfield_ + "' found, one expected");
-      if (far && !(area > 0.0)) fail("'" + farfield_ + "' found inside the domain, around it expected");
+      if (far && far_found) fail("a second loop of " + farfield_names() + " found, one expected");
+      if (far && !(area > 0.0)) fail("'" + loop.name + "' found inside the domain, around it expected");
       if (!far && area > 0.0)
-        fail("'" + loop.name + "' found around the domain, '" + farfield_ + "' expected there");
+        fail("'" + loop.name + "' found around the domain, " + farfield_names() + " expected there");
       far_found = far_found || far;
       if (far) {
         loops.farfield = std::move(loop);
@@ -34,11 +34,24 @@ class LoopFinder {
         loops.bodies.push_back(std::move(loop));
       }
     }
-    if (!far_found) fail(names_found() + " found, a far field of the name '" + farfield_ + "' expected");
+    for (const std::string& name : farfield_)
+      if (!far_found || !is_boundary(name))
+        fail(names_found() + " found, a far field of the name '" + name + "' expected");
     return loops;
   }
 
  private:
+  std::string farfield_names() const {
+    std::string names;
+    for (const std::string& name : farfield_) names += (names.empty() ? "'" : " or '") + name + "'";
+    return names;
+  }
+
+  bool is_boundary(const std::string& name) const {
+    return std::any_of(mesh_.boundaries.begin(), mesh_.boundaries.end(),
+                       [&](const FrozenBoundary& boundary) { return boundary.name == name; });
+  }
+
   static constexpr std::uint32_t none = 0xffffffff;
 
   [[noreturn]] void fail(const std::string& problem) const {
@@ -118,11 +131,13 @@ class LoopFinder {
       loop.vertices.push_back(v);
       if (std::find(names.begin(), names.end(), boundary_[v]) == names.end()) names.push_back(boundary_[v]);
     }
-    const auto is_far = [&](std::uint32_t k) { return mesh_.boundaries[k].name == farfield_; };
+    const auto is_far = [&](std::uint32_t k) {
+      return std::find(farfield_.begin(), farfield_.end(), mesh_.boundaries[k].name) != farfield_.end();
+    };
     far = std::any_of(names.begin(), names.end(), is_far);
     for (const std::uint32_t k : names)
       loop.name += (loop.name.empty() ? "" : "+") + mesh_.boundaries[k].name;
-    if (far && names.size() > 1)
+    if (far && !std::all_of(names.begin(), names.end(), is_far))
       fail("'" + loop.name + "' found as one loop, a far field apart from all walls expected");
     return loop;
   }
@@ -137,7 +152,7 @@ class LoopFinder {
   }
 
   const FrozenMesh& mesh_;
-  const std::string& farfield_;
+  const std::vector<std::string>& farfield_;
   const std::string& source_;
   std::vector<std::uint32_t> next_;      // per point: the other end of the boundary edge that begins there
   std::vector<std::uint32_t> boundary_;  // per point: of that edge
@@ -147,7 +162,8 @@ class LoopFinder {
 
 }  // namespace
 
-WallLoops find_wall_loops(const FrozenMesh& mesh, const std::string& farfield, const std::string& source) {
+WallLoops find_wall_loops(const FrozenMesh& mesh, const std::vector<std::string>& farfield,
+                          const std::string& source) {
   return LoopFinder(mesh, farfield, source).find();
 }
 

@@ -21,7 +21,9 @@ struct WallLoops {
 };
 
 // Throws Error (argument) naming `source` unless every edge with one triangle belongs to a named boundary,
-// the loops do not touch, one is the far field, counter-clockwise, and the others are holes.
-WallLoops find_wall_loops(const FrozenMesh& mesh, const std::string& farfield, const std::string& source);
+// the loops do not touch, one is the far field, counter-clockwise, of all the names of `farfield` and no
+// other, and the others are holes.
+WallLoops find_wall_loops(const FrozenMesh& mesh, const std::vector<std::string>& farfield,
+                          const std::string& source);
 
 }  // namespace remodel::flow

@@ -208,9 +208,12 @@ void FlowMesh::make_boundary(const std::vector<FrozenBoundary>& boundaries, cons
       if (patch == no_index) patch = patch_of_name(boundaries[found->boundary].name);
       boundary_.push_back({original(a), original(b), {}, patch, n == 3, {}, {a, b}});
     }
-  // Ducts need no far field.
+  // Ducts need no far field. Of several parts each has to be there.
+  const auto parts = std::count_if(patches_.begin(), patches_.begin() + static_cast<std::ptrdiff_t>(given),
+                                   [](const Patch& patch) { return patch.is_farfield(); });
   for (std::size_t i = 0; i < given; ++i)
-    if (!found_patch[i] && !patches_[i].is_periodic() && (!patches_[i].is_farfield() || given == 1)) {
+    if (!found_patch[i] && !patches_[i].is_periodic() &&
+        (!patches_[i].is_farfield() || given == 1 || parts > 1)) {
       const std::string kind = patches_[i].kind();
       throw Error(ErrorCode::argument, source,
                   "found boundaries " + list_of_names(boundaries) + ", expected " +

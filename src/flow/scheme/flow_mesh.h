@@ -58,9 +58,9 @@ class FlowMesh {
  public:
   // Every boundary edge of the mesh belongs to a named boundary: to one of `patches`, or else to a wall that
   // the flow slips along. Edges with the domain on both sides are no boundary. Throws Error (argument) naming
-  // `source` where the mesh lacks the boundary of a patch (it may do without a far field if there are other
-  // patches), an edge has no name, a point is of no cell, a cell is not counter-clockwise and convex, or
-  // periodic boundaries do not fit.
+  // `source` where the mesh lacks the boundary of a patch (it may do without a far field of one part if there
+  // are other patches), an edge has no name, a point is of no cell, a cell is not counter-clockwise and
+  // convex, or periodic boundaries do not fit.
   FlowMesh(std::vector<Point> points, std::vector<Cell> cells, const std::vector<FrozenBoundary>& boundaries,
            std::vector<Patch> patches, const std::string& source);
   FlowMesh(const FrozenMesh& mesh, std::vector<Patch> patches, const std::string& source)

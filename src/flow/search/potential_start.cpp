@@ -32,8 +32,9 @@ FrozenMesh frozen_view(const FlowMesh& mesh) {
 
 PotentialOptions options_of(const FlowSystem& system) {
   PotentialOptions options;
+  options.farfield.clear();
   for (const Patch& patch : system.mesh().patches())
-    if (patch.is_farfield()) options.farfield = patch.name;
+    if (patch.is_farfield()) options.farfield.push_back(patch.name);
   options.reference = system.stream().reference;
   options.reference_length = system.stream().length;
   return options;
