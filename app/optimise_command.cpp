@@ -112,6 +112,9 @@ void require_one_evaluator(const OptimiseCommand& command) {
     throw Error(ErrorCode::argument, "--to", "not given, --to SHAPE or --evaluate COMMAND expected");
   if (!command.to.empty() && !command.evaluate.command.empty())
     throw Error(ErrorCode::argument, "--evaluate", "given with --to, one of them expected");
+  if (!command.to.empty() && command.start.layers.cells == LayerCells::triangles)
+    throw Error(ErrorCode::argument, "--layer-cells",
+                "given without --evaluate, whose program alone sees the cells of layers");
 }
 
 // The program in a process, on a host's own disk space: only one may have a directory of evaluations.
@@ -120,6 +123,7 @@ std::unique_ptr<Evaluator> program_of(const OptimiseCommand& command) {
   options.run.directory = command.run.directory / "evaluations";
   if (launched_rank() > 0) options.run.directory /= "rank-" + std::to_string(launched_rank());
   if (command.run.start) options.run.su2_boxes = command.run.start->su2_boxes;
+  options.run.layer_cells = command.start.layers.cells;
   return shell_evaluator(options);
 }
 

@@ -112,9 +112,6 @@ OptimiseStart read_start(const OptimiseStartOptions& options, const MeshingOptio
   require_consistent(options.layers);
   const bool layered = options.mesh.empty() ? options.layers.layers : holds_layers(options.mesh);
   if (!layered) refuse(options, {"--layer-cells"}, "given without layers, expected with --layers");
-  if (options.layers.cells == LayerCells::triangles)
-    throw Error(ErrorCode::argument, "--layer-cells",
-                "found 'triangles', expected quads: the meshes of a search have quadrilaterals");
   if (layered && !options.given("--strategy")) run.strategy = MeshStrategy::morph;
   if (!options.mesh.empty()) {
     if (layered) return read_layered_start(options, meshing, run);

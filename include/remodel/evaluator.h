@@ -107,6 +107,7 @@ struct CommandOptions {
   // connectivity had changed and the last one was carried over), and "state_misfit". 0: the last state alone.
   std::size_t snapshots = 0;
   std::string su2_boxes{};  // WriteOptions::su2_boxes of mesh.su2 and mesh.vtkhdf
+  LayerCells layer_cells = LayerCells::quadrilaterals;  // of meshes with layers, but for mesh.vtkhdf
 };
 
 // A program of the user's, run once for each design. In the words of the command

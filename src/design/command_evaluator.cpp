@@ -272,10 +272,11 @@ class CommandEvaluator final : public Evaluator {
   }
   std::unique_ptr<EvaluatorState> restore_layered(const std::string& bytes, const LayeredMesh& mesh,
                                                   const std::string& source) override {
-    return SolverState::from(bytes, mesh.freeze(), source, options_.snapshots);
+    return SolverState::from(bytes, mesh.freeze(options_.layer_cells), source, options_.snapshots);
   }
   std::string description() const override {
     Json description{{"command", command_}};
+    if (options_.layer_cells == LayerCells::triangles) description["layer_cells"] = "triangles";
     if (options_.snapshots != 0) description["snapshots"] = options_.snapshots;
     return description.dump();
   }
@@ -293,9 +294,10 @@ class CommandEvaluator final : public Evaluator {
   CommandFiles files_;
 };
 
-void write_mesh_of(const EvaluationTask& task, const fs::path& file, const WriteOptions& options) {
+void write_mesh_of(const EvaluationTask& task, const fs::path& file, const WriteOptions& options,
+                   LayerCells cells) {
   if (task.with_layers)
-    write_mesh(task.with_layers(), file, options);
+    write_mesh(task.with_layers(), file, options, cells);
   else
     write_mesh(task.mesh, file, options);
 }
@@ -303,10 +305,11 @@ void write_mesh_of(const EvaluationTask& task, const fs::path& file, const Write
 Evaluation CommandEvaluator::evaluate_in(const fs::path& directory, const EvaluationTask& task,
                                          std::unique_ptr<EvaluatorState>& state) const {
   for (const std::string& file : files_.names) {
-    if (file.starts_with("mesh.")) write_mesh_of(task, directory / file, {.su2_boxes = options_.su2_boxes});
+    if (file.starts_with("mesh."))
+      write_mesh_of(task, directory / file, {.su2_boxes = options_.su2_boxes}, options_.layer_cells);
     if (file == "case") {
       fs::create_directory(directory / file);
-      write_mesh_of(task, directory / file / "case.foam", {});
+      write_mesh_of(task, directory / file / "case.foam", {}, options_.layer_cells);
     }
     if (file == "design.json")
       write_text_atomically(directory / file,
@@ -316,7 +319,7 @@ Evaluation CommandEvaluator::evaluate_in(const fs::path& directory, const Evalua
   StartRecord start;
   auto* const before = dynamic_cast<SolverState*>(state.get());
   if (files_.state.any()) {
-    mesh = task.freeze();
+    mesh = task.with_layers ? task.with_layers().freeze(options_.layer_cells) : task.mesh.freeze();
     if (before != nullptr) start = before->write(mesh, task.design, directory, files_.state);
   }
   const fs::path output = directory / "output";

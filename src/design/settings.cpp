@@ -32,9 +32,11 @@ std::string differences(const std::string& a, const std::string& b) {
   const auto first = nlohmann::json::parse(a, nullptr, false), second = nlohmann::json::parse(b);
   if (!first.is_object()) return "all";
   std::string names;
-  for (const auto& [key, value] : second.items()) {
-    if (!first.contains(key) || first[key] != value) names += (names.empty() ? "" : ", ") + key;
-  }
+  const auto add = [&](const std::string& key) { names += (names.empty() ? "" : ", ") + key; };
+  for (const auto& [key, value] : second.items())
+    if (!first.contains(key) || first[key] != value) add(key);
+  for (const auto& [key, value] : first.items())
+    if (!second.contains(key)) add(key);
   return names;
 }
 

@@ -206,8 +206,9 @@ class Options(ProgramTest):
         self.refused("mesh", "naca:0012", *cells, "-o", "b.vtu", names="--layer-cells: given without --layers")
         self.refused("batch", "a.vtkhdf", "naca:0013", *cells, "-o", "out", names="--layer-cells: given for 'a.vtkhdf'")
         search = ("optimise", "--from", "naca:0012", "--to", "naca:0013", "--evaluations", 3, "-o", "run")
-        self.refused(*search, *cells, names="--layer-cells: given without layers")
-        self.refused(*search, *cells, "--layers", "--reynolds", 1e6, names="--layer-cells: found 'triangles'")
+        program = ("optimise", "--from", "naca:0012", "--evaluate", "true", "--evaluations", 3, "-o", "run")
+        self.refused(*program, *cells, names="--layer-cells: given without layers")
+        self.refused(*search, *cells, "--layers", "--reynolds", 1e6, names="--layer-cells: given without --evaluate")
 
     def test_of_coordinate_files_for_names(self):
         close = "--close-trailing-edge"

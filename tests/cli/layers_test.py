@@ -177,6 +177,15 @@ class Layers(ProgramTest):
         # What is not the run's own layer cannot be gone on with.
         self.refused(*run[:-3], 40, "--resume", "--growth", 1.3, "-o", "run", "--quiet", names="layers")
 
+    def test_programs_of_a_run_see_the_cells_that_are_asked_for(self):
+        kinds = "import json, sys; lines = open(sys.argv[1]).read().split('NPOIN')[0].splitlines()[2:]; "
+        program = kinds + "print(json.dumps({'objective': sum(line.startswith('9 ') for line in lines)}))"
+        self.write("kinds.py", program)
+        run = ("optimise", "--from", "naca:0012", *LAYERS, "--evaluate", "python3 kinds.py {mesh}", "--quiet", "--evaluations", 2)
+        self.assertGreater(self.figures(*run, "-o", "quads")["objective"], 100)
+        self.assertEqual(self.figures(*run, "--layer-cells", "triangles", "-o", "triangles")["objective"], 0)
+        self.refused(*run[:-1], 4, "--resume", "-o", "triangles", names="found others: layer_cells")
+
     def test_a_line_in_the_wake(self):
         plain = self.make()
         mesh = self.make("--wake", 1, "--wake-angle", 3, "-o", "a.vtkhdf")
