@@ -1,6 +1,7 @@
 """Meshes of meshio and PyVista, with the names of boundaries and regions. Neither is imported before one of these
 functions is called."""
 
+import warnings
 from collections.abc import Mapping
 
 import numpy as np
@@ -94,8 +95,8 @@ def from_meshio(mesh, *, split_quadrilaterals=False):
     physical name.
 
     split_quadrilaterals: each quadrilateral becomes two triangles. Other cells than these, lines and vertices are
-    refused. Lines of no set are left out; import_mesh() names boundary edges that have no name. Raises
-    ArgumentError.
+    refused. Lines of no set are left out, and so are points that no cell has, with a UserWarning; import_mesh() names
+    boundary edges that have no name. Raises ArgumentError.
     """
     if not hasattr(mesh, "cells") or not hasattr(mesh, "cell_sets"):
         raise ArgumentTypeError(f"mesh: found an object of type {type(mesh).__name__}, expected a meshio.Mesh")
@@ -135,7 +136,22 @@ def from_meshio(mesh, *, split_quadrilaterals=False):
     regions = {"region": region, "region_names": names} if names else {}
     joined = {name: np.concatenate(parts) for name, parts in boundaries.items()}
     joined_cells = lambda parts, corners: np.concatenate([np.empty((0, corners), dtype=np.int64), *(cells for _, cells, _ in parts)])
-    return FrozenMesh(_flat(mesh.points, "mesh"), joined_cells(triangles, 3), joined, quads=joined_cells(quads, 4), **regions)
+    return _frozen("mesh", mesh.points, joined_cells(triangles, 3), joined_cells(quads, 4), joined, regions)
+
+
+def _frozen(name, points, triangles, quads, boundaries, regions):
+    """The FrozenMesh, without the points that no cell has (Gmsh keeps centres of arcs) and the edges at these."""
+    points = _flat(points, name)
+    rows = [triangles.ravel(), quads.ravel(), *(edges.ravel() for edges in boundaries.values())]
+    indices = np.concatenate(rows).astype(np.int64)
+    used = np.isin(np.arange(len(points)), np.concatenate(rows[:2]))
+    if used.all() or indices.min() < 0 or indices.max() >= len(points):  # no such point: FrozenMesh says so
+        return FrozenMesh(points, triangles, boundaries, quads=quads, **regions)
+    warnings.warn(f"{name}: {np.count_nonzero(~used)} points that no cell has are left out", stacklevel=4)
+    index = np.cumsum(used) - 1
+    kept = {wall: edges[used[edges].all(axis=1)] for wall, edges in boundaries.items()}
+    boundaries = {wall: index[edges] for wall, edges in kept.items() if len(edges)}
+    return FrozenMesh(points[used], index[triangles], boundaries, quads=index[quads], **regions)
 
 
 def _named(mesh, index, dimension):
@@ -223,4 +239,4 @@ def from_pyvista(grid, *, split_quadrilaterals=False):
         kinds, region = np.asarray(grid.celltypes), np.asarray(grid.cell_data[_REGION])
         rows = [region[kinds == _VTK_TRIANGLE], np.tile(region[kinds == _VTK_QUAD], copies)]
         regions = {"region": np.concatenate(rows).astype(np.int64), "region_names": [str(name) for name in grid.field_data[_REGION_NAMES]]}
-    return FrozenMesh(_flat(grid.points, "grid"), triangles, boundaries, quads=quads, **regions)
+    return _frozen("grid", grid.points, triangles, quads, boundaries, regions)

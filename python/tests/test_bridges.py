@@ -43,6 +43,22 @@ def test_meshio_there_and_back(mesh):
         mesh.to_meshio({"height": [1.0, 2.0, 3.0]})
 
 
+def test_points_that_no_cell_has_are_left_out(mesh):
+    meshio = pytest.importorskip("meshio")
+    theirs = mesh.to_meshio()
+    points = np.vstack([[[9.0, 9.0, 0.0]], theirs.points, [[8.0, 8.0, 0.0]]])
+    cells = [(block.type, block.data + 1) for block in theirs.cells]
+    more = meshio.Mesh(points, cells, cell_sets=theirs.cell_sets, cell_data=theirs.cell_data, field_data=theirs.field_data)
+    with pytest.warns(UserWarning, match="2 points that no cell has"):
+        back = remodel.from_meshio(more)
+    whole = remodel.from_meshio(theirs)
+    assert np.array_equal(back.points, whole.points) and np.array_equal(back.triangles, whole.triangles)
+    assert named(back) == named(whole)
+    beyond = meshio.Mesh(points, [("triangle", [[0, 1, 10**6]])])
+    with pytest.raises(remodel.ArgumentError):
+        remodel.from_meshio(beyond)
+
+
 def test_meshio_keeps_regions(mesh):
     pytest.importorskip("meshio")
     regions = two_regions()
