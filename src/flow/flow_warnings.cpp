@@ -136,6 +136,26 @@ void add_row_warnings(FlowResult& result) {
   }
 }
 
+// Where a boundary condition cannot have what it is given, the mean of what enters says so.
+void add_inlet_warnings(const FlowMesh& mesh, FlowResult& result) {
+  constexpr double most = 0.1;                                         // of the dynamic pressure
+  const double whole = total_state(result.mach).pressure * gas_gamma;  // over the stream's pressure
+  for (const Patch& patch : mesh.patches()) {
+    const auto* const inlet = std::get_if<Inlet>(&patch.condition);
+    if (inlet == nullptr) continue;
+    for (const FlowOpening& opening : result.openings) {
+      if (opening.name != patch.name || opening.mass_flow <= 0.0) continue;
+      const double dynamic = 0.5 * gas_gamma * opening.mach * opening.mach * opening.pressure;
+      const double off = whole * std::abs(opening.total_pressure - inlet->total_pressure);
+      if (off > most * dynamic)
+        result.warnings.push_back(
+            "the mean total pressure of the gas that enters by '" + opening.name +
+            "' is off the given one by " + short_text(100.0 * off / dynamic) +
+            " % of its dynamic pressure: the flow at that inlet is not what was asked for");
+    }
+  }
+}
+
 void add_loss_warning(FlowResult& result) {
   constexpr double least = 0.02;
   if (result.friction) return;
@@ -152,6 +172,7 @@ void add_loss_warning(FlowResult& result) {
 void add_stream_warnings(const FlowMesh& mesh, const Stream& stream, FlowResult& result) {
   add_size_warnings(mesh, stream, result);
   if (mesh.has_images()) add_row_warnings(result);
+  add_inlet_warnings(mesh, result);
   add_loss_warning(result);
 }
 

@@ -65,6 +65,20 @@ TEST(FrictionInDucts, AChannelsFlowBecomesPoiseuilles) {
   EXPECT_GT(inside, 200);
 }
 
+// Gas beside warm walls has another entropy than what enters, which is still as it was given.
+TEST(FrictionInDucts, WarmWallsLeaveTheInletAsItIsGiven) {
+  const FrozenMesh mesh = channel_mesh(3.0).freeze();
+  FlowConditions conditions{.mach = 0.05, .reynolds = 20.0};
+  conditions.wall_temperature = 1.02;
+  const FlowResult flow = solve_flow(mesh, conditions, channel_options(0.9934), "channel");
+  ASSERT_TRUE(flow.converged()) << flow.reason;
+  const FlowOpening& inlet = flow.openings[0];
+  const double dynamic = 0.7 * inlet.mach * inlet.mach * inlet.pressure;
+  EXPECT_NEAR(inlet.total_pressure, 1.0, 0.1 * dynamic);
+  for (const std::string& warning : flow.warnings)
+    EXPECT_EQ(warning.find("'inlet'"), warning.npos) << warning;
+}
+
 // Against differences of whole flows along a smooth displacement of all points.
 TEST(FrictionInDucts, GradientsAreThoseOfWholeFlows) {
   const FlowConditions conditions{.mach = 0.3, .reynolds = 40.0};

@@ -53,36 +53,63 @@ bool is_quadrilateral(const Cell& cell) {
   return cell.corners() == 4;
 }
 
-// The part of the layers' tops that lies within boundary layers, or wakes and what has separated: there the
-// speed is less than nine tenths of what the stream's total pressure has at the pressure of that place.
-double part_of_tops_within(const FrictionWarningInputs& of) {
-  constexpr double outer = 0.9;
+// Boundary layers, wakes and what has separated: there the speed is less than nine tenths of what the total
+// pressure of the gas that enters has at the pressure of that place.
+class SlowGas {
+ public:
+  explicit SlowGas(const FlowResult& flow) : flow_(flow) {
+    double entering = 0.0;  // as a part of the stream's
+    for (const FlowOpening& opening : flow.openings)
+      if (opening.mass_flow > 0.0) entering = std::max(entering, opening.total_pressure);
+    total_ = total_state(flow.mach).pressure * (entering > 0.0 ? entering : 1.0);
+  }
+  bool is_at(std::uint32_t v) const {
+    constexpr double outer = 0.9;
+    const double pressure = flow_.pressure[v], density = flow_.density[v];
+    const Point velocity = {flow_.velocity_x[v], flow_.velocity_y[v]};
+    const double here = density * dot(velocity, velocity) / (gas_gamma * pressure);  // Mach number squared
+    const double of_stream = 5.0 * (std::pow(std::max(total_ / pressure, 1.0), 2.0 / 7.0) - 1.0);
+    return here < outer * outer * of_stream;
+  }
+
+ private:
+  const FlowResult& flow_;
+  double total_ = 0.0;
+};
+
+// The part of the layers' tops where gas is slow.
+double part_of_tops_within(const FrictionWarningInputs& of, const SlowGas& slow) {
   const FlowMesh& dual = of.mesh.dual();
   std::vector<bool> at_layer(dual.size()), outside(dual.size());
   for (const Cell& cell : dual.cells())
     for (std::uint32_t k = 0; k < cell.corners(); ++k)
       (is_quadrilateral(cell) ? at_layer : outside)[cell[k]] = true;
-  const double total = total_state(of.flow.mach).pressure;
   std::size_t tops = 0, within = 0;
   for (std::uint32_t v = 0; v < dual.size(); ++v) {
     if (!at_layer[v] || !outside[v] || of.mesh.sticks(v) || dual.is_image(v)) continue;
-    const double pressure = of.flow.pressure[v], density = of.flow.density[v];
-    const Point velocity = {of.flow.velocity_x[v], of.flow.velocity_y[v]};
-    const double here = density * dot(velocity, velocity) / (gas_gamma * pressure);  // Mach number squared
-    const double of_stream = 5.0 * (std::pow(std::max(total / pressure, 1.0), 2.0 / 7.0) - 1.0);
     ++tops;
-    if (here < outer * outer * of_stream) ++within;
+    if (slow.is_at(v)) ++within;
   }
   return tops == 0 ? 0.0 : static_cast<double>(within) / static_cast<double>(tops);
 }
 
-// In a duct boundary layers meet, behind strong shocks all gas has less total pressure, and at low Reynolds
-// numbers no layer of cells is thick enough.
+// Boundary layers of long ducts meet: then hardly any gas is as fast as where it enters.
+bool has_core(const FlowMesh& dual, const SlowGas& slow) {
+  constexpr double least = 0.5;
+  if (dual.has_farfield() || dual.has_images()) return true;
+  double whole = 0.0, fast = 0.0;
+  for (std::uint32_t v = 0; v < dual.size(); ++v) {
+    whole += dual.areas()[v];
+    if (!slow.is_at(v)) fast += dual.areas()[v];
+  }
+  return fast > least * whole;
+}
+
+// Behind strong shocks all gas has less total pressure, and at low Reynolds numbers no layer of cells is
+// thick enough.
 bool may_have_thin_layers(const FrictionWarningInputs& of) {
   constexpr double weak_shocks = 1.4, least_reynolds = 300.0;
-  const FlowMesh& dual = of.mesh.dual();
-  const bool is_outside = dual.has_farfield() || dual.has_images();
-  return is_outside && of.flow.mach < 1.0 && of.flow.friction->reynolds >= least_reynolds &&
+  return of.flow.mach < 1.0 && of.flow.friction->reynolds >= least_reynolds &&
          largest_mach(of.flow) < weak_shocks;
 }
 
@@ -96,8 +123,9 @@ void add_layer_warnings(const FrictionWarningInputs& of, std::vector<std::string
         "the mesh has no layer of quadrilaterals on its walls, which friction is not accurate without");
     return;
   }
-  if (!may_have_thin_layers(of)) return;
-  const double within = part_of_tops_within(of);
+  const SlowGas slow(of.flow);
+  if (!may_have_thin_layers(of) || !has_core(of.mesh.dual(), slow)) return;
+  const double within = part_of_tops_within(of, slow);
   if (within <= most_within) return;
   char text[240];
   std::snprintf(
@@ -108,13 +136,19 @@ void add_layer_warnings(const FrictionWarningInputs& of, std::vector<std::string
   warnings.push_back(text);
 }
 
-// The two sides of a chain: from the stagnation point to the rearmost one, the former first.
+// The two sides of a closed chain: from the stagnation point to the rearmost one, the former first. A chain
+// that is open, as of a duct or a plate, has one, from its end upstream.
 std::vector<std::vector<std::uint32_t>> sides_of(const WallChain& chain, const FlowMesh& dual,
                                                  const FlowResult& flow) {
   std::vector<std::uint32_t> all;
   for (const std::uint32_t e : chain.edges) all.push_back(dual.boundary()[e].a);
   if (!chain.closed) all.push_back(dual.boundary()[chain.edges.back()].b);
   const Point stream = stream_direction(flow.alpha_deg);
+  if (!chain.closed) {
+    if (dot(dual.points()[all.front()], stream) > dot(dual.points()[all.back()], stream))
+      std::reverse(all.begin(), all.end());
+    return {all};
+  }
   const auto by_pressure = [&](std::uint32_t a, std::uint32_t b) {
     return flow.pressure[a] < flow.pressure[b];
   };
@@ -129,7 +163,6 @@ std::vector<std::vector<std::uint32_t>> sides_of(const WallChain& chain, const F
   std::vector<std::vector<std::uint32_t>> sides(2);
   for (const bool ahead : {true, false})
     for (std::size_t k = 0; k < count; ++k) {
-      if (!chain.closed && k > (ahead ? count - 1 - front : front)) break;
       const std::size_t at = (front + (ahead ? k : count - k)) % count;
       sides[ahead ? 0 : 1].push_back(all[at]);
       if (at == rear) break;

@@ -23,7 +23,8 @@ struct Inlet {
   }
 
  private:
-  // The wave that leaves the domain is the inner state's.
+  // The wave that leaves the domain is the inner state's, by its velocity and pressure: its speed of sound is
+  // that of the gas that enters, whose entropy the inner gas need not have (beside warm walls it has not).
   template <class T>
   Unknowns<T> state(const BoundaryInputs<T>& in) const {
     using std::pow, std::sqrt;
@@ -33,8 +34,8 @@ struct Inlet {
     const T whole_pressure = total_pressure * total.pressure;
     const T sound_square = total_temperature * total.sound_square;
     const auto [nx, ny] = in.unit_normal();
-    const T wave = velocity_x(inside) * nx + velocity_y(inside) * ny +
-                   (2.0 / g) * sqrt(gas_gamma * pressure(inside) / density(inside));
+    const T sound = sqrt(sound_square) * pow(pressure(inside) / whole_pressure, 0.5 * g / gas_gamma);
+    const T wave = velocity_x(inside) * nx + velocity_y(inside) * ny + (2.0 / g) * sound;
     const PlaneVector<T> along =
         angle ? PlaneVector<T>{T(std::cos(*angle)), T(std::sin(*angle))} : PlaneVector<T>{-nx, -ny};
     const T inwards = angle ? -(along.x * nx + along.y * ny) : T(1.0);
