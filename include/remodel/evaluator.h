@@ -53,7 +53,9 @@ struct EvaluationTask {
   // The mesh with its layers, made anew by every call; empty where the run has none.
   std::function<LayeredMesh()> with_layers = {};
   // The mesh as arrays, with its layers where it has some.
-  FrozenMesh freeze() const { return with_layers ? with_layers().freeze() : mesh.freeze(); }
+  FrozenMesh freeze(LayerCells cells = LayerCells::quadrilaterals) const {
+    return with_layers ? with_layers().freeze(cells) : mesh.freeze();
+  }
 };
 
 class Evaluator {
@@ -106,7 +108,7 @@ struct CommandOptions {
   // evaluation's outputs then have "state_snapshots", how many were combined (0: there was no state, or the
   // connectivity had changed and the last one was carried over), and "state_misfit". 0: the last state alone.
   std::size_t snapshots = 0;
-  std::string su2_boxes{};  // WriteOptions::su2_boxes of mesh.su2 and mesh.vtkhdf
+  std::string su2_boxes{};                              // WriteOptions::su2_boxes of mesh.su2 and mesh.vtkhdf
   LayerCells layer_cells = LayerCells::quadrilaterals;  // of meshes with layers, but for mesh.vtkhdf
 };
 

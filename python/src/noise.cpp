@@ -11,15 +11,6 @@
 namespace remodel::python {
 namespace {
 
-class WatchedSteps final : public StepObserver {
- public:
-  explicit WatchedSteps(Watch& watch) : watch_(watch) {}
-  bool cancelled() override { return watch_.cancelled(); }
-
- private:
-  Watch& watch_;
-};
-
 // By name: values of all designs (NaN: none), figures of the fit, the adjoint's slope.
 py::dict dict_of(const NoiseSeries& series, const std::vector<std::string>& names) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -43,10 +34,9 @@ py::dict dict_of(const NoiseSeries& series, const std::vector<std::string>& name
 py::dict measured(const CstAirfoil& shape, const py::object& function, double mach, double alpha,
                   double tolerance, int points, const NoiseOptions& given) {
   Watch watch{py::none()};
-  WatchedSteps steps(watch);
   NoiseOptions options = given;
   options.quality.gradation = points / 50.0;
-  options.observer = &steps;
+  options.observer = &watch.interrupts;
   const AirfoilSpace space(shape, {.points = points});
   std::optional<PythonEvaluator> evaluator;
   std::unique_ptr<LineObjective> objective;

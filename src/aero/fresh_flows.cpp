@@ -141,9 +141,14 @@ nlohmann::ordered_json json_of(const FreshFlow& flow) {
   return json;
 }
 
+nlohmann::ordered_json json_of(const std::vector<FreshFlow>& flows) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const FreshFlow& flow : flows) list.push_back(json_of(flow));
+  return list;
+}
+
 }  // namespace
 
-// With friction away from the tops of layers.
 double gradation_of(const DesignProblem& problem) {
   const bool has_friction = problem.points.front().model != FlowModel::euler;
   return problem.gradation.value_or(problem.domain.points / (has_friction ? 37.5 : 50.0));
@@ -169,18 +174,13 @@ Stopped add_fresh_flows(const DesignProblem& problem, const ResolvedProblem& par
 }
 
 std::string fresh_json(const std::vector<FreshFlow>& flows) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const FreshFlow& flow : flows) list.push_back(json_of(flow));
-  return list.dump();
+  return json_of(flows).dump();
 }
 
 void write_fresh(const DesignResult& result, const std::filesystem::path& directory) {
-  const auto list = [](const std::vector<FreshFlow>& flows) {
-    return nlohmann::ordered_json::parse(fresh_json(flows));
-  };
   const nlohmann::ordered_json file = {{"design", result.search.best_design},
-                                       {"verified", list(result.verified)},
-                                       {"verified_start", list(result.verified_start)}};
+                                       {"verified", json_of(result.verified)},
+                                       {"verified_start", json_of(result.verified_start)}};
   write_text_atomically(directory / "fresh.json", file.dump() + "\n");
 }
 

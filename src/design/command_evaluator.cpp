@@ -319,7 +319,7 @@ Evaluation CommandEvaluator::evaluate_in(const fs::path& directory, const Evalua
   StartRecord start;
   auto* const before = dynamic_cast<SolverState*>(state.get());
   if (files_.state.any()) {
-    mesh = task.with_layers ? task.with_layers().freeze(options_.layer_cells) : task.mesh.freeze();
+    mesh = task.freeze(options_.layer_cells);
     if (before != nullptr) start = before->write(mesh, task.design, directory, files_.state);
   }
   const fs::path output = directory / "output";

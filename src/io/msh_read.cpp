@@ -483,10 +483,6 @@ class MshReader {
   std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> boundaries_;
 };
 
-}  // namespace
-
-namespace {
-
 void take_keys(std::string_view text, const std::string& file, FrozenMesh& mesh) {
   if (text.find(vertex_keys_name) == std::string_view::npos) return;
   const std::vector<Field> fields = MshReader(text, file, Warnings(nullptr, file)).read_fields();

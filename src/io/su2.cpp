@@ -194,10 +194,6 @@ class Su2Reader {
   std::size_t marker_count_ = 0;
 };
 
-}  // namespace
-
-namespace {
-
 // Surface points are known by numbers, which points have no more where some are left out.
 std::string boxes_of_used(std::string boxes, const ReadNotes& notes, const Warnings& warnings) {
   std::size_t surface_points = 0;
